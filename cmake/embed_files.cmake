@@ -1,0 +1,28 @@
+# Writes OUT: blactl::bla::embedded_profiles(), the name and text of each of FILES.
+# Raw string literals are split well below the 64 KiB that compilers must accept, and at the ends
+# of lines, so that each of them is well-formed UTF-8.
+
+set(text "// Generated from profiles/ by cmake/embed_files.cmake.\n")
+string(APPEND text "#include \"bla/embedded_profiles.hpp\"\n\nnamespace blactl::bla {\nnamespace {\n")
+string(APPEND text "constexpr EmbeddedProfile files[] = {\n")
+foreach(file IN LISTS FILES)
+  get_filename_component(name "${file}" NAME)
+  file(READ "${file}" content)
+  string(APPEND text "    {\"${name}\",\n")
+  while(NOT content STREQUAL "")
+    string(SUBSTRING "${content}" 0 8000 part)
+    string(FIND "${part}" "\n" last REVERSE)
+    math(EXPR size "${last} + 1")
+    if(size EQUAL 0)
+      message(FATAL_ERROR "${file}: a line is too long, or the last one has no end")
+    endif()
+    string(SUBSTRING "${content}" 0 ${size} part)
+    string(SUBSTRING "${content}" ${size} -1 content)
+    string(APPEND text "R\"~~~(${part})~~~\"\n")
+  endwhile()
+  string(APPEND text "    },\n")
+endforeach()
+string(APPEND text "};\n} // namespace\n\n")
+string(APPEND text "std::span<const EmbeddedProfile> embedded_profiles() { return files; }\n")
+string(APPEND text "} // namespace blactl::bla\n")
+file(WRITE "${OUT}" "${text}")

@@ -1,0 +1,19 @@
+# Compiler warnings and sanitizers, for every target of this project.
+
+add_library(blactl-warnings INTERFACE)
+target_compile_options(blactl-warnings INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wnon-virtual-dtor
+  -Woverloaded-virtual -Wold-style-cast -Wformat=2 -Wimplicit-fallthrough)
+if(BLACTL_WERROR)
+  target_compile_options(blactl-warnings INTERFACE -Werror)
+endif()
+if(BLACTL_SANITIZE)
+  target_compile_options(blactl-warnings INTERFACE
+    -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(blactl-warnings INTERFACE -fsanitize=address,undefined)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    # GCC 12 sees uninitialised memory in std::regex and std::variant that is not, once it
+    # instruments them.
+    target_compile_options(blactl-warnings INTERFACE -Wno-maybe-uninitialized)
+  endif()
+endif()
