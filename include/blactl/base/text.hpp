@@ -1,0 +1,46 @@
+#pragma once
+// What blactl says to people, in English and Japanese.
+//
+// Texts live in the catalogue, one header a floor (include/blactl/*/texts.hpp), never in the code:
+//
+//   namespace blactl::texts {
+//   inline constexpr Text interface_down{"{} is down", "{} は停止しています"};
+//   }
+//   fail(Code::interface, say<texts::interface_down>(name), ...)
+//
+// Both format strings are checked against the arguments when the program is compiled.
+
+#include <fmt/core.h>
+
+#include <string>
+#include <string_view>
+
+namespace blactl {
+
+enum class Language : unsigned char { english, japanese };
+
+/// One text of the catalogue: fmt format strings with the same arguments.
+struct Text {
+  const char* en;
+  const char* ja;
+};
+
+/// The language of this process; set once, before anything speaks. English until then.
+void set_language(Language language);
+[[nodiscard]] Language language();
+
+/// The text in the language of this process.
+template <const Text& text, class... Args> [[nodiscard]] std::string say(const Args&... args) {
+  constexpr fmt::format_string<const Args&...> en{text.en};
+  constexpr fmt::format_string<const Args&...> ja{text.ja};
+  return language() == Language::japanese ? fmt::format(ja, args...) : fmt::format(en, args...);
+}
+
+/// Which of two texts that came with data (a profile) fits the language of this process.
+[[nodiscard]] std::string_view choose(std::string_view en, std::string_view ja);
+
+/// Foreign bytes made fit for a terminal, a log line or JSON: valid UTF-8 stays, control
+/// characters, escape sequences and broken UTF-8 become \xNN.
+[[nodiscard]] std::string printable(std::string_view foreign);
+
+} // namespace blactl

@@ -1,0 +1,43 @@
+#pragma once
+// The catalogue of the floor `base`: what is said about files.
+
+#include "blactl/base/text.hpp"
+
+namespace blactl::texts {
+
+inline constexpr Text file_unreadable{"cannot read {}: {}", "{} を読み込めません: {}"};
+inline constexpr Text file_hint{"check the file's name and permissions",
+                                "ファイル名とアクセス権を確認して下さい"};
+inline constexpr Text file_too_large{"{} is larger than {} MiB", "{} は {} MiB を超えています"};
+inline constexpr Text json_invalid{"not valid JSON: {}", "JSON として正しくありません: {}"};
+inline constexpr Text json_zero_byte{"not valid JSON: it contains a zero byte",
+                                     "JSON として正しくありません: 値 0 のバイトがあります"};
+inline constexpr Text json_too_deep{"nested deeper than {} levels", "入れ子が {} 段を超えています"};
+inline constexpr Text json_duplicate{"this key occurs twice; it is also in line {}",
+                                     "キーが重複しています ({} 行目にもあります)"};
+inline constexpr Text json_integer_too_big{"{} does not fit in 64 bits",
+                                           "{} は 64 bit に収まりません"};
+inline constexpr Text json_wrong_kind{"must be {}, not {}",
+                                      "{} でなければなりません ({} になっています)"};
+inline constexpr Text json_missing{"\"{}\" is missing", "\"{}\" がありません"};
+inline constexpr Text json_unknown{"this key is not known; known here: {}",
+                                   "不明なキーです。ここで使えるキー: {}"};
+inline constexpr Text json_unknown_among_none{"this key is not known; none is expected here",
+                                              "不明なキーです。ここにキーは置けません"};
+inline constexpr Text json_below{"{} is less than {}", "{} は下限 {} より小さい値です"};
+inline constexpr Text json_above{"{} is more than {}", "{} は上限 {} より大きい値です"};
+inline constexpr Text json_no_such_word{"\"{}\" is none of: {}",
+                                        "\"{}\" は次のいずれでもありません: {}"};
+inline constexpr Text json_more_faults{"… and {} more", "… 他に {} 件"};
+inline constexpr Text json_hint{"correct the file and try again",
+                                "ファイルを修正してもう一度実行して下さい"};
+
+inline constexpr Text kind_null{"null", "null"};
+inline constexpr Text kind_boolean{"true or false", "true または false"};
+inline constexpr Text kind_integer{"an integer", "整数"};
+inline constexpr Text kind_number{"a number", "数値"};
+inline constexpr Text kind_string{"a string", "文字列"};
+inline constexpr Text kind_array{"an array", "配列"};
+inline constexpr Text kind_object{"an object", "オブジェクト"};
+
+} // namespace blactl::texts

@@ -1,0 +1,273 @@
+// From JSON text to values with lines and pointers: nlohmann's SAX parser with a counting iterator.
+
+#include "blactl/base/json_reader.hpp"
+
+#include "blactl/base/text.hpp"
+#include "blactl/base/texts.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <iterator>
+#include <memory>
+
+namespace blactl::json {
+namespace {
+
+/// Reads the text and lets the builder know how far the parser has come.
+class CountingIterator {
+ public:
+  using iterator_category = std::input_iterator_tag;
+  using value_type = char;
+  using difference_type = std::ptrdiff_t;
+  using pointer = const char*;
+  using reference = const char&;
+
+  CountingIterator(const char* at, const char** reached) : at_(at), reached_(reached) {}
+
+  reference operator*() const { return *at_; }
+
+  CountingIterator& operator++() {
+    *reached_ = ++at_;
+    return *this;
+  }
+
+  CountingIterator operator++(int) {
+    CountingIterator old = *this;
+    ++*this;
+    return old;
+  }
+
+  friend bool operator==(const CountingIterator& a, const CountingIterator& b) {
+    return a.at_ == b.at_;
+  }
+
+ private:
+  const char* at_;
+  const char** reached_;
+};
+
+/// nlohmann's "[json.exception.parse_error.101] parse error at line 3, column 5: syntax error …"
+/// without what stands before the reason.
+std::string reason_of(const std::string& what) {
+  const std::size_t place = what.find("] parse error");
+  const std::size_t colon = place == std::string::npos ? place : what.find(": ", place);
+  if (colon != std::string::npos) {
+    return what.substr(colon + 2);
+  }
+  const std::size_t bracket = what.find("] ");
+  return bracket == std::string::npos ? what : what.substr(bracket + 2);
+}
+
+/// Receives the parser's events. The names are nlohmann's.
+class Builder {
+ public:
+  Builder(std::string_view text, std::string file)
+      : counted_(text.data()), reached_(text.data()), faults_(std::move(file)) {}
+
+  const char** reached() { return &reached_; }
+
+  bool null() {
+    add(Kind::null);
+    return true;
+  }
+
+  bool boolean(bool value) {
+    add(Kind::boolean).boolean = value;
+    return true;
+  }
+
+  bool number_integer(std::int64_t value) {
+    Value& made = add(Kind::integer);
+    made.integer = value;
+    made.real = static_cast<double>(value);
+    return true;
+  }
+
+  bool number_unsigned(std::uint64_t value) {
+    if (value > static_cast<std::uint64_t>(highest)) {
+      too_big(add(Kind::integer), std::to_string(value));
+      return true;
+    }
+    return number_integer(static_cast<std::int64_t>(value));
+  }
+
+  bool number_float(double value, const std::string& digits) {
+    // The parser takes integers that fit nowhere for reals.
+    if (digits.find_first_of(".eE") == std::string::npos) {
+      too_big(add(Kind::integer), digits);
+      return true;
+    }
+    Value& made = add(Kind::real);
+    made.real = value;
+    made.text = digits;
+    return true;
+  }
+
+  bool string(std::string& value) {
+    add(Kind::string).text = std::move(value);
+    return true;
+  }
+
+  template <class Bytes> bool binary(const Bytes&) { return false; }
+
+  bool start_object(std::size_t) { return open(Kind::object); }
+
+  bool key(std::string& value) {
+    key_ = std::move(value);
+    return true;
+  }
+
+  bool end_object() {
+    report_duplicates(*open_.back());
+    open_.pop_back();
+    return true;
+  }
+
+  bool start_array(std::size_t) { return open(Kind::array); }
+
+  bool end_array() {
+    open_.pop_back();
+    return true;
+  }
+
+  template <class Exception>
+  bool parse_error(std::size_t, const std::string&, const Exception& exception) {
+    stop(say<texts::json_invalid>(reason_of(exception.what())));
+    return false;
+  }
+
+  /// A fault after which nothing more can be read.
+  void stop(std::string reason) {
+    broken_ = true;
+    faults_.add(line(), open_.empty() ? "" : open_.back()->pointer(), std::move(reason));
+  }
+
+  Result<Document> result() {
+    if (broken_) {
+      return std::unexpected(faults_.result().error());
+    }
+    return Document(std::move(values_), std::move(faults_));
+  }
+
+ private:
+  /// The line of the token that the parser has just read. After a number it has already taken the
+  /// next character, so a line ends here only if something follows.
+  std::size_t line() {
+    const char* end = reached_ == counted_ ? reached_ : reached_ - 1;
+    if (end > counted_) {
+      line_ += static_cast<std::size_t>(std::count(counted_, end, '\n'));
+      counted_ = end;
+    }
+    return line_;
+  }
+
+  Value& add(Kind kind) {
+    Value& value = values_->emplace_back();
+    value.kind = kind;
+    value.line = line();
+    if (!open_.empty()) {
+      Value& parent = *open_.back();
+      value.parent = &parent;
+      value.index = parent.items.size();
+      value.key = std::move(key_);
+      parent.items.push_back(&value);
+    }
+    key_.clear();
+    return value;
+  }
+
+  bool open(Kind kind) {
+    Value& value = add(kind);
+    if (open_.size() == max_depth) {
+      stop(say<texts::json_too_deep>(max_depth));
+      return false;
+    }
+    open_.push_back(&value);
+    return true;
+  }
+
+  void too_big(const Value& value, const std::string& digits) {
+    faults_.add(value, say<texts::json_integer_too_big>(digits));
+  }
+
+  void report_duplicates(const Value& object) {
+    std::vector<const Value*> sorted = object.items;
+    std::ranges::stable_sort(sorted, {},
+                             [](const Value* value) -> std::string_view { return value->key; });
+    for (std::size_t i = 1; i < sorted.size(); ++i) {
+      if (sorted[i]->key == sorted[i - 1]->key) {
+        faults_.add(*sorted[i], say<texts::json_duplicate>(sorted[i - 1]->line));
+      }
+    }
+  }
+
+  const char* counted_; ///< line_ counts the line ends before here
+  const char* reached_; ///< behind the last character that the parser took
+  std::size_t line_ = 1;
+  std::unique_ptr<std::deque<Value>> values_ = std::make_unique<std::deque<Value>>();
+  std::vector<Value*> open_; ///< the arrays and objects around the next value
+  std::string key_;
+  Faults faults_;
+  bool broken_ = false;
+};
+
+Result<std::string> read_all(std::FILE& stream, const std::string& name) {
+  std::string text;
+  std::string block(1U << 16U, '\0');
+  while (std::feof(&stream) == 0) {
+    const std::size_t count = std::fread(block.data(), 1, block.size(), &stream);
+    if (std::ferror(&stream) != 0) {
+      return fail(Code::bad_file,
+                  say<texts::file_unreadable>(printable(name), std::strerror(errno)),
+                  say<texts::file_hint>());
+    }
+    text.append(block, 0, count);
+    if (text.size() > max_file_bytes) {
+      return fail(Code::bad_file,
+                  say<texts::file_too_large>(printable(name), max_file_bytes >> 20U),
+                  say<texts::file_hint>());
+    }
+  }
+  return text;
+}
+
+} // namespace
+
+Result<Document> parse(std::string_view text, std::string file) {
+  if (text.size() > max_file_bytes) {
+    return fail(Code::bad_file, say<texts::file_too_large>(printable(file), max_file_bytes >> 20U),
+                say<texts::file_hint>());
+  }
+  Builder builder(text, std::move(file));
+  const char* const end = text.data() + text.size();
+  const bool complete =
+      nlohmann::json::sax_parse(CountingIterator(text.data(), builder.reached()),
+                                CountingIterator(end, builder.reached()), &builder);
+  // The parser takes a zero byte for the end of the file, and would ignore what follows it.
+  if (complete && text.find('\0') != std::string_view::npos) {
+    builder.stop(say<texts::json_zero_byte>());
+  }
+  return builder.result();
+}
+
+Result<Document> parse_file(const std::filesystem::path& path) {
+  const std::string name = path.string();
+  if (name == "-") {
+    auto text = read_all(*stdin, name);
+    return text ? parse(*text, name) : std::unexpected(text.error());
+  }
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::fopen(name.c_str(), "rb"),
+                                                               std::fclose);
+  if (!stream) {
+    return fail(Code::bad_file, say<texts::file_unreadable>(printable(name), std::strerror(errno)),
+                say<texts::file_hint>());
+  }
+  auto text = read_all(*stream, name);
+  return text ? parse(*text, name) : std::unexpected(text.error());
+}
+
+} // namespace blactl::json
