@@ -1,0 +1,104 @@
+#pragma once
+// A bus moves frames. One implementation a transport; none of them waits.
+
+#include "blactl/base/error.hpp"
+#include "blactl/base/time.hpp"
+#include "blactl/can/frame.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <variant>
+
+namespace blactl::can {
+
+/// A frame of another node, at the time the kernel (or the simulator) saw it.
+struct Received {
+  Frame frame;
+  Time at;
+  WallTime wall;
+};
+
+/// The echo of a frame of ours: it has been acknowledged by somebody.
+struct Sent {
+  Frame frame;
+  Time at;
+  WallTime wall;
+};
+
+/// What a controller tells in an error frame.
+enum class FaultKind : std::uint8_t {
+  bus_off,
+  error_passive,
+  error_warning,
+  error_active,
+  no_acknowledge,
+  transmit_timeout,
+  receive_overflow,
+  restarted,
+  protocol,
+};
+
+struct BusFault {
+  FaultKind kind;
+  Time at;
+};
+
+/// The kernel dropped frames because we read too late; `lost` counts since the bus was opened.
+struct Overflow {
+  std::uint64_t lost;
+};
+
+/// The interface went down or away; nothing more comes from this bus.
+struct Gone {
+  Error error;
+};
+
+using BusEvent = std::variant<Received, Sent, BusFault, Overflow, Gone>;
+
+/// Extended data frames whose ID agrees with `id` in the bits of `mask`.
+struct Filter {
+  std::uint32_t id;
+  std::uint32_t mask;
+};
+
+/// A transport. send() and receive() never wait; can::Loop does, on descriptor().
+class Bus {
+ public:
+  virtual ~Bus() = default;
+  Bus(const Bus&) = delete;
+  Bus& operator=(const Bus&) = delete;
+
+  /// As a person names it and JSON prints it: "vcan0", "sim:".
+  [[nodiscard]] virtual std::string_view name() const = 0;
+
+  /// Hands one frame to the transport: true when taken, false when its queue is full for now
+  /// (ENOBUFS, EAGAIN). Errors: interface, permission.
+  [[nodiscard]] virtual Result<bool> send(const Frame& frame) = 0;
+
+  /// The next thing that happened, if any.
+  [[nodiscard]] virtual std::optional<BusEvent> receive() = 0;
+
+  /// Asks for these frames only (an empty list: all). A filter saves work, nothing may rely on it.
+  [[nodiscard]] virtual Result<void> filter(std::span<const Filter> filters) = 0;
+
+  /// Whether every frame of ours comes back as Sent once somebody has acknowledged it.
+  [[nodiscard]] virtual bool echoes() const = 0;
+
+  /// Becomes readable when receive() has something; -1: nothing to poll.
+  [[nodiscard]] virtual int descriptor() const = 0;
+
+  /// The bus clock. Real interfaces: CLOCK_MONOTONIC.
+  [[nodiscard]] virtual Time now() const;
+  [[nodiscard]] virtual WallTime wall() const;
+
+  /// The loop has nothing to do before `deadline`. Returns when it shall look again at the latest:
+  /// a real bus has no wish of its own; on a virtual clock this call lets time pass.
+  [[nodiscard]] virtual Time idle_until(Time deadline) { return deadline; }
+
+ protected:
+  Bus() = default;
+};
+
+} // namespace blactl::can

@@ -1,0 +1,50 @@
+#pragma once
+// What the bus floor says to people.
+
+#include "blactl/base/text.hpp"
+
+namespace blactl::texts {
+
+// Interfaces of SocketCAN.
+
+inline constexpr Text kernel_without_can{
+    "this kernel has no CAN (SocketCAN): {} cannot be opened",
+    "このカーネルには CAN 機能(SocketCAN)がないため、{} を開けません"};
+inline constexpr Text kernel_without_can_hint{
+    "load it with `sudo modprobe can_raw`; in a container the host has to do that, and some hosts "
+    "lack it; the simulated bus works without: `-i sim:`",
+    "`sudo modprobe can_raw` で読み込んでください。コンテナではホスト側で行う必要があり、対応して"
+    "いないホストもあります。シミュレーション用のバス `-i sim:` はそのまま使えます"};
+inline constexpr Text can_not_permitted{"opening {} is not permitted ({})",
+                                        "{} を開く権限がありません({})"};
+inline constexpr Text can_not_permitted_hint{
+    "a sandbox or container policy forbids CAN sockets; allow the address family AF_CAN there",
+    "サンドボックスまたはコンテナの設定で CAN ソケットが禁止されています。アドレスファミリー "
+    "AF_CAN "
+    "を許可してください"};
+inline constexpr Text no_such_interface{"there is no interface {}",
+                                        "インターフェース {} が見つかりません"};
+inline constexpr Text not_a_can_interface{"{} is not a CAN interface",
+                                          "{} は CAN インターフェースではありません"};
+inline constexpr Text interface_down{"interface {} is down",
+                                     "インターフェース {} は停止しています"};
+inline constexpr Text interface_gone{"interface {} is gone",
+                                     "インターフェース {} がなくなりました"};
+inline constexpr Text interface_gone_hint{
+    "check the adapter and its cable, then list the interfaces with `ip -br link show`",
+    "アダプターとケーブルを確認し、`ip -br link show` でインターフェースを確認してください"};
+inline constexpr Text interface_failed{"interface {} failed: {}",
+                                       "インターフェース {} でエラーが発生しました: {}"};
+inline constexpr Text bring_up_hint{"bring it up with `{}`", "`{}` で起動してください"};
+inline constexpr Text can_interfaces_here{"CAN interfaces of this machine: {}",
+                                          "このマシンの CAN インターフェース: {}"};
+inline constexpr Text no_can_interface_here{
+    "this machine has no CAN interface; plug the adapter in, or try the simulated bus: `-i sim:`",
+    "このマシンには CAN インターフェースがありません。アダプターを接続するか、シミュレーション用の"
+    "バス `-i sim:` をお使いください"};
+inline constexpr Text link_is_up{"{} (up)", "{}(動作中)"};
+inline constexpr Text link_is_down{"{} (down)", "{}(停止中)"};
+inline constexpr Text links_unreadable{"the network interfaces cannot be listed: {}",
+                                       "ネットワークインターフェースの一覧を取得できません: {}"};
+
+} // namespace blactl::texts

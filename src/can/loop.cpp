@@ -1,0 +1,206 @@
+#include "blactl/can/loop.hpp"
+
+#include <poll.h>
+#include <signal.h>
+#include <sys/signalfd.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <utility>
+
+namespace blactl::can {
+namespace {
+
+/// Frames on their way without an echo: one probes a silent bus, three keep a live one busy.
+constexpr std::size_t probe_window = 1;
+constexpr std::size_t window = 3;
+
+/// A full queue of the kernel (ENOBUFS) does not poll as writable: it is tried again after a time
+/// in which a bus of 1 Mbit/s moves some seven frames.
+constexpr Duration retry_interval = std::chrono::milliseconds(1);
+
+int open_signals() {
+  struct sigaction ignore{};
+  ignore.sa_handler = SIG_IGN; // NOLINT: the macro casts
+  sigaction(SIGPIPE, &ignore, nullptr);
+  sigset_t set;
+  sigemptyset(&set);
+  for (const int number : {SIGINT, SIGTERM, SIGWINCH}) {
+    sigaddset(&set, number);
+  }
+  sigprocmask(SIG_BLOCK, &set, nullptr);
+  return signalfd(-1, &set, SFD_NONBLOCK | SFD_CLOEXEC);
+}
+
+timespec until(Time now, Time deadline) {
+  const auto left = std::max(deadline - now, Duration::zero());
+  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(left);
+  return {static_cast<time_t>(seconds.count()),
+          static_cast<long>(std::chrono::nanoseconds(left - seconds).count())};
+}
+
+} // namespace
+
+Loop::Loop(std::unique_ptr<Bus> bus) : bus_(std::move(bus)), signals_(open_signals()) {}
+
+Loop::~Loop() {
+  if (signals_ >= 0) {
+    close(signals_);
+  }
+}
+
+Time Loop::now() const {
+  if (bus_) {
+    return bus_->now();
+  }
+  return Time(
+      std::chrono::duration_cast<Duration>(std::chrono::steady_clock::now().time_since_epoch()));
+}
+
+WallTime Loop::wall() const {
+  if (bus_) {
+    return bus_->wall();
+  }
+  return std::chrono::time_point_cast<Duration>(std::chrono::system_clock::now());
+}
+
+void Loop::send(const Frame& frame) {
+  queue_.push_back(frame);
+  pump();
+}
+
+std::size_t Loop::unsent() const {
+  return queue_.size() + in_flight_.size();
+}
+
+std::optional<Time> Loop::unacknowledged_since() const {
+  if (in_flight_.empty()) {
+    return std::nullopt;
+  }
+  return std::max(in_flight_.front().since, last_heard_);
+}
+
+void Loop::watch(int descriptor) {
+  watched_.push_back(descriptor);
+}
+
+void Loop::unwatch(int descriptor) {
+  std::erase(watched_, descriptor);
+}
+
+/// Hands queued frames to the bus as far as the window allows.
+void Loop::pump() {
+  retry_at_ = never;
+  while (!queue_.empty() && !gone_ && in_flight_.size() < (heard_ ? window : probe_window)) {
+    const auto taken = bus_->send(queue_.front());
+    if (!taken) {
+      gone_ = true;
+      ready_.emplace_back(Gone{taken.error()});
+      return;
+    }
+    if (!*taken) {
+      retry_at_ = bus_->now() + retry_interval;
+      return;
+    }
+    if (bus_->echoes()) {
+      in_flight_.push_back({queue_.front(), bus_->now()});
+    } else {
+      ready_.emplace_back(Sent{queue_.front(), bus_->now(), bus_->wall()});
+    }
+    queue_.pop_front();
+  }
+}
+
+std::optional<Event> Loop::from_signals() {
+  signalfd_siginfo info{};
+  if (read(signals_, &info, sizeof info) != sizeof info) {
+    return std::nullopt;
+  }
+  return Signal{static_cast<int>(info.ssi_signo)};
+}
+
+std::optional<Event> Loop::from_bus() {
+  if (!ready_.empty()) {
+    Event event = std::move(ready_.front());
+    ready_.pop_front();
+    return event;
+  }
+  if (!bus_ || gone_) {
+    return std::nullopt;
+  }
+  auto happened = bus_->receive();
+  if (!happened) {
+    return std::nullopt;
+  }
+  if (const auto* received = std::get_if<Received>(&*happened)) {
+    heard_ = true;
+    last_heard_ = received->at;
+  } else if (const auto* sent = std::get_if<Sent>(&*happened)) {
+    heard_ = true;
+    last_heard_ = sent->at;
+    const auto same = [&](const Pending& pending) { return pending.frame == sent->frame; };
+    if (const auto it = std::ranges::find_if(in_flight_, same); it != in_flight_.end()) {
+      in_flight_.erase(it);
+    }
+    pump();
+  } else if (std::holds_alternative<Gone>(*happened)) {
+    gone_ = true;
+  }
+  return std::visit([](auto&& event) { return Event(std::forward<decltype(event)>(event)); },
+                    std::move(*happened));
+}
+
+/// Waits for the bus, a signal, a watched descriptor or the deadline, whichever is first.
+std::optional<Event> Loop::poll_once(Time deadline) {
+  const Time wake = bus_ && !gone_ ? bus_->idle_until(std::min(deadline, retry_at_)) : deadline;
+  std::array<pollfd, 32> fds{};
+  std::size_t count = 0;
+  fds[count++] = {signals_, POLLIN, 0};
+  if (bus_ && !gone_ && bus_->descriptor() >= 0) {
+    fds[count++] = {bus_->descriptor(), POLLIN, 0};
+  }
+  const std::size_t first_watched = count;
+  for (const int descriptor : watched_) {
+    if (count < fds.size()) {
+      fds[count++] = {descriptor, POLLIN, 0};
+    }
+  }
+  const timespec timeout = until(now(), wake);
+  if (ppoll(fds.data(), count, wake == never ? nullptr : &timeout, nullptr) <= 0) {
+    return std::nullopt;
+  }
+  // Round robin, so that a busy descriptor does not starve the others.
+  const std::size_t n = count - first_watched;
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t at = (next_watched_ + i) % n;
+    if (fds[first_watched + at].revents != 0) {
+      next_watched_ = at + 1;
+      return Ready{fds[first_watched + at].fd};
+    }
+  }
+  return std::nullopt;
+}
+
+Event Loop::next(Time deadline) {
+  for (;;) {
+    if (auto event = from_signals()) {
+      return *event;
+    }
+    if (retry_at_ <= now()) {
+      pump();
+    }
+    if (auto event = from_bus()) {
+      return std::move(*event);
+    }
+    if (deadline <= now()) {
+      return DeadlineReached{};
+    }
+    if (auto event = poll_once(deadline)) {
+      return std::move(*event);
+    }
+  }
+}
+
+} // namespace blactl::can
