@@ -1,0 +1,52 @@
+#pragma once
+// Numbers of the DroneCAN network: node IDs, data types, priorities.
+
+#include <array>
+#include <compare>
+#include <cstdint>
+#include <string_view>
+
+namespace blactl::dronecan {
+
+/// A node's address on the bus: 1..127; 0 stands for "anonymous" as a source and "everybody" as a
+/// destination (DroneCAN specification 4.1).
+class NodeId {
+ public:
+  static constexpr std::uint8_t max = 127;
+
+  constexpr NodeId() = default;
+  constexpr explicit NodeId(std::uint8_t value) : value_(value & max) {}
+
+  [[nodiscard]] constexpr std::uint8_t value() const { return value_; }
+  [[nodiscard]] constexpr bool is_unicast() const { return value_ != 0; }
+  friend constexpr auto operator<=>(NodeId, NodeId) = default;
+
+ private:
+  std::uint8_t value_ = 0;
+};
+
+/// Source 0: a node without an ID.
+inline constexpr NodeId anonymous{};
+
+/// The 128-bit identity of a unit (GetNodeInfo, dynamic node ID allocation).
+using UniqueId = std::array<std::uint8_t, 16>;
+
+/// Message broadcast, or one direction of a service.
+enum class Kind : std::uint8_t { message, request, response };
+
+/// A data type as the transport needs it (DSDL).
+struct DataType {
+  std::string_view name; ///< "uavcan.protocol.NodeStatus"
+  std::uint16_t id;      ///< data type ID: messages 0..65535, services 0..255
+  bool service;
+  std::uint64_t signature; ///< seeds the transfer CRC
+};
+
+/// Transfer priority 0 (highest) .. 31.
+using Priority = std::uint8_t;
+
+inline constexpr Priority priority_medium = 16;
+/// What the vendor's program uses for GetSet; below everything that keeps a vehicle in the air.
+inline constexpr Priority priority_service = 30;
+
+} // namespace blactl::dronecan

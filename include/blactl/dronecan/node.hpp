@@ -1,0 +1,138 @@
+#pragma once
+// This process as a DroneCAN node: its own services, and questions to other nodes as jobs.
+
+#include "blactl/base/time.hpp"
+#include "blactl/can/frame.hpp"
+#include "blactl/dronecan/transfer.hpp"
+#include "blactl/dronecan/transfer_ids.hpp"
+#include "blactl/dronecan/types.hpp"
+
+#include <functional>
+#include <list>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace blactl::dronecan {
+
+/// One question to one node.
+struct Request {
+  NodeId server;
+  const DataType* type = nullptr;
+  Payload payload;
+  Duration timeout = std::chrono::milliseconds(500); ///< servers answer within 0.5 s (spec. 4.1)
+  int retries = 2;                                   ///< further tries, each with a new transfer ID
+  Priority priority = priority_service;
+  /// Whether a payload is an answer to this question (the right parameter name); empty: any is.
+  std::function<bool(Bytes)> accepts;
+};
+
+/// How a question ended.
+struct Outcome {
+  enum class Kind : std::uint8_t {
+    start,     ///< there was no question yet
+    answered,  ///< `payload` is the answer
+    timed_out, ///< the question went out, no answer came
+    not_sent,  ///< the question did not leave this machine
+    cancelled,
+  };
+
+  Kind kind = Kind::start;
+  Bytes payload; ///< valid during the call
+  Time at{};     ///< when the answer's first frame came, or when the waiting ended
+
+  [[nodiscard]] bool answered() const { return kind == Kind::answered; }
+};
+
+/// A conversation with one node: given the outcome of the last question, the next one. The job
+/// ends by returning none.
+class Job {
+ public:
+  virtual ~Job() = default;
+  Job(const Job&) = delete;
+  Job& operator=(const Job&) = delete;
+
+  [[nodiscard]] virtual std::optional<Request> next(const Outcome& outcome) = 0;
+
+ protected:
+  Job() = default;
+};
+
+/// A node as a state machine without I/O: frames and time in, frames out.
+///
+/// One question is in flight for each server, as many servers are busy as there are jobs; jobs for
+/// a busy server wait for their turn. Answers are matched by server, data type and transfer ID;
+/// whatever else arrives is no answer.
+class Node {
+ public:
+  struct Hooks {
+    std::function<void(const can::Frame&)> send;
+    /// Every transfer heard, services between other nodes included. May be empty.
+    std::function<void(const Transfer&)> transfer;
+    /// A transfer that could not be reassembled. May be empty.
+    std::function<void(ReceiveError, std::uint32_t can_id, Time)> error;
+  };
+
+  struct Description {
+    std::string name;
+    UniqueId unique_id{};
+    std::uint8_t major = 0, minor = 0;
+  };
+
+  /// `transfer_ids` outlives the node. Without a local ID (anonymous) it only listens.
+  Node(NodeId local, TransferIds* transfer_ids, Description description, Hooks hooks);
+
+  [[nodiscard]] NodeId id() const { return local_; }
+
+  void receive(const can::Frame& frame, Time at);
+  void sent(const can::Frame& frame, Time at);
+  void advance(Time now);
+  /// When advance() is due; `never`: nothing is waited for.
+  [[nodiscard]] Time next_deadline() const;
+
+  /// Begins a job; it must live until it ended or cancel_all() was called. May be called by a job
+  /// or hook at any time.
+  void start(Job& job, Time now);
+
+  /// Jobs that have not ended.
+  [[nodiscard]] std::size_t jobs() const { return jobs_.size(); }
+
+  /// Ends every job with the outcome `cancelled`; what they ask then is not sent.
+  void cancel_all(Time now);
+
+ private:
+  struct Active {
+    Job* job = nullptr;
+    std::optional<Request> request{};
+    TransferId transfer_id = 0;
+    int tries = 0;
+    bool asked = false;      ///< handed to the bus
+    bool left = false;       ///< its last frame was echoed
+    can::Frame last_frame{}; ///< recognises the echo
+    Time deadline = never;
+    bool done = false;
+  };
+
+  void on_transfer(const Transfer& transfer);
+  void on_response(const Transfer& transfer);
+  void answer_node_info(const Transfer& request);
+  void broadcast_status(Time now);
+  void finish(Active& active, const Outcome& outcome);
+  void ask(Active& active, Time now);
+  void ask_waiting(Time now);
+  [[nodiscard]] bool is_busy(NodeId server) const;
+  [[nodiscard]] NodeStatus status(Time now) const;
+
+  NodeId local_;
+  TransferIds* transfer_ids_;
+  Description description_;
+  Hooks hooks_;
+  Receiver receiver_;
+  std::list<Active> jobs_;
+  bool in_callback_ = false; ///< a job is being asked: the list must not shrink
+  std::optional<Time> born_;
+  Time status_due_ = never;
+  Time now_{};
+};
+
+} // namespace blactl::dronecan

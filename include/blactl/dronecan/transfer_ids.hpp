@@ -1,0 +1,37 @@
+#pragma once
+// The next transfer ID of every transfer descriptor that this node sends.
+
+#include "blactl/dronecan/ids.hpp"
+#include "blactl/dronecan/transfer.hpp"
+
+#include <cstdint>
+#include <span>
+
+namespace blactl::dronecan {
+
+/// Counts modulo 32 for each (kind, data type, destination), as the specification 4.1 demands: a
+/// strict receiver takes a repeated transfer ID within 2 s for a duplicate. The counters live in
+/// memory that the caller gives, so that the next process can go on where this one stopped.
+class TransferIds {
+ public:
+  /// One counter; all zero: free.
+  struct Slot {
+    std::uint32_t key;
+    std::uint32_t next;
+  };
+
+  static constexpr std::size_t slots = 1024;
+
+  /// `table` outlives this object. `first` is where a counter without a slot starts.
+  explicit TransferIds(std::span<Slot, slots> table, TransferId first = 0)
+      : table_(table), first_(first) {}
+
+  /// The ID for the next transfer of this descriptor; counts it as used.
+  [[nodiscard]] TransferId next(Kind kind, std::uint16_t data_type_id, NodeId destination);
+
+ private:
+  std::span<Slot, slots> table_;
+  TransferId first_;
+};
+
+} // namespace blactl::dronecan

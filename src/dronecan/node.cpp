@@ -1,0 +1,214 @@
+#include "blactl/dronecan/node.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace blactl::dronecan {
+namespace {
+
+/// A node says that it lives at least once a second (uavcan/protocol/341.NodeStatus). The first
+/// time is after a second of life: a short command is never announced to anybody's allocator.
+constexpr Duration status_period = std::chrono::seconds(1);
+
+/// A request that did not leave within this time is given up (specification 4.1).
+constexpr Duration transmit_timeout = std::chrono::seconds(1);
+
+/// (kind, type, source, destination) remembered at a time: eight for each of 127 nodes.
+constexpr std::size_t receiver_sessions = 1024;
+
+} // namespace
+
+Node::Node(NodeId local, TransferIds* transfer_ids, Description description, Hooks hooks)
+    : local_(local), transfer_ids_(transfer_ids), description_(std::move(description)),
+      hooks_(std::move(hooks)),
+      receiver_(receiver_sessions, anonymous,
+                {.transfer = [this](const Transfer& transfer) { on_transfer(transfer); },
+                 .error =
+                     [this](ReceiveError error, std::uint32_t can_id, Time at) {
+                       if (hooks_.error) {
+                         hooks_.error(error, can_id, at);
+                       }
+                     },
+                 .signature = [](Kind kind, std::uint16_t id) -> std::optional<std::uint64_t> {
+                   const DataType* type = find_type(kind, id);
+                   return type != nullptr ? std::optional(type->signature) : std::nullopt;
+                 }}) {}
+
+void Node::receive(const can::Frame& frame, Time at) {
+  now_ = std::max(now_, at);
+  receiver_.receive(frame, at);
+}
+
+void Node::sent(const can::Frame& frame, Time at) {
+  now_ = std::max(now_, at);
+  for (Active& active : jobs_) {
+    if (active.asked && !active.left && active.last_frame == frame) {
+      active.left = true;
+      active.deadline = at + active.request->timeout;
+      return;
+    }
+  }
+}
+
+void Node::on_transfer(const Transfer& transfer) {
+  const Header& header = transfer.header;
+  if (header.destination == local_ && local_.is_unicast()) {
+    if (header.kind == Kind::response) {
+      on_response(transfer);
+    } else if (header.data_type_id == GetNodeInfo::type.id) {
+      answer_node_info(transfer);
+    }
+  }
+  if (hooks_.transfer) {
+    hooks_.transfer(transfer);
+  }
+}
+
+void Node::on_response(const Transfer& transfer) {
+  const Header& header = transfer.header;
+  const auto it = std::ranges::find_if(jobs_, [&](const Active& active) {
+    return active.asked && active.request->server == header.source &&
+           active.request->type->id == header.data_type_id &&
+           active.transfer_id == transfer.transfer_id;
+  });
+  if (it == jobs_.end() || (it->request->accepts && !it->request->accepts(transfer.payload))) {
+    return;
+  }
+  finish(*it, {Outcome::Kind::answered, transfer.payload, transfer.at});
+  ask_waiting(now_);
+}
+
+NodeStatus Node::status(Time now) const {
+  NodeStatus status;
+  status.uptime_s = static_cast<std::uint32_t>(
+      std::chrono::duration_cast<std::chrono::seconds>(now - born_.value_or(now)).count());
+  return status;
+}
+
+void Node::answer_node_info(const Transfer& request) {
+  GetNodeInfo::Response response;
+  response.status = status(now_);
+  response.software_major = description_.major;
+  response.software_minor = description_.minor;
+  response.unique_id = description_.unique_id;
+  response.name = description_.name;
+  const Header header{.kind = Kind::response,
+                      .priority = request.header.priority,
+                      .data_type_id = GetNodeInfo::type.id,
+                      .source = local_,
+                      .destination = request.header.source};
+  for (const auto& frame : segment(header, request.transfer_id, GetNodeInfo::type.signature,
+                                   response.encode().bytes())) {
+    hooks_.send(frame);
+  }
+}
+
+void Node::broadcast_status(Time now) {
+  const Header header{.kind = Kind::message,
+                      .priority = priority_medium,
+                      .data_type_id = NodeStatus::type.id,
+                      .source = local_};
+  const TransferId id = transfer_ids_->next(Kind::message, NodeStatus::type.id, anonymous);
+  for (const auto& frame :
+       segment(header, id, NodeStatus::type.signature, status(now).encode().bytes())) {
+    hooks_.send(frame);
+  }
+}
+
+void Node::start(Job& job, Time now) {
+  now_ = std::max(now_, now);
+  Active& active = jobs_.emplace_back(Active{.job = &job});
+  finish(active, {Outcome::Kind::start, {}, now_});
+  ask_waiting(now_);
+}
+
+/// Tells the job how its question ended and takes its next one.
+void Node::finish(Active& active, const Outcome& outcome) {
+  active.asked = false;
+  active.deadline = never;
+  active.tries = 0;
+  const bool nested = std::exchange(in_callback_, true);
+  active.request = active.job->next(outcome);
+  in_callback_ = nested;
+  active.done = !active.request;
+}
+
+bool Node::is_busy(NodeId server) const {
+  return std::ranges::any_of(jobs_, [&](const Active& active) {
+    return active.asked && active.request->server == server;
+  });
+}
+
+void Node::ask(Active& active, Time now) {
+  const Request& request = *active.request;
+  const Header header{.kind = Kind::request,
+                      .priority = request.priority,
+                      .data_type_id = request.type->id,
+                      .source = local_,
+                      .destination = request.server};
+  active.transfer_id = transfer_ids_->next(Kind::request, request.type->id, request.server);
+  const auto frames =
+      segment(header, active.transfer_id, request.type->signature, request.payload.bytes());
+  active.asked = true;
+  active.left = false;
+  active.last_frame = frames.back();
+  active.deadline = now + transmit_timeout;
+  ++active.tries;
+  for (const auto& frame : frames) {
+    hooks_.send(frame);
+  }
+}
+
+/// Drops ended jobs, and asks what waits for a server that is free now.
+void Node::ask_waiting(Time now) {
+  if (in_callback_) {
+    return; // a job started another one: the call that runs it goes on with the list
+  }
+  jobs_.remove_if([](const Active& active) { return active.done; });
+  for (Active& active : jobs_) {
+    if (!active.asked && !is_busy(active.request->server)) {
+      ask(active, now);
+    }
+  }
+}
+
+void Node::advance(Time now) {
+  now_ = std::max(now_, now);
+  if (!born_ && local_.is_unicast()) {
+    born_ = now;
+    status_due_ = now + status_period;
+  }
+  if (status_due_ <= now) {
+    broadcast_status(now);
+    status_due_ += status_period;
+  }
+  for (Active& active : jobs_) {
+    if (active.deadline > now) {
+      continue;
+    }
+    if (active.left && active.tries <= active.request->retries) {
+      ask(active, now);
+    } else {
+      finish(active, {active.left ? Outcome::Kind::timed_out : Outcome::Kind::not_sent, {}, now});
+    }
+  }
+  ask_waiting(now);
+}
+
+Time Node::next_deadline() const {
+  Time due = born_ || !local_.is_unicast() ? status_due_ : now_;
+  for (const Active& active : jobs_) {
+    due = std::min(due, active.deadline);
+  }
+  return due;
+}
+
+void Node::cancel_all(Time now) {
+  now_ = std::max(now_, now);
+  for (Active& active : jobs_) {
+    finish(active, {Outcome::Kind::cancelled, {}, now});
+  }
+  jobs_.clear();
+}
+
+} // namespace blactl::dronecan
