@@ -1,0 +1,48 @@
+#pragma once
+// PARAM=VALUE as it is typed and as files hold it, with every refusal that needs no servo.
+
+#include "blactl/base/error.hpp"
+#include "blactl/bla/parameter.hpp"
+#include "blactl/bla/profile.hpp"
+#include "blactl/bla/value.hpp"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace blactl::bla {
+
+/// A value that some model takes. What the servo itself refuses is left to Identity::may_write().
+struct Assignment {
+  const Parameter* parameter = nullptr; ///< one of Profiles::registers()
+  NamedBy named = NamedBy::name;
+  TypedValue value;
+  std::string text; ///< as it was typed: "angle_limit_cw=90deg"
+};
+
+/// `parameter` is an address or a name, `value` follows the grammar of parse_value().
+/// Errors: unknown_parameter, usage, read_only, out_of_range (outside of the ranges of all models;
+/// 0x46 = 126 or 127, which belong to tools), unsupported (reserved, 0x49, and 0x10-0x12, which
+/// have commands of their own).
+[[nodiscard]] Result<Assignment>
+make_assignment(const Profiles& profiles, std::string_view parameter, std::string_view value);
+
+/// `text` is PARAM=VALUE. Errors: usage without "="; as make_assignment().
+[[nodiscard]] Result<Assignment> parse_assignment(const Profiles& profiles, std::string_view text);
+
+/// Errors: as parse_assignment(); usage for a parameter named twice, and for 0x36 in a unit that
+/// the 0x37 beside it does not take.
+[[nodiscard]] Result<std::vector<Assignment>> parse_assignments(const Profiles& profiles,
+                                                                std::span<const std::string> texts);
+
+/// Whether some model takes `raw`. Errors: out_of_range, naming the range over all models.
+[[nodiscard]] Result<void> allowed_by_some_model(const Profiles& profiles,
+                                                 const Parameter& parameter, std::int64_t raw);
+
+/// What is true for every servo whatever its model: what may never be sent to the register.
+/// Errors: unsupported (0x49), read_only, out_of_range (0x46 = 126 or 127).
+[[nodiscard]] Result<void> never_sent(const Parameter& parameter, std::int64_t raw);
+
+} // namespace blactl::bla

@@ -1,0 +1,148 @@
+#pragma once
+// A register of a BLA servo as the specification describes it (tables 3-1 to 3-12).
+
+#include <compare>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace blactl::bla {
+
+/// A register's address, 0x00..0x5F ("0x2A" on the wire and in every output).
+class Address {
+ public:
+  constexpr Address() = default;
+
+  constexpr explicit Address(std::uint8_t value) : value_(value) {}
+
+  [[nodiscard]] constexpr std::uint8_t value() const { return value_; }
+
+  /// As the servo wants it: "0x" and two upper-case hexadecimal digits (table 2-14).
+  [[nodiscard]] std::string name() const;
+  friend constexpr auto operator<=>(Address, Address) = default;
+
+ private:
+  std::uint8_t value_ = 0;
+};
+
+/// The address that `text` is: "0x" and two hexadecimal digits, letters of either case. Null: it is
+/// none, or lies above 0x5F, where the servo has nothing.
+[[nodiscard]] std::optional<Address> find_address(std::string_view text);
+
+/// Registers that the tool itself must know by address.
+namespace address {
+inline constexpr Address command_angle{0x00}, command_speed{0x01}, command_torque{0x02};
+inline constexpr Address current_angle{0x08};
+inline constexpr Address initialize{0x10}, reboot{0x11}, write_rom{0x12};
+inline constexpr Address torque_output{0x20}, reverse{0x23}, extended_angle{0x24};
+inline constexpr Address timeout_action{0x26}, timeout_time{0x27};
+inline constexpr Address pwm_output_range{0x36}, pwm_mode{0x37};
+inline constexpr Address angle_limit_cw{0x38}, angle_limit_ccw{0x39};
+inline constexpr Address origin{0x44}, servo_id{0x45}, static_node_id{0x46}, bootloader{0x49};
+inline constexpr Address model_number{0x50}, serial_number{0x51};
+inline constexpr Address firmware_version{0x52}, hardware_version{0x53};
+} // namespace address
+
+/// What 0x00-0x02 hold while another kind of command rules (4.1): never a number to show or send.
+inline constexpr std::int64_t not_active = 555'555'555;
+
+enum class Group : std::uint8_t {
+  command,
+  status,
+  operation,
+  fault,
+  config,
+  control,
+  pwm,
+  limit,
+  option,
+  product,
+  production,
+};
+
+[[nodiscard]] std::string_view name(Group group);
+[[nodiscard]] std::optional<Group> find_group(std::string_view word);
+
+enum class Access : std::uint8_t { read, write, read_write };
+
+/// "R", "W", "RW".
+[[nodiscard]] std::string_view name(Access access);
+
+/// The unit a person uses; registers count whole or tenth units.
+enum class Unit : std::uint8_t {
+  none,
+  deg,
+  rpm,
+  percent,
+  ampere,
+  volt,
+  microsecond,
+  millisecond,
+  deg_celsius,
+  deg_or_rpm, ///< 0x36: tenths of a degree if 0x37 = 0, else rpm
+  year,
+  month,
+  day,
+  hour,
+  minute,
+};
+
+/// As it is typed and shown: "deg", "%", "us", "degC"; "" for none and for date parts; "deg/rpm"
+/// for 0x36, which takes either.
+[[nodiscard]] std::string_view name(Unit unit);
+
+/// One word of an enumeration register.
+struct Choice {
+  std::int64_t raw = 0;
+  std::string word; ///< "off", "brake": what is typed
+  std::string text_en, text_ja;
+};
+
+/// How the 64-bit integer of GetSet is narrowed to the register (vendor program's casts).
+struct Width {
+  std::uint8_t bits = 32;
+  bool is_signed = true;
+
+  /// The register's number in the low bits of `wire`, sign-extended if signed.
+  [[nodiscard]] std::int64_t narrow(std::int64_t wire) const;
+  /// The least and the greatest number that it can hold.
+  [[nodiscard]] std::int64_t lowest() const;
+  [[nodiscard]] std::int64_t highest() const;
+};
+
+/// One register of one model.
+struct Parameter {
+  Address address;
+  std::string name; ///< "angle_limit_cw"
+  Group group = Group::command;
+  std::string name_en, name_ja, vendor_label;
+  Access access = Access::read;
+  Unit unit = Unit::none;
+  std::int64_t steps_per_unit = 1; ///< 10 where the register counts tenths (0x36: of a degree)
+  Width width;
+  std::optional<std::int64_t> default_raw, min, max; ///< register numbers
+  bool saved = false;                                ///< kept by SAVE (4.11)
+  bool per_model = false;                            ///< table 3-12 gives its default and range
+  bool by_voltage_class = false;            ///< they hang on the voltage class of the model
+  bool by_suffix = false;                   ///< they hang on the suffix of the model
+  std::optional<std::int64_t> min_firmware; ///< 0x52 from which on it exists
+  std::vector<Choice> choices;              ///< empty: a number
+  bool can_be_inactive = false;             ///< 0x00-0x02: not_active is possible
+
+  [[nodiscard]] bool readable() const { return access != Access::write; }
+
+  [[nodiscard]] bool writable() const { return access != Access::read; }
+
+  [[nodiscard]] bool exists_in(std::int64_t firmware) const {
+    return !min_firmware || firmware >= *min_firmware;
+  }
+
+  [[nodiscard]] const Choice* choice(std::int64_t raw) const;
+
+  /// The number of units in one step is 1 / steps_per_unit: "0.1" or "1".
+  [[nodiscard]] std::string_view scale() const { return steps_per_unit == 10 ? "0.1" : "1"; }
+};
+
+} // namespace blactl::bla

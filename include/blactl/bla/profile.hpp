@@ -1,0 +1,110 @@
+#pragma once
+// Model profiles: what each BLA model of table 3-12 has, allows and reports. Pure knowledge.
+
+#include "blactl/base/error.hpp"
+#include "blactl/bla/parameter.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace blactl::bla {
+
+enum class Level : std::uint8_t { notice, warning, failure };
+[[nodiscard]] std::string_view name(Level level);
+
+/// One bit of 0x19 (notice), 0x1A (warning) or 0x1B (failure): 4.12.
+struct FaultBit {
+  Address reg;
+  std::uint8_t bit = 0;
+  Level level = Level::notice;
+  std::string group; ///< hardware, software, communication, other
+  std::string code;  ///< contract, section 7: "voltage_low"
+  bool pwm_only = false;
+  bool latched = false;     ///< tells why the servo restarted, stays until the next start
+  bool vendor_only = false; ///< shown by the vendor's program, absent in the specification
+  std::string text_en, text_ja, condition_en, condition_ja, action_en, action_ja;
+};
+
+/// The bit of 0x18 that shows that `bit` or another of its group and level is set (4.12).
+[[nodiscard]] std::uint8_t summary_bit(const FaultBit& bit);
+
+/// One release of the servos' firmware (chapter 5).
+struct FirmwareRelease {
+  /// Which models left the factory with it, and when: "BLA21-**U-AB2", "2021-10", "2022-04".
+  struct Shipment {
+    std::string models;
+    std::string from, until; ///< year and month; `until` is empty if it is still so
+  };
+
+  std::int64_t version = 0; ///< as 0x52 has it: 1400 is 1.400
+  std::vector<Shipment> shipments;
+  std::string changes_en, changes_ja;
+};
+
+/// As the specification writes it: 1400 is "1.400".
+[[nodiscard]] std::string firmware_text(std::int64_t version);
+
+/// One model: series, voltage class and suffix, e.g. BLA21-12U-AB.
+struct Profile {
+  std::string model;                 ///< "BLA21-12U-AB"
+  std::string series;                ///< "BLA21"
+  std::string voltage_class;         ///< "12U"
+  std::string suffix;                ///< "A0", "AB"
+  bool pwm = false;                  ///< has a PWM input
+  std::int64_t model_number = 0;     ///< 0x50
+  std::int64_t hardware_version = 0; ///< 0x53
+  std::vector<Parameter> parameters; ///< ascending by address, without reserved ones
+
+  [[nodiscard]] const Parameter* find(Address address) const;
+};
+
+/// All profiles: those in the binary, and those of a directory that add to or replace them.
+class Profiles {
+ public:
+  /// Reads the profiles of the binary, then every *.json of `directory`, if given (*.schema.json
+  /// apart): a model there replaces the built-in one of its name, a family there the built-in one.
+  /// Errors: bad_file with file, place and reason of every fault.
+  [[nodiscard]] static Result<Profiles> load(const std::optional<std::filesystem::path>& directory);
+
+  [[nodiscard]] std::span<const Profile> all() const { return profiles_; }
+
+  [[nodiscard]] std::span<const FaultBit> fault_bits() const { return fault_bits_; }
+
+  /// Ascending by version.
+  [[nodiscard]] std::span<const FirmwareRelease> firmware() const { return firmware_; }
+
+  /// The models that `text` means: a full name, its beginning ("BLA21-12U"), or a label with its
+  /// last digit ("BLA21-12U-AB2"); letters of either case. Empty: none.
+  [[nodiscard]] std::vector<const Profile*> matching(std::string_view text) const;
+
+  /// Every register that some model has, with the union of the ranges of all models that let it be
+  /// written: what lies outside of it, every model refuses. No default where models differ.
+  /// Ascending by address.
+  [[nodiscard]] std::span<const Parameter> registers() const { return registers_; }
+
+  [[nodiscard]] const Parameter* find(Address address) const;
+
+  /// The register that a person means by an address ("0x38") or a name ("angle_limit_cw",
+  /// "angle-limit-cw"; letters of either case in both).
+  /// Errors: unknown_parameter with the nearest names (vendor's labels are looked up too);
+  /// unsupported for a reserved address.
+  [[nodiscard]] Result<const Parameter*> find(std::string_view text) const;
+
+  /// Built-in models that the directory replaced.
+  [[nodiscard]] std::span<const std::string> replaced() const { return replaced_; }
+
+ private:
+  std::vector<Profile> profiles_;
+  std::vector<FaultBit> fault_bits_;
+  std::vector<FirmwareRelease> firmware_;
+  std::vector<Parameter> registers_;
+  std::vector<std::string> replaced_;
+};
+
+} // namespace blactl::bla

@@ -1,0 +1,156 @@
+#pragma once
+// The catalogue of the floor `bla`: what is said about profiles, parameters and values.
+
+#include "blactl/base/text.hpp"
+
+namespace blactl::texts {
+
+// Names of parameters
+inline constexpr Text parameter_unknown{"{}: there is no such parameter",
+                                        "{}: そのようなパラメータはありません"};
+inline constexpr Text parameter_reserved{
+    "{} is a reserved address: blactl neither reads nor writes it",
+    "{} は Reserve です。blactl は読み書きしません"};
+inline constexpr Text did_you_mean{"did you mean {}?", "もしかして: {}"};
+inline constexpr Text parameter_list{"`blactl models` lists all parameters",
+                                     "`blactl models` で全パラメータを確認できます"};
+inline constexpr Text list_or{" or ", " または "};
+
+// Values as they are typed: the first argument of all is PARAM=VALUE
+inline constexpr Text assignment_without_equals{"{}: not of the form PARAM=VALUE",
+                                                "{}: PARAM=VALUE の形式ではありません"};
+inline constexpr Text assignment_example{"for example {}", "例: {}"};
+inline constexpr Text value_not_a_number{"{}: not a number", "{}: 数値ではありません"};
+inline constexpr Text value_grammar{"a number is written [-]digits[.digits]unit, for example {}",
+                                    "数値は [-]数字[.数字]単位 の形で入力して下さい。例: {}"};
+inline constexpr Text value_not_whole{"{}: a register number has no decimals",
+                                      "{}: レジスタ値に小数は使えません"};
+inline constexpr Text value_without_unit{"{}: the unit is missing", "{}: 単位がありません"};
+inline constexpr Text value_type{"type {}", "{} と入力して下さい"};
+inline constexpr Text value_wrong_unit{"{}: the unit {} does not fit, this parameter takes {}",
+                                       "{}: 単位 {} は使えません。使える単位は {} です"};
+inline constexpr Text value_has_no_unit{"{}: this parameter has no unit",
+                                        "{}: このパラメータに単位はありません"};
+inline constexpr Text value_too_fine{"{}: the register counts in steps of {}",
+                                     "{}: レジスタの分解能は {} です"};
+inline constexpr Text value_unknown_word{"{}: unknown word, this parameter takes {}",
+                                         "{}: 使える語は {} です"};
+inline constexpr Text value_no_choice{"{}: there is no such setting, this parameter takes {}",
+                                      "{}: そのような設定はありません。使える値は {} です"};
+inline constexpr Text value_beyond_64_bits{"{}: larger than any register",
+                                           "{}: レジスタに収まらない値です"};
+inline constexpr Text value_out_of_range{"{}: outside of the range {} to {}",
+                                         "{}: 設定範囲 {} ～ {} の外です"};
+inline constexpr Text value_only_one{"{}: only {} is possible", "{}: 設定できる値は {} だけです"};
+inline constexpr Text value_in_a_gap{"{}: no model takes this value",
+                                     "{}: この値を設定できる機種はありません"};
+inline constexpr Text value_range_hint{"type a value from {} to {}",
+                                       "{} ～ {} の値を入力して下さい"};
+inline constexpr Text value_not_active{"not active", "無効 (他種の指令中)"};
+
+// Refusals that hold for every servo
+inline constexpr Text assigned_twice{"{} is given twice", "{} が 2 回指定されています"};
+inline constexpr Text assigned_twice_hint{"name each parameter once",
+                                          "パラメータは 1 回だけ指定して下さい"};
+inline constexpr Text pwm_unit_against_mode{"{}: with {} the unit is {}",
+                                            "{}: {} では単位は {} です"};
+inline constexpr Text is_read_only{"{} ({}) can only be read", "{} ({}) は読み出し専用です"};
+inline constexpr Text is_read_only_hint{"`blactl get {}` shows it",
+                                        "`blactl get {}` で値を確認できます"};
+inline constexpr Text bootloader_refused{
+    "0x49 starts the boot loader: the specification forbids writing it",
+    "0x49 はブートローダ起動です。仕様書で書き込みが禁止されています"};
+inline constexpr Text operation_refused{"{} ({}) is no setting but an operation",
+                                        "{} ({}) は設定ではなく操作です"};
+inline constexpr Text operation_hint{"use `blactl {}`", "`blactl {}` を使って下さい"};
+inline constexpr Text node_id_of_tools{
+    "{}: the node IDs 126 and 127 belong to tools such as blactl",
+    "{}: ノード ID 126 と 127 は blactl などのツール用です"};
+inline constexpr Text node_id_hint{"type an ID from 1 to 125, or 0 for dynamic allocation",
+                                   "1 ～ 125、または 0 (動的割当て) を入力して下さい"};
+
+// Refusals that hang on the servo
+inline constexpr Text model_unknown{
+    "no profile fits this servo ({}): it is only read",
+    "このサーボ ({}) に合うプロファイルが無いため、読み出しのみ可能です"};
+inline constexpr Text model_unknown_hint{
+    "add a profile for this model with --profile-dir DIR",
+    "--profile-dir DIR でこの機種のプロファイルを追加して下さい"};
+inline constexpr Text model_not_certain{
+    "{} ({}) depends on the model, and {} leaves open which of these it is: {}",
+    "{} ({}) の範囲は機種によりますが、{} から機種を特定できません (候補: {})"};
+inline constexpr Text model_mismatch{"the servo is {}, not {}",
+                                     "サーボの機種は {} で、{} ではありません"};
+inline constexpr Text model_mismatch_hint{"leave --profile out", "--profile を外して下さい"};
+inline constexpr Text number_unknown{"unknown", "不明"};
+inline constexpr Text firmware_needed{
+    "{} ({}) needs firmware {}, this servo has {}",
+    "{} ({}) にはファームウェア {} 以降が必要です (このサーボは {})"};
+inline constexpr Text firmware_unknown{
+    "{} ({}) needs firmware {}, and this servo does not tell its own",
+    "{} ({}) にはファームウェア {} 以降が必要ですが、このサーボのバージョンは不明です"};
+inline constexpr Text firmware_unknown_hint{"`blactl get firmware_version` reads it",
+                                            "`blactl get firmware_version` で確認して下さい"};
+inline constexpr Text firmware_needed_hint{"`blactl models` shows which servos have it",
+                                           "`blactl models` で対応機種を確認して下さい"};
+inline constexpr Text no_pwm_input{"{} ({}): {} has no PWM input",
+                                   "{} ({}): {} は PWM 未対応機種です"};
+inline constexpr Text no_pwm_input_hint{
+    "models whose suffix has a B in it, like BLA21-12U-AB, have one",
+    "PWM 対応機種は BLA21-12U-AB のように末尾が *B* の機種です"};
+inline constexpr Text model_lacks{"{} does not have {}", "{} に {} はありません"};
+
+// Profile files: faults
+inline constexpr Text profile_directory{"cannot read the profiles in {}: {}",
+                                        "{} のプロファイルを読み込めません: {}"};
+inline constexpr Text profile_directory_hint{
+    "check --profile-dir or BLACTL_PROFILE_DIR",
+    "--profile-dir または BLACTL_PROFILE_DIR を確認して下さい"};
+inline constexpr Text profile_bad_address{"{} is no address; addresses are 0x00 to 0x5F",
+                                          "{} はアドレスではありません (0x00 ～ 0x5F)"};
+inline constexpr Text profile_bad_name{"{} is no name; names are a-z, 0-9 and _",
+                                       "{} は名前に使えません (a-z、0-9、_ のみ)"};
+inline constexpr Text profile_bad_model_part{
+    "{} is no part of a model name; letters A-Z and digits are",
+    "{} は機種名に使えません (A-Z と数字のみ)"};
+inline constexpr Text profile_empty_text{"the text is empty", "文字列が空です"};
+inline constexpr Text profile_name_twice{"{} is already the name of {}", "{} は {} の名前です"};
+inline constexpr Text profile_range_incomplete{"min and max belong together",
+                                               "min と max は両方必要です"};
+inline constexpr Text profile_range_reversed{"min {} is greater than max {}",
+                                             "min {} が max {} より大きくなっています"};
+inline constexpr Text profile_default_outside{"default {} lies outside of {} to {}",
+                                              "default {} が {} ～ {} の外です"};
+inline constexpr Text profile_range_per_model{
+    "a per_model register has its values in the series files",
+    "per_model の値はシリーズのファイルに書いて下さい"};
+inline constexpr Text profile_writable_without_range{"a register that can be written needs {}",
+                                                     "書き込み可能なレジスタには {} が必要です"};
+inline constexpr Text profile_choice_twice{"{} occurs twice among the choices",
+                                           "choices に {} が重複しています"};
+inline constexpr Text profile_unknown_register{"the family has no register {}",
+                                               "ファミリーにレジスタ {} はありません"};
+inline constexpr Text profile_set_by_model{"{} follows from model_number and hardware_version",
+                                           "{} は model_number と hardware_version で決まります"};
+inline constexpr Text profile_no_such_section{"{} is not among the {}", "{} は {} にありません"};
+inline constexpr Text profile_register_missing{"{}: {} ({}) has no default, min and max",
+                                               "{}: {} ({}) の default、min、max がありません"};
+inline constexpr Text profile_model_twice{"the model {} is described twice",
+                                          "機種 {} が重複しています"};
+inline constexpr Text profile_like_another{"{} has the model number and hardware version of {}",
+                                           "{} の機種番号とハードウェアバージョンが {} と同じです"};
+inline constexpr Text profile_bit_twice{"{} bit {} is described twice",
+                                        "{} の bit {} が重複しています"};
+inline constexpr Text profile_code_twice{"the code {} is used twice", "code {} が重複しています"};
+inline constexpr Text profile_bit_group{"bit {} belongs to the group {}",
+                                        "bit {} はグループ {} に属します"};
+inline constexpr Text profile_releases_order{"versions must ascend",
+                                             "version は昇順でなければなりません"};
+inline constexpr Text profile_bad_month{"{} is no month like 2024-06",
+                                        "{} は 2024-06 の形式ではありません"};
+inline constexpr Text profile_second_family{"there is already a family, in {}",
+                                            "ファミリーは既に {} にあります"};
+inline constexpr Text profile_no_family{"no file describes the family",
+                                        "ファミリーのファイルがありません"};
+
+} // namespace blactl::texts

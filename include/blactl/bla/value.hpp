@@ -1,0 +1,52 @@
+#pragma once
+// Values between a person's text and a register, exact both ways (contract, sections 4 and 7).
+
+#include "blactl/base/error.hpp"
+#include "blactl/bla/parameter.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace blactl::bla {
+
+/// How a parameter was named: bare integers mean register numbers by address, units by name.
+enum class NamedBy : std::uint8_t { address, name };
+
+/// A value as it was typed.
+struct TypedValue {
+  std::int64_t raw = 0;
+  /// 0x36 in deg or rpm is right only if 0x37 has this value.
+  std::optional<std::int64_t> pwm_mode;
+};
+
+/// Reads `text` as a value of `parameter`: `[-]digits[.digits]unit`, `[-]digits`, `[-]digits` raw,
+/// or a word of the enumeration. The range is not checked here.
+/// Errors, with what to type as hint: usage (not a number, wrong or missing unit, finer than the
+/// register, unknown word); out_of_range (no such enumeration value, beyond 64 bits).
+[[nodiscard]] Result<TypedValue> parse_value(const Parameter& parameter, NamedBy named,
+                                             std::string_view text);
+
+/// Whether `raw` lies in the parameter's range. Errors: out_of_range, naming the range in units.
+[[nodiscard]] Result<void> check_range(const Parameter& parameter, std::int64_t raw);
+
+/// The number in the parameter's unit as a decimal text: "90.0", "1520". Exact. `pwm_mode` decides
+/// for 0x36; without it register numbers are shown. Empty for "not active" in 0x00-0x02.
+[[nodiscard]] std::string value_text(const Parameter& parameter, std::int64_t raw,
+                                     std::optional<std::int64_t> pwm_mode = std::nullopt);
+
+/// The unit that goes with value_text(): "deg"; "" for none.
+[[nodiscard]] std::string_view unit_text(const Parameter& parameter,
+                                         std::optional<std::int64_t> pwm_mode = std::nullopt);
+
+/// What a person or a file types, by name, to get just this value: "90.0deg", "brake", "1520us",
+/// "40"; for 0x36 without `pwm_mode` "700raw".
+[[nodiscard]] std::string input_text(const Parameter& parameter, std::int64_t raw,
+                                     std::optional<std::int64_t> pwm_mode = std::nullopt);
+
+/// For people: "90.0 deg", "brake", "not active" (in the language of the session).
+[[nodiscard]] std::string display(const Parameter& parameter, std::int64_t raw,
+                                  std::optional<std::int64_t> pwm_mode = std::nullopt);
+
+} // namespace blactl::bla

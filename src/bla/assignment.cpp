@@ -1,0 +1,147 @@
+#include "blactl/bla/assignment.hpp"
+
+#include "blactl/base/text.hpp"
+#include "blactl/bla/texts.hpp"
+
+#include <algorithm>
+
+namespace blactl::bla {
+namespace {
+
+/// 0x10-0x12 have commands of their own.
+Result<void> check_operation(const Parameter& parameter) {
+  if (parameter.group != Group::operation) {
+    return {};
+  }
+  const std::string_view command = parameter.address == address::initialize ? "erase"
+                                   : parameter.address == address::reboot   ? "restart"
+                                                                            : "save";
+  return fail(Code::unsupported,
+              say<texts::operation_refused>(parameter.name, parameter.address.name()),
+              say<texts::operation_hint>(command));
+}
+
+Result<void> check_access(const Parameter& parameter) {
+  if (parameter.address == address::bootloader) {
+    return fail(Code::unsupported, say<texts::bootloader_refused>(), say<texts::parameter_list>());
+  }
+  if (!parameter.writable()) {
+    return fail(Code::read_only, say<texts::is_read_only>(parameter.name, parameter.address.name()),
+                say<texts::is_read_only_hint>(parameter.name));
+  }
+  return {};
+}
+
+/// 0x36 in deg or rpm must be what a 0x37 beside it makes of it.
+Result<void> check_pwm_unit(std::span<const Assignment> assignments) {
+  const auto by_address = [&](Address address) {
+    return std::ranges::find_if(
+        assignments, [&](const Assignment& each) { return each.parameter->address == address; });
+  };
+  const auto range = by_address(address::pwm_output_range);
+  const auto mode = by_address(address::pwm_mode);
+  if (range == assignments.end() || mode == assignments.end() ||
+      range->value.pwm_mode.value_or(mode->value.raw) == mode->value.raw) {
+    return {};
+  }
+  const std::string_view unit = unit_text(*range->parameter, mode->value.raw);
+  return fail(
+      Code::usage,
+      say<texts::pwm_unit_against_mode>(printable(range->text), printable(mode->text), unit),
+      say<texts::assignment_example>(
+          range->parameter->name + '=' +
+          input_text(*range->parameter, range->value.raw, mode->value.raw)));
+}
+
+} // namespace
+
+Result<void> never_sent(const Parameter& parameter, std::int64_t raw) {
+  if (auto allowed = check_access(parameter); !allowed) {
+    return allowed;
+  }
+  if (parameter.address == address::static_node_id && (raw == 126 || raw == 127)) {
+    return fail(Code::out_of_range,
+                say<texts::node_id_of_tools>(parameter.name + '=' + std::to_string(raw)),
+                say<texts::node_id_hint>());
+  }
+  return {};
+}
+
+Result<void> allowed_by_some_model(const Profiles& profiles, const Parameter& parameter,
+                                   std::int64_t raw) {
+  for (const Profile& profile : profiles.all()) {
+    const Parameter* one = profile.find(parameter.address);
+    const bool written = one != nullptr && (one->group != Group::pwm || profile.pwm);
+    if (written && check_range(*one, raw)) {
+      return {};
+    }
+  }
+  if (auto inside = check_range(parameter, raw); !inside) {
+    return inside;
+  }
+  return fail(Code::out_of_range,
+              say<texts::value_in_a_gap>(parameter.name + '=' + input_text(parameter, raw)),
+              say<texts::parameter_list>());
+}
+
+Result<Assignment> make_assignment(const Profiles& profiles, std::string_view parameter,
+                                   std::string_view value) {
+  const auto found = profiles.find(parameter);
+  if (!found) {
+    return std::unexpected(found.error());
+  }
+  Assignment assignment;
+  assignment.parameter = *found;
+  assignment.named = find_address(parameter) ? NamedBy::address : NamedBy::name;
+  assignment.text = std::string(parameter) + '=' + std::string(value);
+  if (auto allowed = check_access(**found); !allowed) {
+    return std::unexpected(allowed.error());
+  }
+  if (auto allowed = check_operation(**found); !allowed) {
+    return std::unexpected(allowed.error());
+  }
+  const auto typed = parse_value(**found, assignment.named, value);
+  if (!typed) {
+    return std::unexpected(typed.error());
+  }
+  assignment.value = *typed;
+  if (auto allowed = allowed_by_some_model(profiles, **found, typed->raw); !allowed) {
+    return std::unexpected(allowed.error());
+  }
+  if (auto allowed = never_sent(**found, typed->raw); !allowed) {
+    return std::unexpected(allowed.error());
+  }
+  return assignment;
+}
+
+Result<Assignment> parse_assignment(const Profiles& profiles, std::string_view text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string_view::npos) {
+    return fail(Code::usage, say<texts::assignment_without_equals>(printable(text)),
+                say<texts::assignment_example>("angle_limit_cw=90deg"));
+  }
+  return make_assignment(profiles, text.substr(0, equals), text.substr(equals + 1));
+}
+
+Result<std::vector<Assignment>> parse_assignments(const Profiles& profiles,
+                                                  std::span<const std::string> texts) {
+  std::vector<Assignment> assignments;
+  for (const std::string& text : texts) {
+    auto assignment = parse_assignment(profiles, text);
+    if (!assignment) {
+      return std::unexpected(std::move(assignment.error()));
+    }
+    if (std::ranges::find(assignments, assignment->parameter, &Assignment::parameter) !=
+        assignments.end()) {
+      return fail(Code::usage, say<texts::assigned_twice>(assignment->parameter->name),
+                  say<texts::assigned_twice_hint>());
+    }
+    assignments.push_back(std::move(*assignment));
+  }
+  if (auto fits = check_pwm_unit(assignments); !fits) {
+    return std::unexpected(std::move(fits.error()));
+  }
+  return assignments;
+}
+
+} // namespace blactl::bla

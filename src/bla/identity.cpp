@@ -1,0 +1,199 @@
+#include "blactl/bla/identity.hpp"
+
+#include "blactl/bla/assignment.hpp"
+#include "blactl/bla/texts.hpp"
+#include "blactl/bla/value.hpp"
+
+#include <algorithm>
+
+namespace blactl::bla {
+namespace {
+
+// 0x53 is the supply voltage class in thousands and a number of the suffix (table 3-12).
+constexpr std::int64_t class_unit = 1000;
+
+std::int64_t class_digits(std::int64_t hardware_version) {
+  return hardware_version / class_unit;
+}
+
+std::int64_t suffix_digits(std::int64_t hardware_version) {
+  return hardware_version % class_unit;
+}
+
+/// Keeps those candidates that agree; if none does, all. Whether some did.
+template <class Agrees> bool narrow(std::vector<const Profile*>& candidates, Agrees agrees) {
+  if (std::ranges::none_of(candidates, agrees)) {
+    return false;
+  }
+  std::erase_if(candidates, [&](const Profile* profile) { return !agrees(profile); });
+  return true;
+}
+
+/// The member's text if all candidates have the same; else empty.
+std::string shared(const std::vector<const Profile*>& candidates, std::string Profile::* part) {
+  const std::string& first = candidates.front()->*part;
+  const bool same = std::ranges::all_of(
+      candidates, [&](const Profile* profile) { return profile->*part == first; });
+  return same ? first : "";
+}
+
+std::string list(const std::vector<const Profile*>& candidates) {
+  std::string all;
+  for (const Profile* profile : candidates) {
+    all += (all.empty() ? "" : ", ") + profile->model;
+  }
+  return all;
+}
+
+std::string reading(Address address, const std::optional<std::int64_t>& value) {
+  return address.name() + '=' + (value ? std::to_string(*value) : say<texts::number_unknown>());
+}
+
+/// Same default, same range: then it does not matter which of the models it is.
+bool alike(const Parameter& a, const Parameter& b) {
+  return a.default_raw == b.default_raw && a.min == b.min && a.max == b.max;
+}
+
+} // namespace
+
+Identity::Identity(const Profiles& profiles, const Readings& readings)
+    : profiles_(&profiles), readings_(readings) {
+  if (!readings.model_number) {
+    return;
+  }
+  for (const Profile& profile : profiles.all()) {
+    if (profile.model_number == *readings.model_number) {
+      candidates_.push_back(&profile);
+    }
+  }
+  if (!readings.hardware_version || candidates_.empty()) {
+    return;
+  }
+  const std::int64_t version = *readings.hardware_version;
+  certain_ = narrow(candidates_,
+                    [&](const Profile* profile) { return profile->hardware_version == version; });
+  class_known_ = narrow(candidates_, [&](const Profile* profile) {
+    return class_digits(profile->hardware_version) == class_digits(version);
+  });
+  suffix_known_ = narrow(candidates_, [&](const Profile* profile) {
+    return suffix_digits(profile->hardware_version) == suffix_digits(version);
+  });
+}
+
+Result<void> Identity::assume(const Profile& profile) {
+  if (!candidates_.empty() && std::ranges::find(candidates_, &profile) == candidates_.end()) {
+    return fail(Code::model_mismatch, say<texts::model_mismatch>(model(), profile.model),
+                say<texts::model_mismatch_hint>());
+  }
+  assumed_ = &profile;
+  return {};
+}
+
+const Profile* Identity::profile() const {
+  if (candidates_.size() == 1 && class_known_) {
+    return candidates_.front();
+  }
+  return assumed_;
+}
+
+std::string Identity::model() const {
+  if (const Profile* known = profile()) {
+    return known->model;
+  }
+  if (candidates_.empty()) {
+    return {};
+  }
+  const std::string series = shared(candidates_, &Profile::series);
+  const std::string voltage_class = shared(candidates_, &Profile::voltage_class);
+  if (series.empty() || voltage_class.empty() || !class_known_) {
+    return series;
+  }
+  return series + '-' + voltage_class;
+}
+
+const Parameter* Identity::parameter(Address address) const {
+  if (const Profile* known = profile()) {
+    return known->find(address);
+  }
+  if (profiles_ == nullptr) {
+    return nullptr;
+  }
+  const Parameter* first = candidates_.empty() ? nullptr : candidates_.front()->find(address);
+  const bool agreed =
+      first != nullptr && std::ranges::all_of(candidates_, [&](const Profile* profile) {
+        const Parameter* other = profile->find(address);
+        return other != nullptr && alike(*other, *first);
+      });
+  return agreed ? first : profiles_->find(address);
+}
+
+bool Identity::has(const Parameter& parameter) const {
+  return !readings_.firmware_version || parameter.exists_in(*readings_.firmware_version);
+}
+
+Result<void> Identity::may_write(Address address, std::int64_t raw) const {
+  const Parameter* general = profiles_ == nullptr ? nullptr : profiles_->find(address);
+  if (general == nullptr) {
+    return fail(Code::unsupported, say<texts::parameter_reserved>(address.name()),
+                say<texts::parameter_list>());
+  }
+  if (auto allowed = never_sent(*general, raw); !allowed) {
+    return allowed;
+  }
+  if (auto known = check_model(*general); !known) {
+    return known;
+  }
+  if (auto supported = check_support(*general); !supported) {
+    return supported;
+  }
+  return check_range(*candidates_.front()->find(address), raw);
+}
+
+Result<void> Identity::check_model(const Parameter& parameter) const {
+  if (candidates_.empty()) {
+    return fail(Code::no_profile,
+                say<texts::model_unknown>(reading(address::model_number, readings_.model_number)),
+                say<texts::model_unknown_hint>());
+  }
+  const Parameter* first = candidates_.front()->find(parameter.address);
+  const bool guessed = std::ranges::any_of(candidates_, [&](const Profile* profile) {
+    const Parameter* other = profile->find(parameter.address);
+    return first == nullptr || other == nullptr || !alike(*other, *first) ||
+           (other->by_voltage_class && !class_known_) || (other->by_suffix && !suffix_known_);
+  });
+  if (guessed) {
+    return fail(Code::no_profile,
+                say<texts::model_not_certain>(
+                    parameter.name, parameter.address.name(),
+                    reading(address::hardware_version, readings_.hardware_version),
+                    list(candidates_)),
+                say<texts::model_unknown_hint>());
+  }
+  return {};
+}
+
+Result<void> Identity::check_support(const Parameter& parameter) const {
+  const std::string address = parameter.address.name();
+  // All candidates agree on a range here, so the first speaks for all.
+  if (parameter.group == Group::pwm && !candidates_.front()->pwm) {
+    return fail(Code::unsupported, say<texts::no_pwm_input>(parameter.name, address, model()),
+                say<texts::no_pwm_input_hint>());
+  }
+  if (!parameter.min_firmware) {
+    return {};
+  }
+  const std::string needed = firmware_text(*parameter.min_firmware);
+  if (!readings_.firmware_version) {
+    return fail(Code::unsupported, say<texts::firmware_unknown>(parameter.name, address, needed),
+                say<texts::firmware_unknown_hint>());
+  }
+  if (!parameter.exists_in(*readings_.firmware_version)) {
+    return fail(Code::unsupported,
+                say<texts::firmware_needed>(parameter.name, address, needed,
+                                            firmware_text(*readings_.firmware_version)),
+                say<texts::firmware_needed_hint>());
+  }
+  return {};
+}
+
+} // namespace blactl::bla

@@ -1,0 +1,55 @@
+#pragma once
+// Profile files into profiles: the family's file and the files of its series.
+
+#include "blactl/base/json_reader.hpp"
+#include "blactl/bla/profile.hpp"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace blactl::bla {
+
+/// What the version of the files is called in them, and what they all describe.
+inline constexpr std::string_view profile_schema = "blactl-profile/1";
+inline constexpr std::string_view profile_family = "BLA";
+
+/// What all models have in common.
+struct Family {
+  std::vector<Parameter> parameters; ///< ascending; those of table 3-12 without default and range
+  std::vector<FaultBit> fault_bits;
+  std::vector<FirmwareRelease> firmware;
+};
+
+/// One series file.
+struct Series {
+  struct Model {
+    Profile profile;
+    const json::Value* place = nullptr; ///< where the file lists it, for faults
+  };
+
+  Choice number; ///< of 0x50: the model number in words
+  std::vector<Model> models;
+};
+
+/// Whether the file describes a series; else it is taken for the family's.
+[[nodiscard]] bool describes_series(const json::Document& document);
+
+/// What is wrong goes to the document's faults; the result is of use only if there are none.
+[[nodiscard]] Family read_family(json::Document& document);
+[[nodiscard]] Series read_series(json::Document& document, const Family& family);
+
+// What both kinds of files have.
+
+/// "$schema", "schema" and "family".
+void read_head(json::Object& root);
+
+/// A text that must not be empty.
+[[nodiscard]] std::string read_text(json::Object& object, std::string_view key,
+                                    json::Faults& faults);
+
+/// "default", "min", "max" of `parameter`, within its width and consistent with each other.
+void read_range(json::Object& object, Parameter& parameter, json::Faults& faults);
+
+} // namespace blactl::bla

@@ -1,0 +1,27 @@
+#include "bla/words.hpp"
+
+#include "blactl/bla/texts.hpp"
+
+#include <algorithm>
+
+namespace blactl::bla {
+
+std::string lower(std::string_view text) {
+  std::string out(text);
+  std::ranges::transform(out, out.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  return out;
+}
+
+std::string either(const std::vector<std::string>& words) {
+  std::string all;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const bool last = i + 1 == words.size();
+    all += i == 0 ? "" : last ? say<texts::list_or>() : ", ";
+    all += words[i];
+  }
+  return all;
+}
+
+} // namespace blactl::bla
