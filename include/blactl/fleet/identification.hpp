@@ -1,0 +1,116 @@
+#pragma once
+// The questions that tell what a node is: GetNodeInfo, then 0x50-0x53, 0x45 and 0x46.
+
+#include "blactl/bla/profile.hpp"
+#include "blactl/dronecan/node.hpp"
+#include "blactl/fleet/registers.hpp"
+#include "blactl/fleet/roster.hpp"
+
+#include <optional>
+
+namespace blactl::fleet {
+
+/// Identifies one node as part of a job: feed it outcomes until it asks nothing more.
+class Identification {
+ public:
+  struct Options {
+    Patience patience;
+    const bla::Profile* assumed = nullptr; ///< --profile
+    bool static_node_id = false;           ///< 0x46 as well
+  };
+
+  /// All references outlive this object.
+  Identification(Roster& roster, Member& member, const bla::Profiles& profiles, Options options);
+
+  /// The next question; none: done() or failed. The first call's outcome is not looked at.
+  [[nodiscard]] std::optional<dronecan::Request> next(const dronecan::Outcome& outcome);
+
+  [[nodiscard]] bool done() const { return done_; }
+
+  /// Why it failed: timeout, not_found, model_mismatch, interrupted, no_acknowledge.
+  [[nodiscard]] const std::optional<Error>& error() const { return error_; }
+
+ private:
+  enum class Step : std::uint8_t {
+    begin,
+    node_info,
+    model_number,
+    serial_number,
+    firmware_version,
+    hardware_version,
+    servo_id,
+    static_node_id,
+    end,
+  };
+
+  [[nodiscard]] static bla::Address address_of(Step step);
+  [[nodiscard]] std::optional<dronecan::Request> question(Step step);
+  [[nodiscard]] std::optional<dronecan::Request> conclude();
+  void take_node_info(const dronecan::Outcome& outcome);
+  void take_register(const dronecan::Outcome& outcome);
+  [[nodiscard]] std::optional<std::int64_t>& slot(Step step);
+
+  Roster& roster_;
+  Member& member_;
+  const bla::Profiles& profiles_;
+  Options options_;
+  Step step_ = Step::begin;
+  bla::Readings readings_;
+  bool done_ = false;
+  std::optional<Error> error_;
+};
+
+/// A job that only identifies.
+class IdentifyJob : public dronecan::Job {
+ public:
+  IdentifyJob(Roster& roster, Member& member, const bla::Profiles& profiles,
+              Identification::Options options)
+      : member_(member), identification_(roster, member, profiles, options) {}
+
+  [[nodiscard]] std::optional<dronecan::Request> next(const dronecan::Outcome& outcome) override {
+    return identification_.next(outcome);
+  }
+
+  [[nodiscard]] const Member& member() const { return member_; }
+
+  [[nodiscard]] const Identification& identification() const { return identification_; }
+
+ private:
+  Member& member_;
+  Identification identification_;
+};
+
+/// Asks the IDs that were not heard whether they live: scan runs several at a time, which share one
+/// cursor. What answers shows up in the roster by itself.
+class ProbeJob : public dronecan::Job {
+ public:
+  /// The last ID that is asked; 126 and 127 belong to tools.
+  static constexpr std::uint8_t last = 125;
+
+  /// `cursor`: the ID asked last by any of the jobs, 0 at the beginning.
+  ProbeJob(const Roster& roster, std::uint8_t& cursor, Duration timeout)
+      : roster_(roster), cursor_(cursor), timeout_(timeout) {}
+
+  [[nodiscard]] std::optional<dronecan::Request> next(const dronecan::Outcome& outcome) override;
+
+ private:
+  const Roster& roster_;
+  std::uint8_t& cursor_;
+  Duration timeout_;
+};
+
+/// Asks an identified node for its unique ID once more: another answer is another unit.
+class DoubleCheckJob : public dronecan::Job {
+ public:
+  DoubleCheckJob(Roster& roster, Member& member, Patience patience)
+      : roster_(roster), member_(member), patience_(patience) {}
+
+  [[nodiscard]] std::optional<dronecan::Request> next(const dronecan::Outcome& outcome) override;
+
+ private:
+  Roster& roster_;
+  Member& member_;
+  Patience patience_;
+};
+
+} // namespace blactl::fleet

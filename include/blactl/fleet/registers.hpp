@@ -1,0 +1,38 @@
+#pragma once
+// Registers of a servo as DroneCAN parameters: one question each by GetSet (specification 2.3).
+
+#include "blactl/base/error.hpp"
+#include "blactl/bla/parameter.hpp"
+#include "blactl/dronecan/node.hpp"
+
+#include <cstdint>
+
+namespace blactl::fleet {
+
+/// How patiently one question is asked (--timeout, --retries).
+struct Patience {
+  Duration timeout = std::chrono::milliseconds(500);
+  int retries = 2;
+};
+
+/// A question of `type` with this payload, as patient as asked for.
+[[nodiscard]] dronecan::Request ask(dronecan::NodeId server, const dronecan::DataType& type,
+                                    dronecan::Payload payload, const Patience& patience);
+
+[[nodiscard]] dronecan::Request read_register(dronecan::NodeId server, bla::Address address,
+                                              const Patience& patience);
+
+[[nodiscard]] dronecan::Request write_register(dronecan::NodeId server, bla::Address address,
+                                               std::int64_t raw, const Patience& patience);
+
+/// What stands behind an outcome without an answer. `subject` is what was asked, for the message.
+/// Errors: timeout, no_acknowledge (it did not leave), interrupted.
+[[nodiscard]] Error no_answer(const dronecan::Outcome& outcome, dronecan::NodeId server,
+                              std::string_view subject);
+
+/// The 64-bit integer that a GetSet answer carries, not yet narrowed to the register's width.
+/// Errors: refused (no value, or no integer), timeout, no_acknowledge, interrupted.
+[[nodiscard]] Result<std::int64_t> register_value(const dronecan::Outcome& outcome,
+                                                  dronecan::NodeId server, bla::Address address);
+
+} // namespace blactl::fleet

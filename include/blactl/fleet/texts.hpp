@@ -1,0 +1,85 @@
+#pragma once
+// The catalogue of the floor fleet.
+
+#include "blactl/base/text.hpp"
+
+namespace blactl::texts {
+
+inline constexpr Text no_answer{"node {}: no answer to {}", "ノード {}: {} に応答がありません"};
+inline constexpr Text no_answer_hint{
+    "check supply and cable, or ask more patiently with --timeout and --retries",
+    "電源と配線を確認するか、--timeout と --retries で待ち時間を延ばしてください",
+};
+inline constexpr Text not_sent{"node {}: the request for {} did not leave this machine",
+                               "ノード {}: {} の要求を送信できませんでした"};
+inline constexpr Text cancelled{"node {}: {} was not finished", "ノード {}: {} は完了していません"};
+inline constexpr Text register_refused{"node {}: the servo refuses {}",
+                                       "ノード {}: サーボが {} を拒否しました"};
+inline constexpr Text register_refused_hint{
+    "the firmware of this servo may lack this parameter: blactl get firmware_version -n {}",
+    "このサーボのファームウェアには無いパラメータかもしれません: blactl get firmware_version -n {}",
+};
+inline constexpr Text nobody_acknowledges{
+    "{}: nobody acknowledges our frames",
+    "{}: 送信フレームに対する ACK がありません",
+};
+inline constexpr Text nobody_acknowledges_hint{
+    "is a servo powered and connected, the bus terminated, and the bit rate 1000000?",
+    "サーボの電源と接続、終端抵抗、ビットレート 1000000 を確認してください",
+};
+inline constexpr Text bus_is_off{"{}: the controller is bus-off",
+                                 "{}: コントローラがバスオフ状態です"};
+inline constexpr Text bus_is_off_hint{
+    "check wiring and bit rate, then: sudo ip link set {} down; sudo ip link set {} up",
+    "配線とビットレートを確認後: sudo ip link set {} down; sudo ip link set {} up",
+};
+inline constexpr Text own_id_in_use{"node ID {} is used by another node on {}",
+                                    "ノード ID {} は {} 上の別のノードが使用しています"};
+inline constexpr Text own_id_in_use_hint{
+    "give a free node ID: --local-node-id ID",
+    "空いているノード ID を指定してください: --local-node-id ID"};
+inline constexpr Text interrupted{"interrupted", "中断されました"};
+inline constexpr Text frames_lost{
+    "{} frames were lost because they came faster than they could be read",
+    "読み出しが間に合わず {} フレームを失いました",
+};
+
+inline constexpr Text node_not_found{"node {} is not on the bus", "ノード {} はバス上にありません"};
+inline constexpr Text node_not_found_hint{"see who is there: blactl scan",
+                                          "接続中のノードを確認: blactl scan"};
+inline constexpr Text node_mute{"node {} is on the bus but does not answer",
+                                "ノード {} はバス上にありますが応答しません"};
+inline constexpr Text not_a_servo{"node {} ({}) is not a BLA servo",
+                                  "ノード {} ({}) は BLA サーボではありません"};
+inline constexpr Text no_servo_found{"no BLA servo is on the bus",
+                                     "バス上に BLA サーボがありません"};
+inline constexpr Text no_servo_found_hint{
+    "a servo without a node ID shows in: blactl scan",
+    "ノード ID の無いサーボは blactl scan で確認できます",
+};
+inline constexpr Text nothing_matches{"no servo on the bus matches {}",
+                                      "{} に該当するサーボはバス上にありません"};
+inline constexpr Text restarted_meanwhile{
+    "node {} restarted and is another servo now: nothing more was written to it",
+    "ノード {} は再起動後に別のサーボになりました。以後は書き込んでいません",
+};
+inline constexpr Text write_refused{"{}={}: the servo refused it and still holds {}",
+                                    "{}={}: サーボが拒否しました。値は {} のままです"};
+inline constexpr Text write_mismatch{"{}={}: the servo holds {} instead",
+                                     "{}={}: サーボの値は {} になっています"};
+
+inline constexpr Text doubled_node_id{"two nodes share node ID {}",
+                                      "ノード ID {} が 2 台で重複しています"};
+inline constexpr Text doubled_static_id{"nodes {} have the same static node ID {}",
+                                        "ノード {} の UAVCAN ノード ID 設定が {} で重複しています"};
+inline constexpr Text doubled_servo_id{"nodes {} have the same servo ID {}",
+                                       "ノード {} のサーボ ID が {} で重複しています"};
+
+inline constexpr Text bad_target{"-n {}: not a node ID, range or selector",
+                                 "-n {}: ノード ID、範囲、セレクタのいずれでもありません"};
+inline constexpr Text bad_target_hint{
+    "for example -n 12, -n 10-14,20, -n all, -n serial:240900558, -n model:BLA21-12U",
+    "例: -n 12, -n 10-14,20, -n all, -n serial:240900558, -n model:BLA21-12U",
+};
+
+} // namespace blactl::texts

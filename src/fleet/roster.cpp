@@ -1,0 +1,212 @@
+#include "blactl/fleet/roster.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace blactl::fleet {
+
+using dronecan::Kind;
+using dronecan::NodeId;
+using dronecan::Transfer;
+
+namespace {
+
+/// A BLA servo sends actuator.Status every 100 ms (table 2-2). More than fourteen in a second are
+/// two servos: one servo cannot send them even if every delay falls the worst way.
+constexpr Duration status_window = std::chrono::seconds(1);
+constexpr unsigned most_statuses_of_one = 14;
+
+/// Uptime counts whole seconds and its message may be late: two start times less than this apart
+/// are one.
+constexpr Duration boot_tolerance = std::chrono::milliseconds(1500);
+
+constexpr std::uint8_t tail_start_of_transfer = 0x80;
+
+/// Bound for what anybody on the bus can make us remember.
+constexpr std::size_t most_pending = 256;
+
+} // namespace
+
+Member& Roster::member(NodeId id) {
+  const auto [it, added] = members_.try_emplace(id);
+  if (added) {
+    it->second.id = id;
+  }
+  return it->second;
+}
+
+const Member* Roster::find(NodeId id) const {
+  const auto it = members_.find(id);
+  return it != members_.end() ? &it->second : nullptr;
+}
+
+void Roster::hear(const can::Frame& frame, Time at) {
+  if (!frame.extended || frame.remote || frame.size == 0) {
+    return;
+  }
+  const auto header = dronecan::decode_id(frame.id);
+  if (!header || !header->source.is_unicast() || header->source == local_) {
+    return;
+  }
+  Member& heard = member(header->source);
+  heard.last_heard = at;
+  if (header->kind == Kind::message && header->data_type_id == dronecan::ActuatorStatus::type.id &&
+      (frame.data[frame.size - 1U] & tail_start_of_transfer) != 0) {
+    count_status(header->source, at);
+  }
+  if (!std::exchange(heard_[header->source.value()], true)) {
+    heard.first_heard = at;
+    if (new_member_) {
+      new_member_(heard);
+    }
+  }
+}
+
+void Roster::count_status(NodeId source, Time at) {
+  Pulse& pulse = pulses_[source.value()];
+  if (at - pulse.window_start > status_window) {
+    pulse.window_start = at;
+    pulse.count = 0;
+  }
+  if (++pulse.count > most_statuses_of_one) {
+    doubled_.insert(source);
+  }
+}
+
+void Roster::receive(const Transfer& transfer) {
+  const auto& header = transfer.header;
+  if (header.source == local_ && local_.is_unicast()) {
+    return;
+  }
+  if (header.kind == Kind::request && header.data_type_id == dronecan::GetSet::type.id) {
+    on_write(transfer);
+  }
+  if (header.kind != Kind::message) {
+    return;
+  }
+  switch (header.data_type_id) {
+  case dronecan::NodeStatus::type.id: on_status(transfer); break;
+  case dronecan::Allocation::type.id: on_allocation(transfer); break;
+  case dronecan::ArrayCommand::type.id: on_command(transfer); break;
+  case dronecan::ActuatorStatus::type.id:
+    if (const auto status = dronecan::ActuatorStatus::decode(transfer.payload);
+        status && header.source.is_unicast()) {
+      member(header.source).actuator_id = status->actuator_id;
+    }
+    break;
+  case dronecan::ArmingStatus::type.id:
+    if (const auto arming = dronecan::ArmingStatus::decode(transfer.payload)) {
+      armed_by_ = arming->status == dronecan::ArmingStatus::disarmed ? std::nullopt
+                                                                     : std::optional(header.source);
+    }
+    break;
+  default: break;
+  }
+}
+
+void Roster::on_status(const Transfer& transfer) {
+  const auto status = dronecan::NodeStatus::decode(transfer.payload);
+  if (!status || !transfer.header.source.is_unicast()) {
+    return;
+  }
+  Member& sender = member(transfer.header.source);
+  watch_uptime(sender, status->uptime_s, transfer.at);
+  sender.status = *status;
+  sender.status_at = transfer.at;
+}
+
+/// Every uptime tells when its unit started. A new start is a restart; coming back to the old one
+/// means that two units send under one ID.
+void Roster::watch_uptime(Member& sender, std::uint32_t uptime_s, Time at) {
+  Pulse& pulse = pulses_[sender.id.value()];
+  const Time boot = at - std::chrono::seconds(uptime_s);
+  const auto is = [&](const std::optional<Time>& known) {
+    return known && std::chrono::abs(*known - boot) < boot_tolerance;
+  };
+  if (const auto it = std::ranges::find_if(pulse.boots, is); it != pulse.boots.end()) {
+    const auto index = static_cast<std::size_t>(it - pulse.boots.begin());
+    *it = boot; // clocks drift
+    if (index != std::exchange(pulse.last_boot, index)) {
+      doubled_.insert(sender.id);
+    }
+    return;
+  }
+  const bool first = !pulse.boots[pulse.last_boot];
+  const std::size_t index = first ? pulse.last_boot : 1 - pulse.last_boot;
+  pulse.boots[index] = boot;
+  pulse.last_boot = index;
+  if (!first) {
+    ++sender.boots;
+  }
+}
+
+void Roster::on_allocation(const Transfer& transfer) {
+  const auto allocation = dronecan::Allocation::decode(transfer.payload);
+  if (!allocation) {
+    return;
+  }
+  const UniqueIdPrefix prefix(allocation->unique_id.begin(),
+                              allocation->unique_id.begin() + allocation->size);
+  if (transfer.header.source.is_unicast()) {
+    allocators_.insert(transfer.header.source);
+    if (allocation->node_id != 0 && prefix.size() == allocation->unique_id.size()) {
+      std::erase_if(pending_, [&](const UniqueIdPrefix& waiting) {
+        return std::ranges::equal(waiting, std::span(prefix).first(waiting.size()));
+      });
+    }
+  } else if (allocation->first_part_of_unique_id && !prefix.empty() &&
+             pending_.size() < most_pending) {
+    pending_.insert(prefix);
+  }
+}
+
+Commander& Roster::commander(NodeId source) {
+  Commander& known = commanders_[source];
+  known.source = source;
+  return known;
+}
+
+void Roster::on_command(const Transfer& transfer) {
+  const auto command = dronecan::ArrayCommand::decode(transfer.payload);
+  if (!command) {
+    return;
+  }
+  for (const auto& entry : command->commands) {
+    commander(transfer.header.source).servo_ids[entry.actuator_id] = transfer.at;
+  }
+}
+
+void Roster::on_write(const Transfer& transfer) {
+  const auto request = dronecan::GetSet::Request::decode(transfer.payload);
+  if (!request || std::holds_alternative<dronecan::GetSet::Empty>(request->value)) {
+    return;
+  }
+  for (const auto address :
+       {bla::address::command_angle, bla::address::command_speed, bla::address::command_torque}) {
+    if (request->name == address.name()) {
+      commander(transfer.header.source).nodes[transfer.header.destination] = transfer.at;
+    }
+  }
+}
+
+std::optional<NodeId> Roster::driver_of(const Member& servo, Time now) const {
+  const auto recent = [&](Time at) { return now - at <= driving_time; };
+  for (const auto& [source, commander] : commanders_) {
+    const auto by_node = commander.nodes.find(servo.id);
+    if (by_node != commander.nodes.end() && recent(by_node->second)) {
+      return source;
+    }
+    for (const auto& [servo_id, at] : commander.servo_ids) {
+      constexpr std::uint8_t every_servo = 255;
+      const bool meant = servo_id == every_servo ||
+                         (servo.servo_id ? servo_id == *servo.servo_id
+                                         : servo_id == servo.actuator_id.value_or(every_servo));
+      if (meant && recent(at)) {
+        return source;
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+} // namespace blactl::fleet

@@ -1,0 +1,183 @@
+#include "blactl/fleet/session.hpp"
+
+#include "blactl/fleet/texts.hpp"
+
+#include <signal.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace blactl::fleet {
+
+using dronecan::NodeId;
+
+namespace {
+
+/// How long a frame of ours may wait for its echo on a silent bus.
+constexpr Duration acknowledge_time = std::chrono::milliseconds(100);
+
+dronecan::UniqueId own_unique_id(NodeId id) {
+  // Never zero, the same at every start: allocators that keep books ask for it.
+  dronecan::UniqueId unique_id{'b', 'l', 'a', 'c', 't', 'l'};
+  unique_id.back() = id.value();
+  return unique_id;
+}
+
+can::Filter message_filter(const dronecan::DataType& type) {
+  constexpr std::uint32_t type_and_kind = 0x00FFFF80;
+  return {static_cast<std::uint32_t>(type.id) << 8, type_and_kind};
+}
+
+std::vector<can::Filter> filters(Session::Hearing hearing, NodeId local) {
+  if (hearing == Session::Hearing::all) {
+    return {};
+  }
+  constexpr std::uint32_t service = 0x80;
+  constexpr std::uint32_t request = 0x8000;
+  constexpr std::uint32_t to_us = 0x7F80;
+  constexpr std::uint32_t source = 0x7F;
+  std::vector<can::Filter> wanted{
+      {static_cast<std::uint32_t>(local.value()) << 8 | service, to_us},
+      {local.value(), source},
+      message_filter(dronecan::NodeStatus::type),
+      message_filter(dronecan::ActuatorStatus::type),
+  };
+  if (hearing == Session::Hearing::commands) {
+    wanted.push_back(message_filter(dronecan::ArrayCommand::type));
+    wanted.push_back(message_filter(dronecan::ArmingStatus::type));
+    wanted.push_back(
+        {static_cast<std::uint32_t>(dronecan::GetSet::type.id) << 16 | request | service,
+         0x00FF0000 | request | service});
+  }
+  return wanted;
+}
+
+} // namespace
+
+Session::Session(std::unique_ptr<can::Bus> bus, std::optional<dronecan::LocalNodeId> local)
+    : local_(std::move(local)), loop_(std::move(bus)),
+      roster_(local_ ? local_->id() : dronecan::anonymous),
+      node_(local_ ? local_->id() : dronecan::anonymous, local_ ? &local_->transfer_ids() : nullptr,
+            {.name = "blactl",
+             .unique_id = own_unique_id(local_ ? local_->id() : dronecan::anonymous)},
+            {.send = [this](const can::Frame& frame) { loop_.send(frame); },
+             .transfer = [this](const dronecan::Transfer& transfer) { roster_.receive(transfer); },
+             .error = {}}) {}
+
+Result<std::unique_ptr<Session>> Session::open(std::unique_ptr<can::Bus> bus,
+                                               std::optional<dronecan::LocalNodeId> local,
+                                               Hearing hearing) {
+  std::unique_ptr<Session> session(new Session(std::move(bus), std::move(local)));
+  if (auto filtered = session->loop_.bus().filter(filters(hearing, session->node_.id()));
+      !filtered) {
+    return std::unexpected(filtered.error());
+  }
+  return session;
+}
+
+std::unexpected<Error> Session::end(Error error) {
+  loop_.drop_queue();
+  node_.cancel_all(loop_.now());
+  return std::unexpected(std::move(error));
+}
+
+/// When a frame of ours will have waited too long for its echo.
+Time Session::acknowledge_deadline() const {
+  const auto since = loop_.unacknowledged_since();
+  return since ? *since + acknowledge_time : never;
+}
+
+Result<Session::Happened> Session::step(Time deadline) {
+  node_.advance(loop_.now());
+  const Time wake = std::min({deadline, node_.next_deadline(), acknowledge_deadline()});
+  auto happened = take(loop_.next(wake));
+  if (!happened || *happened != Happened::deadline) {
+    return happened;
+  }
+  if (acknowledge_deadline() <= loop_.now()) {
+    return end({Code::no_acknowledge, say<texts::nobody_acknowledges>(interface()),
+                say<texts::nobody_acknowledges_hint>()});
+  }
+  return loop_.now() >= deadline ? Happened::deadline : Happened::something;
+}
+
+Result<Session::Happened> Session::take(const can::Event& event) {
+  if (const auto* received = std::get_if<can::Received>(&event)) {
+    return take_frame(*received);
+  }
+  if (const auto* sent = std::get_if<can::Sent>(&event)) {
+    node_.sent(sent->frame, sent->at);
+  } else if (const auto* fault = std::get_if<can::BusFault>(&event)) {
+    if (fault->kind == can::FaultKind::bus_off) {
+      return end({Code::bus_off, say<texts::bus_is_off>(interface()),
+                  say<texts::bus_is_off_hint>(interface(), interface())});
+    }
+  } else if (const auto* overflow = std::get_if<can::Overflow>(&event)) {
+    lost_ = overflow->lost;
+  } else if (const auto* gone = std::get_if<can::Gone>(&event)) {
+    return end(gone->error);
+  } else if (const auto* caught = std::get_if<can::Signal>(&event)) {
+    if (caught->number != SIGWINCH) {
+      signal_ = caught->number;
+      return end({Code::interrupted, say<texts::interrupted>()});
+    }
+  } else if (std::holds_alternative<can::Ready>(event)) {
+    return Happened::input;
+  } else {
+    return Happened::deadline;
+  }
+  return Happened::something;
+}
+
+Result<Session::Happened> Session::take_frame(const can::Received& received) {
+  roster_.hear(received.frame, received.at);
+  node_.receive(received.frame, received.at);
+  const auto header = received.frame.extended && received.frame.size > 0
+                          ? dronecan::decode_id(received.frame.id)
+                          : std::nullopt;
+  if (header && header->source.is_unicast() && header->source == node_.id()) {
+    Error error{Code::duplicate_node_id, say<texts::own_id_in_use>(node_.id().value(), interface()),
+                say<texts::own_id_in_use_hint>(), node_.id().value()};
+    return end(std::move(error));
+  }
+  return Happened::something;
+}
+
+Result<void> Session::live_until(Time deadline) {
+  for (;;) {
+    const auto happened = step(deadline);
+    if (!happened) {
+      return std::unexpected(happened.error());
+    }
+    if (*happened == Happened::deadline) {
+      return {};
+    }
+  }
+}
+
+Result<void> Session::run() {
+  while (node_.jobs() > 0) {
+    if (const auto happened = step(never); !happened) {
+      return std::unexpected(happened.error());
+    }
+  }
+  return {};
+}
+
+Result<void> Session::wait_for_input(int descriptor) {
+  loop_.watch(descriptor);
+  auto happened = step(never);
+  while (happened && *happened != Happened::input) {
+    happened = step(never);
+  }
+  loop_.unwatch(descriptor);
+  if (!happened) {
+    return std::unexpected(happened.error());
+  }
+  return {};
+}
+
+} // namespace blactl::fleet

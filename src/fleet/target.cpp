@@ -1,0 +1,137 @@
+#include "blactl/fleet/target.hpp"
+
+#include "blactl/base/hex.hpp"
+#include "blactl/bla/profile.hpp"
+#include "blactl/fleet/texts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <optional>
+#include <ranges>
+#include <utility>
+
+namespace blactl::fleet {
+namespace {
+
+template <class Number> std::optional<Number> number(std::string_view text) {
+  Number value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool digits = !text.empty() && text.front() >= '0' && text.front() <= '9';
+  return digits && error == std::errc() && end == text.data() + text.size() ? std::optional(value)
+                                                                            : std::nullopt;
+}
+
+std::optional<dronecan::NodeId> node_id(std::string_view text) {
+  const auto value = number<unsigned>(text);
+  return value && *value >= 1 && *value <= dronecan::NodeId::max
+             ? std::optional(dronecan::NodeId(static_cast<std::uint8_t>(*value)))
+             : std::nullopt;
+}
+
+std::string lower(std::string_view text) {
+  std::string out(text);
+  std::ranges::transform(out, out.begin(),
+                         [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
+  return out;
+}
+
+/// One ID or a range.
+bool add_ids(std::string_view item, Targets& targets) {
+  const auto dash = item.find('-');
+  const auto first = node_id(item.substr(0, dash));
+  const auto last = dash == std::string_view::npos ? first : node_id(item.substr(dash + 1));
+  if (!first || !last || *first > *last) {
+    return false;
+  }
+  for (unsigned id = first->value(); id <= last->value(); ++id) {
+    targets.ids.emplace_back(static_cast<std::uint8_t>(id));
+  }
+  return true;
+}
+
+bool is_unique_id(std::string_view text) {
+  return text.size() == 2 * sizeof(dronecan::UniqueId) &&
+         text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+}
+
+bool add_selector(std::string_view item, Targets& targets) {
+  using Key = Selector::Key;
+  constexpr std::array<std::pair<std::string_view, Key>, 7> keys{{
+      {"unique_id", Key::unique_id},
+      {"uid", Key::unique_id},
+      {"serial_number", Key::serial_number},
+      {"serial", Key::serial_number},
+      {"servo_id", Key::servo_id},
+      {"servo", Key::servo_id},
+      {"model", Key::model},
+  }};
+  const auto colon = item.find(':');
+  const auto word = item.substr(0, colon);
+  const auto key = std::ranges::find(keys, word, &std::pair<std::string_view, Key>::first);
+  if (colon == std::string_view::npos || key == keys.end()) {
+    return false;
+  }
+  Selector selector{key->second, std::string(item), lower(item.substr(colon + 1))};
+  const auto value = number<std::int64_t>(selector.value);
+  selector.number = value.value_or(0);
+  targets.selectors.push_back(selector);
+  switch (selector.key) {
+  case Key::unique_id: return is_unique_id(selector.value);
+  case Key::model: return !selector.value.empty();
+  default: return value.has_value();
+  }
+}
+
+} // namespace
+
+bool Selector::matches(const Member& servo, const bla::Profiles& profiles) const {
+  if (!servo.is_known() || !servo.is_servo) {
+    return false;
+  }
+  switch (key) {
+  case Key::unique_id: return servo.info && hex(servo.info->unique_id) == value;
+  case Key::serial_number: return servo.identity.readings().serial_number == number;
+  case Key::servo_id: return servo.servo_id == number;
+  case Key::model: {
+    // Only a model that is known for sure matches: a selector never picks by a guess.
+    const auto matching = profiles.matching(value);
+    return std::ranges::find(matching, servo.identity.profile()) != matching.end();
+  }
+  }
+  return false;
+}
+
+bool Targets::mean(const Member& member, const bla::Profiles& profiles) const {
+  if (all || !given) {
+    return member.is_known() && member.is_servo;
+  }
+  return std::ranges::find(ids, member.id) != ids.end() ||
+         std::ranges::any_of(selectors, [&](const Selector& selector) {
+           return selector.matches(member, profiles);
+         });
+}
+
+Result<Targets> parse_targets(std::string_view list) {
+  Targets targets;
+  targets.given = true;
+  for (const auto part : std::views::split(list, ',')) {
+    const std::string_view item(part.begin(), part.end());
+    if (item == "all") {
+      targets.all = true;
+    } else if (!add_ids(item, targets) && !add_selector(item, targets)) {
+      return fail(Code::usage, say<texts::bad_target>(printable(item)),
+                  say<texts::bad_target_hint>());
+    }
+  }
+  if (!targets.all && targets.ids.empty() && targets.selectors.empty()) {
+    return fail(Code::usage, say<texts::bad_target>(printable(list)),
+                say<texts::bad_target_hint>());
+  }
+  std::ranges::sort(targets.ids);
+  const auto repeated = std::ranges::unique(targets.ids);
+  targets.ids.erase(repeated.begin(), repeated.end());
+  return targets;
+}
+
+} // namespace blactl::fleet

@@ -1,0 +1,127 @@
+#include "blactl/fleet/write_job.hpp"
+
+#include "blactl/bla/value.hpp"
+#include "blactl/fleet/texts.hpp"
+
+#include <utility>
+
+namespace blactl::fleet {
+
+using dronecan::GetNodeInfo;
+using dronecan::Outcome;
+using dronecan::Request;
+
+std::string_view name(ChangeStatus status) {
+  switch (status) {
+  case ChangeStatus::planned: return "planned";
+  case ChangeStatus::unchanged: return "unchanged";
+  case ChangeStatus::written: return "written";
+  case ChangeStatus::failed: return "failed";
+  case ChangeStatus::mismatch: return "mismatch";
+  }
+  return {};
+}
+
+WriteJob::WriteJob(Member& member, std::vector<Change> changes, Patience patience)
+    : member_(member), changes_(std::move(changes)), patience_(patience),
+      boot_(member.identified_boot) {}
+
+std::optional<Request> WriteJob::next(const Outcome& outcome) {
+  switch (step_) {
+  case Step::begin: return go_on();
+  case Step::unique_id:
+    if (!same_servo(outcome)) {
+      return std::nullopt;
+    }
+    return go_on();
+  case Step::write:
+    // Whatever the answer says, or if it was lost: the register itself tells what is true.
+    if (outcome.answered() || outcome.kind == Outcome::Kind::timed_out) {
+      return read_back();
+    }
+    give_up(no_answer(outcome, member_.id, changes_[at_].parameter->name));
+    return std::nullopt;
+  case Step::read:
+    judge(outcome);
+    if (outcome.kind == Outcome::Kind::cancelled || outcome.kind == Outcome::Kind::not_sent) {
+      return std::nullopt;
+    }
+    ++at_;
+    return go_on();
+  }
+  return std::nullopt;
+}
+
+/// The next write, or the unique ID if the servo may be another one.
+std::optional<Request> WriteJob::go_on() {
+  while (at_ < changes_.size() && changes_[at_].status != ChangeStatus::planned) {
+    ++at_;
+  }
+  if (at_ == changes_.size()) {
+    return std::nullopt;
+  }
+  if (boot_ != member_.boots) {
+    step_ = Step::unique_id;
+    return ask(member_.id, GetNodeInfo::type, GetNodeInfo::Request{}.encode(), patience_);
+  }
+  step_ = Step::write;
+  return write_register(member_.id, changes_[at_].parameter->address, changes_[at_].requested,
+                        patience_);
+}
+
+std::optional<Request> WriteJob::read_back() {
+  step_ = Step::read;
+  return read_register(member_.id, changes_[at_].parameter->address, patience_);
+}
+
+bool WriteJob::same_servo(const Outcome& outcome) {
+  if (!outcome.answered()) {
+    give_up(no_answer(outcome, member_.id, "GetNodeInfo"));
+    return false;
+  }
+  const auto info = GetNodeInfo::Response::decode(outcome.payload);
+  if (!info || !member_.info || info->unique_id != member_.info->unique_id) {
+    const std::uint8_t id = member_.id.value();
+    give_up(
+        {Code::state, say<texts::restarted_meanwhile>(id), say<texts::node_not_found_hint>(), id});
+    return false;
+  }
+  boot_ = member_.boots;
+  return true;
+}
+
+void WriteJob::judge(const Outcome& outcome) {
+  Change& change = changes_[at_];
+  const bla::Parameter& parameter = *change.parameter;
+  const std::uint8_t id = member_.id.value();
+  const auto raw = register_value(outcome, member_.id, parameter.address);
+  if (!raw) {
+    change.status = ChangeStatus::failed;
+    change.error = raw.error();
+    return;
+  }
+  change.after = parameter.width.narrow(*raw);
+  if (*change.after == change.requested) {
+    change.status = ChangeStatus::written;
+    return;
+  }
+  const std::string wanted = bla::display(parameter, change.requested);
+  const std::string held = bla::display(parameter, *change.after);
+  if (change.after == change.before) {
+    change.status = ChangeStatus::failed;
+    change.error =
+        Error{Code::refused, say<texts::write_refused>(parameter.name, wanted, held), {}, id};
+  } else {
+    change.status = ChangeStatus::mismatch;
+    change.error =
+        Error{Code::mismatch, say<texts::write_mismatch>(parameter.name, wanted, held), {}, id};
+  }
+}
+
+/// This change failed, and those behind it are not tried.
+void WriteJob::give_up(Error error) {
+  changes_[at_].status = ChangeStatus::failed;
+  changes_[at_].error = std::move(error);
+}
+
+} // namespace blactl::fleet
