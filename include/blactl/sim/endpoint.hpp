@@ -1,0 +1,50 @@
+#pragma once
+// The DroneCAN side of a simulated node: its ID, its transfer IDs, reassembly of what concerns it.
+
+#include "blactl/base/time.hpp"
+#include "blactl/can/frame.hpp"
+#include "blactl/dronecan/ids.hpp"
+#include "blactl/dronecan/transfer.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <span>
+#include <vector>
+
+namespace blactl::sim {
+
+class Endpoint {
+ public:
+  using Handler = std::function<void(const dronecan::Transfer&)>;
+
+  /// `handler` gets complete messages of the `subscriptions` (data type IDs) and the requests to
+  /// this node's ID. A repeated transfer ID within 2 s is dropped, as the standard has it.
+  Endpoint(std::vector<std::uint16_t> subscriptions, Handler handler);
+
+  [[nodiscard]] dronecan::NodeId node_id() const { return node_id_; }
+
+  void set_node_id(dronecan::NodeId id) { node_id_ = id; }
+
+  void receive(const can::Frame& frame, Time at);
+
+  /// The frames of a message from this node; anonymous while it has no ID.
+  [[nodiscard]] std::vector<can::Frame> message(const dronecan::DataType& type,
+                                                dronecan::Priority priority,
+                                                std::span<const std::uint8_t> payload);
+
+  /// The frames of the answer to `request`, at the priority of the request.
+  [[nodiscard]] std::vector<can::Frame> response(const dronecan::Transfer& request,
+                                                 const dronecan::DataType& type,
+                                                 std::span<const std::uint8_t> payload) const;
+
+ private:
+  [[nodiscard]] bool wants(const dronecan::Header& header) const;
+
+  std::vector<std::uint16_t> subscriptions_;
+  dronecan::NodeId node_id_;
+  std::map<std::uint16_t, dronecan::TransferId> next_transfer_id_;
+  dronecan::Receiver receiver_;
+};
+
+} // namespace blactl::sim

@@ -1,0 +1,44 @@
+#pragma once
+// The devices of a scenario on a real interface: `blactl sim -i vcan0`.
+
+#include "blactl/can/loop.hpp"
+#include "blactl/sim/device.hpp"
+#include "blactl/sim/scenario.hpp"
+
+#include <cstddef>
+#include <deque>
+#include <memory>
+#include <vector>
+
+namespace blactl::sim {
+
+/// All devices share the one node that this process is on the bus. What one of them sends the
+/// others hear when it has left; nothing is heard twice.
+///
+///   for (;;) { interface.handle(loop.next(interface.next_deadline())); }
+class Interface {
+ public:
+  /// Powers the devices on, on the clock of `loop`, whatever the scenario says of clocks. `loop`
+  /// and the scenario's profiles must outlive this.
+  Interface(can::Loop& loop, const Scenario& scenario);
+
+  [[nodiscard]] Time next_deadline() const;
+
+  /// Passes a frame on, and lets the devices do what is due.
+  void handle(const can::Event& event);
+
+ private:
+  struct Outgoing {
+    can::Frame frame;
+    std::size_t device;
+  };
+
+  void send(std::size_t device, const can::Frame& frame);
+  void heard(const can::Frame& frame, Time at, std::size_t sender);
+
+  can::Loop& loop_;
+  std::vector<std::unique_ptr<Device>> devices_;
+  std::deque<Outgoing> outgoing_; ///< not echoed yet
+};
+
+} // namespace blactl::sim

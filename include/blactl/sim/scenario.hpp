@@ -1,0 +1,128 @@
+#pragma once
+// What is on a simulated bus: a scenario file ("schema":"blactl-scenario/1").
+//
+//   {
+//     "schema": "blactl-scenario/1",
+//     "clock": "virtual",            real (default) or virtual
+//     "seed": 7,                     of everything that happens by chance; default 1
+//     "servos": [
+//       {
+//         "model": "BLA21-12U-AB",   the only key that must be there
+//         "node_id": 11,             register 0x46; 0 (default): asks an allocator
+//         "unique_id": "00112233445566778899aabbccddeeff",   default: from the serial number
+//         "serial_number": 240900558,      default 240900001 and up
+//         "servo_id": 1,                   default 0
+//         "firmware_version": 1400,        default: the newest of chapter 5
+//         "model_number": 61,              this and the next: default as the model has it
+//         "hardware_version": 12050,
+//         "name": "jp.co.futaba.bla21",    of GetNodeInfo
+//         "answer_delay": "0.5ms",         a value of time; an integer counts us
+//         "ram": {"angle_limit_cw": "90deg", "current_voltage": "11.8V", "fault_warning": 16},
+//         "behaviour": {"out_of_range": "clamp"},
+//         "faults": {"lose_responses": 2}
+//       }
+//     ],
+//     "foreign": [
+//       {
+//         "kind": "node",
+//         "node_id": 30,
+//         "name": "org.ardupilot.f405",
+//         "serves_get_set": true,          answers GetSet as a node without parameters
+//         "commands": {"servo_ids": [1, 2], "type": 1, "value": 0.45, "rate": 50},
+//         "armed": false                   sends ArmingStatus
+//       }
+//     ]
+//   }
+
+#include "blactl/base/error.hpp"
+#include "blactl/base/time.hpp"
+#include "blactl/bla/parameter.hpp"
+#include "blactl/bla/profile.hpp"
+#include "blactl/dronecan/ids.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace blactl::sim {
+
+enum class Clock : std::uint8_t { real, simulated };
+
+/// What a servo does with a written value that is out of range (requirement 78).
+enum class OutOfRange : std::uint8_t { refuse, clamp };
+
+/// What the read of a register answers that is not there: a failure, or the value 0.
+enum class MissingRead : std::uint8_t { fail, zero };
+
+/// What only a real servo can tell. The defaults are what is likelier.
+struct Behaviour {
+  OutOfRange out_of_range = OutOfRange::refuse;     ///< unproven
+  MissingRead reserved_reads = MissingRead::fail;   ///< unproven: reserved addresses up to 0x5F
+  MissingRead gated_reads = MissingRead::fail;      ///< unproven: registers the firmware lacks
+  MissingRead write_only_reads = MissingRead::fail; ///< unproven: 0x10-0x12, 0x49
+  bool index_only_access = true;                    ///< unproven: GetSet by index = address
+  bool failure_with_name = false;                   ///< unproven: table 2-16 prints no name
+  bool ignores_disabled_commands = true; ///< unproven: 0x01, 0x02 keep their value while 0x25 = 0
+};
+
+/// What goes wrong with a servo's answers to services.
+struct AnswerFaults {
+  std::uint32_t lose_responses = 0; ///< the first so many answers never reach the bus
+  bool mute = false;                ///< none ever does; its messages go on
+};
+
+struct ServoSetup {
+  const bla::Profile* profile = nullptr; ///< of the Profiles that the scenario was read with
+  std::uint8_t node_id = 0;              ///< 0x46
+  dronecan::UniqueId unique_id{};
+  std::int64_t serial_number = 0; ///< 0x51
+  std::int64_t servo_id = 0;      ///< 0x45
+  std::int64_t model_number = 0, firmware_version = 0, hardware_version = 0;
+  std::string name; ///< of GetNodeInfo; unproven what real servos say
+  Duration answer_delay = std::chrono::microseconds(500);
+  std::vector<std::pair<bla::Address, std::int64_t>> ram; ///< other than the registers above
+  Behaviour behaviour;
+  AnswerFaults faults;
+};
+
+/// A stream of ArrayCommand, as an autopilot sends it.
+struct CommanderSetup {
+  std::vector<std::uint8_t> servo_ids;
+  std::uint8_t type = 1; ///< table 2-21
+  float value = 0;
+  Duration period = std::chrono::milliseconds(20);
+};
+
+/// A node that is no BLA servo.
+struct ForeignSetup {
+  std::uint8_t node_id = 1;
+  std::string name;
+  dronecan::UniqueId unique_id{};
+  bool serves_get_set = false;
+  std::optional<CommanderSetup> commands;
+  std::optional<bool> armed; ///< empty: sends no ArmingStatus
+};
+
+struct Scenario {
+  Clock clock = Clock::real;
+  std::uint64_t seed = 1;
+  std::vector<ServoSetup> servos;
+  std::vector<ForeignSetup> foreign;
+};
+
+/// Both refer to `profiles`, which must outlive the scenario.
+/// Errors: bad_file with file, line, JSON pointer and reason of every fault.
+[[nodiscard]] Result<Scenario> read_scenario(const std::filesystem::path& file,
+                                             const bla::Profiles& profiles);
+[[nodiscard]] Result<Scenario> parse_scenario(std::string_view text, std::string file,
+                                              const bla::Profiles& profiles);
+
+/// Three servos with static IDs: BLA21-12U-AB at 11, BLA15-06U-A0 at 12, BLA34-28U-AB at 13.
+[[nodiscard]] Result<Scenario> default_scenario(const bla::Profiles& profiles);
+
+} // namespace blactl::sim

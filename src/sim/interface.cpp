@@ -1,0 +1,67 @@
+#include "blactl/sim/interface.hpp"
+
+#include "blactl/sim/simulator.hpp"
+
+#include <algorithm>
+#include <variant>
+
+namespace blactl::sim {
+namespace {
+
+/// While nobody acknowledges, the frames of the devices pile up; what comes beyond is lost.
+constexpr std::size_t max_outgoing = 256;
+
+constexpr std::size_t nobody = static_cast<std::size_t>(-1);
+
+} // namespace
+
+Interface::Interface(can::Loop& loop, const Scenario& scenario)
+    : loop_(loop), devices_(make_devices(scenario, loop.now())) {
+  for (std::size_t i = 0; i < devices_.size(); ++i) {
+    devices_[i]->connect([this, i](const can::Frame& frame) { send(i, frame); });
+  }
+}
+
+Time Interface::next_deadline() const {
+  Time next = never;
+  for (const auto& device : devices_) {
+    next = std::min(next, device->next_deadline());
+  }
+  return next;
+}
+
+void Interface::handle(const can::Event& event) {
+  if (const auto* received = std::get_if<can::Received>(&event)) {
+    heard(received->frame, received->at, nobody);
+  } else if (const auto* sent = std::get_if<can::Sent>(&event)) {
+    const auto same = [&](const Outgoing& outgoing) { return outgoing.frame == sent->frame; };
+    if (const auto it = std::ranges::find_if(outgoing_, same); it != outgoing_.end()) {
+      const std::size_t sender = it->device;
+      outgoing_.erase(it);
+      heard(sent->frame, sent->at, sender);
+    }
+  }
+  const Time now = loop_.now();
+  for (const auto& device : devices_) {
+    if (device->next_deadline() <= now) {
+      device->advance(now);
+    }
+  }
+}
+
+void Interface::send(std::size_t device, const can::Frame& frame) {
+  if (outgoing_.size() < max_outgoing) {
+    outgoing_.push_back({frame, device});
+    loop_.send(frame);
+  }
+}
+
+void Interface::heard(const can::Frame& frame, Time at, std::size_t sender) {
+  for (std::size_t i = 0; i < devices_.size(); ++i) {
+    if (i != sender) {
+      devices_[i]->receive(frame, at);
+    }
+  }
+}
+
+} // namespace blactl::sim

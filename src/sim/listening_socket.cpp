@@ -1,0 +1,116 @@
+#include "sim/listening_socket.hpp"
+
+#include "blactl/can/simbus.hpp"
+#include "blactl/can/simbus_texts.hpp"
+#include "blactl/sim/texts.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <string>
+#include <system_error>
+
+namespace blactl::sim {
+namespace {
+
+std::string reason(int error) {
+  return std::generic_category().message(error);
+}
+
+} // namespace
+
+Result<std::unique_ptr<ListeningSocket>> ListeningSocket::open(const std::filesystem::path& path) {
+  std::unique_ptr<ListeningSocket> socket(new ListeningSocket(path));
+  for (const auto step :
+       {&ListeningSocket::prepare_folder, &ListeningSocket::lock, &ListeningSocket::listen}) {
+    if (const auto done = (socket.get()->*step)(); !done) {
+      return std::unexpected(done.error());
+    }
+  }
+  return socket;
+}
+
+ListeningSocket::~ListeningSocket() {
+  if (socket_ >= 0) {
+    close(socket_);
+  }
+  if (bound_) {
+    unlink(path_.c_str());
+  }
+  if (lock_ >= 0) {
+    close(lock_); // last: until here nobody else may take the place
+  }
+}
+
+std::unexpected<Error> ListeningSocket::failure(int error) const {
+  return fail(Code::interface, say<texts::sim_cannot_serve>(path_.string(), reason(error)));
+}
+
+/// The default folder may lie in /tmp, where anybody could have made it first.
+Result<void> ListeningSocket::prepare_folder() {
+  const auto folder = path_.parent_path();
+  if (folder.empty()) {
+    return {};
+  }
+  if (mkdir(folder.c_str(), S_IRWXU) != 0 && errno != EEXIST) {
+    return fail(Code::interface, say<texts::sim_folder>(folder.string(), reason(errno)),
+                say<texts::sim_folder_hint>());
+  }
+  if (path_ == can::default_socket_path() && !can::is_own_folder(folder)) {
+    return fail(Code::interface,
+                say<texts::sim_folder>(folder.string(), say<texts::sim_folder_foreign>()),
+                say<texts::sim_folder_hint>());
+  }
+  return {};
+}
+
+Result<void> ListeningSocket::lock() {
+  const std::string file = path_.string() + ".lock";
+  lock_ = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, S_IRUSR | S_IWUSR);
+  if (lock_ < 0) {
+    return failure(errno);
+  }
+  if (flock(lock_, LOCK_EX | LOCK_NB) == 0) {
+    return {};
+  }
+  if (errno == EWOULDBLOCK) {
+    return fail(Code::busy, say<texts::sim_running>(path_.string()),
+                say<texts::sim_running_hint>());
+  }
+  return failure(errno);
+}
+
+Result<void> ListeningSocket::listen() {
+  sockaddr_un address{};
+  const std::string name = path_.string();
+  if (name.size() >= sizeof address.sun_path) {
+    return fail(Code::interface,
+                say<texts::simbus_path_too_long>(name, sizeof address.sun_path - 1));
+  }
+  struct stat status{};
+  if (lstat(name.c_str(), &status) == 0) {
+    if (!S_ISSOCK(status.st_mode)) {
+      return fail(Code::interface, say<texts::sim_not_a_socket>(name));
+    }
+    unlink(name.c_str()); // whoever listened there held the lock, and is dead
+  }
+  address.sun_family = AF_UNIX;
+  name.copy(address.sun_path, name.size());
+  socket_ = socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+  const void* raw = &address;
+  // The mode of the socket before bind() is that of the file: never open to others, not for a
+  // moment.
+  bound_ = socket_ >= 0 && fchmod(socket_, S_IRUSR | S_IWUSR) == 0 &&
+           bind(socket_, static_cast<const sockaddr*>(raw), sizeof address) == 0;
+  if (!bound_ || ::listen(socket_, SOMAXCONN) != 0) {
+    return failure(errno);
+  }
+  return {};
+}
+
+} // namespace blactl::sim

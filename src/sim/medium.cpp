@@ -1,0 +1,188 @@
+#include "blactl/sim/medium.hpp"
+
+#include "blactl/sim/frame_bits.hpp"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+namespace blactl::sim {
+namespace {
+
+constexpr Duration bits(std::size_t n) {
+  return Duration(n);
+}
+
+// ISO 11898-1: the counter rises by 8 with an error, from 128 on a node is error passive, beyond
+// 255 it is off and comes back after 128 times 11 recessive bits.
+constexpr unsigned error_step = 8;
+constexpr unsigned error_passive = 128;
+constexpr unsigned error_limit = 255;
+constexpr Duration off_time = bits(std::size_t{128} * 11);
+
+/// Six bits of error flag, up to six by which the others' flags come later, eight of delimiter.
+constexpr std::size_t error_frame_bits = 6 + 6 + 8;
+
+/// The order in which frames win: a dominant bit is 0.
+auto strength(const can::Frame& frame) {
+  return std::tuple(arbitration_field(frame), frame.size, frame.data);
+}
+
+} // namespace
+
+Time Medium::Port::ready() const {
+  return queue.empty() ? never : std::max(queue.front().since, off_until);
+}
+
+Medium::PortId Medium::attach(Listener& listener, std::size_t capacity, Time now) {
+  // A frame that waited for somebody to acknowledge it does not start in the past.
+  if (!on_wire_) {
+    idle_from_ = std::max(idle_from_, now);
+  }
+  const PortId id = next_id_++;
+  ports_.emplace(id, Port{&listener, capacity, {}, 0, {}});
+  return id;
+}
+
+void Medium::detach(PortId port) {
+  Port& leaving = ports_.at(port);
+  leaving.listener = nullptr;
+  if (leaving.queue.empty()) {
+    ports_.erase(port);
+  }
+}
+
+bool Medium::send(PortId port, const can::Frame& frame, Time now) {
+  Port& from = ports_.at(port);
+  if (from.queue.size() >= from.capacity) {
+    return false;
+  }
+  from.queue.push_back({frame, now});
+  return true;
+}
+
+Time Medium::next_start() const {
+  if (ports_.size() < 2) {
+    return never; // nobody would acknowledge
+  }
+  Time first = never;
+  for (const auto& [id, port] : ports_) {
+    first = std::min(first, port.ready());
+  }
+  return std::max(first, idle_from_);
+}
+
+Time Medium::next_event() const {
+  return on_wire_ ? on_wire_->end : next_start();
+}
+
+void Medium::advance(Time now) {
+  const Time at = next_event();
+  if (at > now) {
+    return;
+  }
+  if (on_wire_) {
+    finish();
+  } else {
+    start(at);
+  }
+}
+
+void Medium::start(Time at) {
+  std::vector<PortId> contenders;
+  for (const auto& [id, port] : ports_) {
+    if (port.ready() <= at) {
+      contenders.push_back(id);
+    }
+  }
+  const auto head = [&](PortId id) { return ports_.at(id).queue.front().frame; };
+  const auto best =
+      std::ranges::min_element(contenders, {}, [&](PortId id) { return strength(head(id)); });
+  if (best == contenders.end()) {
+    return;
+  }
+  const can::Frame frame = head(*best);
+  std::vector<PortId> senders;
+  std::vector<PortId> rivals; // not told apart by the arbitration
+  for (const PortId id : contenders) {
+    if (head(id) == frame) {
+      senders.push_back(id);
+    } else if (arbitration_field(head(id)) == arbitration_field(frame)) {
+      rivals.push_back(id);
+    }
+  }
+  begin(frame, std::move(senders), rivals, at);
+}
+
+/// A rival notices the difference: if it is error active its error flag destroys the frame.
+void Medium::begin(const can::Frame& frame, std::vector<PortId> senders,
+                   const std::vector<PortId>& rivals, Time at) {
+  const FrameBits own(frame);
+  std::size_t length = frame_length(frame);
+  bool destroyed = false;
+  for (const PortId rival : rivals) {
+    const Port& port = ports_.at(rival);
+    if (port.error_count < error_passive) {
+      const std::size_t noticed = own.first_difference(FrameBits(port.queue.front().frame)) + 1;
+      length = std::min(length, noticed + error_frame_bits);
+      destroyed = true;
+    }
+  }
+  for (const PortId rival : rivals) {
+    punish(rival, at);
+  }
+  if (destroyed) {
+    ++counters_.collisions;
+    for (const PortId sender : senders) {
+      punish(sender, at);
+    }
+  }
+  on_wire_ = Transmission{frame, std::move(senders), at + bits(length), destroyed};
+  idle_from_ = on_wire_->end + bits(intermission_bits);
+  counters_.busy += idle_from_ - at;
+}
+
+void Medium::punish(PortId port, Time at) {
+  Port& guilty = ports_.at(port);
+  guilty.error_count += error_step;
+  if (guilty.error_count <= error_limit) {
+    return;
+  }
+  guilty.error_count = 0;
+  guilty.queue.clear();
+  guilty.off_until = at + off_time;
+  if (guilty.listener != nullptr) {
+    guilty.listener->bus_off(at);
+  }
+}
+
+void Medium::finish() {
+  const Transmission done = *std::exchange(on_wire_, std::nullopt);
+  if (!done.destroyed) {
+    for (const PortId sender : done.senders) {
+      Port& port = ports_.at(sender);
+      port.queue.pop_front();
+      port.error_count -= port.error_count > 0 ? 1 : 0;
+    }
+    ++counters_.frames;
+    deliver(done);
+  }
+  std::erase_if(ports_, [](const auto& entry) {
+    return entry.second.listener == nullptr && entry.second.queue.empty();
+  });
+}
+
+void Medium::deliver(const Transmission& transmission) {
+  for (auto& [id, port] : ports_) {
+    if (port.listener == nullptr) {
+      continue;
+    }
+    if (std::ranges::find(transmission.senders, id) != transmission.senders.end()) {
+      port.listener->sent(transmission.frame, transmission.end);
+    } else {
+      port.listener->heard(transmission.frame, transmission.end);
+    }
+  }
+}
+
+} // namespace blactl::sim

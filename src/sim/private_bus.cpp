@@ -1,0 +1,116 @@
+#include "blactl/sim/private_bus.hpp"
+
+#include "blactl/sim/filter.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+namespace blactl::sim {
+
+using namespace std::chrono_literals;
+
+namespace {
+
+/// Frames that a CAN socket holds by default before it drops some.
+constexpr std::size_t inbox_capacity = 278;
+constexpr std::size_t queue_capacity = 10;
+
+/// Virtual time passes in steps, so that the loop sees signals even on a bus of which the filter
+/// lets nothing through.
+constexpr Duration longest_step = 100ms;
+
+} // namespace
+
+/// What happened on the bus and was not asked for yet.
+class PrivateBus::Inbox final : public Medium::Listener {
+ public:
+  explicit Inbox(const PrivateBus& bus) : bus_(bus) {}
+
+  void heard(const can::Frame& frame, Time at) override {
+    if (passes(filters, frame)) {
+      push(can::Received{frame, at, wall(at)});
+    }
+  }
+
+  void sent(const can::Frame& frame, Time at) override { push(can::Sent{frame, at, wall(at)}); }
+
+  void bus_off(Time at) override { push(can::BusFault{can::FaultKind::bus_off, at}); }
+
+  std::optional<can::BusEvent> pop() {
+    if (std::exchange(overflow_, false)) {
+      return can::Overflow{lost_};
+    }
+    if (events_.empty()) {
+      return std::nullopt;
+    }
+    can::BusEvent event = std::move(events_.front());
+    events_.pop_front();
+    return event;
+  }
+
+  [[nodiscard]] bool empty() const { return events_.empty() && !overflow_; }
+
+  std::vector<can::Filter> filters;
+
+ private:
+  void push(can::BusEvent event) {
+    if (events_.size() < inbox_capacity) {
+      events_.push_back(std::move(event));
+    } else {
+      ++lost_;
+      overflow_ = true;
+    }
+  }
+
+  [[nodiscard]] WallTime wall(Time at) const { return bus_.wall() - (bus_.now() - at); }
+
+  const PrivateBus& bus_;
+  std::deque<can::BusEvent> events_;
+  std::uint64_t lost_ = 0;
+  bool overflow_ = false;
+};
+
+PrivateBus::PrivateBus(std::string name, const Scenario& scenario)
+    : name_(std::move(name)), clock_(scenario.clock),
+      simulator_(scenario, scenario.clock == Clock::simulated ? Time{} : Bus::now()),
+      inbox_(std::make_unique<Inbox>(*this)), port_(simulator_.attach(*inbox_, queue_capacity)) {}
+
+PrivateBus::~PrivateBus() = default;
+
+Time PrivateBus::now() const {
+  return clock_ == Clock::real ? Bus::now() : simulator_.now();
+}
+
+WallTime PrivateBus::wall() const {
+  return clock_ == Clock::real ? Bus::wall() : virtual_epoch + now().time_since_epoch();
+}
+
+Result<bool> PrivateBus::send(const can::Frame& frame) {
+  simulator_.advance_to(now());
+  return simulator_.send(port_, frame);
+}
+
+std::optional<can::BusEvent> PrivateBus::receive() {
+  simulator_.advance_to(now());
+  return inbox_->pop();
+}
+
+Result<void> PrivateBus::filter(std::span<const can::Filter> filters) {
+  inbox_->filters.assign(filters.begin(), filters.end());
+  return {};
+}
+
+Time PrivateBus::idle_until(Time deadline) {
+  if (clock_ == Clock::real) {
+    return std::min(deadline, simulator_.next_event());
+  }
+  const Time longest = simulator_.now() + longest_step;
+  const Time end = std::min(deadline, longest);
+  while (inbox_->empty() && simulator_.now() < end) {
+    simulator_.advance_to(std::min(end, simulator_.next_event()));
+  }
+  return simulator_.now();
+}
+
+} // namespace blactl::sim

@@ -1,0 +1,185 @@
+#include "blactl/sim/server.hpp"
+
+#include "blactl/sim/texts.hpp"
+
+#include "sim/listening_socket.hpp"
+#include "sim/server_client.hpp"
+
+#include <sys/epoll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace blactl::sim {
+namespace {
+
+constexpr std::size_t max_clients = 64;
+
+/// Events of the virtual clock in one call of service(): new clients are not kept waiting.
+constexpr int max_steps = 1000;
+
+Time monotonic_now() {
+  return Time(
+      std::chrono::duration_cast<Duration>(std::chrono::steady_clock::now().time_since_epoch()));
+}
+
+} // namespace
+
+struct Server::State {
+  State(const Scenario& scenario, std::unique_ptr<ListeningSocket> socket)
+      : clock(scenario.clock), listening(std::move(socket)),
+        simulator(scenario, clock == Clock::simulated ? Time{} : monotonic_now()),
+        epoll(epoll_create1(EPOLL_CLOEXEC)) {}
+
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+
+  ~State() {
+    if (epoll >= 0) {
+      close(epoll);
+    }
+  }
+
+  bool watch(int descriptor) const;
+  void accept_clients();
+  void remove_gone();
+  void pass_time();
+  bool step();
+
+  Clock clock;
+  std::unique_ptr<ListeningSocket> listening;
+  Simulator simulator;
+  std::vector<std::unique_ptr<ServerClient>> clients;
+  int epoll;
+  bool more = false; ///< virtual clock: time could pass further at once
+};
+
+bool Server::State::watch(int descriptor) const {
+  epoll_event event{};
+  event.events = EPOLLIN;
+  event.data.fd = descriptor;
+  return epoll_ctl(epoll, EPOLL_CTL_ADD, descriptor, &event) == 0;
+}
+
+void Server::State::accept_clients() {
+  for (;;) {
+    const int socket =
+        accept4(listening->descriptor(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC);
+    if (socket < 0) {
+      return;
+    }
+    if (clients.size() >= max_clients || !watch(socket)) {
+      close(socket);
+    } else {
+      clients.push_back(std::make_unique<ServerClient>(socket, simulator, clock));
+    }
+  }
+}
+
+void Server::State::remove_gone() {
+  std::erase_if(clients, [](const auto& client) { return client->gone(); });
+}
+
+void Server::State::pass_time() {
+  if (clock == Clock::real) {
+    simulator.advance_to(monotonic_now());
+    return;
+  }
+  int steps = 0;
+  while (steps < max_steps && step()) {
+    ++steps;
+  }
+  more = steps == max_steps;
+}
+
+/// The next thing that happens on the virtual clock; false: somebody works, or nobody is there.
+bool Server::State::step() {
+  Time first = simulator.next_event();
+  bool anybody = false;
+  for (const auto& client : clients) {
+    if (!client->attached() || client->gone()) {
+      continue;
+    }
+    const auto deadline = client->waits_until();
+    if (!deadline) {
+      return false;
+    }
+    anybody = true;
+    first = std::min(first, *deadline);
+  }
+  if (!anybody || first == never) {
+    return false;
+  }
+  simulator.advance_to(std::max(first, simulator.now()));
+  for (const auto& client : clients) {
+    const auto deadline = client->attached() ? client->waits_until() : std::nullopt;
+    if (deadline && *deadline <= simulator.now()) {
+      client->tick(simulator.now());
+    }
+  }
+  return true;
+}
+
+Server::Server(std::unique_ptr<State> state) : state_(std::move(state)) {}
+
+Server::~Server() = default;
+
+Result<std::unique_ptr<Server>> Server::open(const std::filesystem::path& socket,
+                                             const Scenario& scenario) {
+  auto listening = ListeningSocket::open(socket);
+  if (!listening) {
+    return std::unexpected(listening.error());
+  }
+  auto state = std::make_unique<State>(scenario, *std::move(listening));
+  if (state->epoll < 0 || !state->watch(state->listening->descriptor())) {
+    const std::string reason = std::generic_category().message(errno);
+    return fail(Code::interface, say<texts::sim_cannot_serve>(socket.string(), reason));
+  }
+  return std::unique_ptr<Server>(new Server(std::move(state)));
+}
+
+int Server::descriptor() const {
+  return state_->epoll;
+}
+
+void Server::service() {
+  state_->pass_time();
+  std::array<epoll_event, max_clients + 1> events{};
+  const int count = epoll_wait(state_->epoll, events.data(), static_cast<int>(events.size()), 0);
+  for (int i = 0; i < count; ++i) {
+    const int ready = events[static_cast<std::size_t>(i)].data.fd;
+    const auto client = std::ranges::find(state_->clients, ready, &ServerClient::descriptor);
+    if (client != state_->clients.end()) {
+      (*client)->serve();
+    } else {
+      state_->accept_clients();
+    }
+  }
+  state_->remove_gone();
+  state_->pass_time();
+  state_->remove_gone();
+}
+
+Time Server::next_deadline(Time now) const {
+  if (state_->clock == Clock::real) {
+    return state_->simulator.next_event();
+  }
+  return state_->more ? now : never;
+}
+
+const Simulator& Server::simulator() const {
+  return state_->simulator;
+}
+
+std::size_t Server::clients() const {
+  return state_->clients.size();
+}
+
+} // namespace blactl::sim

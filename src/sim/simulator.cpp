@@ -1,0 +1,97 @@
+#include "blactl/sim/simulator.hpp"
+
+#include "blactl/sim/foreign_node.hpp"
+#include "blactl/sim/random.hpp"
+#include "blactl/sim/servo.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace blactl::sim {
+namespace {
+
+/// Frames that wait in a device's transmit queue; what comes beyond is lost.
+constexpr std::size_t device_queue = 64;
+
+} // namespace
+
+std::vector<std::unique_ptr<Device>> make_devices(const Scenario& scenario, Time power_on) {
+  std::vector<std::unique_ptr<Device>> devices;
+  for (const ServoSetup& setup : scenario.servos) {
+    const std::uint64_t seed = seed_of(scenario.seed, devices.size());
+    devices.push_back(std::make_unique<Servo>(setup, seed, power_on));
+  }
+  for (const ForeignSetup& setup : scenario.foreign) {
+    devices.push_back(std::make_unique<ForeignNode>(setup, power_on));
+  }
+  return devices;
+}
+
+/// A device and its place on the bus.
+class Simulator::Station final : public Medium::Listener {
+ public:
+  Station(std::unique_ptr<Device> device, Medium& medium, const Time& now)
+      : device_(std::move(device)) {
+    const Medium::PortId port = medium.attach(*this, device_queue, now);
+    device_->connect(
+        [&medium, &now, port](const can::Frame& frame) { medium.send(port, frame, now); });
+  }
+
+  void heard(const can::Frame& frame, Time at) override { device_->receive(frame, at); }
+
+  void sent(const can::Frame&, Time) override {}
+
+  void bus_off(Time) override {}
+
+  [[nodiscard]] Device& device() { return *device_; }
+
+  [[nodiscard]] const Device& device() const { return *device_; }
+
+ private:
+  std::unique_ptr<Device> device_;
+};
+
+Simulator::Simulator(const Scenario& scenario, Time power_on) : now_(power_on) {
+  for (auto& device : make_devices(scenario, power_on)) {
+    stations_.push_back(std::make_unique<Station>(std::move(device), medium_, now_));
+  }
+}
+
+Simulator::~Simulator() = default;
+
+Time Simulator::next_event() const {
+  Time next = medium_.next_event();
+  for (const auto& station : stations_) {
+    next = std::min(next, station->device().next_deadline());
+  }
+  return next == never ? never : std::max(next, now_);
+}
+
+/// At one moment the devices act before the medium does, so that whatever is sent at that moment
+/// takes part in its arbitration.
+void Simulator::advance_to(Time time) {
+  for (Time at = next_event(); at <= time && at != never; at = next_event()) {
+    now_ = at;
+    for (const auto& station : stations_) {
+      if (station->device().next_deadline() <= now_) {
+        station->device().advance(now_);
+      }
+    }
+    medium_.advance(now_);
+  }
+  now_ = std::max(now_, time);
+}
+
+Medium::PortId Simulator::attach(Medium::Listener& listener, std::size_t capacity) {
+  return medium_.attach(listener, capacity, now_);
+}
+
+void Simulator::detach(Medium::PortId port) {
+  medium_.detach(port);
+}
+
+bool Simulator::send(Medium::PortId port, const can::Frame& frame) {
+  return medium_.send(port, frame, now_);
+}
+
+} // namespace blactl::sim
