@@ -1,0 +1,113 @@
+#include "bus_factory.hpp"
+
+#include "blactl/can/link.hpp"
+#include "blactl/can/simbus.hpp"
+#include "blactl/can/socketcan.hpp"
+#include "blactl/sim/private_bus.hpp"
+#include "blactl/sim/scenario.hpp"
+
+#include "texts.hpp"
+
+#include <filesystem>
+#include <utility>
+#include <vector>
+
+namespace blactl::cli {
+namespace {
+
+/// The name of the only CAN interface that is up.
+Result<std::string> the_only_interface() {
+  const auto links = can::links();
+  if (!links) {
+    return std::unexpected(links.error());
+  }
+  if (const can::Link* link = can::only_one_up(*links)) {
+    return link->name;
+  }
+  std::string up;
+  const can::Link* down = nullptr;
+  for (const can::Link& link : *links) {
+    if (!link.is_up) {
+      down = &link;
+      continue;
+    }
+    up += up.empty() ? "" : ", ";
+    up += link.name;
+  }
+  if (!up.empty()) {
+    return fail(Code::interface, say<texts::several_interfaces>(up),
+                say<texts::several_interfaces_hint>(up.substr(0, up.find(','))));
+  }
+  return fail(Code::interface, say<texts::no_interface>(),
+              down != nullptr ? say<texts::interface_is_down>(down->name, can::up_command(*down))
+                              : say<texts::no_interface_hint>());
+}
+
+Result<OpenBus> open_socketcan(const std::string& name) {
+  auto bus = can::SocketCan::open(name);
+  if (!bus) {
+    return std::unexpected(bus.error());
+  }
+  return OpenBus{std::move(*bus), name};
+}
+
+Result<OpenBus> open_private(std::string_view text, const Result<sim::Scenario>& scenario) {
+  if (!scenario) {
+    return std::unexpected(scenario.error());
+  }
+  return OpenBus{std::make_unique<sim::PrivateBus>(std::string(text), *scenario), {}};
+}
+
+Result<OpenBus> open_simulator(std::string_view text, const std::string& socket,
+                               const bla::Profiles& profiles, const Reporter& reporter) {
+  const bool default_socket = socket.empty();
+  const std::string path = default_socket ? can::default_socket_path().string() : socket;
+  if (default_socket && !std::filesystem::exists(path)) {
+    reporter.detail(say<texts::sim_is_private>());
+    return open_private(text, sim::default_scenario(profiles));
+  }
+  auto bus = can::SimBus::open(path, std::string(text));
+  if (!bus) {
+    return std::unexpected(bus.error());
+  }
+  return OpenBus{std::move(*bus), "sim:" + path};
+}
+
+} // namespace
+
+Result<InterfaceName> parse_interface(std::string_view text) {
+  const auto colon = text.find(':');
+  const std::string_view scheme = text.substr(0, colon);
+  if (colon == std::string_view::npos || scheme == "socketcan") {
+    const auto name = colon == std::string_view::npos ? text : text.substr(colon + 1);
+    return InterfaceName{InterfaceKind::socketcan, std::string(name)};
+  }
+  if (scheme == "sim") {
+    const std::string_view rest = text.substr(colon + 1);
+    return InterfaceName{rest.ends_with(".json") ? InterfaceKind::scenario
+                                                 : InterfaceKind::simulator,
+                         std::string(rest)};
+  }
+  return fail(Code::usage, say<texts::bad_interface>(printable(text)),
+              say<texts::bad_interface_hint>());
+}
+
+Result<OpenBus> open_bus(std::string_view text, const bla::Profiles& profiles,
+                         const Reporter& reporter) {
+  if (text.empty()) {
+    const auto name = the_only_interface();
+    return name ? open_socketcan(*name) : Result<OpenBus>(std::unexpected(name.error()));
+  }
+  const auto name = parse_interface(text);
+  if (!name) {
+    return std::unexpected(name.error());
+  }
+  switch (name->kind) {
+  case InterfaceKind::simulator: return open_simulator(text, name->rest, profiles, reporter);
+  case InterfaceKind::scenario: return open_private(text, sim::read_scenario(name->rest, profiles));
+  case InterfaceKind::socketcan: break;
+  }
+  return open_socketcan(name->rest);
+}
+
+} // namespace blactl::cli

@@ -1,0 +1,17 @@
+#pragma once
+// The commands: one function each, from options to a report. They print nothing but through the
+// reporter, ask nothing without it, and never exit.
+
+#include "context.hpp"
+#include "options.hpp"
+#include "report.hpp"
+
+namespace blactl::cli {
+
+[[nodiscard]] Report scan(const ScanOptions& options, Context& context);
+[[nodiscard]] Report get(const GetOptions& options, Context& context);
+[[nodiscard]] Report set(const SetOptions& options, Context& context);
+[[nodiscard]] Report models(const ModelsOptions& options, Context& context);
+[[nodiscard]] Report sim(const SimOptions& options, Context& context);
+
+} // namespace blactl::cli

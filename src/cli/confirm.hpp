@@ -1,0 +1,14 @@
+#pragma once
+// One question to the person at the terminal.
+
+#include "context.hpp"
+
+#include <string_view>
+
+namespace blactl::cli {
+
+/// Asks `question` unless --yes was given; the bus goes on being heard meanwhile.
+/// Errors: not_confirmed (no terminal, or any answer but yes), and those of the session.
+[[nodiscard]] Result<void> confirm(std::string_view question, Context& context);
+
+} // namespace blactl::cli

@@ -1,0 +1,167 @@
+#include "context.hpp"
+
+#include "blactl/fleet/texts.hpp"
+
+#include "bus_factory.hpp"
+#include "texts.hpp"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+namespace blactl::cli {
+
+using dronecan::LocalNodeId;
+using fleet::Member;
+
+Result<const bla::Profiles*> Context::profiles() {
+  if (!profiles_) {
+    auto loaded = bla::Profiles::load(shared_.profile_dir);
+    if (!loaded) {
+      return std::unexpected(loaded.error());
+    }
+    profiles_ = std::move(*loaded);
+    for (const std::string& model : profiles_->replaced()) {
+      reporter_.note(say<texts::profile_replaced>(model));
+    }
+  }
+  return &*profiles_;
+}
+
+Result<const bla::Profile*> Context::assumed_profile() {
+  const auto known = profiles();
+  if (!known) {
+    return std::unexpected(known.error());
+  }
+  if (!shared_.profile) {
+    return nullptr;
+  }
+  const auto matching = (*known)->matching(*shared_.profile);
+  if (matching.size() != 1) {
+    std::string models;
+    for (const bla::Profile& profile : (*known)->all()) {
+      models += models.empty() ? "" : ", ";
+      models += profile.model;
+    }
+    const std::string typed = printable(*shared_.profile);
+    return fail(Code::usage,
+                matching.empty() ? say<texts::unknown_model>(typed)
+                                 : say<texts::several_models>(typed),
+                say<texts::known_models>(models));
+  }
+  return matching.front();
+}
+
+Result<fleet::Targets> Context::targets() const {
+  return shared_.nodes ? fleet::parse_targets(*shared_.nodes) : fleet::Targets{};
+}
+
+Result<fleet::Session*> Context::open(fleet::Session::Hearing hearing) {
+  const auto assumed = assumed_profile();
+  if (!assumed) {
+    return std::unexpected(assumed.error());
+  }
+  assumed_ = *assumed;
+  auto bus = open_bus(shared_.interface, *profiles_, reporter_);
+  if (!bus) {
+    return std::unexpected(bus.error());
+  }
+  const auto wanted = shared_.local_node_id
+                          ? std::optional(dronecan::NodeId(*shared_.local_node_id))
+                          : std::nullopt;
+  std::optional<LocalNodeId> local;
+  if (!shared_.listen_only && bus->lock_name.empty()) {
+    local = LocalNodeId::unshared(wanted);
+  } else if (!shared_.listen_only) {
+    auto acquired = LocalNodeId::acquire(bus->lock_name, wanted);
+    if (!acquired) {
+      return std::unexpected(acquired.error());
+    }
+    local = std::move(*acquired);
+  }
+  auto session = fleet::Session::open(std::move(bus->bus), std::move(local), hearing);
+  if (!session) {
+    return std::unexpected(session.error());
+  }
+  session_ = std::move(*session);
+  return session_.get();
+}
+
+fleet::Identification::Options Context::identification() const {
+  return {.patience = shared_.patience, .assumed = assumed_, .static_node_id = false};
+}
+
+void Context::broken(const Error& error, Report& report) const {
+  // What the jobs say of their cancelled questions is the same news.
+  std::erase_if(report.errors, [](const Error& known) { return known.code == Code::interrupted; });
+  report.errors.insert(report.errors.begin(), error);
+  report.statuses.clear();
+  report.signal = session_ ? session_->signal() : 0;
+}
+
+/// Hears who is there and identifies every servo.
+void Context::search(Duration time, Report& report, bool failures_count) {
+  if (auto lived = session_->live_until(session_->now() + time); !lived) {
+    broken(lived.error(), report);
+    return;
+  }
+  std::vector<std::unique_ptr<fleet::IdentifyJob>> jobs;
+  for (auto& [id, member] : session_->roster().members()) {
+    if (member.sends_actuator_status()) {
+      jobs.push_back(std::make_unique<fleet::IdentifyJob>(session_->roster(), member, *profiles_,
+                                                          identification()));
+      session_->start(*jobs.back());
+    }
+  }
+  if (auto ran = session_->run(); !ran) {
+    broken(ran.error(), report);
+    return;
+  }
+  for (const auto& job : jobs) {
+    if (const auto& error = job->identification().error(); error && failures_count) {
+      report.fail(*error);
+      report.statuses.push_back(exit_status(error->code));
+    }
+  }
+}
+
+std::vector<Member*> Context::matching(const fleet::Targets& targets, Report& report) {
+  std::set<dronecan::NodeId> chosen(targets.ids.begin(), targets.ids.end());
+  const auto& members = session_->roster().members();
+  for (const auto& [id, member] : members) {
+    if (targets.mean(member, *profiles_)) {
+      chosen.insert(id);
+    }
+  }
+  for (const fleet::Selector& selector : targets.selectors) {
+    if (std::ranges::none_of(members, [&](const auto& entry) {
+          return selector.matches(entry.second, *profiles_);
+        })) {
+      report.fail({Code::not_found, say<texts::nothing_matches>(printable(selector.text)),
+                   say<texts::node_not_found_hint>(), std::nullopt});
+      report.statuses.push_back(exit_status(Code::not_found));
+    }
+  }
+  std::vector<Member*> servos;
+  for (const dronecan::NodeId id : chosen) {
+    servos.push_back(&session_->roster().member(id));
+  }
+  return servos;
+}
+
+std::vector<Member*> Context::select(const fleet::Targets& targets, Duration time, Report& report) {
+  if (targets.need_search()) {
+    search(time, report, targets.selectors.empty());
+    if (report.signal != 0 || (!report.errors.empty() && report.statuses.empty())) {
+      return {}; // the bus broke
+    }
+  }
+  auto servos = matching(targets, report);
+  if (servos.empty() && report.errors.empty()) {
+    report.fail({Code::not_found, say<texts::no_servo_found>(), say<texts::no_servo_found_hint>(),
+                 std::nullopt});
+  }
+  return servos;
+}
+
+} // namespace blactl::cli

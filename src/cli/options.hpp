@@ -1,0 +1,83 @@
+#pragma once
+// The command line as plain structs. Only options.cpp knows the parser.
+
+#include "blactl/base/error.hpp"
+#include "blactl/base/text.hpp"
+#include "blactl/fleet/registers.hpp"
+
+#include "reporter.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace blactl::cli {
+
+/// Options that every command takes, before or after its name (contract, section 2).
+struct Shared {
+  std::string interface{}; ///< empty: the only CAN interface that is up
+  std::optional<std::string> nodes{};
+  std::optional<std::uint8_t> local_node_id{};
+  bool listen_only = false;
+  bool yes = false;
+  bool while_driven = false;
+  fleet::Patience patience{};
+  std::optional<std::string> profile_dir{};
+  std::optional<std::string> profile{};
+  Reporter::Options output{};
+};
+
+struct ScanOptions {
+  Duration listen = std::chrono::milliseconds(1200);
+  std::optional<std::uint64_t> expect{};
+};
+
+struct GetOptions {
+  std::vector<std::string> parameters{};
+  std::vector<std::string> groups{};
+  bool all = false;
+  bool changed = false;
+};
+
+struct SetOptions {
+  std::vector<std::string> assignments{};
+  bool dry_run = false;
+};
+
+struct ModelsOptions {
+  std::string model{};
+  std::string parameter{};
+};
+
+struct SimOptions {
+  std::string scenario{};
+  std::optional<std::uint64_t> seed{};
+  std::string clock{}; ///< "real", "virtual"; empty: as the scenario says
+};
+
+using CommandOptions =
+    std::variant<std::monostate, ScanOptions, GetOptions, SetOptions, ModelsOptions, SimOptions>;
+
+struct Invocation {
+  Shared shared{};
+  CommandOptions command{};
+  std::string name{};      ///< "get"; empty: none
+  std::string help_text{}; ///< not empty: print this and end
+};
+
+/// What can be told before anything is parsed: every failure of a command line with --json prints
+/// a document.
+[[nodiscard]] Shared peek(std::span<const std::string> arguments);
+/// The command that is meant; empty: unknown.
+[[nodiscard]] std::string peek_command(std::span<const std::string> arguments);
+[[nodiscard]] Language peek_language(std::span<const std::string> arguments);
+
+/// Errors: usage, with the nearest command for a mistyped one.
+[[nodiscard]] Result<Invocation> parse(std::span<const std::string> arguments);
+
+} // namespace blactl::cli

@@ -1,0 +1,64 @@
+#include "run.hpp"
+
+#include "commands.hpp"
+#include "context.hpp"
+#include "options.hpp"
+#include "reporter.hpp"
+
+#include <utility>
+
+namespace blactl::cli {
+namespace {
+
+struct Dispatch {
+  Context& context;
+
+  Report operator()(std::monostate) const { return {}; }
+
+  Report operator()(const ScanOptions& options) const { return scan(options, context); }
+
+  Report operator()(const GetOptions& options) const { return get(options, context); }
+
+  Report operator()(const SetOptions& options) const { return set(options, context); }
+
+  Report operator()(const ModelsOptions& options) const { return models(options, context); }
+
+  Report operator()(const SimOptions& options) const { return sim(options, context); }
+};
+
+/// Plain text on stdout that is no report: help and version.
+int print(const Reporter& reporter, std::string_view text) {
+  const auto printed = reporter.data(text);
+  if (!printed) {
+    reporter.error(printed.error());
+    return exit_status(printed.error().code);
+  }
+  return 0;
+}
+
+} // namespace
+
+int run(std::span<const std::string> arguments) {
+  set_language(peek_language(arguments));
+  // Answered before the parser is built: scripts ask for it often.
+  if (arguments.size() == 1 && (arguments[0] == "--version" || arguments[0] == "-V")) {
+    return print(Reporter({}), "blactl " BLACTL_VERSION "\n");
+  }
+  const auto invocation = parse(arguments);
+  if (!invocation) {
+    Report report;
+    report.command = peek_command(arguments);
+    report.fail(invocation.error());
+    return Reporter(peek(arguments).output).finish(report);
+  }
+  const Reporter reporter(invocation->shared.output);
+  if (!invocation->help_text.empty()) {
+    return print(reporter, invocation->help_text);
+  }
+  Context context(invocation->shared, reporter);
+  Report report = std::visit(Dispatch{context}, invocation->command);
+  report.command = invocation->name;
+  return reporter.finish(report);
+}
+
+} // namespace blactl::cli

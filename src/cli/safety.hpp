@@ -1,0 +1,32 @@
+#pragma once
+// What may not be written now, and what is asked first (contract, section 4).
+
+#include "blactl/fleet/read_job.hpp"
+#include "blactl/fleet/session.hpp"
+#include "blactl/fleet/write_job.hpp"
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace blactl::cli {
+
+/// The registers whose present values may_move() needs to judge a change of `address`.
+[[nodiscard]] std::vector<bla::Address> values_needed(bla::Address address);
+
+/// Whether this change is asked first. `values` holds values_needed().
+[[nodiscard]] bool may_move(const fleet::Change& change, const fleet::ReadJob& values);
+
+/// Whether the bus must have been heard for 1.1 s before these changes: one of them may move the
+/// shaft, or gives a node ID that must be free.
+[[nodiscard]] bool needs_watch(std::span<const fleet::Change> changes,
+                               const fleet::ReadJob& values);
+
+/// Why these changes must not be written to this servo now, as far as the bus was heard.
+/// Errors: duplicate_node_id, armed, driven (what may move, unless `while_driven`), out_of_range
+/// (a static node ID that another node has).
+[[nodiscard]] std::optional<Error> forbidden(fleet::Session& session,
+                                             std::span<const fleet::Change> changes,
+                                             const fleet::ReadJob& values, bool while_driven);
+
+} // namespace blactl::cli

@@ -1,0 +1,338 @@
+// blactl set: checks against the profile, writes, reads back.
+
+#include "blactl/bla/assignment.hpp"
+#include "blactl/bla/value.hpp"
+#include "blactl/fleet/read_job.hpp"
+#include "blactl/fleet/write_job.hpp"
+
+#include "commands.hpp"
+#include "confirm.hpp"
+#include "safety.hpp"
+#include "set_outcome.hpp"
+#include "texts.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+namespace blactl::cli {
+namespace {
+
+using bla::Assignment;
+using fleet::Change;
+using fleet::ChangeStatus;
+using fleet::Member;
+using fleet::ReadJob;
+using fleet::WriteJob;
+
+using Assignments = std::vector<Assignment>;
+
+Plan plan_changes(const ReadJob& job, Member& member, const Assignments& assignments) {
+  Plan plan{&member, {}};
+  for (const Assignment& assignment : assignments) {
+    const bla::Address address = assignment.parameter->address;
+    Change change{.parameter = member.identity.parameter(address),
+                  .requested = assignment.value.raw};
+    change.before = job.raw(address);
+    if (change.before == change.requested) {
+      change.status = ChangeStatus::unchanged;
+      change.after = change.before;
+    }
+    plan.changes.push_back(std::move(change));
+  }
+  return plan;
+}
+
+/// The registers whose present value the checks need: those to be written, 0x37 for the unit of
+/// 0x36, and 0x08 for angle limits.
+std::vector<const bla::Parameter*> to_read(const Assignments& assignments, const Member& servo) {
+  std::vector<const bla::Parameter*> wanted;
+  const auto add = [&](bla::Address address) {
+    const bla::Parameter* parameter = servo.identity.parameter(address);
+    const auto same = [&](const bla::Parameter* other) { return other->address == address; };
+    if (parameter != nullptr && std::ranges::none_of(wanted, same)) {
+      wanted.push_back(parameter);
+    }
+  };
+  for (const Assignment& assignment : assignments) {
+    add(assignment.parameter->address);
+  }
+  for (const Assignment& assignment : assignments) {
+    if (assignment.value.pwm_mode) {
+      add(bla::address::pwm_mode);
+    }
+    for (const bla::Address needed : values_needed(assignment.parameter->address)) {
+      add(needed);
+    }
+  }
+  return wanted;
+}
+
+/// Whether this servo takes every one of these values. Nothing has been written.
+Result<std::vector<const bla::Parameter*>> admit(const Assignments& assignments,
+                                                 const Member& servo) {
+  for (const Assignment& assignment : assignments) {
+    const auto allowed =
+        servo.identity.may_write(assignment.parameter->address, assignment.value.raw);
+    if (!allowed) {
+      return std::unexpected(allowed.error());
+    }
+  }
+  return to_read(assignments, servo);
+}
+
+/// 0x36 in deg or rpm is right only if 0x37 says so: that of the same command, else the servo's.
+std::optional<Error> check_pwm_unit(const Assignments& assignments, const ReadJob& job) {
+  std::optional<std::int64_t> mode = job.raw(bla::address::pwm_mode);
+  for (const Assignment& assignment : assignments) {
+    if (assignment.parameter->address == bla::address::pwm_mode) {
+      mode = assignment.value.raw;
+    }
+  }
+  for (const Assignment& assignment : assignments) {
+    if (assignment.value.pwm_mode && mode && *mode != *assignment.value.pwm_mode) {
+      const bla::Parameter* parameter = job.member().identity.parameter(bla::address::pwm_mode);
+      return Error{Code::usage,
+                   say<texts::pwm_mode_disagrees>(assignment.text, bla::display(*parameter, *mode),
+                                                  bla::unit_text(*assignment.parameter, mode)),
+                   say<texts::pwm_mode_disagrees_hint>(), job.member().id.value()};
+    }
+  }
+  return std::nullopt;
+}
+
+/// The exit status of one servo, and its errors into the report.
+int judge(const Plan& plan, bool dry_run, Report& report) {
+  constexpr int would_change = 8;
+  int status = 0;
+  for (const Change& change : plan.changes) {
+    if (change.error) {
+      report.fail(*change.error);
+      status = status == 0 ? exit_status(change.error->code) : status;
+    } else if (dry_run && change.status == ChangeStatus::planned) {
+      status = status == 0 ? would_change : status;
+    }
+  }
+  return status;
+}
+
+/// The steps of the command; each may end it with errors in the report.
+class Set {
+ public:
+  Set(const SetOptions& options, Context& context, Report& report)
+      : options_(options), context_(context), report_(report) {}
+
+  void run() {
+    if (understand() && select() && read() && watch() && check() && confirm() && check()) {
+      if (!options_.dry_run) {
+        write();
+      }
+      conclude();
+    }
+  }
+
+ private:
+  bool stop(Error error) {
+    report_.fail(std::move(error));
+    return false;
+  }
+
+  /// Everything that every model would refuse: not one frame is sent.
+  bool understand();
+  bool select();
+  /// Identifies the servos and reads what they hold; their refusals come here.
+  bool read();
+  /// Hears the bus for long enough to know who drives, is armed, or shares an ID.
+  bool watch();
+  /// What the others on the bus forbid; once more after a question, which may take its time.
+  bool check();
+  bool confirm();
+  void write();
+  void conclude();
+
+  const SetOptions& options_;
+  Context& context_;
+  Report& report_;
+  const bla::Profiles* profiles_ = nullptr;
+  Assignments assignments_;
+  Time opened_{};
+  std::vector<Member*> members_;
+  std::vector<std::unique_ptr<ReadJob>> reads_;
+  std::shared_ptr<Outcome> outcome_ = std::make_shared<Outcome>();
+};
+
+bool Set::understand() {
+  const auto profiles = context_.profiles();
+  if (!profiles) {
+    return stop(profiles.error());
+  }
+  profiles_ = *profiles;
+  auto assignments = bla::parse_assignments(*profiles_, options_.assignments);
+  if (!assignments) {
+    return stop(assignments.error());
+  }
+  assignments_ = std::move(*assignments);
+  if (context_.shared().listen_only) {
+    return stop({Code::usage, say<texts::listen_only_refused>("set"), {}, std::nullopt});
+  }
+  return true;
+}
+
+bool Set::select() {
+  const auto targets = context_.targets();
+  if (!targets) {
+    return stop(targets.error());
+  }
+  if (auto session = context_.open(fleet::Session::Hearing::commands); !session) {
+    return stop(session.error());
+  }
+  report_.interface = context_.session().interface();
+  opened_ = context_.session().now();
+  members_ =
+      context_.select(*targets, targets->given ? servo_search_time : bus_watch_time, report_);
+  if (!report_.errors.empty()) {
+    return false;
+  }
+  if (!targets->given && members_.size() > 1) {
+    std::string ids;
+    for (const Member* member : members_) {
+      ids += (ids.empty() ? "" : ", ") + std::to_string(member->id.value());
+    }
+    return stop({Code::usage, say<texts::several_servos>(ids),
+                 say<texts::several_servos_hint>(members_.front()->id.value()), std::nullopt});
+  }
+  return true;
+}
+
+bool Set::read() {
+  fleet::Session& session = context_.session();
+  for (Member* member : members_) {
+    reads_.push_back(std::make_unique<ReadJob>(
+        session.roster(), *member, *profiles_, context_.identification(),
+        [this](const Member& servo) { return admit(assignments_, servo); }));
+    session.start(*reads_.back());
+  }
+  if (auto ran = session.run(); !ran) {
+    context_.broken(ran.error(), report_);
+    return false;
+  }
+  for (std::size_t i = 0; i < reads_.size(); ++i) {
+    const ReadJob& job = *reads_[i];
+    std::optional<Error> error = job.error();
+    for (const auto& reading : job.readings()) {
+      if (!error && !reading.raw) {
+        error = reading.raw.error();
+      }
+    }
+    if (!error) {
+      error = check_pwm_unit(assignments_, job);
+    }
+    // If one servo refuses, none is written: the others are no success.
+    if (error) {
+      report_.statuses.push_back(exit_status(error->code));
+      report_.fail(std::move(*error));
+    } else {
+      outcome_->plans.push_back(plan_changes(job, *members_[i], assignments_));
+    }
+  }
+  return report_.errors.empty();
+}
+
+bool Set::watch() {
+  bool needed = false;
+  for (std::size_t i = 0; i < reads_.size(); ++i) {
+    needed = needed || needs_watch(outcome_->plans[i].changes, *reads_[i]);
+  }
+  if (!needed) {
+    return true;
+  }
+  if (auto lived = context_.session().live_until(opened_ + bus_watch_time); !lived) {
+    context_.broken(lived.error(), report_);
+    return false;
+  }
+  return true;
+}
+
+bool Set::check() {
+  report_.statuses.clear();
+  for (std::size_t i = 0; i < reads_.size(); ++i) {
+    if (auto error = forbidden(context_.session(), outcome_->plans[i].changes, *reads_[i],
+                               context_.shared().while_driven)) {
+      report_.fail(std::move(*error));
+    }
+  }
+  return report_.errors.empty();
+}
+
+bool Set::confirm() {
+  if (options_.dry_run) {
+    return true;
+  }
+  std::string question;
+  for (std::size_t i = 0; i < outcome_->plans.size(); ++i) {
+    const Plan& plan = outcome_->plans[i];
+    for (const Change& change : plan.changes) {
+      if (change.status == ChangeStatus::planned && may_move(change, *reads_[i])) {
+        const auto& parameter = *change.parameter;
+        question += say<texts::question_change>(
+            plan.member->id.value(), parameter.name,
+            change.before ? bla::display(parameter, *change.before) : say<texts::unknown_before>(),
+            bla::display(parameter, change.requested));
+      }
+    }
+  }
+  if (question.empty()) {
+    return true;
+  }
+  auto agreed = blactl::cli::confirm(say<texts::question_may_move>() + question, context_);
+  return agreed ? true : stop(std::move(agreed.error()));
+}
+
+void Set::write() {
+  fleet::Session& session = context_.session();
+  std::vector<std::unique_ptr<WriteJob>> jobs;
+  for (Plan& plan : outcome_->plans) {
+    jobs.push_back(
+        std::make_unique<WriteJob>(*plan.member, plan.changes, context_.shared().patience));
+    session.start(*jobs.back());
+  }
+  const auto ran = session.run();
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    outcome_->plans[i].changes = jobs[i]->changes();
+  }
+  if (!ran) {
+    context_.broken(ran.error(), report_);
+    if (const std::size_t frames = session.unsent(); frames > 0) {
+      report_.fail({Code::no_acknowledge,
+                    say<texts::not_written>(frames, session.interface()),
+                    {},
+                    std::nullopt});
+    }
+  }
+}
+
+void Set::conclude() {
+  const bool broken = !report_.errors.empty();
+  std::size_t written = 0;
+  for (const Plan& plan : outcome_->plans) {
+    const int status = judge(plan, options_.dry_run, report_);
+    if (!broken) {
+      report_.statuses.push_back(status);
+    }
+    written += static_cast<std::size_t>(
+        std::ranges::count(plan.changes, ChangeStatus::written, &Change::status));
+  }
+  report_.counts = {{"nodes", outcome_->plans.size()}, {"written", written}};
+  report_.json = [outcome = outcome_](JsonWriter& json) { write_json(json, *outcome); };
+  report_.text = [outcome = outcome_] { return text(*outcome); };
+}
+
+} // namespace
+
+Report set(const SetOptions& options, Context& context) {
+  Report report;
+  Set(options, context, report).run();
+  return report;
+}
+
+} // namespace blactl::cli

@@ -1,0 +1,124 @@
+// blactl sim: simulated servos, as a bus of their own or on a real interface.
+
+#include "blactl/can/simbus.hpp"
+#include "blactl/sim/interface.hpp"
+#include "blactl/sim/server.hpp"
+
+#include "bus_factory.hpp"
+#include "commands.hpp"
+#include "texts.hpp"
+
+#include <signal.h>
+
+#include <utility>
+
+namespace blactl::cli {
+namespace {
+
+Result<sim::Scenario> read_scenario(const SimOptions& options, const bla::Profiles& profiles) {
+  auto scenario = options.scenario.empty() ? sim::default_scenario(profiles)
+                                           : sim::read_scenario(options.scenario, profiles);
+  if (scenario && options.seed) {
+    scenario->seed = *options.seed;
+  }
+  if (scenario && !options.clock.empty()) {
+    scenario->clock = options.clock == "virtual" ? sim::Clock::simulated : sim::Clock::real;
+  }
+  return scenario;
+}
+
+/// Tells scripts that clients may come.
+Result<void> say_ready(const Context& context) {
+  const bool json = context.reporter().format() == Format::json;
+  return context.reporter().data(json ? "{\"event\":\"ready\"}\n" : "ready\n");
+}
+
+/// A signal that ends the simulator, or a broken interface; else the loop goes on.
+bool ends(const can::Event& event, Report& report) {
+  if (const auto* signal = std::get_if<can::Signal>(&event); signal && signal->number != SIGWINCH) {
+    report.signal = signal->number;
+    return true;
+  }
+  if (const auto* gone = std::get_if<can::Gone>(&event)) {
+    report.fail(gone->error);
+    return true;
+  }
+  return false;
+}
+
+/// Serves the simulated bus on a socket until a signal comes.
+void serve(const std::string& socket, const sim::Scenario& scenario, const Context& context,
+           Report& report) {
+  const auto server = sim::Server::open(socket, scenario);
+  if (!server) {
+    return report.fail(server.error());
+  }
+  can::Loop loop(nullptr);
+  loop.watch((*server)->descriptor());
+  context.reporter().note(say<texts::sim_serves>(printable(socket), scenario.servos.size()));
+  if (auto said = say_ready(context); !said) {
+    return report.fail(said.error());
+  }
+  for (;;) {
+    if (ends(loop.next((*server)->next_deadline(loop.now())), report)) {
+      return;
+    }
+    (*server)->service();
+  }
+}
+
+/// Puts the servos on a real interface until a signal comes or the interface goes.
+void join(const std::string& name, const sim::Scenario& scenario, const bla::Profiles& profiles,
+          const Context& context, Report& report) {
+  auto bus = open_bus(name, profiles, context.reporter());
+  if (!bus) {
+    return report.fail(bus.error());
+  }
+  can::Loop loop(std::move(bus->bus));
+  sim::Interface interface(loop, scenario);
+  report.interface = loop.bus().name();
+  context.reporter().note(say<texts::sim_serves>(name, scenario.servos.size()));
+  if (auto said = say_ready(context); !said) {
+    return report.fail(said.error());
+  }
+  for (;;) {
+    const can::Event event = loop.next(interface.next_deadline());
+    if (ends(event, report)) {
+      return;
+    }
+    interface.handle(event);
+  }
+}
+
+} // namespace
+
+Report sim(const SimOptions& options, Context& context) {
+  Report report;
+  report.is_stream = true;
+  const auto profiles = context.profiles();
+  if (!profiles) {
+    report.fail(profiles.error());
+    return report;
+  }
+  const auto scenario = read_scenario(options, **profiles);
+  if (!scenario) {
+    report.fail(scenario.error());
+    return report;
+  }
+  const std::string& text = context.shared().interface;
+  const auto name = parse_interface(text.empty() ? "sim:" : text);
+  if (!name) {
+    report.fail(name.error());
+  } else if (name->kind == InterfaceKind::socketcan) {
+    join(text, *scenario, **profiles, context, report);
+  } else if (name->kind == InterfaceKind::simulator) {
+    serve(name->rest.empty() ? can::default_socket_path().string() : name->rest, *scenario, context,
+          report);
+  } else {
+    report.fail({Code::usage, say<texts::scenario_is_argument>(printable(text)),
+                 say<texts::scenario_is_argument_hint>(printable(name->rest)), std::nullopt});
+  }
+  return report;
+}
+
+} // namespace blactl::cli

@@ -1,0 +1,199 @@
+#pragma once
+// The catalogue of the floor cli.
+
+#include "blactl/base/text.hpp"
+
+namespace blactl::texts {
+
+inline constexpr Text stdout_failed{"cannot write to standard output: {}",
+                                    "標準出力に書き込めません: {}"};
+inline constexpr Text stdout_failed_hint{"free some space, or send the output elsewhere",
+                                         "空き容量を確保するか、出力先を変更してください"};
+
+inline constexpr Text unknown_command{"there is no command '{}'", "コマンド '{}' はありません"};
+inline constexpr Text no_command{"no command given", "コマンドが指定されていません"};
+inline constexpr Text did_you_mean{"did you mean {}?", "{} のことですか?"};
+inline constexpr Text unexpected_argument{"not expected: {}", "不要な引数です: {}"};
+inline constexpr Text not_understood{"{}", "コマンドラインを解釈できません: {}"};
+inline constexpr Text see_help{"see blactl --help", "blactl --help を参照してください"};
+inline constexpr Text see_command_help{"see blactl {} --help",
+                                       "blactl {} --help を参照してください"};
+inline constexpr Text bad_seconds{"{} {}: not a number of seconds between {} and {}",
+                                  "{} {}: {}～{} 秒の範囲の数ではありません"};
+inline constexpr Text bad_number{"{} {}: not a whole number between {} and {}",
+                                 "{} {}: {}～{} の整数ではありません"};
+inline constexpr Text bad_word{"{} {}: not one of {}", "{} {}: {} のいずれでもありません"};
+inline constexpr Text json_and_csv{"--json and --csv exclude each other",
+                                   "--json と --csv は同時に指定できません"};
+inline constexpr Text no_csv{"{} has no CSV output", "{} は CSV 出力に対応していません"};
+inline constexpr Text listen_only_refused{
+    "{} must send, which --listen-only forbids",
+    "{} は送信が必要なため --listen-only では実行できません",
+};
+
+inline constexpr Text bad_interface{"-i {}: no such kind of interface",
+                                    "-i {}: この種類のインタフェースはありません"};
+inline constexpr Text bad_interface_hint{
+    "for example -i can0, -i sim:, -i sim:SCENARIO.json",
+    "例: -i can0, -i sim:, -i sim:SCENARIO.json",
+};
+inline constexpr Text no_interface{"no CAN interface is up",
+                                   "起動している CAN インタフェースがありません"};
+inline constexpr Text several_interfaces{"several CAN interfaces are up: {}",
+                                         "起動している CAN インタフェースが複数あります: {}"};
+inline constexpr Text several_interfaces_hint{"choose one: -i {}", "一つ選んでください: -i {}"};
+inline constexpr Text no_interface_hint{
+    "for example: sudo ip link set can0 up type can bitrate 1000000 sample-point 0.875   "
+    "(without hardware: -i sim:)",
+    "例: sudo ip link set can0 up type can bitrate 1000000 sample-point 0.875   "
+    "(ハードウェアが無い場合: -i sim:)",
+};
+inline constexpr Text interface_is_down{"{} is there but down: {}", "{} は停止しています: {}"};
+inline constexpr Text sim_is_private{
+    "no simulator is running: using a private fresh one (start one with: blactl sim)",
+    "シミュレータが動作していないため、専用の新しいものを使います (起動: blactl sim)",
+};
+inline constexpr Text simulated_bus_only{"blactl sim -i {}: a simulator cannot join another one",
+                                         "blactl sim -i {}: シミュレータ同士は接続できません"};
+inline constexpr Text profile_replaced{"{} replaces the built-in profile",
+                                       "{} は組込みのプロファイルを置き換えます"};
+inline constexpr Text unknown_model{"there is no model '{}'", "機種 '{}' はありません"};
+inline constexpr Text several_models{"'{}' means several models", "'{}' は複数の機種に該当します"};
+inline constexpr Text known_models{"the models are {}", "機種: {}"};
+inline constexpr Text model_lacks{"{} has no {}", "{} に {} はありません"};
+
+inline constexpr Text unknown_group{"there is no group '{}'", "グループ '{}' はありません"};
+inline constexpr Text known_groups{"the groups are {}", "グループ: {}"};
+inline constexpr Text write_only{"{} can only be written", "{} は書込み専用です"};
+inline constexpr Text write_only_hint{"it is a command of the servo, not a value",
+                                      "値ではなくサーボへの命令です"};
+inline constexpr Text firmware_lacks{
+    "node {}: {} needs firmware {} or later, this servo has {}",
+    "ノード {}: {} にはファームウェア {} 以降が必要です (現在 {})"};
+inline constexpr Text firmware_lacks_hint{"read what it has: blactl get -n {}",
+                                          "読み出せるパラメータ: blactl get -n {}"};
+
+inline constexpr Text several_servos{"several servos are on the bus: {}",
+                                     "バス上に複数のサーボがあります: {}"};
+inline constexpr Text several_servos_hint{"say which: -n {}", "-n {} のように指定してください"};
+inline constexpr Text doubled_target{"node ID {} is used by two nodes: nothing is written to it",
+                                     "ノード ID {} が重複しているため書き込みません"};
+inline constexpr Text doubled_target_hint{"connect one of them alone and give it another ID",
+                                          "一台ずつ接続して別の ID を設定してください"};
+inline constexpr Text armed{"node {} says that the vehicle is armed: nothing is written",
+                            "ノード {} が ARM 状態を通知しているため書き込みません"};
+inline constexpr Text armed_hint{"disarm it first", "先に DISARM してください"};
+inline constexpr Text driven{"node {} drives servo {}: not while it does",
+                             "ノード {} がサーボ {} を動作指令中のため実行しません"};
+inline constexpr Text driven_hint{"stop it, or add --while-driven",
+                                  "停止させるか、--while-driven を付けてください"};
+inline constexpr Text node_id_in_use{"static_node_id={} is in use by another node",
+                                     "static_node_id={} は別のノードが使用中です"};
+inline constexpr Text node_id_in_use_hint{"see which IDs are taken: blactl scan",
+                                          "使用中の ID を確認: blactl scan"};
+inline constexpr Text pwm_mode_disagrees{
+    "{}: pwm_mode is {} on this servo, so the unit is {}",
+    "{}: このサーボの pwm_mode は {} なので、単位は {} です",
+};
+inline constexpr Text pwm_mode_disagrees_hint{"or set pwm_mode in the same command",
+                                              "または同じコマンドで pwm_mode も設定してください"};
+inline constexpr Text not_written{"{} frames of a write may still be in the queue of {}: "
+                                  "what they change is not known",
+                                  "書込みの {} フレームが {} の送信キューに残っている可能性があり、"
+                                  "変更結果は不明です"};
+
+// Questions before something that moves or lets go.
+inline constexpr Text question_may_move{
+    "This can move the shaft or let go of the load:\n",
+    "出力軸が動く、または負荷を保持できなくなる可能性があります:\n"};
+inline constexpr Text question_change{"  node {}: {} {} -> {}\n", "  ノード {}: {} {} -> {}\n"};
+inline constexpr Text question_yes_no{"Go on? [y/N] ", "続けますか? [y/N] "};
+inline constexpr Text not_confirmed{"not confirmed: nothing was written",
+                                    "確認されなかったため書き込んでいません"};
+inline constexpr Text not_confirmed_hint{"add --yes to agree beforehand: {}",
+                                         "事前に同意するには --yes を付けてください: {}"};
+inline constexpr Text unknown_before{"?", "?"};
+
+// scan
+inline constexpr Text expected_more{"{} servos found, {} expected",
+                                    "サーボ {} 台を検出しました (期待 {} 台)"};
+inline constexpr Text nobody_there{"no node was heard on {}", "{} 上にノードが見つかりません"};
+inline constexpr Text nobody_there_hint{
+    "is the supply on? does a servo without an ID wait for one? is the bit rate 1000000?",
+    "電源、ノード ID 割当て待ちのサーボ、ビットレート 1000000 を確認してください",
+};
+inline constexpr Text waits_for_id{"waits for a node ID: unique ID {}…",
+                                   "ノード ID 割当て待ち: ユニーク ID {}…"};
+inline constexpr Text allocates{"node {} allocates node IDs",
+                                "ノード {} がノード ID を割り当てています"};
+inline constexpr Text commands_servos{"node {} commands servos",
+                                      "ノード {} がサーボに動作指令しています"};
+inline constexpr Text says_armed{"node {} says armed", "ノード {} は ARM 状態です"};
+inline constexpr Text warn_stall{
+    "firmware {} may stall at low speed; 1.400 mends it",
+    "ファームウェア {} は低速動作時に停止することがあります (1.400 で修正)",
+};
+inline constexpr Text warn_unknown_model{"no profile fits: it can only be read",
+                                         "該当するプロファイルが無いため読出しのみ可能です"};
+inline constexpr Text warn_uncertain_model{
+    "hardware version {} is not in table 3-12: model by its leading digits only",
+    "ハードウェアバージョン {} は表 3-12 にありません。機種は先頭の桁のみで判定しました",
+};
+inline constexpr Text warn_static_id_differs{"will come back as node {} after a restart",
+                                             "再起動後はノード {} になります"};
+inline constexpr Text warn_health{"health: {} (see 0x1A, 0x1B)", "ヘルス: {} (0x1A, 0x1B を参照)"};
+inline constexpr Text column_node{"NODE", "ノード"};
+inline constexpr Text column_model{"MODEL", "機種"};
+inline constexpr Text column_serial{"SERIAL", "製造番号"};
+inline constexpr Text column_servo_id{"SERVO ID", "サーボ ID"};
+inline constexpr Text column_firmware{"FIRMWARE", "ファームウェア"};
+inline constexpr Text column_static_id{"STATIC ID", "固定 ID"};
+inline constexpr Text column_state{"STATE", "状態"};
+inline constexpr Text column_uptime{"UPTIME", "稼働時間"};
+inline constexpr Text column_unique_id{"UNIQUE ID", "ユニーク ID"};
+inline constexpr Text dynamic_id{"dynamic", "動的"};
+inline constexpr Text foreign_node{"(not a BLA servo) {}", "(BLA サーボ以外) {}"};
+
+// get, set
+inline constexpr Text head_line{"node {}  {}  serial {}  servo ID {}  firmware {}\n",
+                                "ノード {}  {}  製造番号 {}  サーボ ID {}  ファームウェア {}\n"};
+inline constexpr Text unknown_word{"unknown", "不明"};
+inline constexpr Text nothing_changed{"  every parameter has its default\n",
+                                      "  すべてのパラメータが初期値です\n"};
+inline constexpr Text column_parameter{"PARAMETER", "パラメータ"};
+inline constexpr Text column_value{"VALUE", "値"};
+inline constexpr Text column_before{"BEFORE", "変更前"};
+inline constexpr Text column_after{"AFTER", "変更後"};
+inline constexpr Text column_default{"DEFAULT", "初期値"};
+inline constexpr Text column_range{"RANGE", "範囲"};
+inline constexpr Text range_text{"{} .. {}", "{} ～ {}"};
+inline constexpr Text set_written{"written", "書込み済み"};
+inline constexpr Text set_unchanged{"unchanged", "変更なし"};
+inline constexpr Text set_failed{"failed", "失敗"};
+inline constexpr Text set_mismatch{"mismatch", "不一致"};
+inline constexpr Text set_planned{"planned", "予定"};
+inline constexpr Text not_saved_note{
+    "in RAM only: a restart brings the old values back",
+    "RAM のみの変更です。再起動すると元の値に戻ります",
+};
+
+// models
+inline constexpr Text models_pwm{"PWM input", "PWM 入力あり"};
+inline constexpr Text models_no_pwm{"no PWM input", "PWM 入力なし"};
+inline constexpr Text column_voltage{"VOLTAGE", "電圧クラス"};
+inline constexpr Text column_numbers{"0x50 / 0x53", "0x50 / 0x53"};
+inline constexpr Text column_access{"ACCESS", "R/W"};
+inline constexpr Text column_meaning{"MEANING", "名称"};
+inline constexpr Text models_since{"firmware {} or later", "ファームウェア {} 以降"};
+inline constexpr Text models_vendor_label{"vendor's program: {}", "メーカー製ツールの表示: {}"};
+inline constexpr Text models_saved{"kept by save", "保存対象"};
+inline constexpr Text models_not_saved{"not kept by save", "保存対象外"};
+
+// sim
+inline constexpr Text sim_serves{"{}: simulated servos: {} (Ctrl-C ends)",
+                                 "{}: サーボ {} 台をシミュレート中 (Ctrl-C で終了)"};
+inline constexpr Text scenario_is_argument{"-i {}: a scenario is an argument of sim",
+                                           "-i {}: シナリオは sim の引数で指定します"};
+inline constexpr Text scenario_is_argument_hint{"blactl sim {}", "blactl sim {}"};
+
+} // namespace blactl::texts
