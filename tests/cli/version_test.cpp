@@ -1,0 +1,17 @@
+#include "catch.hpp"
+#include "run.hpp"
+
+using namespace blactl::test;
+
+TEST_CASE("--version prints the name and the version") {
+  const auto result = run({"--version"});
+  CHECK(result.status == 0);
+  CHECK(result.out == "blactl " BLACTL_VERSION "\n");
+  CHECK(result.err.empty());
+}
+
+TEST_CASE("--version fails when its output cannot be written") {
+  const auto result = run({"--version"}, {.stdout_file = "/dev/full"});
+  CHECK(result.status == 1);
+  CHECK(result.err.find("blactl: [io]") != std::string::npos);
+}

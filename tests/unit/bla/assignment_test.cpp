@@ -1,0 +1,129 @@
+#include "blactl/bla/assignment.hpp"
+
+#include "catch.hpp"
+#include "unit/bla/built_in.hpp"
+
+using namespace blactl;
+using namespace blactl::bla;
+using test::built_in;
+
+namespace {
+
+Error refused(std::string_view text) {
+  const auto assignment = parse_assignment(built_in(), text);
+  INFO(text);
+  REQUIRE_FALSE(assignment);
+  CHECK_FALSE(assignment.error().hint.empty());
+  return assignment.error();
+}
+
+std::string code_of(std::string_view text) {
+  return std::string(name(refused(text).code));
+}
+
+Result<std::vector<Assignment>> all(std::vector<std::string> texts) {
+  return parse_assignments(built_in(), texts);
+}
+
+} // namespace
+
+TEST_CASE("PARAM=VALUE is read by name and by address") {
+  const auto by_name = parse_assignment(built_in(), "angle-limit-CW=90deg");
+  REQUIRE(by_name);
+  CHECK(by_name->parameter->address == Address(0x38));
+  CHECK(by_name->named == NamedBy::name);
+  CHECK(by_name->value.raw == 900);
+  CHECK(by_name->text == "angle-limit-CW=90deg");
+  const auto by_address = parse_assignment(built_in(), "0x38=900");
+  REQUIRE(by_address);
+  CHECK(by_address->named == NamedBy::address);
+  CHECK(by_address->value.raw == 900);
+  CHECK(parse_assignment(built_in(), "0x20=brake")->value.raw == 2);
+  CHECK(make_assignment(built_in(), "servo_id", "7")->value.raw == 7);
+}
+
+TEST_CASE("what every servo refuses is refused at once, with the code of the contract") {
+  CHECK(code_of("angle_limit_cw") == "usage");
+  CHECK(code_of("angle_limit_cw=") == "usage");
+  CHECK(code_of("angle_limit_cw=90") == "usage");
+  CHECK(code_of("angle_limit_cw=90.05deg") == "usage");
+  CHECK(code_of("angle_limit_cw==90deg") == "usage");
+  CHECK(code_of("torque_output=yes") == "usage");
+  CHECK(code_of("torque_output=3") == "out_of_range");
+  CHECK(code_of("origin=180deg") == "out_of_range");
+  CHECK(code_of("=5") == "unknown_parameter");
+  CHECK(code_of("angle=5") == "unknown_parameter");
+  CHECK(code_of("0x60=1") == "unknown_parameter");
+  CHECK(code_of("0xFF=1") == "unknown_parameter");
+  CHECK(code_of("0x28=1") == "unsupported");
+  CHECK(code_of("0x49=1") == "unsupported");
+  CHECK(code_of("bootloader=0") == "unsupported");
+  CHECK(code_of("current_angle=0deg") == "read_only");
+  CHECK(code_of("0x50=61") == "read_only");
+  CHECK(code_of("firmware_version=nonsense") == "read_only");
+}
+
+TEST_CASE("operations lead to their commands") {
+  CHECK(refused("initialize=1").code == Code::unsupported);
+  CHECK(refused("initialize=1").hint == "use `blactl erase`");
+  CHECK(refused("0x11=1").hint == "use `blactl restart`");
+  CHECK(refused("write_rom=save").hint == "use `blactl save`");
+}
+
+TEST_CASE("only what some model takes gets through") {
+  CHECK(code_of("0x2A=6") == "out_of_range");
+  CHECK(parse_assignment(built_in(), "0x2A=7"));
+  CHECK(parse_assignment(built_in(), "0x2A=120"));
+  CHECK(code_of("0x2A=121") == "out_of_range");
+  CHECK(refused("overcurrent_limit=12.1A").message ==
+        "overcurrent_limit=12.1A: outside of the range 0.7A to 12.0A");
+  CHECK(code_of("0x34=99") == "out_of_range"); // 0 is the range of models without PWM input only
+  CHECK(code_of("0x34=0") == "out_of_range");
+  CHECK(parse_assignment(built_in(), "0x34=100"));
+  CHECK(code_of("command_speed=301rpm") == "out_of_range");
+}
+
+TEST_CASE("a gap between the ranges of the models is outside of all of them") {
+  // 0x40: 74..120, 120..240, 280..500
+  CHECK(parse_assignment(built_in(), "voltage_limit_high=24.0V"));
+  CHECK(parse_assignment(built_in(), "voltage_limit_high=28.0V"));
+  CHECK(refused("voltage_limit_high=25.0V").code == Code::out_of_range);
+  CHECK(refused("voltage_limit_high=25.0V").message ==
+        "voltage_limit_high=25.0V: no model takes this value");
+}
+
+TEST_CASE("the node IDs of tools and the dummy of 0x00-0x02 are never assigned") {
+  CHECK(code_of("static_node_id=126") == "out_of_range");
+  CHECK(code_of("0x46=127") == "out_of_range");
+  CHECK(code_of("static_node_id=128") == "out_of_range");
+  CHECK(parse_assignment(built_in(), "static_node_id=125"));
+  CHECK(parse_assignment(built_in(), "static_node_id=0"));
+  CHECK(code_of("command_angle=555555555raw") == "out_of_range");
+  CHECK(code_of("0x01=555555555") == "out_of_range");
+}
+
+TEST_CASE("a parameter named twice is refused, however it is named") {
+  CHECK(all({"servo_id=1", "origin=0deg"})->size() == 2);
+  const auto twice = all({"servo_id=1", "0x45=1"});
+  REQUIRE_FALSE(twice);
+  CHECK(twice.error().code == Code::usage);
+  CHECK(twice.error().message == "servo_id is given twice");
+}
+
+TEST_CASE("0x36 must fit the 0x37 beside it, in either order") {
+  CHECK(all({"pwm_output_range=70deg", "pwm_mode=angle"}));
+  CHECK(all({"pwm_mode=speed", "pwm_output_range=150rpm"}));
+  CHECK(all({"pwm_mode=speed", "pwm_output_range=150raw"}));
+  CHECK(all({"pwm_output_range=150rpm"}));
+  const auto wrong = all({"pwm_mode=speed", "pwm_output_range=70deg"});
+  REQUIRE_FALSE(wrong);
+  CHECK(wrong.error().code == Code::usage);
+  CHECK(wrong.error().message == "pwm_output_range=70deg: with pwm_mode=speed the unit is rpm");
+  CHECK_FALSE(all({"pwm_output_range=150rpm", "0x37=0"}));
+}
+
+TEST_CASE("the first refusal ends the reading") {
+  const auto wrong = all({"servo_id=1", "servo_id=999", "nonsense=1"});
+  REQUIRE_FALSE(wrong);
+  CHECK(wrong.error().code == Code::out_of_range);
+}

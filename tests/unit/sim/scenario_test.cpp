@@ -1,0 +1,206 @@
+#include "blactl/sim/scenario.hpp"
+
+#include "unit/sim/support.hpp"
+
+#include <set>
+
+using namespace blactl;
+using namespace blactl::sim;
+using namespace std::chrono_literals;
+using testing::scenario;
+
+namespace {
+
+/// The message about a file that is wrong.
+std::string faults(std::string_view text) {
+  const auto parsed = parse_scenario(text, "line.json", testing::profiles());
+  REQUIRE_FALSE(parsed);
+  CHECK(parsed.error().code == Code::bad_file);
+  return parsed.error().message;
+}
+
+/// The message about members of the one servo in a scenario; they stand on line 2.
+std::string servo_faults(std::string_view members) {
+  return faults(fmt::format("{{\"schema\": \"blactl-scenario/1\", \"servos\": [\n"
+                            "{{{}}}]}}",
+                            members));
+}
+
+bool has(const std::string& message, std::string_view part) {
+  INFO(message);
+  return message.find(part) != std::string::npos;
+}
+
+} // namespace
+
+TEST_CASE("the default scenario has three servos, each with identities of its own") {
+  const auto standard = default_scenario(testing::profiles());
+  REQUIRE(standard);
+  REQUIRE(standard->servos.size() == 3);
+  CHECK(standard->clock == Clock::real);
+  CHECK(standard->foreign.empty());
+  std::set<dronecan::UniqueId> unique_ids;
+  std::set<std::int64_t> serial_numbers;
+  for (const ServoSetup& servo : standard->servos) {
+    unique_ids.insert(servo.unique_id);
+    serial_numbers.insert(servo.serial_number);
+  }
+  CHECK(unique_ids.size() == 3);
+  CHECK(serial_numbers.size() == 3);
+  const ServoSetup& last = standard->servos[2];
+  CHECK(last.profile->model == "BLA34-28U-AB");
+  CHECK(last.node_id == 13);
+  CHECK(last.servo_id == 3);
+  CHECK(last.firmware_version == 1500);
+  CHECK(standard->servos[0].firmware_version == 1400);
+  CHECK(standard->servos[0].hardware_version == 12050);
+}
+
+TEST_CASE("a scenario says all there is to say") {
+  const Scenario all = scenario(R"("clock": "virtual", "seed": 7, "servos": [{
+      "model": "BLA21-12U-AB", "node_id": 11, "unique_id": "00112233445566778899AABBccddeeff",
+      "serial_number": 240900558, "servo_id": 254, "firmware_version": 1300,
+      "model_number": 60, "hardware_version": 12051, "name": "x", "answer_delay": "0.5ms",
+      "ram": {"angle_limit_cw": "90deg", "0x39": -450, "torque_output": "brake",
+              "current_voltage": "11.8V", "fault_warning": 16, "production_year": 2024},
+      "behaviour": {"out_of_range": "clamp", "reserved_reads": "zero", "gated_reads": "zero",
+                    "write_only_reads": "zero", "index_only_access": false,
+                    "failure_with_name": true, "ignores_disabled_commands": false},
+      "faults": {"lose_responses": 2, "mute": true}}],
+    "foreign": [{"kind": "node", "node_id": 30, "name": "org.example", "serves_get_set": true,
+      "commands": {"servo_ids": [1, 255], "type": 3, "value": 60, "rate": 100}, "armed": false}])");
+  CHECK(all.clock == Clock::simulated);
+  CHECK(all.seed == 7);
+  const ServoSetup& servo = all.servos.at(0);
+  CHECK(servo.unique_id[10] == 0xAA);
+  CHECK(servo.serial_number == 240900558);
+  CHECK(servo.hardware_version == 12051);
+  CHECK(servo.answer_delay == 500us);
+  CHECK(servo.ram[0] == std::pair(bla::address::angle_limit_cw, std::int64_t{900}));
+  CHECK(servo.ram[1].second == -450);
+  CHECK(servo.ram[2].second == 2);
+  CHECK(servo.ram[3].second == 118);
+  CHECK(servo.behaviour.out_of_range == OutOfRange::clamp);
+  CHECK(servo.behaviour.gated_reads == MissingRead::zero);
+  CHECK_FALSE(servo.behaviour.index_only_access);
+  CHECK(servo.behaviour.failure_with_name);
+  CHECK(servo.faults.lose_responses == 2);
+  CHECK(servo.faults.mute);
+  const ForeignSetup& node = all.foreign.at(0);
+  CHECK(node.node_id == 30);
+  CHECK(node.serves_get_set);
+  REQUIRE(node.commands);
+  CHECK(node.commands->servo_ids == std::vector<std::uint8_t>{1, 255});
+  CHECK(node.commands->period == 10ms);
+  CHECK(node.armed == false);
+}
+
+TEST_CASE("left out, everything about a servo but its model has a likely value") {
+  const ServoSetup servo = testing::servo_setup(R"("model": "BLA15-06U-A0")");
+  CHECK(servo.node_id == 0);
+  CHECK(servo.servo_id == 0);
+  CHECK(servo.answer_delay == 500us);
+  CHECK(servo.model_number == 62);
+  CHECK(servo.unique_id != dronecan::UniqueId{});
+  CHECK(servo.name == "jp.co.futaba.bla15");
+  // The unique ID follows the serial number.
+  CHECK(servo.unique_id ==
+        testing::servo_setup(R"("model": "BLA21-12U-AB", "serial_number": 240900001)").unique_id);
+  CHECK(servo.unique_id !=
+        testing::servo_setup(R"("model": "BLA21-12U-AB", "serial_number": 240900002)").unique_id);
+}
+
+TEST_CASE("an answer delay is a time in any unit, or a number of microseconds") {
+  const auto delay = [](const char* value) {
+    return testing::servo_setup(
+               fmt::format(R"("model": "BLA21-12U-AB", "answer_delay": {})", value))
+        .answer_delay;
+  };
+  CHECK(delay("\"2ms\"") == 2ms);
+  CHECK(delay("\"1.5s\"") == 1500ms);
+  CHECK(delay("750") == 750us);
+  CHECK(delay("0") == 0us);
+}
+
+TEST_CASE("every fault of a scenario is named with file, line, pointer and reason") {
+  const std::string message = faults(R"({
+  "schema": "blactl-scenario/1",
+  "clock": "fast",
+  "servos": [
+    {"model": "BLA99"},
+    {"node_id": 128, "model": "BLA21-12U-AB",
+     "colour": "red"}
+  ]
+})");
+  INFO(message);
+  CHECK(has(message, "line.json:3: /clock: "));
+  CHECK(has(message, "line.json:5: /servos/0/model: no model is called \"BLA99\"; there are "));
+  CHECK(has(message, "BLA15-06U-A0"));
+  CHECK(has(message, "line.json:6: /servos/1/node_id: "));
+  CHECK(has(message, "line.json:7: /servos/1/colour: "));
+}
+
+TEST_CASE("faulty servos are told what is wrong with them") {
+  const std::string model = R"("model": "BLA21-12U-AB", )";
+  CHECK(has(servo_faults(""), "line.json:2: /servos/0"));
+  CHECK(
+      has(servo_faults(model + R"("unique_id": "0011")"), "/servos/0/unique_id: a unique ID has"));
+  CHECK(has(servo_faults(model + R"("unique_id": "+0112233445566778899AABBccddeeff")"), "32"));
+  CHECK(has(servo_faults(model + R"("servo_id": 255)"), "/servos/0/servo_id"));
+  CHECK(has(servo_faults(model + R"("name": "")"), "/servos/0/name: a node name has"));
+  CHECK(has(servo_faults(model + R"("answer_delay": "2min")"), "/servos/0/answer_delay"));
+  CHECK(has(servo_faults(model + R"("answer_delay": "11s")"), "0 s to 10 s"));
+  CHECK(has(servo_faults(model + R"("answer_delay": true)"), "a number or a string"));
+  CHECK(has(servo_faults(model + R"("behaviour": {"out_of_range": "wrap"})"),
+            "/servos/0/behaviour/out_of_range"));
+  CHECK(has(servo_faults(model + R"("faults": {"lose_responses": -1})"),
+            "/servos/0/faults/lose_responses"));
+  CHECK(has(servo_faults(model + R"("faults": {"loose_responses": 1})"),
+            "/servos/0/faults/loose_responses"));
+}
+
+TEST_CASE("faulty values of registers are named by their key") {
+  const auto ram = [](std::string_view member) {
+    return servo_faults(fmt::format(R"("model": "BLA21-12U-AB", "ram": {{{}}})", member));
+  };
+  CHECK(has(ram(R"("angle_limit": 1)"), "/servos/0/ram/angle_limit: "));
+  CHECK(has(ram(R"("angle_limit_cw": 90)"), "/servos/0/ram/angle_limit_cw: ")); // tenths: a unit
+  CHECK(has(ram(R"("angle_limit_cw": "-1deg")"), "/servos/0/ram/angle_limit_cw: "));
+  CHECK(has(ram(R"("torque_output": "loose")"), "/servos/0/ram/torque_output: "));
+  CHECK(has(ram(R"("torque_output": null)"), "a number or a string"));
+  CHECK(has(ram(R"("servo_id": 3)"), "is set by the key \"servo_id\""));
+  CHECK(has(ram(R"("0x46": 3)"), "is set by the key \"node_id\""));
+  CHECK(has(ram(R"("write_rom": 1)"), "holds no value"));
+  CHECK(has(ram(R"("fault_summary": 1)"), "holds no value"));
+  CHECK(has(ram(R"("pwm_output_range": "60rpm")"), "pwm_mode=1; this servo has pwm_mode=0"));
+}
+
+TEST_CASE("0x36 in rpm goes with the 0x37 of the same servo, wherever that stands") {
+  const ServoSetup servo = testing::servo_setup(
+      R"("model": "BLA21-12U-AB", "ram": {"pwm_output_range": "60rpm", "pwm_mode": "speed"})");
+  CHECK(servo.ram.at(0).second == 60);
+}
+
+TEST_CASE("faulty foreign nodes are told what is wrong with them") {
+  const auto foreign = [](std::string_view members) {
+    return faults(
+        fmt::format("{{\"schema\": \"blactl-scenario/1\", \"foreign\": [{{{}}}]}}", members));
+  };
+  CHECK(has(foreign(R"("kind": "radio", "node_id": 1)"), "/foreign/0/kind"));
+  CHECK(has(foreign(R"("kind": "node")"), "node_id"));
+  CHECK(has(foreign(R"("kind": "node", "node_id": 0)"), "/foreign/0/node_id"));
+  CHECK(has(foreign(R"("kind": "node", "node_id": 1, "commands": {"servo_ids": []})"), "1 to 15"));
+  CHECK(has(foreign(R"("kind": "node", "node_id": 1, "commands": {"servo_ids": [256]})"),
+            "/foreign/0/commands/servo_ids/0"));
+  CHECK(has(foreign(R"("kind": "node", "node_id": 1, "commands": {"servo_ids": [1], "rate": 0})"),
+            "/foreign/0/commands/rate"));
+}
+
+TEST_CASE("what is no scenario at all is said to be none") {
+  CHECK(has(faults("["), "line.json:1"));
+  CHECK(has(faults("[]"), "line.json:1"));
+  CHECK(has(faults(R"({"schema": "blactl-fleet/1"})"), "/schema"));
+  const auto absent = read_scenario("/nonexistent/scenario.json", testing::profiles());
+  REQUIRE_FALSE(absent);
+  CHECK(absent.error().code == Code::bad_file);
+}

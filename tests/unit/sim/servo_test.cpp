@@ -1,0 +1,298 @@
+#include "blactl/sim/servo.hpp"
+
+#include "unit/sim/support.hpp"
+
+#include <limits>
+#include <memory>
+
+using namespace blactl;
+using namespace blactl::sim;
+using namespace std::chrono_literals;
+using dronecan::GetSet;
+using testing::Bench;
+using testing::frame;
+using testing::servo_setup;
+
+using Frames = std::vector<std::string>;
+
+namespace {
+
+using Numbers = std::initializer_list<std::uint8_t>;
+
+constexpr const char* bla21 = R"("model": "BLA21-12U-AB", "node_id": 11, "servo_id": 1,
+    "unique_id": "00112233445566778899aabbccddeeff", "answer_delay": 0)";
+
+/// One servo on the bench, running.
+struct Rig {
+  explicit Rig(const std::string& members, Duration settle = 200ms)
+      : servo(servo_setup(members), 1, Time{}), bench(servo) {
+    heard = bench.run(settle);
+  }
+
+  Frames get_set(std::uint16_t index, GetSet::Value value, std::string name) {
+    const GetSet::Request request{index, std::move(value), std::move(name)};
+    id = static_cast<dronecan::TransferId>((id + 1) % dronecan::transfer_id_modulus);
+    return bench.ask(testing::request(GetSet::type, request, servo.node_id().value(), id));
+  }
+
+  /// The value of the answer; Empty for a failure. There must be an answer.
+  GetSet::Response answered(const Frames& frames) {
+    std::vector<std::uint8_t> payload;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      const can::Frame one = frame(frames[i]);
+      const std::size_t skip = i == 0 && frames.size() > 1 ? 2 : 0; // the transfer CRC
+      payload.insert(payload.end(), one.data.begin() + static_cast<std::ptrdiff_t>(skip),
+                     one.data.begin() + one.size - 1);
+    }
+    const auto response = GetSet::Response::decode(payload);
+    REQUIRE(response);
+    return *response;
+  }
+
+  Servo servo;
+  Bench bench;
+  std::vector<can::Frame> heard; ///< while it settled
+  dronecan::TransferId id = 0;
+};
+
+/// The frames of one data type among `frames`.
+std::vector<can::Frame> only(const std::vector<can::Frame>& frames, std::uint16_t type) {
+  std::vector<can::Frame> out;
+  for (const can::Frame& one : frames) {
+    const auto header = dronecan::decode_id(one.id);
+    if (header && header->kind == dronecan::Kind::message && header->data_type_id == type) {
+      out.push_back(one);
+    }
+  }
+  return out;
+}
+
+bool failed(const GetSet::Response& response) {
+  return std::holds_alternative<GetSet::Empty>(response.value);
+}
+
+} // namespace
+
+TEST_CASE("requirements 66, 70: a read is answered with the value and the name, 16 bytes") {
+  Rig rig(bla21);
+  CHECK(rig.bench.ask({frame("1E0B8BFF#000030783338C5")}) ==
+        Frames{"1E0B7F8B#6D4C010707000085", "1E0B7F8B#0000000000000025", "1E0B7F8B#3078333845"});
+}
+
+TEST_CASE("requirement 84: negative values are sign-extended to 64 bits") {
+  Rig rig(bla21);
+  CHECK(rig.bench.ask({frame("1E0B8BFF#000030783339C5")}) ==
+        Frames{"1E0B7F8B#FEF601F8F8FFFF85", "1E0B7F8B#FFFFFFFF00000025", "1E0B7F8B#3078333945"});
+}
+
+TEST_CASE("requirement 70: a write is answered with the value that is true afterwards") {
+  Rig rig(bla21);
+  CHECK(rig.bench.ask({frame("1E0B8BFF#B477000184030086"), frame("1E0B8BFF#0000000000307826"),
+                       frame("1E0B8BFF#333846")}) ==
+        Frames{"1E0B7F8B#FF06018403000086", "1E0B7F8B#0000000000000026", "1E0B7F8B#3078333846"});
+  CHECK(rig.servo.registers().value(bla::address::angle_limit_cw) == 900);
+}
+
+TEST_CASE("requirement 78: the answer to a value out of range has the old value") {
+  Rig rig(bla21);
+  const auto response = rig.answered(rig.get_set(0, std::int64_t{-5}, "0x38"));
+  CHECK(response.value == GetSet::Value(std::int64_t{1799}));
+}
+
+TEST_CASE("requirements 71, 74: a failure is tag 0 without a name, 4 bytes") {
+  Rig rig(bla21);
+  CHECK(rig.bench.ask({frame("1E0B8BFF#000030783033C5")}) == Frames{"1E0B7F8B#00000000C5"});
+}
+
+TEST_CASE("a servo may send the name with a failure") {
+  Rig rig(bla21 + std::string(R"(, "behaviour": {"failure_with_name": true})"));
+  const auto response = rig.answered(rig.get_set(0, {}, "0x03"));
+  CHECK(failed(response));
+  CHECK(response.name == "0x03");
+}
+
+TEST_CASE("requirement 67: the name is 0x and two upper-case hexadecimal digits, nothing else") {
+  Rig rig(bla21);
+  CHECK_FALSE(failed(rig.answered(rig.get_set(0, {}, "0x2A"))));
+  for (const char* wrong :
+       {"0x2a", "0X2A", "2A", "0x2A ", "0x002A", "0x+1", "0x2", "0xGG", "\xff"}) {
+    INFO(wrong);
+    CHECK(failed(rig.answered(rig.get_set(0, {}, wrong))));
+  }
+}
+
+TEST_CASE("requirement 69: a name wins over an index, an index alone is an address") {
+  Rig rig(bla21);
+  CHECK(rig.answered(rig.get_set(0x39, {}, "0x38")).name == "0x38");
+  const auto by_index = rig.answered(rig.get_set(0x38, {}, ""));
+  CHECK(by_index.name == "0x38");
+  CHECK(by_index.value == GetSet::Value(std::int64_t{1799}));
+  CHECK(failed(rig.answered(rig.get_set(0x138, {}, "")))); // 13 bits, not 8
+  Rig without(bla21 + std::string(R"(, "behaviour": {"index_only_access": false})"));
+  CHECK(failed(without.answered(without.get_set(0x38, {}, ""))));
+  CHECK_FALSE(failed(without.answered(without.get_set(0, {}, "0x38"))));
+}
+
+TEST_CASE("requirement 75: reals, booleans and strings are refused") {
+  Rig rig(bla21);
+  for (const GetSet::Value& value :
+       {GetSet::Value(900.0F), GetSet::Value(true), GetSet::Value(std::string("900"))}) {
+    CHECK(failed(rig.answered(rig.get_set(0, value, "0x38"))));
+  }
+  CHECK(rig.servo.registers().value(bla::address::angle_limit_cw) == 1799);
+}
+
+TEST_CASE("requirement 8: unlisted services get no answer, nor do those that come later") {
+  Rig rig(bla21);
+  CHECK(rig.bench.ask({frame("1E048BFF#C1")}).empty()); // GetTransportStats
+  CHECK(rig.bench.ask({frame("1E0A8BFF#00000000000000C1")}).empty());
+  CHECK(rig.bench.ask({frame("1E058BFF#1E1B55CEACC1")}).empty());
+  CHECK(rig.get_set(0, std::int64_t{1}, "0x12").empty());
+}
+
+TEST_CASE("requests for other nodes and repeated transfer IDs are not answered") {
+  Rig rig(bla21);
+  CHECK(rig.bench.ask({frame("1E0B8CFF#000030783338C5")}).empty());
+  CHECK(rig.bench.ask({frame("1E0B8BFF#000030783338C5")}).size() == 3);
+  CHECK(rig.bench.ask({frame("1E0B8BFF#000030783338C5")}).empty());
+  CHECK(rig.bench.ask({frame("1E0B8BFF#000030783338C6")}).size() == 3);
+  rig.bench.run(3s);
+  CHECK(rig.bench.ask({frame("1E0B8BFF#000030783338C6")}).size() == 3); // forgotten after 2 s
+}
+
+TEST_CASE("requirement 11: a write with a bad CRC is dropped") {
+  Rig rig(bla21);
+  CHECK(rig.bench
+            .ask({frame("1E0B8BFF#B577000184030086"), frame("1E0B8BFF#0000000000307826"),
+                  frame("1E0B8BFF#333846")})
+            .empty());
+  CHECK(rig.servo.registers().value(bla::address::angle_limit_cw) == 1799);
+}
+
+TEST_CASE("requirements 15, 16: GetNodeInfo, with and without the stray byte of table 2-5") {
+  Rig rig(bla21);
+  rig.bench.run(2s);
+  const Frames info{
+      "1E017F8B#0AA1020000000082", "1E017F8B#0000012800000022", "1E017F8B#0000000000000002",
+      "1E017F8B#0000000C05001122", "1E017F8B#2233445566778802", "1E017F8B#99AABBCCDDEEFF22",
+      "1E017F8B#006A702E636F2E02", "1E017F8B#6675746162612E22", "1E017F8B#626C61323142"};
+  CHECK(rig.bench.ask({frame("1E018BFF#C2")}) == info);
+  rig.bench.ask({frame("1E018BFF#C1")});
+  CHECK(rig.bench.ask({frame("1E018BFF#00C2")}) == info);
+}
+
+TEST_CASE("requirements 3, 17, 24: NodeStatus every second at priority 16, with the uptime") {
+  Rig rig(bla21, 0ms);
+  const auto statuses = only(rig.bench.run(3400ms), dronecan::NodeStatus::type.id);
+  REQUIRE(statuses.size() == 4);
+  CHECK(testing::text(statuses[0]) == "1001550B#00000000000000C0");
+  CHECK(testing::text(statuses[3]) == "1001550B#03000000000000C3");
+}
+
+TEST_CASE("requirements 21, 22: health follows the warning and failure bits, failure first") {
+  const auto first_status = [](const char* ram) {
+    Rig rig(bla21 + fmt::format(R"(, "ram": {{{}}})", ram));
+    return only(rig.heard, dronecan::NodeStatus::type.id).at(0).data[4] >> 6U;
+  };
+  CHECK(first_status(R"("fault_notice": 256)") == 0);
+  CHECK(first_status(R"("fault_warning": 2048)") == 1);
+  CHECK(first_status(R"("fault_failure": 1)") == 2);
+  CHECK(first_status(R"("fault_warning": 2048, "fault_failure": 1)") == 2);
+}
+
+TEST_CASE("requirements 4, 108: actuator.Status every 100 ms, degrees / 100, the rest unused") {
+  Rig rig(bla21 + std::string(R"(, "ram": {"current_angle": "45deg"})"), 0ms);
+  const auto frames = only(rig.bench.run(1150ms), dronecan::ActuatorStatus::type.id);
+  REQUIRE(frames.size() == 2 * 11); // it boots in 50 to 150 ms
+  CHECK(testing::text(frames[0]) == "1003F30B#888F013337FF7F80");
+  CHECK(testing::text(frames[1]) == "1003F30B#FF7F7F60");
+}
+
+TEST_CASE("requirement 178: a changed 0x46 has no effect while the servo runs") {
+  Rig rig(bla21);
+  CHECK_FALSE(failed(rig.answered(rig.get_set(0, std::int64_t{40}, "0x46"))));
+  CHECK(rig.servo.node_id() == dronecan::NodeId(11));
+  CHECK(rig.answered(rig.get_set(0, {}, "0x46")).value == GetSet::Value(std::int64_t{40}));
+}
+
+TEST_CASE("requirement 95: serial number, firmware and hardware are those of the setup") {
+  Rig rig(bla21 + std::string(R"(, "serial_number": 240900558, "firmware_version": 1300,
+                                   "hardware_version": 12345, "model_number": 99)"));
+  const auto value = [&](const char* name) {
+    return std::get<std::int64_t>(rig.answered(rig.get_set(0, {}, name)).value);
+  };
+  CHECK(value("0x50") == 99);
+  CHECK(value("0x51") == 240900558);
+  CHECK(value("0x52") == 1300);
+  CHECK(value("0x53") == 12345);
+}
+
+TEST_CASE("answers come after the answer delay, one after the other") {
+  Rig rig(R"("model": "BLA15-06U-A0", "node_id": 11, "answer_delay": "2ms")");
+  const auto request = frame("1E0B8BFF#000030783338C5");
+  CHECK(rig.bench.ask({request}, 1900us).empty());
+  CHECK(rig.bench.ask({}, 200us).size() == 3);
+}
+
+TEST_CASE("the first answers can be lost, and a mute servo never answers") {
+  Rig rig(bla21 + std::string(R"(, "faults": {"lose_responses": 2})"));
+  CHECK(rig.get_set(0, {}, "0x38").empty());
+  CHECK(rig.get_set(0, {}, "0x38").empty());
+  CHECK(rig.get_set(0, {}, "0x38").size() == 3);
+  Rig mute(bla21 + std::string(R"(, "faults": {"mute": true})"));
+  CHECK(mute.get_set(0, std::int64_t{900}, "0x38").empty());
+  CHECK(mute.servo.registers().value(bla::address::angle_limit_cw) == 900); // it did hear
+  CHECK_FALSE(only(mute.heard, dronecan::ActuatorStatus::type.id).empty());
+}
+
+TEST_CASE("requirements 27, 30: without a static ID the servo asks, anonymously, at priority 24") {
+  Rig rig(R"("model": "BLA21-12U-AB", "unique_id": "00112233445566778899AABBCCDDEEFF")", 0ms);
+  const auto frames = rig.bench.run(1200ms);
+  REQUIRE(frames.size() == 1);
+  const auto header = dronecan::decode_id(frames[0].id);
+  REQUIRE(header);
+  CHECK(header->priority == 24);
+  CHECK(header->source == dronecan::anonymous);
+  CHECK(header->data_type_id == dronecan::Allocation::type.id);
+  CHECK(testing::text(frames[0]).substr(8) == "#01001122334455C0");
+}
+
+TEST_CASE("requirement 28: until an ID is assigned nothing else works") {
+  Rig rig(R"("model": "BLA21-12U-AB")", 0ms);
+  for (std::uint8_t id = 1; id < 127; ++id) {
+    const can::Frame info =
+        testing::request(dronecan::GetNodeInfo::type, dronecan::GetNodeInfo::Request{}, id, 0)
+            .front();
+    CHECK(rig.bench.ask({info}).empty());
+  }
+  for (const can::Frame& one : rig.bench.run(5s)) {
+    CHECK(dronecan::decode_id(one.id)->source == dronecan::anonymous);
+  }
+}
+
+TEST_CASE("requirements 35, 39, 40: the third answer assigns the ID, which 0x46 does not keep") {
+  Rig rig(R"("model": "BLA21-12U-AB", "answer_delay": 0,
+             "unique_id": "00112233445566778899aabbccddeeff")",
+          0ms);
+  dronecan::TransferId id = 0;
+  for (const std::uint8_t size : Numbers{6, 12, 16}) {
+    while (rig.bench.run(1ms).empty()) {
+    }
+    dronecan::Allocation answer;
+    answer.node_id = size == 16 ? 125 : 0;
+    answer.size = size;
+    answer.unique_id = servo_setup(R"("model": "BLA21-12U-AB",
+        "unique_id": "00112233445566778899aabbccddeeff")")
+                           .unique_id;
+    const dronecan::Header header{dronecan::Kind::message, 24, dronecan::Allocation::type.id,
+                                  dronecan::NodeId(127),   {}, 0};
+    rig.bench.deliver(dronecan::segment(header, id++, dronecan::Allocation::type.signature,
+                                        answer.encode().bytes()));
+  }
+  CHECK(rig.servo.node_id() == dronecan::NodeId(125));
+  const auto frames = rig.bench.run(100ms);
+  REQUIRE_FALSE(only(frames, dronecan::NodeStatus::type.id).empty());
+  CHECK((only(frames, dronecan::NodeStatus::type.id)[0].data[4] >> 3U & 7U) == 0);
+  CHECK_FALSE(only(frames, dronecan::ActuatorStatus::type.id).empty());
+  CHECK(rig.answered(rig.get_set(0, {}, "0x46")).value == GetSet::Value(std::int64_t{0}));
+}

@@ -1,0 +1,190 @@
+#include "blactl/sim/simulator.hpp"
+
+#include "unit/sim/support.hpp"
+
+#include <map>
+
+using namespace blactl;
+using namespace blactl::sim;
+using namespace std::chrono_literals;
+using testing::scenario;
+
+namespace {
+
+/// Hears everything.
+struct Log final : Medium::Listener {
+  void heard(const can::Frame& frame, Time at) override {
+    lines.push_back(fmt::format("{:06} {}", at.time_since_epoch().count(), testing::text(frame)));
+    frames.push_back(frame);
+  }
+
+  void sent(const can::Frame& frame, Time at) override {
+    lines.push_back(
+        fmt::format("{:06} sent {}", at.time_since_epoch().count(), testing::text(frame)));
+  }
+
+  void bus_off(Time) override {}
+
+  std::vector<std::string> lines;
+  std::vector<can::Frame> frames;
+};
+
+std::vector<std::string> run(const Scenario& what, Duration duration) {
+  Simulator simulator(what, Time{});
+  Log log;
+  (void)simulator.attach(log, 10);
+  simulator.advance_to(Time{} + duration);
+  return log.lines;
+}
+
+constexpr std::string_view mixed = R"("seed": {}, "servos": [
+    {{"model": "BLA21-12U-AB", "node_id": 11}}, {{"model": "BLA15-06U-A0"}},
+    {{"model": "BLA34-28U-AB"}}, {{"model": "BLA21-06U-A0", "node_id": 12}}])";
+
+/// Frames of one data type, by source.
+std::map<int, int> count(const std::vector<can::Frame>& frames, std::uint16_t type) {
+  std::map<int, int> counts;
+  for (const can::Frame& frame : frames) {
+    const auto header = dronecan::decode_id(frame.id);
+    if (header && header->kind == dronecan::Kind::message && header->data_type_id == type) {
+      ++counts[header->source.value()];
+    }
+  }
+  return counts;
+}
+
+} // namespace
+
+TEST_CASE("the same seed gives the same frames to the microsecond, another one others") {
+  const auto first = run(scenario(fmt::format(mixed, 3)), 10s);
+  CHECK(first.size() > 400);
+  CHECK(first == run(scenario(fmt::format(mixed, 3)), 10s));
+  CHECK(first != run(scenario(fmt::format(mixed, 4)), 10s));
+}
+
+TEST_CASE("time that passes in small steps brings the same as in one") {
+  Simulator simulator(scenario(fmt::format(mixed, 3)), Time{});
+  Log log;
+  (void)simulator.attach(log, 10);
+  for (Time at{}; at <= Time{} + 3s; at += 37us) {
+    simulator.advance_to(at);
+  }
+  simulator.advance_to(Time{} + 3s);
+  CHECK(log.lines == run(scenario(fmt::format(mixed, 3)), 3s));
+}
+
+TEST_CASE("eight servos load the bus by about 2 percent") {
+  std::string servos;
+  for (int id = 1; id <= 8; ++id) {
+    servos += fmt::format(R"({}{{"model": "BLA21-12U-AB", "node_id": {}}})", id > 1 ? "," : "", id);
+  }
+  Simulator simulator(scenario(R"("servos": [)" + servos + "]"), Time{});
+  Log log;
+  (void)simulator.attach(log, 10);
+  simulator.advance_to(Time{} + 10s);
+  const auto& counters = simulator.medium().counters();
+  CHECK(counters.busy > 190ms);
+  CHECK(counters.busy < 215ms);
+  CHECK(counters.collisions == 0);
+  CHECK(counters.frames == log.frames.size());
+}
+
+TEST_CASE("a client asks a servo and hears its own frame and the answer") {
+  Simulator simulator(scenario(R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11,
+                                              "answer_delay": "2ms"}])"),
+                      Time{});
+  Log log;
+  const auto port = simulator.attach(log, 10);
+  simulator.advance_to(Time{} + 250ms);
+  log.lines.clear();
+  const auto request = testing::frame("1E0B8BFF#000030783338C5");
+  CHECK(simulator.send(port, request));
+  simulator.advance_to(Time{} + 254ms);
+  REQUIRE(log.lines.size() >= 4);
+  CHECK(log.lines[0].find("sent 1E0B8BFF#000030783338C5") != std::string::npos);
+  const auto answered = std::ranges::count_if(log.lines, [](const std::string& line) {
+    return line.find("1E0B7F8B#") != std::string::npos;
+  });
+  CHECK(answered == 3);
+}
+
+TEST_CASE("alone among servos that have all powered on, and alone without any") {
+  Simulator simulator(scenario(R"("servos": [])"), Time{});
+  Log log;
+  const auto port = simulator.attach(log, 10);
+  CHECK(simulator.send(port, testing::frame("1E018BFF#C2")));
+  CHECK(simulator.next_event() == never);
+  simulator.advance_to(Time{} + 10s);
+  CHECK(log.lines.empty());
+}
+
+TEST_CASE("two servos with one node ID both show themselves") {
+  Simulator simulator(scenario(R"("servos": [
+      {"model": "BLA21-12U-AB", "node_id": 11, "servo_id": 1},
+      {"model": "BLA15-06U-A0", "node_id": 11, "servo_id": 2}])"),
+                      Time{});
+  Log log;
+  (void)simulator.attach(log, 10);
+  simulator.advance_to(Time{} + 2s);
+  CHECK(count(log.frames, dronecan::NodeStatus::type.id)[11] == 4);
+}
+
+TEST_CASE("both servos of one node ID answer, although their frames collide") {
+  Simulator simulator(scenario(R"("servos": [
+      {"model": "BLA21-12U-AB", "node_id": 11, "answer_delay": 0},
+      {"model": "BLA15-06U-A0", "node_id": 11, "answer_delay": 0}])"),
+                      Time{});
+  Log log;
+  const auto port = simulator.attach(log, 10);
+  simulator.advance_to(Time{} + 250ms);
+  log.frames.clear();
+  simulator.send(port, testing::frame("1E018BFF#C2")); // GetNodeInfo
+  simulator.advance_to(Time{} + 300ms);
+  std::size_t answers = 0;
+  for (const can::Frame& frame : log.frames) {
+    const bool first = frame.id == 0x1E017F8B && (frame.payload().back() & 0x80U) != 0;
+    answers += first ? 1U : 0U;
+  }
+  CHECK(simulator.medium().counters().collisions > 0);
+  CHECK(answers == 2);
+}
+
+TEST_CASE("a foreign node sends NodeStatus, commands and arming, and tells who it is") {
+  Simulator simulator(scenario(R"("foreign": [{"kind": "node", "node_id": 30,
+      "name": "org.example.fc", "serves_get_set": true, "armed": true,
+      "commands": {"servo_ids": [1, 2], "type": 1, "value": 0.45, "rate": 50}}])"),
+                      Time{});
+  Log log;
+  const auto port = simulator.attach(log, 10);
+  simulator.advance_to(Time{} + 1990ms);
+  CHECK(count(log.frames, dronecan::NodeStatus::type.id)[30] == 2);
+  CHECK(count(log.frames, dronecan::ArrayCommand::type.id)[30] == 200); // two frames each
+  CHECK(count(log.frames, dronecan::ArmingStatus::type.id)[30] == 2);
+  const auto arming = std::ranges::find_if(log.frames, [](const can::Frame& frame) {
+    return frame.id == (20U << 24U | 1100U << 8U | 30U);
+  });
+  REQUIRE(arming != log.frames.end());
+  CHECK(arming->data[0] == 255);
+
+  log.frames.clear();
+  simulator.send(port, testing::frame("1E0B9EFF#000030783338C1"));
+  simulator.send(port, testing::frame("1E019EFF#C1"));
+  simulator.advance_to(Time{} + 2010ms);
+  const auto holds = [&](std::string_view text) {
+    return std::ranges::any_of(log.frames, [&](const can::Frame& frame) {
+      return testing::text(frame).starts_with(text);
+    });
+  };
+  CHECK(holds("1E0B7F9E#00000000C1")); // no such parameter
+  CHECK(holds("1E017F9E#"));
+}
+
+TEST_CASE("without serves_get_set a foreign node leaves GetSet unanswered") {
+  Simulator simulator(scenario(R"("foreign": [{"kind": "node", "node_id": 30}])"), Time{});
+  Log log;
+  const auto port = simulator.attach(log, 10);
+  simulator.send(port, testing::frame("1E0B9EFF#000030783338C1"));
+  simulator.advance_to(Time{} + 900ms);
+  CHECK(std::ranges::none_of(log.frames,
+                             [](const can::Frame& frame) { return frame.id == 0x1E0B7F9E; }));
+}
