@@ -243,10 +243,9 @@ Result<Document> parse(std::string_view text, std::string file) {
                 say<texts::file_hint>());
   }
   Builder builder(text, std::move(file));
-  const char* const end = text.data() + text.size();
-  const bool complete =
-      nlohmann::json::sax_parse(CountingIterator(text.data(), builder.reached()),
-                                CountingIterator(end, builder.reached()), &builder);
+  const CountingIterator begin(std::to_address(text.begin()), builder.reached());
+  const CountingIterator end(std::to_address(text.end()), builder.reached());
+  const bool complete = nlohmann::json::sax_parse(begin, end, &builder);
   // The parser takes a zero byte for the end of the file, and would ignore what follows it.
   if (complete && text.find('\0') != std::string_view::npos) {
     builder.stop(say<texts::json_zero_byte>());

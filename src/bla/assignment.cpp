@@ -3,7 +3,10 @@
 #include "blactl/base/text.hpp"
 #include "blactl/bla/texts.hpp"
 
+#include "bla/words.hpp"
+
 #include <algorithm>
+#include <utility>
 
 namespace blactl::bla {
 namespace {
@@ -32,25 +35,18 @@ Result<void> check_access(const Parameter& parameter) {
   return {};
 }
 
-/// 0x36 in deg or rpm must be what a 0x37 beside it makes of it.
-Result<void> check_pwm_unit(std::span<const Assignment> assignments) {
+/// Checks 0x36 against a 0x37 beside it.
+Result<void> check_pwm_pair(const Profiles& profiles, std::span<const Assignment> assignments) {
   const auto by_address = [&](Address address) {
     return std::ranges::find_if(
         assignments, [&](const Assignment& each) { return each.parameter->address == address; });
   };
   const auto range = by_address(address::pwm_output_range);
   const auto mode = by_address(address::pwm_mode);
-  if (range == assignments.end() || mode == assignments.end() ||
-      range->value.pwm_mode.value_or(mode->value.raw) == mode->value.raw) {
+  if (range == assignments.end() || mode == assignments.end()) {
     return {};
   }
-  const std::string_view unit = unit_text(*range->parameter, mode->value.raw);
-  return fail(
-      Code::usage,
-      say<texts::pwm_unit_against_mode>(printable(range->text), printable(mode->text), unit),
-      say<texts::assignment_example>(
-          range->parameter->name + '=' +
-          input_text(*range->parameter, range->value.raw, mode->value.raw)));
+  return check_pwm_unit(profiles, *range, mode->value.raw);
 }
 
 } // namespace
@@ -67,13 +63,36 @@ Result<void> never_sent(const Parameter& parameter, std::int64_t raw) {
   return {};
 }
 
+Result<void> check_pwm_unit(const Profiles& profiles, const Assignment& assignment,
+                            std::int64_t pwm_mode) {
+  if (assignment.value.pwm_mode.value_or(pwm_mode) == pwm_mode) {
+    return {};
+  }
+  const Parameter& range = *assignment.parameter;
+  const Parameter& mode = *profiles.find(address::pwm_mode);
+  return fail(Code::usage,
+              say<texts::pwm_unit_against_mode>(printable(assignment.text),
+                                                mode.name + '=' + input_text(mode, pwm_mode),
+                                                unit_text(range, pwm_mode)),
+              say<texts::assignment_example>(range.name + '=' +
+                                             input_text(range, assignment.value.raw, pwm_mode)));
+}
+
 Result<void> allowed_by_some_model(const Profiles& profiles, const Parameter& parameter,
                                    std::int64_t raw) {
+  std::vector<std::string> ranges;
   for (const Profile& profile : profiles.all()) {
     const Parameter* one = profile.find(parameter.address);
-    const bool written = one != nullptr && (one->group != Group::pwm || profile.pwm);
-    if (written && check_range(*one, raw)) {
+    if (one == nullptr || !one->min || !one->max || (one->group == Group::pwm && !profile.pwm)) {
+      continue;
+    }
+    if (check_range(*one, raw)) {
       return {};
+    }
+    std::string range =
+        say<texts::value_one_range>(input_text(*one, *one->min), input_text(*one, *one->max));
+    if (std::ranges::find(ranges, range) == ranges.end()) {
+      ranges.push_back(std::move(range));
     }
   }
   if (auto inside = check_range(parameter, raw); !inside) {
@@ -81,7 +100,7 @@ Result<void> allowed_by_some_model(const Profiles& profiles, const Parameter& pa
   }
   return fail(Code::out_of_range,
               say<texts::value_in_a_gap>(parameter.name + '=' + input_text(parameter, raw)),
-              say<texts::parameter_list>());
+              say<texts::value_ranges_hint>(either(ranges)));
 }
 
 Result<Assignment> make_assignment(const Profiles& profiles, std::string_view parameter,
@@ -138,7 +157,7 @@ Result<std::vector<Assignment>> parse_assignments(const Profiles& profiles,
     }
     assignments.push_back(std::move(*assignment));
   }
-  if (auto fits = check_pwm_unit(assignments); !fits) {
+  if (auto fits = check_pwm_pair(profiles, assignments); !fits) {
     return std::unexpected(std::move(fits.error()));
   }
   return assignments;

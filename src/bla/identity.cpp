@@ -103,7 +103,7 @@ std::string Identity::model() const {
   if (candidates_.empty()) {
     return {};
   }
-  const std::string series = shared(candidates_, &Profile::series);
+  std::string series = shared(candidates_, &Profile::series);
   const std::string voltage_class = shared(candidates_, &Profile::voltage_class);
   if (series.empty() || voltage_class.empty() || !class_known_) {
     return series;

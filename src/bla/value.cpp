@@ -115,6 +115,7 @@ std::int64_t with_sign(const Number& number, std::int64_t magnitude) {
 /// "on (0), off (1) or brake (2)".
 std::string list_choices(const Parameter& parameter) {
   std::vector<std::string> words;
+  words.reserve(parameter.choices.size());
   for (const Choice& choice : parameter.choices) {
     words.push_back(fmt::format("{} ({})", choice.word, choice.raw));
   }
@@ -264,6 +265,7 @@ class ValueParser {
       return fail(Code::usage, say<texts::value_has_no_unit>(assignment()), example());
     }
     std::vector<std::string> names;
+    names.reserve(units.size());
     for (const TypedUnit& unit : units) {
       names.emplace_back(unit.name);
     }

@@ -37,6 +37,11 @@ make_assignment(const Profiles& profiles, std::string_view parameter, std::strin
 [[nodiscard]] Result<std::vector<Assignment>> parse_assignments(const Profiles& profiles,
                                                                 std::span<const std::string> texts);
 
+/// Whether an assigned 0x36 is in the unit that `pwm_mode`, the 0x37 of the same command or of the
+/// servo, makes of it. Errors: usage.
+[[nodiscard]] Result<void> check_pwm_unit(const Profiles& profiles, const Assignment& assignment,
+                                          std::int64_t pwm_mode);
+
 /// Whether some model takes `raw`. Errors: out_of_range, naming the range over all models.
 [[nodiscard]] Result<void> allowed_by_some_model(const Profiles& profiles,
                                                  const Parameter& parameter, std::int64_t raw);

@@ -42,8 +42,10 @@ inline constexpr Text value_beyond_64_bits{"{}: larger than any register",
 inline constexpr Text value_out_of_range{"{}: outside of the range {} to {}",
                                          "{}: 設定範囲 {} ～ {} の外です"};
 inline constexpr Text value_only_one{"{}: only {} is possible", "{}: 設定できる値は {} だけです"};
-inline constexpr Text value_in_a_gap{"{}: no model takes this value",
-                                     "{}: この値を設定できる機種はありません"};
+inline constexpr Text value_in_a_gap{"{}: outside of the ranges of all models",
+                                     "{}: どの機種の設定範囲にもありません"};
+inline constexpr Text value_one_range{"{} to {}", "{} ～ {}"};
+inline constexpr Text value_ranges_hint{"the models take {}", "各機種の設定範囲: {}"};
 inline constexpr Text value_range_hint{"type a value from {} to {}",
                                        "{} ～ {} の値を入力して下さい"};
 inline constexpr Text value_not_active{"not active", "無効 (他種の指令中)"};

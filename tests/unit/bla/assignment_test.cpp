@@ -89,7 +89,9 @@ TEST_CASE("a gap between the ranges of the models is outside of all of them") {
   CHECK(parse_assignment(built_in(), "voltage_limit_high=28.0V"));
   CHECK(refused("voltage_limit_high=25.0V").code == Code::out_of_range);
   CHECK(refused("voltage_limit_high=25.0V").message ==
-        "voltage_limit_high=25.0V: no model takes this value");
+        "voltage_limit_high=25.0V: outside of the ranges of all models");
+  CHECK(refused("voltage_limit_high=25.0V").hint ==
+        "the models take 7.4V to 12.0V, 12.0V to 24.0V, 28.0V to 50.0V or 28.0V to 40.0V");
 }
 
 TEST_CASE("the node IDs of tools and the dummy of 0x00-0x02 are never assigned") {
@@ -120,6 +122,11 @@ TEST_CASE("0x36 must fit the 0x37 beside it, in either order") {
   CHECK(wrong.error().code == Code::usage);
   CHECK(wrong.error().message == "pwm_output_range=70deg: with pwm_mode=speed the unit is rpm");
   CHECK_FALSE(all({"pwm_output_range=150rpm", "0x37=0"}));
+  const auto alone = parse_assignment(built_in(), "pwm_output_range=150rpm");
+  REQUIRE(alone);
+  CHECK(check_pwm_unit(built_in(), *alone, 1));
+  CHECK(check_pwm_unit(built_in(), *alone, 0).error().message ==
+        "pwm_output_range=150rpm: with pwm_mode=angle the unit is deg");
 }
 
 TEST_CASE("the first refusal ends the reading") {
