@@ -10,14 +10,12 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <system_error>
 
 namespace blactl::can {
 
-using namespace std::chrono_literals;
 using sim_wire::Kind;
 using sim_wire::Message;
 
@@ -31,7 +29,7 @@ std::string reason(int error) {
 }
 
 std::unexpected<Error> absent(const std::filesystem::path& path, int error) {
-  return fail(Code::interface, say<texts::simbus_absent>(path.string(), reason(error)),
+  return fail(Code::interface, say<texts::simbus_absent>(printable(path.string()), reason(error)),
               say<texts::simbus_absent_hint>());
 }
 
@@ -41,7 +39,7 @@ Result<int> connect_to(const std::filesystem::path& path) {
   const std::string name = path.string();
   if (name.size() >= sizeof address.sun_path) {
     return fail(Code::interface,
-                say<texts::simbus_path_too_long>(name, sizeof address.sun_path - 1));
+                say<texts::simbus_path_too_long>(printable(name), sizeof address.sun_path - 1));
   }
   address.sun_family = AF_UNIX;
   name.copy(address.sun_path, name.size());
@@ -79,7 +77,7 @@ Result<std::unique_ptr<SimBus>> SimBus::open(const std::filesystem::path& socket
   const auto folder = socket.parent_path();
   if (socket == default_socket_path() && std::filesystem::exists(folder) &&
       !is_own_folder(folder)) {
-    return fail(Code::interface, say<texts::simbus_foreign_folder>(folder.string()));
+    return fail(Code::interface, say<texts::simbus_foreign_folder>(printable(folder.string())));
   }
   const auto connected = connect_to(socket);
   if (!connected) {
@@ -105,11 +103,11 @@ Result<void> SimBus::greet() {
   if (poll(&readable, 1, answer_timeout) <= 0 ||
       recv(socket_, &welcome, sizeof welcome, MSG_TRUNC) != sizeof welcome ||
       welcome.kind != Kind::welcome) {
-    return fail(Code::interface, say<texts::simbus_silent>(path_.string()),
+    return fail(Code::interface, say<texts::simbus_silent>(printable(path_.string())),
                 say<texts::simbus_absent_hint>());
   }
   if (welcome.value != sim_wire::version) {
-    return fail(Code::interface, say<texts::simbus_version>(path_.string()),
+    return fail(Code::interface, say<texts::simbus_version>(printable(path_.string())),
                 say<texts::simbus_version_hint>());
   }
   ++messages_read_;
@@ -120,7 +118,7 @@ Result<void> SimBus::greet() {
 }
 
 Error SimBus::gone() const {
-  return {Code::interface, say<texts::simbus_gone>(path_.string()),
+  return {Code::interface, say<texts::simbus_gone>(printable(path_.string())),
           say<texts::simbus_absent_hint>(), std::nullopt};
 }
 
@@ -133,7 +131,7 @@ Result<void> SimBus::post(const Message& message) {
     return {};
   }
   pollfd writable{socket_, POLLOUT, 0};
-  if (errno == EAGAIN && poll(&writable, 1, answer_timeout) > 0 && sent()) {
+  if (poll(&writable, 1, answer_timeout) > 0 && sent()) {
     return {};
   }
   return std::unexpected(gone());

@@ -48,7 +48,8 @@ ListeningSocket::~ListeningSocket() {
 }
 
 std::unexpected<Error> ListeningSocket::failure(int error) const {
-  return fail(Code::interface, say<texts::sim_cannot_serve>(path_.string(), reason(error)));
+  return fail(Code::interface,
+              say<texts::sim_cannot_serve>(printable(path_.string()), reason(error)));
 }
 
 /// The default folder may lie in /tmp, where anybody could have made it first.
@@ -58,13 +59,14 @@ Result<void> ListeningSocket::prepare_folder() {
     return {};
   }
   if (mkdir(folder.c_str(), S_IRWXU) != 0 && errno != EEXIST) {
-    return fail(Code::interface, say<texts::sim_folder>(folder.string(), reason(errno)),
+    return fail(Code::interface, say<texts::sim_folder>(printable(folder.string()), reason(errno)),
                 say<texts::sim_folder_hint>());
   }
   if (path_ == can::default_socket_path() && !can::is_own_folder(folder)) {
-    return fail(Code::interface,
-                say<texts::sim_folder>(folder.string(), say<texts::sim_folder_foreign>()),
-                say<texts::sim_folder_hint>());
+    return fail(
+        Code::interface,
+        say<texts::sim_folder>(printable(folder.string()), say<texts::sim_folder_foreign>()),
+        say<texts::sim_folder_hint>());
   }
   return {};
 }
@@ -79,7 +81,7 @@ Result<void> ListeningSocket::lock() {
     return {};
   }
   if (errno == EWOULDBLOCK) {
-    return fail(Code::busy, say<texts::sim_running>(path_.string()),
+    return fail(Code::busy, say<texts::sim_running>(printable(path_.string())),
                 say<texts::sim_running_hint>());
   }
   return failure(errno);
@@ -90,12 +92,12 @@ Result<void> ListeningSocket::listen() {
   const std::string name = path_.string();
   if (name.size() >= sizeof address.sun_path) {
     return fail(Code::interface,
-                say<texts::simbus_path_too_long>(name, sizeof address.sun_path - 1));
+                say<texts::simbus_path_too_long>(printable(name), sizeof address.sun_path - 1));
   }
   struct stat status{};
   if (lstat(name.c_str(), &status) == 0) {
     if (!S_ISSOCK(status.st_mode)) {
-      return fail(Code::interface, say<texts::sim_not_a_socket>(name));
+      return fail(Code::interface, say<texts::sim_not_a_socket>(printable(name)));
     }
     unlink(name.c_str()); // whoever listened there held the lock, and is dead
   }

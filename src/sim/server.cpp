@@ -140,7 +140,7 @@ Result<std::unique_ptr<Server>> Server::open(const std::filesystem::path& socket
   auto state = std::make_unique<State>(scenario, *std::move(listening));
   if (state->epoll < 0 || !state->watch(state->listening->descriptor())) {
     const std::string reason = std::generic_category().message(errno);
-    return fail(Code::interface, say<texts::sim_cannot_serve>(socket.string(), reason));
+    return fail(Code::interface, say<texts::sim_cannot_serve>(printable(socket.string()), reason));
   }
   return std::unique_ptr<Server>(new Server(std::move(state)));
 }
