@@ -1,5 +1,7 @@
 #include "blactl/base/json_writer.hpp"
 
+#include "blactl/base/text.hpp"
+
 namespace blactl {
 
 void JsonWriter::break_line() {
@@ -54,9 +56,14 @@ void JsonWriter::value(std::string_view text) {
   constexpr std::string_view digits = "0123456789abcdef";
   separate();
   out_ += '"';
-  for (const char c : text) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
     const auto byte = static_cast<std::uint8_t>(c);
-    if (c == '"' || c == '\\') {
+    if (byte >= 0x80) {
+      const std::size_t length = utf8_length(text.substr(i));
+      out_ += length == 0 ? "\uFFFD" : text.substr(i, length);
+      i += length == 0 ? 0 : length - 1;
+    } else if (c == '"' || c == '\\') {
       out_ += '\\';
       out_ += c;
     } else if (c == '\n') {

@@ -41,6 +41,14 @@ timespec until(Time now, Time deadline) {
           static_cast<long>(std::chrono::nanoseconds(left - seconds).count())};
 }
 
+/// After these, frames of ours that are on their way may never be echoed: the echoes were among
+/// what the kernel dropped, or the controller has forgotten the frames. They hold no place any more.
+bool loses_echoes(const BusEvent& event) {
+  const auto* fault = std::get_if<BusFault>(&event);
+  return std::holds_alternative<Overflow>(event) ||
+         (fault != nullptr && fault->kind == FaultKind::bus_off);
+}
+
 } // namespace
 
 Loop::Loop(std::unique_ptr<Bus> bus) : bus_(std::move(bus)), signals_(open_signals()) {}
@@ -135,21 +143,28 @@ std::optional<Event> Loop::from_bus() {
     return std::nullopt;
   }
   if (const auto* received = std::get_if<Received>(&*happened)) {
-    heard_ = true;
-    last_heard_ = received->at;
+    heard(received->at);
   } else if (const auto* sent = std::get_if<Sent>(&*happened)) {
-    heard_ = true;
-    last_heard_ = sent->at;
     const auto same = [&](const Pending& pending) { return pending.frame == sent->frame; };
     if (const auto it = std::ranges::find_if(in_flight_, same); it != in_flight_.end()) {
       in_flight_.erase(it);
     }
+    heard(sent->at);
+  } else if (loses_echoes(*happened)) {
+    in_flight_.clear();
     pump();
   } else if (std::holds_alternative<Gone>(*happened)) {
     gone_ = true;
   }
   return std::visit([](auto&& event) { return Event(std::forward<decltype(event)>(event)); },
                     std::move(*happened));
+}
+
+/// The bus lives: what waits may go on.
+void Loop::heard(Time at) {
+  heard_ = true;
+  last_heard_ = at;
+  pump();
 }
 
 /// Waits for the bus, a signal, a watched descriptor or the deadline, whichever is first.

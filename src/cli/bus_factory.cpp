@@ -55,7 +55,7 @@ Result<OpenBus> open_private(std::string_view text, const Result<sim::Scenario>&
   if (!scenario) {
     return std::unexpected(scenario.error());
   }
-  return OpenBus{std::make_unique<sim::PrivateBus>(std::string(text), *scenario), {}};
+  return OpenBus{std::make_unique<sim::PrivateBus>(printable(text), *scenario), {}};
 }
 
 Result<OpenBus> open_simulator(std::string_view text, const std::string& socket,
@@ -66,7 +66,7 @@ Result<OpenBus> open_simulator(std::string_view text, const std::string& socket,
     reporter.detail(say<texts::sim_is_private>());
     return open_private(text, sim::default_scenario(profiles));
   }
-  auto bus = can::SimBus::open(path, std::string(text));
+  auto bus = can::SimBus::open(path, printable(text));
   if (!bus) {
     return std::unexpected(bus.error());
   }

@@ -26,10 +26,11 @@ Result<void> confirm(std::string_view question, Context& context) {
   }
   if (!Reporter::has_terminal()) {
     return fail(Code::not_confirmed, std::string(question) + say<texts::not_confirmed>(),
-                say<texts::not_confirmed_hint>("--yes"));
+                say<texts::not_confirmed_hint>());
   }
   context.reporter().ask(std::string(question) + say<texts::question_yes_no>());
   if (auto ready = context.session().wait_for_input(STDIN_FILENO); !ready) {
+    context.reporter().ask("\n"); // the question's line will get no answer
     return std::unexpected(ready.error());
   }
   const std::string answer = read_line();
@@ -38,8 +39,7 @@ Result<void> confirm(std::string_view question, Context& context) {
       return {};
     }
   }
-  return fail(Code::not_confirmed, say<texts::not_confirmed>(),
-              say<texts::not_confirmed_hint>("--yes"));
+  return fail(Code::not_confirmed, say<texts::not_confirmed>(), say<texts::not_confirmed_hint>());
 }
 
 } // namespace blactl::cli

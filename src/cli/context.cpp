@@ -143,6 +143,7 @@ std::vector<Member*> Context::matching(const fleet::Targets& targets, Report& re
     }
   }
   std::vector<Member*> servos;
+  servos.reserve(chosen.size());
   for (const dronecan::NodeId id : chosen) {
     servos.push_back(&session_->roster().member(id));
   }

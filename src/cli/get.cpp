@@ -96,7 +96,7 @@ Result<std::vector<const Parameter*>> plan(const Wish& wish, const bla::Profiles
       const std::uint8_t id = servo.id.value();
       const auto firmware = identity.readings().firmware_version.value_or(0);
       return fail(Code::unsupported,
-                  say<texts::firmware_lacks>(id, parameter->name,
+                  say<texts::firmware_lacks>(parameter->name,
                                              version_text(parameter->min_firmware.value_or(0)),
                                              version_text(firmware)),
                   say<texts::firmware_lacks_hint>(id));
@@ -212,20 +212,20 @@ std::string csv(const std::vector<Answer>& answers) {
 /// "900  (90.0 deg)": the register and what it means; one of them where both are the same.
 std::string both(const Parameter& parameter, std::int64_t raw, std::optional<std::int64_t> mode) {
   const std::string number = std::to_string(raw);
-  const std::string meaning = bla::display(parameter, raw, mode);
+  std::string meaning = bla::display(parameter, raw, mode);
   if (is_inactive(parameter, raw)) {
     return meaning;
   }
   return meaning == number ? number : fmt::format("{}  ({})", number, meaning);
 }
 
-std::string text(const std::vector<Answer>& answers) {
+std::string text(const std::vector<Answer>& answers, const Wish& wish) {
   std::string out;
   for (const Answer& answer : answers) {
     out += out.empty() ? "" : "\n";
     out += head_line(answer.job->member());
     if (answer.shown.empty()) {
-      out += say<texts::nothing_changed>();
+      out += wish.changed_only ? say<texts::nothing_changed>() : "";
       continue;
     }
     const auto mode = answer.job->raw(bla::address::pwm_mode);
@@ -264,7 +264,7 @@ int judge(const ReadJob& job, Report& report) {
 } // namespace
 
 Report get(const GetOptions& options, Context& context) {
-  Report report;
+  Report report{.interface = printable(context.shared().interface)};
   const auto stop = [&](Error error) {
     report.fail(std::move(error));
     return std::move(report);
@@ -276,6 +276,10 @@ Report get(const GetOptions& options, Context& context) {
   const auto wish = understand(options, **profiles);
   if (!wish) {
     return stop(wish.error());
+  }
+  if (context.shared().listen_only) {
+    return stop({Code::usage, say<texts::listen_only_refused>("get"),
+                 say<texts::listen_only_hint>(), std::nullopt});
   }
   const auto targets = context.targets();
   if (!targets) {
@@ -309,7 +313,7 @@ Report get(const GetOptions& options, Context& context) {
   report.counts = {{"nodes", report.statuses.size()}, {"failed", failed}};
   report.json = [answers, jobs](JsonWriter& json) { write_json(json, *answers); };
   report.csv = [answers, jobs] { return csv(*answers); };
-  report.text = [answers, jobs] { return text(*answers); };
+  report.text = [answers, jobs, wish = *wish] { return text(*answers, wish); };
   return report;
 }
 

@@ -22,10 +22,9 @@ namespace {
 constexpr std::array<std::string_view, 5> commands{"scan", "get", "set", "models", "sim"};
 
 /// Options that take the next argument as their value: what a mistyped command is told apart from.
-constexpr std::array<std::string_view, 14> with_value{
-    "-i",        "--interface", "-n",        "--node",    "--local-node-id",
-    "--color",   "--lang",      "--timeout", "--retries", "--profile-dir",
-    "--profile", "--listen",    "--expect",  "--group"};
+constexpr std::array<std::string_view, 12> with_value{
+    "--interface", "--node",        "--local-node-id", "--color",  "--lang",   "--timeout",
+    "--retries",   "--profile-dir", "--profile",       "--listen", "--expect", "--group"};
 
 std::string list(std::initializer_list<std::string_view> words) {
   std::string out;
@@ -42,7 +41,15 @@ class Values {
  public:
   std::string* add(CLI::App& app, const char* names, const char* help, const char* type) {
     auto& slot = slots_.emplace_back(std::make_unique<std::string>());
-    app.add_option(names, *slot, help)->type_name(type);
+    const std::size_t name = std::string_view(names).find("--");
+    app.add_option(names, *slot, help)
+        ->type_name(type)
+        ->each([this, names, name](const std::string& text) {
+          // An unset variable of a script: -n "$NODE" must not mean every servo.
+          if (text.empty()) {
+            failed(say<texts::empty_value>(std::string_view(names).substr(name)));
+          }
+        });
     return slot.get();
   }
 
@@ -120,6 +127,12 @@ std::optional<std::string> environment(const char* name) {
   return value != nullptr && *value != '\0' ? std::optional<std::string>(value) : std::nullopt;
 }
 
+/// "--node" of the parser's "--node: 1 required LIST missing".
+std::string option_of(const CLI::Error& error) {
+  const std::string text = error.what();
+  return printable(text.substr(0, text.find(':')));
+}
+
 /// The parser and the structs that it fills.
 class Parser {
  public:
@@ -139,6 +152,7 @@ class Parser {
     add_sim();
     for (CLI::App* command : app_.get_subcommands({})) {
       command->fallthrough();
+      command->footer("Shared options, before or after the command: see blactl --help.");
     }
   }
 
@@ -147,14 +161,17 @@ class Parser {
     try {
       app_.parse(std::move(reversed));
     } catch (const CLI::CallForHelp&) {
-      const auto chosen = app_.get_subcommands();
-      result_.help_text = chosen.empty() ? app_.help() : chosen.front()->help();
+      result_.help_text = app_.help();
       return result_;
     } catch (const CLI::CallForVersion&) {
       result_.help_text = app_.version() + '\n';
       return result_;
     } catch (const CLI::ExtrasError&) {
       return refuse(say<texts::unexpected_argument>(printable(app_.remaining(true).front())));
+    } catch (const CLI::RequiredError&) {
+      return refuse(say<texts::assignment_missing>());
+    } catch (const CLI::ArgumentMismatch& error) {
+      return refuse(say<texts::takes_one_value>(option_of(error)));
     } catch (const CLI::ParseError& error) {
       return refuse(say<texts::not_understood>(printable(error.what())));
     }
@@ -226,11 +243,10 @@ void Parser::add_get() {
       ->type_name("");
   command
       ->add_option("--group", get_.groups,
-                   "all of a group: command status fault config "
+                   "all of a group: command status operation fault config "
                    "control pwm limit option product production")
       ->type_name("G")
-      ->expected(1)
-      ->take_all();
+      ->allow_extra_args(false); // what follows the group is a parameter
   command->add_flag("--all", get_.all, "every parameter (as without PARAM)");
   command->add_flag("--changed", get_.changed, "only what differs from the model's default");
 }
@@ -329,6 +345,22 @@ Result<Invocation> Parser::take() {
   return result_;
 }
 
+/// The flags of "-jqn": short options may share a dash, and one that takes a value ends them.
+std::string_view short_flags(std::string_view argument) {
+  const bool is_short = argument.size() > 1 && argument[0] == '-' && argument[1] != '-';
+  return is_short ? argument.substr(1, argument.find_first_not_of("jqvyh", 1) - 1)
+                  : std::string_view();
+}
+
+/// Whether the value of this option is the next argument: "--node", "-n", "-jn".
+bool takes_next(std::string_view argument) {
+  if (argument.starts_with("--")) {
+    return std::ranges::find(with_value, argument) != with_value.end();
+  }
+  const std::string_view rest = argument.substr(1 + short_flags(argument).size());
+  return rest == "i" || rest == "n";
+}
+
 /// The first argument that is neither an option nor the value of one.
 std::optional<std::string> first_word(std::span<const std::string> arguments) {
   for (std::size_t i = 0; i < arguments.size(); ++i) {
@@ -336,7 +368,7 @@ std::optional<std::string> first_word(std::span<const std::string> arguments) {
     if (argument.empty() || argument.front() != '-') {
       return argument;
     }
-    if (std::ranges::find(with_value, argument) != with_value.end()) {
+    if (takes_next(argument)) {
       ++i;
     }
   }
@@ -353,11 +385,7 @@ std::string peek_command(std::span<const std::string> arguments) {
 Shared peek(std::span<const std::string> arguments) {
   Shared shared;
   const auto is_json = [](const std::string& argument) {
-    // -j, also among other short flags: -jq
-    return argument == "--json" ||
-           (argument.size() > 1 && argument[0] == '-' && argument[1] != '-' &&
-            argument.find_first_not_of("jqvy", 1) == std::string::npos &&
-            argument.find('j') != std::string::npos);
+    return argument == "--json" || short_flags(argument).find('j') != std::string_view::npos;
   };
   if (std::ranges::any_of(arguments, is_json)) {
     shared.output.format = Format::json;

@@ -3,6 +3,8 @@
 #include <signal.h>
 
 #include <algorithm>
+#include <iterator>
+#include <vector>
 
 namespace blactl::cli {
 namespace {
@@ -21,24 +23,25 @@ int Report::exit_status() const {
   if (signal != 0) {
     return 128 + signal;
   }
-  std::vector<int> all = statuses;
-  for (const Error& error : errors) {
-    const int status = blactl::exit_status(error.code);
-    if (status == interface_failed) {
-      return interface_failed;
-    }
-    if (statuses.empty()) {
-      all.push_back(status);
-    }
+  std::vector<int> of_errors;
+  std::ranges::transform(errors, std::back_inserter(of_errors),
+                         [](const Error& error) { return blactl::exit_status(error.code); });
+  const auto has = [](const std::vector<int>& all, int status) {
+    return std::ranges::find(all, status) != all.end();
+  };
+  if (has(statuses, interface_failed) || has(of_errors, interface_failed)) {
+    return interface_failed;
   }
-  if (all.empty()) {
-    return 0;
+  if (std::ranges::any_of(statuses, is_failure)) {
+    const bool alike = std::ranges::count(statuses, statuses.front()) == std::ssize(statuses);
+    return alike ? statuses.front() : mixed;
   }
-  if (!std::ranges::any_of(all, is_failure)) {
-    return std::ranges::max(all);
+  // No servo failed: what went wrong concerns the command as a whole.
+  if (const auto failure = std::ranges::find_if(of_errors, is_failure);
+      failure != of_errors.end()) {
+    return *failure;
   }
-  const bool same = std::ranges::all_of(all, [&](int status) { return status == all.front(); });
-  return same || statuses.empty() ? all.front() : mixed;
+  return has(statuses, found_something) || has(of_errors, found_something) ? found_something : 0;
 }
 
 } // namespace blactl::cli

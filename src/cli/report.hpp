@@ -16,7 +16,7 @@ namespace blactl::cli {
 /// servo it was about.
 struct Report {
   std::string command{};   ///< empty: the command line was not understood
-  std::string interface{}; ///< empty: none was opened
+  std::string interface{}; ///< empty: none was named or opened
 
   /// Writes the members of the document that this command adds ("nodes": […], …).
   std::function<void(JsonWriter&)> json{};

@@ -86,10 +86,12 @@ void judge(const ScanOptions& options, const Findings& findings, Report& report)
       std::ranges::count_if(findings.nodes, [](const Member* member) { return member->is_servo; }));
   report.counts = {{"nodes", findings.nodes.size()}, {"servos", servos}};
   std::vector<Error> found;
+  found.reserve(findings.conflicts.size() + 1);
   for (const Conflict& conflict : findings.conflicts) {
-    found.push_back({conflict.code,
-                     conflict.text,
-                     {},
+    found.push_back({conflict.code, conflict.text,
+                     conflict.code == Code::duplicate_servo_id
+                         ? say<texts::doubled_servo_id_hint>(conflict.nodes.back().value())
+                         : say<texts::conflict_hint>(),
                      conflict.nodes.size() == 1 ? std::optional(conflict.nodes.front().value())
                                                 : std::nullopt});
   }
@@ -97,8 +99,8 @@ void judge(const ScanOptions& options, const Findings& findings, Report& report)
     found.push_back({Code::not_found, say<texts::nobody_there>(report.interface),
                      say<texts::nobody_there_hint>(), std::nullopt});
   } else if (options.expect && servos < *options.expect) {
-    found.push_back(
-        {Code::not_found, say<texts::expected_more>(servos, *options.expect), {}, std::nullopt});
+    found.push_back({Code::not_found, say<texts::expected_more>(servos, *options.expect),
+                     say<texts::expected_more_hint>(), std::nullopt});
   }
   if (!found.empty()) {
     report.statuses.clear();
@@ -109,7 +111,7 @@ void judge(const ScanOptions& options, const Findings& findings, Report& report)
 } // namespace
 
 Report scan(const ScanOptions& options, Context& context) {
-  Report report;
+  Report report{.interface = printable(context.shared().interface)};
   const auto profiles = context.profiles();
   if (!profiles) {
     report.fail(profiles.error());

@@ -79,10 +79,12 @@ std::vector<std::string> row(const Member& member) {
   const auto& readings = member.identity.readings();
   const auto now = status(member);
   const std::string model = member.identity.model();
+  // Who sends actuator.Status is a servo, even if it answers nothing.
+  const bool servo = member.is_servo || member.sends_actuator_status();
   const std::string shown_model =
-      !member.is_servo ? say<texts::foreign_node>(member.info ? printable(member.info->name) : "")
-      : model.empty()  ? say<texts::unknown_word>()
-                       : model + (member.identity.certain() ? "" : " ?");
+      !servo          ? say<texts::foreign_node>(member.info ? printable(member.info->name) : "")
+      : model.empty() ? say<texts::unknown_word>()
+                      : model + (member.identity.certain() ? "" : " ?");
   const bool dynamic = member.is_servo && member.static_node_id == 0;
   return {std::to_string(member.id.value()),
           shown_model,

@@ -3,11 +3,12 @@
 #include "blactl/bla/assignment.hpp"
 #include "blactl/bla/value.hpp"
 #include "blactl/fleet/read_job.hpp"
+#include "blactl/fleet/safety.hpp"
+#include "blactl/fleet/texts.hpp"
 #include "blactl/fleet/write_job.hpp"
 
 #include "commands.hpp"
 #include "confirm.hpp"
-#include "safety.hpp"
 #include "set_outcome.hpp"
 #include "texts.hpp"
 
@@ -61,7 +62,7 @@ std::vector<const bla::Parameter*> to_read(const Assignments& assignments, const
     if (assignment.value.pwm_mode) {
       add(bla::address::pwm_mode);
     }
-    for (const bla::Address needed : values_needed(assignment.parameter->address)) {
+    for (const bla::Address needed : fleet::values_needed(assignment.parameter->address)) {
       add(needed);
     }
   }
@@ -81,21 +82,21 @@ Result<std::vector<const bla::Parameter*>> admit(const Assignments& assignments,
   return to_read(assignments, servo);
 }
 
-/// 0x36 in deg or rpm is right only if 0x37 says so: that of the same command, else the servo's.
-std::optional<Error> check_pwm_unit(const Assignments& assignments, const ReadJob& job) {
-  std::optional<std::int64_t> mode = job.raw(bla::address::pwm_mode);
-  for (const Assignment& assignment : assignments) {
-    if (assignment.parameter->address == bla::address::pwm_mode) {
-      mode = assignment.value.raw;
-    }
+/// 0x36 in deg or rpm is right only if 0x37 says so; without a 0x37 beside it, the servo's.
+std::optional<Error> check_pwm_unit(const bla::Profiles& profiles, const Assignments& assignments,
+                                    const ReadJob& job) {
+  const auto sets_mode = [](const Assignment& assignment) {
+    return assignment.parameter->address == bla::address::pwm_mode;
+  };
+  const auto mode = job.raw(bla::address::pwm_mode);
+  if (!mode || std::ranges::any_of(assignments, sets_mode)) {
+    return std::nullopt; // parse_assignments() has compared the two
   }
   for (const Assignment& assignment : assignments) {
-    if (assignment.value.pwm_mode && mode && *mode != *assignment.value.pwm_mode) {
-      const bla::Parameter* parameter = job.member().identity.parameter(bla::address::pwm_mode);
-      return Error{Code::usage,
-                   say<texts::pwm_mode_disagrees>(assignment.text, bla::display(*parameter, *mode),
-                                                  bla::unit_text(*assignment.parameter, mode)),
-                   say<texts::pwm_mode_disagrees_hint>(), job.member().id.value()};
+    if (auto fits = bla::check_pwm_unit(profiles, assignment, *mode); !fits) {
+      const std::uint8_t id = job.member().id.value();
+      Error& error = fits.error();
+      return Error{error.code, say<texts::about_node>(id, error.message), error.hint, id};
     }
   }
   return std::nullopt;
@@ -173,7 +174,8 @@ bool Set::understand() {
   }
   assignments_ = std::move(*assignments);
   if (context_.shared().listen_only) {
-    return stop({Code::usage, say<texts::listen_only_refused>("set"), {}, std::nullopt});
+    return stop({Code::usage, say<texts::listen_only_refused>("set"),
+                 say<texts::listen_only_hint>(), std::nullopt});
   }
   return true;
 }
@@ -201,6 +203,14 @@ bool Set::select() {
     return stop({Code::usage, say<texts::several_servos>(ids),
                  say<texts::several_servos_hint>(members_.front()->id.value()), std::nullopt});
   }
+  const bool gives_node_id = std::ranges::any_of(assignments_, [](const Assignment& assignment) {
+    return assignment.parameter->address == bla::address::static_node_id &&
+           assignment.value.raw != 0;
+  });
+  if (gives_node_id && members_.size() > 1) {
+    return stop({Code::duplicate_node_id, say<texts::one_id_for_several>(members_.size()),
+                 say<texts::one_id_for_several_hint>(members_.front()->id.value()), std::nullopt});
+  }
   return true;
 }
 
@@ -225,7 +235,9 @@ bool Set::read() {
       }
     }
     if (!error) {
-      error = check_pwm_unit(assignments_, job);
+      error = check_pwm_unit(*profiles_, assignments_, job);
+    } else if (context_.session().roster().is_doubled(members_[i]->id)) {
+      error = fleet::doubled(members_[i]->id); // two that answer at once answer nothing
     }
     // If one servo refuses, none is written: the others are no success.
     if (error) {
@@ -239,11 +251,8 @@ bool Set::read() {
 }
 
 bool Set::watch() {
-  bool needed = false;
-  for (std::size_t i = 0; i < reads_.size(); ++i) {
-    needed = needed || needs_watch(outcome_->plans[i].changes, *reads_[i]);
-  }
-  if (!needed) {
+  if (std::ranges::none_of(outcome_->plans,
+                           [](const Plan& plan) { return fleet::needs_watch(plan.changes); })) {
     return true;
   }
   if (auto lived = context_.session().live_until(opened_ + bus_watch_time); !lived) {
@@ -256,8 +265,8 @@ bool Set::watch() {
 bool Set::check() {
   report_.statuses.clear();
   for (std::size_t i = 0; i < reads_.size(); ++i) {
-    if (auto error = forbidden(context_.session(), outcome_->plans[i].changes, *reads_[i],
-                               context_.shared().while_driven)) {
+    if (auto error = fleet::forbidden(context_.session(), outcome_->plans[i].changes, *reads_[i],
+                                      context_.shared().while_driven)) {
       report_.fail(std::move(*error));
     }
   }
@@ -272,7 +281,7 @@ bool Set::confirm() {
   for (std::size_t i = 0; i < outcome_->plans.size(); ++i) {
     const Plan& plan = outcome_->plans[i];
     for (const Change& change : plan.changes) {
-      if (change.status == ChangeStatus::planned && may_move(change, *reads_[i])) {
+      if (change.status == ChangeStatus::planned && fleet::may_move(change, *reads_[i])) {
         const auto& parameter = *change.parameter;
         question += say<texts::question_change>(
             plan.member->id.value(), parameter.name,
@@ -284,8 +293,15 @@ bool Set::confirm() {
   if (question.empty()) {
     return true;
   }
-  auto agreed = blactl::cli::confirm(say<texts::question_may_move>() + question, context_);
-  return agreed ? true : stop(std::move(agreed.error()));
+  const auto agreed = blactl::cli::confirm(say<texts::question_may_move>() + question, context_);
+  if (agreed) {
+    return true;
+  }
+  if (agreed.error().code == Code::not_confirmed) {
+    return stop(agreed.error());
+  }
+  context_.broken(agreed.error(), report_);
+  return false;
 }
 
 void Set::write() {
@@ -330,7 +346,7 @@ void Set::conclude() {
 } // namespace
 
 Report set(const SetOptions& options, Context& context) {
-  Report report;
+  Report report{.interface = printable(context.shared().interface)};
   Set(options, context, report).run();
   return report;
 }

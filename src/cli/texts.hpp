@@ -15,6 +15,9 @@ inline constexpr Text no_command{"no command given", "コマンドが指定さ�
 inline constexpr Text did_you_mean{"did you mean {}?", "{} のことですか?"};
 inline constexpr Text unexpected_argument{"not expected: {}", "不要な引数です: {}"};
 inline constexpr Text not_understood{"{}", "コマンドラインを解釈できません: {}"};
+inline constexpr Text empty_value{"{}: the value is empty", "{}: 値が空です"};
+inline constexpr Text takes_one_value{"{} takes one value", "{} には値を一つだけ指定してください"};
+inline constexpr Text assignment_missing{"PARAM=VALUE is missing", "PARAM=VALUE がありません"};
 inline constexpr Text see_help{"see blactl --help", "blactl --help を参照してください"};
 inline constexpr Text see_command_help{"see blactl {} --help",
                                        "blactl {} --help を参照してください"};
@@ -30,6 +33,7 @@ inline constexpr Text listen_only_refused{
     "{} must send, which --listen-only forbids",
     "{} は送信が必要なため --listen-only では実行できません",
 };
+inline constexpr Text listen_only_hint{"leave --listen-only out", "--listen-only を外してください"};
 
 inline constexpr Text bad_interface{"-i {}: no such kind of interface",
                                     "-i {}: この種類のインタフェースはありません"};
@@ -67,36 +71,20 @@ inline constexpr Text known_groups{"the groups are {}", "グループ: {}"};
 inline constexpr Text write_only{"{} can only be written", "{} は書込み専用です"};
 inline constexpr Text write_only_hint{"it is a command of the servo, not a value",
                                       "値ではなくサーボへの命令です"};
-inline constexpr Text firmware_lacks{
-    "node {}: {} needs firmware {} or later, this servo has {}",
-    "ノード {}: {} にはファームウェア {} 以降が必要です (現在 {})"};
+inline constexpr Text firmware_lacks{"{} needs firmware {} or later, this servo has {}",
+                                     "{} にはファームウェア {} 以降が必要です (現在 {})"};
 inline constexpr Text firmware_lacks_hint{"read what it has: blactl get -n {}",
                                           "読み出せるパラメータ: blactl get -n {}"};
 
 inline constexpr Text several_servos{"several servos are on the bus: {}",
                                      "バス上に複数のサーボがあります: {}"};
 inline constexpr Text several_servos_hint{"say which: -n {}", "-n {} のように指定してください"};
-inline constexpr Text doubled_target{"node ID {} is used by two nodes: nothing is written to it",
-                                     "ノード ID {} が重複しているため書き込みません"};
-inline constexpr Text doubled_target_hint{"connect one of them alone and give it another ID",
-                                          "一台ずつ接続して別の ID を設定してください"};
-inline constexpr Text armed{"node {} says that the vehicle is armed: nothing is written",
-                            "ノード {} が ARM 状態を通知しているため書き込みません"};
-inline constexpr Text armed_hint{"disarm it first", "先に DISARM してください"};
-inline constexpr Text driven{"node {} drives servo {}: not while it does",
-                             "ノード {} がサーボ {} を動作指令中のため実行しません"};
-inline constexpr Text driven_hint{"stop it, or add --while-driven",
-                                  "停止させるか、--while-driven を付けてください"};
-inline constexpr Text node_id_in_use{"static_node_id={} is in use by another node",
-                                     "static_node_id={} は別のノードが使用中です"};
-inline constexpr Text node_id_in_use_hint{"see which IDs are taken: blactl scan",
-                                          "使用中の ID を確認: blactl scan"};
-inline constexpr Text pwm_mode_disagrees{
-    "{}: pwm_mode is {} on this servo, so the unit is {}",
-    "{}: このサーボの pwm_mode は {} なので、単位は {} です",
+inline constexpr Text one_id_for_several{
+    "one static node ID for {} servos: they would collide after a restart",
+    "{} 台のサーボに同じ固定ノード ID を設定すると再起動後に重複します",
 };
-inline constexpr Text pwm_mode_disagrees_hint{"or set pwm_mode in the same command",
-                                              "または同じコマンドで pwm_mode も設定してください"};
+inline constexpr Text one_id_for_several_hint{"give each its own: -n {}",
+                                              "一台ずつ設定してください: -n {}"};
 inline constexpr Text not_written{"{} frames of a write may still be in the queue of {}: "
                                   "what they change is not known",
                                   "書込みの {} フレームが {} の送信キューに残っている可能性があり、"
@@ -110,13 +98,21 @@ inline constexpr Text question_change{"  node {}: {} {} -> {}\n", "  ノード {
 inline constexpr Text question_yes_no{"Go on? [y/N] ", "続けますか? [y/N] "};
 inline constexpr Text not_confirmed{"not confirmed: nothing was written",
                                     "確認されなかったため書き込んでいません"};
-inline constexpr Text not_confirmed_hint{"add --yes to agree beforehand: {}",
-                                         "事前に同意するには --yes を付けてください: {}"};
+inline constexpr Text not_confirmed_hint{"add --yes to agree beforehand",
+                                         "事前に同意するには --yes を付けてください"};
 inline constexpr Text unknown_before{"?", "?"};
 
 // scan
 inline constexpr Text expected_more{"{} servos found, {} expected",
                                     "サーボ {} 台を検出しました (期待 {} 台)"};
+inline constexpr Text expected_more_hint{
+    "is every servo powered and connected? listen longer with --listen SEC",
+    "電源と配線を確認するか、--listen で待ち時間を延ばしてください"};
+inline constexpr Text conflict_hint{"connect one of them alone and give it another ID",
+                                    "一台ずつ接続して別の ID を設定してください"};
+inline constexpr Text doubled_servo_id_hint{
+    "give one of them another: blactl set -n {} servo_id=ID",
+    "一方に別の ID を設定してください: blactl set -n {} servo_id=ID"};
 inline constexpr Text nobody_there{"no node was heard on {}", "{} 上にノードが見つかりません"};
 inline constexpr Text nobody_there_hint{
     "is the supply on? does a servo without an ID wait for one? is the bit rate 1000000?",

@@ -8,10 +8,14 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <expected>
+#include <filesystem>
 #include <random>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -29,15 +33,20 @@ struct LockFile {
 
 constexpr std::array<char, 8> magic{'b', 'l', 'a', 'c', 't', 'l', '\1', '\0'};
 
+/// Empty is as good as unset (XDG base directory specification).
+std::string variable(const char* name) {
+  const char* value = std::getenv(name);
+  return value != nullptr ? value : "";
+}
+
 std::string state_folder() {
-  if (const char* folder = std::getenv("BLACTL_STATE_DIR")) {
+  if (std::string folder = variable("BLACTL_STATE_DIR"); !folder.empty()) {
     return folder;
   }
-  if (const char* home = std::getenv("XDG_STATE_HOME")) {
-    return std::string(home) + "/blactl";
+  if (const std::string home = variable("XDG_STATE_HOME"); !home.empty()) {
+    return home + "/blactl";
   }
-  const char* home = std::getenv("HOME");
-  return std::string(home != nullptr ? home : "") + "/.local/state/blactl";
+  return variable("HOME") + "/.local/state/blactl";
 }
 
 /// A folder that exists now, is no symbolic link and can be written; 01777 where all users share.
@@ -51,19 +60,21 @@ bool usable(const std::string& folder, mode_t mode) {
 }
 
 /// The folder for lock files, the same for all users where the system allows it. Empty: none.
-std::string lock_folder() {
-  constexpr mode_t shared = 01777;
+std::string lock_folder(const std::string& shared) {
+  constexpr mode_t of_all = 01777;
   constexpr mode_t own = 0700;
-  if (usable("/run/lock/blactl", shared)) {
-    return "/run/lock/blactl";
+  if (usable(shared, of_all)) {
+    return shared;
   }
-  if (const char* runtime = std::getenv("XDG_RUNTIME_DIR")) {
-    if (const std::string folder = std::string(runtime) + "/blactl"; usable(folder, own)) {
+  if (const std::string runtime = variable("XDG_RUNTIME_DIR"); !runtime.empty()) {
+    if (const std::string folder = runtime + "/blactl"; usable(folder, own)) {
       return folder;
     }
   }
-  const std::string folder = state_folder();
-  return usable(folder, own) ? folder : std::string();
+  const std::filesystem::path folder = state_folder();
+  std::error_code ignored;
+  std::filesystem::create_directories(folder.parent_path(), ignored);
+  return usable(folder.string(), own) ? folder.string() : std::string();
 }
 
 /// Interface names become one path component.
@@ -75,29 +86,42 @@ std::string file_name(std::string_view interface, NodeId id) {
   return name + '.' + std::to_string(id.value());
 }
 
-struct Lock {
-  int descriptor = -1;
-  std::int32_t holder = 0; ///< the process that has it, if descriptor is -1
-};
+/// Opens a lock file, made if it is not there. One that another user made must not be opened with
+/// O_CREAT: in a folder for all the kernel would refuse it (fs.protected_regular).
+int open_file(const std::string& path) {
+  constexpr int flags = O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK;
+  int fd = open(path.c_str(), flags);
+  if (fd < 0 && errno == ENOENT) {
+    const mode_t before = umask(0);
+    fd = open(path.c_str(), flags | O_CREAT | O_EXCL, 0666);
+    umask(before);
+    if (fd < 0 && errno == EEXIST) { // another process was faster
+      fd = open(path.c_str(), flags);
+    }
+  }
+  return fd;
+}
 
-Lock take(const std::string& path) {
-  const mode_t before = umask(0);
-  const int fd = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
-  umask(before);
+/// The descriptor of the locked file; else why the ID cannot be had, for a person.
+std::expected<int, std::string> take(const std::string& path, NodeId id) {
+  const int fd = open_file(path);
   if (fd < 0) {
-    return {};
+    return std::unexpected(say<texts::node_id_lock_failed>(id.value(), printable(path), std::strerror(errno)));
   }
   if (flock(fd, LOCK_EX | LOCK_NB) == 0) {
-    return {fd, 0};
+    return fd;
   }
   LockFile file{};
   const bool known = pread(fd, &file, sizeof file, 0) == sizeof file && file.magic == magic;
   close(fd);
-  return {-1, known ? file.pid : 0};
+  return std::unexpected(known ? say<texts::node_id_held_by>(id.value(), file.pid)
+                               : say<texts::node_id_held>(id.value()));
 }
 
+/// Null: the disk is full, or the file is none that can be mapped.
 LockFile* map(int descriptor) {
-  if (ftruncate(descriptor, sizeof(LockFile)) != 0) {
+  // Not ftruncate(): a page of a hole that the disk has no room for would kill the process.
+  if (posix_fallocate(descriptor, 0, sizeof(LockFile)) != 0) {
     return nullptr;
   }
   void* memory = mmap(nullptr, sizeof(LockFile), PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, 0);
@@ -153,7 +177,8 @@ TransferIds& LocalNodeId::transfer_ids() {
   return state_->transfer_ids;
 }
 
-Result<LocalNodeId> LocalNodeId::acquire(std::string_view interface, std::optional<NodeId> wanted) {
+Result<LocalNodeId> LocalNodeId::acquire(std::string_view interface, std::optional<NodeId> wanted,
+                                         const std::string& shared) {
   const std::vector<NodeId> choices =
       wanted ? std::vector{*wanted} : std::vector{NodeId(127), NodeId(126)};
   // Where nothing can be written, nothing is known of other processes: a random start makes a
@@ -161,20 +186,20 @@ Result<LocalNodeId> LocalNodeId::acquire(std::string_view interface, std::option
   const auto by_chance = [] {
     return static_cast<TransferId>(std::random_device{}() % transfer_id_modulus);
   };
-  const std::string folder = lock_folder();
+  const std::string folder = lock_folder(shared);
   if (folder.empty()) {
     return LocalNodeId(std::make_unique<State>(choices.front(), -1, nullptr, by_chance()));
   }
   std::string holders;
   for (const NodeId id : choices) {
-    const Lock lock = take(folder + '/' + file_name(interface, id));
-    if (lock.descriptor >= 0) {
-      LockFile* file = map(lock.descriptor);
+    const auto locked = take(folder + '/' + file_name(interface, id), id);
+    if (locked) {
+      LockFile* file = map(*locked);
       const TransferId first = file != nullptr ? TransferId{0} : by_chance();
-      return LocalNodeId(std::make_unique<State>(id, lock.descriptor, file, first));
+      return LocalNodeId(std::make_unique<State>(id, *locked, file, first));
     }
     holders += holders.empty() ? "" : ", ";
-    holders += say<texts::node_id_held_by>(id.value(), lock.holder);
+    holders += locked.error();
   }
   return fail(Code::no_local_node_id, say<texts::no_local_node_id>(interface, holders),
               say<texts::no_local_node_id_hint>());

@@ -16,6 +16,10 @@ constexpr Duration transmit_timeout = std::chrono::seconds(1);
 /// (kind, type, source, destination) remembered at a time: eight for each of 127 nodes.
 constexpr std::size_t receiver_sessions = 1024;
 
+/// With so many frames waiting to leave, NodeStatus and answers are left out: nobody acknowledges,
+/// or somebody asks faster than we can answer. What is old when it leaves helps nobody.
+constexpr std::size_t most_backlog = 16;
+
 } // namespace
 
 Node::Node(NodeId local, TransferIds* transfer_ids, Description description, Hooks hooks)
@@ -34,13 +38,17 @@ Node::Node(NodeId local, TransferIds* transfer_ids, Description description, Hoo
                    return type != nullptr ? std::optional(type->signature) : std::nullopt;
                  }}) {}
 
+void Node::tell_time(Time now) {
+  now_ = std::max(now_, now);
+}
+
 void Node::receive(const can::Frame& frame, Time at) {
-  now_ = std::max(now_, at);
+  tell_time(at);
   receiver_.receive(frame, at);
 }
 
 void Node::sent(const can::Frame& frame, Time at) {
-  now_ = std::max(now_, at);
+  tell_time(at);
   for (Active& active : jobs_) {
     if (active.asked && !active.left && active.last_frame == frame) {
       active.left = true;
@@ -50,7 +58,21 @@ void Node::sent(const can::Frame& frame, Time at) {
   }
 }
 
+void Node::echoes_lost(Time at) {
+  tell_time(at);
+  for (Active& active : jobs_) {
+    if (active.asked && !active.left) {
+      active.left = true;
+      active.deadline = at + active.request->timeout;
+    }
+  }
+}
+
 void Node::on_transfer(const Transfer& transfer) {
+  // First those who only listen: what a job concludes from an answer rests on what they know.
+  if (hooks_.transfer) {
+    hooks_.transfer(transfer);
+  }
   const Header& header = transfer.header;
   if (header.destination == local_ && local_.is_unicast()) {
     if (header.kind == Kind::response) {
@@ -58,9 +80,6 @@ void Node::on_transfer(const Transfer& transfer) {
     } else if (header.data_type_id == GetNodeInfo::type.id) {
       answer_node_info(transfer);
     }
-  }
-  if (hooks_.transfer) {
-    hooks_.transfer(transfer);
   }
 }
 
@@ -85,7 +104,14 @@ NodeStatus Node::status(Time now) const {
   return status;
 }
 
+bool Node::is_congested() const {
+  return hooks_.backlog && hooks_.backlog() >= most_backlog;
+}
+
 void Node::answer_node_info(const Transfer& request) {
+  if (is_congested()) {
+    return;
+  }
   GetNodeInfo::Response response;
   response.status = status(now_);
   response.software_major = description_.major;
@@ -104,6 +130,9 @@ void Node::answer_node_info(const Transfer& request) {
 }
 
 void Node::broadcast_status(Time now) {
+  if (is_congested()) {
+    return;
+  }
   const Header header{.kind = Kind::message,
                       .priority = priority_medium,
                       .data_type_id = NodeStatus::type.id,
@@ -116,9 +145,13 @@ void Node::broadcast_status(Time now) {
 }
 
 void Node::start(Job& job, Time now) {
-  now_ = std::max(now_, now);
+  tell_time(now);
   Active& active = jobs_.emplace_back(Active{.job = &job});
   finish(active, {Outcome::Kind::start, {}, now_});
+  if (!active.done && !local_.is_unicast()) { // a listener asks nothing
+    finish(active, {Outcome::Kind::not_sent, {}, now_});
+    active.done = true;
+  }
   ask_waiting(now_);
 }
 
@@ -173,7 +206,7 @@ void Node::ask_waiting(Time now) {
 }
 
 void Node::advance(Time now) {
-  now_ = std::max(now_, now);
+  tell_time(now);
   if (!born_ && local_.is_unicast()) {
     born_ = now;
     status_due_ = now + status_period;
@@ -181,6 +214,9 @@ void Node::advance(Time now) {
   if (status_due_ <= now) {
     broadcast_status(now);
     status_due_ += status_period;
+    if (status_due_ <= now) { // this process slept: what it missed is not made up for
+      status_due_ = now + status_period;
+    }
   }
   for (Active& active : jobs_) {
     if (active.deadline > now) {
@@ -204,7 +240,7 @@ Time Node::next_deadline() const {
 }
 
 void Node::cancel_all(Time now) {
-  now_ = std::max(now_, now);
+  tell_time(now);
   for (Active& active : jobs_) {
     finish(active, {Outcome::Kind::cancelled, {}, now});
   }

@@ -81,7 +81,12 @@ void Identification::take_node_info(const Outcome& outcome) {
     }
     return;
   }
+  // Whatever was known may be that of another unit.
   member_.info = std::move(*response);
+  member_.identity = {};
+  member_.is_servo = false;
+  member_.servo_id = member_.static_node_id = std::nullopt;
+  boot_ = member_.boots;
 }
 
 void Identification::take_register(const Outcome& outcome) {
@@ -112,12 +117,13 @@ std::optional<Request> Identification::conclude() {
       if (auto agreed = member_.identity.assume(*options_.assumed); !agreed) {
         error_ = agreed.error();
         error_->node_id = member_.id.value();
+        error_->message = say<texts::about_node>(member_.id.value(), error_->message);
         return std::nullopt;
       }
     }
   }
   member_.identified = true;
-  member_.identified_boot = member_.boots;
+  member_.identified_boot = boot_; // not the present one: it may have restarted in between
   done_ = true;
   return std::nullopt;
 }

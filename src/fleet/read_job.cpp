@@ -45,6 +45,7 @@ std::optional<Request> ReadJob::make_plan() {
   if (!wanted) {
     error_ = std::move(wanted.error());
     error_->node_id = member_.id.value();
+    error_->message = say<texts::about_node>(member_.id.value(), error_->message);
     return std::nullopt;
   }
   wanted_ = std::move(*wanted);

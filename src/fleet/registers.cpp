@@ -36,11 +36,11 @@ dronecan::Request get_set(dronecan::NodeId server, bla::Address address, GetSet:
 } // namespace
 
 dronecan::Request ask(dronecan::NodeId server, const dronecan::DataType& type,
-                      dronecan::Payload payload, const Patience& patience) {
+                      const dronecan::Payload& payload, const Patience& patience) {
   dronecan::Request request;
   request.server = server;
   request.type = &type;
-  request.payload = std::move(payload);
+  request.payload = payload;
   request.timeout = patience.timeout;
   request.retries = patience.retries;
   return request;

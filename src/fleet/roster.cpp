@@ -1,6 +1,7 @@
 #include "blactl/fleet/roster.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace blactl::fleet {
@@ -69,8 +70,26 @@ void Roster::count_status(NodeId source, Time at) {
     pulse.count = 0;
   }
   if (++pulse.count > most_statuses_of_one) {
-    doubled_.insert(source);
+    too_fast_.insert(source);
   }
+}
+
+/// An actuator of another make may send its status as fast as it likes.
+bool Roster::is_too_fast(NodeId id) const {
+  const Member* sender = find(id);
+  const bool is_foreign = sender != nullptr && sender->identified && !sender->is_servo;
+  return too_fast_.contains(id) && !is_foreign;
+}
+
+bool Roster::is_doubled(NodeId id) const {
+  return doubled_.contains(id) || is_too_fast(id);
+}
+
+std::set<NodeId> Roster::doubled() const {
+  std::set<NodeId> all = doubled_;
+  std::ranges::copy_if(too_fast_, std::inserter(all, all.end()),
+                       [this](NodeId id) { return is_too_fast(id); });
+  return all;
 }
 
 void Roster::receive(const Transfer& transfer) {
@@ -80,6 +99,12 @@ void Roster::receive(const Transfer& transfer) {
   }
   if (header.kind == Kind::request && header.data_type_id == dronecan::GetSet::type.id) {
     on_write(transfer);
+  }
+  if (header.kind == Kind::response && header.data_type_id == dronecan::GetNodeInfo::type.id) {
+    // Its uptime counts as well as that of NodeStatus: a restart before the first of these shows.
+    if (const auto info = dronecan::GetNodeInfo::Response::decode(transfer.payload)) {
+      watch_uptime(member(header.source), info->status.uptime_s, transfer.at);
+    }
   }
   if (header.kind != Kind::message) {
     return;
@@ -96,8 +121,9 @@ void Roster::receive(const Transfer& transfer) {
     break;
   case dronecan::ArmingStatus::type.id:
     if (const auto arming = dronecan::ArmingStatus::decode(transfer.payload)) {
-      armed_by_ = arming->status == dronecan::ArmingStatus::disarmed ? std::nullopt
-                                                                     : std::optional(header.source);
+      // Each speaks for itself: one that is disarmed does not disarm another.
+      arming->status == dronecan::ArmingStatus::disarmed ? armed_.erase(header.source)
+                                                         : armed_.insert(header.source).second;
     }
     break;
   default: break;
@@ -116,7 +142,8 @@ void Roster::on_status(const Transfer& transfer) {
 }
 
 /// Every uptime tells when its unit started. A new start is a restart; coming back to the old one
-/// means that two units send under one ID.
+/// means that two units send under one ID. A unit that restarts at once shows by its uptime alone,
+/// which never goes back.
 void Roster::watch_uptime(Member& sender, std::uint32_t uptime_s, Time at) {
   Pulse& pulse = pulses_[sender.id.value()];
   const Time boot = at - std::chrono::seconds(uptime_s);
@@ -128,9 +155,13 @@ void Roster::watch_uptime(Member& sender, std::uint32_t uptime_s, Time at) {
     *it = boot; // clocks drift
     if (index != std::exchange(pulse.last_boot, index)) {
       doubled_.insert(sender.id);
+    } else if (uptime_s < pulse.last_uptime_s) {
+      ++sender.boots;
     }
+    pulse.last_uptime_s = uptime_s;
     return;
   }
+  pulse.last_uptime_s = uptime_s;
   const bool first = !pulse.boots[pulse.last_boot];
   const std::size_t index = first ? pulse.last_boot : 1 - pulse.last_boot;
   pulse.boots[index] = boot;
@@ -183,7 +214,9 @@ void Roster::on_write(const Transfer& transfer) {
   }
   for (const auto address :
        {bla::address::command_angle, bla::address::command_speed, bla::address::command_torque}) {
-    if (request->name == address.name()) {
+    // A name wins over an index, which is the address.
+    if (request->name.empty() ? request->index == address.value()
+                              : request->name == address.name()) {
       commander(transfer.header.source).nodes[transfer.header.destination] = transfer.at;
     }
   }

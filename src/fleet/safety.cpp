@@ -1,15 +1,13 @@
-#include "safety.hpp"
+#include "blactl/fleet/safety.hpp"
 
-#include "texts.hpp"
+#include "blactl/fleet/texts.hpp"
 
 #include <algorithm>
 
-namespace blactl::cli {
+namespace blactl::fleet {
 
 namespace at = bla::address;
 using bla::Address;
-using fleet::Change;
-using fleet::ReadJob;
 
 namespace {
 
@@ -48,7 +46,7 @@ bool has_pwm_input(const ReadJob& values) {
 }
 
 bool is_planned(const Change& change) {
-  return change.status == fleet::ChangeStatus::planned;
+  return change.status == ChangeStatus::planned;
 }
 
 bool gives_node_id(const Change& change) {
@@ -99,23 +97,25 @@ bool may_move(const Change& change, const ReadJob& values) {
   return false;
 }
 
-bool needs_watch(std::span<const Change> changes, const ReadJob& values) {
-  return std::ranges::any_of(changes, [&](const Change& change) {
-    return gives_node_id(change) || (is_planned(change) && may_move(change, values));
-  });
+bool needs_watch(std::span<const Change> changes) {
+  return std::ranges::any_of(changes, is_planned);
 }
 
-std::optional<Error> forbidden(fleet::Session& session, std::span<const Change> changes,
+Error doubled(dronecan::NodeId id) {
+  return {Code::duplicate_node_id, say<texts::doubled_target>(id.value()),
+          say<texts::doubled_target_hint>(), id.value()};
+}
+
+std::optional<Error> forbidden(Session& session, std::span<const Change> changes,
                                const ReadJob& values, bool while_driven) {
-  const fleet::Roster& roster = session.roster();
-  const fleet::Member& servo = values.member();
+  const Roster& roster = session.roster();
+  const Member& servo = values.member();
   const std::uint8_t id = servo.id.value();
   if (std::ranges::none_of(changes, is_planned)) {
     return std::nullopt;
   }
   if (roster.is_doubled(servo.id)) {
-    return Error{Code::duplicate_node_id, say<texts::doubled_target>(id),
-                 say<texts::doubled_target_hint>(), id};
+    return doubled(servo.id);
   }
   if (const auto by = roster.armed_by()) {
     return Error{Code::armed, say<texts::armed>(by->value()), say<texts::armed_hint>(), id};
@@ -138,4 +138,4 @@ std::optional<Error> forbidden(fleet::Session& session, std::span<const Change> 
   return std::nullopt;
 }
 
-} // namespace blactl::cli
+} // namespace blactl::fleet

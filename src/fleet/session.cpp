@@ -65,7 +65,8 @@ Session::Session(std::unique_ptr<can::Bus> bus, std::optional<dronecan::LocalNod
              .unique_id = own_unique_id(local_ ? local_->id() : dronecan::anonymous)},
             {.send = [this](const can::Frame& frame) { loop_.send(frame); },
              .transfer = [this](const dronecan::Transfer& transfer) { roster_.receive(transfer); },
-             .error = {}}) {}
+             .error = {},
+             .backlog = [this] { return loop_.unsent(); }}) {}
 
 Result<std::unique_ptr<Session>> Session::open(std::unique_ptr<can::Bus> bus,
                                                std::optional<dronecan::LocalNodeId> local,
@@ -91,17 +92,29 @@ Time Session::acknowledge_deadline() const {
 }
 
 Result<Session::Happened> Session::step(Time deadline) {
-  node_.advance(loop_.now());
   const Time wake = std::min({deadline, node_.next_deadline(), acknowledge_deadline()});
-  auto happened = take(loop_.next(wake));
+  const can::Event event = loop_.next(wake);
+  node_.tell_time(loop_.now());
+  auto happened = take(event);
   if (!happened || *happened != Happened::deadline) {
+    // What was on the bus before this frame has been read: so far it is known what is late, even
+    // if frames come faster than they can be read.
+    const auto* received = std::get_if<can::Received>(&event);
+    if (happened && received != nullptr) {
+      node_.advance(received->at);
+      return received->at >= deadline ? Happened::deadline : *happened;
+    }
     return happened;
   }
-  if (acknowledge_deadline() <= loop_.now()) {
+  // The loop has given everything that came. A process that slept would else give up answers that
+  // wait to be read.
+  const Time now = loop_.now();
+  if (acknowledge_deadline() <= now) {
     return end({Code::no_acknowledge, say<texts::nobody_acknowledges>(interface()),
                 say<texts::nobody_acknowledges_hint>()});
   }
-  return loop_.now() >= deadline ? Happened::deadline : Happened::something;
+  node_.advance(now);
+  return now >= deadline ? Happened::deadline : Happened::something;
 }
 
 Result<Session::Happened> Session::take(const can::Event& event) {
@@ -117,6 +130,7 @@ Result<Session::Happened> Session::take(const can::Event& event) {
     }
   } else if (const auto* overflow = std::get_if<can::Overflow>(&event)) {
     lost_ = overflow->lost;
+    node_.echoes_lost(loop_.now()); // they may have been among what was lost
   } else if (const auto* gone = std::get_if<can::Gone>(&event)) {
     return end(gone->error);
   } else if (const auto* caught = std::get_if<can::Signal>(&event)) {

@@ -3,6 +3,7 @@
 #include "blactl/bla/value.hpp"
 #include "blactl/fleet/texts.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace blactl::fleet {
@@ -10,6 +11,13 @@ namespace blactl::fleet {
 using dronecan::GetNodeInfo;
 using dronecan::Outcome;
 using dronecan::Request;
+
+namespace {
+
+/// A servo that restarts more often while it is written to does so because of it, or of its supply.
+constexpr int most_restarts = 2;
+
+} // namespace
 
 std::string_view name(ChangeStatus status) {
   switch (status) {
@@ -57,12 +65,15 @@ std::optional<Request> WriteJob::go_on() {
   while (at_ < changes_.size() && changes_[at_].status != ChangeStatus::planned) {
     ++at_;
   }
-  if (at_ == changes_.size()) {
-    return std::nullopt;
-  }
-  if (boot_ != member_.boots) {
+  const auto concerned = [](const Change& change) {
+    return change.status == ChangeStatus::planned || change.status == ChangeStatus::written;
+  };
+  if (boot_ != member_.boots && std::ranges::any_of(changes_, concerned)) {
     step_ = Step::unique_id;
     return ask(member_.id, GetNodeInfo::type, GetNodeInfo::Request{}.encode(), patience_);
+  }
+  if (at_ == changes_.size()) {
+    return std::nullopt;
   }
   step_ = Step::write;
   return write_register(member_.id, changes_[at_].parameter->address, changes_[at_].requested,
@@ -74,16 +85,32 @@ std::optional<Request> WriteJob::read_back() {
   return read_register(member_.id, changes_[at_].parameter->address, patience_);
 }
 
+/// The restart brought the values of the ROM back: what was written is to be written again.
+void WriteJob::begin_again() {
+  for (Change& change : changes_) {
+    if (change.status == ChangeStatus::written) {
+      change.status = ChangeStatus::planned;
+    }
+  }
+  const auto first = std::ranges::find(changes_, ChangeStatus::planned, &Change::status);
+  at_ = static_cast<std::size_t>(first - changes_.begin());
+}
+
 bool WriteJob::same_servo(const Outcome& outcome) {
+  begin_again();
   if (!outcome.answered()) {
     give_up(no_answer(outcome, member_.id, "GetNodeInfo"));
     return false;
   }
+  const std::uint8_t id = member_.id.value();
   const auto info = GetNodeInfo::Response::decode(outcome.payload);
   if (!info || !member_.info || info->unique_id != member_.info->unique_id) {
-    const std::uint8_t id = member_.id.value();
     give_up(
         {Code::state, say<texts::restarted_meanwhile>(id), say<texts::node_not_found_hint>(), id});
+    return false;
+  }
+  if (++restarts_ > most_restarts) {
+    give_up({Code::state, say<texts::restarts_again>(id), say<texts::restarts_again_hint>(), id});
     return false;
   }
   boot_ = member_.boots;
@@ -109,12 +136,13 @@ void WriteJob::judge(const Outcome& outcome) {
   const std::string held = bla::display(parameter, *change.after);
   if (change.after == change.before) {
     change.status = ChangeStatus::failed;
-    change.error =
-        Error{Code::refused, say<texts::write_refused>(parameter.name, wanted, held), {}, id};
+    change.error = Error{Code::refused, say<texts::write_refused>(id, parameter.name, wanted, held),
+                         say<texts::not_taken_hint>(id), id};
   } else {
     change.status = ChangeStatus::mismatch;
     change.error =
-        Error{Code::mismatch, say<texts::write_mismatch>(parameter.name, wanted, held), {}, id};
+        Error{Code::mismatch, say<texts::write_mismatch>(id, parameter.name, wanted, held),
+              say<texts::not_taken_hint>(id), id};
   }
 }
 

@@ -30,11 +30,15 @@ class JsonWriter {
 
   void key(std::string_view name);
 
-  void value(std::string_view text); ///< must be UTF-8; controls are escaped
+  /// Controls are escaped; a byte that is not well-formed UTF-8 becomes U+FFFD.
+  void value(std::string_view text);
 
   void value(const char* text) { value(std::string_view(text)); }
 
-  void value(bool truth) { literal(truth ? "true" : "false"); }
+  /// A bool and nothing that only converts to one (a double, a pointer).
+  template <std::same_as<bool> Truth> void value(Truth truth) {
+    literal(truth ? "true" : "false");
+  }
 
   void value(std::nullptr_t) { literal("null"); }
 

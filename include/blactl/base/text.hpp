@@ -12,6 +12,7 @@
 
 #include <fmt/core.h>
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -38,6 +39,10 @@ template <const Text& text, class... Args> [[nodiscard]] std::string say(const A
 
 /// Which of two texts that came with data (a profile) fits the language of this process.
 [[nodiscard]] std::string_view choose(std::string_view en, std::string_view ja);
+
+/// The length of the well-formed UTF-8 character that `text` begins with; 0: it is not well-formed
+/// (RFC 3629: no overlong forms, no surrogates, nothing above U+10FFFF). `text` is not empty.
+[[nodiscard]] std::size_t utf8_length(std::string_view text);
 
 /// Foreign bytes made fit for a terminal, a log line or JSON: valid UTF-8 stays, control
 /// characters, escape sequences and broken UTF-8 become \xNN.

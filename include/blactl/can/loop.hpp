@@ -74,6 +74,7 @@ class Loop {
   std::optional<Event> poll_once(Time deadline);
   std::optional<Event> from_signals();
   std::optional<Event> from_bus();
+  void heard(Time at);
   void pump();
 
   std::unique_ptr<Bus> bus_;

@@ -15,10 +15,13 @@ class NodeId {
   static constexpr std::uint8_t max = 127;
 
   constexpr NodeId() = default;
+
   constexpr explicit NodeId(std::uint8_t value) : value_(value & max) {}
 
   [[nodiscard]] constexpr std::uint8_t value() const { return value_; }
+
   [[nodiscard]] constexpr bool is_unicast() const { return value_ != 0; }
+
   friend constexpr auto operator<=>(NodeId, NodeId) = default;
 
  private:

@@ -71,6 +71,8 @@ class Node {
     std::function<void(const Transfer&)> transfer;
     /// A transfer that could not be reassembled. May be empty.
     std::function<void(ReceiveError, std::uint32_t can_id, Time)> error;
+    /// Frames that wait to leave this machine. May be empty: none.
+    std::function<std::size_t()> backlog{};
   };
 
   struct Description {
@@ -84,14 +86,21 @@ class Node {
 
   [[nodiscard]] NodeId id() const { return local_; }
 
+  /// `at`: when the frame was on the bus, which may be long before it is read.
   void receive(const can::Frame& frame, Time at);
   void sent(const can::Frame& frame, Time at);
+  /// Echoes were lost: questions without one are taken as sent.
+  void echoes_lost(Time at);
+  /// What is asked from here on is asked `now`.
+  void tell_time(Time now);
+  /// Does what is due. All that was on the bus before `now` must have been read: a question whose
+  /// answer waits to be read is not unanswered.
   void advance(Time now);
   /// When advance() is due; `never`: nothing is waited for.
   [[nodiscard]] Time next_deadline() const;
 
   /// Begins a job; it must live until it ended or cancel_all() was called. May be called by a job
-  /// or hook at any time.
+  /// or hook at any time. Without a local ID its first question ends it, as not sent.
   void start(Job& job, Time now);
 
   /// Jobs that have not ended.
@@ -116,6 +125,7 @@ class Node {
   void on_transfer(const Transfer& transfer);
   void on_response(const Transfer& transfer);
   void answer_node_info(const Transfer& request);
+  [[nodiscard]] bool is_congested() const;
   void broadcast_status(Time now);
   void finish(Active& active, const Outcome& outcome);
   void ask(Active& active, Time now);

@@ -15,6 +15,7 @@ class Payload {
   static constexpr std::size_t capacity = 384;
 
   Payload() = default;
+
   explicit Payload(std::span<const std::uint8_t> bytes) { append(bytes); }
 
   /// Beyond the capacity nothing is kept; the encoders stay below it by their types.
@@ -23,6 +24,7 @@ class Payload {
     std::copy_n(bytes.begin(), n, bytes_.begin() + static_cast<std::ptrdiff_t>(size_));
     size_ += n;
   }
+
   void append(std::uint8_t byte) { append(std::span(&byte, 1)); }
 
   [[nodiscard]] std::span<const std::uint8_t> bytes() const { return {bytes_.data(), size_}; }

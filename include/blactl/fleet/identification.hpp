@@ -56,6 +56,7 @@ class Identification {
   Options options_;
   Step step_ = Step::begin;
   bla::Readings readings_;
+  std::uint32_t boot_ = 0; ///< when the servo told its unique ID
   bool done_ = false;
   std::optional<Error> error_;
 };

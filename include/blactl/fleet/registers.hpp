@@ -17,7 +17,7 @@ struct Patience {
 
 /// A question of `type` with this payload, as patient as asked for.
 [[nodiscard]] dronecan::Request ask(dronecan::NodeId server, const dronecan::DataType& type,
-                                    dronecan::Payload payload, const Patience& patience);
+                                    const dronecan::Payload& payload, const Patience& patience);
 
 [[nodiscard]] dronecan::Request read_register(dronecan::NodeId server, bla::Address address,
                                               const Patience& patience);

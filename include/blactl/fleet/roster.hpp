@@ -82,9 +82,9 @@ class Roster {
 
   [[nodiscard]] bool heard(dronecan::NodeId id) const { return heard_[id.value()]; }
 
-  [[nodiscard]] bool is_doubled(dronecan::NodeId id) const { return doubled_.contains(id); }
-
-  [[nodiscard]] const std::set<dronecan::NodeId>& doubled() const { return doubled_; }
+  /// Two units use this ID, as far as heard.
+  [[nodiscard]] bool is_doubled(dronecan::NodeId id) const;
+  [[nodiscard]] std::set<dronecan::NodeId> doubled() const;
 
   [[nodiscard]] const std::set<UniqueIdPrefix>& pending() const { return pending_; }
 
@@ -94,8 +94,10 @@ class Roster {
     return commanders_;
   }
 
-  /// Whose ArmingStatus said last that the vehicle is armed.
-  [[nodiscard]] std::optional<dronecan::NodeId> armed_by() const { return armed_by_; }
+  /// A node whose last ArmingStatus says that the vehicle is armed.
+  [[nodiscard]] std::optional<dronecan::NodeId> armed_by() const {
+    return armed_.empty() ? std::nullopt : std::optional(*armed_.begin());
+  }
 
   /// The node that drives this servo now, as far as heard.
   [[nodiscard]] std::optional<dronecan::NodeId> driver_of(const Member& servo, Time now) const;
@@ -107,6 +109,7 @@ class Roster {
     unsigned count = 0;
     std::array<std::optional<Time>, 2> boots{}; ///< when the unit(s) behind the ID started
     std::size_t last_boot = 0;
+    std::uint32_t last_uptime_s = 0;
   };
 
   void count_status(dronecan::NodeId source, Time at);
@@ -116,6 +119,7 @@ class Roster {
   void on_write(const dronecan::Transfer& transfer);
   void watch_uptime(Member& member, std::uint32_t uptime_s, Time at);
   Commander& commander(dronecan::NodeId source);
+  [[nodiscard]] bool is_too_fast(dronecan::NodeId id) const;
 
   dronecan::NodeId local_;
   std::function<void(Member&)> new_member_;
@@ -123,10 +127,11 @@ class Roster {
   std::array<bool, 128> heard_{};
   std::array<Pulse, 128> pulses_{};
   std::set<dronecan::NodeId> doubled_;
+  std::set<dronecan::NodeId> too_fast_; ///< sent actuator.Status like two servos
   std::set<UniqueIdPrefix> pending_;
   std::set<dronecan::NodeId> allocators_;
   std::map<dronecan::NodeId, Commander> commanders_;
-  std::optional<dronecan::NodeId> armed_by_;
+  std::set<dronecan::NodeId> armed_;
 };
 
 } // namespace blactl::fleet

@@ -9,24 +9,25 @@
 #include <span>
 #include <vector>
 
-namespace blactl::cli {
+namespace blactl::fleet {
 
 /// The registers whose present values may_move() needs to judge a change of `address`.
 [[nodiscard]] std::vector<bla::Address> values_needed(bla::Address address);
 
 /// Whether this change is asked first. `values` holds values_needed().
-[[nodiscard]] bool may_move(const fleet::Change& change, const fleet::ReadJob& values);
+[[nodiscard]] bool may_move(const Change& change, const ReadJob& values);
 
-/// Whether the bus must have been heard for 1.1 s before these changes: one of them may move the
-/// shaft, or gives a node ID that must be free.
-[[nodiscard]] bool needs_watch(std::span<const fleet::Change> changes,
-                               const fleet::ReadJob& values);
+/// Whether the bus must have been heard for 1.1 s before these changes: that long takes
+/// ArmingStatus, and a second unit with the same node ID. So before every write.
+[[nodiscard]] bool needs_watch(std::span<const Change> changes);
+
+/// That nothing is written to a node ID which two units have: duplicate_node_id.
+[[nodiscard]] Error doubled(dronecan::NodeId id);
 
 /// Why these changes must not be written to this servo now, as far as the bus was heard.
 /// Errors: duplicate_node_id, armed, driven (what may move, unless `while_driven`), out_of_range
 /// (a static node ID that another node has).
-[[nodiscard]] std::optional<Error> forbidden(fleet::Session& session,
-                                             std::span<const fleet::Change> changes,
-                                             const fleet::ReadJob& values, bool while_driven);
+[[nodiscard]] std::optional<Error> forbidden(Session& session, std::span<const Change> changes,
+                                             const ReadJob& values, bool while_driven);
 
-} // namespace blactl::cli
+} // namespace blactl::fleet

@@ -27,6 +27,7 @@ class Session {
   [[nodiscard]] static Result<std::unique_ptr<Session>>
   open(std::unique_ptr<can::Bus> bus, std::optional<dronecan::LocalNodeId> local, Hearing hearing);
 
+  ~Session() = default;
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 

@@ -63,10 +63,23 @@ inline constexpr Text restarted_meanwhile{
     "node {} restarted and is another servo now: nothing more was written to it",
     "ノード {} は再起動後に別のサーボになりました。以後は書き込んでいません",
 };
-inline constexpr Text write_refused{"{}={}: the servo refused it and still holds {}",
-                                    "{}={}: サーボが拒否しました。値は {} のままです"};
-inline constexpr Text write_mismatch{"{}={}: the servo holds {} instead",
-                                     "{}={}: サーボの値は {} になっています"};
+inline constexpr Text restarts_again{
+    "node {} restarts again and again while it is written to",
+    "ノード {} は書き込み中に何度も再起動しています",
+};
+inline constexpr Text restarts_again_hint{
+    "check its supply voltage",
+    "電源電圧を確認してください",
+};
+inline constexpr Text about_node{"node {}: {}", "ノード {}: {}"};
+inline constexpr Text write_refused{"node {}: {}={}: the servo refused it and still holds {}",
+                                    "ノード {}: {}={}: サーボが拒否しました。値は {} のままです"};
+inline constexpr Text write_mismatch{"node {}: {}={}: the servo holds {} instead",
+                                     "ノード {}: {}={}: サーボの値は {} になっています"};
+
+inline constexpr Text not_taken_hint{
+    "is it the model that it says it is? compare its label with: blactl get -n {} --group product",
+    "機種が正しいか銘板と照合してください: blactl get -n {} --group product"};
 
 inline constexpr Text doubled_node_id{"two nodes share node ID {}",
                                       "ノード ID {} が 2 台で重複しています"};
@@ -74,6 +87,22 @@ inline constexpr Text doubled_static_id{"nodes {} have the same static node ID {
                                         "ノード {} の UAVCAN ノード ID 設定が {} で重複しています"};
 inline constexpr Text doubled_servo_id{"nodes {} have the same servo ID {}",
                                        "ノード {} のサーボ ID が {} で重複しています"};
+
+inline constexpr Text doubled_target{"node ID {} is used by two nodes: nothing is written to it",
+                                     "ノード ID {} が重複しているため書き込みません"};
+inline constexpr Text doubled_target_hint{"connect one of them alone and give it another ID",
+                                          "一台ずつ接続して別の ID を設定してください"};
+inline constexpr Text armed{"node {} says that the vehicle is armed: nothing is written",
+                            "ノード {} が ARM 状態を通知しているため書き込みません"};
+inline constexpr Text armed_hint{"disarm it first", "先に DISARM してください"};
+inline constexpr Text driven{"node {} drives servo {}: not while it does",
+                             "ノード {} がサーボ {} を動作指令中のため実行しません"};
+inline constexpr Text driven_hint{"stop it, or add --while-driven",
+                                  "停止させるか、--while-driven を付けてください"};
+inline constexpr Text node_id_in_use{"static_node_id={} is in use by another node",
+                                     "static_node_id={} は別のノードが使用中です"};
+inline constexpr Text node_id_in_use_hint{"see which IDs are taken: blactl scan",
+                                          "使用中の ID を確認: blactl scan"};
 
 inline constexpr Text bad_target{"-n {}: not a node ID, range or selector",
                                  "-n {}: ノード ID、範囲、セレクタのいずれでもありません"};

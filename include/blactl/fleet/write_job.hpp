@@ -29,7 +29,7 @@ struct Change {
 /// Sends the planned changes in order; those that hold the value already are `unchanged` before.
 /// An answer may show a clamped or refused value (requirement 73), so the register is read again
 /// after each write. If the servo restarted since it was identified, its unique ID is asked again
-/// before the next write.
+/// before the next write, and what was written before is written again: it was in RAM only.
 class WriteJob : public dronecan::Job {
  public:
   /// `member` has been identified; all references outlive the job.
@@ -46,6 +46,7 @@ class WriteJob : public dronecan::Job {
 
   [[nodiscard]] std::optional<dronecan::Request> go_on();
   [[nodiscard]] std::optional<dronecan::Request> read_back();
+  void begin_again();
   [[nodiscard]] bool same_servo(const dronecan::Outcome& outcome);
   void judge(const dronecan::Outcome& outcome);
   void give_up(Error error);
@@ -56,6 +57,7 @@ class WriteJob : public dronecan::Job {
   Step step_ = Step::begin;
   std::size_t at_ = 0;
   std::uint32_t boot_;
+  int restarts_ = 0; ///< seen while writing
 };
 
 } // namespace blactl::fleet
