@@ -1,0 +1,83 @@
+#include "scene.hpp"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace blactl::test {
+
+Scene& Scene::servo(std::string_view model, int node_id, const nlohmann::json& more) {
+  nlohmann::json servo = {{"model", model}, {"node_id", node_id}};
+  servo.update(more.is_null() ? nlohmann::json::object() : more);
+  document_["servos"].push_back(std::move(servo));
+  return *this;
+}
+
+Scene& Scene::foreign(int node_id, const nlohmann::json& more) {
+  nlohmann::json node = {{"kind", "node"}, {"node_id", node_id}};
+  node.update(more.is_null() ? nlohmann::json::object() : more);
+  document_["foreign"].push_back(std::move(node));
+  return *this;
+}
+
+std::string Scene::write(const Bench& bench) const {
+  return bench.file("scene.json", document_.dump(2));
+}
+
+Result Scene::run(const Arguments& arguments, const Options& options) const {
+  return run(Bench(), arguments, options);
+}
+
+Result Scene::run(const Bench& bench, const Arguments& arguments, const Options& options) const {
+  Arguments all{"-i", "sim:" + write(bench)};
+  all.insert(all.end(), arguments.begin(), arguments.end());
+  return bench.run(all, options);
+}
+
+Scene three_servos() {
+  return Scene()
+      .servo("BLA21-12U-AB", 11, {{"servo_id", 1}})
+      .servo("BLA15-06U-A0", 12, {{"servo_id", 2}})
+      .servo("BLA34-28U-AB", 13, {{"servo_id", 3}});
+}
+
+bool contains(std::string_view text, std::string_view part) {
+  return text.find(part) != std::string_view::npos;
+}
+
+std::vector<std::string> codes(const Result& result) {
+  constexpr std::string_view start = "blactl: [";
+  std::vector<std::string> found;
+  for (std::size_t at = result.err.find(start); at != std::string::npos;
+       at = result.err.find(start, at + 1)) {
+    const std::size_t from = at + start.size();
+    found.push_back(result.err.substr(from, result.err.find(']', from) - from));
+  }
+  return found;
+}
+
+std::vector<std::string> keys(const nlohmann::ordered_json& object) {
+  std::vector<std::string> names;
+  for (const auto& member : object.items()) {
+    names.push_back(member.key());
+  }
+  return names;
+}
+
+nlohmann::ordered_json ordered_json(std::string_view text) {
+  return nlohmann::ordered_json::parse(text);
+}
+
+bool is_fit_for_a_terminal(std::string_view text) {
+  try {
+    // A strict writer of JSON is a strict reader of UTF-8.
+    (void)nlohmann::json(std::string(text)).dump();
+  } catch (const nlohmann::json::type_error&) {
+    return false;
+  }
+  return std::ranges::all_of(text, [](char c) {
+    const auto byte = static_cast<std::uint8_t>(c);
+    return c == '\n' || (byte >= 0x20 && byte != 0x7F);
+  });
+}
+
+} // namespace blactl::test

@@ -1,0 +1,57 @@
+#pragma once
+// What the tests of the binary share: a simulated bus written down in one line, and how a result
+// is looked at.
+//
+//     const Scene scene = Scene().servo("BLA21-12U-AB", 11).foreign(40, {{"armed", true}});
+//     const Result got = scene.run({"get", "-n", "11", "--json"});
+//
+// Every run has a fresh bus of its own on the virtual clock, so it ends at once, however busy the
+// machine is.
+
+#include "run.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace blactl::test {
+
+class Scene {
+ public:
+  /// `more`: further keys of the scenario file.
+  Scene& servo(std::string_view model, int node_id, const nlohmann::json& more = {});
+  Scene& foreign(int node_id, const nlohmann::json& more = {});
+
+  /// Writes the scenario file and gives its path.
+  [[nodiscard]] std::string write(const Bench& bench) const;
+
+  /// Runs the binary with `-i sim:` this scenario.
+  [[nodiscard]] Result run(const Arguments& arguments, const Options& options = {}) const;
+  [[nodiscard]] Result run(const Bench& bench, const Arguments& arguments,
+                           const Options& options = {}) const;
+
+ private:
+  nlohmann::json document_ = {{"schema", "blactl-scenario/1"},
+                              {"clock", "virtual"},
+                              {"servos", nlohmann::json::array()},
+                              {"foreign", nlohmann::json::array()}};
+};
+
+/// 11: a BLA21 with PWM input, 12: a BLA15 without, 13: a BLA34.
+[[nodiscard]] Scene three_servos();
+
+[[nodiscard]] bool contains(std::string_view text, std::string_view part);
+
+/// The words in brackets of "blactl: [timeout] …" on stderr.
+[[nodiscard]] std::vector<std::string> codes(const Result& result);
+
+/// The members of an object in the order of the document.
+[[nodiscard]] std::vector<std::string> keys(const nlohmann::ordered_json& object);
+[[nodiscard]] nlohmann::ordered_json ordered_json(std::string_view text);
+
+/// Well-formed UTF-8 without control characters other than the line break.
+[[nodiscard]] bool is_fit_for_a_terminal(std::string_view text);
+
+} // namespace blactl::test

@@ -1,0 +1,371 @@
+#include "catch.hpp"
+#include "scene.hpp"
+#include "tap.hpp"
+
+using namespace blactl::test;
+
+namespace {
+
+struct Case {
+  std::string assignment;
+  std::string address;
+  int raw;
+};
+
+nlohmann::json changes(const Result& result) {
+  return json(result.out)["nodes"][0]["changes"];
+}
+
+/// A servo with the labels of a BLA21 that is a BLA15 inside: it knows other limits than its
+/// profile.
+Scene impostor(const std::string& out_of_range) {
+  return Scene().servo("BLA15-06U-A0", 11,
+                       {{"model_number", 61},
+                        {"hardware_version", 12050},
+                        {"behaviour", {{"out_of_range", out_of_range}}}});
+}
+
+Scene with_firmware(int version) {
+  return Scene().servo("BLA21-12U-AB", 11, {{"firmware_version", version}});
+}
+
+void check_error(const Result& result, int status, const std::string& code,
+                 const std::string& message) {
+  INFO(result.err);
+  CHECK(result.status == status);
+  CHECK(codes(result) == std::vector{code});
+  CHECK(contains(result.err, message));
+}
+
+} // namespace
+
+TEST_CASE("set has exactly the keys of the contract, in their order") {
+  const Result result =
+      three_servos().run({"set", "-n", "11", "angle_limit_cw=90deg", "smoothing=on", "--json"});
+  CHECK(result.status == 0);
+  CHECK(result.err.empty());
+  const auto document = ordered_json(result.out);
+  CHECK(keys(document) == std::vector<std::string>{"schema", "command", "interface", "exit_status",
+                                                   "nodes", "counts", "errors"});
+  const auto& node = document["nodes"][0];
+  CHECK(keys(node) == std::vector<std::string>{"node_id", "unique_id", "model", "serial_number",
+                                               "servo_id", "firmware_version", "hardware_version",
+                                               "changes", "saved"});
+  REQUIRE(node["changes"].size() == 2);
+  CHECK(node["changes"][0].dump() ==
+        R"({"address":"0x38","name":"angle_limit_cw","before":1799,"requested":900,)"
+        R"("after":900,"status":"written"})");
+  CHECK(node["changes"][1].dump() ==
+        R"({"address":"0x22","name":"smoothing","before":1,"requested":1,)"
+        R"("after":1,"status":"unchanged"})");
+  CHECK(node["saved"] == false);
+}
+
+TEST_CASE("set says what was there, what is there now, and that it is not saved") {
+  const Result result = three_servos().run({"set", "-n", "11", "angle_limit_cw=90deg"});
+  CHECK(result.status == 0);
+  CHECK(contains(result.out, "  0x38  angle_limit_cw  179.9 deg  ->  90.0 deg  written\n"));
+  CHECK(contains(result.out, "in RAM only: a restart brings the old values back\n"));
+  const Result same = three_servos().run({"set", "-n", "11", "angle_limit_cw=179.9deg"});
+  CHECK(same.status == 0);
+  CHECK(contains(same.out, "unchanged\n"));
+  CHECK_FALSE(contains(same.out, "in RAM only"));
+}
+
+TEST_CASE("values are taken in every spelling of the contract") {
+  const std::vector<Case> cases{
+      {"angle_limit_cw=90deg", "0x38", 900},
+      {"angle_limit_cw=090.0deg", "0x38", 900},
+      {"angle_limit_cw=179.80deg", "0x38", 1798},
+      {"angle_limit_cw=900raw", "0x38", 900},
+      {"0x38=900", "0x38", 900},
+      {"0x38=900raw", "0x38", 900},
+      {"0X38=90deg", "0x38", 900},
+      {"angle-limit-cw=90deg", "0x38", 900},
+      {"ANGLE_LIMIT_CW=90deg", "0x38", 900},
+      {"angle_limit_ccw=-45.5deg", "0x39", -455},
+      {"timeout_time=1.5s", "0x27", 1500},
+      {"timeout_time=1500ms", "0x27", 1500},
+      {"timeout_time=1500000us", "0x27", 1500},
+      {"timeout_time=1500", "0x27", 1500},
+      {"voltage_limit_high=24.0V", "0x40", 240},
+      {"overcurrent_limit=6.5A", "0x2A", 65},
+      {"0x2A=65", "0x2A", 65},
+      {"angle_boost=1.5%", "0x2F", 15},
+      {"torque_limit_cw=80%", "0x3C", 80},
+      {"torque_limit_cw=80", "0x3C", 80},
+      {"speed_limit_cw=60rpm", "0x3A", 60},
+      {"pwm_neutral=1500us", "0x34", 1500},
+      {"temperature_limit_low=-30degC", "0x3F", -30},
+      {"servo_id=3", "0x45", 3},
+      {"torque_output=off", "0x20", 1},
+      {"torque_output=BRAKE", "0x20", 2},
+      {"torque_output=1", "0x20", 1},
+      {"timeout_action=hold", "0x26", 0},
+      {"soft_start=off", "0x21", 0},
+      {"pwm_mode=speed", "0x37", 1},
+  };
+  for (const Case& one : cases) {
+    INFO(one.assignment);
+    const Result result =
+        three_servos().run({"set", "-n", "11", one.assignment, "--dry-run", "--json"});
+    CHECK(result.status == 8);
+    const auto change = changes(result)[0];
+    CHECK(change["address"] == one.address);
+    CHECK(change["requested"] == one.raw);
+    CHECK(change["status"] == "planned");
+    CHECK(change["after"].is_null());
+  }
+}
+
+TEST_CASE("--dry-run tells whether something would change, and changes nothing") {
+  const Bench bench;
+  const Background sim(bench, {"sim"});
+  Tap tap(bench);
+  const Arguments set{"-i", "sim:", "set", "-n", "11", "--dry-run"};
+  const auto with = [&](const std::string& assignment) {
+    Arguments arguments = set;
+    arguments.push_back(assignment);
+    return bench.run(arguments);
+  };
+  const Result changing = with("torque_output=off");
+  CHECK(changing.status == 8);
+  CHECK(contains(changing.out, "->  off    planned\n"));
+  CHECK(with("torque_output=on").status == 0);
+  CHECK(tap.writes().empty());
+}
+
+TEST_CASE("set writes only what differs, in the order asked, and it stays") {
+  const Bench bench;
+  const Background sim(bench, {"sim"});
+  Tap tap(bench);
+  CHECK(bench.run({"-i", "sim:", "set", "-n", "11", "smoothing=off", "servo_id=1", "0x38=900"})
+            .status == 0);
+  CHECK(tap.writes() == std::vector<std::string>{"0x22=0", "0x38=900"});
+  CHECK(bench.run({"-i", "sim:", "set", "-n", "11", "smoothing=off", "0x38=900"}).status == 0);
+  CHECK(tap.writes().empty());
+  const Result read = bench.run({"-i", "sim:", "get", "-n", "11", "0x38", "smoothing"});
+  CHECK(contains(read.out, "900  (90.0 deg)"));
+  CHECK(contains(read.out, "0  (off)"));
+}
+
+TEST_CASE("a static refusal sends not one frame") {
+  const Bench bench;
+  const Background sim(bench, {"sim"});
+  Tap tap(bench);
+  for (const char* assignment : {"0x49=1", "0x03=1", "0x60=1", "current_angle=1deg", "0x12=1",
+                                 "torque_limit_cw=101%", "angle_limit_cw=90"}) {
+    INFO(assignment);
+    CHECK(bench.run({"-i", "sim:", "set", "-n", "11", "smoothing=off", assignment}).status == 2);
+  }
+  CHECK(tap.frames() == 0);
+}
+
+TEST_CASE("if one of several servos refuses, none is written") {
+  const Bench bench;
+  const Background sim(bench, {"sim"});
+  Tap tap(bench);
+  const Result result =
+      bench.run({"-i", "sim:", "set", "-n", "11,12", "smoothing=off", "overcurrent_limit=6.5A"});
+  check_error(result, 2, "out_of_range",
+              "node 12: overcurrent_limit=6.5A: outside of the range 1.0A to 3.0A\n"
+              "  type a value from 1.0A to 3.0A");
+  CHECK(result.out.empty());
+  CHECK(tap.writes().empty());
+}
+
+TEST_CASE("a value is checked against the servo's own model") {
+  check_error(three_servos().run({"set", "-n", "13", "speed_limit_cw=100rpm"}), 2, "out_of_range",
+              "node 13: speed_limit_cw=100rpm: outside of the range 0rpm to 80rpm");
+  CHECK(three_servos().run({"set", "-n", "11", "speed_limit_cw=100rpm"}).status == 0);
+}
+
+TEST_CASE("what the firmware or the model lacks is refused with the reason") {
+  check_error(with_firmware(1100).run({"set", "angle_boost=1%"}), 2, "unsupported",
+              "node 11: angle_boost (0x2F) needs firmware 1.200, this servo has 1.100\n"
+              "  `blactl models` shows which servos have it");
+  for (const char* assignment :
+       {"speed_torque_control=on", "overcurrent_limit=6.5A", "pwm_neutral=1500us"}) {
+    INFO(assignment);
+    check_error(with_firmware(1010).run({"set", assignment}), 2, "unsupported",
+                "needs firmware 1.100, this servo has 1.010");
+    CHECK(with_firmware(1100).run({"set", assignment, "-y"}).status == 0);
+  }
+  check_error(three_servos().run({"set", "-n", "12", "pwm_neutral=1500us"}), 2, "unsupported",
+              "node 12: pwm_neutral (0x34): BLA15-06U-A0 has no PWM input\n"
+              "  models whose suffix has a B in it");
+}
+
+TEST_CASE("the unit of the PWM output range must be that of the PWM mode") {
+  const auto set = [](const Arguments& assignments) {
+    Arguments arguments{"set", "-n", "11", "-y", "-j"};
+    arguments.insert(arguments.end(), assignments.begin(), assignments.end());
+    return three_servos().run(arguments);
+  };
+  CHECK(changes(set({"pwm_output_range=60deg"}))[0]["after"] == 600);
+  CHECK(changes(set({"pwm_mode=speed", "pwm_output_range=60rpm"}))[1]["after"] == 60);
+  CHECK(changes(set({"pwm_output_range=600raw"}))[0]["after"] == 600);
+  const Result wrong = set({"pwm_output_range=60rpm"});
+  check_error(wrong, 2, "usage",
+              "node 11: pwm_output_range=60rpm: with pwm_mode=angle the unit is deg\n"
+              "  for example pwm_output_range=6.0deg");
+}
+
+TEST_CASE("a servo that does not take the value ends with 5 and what it holds instead") {
+  const Result refused = impostor("refuse").run({"set", "overcurrent_limit=6.5A", "-j"});
+  check_error(refused, 5, "refused",
+              "node 11: overcurrent_limit=6.5 A: the servo refused it and still holds 2.1 A\n"
+              "  is it the model that it says it is?");
+  CHECK(changes(refused)[0]["status"] == "failed");
+  CHECK(changes(refused)[0]["after"] == 21);
+
+  const Result clamped = impostor("clamp").run({"set", "overcurrent_limit=6.5A", "-j"});
+  check_error(clamped, 5, "mismatch",
+              "node 11: overcurrent_limit=6.5 A: the servo holds 3.0 A instead\n"
+              "  is it the model that it says it is?");
+  CHECK(changes(clamped)[0]["status"] == "mismatch");
+  CHECK(changes(clamped)[0]["after"] == 30);
+}
+
+TEST_CASE("one servo done and one that refuses is 6") {
+  const Result result =
+      impostor("refuse").servo("BLA21-12U-AB", 12).run({"set", "-n", "11,12", "0x2A=65", "-j"});
+  CHECK(result.status == 6);
+  const auto nodes = json(result.out)["nodes"];
+  CHECK(nodes[0]["changes"][0]["status"] == "failed");
+  CHECK(nodes[1]["changes"][0]["status"] == "written");
+}
+
+TEST_CASE("set without -n means the one servo there is") {
+  CHECK(Scene().servo("BLA21-12U-AB", 11).foreign(40).run({"set", "servo_id=3"}).status == 0);
+  check_error(three_servos().run({"set", "servo_id=9"}), 2, "usage",
+              "several servos are on the bus: 11, 12, 13\n  say which: -n 11");
+  check_error(Scene().foreign(40).run({"set", "servo_id=3"}), 4, "not_found",
+              "no BLA servo is on the bus");
+  check_error(three_servos().run({"set", "-n", "55", "servo_id=3"}), 4, "not_found",
+              "node 55 is not on the bus\n  see who is there: blactl scan");
+  check_error(three_servos().run({"set", "-n", "model:BLA21-28U", "servo_id=3"}), 4, "not_found",
+              "no servo on the bus matches model:BLA21-28U");
+}
+
+TEST_CASE("nothing is written on a guess of the model") {
+  const Scene unknown = Scene().servo("BLA21-12U-AB", 11, {{"model_number", 99}});
+  const std::string add = "\n  add a profile for this model with --profile-dir DIR";
+  check_error(unknown.run({"set", "smoothing=off"}), 9, "no_profile",
+              "node 11: no profile fits this servo (0x50=99): it is only read" + add);
+  check_error(unknown.run({"set", "smoothing=off", "--profile", "BLA21-12U-AB"}), 9, "no_profile",
+              "it is only read");
+  const Scene unknown_class = Scene().servo("BLA21-12U-AB", 11, {{"hardware_version", 59050}});
+  check_error(unknown_class.run({"set", "voltage_limit_high=20V"}), 9, "no_profile",
+              "voltage_limit_high (0x40) depends on the model, and 0x53=59050 leaves open which of "
+              "these it is: BLA21-06U-AB, BLA21-12U-AB, BLA21-28U-AB" +
+                  add);
+  CHECK(unknown_class.run({"set", "smoothing=off"}).status == 0);
+  check_error(three_servos().run({"set", "-n", "11", "smoothing=off", "--profile", "BLA34-28U-AB"}),
+              9, "model_mismatch", "the servo is BLA21-12U-AB, not BLA34-28U-AB");
+}
+
+TEST_CASE("nothing is written to a doubled node ID") {
+  const Scene scene = three_servos().servo("BLA21-12U-AB", 11, {{"servo_id", 4}});
+  check_error(scene.run({"set", "-n", "11", "smoothing=off", "--yes", "--while-driven"}), 9,
+              "duplicate_node_id",
+              "node ID 11 is used by two nodes: nothing is written to it\n"
+              "  connect one of them alone and give it another ID");
+  CHECK(scene.run({"set", "-n", "12", "smoothing=off"}).status == 0);
+}
+
+TEST_CASE("a node ID that another unit has is not given away") {
+  for (const char* taken : {"12", "40"}) {
+    check_error(
+        three_servos().foreign(40).run({"set", "-n", "11", std::string("static_node_id=") + taken}),
+        2, "out_of_range",
+        std::string("static_node_id=") + taken +
+            " is in use by another node\n  see which IDs are taken: blactl scan");
+  }
+  CHECK(three_servos().run({"set", "-n", "11", "static_node_id=21"}).status == 0);
+}
+
+// On a bus that has been running: the vehicle said armed before this command began, and will say
+// so again within a second.
+TEST_CASE("nothing at all is written while the vehicle is armed") {
+  const Bench bench;
+  const Scene scene = three_servos().foreign(40, {{"armed", true}});
+  const Background sim(bench, {"sim", scene.write(bench), "--clock", "real"});
+  Tap tap(bench);
+  const Result result =
+      bench.run({"-i", "sim:", "set", "-n", "11", "smoothing=off", "--yes", "--while-driven"});
+  check_error(result, 9, "armed",
+              "node 40 says that the vehicle is armed: nothing is written\n  disarm it first");
+  CHECK(tap.writes().empty());
+  CHECK(bench.run({"-i", "sim:", "get", "-n", "11", "smoothing"}).status == 0);
+}
+
+TEST_CASE("a servo that somebody drives is not made to move, except by --while-driven") {
+  const Scene scene = three_servos().foreign(
+      40, {{"commands", {{"servo_ids", {1}}, {"type", 1}, {"value", 0.1}, {"rate", 50}}}});
+  check_error(scene.run({"set", "-n", "11", "torque_output=off", "--yes"}), 9, "driven",
+              "node 40 drives servo 11: not while it does\n  stop it, or add --while-driven");
+  CHECK(scene.run({"set", "-n", "11", "torque_output=off", "--yes", "--while-driven"}).status == 0);
+  CHECK(scene.run({"set", "-n", "11", "angle_p_gain=50"}).status == 0);
+  CHECK(scene.run({"set", "-n", "12", "torque_output=off", "--yes"}).status == 0);
+}
+
+TEST_CASE("without a terminal what needs a yes fails, and --yes is one") {
+  const Result asked = three_servos().run({"set", "-n", "11", "torque_output=off"});
+  check_error(asked, 7, "not_confirmed",
+              "This can move the shaft or let go of the load:\n"
+              "  node 11: torque_output on -> off\n"
+              "not confirmed: nothing was written\n  add --yes to agree beforehand");
+  CHECK(asked.out.empty());
+  CHECK(three_servos().run({"set", "-n", "11", "torque_output=off", "-y"}).status == 0);
+}
+
+TEST_CASE("what can move the shaft or let go of the load is asked, the rest is not") {
+  const auto is_asked = [](const std::string& assignment) {
+    INFO(assignment);
+    const int status = three_servos().run({"set", "-n", "11", assignment}).status;
+    CHECK((status == 7 || status == 0));
+    return status == 7;
+  };
+  for (const char* asked :
+       {"command_angle=10deg", "torque_output=brake", "reverse=on", "extended_angle=on",
+        "timeout_action=hold", "timeout_time=2s", "origin=1deg", "torque_limit_cw=0%",
+        "torque_limit_ccw=0%", "temperature_limit_high=25degC", "voltage_limit_high=12V",
+        "voltage_limit_low=12V", "pwm_neutral=1500us", "pwm_range=600us", "pwm_mode=speed"}) {
+    CHECK(is_asked(asked));
+  }
+  for (const char* free :
+       {"angle_limit_cw=90deg", "angle_limit_ccw=-90deg", "torque_limit_cw=50%",
+        "temperature_limit_high=60degC", "voltage_limit_high=15V", "angle_p_gain=50",
+        "soft_start=off", "smoothing=off", "servo_id=9", "torque_output=on"}) {
+    CHECK_FALSE(is_asked(free));
+  }
+}
+
+TEST_CASE("an angle limit inside the present angle is asked") {
+  const Scene scene = Scene().servo("BLA21-12U-AB", 11, {{"ram", {{"current_angle", "30deg"}}}});
+  CHECK(scene.run({"set", "angle_limit_cw=20deg"}).status == 7);
+  CHECK(scene.run({"set", "angle_limit_cw=40deg"}).status == 0);
+}
+
+TEST_CASE("on a terminal the question is answered there") {
+  const Arguments arguments{"set", "-n", "11", "torque_output=off"};
+  const auto answered = [&](const std::string& answer) {
+    return three_servos().run(arguments,
+                              {.answers = {{"Go on? [y/N] ", answer}}, .terminal = true});
+  };
+  const Result yes = answered("y\n");
+  CHECK(yes.status == 0);
+  CHECK(contains(yes.err, "  node 11: torque_output on -> off\nGo on? [y/N] "));
+  CHECK(contains(yes.out, "->  off    written\n"));
+  CHECK(answered("yes\n").status == 0);
+  for (const char* no : {"n\n", "\n", "yo\n", "\x04"}) {
+    const Result result = answered(no);
+    CHECK(result.status == 7);
+    CHECK(result.out.empty());
+    CHECK(contains(result.err, "[not_confirmed]"));
+  }
+  const Result ctrl_c = answered("\x03");
+  CHECK(ctrl_c.status == 130);
+  CHECK(contains(ctrl_c.err, "[interrupted]"));
+}

@@ -1,0 +1,163 @@
+#include "catch.hpp"
+#include "scene.hpp"
+#include "tap.hpp"
+
+#include <filesystem>
+
+using namespace blactl::test;
+
+namespace {
+
+const Arguments get_servo_id{"-i", "sim:", "get", "-n", "11", "servo_id"};
+
+/// Asks a question, and holds its node ID until it is answered.
+const Arguments asking{"-i", "sim:", "--color", "never", "set", "-n", "11", "torque_output=off"};
+constexpr std::string_view question = "Go on?";
+
+} // namespace
+
+TEST_CASE("sim says ready when clients may come, and ends with the signal") {
+  const Bench bench;
+  Background sim(bench, {"sim"});
+  CHECK(bench.run(get_servo_id).status == 0);
+  const Result ended = sim.stop(SIGTERM);
+  CHECK(ended.status == 143);
+  CHECK(ended.out == "ready\n");
+  CHECK(contains(ended.err, "simulated servos: 3 (Ctrl-C ends)"));
+  CHECK(Background(bench, {"sim"}).stop(SIGINT).status == 130);
+}
+
+TEST_CASE("sim --json is a stream of ready and the end") {
+  const Bench bench;
+  Background sim(bench, {"sim", "--json"}, {}, R"({"event":"ready"})");
+  const Result ended = sim.stop(SIGTERM);
+  CHECK(ended.status == 143);
+  const auto lines = json_lines(ended.out);
+  REQUIRE(lines.size() == 2);
+  CHECK(lines[0] == nlohmann::json{{"event", "ready"}});
+  CHECK(lines[1]["schema"] == "blactl/1");
+  CHECK(lines[1]["command"] == "sim");
+  CHECK(lines[1]["exit_status"] == 143);
+  CHECK(lines[1]["errors"].is_array());
+}
+
+TEST_CASE("sim keeps what its clients wrote") {
+  const Bench bench;
+  const Background sim(bench, {"sim"});
+  CHECK(bench.run({"-i", "sim:", "set", "-n", "12", "servo_id=77"}).status == 0);
+  CHECK(contains(bench.run({"-i", "sim:", "get", "-n", "12", "servo_id"}).out, "servo_id   77"));
+}
+
+TEST_CASE("on the virtual clock of sim a minute passes at once") {
+  const Bench bench;
+  const Background sim(bench, {"sim", "--clock", "virtual"});
+  const Result scan = bench.run({"-i", "sim:", "scan", "--listen", "60", "--json"});
+  CHECK(scan.status == 0);
+  CHECK(json(scan.out)["nodes"][0]["info"]["uptime_s"] >= 59);
+}
+
+TEST_CASE("a client that is killed harms neither servos nor other clients") {
+  const Bench bench;
+  const Background sim(bench, {"sim"});
+  Background other(bench, asking, {.terminal = true}, question);
+  {
+    Background victim(bench, asking, {.terminal = true}, question);
+    victim.kill();
+  }
+  CHECK(bench.run(get_servo_id).status == 0);
+  CHECK(other.stop(SIGINT).status == 130);
+  CHECK(bench.run(get_servo_id).status == 0);
+}
+
+TEST_CASE("a second sim on the same socket is refused, and the first goes on") {
+  const Bench bench;
+  const Background sim(bench, {"sim"});
+  const Result second = bench.run({"sim"});
+  CHECK(second.status == 9);
+  CHECK(codes(second) == std::vector<std::string>{"busy"});
+  CHECK(contains(second.err, "a simulator already serves "));
+  CHECK(contains(second.err, "\n  use it with `blactl -i sim: scan`, or stop it with Ctrl-C"));
+  CHECK(bench.run(get_servo_id).status == 0);
+  const Result document = bench.run({"sim", "--json"});
+  CHECK(document.status == 9);
+  const auto lines = json_lines(document.out);
+  REQUIRE(lines.size() == 1);
+  CHECK(lines[0]["errors"][0]["code"] == "busy");
+}
+
+TEST_CASE("sims on sockets of their own do not meet") {
+  const Bench bench;
+  const std::string socket = "sim:" + (bench.folder() / "second").string();
+  const Background first(bench, {"sim"});
+  const Background second(bench, {"-i", socket, "sim"});
+  CHECK(bench.run({"-i", socket, "set", "-n", "11", "servo_id=9"}).status == 0);
+  CHECK(contains(bench.run(get_servo_id).out, "servo_id   1"));
+}
+
+TEST_CASE("the socket that a killed sim left behind is replaced") {
+  const Bench bench;
+  {
+    Background sim(bench, {"sim"});
+    sim.kill();
+  }
+  CHECK(std::filesystem::exists(bench.folder() / "run" / "blactl" / "sim"));
+  const Result left = bench.run(get_servo_id);
+  CHECK(left.status == 3);
+  CHECK(contains(left.err, "\n  start `blactl sim` in another terminal"));
+  const Background sim(bench, {"sim"});
+  CHECK(bench.run(get_servo_id).status == 0);
+}
+
+TEST_CASE("a session whose simulator ends fails with 3") {
+  const Bench bench;
+  Background sim(bench, {"sim"});
+  Background client(bench, asking, {.terminal = true}, question);
+  (void)sim.stop();
+  const Result result = client.wait();
+  CHECK(result.status == 3);
+  CHECK(codes(result) == std::vector<std::string>{"interface"});
+  CHECK(contains(result.err, "the simulator of "));
+}
+
+TEST_CASE("three at once on one bus: the third finds no node ID of its own") {
+  const Bench bench;
+  const Background sim(bench, {"sim"});
+  const Background first(bench, asking, {.terminal = true}, question);
+  const Background second(bench, asking, {.terminal = true}, question);
+  const Result third = bench.run(get_servo_id);
+  CHECK(third.status == 9);
+  CHECK(codes(third) == std::vector<std::string>{"no_local_node_id"});
+  CHECK(contains(third.err, std::to_string(first.pid())));
+  CHECK(contains(third.err, "\n  wait until one of them ends, or give a free ID"));
+  Arguments own = get_servo_id;
+  own.insert(own.end(), {"--local-node-id", "99"});
+  CHECK(bench.run(own).status == 0);
+}
+
+// The simulator's servos drop a repeated transfer ID for 2 s, as the standard has it: a client that
+// began to count anew would not be heard.
+TEST_CASE("a hundred commands in a row are all answered") {
+  const Bench bench;
+  const Background sim(bench, {"sim"});
+  int answered = 0;
+  for (int i = 0; i < 100; ++i) {
+    answered += bench.run(get_servo_id).status == 0 ? 1 : 0;
+  }
+  CHECK(answered == 100);
+}
+
+TEST_CASE("a long scan ends with the signal, and says what it has found") {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const Bench bench;
+    const Background sim(bench, {"sim"});
+    Tap tap(bench);
+    Background scan(bench, {"-i", "sim:", "scan", "--listen", "3600", "--json"}, {}, "");
+    tap.wait_for(127);
+    const Result result = scan.stop(signal);
+    CHECK(result.status == 128 + signal);
+    const auto document = json(result.out);
+    CHECK(document["exit_status"] == 128 + signal);
+    CHECK(document["errors"][0]["code"] == "interrupted");
+    CHECK(codes(result) == std::vector<std::string>{"interrupted"});
+  }
+}

@@ -1,0 +1,77 @@
+#include "catch.hpp"
+#include "cli/bus_factory.hpp"
+#include "unit/bla/built_in.hpp"
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+using namespace blactl;
+using namespace blactl::cli;
+
+namespace {
+
+std::string kind(std::string_view text) {
+  const auto name = parse_interface(text);
+  if (!name) {
+    return std::string(blactl::name(name.error().code));
+  }
+  switch (name->kind) {
+  case InterfaceKind::socketcan: return "socketcan " + name->rest;
+  case InterfaceKind::simulator: return "simulator " + name->rest;
+  case InterfaceKind::scenario: return "scenario " + name->rest;
+  }
+  return {};
+}
+
+Result<OpenBus> open(std::string_view text) {
+  return open_bus(text, test::built_in(), Reporter({}));
+}
+
+} // namespace
+
+TEST_CASE("what stands behind -i") {
+  CHECK(kind("can0") == "socketcan can0");
+  CHECK(kind("socketcan:can0") == "socketcan can0");
+  CHECK(kind("sim:") == "simulator ");
+  CHECK(kind("sim:/run/x.sock") == "simulator /run/x.sock");
+  CHECK(kind("sim:bench.json") == "scenario bench.json");
+  CHECK(kind("sim:a:b.json") == "scenario a:b.json");
+  CHECK(kind("foo:bar") == "usage");
+  CHECK(kind(":") == "usage");
+  CHECK(kind("CAN:can0") == "usage");
+}
+
+TEST_CASE("an unknown kind of interface is refused with examples, harmless to a terminal") {
+  const auto name = parse_interface("\x1b[2J:x");
+  REQUIRE_FALSE(name);
+  CHECK(name.error().message.find('\x1b') == std::string::npos);
+  CHECK(name.error().hint.find("can0") != std::string::npos);
+}
+
+TEST_CASE("a scenario is a bus of this process alone") {
+  const auto file = std::filesystem::temp_directory_path() /
+                    ("blactl-bus-factory-" + std::to_string(getpid()) + ".json");
+  std::ofstream(file) << R"({"schema": "blactl-scenario/1", "clock": "virtual"})";
+  const std::string text = "sim:" + file.string();
+  const auto bus = open(text);
+  std::filesystem::remove(file);
+  REQUIRE(bus);
+  CHECK(bus->bus->name() == text);
+  CHECK(bus->lock_name.empty());
+}
+
+TEST_CASE("a scenario that cannot be read is a bad file") {
+  CHECK(open("sim:/no/such/scenario.json").error().code == Code::bad_file);
+}
+
+TEST_CASE("a socket nobody serves is an interface that is not there") {
+  CHECK(open("sim:/no/such/socket").error().code == Code::interface);
+}
+
+TEST_CASE("a CAN interface that does not exist is exit 3") {
+  CHECK(exit_status(open("nosuchcan0").error().code) == 3);
+  CHECK(exit_status(open("socketcan:").error().code) == 3);
+}

@@ -1,0 +1,527 @@
+#include "blactl/dronecan/node.hpp"
+
+#include "catch.hpp"
+#include "support.hpp"
+
+#include <array>
+#include <deque>
+#include <memory>
+#include <utility>
+
+using namespace blactl;
+using namespace blactl::dronecan;
+using namespace blactl::dronecan::test;
+
+using Kinds = std::vector<Outcome::Kind>;
+using Lines = std::vector<std::string>;
+
+namespace {
+
+/// A node on a bench: what it sends is kept, time is told by hand.
+class Bench {
+ public:
+  explicit Bench(NodeId local = NodeId(127))
+      : node(local, local.is_unicast() ? &ids_ : nullptr,
+             {.name = "blactl", .unique_id = {0xB1, 0xAC}, .major = 1, .minor = 2},
+             {.send = [this](const can::Frame& frame) { frames_.push_back(frame); },
+              .transfer =
+                  [this](const Transfer& transfer) {
+                    if (on_transfer) {
+                      on_transfer(transfer);
+                    }
+                  },
+              .error = {},
+              .backlog = [this] { return backlog; }}) {
+    node.advance(now);
+  }
+
+  /// Lets time pass, in one step.
+  void pass(Duration duration) {
+    now += duration;
+    node.advance(now);
+  }
+
+  /// The frames since the last call.
+  Lines sent() { return texts(std::exchange(frames_, {})); }
+
+  /// The same, and each comes back as acknowledged.
+  Lines sent_and_echoed() {
+    const auto frames = std::exchange(frames_, {});
+    for (const auto& frame : frames) {
+      node.sent(frame, now);
+    }
+    return texts(frames);
+  }
+
+  /// A service answer of `server`.
+  void answer(std::uint8_t server, const DataType& type, TransferId id, const Payload& payload,
+              std::uint8_t client = 127) {
+    const Header header{.kind = Kind::response,
+                        .priority = priority_service,
+                        .data_type_id = type.id,
+                        .source = NodeId(server),
+                        .destination = NodeId(client)};
+    for (const auto& frame : segment(header, id, type.signature, payload.bytes())) {
+      node.receive(frame, now);
+    }
+  }
+
+  void answer_info(std::uint8_t server, TransferId id) {
+    answer(server, GetNodeInfo::type, id, GetNodeInfo::Response{.name = "servo"}.encode());
+  }
+
+  std::size_t backlog = 0;
+  std::function<void(const Transfer&)> on_transfer;
+  Time now = at(0ms);
+
+ private:
+  std::array<TransferIds::Slot, TransferIds::slots> table_{};
+  TransferIds ids_{table_};
+  std::vector<can::Frame> frames_;
+
+ public:
+  Node node;
+};
+
+Request ask_info(std::uint8_t server, int retries = 2, Duration timeout = 500ms) {
+  return {.server = NodeId(server),
+          .type = &GetNodeInfo::type,
+          .payload = GetNodeInfo::Request{}.encode(),
+          .timeout = timeout,
+          .retries = retries,
+          .accepts = {}};
+}
+
+Request ask_register(std::uint8_t server, const char* name, GetSet::Value value = {}) {
+  return {.server = NodeId(server),
+          .type = &GetSet::type,
+          .payload = GetSet::Request{.value = std::move(value), .name = name}.encode(),
+          .accepts = [name = std::string(name)](Bytes payload) {
+            const auto response = GetSet::Response::decode(payload);
+            return response && response->name == name;
+          }};
+}
+
+/// Asks its questions one after the other and writes down how each ended.
+class Talk final : public Job {
+ public:
+  explicit Talk(std::vector<Request> questions) : questions_(questions.begin(), questions.end()) {}
+
+  std::optional<Request> next(const Outcome& outcome) override {
+    outcomes.push_back(outcome.kind);
+    payloads.push_back(hex(outcome.payload));
+    ended_at = outcome.at;
+    if (on_outcome) {
+      on_outcome(outcome);
+    }
+    if (questions_.empty()) {
+      return std::nullopt;
+    }
+    auto question = std::move(questions_.front());
+    questions_.pop_front();
+    return question;
+  }
+
+  Kinds outcomes;
+  std::vector<std::string> payloads;
+  Time ended_at{};
+  std::function<void(const Outcome&)> on_outcome;
+
+ private:
+  std::deque<Request> questions_;
+};
+
+constexpr auto start = Outcome::Kind::start;
+constexpr auto answered = Outcome::Kind::answered;
+constexpr auto timed_out = Outcome::Kind::timed_out;
+constexpr auto not_sent = Outcome::Kind::not_sent;
+constexpr auto cancelled = Outcome::Kind::cancelled;
+
+} // namespace
+
+TEST_CASE("a question goes out at once, and its answer ends the job") {
+  Bench bench;
+  Talk talk({ask_info(10)});
+  bench.node.start(talk, bench.now);
+  CHECK(bench.sent_and_echoed() == Lines{"1E018AFF#C0"});
+  CHECK(bench.node.jobs() == 1);
+  bench.pass(2ms);
+  bench.answer_info(10, 0);
+  CHECK(talk.outcomes == Kinds{start, answered});
+  CHECK(talk.payloads.back() == hex(GetNodeInfo::Response{.name = "servo"}.encode().bytes()));
+  CHECK(talk.ended_at == bench.now);
+  CHECK(bench.node.jobs() == 0);
+  CHECK(bench.sent().empty());
+}
+
+TEST_CASE("a read and a write of a register are these frames") {
+  Bench bench;
+  Talk read({ask_register(11, "0x38")});
+  Talk write({ask_register(12, "0x38", std::int64_t{900})});
+  bench.node.start(read, bench.now);
+  CHECK(bench.sent() == Lines{"1E0B8BFF#000030783338C0"});
+  bench.node.start(write, bench.now);
+  CHECK(bench.sent() ==
+        Lines{"1E0B8CFF#B477000184030080", "1E0B8CFF#0000000000307820", "1E0B8CFF#333840"});
+}
+
+TEST_CASE("one question is in flight for one server, and the next job waits for its turn") {
+  Bench bench;
+  Talk first({ask_info(10), ask_info(10)});
+  Talk second({ask_info(10)});
+  bench.node.start(first, bench.now);
+  bench.node.start(second, bench.now);
+  CHECK(bench.sent_and_echoed() == Lines{"1E018AFF#C0"});
+  bench.answer_info(10, 0);
+  CHECK(bench.sent_and_echoed() == Lines{"1E018AFF#C1"}); // one of the two, not both
+  bench.answer_info(10, 1);
+  CHECK(bench.sent_and_echoed() == Lines{"1E018AFF#C2"});
+  bench.answer_info(10, 2);
+  CHECK(first.outcomes == Kinds{start, answered, answered});
+  CHECK(second.outcomes == Kinds{start, answered});
+  CHECK(bench.node.jobs() == 0);
+}
+
+TEST_CASE("as many servers are busy as there are jobs") {
+  Bench bench;
+  std::vector<std::unique_ptr<Talk>> talks;
+  for (std::uint8_t server = 1; server <= 125; ++server) {
+    talks.push_back(std::make_unique<Talk>(std::vector{ask_info(server), ask_info(server)}));
+    bench.node.start(*talks.back(), bench.now);
+  }
+  CHECK(bench.sent_and_echoed().size() == 125);
+  for (std::uint8_t server = 125; server >= 1; --server) { // answers come in any order
+    bench.answer_info(server, 0);
+    CHECK(bench.sent_and_echoed() == Lines{fmt::format("1E01{:02X}FF#C1", 0x80 | server)});
+  }
+  for (std::uint8_t server = 1; server <= 125; ++server) {
+    bench.answer_info(server, 1);
+  }
+  CHECK(bench.node.jobs() == 0);
+  for (const auto& talk : talks) {
+    CHECK(talk->outcomes == Kinds{start, answered, answered});
+  }
+}
+
+TEST_CASE("an unanswered question is tried again with a new transfer ID each time, then given up") {
+  Bench bench;
+  Talk talk({ask_info(10, 2)});
+  bench.node.start(talk, bench.now);
+  CHECK(bench.sent_and_echoed() == Lines{"1E018AFF#C0"});
+  bench.pass(499ms);
+  CHECK(bench.sent().empty());
+  bench.pass(1ms);
+  CHECK(bench.sent_and_echoed() == Lines{"1E018AFF#C1"});
+  bench.pass(500ms);
+  CHECK(bench.sent_and_echoed() == Lines{"1001557F#01000000000000C0", "1E018AFF#C2"});
+  CHECK(talk.outcomes == Kinds{start});
+  bench.pass(500ms);
+  CHECK(talk.outcomes == Kinds{start, timed_out});
+  CHECK(bench.sent().empty());
+  CHECK(bench.node.jobs() == 0);
+}
+
+TEST_CASE("without retries a question is asked once") {
+  Bench bench;
+  Talk talk({ask_info(10, 0)});
+  bench.node.start(talk, bench.now);
+  CHECK(bench.sent_and_echoed().size() == 1);
+  bench.pass(500ms);
+  CHECK(talk.outcomes == Kinds{start, timed_out});
+  CHECK(bench.sent().empty());
+}
+
+TEST_CASE("a late answer to an earlier try is no answer") {
+  Bench bench;
+  Talk talk({ask_info(10)});
+  bench.node.start(talk, bench.now);
+  bench.sent_and_echoed();
+  bench.pass(500ms);
+  bench.sent_and_echoed();
+  bench.answer_info(10, 0);
+  CHECK(talk.outcomes == Kinds{start});
+  bench.answer_info(10, 1);
+  CHECK(talk.outcomes == Kinds{start, answered});
+}
+
+TEST_CASE("what is not the answer to this question is no answer") {
+  Bench bench;
+  Talk talk({ask_register(10, "0x38")});
+  bench.node.start(talk, bench.now);
+  bench.sent_and_echoed();
+  const auto value = [](const char* name) {
+    return GetSet::Response{.value = std::int64_t{5}, .name = name}.encode();
+  };
+  SECTION("another transfer ID") { bench.answer(10, GetSet::type, 1, value("0x38")); }
+  SECTION("another server") { bench.answer(11, GetSet::type, 0, value("0x38")); }
+  SECTION("another data type") { bench.answer_info(10, 0); }
+  SECTION("another client") { bench.answer(10, GetSet::type, 0, value("0x38"), 126); }
+  SECTION("another parameter") { bench.answer(10, GetSet::type, 0, value("0x39")); }
+  SECTION("a payload that is no answer at all") {
+    bench.answer(10, GetSet::type, 0, Payload(unhex("FF")));
+  }
+  CHECK(talk.outcomes == Kinds{start});
+  CHECK(bench.sent().empty());
+  bench.pass(3s); // the strict receiver forgets what it has heard under this transfer ID
+  CHECK(bench.sent_and_echoed().back() == "1E0B8AFF#000030783338C1");
+  bench.answer(10, GetSet::type, 1, value("0x38"));
+  CHECK(talk.outcomes == Kinds{start, answered});
+}
+
+TEST_CASE("an answer that comes twice is one answer") {
+  Bench bench;
+  Talk talk({ask_info(10), ask_info(10)});
+  bench.node.start(talk, bench.now);
+  bench.sent_and_echoed();
+  bench.answer_info(10, 0);
+  bench.answer_info(10, 0);
+  CHECK(talk.outcomes == Kinds{start, answered});
+  CHECK(bench.sent() == Lines{"1E018AFF#C1"});
+}
+
+TEST_CASE("the time for an answer counts from the echo of the question's last frame") {
+  Bench bench;
+  Talk talk({ask_register(12, "0x38", std::int64_t{900})});
+  bench.node.start(talk, bench.now);
+  const auto frames = bench.sent();
+  REQUIRE(frames.size() == 3);
+  bench.pass(900ms); // the bus is full
+  bench.node.sent(frame(frames[0]), bench.now);
+  bench.node.sent(frame(frames[1]), bench.now);
+  CHECK(bench.node.next_deadline() == at(1s)); // two of three frames are not the question
+  bench.node.sent(frame(frames[2]), bench.now);
+  bench.pass(499ms);
+  bench.sent(); // our own NodeStatus
+  CHECK(talk.outcomes == Kinds{start});
+  bench.pass(1ms);
+  CHECK(bench.sent().size() == 3); // the second try
+}
+
+TEST_CASE("a question that never leaves is not tried again") {
+  Bench bench;
+  Talk talk({ask_info(10)});
+  bench.node.start(talk, bench.now);
+  CHECK(bench.sent().size() == 1);
+  bench.pass(999ms);
+  CHECK(talk.outcomes == Kinds{start});
+  bench.pass(1ms);
+  CHECK(talk.outcomes == Kinds{start, not_sent});
+  CHECK(bench.sent() == Lines{"1001557F#01000000000000C0"}); // our NodeStatus and nothing else
+}
+
+TEST_CASE("the echo of another question does not start the time of this one") {
+  Bench bench;
+  Talk one({ask_info(10)});
+  Talk other({ask_info(11)});
+  bench.node.start(one, bench.now);
+  bench.node.start(other, bench.now);
+  bench.node.sent(frame("1E018BFF#C0"), bench.now);
+  bench.pass(500ms);
+  CHECK(bench.sent() == Lines{"1E018AFF#C0", "1E018BFF#C0", "1E018BFF#C1"});
+}
+
+TEST_CASE("a question whose echo was lost is waited for and tried again as if it had come") {
+  Bench bench;
+  Talk talk({ask_info(10)});
+  bench.node.start(talk, bench.now);
+  CHECK(bench.sent() == Lines{"1E018AFF#C0"});
+  bench.pass(100ms);
+  bench.node.echoes_lost(bench.now);
+  bench.pass(499ms);
+  CHECK(bench.sent().empty());
+  bench.pass(1ms);
+  CHECK(bench.sent() == Lines{"1E018AFF#C1"});
+}
+
+TEST_CASE("cancel_all ends what is asked and what waits, and sends nothing more") {
+  Bench bench;
+  Talk asked({ask_info(10), ask_info(10)});
+  Talk waiting({ask_info(10)});
+  bench.node.start(asked, bench.now);
+  bench.node.start(waiting, bench.now);
+  bench.sent_and_echoed();
+  bench.node.cancel_all(bench.now);
+  CHECK(asked.outcomes == Kinds{start, cancelled}); // its second question is not asked
+  CHECK(waiting.outcomes == Kinds{start, cancelled});
+  CHECK(bench.node.jobs() == 0);
+  bench.answer_info(10, 0);
+  bench.pass(600ms);
+  CHECK(bench.sent().empty());
+  CHECK(asked.outcomes.size() == 2);
+}
+
+TEST_CASE("a job that is cancelled may start another one, which is cancelled with it") {
+  Bench bench;
+  Talk first({ask_info(10)});
+  Talk second({ask_info(11)});
+  first.on_outcome = [&](const Outcome& outcome) {
+    if (outcome.kind == cancelled) {
+      bench.node.start(second, bench.now);
+    }
+  };
+  bench.node.start(first, bench.now);
+  bench.sent();
+  bench.node.cancel_all(bench.now);
+  CHECK(second.outcomes == Kinds{start, cancelled});
+  CHECK(bench.node.jobs() == 0);
+  CHECK(bench.sent().empty());
+}
+
+TEST_CASE("a job may start others, for the same server and for another one") {
+  Bench bench;
+  Talk first({ask_info(10), ask_info(10)});
+  Talk same({ask_info(10)});
+  Talk other({ask_info(11)});
+  first.on_outcome = [&](const Outcome& outcome) {
+    if (outcome.answered() && first.outcomes.size() == 2) {
+      bench.node.start(same, bench.now);
+      bench.node.start(other, bench.now);
+    }
+  };
+  bench.node.start(first, bench.now);
+  bench.sent_and_echoed();
+  bench.answer_info(10, 0);
+  CHECK(bench.sent_and_echoed() == Lines{"1E018AFF#C1", "1E018BFF#C0"});
+  bench.answer_info(10, 1);
+  CHECK(bench.sent_and_echoed() == Lines{"1E018AFF#C2"});
+  bench.answer_info(10, 2);
+  bench.answer_info(11, 0);
+  CHECK(same.outcomes == Kinds{start, answered});
+  CHECK(other.outcomes == Kinds{start, answered});
+  CHECK(bench.node.jobs() == 0);
+}
+
+TEST_CASE("a job may start another one when it was timed out") {
+  Bench bench;
+  Talk first({ask_info(10, 0)});
+  Talk second({ask_info(10, 0)});
+  first.on_outcome = [&](const Outcome& outcome) {
+    if (outcome.kind == timed_out) {
+      bench.node.start(second, bench.now);
+    }
+  };
+  bench.node.start(first, bench.now);
+  bench.sent_and_echoed();
+  bench.pass(500ms);
+  CHECK(bench.sent_and_echoed() == Lines{"1E018AFF#C1"});
+  bench.pass(499ms);
+  CHECK(second.outcomes == Kinds{start});
+  CHECK(bench.node.jobs() == 1);
+}
+
+TEST_CASE("whoever hears a transfer may start a job") {
+  Bench bench;
+  Talk talk({ask_info(11)});
+  bench.on_transfer = [&](const Transfer& transfer) {
+    if (transfer.header.source == NodeId(11) && talk.outcomes.empty()) {
+      bench.node.start(talk, bench.now);
+    }
+  };
+  bench.node.receive(frame("1001550B#00000000000000C0"), bench.now);
+  CHECK(bench.sent() == Lines{"1E018BFF#C0"});
+}
+
+TEST_CASE("who listens is told of an answer before the job that asked") {
+  Bench bench;
+  Talk talk({ask_info(10)});
+  std::size_t outcomes_before = 0;
+  bench.on_transfer = [&](const Transfer&) { outcomes_before = talk.outcomes.size(); };
+  bench.node.start(talk, bench.now);
+  bench.sent_and_echoed();
+  bench.answer_info(10, 0);
+  CHECK(outcomes_before == 1);
+}
+
+TEST_CASE("a job that asks nothing is over at once") {
+  Bench bench;
+  Talk talk({});
+  bench.node.start(talk, bench.now);
+  CHECK(talk.outcomes == Kinds{start});
+  CHECK(bench.node.jobs() == 0);
+  CHECK(bench.sent().empty());
+}
+
+TEST_CASE("our NodeStatus comes after a second of life, then every second") {
+  Bench bench;
+  bench.pass(999ms);
+  CHECK(bench.sent().empty());
+  CHECK(bench.node.next_deadline() == at(1s));
+  bench.pass(1ms);
+  CHECK(bench.sent() == Lines{"1001557F#01000000000000C0"});
+  bench.pass(1s);
+  bench.pass(1s);
+  CHECK(bench.sent() == Lines{"1001557F#02000000000000C1", "1001557F#03000000000000C2"});
+}
+
+TEST_CASE("after a long sleep our NodeStatus comes once, not once for every second that passed") {
+  Bench bench;
+  bench.pass(1h);
+  bench.pass(0s);
+  bench.pass(0s);
+  CHECK(bench.sent() == Lines{"1001557F#100E0000000000C0"});
+  bench.pass(999ms);
+  CHECK(bench.sent().empty());
+  bench.pass(1ms);
+  CHECK(bench.sent() == Lines{"1001557F#110E0000000000C1"});
+}
+
+TEST_CASE("a node that only listens sends nothing, whatever it is asked to") {
+  Bench bench(anonymous);
+  CHECK(bench.node.next_deadline() == never);
+  bench.node.receive(frame("1E018A85#C0"), bench.now);
+  Talk talk({ask_info(10)});
+  bench.node.start(talk, bench.now);
+  bench.pass(10s);
+  CHECK(bench.sent().empty());
+  CHECK(talk.outcomes == Kinds{start, not_sent});
+  CHECK(bench.node.jobs() == 0);
+}
+
+TEST_CASE("GetNodeInfo is answered with our name, version, unique ID and uptime") {
+  Bench bench;
+  bench.pass(5s);
+  bench.sent();
+  bench.node.receive(frame("1801FF85#C7"), bench.now); // from node 5, priority 24
+  // Priority and transfer ID are those of the request.
+  CHECK(bench.sent() ==
+        Lines{"180105FF#E72B050000000087", "180105FF#0000010200000027", "180105FF#0000000000000007",
+              "180105FF#0000000000B1AC27", "180105FF#0000000000000007", "180105FF#0000000000000027",
+              "180105FF#00626C6163746C47"});
+}
+
+TEST_CASE("no other service of ours and no request to others is answered") {
+  Bench bench;
+  bench.node.receive(frame("1E0BFF85#000030783338C0"), bench.now); // GetSet
+  bench.node.receive(frame("1E04FF85#C0"), bench.now);             // GetTransportStats
+  bench.node.receive(frame("1E01FE85#C0"), bench.now);             // GetNodeInfo of 126
+  CHECK(bench.sent().empty());
+}
+
+TEST_CASE("own services keep still while many frames wait to leave") {
+  Bench bench;
+  bench.backlog = 100;
+  for (std::uint8_t id = 0; id < transfer_id_modulus; ++id) { // a flood of questions
+    bench.node.receive(can::Frame{.id = 0x1E01FF85, .size = 1,
+                                  .data = {static_cast<std::uint8_t>(0xC0 | id)}},
+                       bench.now);
+  }
+  bench.pass(1s);
+  CHECK(bench.sent().empty());
+  bench.backlog = 0;
+  bench.pass(1s);
+  CHECK(bench.sent() == Lines{"1001557F#02000000000000C0"});
+}
+
+TEST_CASE("a frame that is read late does not make the next question old") {
+  Bench bench;
+  Talk talk({ask_info(10), ask_info(10)});
+  bench.node.start(talk, bench.now);
+  bench.sent_and_echoed();
+  // The process slept for ten seconds; the answer came in the first of them.
+  bench.node.tell_time(at(10s));
+  bench.answer_info(10, 0);
+  CHECK(bench.sent() == Lines{"1E018AFF#C1"});
+  bench.now = at(10s);
+  bench.pass(999ms);
+  CHECK(talk.outcomes == Kinds{start, answered});
+}

@@ -1,0 +1,319 @@
+#include "blactl/fleet/identification.hpp"
+
+#include "support.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+using namespace blactl;
+using namespace blactl::fleet;
+using namespace blactl::fleet::test;
+
+using Lines = std::vector<std::string>;
+
+namespace {
+
+constexpr const char* one_servo = R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11,
+    "servo_id": 7, "serial_number": 240900558, "firmware_version": 1400,
+    "unique_id": "00112233445566778899aabbccddeeff"}])";
+
+/// An identification that is asked without a bus.
+struct Dialogue {
+  explicit Dialogue(Identification::Options options = {})
+      : identification(roster, roster.member(NodeId(11)), profiles(), options) {}
+
+  std::string next(const Outcome& outcome) { return text(identification.next(outcome)); }
+
+  [[nodiscard]] Member& member() { return roster.member(NodeId(11)); }
+
+  /// As far as 0x50, which is not answered yet.
+  void pass_node_info(std::uint8_t unit = 1) {
+    CHECK(next(Script::start()) == "GetNodeInfo");
+    CHECK(next(script.info(unit)) == "read 0x50");
+  }
+
+  Roster roster{NodeId(127)};
+  Script script;
+  Identification identification;
+};
+
+/// A frame of node 11, so that it counts as heard.
+void hear_node(Roster& roster) {
+  roster.hear(message(dronecan::NodeStatus::type, 11, dronecan::NodeStatus{}.encode()).front(),
+              Time{});
+}
+
+} // namespace
+
+TEST_CASE("a servo is asked for its unique ID, 0x50-0x53 and 0x45, each once") {
+  Scene scene(one_servo);
+  Member& servo = scene.identify(11);
+  CHECK(servo.is_known());
+  CHECK(servo.is_servo);
+  CHECK(servo.info->unique_id[1] == 0x11);
+  CHECK(servo.servo_id == 7);
+  CHECK_FALSE(servo.static_node_id);
+  CHECK(servo.identity.model() == "BLA21-12U-AB");
+  CHECK(servo.identity.certain());
+  CHECK(servo.identity.readings().serial_number == 240900558);
+  CHECK(servo.identity.readings().firmware_version == 1400);
+  CHECK(scene.requests(GetNodeInfo::type, 11) == 1);
+  CHECK(scene.requests(GetSet::type, 11) == 5);
+  CHECK(scene.sent.size() == 1 + 5 * 1);
+}
+
+TEST_CASE("the static node ID is asked for where it is wanted") {
+  Scene scene(one_servo);
+  const Member& servo = scene.identify(11, {.patience = {}, .static_node_id = true});
+  CHECK(servo.static_node_id == 11);
+  CHECK(scene.requests(GetSet::type, 11) == 6);
+}
+
+TEST_CASE("the questions come one after the other") {
+  Dialogue dialogue;
+  dialogue.pass_node_info();
+  CHECK(dialogue.next(dialogue.script.value("0x50", std::int64_t{61})) == "read 0x51");
+  CHECK(dialogue.next(dialogue.script.value("0x51", std::int64_t{1})) == "read 0x52");
+  CHECK(dialogue.next(dialogue.script.value("0x52", std::int64_t{1400})) == "read 0x53");
+  CHECK(dialogue.next(dialogue.script.value("0x53", std::int64_t{12050})) == "read 0x45");
+  CHECK_FALSE(dialogue.member().is_known());
+  CHECK(dialogue.next(dialogue.script.value("0x45", std::int64_t{3})) == "nothing");
+  CHECK(dialogue.identification.done());
+  CHECK(dialogue.member().is_known());
+}
+
+TEST_CASE("who is known is not asked again until it restarts") {
+  Scene scene(one_servo);
+  Member& servo = scene.identify(11);
+  const std::size_t sent = scene.sent.size();
+  scene.identify(11);
+  CHECK(scene.sent.size() == sent);
+  ++servo.boots;
+  CHECK_FALSE(servo.is_known());
+  scene.identify(11);
+  CHECK(scene.sent.size() == 2 * sent);
+  CHECK(servo.is_known());
+}
+
+TEST_CASE("a restart in the middle of the questions leaves a servo that is not known") {
+  Dialogue dialogue;
+  dialogue.pass_node_info();
+  ++dialogue.member().boots;
+  for (const char* name : {"0x50", "0x51", "0x52", "0x53"}) {
+    CHECK(dialogue.next(dialogue.script.value(name, std::int64_t{61})) != "nothing");
+  }
+  CHECK(dialogue.next(dialogue.script.value("0x45", std::int64_t{3})) == "nothing");
+  CHECK_FALSE(dialogue.member().is_known());
+}
+
+TEST_CASE("numbers are narrowed to the width of their registers") {
+  Dialogue dialogue;
+  dialogue.pass_node_info();
+  CHECK(dialogue.next(dialogue.script.value("0x50", std::int64_t{0x1'0000'003D})) == "read 0x51");
+  dialogue.next(dialogue.script.value("0x51", std::int64_t{-1}));
+  dialogue.next(dialogue.script.value("0x52", std::int64_t{1400}));
+  dialogue.next(dialogue.script.value("0x53", std::int64_t{12050}));
+  dialogue.next(dialogue.script.value("0x45", std::int64_t{0x103}));
+  const auto& readings = dialogue.member().identity.readings();
+  CHECK(readings.model_number == 61);
+  CHECK(readings.serial_number == 0xFFFF'FFFF);
+  CHECK(dialogue.member().servo_id == 3);
+}
+
+TEST_CASE("a node without parameters is identified, and is no servo") {
+  Scene scene(R"("foreign": [{"kind": "node", "node_id": 30, "name": "org.example.gnss",
+                              "serves_get_set": true}])");
+  const Member& node = scene.identify(30);
+  CHECK(node.is_known());
+  CHECK_FALSE(node.is_servo);
+  CHECK(node.info->name == "org.example.gnss");
+  CHECK(node.identity.model().empty());
+  CHECK(scene.requests(GetSet::type, 30) == 1);
+}
+
+TEST_CASE("a node that does not serve GetSet at all is no servo either") {
+  Scene scene(R"("foreign": [{"kind": "node", "node_id": 30}])");
+  const Member& node = scene.identify(30, {.patience = {.timeout = 50ms, .retries = 1}});
+  CHECK(node.is_known());
+  CHECK_FALSE(node.is_servo);
+  CHECK(scene.requests(GetSet::type, 30) == 2);
+}
+
+TEST_CASE("what sends actuator.Status and does not answer 0x50 is a servo that is mute") {
+  Dialogue dialogue;
+  dialogue.member().actuator_id = 3;
+  dialogue.pass_node_info();
+  CHECK(dialogue.next(Script::timed_out()) == "nothing");
+  CHECK_FALSE(dialogue.identification.done());
+  REQUIRE(dialogue.identification.error());
+  CHECK(dialogue.identification.error()->code == Code::timeout);
+  CHECK(dialogue.identification.error()->node_id == 11);
+  CHECK_FALSE(dialogue.member().is_known());
+}
+
+TEST_CASE("a servo of an unknown model can be read, and has no model") {
+  Scene scene(R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11, "model_number": 99}])");
+  const Member& servo = scene.identify(11);
+  CHECK(servo.is_servo);
+  CHECK(servo.identity.model().empty());
+  CHECK(servo.identity.profile() == nullptr);
+  CHECK(servo.identity.parameter(bla::address::angle_limit_cw) != nullptr);
+  CHECK_FALSE(servo.identity.may_write(bla::address::angle_limit_cw, 900));
+}
+
+TEST_CASE("--profile fills in for a model that no profile fits, for reading only") {
+  Scene scene(R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11, "model_number": 99}])");
+  const Member& servo =
+      scene.identify(11, {.patience = {}, .assumed = &model("BLA21-12U-AB")});
+  CHECK(servo.identity.model() == "BLA21-12U-AB");
+  CHECK(servo.identity.may_write(bla::address::angle_limit_cw, 900).error().code ==
+        Code::no_profile);
+}
+
+TEST_CASE("--profile against a successful identification is a mismatch") {
+  Scene scene(one_servo);
+  IdentifyJob job(scene.roster(), scene.member(11), profiles(),
+                  {.patience = {}, .assumed = &model("BLA34-28U-AB")});
+  scene.run(job);
+  REQUIRE(job.identification().error());
+  CHECK(job.identification().error()->code == Code::model_mismatch);
+  CHECK(job.identification().error()->node_id == 11);
+  CHECK_FALSE(scene.member(11).is_known());
+}
+
+TEST_CASE("an ID that was never heard is not found, after all tries") {
+  Scene scene(one_servo);
+  IdentifyJob job(scene.roster(), scene.member(55), profiles(),
+                  {.patience = {.timeout = 50ms, .retries = 2}});
+  scene.run(job);
+  REQUIRE(job.identification().error());
+  CHECK(job.identification().error()->code == Code::not_found);
+  CHECK(job.identification().error()->node_id == 55);
+  CHECK(scene.requests(GetNodeInfo::type, 55) == 3);
+  CHECK(scene.requests(GetSet::type, 55) == 0);
+}
+
+TEST_CASE("an ID that was heard and does not answer timed out") {
+  Scene scene(R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11, "faults": {"mute": true}}])");
+  IdentifyJob job(scene.roster(), scene.member(11), profiles(),
+                  {.patience = {.timeout = 50ms, .retries = 0}});
+  scene.run(job);
+  REQUIRE(job.identification().error());
+  CHECK(job.identification().error()->code == Code::timeout);
+}
+
+TEST_CASE("lost answers are asked for again") {
+  Scene scene(R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11,
+                             "faults": {"lose_responses": 2}}])");
+  CHECK(scene.identify(11).is_servo);
+  CHECK(scene.requests(GetNodeInfo::type, 11) == 3);
+}
+
+TEST_CASE("an answer that cannot be read is none, and tells who it is about") {
+  Dialogue dialogue;
+  hear_node(dialogue.roster);
+  CHECK(dialogue.next(Script::start()) == "GetNodeInfo");
+  const std::vector<std::uint8_t> stub{1, 2, 3};
+  CHECK(dialogue.next(dialogue.script.answer(dronecan::Payload(stub))) == "nothing");
+  REQUIRE(dialogue.identification.error());
+  CHECK(dialogue.identification.error()->code == Code::timeout);
+}
+
+TEST_CASE("what was cancelled or did not leave is told as that") {
+  const auto [outcome, code] = GENERATE(std::pair(Outcome::Kind::cancelled, Code::interrupted),
+                                        std::pair(Outcome::Kind::not_sent, Code::no_acknowledge));
+  Dialogue dialogue;
+  SECTION("GetNodeInfo") { dialogue.next(Script::start()); }
+  SECTION("a register") { dialogue.pass_node_info(); }
+  CHECK(dialogue.next({outcome, {}, {}}) == "nothing");
+  REQUIRE(dialogue.identification.error());
+  CHECK(dialogue.identification.error()->code == code);
+}
+
+TEST_CASE("a register that is refused stays unknown, and the others are asked") {
+  Dialogue dialogue;
+  dialogue.pass_node_info();
+  dialogue.next(dialogue.script.value("0x50", std::int64_t{61}));
+  CHECK(dialogue.next(dialogue.script.value("", {})) == "read 0x52");
+  dialogue.next(dialogue.script.value("0x52", std::int64_t{1400}));
+  dialogue.next(dialogue.script.value("0x53", std::int64_t{12050}));
+  dialogue.next(dialogue.script.value("", {}));
+  CHECK(dialogue.member().is_known());
+  CHECK_FALSE(dialogue.member().identity.readings().serial_number);
+  CHECK_FALSE(dialogue.member().servo_id);
+}
+
+TEST_CASE("nothing of the unit that had the ID before is left") {
+  Scene scene(R"("foreign": [{"kind": "node", "node_id": 11, "serves_get_set": true}])");
+  Member& node = scene.member(11);
+  node.is_servo = true;
+  node.servo_id = 3;
+  node.static_node_id = 11;
+  node.identity = bla::Identity(profiles(), {61, 240900558, 1400, 12050});
+  scene.identify(11);
+  CHECK_FALSE(node.is_servo);
+  CHECK_FALSE(node.servo_id);
+  CHECK_FALSE(node.static_node_id);
+  CHECK(node.identity.model().empty());
+  CHECK_FALSE(node.identity.readings().serial_number);
+}
+
+TEST_CASE("probes ask every silent ID once, eight at a time, and never our own") {
+  Scene scene(R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11},
+                            {"model": "BLA21-12U-AB", "node_id": 125}])",
+              Session::Hearing::all, dronecan::LocalNodeId::unshared(NodeId(60)));
+  std::uint8_t cursor = 0;
+  std::vector<std::unique_ptr<ProbeJob>> probes;
+  for (int i = 0; i < 8; ++i) {
+    probes.push_back(std::make_unique<ProbeJob>(scene.roster(), cursor, 60ms));
+    scene.session->start(*probes.back());
+  }
+  CHECK(scene.session->node().jobs() == 8);
+  REQUIRE(scene.session->run());
+  for (std::uint8_t id = 1; id <= 127; ++id) {
+    const bool asked = id != 11 && id != 125 && id != 60 && id < 126;
+    CHECK(scene.requests(GetNodeInfo::type, id) == (asked ? 1U : 0U));
+  }
+  CHECK(scene.session->now() - Time{} < Scene::start_time + 1100ms);
+}
+
+TEST_CASE("a probed node answers and is heard; a cancelled probe asks no more") {
+  Scene scene(R"("foreign": [{"kind": "node", "node_id": 2}])");
+  Roster roster(NodeId(127)); // has not heard it
+  std::uint8_t cursor = 0;
+  ProbeJob probe(roster, cursor, 60ms);
+  scene.session->start(probe);
+  scene.live(90ms);
+  CHECK(scene.member(2).last_heard > Time(Scene::start_time));
+  scene.session->node().cancel_all(scene.session->now());
+  const std::size_t sent = scene.sent.size();
+  scene.live(500ms);
+  CHECK(scene.sent.size() == sent);
+}
+
+TEST_CASE("a second answer with another unique ID is another unit") {
+  Roster roster(NodeId(127));
+  Member& servo = roster.member(NodeId(11));
+  servo.info = GetNodeInfo::Response{.unique_id = {1}};
+  Script script;
+  DoubleCheckJob job(roster, servo, {});
+  CHECK(text(job.next(Script::start())) == "GetNodeInfo");
+  SECTION("the same one") {
+    CHECK(text(job.next(script.info(1))) == "nothing");
+    CHECK_FALSE(roster.is_doubled(NodeId(11)));
+  }
+  SECTION("another one") {
+    CHECK(text(job.next(script.info(2))) == "nothing");
+    CHECK(roster.is_doubled(NodeId(11)));
+  }
+  SECTION("another one after a restart came in its place") {
+    ++servo.boots;
+    CHECK(text(job.next(script.info(2))) == "nothing");
+    CHECK_FALSE(roster.is_doubled(NodeId(11)));
+  }
+  SECTION("no answer tells nothing") {
+    CHECK(text(job.next(Script::timed_out())) == "nothing");
+    CHECK_FALSE(roster.is_doubled(NodeId(11)));
+  }
+}

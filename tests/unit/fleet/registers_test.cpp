@@ -1,0 +1,68 @@
+#include "blactl/fleet/registers.hpp"
+
+#include "support.hpp"
+
+using namespace blactl;
+using namespace blactl::fleet;
+using namespace blactl::fleet::test;
+
+namespace {
+
+constexpr bla::Address angle_limit_cw{0x38};
+constexpr NodeId server{11};
+
+} // namespace
+
+TEST_CASE("registers are read and written by name, as patiently as asked for") {
+  const auto read = read_register(server, angle_limit_cw, {.timeout = 70ms, .retries = 5});
+  CHECK(text(read) == "read 0x38");
+  CHECK(read.server == server);
+  CHECK(read.timeout == 70ms);
+  CHECK(read.retries == 5);
+  CHECK(read.priority == 30);
+  CHECK(text(write_register(server, angle_limit_cw, -900, {})) == "write 0x38=-900");
+}
+
+TEST_CASE("an answer bears the register's name, or says nothing at all") {
+  const auto question = read_register(server, angle_limit_cw, {});
+  const auto accepts = [&](GetSet::Value value, const char* name) {
+    return question.accepts(
+        GetSet::Response{.value = std::move(value), .name = name}.encode().bytes());
+  };
+  CHECK(accepts(std::int64_t{5}, "0x38"));
+  CHECK(accepts({}, "0x38"));
+  CHECK(accepts({}, "")); // a failure
+  CHECK_FALSE(accepts(std::int64_t{5}, "0x39"));
+  CHECK_FALSE(accepts(std::int64_t{5}, ""));
+  CHECK_FALSE(accepts({}, "0x39"));
+  CHECK_FALSE(accepts(std::int64_t{5}, "0X38"));
+  CHECK_FALSE(question.accepts({}));
+}
+
+TEST_CASE("only an integer is a register's value") {
+  Script script;
+  const auto value = [&](GetSet::Value held) {
+    return register_value(script.value("0x38", std::move(held)), server, angle_limit_cw);
+  };
+  CHECK(value(std::int64_t{-5}) == -5);
+  for (const GetSet::Value& other : {GetSet::Value{}, GetSet::Value{1.5F}, GetSet::Value{true},
+                                     GetSet::Value{std::string("900")}}) {
+    const auto refused = value(other);
+    REQUIRE_FALSE(refused);
+    CHECK(refused.error().code == Code::refused);
+    CHECK(refused.error().node_id == 11);
+  }
+}
+
+TEST_CASE("what stands behind an outcome without an answer") {
+  const auto code = [](const Outcome& outcome) {
+    return register_value(outcome, server, angle_limit_cw).error().code;
+  };
+  CHECK(code(Script::timed_out()) == Code::timeout);
+  CHECK(code(Script::not_sent()) == Code::no_acknowledge);
+  CHECK(code(Script::cancelled()) == Code::interrupted);
+  const Error error = no_answer(Script::timed_out(), server, "0x38");
+  CHECK(error.message.find("0x38") != std::string::npos);
+  CHECK(error.message.find("11") != std::string::npos);
+  CHECK_FALSE(error.hint.empty());
+}

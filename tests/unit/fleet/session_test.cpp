@@ -1,0 +1,365 @@
+#include "blactl/fleet/session.hpp"
+
+#include "support.hpp"
+#include "unit/can/fake_bus.hpp"
+
+#include <signal.h>
+#include <unistd.h>
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+using namespace blactl;
+using namespace blactl::fleet;
+using namespace blactl::fleet::test;
+using can::test::FakeBus;
+using can::test::Wire;
+using dronecan::Kind;
+using dronecan::LocalNodeId;
+
+namespace {
+
+/// A session on a bus that the test writes.
+struct Rig {
+  explicit Rig(Session::Hearing hearing = Session::Hearing::all, bool listen_only = false) {
+    std::optional<LocalNodeId> local;
+    if (!listen_only) {
+      local = LocalNodeId::unshared(std::nullopt);
+    }
+    auto opened = Session::open(std::make_unique<FakeBus>(wire), std::move(local), hearing);
+    REQUIRE(opened);
+    session = std::move(*opened);
+  }
+
+  void hear(const std::vector<can::Frame>& frames, Duration later = {}) {
+    for (const auto& frame : frames) {
+      wire.hear(frame, later);
+    }
+  }
+
+  /// The answer of node 11 to a GetNodeInfo with this transfer ID.
+  void answer(dronecan::TransferId id, Duration later) {
+    hear(service(Kind::response, GetNodeInfo::type, 11, 127, GetNodeInfo::Response{}.encode(), id),
+         later);
+  }
+
+  Wire wire;
+  std::unique_ptr<Session> session;
+};
+
+/// Asks node 11 for its name, so many times.
+class Ask final : public dronecan::Job {
+ public:
+  explicit Ask(int times = 1, Patience patience = {}) : left_(times), patience_(patience) {}
+
+  std::optional<dronecan::Request> next(const Outcome& outcome) override {
+    outcomes.push_back(outcome.kind);
+    if (left_-- == 0) {
+      return std::nullopt;
+    }
+    return ask(NodeId(11), GetNodeInfo::type, GetNodeInfo::Request{}.encode(), patience_);
+  }
+
+  std::vector<Outcome::Kind> outcomes;
+
+ private:
+  int left_;
+  Patience patience_;
+};
+
+/// A session from the moment on when everybody gets power.
+std::unique_ptr<Session> on_simulated_bus(std::string_view members) {
+  const auto scenario = sim::parse_scenario(
+      fmt::format(R"({{"schema": "blactl-scenario/1", "clock": "virtual", {}}})", members),
+      "test.json", profiles());
+  REQUIRE(scenario);
+  auto session = Session::open(std::make_unique<sim::PrivateBus>("sim:", *scenario),
+                               LocalNodeId::unshared(std::nullopt), Session::Hearing::all);
+  REQUIRE(session);
+  return std::move(*session);
+}
+
+constexpr auto start = Outcome::Kind::start;
+constexpr auto answered = Outcome::Kind::answered;
+constexpr auto cancelled = Outcome::Kind::cancelled;
+
+using Kinds = std::vector<Outcome::Kind>;
+
+bool passes(const Wire& wire, const can::Frame& frame) {
+  return wire.filters.empty() || std::ranges::any_of(wire.filters, [&](const can::Filter& filter) {
+           return ((frame.id ^ filter.id) & filter.mask) == 0;
+         });
+}
+
+} // namespace
+
+TEST_CASE("a session lives until its deadline, and hears who is there") {
+  Scene scene(R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11, "servo_id": 4}],
+                 "foreign": [{"kind": "node", "node_id": 30}])");
+  const Time begin = scene.session->now();
+  scene.live(1s);
+  CHECK(scene.session->now() == begin + 1s);
+  CHECK(scene.roster().find(NodeId(11))->actuator_id == 4);
+  CHECK(scene.roster().heard(NodeId(30)));
+  CHECK(scene.roster().members().size() == 2);
+  CHECK(scene.session->interface() == "sim:test.json");
+}
+
+TEST_CASE("the first frame of a session that asks nothing is its NodeStatus, after a second") {
+  Scene scene(R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11}])");
+  scene.live(990ms - Scene::start_time);
+  CHECK(scene.sent.empty());
+  scene.live(20ms);
+  REQUIRE(scene.sent.size() == 1);
+  CHECK(scene.sent[0].id == 0x1001557F);
+  scene.live(5s);
+  CHECK(scene.sent.size() == 6);
+}
+
+TEST_CASE("a session without a node ID sends nothing, and still hears") {
+  Scene scene(R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11}],
+                 "foreign": [{"kind": "node", "node_id": 127}])",
+              Session::Hearing::all, std::nullopt);
+  scene.live(3s);
+  CHECK(scene.sent.empty());
+  CHECK(scene.roster().heard(NodeId(11)));
+  CHECK(scene.roster().heard(NodeId(127))); // nobody's but its own
+  IdentifyJob job(scene.roster(), scene.member(11), profiles(), {});
+  scene.session->start(job);
+  REQUIRE(scene.session->run());
+  CHECK(scene.sent.empty());
+}
+
+TEST_CASE("run lives until no job is left") {
+  Rig rig;
+  Ask job(2);
+  rig.session->start(job);
+  rig.answer(0, 3ms);
+  rig.answer(1, 7ms);
+  const Time begin = rig.wire.now;
+  REQUIRE(rig.session->run());
+  CHECK(job.outcomes == Kinds{start, answered, answered});
+  CHECK(rig.wire.now - begin == 7ms);
+  CHECK(rig.wire.sent.size() == 2);
+  REQUIRE(rig.session->run());
+  CHECK(rig.wire.now - begin == 7ms);
+}
+
+TEST_CASE("a signal ends the session, and what is asked is cancelled") {
+  const int number = GENERATE(SIGINT, SIGTERM);
+  Scene scene(R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11}])");
+  Ask job(100);
+  scene.session->start(job);
+  const std::size_t sent = scene.sent.size();
+  REQUIRE(raise(number) == 0);
+  const auto ran = scene.session->run();
+  REQUIRE_FALSE(ran);
+  CHECK(ran.error().code == Code::interrupted);
+  CHECK(scene.session->signal() == number);
+  CHECK(job.outcomes.back() == cancelled);
+  CHECK(scene.session->node().jobs() == 0);
+  CHECK(scene.sent.size() == sent);
+}
+
+TEST_CASE("a window that changes its size ends nothing") {
+  Rig rig;
+  REQUIRE(raise(SIGWINCH) == 0);
+  CHECK(rig.session->live_until(rig.wire.now + 100ms));
+  CHECK(rig.session->signal() == 0);
+}
+
+TEST_CASE("a foreign frame with our node ID ends the session") {
+  const auto session = on_simulated_bus(R"("foreign": [{"kind": "node", "node_id": 127}])");
+  const auto lived = session->live_until(session->now() + 2s);
+  REQUIRE_FALSE(lived);
+  CHECK(lived.error().code == Code::duplicate_node_id);
+  CHECK(lived.error().node_id == 127);
+  CHECK(lived.error().hint.find("--local-node-id") != std::string::npos);
+  CHECK(session->unsent() == 0);
+}
+
+TEST_CASE("any frame with our ID is a conflict, a service too; one without an ID is not") {
+  Rig rig;
+  rig.hear(message(dronecan::Allocation::type, 0,
+                   dronecan::Allocation{.first_part_of_unique_id = true, .size = 6}.encode()));
+  CHECK(rig.session->live_until(rig.wire.now + 10ms));
+  rig.hear(service(Kind::request, GetSet::type, 127, 11, GetSet::Request{}.encode()));
+  CHECK(rig.session->live_until(rig.wire.now + 10ms).error().code == Code::duplicate_node_id);
+}
+
+TEST_CASE("on an empty bus nobody acknowledges: told after a tenth of a second") {
+  Rig rig;
+  rig.wire.echo = Wire::Echo::by_hand;
+  Ask job(3);
+  rig.session->start(job);
+  const Time begin = rig.wire.now;
+  const auto ran = rig.session->run();
+  REQUIRE_FALSE(ran);
+  CHECK(ran.error().code == Code::no_acknowledge);
+  CHECK(rig.wire.now - begin == 100ms);
+  CHECK(rig.wire.sent.size() == 1);
+  CHECK(rig.session->unsent() == 1); // the controller still has it
+  CHECK(job.outcomes == Kinds{start, cancelled});
+}
+
+TEST_CASE("on the simulated bus it is the same") {
+  const auto session = on_simulated_bus(R"("servos": [])");
+  CHECK(session->live_until(session->now() + 900ms)); // nothing was sent yet
+  const auto lived = session->live_until(session->now() + 10s);
+  REQUIRE_FALSE(lived);
+  CHECK(lived.error().code == Code::no_acknowledge);
+  CHECK(exit_status(lived.error().code) == 3);
+  CHECK(session->now() - Time{} == 1100ms);
+}
+
+TEST_CASE("as long as somebody is heard an echo may take its time") {
+  Rig rig;
+  rig.wire.echo = Wire::Echo::by_hand;
+  for (int i = 1; i < 10; ++i) {
+    rig.wire.hear({.id = 0x1003F30C, .size = 1, .data = {0x40}}, i * 90ms);
+  }
+  Ask job;
+  rig.session->start(job);
+  CHECK(rig.session->live_until(rig.wire.now + 810ms));
+  CHECK(rig.session->live_until(rig.wire.now + 1s).error().code == Code::no_acknowledge);
+}
+
+TEST_CASE("a bus that goes away ends the session with its error, and is asked nothing more") {
+  Rig rig;
+  Ask job;
+  rig.session->start(job);
+  rig.wire.happen(can::Gone{{Code::interface, "unplugged"}}, 1ms);
+  const auto ran = rig.session->run();
+  REQUIRE_FALSE(ran);
+  CHECK(ran.error().code == Code::interface);
+  CHECK(ran.error().message == "unplugged");
+  CHECK(job.outcomes.back() == cancelled);
+}
+
+TEST_CASE("bus-off ends the session, other faults do not") {
+  Rig rig;
+  rig.wire.happen(can::BusFault{can::FaultKind::error_passive, rig.wire.now});
+  CHECK(rig.session->live_until(rig.wire.now + 10ms));
+  rig.wire.happen(can::BusFault{can::FaultKind::bus_off, rig.wire.now});
+  CHECK(rig.session->live_until(rig.wire.now + 10ms).error().code == Code::bus_off);
+}
+
+TEST_CASE("frames that the kernel dropped are counted") {
+  Rig rig;
+  rig.wire.happen(can::Overflow{7});
+  rig.wire.happen(can::Overflow{12}, 1ms);
+  CHECK(rig.session->live_until(rig.wire.now + 10ms));
+  CHECK(rig.session->lost_frames() == 12);
+}
+
+TEST_CASE("a question whose echo was dropped is asked again if no answer comes") {
+  Rig rig;
+  rig.wire.echo = Wire::Echo::by_hand;
+  Ask job(1, {.timeout = 50ms, .retries = 1});
+  rig.session->start(job);
+  rig.hear(message(dronecan::NodeStatus::type, 12, dronecan::NodeStatus{}.encode()), 1ms);
+  rig.wire.happen(can::Overflow{300}, 2ms);
+  rig.answer(1, 60ms);
+  REQUIRE(rig.session->run());
+  CHECK(rig.wire.sent.size() == 2);
+  CHECK(job.outcomes == Kinds{start, answered});
+}
+
+TEST_CASE("a process that was stopped for a while takes what came meanwhile") {
+  Rig rig;
+  Ask job(2, {.timeout = 500ms, .retries = 0});
+  rig.session->start(job);
+  rig.wire.acknowledge(rig.wire.sent.at(0), 1ms);
+  rig.answer(0, 2ms);
+  rig.wire.now += 10s;
+  rig.answer(1, 5ms);
+  REQUIRE(rig.session->run());
+  CHECK(job.outcomes == Kinds{start, answered, answered});
+  REQUIRE(rig.wire.sent.size() == 3);
+  CHECK(rig.wire.sent[2].id == 0x1001557F); // our NodeStatus, which is long due
+}
+
+TEST_CASE("a flood that never pauses does not keep the session from its deadlines") {
+  Rig rig;
+  Ask job(1, {.timeout = 50ms, .retries = 0});
+  rig.session->start(job);
+  rig.wire.acknowledge(rig.wire.sent.at(0), 1ms);
+  for (int i = 0; i < 2000; ++i) {
+    rig.hear(message(dronecan::NodeStatus::type, 12, dronecan::NodeStatus{}.encode()), i * 130us);
+  }
+  rig.wire.now += 10s; // all of it waits to be read
+  REQUIRE(rig.session->run());
+  CHECK(job.outcomes == Kinds{start, Outcome::Kind::timed_out});
+  CHECK_FALSE(rig.wire.events.empty());
+}
+
+TEST_CASE("GetNodeInfo is answered, and a flood of questions fills no memory") {
+  Rig rig;
+  rig.wire.echo = Wire::Echo::by_hand;
+  for (unsigned i = 0; i < 10'000; ++i) {
+    rig.wire.hear({.id = 0x1E01FF80U | (1 + i % 120),
+                   .size = 1,
+                   .data = {static_cast<std::uint8_t>(0xC0 | (i / 120 % 32))}});
+  }
+  CHECK(rig.session->live_until(rig.wire.now + 1ms));
+  CHECK(rig.wire.sent.size() == 3);
+  CHECK(rig.session->unsent() < 30);
+  CHECK(rig.wire.sent[0].id == 0x1E0101FF);
+}
+
+TEST_CASE("an answer on the terminal ends the waiting for it, and the bus lives on meanwhile") {
+  std::array<int, 2> ends{};
+  REQUIRE(pipe(ends.data()) == 0);
+  Rig rig;
+  rig.hear(message(dronecan::NodeStatus::type, 12, dronecan::NodeStatus{}.encode()));
+  REQUIRE(write(ends[1], "y\n", 2) == 2);
+  CHECK(rig.session->wait_for_input(ends[0]));
+  CHECK(rig.session->live_until(rig.wire.now + 1ms)); // it is watched no longer
+  CHECK(rig.session->roster().heard(NodeId(12)));
+  close(ends[0]);
+  close(ends[1]);
+}
+
+TEST_CASE("a signal ends the waiting for an answer, too") {
+  std::array<int, 2> ends{};
+  REQUIRE(pipe(ends.data()) == 0);
+  Rig rig;
+  REQUIRE(raise(SIGINT) == 0);
+  CHECK(rig.session->wait_for_input(ends[0]).error().code == Code::interrupted);
+  close(ends[0]);
+  close(ends[1]);
+}
+
+TEST_CASE("the filter lets through what the session is about") {
+  const auto hearing =
+      GENERATE(Session::Hearing::answers, Session::Hearing::commands, Session::Hearing::all);
+  const Rig rig(hearing);
+  const auto hears = [&](const std::vector<can::Frame>& frames) {
+    return passes(rig.wire, frames.front());
+  };
+  using dronecan::Payload;
+  CHECK(hears(service(Kind::response, GetSet::type, 11, 127, Payload{})));
+  CHECK(hears(service(Kind::request, GetNodeInfo::type, 5, 127, Payload{})));
+  CHECK(hears(service(Kind::request, GetSet::type, 127, 11, Payload{}))); // our ID
+  CHECK(hears(message(dronecan::NodeStatus::type, 11, Payload{})));
+  CHECK(hears(message(dronecan::ActuatorStatus::type, 11, Payload{})));
+  const bool commands = hearing != Session::Hearing::answers;
+  CHECK(hears(message(dronecan::ArrayCommand::type, 30, Payload{})) == commands);
+  CHECK(hears(message(dronecan::ArmingStatus::type, 30, Payload{})) == commands);
+  CHECK(hears(service(Kind::request, GetSet::type, 30, 11, Payload{})) == commands);
+  const bool all = hearing == Session::Hearing::all;
+  CHECK(hears(service(Kind::response, GetSet::type, 11, 30, Payload{})) == all);
+  CHECK(hears(message({"", 1002, false, 0}, 30, Payload{})) == all);
+}
+
+TEST_CASE("commands of another node are heard through the filter") {
+  Scene scene(R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11, "servo_id": 1}],
+                 "foreign": [{"kind": "node", "node_id": 30, "armed": true,
+                              "commands": {"servo_ids": [1, 2], "rate": 50}}])",
+              Session::Hearing::commands);
+  scene.live(1100ms);
+  CHECK(scene.roster().armed_by() == NodeId(30));
+  CHECK(scene.roster().driver_of(scene.member(11), scene.session->now()) == NodeId(30));
+}

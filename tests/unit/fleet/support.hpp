@@ -1,0 +1,220 @@
+#pragma once
+// What the tests of this floor share: a session on a simulated bus of virtual time that keeps every
+// frame it sends, messages and answers of nodes that are not there, and outcomes for jobs.
+
+#include "blactl/bla/profile.hpp"
+#include "blactl/can/bus.hpp"
+#include "blactl/dronecan/local_node_id.hpp"
+#include "blactl/dronecan/transfer.hpp"
+#include "blactl/dronecan/types.hpp"
+#include "blactl/fleet/identification.hpp"
+#include "blactl/fleet/session.hpp"
+#include "blactl/sim/private_bus.hpp"
+#include "blactl/sim/scenario.hpp"
+
+#include "catch.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace blactl::fleet::test {
+
+using namespace std::chrono_literals;
+using dronecan::GetNodeInfo;
+using dronecan::GetSet;
+using dronecan::NodeId;
+using dronecan::Outcome;
+
+inline const bla::Profiles& profiles() {
+  static const Result<bla::Profiles> loaded = bla::Profiles::load(std::nullopt);
+  REQUIRE(loaded);
+  return *loaded;
+}
+
+inline const bla::Profile& model(std::string_view name) {
+  const auto models = profiles().matching(name);
+  REQUIRE(models.size() == 1);
+  return *models.front();
+}
+
+inline const bla::Parameter& parameter(std::string_view name) {
+  const auto found = profiles().find(name);
+  REQUIRE(found);
+  return **found;
+}
+
+inline std::vector<can::Frame> message(const dronecan::DataType& type, std::uint8_t source,
+                                       const dronecan::Payload& payload,
+                                       dronecan::TransferId id = 0) {
+  const dronecan::Header header{.kind = dronecan::Kind::message,
+                                .priority = 16,
+                                .data_type_id = type.id,
+                                .source = NodeId(source)};
+  return dronecan::segment(header, id, type.signature, payload.bytes());
+}
+
+inline std::vector<can::Frame> service(dronecan::Kind kind, const dronecan::DataType& type,
+                                       std::uint8_t source, std::uint8_t destination,
+                                       const dronecan::Payload& payload,
+                                       dronecan::TransferId id = 0) {
+  const dronecan::Header header{.kind = kind,
+                                .priority = 30,
+                                .data_type_id = type.id,
+                                .source = NodeId(source),
+                                .destination = NodeId(destination)};
+  return dronecan::segment(header, id, type.signature, payload.bytes());
+}
+
+/// Passes everything on to another bus and writes down what was sent.
+class Tap final : public can::Bus {
+ public:
+  Tap(std::unique_ptr<can::Bus> bus, std::vector<can::Frame>& sent)
+      : bus_(std::move(bus)), sent_(sent) {}
+
+  [[nodiscard]] std::string_view name() const override { return bus_->name(); }
+
+  [[nodiscard]] Result<bool> send(const can::Frame& frame) override {
+    auto taken = bus_->send(frame);
+    if (taken && *taken) {
+      sent_.push_back(frame);
+    }
+    return taken;
+  }
+
+  [[nodiscard]] std::optional<can::BusEvent> receive() override { return bus_->receive(); }
+
+  [[nodiscard]] Result<void> filter(std::span<const can::Filter> filters) override {
+    return bus_->filter(filters);
+  }
+
+  [[nodiscard]] bool echoes() const override { return bus_->echoes(); }
+
+  [[nodiscard]] int descriptor() const override { return bus_->descriptor(); }
+
+  [[nodiscard]] Time now() const override { return bus_->now(); }
+
+  [[nodiscard]] WallTime wall() const override { return bus_->wall(); }
+
+  [[nodiscard]] Time idle_until(Time deadline) override { return bus_->idle_until(deadline); }
+
+ private:
+  std::unique_ptr<can::Bus> bus_;
+  std::vector<can::Frame>& sent_;
+};
+
+/// A session on the simulated bus of a scenario, with virtual time; everybody has started.
+class Scene {
+ public:
+  /// `members`: JSON members of the scenario: "servos": […], "foreign": […].
+  explicit Scene(std::string_view members, Session::Hearing hearing = Session::Hearing::all,
+                 std::optional<dronecan::LocalNodeId> local =
+                     dronecan::LocalNodeId::unshared(std::nullopt)) {
+    const auto scenario = sim::parse_scenario(
+        fmt::format(R"({{"schema": "blactl-scenario/1", "clock": "virtual", {}}})", members),
+        "test.json", profiles());
+    INFO((scenario ? "" : scenario.error().message));
+    REQUIRE(scenario);
+    auto bus = std::make_unique<sim::PrivateBus>("sim:test.json", *scenario);
+    auto opened = Session::open(std::make_unique<Tap>(std::move(bus), sent), std::move(local),
+                                hearing);
+    REQUIRE(opened);
+    session = std::move(*opened);
+    live(start_time);
+  }
+
+  [[nodiscard]] Roster& roster() const { return session->roster(); }
+
+  [[nodiscard]] Member& member(std::uint8_t id) const { return roster().member(NodeId(id)); }
+
+  void run(dronecan::Job& job) const {
+    session->start(job);
+    const auto ran = session->run();
+    INFO((ran ? "" : ran.error().message));
+    REQUIRE(ran);
+  }
+
+  void live(Duration time) const { REQUIRE(session->live_until(session->now() + time)); }
+
+  /// Identifies a servo that must be there.
+  Member& identify(std::uint8_t id, Identification::Options options = {}) const {
+    IdentifyJob job(roster(), member(id), profiles(), options);
+    run(job);
+    REQUIRE_FALSE(job.identification().error());
+    return member(id);
+  }
+
+  /// How many requests of this type went to this server, retries included.
+  [[nodiscard]] std::size_t requests(const dronecan::DataType& type, std::uint8_t server) const {
+    std::size_t count = 0;
+    for (const can::Frame& frame : sent) {
+      const auto header = dronecan::decode_id(frame.id);
+      const bool is_first = (frame.data[frame.size - 1U] & 0x80U) != 0;
+      count += header && header->kind == dronecan::Kind::request && is_first &&
+                       header->data_type_id == type.id && header->destination == NodeId(server)
+                   ? 1U
+                   : 0U;
+    }
+    return count;
+  }
+
+  /// A servo takes up to 150 ms from power to its first frame.
+  static constexpr Duration start_time = 200ms;
+
+  std::vector<can::Frame> sent; ///< in the order in which the bus took them
+  std::unique_ptr<Session> session;
+};
+
+/// Outcomes for a job that is asked without a bus. The payload lives as long as this object.
+class Script {
+ public:
+  [[nodiscard]] Outcome answer(const dronecan::Payload& payload) {
+    payload_ = payload;
+    return {Outcome::Kind::answered, payload_.bytes(), {}};
+  }
+
+  [[nodiscard]] Outcome value(std::string_view register_name, GetSet::Value value) {
+    return answer(
+        GetSet::Response{.value = std::move(value), .name = std::string(register_name)}.encode());
+  }
+
+  [[nodiscard]] Outcome info(std::uint8_t unit) {
+    return answer(GetNodeInfo::Response{.unique_id = {unit}, .name = "servo"}.encode());
+  }
+
+  static Outcome start() { return {}; }
+
+  static Outcome timed_out() { return {Outcome::Kind::timed_out, {}, {}}; }
+
+  static Outcome not_sent() { return {Outcome::Kind::not_sent, {}, {}}; }
+
+  static Outcome cancelled() { return {Outcome::Kind::cancelled, {}, {}}; }
+
+ private:
+  dronecan::Payload payload_;
+};
+
+/// "read 0x38", "write 0x38=900", "GetNodeInfo", "nothing": what a job asks.
+inline std::string text(const std::optional<dronecan::Request>& request) {
+  if (!request) {
+    return "nothing";
+  }
+  if (request->type->id != GetSet::type.id) {
+    return std::string(request->type->name.substr(request->type->name.rfind('.') + 1));
+  }
+  const auto get_set = GetSet::Request::decode(request->payload.bytes());
+  REQUIRE(get_set);
+  if (const auto* number = std::get_if<std::int64_t>(&get_set->value)) {
+    return fmt::format("write {}={}", get_set->name, *number);
+  }
+  return "read " + get_set->name;
+}
+
+} // namespace blactl::fleet::test

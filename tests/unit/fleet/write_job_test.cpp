@@ -1,0 +1,278 @@
+#include "blactl/fleet/write_job.hpp"
+
+#include "support.hpp"
+
+#include <string>
+#include <tuple>
+#include <vector>
+
+using namespace blactl;
+using namespace blactl::fleet;
+using namespace blactl::fleet::test;
+
+namespace {
+
+Change change(const char* name, std::int64_t requested, std::optional<std::int64_t> before) {
+  Change change;
+  change.parameter = &parameter(name);
+  change.requested = requested;
+  change.before = before;
+  change.status = before == requested ? ChangeStatus::unchanged : ChangeStatus::planned;
+  return change;
+}
+
+/// A servo that is identified, without a bus.
+struct Bench {
+  Bench() {
+    servo.id = NodeId(11);
+    servo.info = GetNodeInfo::Response{.unique_id = {1}};
+    servo.identified = servo.is_servo = true;
+  }
+
+  Member servo;
+  Script script;
+};
+
+std::size_t writes(const Scene& scene) {
+  std::size_t count = 0;
+  for (const can::Frame& frame : scene.sent) {
+    const auto header = dronecan::decode_id(frame.id);
+    // A read is one frame, a write three: the middle one is neither the first nor the last.
+    const unsigned place = frame.data[frame.size - 1U] >> 6U;
+    count += header && header->data_type_id == GetSet::type.id && place == 0 ? 1U : 0U;
+  }
+  return count;
+}
+
+constexpr const char* servo_11 = R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11}])";
+
+} // namespace
+
+TEST_CASE("a change is written and read again") {
+  Scene scene(servo_11);
+  WriteJob job(scene.identify(11), {change("angle_limit_cw", 900, 1799)}, {});
+  scene.sent.clear();
+  scene.run(job);
+  CHECK(job.changes()[0].status == ChangeStatus::written);
+  CHECK(job.changes()[0].after == 900);
+  CHECK_FALSE(job.changes()[0].error);
+  CHECK(scene.sent.size() == 3 + 1);
+}
+
+TEST_CASE("a value that is held already is not sent") {
+  Scene scene(servo_11);
+  WriteJob job(scene.identify(11),
+               {change("angle_limit_cw", 1799, 1799), change("angle_limit_ccw", -900, -1799),
+                change("reverse", 0, 0)},
+               {});
+  scene.sent.clear();
+  scene.run(job);
+  CHECK(job.changes()[0].status == ChangeStatus::unchanged);
+  CHECK(job.changes()[1].status == ChangeStatus::written);
+  CHECK(job.changes()[2].status == ChangeStatus::unchanged);
+  CHECK(writes(scene) == 1);
+  CHECK(scene.sent.size() == 3 + 1);
+}
+
+TEST_CASE("nothing to change sends nothing") {
+  Scene scene(servo_11);
+  Member& servo = scene.identify(11);
+  scene.sent.clear();
+  WriteJob unchanged(servo, {change("reverse", 0, 0)}, {});
+  scene.run(unchanged);
+  WriteJob empty(servo, {}, {});
+  scene.run(empty);
+  CHECK(scene.sent.empty());
+}
+
+TEST_CASE("a servo that keeps its old value refused") {
+  Scene scene(servo_11); // refuses what is out of range
+  WriteJob job(scene.identify(11),
+               {change("torque_limit_cw", 200, 100), change("reverse", 1, 0)}, {});
+  scene.run(job);
+  CHECK(job.changes()[0].status == ChangeStatus::failed);
+  REQUIRE(job.changes()[0].error);
+  CHECK(job.changes()[0].error->code == Code::refused);
+  CHECK(job.changes()[0].error->node_id == 11);
+  CHECK(job.changes()[0].after == 100);
+  CHECK(job.changes()[1].status == ChangeStatus::written); // the others are written all the same
+}
+
+TEST_CASE("a servo that holds another value than was written is a mismatch") {
+  Scene scene(R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11,
+                             "ram": {"torque_limit_cw": "50%"},
+                             "behaviour": {"out_of_range": "clamp"}}])");
+  WriteJob job(scene.identify(11), {change("torque_limit_cw", 200, 50)}, {});
+  scene.run(job);
+  CHECK(job.changes()[0].status == ChangeStatus::mismatch);
+  REQUIRE(job.changes()[0].error);
+  CHECK(job.changes()[0].error->code == Code::mismatch);
+  CHECK(job.changes()[0].after == 100);
+}
+
+TEST_CASE("a lost answer to a write is no failure: the register tells") {
+  Bench bench;
+  WriteJob job(bench.servo, {change("reverse", 1, 0)}, {});
+  CHECK(text(job.next(Script::start())) == "write 0x23=1");
+  CHECK(text(job.next(Script::timed_out())) == "read 0x23");
+  SECTION("it was written") {
+    CHECK(text(job.next(bench.script.value("0x23", std::int64_t{1}))) == "nothing");
+    CHECK(job.changes()[0].status == ChangeStatus::written);
+  }
+  SECTION("it was not") {
+    CHECK(text(job.next(bench.script.value("0x23", std::int64_t{0}))) == "nothing");
+    CHECK(job.changes()[0].status == ChangeStatus::failed);
+    CHECK(job.changes()[0].error->code == Code::refused);
+  }
+  SECTION("it is mute") {
+    CHECK(text(job.next(Script::timed_out())) == "nothing");
+    CHECK(job.changes()[0].status == ChangeStatus::failed);
+    CHECK(job.changes()[0].error->code == Code::timeout);
+    CHECK_FALSE(job.changes()[0].after);
+  }
+}
+
+TEST_CASE("an answer that echoes the value proves nothing by itself") {
+  Bench bench;
+  WriteJob job(bench.servo, {change("reverse", 1, 0)}, {});
+  std::ignore = job.next(Script::start());
+  CHECK(text(job.next(bench.script.value("0x23", std::int64_t{1}))) == "read 0x23");
+  CHECK(text(job.next(bench.script.value("0x23", std::int64_t{0}))) == "nothing");
+  CHECK(job.changes()[0].error->code == Code::refused);
+}
+
+TEST_CASE("a write that never left is given up, and nothing behind it is tried") {
+  Bench bench;
+  WriteJob job(bench.servo, {change("reverse", 1, 0), change("servo_id", 5, 0)}, {});
+  std::ignore = job.next(Script::start());
+  const auto [outcome, code] = GENERATE(std::pair(Outcome::Kind::cancelled, Code::interrupted),
+                                        std::pair(Outcome::Kind::not_sent, Code::no_acknowledge));
+  CHECK(text(job.next({outcome, {}, {}})) == "nothing");
+  CHECK(job.changes()[0].status == ChangeStatus::failed);
+  CHECK(job.changes()[0].error->code == code);
+  CHECK(job.changes()[1].status == ChangeStatus::planned);
+}
+
+TEST_CASE("a job that is cancelled while it reads back says so") {
+  Bench bench;
+  WriteJob job(bench.servo, {change("reverse", 1, 0), change("servo_id", 5, 0)}, {});
+  std::ignore = job.next(Script::start());
+  std::ignore = job.next(bench.script.value("0x23", std::int64_t{1}));
+  CHECK(text(job.next(Script::cancelled())) == "nothing");
+  CHECK(job.changes()[0].error->code == Code::interrupted);
+  CHECK(job.changes()[1].status == ChangeStatus::planned);
+}
+
+TEST_CASE("after a restart nothing is written before the unique ID was asked again") {
+  Bench bench;
+  WriteJob job(bench.servo, {change("reverse", 1, 0)}, {});
+  ++bench.servo.boots;
+  CHECK(text(job.next(Script::start())) == "GetNodeInfo");
+  SECTION("the same servo is written to") {
+    CHECK(text(job.next(bench.script.info(1))) == "write 0x23=1");
+  }
+  SECTION("another servo is not") {
+    CHECK(text(job.next(bench.script.info(2))) == "nothing");
+    CHECK(job.changes()[0].status == ChangeStatus::failed);
+    CHECK(job.changes()[0].error->code == Code::state);
+  }
+  SECTION("nor one that does not answer") {
+    CHECK(text(job.next(Script::timed_out())) == "nothing");
+    CHECK(job.changes()[0].error->code == Code::timeout);
+  }
+}
+
+TEST_CASE("another servo in the place of the first one gets none of the values") {
+  Bench bench;
+  WriteJob job(bench.servo, {change("reverse", 1, 0), change("servo_id", 5, 0)}, {});
+  std::ignore = job.next(Script::start());
+  std::ignore = job.next(bench.script.value("0x23", std::int64_t{1}));
+  ++bench.servo.boots;
+  CHECK(text(job.next(bench.script.value("0x23", std::int64_t{1}))) == "GetNodeInfo");
+  CHECK(text(job.next(bench.script.info(2))) == "nothing");
+  CHECK(job.changes()[0].status == ChangeStatus::failed); // lost with the servo that had it
+  CHECK(job.changes()[0].error->code == Code::state);
+  CHECK(job.changes()[1].status == ChangeStatus::planned);
+}
+
+TEST_CASE("what a restart took from the RAM is written again") {
+  Bench bench;
+  WriteJob job(bench.servo, {change("reverse", 1, 0), change("servo_id", 5, 0)}, {});
+  CHECK(text(job.next(Script::start())) == "write 0x23=1");
+  CHECK(text(job.next(bench.script.value("0x23", std::int64_t{1}))) == "read 0x23");
+  ++bench.servo.boots;
+  CHECK(text(job.next(bench.script.value("0x23", std::int64_t{1}))) == "GetNodeInfo");
+  CHECK(text(job.next(bench.script.info(1))) == "write 0x23=1");
+  CHECK(text(job.next(bench.script.value("0x23", std::int64_t{1}))) == "read 0x23");
+  CHECK(text(job.next(bench.script.value("0x23", std::int64_t{1}))) == "write 0x45=5");
+  CHECK(text(job.next(bench.script.value("0x45", std::int64_t{5}))) == "read 0x45");
+  CHECK(text(job.next(bench.script.value("0x45", std::int64_t{5}))) == "nothing");
+  CHECK(job.changes()[0].status == ChangeStatus::written);
+  CHECK(job.changes()[1].status == ChangeStatus::written);
+}
+
+TEST_CASE("a servo that restarted behind the last write is written to again") {
+  Bench bench;
+  WriteJob job(bench.servo, {change("reverse", 1, 0)}, {});
+  std::ignore = job.next(Script::start());
+  std::ignore = job.next(bench.script.value("0x23", std::int64_t{1}));
+  ++bench.servo.boots; // whether before or after the answer was sent nobody knows
+  CHECK(text(job.next(bench.script.value("0x23", std::int64_t{1}))) == "GetNodeInfo");
+  SECTION("if it answers") {
+    CHECK(text(job.next(bench.script.info(1))) == "write 0x23=1");
+  }
+  SECTION("or counts as failed") {
+    CHECK(text(job.next(Script::timed_out())) == "nothing");
+    CHECK(job.changes()[0].status == ChangeStatus::failed);
+    CHECK(job.changes()[0].error->code == Code::timeout);
+  }
+}
+
+TEST_CASE("a servo that restarts with every write is given up") {
+  Bench bench;
+  WriteJob job(bench.servo, {change("reverse", 1, 0), change("servo_id", 5, 0)}, {});
+  std::string question = text(job.next(Script::start()));
+  int written = 0;
+  while (question != "nothing") {
+    REQUIRE(written < 10);
+    if (question == "GetNodeInfo") {
+      question = text(job.next(bench.script.info(1)));
+    } else {
+      const bool is_write = question.starts_with("write");
+      written += is_write ? 1 : 0;
+      bench.servo.boots += is_write ? 1 : 0;
+      question = text(job.next(bench.script.value("0x23", std::int64_t{1})));
+    }
+  }
+  CHECK(written == 3);
+  CHECK(job.changes()[0].status == ChangeStatus::failed);
+  CHECK(job.changes()[0].error->code == Code::state);
+  CHECK(job.changes()[1].status == ChangeStatus::planned);
+}
+
+TEST_CASE("the value that is read back is narrowed to the width of its register") {
+  Bench bench;
+  WriteJob job(bench.servo, {change("angle_limit_ccw", -900, -1799)}, {});
+  CHECK(text(job.next(Script::start())) == "write 0x39=-900");
+  std::ignore = job.next(bench.script.value("0x39", std::int64_t{-900}));
+  CHECK(text(job.next(bench.script.value("0x39", std::int64_t{0xFFFF'FC7C}))) == "nothing");
+  CHECK(job.changes()[0].status == ChangeStatus::written);
+  CHECK(job.changes()[0].after == -900);
+}
+
+TEST_CASE("a register whose value was not known before and is another one now is a mismatch") {
+  Bench bench;
+  WriteJob job(bench.servo, {change("reverse", 1, std::nullopt)}, {});
+  std::ignore = job.next(Script::start());
+  std::ignore = job.next(bench.script.value("0x23", std::int64_t{0}));
+  std::ignore = job.next(bench.script.value("0x23", std::int64_t{0}));
+  CHECK(job.changes()[0].error->code == Code::mismatch);
+}
+
+TEST_CASE("the states of a change are called as scripts read them") {
+  CHECK(name(ChangeStatus::planned) == "planned");
+  CHECK(name(ChangeStatus::unchanged) == "unchanged");
+  CHECK(name(ChangeStatus::written) == "written");
+  CHECK(name(ChangeStatus::failed) == "failed");
+  CHECK(name(ChangeStatus::mismatch) == "mismatch");
+}
