@@ -1,6 +1,7 @@
 #include "blactl/bla/profile.hpp"
 
 #include "blactl/base/nearest.hpp"
+#include "blactl/base/texts.hpp"
 #include "blactl/bla/texts.hpp"
 
 #include "bla/words.hpp"

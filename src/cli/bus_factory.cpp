@@ -9,6 +9,7 @@
 #include "texts.hpp"
 
 #include <filesystem>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -48,7 +49,9 @@ Result<OpenBus> open_socketcan(const std::string& name) {
   if (!bus) {
     return std::unexpected(bus.error());
   }
-  return OpenBus{std::move(*bus), name};
+  // Not as it was typed: an interface may have further names.
+  const std::string first_name((*bus)->name());
+  return OpenBus{std::move(*bus), first_name};
 }
 
 Result<OpenBus> open_private(std::string_view text, const Result<sim::Scenario>& scenario) {
@@ -63,14 +66,17 @@ Result<OpenBus> open_simulator(std::string_view text, const std::string& socket,
   const bool default_socket = socket.empty();
   const std::string path = default_socket ? can::default_socket_path().string() : socket;
   if (default_socket && !std::filesystem::exists(path)) {
-    reporter.detail(say<texts::sim_is_private>());
+    reporter.note(say<texts::sim_is_private>());
     return open_private(text, sim::default_scenario(profiles));
   }
   auto bus = can::SimBus::open(path, printable(text));
   if (!bus) {
     return std::unexpected(bus.error());
   }
-  return OpenBus{std::move(*bus), "sim:" + path};
+  // Many paths may lead there.
+  std::error_code error;
+  const auto canonical = std::filesystem::canonical(path, error);
+  return OpenBus{std::move(*bus), "sim:" + (error ? path : canonical.string())};
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 
 #include "texts.hpp"
 
+#include <termios.h>
 #include <unistd.h>
 
 #include <array>
@@ -28,6 +29,7 @@ Result<void> confirm(std::string_view question, Context& context) {
     return fail(Code::not_confirmed, std::string(question) + say<texts::not_confirmed>(),
                 say<texts::not_confirmed_hint>());
   }
+  tcflush(STDIN_FILENO, TCIFLUSH); // what was typed before the question is no answer to it
   context.reporter().ask(std::string(question) + say<texts::question_yes_no>());
   if (auto ready = context.session().wait_for_input(STDIN_FILENO); !ready) {
     context.reporter().ask("\n"); // the question's line will get no answer

@@ -91,6 +91,12 @@ fleet::Identification::Options Context::identification() const {
   return {.patience = shared_.patience, .assumed = assumed_, .static_node_id = false};
 }
 
+void Context::tell_losses() const {
+  if (session_ && session_->lost_frames() > 0) {
+    reporter_.note(say<texts::frames_lost>(session_->lost_frames()));
+  }
+}
+
 void Context::broken(const Error& error, Report& report) const {
   // What the jobs say of their cancelled questions is the same news.
   std::erase_if(report.errors, [](const Error& known) { return known.code == Code::interrupted; });

@@ -55,6 +55,9 @@ class Context {
   [[nodiscard]] std::vector<fleet::Member*> select(const fleet::Targets& targets, Duration search,
                                                    Report& report);
 
+  /// Says so if frames were dropped on the way to this process.
+  void tell_losses() const;
+
   /// Ends a command whose session broke: what the report needs of it.
   void broken(const Error& error, Report& report) const;
 

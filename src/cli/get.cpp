@@ -2,6 +2,7 @@
 
 #include "blactl/bla/value.hpp"
 #include "blactl/fleet/read_job.hpp"
+#include "blactl/fleet/safety.hpp"
 
 #include "commands.hpp"
 #include "node_head.hpp"
@@ -130,8 +131,9 @@ std::vector<const Reading*> shown(const ReadJob& job, const Wish& wish) {
   std::vector<const Reading*> chosen;
   for (const Reading& reading : job.readings()) {
     const Parameter& parameter = *reading.parameter;
-    const bool differs = reading.raw && parameter.default_raw && parameter.writable() &&
-                         *reading.raw != *parameter.default_raw;
+    // Where the model, and so the default, is not known for sure, nothing is left out.
+    const bool differs =
+        reading.raw && parameter.writable() && reading.raw != parameter.default_raw;
     if (reading.raw && wish.means(parameter) && (!wish.changed_only || differs)) {
       chosen.push_back(&reading);
     }
@@ -209,16 +211,6 @@ std::string csv(const std::vector<Answer>& answers) {
   return out;
 }
 
-/// "900  (90.0 deg)": the register and what it means; one of them where both are the same.
-std::string both(const Parameter& parameter, std::int64_t raw, std::optional<std::int64_t> mode) {
-  const std::string number = std::to_string(raw);
-  std::string meaning = bla::display(parameter, raw, mode);
-  if (is_inactive(parameter, raw)) {
-    return meaning;
-  }
-  return meaning == number ? number : fmt::format("{}  ({})", number, meaning);
-}
-
 std::string text(const std::vector<Answer>& answers, const Wish& wish) {
   std::string out;
   for (const Answer& answer : answers) {
@@ -233,7 +225,8 @@ std::string text(const std::vector<Answer>& answers, const Wish& wish) {
                  say<texts::column_default>()});
     for (const Reading* reading : answer.shown) {
       const Parameter& parameter = *reading->parameter;
-      table.add({parameter.address.name(), parameter.name, both(parameter, *reading->raw, mode),
+      table.add({parameter.address.name(), parameter.name,
+                 register_text(parameter, *reading->raw, mode),
                  parameter.default_raw && parameter.writable()
                      ? bla::display(parameter, *parameter.default_raw, mode)
                      : ""});
@@ -244,13 +237,15 @@ std::string text(const std::vector<Answer>& answers, const Wish& wish) {
 }
 
 /// The worst that happened to one servo: 0, or the status of its first error.
-int judge(const ReadJob& job, Report& report) {
+int judge(const ReadJob& job, const fleet::Roster& roster, Report& report) {
   int status = 0;
   const auto failed = [&](const Error& error) {
     report.fail(error);
     status = status == 0 ? exit_status(error.code) : status;
   };
-  if (job.error()) {
+  if (roster.is_doubled(job.member().id)) {
+    failed(fleet::doubled(job.member().id)); // what was read is a mixture of two
+  } else if (job.error()) {
     failed(*job.error());
   }
   for (const Reading& reading : job.readings()) {
@@ -300,8 +295,8 @@ Report get(const GetOptions& options, Context& context) {
   }
   const auto ran = context.session().run();
   for (const auto& job : *jobs) {
-    report.statuses.push_back(judge(*job, report));
-    if (!job->error()) {
+    report.statuses.push_back(judge(*job, context.session().roster(), report));
+    if (!job->error() && !context.session().roster().is_doubled(job->member().id)) {
       answers->push_back({job.get(), shown(*job, *wish)});
     }
   }

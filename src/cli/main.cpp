@@ -1,11 +1,29 @@
 #include "run.hpp"
 
+#include <fcntl.h>
 #include <signal.h>
+#include <unistd.h>
 
 #include <string>
 #include <vector>
 
+namespace {
+
+/// A standard descriptor that the caller closed must not become the number of a CAN socket: what is
+/// printed would go to the bus. Its place is taken by something that refuses to be used.
+void occupy_standard_descriptors() {
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(descriptor, F_GETFD) < 0) {
+      // The lowest free number is this one; it reads as empty, or cannot be written.
+      (void)open("/dev/null", O_RDONLY | O_CLOEXEC);
+    }
+  }
+}
+
+} // namespace
+
 int main(int argc, char** argv) {
+  occupy_standard_descriptors();
   // A reader that leaves is an error of write(), not the end of this process: `blactl models |
   // head`.
   struct sigaction ignore{};

@@ -118,8 +118,10 @@ std::string range_text(const Parameter& parameter) {
   if (!parameter.choices.empty()) {
     std::string words;
     for (const bla::Choice& choice : parameter.choices) {
-      words += words.empty() ? "" : ", ";
-      words += choice.word;
+      if (choice.raw >= *parameter.min && choice.raw <= *parameter.max) {
+        words += words.empty() ? "" : ", ";
+        words += choice.word;
+      }
     }
     return words;
   }

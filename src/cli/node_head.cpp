@@ -1,6 +1,7 @@
 #include "node_head.hpp"
 
 #include "blactl/base/hex.hpp"
+#include "blactl/bla/value.hpp"
 
 #include "texts.hpp"
 
@@ -57,6 +58,14 @@ std::vector<std::string> head_cells(const fleet::Member& member) {
 
 std::string version_text(std::int64_t raw) {
   return raw < 0 ? std::to_string(raw) : fmt::format("{}.{:03}", raw / 1000, raw % 1000);
+}
+
+std::string register_text(const bla::Parameter& parameter, std::int64_t raw,
+                          std::optional<std::int64_t> pwm_mode) {
+  const std::string number = std::to_string(raw);
+  std::string meaning = bla::display(parameter, raw, pwm_mode);
+  const bool inactive = parameter.can_be_inactive && raw == bla::not_active;
+  return inactive || meaning == number ? meaning : fmt::format("{}  ({})", number, meaning);
 }
 
 std::string head_line(const fleet::Member& member) {

@@ -24,6 +24,10 @@ void write_head(JsonWriter& json, const fleet::Member& member);
 /// "1.400": 0x52 and 0x53 count thousandths.
 [[nodiscard]] std::string version_text(std::int64_t raw);
 
+/// A register and what it means: "900  (90.0 deg)"; one of them where both are the same.
+[[nodiscard]] std::string register_text(const bla::Parameter& parameter, std::int64_t raw,
+                                        std::optional<std::int64_t> pwm_mode);
+
 /// A number, or what stands for none.
 [[nodiscard]] std::string or_text(const std::optional<std::int64_t>& number, std::string_view none);
 

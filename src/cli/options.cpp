@@ -1,6 +1,7 @@
 #include "options.hpp"
 
 #include "blactl/base/nearest.hpp"
+#include "blactl/base/texts.hpp"
 
 #include "texts.hpp"
 

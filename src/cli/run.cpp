@@ -58,6 +58,7 @@ int run(std::span<const std::string> arguments) {
   Context context(invocation->shared, reporter);
   Report report = std::visit(Dispatch{context}, invocation->command);
   report.command = invocation->name;
+  context.tell_losses();
   return reporter.finish(report);
 }
 

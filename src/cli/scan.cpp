@@ -1,6 +1,7 @@
 // blactl scan: who is on the bus.
 
 #include "blactl/fleet/identification.hpp"
+#include "blactl/fleet/texts.hpp"
 
 #include "commands.hpp"
 #include "scan_findings.hpp"
@@ -81,7 +82,9 @@ class Search {
 };
 
 /// What makes a scan fail although it ran: conflicts, too few servos, nobody there.
-void judge(const ScanOptions& options, const Findings& findings, Report& report) {
+/// `listed`: what -n said.
+void judge(const ScanOptions& options, const Findings& findings,
+           const std::optional<std::string>& listed, Report& report) {
   const auto servos = static_cast<std::uint64_t>(
       std::ranges::count_if(findings.nodes, [](const Member* member) { return member->is_servo; }));
   report.counts = {{"nodes", findings.nodes.size()}, {"servos", servos}};
@@ -95,7 +98,15 @@ void judge(const ScanOptions& options, const Findings& findings, Report& report)
                      conflict.nodes.size() == 1 ? std::optional(conflict.nodes.front().value())
                                                 : std::nullopt});
   }
-  if (findings.nodes.empty()) {
+  const auto& members = findings.roster->members();
+  const bool somebody = std::ranges::any_of(
+      members, [&](const auto& member) { return findings.roster->heard(member.first); });
+  if (findings.nodes.empty() && somebody) {
+    found.push_back(
+        {Code::not_found,
+         say<texts::nothing_matches_list>(report.interface, printable(listed.value_or(""))),
+         say<texts::node_not_found_hint>(), std::nullopt});
+  } else if (findings.nodes.empty()) {
     found.push_back({Code::not_found, say<texts::nobody_there>(report.interface),
                      say<texts::nobody_there_hint>(), std::nullopt});
   } else if (options.expect && servos < *options.expect) {
@@ -134,7 +145,7 @@ Report scan(const ScanOptions& options, Context& context) {
   auto findings =
       std::make_shared<Findings>(gather(context.session().roster(), *targets, **profiles));
   if (ran) {
-    judge(options, *findings, report);
+    judge(options, *findings, context.shared().nodes, report);
   } else {
     context.broken(ran.error(), report);
   }

@@ -9,6 +9,7 @@
 
 #include "commands.hpp"
 #include "confirm.hpp"
+#include "node_head.hpp"
 #include "set_outcome.hpp"
 #include "texts.hpp"
 
@@ -41,11 +42,17 @@ Plan plan_changes(const ReadJob& job, Member& member, const Assignments& assignm
     }
     plan.changes.push_back(std::move(change));
   }
+  plan.mode_before = plan.mode_after = job.raw(bla::address::pwm_mode);
+  for (const Change& change : plan.changes) {
+    if (change.parameter->address == bla::address::pwm_mode) {
+      plan.mode_after = change.requested;
+    }
+  }
   return plan;
 }
 
 /// The registers whose present value the checks need: those to be written, 0x37 for the unit of
-/// 0x36, and 0x08 for angle limits.
+/// 0x36, and what tells whether a change moves the shaft.
 std::vector<const bla::Parameter*> to_read(const Assignments& assignments, const Member& servo) {
   std::vector<const bla::Parameter*> wanted;
   const auto add = [&](bla::Address address) {
@@ -59,7 +66,7 @@ std::vector<const bla::Parameter*> to_read(const Assignments& assignments, const
     add(assignment.parameter->address);
   }
   for (const Assignment& assignment : assignments) {
-    if (assignment.value.pwm_mode) {
+    if (assignment.parameter->address == bla::address::pwm_output_range) {
       add(bla::address::pwm_mode);
     }
     for (const bla::Address needed : fleet::values_needed(assignment.parameter->address)) {
@@ -129,6 +136,12 @@ class Set {
         write();
       }
       conclude();
+      return;
+    }
+    for (Error& error : report_.errors) {
+      if (error.code == Code::interrupted) {
+        error.hint = say<texts::nothing_written_hint>();
+      }
     }
   }
 
@@ -173,6 +186,13 @@ bool Set::understand() {
     return stop(assignments.error());
   }
   assignments_ = std::move(*assignments);
+  const auto commands = std::ranges::count_if(assignments_, [](const Assignment& assignment) {
+    return assignment.parameter->can_be_inactive;
+  });
+  if (commands > 1) { // each makes the others inactive (4.1-4.3)
+    return stop({Code::cross_check, say<texts::one_command_only>(),
+                 say<texts::one_command_only_hint>(), std::nullopt});
+  }
   if (context_.shared().listen_only) {
     return stop({Code::usage, say<texts::listen_only_refused>("set"),
                  say<texts::listen_only_hint>(), std::nullopt});
@@ -259,6 +279,10 @@ bool Set::watch() {
     context_.broken(lived.error(), report_);
     return false;
   }
+  if (context_.session().lost_frames() > 0) {
+    return stop({Code::state, say<texts::lost_while_listening>(), say<texts::run_again_hint>(),
+                 std::nullopt});
+  }
   return true;
 }
 
@@ -285,8 +309,9 @@ bool Set::confirm() {
         const auto& parameter = *change.parameter;
         question += say<texts::question_change>(
             plan.member->id.value(), parameter.name,
-            change.before ? bla::display(parameter, *change.before) : say<texts::unknown_before>(),
-            bla::display(parameter, change.requested));
+            change.before ? register_text(parameter, *change.before, plan.mode_before)
+                          : say<texts::unknown_before>(),
+            register_text(parameter, change.requested, plan.mode_after));
       }
     }
   }
@@ -318,12 +343,12 @@ void Set::write() {
   }
   if (!ran) {
     context_.broken(ran.error(), report_);
-    if (const std::size_t frames = session.unsent(); frames > 0) {
-      report_.fail({Code::no_acknowledge,
-                    say<texts::not_written>(frames, session.interface()),
-                    {},
-                    std::nullopt});
-    }
+  }
+  if (const std::size_t frames = session.unsent(); frames > 0) {
+    report_.fail({Code::no_acknowledge,
+                  say<texts::not_written>(frames, session.interface()),
+                  {},
+                  std::nullopt});
   }
 }
 

@@ -5,6 +5,8 @@
 #include "blactl/fleet/roster.hpp"
 #include "blactl/fleet/write_job.hpp"
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +16,8 @@ namespace blactl::cli {
 struct Plan {
   fleet::Member* member;
   std::vector<fleet::Change> changes;
+  /// 0x37 before and after, which the unit of 0x36 hangs on; empty where it was not read.
+  std::optional<std::int64_t> mode_before{}, mode_after{};
 };
 
 struct Outcome {

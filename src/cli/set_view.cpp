@@ -65,12 +65,14 @@ std::string text(const Outcome& outcome) {
                  say<texts::column_after>(), ""});
     for (const Change& change : plan.changes) {
       const bla::Parameter& parameter = *change.parameter;
-      const auto shown = [&](const std::optional<std::int64_t>& raw) {
-        return raw ? bla::display(parameter, *raw) : say<texts::unknown_before>();
+      const auto shown = [&](const std::optional<std::int64_t>& raw,
+                             const std::optional<std::int64_t>& mode) {
+        return raw ? register_text(parameter, *raw, mode) : say<texts::unknown_before>();
       };
       const bool planned = change.status == ChangeStatus::planned;
-      table.add({parameter.address.name(), parameter.name, shown(change.before), "->",
-                 shown(planned ? change.requested : change.after), status_text(change.status)});
+      table.add({parameter.address.name(), parameter.name, shown(change.before, plan.mode_before),
+                 "->", shown(planned ? change.requested : change.after, plan.mode_after),
+                 status_text(change.status)});
       written = written || change.status == ChangeStatus::written;
     }
     out += table.text("  ");

@@ -12,7 +12,6 @@ inline constexpr Text stdout_failed_hint{"free some space, or send the output el
 
 inline constexpr Text unknown_command{"there is no command '{}'", "コマンド '{}' はありません"};
 inline constexpr Text no_command{"no command given", "コマンドが指定されていません"};
-inline constexpr Text did_you_mean{"did you mean {}?", "{} のことですか?"};
 inline constexpr Text unexpected_argument{"not expected: {}", "不要な引数です: {}"};
 inline constexpr Text not_understood{"{}", "コマンドラインを解釈できません: {}"};
 inline constexpr Text empty_value{"{}: the value is empty", "{}: 値が空です"};
@@ -57,14 +56,11 @@ inline constexpr Text sim_is_private{
     "no simulator is running: using a private fresh one (start one with: blactl sim)",
     "シミュレータが動作していないため、専用の新しいものを使います (起動: blactl sim)",
 };
-inline constexpr Text simulated_bus_only{"blactl sim -i {}: a simulator cannot join another one",
-                                         "blactl sim -i {}: シミュレータ同士は接続できません"};
 inline constexpr Text profile_replaced{"{} replaces the built-in profile",
                                        "{} は組込みのプロファイルを置き換えます"};
 inline constexpr Text unknown_model{"there is no model '{}'", "機種 '{}' はありません"};
 inline constexpr Text several_models{"'{}' means several models", "'{}' は複数の機種に該当します"};
 inline constexpr Text known_models{"the models are {}", "機種: {}"};
-inline constexpr Text model_lacks{"{} has no {}", "{} に {} はありません"};
 
 inline constexpr Text unknown_group{"there is no group '{}'", "グループ '{}' はありません"};
 inline constexpr Text known_groups{"the groups are {}", "グループ: {}"};
@@ -79,6 +75,20 @@ inline constexpr Text firmware_lacks_hint{"read what it has: blactl get -n {}",
 inline constexpr Text several_servos{"several servos are on the bus: {}",
                                      "バス上に複数のサーボがあります: {}"};
 inline constexpr Text several_servos_hint{"say which: -n {}", "-n {} のように指定してください"};
+inline constexpr Text one_command_only{
+    "command_angle, command_speed and command_torque exclude each other",
+    "command_angle、command_speed、command_torque は同時に指定できません",
+};
+inline constexpr Text one_command_only_hint{
+    "the servo obeys the last one: give just that",
+    "最後の指令だけが有効になるため、一つだけ指定してください"};
+inline constexpr Text nothing_written_hint{"nothing was written", "何も書き込んでいません"};
+inline constexpr Text lost_while_listening{
+    "frames were lost while listening: who drives or is armed is not known",
+    "受信中にフレームを失ったため、動作指令や ARM 状態を確認できません",
+};
+inline constexpr Text nothing_matches_list{"no node on {} matches -n {}",
+                                           "{} 上に -n {} に該当するノードがありません"};
 inline constexpr Text one_id_for_several{
     "one static node ID for {} servos: they would collide after a restart",
     "{} 台のサーボに同じ固定ノード ID を設定すると再起動後に重複します",

@@ -106,7 +106,8 @@ int open_file(const std::string& path) {
 std::expected<int, std::string> take(const std::string& path, NodeId id) {
   const int fd = open_file(path);
   if (fd < 0) {
-    return std::unexpected(say<texts::node_id_lock_failed>(id.value(), printable(path), std::strerror(errno)));
+    return std::unexpected(
+        say<texts::node_id_lock_failed>(id.value(), printable(path), std::strerror(errno)));
   }
   if (flock(fd, LOCK_EX | LOCK_NB) == 0) {
     return fd;

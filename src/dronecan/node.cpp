@@ -223,12 +223,12 @@ void Node::advance(Time now) {
       continue;
     }
     if (active.left && active.tries <= active.request->retries) {
-      ask(active, now);
+      ask(active, now_);
     } else {
       finish(active, {active.left ? Outcome::Kind::timed_out : Outcome::Kind::not_sent, {}, now});
     }
   }
-  ask_waiting(now);
+  ask_waiting(now_);
 }
 
 Time Node::next_deadline() const {

@@ -231,9 +231,9 @@ std::optional<NodeId> Roster::driver_of(const Member& servo, Time now) const {
     }
     for (const auto& [servo_id, at] : commander.servo_ids) {
       constexpr std::uint8_t every_servo = 255;
-      const bool meant = servo_id == every_servo ||
-                         (servo.servo_id ? servo_id == *servo.servo_id
-                                         : servo_id == servo.actuator_id.value_or(every_servo));
+      // Register and actuator.Status may differ: which of them it obeys is not known.
+      const bool meant =
+          servo_id == every_servo || servo.servo_id == servo_id || servo.actuator_id == servo_id;
       if (meant && recent(at)) {
         return source;
       }

@@ -117,6 +117,10 @@ std::optional<Error> forbidden(Session& session, std::span<const Change> changes
   if (roster.is_doubled(servo.id)) {
     return doubled(servo.id);
   }
+  if (!servo.is_known()) { // what was read and asked belongs to the time before
+    return Error{Code::state, say<texts::restarted_before_write>(id), say<texts::run_again_hint>(),
+                 id};
+  }
   if (const auto by = roster.armed_by()) {
     return Error{Code::armed, say<texts::armed>(by->value()), say<texts::armed_hint>(), id};
   }
@@ -129,6 +133,10 @@ std::optional<Error> forbidden(Session& session, std::span<const Change> changes
                  id};
   }
   for (const Change& change : changes) {
+    if (gives_node_id(change) && change.requested == roster.local().value()) {
+      return Error{Code::out_of_range, say<texts::node_id_is_ours>(change.requested),
+                   say<texts::own_id_in_use_hint>(), id};
+    }
     if (gives_node_id(change) && change.requested != id &&
         roster.heard(dronecan::NodeId(static_cast<std::uint8_t>(change.requested)))) {
       return Error{Code::out_of_range, say<texts::node_id_in_use>(change.requested),

@@ -120,7 +120,7 @@ Result<Targets> parse_targets(std::string_view list) {
     if (item == "all") {
       targets.all = true;
     } else if (!add_ids(item, targets) && !add_selector(item, targets)) {
-      return fail(Code::usage, say<texts::bad_target>(printable(item)),
+      return fail(Code::usage, say<texts::bad_target>(printable(list)),
                   say<texts::bad_target_hint>());
     }
   }

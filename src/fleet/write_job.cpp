@@ -66,7 +66,8 @@ std::optional<Request> WriteJob::go_on() {
     ++at_;
   }
   const auto concerned = [](const Change& change) {
-    return change.status == ChangeStatus::planned || change.status == ChangeStatus::written;
+    return change.status == ChangeStatus::planned || change.status == ChangeStatus::written ||
+           change.status == ChangeStatus::unchanged;
   };
   if (boot_ != member_.boots && std::ranges::any_of(changes_, concerned)) {
     step_ = Step::unique_id;
@@ -114,7 +115,21 @@ bool WriteJob::same_servo(const Outcome& outcome) {
     return false;
   }
   boot_ = member_.boots;
+  doubt_unchanged();
   return true;
+}
+
+/// What was equal in RAM may have another value in ROM. To write it was never agreed.
+void WriteJob::doubt_unchanged() {
+  const std::uint8_t id = member_.id.value();
+  for (Change& change : changes_) {
+    if (change.status == ChangeStatus::unchanged) {
+      change.status = ChangeStatus::failed;
+      change.after = std::nullopt;
+      change.error = Error{Code::state, say<texts::unchanged_no_more>(id, change.parameter->name),
+                           say<texts::run_again_hint>(), id};
+    }
+  }
 }
 
 void WriteJob::judge(const Outcome& outcome) {

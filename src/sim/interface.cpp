@@ -41,6 +41,12 @@ void Interface::handle(const can::Event& event) {
       heard(sent->frame, sent->at, sender);
     }
   }
+  // Echoes of what was on its way do not come any more.
+  const auto* fault = std::get_if<can::BusFault>(&event);
+  if (std::holds_alternative<can::Overflow>(event) ||
+      (fault != nullptr && fault->kind == can::FaultKind::bus_off)) {
+    outgoing_.clear();
+  }
   const Time now = loop_.now();
   for (const auto& device : devices_) {
     if (device->next_deadline() <= now) {

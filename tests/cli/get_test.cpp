@@ -284,3 +284,10 @@ TEST_CASE("--profile against a servo that says otherwise is a conflict") {
   CHECK(contains(result.err, "node 11: the servo is BLA21-12U-AB, not BLA15-06U-A0\n"
                              "  leave --profile out"));
 }
+
+TEST_CASE("--changed leaves nothing out of which the default is not known") {
+  const Scene scene = Scene().servo("BLA21-12U-AB", 16, {{"model_number", 99}});
+  const Result result = scene.run({"get", "--changed", "voltage_limit_high"});
+  CHECK(result.status == 0);
+  CHECK(contains(result.out, "voltage_limit_high"));
+}

@@ -116,7 +116,7 @@ TEST_CASE("what every model would refuse opens no interface") {
       {{"set", "0x60=1"},
        "unknown_parameter",
        "0x60: there is no such parameter",
-       "`blactl models` lists"},
+       "`blactl models BLA21-12U-AB` lists"},
       {{"set", "torqe_output=on"},
        "unknown_parameter",
        "torqe_output",
@@ -129,10 +129,22 @@ TEST_CASE("what every model would refuse opens no interface") {
        "unknown_parameter",
        "current_torqe",
        "did you mean current_torque?"},
-      {{"set", "0x03=1"}, "unsupported", "0x03 is a reserved address", "`blactl models` lists"},
-      {{"get", "0x04"}, "unsupported", "0x04 is a reserved address", "`blactl models` lists"},
-      {{"set", "0x49=1"}, "unsupported", "0x49 starts the boot loader", "`blactl models` lists"},
-      {{"set", "bootloader=1"}, "unsupported", "0x49 starts the boot loader", "`blactl models`"},
+      {{"set", "0x03=1"},
+       "unsupported",
+       "0x03 is a reserved address",
+       "`blactl models BLA21-12U-AB` lists"},
+      {{"get", "0x04"},
+       "unsupported",
+       "0x04 is a reserved address",
+       "`blactl models BLA21-12U-AB` lists"},
+      {{"set", "0x49=1"},
+       "unsupported",
+       "0x49 starts the boot loader",
+       "`blactl models BLA21-12U-AB` lists"},
+      {{"set", "bootloader=1"},
+       "unsupported",
+       "0x49 starts the boot loader",
+       "`blactl models BLA21-12U-AB`"},
       {{"set", "0x10=1"}, "unsupported", "initialize (0x10) is no setting", "use `blactl erase`"},
       {{"set", "reboot=1"}, "unsupported", "reboot (0x11) is no setting", "use `blactl restart`"},
       {{"set", "0x12=1"}, "unsupported", "write_rom (0x12) is no setting", "use `blactl save`"},
@@ -257,11 +269,11 @@ TEST_CASE("a simulator that is not there is exit 3 with the command that starts 
                 3);
 }
 
-TEST_CASE("-i sim: without a simulator is a private fresh one, said with -v") {
-  const Result quiet = run({"-i", "sim:", "get", "-n", "11", "servo_id"});
+TEST_CASE("-i sim: without a simulator is a private fresh one, and says so") {
+  const Result quiet = run({"-q", "-i", "sim:", "get", "-n", "11", "servo_id"});
   CHECK(quiet.status == 0);
   CHECK(quiet.err.empty());
-  const Result verbose = run({"-v", "-i", "sim:", "get", "-n", "11", "servo_id"});
+  const Result verbose = run({"-i", "sim:", "get", "-n", "11", "servo_id"});
   CHECK(verbose.out == quiet.out);
   CHECK(contains(verbose.err, "no simulator is running"));
 }

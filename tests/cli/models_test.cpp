@@ -102,3 +102,9 @@ TEST_CASE("a model of --profile-dir is known to models and to the servos that ar
   CHECK(result.status == 0);
   CHECK(json(result.out)["models"].size() == 2);
 }
+
+TEST_CASE("a range names only the words that the model takes") {
+  const Result result = run({"models", "BLA21-12U", "pwm_mode"});
+  CHECK(contains(result.out, "BLA21-12U-A0  angle    angle\n"));
+  CHECK(contains(result.out, "BLA21-12U-AB  angle    angle, speed\n"));
+}

@@ -107,7 +107,7 @@ TEST_CASE("output that cannot be written is a failure") {
 TEST_CASE("a reader that leaves is no failure and no noise") {
   const Bench bench;
   for (const Arguments& command :
-       {Arguments{"models", "-j"}, {"-i", "sim:", "get"}, {"-i", "sim:", "scan", "-j"}}) {
+       {Arguments{"models", "-j"}, {"-qi", "sim:", "get"}, {"-qi", "sim:", "scan", "-j"}}) {
     const Result result = bench.run(command, {.leave_after = ""});
     CHECK(result.status == 0);
     CHECK(result.err.empty());
@@ -414,4 +414,12 @@ TEST_CASE("what is typed never comes back raw") {
     CHECK(is_fit_for_a_terminal(document.out));
     CHECK_NOTHROW(json(document.out));
   }
+}
+
+TEST_CASE("a closed standard output is a failure, and nothing is printed into another descriptor") {
+  const Bench bench;
+  const Background simulator(bench, {"sim"});
+  const Result result = bench.run({"-i", "sim:", "get", "-n", "11"}, {.close_stdout = true});
+  CHECK(result.status == 1);
+  CHECK(codes(result) == std::vector<std::string>{"io"});
 }

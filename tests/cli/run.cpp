@@ -246,6 +246,7 @@ class Background::Process {
       if (getppid() == parent && dup2(in.theirs.get(), STDIN_FILENO) >= 0 &&
           dup2(out.theirs.get(), STDOUT_FILENO) >= 0 &&
           dup2(err.theirs.get(), STDERR_FILENO) >= 0 &&
+          (!options_.close_stdout || close(STDOUT_FILENO) == 0) &&
           (!options_.terminal || ioctl(STDIN_FILENO, TIOCSCTTY, 0) == 0)) {
         execve(argv.front(), argv.data(), envp.data());
       }

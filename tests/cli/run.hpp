@@ -57,6 +57,8 @@ struct Options {
   unsigned short columns = 100;
   /// A file that takes stdout, such as /dev/full.
   std::string stdout_file = {};
+  /// As `>&-` in a shell: the command begins without a standard output.
+  bool close_stdout = false;
   /// The reader of stdout leaves when it has read this text.
   std::optional<std::string> leave_after = {};
 };

@@ -193,3 +193,9 @@ TEST_CASE("scan --csv has one row a node below its columns") {
                                "health,vendor_status,software_version,warnings\n11,"));
   CHECK(contains(result.out, ",BLA15-06U-A0,240900002,2,1400,6010,12,true,jp.co.futaba.bla15,"));
 }
+
+TEST_CASE("scan -n says that nobody matches, not that nobody is there") {
+  const Result result = three_servos().run({"scan", "-n", "99"});
+  CHECK(result.status == 4);
+  CHECK(contains(result.err, "matches -n 99"));
+}

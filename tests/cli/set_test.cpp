@@ -64,7 +64,8 @@ TEST_CASE("set has exactly the keys of the contract, in their order") {
 TEST_CASE("set says what was there, what is there now, and that it is not saved") {
   const Result result = three_servos().run({"set", "-n", "11", "angle_limit_cw=90deg"});
   CHECK(result.status == 0);
-  CHECK(contains(result.out, "  0x38  angle_limit_cw  179.9 deg  ->  90.0 deg  written\n"));
+  CHECK(contains(result.out,
+                 "  0x38  angle_limit_cw  1799  (179.9 deg)  ->  900  (90.0 deg)  written\n"));
   CHECK(contains(result.out, "in RAM only: a restart brings the old values back\n"));
   const Result same = three_servos().run({"set", "-n", "11", "angle_limit_cw=179.9deg"});
   CHECK(same.status == 0);
@@ -130,7 +131,7 @@ TEST_CASE("--dry-run tells whether something would change, and changes nothing")
   };
   const Result changing = with("torque_output=off");
   CHECK(changing.status == 8);
-  CHECK(contains(changing.out, "->  off    planned\n"));
+  CHECK(contains(changing.out, "->  1  (off)  planned\n"));
   CHECK(with("torque_output=on").status == 0);
   CHECK(tap.writes().empty());
 }
@@ -304,7 +305,7 @@ TEST_CASE("a servo that somebody drives is not made to move, except by --while-d
   const Scene scene = three_servos().foreign(
       40, {{"commands", {{"servo_ids", {1}}, {"type", 1}, {"value", 0.1}, {"rate", 50}}}});
   check_error(scene.run({"set", "-n", "11", "torque_output=off", "--yes"}), 9, "driven",
-              "node 40 drives servo 11: not while it does\n  stop it, or add --while-driven");
+              "node 40 commands node 11: not while it does\n  stop it, or add --while-driven");
   CHECK(scene.run({"set", "-n", "11", "torque_output=off", "--yes", "--while-driven"}).status == 0);
   CHECK(scene.run({"set", "-n", "11", "angle_p_gain=50"}).status == 0);
   CHECK(scene.run({"set", "-n", "12", "torque_output=off", "--yes"}).status == 0);
@@ -314,7 +315,7 @@ TEST_CASE("without a terminal what needs a yes fails, and --yes is one") {
   const Result asked = three_servos().run({"set", "-n", "11", "torque_output=off"});
   check_error(asked, 7, "not_confirmed",
               "This can move the shaft or let go of the load:\n"
-              "  node 11: torque_output on -> off\n"
+              "  node 11: torque_output 0  (on) -> 1  (off)\n"
               "not confirmed: nothing was written\n  add --yes to agree beforehand");
   CHECK(asked.out.empty());
   CHECK(three_servos().run({"set", "-n", "11", "torque_output=off", "-y"}).status == 0);
@@ -356,8 +357,8 @@ TEST_CASE("on a terminal the question is answered there") {
   };
   const Result yes = answered("y\n");
   CHECK(yes.status == 0);
-  CHECK(contains(yes.err, "  node 11: torque_output on -> off\nGo on? [y/N] "));
-  CHECK(contains(yes.out, "->  off    written\n"));
+  CHECK(contains(yes.err, "  node 11: torque_output 0  (on) -> 1  (off)\nGo on? [y/N] "));
+  CHECK(contains(yes.out, "->  1  (off)  written\n"));
   CHECK(answered("yes\n").status == 0);
   for (const char* no : {"n\n", "\n", "yo\n", "\x04"}) {
     const Result result = answered(no);
@@ -368,4 +369,24 @@ TEST_CASE("on a terminal the question is answered there") {
   const Result ctrl_c = answered("\x03");
   CHECK(ctrl_c.status == 130);
   CHECK(contains(ctrl_c.err, "[interrupted]"));
+}
+
+TEST_CASE("commands that exclude each other are refused before anything is sent") {
+  check_error(three_servos().run({"set", "-yn", "11", "command_angle=1deg", "command_speed=20rpm"}),
+              2, "cross_check",
+              "command_angle, command_speed and command_torque exclude each other\n"
+              "  the servo obeys the last one: give just that");
+}
+
+TEST_CASE("a servo does not get the node ID of this process") {
+  check_error(three_servos().run({"--local-node-id", "50", "set", "-n", "11", "static_node_id=50"}),
+              2, "out_of_range", "static_node_id=50 is the node ID of this process");
+}
+
+TEST_CASE("the PWM output range is shown in the unit that the mode gives it") {
+  const Result angle = three_servos().run({"set", "-yn", "11", "pwm_output_range=800raw"});
+  CHECK(contains(angle.out, "700  (70.0 deg)  ->  800  (80.0 deg)  written\n"));
+  const Result speed =
+      three_servos().run({"set", "-yn", "11", "pwm_mode=speed", "pwm_output_range=80rpm"});
+  CHECK(contains(speed.out, "700  (70.0 deg)  ->  80  (80 rpm)  written\n"));
 }

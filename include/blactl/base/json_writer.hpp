@@ -36,9 +36,7 @@ class JsonWriter {
   void value(const char* text) { value(std::string_view(text)); }
 
   /// A bool and nothing that only converts to one (a double, a pointer).
-  template <std::same_as<bool> Truth> void value(Truth truth) {
-    literal(truth ? "true" : "false");
-  }
+  template <std::same_as<bool> Truth> void value(Truth truth) { literal(truth ? "true" : "false"); }
 
   void value(std::nullptr_t) { literal("null"); }
 

@@ -5,6 +5,7 @@
 
 namespace blactl::texts {
 
+inline constexpr Text did_you_mean{"did you mean {}?", "もしかして: {}"};
 inline constexpr Text file_unreadable{"cannot read {}: {}", "{} を読み込めません: {}"};
 inline constexpr Text file_hint{"check the file's name and permissions",
                                 "ファイル名とアクセス権を確認して下さい"};

@@ -11,9 +11,8 @@ inline constexpr Text parameter_unknown{"{}: there is no such parameter",
 inline constexpr Text parameter_reserved{
     "{} is a reserved address: blactl neither reads nor writes it",
     "{} は Reserve です。blactl は読み書きしません"};
-inline constexpr Text did_you_mean{"did you mean {}?", "もしかして: {}"};
-inline constexpr Text parameter_list{"`blactl models` lists all parameters",
-                                     "`blactl models` で全パラメータを確認できます"};
+inline constexpr Text parameter_list{"`blactl models BLA21-12U-AB` lists the parameters",
+                                     "`blactl models BLA21-12U-AB` でパラメータを確認できます"};
 inline constexpr Text list_or{" or ", " または "};
 
 // Values as they are typed: the first argument of all is PARAM=VALUE
@@ -100,7 +99,6 @@ inline constexpr Text no_pwm_input{"{} ({}): {} has no PWM input",
 inline constexpr Text no_pwm_input_hint{
     "models whose suffix has a B in it, like BLA21-12U-AB, have one",
     "PWM 対応機種は BLA21-12U-AB のように末尾が *B* の機種です"};
-inline constexpr Text model_lacks{"{} does not have {}", "{} に {} はありません"};
 
 // Profile files: faults
 inline constexpr Text profile_directory{"cannot read the profiles in {}: {}",

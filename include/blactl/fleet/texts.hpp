@@ -95,8 +95,8 @@ inline constexpr Text doubled_target_hint{"connect one of them alone and give it
 inline constexpr Text armed{"node {} says that the vehicle is armed: nothing is written",
                             "ノード {} が ARM 状態を通知しているため書き込みません"};
 inline constexpr Text armed_hint{"disarm it first", "先に DISARM してください"};
-inline constexpr Text driven{"node {} drives servo {}: not while it does",
-                             "ノード {} がサーボ {} を動作指令中のため実行しません"};
+inline constexpr Text driven{"node {} commands node {}: not while it does",
+                             "ノード {} がノード {} に動作指令を送信中のため実行しません"};
 inline constexpr Text driven_hint{"stop it, or add --while-driven",
                                   "停止させるか、--while-driven を付けてください"};
 inline constexpr Text node_id_in_use{"static_node_id={} is in use by another node",
@@ -104,6 +104,18 @@ inline constexpr Text node_id_in_use{"static_node_id={} is in use by another nod
 inline constexpr Text node_id_in_use_hint{"see which IDs are taken: blactl scan",
                                           "使用中の ID を確認: blactl scan"};
 
+inline constexpr Text unchanged_no_more{
+    "node {} restarted: {} may have another value now",
+    "ノード {} が再起動したため、{} の値が変わっている可能性があります",
+};
+inline constexpr Text restarted_before_write{
+    "node {} restarted after it was read: nothing was written",
+    "ノード {} が読出し後に再起動したため、書き込んでいません",
+};
+inline constexpr Text run_again_hint{"run the command again",
+                                     "同じコマンドをもう一度実行してください"};
+inline constexpr Text node_id_is_ours{"static_node_id={} is the node ID of this process",
+                                      "static_node_id={} はこのプロセスのノード ID です"};
 inline constexpr Text bad_target{"-n {}: not a node ID, range or selector",
                                  "-n {}: ノード ID、範囲、セレクタのいずれでもありません"};
 inline constexpr Text bad_target_hint{

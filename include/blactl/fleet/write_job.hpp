@@ -47,6 +47,7 @@ class WriteJob : public dronecan::Job {
   [[nodiscard]] std::optional<dronecan::Request> go_on();
   [[nodiscard]] std::optional<dronecan::Request> read_back();
   void begin_again();
+  void doubt_unchanged();
   [[nodiscard]] bool same_servo(const dronecan::Outcome& outcome);
   void judge(const dronecan::Outcome& outcome);
   void give_up(Error error);

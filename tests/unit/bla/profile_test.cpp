@@ -76,8 +76,8 @@ TEST_CASE("an unknown name is answered with the nearest") {
   CHECK(refused("smothing").hint == "did you mean smoothing?");
   CHECK(refused("node_id").hint == "did you mean static_node_id?");
   CHECK(refused("pwm").hint == "did you mean pwm_mode, pwm_range or pwm_neutral?");
-  CHECK(refused("xyzzy").hint == "`blactl models` lists all parameters");
-  CHECK(refused("").hint == "`blactl models` lists all parameters");
+  CHECK(refused("xyzzy").hint == "`blactl models BLA21-12U-AB` lists the parameters");
+  CHECK(refused("").hint == "`blactl models BLA21-12U-AB` lists the parameters");
   CHECK(refused("0x2").code == Code::unknown_parameter);
   CHECK(refused(std::string(100'000, 'a')).code == Code::unknown_parameter);
   CHECK(refused("\x1B[2J").message == "\\x1b[2J: there is no such parameter");

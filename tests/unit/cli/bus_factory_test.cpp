@@ -1,12 +1,19 @@
+#include "blactl/sim/scenario.hpp"
+#include "blactl/sim/server.hpp"
+
 #include "catch.hpp"
 #include "cli/bus_factory.hpp"
 #include "unit/bla/built_in.hpp"
 
+#include <poll.h>
 #include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
+#include <stop_token>
 #include <string>
+#include <thread>
+#include <tuple>
 
 using namespace blactl;
 using namespace blactl::cli;
@@ -61,6 +68,34 @@ TEST_CASE("a scenario is a bus of this process alone") {
   REQUIRE(bus);
   CHECK(bus->bus->name() == text);
   CHECK(bus->lock_name.empty());
+}
+
+TEST_CASE("processes that reach one simulator by different paths share their node IDs") {
+  std::string name = (std::filesystem::temp_directory_path() / "blactl-test-XXXXXX").string();
+  REQUIRE(mkdtemp(name.data()) != nullptr);
+  const std::filesystem::path folder = name;
+  const auto scenario = sim::default_scenario(test::built_in());
+  REQUIRE(scenario);
+  const auto server = sim::Server::open(folder / "sim", *scenario);
+  REQUIRE(server);
+  std::filesystem::create_directory_symlink(folder, folder / "link");
+  const std::jthread service([&](const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+      pollfd readable{(*server)->descriptor(), POLLIN, 0};
+      std::ignore = poll(&readable, 1, 10);
+      (*server)->service();
+    }
+  });
+  const auto direct = open("sim:" + (folder / "sim").string());
+  const auto dots = open("sim:" + (folder / "." / "sim").string());
+  const auto link = open("sim:" + (folder / "link" / "sim").string());
+  REQUIRE(direct);
+  REQUIRE(dots);
+  REQUIRE(link);
+  CHECK_FALSE(direct->lock_name.empty());
+  CHECK(direct->lock_name == dots->lock_name);
+  CHECK(direct->lock_name == link->lock_name);
+  std::filesystem::remove_all(folder);
 }
 
 TEST_CASE("a scenario that cannot be read is a bad file") {

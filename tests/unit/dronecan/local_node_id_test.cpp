@@ -46,9 +46,7 @@ class Folder {
   /// Where the lock files go: not there yet.
   [[nodiscard]] std::string locks() const { return (path / "locks").string(); }
 
-  [[nodiscard]] fs::path file(int id) const {
-    return path / "locks" / fmt::format("vcan0.{}", id);
-  }
+  [[nodiscard]] fs::path file(int id) const { return path / "locks" / fmt::format("vcan0.{}", id); }
 
   fs::path path;
 };
@@ -247,8 +245,8 @@ TEST_CASE("the lock file is for all users, and so is its folder") {
 TEST_CASE("a lock file with anything in it is a fresh one") {
   const Folder folder;
   fs::create_directory(folder.locks());
-  const auto content = GENERATE(as<std::string>{}, "", "x", "garbage of some bytes",
-                                std::string(100'000, '\xFF'));
+  const auto content =
+      GENERATE(as<std::string>{}, "", "x", "garbage of some bytes", std::string(100'000, '\xFF'));
   std::ofstream(folder.file(127)) << content;
   auto local = acquire(folder);
   REQUIRE(local);
@@ -257,9 +255,12 @@ TEST_CASE("a lock file with anything in it is a fresh one") {
   CHECK(next(*local) == 1);
 }
 
-TEST_CASE("a lock file full of foreign counters costs the memory of transfer IDs and nothing else") {
+TEST_CASE(
+    "a lock file full of foreign counters costs the memory of transfer IDs and nothing else") {
   const Folder folder;
-  { const auto local = acquire(folder); }
+  {
+    const auto local = acquire(folder);
+  }
   std::fstream file(folder.file(127), std::ios::in | std::ios::out | std::ios::binary);
   file.seekp(16);
   file << std::string(fs::file_size(folder.file(127)) - 16, '\xFF');

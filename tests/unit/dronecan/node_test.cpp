@@ -252,11 +252,21 @@ TEST_CASE("what is not the answer to this question is no answer") {
   const auto value = [](const char* name) {
     return GetSet::Response{.value = std::int64_t{5}, .name = name}.encode();
   };
-  SECTION("another transfer ID") { bench.answer(10, GetSet::type, 1, value("0x38")); }
-  SECTION("another server") { bench.answer(11, GetSet::type, 0, value("0x38")); }
-  SECTION("another data type") { bench.answer_info(10, 0); }
-  SECTION("another client") { bench.answer(10, GetSet::type, 0, value("0x38"), 126); }
-  SECTION("another parameter") { bench.answer(10, GetSet::type, 0, value("0x39")); }
+  SECTION("another transfer ID") {
+    bench.answer(10, GetSet::type, 1, value("0x38"));
+  }
+  SECTION("another server") {
+    bench.answer(11, GetSet::type, 0, value("0x38"));
+  }
+  SECTION("another data type") {
+    bench.answer_info(10, 0);
+  }
+  SECTION("another client") {
+    bench.answer(10, GetSet::type, 0, value("0x38"), 126);
+  }
+  SECTION("another parameter") {
+    bench.answer(10, GetSet::type, 0, value("0x39"));
+  }
   SECTION("a payload that is no answer at all") {
     bench.answer(10, GetSet::type, 0, Payload(unhex("FF")));
   }
@@ -483,10 +493,10 @@ TEST_CASE("GetNodeInfo is answered with our name, version, unique ID and uptime"
   bench.sent();
   bench.node.receive(frame("1801FF85#C7"), bench.now); // from node 5, priority 24
   // Priority and transfer ID are those of the request.
-  CHECK(bench.sent() ==
-        Lines{"180105FF#E72B050000000087", "180105FF#0000010200000027", "180105FF#0000000000000007",
-              "180105FF#0000000000B1AC27", "180105FF#0000000000000007", "180105FF#0000000000000027",
-              "180105FF#00626C6163746C47"});
+  CHECK(bench.sent() == Lines{"180105FF#E72B050000000087", "180105FF#0000010200000027",
+                              "180105FF#0000000000000007", "180105FF#0000000000B1AC27",
+                              "180105FF#0000000000000007", "180105FF#0000000000000027",
+                              "180105FF#00626C6163746C47"});
 }
 
 TEST_CASE("no other service of ours and no request to others is answered") {
@@ -501,9 +511,9 @@ TEST_CASE("own services keep still while many frames wait to leave") {
   Bench bench;
   bench.backlog = 100;
   for (std::uint8_t id = 0; id < transfer_id_modulus; ++id) { // a flood of questions
-    bench.node.receive(can::Frame{.id = 0x1E01FF85, .size = 1,
-                                  .data = {static_cast<std::uint8_t>(0xC0 | id)}},
-                       bench.now);
+    bench.node.receive(
+        can::Frame{.id = 0x1E01FF85, .size = 1, .data = {static_cast<std::uint8_t>(0xC0 | id)}},
+        bench.now);
   }
   bench.pass(1s);
   CHECK(bench.sent().empty());

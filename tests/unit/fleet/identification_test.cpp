@@ -164,8 +164,7 @@ TEST_CASE("a servo of an unknown model can be read, and has no model") {
 
 TEST_CASE("--profile fills in for a model that no profile fits, for reading only") {
   Scene scene(R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11, "model_number": 99}])");
-  const Member& servo =
-      scene.identify(11, {.patience = {}, .assumed = &model("BLA21-12U-AB")});
+  const Member& servo = scene.identify(11, {.patience = {}, .assumed = &model("BLA21-12U-AB")});
   CHECK(servo.identity.model() == "BLA21-12U-AB");
   CHECK(servo.identity.may_write(bla::address::angle_limit_cw, 900).error().code ==
         Code::no_profile);
@@ -224,8 +223,12 @@ TEST_CASE("what was cancelled or did not leave is told as that") {
   const auto [outcome, code] = GENERATE(std::pair(Outcome::Kind::cancelled, Code::interrupted),
                                         std::pair(Outcome::Kind::not_sent, Code::no_acknowledge));
   Dialogue dialogue;
-  SECTION("GetNodeInfo") { dialogue.next(Script::start()); }
-  SECTION("a register") { dialogue.pass_node_info(); }
+  SECTION("GetNodeInfo") {
+    dialogue.next(Script::start());
+  }
+  SECTION("a register") {
+    dialogue.pass_node_info();
+  }
   CHECK(dialogue.next({outcome, {}, {}}) == "nothing");
   REQUIRE(dialogue.identification.error());
   CHECK(dialogue.identification.error()->code == code);

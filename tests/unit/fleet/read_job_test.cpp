@@ -14,8 +14,8 @@ constexpr const char* one_servo = R"("servos": [{"model": "BLA21-12U-AB", "node_
     "ram": {"angle_limit_cw": "90deg"}}])";
 
 ReadJob::Plan reading(std::vector<const char*> names) {
-  return [names = std::move(names)](
-             const Member& servo) -> Result<std::vector<const bla::Parameter*>> {
+  return [names =
+              std::move(names)](const Member& servo) -> Result<std::vector<const bla::Parameter*>> {
     std::vector<const bla::Parameter*> wanted;
     for (const char* name : names) {
       wanted.push_back(servo.identity.parameter(parameter(name).address));

@@ -1,8 +1,7 @@
 #include "blactl/fleet/roster.hpp"
+#include "blactl/sim/random.hpp"
 
 #include "support.hpp"
-
-#include "blactl/sim/random.hpp"
 
 #include <algorithm>
 #include <set>

@@ -38,8 +38,8 @@ class Reader {
   static ReadJob::Plan plan() {
     return [](const Member& servo) -> Result<std::vector<const bla::Parameter*>> {
       std::vector<const bla::Parameter*> wanted;
-      for (const char* name : {"current_angle", "current_temperature", "current_voltage",
-                               "fault_notice"}) {
+      for (const char* name :
+           {"current_angle", "current_temperature", "current_voltage", "fault_notice"}) {
         wanted.push_back(servo.identity.parameter(parameter(name).address));
       }
       return wanted;

@@ -114,17 +114,17 @@ class Tap final : public can::Bus {
 class Scene {
  public:
   /// `members`: JSON members of the scenario: "servos": […], "foreign": […].
-  explicit Scene(std::string_view members, Session::Hearing hearing = Session::Hearing::all,
-                 std::optional<dronecan::LocalNodeId> local =
-                     dronecan::LocalNodeId::unshared(std::nullopt)) {
+  explicit Scene(
+      std::string_view members, Session::Hearing hearing = Session::Hearing::all,
+      std::optional<dronecan::LocalNodeId> local = dronecan::LocalNodeId::unshared(std::nullopt)) {
     const auto scenario = sim::parse_scenario(
         fmt::format(R"({{"schema": "blactl-scenario/1", "clock": "virtual", {}}})", members),
         "test.json", profiles());
     INFO((scenario ? "" : scenario.error().message));
     REQUIRE(scenario);
     auto bus = std::make_unique<sim::PrivateBus>("sim:test.json", *scenario);
-    auto opened = Session::open(std::make_unique<Tap>(std::move(bus), sent), std::move(local),
-                                hearing);
+    auto opened =
+        Session::open(std::make_unique<Tap>(std::move(bus), sent), std::move(local), hearing);
     REQUIRE(opened);
     session = std::move(*opened);
     live(start_time);

@@ -80,11 +80,10 @@ TEST_CASE("a foreign target cannot write to the terminal") {
 
 TEST_CASE("a servo is meant by its ID, unique ID, serial number, servo ID and model") {
   const Member member = servo(11);
-  for (const char* list :
-       {"11", "10-12", "5,11", "all", "uid:001122ab000000000000000000000000",
-        "unique_id:001122AB000000000000000000000000", "serial:240900558",
-        "serial_number:240900558", "servo:3", "servo_id:3", "model:BLA21-12U-AB", "model:BLA21",
-        "model:bla21-12u", "model:BLA21-12U-AB2", "5,servo:3"}) {
+  for (const char* list : {"11", "10-12", "5,11", "all", "uid:001122ab000000000000000000000000",
+                           "unique_id:001122AB000000000000000000000000", "serial:240900558",
+                           "serial_number:240900558", "servo:3", "servo_id:3", "model:BLA21-12U-AB",
+                           "model:BLA21", "model:bla21-12u", "model:BLA21-12U-AB2", "5,servo:3"}) {
     INFO(list);
     CHECK(means(list, member));
   }

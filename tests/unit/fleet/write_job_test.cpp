@@ -87,8 +87,8 @@ TEST_CASE("nothing to change sends nothing") {
 
 TEST_CASE("a servo that keeps its old value refused") {
   Scene scene(servo_11); // refuses what is out of range
-  WriteJob job(scene.identify(11),
-               {change("torque_limit_cw", 200, 100), change("reverse", 1, 0)}, {});
+  WriteJob job(scene.identify(11), {change("torque_limit_cw", 200, 100), change("reverse", 1, 0)},
+               {});
   scene.run(job);
   CHECK(job.changes()[0].status == ChangeStatus::failed);
   REQUIRE(job.changes()[0].error);
