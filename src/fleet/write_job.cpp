@@ -99,6 +99,7 @@ void WriteJob::begin_again() {
 
 bool WriteJob::same_servo(const Outcome& outcome) {
   begin_again();
+  doubt_unchanged();
   if (!outcome.answered()) {
     give_up(no_answer(outcome, member_.id, "GetNodeInfo"));
     return false;
@@ -115,7 +116,6 @@ bool WriteJob::same_servo(const Outcome& outcome) {
     return false;
   }
   boot_ = member_.boots;
-  doubt_unchanged();
   return true;
 }
 
@@ -163,8 +163,10 @@ void WriteJob::judge(const Outcome& outcome) {
 
 /// This change failed, and those behind it are not tried.
 void WriteJob::give_up(Error error) {
-  changes_[at_].status = ChangeStatus::failed;
-  changes_[at_].error = std::move(error);
+  // Where nothing is left to write, it is about what was thought to be unchanged.
+  Change& change = at_ < changes_.size() ? changes_[at_] : changes_.front();
+  change.status = ChangeStatus::failed;
+  change.error = std::move(error);
 }
 
 } // namespace blactl::fleet

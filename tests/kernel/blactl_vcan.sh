@@ -139,7 +139,7 @@ expect_frames 100 1E018BFF
 expect_frames 600 1E0B8BFF # 0x50-0x53, 0x45 and the parameter
 
 note "garbage, foreign frames and floods on the bus disturb nobody"
-cangen vcan0 -g 1 -e -I 1003F30C -L r -D r -n 3000 & # as if node 12 sent garbage
+cangen vcan0 -g 1 -e -I 1003F363 -L r -D r -n 3000 & # as if node 99 sent garbage
 flood=$!
 cangen vcan0 -g 1 -e -I 1E0BFF8D -L r -D r -n 3000 & # and node 13 answered what nobody asked
 answers=$!

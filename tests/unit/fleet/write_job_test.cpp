@@ -228,6 +228,25 @@ TEST_CASE("a servo that restarted behind the last write is written to again") {
   }
 }
 
+TEST_CASE("what was equal before a restart is not called unchanged after it") {
+  Bench bench;
+  Change equal = change("reverse", 1, 1);
+  equal.status = ChangeStatus::unchanged;
+  WriteJob job(bench.servo, {equal}, {});
+  ++bench.servo.boots;
+  CHECK(text(job.next(Script::start())) == "GetNodeInfo");
+  SECTION("the same servo may hold another value") {
+    CHECK(text(job.next(bench.script.info(1))) == "nothing");
+    CHECK(job.changes()[0].error->code == Code::state);
+  }
+  SECTION("and so may one that does not answer") {
+    CHECK(text(job.next(Script::timed_out())) == "nothing");
+    CHECK(job.changes()[0].error->code == Code::timeout);
+  }
+  CHECK(job.changes()[0].status == ChangeStatus::failed);
+  CHECK_FALSE(job.changes()[0].after);
+}
+
 TEST_CASE("a servo that restarts with every write is given up") {
   Bench bench;
   WriteJob job(bench.servo, {change("reverse", 1, 0), change("servo_id", 5, 0)}, {});
