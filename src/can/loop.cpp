@@ -154,7 +154,8 @@ std::optional<Event> Loop::from_bus() {
   } else if (loses_echoes(*happened)) {
     in_flight_.clear();
     pump();
-  } else if (std::holds_alternative<Gone>(*happened)) {
+  } else if (std::holds_alternative<Gone>(*happened) ||
+             std::holds_alternative<Ended>(*happened)) {
     gone_ = true;
   }
   return std::visit([](auto&& event) { return Event(std::forward<decltype(event)>(event)); },
@@ -175,7 +176,8 @@ std::optional<Event> Loop::poll_once(Time deadline) {
   std::size_t count = 0;
   fds[count++] = {signals_, POLLIN, 0};
   if (bus_ && !gone_ && bus_->descriptor() >= 0) {
-    fds[count++] = {bus_->descriptor(), POLLIN, 0};
+    const auto wanted = static_cast<short>(bus_->wants_to_write() ? POLLIN | POLLOUT : POLLIN);
+    fds[count++] = {bus_->descriptor(), wanted, 0};
   }
   const std::size_t first_watched = count;
   for (const int descriptor : watched_) {

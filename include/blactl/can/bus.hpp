@@ -55,7 +55,10 @@ struct Gone {
   Error error;
 };
 
-using BusEvent = std::variant<Received, Sent, BusFault, Overflow, Gone>;
+/// A log has been read to its end; nothing more comes from this bus.
+struct Ended {};
+
+using BusEvent = std::variant<Received, Sent, BusFault, Overflow, Gone, Ended>;
 
 /// Extended data frames whose ID agrees with `id` in the bits of `mask`.
 struct Filter {
@@ -88,6 +91,10 @@ class Bus {
 
   /// Becomes readable when receive() has something; -1: nothing to poll.
   [[nodiscard]] virtual int descriptor() const = 0;
+
+  /// Whether receive() shall also be called when descriptor() can be written to again: bytes that
+  /// the transport has taken wait in this process.
+  [[nodiscard]] virtual bool wants_to_write() const { return false; }
 
   /// The bus clock. Real interfaces: CLOCK_MONOTONIC.
   [[nodiscard]] virtual Time now() const;

@@ -24,7 +24,7 @@ struct Ready {
 struct DeadlineReached {};
 
 using Event =
-    std::variant<Received, Sent, BusFault, Overflow, Gone, Signal, Ready, DeadlineReached>;
+    std::variant<Received, Sent, BusFault, Overflow, Gone, Ended, Signal, Ready, DeadlineReached>;
 
 /// One thread, one loop: everything above it is a state machine without I/O.
 ///
