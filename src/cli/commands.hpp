@@ -8,10 +8,10 @@
 
 namespace blactl::cli {
 
-[[nodiscard]] Report scan(const ScanOptions& options, Context& context);
-[[nodiscard]] Report get(const GetOptions& options, Context& context);
-[[nodiscard]] Report set(const SetOptions& options, Context& context);
-[[nodiscard]] Report models(const ModelsOptions& options, Context& context);
-[[nodiscard]] Report sim(const SimOptions& options, Context& context);
+[[nodiscard]] Report execute(const ScanOptions& options, Context& context);
+[[nodiscard]] Report execute(const GetOptions& options, Context& context);
+[[nodiscard]] Report execute(const SetOptions& options, Context& context);
+[[nodiscard]] Report execute(const ModelsOptions& options, Context& context);
+[[nodiscard]] Report execute(const SimOptions& options, Context& context);
 
 } // namespace blactl::cli

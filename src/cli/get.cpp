@@ -258,7 +258,7 @@ int judge(const ReadJob& job, const fleet::Roster& roster, Report& report) {
 
 } // namespace
 
-Report get(const GetOptions& options, Context& context) {
+Report execute(const GetOptions& options, Context& context) {
   Report report{.interface = printable(context.shared().interface)};
   const auto stop = [&](Error error) {
     report.fail(std::move(error));

@@ -209,7 +209,7 @@ Result<std::vector<const Profile*>> choose_models(const std::string& word,
 
 } // namespace
 
-Report models(const ModelsOptions& options, Context& context) {
+Report execute(const ModelsOptions& options, Context& context) {
   Report report;
   const auto loaded = context.profiles();
   if (!loaded) {

@@ -3,6 +3,7 @@
 #include "blactl/base/nearest.hpp"
 #include "blactl/base/texts.hpp"
 
+#include "option_values.hpp"
 #include "texts.hpp"
 
 #include <CLI/App.hpp>
@@ -11,10 +12,10 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstdlib>
 #include <functional>
-#include <initializer_list>
+#include <map>
+#include <memory>
 #include <utility>
 
 namespace blactl::cli {
@@ -22,106 +23,13 @@ namespace {
 
 constexpr std::array<std::string_view, 5> commands{"scan", "get", "set", "models", "sim"};
 
+/// Those that print tables of values.
+constexpr std::array<std::string_view, 2> with_csv{"scan", "get"};
+
 /// Options that take the next argument as their value: what a mistyped command is told apart from.
 constexpr std::array<std::string_view, 12> with_value{
     "--interface", "--node",        "--local-node-id", "--color",  "--lang",   "--timeout",
     "--retries",   "--profile-dir", "--profile",       "--listen", "--expect", "--group"};
-
-std::string list(std::initializer_list<std::string_view> words) {
-  std::string out;
-  for (const std::string_view word : words) {
-    out += out.empty() ? "" : ", ";
-    out += word;
-  }
-  return out;
-}
-
-/// Collects what the parser hands over as text, and checks it afterwards: CLI11 would take "nan"
-/// for a number and rounds silently.
-class Values {
- public:
-  std::string* add(CLI::App& app, const char* names, const char* help, const char* type) {
-    auto& slot = slots_.emplace_back(std::make_unique<std::string>());
-    const std::size_t name = std::string_view(names).find("--");
-    app.add_option(names, *slot, help)
-        ->type_name(type)
-        ->each([this, names, name](const std::string& text) {
-          // An unset variable of a script: -n "$NODE" must not mean every servo.
-          if (text.empty()) {
-            failed(say<texts::empty_value>(std::string_view(names).substr(name)));
-          }
-        });
-    return slot.get();
-  }
-
-  /// Seconds with up to six decimals.
-  void seconds(const char* option, const std::string& text, Duration& out, Duration min,
-               Duration max) {
-    const auto value = decimal_seconds(text);
-    if (!value || *value < min || *value > max) {
-      const auto in_seconds = [](Duration d) {
-        return fmt::format("{}", std::chrono::duration<double>(d).count());
-      };
-      failed(say<texts::bad_seconds>(option, printable(text), in_seconds(min), in_seconds(max)));
-      return;
-    }
-    out = *value;
-  }
-
-  template <class Number>
-  void whole(const char* option, const std::string& text, Number& out, Number min, Number max) {
-    Number value{};
-    const char* end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(text.data(), end, value);
-    if (text.empty() || error != std::errc() || stop != end || value < min || value > max) {
-      failed(say<texts::bad_number>(option, printable(text), min, max));
-      return;
-    }
-    out = value;
-  }
-
-  template <class Choice>
-  void word(const char* option, const std::string& text, Choice& out,
-            std::initializer_list<std::pair<std::string_view, Choice>> choices) {
-    std::string known;
-    for (const auto& [name, value] : choices) {
-      if (name == text) {
-        out = value;
-        return;
-      }
-      known += known.empty() ? "" : ", ";
-      known += name;
-    }
-    failed(say<texts::bad_word>(option, printable(text), known));
-  }
-
-  void failed(std::string message) {
-    if (!error_) {
-      error_ = Error{Code::usage, std::move(message), say<texts::see_help>(), std::nullopt};
-    }
-  }
-
-  [[nodiscard]] const std::optional<Error>& error() const { return error_; }
-
- private:
-  static std::optional<Duration> decimal_seconds(std::string_view text) {
-    constexpr std::size_t most_digits = 6;
-    const auto point = text.find('.');
-    const std::string_view whole = text.substr(0, point);
-    std::string fraction(point == std::string_view::npos ? "" : text.substr(point + 1));
-    const bool digits_only =
-        (std::string(whole) + fraction).find_first_not_of("0123456789") == std::string::npos;
-    if (whole.empty() || whole.size() > most_digits || fraction.size() > most_digits ||
-        !digits_only || (point != std::string_view::npos && fraction.empty())) {
-      return std::nullopt;
-    }
-    fraction.resize(most_digits, '0');
-    return Duration(std::strtoll((std::string(whole) + fraction).c_str(), nullptr, 10));
-  }
-
-  std::vector<std::unique_ptr<std::string>> slots_;
-  std::optional<Error> error_;
-};
 
 std::optional<std::string> environment(const char* name) {
   const char* value = std::getenv(name);
@@ -157,37 +65,25 @@ class Parser {
     }
   }
 
-  Result<Invocation> parse(std::span<const std::string> arguments) {
-    std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());
-    try {
-      app_.parse(std::move(reversed));
-    } catch (const CLI::CallForHelp&) {
-      result_.help_text = app_.help();
-      return result_;
-    } catch (const CLI::CallForVersion&) {
-      result_.help_text = app_.version() + '\n';
-      return result_;
-    } catch (const CLI::ExtrasError&) {
-      return refuse(say<texts::unexpected_argument>(printable(app_.remaining(true).front())));
-    } catch (const CLI::RequiredError&) {
-      return refuse(say<texts::assignment_missing>());
-    } catch (const CLI::ArgumentMismatch& error) {
-      return refuse(say<texts::takes_one_value>(option_of(error)));
-    } catch (const CLI::ParseError& error) {
-      return refuse(say<texts::not_understood>(printable(error.what())));
-    }
-    return take();
-  }
+  Result<Invocation> parse(std::span<const std::string> arguments);
 
  private:
   void add_shared();
+  void add_output();
   void add_scan();
   void add_get();
   void add_set();
   void add_models();
   void add_sim();
   Result<Invocation> take();
-  void take_shared();
+
+  /// A command and where its options are kept until they are complete.
+  template <class Options> std::pair<CLI::App&, Options&> add(const char* name, const char* help) {
+    CLI::App* command = app_.add_subcommand(name, help);
+    auto options = std::make_shared<Options>();
+    taken_[command] = [options] { return CommandOptions(*options); };
+    return {*command, *options};
+  }
 
   std::unexpected<Error> refuse(std::string message) {
     const auto chosen = app_.get_subcommands();
@@ -197,152 +93,151 @@ class Parser {
   }
 
   CLI::App app_{"Configures and diagnoses Futaba BLA servos over DroneCAN"};
-  Values values_;
+  OptionValues values_;
   Invocation result_;
-  ScanOptions scan_;
-  GetOptions get_;
-  SetOptions set_;
-  ModelsOptions models_;
-  SimOptions sim_;
-  std::string *interface_ = nullptr, *nodes_ = nullptr, *local_ = nullptr, *colour_ = nullptr,
-              *lang_ = nullptr, *timeout_ = nullptr, *retries_ = nullptr, *profile_dir_ = nullptr,
-              *profile_ = nullptr, *listen_ = nullptr, *expect_ = nullptr, *seed_ = nullptr;
+  std::map<const CLI::App*, std::function<CommandOptions()>> taken_;
+  std::optional<std::string> interface_;
+  Language language_{};
   bool json_ = false, csv_ = false;
 };
 
 void Parser::add_shared() {
   Shared& shared = result_.shared;
-  interface_ =
-      values_.add(app_, "-i,--interface", "can0, sim:, sim:SOCKET, sim:SCENARIO.json", "IFACE");
-  nodes_ = values_.add(app_, "-n,--node",
-                       "servos: 12, 10-14,20, all, uid:…, serial:…, servo:…, model:…", "LIST");
-  local_ = values_.add(app_, "--local-node-id", "own node ID (default 127, else 126)", "ID");
+  values_.text(app_, "-i,--interface", "can0, sim:, sim:SOCKET, sim:SCENARIO.json", "IFACE",
+               interface_);
+  values_.text(app_, "-n,--node", "servos: 12, 10-14,20, all, uid:…, serial:…, servo:…, model:…",
+               "LIST", shared.nodes);
+  values_.whole(
+      app_, "--local-node-id", "own node ID (default 127, else 126)", "ID",
+      [&shared](std::uint64_t id) { shared.local_node_id = static_cast<std::uint8_t>(id); }, 1,
+      dronecan::NodeId::max);
   app_.add_flag("--listen-only", shared.listen_only, "send nothing, take no node ID");
+  add_output();
+  app_.add_flag("-y,--yes", shared.yes, "agree to questions beforehand");
+  values_.seconds(app_, "--timeout", "for one request (default 0.5)", shared.patience.timeout,
+                  std::chrono::milliseconds(1), std::chrono::minutes(1));
+  constexpr std::uint64_t most_retries = 100;
+  values_.whole(
+      app_, "--retries", "of one request (default 2)", "N",
+      [&shared](std::uint64_t count) { shared.patience.retries = static_cast<int>(count); }, 0,
+      most_retries);
+  app_.add_flag("--while-driven", shared.while_driven, "although another node drives the servo");
+  values_.text(app_, "--profile-dir", "further model profiles", "DIR", shared.profile_dir);
+  values_.text(app_, "--profile", "read as this model where no profile fits", "MODEL",
+               shared.profile);
+}
+
+void Parser::add_output() {
+  Reporter::Options& output = result_.shared.output;
   app_.add_flag("-j,--json", json_, "output as one JSON document");
   app_.add_flag("--csv", csv_, "output as CSV (scan, get)");
-  app_.add_flag("-q,--quiet", shared.output.quiet, "no notes on stderr");
-  app_.add_flag("-v,--verbose", shared.output.verbosity, "details on stderr");
-  colour_ = values_.add(app_, "--color", "auto, always, never", "WHEN");
-  lang_ = values_.add(app_, "--lang", "en, ja", "LANG");
-  app_.add_flag("-y,--yes", shared.yes, "agree to questions beforehand");
-  timeout_ = values_.add(app_, "--timeout", "for one request (default 0.5)", "SEC");
-  retries_ = values_.add(app_, "--retries", "of one request (default 2)", "N");
-  app_.add_flag("--while-driven", shared.while_driven, "although another node drives the servo");
-  profile_dir_ = values_.add(app_, "--profile-dir", "further model profiles", "DIR");
-  profile_ = values_.add(app_, "--profile", "read as this model where no profile fits", "MODEL");
+  app_.add_flag("-q,--quiet", output.quiet, "no notes on stderr");
+  app_.add_flag("-v,--verbose", output.verbosity, "details on stderr");
+  values_.word<Colour>(
+      app_, "--color", "auto, always, never", "WHEN", output.colour,
+      {{"auto", Colour::automatic}, {"always", Colour::always}, {"never", Colour::never}});
+  // Spoken before the parser is built; here it is only checked.
+  values_.word<Language>(app_, "--lang", "en, ja", "LANG", language_,
+                         {{"en", Language::english}, {"ja", Language::japanese}});
 }
 
 void Parser::add_scan() {
-  CLI::App* command = app_.add_subcommand("scan", "find every node and identify BLA servos");
-  listen_ = values_.add(*command, "--listen", "how long (default 1.2)", "SEC");
-  expect_ = values_.add(*command, "--expect", "fail unless so many servos are found", "N");
+  auto [command, options] = add<ScanOptions>("scan", "find every node and identify BLA servos");
+  values_.seconds(command, "--listen", "how long (default 1.2)", options.listen,
+                  std::chrono::milliseconds(1), std::chrono::hours(1));
+  values_.whole(
+      command, "--expect", "fail unless so many servos are found", "N",
+      [&expect = options.expect](std::uint64_t count) { expect = count; }, 0,
+      dronecan::NodeId::max);
 }
 
 void Parser::add_get() {
-  CLI::App* command = app_.add_subcommand("get", "read parameters");
-  command->add_option("PARAM", get_.parameters, "names or addresses: angle_limit_cw, 0x38")
+  auto [command, options] = add<GetOptions>("get", "read parameters");
+  command.add_option("PARAM", options.parameters, "names or addresses: angle_limit_cw, 0x38")
       ->type_name("");
   command
-      ->add_option("--group", get_.groups,
-                   "all of a group: command status operation fault config "
-                   "control pwm limit option product production")
+      .add_option("--group", options.groups,
+                  "all of a group: command status operation fault config "
+                  "control pwm limit option product production")
       ->type_name("G")
       ->allow_extra_args(false); // what follows the group is a parameter
-  command->add_flag("--all", get_.all, "every parameter (as without PARAM)");
-  command->add_flag("--changed", get_.changed, "only what differs from the model's default");
+  command.add_flag("--all", options.all, "every parameter (as without PARAM)");
+  command.add_flag("--changed", options.changed, "only what differs from the model's default");
 }
 
 void Parser::add_set() {
-  CLI::App* command =
-      app_.add_subcommand("set", "check against the profile, write, read back (RAM only)");
-  command->add_option("PARAM=VALUE", set_.assignments, "angle_limit_cw=90deg, 0x38=900")
+  auto [command, options] =
+      add<SetOptions>("set", "check against the profile, write, read back (RAM only)");
+  command.add_option("PARAM=VALUE", options.assignments, "angle_limit_cw=90deg, 0x38=900")
       ->type_name("")
       ->required();
-  command->add_flag("--dry-run", set_.dry_run, "change nothing; 8 when something would change");
+  command.add_flag("--dry-run", options.dry_run, "change nothing; 8 when something would change");
 }
 
 void Parser::add_models() {
-  CLI::App* command = app_.add_subcommand("models", "what the profiles know, without any servo");
-  command->add_option("MODEL", models_.model, "a model or its beginning: BLA21-12U")->type_name("");
-  command->add_option("PARAM", models_.parameter, "one parameter")->type_name("");
+  auto [command, options] =
+      add<ModelsOptions>("models", "what the profiles know, without any servo");
+  command.add_option("MODEL", options.model, "a model or its beginning: BLA21-12U")->type_name("");
+  command.add_option("PARAM", options.parameter, "one parameter")->type_name("");
 }
 
 void Parser::add_sim() {
-  CLI::App* command = app_.add_subcommand(
+  auto [command, options] = add<SimOptions>(
       "sim", "simulated servos: serves the sim: bus, or joins a real interface with -i");
-  command->add_option("SCENARIO", sim_.scenario, "scenario file (default: three servos)")
+  command.add_option("SCENARIO", options.scenario, "scenario file (default: three servos)")
       ->type_name("");
-  seed_ = values_.add(*command, "--seed", "of everything random", "N");
-  command->add_option("--clock", sim_.clock, "real, virtual")->type_name("CLOCK");
+  values_.whole(
+      command, "--seed", "of everything random", "N",
+      [&seed = options.seed](std::uint64_t number) { seed = number; }, 0, ~std::uint64_t{0});
+  values_.word<std::string>(command, "--clock", "real, virtual", "CLOCK", options.clock,
+                            {{"real", "real"}, {"virtual", "virtual"}});
 }
 
-void Parser::take_shared() {
-  Shared& shared = result_.shared;
-  shared.interface =
-      interface_->empty() ? environment("BLACTL_INTERFACE").value_or("") : *interface_;
-  const auto optional = [](const std::string& text) {
-    return text.empty() ? std::nullopt : std::optional(text);
-  };
-  shared.nodes = optional(*nodes_);
-  shared.profile = optional(*profile_);
-  shared.profile_dir =
-      profile_dir_->empty() ? environment("BLACTL_PROFILE_DIR") : optional(*profile_dir_);
-  if (!local_->empty()) {
-    values_.whole<std::uint8_t>("--local-node-id", *local_, shared.local_node_id.emplace(), 1, 127);
+Result<Invocation> Parser::parse(std::span<const std::string> arguments) {
+  std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());
+  try {
+    app_.parse(std::move(reversed));
+  } catch (const CLI::CallForHelp&) {
+    result_.help_text = app_.help();
+    return result_;
+  } catch (const CLI::CallForVersion&) {
+    result_.help_text = app_.version() + '\n';
+    return result_;
+  } catch (const CLI::ExtrasError&) {
+    return refuse(say<texts::unexpected_argument>(printable(app_.remaining(true).front())));
+  } catch (const CLI::RequiredError&) {
+    return refuse(say<texts::assignment_missing>());
+  } catch (const CLI::ArgumentMismatch& error) {
+    return refuse(say<texts::takes_one_value>(option_of(error)));
+  } catch (const CLI::ParseError& error) {
+    return refuse(say<texts::not_understood>(printable(error.what())));
   }
-  if (!timeout_->empty()) {
-    values_.seconds("--timeout", *timeout_, shared.patience.timeout, std::chrono::milliseconds(1),
-                    std::chrono::minutes(1));
-  }
-  if (!retries_->empty()) {
-    values_.whole("--retries", *retries_, shared.patience.retries, 0, 100);
-  }
-  if (!colour_->empty()) {
-    values_.word(
-        "--color", *colour_, shared.output.colour,
-        {{"auto", Colour::automatic}, {"always", Colour::always}, {"never", Colour::never}});
-  }
-  if (!lang_->empty()) {
-    Language spoken{};
-    values_.word("--lang", *lang_, spoken, {{"en", Language::english}, {"ja", Language::japanese}});
-  }
-  if (json_ && csv_) {
-    values_.failed(say<texts::json_and_csv>());
-  }
-  shared.output.format = json_ ? Format::json : csv_ ? Format::csv : Format::text;
+  return take();
 }
 
+/// Checks what was given and completes it from the environment.
 Result<Invocation> Parser::take() {
-  take_shared();
   const auto chosen = app_.get_subcommands();
   result_.name = chosen.empty() ? "" : chosen.front()->get_name();
-  if (!listen_->empty()) {
-    values_.seconds("--listen", *listen_, scan_.listen, std::chrono::milliseconds(1),
-                    std::chrono::hours(1));
+  if (json_ && csv_) {
+    values_.failed(say<texts::json_and_csv>(), say<texts::see_help>());
   }
-  if (!expect_->empty()) {
-    values_.whole<std::uint64_t>("--expect", *expect_, scan_.expect.emplace(), 0, 127);
+  if (csv_ && std::ranges::find(with_csv, result_.name) == with_csv.end()) {
+    values_.failed(say<texts::no_csv>(result_.name), say<texts::see_help>());
   }
-  if (!seed_->empty()) {
-    values_.whole<std::uint64_t>("--seed", *seed_, sim_.seed.emplace(), 0, ~std::uint64_t{0});
+  if (auto checked = values_.check(); !checked) {
+    return std::unexpected(checked.error());
   }
-  if (!sim_.clock.empty() && sim_.clock != "real" && sim_.clock != "virtual") {
-    values_.failed(
-        say<texts::bad_word>("--clock", printable(sim_.clock), list({"real", "virtual"})));
+  if (chosen.empty()) {
+    return refuse(say<texts::no_command>());
   }
-  if (result_.shared.output.format == Format::csv && result_.name != "scan" &&
-      result_.name != "get") {
-    values_.failed(say<texts::no_csv>(result_.name));
+  Shared& shared = result_.shared;
+  shared.interface = interface_ ? *interface_ : environment("BLACTL_INTERFACE").value_or("");
+  if (!shared.profile_dir) {
+    shared.profile_dir = environment("BLACTL_PROFILE_DIR");
   }
-  if (values_.error()) {
-    return std::unexpected(*values_.error());
-  }
-  const std::array<CommandOptions, 5> options{scan_, get_, set_, models_, sim_};
-  const auto at = std::ranges::find(commands, result_.name) - commands.begin();
-  if (result_.name.empty()) {
-    return fail(Code::usage, say<texts::no_command>(), say<texts::see_help>());
-  }
-  result_.command = options[static_cast<std::size_t>(at)];
+  shared.output.format = json_ ? Format::json : csv_ ? Format::csv : Format::text;
+  result_.command = taken_.at(chosen.front())();
   return result_;
 }
 

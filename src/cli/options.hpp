@@ -60,8 +60,7 @@ struct SimOptions {
   std::string clock{}; ///< "real", "virtual"; empty: as the scenario says
 };
 
-using CommandOptions =
-    std::variant<std::monostate, ScanOptions, GetOptions, SetOptions, ModelsOptions, SimOptions>;
+using CommandOptions = std::variant<ScanOptions, GetOptions, SetOptions, ModelsOptions, SimOptions>;
 
 struct Invocation {
   Shared shared{};

@@ -10,22 +10,6 @@
 namespace blactl::cli {
 namespace {
 
-struct Dispatch {
-  Context& context;
-
-  Report operator()(std::monostate) const { return {}; }
-
-  Report operator()(const ScanOptions& options) const { return scan(options, context); }
-
-  Report operator()(const GetOptions& options) const { return get(options, context); }
-
-  Report operator()(const SetOptions& options) const { return set(options, context); }
-
-  Report operator()(const ModelsOptions& options) const { return models(options, context); }
-
-  Report operator()(const SimOptions& options) const { return sim(options, context); }
-};
-
 /// Plain text on stdout that is no report: help and version.
 int print(const Reporter& reporter, std::string_view text) {
   const auto printed = reporter.data(text);
@@ -56,7 +40,8 @@ int run(std::span<const std::string> arguments) {
     return print(reporter, invocation->help_text);
   }
   Context context(invocation->shared, reporter);
-  Report report = std::visit(Dispatch{context}, invocation->command);
+  Report report = std::visit([&](const auto& options) { return execute(options, context); },
+                             invocation->command);
   report.command = invocation->name;
   context.tell_losses();
   return reporter.finish(report);

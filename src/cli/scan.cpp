@@ -121,7 +121,7 @@ void judge(const ScanOptions& options, const Findings& findings,
 
 } // namespace
 
-Report scan(const ScanOptions& options, Context& context) {
+Report execute(const ScanOptions& options, Context& context) {
   Report report{.interface = printable(context.shared().interface)};
   const auto profiles = context.profiles();
   if (!profiles) {

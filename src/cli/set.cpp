@@ -370,7 +370,7 @@ void Set::conclude() {
 
 } // namespace
 
-Report set(const SetOptions& options, Context& context) {
+Report execute(const SetOptions& options, Context& context) {
   Report report{.interface = printable(context.shared().interface)};
   Set(options, context, report).run();
   return report;

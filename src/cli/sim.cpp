@@ -92,7 +92,7 @@ void join(const std::string& name, const sim::Scenario& scenario, const bla::Pro
 
 } // namespace
 
-Report sim(const SimOptions& options, Context& context) {
+Report execute(const SimOptions& options, Context& context) {
   Report report;
   report.is_stream = true;
   const auto profiles = context.profiles();
