@@ -80,6 +80,12 @@ void Loop::send(const Frame& frame) {
   pump();
 }
 
+void Loop::withdraw(std::span<const Frame> frames) {
+  std::erase_if(queue_, [&](const Frame& queued) {
+    return std::ranges::find(frames, queued) != frames.end();
+  });
+}
+
 std::size_t Loop::unsent() const {
   return queue_.size() + in_flight_.size();
 }
@@ -154,8 +160,7 @@ std::optional<Event> Loop::from_bus() {
   } else if (loses_echoes(*happened)) {
     in_flight_.clear();
     pump();
-  } else if (std::holds_alternative<Gone>(*happened) ||
-             std::holds_alternative<Ended>(*happened)) {
+  } else if (std::holds_alternative<Gone>(*happened) || std::holds_alternative<Ended>(*happened)) {
     gone_ = true;
   }
   return std::visit([](auto&& event) { return Event(std::forward<decltype(event)>(event)); },

@@ -31,7 +31,7 @@ class Search {
   Result<void> run(Duration listen) {
     fleet::Session& session = context_.session();
     if (!context_.shared().listen_only) {
-      session.roster().on_new_member([this](Member& member) { identify(member); });
+      session.roster().on_new_unit([this](Member& member) { identify(member); });
       for (int i = 0; i < probes_at_a_time; ++i) {
         start(std::make_unique<fleet::ProbeJob>(session.roster(), cursor_, probe_timeout));
       }

@@ -50,9 +50,9 @@ void Node::receive(const can::Frame& frame, Time at) {
 void Node::sent(const can::Frame& frame, Time at) {
   tell_time(at);
   for (Active& active : jobs_) {
-    if (active.asked && !active.left && active.last_frame == frame) {
+    if (active.asked && !active.left && active.frames.back() == frame) {
       active.left = true;
-      active.deadline = at + active.request->timeout;
+      active.deadline = at + active.step.request()->timeout;
       return;
     }
   }
@@ -63,7 +63,7 @@ void Node::echoes_lost(Time at) {
   for (Active& active : jobs_) {
     if (active.asked && !active.left) {
       active.left = true;
-      active.deadline = at + active.request->timeout;
+      active.deadline = at + active.step.request()->timeout;
     }
   }
 }
@@ -81,16 +81,32 @@ void Node::on_transfer(const Transfer& transfer) {
       answer_node_info(transfer);
     }
   }
+  wake();
+}
+
+/// Jobs that pause for something to be heard.
+void Node::wake() {
+  for (Active& active : jobs_) {
+    const Pause* pause = active.step.pause();
+    if (pause != nullptr && pause->ready && pause->ready()) {
+      finish(active, {Outcome::Kind::woken, {}, now_});
+    }
+  }
+  ask_waiting(now_);
 }
 
 void Node::on_response(const Transfer& transfer) {
   const Header& header = transfer.header;
   const auto it = std::ranges::find_if(jobs_, [&](const Active& active) {
-    return active.asked && active.request->server == header.source &&
-           active.request->type->id == header.data_type_id &&
+    return active.asked && active.step.request()->server == header.source &&
+           active.step.request()->type->id == header.data_type_id &&
            active.transfer_id == transfer.transfer_id;
   });
-  if (it == jobs_.end() || (it->request->accepts && !it->request->accepts(transfer.payload))) {
+  if (it == jobs_.end()) {
+    return;
+  }
+  const auto& accepts = it->step.request()->accepts;
+  if (accepts && !accepts(transfer.payload)) {
     return;
   }
   finish(*it, {Outcome::Kind::answered, transfer.payload, transfer.at});
@@ -129,18 +145,21 @@ void Node::answer_node_info(const Transfer& request) {
   }
 }
 
-void Node::broadcast_status(Time now) {
-  if (is_congested()) {
+void Node::broadcast(const DataType& type, Priority priority, const Payload& payload) {
+  if (!local_.is_unicast()) {
     return;
   }
-  const Header header{.kind = Kind::message,
-                      .priority = priority_medium,
-                      .data_type_id = NodeStatus::type.id,
-                      .source = local_};
-  const TransferId id = transfer_ids_->next(Kind::message, NodeStatus::type.id, anonymous);
-  for (const auto& frame :
-       segment(header, id, NodeStatus::type.signature, status(now).encode().bytes())) {
+  const Header header{
+      .kind = Kind::message, .priority = priority, .data_type_id = type.id, .source = local_};
+  const TransferId id = transfer_ids_->next(Kind::message, type.id, anonymous);
+  for (const auto& frame : segment(header, id, type.signature, payload.bytes())) {
     hooks_.send(frame);
+  }
+}
+
+void Node::broadcast_status(Time now) {
+  if (!is_congested()) {
+    broadcast(NodeStatus::type, priority_medium, status(now).encode());
   }
 }
 
@@ -148,46 +167,49 @@ void Node::start(Job& job, Time now) {
   tell_time(now);
   Active& active = jobs_.emplace_back(Active{.job = &job});
   finish(active, {Outcome::Kind::start, {}, now_});
-  if (!active.done && !local_.is_unicast()) { // a listener asks nothing
+  if (active.step.request() != nullptr && !local_.is_unicast()) { // a listener asks nothing
     finish(active, {Outcome::Kind::not_sent, {}, now_});
-    active.done = true;
+    active.step = std::nullopt;
   }
   ask_waiting(now_);
 }
 
-/// Tells the job how its question ended and takes its next one.
+/// Tells the job how its last step ended and takes its next one.
 void Node::finish(Active& active, const Outcome& outcome) {
   active.asked = false;
   active.deadline = never;
   active.tries = 0;
   const bool nested = std::exchange(in_callback_, true);
-  active.request = active.job->next(outcome);
+  // The old step lives on during the call: the outcome may point into what it holds.
+  Step step = active.job->next(outcome);
+  active.step = std::move(step);
   in_callback_ = nested;
-  active.done = !active.request;
+  if (const Pause* pause = active.step.pause()) {
+    active.deadline = pause->until;
+  }
 }
 
 bool Node::is_busy(NodeId server) const {
   return std::ranges::any_of(jobs_, [&](const Active& active) {
-    return active.asked && active.request->server == server;
+    return active.asked && active.step.request()->server == server;
   });
 }
 
 void Node::ask(Active& active, Time now) {
-  const Request& request = *active.request;
+  const Request& request = *active.step.request();
   const Header header{.kind = Kind::request,
                       .priority = request.priority,
                       .data_type_id = request.type->id,
                       .source = local_,
                       .destination = request.server};
   active.transfer_id = transfer_ids_->next(Kind::request, request.type->id, request.server);
-  const auto frames =
+  active.frames =
       segment(header, active.transfer_id, request.type->signature, request.payload.bytes());
   active.asked = true;
   active.left = false;
-  active.last_frame = frames.back();
   active.deadline = now + transmit_timeout;
   ++active.tries;
-  for (const auto& frame : frames) {
+  for (const auto& frame : active.frames) {
     hooks_.send(frame);
   }
 }
@@ -197,9 +219,10 @@ void Node::ask_waiting(Time now) {
   if (in_callback_) {
     return; // a job started another one: the call that runs it goes on with the list
   }
-  jobs_.remove_if([](const Active& active) { return active.done; });
+  jobs_.remove_if([](const Active& active) { return active.is_done(); });
   for (Active& active : jobs_) {
-    if (!active.asked && !is_busy(active.request->server)) {
+    const Request* request = active.step.request();
+    if (request != nullptr && !active.asked && !is_busy(request->server)) {
       ask(active, now);
     }
   }
@@ -222,13 +245,25 @@ void Node::advance(Time now) {
     if (active.deadline > now) {
       continue;
     }
-    if (active.left && active.tries <= active.request->retries) {
+    if (active.step.pause() != nullptr) {
+      finish(active, {Outcome::Kind::woken, {}, now});
+    } else if (!active.left) {
+      withdraw(active);
+      finish(active, {Outcome::Kind::not_sent, {}, now});
+    } else if (active.tries <= active.step.request()->retries) {
       ask(active, now_);
     } else {
-      finish(active, {active.left ? Outcome::Kind::timed_out : Outcome::Kind::not_sent, {}, now});
+      finish(active, {Outcome::Kind::timed_out, {}, now});
     }
   }
   ask_waiting(now_);
+}
+
+/// What of a question is still here leaves no more: nobody waits for its answer.
+void Node::withdraw(const Active& active) {
+  if (active.asked && !active.left && hooks_.withdraw) {
+    hooks_.withdraw(active.frames);
+  }
 }
 
 Time Node::next_deadline() const {
@@ -239,10 +274,26 @@ Time Node::next_deadline() const {
   return due;
 }
 
+void Node::cancel(Active& active, Time now) {
+  withdraw(active);
+  finish(active, {Outcome::Kind::cancelled, {}, now});
+  active.step = std::nullopt;
+}
+
+void Node::stop(Time now) {
+  tell_time(now);
+  for (Active& active : jobs_) {
+    if (!active.job->must_finish()) {
+      cancel(active, now);
+    }
+  }
+  ask_waiting(now_);
+}
+
 void Node::cancel_all(Time now) {
   tell_time(now);
   for (Active& active : jobs_) {
-    finish(active, {Outcome::Kind::cancelled, {}, now});
+    cancel(active, now);
   }
   jobs_.clear();
 }

@@ -10,12 +10,17 @@ TransferId TransferIds::next(Kind kind, std::uint16_t data_type_id, NodeId desti
                             static_cast<std::uint32_t>(data_type_id) << 7 | destination.value();
   const std::size_t home = (key * 2654435769U) >> 22; // Fibonacci hashing to 10 bits
   for (std::size_t i = 0; i < slots; ++i) {
-    Slot& slot = table_[(home + i) % slots];
+    const std::size_t index = (home + i) % slots;
+    Slot& slot = table_[index];
     if (slot.key == 0) {
       slot = {key, first_};
     }
     if (slot.key == key) {
-      return static_cast<TransferId>(slot.next++ % transfer_id_modulus);
+      const auto id = static_cast<TransferId>(slot.next++ % transfer_id_modulus);
+      if (changed_) {
+        changed_(index);
+      }
+      return id;
     }
   }
   // More than a thousand descriptors: more than one process of this tool ever talks to.

@@ -86,7 +86,7 @@ void Identification::take_node_info(const Outcome& outcome) {
   member_.identity = {};
   member_.is_servo = false;
   member_.servo_id = member_.static_node_id = std::nullopt;
-  boot_ = member_.boots;
+  boot_ = member_.info_boot = member_.boots;
 }
 
 void Identification::take_register(const Outcome& outcome) {
@@ -128,7 +128,7 @@ std::optional<Request> Identification::conclude() {
   return std::nullopt;
 }
 
-std::optional<Request> ProbeJob::next(const Outcome& outcome) {
+dronecan::Step ProbeJob::next(const Outcome& outcome) {
   if (outcome.kind == Outcome::Kind::cancelled) {
     return std::nullopt;
   }
@@ -141,7 +141,7 @@ std::optional<Request> ProbeJob::next(const Outcome& outcome) {
   return std::nullopt;
 }
 
-std::optional<Request> DoubleCheckJob::next(const Outcome& outcome) {
+dronecan::Step DoubleCheckJob::next(const Outcome& outcome) {
   if (outcome.kind == Outcome::Kind::start) {
     return ask(member_.id, GetNodeInfo::type, GetNodeInfo::Request{}.encode(), patience_);
   }

@@ -14,7 +14,7 @@ ReadJob::ReadJob(Roster& roster, Member& member, const bla::Profiles& profiles,
     : member_(member), patience_(options.patience),
       identification_(roster, member, profiles, options), plan_(std::move(plan)) {}
 
-std::optional<Request> ReadJob::next(const Outcome& outcome) {
+dronecan::Step ReadJob::next(const Outcome& outcome) {
   if (!identification_.done()) {
     if (auto question = identification_.next(outcome)) {
       return question;

@@ -57,8 +57,8 @@ void Roster::hear(const can::Frame& frame, Time at) {
   }
   if (!std::exchange(heard_[header->source.value()], true)) {
     heard.first_heard = at;
-    if (new_member_) {
-      new_member_(heard);
+    if (new_unit_) {
+      new_unit_(heard);
     }
   }
 }
@@ -136,17 +136,27 @@ void Roster::on_status(const Transfer& transfer) {
     return;
   }
   Member& sender = member(transfer.header.source);
-  watch_uptime(sender, status->uptime_s, transfer.at);
   sender.status = *status;
   sender.status_at = transfer.at;
+  watch_uptime(sender, status->uptime_s, transfer.at);
+}
+
+void Roster::watch_uptime(Member& sender, std::uint32_t uptime_s, Time at) {
+  if (has_restarted(sender, uptime_s, at)) {
+    ++sender.boots;
+    if (new_unit_) {
+      new_unit_(sender);
+    }
+  }
 }
 
 /// Every uptime tells when its unit started. A new start is a restart; coming back to the old one
 /// means that two units send under one ID. A unit that restarts at once shows by its uptime alone,
 /// which never goes back.
-void Roster::watch_uptime(Member& sender, std::uint32_t uptime_s, Time at) {
+bool Roster::has_restarted(Member& sender, std::uint32_t uptime_s, Time at) {
   Pulse& pulse = pulses_[sender.id.value()];
   const Time boot = at - std::chrono::seconds(uptime_s);
+  const std::uint32_t before = std::exchange(pulse.last_uptime_s, uptime_s);
   const auto is = [&](const std::optional<Time>& known) {
     return known && std::chrono::abs(*known - boot) < boot_tolerance;
   };
@@ -155,20 +165,14 @@ void Roster::watch_uptime(Member& sender, std::uint32_t uptime_s, Time at) {
     *it = boot; // clocks drift
     if (index != std::exchange(pulse.last_boot, index)) {
       doubled_.insert(sender.id);
-    } else if (uptime_s < pulse.last_uptime_s) {
-      ++sender.boots;
+      return false;
     }
-    pulse.last_uptime_s = uptime_s;
-    return;
+    return uptime_s < before;
   }
-  pulse.last_uptime_s = uptime_s;
   const bool first = !pulse.boots[pulse.last_boot];
-  const std::size_t index = first ? pulse.last_boot : 1 - pulse.last_boot;
-  pulse.boots[index] = boot;
-  pulse.last_boot = index;
-  if (!first) {
-    ++sender.boots;
-  }
+  pulse.last_boot = first ? pulse.last_boot : 1 - pulse.last_boot;
+  pulse.boots[pulse.last_boot] = boot;
+  return !first;
 }
 
 void Roster::on_allocation(const Transfer& transfer) {
@@ -189,6 +193,12 @@ void Roster::on_allocation(const Transfer& transfer) {
              pending_.size() < most_pending) {
     pending_.insert(prefix);
   }
+}
+
+bool Roster::is_pending(const dronecan::UniqueId& unique_id) const {
+  return std::ranges::any_of(pending_, [&](const UniqueIdPrefix& prefix) {
+    return std::ranges::equal(prefix, std::span(unique_id).first(prefix.size()));
+  });
 }
 
 Commander& Roster::commander(NodeId source) {

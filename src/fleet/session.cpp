@@ -45,9 +45,14 @@ std::vector<can::Filter> filters(Session::Hearing hearing, NodeId local) {
       message_filter(dronecan::NodeStatus::type),
       message_filter(dronecan::ActuatorStatus::type),
   };
+  // An anonymous request has but two bits for its type (specification 4.1).
+  constexpr std::uint32_t anonymous_type = 0x3FF;
   if (hearing == Session::Hearing::commands) {
     wanted.push_back(message_filter(dronecan::ArrayCommand::type));
     wanted.push_back(message_filter(dronecan::ArmingStatus::type));
+    wanted.push_back(message_filter(dronecan::Allocation::type));
+    wanted.push_back(
+        {static_cast<std::uint32_t>(dronecan::Allocation::type.id) << 8, anonymous_type});
     wanted.push_back(
         {static_cast<std::uint32_t>(dronecan::GetSet::type.id) << 16 | request | service,
          0x00FF0000 | request | service});
@@ -64,9 +69,16 @@ Session::Session(std::unique_ptr<can::Bus> bus, std::optional<dronecan::LocalNod
             {.name = "blactl",
              .unique_id = own_unique_id(local_ ? local_->id() : dronecan::anonymous)},
             {.send = [this](const can::Frame& frame) { loop_.send(frame); },
-             .transfer = [this](const dronecan::Transfer& transfer) { roster_.receive(transfer); },
+             .transfer =
+                 [this](const dronecan::Transfer& transfer) {
+                   roster_.receive(transfer);
+                   for (dronecan::Service* service : services_) {
+                     service->receive(transfer);
+                   }
+                 },
              .error = {},
-             .backlog = [this] { return loop_.unsent(); }}) {}
+             .backlog = [this] { return loop_.unsent(); },
+             .withdraw = [this](auto frames) { loop_.withdraw(frames); }}) {}
 
 Result<std::unique_ptr<Session>> Session::open(std::unique_ptr<can::Bus> bus,
                                                std::optional<dronecan::LocalNodeId> local,
@@ -92,8 +104,7 @@ Time Session::acknowledge_deadline() const {
 }
 
 Result<Session::Happened> Session::step(Time deadline) {
-  const Time wake = std::min({deadline, node_.next_deadline(), acknowledge_deadline()});
-  const can::Event event = loop_.next(wake);
+  const can::Event event = loop_.next(std::min(deadline, next_deadline()));
   node_.tell_time(loop_.now());
   auto happened = take(event);
   if (!happened || *happened != Happened::deadline) {
@@ -101,7 +112,7 @@ Result<Session::Happened> Session::step(Time deadline) {
     // if frames come faster than they can be read.
     const auto* received = std::get_if<can::Received>(&event);
     if (happened && received != nullptr) {
-      node_.advance(received->at);
+      advance(received->at);
       return received->at >= deadline ? Happened::deadline : *happened;
     }
     return happened;
@@ -113,7 +124,10 @@ Result<Session::Happened> Session::step(Time deadline) {
     return end({Code::no_acknowledge, say<texts::nobody_acknowledges>(interface()),
                 say<texts::nobody_acknowledges_hint>()});
   }
-  node_.advance(now);
+  if (give_up_at_ <= now) {
+    return end({Code::interrupted, say<texts::interrupted>()});
+  }
+  advance(now);
   return now >= deadline ? Happened::deadline : Happened::something;
 }
 
@@ -134,16 +148,47 @@ Result<Session::Happened> Session::take(const can::Event& event) {
   } else if (const auto* gone = std::get_if<can::Gone>(&event)) {
     return end(gone->error);
   } else if (const auto* caught = std::get_if<can::Signal>(&event)) {
-    if (caught->number != SIGWINCH) {
-      signal_ = caught->number;
-      return end({Code::interrupted, say<texts::interrupted>()});
-    }
+    return take_signal(caught->number);
   } else if (std::holds_alternative<can::Ready>(event)) {
     return Happened::input;
   } else {
     return Happened::deadline;
   }
   return Happened::something;
+}
+
+/// The first signal ends what may be ended, the second one everything.
+Result<Session::Happened> Session::take_signal(int number) {
+  if (number == SIGWINCH) {
+    return Happened::something;
+  }
+  const bool first = std::exchange(signal_, number) == 0;
+  if (first) {
+    node_.stop(loop_.now());
+  }
+  if (!first || node_.jobs() == 0) {
+    return end({Code::interrupted, say<texts::interrupted>()});
+  }
+  give_up_at_ = loop_.now() + grace;
+  if (stopping_) {
+    stopping_();
+  }
+  return Happened::something;
+}
+
+Time Session::next_deadline() const {
+  Time next = std::min({node_.next_deadline(), acknowledge_deadline(), give_up_at_});
+  for (const dronecan::Service* service : services_) {
+    next = std::min(next, service->next_deadline());
+  }
+  return next;
+}
+
+void Session::advance(Time now) {
+  node_.advance(now);
+  for (dronecan::Service* service : services_) {
+    service->advance(now);
+  }
 }
 
 Result<Session::Happened> Session::take_frame(const can::Received& received) {
@@ -172,11 +217,27 @@ Result<void> Session::live_until(Time deadline) {
   }
 }
 
+Result<bool> Session::live_until(Time deadline, const std::function<bool()>& done) {
+  while (!done()) {
+    const auto happened = step(deadline);
+    if (!happened) {
+      return std::unexpected(happened.error());
+    }
+    if (*happened == Happened::deadline) {
+      return done();
+    }
+  }
+  return true;
+}
+
 Result<void> Session::run() {
   while (node_.jobs() > 0) {
     if (const auto happened = step(never); !happened) {
       return std::unexpected(happened.error());
     }
+  }
+  if (signal_ != 0) { // the jobs that had to be finished are
+    return end({Code::interrupted, say<texts::interrupted>()});
   }
   return {};
 }

@@ -34,7 +34,7 @@ WriteJob::WriteJob(Member& member, std::vector<Change> changes, Patience patienc
     : member_(member), changes_(std::move(changes)), patience_(patience),
       boot_(member.identified_boot) {}
 
-std::optional<Request> WriteJob::next(const Outcome& outcome) {
+dronecan::Step WriteJob::next(const Outcome& outcome) {
   switch (step_) {
   case Step::begin: return go_on();
   case Step::unique_id:

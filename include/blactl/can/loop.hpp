@@ -5,6 +5,7 @@
 
 #include <deque>
 #include <memory>
+#include <span>
 #include <variant>
 #include <vector>
 
@@ -53,6 +54,9 @@ class Loop {
 
   /// Forgets the frames that were not handed over yet.
   void drop_queue() { queue_.clear(); }
+
+  /// Forgets these frames, as far as they were not handed over yet.
+  void withdraw(std::span<const Frame> frames);
 
   /// Since when a frame of ours waits for its echo while nothing at all was heard: nobody
   /// acknowledges. Empty: not so.

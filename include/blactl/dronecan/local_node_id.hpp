@@ -2,6 +2,7 @@
 // The node ID of this process, held by a lock file for as long as the process lives.
 
 #include "blactl/base/error.hpp"
+#include "blactl/dronecan/lock_file.hpp"
 #include "blactl/dronecan/transfer_ids.hpp"
 
 #include <memory>
@@ -15,19 +16,15 @@ namespace blactl::dronecan {
 /// that went out under it. An ID is never shared: one process's read inside another's three-frame
 /// write would break the write.
 ///
-/// The lock file `<interface>.<id>` lies in the folder for all users, else in
-/// $XDG_RUNTIME_DIR/blactl, else in the state folder; the kernel releases the lock when the process
-/// dies. It keeps the transfer IDs, so that the next process goes on where this one stopped.
+/// The lock file `<interface>.<id>` keeps the transfer IDs, so that the next process goes on where
+/// this one stopped.
 class LocalNodeId {
  public:
-  /// Where all users of a machine meet.
-  static constexpr const char* shared_folder = "/run/lock/blactl";
-
   /// Takes `wanted`, or the first free of 127 and 126 (reserved for tools, specification 5).
   /// Errors: no_local_node_id, naming the processes that hold them.
-  [[nodiscard]] static Result<LocalNodeId> acquire(std::string_view interface,
-                                                   std::optional<NodeId> wanted,
-                                                   const std::string& shared = shared_folder);
+  [[nodiscard]] static Result<LocalNodeId>
+  acquire(std::string_view interface, std::optional<NodeId> wanted,
+          const std::string& shared = LockFile::shared_folder);
 
   /// For a bus that no other process can reach: no lock, counters from 0.
   [[nodiscard]] static LocalNodeId unshared(std::optional<NodeId> wanted);

@@ -10,7 +10,10 @@
 #include <functional>
 #include <list>
 #include <optional>
+#include <span>
 #include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
 namespace blactl::dronecan {
@@ -33,7 +36,8 @@ struct Outcome {
     start,     ///< there was no question yet
     answered,  ///< `payload` is the answer
     timed_out, ///< the question went out, no answer came
-    not_sent,  ///< the question did not leave this machine
+    not_sent,  ///< the question did not leave this machine in time; the kernel may still send it
+    woken,     ///< the pause is over
     cancelled,
   };
 
@@ -44,15 +48,50 @@ struct Outcome {
   [[nodiscard]] bool answered() const { return kind == Kind::answered; }
 };
 
-/// A conversation with one node: given the outcome of the last question, the next one. The job
-/// ends by returning none.
+/// A job that asks nothing now. It goes on (`woken`) as soon as `ready` holds after a transfer was
+/// heard, at `until` at the latest.
+struct Pause {
+  Time until = never;
+  std::function<bool()> ready{}; ///< empty: only the time counts
+};
+
+/// What a job does next: a question, a pause, or neither: it has ended.
+class Step {
+ public:
+  Step(std::nullopt_t) {} // NOLINT: reads as "nothing"
+
+  Step(Request request) : step_(std::move(request)) {} // NOLINT: is a step
+
+  Step(Pause pause) : step_(std::move(pause)) {} // NOLINT: is a step
+
+  Step(std::optional<Request> request) { // NOLINT: is a step
+    if (request) {
+      step_ = std::move(*request);
+    }
+  }
+
+  [[nodiscard]] const Request* request() const { return std::get_if<Request>(&step_); }
+
+  [[nodiscard]] const Pause* pause() const { return std::get_if<Pause>(&step_); }
+
+  [[nodiscard]] bool is_end() const { return std::holds_alternative<std::monostate>(step_); }
+
+ private:
+  std::variant<std::monostate, Request, Pause> step_;
+};
+
+/// A conversation with one node: given the outcome of the last step, the next one.
 class Job {
  public:
   virtual ~Job() = default;
   Job(const Job&) = delete;
   Job& operator=(const Job&) = delete;
 
-  [[nodiscard]] virtual std::optional<Request> next(const Outcome& outcome) = 0;
+  [[nodiscard]] virtual Step next(const Outcome& outcome) = 0;
+
+  /// Whether it has begun what must not be left half done (a ROM write): Node::stop() lets it go
+  /// on.
+  [[nodiscard]] virtual bool must_finish() const { return false; }
 
  protected:
   Job() = default;
@@ -73,6 +112,8 @@ class Node {
     std::function<void(ReceiveError, std::uint32_t can_id, Time)> error;
     /// Frames that wait to leave this machine. May be empty: none.
     std::function<std::size_t()> backlog{};
+    /// These frames shall not leave any more, as far as they are still here. May be empty.
+    std::function<void(std::span<const can::Frame>)> withdraw{};
   };
 
   struct Description {
@@ -106,20 +147,27 @@ class Node {
   /// Jobs that have not ended.
   [[nodiscard]] std::size_t jobs() const { return jobs_.size(); }
 
+  /// Sends a message. Without a local ID nothing is sent.
+  void broadcast(const DataType& type, Priority priority, const Payload& payload);
+
+  /// Ends the jobs that may be left half done, with the outcome `cancelled`.
+  void stop(Time now);
+
   /// Ends every job with the outcome `cancelled`; what they ask then is not sent.
   void cancel_all(Time now);
 
  private:
   struct Active {
     Job* job = nullptr;
-    std::optional<Request> request{};
+    Step step = std::nullopt;
     TransferId transfer_id = 0;
     int tries = 0;
-    bool asked = false;      ///< handed to the bus
-    bool left = false;       ///< its last frame was echoed
-    can::Frame last_frame{}; ///< recognises the echo
-    Time deadline = never;
-    bool done = false;
+    bool asked = false;               ///< handed to the bus
+    bool left = false;                ///< its last frame was echoed
+    std::vector<can::Frame> frames{}; ///< of the question; the last one recognises the echo
+    Time deadline = never;            ///< of the answer, the echo or the pause
+
+    [[nodiscard]] bool is_done() const { return step.is_end(); }
   };
 
   void on_transfer(const Transfer& transfer);
@@ -127,6 +175,9 @@ class Node {
   void answer_node_info(const Transfer& request);
   [[nodiscard]] bool is_congested() const;
   void broadcast_status(Time now);
+  void wake();
+  void withdraw(const Active& active);
+  void cancel(Active& active, Time now);
   void finish(Active& active, const Outcome& outcome);
   void ask(Active& active, Time now);
   void ask_waiting(Time now);

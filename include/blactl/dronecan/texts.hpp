@@ -18,4 +18,12 @@ inline constexpr Text node_id_held{"{} is held by another process", "{} は別�
 inline constexpr Text node_id_lock_failed{"{}: {} cannot be opened ({})",
                                           "{}: {} を開けません ({})"};
 
+inline constexpr Text writing_held{"process {1} is writing to servos on {0}",
+                                   "プロセス {1} が {0} でサーボに書込み中です"};
+inline constexpr Text allocating_held{"process {1} allocates node IDs on {0}",
+                                      "プロセス {1} が {0} でノード ID を割当て中です"};
+inline constexpr Text unknown_process{"?", "?"};
+inline constexpr Text lock_held_hint{"wait until it ends", "その終了を待ってください"};
+inline constexpr Text lock_failed{"{} cannot be opened ({})", "{} を開けません ({})"};
+
 } // namespace blactl::texts

@@ -4,8 +4,11 @@
 #include "blactl/dronecan/ids.hpp"
 #include "blactl/dronecan/transfer.hpp"
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
+#include <utility>
 
 namespace blactl::dronecan {
 
@@ -22,9 +25,11 @@ class TransferIds {
 
   static constexpr std::size_t slots = 1024;
 
-  /// `table` outlives this object. `first` is where a counter without a slot starts.
-  explicit TransferIds(std::span<Slot, slots> table, TransferId first = 0)
-      : table_(table), first_(first) {}
+  /// `table` outlives this object. `first` is where a counter without a slot starts; `changed` is
+  /// told the index of each slot that counted.
+  explicit TransferIds(std::span<Slot, slots> table, TransferId first = 0,
+                       std::function<void(std::size_t)> changed = {})
+      : table_(table), first_(first), changed_(std::move(changed)) {}
 
   /// The ID for the next transfer of this descriptor; counts it as used.
   [[nodiscard]] TransferId next(Kind kind, std::uint16_t data_type_id, NodeId destination);
@@ -32,6 +37,7 @@ class TransferIds {
  private:
   std::span<Slot, slots> table_;
   TransferId first_;
+  std::function<void(std::size_t)> changed_;
 };
 
 } // namespace blactl::dronecan

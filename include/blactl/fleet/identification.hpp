@@ -68,7 +68,7 @@ class IdentifyJob : public dronecan::Job {
               Identification::Options options)
       : member_(member), identification_(roster, member, profiles, options) {}
 
-  [[nodiscard]] std::optional<dronecan::Request> next(const dronecan::Outcome& outcome) override {
+  [[nodiscard]] dronecan::Step next(const dronecan::Outcome& outcome) override {
     return identification_.next(outcome);
   }
 
@@ -92,7 +92,7 @@ class ProbeJob : public dronecan::Job {
   ProbeJob(const Roster& roster, std::uint8_t& cursor, Duration timeout)
       : roster_(roster), cursor_(cursor), timeout_(timeout) {}
 
-  [[nodiscard]] std::optional<dronecan::Request> next(const dronecan::Outcome& outcome) override;
+  [[nodiscard]] dronecan::Step next(const dronecan::Outcome& outcome) override;
 
  private:
   const Roster& roster_;
@@ -106,7 +106,7 @@ class DoubleCheckJob : public dronecan::Job {
   DoubleCheckJob(Roster& roster, Member& member, Patience patience)
       : roster_(roster), member_(member), patience_(patience) {}
 
-  [[nodiscard]] std::optional<dronecan::Request> next(const dronecan::Outcome& outcome) override;
+  [[nodiscard]] dronecan::Step next(const dronecan::Outcome& outcome) override;
 
  private:
   Roster& roster_;

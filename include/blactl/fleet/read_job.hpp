@@ -23,7 +23,7 @@ class ReadJob : public dronecan::Job {
   ReadJob(Roster& roster, Member& member, const bla::Profiles& profiles,
           Identification::Options options, Plan plan);
 
-  [[nodiscard]] std::optional<dronecan::Request> next(const dronecan::Outcome& outcome) override;
+  [[nodiscard]] dronecan::Step next(const dronecan::Outcome& outcome) override;
 
   [[nodiscard]] const Member& member() const { return member_; }
 

@@ -27,7 +27,8 @@ struct Member {
 
   /// Answers to the questions of Identification.
   std::optional<dronecan::GetNodeInfo::Response> info;
-  bool is_servo = false; ///< it answered register 0x50
+  std::uint32_t info_boot = 0; ///< `boots` when `info` came
+  bool is_servo = false;       ///< it answered register 0x50
   bla::Identity identity;
   std::optional<std::int64_t> servo_id, static_node_id;
   bool identified = false;           ///< Identification ended well
@@ -37,6 +38,11 @@ struct Member {
 
   /// Identified, and not restarted since.
   [[nodiscard]] bool is_known() const { return identified && identified_boot == boots; }
+
+  /// This unit said since its last restart that it has this unique ID.
+  [[nodiscard]] bool is_unit(const dronecan::UniqueId& unique_id) const {
+    return info && info_boot == boots && info->unique_id == unique_id;
+  }
 };
 
 /// An unsettled allocation request: the part of the unique ID that was heard.
@@ -59,8 +65,9 @@ class Roster {
 
   [[nodiscard]] dronecan::NodeId local() const { return local_; }
 
-  /// Called once for each ID when it is heard for the first time.
-  void on_new_member(std::function<void(Member&)> hook) { new_member_ = std::move(hook); }
+  /// Called for each ID when it is heard for the first time, and whenever its unit restarted: what
+  /// was known of it may be another's.
+  void on_new_unit(std::function<void(Member&)> hook) { new_unit_ = std::move(hook); }
 
   /// Every frame of other nodes: who lives, and who sends twice as often as one unit can.
   void hear(const can::Frame& frame, Time at);
@@ -87,6 +94,9 @@ class Roster {
   [[nodiscard]] std::set<dronecan::NodeId> doubled() const;
 
   [[nodiscard]] const std::set<UniqueIdPrefix>& pending() const { return pending_; }
+
+  /// A unit with this unique ID asked for a node ID and got none.
+  [[nodiscard]] bool is_pending(const dronecan::UniqueId& unique_id) const;
 
   [[nodiscard]] const std::set<dronecan::NodeId>& allocators() const { return allocators_; }
 
@@ -118,11 +128,12 @@ class Roster {
   void on_command(const dronecan::Transfer& transfer);
   void on_write(const dronecan::Transfer& transfer);
   void watch_uptime(Member& member, std::uint32_t uptime_s, Time at);
+  [[nodiscard]] bool has_restarted(Member& member, std::uint32_t uptime_s, Time at);
   Commander& commander(dronecan::NodeId source);
   [[nodiscard]] bool is_too_fast(dronecan::NodeId id) const;
 
   dronecan::NodeId local_;
-  std::function<void(Member&)> new_member_;
+  std::function<void(Member&)> new_unit_;
   std::map<dronecan::NodeId, Member> members_;
   std::array<bool, 128> heard_{};
   std::array<Pulse, 128> pulses_{};

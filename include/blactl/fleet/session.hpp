@@ -5,12 +5,14 @@
 #include "blactl/can/loop.hpp"
 #include "blactl/dronecan/local_node_id.hpp"
 #include "blactl/dronecan/node.hpp"
+#include "blactl/dronecan/service.hpp"
 #include "blactl/fleet/roster.hpp"
 
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace blactl::fleet {
 
@@ -19,7 +21,8 @@ class Session {
   /// What of the bus this session wants to hear; a kernel filter keeps the rest away.
   enum class Hearing : std::uint8_t {
     answers,  ///< services for us, NodeStatus, actuator.Status, and frames with our own ID
-    commands, ///< also what drives servos: ArrayCommand, ArmingStatus, GetSet requests
+    commands, ///< also what a writer must know: ArrayCommand, ArmingStatus, GetSet requests, and
+              ///< Allocation
     all,
   };
 
@@ -41,10 +44,25 @@ class Session {
 
   void start(dronecan::Job& job) { node_.start(job, loop_.now()); }
 
+  /// Lets a service hear and act; it must live until detach().
+  void attach(dronecan::Service& service) { services_.push_back(&service); }
+
+  void detach(dronecan::Service& service) { std::erase(services_, &service); }
+
+  /// Called when a first signal came while jobs run that must not be left half done: they have
+  /// `grace` to end. A second signal ends all at once.
+  void on_stopping(std::function<void()> hook) { stopping_ = std::move(hook); }
+
+  static constexpr Duration grace = std::chrono::seconds(3);
+
   /// Lives until `deadline`.
   /// Errors of this and run(): interrupted, interface, bus_off, no_acknowledge, duplicate_node_id
   /// (a foreign frame with our ID). They end the session: every job is cancelled.
   [[nodiscard]] Result<void> live_until(Time deadline);
+
+  /// Lives until `done` holds, which is looked at after every event; whether it did before
+  /// `deadline`.
+  [[nodiscard]] Result<bool> live_until(Time deadline, const std::function<bool()>& done);
 
   /// Lives until no job is left.
   [[nodiscard]] Result<void> run();
@@ -68,6 +86,9 @@ class Session {
   [[nodiscard]] Result<Happened> step(Time deadline);
   [[nodiscard]] Result<Happened> take(const can::Event& event);
   [[nodiscard]] Result<Happened> take_frame(const can::Received& received);
+  [[nodiscard]] Result<Happened> take_signal(int number);
+  [[nodiscard]] Time next_deadline() const;
+  void advance(Time now);
   [[nodiscard]] std::unexpected<Error> end(Error error);
   [[nodiscard]] Time acknowledge_deadline() const;
 
@@ -75,7 +96,10 @@ class Session {
   can::Loop loop_;
   Roster roster_;
   dronecan::Node node_;
+  std::vector<dronecan::Service*> services_;
+  std::function<void()> stopping_;
   int signal_ = 0;
+  Time give_up_at_ = never; ///< after a signal: when running jobs are left half done
   std::uint64_t lost_ = 0;
 };
 

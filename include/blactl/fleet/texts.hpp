@@ -104,6 +104,35 @@ inline constexpr Text node_id_in_use{"static_node_id={} is in use by another nod
 inline constexpr Text node_id_in_use_hint{"see which IDs are taken: blactl scan",
                                           "使用中の ID を確認: blactl scan"};
 
+inline constexpr Text not_begun{"node {}: interrupted before anything was sent",
+                                "ノード {}: 送信前に中断されました"};
+inline constexpr Text another_servo{"node {} is another servo now: nothing was sent",
+                                    "ノード {} は別のサーボに替わったため、送信していません"};
+inline constexpr Text opcode_refused{"node {} refused {}", "ノード {} が {} を拒否しました"};
+inline constexpr Text opcode_ignored{
+    "node {} neither answered {} nor carried it out, although it lives",
+    "ノード {} は動作していますが、{} に応答せず実行もしませんでした",
+};
+inline constexpr Text did_not_restart{"node {} confirmed {} and then did not restart",
+                                      "ノード {} は {} に応答しましたが再起動しませんでした"};
+inline constexpr Text saved_not_back{
+    "node {} confirmed SAVE and did not come back: what its ROM holds is not known",
+    "ノード {} は SAVE に応答後、復帰しません。ROM の内容は不明です",
+};
+inline constexpr Text restarted_not_back{"node {} confirmed the restart and did not come back",
+                                         "ノード {} は再起動に応答後、復帰しません"};
+inline constexpr Text unconfirmed_not_back{
+    "node {} did not answer {} and is gone: whether it was carried out is not known",
+    "ノード {} は {} に応答せず、通信も途絶えました。実行されたかどうかは不明です",
+};
+inline constexpr Text not_back_hint{
+    "check its supply and cable, power it off and on, then: blactl scan",
+    "電源と配線を確認し、電源を入れ直してから blactl scan を実行してください",
+};
+inline constexpr Text waits_for_id_hint{
+    "it asks for a node ID and no allocator gives it one: is another allocator stopped?",
+    "ノード ID の割当てを要求していますが、割当てるノードがありません",
+};
 inline constexpr Text unchanged_no_more{
     "node {} restarted: {} may have another value now",
     "ノード {} が再起動したため、{} の値が変わっている可能性があります",

@@ -35,7 +35,7 @@ class WriteJob : public dronecan::Job {
   /// `member` has been identified; all references outlive the job.
   WriteJob(Member& member, std::vector<Change> changes, Patience patience);
 
-  [[nodiscard]] std::optional<dronecan::Request> next(const dronecan::Outcome& outcome) override;
+  [[nodiscard]] dronecan::Step next(const dronecan::Outcome& outcome) override;
 
   [[nodiscard]] const Member& member() const { return member_; }
 

@@ -107,7 +107,7 @@ class Talk final : public Job {
  public:
   explicit Talk(std::vector<Request> questions) : questions_(questions.begin(), questions.end()) {}
 
-  std::optional<Request> next(const Outcome& outcome) override {
+  Step next(const Outcome& outcome) override {
     outcomes.push_back(outcome.kind);
     payloads.push_back(hex(outcome.payload));
     ended_at = outcome.at;

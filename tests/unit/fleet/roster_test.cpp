@@ -105,7 +105,7 @@ std::vector<std::uint8_t> unit(std::uint8_t number, std::size_t size) {
 TEST_CASE("a node becomes a member by any frame of it, and is announced once") {
   Ear ear;
   std::vector<std::uint8_t> announced;
-  ear.roster.on_new_member([&](Member& member) { announced.push_back(member.id.value()); });
+  ear.roster.on_new_unit([&](Member& member) { announced.push_back(member.id.value()); });
   ear.status(10, 0);
   const Time first = ear.now;
   ear.now += 1s;
@@ -122,7 +122,7 @@ TEST_CASE("a node becomes a member by any frame of it, and is announced once") {
 TEST_CASE("who was only asked for is no node that was heard") {
   Ear ear;
   bool announced = false;
-  ear.roster.on_new_member([&](Member&) { announced = true; });
+  ear.roster.on_new_unit([&](Member&) { announced = true; });
   CHECK(ear.roster.find(NodeId(10)) == nullptr);
   CHECK(ear.roster.member(NodeId(10)).id == NodeId(10));
   CHECK_FALSE(ear.roster.heard(NodeId(10)));

@@ -54,7 +54,7 @@ class Ask final : public dronecan::Job {
  public:
   explicit Ask(int times = 1, Patience patience = {}) : left_(times), patience_(patience) {}
 
-  std::optional<dronecan::Request> next(const Outcome& outcome) override {
+  dronecan::Step next(const Outcome& outcome) override {
     outcomes.push_back(outcome.kind);
     if (left_-- == 0) {
       return std::nullopt;

@@ -201,10 +201,11 @@ class Script {
   dronecan::Payload payload_;
 };
 
-/// "read 0x38", "write 0x38=900", "GetNodeInfo", "nothing": what a job asks.
-inline std::string text(const std::optional<dronecan::Request>& request) {
-  if (!request) {
-    return "nothing";
+/// "read 0x38", "write 0x38=900", "GetNodeInfo", "pause", "nothing": what a job does next.
+inline std::string text(const dronecan::Step& step) {
+  const dronecan::Request* request = step.request();
+  if (request == nullptr) {
+    return step.is_end() ? "nothing" : "pause";
   }
   if (request->type->id != GetSet::type.id) {
     return std::string(request->type->name.substr(request->type->name.rfind('.') + 1));

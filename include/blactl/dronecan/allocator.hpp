@@ -1,0 +1,60 @@
+#pragma once
+// The allocator's side of dynamic node ID allocation.
+// DroneCAN specification 6, uavcan/protocol/dynamic_node_id/1.Allocation.uavcan; Futaba 2.3,
+// tables 2-7 and 2-8.
+
+#include "blactl/dronecan/node.hpp"
+#include "blactl/dronecan/service.hpp"
+
+#include <cstdint>
+#include <optional>
+
+namespace blactl::dronecan {
+
+/// Which unit gets which node ID.
+class AllocationTable {
+ public:
+  virtual ~AllocationTable() = default;
+  AllocationTable(const AllocationTable&) = delete;
+  AllocationTable& operator=(const AllocationTable&) = delete;
+
+  /// Whether a unit whose unique ID begins with these bytes may get an ID from here.
+  [[nodiscard]] virtual bool serves(Bytes prefix) const = 0;
+
+  /// The ID of this unit; empty: it gets none.
+  [[nodiscard]] virtual std::optional<NodeId> assign(const UniqueId& unique_id) = 0;
+
+ protected:
+  AllocationTable() = default;
+};
+
+/// Answers the three parts of an allocation request. As soon as another allocator is heard this one
+/// is silent for good: before its first answer it waits 100 ms for such a one.
+class Allocator final : public Service {
+ public:
+  /// Both outlive the allocator.
+  Allocator(Node& node, AllocationTable& table) : node_(node), table_(table) {}
+
+  void receive(const Transfer& transfer) override;
+
+  [[nodiscard]] Time next_deadline() const override { return answer_due_; }
+
+  void advance(Time now) override;
+
+  /// Another node that allocates.
+  [[nodiscard]] std::optional<NodeId> other() const { return other_; }
+
+ private:
+  [[nodiscard]] bool takes(const Allocation& request);
+  void answer();
+
+  Node& node_;
+  AllocationTable& table_;
+  Allocation collected_; ///< the parts of the unique ID that were heard
+  Time heard_at_{};      ///< the last accepted part
+  Time answer_due_ = never;
+  bool has_answered_ = false;
+  std::optional<NodeId> other_;
+};
+
+} // namespace blactl::dronecan
