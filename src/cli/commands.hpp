@@ -11,6 +11,10 @@ namespace blactl::cli {
 [[nodiscard]] Report execute(const ScanOptions& options, Context& context);
 [[nodiscard]] Report execute(const GetOptions& options, Context& context);
 [[nodiscard]] Report execute(const SetOptions& options, Context& context);
+[[nodiscard]] Report execute(const SaveOptions& options, Context& context);
+[[nodiscard]] Report execute(const EraseOptions& options, Context& context);
+[[nodiscard]] Report execute(const RestartOptions& options, Context& context);
+[[nodiscard]] Report execute(const WaitOptions& options, Context& context);
 [[nodiscard]] Report execute(const ModelsOptions& options, Context& context);
 [[nodiscard]] Report execute(const SimOptions& options, Context& context);
 

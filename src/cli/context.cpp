@@ -79,12 +79,44 @@ Result<fleet::Session*> Context::open(fleet::Session::Hearing hearing) {
     }
     local = std::move(*acquired);
   }
+  lock_name_ = bus->lock_name;
   auto session = fleet::Session::open(std::move(bus->bus), std::move(local), hearing);
   if (!session) {
     return std::unexpected(session.error());
   }
   session_ = std::move(*session);
+  session_->on_stopping([this] { reporter_.note(say<texts::finishing>()); });
+  opened_ = session_->now();
   return session_.get();
+}
+
+Result<fleet::Session*> Context::open_for_writing(std::string_view command) {
+  if (shared_.listen_only) {
+    return fail(Code::usage, say<texts::listen_only_refused>(command),
+                say<texts::listen_only_hint>());
+  }
+  auto session = open(fleet::Session::Hearing::commands);
+  if (!session || lock_name_.empty()) {
+    return session;
+  }
+  using dronecan::InterfaceLock;
+  auto lock = InterfaceLock::acquire(lock_name_, InterfaceLock::Right::write);
+  if (!lock) {
+    return std::unexpected(lock.error());
+  }
+  writing_ = std::move(*lock);
+  return session;
+}
+
+bool Context::may_allocate() {
+  if (lock_name_.empty() || allocating_) {
+    return true;
+  }
+  using dronecan::InterfaceLock;
+  if (auto lock = InterfaceLock::acquire(lock_name_, InterfaceLock::Right::allocate)) {
+    allocating_ = std::move(*lock);
+  }
+  return allocating_.has_value();
 }
 
 fleet::Identification::Options Context::identification() const {
@@ -169,6 +201,36 @@ std::vector<Member*> Context::select(const fleet::Targets& targets, Duration tim
                  std::nullopt});
   }
   return servos;
+}
+
+std::vector<Member*> Context::select_for_writing(const fleet::Targets& targets, Report& report) {
+  auto servos = select(targets, targets.given ? servo_search_time : bus_watch_time, report);
+  if (!report.errors.empty()) {
+    return {};
+  }
+  if (!targets.given && servos.size() > 1) {
+    std::string ids;
+    for (const Member* servo : servos) {
+      ids += (ids.empty() ? "" : ", ") + std::to_string(servo->id.value());
+    }
+    report.fail({Code::usage, say<texts::several_servos>(ids),
+                 say<texts::several_servos_hint>(servos.front()->id.value()), std::nullopt});
+    return {};
+  }
+  return servos;
+}
+
+bool Context::hear_bus(Report& report) {
+  if (auto lived = session_->live_until(opened_ + bus_watch_time); !lived) {
+    broken(lived.error(), report);
+    return false;
+  }
+  if (session_->lost_frames() > 0) {
+    report.fail({Code::state, say<texts::lost_while_listening>(), say<texts::run_again_hint>(),
+                 std::nullopt});
+    return false;
+  }
+  return true;
 }
 
 } // namespace blactl::cli

@@ -2,6 +2,7 @@
 // What every command on a bus needs: the profiles, a session, and the servos it is about.
 
 #include "blactl/bla/profile.hpp"
+#include "blactl/dronecan/interface_lock.hpp"
 #include "blactl/fleet/identification.hpp"
 #include "blactl/fleet/session.hpp"
 #include "blactl/fleet/target.hpp"
@@ -44,6 +45,13 @@ class Context {
   /// long as the context. Errors: interface, permission, no_local_node_id, bad_file, usage.
   [[nodiscard]] Result<fleet::Session*> open(fleet::Session::Hearing hearing);
 
+  /// The same, to write to servos: one process of this machine at a time. Further errors: usage
+  /// (--listen-only; `command` is named), busy.
+  [[nodiscard]] Result<fleet::Session*> open_for_writing(std::string_view command);
+
+  /// Whether this process may give node IDs: nobody else of this machine does.
+  [[nodiscard]] bool may_allocate();
+
   [[nodiscard]] fleet::Session& session() { return *session_; }
 
   [[nodiscard]] fleet::Identification::Options identification() const;
@@ -54,6 +62,15 @@ class Context {
   /// certain. An empty list has left its error (not_found) in `report`.
   [[nodiscard]] std::vector<fleet::Member*> select(const fleet::Targets& targets, Duration search,
                                                    Report& report);
+
+  /// The same for a command that writes: without -n the one servo there is.
+  /// Empty: an error is in `report`.
+  [[nodiscard]] std::vector<fleet::Member*> select_for_writing(const fleet::Targets& targets,
+                                                               Report& report);
+
+  /// Hears the bus for as long as it takes to know who drives, is armed or shares an ID. False: an
+  /// error is in `report`.
+  [[nodiscard]] bool hear_bus(Report& report);
 
   /// Says so if frames were dropped on the way to this process.
   void tell_losses() const;
@@ -69,7 +86,10 @@ class Context {
   const Reporter& reporter_;
   std::optional<bla::Profiles> profiles_;
   const bla::Profile* assumed_ = nullptr;
+  std::string lock_name_; ///< of the interface; empty: no other process can reach it
+  std::optional<dronecan::InterfaceLock> writing_, allocating_;
   std::unique_ptr<fleet::Session> session_;
+  Time opened_{};
 };
 
 } // namespace blactl::cli

@@ -21,15 +21,17 @@
 namespace blactl::cli {
 namespace {
 
-constexpr std::array<std::string_view, 5> commands{"scan", "get", "set", "models", "sim"};
+constexpr std::array<std::string_view, 9> commands{"scan",    "get",  "set",    "save", "erase",
+                                                   "restart", "wait", "models", "sim"};
 
 /// Those that print tables of values.
 constexpr std::array<std::string_view, 2> with_csv{"scan", "get"};
 
 /// Options that take the next argument as their value: what a mistyped command is told apart from.
-constexpr std::array<std::string_view, 12> with_value{
-    "--interface", "--node",        "--local-node-id", "--color",  "--lang",   "--timeout",
-    "--retries",   "--profile-dir", "--profile",       "--listen", "--expect", "--group"};
+constexpr std::array<std::string_view, 14> with_value{
+    "--interface", "--node",    "--local-node-id", "--color",   "--lang",
+    "--timeout",   "--retries", "--profile-dir",   "--profile", "--listen",
+    "--expect",    "--group",   "--wait",          "--stagger"};
 
 std::optional<std::string> environment(const char* name) {
   const char* value = std::getenv(name);
@@ -57,6 +59,10 @@ class Parser {
     add_scan();
     add_get();
     add_set();
+    add_save();
+    add_erase();
+    add_restart();
+    add_wait();
     add_models();
     add_sim();
     for (CLI::App* command : app_.get_subcommands({})) {
@@ -73,6 +79,11 @@ class Parser {
   void add_scan();
   void add_get();
   void add_set();
+  void add_save();
+  void add_erase();
+  void add_restart();
+  void add_wait();
+  void add_times(CLI::App& command, RestartTimes& times);
   void add_models();
   void add_sim();
   Result<Invocation> take();
@@ -166,12 +177,46 @@ void Parser::add_get() {
 }
 
 void Parser::add_set() {
-  auto [command, options] =
-      add<SetOptions>("set", "check against the profile, write, read back (RAM only)");
+  auto [command, options] = add<SetOptions>("set", "check against the profile, write, read back");
   command.add_option("PARAM=VALUE", options.assignments, "angle_limit_cw=90deg, 0x38=900")
       ->type_name("")
       ->required();
+  command.add_flag("--save", options.save, "then RAM to ROM: restarts the servo, and reads again");
   command.add_flag("--dry-run", options.dry_run, "change nothing; 8 when something would change");
+  add_times(command, options.times);
+}
+
+void Parser::add_times(CLI::App& command, RestartTimes& times) {
+  values_.seconds(command, "--wait",
+                  "for a servo to come back (default 5, and 2 for each that asks for a node ID)",
+                  times.wait, std::chrono::milliseconds(1), std::chrono::hours(1));
+  values_.seconds(command, "--stagger", "between two servos (default 0)", times.stagger,
+                  Duration::zero(), std::chrono::hours(1));
+}
+
+void Parser::add_save() {
+  auto [command, options] =
+      add<SaveOptions>("save", "RAM to ROM: restarts the servo, and reads again");
+  add_times(command, options.times);
+}
+
+void Parser::add_erase() {
+  auto [command, options] =
+      add<EraseOptions>("erase", "RAM to factory defaults, IDs included (ROM only with --save)");
+  command.add_flag("--save", options.save, "then RAM to ROM");
+  command.add_flag("--keep-ids", options.keep_ids, "servo_id and static_node_id stay");
+  add_times(command, options.times);
+}
+
+void Parser::add_restart() {
+  auto [command, options] = add<RestartOptions>("restart", "restart: RAM from ROM");
+  add_times(command, options.times);
+}
+
+void Parser::add_wait() {
+  auto [command, options] = add<WaitOptions>("wait", "until the servos are there and operational");
+  values_.seconds(command, "--wait", "how long (default 10)", options.wait,
+                  std::chrono::milliseconds(1), std::chrono::hours(24));
 }
 
 void Parser::add_models() {

@@ -44,9 +44,35 @@ struct GetOptions {
   bool changed = false;
 };
 
+/// Where servos restart.
+struct RestartTimes {
+  std::optional<Duration> wait{}; ///< for a servo to come back; empty: as many as there are need
+  Duration stagger{};             ///< between two servos
+};
+
 struct SetOptions {
   std::vector<std::string> assignments{};
   bool dry_run = false;
+  bool save = false;
+  RestartTimes times{};
+};
+
+struct SaveOptions {
+  RestartTimes times{};
+};
+
+struct EraseOptions {
+  bool save = false;
+  bool keep_ids = false;
+  RestartTimes times{};
+};
+
+struct RestartOptions {
+  RestartTimes times{};
+};
+
+struct WaitOptions {
+  Duration wait = std::chrono::seconds(10);
 };
 
 struct ModelsOptions {
@@ -60,7 +86,8 @@ struct SimOptions {
   std::string clock{}; ///< "real", "virtual"; empty: as the scenario says
 };
 
-using CommandOptions = std::variant<ScanOptions, GetOptions, SetOptions, ModelsOptions, SimOptions>;
+using CommandOptions = std::variant<ScanOptions, GetOptions, SetOptions, SaveOptions, EraseOptions,
+                                    RestartOptions, WaitOptions, ModelsOptions, SimOptions>;
 
 struct Invocation {
   Shared shared{};

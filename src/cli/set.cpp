@@ -169,7 +169,6 @@ class Set {
   Report& report_;
   const bla::Profiles* profiles_ = nullptr;
   Assignments assignments_;
-  Time opened_{};
   std::vector<Member*> members_;
   std::vector<std::unique_ptr<ReadJob>> reads_;
   std::shared_ptr<Outcome> outcome_ = std::make_shared<Outcome>();
@@ -193,10 +192,6 @@ bool Set::understand() {
     return stop({Code::cross_check, say<texts::one_command_only>(),
                  say<texts::one_command_only_hint>(), std::nullopt});
   }
-  if (context_.shared().listen_only) {
-    return stop({Code::usage, say<texts::listen_only_refused>("set"),
-                 say<texts::listen_only_hint>(), std::nullopt});
-  }
   return true;
 }
 
@@ -205,23 +200,13 @@ bool Set::select() {
   if (!targets) {
     return stop(targets.error());
   }
-  if (auto session = context_.open(fleet::Session::Hearing::commands); !session) {
+  if (auto session = context_.open_for_writing("set"); !session) {
     return stop(session.error());
   }
   report_.interface = context_.session().interface();
-  opened_ = context_.session().now();
-  members_ =
-      context_.select(*targets, targets->given ? servo_search_time : bus_watch_time, report_);
+  members_ = context_.select_for_writing(*targets, report_);
   if (!report_.errors.empty()) {
     return false;
-  }
-  if (!targets->given && members_.size() > 1) {
-    std::string ids;
-    for (const Member* member : members_) {
-      ids += (ids.empty() ? "" : ", ") + std::to_string(member->id.value());
-    }
-    return stop({Code::usage, say<texts::several_servos>(ids),
-                 say<texts::several_servos_hint>(members_.front()->id.value()), std::nullopt});
   }
   const bool gives_node_id = std::ranges::any_of(assignments_, [](const Assignment& assignment) {
     return assignment.parameter->address == bla::address::static_node_id &&
@@ -271,19 +256,9 @@ bool Set::read() {
 }
 
 bool Set::watch() {
-  if (std::ranges::none_of(outcome_->plans,
-                           [](const Plan& plan) { return fleet::needs_watch(plan.changes); })) {
-    return true;
-  }
-  if (auto lived = context_.session().live_until(opened_ + bus_watch_time); !lived) {
-    context_.broken(lived.error(), report_);
-    return false;
-  }
-  if (context_.session().lost_frames() > 0) {
-    return stop({Code::state, say<texts::lost_while_listening>(), say<texts::run_again_hint>(),
-                 std::nullopt});
-  }
-  return true;
+  const bool nothing_to_write = std::ranges::none_of(
+      outcome_->plans, [](const Plan& plan) { return fleet::needs_watch(plan.changes); });
+  return (nothing_to_write && !options_.save) || context_.hear_bus(report_);
 }
 
 bool Set::check() {

@@ -202,4 +202,44 @@ inline constexpr Text scenario_is_argument{"-i {}: a scenario is an argument of 
                                            "-i {}: シナリオは sim の引数で指定します"};
 inline constexpr Text scenario_is_argument_hint{"blactl sim {}", "blactl sim {}"};
 
+inline constexpr Text finishing{
+    "waiting for running saves, 3 s at most (Ctrl-C again: at once)",
+    "実行中の保存の完了を待っています (最大 3 秒。もう一度 Ctrl-C で即時終了)",
+};
+inline constexpr Text model_unknown{"the model is not known: it can only be read",
+                                    "機種が不明のため読出しのみ可能です"};
+inline constexpr Text question_restart_soft{
+    "node {}: torque is on: its output drops, then the shaft runs slowly to 0 deg\n",
+    "ノード {}: トルク ON のため、出力が一旦 OFF になり、ソフトスタートで 0° へ動きます\n",
+};
+inline constexpr Text question_restart_hard{
+    "node {}: torque is on: its output drops, then returns where the shaft is\n",
+    "ノード {}: トルク ON のため、出力が一旦 OFF になり、その位置で再び ON になります\n",
+};
+inline constexpr Text question_erase{
+    "node {}: everything to factory defaults, servo_id {} -> 0, static_node_id {} -> 0; "
+    "commands become 0 deg\n",
+    "ノード {}: 全ての設定を初期値に戻します。servo_id {} -> 0, static_node_id {} -> 0。"
+    "指令値は 0° になります\n",
+};
+inline constexpr Text question_erase_keep{
+    "node {}: everything but its IDs to factory defaults; commands become 0 deg\n",
+    "ノード {}: ID 以外の設定を初期値に戻します。指令値は 0° になります\n",
+};
+inline constexpr Text back_not_verified{"node {} is back, but its values were not read again",
+                                        "ノード {} は復帰しましたが、値を再確認していません"};
+inline constexpr Text passage_done{"done", "完了"};
+inline constexpr Text passage_back{"done: back as node {} after {} s",
+                                   "完了: ノード {} として {} 秒で復帰"};
+inline constexpr Text passage_values{", {} values read again", "、{} 項目を再読出し"};
+inline constexpr Text passage_back_failed{"failed (back as node {})",
+                                          "失敗 (ノード {} として復帰)"};
+inline constexpr Text passage_failed{"failed", "失敗"};
+inline constexpr Text wait_there{"operational", "動作中"};
+inline constexpr Text wait_not_ready{"not operational", "未動作"};
+inline constexpr Text wait_not_operational{"node {} was heard but not operational after {} s",
+                                           "ノード {} は {} 秒待っても動作状態になりません"};
+inline constexpr Text wait_not_heard{"node {} was not heard within {} s",
+                                     "ノード {} は {} 秒以内に見つかりません"};
+
 } // namespace blactl::texts

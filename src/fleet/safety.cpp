@@ -106,14 +106,10 @@ Error doubled(dronecan::NodeId id) {
           say<texts::doubled_target_hint>(), id.value()};
 }
 
-std::optional<Error> forbidden(Session& session, std::span<const Change> changes,
-                               const ReadJob& values, bool while_driven) {
+std::optional<Error> forbidden(Session& session, const Member& servo, bool moves,
+                               bool while_driven) {
   const Roster& roster = session.roster();
-  const Member& servo = values.member();
   const std::uint8_t id = servo.id.value();
-  if (std::ranges::none_of(changes, is_planned)) {
-    return std::nullopt;
-  }
   if (roster.is_doubled(servo.id)) {
     return doubled(servo.id);
   }
@@ -124,13 +120,27 @@ std::optional<Error> forbidden(Session& session, std::span<const Change> changes
   if (const auto by = roster.armed_by()) {
     return Error{Code::armed, say<texts::armed>(by->value()), say<texts::armed_hint>(), id};
   }
-  const bool moves = std::ranges::any_of(changes, [&](const Change& change) {
-    return is_planned(change) && may_move(change, values);
-  });
   const auto driver = roster.driver_of(servo, session.now());
   if (moves && driver && !while_driven) {
     return Error{Code::driven, say<texts::driven>(driver->value(), id), say<texts::driven_hint>(),
                  id};
+  }
+  return std::nullopt;
+}
+
+std::optional<Error> forbidden(Session& session, std::span<const Change> changes,
+                               const ReadJob& values, bool while_driven) {
+  const Roster& roster = session.roster();
+  const Member& servo = values.member();
+  const std::uint8_t id = servo.id.value();
+  if (std::ranges::none_of(changes, is_planned)) {
+    return std::nullopt;
+  }
+  const bool moves = std::ranges::any_of(changes, [&](const Change& change) {
+    return is_planned(change) && may_move(change, values);
+  });
+  if (auto error = forbidden(session, servo, moves, while_driven)) {
+    return error;
   }
   for (const Change& change : changes) {
     if (gives_node_id(change) && change.requested == roster.local().value()) {

@@ -24,9 +24,14 @@ namespace blactl::fleet {
 /// That nothing is written to a node ID which two units have: duplicate_node_id.
 [[nodiscard]] Error doubled(dronecan::NodeId id);
 
+/// Why nothing at all may be sent to this servo now that changes it, as far as the bus was heard.
+/// Errors: duplicate_node_id, state (it restarted since it was identified), armed, and driven
+/// unless `while_driven`, if what shall be sent `moves` it.
+[[nodiscard]] std::optional<Error> forbidden(Session& session, const Member& servo, bool moves,
+                                             bool while_driven);
+
 /// Why these changes must not be written to this servo now, as far as the bus was heard.
-/// Errors: duplicate_node_id, armed, driven (what may move, unless `while_driven`), out_of_range
-/// (a static node ID that another node has).
+/// Errors: as above; out_of_range (a static node ID that another node has).
 [[nodiscard]] std::optional<Error> forbidden(Session& session, std::span<const Change> changes,
                                              const ReadJob& values, bool while_driven);
 

@@ -104,6 +104,16 @@ inline constexpr Text node_id_in_use{"static_node_id={} is in use by another nod
 inline constexpr Text node_id_in_use_hint{"see which IDs are taken: blactl scan",
                                           "使用中の ID を確認: blactl scan"};
 
+inline constexpr Text defaults_unknown{
+    "node {}: the model is not known well enough to tell the default of {}",
+    "ノード {}: 機種を特定できないため、{} の初期値が不明です",
+};
+inline constexpr Text defaults_unknown_hint{
+    "see what it says of itself: blactl get --group product",
+    "機種情報を確認: blactl get --group product",
+};
+inline constexpr Text holds_instead{"{} is {} instead of {}", "{} は {} (期待値 {})"};
+inline constexpr Text values_differ{"node {}: {}", "ノード {}: {}"};
 inline constexpr Text not_begun{"node {}: interrupted before anything was sent",
                                 "ノード {}: 送信前に中断されました"};
 inline constexpr Text another_servo{"node {} is another servo now: nothing was sent",
