@@ -2,6 +2,7 @@
 
 #include "texts.hpp"
 
+#include <poll.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -79,6 +80,18 @@ void Reporter::ask(std::string_view question) const {
 
 Result<void> Reporter::data(std::string_view text) const {
   return write_all(STDOUT_FILENO, text);
+}
+
+Result<bool> Reporter::offer(std::string_view line) const {
+  // A pipe that can be written takes PIPE_BUF bytes, and a line is shorter.
+  pollfd room{.fd = STDOUT_FILENO, .events = POLLOUT, .revents = 0};
+  if (poll(&room, 1, 0) == 0) {
+    return false;
+  }
+  if (const auto written = data(line); !written) {
+    return std::unexpected(written.error());
+  }
+  return true;
 }
 
 std::string Reporter::render(const Report& report) const {

@@ -43,6 +43,10 @@ class Reporter {
   /// A piece of data on stdout at once, for streams. Errors: io.
   [[nodiscard]] Result<void> data(std::string_view text) const;
 
+  /// As data(), for a command that must not wait for a slow reader: false if stdout has no room for
+  /// a line now, then nothing is printed. Errors: io.
+  [[nodiscard]] Result<bool> offer(std::string_view line) const;
+
   /// Prints the report and returns the exit status: 1 if stdout could not be written.
   [[nodiscard]] int finish(const Report& report) const;
 

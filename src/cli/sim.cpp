@@ -6,6 +6,7 @@
 
 #include "bus_factory.hpp"
 #include "commands.hpp"
+#include "sim_events.hpp"
 #include "texts.hpp"
 
 #include <signal.h>
@@ -33,8 +34,12 @@ Result<void> say_ready(const Context& context) {
   return context.reporter().data(json ? "{\"event\":\"ready\"}\n" : "ready\n");
 }
 
-/// A signal that ends the simulator, or a broken interface; else the loop goes on.
-bool ends(const can::Event& event, Report& report) {
+/// A signal that ends the simulator, a broken interface or stdout; else the loop goes on.
+bool ends(const can::Event& event, const SimEvents& events, Report& report) {
+  if (events.error()) {
+    report.fail(*events.error());
+    return true;
+  }
   if (const auto* signal = std::get_if<can::Signal>(&event); signal && signal->number != SIGWINCH) {
     report.signal = signal->number;
     return true;
@@ -49,22 +54,22 @@ bool ends(const can::Event& event, Report& report) {
 /// Serves the simulated bus on a socket until a signal comes.
 void serve(const std::string& socket, const sim::Scenario& scenario, const Context& context,
            Report& report) {
-  const auto server = sim::Server::open(socket, scenario);
+  can::Loop loop(nullptr);
+  SimEvents events(context.reporter(), loop, scenario.clock);
+  const auto server = sim::Server::open(
+      socket, scenario, [&events](const sim::ServoEvent& event) { events.print(event); });
   if (!server) {
     return report.fail(server.error());
   }
-  can::Loop loop(nullptr);
   loop.watch((*server)->descriptor());
   context.reporter().note(say<texts::sim_serves>(printable(socket), scenario.servos.size()));
   if (auto said = say_ready(context); !said) {
     return report.fail(said.error());
   }
-  for (;;) {
-    if (ends(loop.next((*server)->next_deadline(loop.now())), report)) {
-      return;
-    }
+  while (!ends(loop.next((*server)->next_deadline(loop.now())), events, report)) {
     (*server)->service();
   }
+  events.tell_losses(report);
 }
 
 /// Puts the servos on a real interface until a signal comes or the interface goes.
@@ -75,7 +80,9 @@ void join(const std::string& name, const sim::Scenario& scenario, const bla::Pro
     return report.fail(bus.error());
   }
   can::Loop loop(std::move(bus->bus));
-  sim::Interface interface(loop, scenario);
+  SimEvents events(context.reporter(), loop, sim::Clock::real);
+  sim::Interface interface(loop, scenario,
+                           [&events](const sim::ServoEvent& event) { events.print(event); });
   report.interface = loop.bus().name();
   context.reporter().note(say<texts::sim_serves>(name, scenario.servos.size()));
   if (auto said = say_ready(context); !said) {
@@ -83,11 +90,12 @@ void join(const std::string& name, const sim::Scenario& scenario, const bla::Pro
   }
   for (;;) {
     const can::Event event = loop.next(interface.next_deadline());
-    if (ends(event, report)) {
-      return;
+    if (ends(event, events, report)) {
+      break;
     }
     interface.handle(event);
   }
+  events.tell_losses(report);
 }
 
 } // namespace

@@ -198,6 +198,11 @@ inline constexpr Text models_not_saved{"not kept by save", "保存対象外"};
 // sim
 inline constexpr Text sim_serves{"{}: simulated servos: {} (Ctrl-C ends)",
                                  "{}: サーボ {} 台をシミュレート中 (Ctrl-C で終了)"};
+inline constexpr Text sim_event{"{}  {}  serial {}  node {}  count {}",
+                                "{}  {}  製造番号 {}  ノード {}  書込み回数 {}"};
+inline constexpr Text sim_events_dropped{
+    "events that nobody read in time and that are not printed: {}",
+    "読み取られなかったため出力していないイベント: {}"};
 inline constexpr Text scenario_is_argument{"-i {}: a scenario is an argument of sim",
                                            "-i {}: シナリオは sim の引数で指定します"};
 inline constexpr Text scenario_is_argument_hint{"blactl sim {}", "blactl sim {}"};

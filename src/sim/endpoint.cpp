@@ -19,11 +19,19 @@ std::optional<std::uint64_t> signature_of(dronecan::Kind kind, std::uint16_t dat
 
 } // namespace
 
+Endpoint::Endpoint(std::vector<std::uint16_t> subscriptions, Handler handler)
+    : subscriptions_(std::move(subscriptions)), handler_(std::move(handler)) {
+  restart();
+}
+
 // The receiver listens for every node ID (0): which frames are meant for this one is decided by
 // wants(), because its ID is known later only.
-Endpoint::Endpoint(std::vector<std::uint16_t> subscriptions, Handler handler)
-    : subscriptions_(std::move(subscriptions)),
-      receiver_(sessions, dronecan::anonymous, {std::move(handler), {}, signature_of}) {}
+void Endpoint::restart() {
+  node_id_ = {};
+  next_transfer_id_.clear();
+  receiver_.emplace(sessions, dronecan::anonymous,
+                    dronecan::Receiver::Callbacks{handler_, {}, signature_of});
+}
 
 bool Endpoint::wants(const dronecan::Header& header) const {
   if (header.kind == dronecan::Kind::message) {
@@ -38,7 +46,7 @@ void Endpoint::receive(const can::Frame& frame, Time at) {
   }
   const auto header = dronecan::decode_id(frame.id);
   if (header && wants(*header)) {
-    receiver_.receive(frame, at);
+    receiver_->receive(frame, at);
   }
 }
 

@@ -15,8 +15,8 @@ constexpr std::size_t nobody = static_cast<std::size_t>(-1);
 
 } // namespace
 
-Interface::Interface(can::Loop& loop, const Scenario& scenario)
-    : loop_(loop), devices_(make_devices(scenario, loop.now())) {
+Interface::Interface(can::Loop& loop, const Scenario& scenario, const EventSink& sink)
+    : loop_(loop), devices_(make_devices(scenario, loop.now(), sink).all) {
   for (std::size_t i = 0; i < devices_.size(); ++i) {
     devices_[i]->connect([this, i](const can::Frame& frame) { send(i, frame); });
   }

@@ -32,6 +32,14 @@ constexpr std::array production_date{std::pair{Address{0x58}, 2025}, std::pair{A
                                      std::pair{Address{0x5A}, 22}, std::pair{Address{0x5B}, 15},
                                      std::pair{Address{0x5C}, 30}};
 
+/// -180.0 to +179.9 deg: a servo knows the position in a turn, not the turns (4.1).
+std::int64_t within_one_turn(std::int64_t decidegrees) {
+  constexpr std::int64_t turn = 3600;
+  constexpr std::int64_t half = turn / 2;
+  const std::int64_t from_lowest = (decidegrees + half) % turn;
+  return (from_lowest < 0 ? from_lowest + turn : from_lowest) - half;
+}
+
 /// Requirement 166: a bit for each level and byte (group of causes) of 0x19-0x1B.
 std::int64_t summary(std::int64_t notice, std::int64_t warning, std::int64_t failure) {
   const std::array levels{notice, warning, failure};
@@ -50,19 +58,10 @@ std::int64_t summary(std::int64_t notice, std::int64_t warning, std::int64_t fai
 Registers::Registers(const ServoSetup& setup)
     : profile_(setup.profile), firmware_version_(setup.firmware_version),
       behaviour_(setup.behaviour) {
-  load_defaults();
-  store(servo_id, setup.servo_id);
-  store(static_node_id, setup.node_id);
-  store(model_number, setup.model_number);
-  store(serial_number, setup.serial_number);
-  store(firmware_version, setup.firmware_version);
-  store(hardware_version, setup.hardware_version);
-  for (const auto& [address, value] : setup.ram) {
-    store(address, value);
-  }
+  power_on(setup);
 }
 
-void Registers::load_defaults() {
+void Registers::power_on(const ServoSetup& setup) {
   for (const bla::Parameter& parameter : profile_->parameters) {
     store(parameter.address, parameter.default_raw.value_or(0));
   }
@@ -71,6 +70,45 @@ void Registers::load_defaults() {
   for (const auto& [address, value] : production_date) {
     store(address, value);
   }
+  store(servo_id, setup.servo_id);
+  store(static_node_id, setup.node_id);
+  store(model_number, setup.model_number);
+  store(serial_number, setup.serial_number);
+  store(firmware_version, setup.firmware_version);
+  store(hardware_version, setup.hardware_version);
+  for (const auto& [address, value] : setup.rom) {
+    store(address, value);
+  }
+  save();
+  for (const auto& [address, value] : setup.ram) {
+    store(address, value);
+  }
+}
+
+void Registers::save() {
+  for (const bla::Parameter& parameter : profile_->parameters) {
+    if (parameter.saved) {
+      rom_[parameter.address.value() % count] = value(parameter.address);
+    }
+  }
+}
+
+void Registers::initialize() {
+  for (const bla::Parameter& parameter : profile_->parameters) {
+    if (parameter.saved || parameter.group == bla::Group::command) {
+      store(parameter.address, parameter.default_raw.value_or(0));
+    }
+  }
+}
+
+void Registers::restart() {
+  initialize(); // of the commands; what is saved comes from ROM
+  for (const bla::Parameter& parameter : profile_->parameters) {
+    if (parameter.saved) {
+      store(parameter.address, rom_value(parameter.address));
+    }
+  }
+  store(current_angle, within_one_turn(value(current_angle)));
 }
 
 void Registers::store(Address address, std::int64_t value) {
@@ -85,6 +123,10 @@ std::int64_t Registers::value(Address address) const {
     return summary(value(fault_notice), value(fault_warning), value(fault_failure));
   }
   return values_[address.value()];
+}
+
+std::int64_t Registers::rom_value(Address address) const {
+  return address > last_address ? 0 : rom_[address.value()];
 }
 
 /// The register as this model and firmware have it.
@@ -132,6 +174,9 @@ std::optional<std::int64_t> Registers::write(Address address, std::int64_t wante
     return value(address);
   }
   const std::int64_t taken = std::clamp(wanted, low, high);
+  if (parameter->group == bla::Group::operation) {
+    return taken;
+  }
   store(address, taken);
   if (std::ranges::find(commands, address) != commands.end()) {
     for (const Address other : commands) {

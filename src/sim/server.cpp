@@ -33,9 +33,9 @@ Time monotonic_now() {
 } // namespace
 
 struct Server::State {
-  State(const Scenario& scenario, std::unique_ptr<ListeningSocket> socket)
+  State(const Scenario& scenario, const EventSink& sink, std::unique_ptr<ListeningSocket> socket)
       : clock(scenario.clock), listening(std::move(socket)),
-        simulator(scenario, clock == Clock::simulated ? Time{} : monotonic_now()),
+        simulator(scenario, clock == Clock::simulated ? Time{} : monotonic_now(), sink),
         epoll(epoll_create1(EPOLL_CLOEXEC)) {}
 
   State(const State&) = delete;
@@ -132,12 +132,12 @@ Server::Server(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Server::~Server() = default;
 
 Result<std::unique_ptr<Server>> Server::open(const std::filesystem::path& socket,
-                                             const Scenario& scenario) {
+                                             const Scenario& scenario, const EventSink& sink) {
   auto listening = ListeningSocket::open(socket);
   if (!listening) {
     return std::unexpected(listening.error());
   }
-  auto state = std::make_unique<State>(scenario, *std::move(listening));
+  auto state = std::make_unique<State>(scenario, sink, *std::move(listening));
   if (state->epoll < 0 || !state->watch(state->listening->descriptor())) {
     const std::string reason = std::generic_category().message(errno);
     return fail(Code::interface, say<texts::sim_cannot_serve>(printable(socket.string()), reason));

@@ -1,28 +1,18 @@
 #include "blactl/sim/servo.hpp"
 
-#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <limits>
-#include <utility>
 #include <variant>
 
 namespace blactl::sim {
 
-using namespace std::chrono_literals;
+using dronecan::ExecuteOpcode;
+using dronecan::GetSet;
 using dronecan::Kind;
+using dronecan::RestartNode;
 
 namespace {
-
-// Section 2.2.
-constexpr Duration node_status_period = 1s;
-constexpr Duration status_period = 100ms;
-constexpr dronecan::Priority status_priority = 16;
-constexpr dronecan::Priority allocation_priority = 24;
-
-/// unproven: how long a servo takes from power to its first frame; each a little different.
-constexpr Duration min_boot_time = 50ms;
-constexpr Duration max_boot_time = 150ms;
 
 /// Answers that wait for their time; a request beyond that is not served.
 constexpr std::size_t max_answers = 16;
@@ -50,80 +40,20 @@ struct Version {
 
 } // namespace
 
-Servo::Servo(const ServoSetup& setup, std::uint64_t seed, Time power_on)
-    : setup_(setup), random_(seed), registers_(setup),
-      endpoint_({dronecan::Allocation::type.id},
-                [this](const dronecan::Transfer& transfer) { handle(transfer); }),
-      started_(power_on + random_.between(min_boot_time, max_boot_time)), now_(power_on) {}
-
-void Servo::receive(const can::Frame& frame, Time at) {
-  now_ = at;
-  if (running_) {
-    endpoint_.receive(frame, at);
-  }
-}
-
-Time Servo::next_deadline() const {
-  if (!running_) {
-    return started_;
-  }
-  if (allocatee_) {
-    return allocatee_->next_deadline();
-  }
-  const Time next = std::min(next_node_status_, next_status_);
-  return answers_.empty() ? next : std::min(next, answers_.front().due);
-}
-
-void Servo::advance(Time now) {
-  now_ = now;
-  if (!running_) {
-    if (now < started_) {
-      return;
-    }
-    start(now);
-  }
-  if (allocatee_) {
-    if (const auto request = allocatee_->advance(now)) {
-      send_message(dronecan::Allocation::type, allocation_priority, request->encode());
-    }
+// unproven: that a servo which is about to go down takes no further requests.
+void Servo::handle(const dronecan::Transfer& transfer) {
+  if (departure_) {
     return;
   }
-  send_answers(now);
-  if (next_node_status_ <= now) {
-    next_node_status_ += node_status_period;
-    send_message(dronecan::NodeStatus::type, status_priority, node_status(now).encode());
-  }
-  if (next_status_ <= now) {
-    next_status_ += status_period;
-    send_message(dronecan::ActuatorStatus::type, status_priority, actuator_status().encode());
-  }
-}
-
-void Servo::start(Time now) {
-  running_ = true;
-  const dronecan::NodeId id(
-      static_cast<std::uint8_t>(registers_.value(bla::address::static_node_id)));
-  if (id.is_unicast()) {
-    operate(id, now);
-  } else {
-    allocatee_.emplace(setup_.unique_id, random_.next(), now);
-  }
-}
-
-void Servo::operate(dronecan::NodeId id, Time now) {
-  allocatee_.reset();
-  endpoint_.set_node_id(id);
-  next_node_status_ = next_status_ = now;
-}
-
-void Servo::handle(const dronecan::Transfer& transfer) {
   if (transfer.header.kind == Kind::message) {
     hear_allocation(transfer);
     return;
   }
   switch (transfer.header.data_type_id) {
   case dronecan::GetNodeInfo::type.id: serve_node_info(transfer); break;
-  case dronecan::GetSet::type.id: serve_get_set(transfer); break;
+  case GetSet::type.id: serve_get_set(transfer); break;
+  case ExecuteOpcode::type.id: serve_opcode(transfer); break;
+  case RestartNode::type.id: serve_restart(transfer); break;
   default: break; // requirement 8: no answer
   }
 }
@@ -154,7 +84,7 @@ void Servo::serve_node_info(const dronecan::Transfer& request) {
 }
 
 /// Requirement 69: a name wins over an index.
-std::optional<bla::Address> Servo::addressed(const dronecan::GetSet::Request& request) const {
+std::optional<bla::Address> Servo::addressed(const GetSet::Request& request) const {
   if (!request.name.empty()) {
     return address_of(request.name);
   }
@@ -165,31 +95,104 @@ std::optional<bla::Address> Servo::addressed(const dronecan::GetSet::Request& re
   return bla::Address(static_cast<std::uint8_t>(request.index));
 }
 
+/// Empty value: a failure.
+dronecan::Payload Servo::get_set_answer(const GetSet::Request& request,
+                                        std::optional<std::int64_t> value) const {
+  const auto address = addressed(request);
+  GetSet::Response response;
+  if (value) {
+    response.value = *value;
+    response.name = address->name();
+  } else if (setup_.behaviour.failure_with_name) {
+    response.name = address ? address->name() : request.name;
+  }
+  return response.encode();
+}
+
 void Servo::serve_get_set(const dronecan::Transfer& transfer) {
-  const auto request = dronecan::GetSet::Request::decode(transfer.payload);
+  const auto request = GetSet::Request::decode(transfer.payload);
   if (!request) {
     return;
   }
   const auto address = addressed(*request);
   const auto* integer = std::get_if<std::int64_t>(&request->value);
-  const bla::Parameter* parameter = address ? setup_.profile->find(*address) : nullptr;
-  if (integer != nullptr && parameter != nullptr && parameter->group == bla::Group::operation) {
-    return; // intentional: what 0x10-0x12 do is not simulated
-  }
   std::optional<std::int64_t> value;
   if (address && integer != nullptr) {
     value = registers_.write(*address, *integer);
-  } else if (address && std::holds_alternative<dronecan::GetSet::Empty>(request->value)) {
+  } else if (address && std::holds_alternative<GetSet::Empty>(request->value)) {
     value = registers_.read(*address);
   }
-  dronecan::GetSet::Response response;
-  if (value) {
-    response.value = *value;
-    response.name = address->name();
-  } else if (setup_.behaviour.failure_with_name) {
-    response.name = address ? address->name() : request->name;
+  const auto done = get_set_answer(*request, value);
+  const auto order = integer != nullptr && value == 1 ? order_at(*address) : std::nullopt;
+  if (order) {
+    serve_order(*order, transfer, GetSet::type, done, get_set_answer(*request, std::nullopt));
+  } else {
+    answer(transfer, GetSet::type, done);
   }
-  answer(transfer, dronecan::GetSet::type, response.encode());
+}
+
+std::optional<Servo::Order> Servo::order_at(bla::Address address) {
+  if (address == bla::address::initialize) {
+    return Order::erase;
+  }
+  if (address == bla::address::reboot) {
+    return Order::restart;
+  }
+  return address == bla::address::write_rom ? std::optional(Order::save) : std::nullopt;
+}
+
+/// Tables 2-11 to 2-13. The argument is ignored.
+void Servo::serve_opcode(const dronecan::Transfer& transfer) {
+  const auto request = ExecuteOpcode::Request::decode(transfer.payload);
+  if (!request) {
+    return;
+  }
+  const auto done = ExecuteOpcode::Response{.ok = true}.encode();
+  const auto refused = ExecuteOpcode::Response{.ok = false}.encode();
+  switch (request->opcode) {
+  case ExecuteOpcode::save:
+    serve_order(Order::save, transfer, ExecuteOpcode::type, done, refused);
+    break;
+  case ExecuteOpcode::erase:
+    serve_order(Order::erase, transfer, ExecuteOpcode::type, done, refused);
+    break;
+  default: answer(transfer, ExecuteOpcode::type, refused); break;
+  }
+}
+
+void Servo::serve_restart(const dronecan::Transfer& transfer) {
+  const auto request = RestartNode::Request::decode(transfer.payload);
+  if (!request) {
+    return;
+  }
+  const auto refused = RestartNode::Response{.ok = false}.encode();
+  if (request->magic_number == RestartNode::magic) {
+    serve_order(Order::restart, transfer, RestartNode::type,
+                RestartNode::Response{.ok = true}.encode(), refused);
+  } else {
+    answer(transfer, RestartNode::type, refused);
+  }
+}
+
+void Servo::serve_order(Order order, const dronecan::Transfer& request,
+                        const dronecan::DataType& type, const dronecan::Payload& done,
+                        const dronecan::Payload& refused) {
+  ServoFaults& faults = setup_.faults;
+  if (faults.ignore_opcodes > 0) {
+    --faults.ignore_opcodes;
+    return;
+  }
+  if (faults.refuse_opcodes) {
+    answer(request, type, refused);
+    return;
+  }
+  const bool answers = order != Order::save || setup_.behaviour.answers_save_first;
+  if (faults.lose_opcode_answers > 0) {
+    --faults.lose_opcode_answers;
+  } else if (answers) {
+    answer(request, type, done);
+  }
+  obey(order, answers);
 }
 
 void Servo::answer(const dronecan::Transfer& request, const dronecan::DataType& type,

@@ -2,7 +2,6 @@
 
 #include "blactl/sim/foreign_node.hpp"
 #include "blactl/sim/random.hpp"
-#include "blactl/sim/servo.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -15,14 +14,17 @@ constexpr std::size_t device_queue = 64;
 
 } // namespace
 
-std::vector<std::unique_ptr<Device>> make_devices(const Scenario& scenario, Time power_on) {
-  std::vector<std::unique_ptr<Device>> devices;
+Devices make_devices(const Scenario& scenario, Time power_on, const EventSink& sink) {
+  Devices devices;
   for (const ServoSetup& setup : scenario.servos) {
-    const std::uint64_t seed = seed_of(scenario.seed, devices.size());
-    devices.push_back(std::make_unique<Servo>(setup, seed, power_on));
+    const std::uint64_t seed = seed_of(scenario.seed, devices.all.size());
+    auto servo = std::make_unique<Servo>(setup, seed, power_on);
+    servo->report_to(sink);
+    devices.servos.push_back(servo.get());
+    devices.all.push_back(std::move(servo));
   }
   for (const ForeignSetup& setup : scenario.foreign) {
-    devices.push_back(std::make_unique<ForeignNode>(setup, power_on));
+    devices.all.push_back(std::make_unique<ForeignNode>(setup, power_on));
   }
   return devices;
 }
@@ -51,8 +53,11 @@ class Simulator::Station final : public Medium::Listener {
   std::unique_ptr<Device> device_;
 };
 
-Simulator::Simulator(const Scenario& scenario, Time power_on) : now_(power_on) {
-  for (auto& device : make_devices(scenario, power_on)) {
+Simulator::Simulator(const Scenario& scenario, Time power_on, const EventSink& sink)
+    : now_(power_on) {
+  Devices devices = make_devices(scenario, power_on, sink);
+  servos_ = std::move(devices.servos);
+  for (auto& device : devices.all) {
     stations_.push_back(std::make_unique<Station>(std::move(device), medium_, now_));
   }
 }

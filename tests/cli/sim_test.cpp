@@ -1,7 +1,11 @@
+#include "blactl/dronecan/types.hpp"
+
 #include "catch.hpp"
 #include "scene.hpp"
 #include "tap.hpp"
 
+#include <algorithm>
+#include <chrono>
 #include <filesystem>
 
 using namespace blactl::test;
@@ -13,6 +17,12 @@ const Arguments get_servo_id{"-i", "sim:", "get", "-n", "11", "servo_id"};
 /// Asks a question, and holds its node ID until it is answered.
 const Arguments asking{"-i", "sim:", "--color", "never", "set", "-n", "11", "torque_output=off"};
 constexpr std::string_view question = "Go on?";
+
+using blactl::dronecan::ExecuteOpcode;
+
+void order(Visitor& visitor, std::uint8_t opcode) {
+  visitor.ask(ExecuteOpcode::type, ExecuteOpcode::Request{.opcode = opcode}.encode());
+}
 
 } // namespace
 
@@ -39,6 +49,77 @@ TEST_CASE("sim --json is a stream of ready and the end") {
   CHECK(lines[1]["command"] == "sim");
   CHECK(lines[1]["exit_status"] == 143);
   CHECK(lines[1]["errors"].is_array());
+}
+
+TEST_CASE("sim prints what happens to its servos, a line each, as it happens") {
+  const Bench bench;
+  Background sim(bench, {"sim"});
+  Visitor visitor(bench, 11);
+  order(visitor, ExecuteOpcode::erase);
+  sim.expect("  erase  serial 240900001  node 11  count 0\n");
+  order(visitor, ExecuteOpcode::save);
+  sim.expect("  rom_write  serial 240900001  node 11  count 1\n");
+  sim.expect("  restart  serial 240900001  node 11  count 1\n");
+  const Result ended = sim.stop();
+  CHECK(ended.status == 143);
+  CHECK(ended.out.starts_with("ready\n"));
+  CHECK(std::ranges::count(ended.out, '\n') == 4);
+}
+
+TEST_CASE("sim --json prints events as objects, with Unix time") {
+  const Bench bench;
+  const std::string scenario = bench.file("scenario.json", R"({"schema": "blactl-scenario/1",
+      "servos": [{"model": "BLA21-12U-AB", "node_id": 11, "serial_number": 240900558,
+                  "unique_id": "00112233445566778899aabbccddeeff"}]})");
+  Background sim(bench, {"sim", scenario, "--json"}, {}, R"({"event":"ready"})");
+  Visitor visitor(bench, 11);
+  order(visitor, ExecuteOpcode::save);
+  sim.expect(R"("event":"restart")");
+  const Result ended = sim.stop();
+  const auto lines = json_lines(ended.out);
+  REQUIRE(lines.size() == 4);
+  CHECK(lines[0] == nlohmann::json{{"event", "ready"}});
+  CHECK(contains(ended.out,
+                 R"(,"event":"rom_write","unique_id":"00112233445566778899aabbccddeeff",)"
+                 R"("serial_number":240900558,"node_id":11,"count":1})"));
+  CHECK(lines[1]["time"] <= lines[2]["time"]);
+  const auto now =
+      std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch());
+  CHECK(lines[1]["time"].get<double>() > now.count() - 100);
+  CHECK(lines[1]["time"].get<double>() < now.count() + 1);
+  CHECK(lines[3]["counts"].empty());
+}
+
+TEST_CASE("a sim whose output nobody wants to read any more goes on") {
+  const Bench bench;
+  Background sim(bench, {"sim"}, {.leave_after = "ready\n"});
+  Visitor visitor(bench, 11);
+  for (const std::uint8_t opcode : {ExecuteOpcode::erase, ExecuteOpcode::erase}) {
+    order(visitor, opcode);
+  }
+  order(visitor, ExecuteOpcode::save);
+  CHECK(bench.run({"-i", "sim:", "get", "-n", "12", "servo_id"}).status == 0);
+  const Result ended = sim.stop();
+  CHECK(ended.status == 143);
+  CHECK(codes(ended).empty());
+}
+
+// A pipe holds 64 KiB; a script that waited for `ready` may never read on.
+TEST_CASE("a sim whose output is not read does not wait for the reader") {
+  const Bench bench;
+  Background sim(bench, {"sim", "--json"}, {}, R"({"event":"ready"})");
+  Visitor visitor(bench, 11);
+  constexpr int orders = 700;
+  for (int i = 0; i < orders; ++i) {
+    order(visitor, ExecuteOpcode::erase);
+  }
+  const Result ended = sim.stop();
+  CHECK(ended.status == 143);
+  const auto lines = json_lines(ended.out);
+  const auto& dropped = lines.back()["counts"]["events_dropped"];
+  CHECK(dropped > 0);
+  CHECK(lines.size() + dropped.get<std::size_t>() == orders + 2);
+  CHECK(contains(ended.err, "events that nobody read in time"));
 }
 
 TEST_CASE("sim keeps what its clients wrote") {

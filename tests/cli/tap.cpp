@@ -11,6 +11,8 @@
 namespace blactl::test {
 namespace {
 
+constexpr dronecan::NodeId visitor(100);
+
 bool is_from(const can::Frame& frame, int source) {
   const auto header = dronecan::decode_id(frame.id);
   return header && header->source.value() == source;
@@ -88,6 +90,42 @@ void Tap::wait_for(int source) {
     }
     wait_for_frames(*bus_, 1000);
   }
+}
+
+Visitor::Visitor(const Bench& bench, std::uint8_t servo) : bus_(join(bench)), servo_(servo) {
+  wait_for(dronecan::Kind::message);
+}
+
+void Visitor::ask(const dronecan::DataType& type, const dronecan::Payload& request) {
+  const dronecan::Header header{
+      dronecan::Kind::request, dronecan::priority_service, type.id, visitor, servo_, 0};
+  for (const can::Frame& frame :
+       dronecan::segment(header, transfer_id_, type.signature, request.bytes())) {
+    if (!bus_->send(frame).value_or(false)) {
+      throw std::runtime_error("the simulator does not take a frame");
+    }
+  }
+  transfer_id_ =
+      static_cast<dronecan::TransferId>((transfer_id_ + 1) % dronecan::transfer_id_modulus);
+  wait_for(dronecan::Kind::response);
+}
+
+/// Until a transfer of the servo has begun, a response of it to this node.
+void Visitor::wait_for(dronecan::Kind kind) {
+  const Time end = bus_->now() + 20s;
+  while (bus_->now() < end) {
+    while (const auto event = bus_->receive()) {
+      const auto* received = std::get_if<can::Received>(&*event);
+      const auto heard =
+          received != nullptr ? dronecan::decode_id(received->frame.id) : std::nullopt;
+      if (heard && heard->kind == kind && heard->source == servo_ &&
+          (kind == dronecan::Kind::message || heard->destination == visitor)) {
+        return;
+      }
+    }
+    wait_for_frames(*bus_, 1000);
+  }
+  throw std::runtime_error("the servo is not heard");
 }
 
 Guest::Guest(const Bench& bench, const sim::ForeignSetup& setup)

@@ -3,6 +3,7 @@
 // habits that no scenario file can spell.
 
 #include "blactl/can/simbus.hpp"
+#include "blactl/dronecan/payload.hpp"
 #include "blactl/dronecan/transfer.hpp"
 #include "blactl/sim/scenario.hpp"
 
@@ -36,6 +37,23 @@ class Tap {
   [[nodiscard]] std::vector<can::Frame> take();
 
   std::unique_ptr<can::SimBus> bus_;
+};
+
+/// Node 100: demands of one servo what blactl would not.
+class Visitor {
+ public:
+  /// Waits until the servo is on the bus.
+  Visitor(const Bench& bench, std::uint8_t servo);
+
+  /// Asks once and waits for the answer.
+  void ask(const dronecan::DataType& type, const dronecan::Payload& request);
+
+ private:
+  void wait_for(dronecan::Kind kind);
+
+  std::unique_ptr<can::SimBus> bus_;
+  dronecan::NodeId servo_;
+  dronecan::TransferId transfer_id_ = 0;
 };
 
 /// A node that is no servo, on the bus as long as this object lives.

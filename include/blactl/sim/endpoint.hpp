@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -26,6 +27,9 @@ class Endpoint {
 
   void set_node_id(dronecan::NodeId id) { node_id_ = id; }
 
+  /// As after power-on: no ID, transfer IDs from 0, nothing half received.
+  void restart();
+
   void receive(const can::Frame& frame, Time at);
 
   /// The frames of a message from this node; anonymous while it has no ID.
@@ -42,9 +46,10 @@ class Endpoint {
   [[nodiscard]] bool wants(const dronecan::Header& header) const;
 
   std::vector<std::uint16_t> subscriptions_;
+  Handler handler_;
   dronecan::NodeId node_id_;
   std::map<std::uint16_t, dronecan::TransferId> next_transfer_id_;
-  dronecan::Receiver receiver_;
+  std::optional<dronecan::Receiver> receiver_; ///< there always is one
 };
 
 } // namespace blactl::sim

@@ -3,6 +3,7 @@
 
 #include "blactl/can/loop.hpp"
 #include "blactl/sim/device.hpp"
+#include "blactl/sim/event.hpp"
 #include "blactl/sim/scenario.hpp"
 
 #include <cstddef>
@@ -19,8 +20,8 @@ namespace blactl::sim {
 class Interface {
  public:
   /// Powers the devices on, on the clock of `loop`, whatever the scenario says of clocks. `loop`
-  /// and the scenario's profiles must outlive this.
-  Interface(can::Loop& loop, const Scenario& scenario);
+  /// and the scenario's profiles must outlive this. `sink`: who is told what happens to the servos.
+  Interface(can::Loop& loop, const Scenario& scenario, const EventSink& sink = {});
 
   [[nodiscard]] Time next_deadline() const;
 

@@ -36,6 +36,9 @@ class PrivateBus final : public can::Bus {
   [[nodiscard]] WallTime wall() const override;
   [[nodiscard]] Time idle_until(Time deadline) override;
 
+  /// For tests: what the servos hold.
+  [[nodiscard]] const Simulator& simulator() const { return simulator_; }
+
  private:
   class Inbox;
 

@@ -8,18 +8,19 @@
 //     "servos": [
 //       {
 //         "model": "BLA21-12U-AB",   the only key that must be there
-//         "node_id": 11,             register 0x46; 0 (default): asks an allocator
+//         "node_id": 11,             0x46 in ROM; 0 (default): asks an allocator
 //         "unique_id": "00112233445566778899aabbccddeeff",   default: from the serial number
 //         "serial_number": 240900558,      default 240900001 and up
-//         "servo_id": 1,                   default 0
+//         "servo_id": 1,                   0x45 in ROM; default 0
 //         "firmware_version": 1400,        default: the newest of chapter 5
 //         "model_number": 61,              this and the next: default as the model has it
 //         "hardware_version": 12050,
 //         "name": "jp.co.futaba.bla21",    of GetNodeInfo
 //         "answer_delay": "0.5ms",         a value of time; an integer counts us
-//         "ram": {"angle_limit_cw": "90deg", "current_voltage": "11.8V", "fault_warning": 16},
-//         "behaviour": {"out_of_range": "clamp"},
-//         "faults": {"lose_responses": 2}
+//         "rom": {"angle_limit_cw": "90deg"},     of 0x20-0x46; default: as from the factory
+//         "ram": {"reverse": "on", "current_voltage": "11.8V", "fault_warning": 16},
+//         "behaviour": {"out_of_range": "clamp", "rom_write_time": "80ms"},
+//         "faults": {"lose_opcode_answers": 1, "return_delay": "3s"}
 //       }
 //     ],
 //     "foreign": [
@@ -33,6 +34,10 @@
 //       }
 //     ]
 //   }
+//
+// At power-on RAM is what ROM holds, then what "ram" says. A restart brings back what ROM holds by
+// then; what "ram" says of 0x08-0x0C, 0x18-0x1B and 0x50 up is no memory of the servo but the world
+// around it, and stays. "behaviour" has the members of Behaviour, "faults" those of ServoFaults.
 
 #include "blactl/base/error.hpp"
 #include "blactl/base/time.hpp"
@@ -68,26 +73,38 @@ struct Behaviour {
   bool index_only_access = true;                    ///< unproven: GetSet by index = address
   bool failure_with_name = false;                   ///< unproven: table 2-16 prints no name
   bool ignores_disabled_commands = true; ///< unproven: 0x01, 0x02 keep their value while 0x25 = 0
+  bool answers_save_first = true; ///< unproven: SAVE and 0x12; false: there is no answer at all
+  Duration rom_write_time = std::chrono::milliseconds(50); ///< "about 0.05 s" (4.11); up to 10 s
 };
 
-/// What goes wrong with a servo's answers to services.
-struct AnswerFaults {
-  std::uint32_t lose_responses = 0; ///< the first so many answers never reach the bus
-  bool mute = false;                ///< none ever does; its messages go on
+/// What goes wrong with a servo. Orders are SAVE, ERASE, RestartNode with the right magic number,
+/// and 1 written to 0x10, 0x11 or 0x12.
+struct ServoFaults {
+  std::uint32_t lose_responses = 0;      ///< the first so many answers never reach the bus
+  bool mute = false;                     ///< none ever does; its messages go on
+  std::uint32_t lose_opcode_answers = 0; ///< the first so many orders are obeyed without an answer
+  std::uint32_t ignore_opcodes = 0;      ///< the first so many are neither obeyed nor answered
+  bool refuse_opcodes = false;           ///< all are answered with ok=false, or a failure of GetSet
+  bool rom_write_fails = false; ///< ok, silence, restart as ever, and counted, but ROM is as it was
+  bool stays = false;           ///< answers ok and writes ROM, but does not restart
+  bool never_returns = false;   ///< is dead after its first restart
+  Duration return_delay{};      ///< how much longer a restart takes than power-on; up to 600 s
 };
 
 struct ServoSetup {
   const bla::Profile* profile = nullptr; ///< of the Profiles that the scenario was read with
-  std::uint8_t node_id = 0;              ///< 0x46
+  std::uint8_t node_id = 0;              ///< 0x46 in ROM
   dronecan::UniqueId unique_id{};
   std::int64_t serial_number = 0; ///< 0x51
-  std::int64_t servo_id = 0;      ///< 0x45
+  std::int64_t servo_id = 0;      ///< 0x45 in ROM
   std::int64_t model_number = 0, firmware_version = 0, hardware_version = 0;
   std::string name; ///< of GetNodeInfo; unproven what real servos say
   Duration answer_delay = std::chrono::microseconds(500);
-  std::vector<std::pair<bla::Address, std::int64_t>> ram; ///< other than the registers above
+  // Both of other registers than those above.
+  std::vector<std::pair<bla::Address, std::int64_t>> rom; ///< instead of the factory's values
+  std::vector<std::pair<bla::Address, std::int64_t>> ram; ///< over ROM, once at power-on
   Behaviour behaviour;
-  AnswerFaults faults;
+  ServoFaults faults;
 };
 
 /// A stream of ArrayCommand, as an autopilot sends it.

@@ -3,6 +3,7 @@
 
 #include "blactl/base/error.hpp"
 #include "blactl/base/time.hpp"
+#include "blactl/sim/event.hpp"
 #include "blactl/sim/scenario.hpp"
 #include "blactl/sim/simulator.hpp"
 
@@ -23,9 +24,10 @@ class Server {
  public:
   /// Creates the folder of the socket if it is missing (0700), takes the place of a simulator that
   /// was killed, and powers the servos on. The scenario's profiles must outlive the server.
+  /// `sink`: who is told what happens to the servos, always during service().
   /// Errors: busy (another simulator serves there), interface.
-  [[nodiscard]] static Result<std::unique_ptr<Server>> open(const std::filesystem::path& socket,
-                                                            const Scenario& scenario);
+  [[nodiscard]] static Result<std::unique_ptr<Server>>
+  open(const std::filesystem::path& socket, const Scenario& scenario, const EventSink& sink = {});
   ~Server();
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;

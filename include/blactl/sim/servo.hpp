@@ -1,28 +1,34 @@
 #pragma once
-// A simulated BLA servo (sections 2.2, 2.3 and chapters 3, 4).
+// A simulated BLA servo (sections 2.2, 2.3, 4.9-4.11 and chapters 3, 4).
 
 #include "blactl/bla/parameter.hpp"
 #include "blactl/dronecan/types.hpp"
 #include "blactl/sim/allocatee.hpp"
 #include "blactl/sim/device.hpp"
 #include "blactl/sim/endpoint.hpp"
+#include "blactl/sim/event.hpp"
 #include "blactl/sim/random.hpp"
 #include "blactl/sim/registers.hpp"
 #include "blactl/sim/scenario.hpp"
 
+#include <cstdint>
 #include <deque>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace blactl::sim {
 
-/// Answers GetNodeInfo and GetSet, sends NodeStatus and actuator.Status, asks for a node ID.
-/// Not simulated: motion, ROM, restart; ExecuteOpcode, RestartNode and writes to 0x10-0x12 stay
-/// without an answer.
+/// Sends NodeStatus and actuator.Status, asks for a node ID, answers GetNodeInfo, GetSet,
+/// ExecuteOpcode and RestartNode; restarts, and keeps through that what is saved.
+/// Not simulated: motion, ArrayCommand, stored data that cannot be read.
 class Servo final : public Device {
  public:
-  /// `seed`: of its boot time and its allocation requests.
+  /// `seed`: of its boot times and its allocation requests.
   Servo(const ServoSetup& setup, std::uint64_t seed, Time power_on);
+
+  /// Who is told what happens to it.
+  void report_to(EventSink sink) { tell_ = std::move(sink); }
 
   void receive(const can::Frame& frame, Time at) override;
   [[nodiscard]] Time next_deadline() const override;
@@ -31,22 +37,61 @@ class Servo final : public Device {
   /// The address it uses on the bus; 0 while it has none.
   [[nodiscard]] dronecan::NodeId node_id() const { return endpoint_.node_id(); }
 
+  /// RAM and ROM.
   [[nodiscard]] const Registers& registers() const { return registers_; }
 
+  [[nodiscard]] const dronecan::UniqueId& unique_id() const { return setup_.unique_id; }
+
+  /// How often ROM was written since power-on, those included that failed by a fault.
+  [[nodiscard]] std::uint32_t rom_writes() const { return rom_writes_; }
+
  private:
+  enum class Phase : std::uint8_t {
+    boot,      ///< until wake_; `never`: dead
+    run,       ///< with a node ID, or asking for one
+    rom_write, ///< silent until wake_
+  };
+
+  /// What there are three ways to demand: ExecuteOpcode, RestartNode, 1 written to 0x10-0x12.
+  enum class Order : std::uint8_t { save, erase, restart };
+
+  /// An order that ends the run, when its answer has gone out.
+  struct Departure {
+    Time at;
+    bool saves = false;
+  };
+
   struct Answer {
     Time due;
     std::vector<can::Frame> frames;
   };
 
+  // The life of a servo (servo_life.cpp).
+  [[nodiscard]] Duration boot_time();
+  void wake(Time now);
   void start(Time now);
   void operate(dronecan::NodeId id, Time now);
+  void depart(Time now);
+  void end_rom_write(Time now);
+  void restart(Time now);
+  void broadcast(Time now);
+  void obey(Order order, bool answered);
+  void tell(ServoEvent::Kind kind) const;
+
+  // What it answers (servo.cpp).
   void handle(const dronecan::Transfer& transfer);
   void hear_allocation(const dronecan::Transfer& transfer);
   void serve_node_info(const dronecan::Transfer& request);
   void serve_get_set(const dronecan::Transfer& request);
+  void serve_opcode(const dronecan::Transfer& request);
+  void serve_restart(const dronecan::Transfer& request);
+  void serve_order(Order order, const dronecan::Transfer& request, const dronecan::DataType& type,
+                   const dronecan::Payload& done, const dronecan::Payload& refused);
+  [[nodiscard]] static std::optional<Order> order_at(bla::Address address);
   [[nodiscard]] std::optional<bla::Address>
   addressed(const dronecan::GetSet::Request& request) const;
+  [[nodiscard]] dronecan::Payload get_set_answer(const dronecan::GetSet::Request& request,
+                                                 std::optional<std::int64_t> value) const;
   void answer(const dronecan::Transfer& request, const dronecan::DataType& type,
               const dronecan::Payload& payload);
   void send_answers(Time now);
@@ -55,14 +100,18 @@ class Servo final : public Device {
   [[nodiscard]] dronecan::NodeStatus node_status(Time now) const;
   [[nodiscard]] dronecan::ActuatorStatus actuator_status() const;
 
-  ServoSetup setup_;
+  ServoSetup setup_; ///< its faults count down
   Random random_;
   Registers registers_;
   Endpoint endpoint_;
+  EventSink tell_;
   std::optional<Allocatee> allocatee_; ///< while it asks for a node ID
-  bool running_ = false;
-  Time started_; ///< when it begins to run; uptime counts from here
+  std::optional<Departure> departure_; ///< from an order on that ends the run
+  std::uint32_t rom_writes_ = 0;
+  Phase phase_ = Phase::boot;
+  Time wake_;    ///< the end of a phase other than `run`
   Time now_;     ///< of the present receive() or advance()
+  Time started_; ///< when it began to run; uptime counts from here
   Time next_node_status_ = never;
   Time next_status_ = never;
   std::deque<Answer> answers_;

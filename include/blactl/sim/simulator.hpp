@@ -2,8 +2,10 @@
 // A simulated bus with everything on it, as one state machine without I/O.
 
 #include "blactl/sim/device.hpp"
+#include "blactl/sim/event.hpp"
 #include "blactl/sim/medium.hpp"
 #include "blactl/sim/scenario.hpp"
+#include "blactl/sim/servo.hpp"
 
 #include <chrono>
 #include <memory>
@@ -14,16 +16,20 @@ namespace blactl::sim {
 /// Wall time at the beginning of the virtual clock: 2025-01-01 00:00 UTC.
 inline constexpr WallTime virtual_epoch{std::chrono::sys_days(std::chrono::year(2025) / 1 / 1)};
 
+struct Devices {
+  std::vector<std::unique_ptr<Device>> all;
+  std::vector<const Servo*> servos; ///< those of them that are, in the order of the scenario
+};
+
 /// The devices of a scenario, just powered on; each is yet to be connected.
-[[nodiscard]] std::vector<std::unique_ptr<Device>> make_devices(const Scenario& scenario,
-                                                                Time power_on);
+[[nodiscard]] Devices make_devices(const Scenario& scenario, Time power_on, const EventSink& sink);
 
 /// The medium, the devices of a scenario, and the ports of clients. The same scenario and the same
 /// calls give the same frames, to the microsecond.
 class Simulator {
  public:
-  /// The scenario's profiles must outlive this.
-  Simulator(const Scenario& scenario, Time power_on);
+  /// The scenario's profiles must outlive this. `sink`: who is told what happens to the servos.
+  Simulator(const Scenario& scenario, Time power_on, const EventSink& sink = {});
   ~Simulator();
   Simulator(const Simulator&) = delete;
   Simulator& operator=(const Simulator&) = delete;
@@ -43,12 +49,16 @@ class Simulator {
 
   [[nodiscard]] const Medium& medium() const { return medium_; }
 
+  /// In the order of the scenario: what they hold, for tests.
+  [[nodiscard]] const std::vector<const Servo*>& servos() const { return servos_; }
+
  private:
   class Station;
 
   Time now_;
   Medium medium_;
   std::vector<std::unique_ptr<Station>> stations_;
+  std::vector<const Servo*> servos_;
 };
 
 } // namespace blactl::sim

@@ -21,8 +21,9 @@ inline constexpr Text scenario_pwm_mode{
     "この単位は pwm_mode={} のものです。このサーボは pwm_mode={} です"};
 inline constexpr Text scenario_value_kind{"a value is a number or a string",
                                           "値は数値または文字列です"};
-inline constexpr Text scenario_delay{"an answer comes after 0 s to 10 s",
-                                     "応答までの時間は 0～10 s です"};
+inline constexpr Text scenario_duration{"a time of 0 s to {} s is possible here",
+                                        "ここで設定できる時間は 0～{} s です"};
+inline constexpr Text scenario_not_in_rom{"{} is not kept in ROM", "{} は ROM に保存されません"};
 inline constexpr Text scenario_servo_ids{"an ArrayCommand has 1 to 15 servo IDs",
                                          "ArrayCommand のサーボ ID は 1～15 個です"};
 

@@ -60,7 +60,8 @@ class FakeBus final : public can::Bus {
 struct Rig {
   explicit Rig(std::string_view members)
       : owned(std::make_unique<FakeBus>()), bus(*owned), loop(std::move(owned)),
-        interface(loop, scenario(members)) {}
+        interface(loop, scenario(members),
+                  [this](const ServoEvent& event) { events.push_back(event.kind); }) {}
 
   void run(Duration duration) {
     const Time end = loop.now() + duration;
@@ -74,6 +75,7 @@ struct Rig {
         bus.on_wire, [&](const can::Frame& sent) { return testing::text(sent).starts_with(text); });
   }
 
+  std::vector<ServoEvent::Kind> events;
   std::unique_ptr<FakeBus> owned;
   FakeBus& bus;
   can::Loop loop;
@@ -93,6 +95,21 @@ TEST_CASE("the servos of a scenario live on a real interface") {
   CHECK(rig.count("1E0B7F8B#6D4C010707000085") == 1);
   CHECK(rig.count("1E0B7F8B#3078333845") == 1);
   CHECK(rig.count("1E0B7F8C#") == 0);
+}
+
+TEST_CASE("a servo on a real interface saves, is silent, comes back, and it is told") {
+  Rig rig(R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11}])");
+  rig.run(500ms);
+  rig.bus.hear(frame("1E0A8BFF#00000000000000C1"));
+  rig.run(10ms);
+  CHECK(rig.count("1E0A7F8B#00000000000080C1") == 1);
+  CHECK(rig.events.empty());
+  const auto sent = rig.bus.on_wire.size();
+  rig.run(80ms);
+  CHECK(rig.bus.on_wire.size() == sent);
+  rig.run(150ms);
+  CHECK(rig.count("1001550B#00000000000000C0") == 2);
+  CHECK(rig.events == std::vector{ServoEvent::Kind::rom_write, ServoEvent::Kind::restart});
 }
 
 TEST_CASE("devices on one interface hear each other once, and never themselves") {

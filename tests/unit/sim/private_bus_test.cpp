@@ -67,6 +67,21 @@ TEST_CASE("a request through the loop comes back as an echo and as an answer") {
   CHECK(loop.unsent() == 0);
 }
 
+TEST_CASE("what the servos of a private bus hold can be looked at") {
+  auto owned = std::make_unique<PrivateBus>("sim:", scenario(one_servo));
+  const Simulator& simulator = owned->simulator();
+  can::Loop loop(std::move(owned));
+  (void)listen(loop, 250ms);
+  REQUIRE(simulator.servos().size() == 1);
+  const Servo& servo = *simulator.servos()[0];
+  loop.send(frame("1E0A8BFF#00000000000000C1"));
+  (void)listen(loop, 40ms);
+  CHECK(servo.rom_writes() == 0);
+  (void)listen(loop, 20ms);
+  CHECK(servo.rom_writes() == 1);
+  CHECK(servo.registers().rom_value(bla::address::static_node_id) == 11);
+}
+
 TEST_CASE("two private buses of one scenario bring the same") {
   can::Loop first(bus(one_servo));
   can::Loop second(bus(one_servo));

@@ -163,3 +163,54 @@ TEST_CASE("a fresh servo has the defaults of its model and a supply inside its l
     CHECK(ram.value(Address(0x0C)) < ram.value(Address(0x40)));
   }
 }
+
+TEST_CASE("requirements 45, 56, 61: all ten models save, forget and come back as they should") {
+  for (const bla::Profile& profile : testing::profiles().all()) {
+    Registers memory(servo_setup(fmt::format(R"("model": "{}")", profile.model)));
+    const auto differs = [](const bla::Parameter& parameter) {
+      return parameter.access == bla::Access::read_write && parameter.min != parameter.max;
+    };
+    const auto other = [](const bla::Parameter& parameter) {
+      return parameter.default_raw == parameter.max ? *parameter.min : *parameter.max;
+    };
+    const auto change_all = [&] {
+      for (const bla::Parameter& parameter : profile.parameters) {
+        if (differs(parameter)) {
+          (void)memory.write(parameter.address, other(parameter));
+        }
+      }
+    };
+    const auto all_are = [&](bool changed) {
+      for (const bla::Parameter& parameter : profile.parameters) {
+        if (differs(parameter) && parameter.saved) {
+          INFO(profile.model << " " << parameter.name);
+          CHECK(memory.value(parameter.address) ==
+                (changed ? other(parameter) : parameter.default_raw));
+        }
+      }
+    };
+    change_all();
+    all_are(true);
+    memory.restart();
+    all_are(false);
+    change_all();
+    memory.save();
+    memory.initialize();
+    all_are(false);
+    memory.restart();
+    all_are(true);
+    CHECK(memory.read(bla::address::model_number) == profile.model_number);
+    CHECK(memory.rom_value(Address(0x60)) == 0);
+  }
+}
+
+TEST_CASE("0x10 to 0x12 keep nothing and answer what was written") {
+  Registers ram = registers(R"("model": "BLA21-12U-AB")");
+  for (const Address address :
+       {bla::address::initialize, bla::address::reboot, bla::address::write_rom}) {
+    CHECK(ram.write(address, 1) == 1);
+    CHECK(ram.value(address) == 0);
+    CHECK(ram.write(address, 0) == 0);
+    CHECK(ram.write(address, 2) == 0);
+  }
+}

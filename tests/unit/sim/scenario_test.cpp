@@ -61,12 +61,16 @@ TEST_CASE("a scenario says all there is to say") {
       "model": "BLA21-12U-AB", "node_id": 11, "unique_id": "00112233445566778899AABBccddeeff",
       "serial_number": 240900558, "servo_id": 254, "firmware_version": 1300,
       "model_number": 60, "hardware_version": 12051, "name": "x", "answer_delay": "0.5ms",
+      "rom": {"angle_limit_ccw": "-90deg", "0x21": 0},
       "ram": {"angle_limit_cw": "90deg", "0x39": -450, "torque_output": "brake",
               "current_voltage": "11.8V", "fault_warning": 16, "production_year": 2024},
       "behaviour": {"out_of_range": "clamp", "reserved_reads": "zero", "gated_reads": "zero",
                     "write_only_reads": "zero", "index_only_access": false,
-                    "failure_with_name": true, "ignores_disabled_commands": false},
-      "faults": {"lose_responses": 2, "mute": true}}],
+                    "failure_with_name": true, "ignores_disabled_commands": false,
+                    "answers_save_first": false, "rom_write_time": "80ms"},
+      "faults": {"lose_responses": 2, "mute": true, "lose_opcode_answers": 3,
+                 "ignore_opcodes": 4, "refuse_opcodes": true, "rom_write_fails": true,
+                 "stays": true, "never_returns": true, "return_delay": "3s"}}],
     "foreign": [{"kind": "node", "node_id": 30, "name": "org.example", "serves_get_set": true,
       "commands": {"servo_ids": [1, 255], "type": 3, "value": 60, "rate": 100}, "armed": false}])");
   CHECK(all.clock == Clock::simulated);
@@ -86,6 +90,18 @@ TEST_CASE("a scenario says all there is to say") {
   CHECK(servo.behaviour.failure_with_name);
   CHECK(servo.faults.lose_responses == 2);
   CHECK(servo.faults.mute);
+  REQUIRE(servo.rom.size() == 2);
+  CHECK(servo.rom[0] == std::pair(bla::address::angle_limit_ccw, std::int64_t{-900}));
+  CHECK(servo.rom[1] == std::pair(bla::Address(0x21), std::int64_t{0}));
+  CHECK_FALSE(servo.behaviour.answers_save_first);
+  CHECK(servo.behaviour.rom_write_time == 80ms);
+  CHECK(servo.faults.lose_opcode_answers == 3);
+  CHECK(servo.faults.ignore_opcodes == 4);
+  CHECK(servo.faults.refuse_opcodes);
+  CHECK(servo.faults.rom_write_fails);
+  CHECK(servo.faults.stays);
+  CHECK(servo.faults.never_returns);
+  CHECK(servo.faults.return_delay == 3s);
   const ForeignSetup& node = all.foreign.at(0);
   CHECK(node.node_id == 30);
   CHECK(node.serves_get_set);
@@ -103,6 +119,11 @@ TEST_CASE("left out, everything about a servo but its model has a likely value")
   CHECK(servo.model_number == 62);
   CHECK(servo.unique_id != dronecan::UniqueId{});
   CHECK(servo.name == "jp.co.futaba.bla15");
+  CHECK(servo.rom.empty());
+  CHECK(servo.behaviour.answers_save_first);
+  CHECK(servo.behaviour.rom_write_time == 50ms);
+  CHECK(servo.faults.return_delay == 0ms);
+  CHECK_FALSE(servo.faults.never_returns);
   // The unique ID follows the serial number.
   CHECK(servo.unique_id ==
         testing::servo_setup(R"("model": "BLA21-12U-AB", "serial_number": 240900001)").unique_id);
@@ -173,6 +194,43 @@ TEST_CASE("faulty values of registers are named by their key") {
   CHECK(has(ram(R"("write_rom": 1)"), "holds no value"));
   CHECK(has(ram(R"("fault_summary": 1)"), "holds no value"));
   CHECK(has(ram(R"("pwm_output_range": "60rpm")"), "pwm_mode=1; this servo has pwm_mode=0"));
+}
+
+TEST_CASE("faulty values of ROM are named by their key") {
+  const auto rom = [](std::string_view member) {
+    return servo_faults(fmt::format(R"("model": "BLA15-06U-A0", "rom": {{{}}})", member));
+  };
+  CHECK(
+      has(rom(R"("command_angle": 0)"), "/servos/0/rom/command_angle: command_angle is not kept"));
+  CHECK(has(rom(R"("current_voltage": "7V")"), "is not kept in ROM"));
+  CHECK(has(rom(R"("0x19": 0)"), "is not kept in ROM"));
+  CHECK(has(rom(R"("production_year": 2024)"), "is not kept in ROM"));
+  CHECK(has(rom(R"("bootloader": 0)"), "holds no value"));
+  CHECK(has(rom(R"("0x46": 3)"), "is set by the key \"node_id\""));
+  CHECK(has(rom(R"("angle_limit_cw": "-1deg")"), "/servos/0/rom/angle_limit_cw: "));
+  CHECK(has(rom(R"("angle_limit": 1)"), "/servos/0/rom/angle_limit: "));
+  CHECK(has(servo_faults(R"("model": "BLA21-12U-AB", "rom": 3)"), "/servos/0/rom"));
+}
+
+TEST_CASE("0x36 in rpm goes with the 0x37 of RAM, which comes from ROM unless it says otherwise") {
+  const std::string model = R"("model": "BLA21-12U-AB", )";
+  CHECK(testing::servo_setup(model + R"("rom": {"pwm_mode": "speed"},
+                                        "ram": {"pwm_output_range": "60rpm"})")
+            .ram.at(0)
+            .second == 60);
+  CHECK(has(servo_faults(model + R"("rom": {"pwm_output_range": "60rpm"},
+                                    "ram": {"pwm_mode": "speed"})"),
+            "/servos/0/rom/pwm_output_range"));
+}
+
+TEST_CASE("faulty times of a servo are named by their key") {
+  const std::string model = R"("model": "BLA21-12U-AB", )";
+  CHECK(has(servo_faults(model + R"("behaviour": {"rom_write_time": "11s"})"),
+            "/servos/0/behaviour/rom_write_time: a time of 0 s to 10 s"));
+  CHECK(has(servo_faults(model + R"("faults": {"return_delay": "601s"})"),
+            "/servos/0/faults/return_delay: a time of 0 s to 600 s"));
+  CHECK(has(servo_faults(model + R"("faults": {"return_delay": "-1s"})"), "0 s to 600 s"));
+  CHECK(has(servo_faults(model + R"("faults": {"stays": 1})"), "/servos/0/faults/stays"));
 }
 
 TEST_CASE("0x36 in rpm goes with the 0x37 of the same servo, wherever that stands") {

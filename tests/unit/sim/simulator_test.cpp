@@ -62,6 +62,51 @@ TEST_CASE("the same seed gives the same frames to the microsecond, another one o
   CHECK(first != run(scenario(fmt::format(mixed, 4)), 10s));
 }
 
+TEST_CASE("the same seed gives the same restarts, allocations and events") {
+  const auto life = [](int seed) {
+    std::vector<std::string> lines;
+    Simulator simulator(scenario(fmt::format(mixed, seed)), Time{}, [&](const ServoEvent& event) {
+      lines.push_back(fmt::format("{:06} {} {}", event.at.time_since_epoch().count(),
+                                  name(event.kind), event.serial_number));
+    });
+    Log log;
+    const auto port = simulator.attach(log, 10);
+    for (const char* order : {"1E0A8BFF#00000000000000C1", "1E058CFF#1E1B55CEACC1"}) {
+      simulator.advance_to(simulator.now() + 1s);
+      simulator.send(port, testing::frame(order));
+    }
+    simulator.advance_to(simulator.now() + 3s);
+    CHECK(lines.size() == 3);
+    CHECK(simulator.servos().size() == 4);
+    CHECK(simulator.servos()[0]->rom_writes() == 1);
+    CHECK(simulator.servos()[3]->rom_writes() == 0);
+    lines.insert(lines.end(), log.lines.begin(), log.lines.end());
+    return lines;
+  };
+  const auto first = life(3);
+  CHECK(first == life(3));
+  CHECK(first != life(4));
+}
+
+TEST_CASE("requirement 54: on the bus nothing of a saving servo follows its answer for 50 ms") {
+  Simulator simulator(scenario(R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11},
+                                             {"model": "BLA15-06U-A0", "node_id": 12}])"),
+                      Time{});
+  Log log;
+  const auto port = simulator.attach(log, 10);
+  simulator.advance_to(Time{} + 1s);
+  log.lines.clear();
+  log.frames.clear();
+  simulator.send(port, testing::frame("1E0A8BFF#00000000000000C1"));
+  simulator.advance_to(simulator.now() + 50ms);
+  long after_answer = -1;
+  for (const can::Frame& one : log.frames) {
+    const bool from_servo = (one.id & 0x7FU) == 11;
+    after_answer += from_servo && (after_answer >= 0 || one.id == 0x1E0A7F8B) ? 1 : 0;
+  }
+  CHECK(after_answer == 0);
+}
+
 TEST_CASE("time that passes in small steps brings the same as in one") {
   Simulator simulator(scenario(fmt::format(mixed, 3)), Time{});
   Log log;

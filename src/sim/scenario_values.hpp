@@ -1,0 +1,31 @@
+#pragma once
+// Values that several things of a scenario file have: times, unique IDs, node names.
+
+#include "blactl/base/json_reader.hpp"
+#include "blactl/base/time.hpp"
+#include "blactl/dronecan/ids.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace blactl::sim {
+
+/// As somebody would have typed it on the command line. Empty and a fault if it is neither number
+/// nor string.
+[[nodiscard]] std::optional<std::string> typed_text(const json::Value& value, json::Faults& faults);
+
+/// By the value grammar, as if it were a register that counts microseconds; `fallback` if the key
+/// is left out. A fault beyond 0 to `longest`.
+[[nodiscard]] Duration read_duration(json::Object& object, std::string_view key, Duration fallback,
+                                     std::chrono::seconds longest, json::Faults& faults);
+
+/// "unique_id"; left out, one that follows from the number.
+[[nodiscard]] dronecan::UniqueId read_unique_id(json::Object& object, std::uint64_t fallback,
+                                                json::Faults& faults);
+
+/// "name", as GetNodeInfo tells it.
+[[nodiscard]] std::string read_node_name(json::Object& object, std::string fallback,
+                                         json::Faults& faults);
+
+} // namespace blactl::sim

@@ -1,0 +1,176 @@
+// What a servo does by itself: start, get a node ID, send, save, restart.
+
+#include "blactl/sim/servo.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+namespace blactl::sim {
+
+using namespace std::chrono_literals;
+
+namespace {
+
+// Section 2.2.
+constexpr Duration node_status_period = 1s;
+constexpr Duration status_period = 100ms;
+constexpr dronecan::Priority status_priority = 16;
+constexpr dronecan::Priority allocation_priority = 24;
+
+/// unproven: how long a servo takes from power to its first frame; each time a little different.
+constexpr Duration min_boot_time = 50ms;
+constexpr Duration max_boot_time = 150ms;
+
+} // namespace
+
+Servo::Servo(const ServoSetup& setup, std::uint64_t seed, Time power_on)
+    : setup_(setup), random_(seed), registers_(setup),
+      endpoint_({dronecan::Allocation::type.id},
+                [this](const dronecan::Transfer& transfer) { handle(transfer); }),
+      wake_(power_on + boot_time()), now_(power_on), started_(power_on) {}
+
+Duration Servo::boot_time() {
+  return random_.between(min_boot_time, max_boot_time);
+}
+
+void Servo::receive(const can::Frame& frame, Time at) {
+  now_ = at;
+  if (phase_ == Phase::run) {
+    endpoint_.receive(frame, at);
+  }
+}
+
+Time Servo::next_deadline() const {
+  if (phase_ != Phase::run) {
+    return wake_;
+  }
+  if (allocatee_) {
+    return allocatee_->next_deadline();
+  }
+  const Time next =
+      std::min({next_node_status_, next_status_, departure_ ? departure_->at : never});
+  return answers_.empty() ? next : std::min(next, answers_.front().due);
+}
+
+void Servo::advance(Time now) {
+  now_ = now;
+  if (phase_ != Phase::run && wake_ <= now) {
+    wake(now);
+  }
+  if (phase_ != Phase::run) {
+    return;
+  }
+  if (allocatee_) {
+    if (const auto request = allocatee_->advance(now)) {
+      send_message(dronecan::Allocation::type, allocation_priority, request->encode());
+    }
+    return;
+  }
+  send_answers(now);
+  if (departure_ && departure_->at <= now) {
+    depart(now);
+  } else {
+    broadcast(now);
+  }
+}
+
+void Servo::broadcast(Time now) {
+  if (next_node_status_ <= now) {
+    next_node_status_ += node_status_period;
+    send_message(dronecan::NodeStatus::type, status_priority, node_status(now).encode());
+  }
+  if (next_status_ <= now) {
+    next_status_ += status_period;
+    send_message(dronecan::ActuatorStatus::type, status_priority, actuator_status().encode());
+  }
+}
+
+void Servo::wake(Time now) {
+  if (phase_ == Phase::rom_write) {
+    end_rom_write(now);
+  } else {
+    start(now);
+  }
+}
+
+void Servo::start(Time now) {
+  phase_ = Phase::run;
+  started_ = now;
+  const dronecan::NodeId id(
+      static_cast<std::uint8_t>(registers_.value(bla::address::static_node_id)));
+  if (id.is_unicast()) {
+    operate(id, now);
+  } else {
+    allocatee_.emplace(setup_.unique_id, random_.next(), now);
+  }
+}
+
+void Servo::operate(dronecan::NodeId id, Time now) {
+  endpoint_.set_node_id(id);
+  if (allocatee_) {
+    allocatee_.reset();
+    tell(ServoEvent::Kind::allocated);
+  }
+  next_node_status_ = next_status_ = now;
+}
+
+/// `answered`: the answer comes first (requirement 57), after the delay of all answers.
+void Servo::obey(Order order, bool answered) {
+  if (order == Order::erase) {
+    registers_.initialize();
+    tell(ServoEvent::Kind::erase);
+    return;
+  }
+  departure_ = {.at = answered ? now_ + setup_.answer_delay : now_, .saves = order == Order::save};
+}
+
+/// What is in its transmit queue by now leaves all the same: the answer is.
+void Servo::depart(Time now) {
+  const bool saves = departure_->saves;
+  departure_.reset();
+  if (saves) {
+    phase_ = Phase::rom_write;
+    wake_ = now + setup_.behaviour.rom_write_time;
+    answers_.clear();
+  } else if (!setup_.faults.stays) {
+    restart(now);
+  }
+}
+
+void Servo::end_rom_write(Time now) {
+  if (!setup_.faults.rom_write_fails) {
+    registers_.save();
+  }
+  ++rom_writes_;
+  tell(ServoEvent::Kind::rom_write);
+  if (!setup_.faults.stays) {
+    restart(now);
+    return;
+  }
+  phase_ = Phase::run;
+  next_node_status_ = std::max(next_node_status_, now);
+  next_status_ = std::max(next_status_, now);
+}
+
+void Servo::restart(Time now) {
+  tell(ServoEvent::Kind::restart);
+  registers_.restart();
+  endpoint_.restart();
+  answers_.clear();
+  phase_ = Phase::boot;
+  const Duration absence = boot_time() + setup_.faults.return_delay;
+  wake_ = setup_.faults.never_returns ? never : now + absence;
+}
+
+void Servo::tell(ServoEvent::Kind kind) const {
+  if (tell_) {
+    tell_({.kind = kind,
+           .at = now_,
+           .unique_id = setup_.unique_id,
+           .serial_number = setup_.serial_number,
+           .node_id = node_id(),
+           .rom_writes = rom_writes_});
+  }
+}
+
+} // namespace blactl::sim
