@@ -1,3 +1,4 @@
+#include "blactl/base/crc16.hpp"
 #include "blactl/dronecan/transfer.hpp"
 
 #include "dronecan/slot_table.hpp"

@@ -1,5 +1,7 @@
 #include "blactl/dronecan/transfer.hpp"
 
+#include "blactl/base/crc16.hpp"
+
 #include "dronecan/tail.hpp"
 
 #include <algorithm>
@@ -17,23 +19,6 @@ constexpr unsigned destination_shift = 8;
 constexpr std::uint32_t service_bit = 1U << 7U;
 constexpr std::uint32_t request_bit = 1U << 15U;
 constexpr std::uint32_t discriminator_mask = 0x3FFF;
-
-// What eight shifts do to each value of the CRC's upper byte (polynomial 0x1021).
-constexpr auto crc_table = [] {
-  std::array<std::uint16_t, 256> table{};
-  for (std::uint32_t i = 0; i < table.size(); ++i) {
-    auto crc = i << 8U;
-    for (int bit = 0; bit < 8; ++bit) {
-      crc = (crc & 0x8000U) != 0 ? (crc << 1U) ^ 0x1021U : crc << 1U;
-    }
-    table[i] = static_cast<std::uint16_t>(crc);
-  }
-  return table;
-}();
-
-constexpr std::uint16_t crc_step(std::uint16_t crc, std::uint8_t byte) {
-  return static_cast<std::uint16_t>((crc << 8U) ^ crc_table[(crc >> 8U) ^ byte]);
-}
 
 Header decode_message(std::uint32_t id, Header header) {
   header.kind = Kind::message;
@@ -92,24 +77,17 @@ std::optional<Header> decode_id(std::uint32_t can_id) {
                                      : decode_message(can_id, header);
 }
 
-std::uint16_t crc16(std::span<const std::uint8_t> bytes, std::uint16_t crc) {
-  for (const auto byte : bytes) {
-    crc = crc_step(crc, byte);
-  }
-  return crc;
-}
-
 std::uint16_t base_crc(std::uint64_t signature) {
-  std::uint16_t crc = 0xFFFF;
-  for (unsigned shift = 0; shift < 64; shift += 8) {
-    crc = crc_step(crc, static_cast<std::uint8_t>(signature >> shift));
+  std::array<std::uint8_t, 8> bytes{};
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    bytes[i] = static_cast<std::uint8_t>(signature >> (8 * i));
   }
-  return crc;
+  return crc16(bytes);
 }
 
 std::uint16_t discriminator(std::span<const std::uint8_t> payload, TransferId id) {
   const Tail tail{.start = true, .end = true, .transfer_id = id};
-  return crc_step(crc16(payload), tail.encode()) & discriminator_mask;
+  return crc16(std::array{tail.encode()}, crc16(payload)) & discriminator_mask;
 }
 
 std::vector<can::Frame> segment(const Header& header, TransferId id, std::uint64_t signature,

@@ -39,9 +39,6 @@ struct Header {
 using TransferId = std::uint8_t;
 inline constexpr TransferId transfer_id_modulus = 32;
 
-/// CRC-16/CCITT-FALSE (poly 0x1021, init 0xFFFF) over `bytes`, going on from `crc`.
-[[nodiscard]] std::uint16_t crc16(std::span<const std::uint8_t> bytes, std::uint16_t crc = 0xFFFF);
-
 /// The CRC over a data type signature, least significant byte first: where a transfer's CRC starts.
 [[nodiscard]] std::uint16_t base_crc(std::uint64_t signature);
 

@@ -1,3 +1,5 @@
+#include "blactl/base/crc16.hpp"
+
 #include "catch.hpp"
 #include "support.hpp"
 

@@ -47,14 +47,6 @@ Allocation allocation(std::uint8_t node_id, bool first, std::string_view unique_
 
 } // namespace
 
-TEST_CASE("the CRC is CRC-16/CCITT-FALSE") {
-  const std::string_view check = "123456789";
-  const std::vector<std::uint8_t> bytes(check.begin(), check.end());
-  CHECK(crc16(bytes) == 0x29B1);
-  CHECK(crc16({}) == 0xFFFF);
-  CHECK(crc16(std::span(bytes).subspan(4), crc16(std::span(bytes).first(4))) == 0x29B1);
-}
-
 TEST_CASE("a transfer CRC starts from the signature of its type") {
   CHECK(base_crc(NodeStatus::type.signature) == 0xBE5F);
   CHECK(base_crc(GetNodeInfo::type.signature) == 0xD9A7);
