@@ -4,6 +4,7 @@
 #include "blactl/can/texts.hpp"
 
 #include "can/kernel_frame.hpp"
+#include "can/socket_batch.hpp"
 
 #include <linux/can/raw.h>
 #include <net/if.h>
@@ -13,33 +14,11 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstring>
 #include <system_error>
 #include <utility>
 
 namespace blactl::can {
 namespace {
-
-/// Bytes asked for; the kernel takes double, room for some 20,000 frames: 3 s of a full bus.
-constexpr int receive_buffer = 8 << 20;
-
-/// Frames taken from the kernel with one call.
-constexpr std::size_t batch_size = 16;
-
-template <class T> T content(const cmsghdr& control) {
-  T value{};
-  std::memcpy(&value, CMSG_DATA(&control), sizeof value);
-  return value;
-}
-
-WallTime wall_time(const timespec& stamp) {
-  return WallTime(std::chrono::floor<Duration>(std::chrono::seconds(stamp.tv_sec) +
-                                               std::chrono::nanoseconds(stamp.tv_nsec)));
-}
-
-template <class T> bool set_option(int descriptor, int level, int option, const T& value) {
-  return setsockopt(descriptor, level, option, &value, sizeof value) == 0;
-}
 
 std::string reason(int error) {
   return std::system_category().message(error);
@@ -64,32 +43,6 @@ std::vector<Link> links_or_none() {
 
 } // namespace
 
-/// A frame with what the kernel tells beside it.
-struct SocketCan::Incoming {
-  Incoming(const can_frame& raw, const msghdr& header);
-
-  can_frame frame;
-  bool is_own;
-  std::optional<WallTime> stamp;
-  std::optional<std::uint32_t> dropped; ///< Frames that had no room before this one.
-};
-
-SocketCan::Incoming::Incoming(const can_frame& raw, const msghdr& header)
-    : frame(raw), is_own((header.msg_flags & MSG_CONFIRM) != 0) {
-  auto* rest = const_cast<msghdr*>(&header); // NOLINT: CMSG_NXTHDR only reads, but does not say so
-  for (auto* control = CMSG_FIRSTHDR(rest); control != nullptr;
-       control = CMSG_NXTHDR(rest, control)) {
-    if (control->cmsg_level != SOL_SOCKET) {
-      continue;
-    }
-    if (control->cmsg_type == SCM_TIMESTAMPNS) {
-      stamp = wall_time(content<timespec>(*control));
-    } else if (control->cmsg_type == SO_RXQ_OVFL) {
-      dropped = content<std::uint32_t>(*control);
-    }
-  }
-}
-
 Result<std::unique_ptr<Bus>> SocketCan::open(std::string_view interface) {
   const int descriptor = ::socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW);
   if (descriptor < 0) {
@@ -111,19 +64,13 @@ SocketCan::~SocketCan() {
 
 /// Before bind(), so that the very first frame is seen with all of it.
 Result<void> SocketCan::configure() {
-  const auto set = [this](int level, int option, const auto& value) {
-    return set_option(descriptor_, level, option, value);
+  const auto set = [this](int option, const auto& value) {
+    return set_option(descriptor_, SOL_CAN_RAW, option, value);
   };
-  const bool done = set(SOL_CAN_RAW, CAN_RAW_LOOPBACK, 1) &&
-                    set(SOL_CAN_RAW, CAN_RAW_RECV_OWN_MSGS, 1) &&
-                    set(SOL_CAN_RAW, CAN_RAW_ERR_FILTER, fault_classes) &&
-                    set(SOL_SOCKET, SO_TIMESTAMPNS, 1) && set(SOL_SOCKET, SO_RXQ_OVFL, 1);
+  const bool done = set(CAN_RAW_LOOPBACK, 1) && set(CAN_RAW_RECV_OWN_MSGS, 1) &&
+                    set(CAN_RAW_ERR_FILTER, fault_classes) && prepare_to_receive(descriptor_);
   if (!done) {
     return std::unexpected(broken(errno));
-  }
-  // The first is for administrators only, the second stays below net.core.rmem_max.
-  if (!set(SOL_SOCKET, SO_RCVBUFFORCE, receive_buffer)) {
-    std::ignore = set(SOL_SOCKET, SO_RCVBUF, receive_buffer);
   }
   return {};
 }
@@ -205,55 +152,36 @@ std::optional<BusEvent> SocketCan::receive() {
 }
 
 void SocketCan::read_batch() {
-  struct Slot {
-    can_frame frame;
-    alignas(cmsghdr) std::array<std::byte, 64> control;
-    iovec part;
-  };
-
-  std::array<Slot, batch_size> slots{};
-  std::array<mmsghdr, batch_size> messages{};
-  for (std::size_t i = 0; i < batch_size; ++i) {
-    slots[i].part = {&slots[i].frame, sizeof(can_frame)};
-    messages[i].msg_hdr.msg_iov = &slots[i].part;
-    messages[i].msg_hdr.msg_iovlen = 1;
-    messages[i].msg_hdr.msg_control = slots[i].control.data();
-    messages[i].msg_hdr.msg_controllen = slots[i].control.size();
-  }
-  const int count = recvmmsg(descriptor_, messages.data(), batch_size, 0, nullptr);
+  SocketBatch<can_frame, sockaddr_can> batch;
+  const int count = batch.take(descriptor_);
   if (count < 0) {
     if (errno != EAGAIN && errno != EINTR) {
       ready_.emplace_back(Gone{broken(errno)});
     }
     return;
   }
-  const WallTime clock = wall();
-  const Time read_at = now();
-  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-    const msghdr& header = messages[i].msg_hdr;
-    if (messages[i].msg_len == sizeof(can_frame) && (header.msg_flags & MSG_TRUNC) == 0) {
-      take({slots[i].frame, header}, read_at, clock);
+  arrivals_.read_at(now(), wall());
+  for (int i = 0; i < count; ++i) {
+    const auto message = batch.message(i);
+    if (message.size == sizeof(can_frame) && (message.flags & MSG_TRUNC) == 0) {
+      take(message.content, (message.flags & MSG_CONFIRM) != 0, arrivals_.arrival(message.aside));
     }
   }
 }
 
 /// Turns what was read into events: first what was lost before it, then the frame.
-void SocketCan::take(const Incoming& incoming, Time now, WallTime wall) {
-  if (incoming.dropped && *incoming.dropped != dropped_) {
-    lost_ += *incoming.dropped - dropped_;
-    dropped_ = *incoming.dropped;
-    ready_.emplace_back(Overflow{lost_});
+void SocketCan::take(const can_frame& frame, bool is_own, const Arrivals::Arrival& arrival) {
+  if (arrival.before) {
+    ready_.emplace_back(*arrival.before);
   }
-  const WallTime stamp = incoming.stamp.value_or(wall);
-  last_ = bus_time(stamp, now, wall, last_);
-  if ((incoming.frame.can_id & CAN_ERR_FLAG) != 0) {
-    for (const FaultKind kind : faults(incoming.frame)) {
-      ready_.emplace_back(BusFault{kind, last_});
+  if ((frame.can_id & CAN_ERR_FLAG) != 0) {
+    for (const FaultKind kind : faults(frame)) {
+      ready_.emplace_back(BusFault{kind, arrival.at});
     }
-  } else if (incoming.is_own) {
-    ready_.emplace_back(Sent{from_kernel(incoming.frame), last_, stamp});
+  } else if (is_own) {
+    ready_.emplace_back(Sent{from_kernel(frame), arrival.at, arrival.wall});
   } else {
-    ready_.emplace_back(Received{from_kernel(incoming.frame), last_, stamp});
+    ready_.emplace_back(Received{from_kernel(frame), arrival.at, arrival.wall});
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // A CAN interface of this machine (can0, vcan0) through the kernel's raw CAN sockets.
 
+#include "blactl/can/arrivals.hpp"
 #include "blactl/can/bus.hpp"
 
 #include <deque>
@@ -9,6 +10,8 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
+struct can_frame;
 
 namespace blactl::can {
 
@@ -37,15 +40,13 @@ class SocketCan final : public Bus {
   [[nodiscard]] int descriptor() const override { return descriptor_; }
 
  private:
-  struct Incoming;
-
   SocketCan(std::string_view name, int descriptor) : name_(name), descriptor_(descriptor) {}
 
   Result<void> configure();
   Result<void> bind();
   Result<void> apply_filters();
   void read_batch();
-  void take(const Incoming& incoming, Time now, WallTime wall);
+  void take(const can_frame& frame, bool is_own, const Arrivals::Arrival& arrival);
   [[nodiscard]] Error broken(int error) const;
 
   std::string name_;
@@ -53,9 +54,7 @@ class SocketCan final : public Bus {
   std::vector<Filter> filters_;
   std::optional<Filter> echoes_; ///< What all frames sent so far agree with.
   std::deque<BusEvent> ready_;
-  Time last_;
-  std::uint32_t dropped_ = 0; ///< As the kernel counts: 32 bits that wrap.
-  std::uint64_t lost_ = 0;
+  Arrivals arrivals_;
 };
 
 } // namespace blactl::can
