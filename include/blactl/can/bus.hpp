@@ -89,6 +89,9 @@ class Bus {
   /// Whether every frame of ours comes back as Sent once somebody has acknowledged it.
   [[nodiscard]] virtual bool echoes() const = 0;
 
+  /// What came since the bus was opened and was no frame that can be told: CAN FD, damaged.
+  [[nodiscard]] virtual std::uint64_t unreadable() const { return 0; }
+
   /// Becomes readable when receive() has something; -1: nothing to poll.
   [[nodiscard]] virtual int descriptor() const = 0;
 
