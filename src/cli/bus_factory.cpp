@@ -1,6 +1,7 @@
 #include "bus_factory.hpp"
 
 #include "blactl/can/link.hpp"
+#include "blactl/can/mcast.hpp"
 #include "blactl/can/simbus.hpp"
 #include "blactl/can/socketcan.hpp"
 #include "blactl/sim/private_bus.hpp"
@@ -8,7 +9,9 @@
 
 #include "texts.hpp"
 
+#include <charconv>
 #include <filesystem>
+#include <optional>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -54,6 +57,19 @@ Result<OpenBus> open_socketcan(const std::string& name) {
   return OpenBus{std::move(*bus), first_name};
 }
 
+/// The name of the bus says the network interface: those on another one do not hear each other.
+Result<OpenBus> open_mcast(const InterfaceName& name, const Reporter& reporter) {
+  auto bus = can::Mcast::open(name.bus_number, name.rest);
+  if (!bus) {
+    return std::unexpected(bus.error());
+  }
+  const std::string full_name((*bus)->name());
+  if (name.rest.empty()) {
+    reporter.note(say<texts::mcast_chosen>(full_name));
+  }
+  return OpenBus{std::move(*bus), full_name};
+}
+
 Result<OpenBus> open_private(std::string_view text, const Result<sim::Scenario>& scenario) {
   if (!scenario) {
     return std::unexpected(scenario.error());
@@ -79,6 +95,27 @@ Result<OpenBus> open_simulator(std::string_view text, const std::string& socket,
   return OpenBus{std::move(*bus), "sim:" + (error ? path : canonical.string())};
 }
 
+/// What stands behind "mcast:": "0?if=lo". The number alone is enough, and so is nothing: bus 0.
+std::optional<InterfaceName> parse_mcast(std::string_view text) {
+  constexpr std::string_view key = "if=";
+  InterfaceName name{.kind = InterfaceKind::mcast, .rest = {}};
+  const auto mark = text.find('?');
+  const std::string_view number = text.substr(0, mark);
+  const char* const end = number.data() + number.size();
+  const auto read = std::from_chars(number.data(), end, name.bus_number);
+  if (!number.empty() && (read.ec != std::errc() || read.ptr != end)) {
+    return std::nullopt;
+  }
+  if (mark != std::string_view::npos) {
+    const std::string_view option = text.substr(mark + 1);
+    if (!option.starts_with(key) || option.size() == key.size()) {
+      return std::nullopt;
+    }
+    name.rest = option.substr(key.size());
+  }
+  return name;
+}
+
 } // namespace
 
 Result<InterfaceName> parse_interface(std::string_view text) {
@@ -86,13 +123,19 @@ Result<InterfaceName> parse_interface(std::string_view text) {
   const std::string_view scheme = text.substr(0, colon);
   if (colon == std::string_view::npos || scheme == "socketcan") {
     const auto name = colon == std::string_view::npos ? text : text.substr(colon + 1);
-    return InterfaceName{InterfaceKind::socketcan, std::string(name)};
+    return InterfaceName{.kind = InterfaceKind::socketcan, .rest = std::string(name)};
   }
   if (scheme == "sim") {
     const std::string_view rest = text.substr(colon + 1);
-    return InterfaceName{rest.ends_with(".json") ? InterfaceKind::scenario
-                                                 : InterfaceKind::simulator,
-                         std::string(rest)};
+    return InterfaceName{.kind = rest.ends_with(".json") ? InterfaceKind::scenario
+                                                         : InterfaceKind::simulator,
+                         .rest = std::string(rest)};
+  }
+  if (scheme == "mcast") {
+    const auto name = parse_mcast(text.substr(colon + 1));
+    return name ? Result<InterfaceName>(*name)
+                : fail(Code::usage, say<texts::bad_mcast>(printable(text)),
+                       say<texts::bad_mcast_hint>());
   }
   return fail(Code::usage, say<texts::bad_interface>(printable(text)),
               say<texts::bad_interface_hint>());
@@ -109,6 +152,7 @@ Result<OpenBus> open_bus(std::string_view text, const bla::Profiles& profiles,
     return std::unexpected(name.error());
   }
   switch (name->kind) {
+  case InterfaceKind::mcast: return open_mcast(*name, reporter);
   case InterfaceKind::simulator: return open_simulator(text, name->rest, profiles, reporter);
   case InterfaceKind::scenario: return open_private(text, sim::read_scenario(name->rest, profiles));
   case InterfaceKind::socketcan: break;

@@ -7,6 +7,7 @@
 
 #include "reporter.hpp"
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -20,14 +21,16 @@ struct OpenBus {
 };
 
 /// What kind of interface a name means.
-enum class InterfaceKind : unsigned char { socketcan, simulator, scenario };
+enum class InterfaceKind : unsigned char { socketcan, mcast, simulator, scenario };
 
 struct InterfaceName {
   InterfaceKind kind = InterfaceKind::socketcan;
-  std::string rest; ///< interface name, socket path or scenario file; empty: the default
+  std::string rest;            ///< interface name, socket path or scenario file; empty: the default
+  std::uint8_t bus_number = 0; ///< of a multicast bus
 };
 
-/// `can0`, `socketcan:can0`, `sim:`, `sim:SOCKET`, `sim:SCENARIO.json`. Errors: usage.
+/// `can0`, `socketcan:can0`, `mcast:N`, `mcast:N?if=IFACE`, `sim:`, `sim:SOCKET`,
+/// `sim:SCENARIO.json`. Errors: usage.
 [[nodiscard]] Result<InterfaceName> parse_interface(std::string_view text);
 
 /// The interface that `text` names; empty: the only CAN interface that is up.

@@ -127,6 +127,9 @@ void Context::tell_losses() const {
   if (session_ && session_->lost_frames() > 0) {
     reporter_.note(say<texts::frames_lost>(session_->lost_frames()));
   }
+  if (session_ && session_->unreadable() > 0) {
+    reporter_.note(say<texts::unreadable_frames>(session_->unreadable()));
+  }
 }
 
 void Context::broken(const Error& error, Report& report) const {

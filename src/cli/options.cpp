@@ -114,7 +114,8 @@ class Parser {
 
 void Parser::add_shared() {
   Shared& shared = result_.shared;
-  values_.text(app_, "-i,--interface", "can0, sim:, sim:SOCKET, sim:SCENARIO.json", "IFACE",
+  values_.text(app_, "-i,--interface",
+               "can0, slcan:DEV, mcast:N, sim:, sim:SCENARIO.json, replay:FILE", "IFACE",
                interface_);
   values_.text(app_, "-n,--node", "servos: 12, 10-14,20, all, uid:…, serial:…, servo:…, model:…",
                "LIST", shared.nodes);

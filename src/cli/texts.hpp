@@ -37,9 +37,17 @@ inline constexpr Text listen_only_hint{"leave --listen-only out", "--listen-only
 inline constexpr Text bad_interface{"-i {}: no such kind of interface",
                                     "-i {}: この種類のインタフェースはありません"};
 inline constexpr Text bad_interface_hint{
-    "for example -i can0, -i sim:, -i sim:SCENARIO.json",
-    "例: -i can0, -i sim:, -i sim:SCENARIO.json",
+    "for example -i can0, -i mcast:0, -i sim:, -i sim:SCENARIO.json",
+    "例: -i can0, -i mcast:0, -i sim:, -i sim:SCENARIO.json",
 };
+inline constexpr Text bad_mcast{"-i {}: not of the form mcast:N or mcast:N?if=IFACE",
+                                "-i {}: mcast:N または mcast:N?if=IFACE の形ではありません"};
+inline constexpr Text bad_mcast_hint{
+    "N is from 0 to 255, IFACE a network interface, for example -i mcast:0?if=lo",
+    "N は 0～255、IFACE はネットワークインタフェースです (例: -i mcast:0?if=lo)",
+};
+inline constexpr Text mcast_chosen{"using {} (another interface: ?if=IFACE)",
+                                   "{} を使います (変更するには ?if=IFACE)"};
 inline constexpr Text no_interface{"no CAN interface is up",
                                    "起動している CAN インタフェースがありません"};
 inline constexpr Text several_interfaces{"several CAN interfaces are up: {}",

@@ -76,6 +76,9 @@ class Session {
   /// Frames that the kernel dropped.
   [[nodiscard]] std::uint64_t lost_frames() const { return lost_; }
 
+  /// What came and was no frame of classic CAN.
+  [[nodiscard]] std::uint64_t unreadable() const { return loop_.bus().unreadable(); }
+
   /// Frames of ours that never were acknowledged: the kernel may still send what it was given.
   [[nodiscard]] std::size_t unsent() const { return loop_.unsent(); }
 

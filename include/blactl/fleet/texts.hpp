@@ -39,6 +39,9 @@ inline constexpr Text own_id_in_use_hint{
     "give a free node ID: --local-node-id ID",
     "空いているノード ID を指定してください: --local-node-id ID"};
 inline constexpr Text interrupted{"interrupted", "中断されました"};
+inline constexpr Text unreadable_frames{
+    "{} messages that were no frames of classic CAN were passed over (CAN FD, or damaged)",
+    "Classic CAN フレームではないメッセージ {} 件を無視しました (CAN FD または破損)"};
 inline constexpr Text frames_lost{
     "{} frames were lost because they came faster than they could be read",
     "読み出しが間に合わず {} フレームを失いました",
