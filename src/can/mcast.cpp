@@ -36,16 +36,19 @@ sockaddr_in group_of(std::uint8_t number) {
   return group;
 }
 
-Error without_address(const std::string& link) {
-  const std::string name = printable(link);
-  return {Code::interface, say<texts::mcast_no_address>(name),
-          say<texts::mcast_no_address_hint>(name)};
-}
-
-Error down(const std::string& link) {
-  const std::string name = printable(link);
-  return {Code::interface, say<texts::interface_down>(name),
-          say<texts::bring_up_hint>("sudo ip link set " + name + " up")};
+/// Why this interface cannot carry a bus now, if it cannot.
+std::optional<Error> unusable(const IpLink& link) {
+  const std::string name = printable(link.name);
+  if (!link.is_up) {
+    return Error{Code::interface, say<texts::interface_down>(name),
+                 say<texts::bring_up_hint>("sudo ip link set " + name + " up")};
+  }
+  // Without one, datagrams would leave with the address of another interface, or not at all.
+  if (!link.address) {
+    return Error{Code::interface, say<texts::mcast_no_address>(name),
+                 say<texts::mcast_no_address_hint>(name)};
+  }
+  return std::nullopt;
 }
 
 const sockaddr* raw(const sockaddr_in& address) {
@@ -80,15 +83,11 @@ Result<std::unique_ptr<Bus>> Mcast::open(std::uint8_t number, std::string_view i
     return fail(Code::interface, say<texts::no_such_interface>(printable(interface)),
                 describe_ip_links());
   }
-  if (!link->is_up) {
-    return std::unexpected(down(link->name));
-  }
-  // Without one, datagrams would leave with the address of another interface, or with none.
-  if (!link->address) {
-    return std::unexpected(without_address(link->name));
+  if (auto error = unusable(*link)) {
+    return std::unexpected(std::move(*error));
   }
   std::unique_ptr<Mcast> bus(new Mcast(number, *link));
-  // The watch comes first: nothing that happens to the interface is missed.
+  // The watch comes first: what happens before it makes connect() fail.
   auto opened = bus->watch();
   if (opened) {
     opened = bus->connect(*link->address);
@@ -155,7 +154,7 @@ std::optional<Error> Mcast::broken_link() const {
     return Error{Code::interface, say<texts::interface_gone>(printable(link_name_)),
                  say<texts::interface_gone_hint>()};
   }
-  return link->is_up ? std::nullopt : std::optional(down(link->name));
+  return unusable(*link);
 }
 
 /// The error of a system call, told as what became of the interface if that is the reason.
@@ -170,10 +169,6 @@ Error Mcast::broken(int error) const {
   if (error == EADDRINUSE) {
     return {Code::interface, say<texts::mcast_port_taken>(name_, port),
             say<texts::mcast_port_taken_hint>(port)};
-  }
-  // The address that our datagrams bear was taken away.
-  if (error == EINVAL || error == EADDRNOTAVAIL) {
-    return without_address(link_name_);
   }
   return {Code::interface, say<texts::mcast_failed>(name_, reason(error))};
 }

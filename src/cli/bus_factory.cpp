@@ -101,9 +101,9 @@ std::optional<InterfaceName> parse_mcast(std::string_view text) {
   InterfaceName name{.kind = InterfaceKind::mcast, .rest = {}};
   const auto mark = text.find('?');
   const std::string_view number = text.substr(0, mark);
-  const char* const end = number.data() + number.size();
-  const auto read = std::from_chars(number.data(), end, name.bus_number);
-  if (!number.empty() && (read.ec != std::errc() || read.ptr != end)) {
+  const auto [stop, error] =
+      std::from_chars(number.data(), number.data() + number.size(), name.bus_number);
+  if (!number.empty() && (error != std::errc() || stop != number.data() + number.size())) {
     return std::nullopt;
   }
   if (mark != std::string_view::npos) {

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-struct can_frame;
+struct can_frame; // NOLINT: the kernel's name
 
 namespace blactl::can {
 
