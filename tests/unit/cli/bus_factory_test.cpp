@@ -27,6 +27,7 @@ std::string kind(std::string_view text) {
   }
   switch (name->kind) {
   case InterfaceKind::socketcan: return "socketcan " + name->rest;
+  case InterfaceKind::mcast: return "mcast " + std::to_string(name->bus_number) + " " + name->rest;
   case InterfaceKind::simulator: return "simulator " + name->rest;
   case InterfaceKind::scenario: return "scenario " + name->rest;
   }
@@ -49,6 +50,25 @@ TEST_CASE("what stands behind -i") {
   CHECK(kind("foo:bar") == "usage");
   CHECK(kind(":") == "usage");
   CHECK(kind("CAN:can0") == "usage");
+}
+
+TEST_CASE("a multicast bus has a number from 0 to 255, and an interface if one is named") {
+  CHECK(kind("mcast:") == "mcast 0 ");
+  CHECK(kind("mcast:0") == "mcast 0 ");
+  CHECK(kind("mcast:255") == "mcast 255 ");
+  CHECK(kind("mcast:7?if=lo") == "mcast 7 lo");
+  CHECK(kind("mcast:?if=lo") == "mcast 0 lo");
+  CHECK(kind("mcast:1?if=br0.100") == "mcast 1 br0.100");
+  for (const char* wrong : {"mcast:256", "mcast:-1", "mcast:+1", "mcast: 1", "mcast:1 ", "mcast:x",
+                            "mcast:0x1", "mcast:1?", "mcast:1?if", "mcast:1?if=", "mcast:1?ttl=2",
+                            "mcast:1&if=lo", "mcast:1:lo", "mcast:99999999999999999999"}) {
+    CAPTURE(wrong);
+    const auto name = parse_interface(wrong);
+    REQUIRE_FALSE(name);
+    CHECK(name.error().code == Code::usage);
+    CHECK(name.error().message.find("mcast:N?if=IFACE") != std::string::npos);
+    CHECK(name.error().hint.find("-i mcast:0?if=lo") != std::string::npos);
+  }
 }
 
 TEST_CASE("an unknown kind of interface is refused with examples, harmless to a terminal") {
@@ -104,6 +124,10 @@ TEST_CASE("a scenario that cannot be read is a bad file") {
 
 TEST_CASE("a socket nobody serves is an interface that is not there") {
   CHECK(open("sim:/no/such/socket").error().code == Code::interface);
+}
+
+TEST_CASE("a network interface that does not exist is exit 3") {
+  CHECK(exit_status(open("mcast:0?if=nosuchnet0").error().code) == 3);
 }
 
 TEST_CASE("a CAN interface that does not exist is exit 3") {
