@@ -64,9 +64,19 @@ Session::Session(std::unique_ptr<can::Bus> bus, std::optional<dronecan::LocalNod
             {.name = "blactl",
              .unique_id = own_unique_id(local_ ? local_->id() : dronecan::anonymous)},
             {.send = [this](const can::Frame& frame) { loop_.send(frame); },
-             .transfer = [this](const dronecan::Transfer& transfer) { roster_.receive(transfer); },
+             .transfer =
+                 [this](const dronecan::Transfer& transfer) {
+                   roster_.receive(transfer);
+                   if (playback_) {
+                     playback_->receive(transfer);
+                   }
+                 },
              .error = {},
-             .backlog = [this] { return loop_.unsent(); }}) {}
+             .backlog = [this] { return loop_.unsent(); }}) {
+  if (loop_.bus().is_recording()) {
+    playback_.emplace(roster_);
+  }
+}
 
 Result<std::unique_ptr<Session>> Session::open(std::unique_ptr<can::Bus> bus,
                                                std::optional<dronecan::LocalNodeId> local,
@@ -82,6 +92,9 @@ Result<std::unique_ptr<Session>> Session::open(std::unique_ptr<can::Bus> bus,
 std::unexpected<Error> Session::end(Error error) {
   loop_.drop_queue();
   node_.cancel_all(loop_.now());
+  if (playback_) {
+    playback_->cancel();
+  }
   return std::unexpected(std::move(error));
 }
 
@@ -124,7 +137,7 @@ Result<Session::Happened> Session::take(const can::Event& event) {
   if (const auto* sent = std::get_if<can::Sent>(&event)) {
     node_.sent(sent->frame, sent->at);
   } else if (const auto* fault = std::get_if<can::BusFault>(&event)) {
-    if (fault->kind == can::FaultKind::bus_off) {
+    if (fault->kind == can::FaultKind::bus_off && !playback_) {
       return end({Code::bus_off, say<texts::bus_is_off>(interface()),
                   say<texts::bus_is_off_hint>(interface(), interface())});
     }
@@ -140,6 +153,8 @@ Result<Session::Happened> Session::take(const can::Event& event) {
     }
   } else if (std::holds_alternative<can::Ready>(event)) {
     return Happened::input;
+  } else if (playback_ && std::holds_alternative<can::Ended>(event)) {
+    playback_->finish();
   } else {
     return Happened::deadline;
   }
@@ -160,7 +175,28 @@ Result<Session::Happened> Session::take_frame(const can::Received& received) {
   return Happened::something;
 }
 
+void Session::start(dronecan::Job& job) {
+  if (playback_) {
+    playback_->start(job);
+  } else {
+    node_.start(job, loop_.now());
+  }
+}
+
+/// Hears what is left of a recording. A pipe may be slow, so it is the loop that waits.
+Result<void> Session::play() {
+  while (!playback_->finished()) {
+    if (const auto happened = take(loop_.next(never)); !happened) {
+      return std::unexpected(happened.error());
+    }
+  }
+  return {};
+}
+
 Result<void> Session::live_until(Time deadline) {
+  if (playback_) {
+    return play();
+  }
   for (;;) {
     const auto happened = step(deadline);
     if (!happened) {
@@ -173,6 +209,9 @@ Result<void> Session::live_until(Time deadline) {
 }
 
 Result<void> Session::run() {
+  if (playback_) {
+    return play();
+  }
   while (node_.jobs() > 0) {
     if (const auto happened = step(never); !happened) {
       return std::unexpected(happened.error());

@@ -35,6 +35,7 @@ struct Outcome {
     timed_out, ///< the question went out, no answer came
     not_sent,  ///< the question did not leave this machine
     cancelled,
+    not_recorded, ///< the bus is a recording that does not hold the answer
   };
 
   Kind kind = Kind::start;

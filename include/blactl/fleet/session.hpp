@@ -5,6 +5,7 @@
 #include "blactl/can/loop.hpp"
 #include "blactl/dronecan/local_node_id.hpp"
 #include "blactl/dronecan/node.hpp"
+#include "blactl/fleet/playback.hpp"
 #include "blactl/fleet/roster.hpp"
 
 #include <functional>
@@ -39,11 +40,13 @@ class Session {
 
   [[nodiscard]] Time now() const { return loop_.now(); }
 
-  void start(dronecan::Job& job) { node_.start(job, loop_.now()); }
+  /// On a recording nobody is asked: the job is answered from it, as soon as all of it was heard.
+  void start(dronecan::Job& job);
 
-  /// Lives until `deadline`.
+  /// Lives until `deadline`; on a recording, until all of it was heard, whatever the deadline.
   /// Errors of this and run(): interrupted, interface, bus_off, no_acknowledge, duplicate_node_id
-  /// (a foreign frame with our ID). They end the session: every job is cancelled.
+  /// (a foreign frame with our ID); of a recording: bad_file. They end the session: every job is
+  /// cancelled.
   [[nodiscard]] Result<void> live_until(Time deadline);
 
   /// Lives until no job is left.
@@ -70,10 +73,12 @@ class Session {
   [[nodiscard]] Result<Happened> take_frame(const can::Received& received);
   [[nodiscard]] std::unexpected<Error> end(Error error);
   [[nodiscard]] Time acknowledge_deadline() const;
+  [[nodiscard]] Result<void> play();
 
   std::optional<dronecan::LocalNodeId> local_;
   can::Loop loop_;
   Roster roster_;
+  std::optional<Playback> playback_; ///< on a recording
   dronecan::Node node_;
   int signal_ = 0;
   std::uint64_t lost_ = 0;

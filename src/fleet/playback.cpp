@@ -1,0 +1,40 @@
+#include "blactl/fleet/playback.hpp"
+
+#include <utility>
+
+namespace blactl::fleet {
+
+using dronecan::Outcome;
+
+void Playback::start(dronecan::Job& job) {
+  if (finished_) {
+    play(job);
+  } else {
+    waiting_.push_back(&job);
+  }
+}
+
+void Playback::play(dronecan::Job& job) const {
+  Outcome outcome;
+  while (const auto request = job.next(outcome)) {
+    outcome = archive_.answer(*request);
+  }
+}
+
+void Playback::finish() {
+  finished_ = true;
+  for (dronecan::Job* job : std::exchange(waiting_, {})) {
+    play(*job);
+  }
+}
+
+void Playback::cancel() {
+  finished_ = true;
+  for (dronecan::Job* job : std::exchange(waiting_, {})) {
+    if (job->next({})) { // its first question, to which the end of the session is the answer
+      (void)job->next({Outcome::Kind::cancelled, {}, {}});
+    }
+  }
+}
+
+} // namespace blactl::fleet
