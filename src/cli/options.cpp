@@ -23,9 +23,10 @@ namespace {
 constexpr std::array<std::string_view, 5> commands{"scan", "get", "set", "models", "sim"};
 
 /// Options that take the next argument as their value: what a mistyped command is told apart from.
-constexpr std::array<std::string_view, 12> with_value{
-    "--interface", "--node",        "--local-node-id", "--color",  "--lang",   "--timeout",
-    "--retries",   "--profile-dir", "--profile",       "--listen", "--expect", "--group"};
+constexpr std::array<std::string_view, 13> with_value{
+    "--interface", "--node",    "--local-node-id", "--color",   "--lang",
+    "--timeout",   "--retries", "--profile-dir",   "--profile", "--listen",
+    "--expect",    "--group",   "--record"};
 
 std::string list(std::initializer_list<std::string_view> words) {
   std::string out;
@@ -206,7 +207,8 @@ class Parser {
   SimOptions sim_;
   std::string *interface_ = nullptr, *nodes_ = nullptr, *local_ = nullptr, *colour_ = nullptr,
               *lang_ = nullptr, *timeout_ = nullptr, *retries_ = nullptr, *profile_dir_ = nullptr,
-              *profile_ = nullptr, *listen_ = nullptr, *expect_ = nullptr, *seed_ = nullptr;
+              *profile_ = nullptr, *record_ = nullptr, *listen_ = nullptr, *expect_ = nullptr,
+              *seed_ = nullptr;
   bool json_ = false, csv_ = false;
 };
 
@@ -230,6 +232,7 @@ void Parser::add_shared() {
   app_.add_flag("--while-driven", shared.while_driven, "although another node drives the servo");
   profile_dir_ = values_.add(app_, "--profile-dir", "further model profiles", "DIR");
   profile_ = values_.add(app_, "--profile", "read as this model where no profile fits", "MODEL");
+  record_ = values_.add(app_, "--record", "write every frame to a candump log", "FILE");
 }
 
 void Parser::add_scan() {
@@ -285,6 +288,7 @@ void Parser::take_shared() {
   };
   shared.nodes = optional(*nodes_);
   shared.profile = optional(*profile_);
+  shared.record = optional(*record_);
   shared.profile_dir =
       profile_dir_->empty() ? environment("BLACTL_PROFILE_DIR") : optional(*profile_dir_);
   if (!local_->empty()) {
@@ -333,6 +337,12 @@ Result<Invocation> Parser::take() {
   if (result_.shared.output.format == Format::csv && result_.name != "scan" &&
       result_.name != "get") {
     values_.failed(say<texts::no_csv>(result_.name));
+  }
+  if (result_.shared.record == "-") {
+    values_.failed(say<texts::record_needs_file>());
+  }
+  if (result_.shared.record && (result_.name == "models" || result_.name == "sim")) {
+    values_.failed(say<texts::nothing_to_record>(result_.name));
   }
   if (values_.error()) {
     return std::unexpected(*values_.error());

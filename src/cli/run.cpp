@@ -58,7 +58,7 @@ int run(std::span<const std::string> arguments) {
   Context context(invocation->shared, reporter);
   Report report = std::visit(Dispatch{context}, invocation->command);
   report.command = invocation->name;
-  context.tell_losses();
+  context.tell_losses(report);
   return reporter.finish(report);
 }
 

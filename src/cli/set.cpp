@@ -7,6 +7,7 @@
 #include "blactl/fleet/texts.hpp"
 #include "blactl/fleet/write_job.hpp"
 
+#include "bus_factory.hpp"
 #include "commands.hpp"
 #include "confirm.hpp"
 #include "node_head.hpp"
@@ -196,6 +197,9 @@ bool Set::understand() {
   if (context_.shared().listen_only) {
     return stop({Code::usage, say<texts::listen_only_refused>("set"),
                  say<texts::listen_only_hint>(), std::nullopt});
+  }
+  if (auto refused = takes_no_frames(context_.shared().interface)) {
+    return stop(std::move(*refused));
   }
   return true;
 }
