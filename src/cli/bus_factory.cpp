@@ -2,6 +2,7 @@
 
 #include "blactl/can/link.hpp"
 #include "blactl/can/mcast.hpp"
+#include "blactl/can/replay_texts.hpp"
 #include "blactl/can/simbus.hpp"
 #include "blactl/can/socketcan.hpp"
 #include "blactl/sim/private_bus.hpp"
@@ -54,7 +55,7 @@ Result<OpenBus> open_socketcan(const std::string& name) {
   }
   // Not as it was typed: an interface may have further names.
   const std::string first_name((*bus)->name());
-  return OpenBus{std::move(*bus), first_name};
+  return OpenBus{std::move(*bus), first_name, nullptr};
 }
 
 /// The name of the bus says the network interface: those on another one do not hear each other.
@@ -74,7 +75,7 @@ Result<OpenBus> open_private(std::string_view text, const Result<sim::Scenario>&
   if (!scenario) {
     return std::unexpected(scenario.error());
   }
-  return OpenBus{std::make_unique<sim::PrivateBus>(printable(text), *scenario), {}};
+  return OpenBus{std::make_unique<sim::PrivateBus>(printable(text), *scenario), {}, nullptr};
 }
 
 Result<OpenBus> open_simulator(std::string_view text, const std::string& socket,
@@ -92,7 +93,16 @@ Result<OpenBus> open_simulator(std::string_view text, const std::string& socket,
   // Many paths may lead there.
   std::error_code error;
   const auto canonical = std::filesystem::canonical(path, error);
-  return OpenBus{std::move(*bus), "sim:" + (error ? path : canonical.string())};
+  return OpenBus{std::move(*bus), "sim:" + (error ? path : canonical.string()), nullptr};
+}
+
+Result<OpenBus> open_log(std::string_view text, const std::string& path) {
+  auto log = can::ReplayBus::open(path, printable(text));
+  if (!log) {
+    return std::unexpected(log.error());
+  }
+  const can::ReplayBus* bus = log->get();
+  return OpenBus{std::move(*log), {}, bus};
 }
 
 /// What stands behind "mcast:": "0?if=lo". The number alone is enough, and so is nothing: bus 0.
@@ -137,8 +147,20 @@ Result<InterfaceName> parse_interface(std::string_view text) {
                 : fail(Code::usage, say<texts::bad_mcast>(printable(text)),
                        say<texts::bad_mcast_hint>());
   }
+  if (scheme == "replay" && colon + 1 < text.size()) {
+    return InterfaceName{InterfaceKind::replay, std::string(text.substr(colon + 1))};
+  }
   return fail(Code::usage, say<texts::bad_interface>(printable(text)),
               say<texts::bad_interface_hint>());
+}
+
+std::optional<Error> takes_no_frames(std::string_view text) {
+  const auto name = parse_interface(text);
+  if (!name || name->kind != InterfaceKind::replay) {
+    return std::nullopt;
+  }
+  return Error{Code::usage, say<texts::log_takes_no_frames>(printable(text)),
+               say<texts::log_takes_no_frames_hint>(), std::nullopt};
 }
 
 Result<OpenBus> open_bus(std::string_view text, const bla::Profiles& profiles,
@@ -155,6 +177,7 @@ Result<OpenBus> open_bus(std::string_view text, const bla::Profiles& profiles,
   case InterfaceKind::mcast: return open_mcast(*name, reporter);
   case InterfaceKind::simulator: return open_simulator(text, name->rest, profiles, reporter);
   case InterfaceKind::scenario: return open_private(text, sim::read_scenario(name->rest, profiles));
+  case InterfaceKind::replay: return open_log(text, name->rest);
   case InterfaceKind::socketcan: break;
   }
   return open_socketcan(name->rest);

@@ -1,12 +1,15 @@
 #include "context.hpp"
 
+#include "blactl/can/replay_texts.hpp"
 #include "blactl/fleet/texts.hpp"
 
 #include "bus_factory.hpp"
 #include "texts.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <set>
+#include <system_error>
 #include <utility>
 
 namespace blactl::cli {
@@ -70,9 +73,10 @@ Result<fleet::Session*> Context::open(fleet::Session::Hearing hearing) {
                           ? std::optional(dronecan::NodeId(*shared_.local_node_id))
                           : std::nullopt;
   std::optional<LocalNodeId> local;
-  if (!shared_.listen_only && bus->lock_name.empty()) {
+  const bool listens = shared_.listen_only || bus->bus->is_recording();
+  if (!listens && bus->lock_name.empty()) {
     local = LocalNodeId::unshared(wanted);
-  } else if (!shared_.listen_only) {
+  } else if (!listens) {
     auto acquired = LocalNodeId::acquire(bus->lock_name, wanted);
     if (!acquired) {
       return std::unexpected(acquired.error());
@@ -80,7 +84,12 @@ Result<fleet::Session*> Context::open(fleet::Session::Hearing hearing) {
     local = std::move(*acquired);
   }
   lock_name_ = bus->lock_name;
-  auto session = fleet::Session::open(std::move(bus->bus), std::move(local), hearing);
+  log_ = bus->log;
+  auto recording = recorded(std::move(bus->bus));
+  if (!recording) {
+    return std::unexpected(recording.error());
+  }
+  auto session = fleet::Session::open(std::move(*recording), std::move(local), hearing);
   if (!session) {
     return std::unexpected(session.error());
   }
@@ -94,6 +103,9 @@ Result<fleet::Session*> Context::open_for_writing(std::string_view command) {
   if (shared_.listen_only) {
     return fail(Code::usage, say<texts::listen_only_refused>(command),
                 say<texts::listen_only_hint>());
+  }
+  if (auto refused = takes_no_frames(shared_.interface)) {
+    return std::unexpected(std::move(*refused));
   }
   auto session = open(fleet::Session::Hearing::commands);
   if (!session || lock_name_.empty()) {
@@ -119,16 +131,50 @@ bool Context::may_allocate() {
   return allocating_.has_value();
 }
 
+/// The bus, or a recorder around it. The file is made last: what stops the command before leaves
+/// one that is there as it was.
+Result<std::unique_ptr<can::Bus>> Context::recorded(std::unique_ptr<can::Bus> bus) {
+  if (!shared_.record) {
+    return bus;
+  }
+  const auto name = parse_interface(shared_.interface);
+  if (log_ != nullptr && name) {
+    std::error_code error;
+    const std::string path = name->rest == "-" ? "/dev/stdin" : name->rest;
+    if (std::filesystem::equivalent(path, *shared_.record, error)) {
+      return fail(Code::usage, say<texts::records_itself>(printable(*shared_.record)),
+                  say<texts::record_unopened_hint>());
+    }
+  }
+  auto recorder = can::Recorder::open(std::move(bus), *shared_.record);
+  if (!recorder) {
+    return std::unexpected(recorder.error());
+  }
+  recorder_ = recorder->get();
+  return std::move(*recorder);
+}
+
 fleet::Identification::Options Context::identification() const {
   return {.patience = shared_.patience, .assumed = assumed_, .static_node_id = false};
 }
 
-void Context::tell_losses() const {
-  if (session_ && session_->lost_frames() > 0) {
+void Context::tell_losses(Report& report) const {
+  if (!session_) {
+    return;
+  }
+  if (session_->lost_frames() > 0) {
     reporter_.note(say<texts::frames_lost>(session_->lost_frames()));
   }
-  if (session_ && session_->unreadable() > 0) {
+  if (session_->unreadable() > 0) {
     reporter_.note(say<texts::unreadable_frames>(session_->unreadable()));
+  }
+  if (log_ != nullptr && log_->reader().bad_lines() > 0) {
+    const can::CandumpReader& log = log_->reader();
+    reporter_.note(
+        say<texts::lines_passed_over>(log.name(), log.bad_lines(), log.first_bad_line()));
+  }
+  if (recorder_ != nullptr && recorder_->error()) {
+    report.fail(*recorder_->error());
   }
 }
 

@@ -2,6 +2,8 @@
 // What every command on a bus needs: the profiles, a session, and the servos it is about.
 
 #include "blactl/bla/profile.hpp"
+#include "blactl/can/recorder.hpp"
+#include "blactl/can/replay.hpp"
 #include "blactl/dronecan/interface_lock.hpp"
 #include "blactl/fleet/identification.hpp"
 #include "blactl/fleet/session.hpp"
@@ -42,7 +44,7 @@ class Context {
   [[nodiscard]] Result<fleet::Targets> targets() const;
 
   /// Opens the interface with a node ID of our own (none with --listen-only). The session lives as
-  /// long as the context. Errors: interface, permission, no_local_node_id, bad_file, usage.
+  /// long as the context. Errors: interface, permission, no_local_node_id, bad_file, usage, io.
   [[nodiscard]] Result<fleet::Session*> open(fleet::Session::Hearing hearing);
 
   /// The same, to write to servos: one process of this machine at a time. Further errors: usage
@@ -72,13 +74,15 @@ class Context {
   /// error is in `report`.
   [[nodiscard]] bool hear_bus(Report& report);
 
-  /// Says so if frames were dropped on the way to this process.
-  void tell_losses() const;
+  /// Says so if frames were dropped on the way to this process, or lines of a log passed over. A
+  /// recording that ended early is a failure of the command.
+  void tell_losses(Report& report) const;
 
   /// Ends a command whose session broke: what the report needs of it.
   void broken(const Error& error, Report& report) const;
 
  private:
+  [[nodiscard]] Result<std::unique_ptr<can::Bus>> recorded(std::unique_ptr<can::Bus> bus);
   void search(Duration time, Report& report, bool failures_count);
   [[nodiscard]] std::vector<fleet::Member*> matching(const fleet::Targets& targets, Report& report);
 
@@ -90,6 +94,8 @@ class Context {
   std::optional<dronecan::InterfaceLock> writing_, allocating_;
   std::unique_ptr<fleet::Session> session_;
   Time opened_{};
+  const can::ReplayBus* log_ = nullptr;     ///< the session's bus, with -i replay:
+  const can::Recorder* recorder_ = nullptr; ///< around the session's bus, with --record
 };
 
 } // namespace blactl::cli

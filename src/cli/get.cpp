@@ -3,7 +3,9 @@
 #include "blactl/bla/value.hpp"
 #include "blactl/fleet/read_job.hpp"
 #include "blactl/fleet/safety.hpp"
+#include "blactl/fleet/texts.hpp"
 
+#include "bus_factory.hpp"
 #include "commands.hpp"
 #include "node_head.hpp"
 #include "table.hpp"
@@ -236,6 +238,30 @@ std::string text(const std::vector<Answer>& answers, const Wish& wish) {
   return out;
 }
 
+/// One error for all that a recording lacks: of a servo that was never read it is everything.
+std::optional<Error> not_recorded(const ReadJob& job) {
+  constexpr std::size_t most_names = 8;
+  std::string names;
+  std::size_t count = 0;
+  for (const Reading& reading : job.readings()) {
+    if (reading.raw || reading.raw.error().code != Code::not_recorded) {
+      continue;
+    }
+    if (count++ < most_names) {
+      names += names.empty() ? "" : ", ";
+      names += reading.parameter->name;
+    }
+  }
+  if (count == 0) {
+    return std::nullopt;
+  }
+  const std::string list =
+      count > most_names ? say<texts::and_more>(names, count - most_names) : names;
+  const std::uint8_t id = job.member().id.value();
+  return Error{Code::not_recorded, say<texts::not_recorded>(id, list),
+               say<texts::not_recorded_hint>(), id};
+}
+
 /// The worst that happened to one servo: 0, or the status of its first error.
 int judge(const ReadJob& job, const fleet::Roster& roster, Report& report) {
   int status = 0;
@@ -249,9 +275,12 @@ int judge(const ReadJob& job, const fleet::Roster& roster, Report& report) {
     failed(*job.error());
   }
   for (const Reading& reading : job.readings()) {
-    if (!reading.raw) {
+    if (!reading.raw && reading.raw.error().code != Code::not_recorded) {
       failed(reading.raw.error());
     }
+  }
+  if (const auto error = not_recorded(job)) {
+    failed(*error);
   }
   return status;
 }
@@ -272,7 +301,8 @@ Report execute(const GetOptions& options, Context& context) {
   if (!wish) {
     return stop(wish.error());
   }
-  if (context.shared().listen_only) {
+  const bool must_send = !takes_no_frames(context.shared().interface);
+  if (context.shared().listen_only && must_send) {
     return stop({Code::usage, say<texts::listen_only_refused>("get"),
                  say<texts::listen_only_hint>(), std::nullopt});
   }

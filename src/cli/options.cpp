@@ -28,10 +28,10 @@ constexpr std::array<std::string_view, 9> commands{"scan",    "get",  "set",    
 constexpr std::array<std::string_view, 2> with_csv{"scan", "get"};
 
 /// Options that take the next argument as their value: what a mistyped command is told apart from.
-constexpr std::array<std::string_view, 14> with_value{
+constexpr std::array<std::string_view, 15> with_value{
     "--interface", "--node",    "--local-node-id", "--color",   "--lang",
     "--timeout",   "--retries", "--profile-dir",   "--profile", "--listen",
-    "--expect",    "--group",   "--wait",          "--stagger"};
+    "--expect",    "--group",   "--wait",          "--stagger", "--record"};
 
 std::optional<std::string> environment(const char* name) {
   const char* value = std::getenv(name);
@@ -137,6 +137,7 @@ void Parser::add_shared() {
   values_.text(app_, "--profile-dir", "further model profiles", "DIR", shared.profile_dir);
   values_.text(app_, "--profile", "read as this model where no profile fits", "MODEL",
                shared.profile);
+  values_.text(app_, "--record", "write every frame to a candump log", "FILE", shared.record);
 }
 
 void Parser::add_output() {
@@ -273,6 +274,12 @@ Result<Invocation> Parser::take() {
   }
   if (auto checked = values_.check(); !checked) {
     return std::unexpected(checked.error());
+  }
+  if (result_.shared.record == "-") {
+    return refuse(say<texts::record_needs_file>());
+  }
+  if (result_.shared.record && (result_.name == "models" || result_.name == "sim")) {
+    return refuse(say<texts::nothing_to_record>(result_.name));
   }
   if (chosen.empty()) {
     return refuse(say<texts::no_command>());

@@ -29,6 +29,7 @@ struct Shared {
   fleet::Patience patience{};
   std::optional<std::string> profile_dir{};
   std::optional<std::string> profile{};
+  std::optional<std::string> record{};
   Reporter::Options output{};
 };
 

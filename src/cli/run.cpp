@@ -43,7 +43,7 @@ int run(std::span<const std::string> arguments) {
   Report report = std::visit([&](const auto& options) { return execute(options, context); },
                              invocation->command);
   report.command = invocation->name;
-  context.tell_losses();
+  context.tell_losses(report);
   return reporter.finish(report);
 }
 

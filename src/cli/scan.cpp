@@ -54,8 +54,10 @@ class Search {
   void conclude(Report& report) const {
     for (const auto& job : identifications_) {
       const auto& error = job->identification().error();
-      report.statuses.push_back(error ? exit_status(error->code) : 0);
-      if (error) {
+      // Who was heard is all that a recording of others may hold: no failure of this command.
+      const bool failed = error && error->code != Code::not_recorded;
+      report.statuses.push_back(failed ? exit_status(error->code) : 0);
+      if (failed) {
         report.fail(*error);
       }
     }

@@ -7,6 +7,7 @@
 #include "blactl/fleet/texts.hpp"
 #include "blactl/fleet/write_job.hpp"
 
+#include "bus_factory.hpp"
 #include "commands.hpp"
 #include "confirm.hpp"
 #include "node_head.hpp"

@@ -117,6 +117,8 @@ Report execute(const SimOptions& options, Context& context) {
   const auto name = parse_interface(text.empty() ? "sim:" : text);
   if (!name) {
     report.fail(name.error());
+  } else if (const auto refused = takes_no_frames(text)) {
+    report.fail(*refused);
   } else if (name->kind == InterfaceKind::socketcan || name->kind == InterfaceKind::mcast) {
     join(text, *scenario, **profiles, context, report);
   } else if (name->kind == InterfaceKind::simulator) {

@@ -28,6 +28,17 @@ inline constexpr Text bad_word{"{} {}: not one of {}", "{} {}: {} のいずれ�
 inline constexpr Text json_and_csv{"--json and --csv exclude each other",
                                    "--json と --csv は同時に指定できません"};
 inline constexpr Text no_csv{"{} has no CSV output", "{} は CSV 出力に対応していません"};
+inline constexpr Text record_needs_file{"--record needs a file: standard output is for data",
+                                        "--record にはファイルを指定してください "
+                                        "(標準出力はデータ用です)"};
+inline constexpr Text nothing_to_record{"{} has no session that could be recorded",
+                                        "{} には記録できるセッションがありません"};
+inline constexpr Text records_itself{"--record {}: that is the log being read",
+                                     "--record {}: 読込み中のログと同じファイルです"};
+inline constexpr Text lines_passed_over{
+    "{}: lines passed over because they are no frames: {}, the first is line {}",
+    "{}: フレームではない {} 行を無視しました (最初は {} 行目)"};
+inline constexpr Text and_more{"{} and {} more", "{} 他 {} 件"};
 inline constexpr Text listen_only_refused{
     "{} must send, which --listen-only forbids",
     "{} は送信が必要なため --listen-only では実行できません",

@@ -60,7 +60,7 @@ std::optional<Request> Identification::next(const Outcome& outcome) {
   if (error_) {
     return std::nullopt;
   }
-  const bool foreign = step_ == Step::model_number && !member_.is_servo;
+  const bool foreign = step_ == Step::model_number && !member_.is_servo && !recording_lacks_model_;
   const auto following = static_cast<Step>(std::to_underlying(step_) + 1);
   const bool last =
       following == Step::end || (following == Step::static_node_id && !options_.static_node_id);
@@ -70,7 +70,7 @@ std::optional<Request> Identification::next(const Outcome& outcome) {
 void Identification::take_node_info(const Outcome& outcome) {
   auto response =
       outcome.answered() ? GetNodeInfo::Response::decode(outcome.payload) : std::nullopt;
-  if (!response) {
+  if (!response && outcome.kind != Outcome::Kind::not_recorded) {
     error_ = no_answer(outcome, member_.id, "GetNodeInfo");
     if (error_->code == Code::timeout) {
       const std::uint8_t id = member_.id.value();
@@ -82,7 +82,7 @@ void Identification::take_node_info(const Outcome& outcome) {
     return;
   }
   // Whatever was known may be that of another unit.
-  member_.info = std::move(*response);
+  member_.info = std::move(response);
   member_.identity = {};
   member_.is_servo = false;
   member_.servo_id = member_.static_node_id = std::nullopt;
@@ -95,13 +95,13 @@ void Identification::take_register(const Outcome& outcome) {
   // A node without parameters (a GPS, a battery) answers GetNodeInfo and nothing else.
   const bool foreign =
       first && !value && !member_.sends_actuator_status() && value.error().code == Code::timeout;
-  if (!value && value.error().code != Code::refused && !foreign) {
+  const bool not_recorded = outcome.kind == Outcome::Kind::not_recorded;
+  if (!value && value.error().code != Code::refused && !foreign && !not_recorded) {
     error_ = value.error();
     return;
   }
-  if (first) {
-    member_.is_servo = value.has_value();
-  }
+  recording_lacks_model_ = recording_lacks_model_ || (first && not_recorded);
+  member_.is_servo = member_.is_servo || value.has_value();
   auto& destination = slot(step_);
   destination = std::nullopt;
   if (value) {
@@ -110,7 +110,24 @@ void Identification::take_register(const Outcome& outcome) {
   }
 }
 
+/// What a recording holds of a node may not tell whether it is a servo.
+std::optional<Error> Identification::undecided() const {
+  const bool foreign = member_.info && !member_.sends_actuator_status();
+  if (!recording_lacks_model_ || member_.is_servo || foreign) {
+    return std::nullopt;
+  }
+  const std::uint8_t id = member_.id.value();
+  return Error{Code::not_recorded,
+               roster_.heard(member_.id) ? say<texts::identity_not_recorded>(id)
+                                         : say<texts::node_not_recorded>(id),
+               say<texts::not_recorded_hint>(), id};
+}
+
 std::optional<Request> Identification::conclude() {
+  error_ = undecided();
+  if (error_) {
+    return std::nullopt;
+  }
   if (member_.is_servo) {
     member_.identity = bla::Identity(profiles_, readings_);
     if (options_.assumed != nullptr) {

@@ -37,7 +37,8 @@ std::optional<Request> ReadJob::make_plan() {
   }
   if (!member_.is_servo) {
     const std::uint8_t id = member_.id.value();
-    error_ = Error{Code::not_found, say<texts::not_a_servo>(id, printable(member_.info->name)),
+    const std::string name = member_.info ? printable(member_.info->name) : std::string();
+    error_ = Error{Code::not_found, say<texts::not_a_servo>(id, name),
                    say<texts::node_not_found_hint>(), id};
     return std::nullopt;
   }

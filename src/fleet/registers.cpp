@@ -64,6 +64,9 @@ Error no_answer(const Outcome& outcome, dronecan::NodeId server, std::string_vie
             say<texts::nobody_acknowledges_hint>(), node};
   case Outcome::Kind::cancelled:
     return {Code::interrupted, say<texts::cancelled>(node, subject), {}, node};
+  case Outcome::Kind::not_recorded:
+    return {Code::not_recorded, say<texts::not_recorded>(node, subject),
+            say<texts::not_recorded_hint>(), node};
   default:
     return {Code::timeout, say<texts::no_answer>(node, subject), say<texts::no_answer_hint>(),
             node};

@@ -75,10 +75,17 @@ Session::Session(std::unique_ptr<can::Bus> bus, std::optional<dronecan::LocalNod
                    for (dronecan::Service* service : services_) {
                      service->receive(transfer);
                    }
+                   if (playback_) {
+                     playback_->receive(transfer);
+                   }
                  },
              .error = {},
              .backlog = [this] { return loop_.unsent(); },
-             .withdraw = [this](auto frames) { loop_.withdraw(frames); }}) {}
+             .withdraw = [this](auto frames) { loop_.withdraw(frames); }}) {
+  if (loop_.bus().is_recording()) {
+    playback_.emplace(roster_);
+  }
+}
 
 Result<std::unique_ptr<Session>> Session::open(std::unique_ptr<can::Bus> bus,
                                                std::optional<dronecan::LocalNodeId> local,
@@ -94,6 +101,9 @@ Result<std::unique_ptr<Session>> Session::open(std::unique_ptr<can::Bus> bus,
 std::unexpected<Error> Session::end(Error error) {
   loop_.drop_queue();
   node_.cancel_all(loop_.now());
+  if (playback_) {
+    playback_->cancel();
+  }
   return std::unexpected(std::move(error));
 }
 
@@ -138,7 +148,7 @@ Result<Session::Happened> Session::take(const can::Event& event) {
   if (const auto* sent = std::get_if<can::Sent>(&event)) {
     node_.sent(sent->frame, sent->at);
   } else if (const auto* fault = std::get_if<can::BusFault>(&event)) {
-    if (fault->kind == can::FaultKind::bus_off) {
+    if (fault->kind == can::FaultKind::bus_off && !playback_) {
       return end({Code::bus_off, say<texts::bus_is_off>(interface()),
                   say<texts::bus_is_off_hint>(interface(), interface())});
     }
@@ -151,6 +161,8 @@ Result<Session::Happened> Session::take(const can::Event& event) {
     return take_signal(caught->number);
   } else if (std::holds_alternative<can::Ready>(event)) {
     return Happened::input;
+  } else if (playback_ && std::holds_alternative<can::Ended>(event)) {
+    playback_->finish();
   } else {
     return Happened::deadline;
   }
@@ -205,7 +217,28 @@ Result<Session::Happened> Session::take_frame(const can::Received& received) {
   return Happened::something;
 }
 
+void Session::start(dronecan::Job& job) {
+  if (playback_) {
+    playback_->start(job);
+  } else {
+    node_.start(job, loop_.now());
+  }
+}
+
+/// Hears what is left of a recording. A pipe may be slow, so it is the loop that waits.
+Result<void> Session::play() {
+  while (!playback_->finished()) {
+    if (const auto happened = take(loop_.next(never)); !happened) {
+      return std::unexpected(happened.error());
+    }
+  }
+  return {};
+}
+
 Result<void> Session::live_until(Time deadline) {
+  if (playback_) {
+    return play();
+  }
   for (;;) {
     const auto happened = step(deadline);
     if (!happened) {
@@ -231,6 +264,9 @@ Result<bool> Session::live_until(Time deadline, const std::function<bool()>& don
 }
 
 Result<void> Session::run() {
+  if (playback_) {
+    return play();
+  }
   while (node_.jobs() > 0) {
     if (const auto happened = step(never); !happened) {
       return std::unexpected(happened.error());

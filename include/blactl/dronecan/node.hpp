@@ -39,6 +39,7 @@ struct Outcome {
     not_sent,  ///< the question did not leave this machine in time; the kernel may still send it
     woken,     ///< the pause is over
     cancelled,
+    not_recorded, ///< the bus is a recording that does not hold the answer
   };
 
   Kind kind = Kind::start;

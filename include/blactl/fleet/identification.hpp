@@ -27,7 +27,9 @@ class Identification {
 
   [[nodiscard]] bool done() const { return done_; }
 
-  /// Why it failed: timeout, not_found, model_mismatch, interrupted, no_acknowledge.
+  /// Why it failed: timeout, not_found, model_mismatch, interrupted, no_acknowledge; not_recorded
+  /// where a recording holds nothing that tells whether it is a servo. What else a recording lacks
+  /// stays unknown.
   [[nodiscard]] const std::optional<Error>& error() const { return error_; }
 
  private:
@@ -46,6 +48,7 @@ class Identification {
   [[nodiscard]] static bla::Address address_of(Step step);
   [[nodiscard]] std::optional<dronecan::Request> question(Step step);
   [[nodiscard]] std::optional<dronecan::Request> conclude();
+  [[nodiscard]] std::optional<Error> undecided() const;
   void take_node_info(const dronecan::Outcome& outcome);
   void take_register(const dronecan::Outcome& outcome);
   [[nodiscard]] std::optional<std::int64_t>& slot(Step step);
@@ -57,6 +60,7 @@ class Identification {
   Step step_ = Step::begin;
   bla::Readings readings_;
   std::uint32_t boot_ = 0; ///< when the servo told its unique ID
+  bool recording_lacks_model_ = false;
   bool done_ = false;
   std::optional<Error> error_;
 };

@@ -26,12 +26,12 @@ struct Patience {
                                                std::int64_t raw, const Patience& patience);
 
 /// What stands behind an outcome without an answer. `subject` is what was asked, for the message.
-/// Errors: timeout, no_acknowledge (it did not leave), interrupted.
+/// Errors: timeout, no_acknowledge (it did not leave), interrupted, not_recorded.
 [[nodiscard]] Error no_answer(const dronecan::Outcome& outcome, dronecan::NodeId server,
                               std::string_view subject);
 
 /// The 64-bit integer that a GetSet answer carries, not yet narrowed to the register's width.
-/// Errors: refused (no value, or no integer), timeout, no_acknowledge, interrupted.
+/// Errors: refused (no value, or no integer), and those of no_answer().
 [[nodiscard]] Result<std::int64_t> register_value(const dronecan::Outcome& outcome,
                                                   dronecan::NodeId server, bla::Address address);
 

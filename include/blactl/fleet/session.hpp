@@ -6,6 +6,7 @@
 #include "blactl/dronecan/local_node_id.hpp"
 #include "blactl/dronecan/node.hpp"
 #include "blactl/dronecan/service.hpp"
+#include "blactl/fleet/playback.hpp"
 #include "blactl/fleet/roster.hpp"
 
 #include <functional>
@@ -42,7 +43,8 @@ class Session {
 
   [[nodiscard]] Time now() const { return loop_.now(); }
 
-  void start(dronecan::Job& job) { node_.start(job, loop_.now()); }
+  /// On a recording nobody is asked: the job is answered from it, as soon as all of it was heard.
+  void start(dronecan::Job& job);
 
   /// Lets a service hear and act; it must live until detach().
   void attach(dronecan::Service& service) { services_.push_back(&service); }
@@ -55,9 +57,10 @@ class Session {
 
   static constexpr Duration grace = std::chrono::seconds(3);
 
-  /// Lives until `deadline`.
+  /// Lives until `deadline`; on a recording, until all of it was heard, whatever the deadline.
   /// Errors of this and run(): interrupted, interface, bus_off, no_acknowledge, duplicate_node_id
-  /// (a foreign frame with our ID). They end the session: every job is cancelled.
+  /// (a foreign frame with our ID); of a recording: bad_file. They end the session: every job is
+  /// cancelled.
   [[nodiscard]] Result<void> live_until(Time deadline);
 
   /// Lives until `done` holds, which is looked at after every event; whether it did before
@@ -94,10 +97,12 @@ class Session {
   void advance(Time now);
   [[nodiscard]] std::unexpected<Error> end(Error error);
   [[nodiscard]] Time acknowledge_deadline() const;
+  [[nodiscard]] Result<void> play();
 
   std::optional<dronecan::LocalNodeId> local_;
   can::Loop loop_;
   Roster roster_;
+  std::optional<Playback> playback_; ///< on a recording
   dronecan::Node node_;
   std::vector<dronecan::Service*> services_;
   std::function<void()> stopping_;

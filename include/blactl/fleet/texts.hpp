@@ -13,6 +13,17 @@ inline constexpr Text no_answer_hint{
 inline constexpr Text not_sent{"node {}: the request for {} did not leave this machine",
                                "ノード {}: {} の要求を送信できませんでした"};
 inline constexpr Text cancelled{"node {}: {} was not finished", "ノード {}: {} は完了していません"};
+inline constexpr Text not_recorded{"node {}: not in the recording: {}",
+                                   "ノード {}: 記録にありません: {}"};
+inline constexpr Text not_recorded_hint{
+    "what a servo says counts until it restarts; record all of it: blactl get --all --record FILE",
+    "サーボの応答は再起動までの分だけが有効です。すべて記録するには: "
+    "blactl get --all --record FILE"};
+inline constexpr Text identity_not_recorded{
+    "node {} is in the recording, but not what it is",
+    "ノード {} は記録にありますが、機種などの情報がありません"};
+inline constexpr Text node_not_recorded{"node {} is not in the recording",
+                                        "ノード {} は記録にありません"};
 inline constexpr Text register_refused{"node {}: the servo refuses {}",
                                        "ノード {}: サーボが {} を拒否しました"};
 inline constexpr Text register_refused_hint{

@@ -30,6 +30,7 @@ std::string kind(std::string_view text) {
   case InterfaceKind::mcast: return "mcast " + std::to_string(name->bus_number) + " " + name->rest;
   case InterfaceKind::simulator: return "simulator " + name->rest;
   case InterfaceKind::scenario: return "scenario " + name->rest;
+  case InterfaceKind::replay: return "replay " + name->rest;
   }
   return {};
 }
@@ -47,6 +48,10 @@ TEST_CASE("what stands behind -i") {
   CHECK(kind("sim:/run/x.sock") == "simulator /run/x.sock");
   CHECK(kind("sim:bench.json") == "scenario bench.json");
   CHECK(kind("sim:a:b.json") == "scenario a:b.json");
+  CHECK(kind("replay:bus.log") == "replay bus.log");
+  CHECK(kind("replay:-") == "replay -");
+  CHECK(kind("replay:a:b.json") == "replay a:b.json");
+  CHECK(kind("replay:") == "usage");
   CHECK(kind("foo:bar") == "usage");
   CHECK(kind(":") == "usage");
   CHECK(kind("CAN:can0") == "usage");
@@ -116,6 +121,14 @@ TEST_CASE("processes that reach one simulator by different paths share their nod
   CHECK(direct->lock_name == dots->lock_name);
   CHECK(direct->lock_name == link->lock_name);
   std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("a log is an interface to which nothing can be sent") {
+  CHECK(takes_no_frames("replay:bus.log")->code == Code::usage);
+  CHECK_FALSE(takes_no_frames("can0"));
+  CHECK_FALSE(takes_no_frames("sim:"));
+  CHECK_FALSE(takes_no_frames("foo:bar")); // another error, of parse_interface()
+  CHECK(open("replay:/no/such/log").error().code == Code::interface);
 }
 
 TEST_CASE("a scenario that cannot be read is a bad file") {

@@ -84,6 +84,7 @@ TEST_CASE("a command alone has the defaults") {
   CHECK(shared.patience.retries == 2);
   CHECK_FALSE(shared.profile);
   CHECK_FALSE(shared.profile_dir);
+  CHECK_FALSE(shared.record);
   CHECK(shared.output.format == Format::text);
   CHECK(shared.output.colour == Colour::automatic);
 }
@@ -108,6 +109,8 @@ TEST_CASE("shared options stand before and after the command") {
                          "BLA21-12U-AB",
                          "--profile-dir",
                          "/p",
+                         "--record",
+                         "x.log",
                          "--listen-only"};
   Arguments before = shared;
   before.insert(before.end(), {"get", "reverse"});
@@ -127,6 +130,7 @@ TEST_CASE("shared options stand before and after the command") {
     CHECK(get.shared.while_driven);
     CHECK(get.shared.profile == "BLA21-12U-AB");
     CHECK(get.shared.profile_dir == "/p");
+    CHECK(get.shared.record == "x.log");
     CHECK(get.shared.listen_only);
   }
 }
@@ -245,6 +249,13 @@ TEST_CASE("one format at a time, and CSV only where there are tables") {
   refused({"get", "--csv", "--json"});
   refused({"set", "--csv", "a=1"});
   refused({"models", "--csv"});
+}
+
+TEST_CASE("only a session is recorded, and only to a file") {
+  CHECK(contains(refused({"get", "--record", "-"}).message, "standard output"));
+  CHECK(contains(refused({"models", "--record", "x.log"}).message, "models"));
+  CHECK(contains(refused({"sim", "--record", "x.log"}).message, "sim"));
+  refused({"get", "--record", ""});
 }
 
 TEST_CASE("verbosity counts") {

@@ -61,6 +61,7 @@ TEST_CASE("what stands behind an outcome without an answer") {
   CHECK(code(Script::timed_out()) == Code::timeout);
   CHECK(code(Script::not_sent()) == Code::no_acknowledge);
   CHECK(code(Script::cancelled()) == Code::interrupted);
+  CHECK(code({Outcome::Kind::not_recorded, {}, {}}) == Code::not_recorded);
   const Error error = no_answer(Script::timed_out(), server, "0x38");
   CHECK(error.message.find("0x38") != std::string::npos);
   CHECK(error.message.find("11") != std::string::npos);

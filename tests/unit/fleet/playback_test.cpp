@@ -1,0 +1,243 @@
+#include "blactl/fleet/playback.hpp"
+#include "blactl/fleet/read_job.hpp"
+
+#include "support.hpp"
+#include "unit/can/fake_bus.hpp"
+
+#include <signal.h>
+
+#include <chrono>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace blactl;
+using namespace blactl::fleet;
+using namespace blactl::fleet::test;
+using dronecan::Kind;
+
+namespace {
+
+/// A recording that the test writes.
+class Tape final : public can::Bus {
+ public:
+  explicit Tape(std::vector<can::BusEvent> events) : events_(events.begin(), events.end()) {}
+
+  [[nodiscard]] std::string_view name() const override { return "replay:tape"; }
+
+  [[nodiscard]] Result<bool> send(const can::Frame&) override {
+    FAIL("a recording was sent a frame");
+    return false;
+  }
+
+  [[nodiscard]] std::optional<can::BusEvent> receive() override {
+    if (events_.empty()) {
+      return std::nullopt;
+    }
+    can::BusEvent event = std::move(events_.front());
+    events_.pop_front();
+    if (const auto* received = std::get_if<can::Received>(&event)) {
+      now_ = received->at;
+    }
+    return event;
+  }
+
+  [[nodiscard]] Result<void> filter(std::span<const can::Filter>) override { return {}; }
+
+  [[nodiscard]] bool echoes() const override { return false; }
+
+  [[nodiscard]] int descriptor() const override { return -1; }
+
+  [[nodiscard]] bool is_recording() const override { return true; }
+
+  [[nodiscard]] Time now() const override { return now_; }
+
+ private:
+  std::deque<can::BusEvent> events_;
+  Time now_{};
+};
+
+/// Writes a recording: a servo with ID 11 that 127 asks.
+struct Writer {
+  void hear(const std::vector<can::Frame>& frames) {
+    for (const can::Frame& frame : frames) {
+      at += 1ms;
+      events.emplace_back(can::Received{frame, at, {}});
+    }
+  }
+
+  void say(const dronecan::DataType& type, const dronecan::Payload& payload) {
+    hear(message(type, 11, payload, id++));
+  }
+
+  void answer(std::string_view name, std::int64_t value) {
+    hear(service(Kind::response, GetSet::type, 11, 127,
+                 GetSet::Response{.value = value, .name = std::string(name)}.encode(),
+                 id++ % dronecan::transfer_id_modulus));
+  }
+
+  /// All that Identification asks.
+  void identify() {
+    say(dronecan::ActuatorStatus::type, dronecan::ActuatorStatus{}.encode());
+    hear(service(Kind::response, GetNodeInfo::type, 11, 127,
+                 GetNodeInfo::Response{.unique_id = {7}, .name = "servo"}.encode(), id++));
+    answer("0x50", 61);
+    answer("0x51", 240900558);
+    answer("0x52", 1400);
+    answer("0x53", 12050);
+    answer("0x45", 3);
+  }
+
+  [[nodiscard]] std::unique_ptr<Session> play() {
+    events.emplace_back(can::Ended{});
+    auto session =
+        Session::open(std::make_unique<Tape>(events), std::nullopt, Session::Hearing::answers);
+    REQUIRE(session);
+    return std::move(*session);
+  }
+
+  Time at{};
+  dronecan::TransferId id = 0;
+  std::vector<can::BusEvent> events;
+};
+
+ReadJob reader(Session& session, std::vector<const char*> names) {
+  return {session.roster(),
+          session.roster().member(NodeId(11)),
+          profiles(),
+          {},
+          [names = std::move(names)](const Member&) -> Result<std::vector<const bla::Parameter*>> {
+            std::vector<const bla::Parameter*> wanted;
+            for (const char* name : names) {
+              wanted.push_back(&parameter(name));
+            }
+            return wanted;
+          }};
+}
+
+} // namespace
+
+TEST_CASE("a job on a recording is answered from all of it, what comes later included") {
+  Writer writer;
+  writer.identify();
+  writer.answer("0x38", 900);
+  writer.answer("0x38", 901);
+  const auto session = writer.play();
+  ReadJob job = reader(*session, {"angle_limit_cw", "angle_limit_ccw"});
+  session->start(job);
+  CHECK(job.readings().empty());
+  REQUIRE(session->run());
+  REQUIRE_FALSE(job.error());
+  CHECK(job.member().identity.readings().serial_number == 240900558);
+  REQUIRE(job.readings().size() == 2);
+  CHECK(job.readings()[0].raw == 901);
+  CHECK(job.readings()[1].raw.error().code == Code::not_recorded);
+  CHECK(session->now() == writer.at);
+  ReadJob later = reader(*session, {"angle_limit_cw"});
+  session->start(later);
+  CHECK(later.raw(bla::address::angle_limit_cw) == 901);
+}
+
+TEST_CASE("a session on a recording lives until its end, whatever the deadline") {
+  Writer writer;
+  writer.identify();
+  const auto session = writer.play();
+  REQUIRE(session->live_until(session->now() + 1us));
+  CHECK(session->now() == writer.at);
+  CHECK(session->roster().heard(NodeId(11)));
+  REQUIRE(session->live_until(session->now() + 1h));
+  CHECK(session->now() == writer.at);
+}
+
+TEST_CASE("who shows up in a recording may be asked at once, and is answered at its end") {
+  Writer writer;
+  writer.identify();
+  const auto session = writer.play();
+  std::optional<IdentifyJob> job;
+  session->roster().on_new_unit([&](Member& member) {
+    job.emplace(session->roster(), member, profiles(), Identification::Options{});
+    session->start(*job);
+  });
+  REQUIRE(session->live_until(never));
+  REQUIRE(job);
+  CHECK(job->member().is_known());
+  CHECK(job->member().servo_id == 3);
+}
+
+TEST_CASE("a servo of which only a part was recorded is known by that part") {
+  Writer writer;
+  writer.say(dronecan::ActuatorStatus::type, dronecan::ActuatorStatus{}.encode());
+  writer.answer("0x51", 240900558);
+  writer.answer("0x38", 900);
+  const auto session = writer.play();
+  ReadJob job = reader(*session, {"angle_limit_cw"});
+  session->start(job);
+  REQUIRE(session->run());
+  REQUIRE_FALSE(job.error());
+  CHECK(job.member().is_servo);
+  CHECK_FALSE(job.member().info);
+  CHECK(job.member().identity.model().empty());
+  CHECK(job.raw(bla::address::angle_limit_cw) == 900);
+}
+
+TEST_CASE("a node of which nothing tells what it is is not_recorded") {
+  const bool heard = GENERATE(true, false);
+  Writer writer;
+  writer.hear(message(dronecan::ActuatorStatus::type, heard ? 11 : 12,
+                      dronecan::ActuatorStatus{}.encode()));
+  const auto session = writer.play();
+  ReadJob job = reader(*session, {"angle_limit_cw"});
+  session->start(job);
+  REQUIRE(session->run());
+  REQUIRE(job.error());
+  CHECK(job.error()->code == Code::not_recorded);
+  CHECK(job.error()->node_id == 11);
+  CHECK((job.error()->message.find("what it is") != std::string::npos) == heard);
+}
+
+TEST_CASE("a foreign node in a recording is no servo") {
+  Writer writer;
+  writer.hear(service(Kind::response, GetNodeInfo::type, 11, 127,
+                      GetNodeInfo::Response{.unique_id = {7}, .name = "gps"}.encode()));
+  const auto session = writer.play();
+  ReadJob job = reader(*session, {"angle_limit_cw"});
+  session->start(job);
+  REQUIRE(session->run());
+  CHECK(job.error()->code == Code::not_found);
+  CHECK(job.error()->message.find("gps") != std::string::npos);
+}
+
+TEST_CASE("a bus-off in a recording is history") {
+  Writer writer;
+  writer.events.emplace_back(can::BusFault{can::FaultKind::bus_off, {}});
+  writer.identify();
+  CHECK(writer.play()->run());
+}
+
+TEST_CASE("a recording that breaks off ends the session, and what waits is cancelled") {
+  Writer writer;
+  writer.identify();
+  writer.events.emplace_back(can::Gone{{Code::bad_file, "broken"}});
+  const auto session = writer.play();
+  ReadJob job = reader(*session, {"angle_limit_cw"});
+  session->start(job);
+  const auto ran = session->run();
+  REQUIRE_FALSE(ran);
+  CHECK(ran.error().code == Code::bad_file);
+  CHECK(job.error()->code == Code::interrupted);
+  CHECK(session->run());
+}
+
+TEST_CASE("a signal ends the reading of a recording") {
+  Writer writer;
+  writer.identify();
+  const auto session = writer.play();
+  REQUIRE(raise(SIGINT) == 0);
+  CHECK(session->run().error().code == Code::interrupted);
+  CHECK(session->signal() == SIGINT);
+  REQUIRE(session->run());
+  CHECK_FALSE(session->roster().heard(NodeId(11))); // it is not taken up again
+}
