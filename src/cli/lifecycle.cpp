@@ -74,6 +74,11 @@ bool pass_restart(std::vector<Passage>& passages, fleet::RestartKind kind,
   std::vector<Passage*> passing;
   for (Passage& passage : passages) {
     if (!passage.error) {
+      // Where it begins anew hangs on what was written last.
+      if (const auto id = passage.expected.find(bla::address::static_node_id);
+          id != passage.expected.end()) {
+        passage.servo->static_node_id = id->second;
+      }
       servos.push_back(passage.servo);
       passing.push_back(&passage);
       passage.is_verified = false;

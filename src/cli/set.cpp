@@ -77,6 +77,16 @@ std::vector<const bla::Parameter*> to_read(const Assignments& assignments, const
   return wanted;
 }
 
+/// For --save all is read that will be saved: after the restart it must be the same.
+void add_configuration(std::vector<const bla::Parameter*>& wanted, const Member& servo,
+                       const bla::Profiles& profiles) {
+  for (const bla::Parameter* parameter : fleet::configuration(profiles, servo)) {
+    if (std::ranges::find(wanted, parameter) == wanted.end()) {
+      wanted.push_back(parameter);
+    }
+  }
+}
+
 /// Whether this servo takes every one of these values. Nothing has been written.
 Result<std::vector<const bla::Parameter*>> admit(const Assignments& assignments,
                                                  const Member& servo) {
@@ -110,6 +120,22 @@ std::optional<Error> check_pwm_unit(const bla::Profiles& profiles, const Assignm
   return std::nullopt;
 }
 
+/// What the configuration of a servo is once the changes are made.
+fleet::Values expected_after(const Plan& plan, const ReadJob& job) {
+  fleet::Values expected;
+  for (const bla::Parameter* parameter : plan.configuration) {
+    if (const auto raw = job.raw(parameter->address)) {
+      expected[parameter->address] = *raw;
+    }
+  }
+  for (const Change& change : plan.changes) {
+    if (change.parameter->saved) {
+      expected[change.parameter->address] = change.requested;
+    }
+  }
+  return expected;
+}
+
 /// The exit status of one servo, and its errors into the report.
 int judge(const Plan& plan, bool dry_run, Report& report) {
   constexpr int would_change = 8;
@@ -122,6 +148,10 @@ int judge(const Plan& plan, bool dry_run, Report& report) {
       status = status == 0 ? would_change : status;
     }
   }
+  if (plan.save_error) {
+    report.fail(*plan.save_error);
+    status = status == 0 ? exit_status(plan.save_error->code) : status;
+  }
   return status;
 }
 
@@ -133,8 +163,8 @@ class Set {
 
   void run() {
     if (understand() && select() && read() && watch() && check() && confirm() && check()) {
-      if (!options_.dry_run) {
-        write();
+      if (!options_.dry_run && write() && options_.save) {
+        save();
       }
       conclude();
       return;
@@ -162,7 +192,10 @@ class Set {
   /// What the others on the bus forbid; once more after a question, which may take its time.
   bool check();
   bool confirm();
-  void write();
+  /// False: the bus broke or the user interrupted.
+  bool write();
+  /// RAM to ROM, for the servos that took every value.
+  void save();
   void conclude();
 
   const SetOptions& options_;
@@ -225,7 +258,13 @@ bool Set::read() {
   for (Member* member : members_) {
     reads_.push_back(std::make_unique<ReadJob>(
         session.roster(), *member, *profiles_, context_.identification(),
-        [this](const Member& servo) { return admit(assignments_, servo); }));
+        [this](const Member& servo) -> Result<std::vector<const bla::Parameter*>> {
+          auto wanted = admit(assignments_, servo);
+          if (wanted && options_.save) {
+            add_configuration(*wanted, servo, *profiles_);
+          }
+          return wanted;
+        }));
     session.start(*reads_.back());
   }
   if (auto ran = session.run(); !ran) {
@@ -251,6 +290,10 @@ bool Set::read() {
       report_.fail(std::move(*error));
     } else {
       outcome_->plans.push_back(plan_changes(job, *members_[i], assignments_));
+      if (options_.save) {
+        members_[i]->static_node_id = job.raw(bla::address::static_node_id);
+        outcome_->plans.back().configuration = fleet::configuration(*profiles_, *members_[i]);
+      }
     }
   }
   return report_.errors.empty();
@@ -268,6 +311,11 @@ bool Set::check() {
     if (auto error = fleet::forbidden(context_.session(), outcome_->plans[i].changes, *reads_[i],
                                       context_.shared().while_driven)) {
       report_.fail(std::move(*error));
+    } else if (options_.save) {
+      if (auto refused = fleet::forbidden(context_.session(), reads_[i]->member(), true,
+                                          context_.shared().while_driven)) {
+        report_.fail(std::move(*refused));
+      }
     }
   }
   return report_.errors.empty();
@@ -280,6 +328,10 @@ bool Set::confirm() {
   std::string question;
   for (std::size_t i = 0; i < outcome_->plans.size(); ++i) {
     const Plan& plan = outcome_->plans[i];
+    if (options_.save) {
+      question += restart_question(*plan.member, expected_after(plan, *reads_[i]));
+    }
+
     for (const Change& change : plan.changes) {
       if (change.status == ChangeStatus::planned && fleet::may_move(change, *reads_[i])) {
         const auto& parameter = *change.parameter;
@@ -305,7 +357,7 @@ bool Set::confirm() {
   return false;
 }
 
-void Set::write() {
+bool Set::write() {
   fleet::Session& session = context_.session();
   std::vector<std::unique_ptr<WriteJob>> jobs;
   for (Plan& plan : outcome_->plans) {
@@ -325,6 +377,27 @@ void Set::write() {
                   say<texts::not_written>(frames, session.interface()),
                   {},
                   std::nullopt});
+  }
+  return report_.errors.empty();
+}
+
+void Set::save() {
+  for (std::size_t i = 0; i < reads_.size(); ++i) {
+    const Plan& plan = outcome_->plans[i];
+    const auto has_failed = [](const Change& change) { return change.error.has_value(); };
+    if (std::ranges::none_of(plan.changes, has_failed)) {
+      outcome_->saves.push_back({*plan.member, plan.member, expected_after(plan, *reads_[i])});
+    }
+  }
+  (void)pass_restart(outcome_->saves, fleet::RestartKind::save, options_.times, context_, report_);
+  for (Plan& plan : outcome_->plans) {
+    const auto passage = std::ranges::find_if(outcome_->saves, [&](const Passage& candidate) {
+      return candidate.before.id == plan.member->id;
+    });
+    plan.saved = passage != outcome_->saves.end() && passage->is_done();
+    if (passage != outcome_->saves.end() && passage->error) {
+      plan.save_error = passage->error;
+    }
   }
 }
 

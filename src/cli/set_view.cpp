@@ -50,7 +50,7 @@ void write_json(JsonWriter& json, const Outcome& outcome) {
       write_change(json, change);
     }
     json.end_array();
-    json.member("saved", false);
+    json.member("saved", plan.saved);
     json.end_object();
   }
   json.end_array();
@@ -76,6 +76,9 @@ std::string text(const Outcome& outcome) {
       written = written || change.status == ChangeStatus::written;
     }
     out += table.text("  ");
+  }
+  if (!outcome.saves.empty()) {
+    return out + say<texts::saving>() + '\n' + text(outcome.saves);
   }
   return written ? out + say<texts::not_saved_note>() + '\n' : out;
 }

@@ -226,6 +226,7 @@ inline constexpr Text scenario_is_argument{"-i {}: a scenario is an argument of 
                                            "-i {}: シナリオは sim の引数で指定します"};
 inline constexpr Text scenario_is_argument_hint{"blactl sim {}", "blactl sim {}"};
 
+inline constexpr Text saving{"RAM to ROM:", "ROM への保存:"};
 inline constexpr Text finishing{
     "waiting for running saves, 3 s at most (Ctrl-C again: at once)",
     "実行中の保存の完了を待っています (最大 3 秒。もう一度 Ctrl-C で即時終了)",

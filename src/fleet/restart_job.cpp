@@ -34,6 +34,8 @@ RestartJob::RestartJob(Roster& roster, const Member& servo, Options options)
     : roster_(roster), id_(servo.id), unique_id_(servo.info->unique_id), options_(options) {}
 
 Step RestartJob::next(const Outcome& outcome) {
+  ended_at_ = outcome.at;
+
   if (outcome.kind == Outcome::Kind::cancelled) {
     return give_up(
         is_sent_ ? not_back()
@@ -52,12 +54,12 @@ Step RestartJob::next(const Outcome& outcome) {
   case At::request: return judge_answer(outcome);
   case At::settling:
     if (find_returned() != nullptr) {
-      return conclude(outcome.at);
+      return conclude();
     }
     at_ = At::alive;
     return ask(id_, GetNodeInfo::type, GetNodeInfo::Request{}.encode(), options_.patience);
   case At::alive: return judge_life(outcome);
-  case At::away: return find_returned() != nullptr ? conclude(outcome.at) : give_up(not_back());
+  case At::away: return find_returned() != nullptr ? conclude() : give_up(not_back());
   }
   return std::nullopt;
 }
@@ -128,7 +130,7 @@ Step RestartJob::judge_answer(const Outcome& outcome) {
 /// Nobody confirmed the request: what does the servo say of itself?
 Step RestartJob::judge_life(const Outcome& outcome) {
   if (find_returned() != nullptr) {
-    return conclude(outcome.at);
+    return conclude();
   }
   const auto info =
       outcome.answered() ? GetNodeInfo::Response::decode(outcome.payload) : std::nullopt;
@@ -166,9 +168,9 @@ Member* RestartJob::find_returned() const {
   return nullptr;
 }
 
-Step RestartJob::conclude(Time now) {
+Step RestartJob::conclude() {
   returned_ = find_returned();
-  ended_at_ = now;
+
   is_over_ = true;
   return std::nullopt;
 }

@@ -43,8 +43,10 @@ class RestartJob final : public dronecan::Job {
   /// A request has left, or may have left, this machine.
   [[nodiscard]] bool is_sent() const { return is_sent_; }
 
-  /// From the request until it was back.
-  [[nodiscard]] Duration duration() const { return ended_at_ - sent_at_; }
+  /// From the request until it was back or given up.
+  [[nodiscard]] Duration duration() const {
+    return is_sent_ ? ended_at_ - sent_at_ : Duration::zero();
+  }
 
  private:
   enum class At : std::uint8_t { begin, start, unit, young, request, settling, alive, away };
@@ -55,7 +57,7 @@ class RestartJob final : public dronecan::Job {
   [[nodiscard]] dronecan::Step judge_answer(const dronecan::Outcome& outcome);
   [[nodiscard]] dronecan::Step judge_life(const dronecan::Outcome& outcome);
   [[nodiscard]] dronecan::Step wait_for_return();
-  [[nodiscard]] dronecan::Step conclude(Time now);
+  [[nodiscard]] dronecan::Step conclude();
   [[nodiscard]] dronecan::Step give_up(Error error);
   [[nodiscard]] Error not_back() const;
   [[nodiscard]] bool has_answered_ok(dronecan::Bytes payload) const;
