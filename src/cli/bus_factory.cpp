@@ -1,11 +1,14 @@
 #include "bus_factory.hpp"
 
 #include "blactl/can/link.hpp"
+#include "blactl/can/serial_adapters.hpp"
 #include "blactl/can/simbus.hpp"
+#include "blactl/can/slcan.hpp"
 #include "blactl/can/socketcan.hpp"
 #include "blactl/sim/private_bus.hpp"
 #include "blactl/sim/scenario.hpp"
 
+#include "slcan_name.hpp"
 #include "texts.hpp"
 
 #include <filesystem>
@@ -15,6 +18,14 @@
 
 namespace blactl::cli {
 namespace {
+
+/// A hint, and which serial adapters could be meant instead.
+std::string with_adapters(std::string hint) {
+  if (const std::string adapters = can::describe(can::serial_adapters()); !adapters.empty()) {
+    hint += "\n" + adapters;
+  }
+  return hint;
+}
 
 /// The name of the only CAN interface that is up.
 Result<std::string> the_only_interface() {
@@ -37,11 +48,12 @@ Result<std::string> the_only_interface() {
   }
   if (!up.empty()) {
     return fail(Code::interface, say<texts::several_interfaces>(up),
-                say<texts::several_interfaces_hint>(up.substr(0, up.find(','))));
+                with_adapters(say<texts::several_interfaces_hint>(up.substr(0, up.find(',')))));
   }
   return fail(Code::interface, say<texts::no_interface>(),
-              down != nullptr ? say<texts::interface_is_down>(down->name, can::up_command(*down))
-                              : say<texts::no_interface_hint>());
+              with_adapters(down != nullptr
+                                ? say<texts::interface_is_down>(down->name, can::up_command(*down))
+                                : say<texts::no_interface_hint>()));
 }
 
 Result<OpenBus> open_socketcan(const std::string& name) {
@@ -52,6 +64,22 @@ Result<OpenBus> open_socketcan(const std::string& name) {
   // Not as it was typed: an interface may have further names.
   const std::string first_name((*bus)->name());
   return OpenBus{std::move(*bus), first_name};
+}
+
+Result<OpenBus> open_slcan(std::string_view rest) {
+  const auto name = parse_slcan(rest);
+  if (!name) {
+    return std::unexpected(name.error());
+  }
+  const std::string device = name->device.string();
+  auto bus = can::Slcan::open(name->device, "slcan:" + printable(device), name->options);
+  if (!bus) {
+    return std::unexpected(bus.error());
+  }
+  // Links by product or by place lead to one device.
+  std::error_code error;
+  const auto canonical = std::filesystem::canonical(name->device, error);
+  return OpenBus{std::move(*bus), "slcan:" + (error ? device : canonical.string())};
 }
 
 Result<OpenBus> open_private(std::string_view text, const Result<sim::Scenario>& scenario) {
@@ -88,6 +116,9 @@ Result<InterfaceName> parse_interface(std::string_view text) {
     const auto name = colon == std::string_view::npos ? text : text.substr(colon + 1);
     return InterfaceName{InterfaceKind::socketcan, std::string(name)};
   }
+  if (scheme == "slcan") {
+    return InterfaceName{InterfaceKind::slcan, std::string(text.substr(colon + 1))};
+  }
   if (scheme == "sim") {
     const std::string_view rest = text.substr(colon + 1);
     return InterfaceName{rest.ends_with(".json") ? InterfaceKind::scenario
@@ -109,6 +140,7 @@ Result<OpenBus> open_bus(std::string_view text, const bla::Profiles& profiles,
     return std::unexpected(name.error());
   }
   switch (name->kind) {
+  case InterfaceKind::slcan: return open_slcan(name->rest);
   case InterfaceKind::simulator: return open_simulator(text, name->rest, profiles, reporter);
   case InterfaceKind::scenario: return open_private(text, sim::read_scenario(name->rest, profiles));
   case InterfaceKind::socketcan: break;

@@ -20,14 +20,16 @@ struct OpenBus {
 };
 
 /// What kind of interface a name means.
-enum class InterfaceKind : unsigned char { socketcan, simulator, scenario };
+enum class InterfaceKind : unsigned char { socketcan, slcan, simulator, scenario };
 
 struct InterfaceName {
   InterfaceKind kind = InterfaceKind::socketcan;
-  std::string rest; ///< interface name, socket path or scenario file; empty: the default
+  std::string rest; ///< interface name, device with options, socket path or scenario file;
+                    ///< empty: the default
 };
 
-/// `can0`, `socketcan:can0`, `sim:`, `sim:SOCKET`, `sim:SCENARIO.json`. Errors: usage.
+/// `can0`, `socketcan:can0`, `slcan:DEV[?…]`, `sim:`, `sim:SOCKET`, `sim:SCENARIO.json`. Errors:
+/// usage.
 [[nodiscard]] Result<InterfaceName> parse_interface(std::string_view text);
 
 /// The interface that `text` names; empty: the only CAN interface that is up.

@@ -84,6 +84,9 @@ Result<fleet::Session*> Context::open(fleet::Session::Hearing hearing) {
     return std::unexpected(session.error());
   }
   session_ = std::move(*session);
+  if (!session_->opening_note().empty()) {
+    reporter_.note(session_->opening_note());
+  }
   return session_.get();
 }
 

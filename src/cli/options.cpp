@@ -213,7 +213,8 @@ class Parser {
 void Parser::add_shared() {
   Shared& shared = result_.shared;
   interface_ =
-      values_.add(app_, "-i,--interface", "can0, sim:, sim:SOCKET, sim:SCENARIO.json", "IFACE");
+      values_.add(app_, "-i,--interface",
+                  "can0, slcan:/dev/ttyUSB0, sim:, sim:SOCKET, sim:SCENARIO.json", "IFACE");
   nodes_ = values_.add(app_, "-n,--node",
                        "servos: 12, 10-14,20, all, uid:…, serial:…, servo:…, model:…", "LIST");
   local_ = values_.add(app_, "--local-node-id", "own node ID (default 127, else 126)", "ID");

@@ -109,7 +109,7 @@ Report sim(const SimOptions& options, Context& context) {
   const auto name = parse_interface(text.empty() ? "sim:" : text);
   if (!name) {
     report.fail(name.error());
-  } else if (name->kind == InterfaceKind::socketcan) {
+  } else if (name->kind == InterfaceKind::socketcan || name->kind == InterfaceKind::slcan) {
     join(text, *scenario, **profiles, context, report);
   } else if (name->kind == InterfaceKind::simulator) {
     serve(name->rest.empty() ? can::default_socket_path().string() : name->rest, *scenario, context,

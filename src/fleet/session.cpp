@@ -76,6 +76,11 @@ Result<std::unique_ptr<Session>> Session::open(std::unique_ptr<can::Bus> bus,
       !filtered) {
     return std::unexpected(filtered.error());
   }
+  while (!session->loop_.bus().is_open()) {
+    if (const auto happened = session->step(never); !happened) {
+      return std::unexpected(happened.error());
+    }
+  }
   return session;
 }
 
@@ -131,6 +136,8 @@ Result<Session::Happened> Session::take(const can::Event& event) {
   } else if (const auto* overflow = std::get_if<can::Overflow>(&event)) {
     lost_ = overflow->lost;
     node_.echoes_lost(loop_.now()); // they may have been among what was lost
+  } else if (const auto* opened = std::get_if<can::Opened>(&event)) {
+    opening_note_ = opened->note;
   } else if (const auto* gone = std::get_if<can::Gone>(&event)) {
     return end(gone->error);
   } else if (const auto* caught = std::get_if<can::Signal>(&event)) {

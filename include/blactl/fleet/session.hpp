@@ -23,7 +23,8 @@ class Session {
     all,
   };
 
-  /// Without a local ID the session only listens.
+  /// Without a local ID the session only listens. Lives until the bus is open: what is asked from
+  /// then on, and for how long is listened, has nothing to do with how long an adapter took.
   [[nodiscard]] static Result<std::unique_ptr<Session>>
   open(std::unique_ptr<can::Bus> bus, std::optional<dronecan::LocalNodeId> local, Hearing hearing);
 
@@ -55,6 +56,9 @@ class Session {
   /// The signal that ended the session; 0: none.
   [[nodiscard]] int signal() const { return signal_; }
 
+  /// What a person should know of how the bus was opened; empty: nothing.
+  [[nodiscard]] const std::string& opening_note() const { return opening_note_; }
+
   /// Frames that the kernel dropped.
   [[nodiscard]] std::uint64_t lost_frames() const { return lost_; }
 
@@ -77,6 +81,7 @@ class Session {
   dronecan::Node node_;
   int signal_ = 0;
   std::uint64_t lost_ = 0;
+  std::string opening_note_;
 };
 
 } // namespace blactl::fleet
