@@ -13,10 +13,9 @@ constexpr char bell = '\a';
 /// All of `digits` as a hexadecimal number; there are at most eight.
 std::optional<std::uint32_t> hex(std::string_view digits) {
   std::uint32_t value = 0;
-  const char* end = digits.data() + digits.size();
-  const auto [stop, error] = std::from_chars(digits.data(), end, value, 16);
-  return !digits.empty() && error == std::errc() && stop == end ? std::optional(value)
-                                                                : std::nullopt;
+  const auto [stop, error] = std::from_chars(digits.begin(), digits.end(), value, 16);
+  return !digits.empty() && error == std::errc() && stop == digits.end() ? std::optional(value)
+                                                                         : std::nullopt;
 }
 
 /// What may stand behind the data: a time, and the mark of an own frame.

@@ -58,6 +58,9 @@ int run(std::span<const std::string> arguments) {
   Context context(invocation->shared, reporter);
   Report report = std::visit(Dispatch{context}, invocation->command);
   report.command = invocation->name;
+  if (report.signal == 0) { // it may have come before the command had a session to ask
+    report.signal = context.signal();
+  }
   context.tell_losses();
   return reporter.finish(report);
 }

@@ -20,9 +20,8 @@ constexpr unsigned longest_gap = 1000; // ms
 
 std::optional<unsigned> whole(std::string_view text) {
   unsigned value = 0;
-  const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
-  return error == std::errc() && stop == end ? std::optional(value) : std::nullopt;
+  const auto [stop, error] = std::from_chars(text.begin(), text.end(), value);
+  return error == std::errc() && stop == text.end() ? std::optional(value) : std::nullopt;
 }
 
 /// What is wrong with a value, for a person; empty: nothing.

@@ -76,11 +76,6 @@ Result<std::unique_ptr<Session>> Session::open(std::unique_ptr<can::Bus> bus,
       !filtered) {
     return std::unexpected(filtered.error());
   }
-  while (!session->loop_.bus().is_open()) {
-    if (const auto happened = session->step(never); !happened) {
-      return std::unexpected(happened.error());
-    }
-  }
   return session;
 }
 
@@ -165,6 +160,15 @@ Result<Session::Happened> Session::take_frame(const can::Received& received) {
     return end(std::move(error));
   }
   return Happened::something;
+}
+
+Result<void> Session::wait_until_open() {
+  while (!loop_.bus().is_open()) {
+    if (const auto happened = step(never); !happened) {
+      return std::unexpected(happened.error());
+    }
+  }
+  return {};
 }
 
 Result<void> Session::live_until(Time deadline) {

@@ -47,9 +47,10 @@ std::string interface(const SlcanAdapter& adapter, const std::string& options = 
   return "slcan:" + adapter.path() + options;
 }
 
-/// One request is given more time than usual: the adapter is a thread on a busy machine.
+/// One request is asked more often than usual: the servo has just been powered, and the adapter is
+/// a thread on a busy machine.
 Arguments patient(const std::string& interface, Arguments command) {
-  Arguments arguments{"-i", interface, "--timeout", "5"};
+  Arguments arguments{"-i", interface, "--timeout", "0.5", "--retries", "20"};
   std::ranges::move(command, std::back_inserter(arguments));
   return arguments;
 }
@@ -165,6 +166,19 @@ TEST_CASE("slcan: an adapter pulled out in the middle of a command ends it, exit
   CHECK(result.status == 3);
   CHECK(contains(result.err, "the adapter at " + path + " is gone"));
   CHECK(contains(result.err, "\n  plug it in again"));
+}
+
+TEST_CASE("slcan: a signal while the adapter is opened ends the command as at any time") {
+  const Bench bench;
+  for (const int signal : {SIGINT, SIGTERM}) {
+    Dialect dialect = can::test::lawicel();
+    dialect.to_empty = "";
+    dialect.to_close = "";
+    SlcanAdapter adapter(dialect);
+    Background command(bench, {"-i", interface(adapter), "get", "-n", "11"}, {}, "");
+    adapter.wait_for([](const auto& lines) { return !lines.empty(); });
+    CHECK(command.stop(signal).status == 128 + signal);
+  }
 }
 
 TEST_CASE("slcan: what is wrong with the name of the interface is told before anything is opened") {

@@ -23,8 +23,7 @@ class Session {
     all,
   };
 
-  /// Without a local ID the session only listens. Lives until the bus is open: what is asked from
-  /// then on, and for how long is listened, has nothing to do with how long an adapter took.
+  /// Without a local ID the session only listens.
   [[nodiscard]] static Result<std::unique_ptr<Session>>
   open(std::unique_ptr<can::Bus> bus, std::optional<dronecan::LocalNodeId> local, Hearing hearing);
 
@@ -42,9 +41,13 @@ class Session {
 
   void start(dronecan::Job& job) { node_.start(job, loop_.now()); }
 
+  /// Lives until the bus is open: what is asked from then on, and how long is listened, has nothing
+  /// to do with how long an adapter took.
+  [[nodiscard]] Result<void> wait_until_open();
+
   /// Lives until `deadline`.
-  /// Errors of this and run(): interrupted, interface, bus_off, no_acknowledge, duplicate_node_id
-  /// (a foreign frame with our ID). They end the session: every job is cancelled.
+  /// Errors of this, run() and wait_until_open(): interrupted, interface, bus_off, no_acknowledge,
+  /// duplicate_node_id (a foreign frame with our ID). They end the session: every job is cancelled.
   [[nodiscard]] Result<void> live_until(Time deadline);
 
   /// Lives until no job is left.
