@@ -44,10 +44,14 @@ std::string reason(int error) {
   return std::generic_category().message(error);
 }
 
+/// What could be meant instead.
+std::string likely() {
+  std::string adapters = describe(serial_adapters());
+  return adapters.empty() ? say<texts::no_serial_adapter_here>() : adapters;
+}
+
 std::unexpected<Error> absent(const std::filesystem::path& device) {
-  std::string others = describe(serial_adapters());
-  return fail(Code::interface, say<texts::no_such_port>(printable(device.string())),
-              others.empty() ? say<texts::no_serial_adapter_here>() : std::move(others));
+  return fail(Code::interface, say<texts::no_such_port>(printable(device.string())), likely());
 }
 
 /// The name of a group; its number where it has none.
@@ -102,8 +106,7 @@ std::unexpected<Error> cannot_open(const std::filesystem::path& device, int erro
 }
 
 std::unexpected<Error> no_serial_port(const std::filesystem::path& device) {
-  return fail(Code::interface, say<texts::not_a_serial_port>(printable(device.string())),
-              describe(serial_adapters()));
+  return fail(Code::interface, say<texts::not_a_serial_port>(printable(device.string())), likely());
 }
 
 } // namespace

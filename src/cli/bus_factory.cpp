@@ -22,7 +22,7 @@ namespace {
 /// A hint, and which serial adapters could be meant instead.
 std::string with_adapters(std::string hint) {
   if (const std::string adapters = can::describe(can::serial_adapters()); !adapters.empty()) {
-    hint += "\n" + adapters;
+    hint += "; " + adapters;
   }
   return hint;
 }

@@ -73,6 +73,7 @@ TEST_CASE("what is no serial port is refused") {
     const Error error = error_of(path);
     CHECK(error.code == Code::interface);
     CHECK(contains(error.message, "is not a serial port"));
+    CHECK_FALSE(error.hint.empty());
   }
   std::ifstream file(folder.path / "file");
   CHECK(file.get() == 'x'); // nothing was written to it
