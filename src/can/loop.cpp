@@ -17,10 +17,6 @@ namespace {
 constexpr std::size_t probe_window = 1;
 constexpr std::size_t window = 3;
 
-/// A full queue of the kernel (ENOBUFS) does not poll as writable: it is tried again after a time
-/// in which a bus of 1 Mbit/s moves some seven frames.
-constexpr Duration retry_interval = std::chrono::milliseconds(1);
-
 int open_signals() {
   struct sigaction ignore{};
   ignore.sa_handler = SIG_IGN; // NOLINT: the macro casts
@@ -107,7 +103,7 @@ void Loop::unwatch(int descriptor) {
 
 /// Hands queued frames to the bus as far as the window allows.
 void Loop::pump() {
-  retry_at_ = never;
+  refused_at_.reset();
   while (!queue_.empty() && !gone_ && in_flight_.size() < (heard_ ? window : probe_window)) {
     const auto taken = bus_->send(queue_.front());
     if (!taken) {
@@ -116,7 +112,7 @@ void Loop::pump() {
       return;
     }
     if (!*taken) {
-      retry_at_ = bus_->now() + retry_interval;
+      refused_at_ = bus_->now();
       return;
     }
     if (bus_->echoes()) {
@@ -126,6 +122,10 @@ void Loop::pump() {
     }
     queue_.pop_front();
   }
+}
+
+Time Loop::pump_again_at() const {
+  return refused_at_ ? bus_->send_again_at(*refused_at_) : never;
 }
 
 std::optional<Event> Loop::from_signals() {
@@ -176,7 +176,8 @@ void Loop::heard(Time at) {
 
 /// Waits for the bus, a signal, a watched descriptor or the deadline, whichever is first.
 std::optional<Event> Loop::poll_once(Time deadline) {
-  const Time wake = bus_ && !gone_ ? bus_->idle_until(std::min(deadline, retry_at_)) : deadline;
+  const Time wake =
+      bus_ && !gone_ ? bus_->idle_until(std::min(deadline, pump_again_at())) : deadline;
   std::array<pollfd, 32> fds{};
   std::size_t count = 0;
   fds[count++] = {signals_, POLLIN, 0};
@@ -211,7 +212,7 @@ Event Loop::next(Time deadline) {
     if (auto event = from_signals()) {
       return *event;
     }
-    if (retry_at_ <= now()) {
+    if (pump_again_at() <= now()) {
       pump();
     }
     if (auto event = from_bus()) {

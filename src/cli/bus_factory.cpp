@@ -3,11 +3,14 @@
 #include "blactl/can/link.hpp"
 #include "blactl/can/mcast.hpp"
 #include "blactl/can/replay_texts.hpp"
+#include "blactl/can/serial_adapters.hpp"
 #include "blactl/can/simbus.hpp"
+#include "blactl/can/slcan.hpp"
 #include "blactl/can/socketcan.hpp"
 #include "blactl/sim/private_bus.hpp"
 #include "blactl/sim/scenario.hpp"
 
+#include "slcan_name.hpp"
 #include "texts.hpp"
 
 #include <charconv>
@@ -19,6 +22,14 @@
 
 namespace blactl::cli {
 namespace {
+
+/// A hint, and which serial adapters could be meant instead.
+std::string with_adapters(std::string hint) {
+  if (const std::string adapters = can::describe(can::serial_adapters()); !adapters.empty()) {
+    hint += "; " + adapters;
+  }
+  return hint;
+}
 
 /// The name of the only CAN interface that is up.
 Result<std::string> the_only_interface() {
@@ -41,11 +52,12 @@ Result<std::string> the_only_interface() {
   }
   if (!up.empty()) {
     return fail(Code::interface, say<texts::several_interfaces>(up),
-                say<texts::several_interfaces_hint>(up.substr(0, up.find(','))));
+                with_adapters(say<texts::several_interfaces_hint>(up.substr(0, up.find(',')))));
   }
   return fail(Code::interface, say<texts::no_interface>(),
-              down != nullptr ? say<texts::interface_is_down>(down->name, can::up_command(*down))
-                              : say<texts::no_interface_hint>());
+              with_adapters(down != nullptr
+                                ? say<texts::interface_is_down>(down->name, can::up_command(*down))
+                                : say<texts::no_interface_hint>()));
 }
 
 Result<OpenBus> open_socketcan(const std::string& name) {
@@ -69,6 +81,22 @@ Result<OpenBus> open_mcast(const InterfaceName& name, const Reporter& reporter) 
     reporter.note(say<texts::mcast_chosen>(full_name));
   }
   return OpenBus{std::move(*bus), full_name};
+}
+
+Result<OpenBus> open_slcan(std::string_view rest) {
+  const auto name = parse_slcan(rest);
+  if (!name) {
+    return std::unexpected(name.error());
+  }
+  const std::string device = name->device.string();
+  auto bus = can::Slcan::open(name->device, "slcan:" + printable(device), name->options);
+  if (!bus) {
+    return std::unexpected(bus.error());
+  }
+  // Links by product or by place lead to one device.
+  std::error_code error;
+  const auto canonical = std::filesystem::canonical(name->device, error);
+  return OpenBus{std::move(*bus), "slcan:" + (error ? device : canonical.string())};
 }
 
 Result<OpenBus> open_private(std::string_view text, const Result<sim::Scenario>& scenario) {
@@ -135,6 +163,9 @@ Result<InterfaceName> parse_interface(std::string_view text) {
     const auto name = colon == std::string_view::npos ? text : text.substr(colon + 1);
     return InterfaceName{.kind = InterfaceKind::socketcan, .rest = std::string(name)};
   }
+  if (scheme == "slcan") {
+    return InterfaceName{.kind = InterfaceKind::slcan, .rest = std::string(text.substr(colon + 1))};
+  }
   if (scheme == "sim") {
     const std::string_view rest = text.substr(colon + 1);
     return InterfaceName{.kind = rest.ends_with(".json") ? InterfaceKind::scenario
@@ -148,7 +179,8 @@ Result<InterfaceName> parse_interface(std::string_view text) {
                        say<texts::bad_mcast_hint>());
   }
   if (scheme == "replay" && colon + 1 < text.size()) {
-    return InterfaceName{InterfaceKind::replay, std::string(text.substr(colon + 1))};
+    return InterfaceName{.kind = InterfaceKind::replay,
+                         .rest = std::string(text.substr(colon + 1))};
   }
   return fail(Code::usage, say<texts::bad_interface>(printable(text)),
               say<texts::bad_interface_hint>());
@@ -175,6 +207,7 @@ Result<OpenBus> open_bus(std::string_view text, const bla::Profiles& profiles,
   }
   switch (name->kind) {
   case InterfaceKind::mcast: return open_mcast(*name, reporter);
+  case InterfaceKind::slcan: return open_slcan(name->rest);
   case InterfaceKind::simulator: return open_simulator(text, name->rest, profiles, reporter);
   case InterfaceKind::scenario: return open_private(text, sim::read_scenario(name->rest, profiles));
   case InterfaceKind::replay: return open_log(text, name->rest);

@@ -24,15 +24,16 @@ struct OpenBus {
 };
 
 /// What kind of interface a name means.
-enum class InterfaceKind : unsigned char { socketcan, mcast, simulator, scenario, replay };
+enum class InterfaceKind : unsigned char { socketcan, slcan, mcast, simulator, scenario, replay };
 
 struct InterfaceName {
   InterfaceKind kind = InterfaceKind::socketcan;
-  std::string rest; ///< interface name, socket path, scenario file or log; empty: the default
+  std::string rest; ///< interface name, device with options, socket path, scenario file or log;
+                    ///< empty: the default
   std::uint8_t bus_number = 0; ///< of a multicast bus
 };
 
-/// `can0`, `socketcan:can0`, `mcast:N`, `mcast:N?if=IFACE`, `sim:`, `sim:SOCKET`,
+/// `can0`, `socketcan:can0`, `slcan:DEV[?…]`, `mcast:N`, `mcast:N?if=IFACE`, `sim:`, `sim:SOCKET`,
 /// `sim:SCENARIO.json`, `replay:FILE`. Errors: usage.
 [[nodiscard]] Result<InterfaceName> parse_interface(std::string_view text);
 

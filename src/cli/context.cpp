@@ -95,6 +95,12 @@ Result<fleet::Session*> Context::open(fleet::Session::Hearing hearing) {
   }
   session_ = std::move(*session);
   session_->on_stopping([this] { reporter_.note(say<texts::finishing>()); });
+  if (auto ready = session_->wait_until_open(); !ready) {
+    return std::unexpected(ready.error());
+  }
+  if (!session_->opening_note().empty()) {
+    reporter_.note(session_->opening_note());
+  }
   opened_ = session_->now();
   return session_.get();
 }
@@ -183,7 +189,7 @@ void Context::broken(const Error& error, Report& report) const {
   std::erase_if(report.errors, [](const Error& known) { return known.code == Code::interrupted; });
   report.errors.insert(report.errors.begin(), error);
   report.statuses.clear();
-  report.signal = session_ ? session_->signal() : 0;
+  report.signal = signal();
 }
 
 /// Hears who is there and identifies every servo.

@@ -56,6 +56,9 @@ class Context {
 
   [[nodiscard]] fleet::Session& session() { return *session_; }
 
+  /// The signal that ended the session, also while it was opened; 0: none.
+  [[nodiscard]] int signal() const { return session_ ? session_->signal() : 0; }
+
   [[nodiscard]] fleet::Identification::Options identification() const;
 
   /// The servos behind -n, in ascending order of node ID. Where the bus must be searched, it is

@@ -43,6 +43,9 @@ int run(std::span<const std::string> arguments) {
   Report report = std::visit([&](const auto& options) { return execute(options, context); },
                              invocation->command);
   report.command = invocation->name;
+  if (report.signal == 0) { // it may have come before the command had a session to ask
+    report.signal = context.signal();
+  }
   context.tell_losses(report);
   return reporter.finish(report);
 }

@@ -119,7 +119,8 @@ Report execute(const SimOptions& options, Context& context) {
     report.fail(name.error());
   } else if (const auto refused = takes_no_frames(text)) {
     report.fail(*refused);
-  } else if (name->kind == InterfaceKind::socketcan || name->kind == InterfaceKind::mcast) {
+  } else if (name->kind == InterfaceKind::socketcan || name->kind == InterfaceKind::slcan ||
+             name->kind == InterfaceKind::mcast) {
     join(text, *scenario, **profiles, context, report);
   } else if (name->kind == InterfaceKind::simulator) {
     serve(name->rest.empty() ? can::default_socket_path().string() : name->rest, *scenario, context,

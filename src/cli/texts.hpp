@@ -48,8 +48,20 @@ inline constexpr Text listen_only_hint{"leave --listen-only out", "--listen-only
 inline constexpr Text bad_interface{"-i {}: no such kind of interface",
                                     "-i {}: この種類のインタフェースはありません"};
 inline constexpr Text bad_interface_hint{
-    "for example -i can0, -i mcast:0, -i sim:, -i sim:SCENARIO.json",
-    "例: -i can0, -i mcast:0, -i sim:, -i sim:SCENARIO.json",
+    "for example -i can0, -i slcan:/dev/ttyUSB0, -i mcast:0, -i sim:SCENARIO.json, -i replay:FILE",
+    "例: -i can0, -i slcan:/dev/ttyUSB0, -i mcast:0, -i sim:SCENARIO.json, -i replay:FILE",
+};
+inline constexpr Text slcan_bad_name{"-i slcan:{}: {}", "-i slcan:{}: {}"};
+inline constexpr Text slcan_no_device{"the device is missing", "デバイスの指定がありません"};
+inline constexpr Text slcan_bad_baud{"baud {}: not a rate of serial ports up to 4000000",
+                                     "baud {}: シリアルポートの速度 (4000000 以下) ではありません"};
+inline constexpr Text slcan_unknown_key{"there is no option '{}'", "オプション '{}' はありません"};
+inline constexpr Text slcan_doubled_key{"{} is given twice", "{} が 2 回指定されています"};
+inline constexpr Text slcan_name_hint{
+    "-i \"slcan:DEV?baud=1000000&open=plain,s8&ack=auto,none&gap=MS\" with one of the words each, "
+    "every option may be left out; for example -i \"slcan:/dev/ttyUSB0?open=plain\"",
+    "-i \"slcan:DEV?baud=1000000&open=plain,s8&ack=auto,none&gap=MS\" (語はそれぞれ一つ選択、"
+    "各オプションは省略可能)。例: -i \"slcan:/dev/ttyUSB0?open=plain\"",
 };
 inline constexpr Text bad_mcast{"-i {}: not of the form mcast:N or mcast:N?if=IFACE",
                                 "-i {}: mcast:N または mcast:N?if=IFACE の形ではありません"};

@@ -37,7 +37,8 @@ void Playback::finish() {
 void Playback::cancel() {
   finished_ = true;
   for (dronecan::Job* job : std::exchange(waiting_, {})) {
-    if (!job->next({}).is_end()) { // its first question, to which the end of the session is the answer
+    if (!job->next({})
+             .is_end()) { // its first question, to which the end of the session is the answer
       (void)job->next({Outcome::Kind::cancelled, {}, {}});
     }
   }

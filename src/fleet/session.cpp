@@ -155,6 +155,8 @@ Result<Session::Happened> Session::take(const can::Event& event) {
   } else if (const auto* overflow = std::get_if<can::Overflow>(&event)) {
     lost_ = overflow->lost;
     node_.echoes_lost(loop_.now()); // they may have been among what was lost
+  } else if (const auto* opened = std::get_if<can::Opened>(&event)) {
+    opening_note_ = opened->note;
   } else if (const auto* gone = std::get_if<can::Gone>(&event)) {
     return end(gone->error);
   } else if (const auto* caught = std::get_if<can::Signal>(&event)) {
@@ -215,6 +217,15 @@ Result<Session::Happened> Session::take_frame(const can::Received& received) {
     return end(std::move(error));
   }
   return Happened::something;
+}
+
+Result<void> Session::wait_until_open() {
+  while (!loop_.bus().is_open()) {
+    if (const auto happened = step(never); !happened) {
+      return std::unexpected(happened.error());
+    }
+  }
+  return {};
 }
 
 void Session::start(dronecan::Job& job) {

@@ -5,9 +5,11 @@
 #include "blactl/base/time.hpp"
 #include "blactl/can/frame.hpp"
 
+#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <variant>
 
@@ -55,10 +57,15 @@ struct Gone {
   Error error;
 };
 
+/// The transport has finished its opening dialogue (is_open()): frames pass from now on.
+struct Opened {
+  std::string note{}; ///< What a person should know of it; empty: nothing.
+};
+
 /// A log has been read to its end; nothing more comes from this bus.
 struct Ended {};
 
-using BusEvent = std::variant<Received, Sent, BusFault, Overflow, Gone, Ended>;
+using BusEvent = std::variant<Received, Sent, BusFault, Overflow, Gone, Opened, Ended>;
 
 /// Extended data frames whose ID agrees with `id` in the bits of `mask`.
 struct Filter {
@@ -76,9 +83,19 @@ class Bus {
   /// As a person names it and JSON prints it: "vcan0", "sim:".
   [[nodiscard]] virtual std::string_view name() const = 0;
 
+  /// Whether frames can pass: not yet while a transport talks with its adapter.
+  [[nodiscard]] virtual bool is_open() const { return true; }
+
   /// Hands one frame to the transport: true when taken, false when its queue is full for now
   /// (ENOBUFS, EAGAIN). Errors: interface, permission.
   [[nodiscard]] virtual Result<bool> send(const Frame& frame) = 0;
+
+  /// When a frame that was not taken at `refused` can be tried again; receive() may bring that
+  /// forward. A full queue of the kernel (ENOBUFS) does not poll as writable: it is tried again
+  /// after a time in which a bus of 1 Mbit/s moves some seven frames.
+  [[nodiscard]] virtual Time send_again_at(Time refused) const {
+    return refused + std::chrono::milliseconds(1);
+  }
 
   /// The next thing that happened, if any.
   [[nodiscard]] virtual std::optional<BusEvent> receive() = 0;

@@ -24,8 +24,8 @@ struct Ready {
 /// The deadline given to next() has come.
 struct DeadlineReached {};
 
-using Event =
-    std::variant<Received, Sent, BusFault, Overflow, Gone, Ended, Signal, Ready, DeadlineReached>;
+using Event = std::variant<Received, Sent, BusFault, Overflow, Gone, Opened, Ended, Signal, Ready,
+                           DeadlineReached>;
 
 /// One thread, one loop: everything above it is a state machine without I/O.
 ///
@@ -81,6 +81,7 @@ class Loop {
   std::optional<Event> from_bus();
   void heard(Time at);
   void pump();
+  [[nodiscard]] Time pump_again_at() const;
 
   std::unique_ptr<Bus> bus_;
   int signals_;
@@ -92,7 +93,7 @@ class Loop {
   bool heard_ = false;
   bool gone_ = false;
   Time last_heard_{};
-  Time retry_at_ = never;
+  std::optional<Time> refused_at_; ///< when the bus did not take the first frame of the queue
 };
 
 } // namespace blactl::can

@@ -57,10 +57,14 @@ class Session {
 
   static constexpr Duration grace = std::chrono::seconds(3);
 
+  /// Lives until the bus is open: what is asked from then on, and how long is listened, has nothing
+  /// to do with how long an adapter took.
+  [[nodiscard]] Result<void> wait_until_open();
+
   /// Lives until `deadline`; on a recording, until all of it was heard, whatever the deadline.
-  /// Errors of this and run(): interrupted, interface, bus_off, no_acknowledge, duplicate_node_id
-  /// (a foreign frame with our ID); of a recording: bad_file. They end the session: every job is
-  /// cancelled.
+  /// Errors of this, run() and wait_until_open(): interrupted, interface, bus_off, no_acknowledge,
+  /// duplicate_node_id (a foreign frame with our ID); of a recording: bad_file. They end the
+  /// session: every job is cancelled.
   [[nodiscard]] Result<void> live_until(Time deadline);
 
   /// Lives until `done` holds, which is looked at after every event; whether it did before
@@ -75,6 +79,9 @@ class Session {
 
   /// The signal that ended the session; 0: none.
   [[nodiscard]] int signal() const { return signal_; }
+
+  /// What a person should know of how the bus was opened; empty: nothing.
+  [[nodiscard]] const std::string& opening_note() const { return opening_note_; }
 
   /// Frames that the kernel dropped.
   [[nodiscard]] std::uint64_t lost_frames() const { return lost_; }
@@ -109,6 +116,7 @@ class Session {
   int signal_ = 0;
   Time give_up_at_ = never; ///< after a signal: when running jobs are left half done
   std::uint64_t lost_ = 0;
+  std::string opening_note_;
 };
 
 } // namespace blactl::fleet

@@ -26,8 +26,10 @@ struct Wire {
 
   Time now{std::chrono::seconds(1000)};
   Echo echo = Echo::at_once;
+  bool open = true;           ///< else it takes no frame, until Opened has happened
   std::size_t full = 0;       ///< how many sends find the queue full
   std::optional<Error> error; ///< of every send
+  std::size_t tries = 0;      ///< how often send() was called
   std::vector<Frame> sent;    ///< taken from the loop
   std::multimap<Time, BusEvent> events;
   std::size_t receives_after_gone = 0;
@@ -53,7 +55,17 @@ class FakeBus final : public Bus {
 
   [[nodiscard]] std::string_view name() const override { return "fake"; }
 
+  [[nodiscard]] bool is_open() const override { return wire_.open; }
+
+  [[nodiscard]] Time send_again_at(Time refused) const override {
+    return wire_.open ? Bus::send_again_at(refused) : never;
+  }
+
   [[nodiscard]] Result<bool> send(const Frame& frame) override {
+    ++wire_.tries;
+    if (!wire_.open) {
+      return false;
+    }
     if (wire_.error) {
       return std::unexpected(*wire_.error);
     }
@@ -75,6 +87,7 @@ class FakeBus final : public Bus {
     }
     BusEvent event = std::move(wire_.events.begin()->second);
     wire_.events.erase(wire_.events.begin());
+    wire_.open = wire_.open || std::holds_alternative<Opened>(event);
     wire_.gone = wire_.gone || std::holds_alternative<Gone>(event);
     return event;
   }

@@ -191,6 +191,21 @@ TEST_CASE("a full queue of the kernel is waited out, and nothing is lost or sent
   CHECK(rig.wire.sent[4] == frame(5));
 }
 
+TEST_CASE("a bus that is not open yet is left alone, and gets what waits as soon as it is") {
+  Rig rig;
+  rig.wire.open = false;
+  rig.send(1, 3);
+  CHECK(rig.count<Sent>(1s) == 0);
+  CHECK(rig.wire.tries == 3); // once for each send(), not again and again
+  CHECK(rig.loop.unsent() == 3);
+  rig.wire.happen(Opened{"noted"}, 1s);
+  const Event event = rig.loop.next(never);
+  REQUIRE(std::holds_alternative<Opened>(event));
+  CHECK(std::get<Opened>(event).note == "noted");
+  CHECK(rig.count<Sent>(1s) == 3);
+  CHECK(rig.loop.unsent() == 0);
+}
+
 TEST_CASE("unacknowledged_since tells since when a frame waits on a silent bus") {
   Rig rig;
   rig.wire.echo = Wire::Echo::by_hand;

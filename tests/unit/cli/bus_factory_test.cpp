@@ -28,6 +28,7 @@ std::string kind(std::string_view text) {
   switch (name->kind) {
   case InterfaceKind::socketcan: return "socketcan " + name->rest;
   case InterfaceKind::mcast: return "mcast " + std::to_string(name->bus_number) + " " + name->rest;
+  case InterfaceKind::slcan: return "slcan " + name->rest;
   case InterfaceKind::simulator: return "simulator " + name->rest;
   case InterfaceKind::scenario: return "scenario " + name->rest;
   case InterfaceKind::replay: return "replay " + name->rest;
@@ -44,6 +45,7 @@ Result<OpenBus> open(std::string_view text) {
 TEST_CASE("what stands behind -i") {
   CHECK(kind("can0") == "socketcan can0");
   CHECK(kind("socketcan:can0") == "socketcan can0");
+  CHECK(kind("slcan:/dev/ttyUSB0?open=plain") == "slcan /dev/ttyUSB0?open=plain");
   CHECK(kind("sim:") == "simulator ");
   CHECK(kind("sim:/run/x.sock") == "simulator /run/x.sock");
   CHECK(kind("sim:bench.json") == "scenario bench.json");

@@ -95,6 +95,29 @@ bool passes(const Wire& wire, const can::Frame& frame) {
 
 } // namespace
 
+TEST_CASE("a session waits for a bus that opens by a dialogue, and keeps what it says") {
+  Rig rig;
+  CHECK(rig.session->wait_until_open()); // open from the beginning
+  const Time begin = rig.wire.now;
+  rig.wire.open = false;
+  rig.wire.happen(can::Opened{"noted"}, std::chrono::seconds(5));
+  CHECK(rig.session->wait_until_open());
+  CHECK(rig.wire.now == begin + std::chrono::seconds(5));
+  CHECK(rig.session->opening_note() == "noted");
+}
+
+TEST_CASE("a bus that cannot be opened ends the session, as does a signal meanwhile") {
+  Rig rig;
+  rig.wire.open = false;
+  rig.wire.happen(can::Gone{{Code::interface, "it refuses"}}, std::chrono::seconds(1));
+  CHECK(rig.session->wait_until_open().error().code == Code::interface);
+  Rig other;
+  other.wire.open = false;
+  REQUIRE(raise(SIGTERM) == 0);
+  CHECK(other.session->wait_until_open().error().code == Code::interrupted);
+  CHECK(other.session->signal() == SIGTERM);
+}
+
 TEST_CASE("a session lives until its deadline, and hears who is there") {
   Scene scene(R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11, "servo_id": 4}],
                  "foreign": [{"kind": "node", "node_id": 30}])");

@@ -1,0 +1,211 @@
+// The built binary on an slcan adapter: a pseudo terminal with simulated servos behind it.
+
+#include "blactl/bla/profile.hpp"
+#include "blactl/sim/private_bus.hpp"
+#include "blactl/sim/scenario.hpp"
+
+#include "catch.hpp"
+#include "run.hpp"
+#include "scene.hpp"
+#include "unit/can/slcan_adapter.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace blactl::test;
+using blactl::can::test::Dialect;
+using blactl::can::test::SlcanAdapter;
+
+namespace can = blactl::can;
+namespace bla = blactl::bla;
+namespace sim = blactl::sim;
+
+namespace {
+
+/// Servo 11, a BLA21, on the clock of the machine.
+std::unique_ptr<can::Bus> one_servo() {
+  static const auto profiles = bla::Profiles::load(std::nullopt);
+  const auto scenario = sim::parse_scenario(R"({
+    "schema": "blactl-scenario/1", "clock": "real",
+    "servos": [{"model": "BLA21-12U-AB", "node_id": 11}]
+  })",
+                                            "slcan_test", profiles.value());
+  if (!scenario) {
+    throw std::runtime_error(scenario.error().message);
+  }
+  return std::make_unique<sim::PrivateBus>("slcan_test", *scenario);
+}
+
+std::string interface(const SlcanAdapter& adapter, const std::string& options = {}) {
+  return "slcan:" + adapter.path() + options;
+}
+
+/// One request is asked more often than usual: the servo has just been powered, and the adapter is
+/// a thread on a busy machine.
+Arguments patient(const std::string& interface, Arguments command) {
+  Arguments arguments{"-i", interface, "--timeout", "0.5", "--retries", "20"};
+  std::ranges::move(command, std::back_inserter(arguments));
+  return arguments;
+}
+
+bool is_frame(const std::string& line) {
+  return line.starts_with('T');
+}
+
+} // namespace
+
+TEST_CASE("slcan: parameters are read and written through every kind of adapter") {
+  const std::vector<std::pair<Dialect, std::string>> cases{
+      {can::test::starter_kit(), "?open=plain"},
+      {can::test::starter_kit(), ""},
+      {can::test::lawicel(), ""},
+      {can::test::lawicel(), "?open=s8&baud=115200"},
+      {can::test::canable(), ""},
+      {can::test::canable(), "?open=s8&ack=none"},
+      {can::test::ardupilot(), ""},
+      {can::test::fixed_rate(), ""},
+      {can::test::noisy(), "?gap=1"},
+  };
+  for (const auto& [dialect, options] : cases) {
+    const Bench bench;
+    SlcanAdapter adapter(dialect, one_servo());
+    INFO(adapter.path() + options + " " + std::to_string(&dialect - &cases.front().first));
+    const std::string name = interface(adapter, options);
+    const Result set = bench.run(patient(name, {"set", "-n", "11", "angle_limit_cw=90deg"}));
+    INFO(set.err);
+    CHECK(set.status == 0);
+    const Result get = bench.run(patient(name, {"get", "-n", "11", "angle_limit_cw", "-j"}));
+    INFO(get.err);
+    REQUIRE(get.status == 0);
+    CHECK(json(get.out)["nodes"][0]["params"][0]["raw"] == 900);
+    CHECK(json(get.out)["interface"] == interface(adapter));
+    const auto lines = adapter.lines();
+    CHECK(std::ranges::none_of(lines, [](const std::string& line) {
+      return is_frame(line) && line.size() < 12; // not one in pieces
+    }));
+  }
+}
+
+TEST_CASE("slcan: servos are found however long the adapter took to open") {
+  const Bench bench;
+  SlcanAdapter adapter(can::test::canable(), one_servo());
+  const Result scan = bench.run(patient(interface(adapter), {"scan", "-j"}));
+  INFO(scan.err);
+  CHECK(scan.status == 0);
+  CHECK(json(scan.out)["nodes"][0]["node_id"] == 11);
+  const Result search = bench.run(patient(interface(adapter), {"get", "servo_id", "-j"}));
+  INFO(search.err);
+  CHECK(search.status == 0);
+  adapter.wait_for([](const auto& lines) { return lines.back() == "C"; });
+}
+
+TEST_CASE("slcan: an adapter with a fixed bit rate is noted, unless -q") {
+  const Bench bench;
+  SlcanAdapter adapter(can::test::fixed_rate(), one_servo());
+  const Result told = bench.run(patient(interface(adapter), {"get", "-n", "11", "servo_id"}));
+  CHECK(told.status == 0);
+  CHECK(contains(told.err, "its bit rate is taken to be fixed"));
+  const Result quiet =
+      bench.run(patient(interface(adapter), {"-q", "get", "-n", "11", "servo_id"}));
+  CHECK(quiet.err.empty());
+}
+
+TEST_CASE("slcan: an adapter that refuses everything is exit 3 with a way out") {
+  const Bench bench;
+  const SlcanAdapter adapter(can::test::stubborn(), one_servo());
+  const Result result = bench.run(patient(interface(adapter), {"scan"}));
+  CHECK(result.status == 3);
+  CHECK(codes(result) == std::vector<std::string>{"interface"});
+  CHECK(contains(result.err, "?open=plain\""));
+}
+
+TEST_CASE("slcan: an adapter without servos behind it is no answer") {
+  const Bench bench;
+  const SlcanAdapter adapter(can::test::canable());
+  const Result result = bench.run({"-i", interface(adapter), "get", "-n", "11"});
+  CHECK(result.status == 4);
+}
+
+TEST_CASE("slcan: a port in use names the program and its process") {
+  const Bench bench;
+  SlcanAdapter adapter(can::test::lawicel(), one_servo());
+  Background first(bench, patient(interface(adapter), {"-v", "scan", "--listen", "60"}), {}, "");
+  adapter.wait_for([](const auto& lines) { return std::ranges::any_of(lines, is_frame); });
+  // By another name, and for a command that sends nothing.
+  const std::string link = bench.folder() / "adapter";
+  std::filesystem::create_symlink(adapter.path(), link);
+  for (const std::string& name : {interface(adapter), "slcan:" + link}) {
+    const Result second = bench.run({"-i", name, "scan", "--listen-only"});
+    CHECK(second.status == 3);
+    CHECK(codes(second) == std::vector<std::string>{"interface"});
+    CHECK(
+        contains(second.err, "is in use by blactl (process " + std::to_string(first.pid()) + ")"));
+    CHECK(contains(second.err, "kill " + std::to_string(first.pid())));
+  }
+  CHECK(first.stop(SIGINT).status == 130);
+  const Result after = bench.run(patient("slcan:" + link, {"get", "-n", "11", "servo_id"}));
+  INFO(after.err);
+  CHECK(after.status == 0);
+}
+
+TEST_CASE("slcan: an adapter pulled out in the middle of a command ends it, exit 3") {
+  const Bench bench;
+  auto adapter = std::make_unique<SlcanAdapter>(can::test::lawicel(), one_servo());
+  const std::string path = adapter->path();
+  Background command(bench, patient(interface(*adapter), {"scan", "--listen", "60"}), {}, "");
+  adapter->wait_for([](const auto& lines) { return std::ranges::any_of(lines, is_frame); });
+  adapter->unplug();
+  const Result result = command.wait();
+  CHECK(result.status == 3);
+  CHECK(contains(result.err, "the adapter at " + path + " is gone"));
+  CHECK(contains(result.err, "\n  plug it in again"));
+}
+
+TEST_CASE("slcan: a signal while the adapter is opened ends the command as at any time") {
+  const Bench bench;
+  for (const int signal : {SIGINT, SIGTERM}) {
+    Dialect dialect = can::test::lawicel();
+    dialect.to_empty = "";
+    dialect.to_close = "";
+    SlcanAdapter adapter(dialect);
+    Background command(bench, {"-i", interface(adapter), "get", "-n", "11"}, {}, "");
+    adapter.wait_for([](const auto& lines) { return !lines.empty(); });
+    CHECK(command.stop(signal).status == 128 + signal);
+  }
+}
+
+TEST_CASE("slcan: what is wrong with the name of the interface is told before anything is opened") {
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"slcan:", "the device is missing"},
+      {"slcan:/dev/x?speed=1", "there is no option 'speed'"},
+      {"slcan:/dev/x?gap=1&gap=2", "gap is given twice"},
+      {"slcan:/dev/x?baud=fast", "baud fast: not a rate"},
+      {"slcan:/dev/x?open=no", "open no: not one of plain, s8"},
+  };
+  for (const auto& [name, message] : cases) {
+    const Result result = run({"-i", name, "scan"});
+    CHECK(result.status == 2);
+    CHECK(codes(result) == std::vector<std::string>{"usage"});
+    CHECK(contains(result.err, message));
+    CHECK(contains(result.err, "baud=1000000&open=plain,s8&ack=auto,none&gap=MS"));
+  }
+  const Result absent = run({"-i", "slcan:/dev/no-such-port", "scan"});
+  CHECK(absent.status == 3);
+  CHECK(contains(absent.err, "there is no serial port /dev/no-such-port"));
+}
+
+TEST_CASE("slcan: simulated servos join a bus behind an adapter") {
+  const Bench bench;
+  SlcanAdapter adapter(can::test::lawicel());
+  const Background sim(bench, {"-i", interface(adapter), "sim"});
+  // actuator.Status comes ten times a second.
+  adapter.wait_for([](const auto& lines) { return std::ranges::count_if(lines, is_frame) > 20; });
+  CHECK(adapter.lines()[3] == "O");
+}
