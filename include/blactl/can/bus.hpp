@@ -96,6 +96,9 @@ class Bus {
   /// the transport has taken wait in this process.
   [[nodiscard]] virtual bool wants_to_write() const { return false; }
 
+  /// What comes has happened long ago: nobody can be asked, and no frame is taken. Ends with Ended.
+  [[nodiscard]] virtual bool is_recording() const { return false; }
+
   /// The bus clock. Real interfaces: CLOCK_MONOTONIC.
   [[nodiscard]] virtual Time now() const;
   [[nodiscard]] virtual WallTime wall() const;

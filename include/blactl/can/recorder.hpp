@@ -1,0 +1,74 @@
+#pragma once
+// Writes down what crosses a bus, as a candump log: `--record FILE`.
+
+#include "blactl/can/bus.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace blactl::can {
+
+/// The name under which a log knows a bus, as candump and canplayer take it: "vcan0" stays, "sim:"
+/// is "sim", "slcan:/dev/ttyUSB0" is "ttyUSB0", "mcast:0" is "mcast-0".
+[[nodiscard]] std::string log_interface(std::string_view bus_name);
+
+/// Passes everything on to another bus and writes a line for every frame that comes from it: those
+/// of others, and the echoes of ours. On a bus without echoes a frame of ours is written when the
+/// bus has taken it.
+///
+/// Each line is one write(2): what was heard is in the file even if this process is killed. When a
+/// line cannot be written, recording ends there, with complete lines only, and the bus goes on.
+class Recorder final : public Bus {
+ public:
+  /// The file is made new (mode 0644 less the umask); one that is there is replaced, as a shell's
+  /// redirection does. Errors: io.
+  [[nodiscard]] static Result<std::unique_ptr<Recorder>> open(std::unique_ptr<Bus> bus,
+                                                              const std::string& path);
+
+  ~Recorder() override;
+  Recorder(const Recorder&) = delete;
+  Recorder& operator=(const Recorder&) = delete;
+
+  /// Why recording ended early: io.
+  [[nodiscard]] const std::optional<Error>& error() const { return error_; }
+
+  [[nodiscard]] std::string_view name() const override { return bus_->name(); }
+
+  [[nodiscard]] Result<bool> send(const Frame& frame) override;
+  [[nodiscard]] std::optional<BusEvent> receive() override;
+
+  /// Not passed on: the log has all frames.
+  [[nodiscard]] Result<void> filter(std::span<const Filter> filters) override;
+
+  [[nodiscard]] bool echoes() const override { return bus_->echoes(); }
+
+  [[nodiscard]] int descriptor() const override { return bus_->descriptor(); }
+
+  [[nodiscard]] bool wants_to_write() const override { return bus_->wants_to_write(); }
+
+  [[nodiscard]] bool is_recording() const override { return bus_->is_recording(); }
+
+  [[nodiscard]] Time now() const override { return bus_->now(); }
+
+  [[nodiscard]] WallTime wall() const override { return bus_->wall(); }
+
+  [[nodiscard]] Time idle_until(Time deadline) override { return bus_->idle_until(deadline); }
+
+ private:
+  Recorder(std::unique_ptr<Bus> bus, int descriptor, std::string path);
+
+  void record(const Frame& frame, WallTime at);
+  void stop(int error);
+
+  std::unique_ptr<Bus> bus_;
+  int descriptor_;
+  std::string path_;
+  std::string interface_;
+  std::int64_t complete_ = 0; ///< bytes of complete lines
+  std::optional<Error> error_;
+};
+
+} // namespace blactl::can

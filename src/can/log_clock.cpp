@@ -1,0 +1,40 @@
+#include "blactl/can/log_clock.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+namespace blactl::can {
+namespace {
+
+/// How far stamps of one log that rise may be out of order: sockets are read in turn.
+constexpr Duration most_disorder = std::chrono::milliseconds(10);
+
+/// Whether stamps that rise from the first frame on would not do this.
+bool falls(WallTime last, WallTime at) {
+  return at.time_since_epoch() < last.time_since_epoch() / 2 || last - at > most_disorder;
+}
+
+/// Foreign digits must not overflow a clock.
+template <class Clock> Clock later(Clock time, Duration step) {
+  constexpr Clock latest{Clock::max().time_since_epoch() / 2};
+  return time + std::min(step, latest - time);
+}
+
+} // namespace
+
+void LogClock::pass(const LogLine& line) {
+  using Stamp = LogLine::Stamp;
+  if (line.stamp == Stamp::none) {
+    return;
+  }
+  const bool goes_on = line.stamp == stamp_;
+  adds_up_ = goes_on && (adds_up_ || (line.stamp == Stamp::relative && falls(last_, line.at)));
+  const Duration since = goes_on ? std::max(line.at - last_, Duration()) : Duration();
+  const Duration step = adds_up_ ? line.at.time_since_epoch() : since;
+  wall_ = adds_up_ ? later(wall_, step) : line.at;
+  now_ = later(now_, step);
+  stamp_ = line.stamp;
+  last_ = line.at;
+}
+
+} // namespace blactl::can

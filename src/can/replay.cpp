@@ -1,0 +1,79 @@
+#include "blactl/can/replay.hpp"
+
+#include "blactl/can/replay_texts.hpp"
+
+#include "can/kernel_frame.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace blactl::can {
+
+Result<std::unique_ptr<ReplayBus>> ReplayBus::open(const std::string& path, std::string name) {
+  auto reader = CandumpReader::open(path);
+  if (!reader) {
+    Error error = std::move(reader.error());
+    error.code = Code::interface; // here the file stands where an interface would
+    return std::unexpected(std::move(error));
+  }
+  return std::unique_ptr<ReplayBus>(new ReplayBus(std::move(*reader), std::move(name)));
+}
+
+Result<bool> ReplayBus::send(const Frame&) {
+  return fail(Code::usage, say<texts::log_takes_no_frames>(name_),
+              say<texts::log_takes_no_frames_hint>());
+}
+
+Result<void> ReplayBus::filter(std::span<const Filter>) {
+  return {};
+}
+
+std::optional<BusEvent> ReplayBus::receive() {
+  for (;;) {
+    if (!faults_.empty()) {
+      const BusFault fault = faults_.front();
+      faults_.pop_front();
+      return fault;
+    }
+    const auto line = reader_->next();
+    if (!line) {
+      break;
+    }
+    clock_.pass(*line);
+    if (line->kind == LogLine::Kind::frame) {
+      has_frames_ = true;
+      return Received{line->frame, clock_.now(), clock_.wall()};
+    }
+    if (line->kind == LogLine::Kind::error) {
+      take_error_frame(*line);
+    }
+  }
+  if (!reader_->ended() || std::exchange(told_end_, true)) {
+    return std::nullopt;
+  }
+  return end();
+}
+
+void ReplayBus::take_error_frame(const LogLine& line) {
+  has_frames_ = true;
+  can_frame raw{};
+  raw.can_id = line.frame.id | CAN_ERR_FLAG;
+  raw.len = line.frame.size;
+  std::ranges::copy(line.frame.data, raw.data);
+  for (const FaultKind kind : faults(raw)) {
+    faults_.push_back({kind, clock_.now()});
+  }
+}
+
+BusEvent ReplayBus::end() const {
+  if (const auto& error = reader_->error()) {
+    return Gone{{Code::interface, error->message, error->hint, std::nullopt}};
+  }
+  if (!has_frames_) {
+    return Gone{{Code::bad_file, say<texts::log_without_frames>(reader_->name()),
+                 say<texts::log_unreadable_hint>(), std::nullopt}};
+  }
+  return Ended{};
+}
+
+} // namespace blactl::can
