@@ -11,6 +11,7 @@ namespace blactl::cli {
 [[nodiscard]] Report execute(const ScanOptions& options, Context& context);
 [[nodiscard]] Report execute(const GetOptions& options, Context& context);
 [[nodiscard]] Report execute(const SetOptions& options, Context& context);
+[[nodiscard]] Report execute(const TraceOptions& options, Context& context);
 [[nodiscard]] Report execute(const ModelsOptions& options, Context& context);
 [[nodiscard]] Report execute(const SimOptions& options, Context& context);
 
