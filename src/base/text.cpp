@@ -8,24 +8,6 @@ namespace {
 
 Language current = Language::english;
 
-/// C0, DEL and C1 (U+0080..U+009F, which some terminals obey), and the characters that change the
-/// direction of text or hide in it.
-bool is_control(std::string_view character) {
-  const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(character[i]); };
-  if (character.size() == 1) {
-    return byte(0) < 0x20 || byte(0) == 0x7F;
-  }
-  if (character.size() == 2) {
-    return byte(0) == 0xC2 && byte(1) < 0xA0;
-  }
-  if (character.size() == 3 && byte(0) == 0xE2) { // U+200B..F, U+2028..E, U+2066..9
-    return (byte(1) == 0x80 &&
-            ((byte(2) >= 0x8B && byte(2) <= 0x8F) || (byte(2) >= 0xA8 && byte(2) <= 0xAE))) ||
-           (byte(1) == 0x81 && byte(2) >= 0xA6 && byte(2) <= 0xA9);
-  }
-  return character == "\xEF\xBB\xBF"; // U+FEFF
-}
-
 } // namespace
 
 void set_language(Language language) {
@@ -58,6 +40,22 @@ std::size_t utf8_length(std::string_view text) {
   const bool overlong = (first == 0xE0 && byte(1) < 0xA0) || (first == 0xF0 && byte(1) < 0x90);
   const bool beyond = (first == 0xED && byte(1) > 0x9F) || (first == 0xF4 && byte(1) > 0x8F);
   return overlong || beyond ? 0 : length;
+}
+
+bool is_control(std::string_view character) {
+  const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(character[i]); };
+  if (character.size() == 1) {
+    return byte(0) < 0x20 || byte(0) == 0x7F;
+  }
+  if (character.size() == 2) { // U+0080..9F
+    return byte(0) == 0xC2 && byte(1) < 0xA0;
+  }
+  if (character.size() == 3 && byte(0) == 0xE2) { // U+200B..F, U+2028..E, U+2066..9
+    return (byte(1) == 0x80 &&
+            ((byte(2) >= 0x8B && byte(2) <= 0x8F) || (byte(2) >= 0xA8 && byte(2) <= 0xAE))) ||
+           (byte(1) == 0x81 && byte(2) >= 0xA6 && byte(2) <= 0xA9);
+  }
+  return character == "\xEF\xBB\xBF"; // U+FEFF
 }
 
 std::string printable(std::string_view foreign) {

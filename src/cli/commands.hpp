@@ -15,6 +15,7 @@ namespace blactl::cli {
 [[nodiscard]] Report execute(const EraseOptions& options, Context& context);
 [[nodiscard]] Report execute(const RestartOptions& options, Context& context);
 [[nodiscard]] Report execute(const WaitOptions& options, Context& context);
+[[nodiscard]] Report execute(const TraceOptions& options, Context& context);
 [[nodiscard]] Report execute(const ModelsOptions& options, Context& context);
 [[nodiscard]] Report execute(const SimOptions& options, Context& context);
 

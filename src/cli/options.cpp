@@ -21,17 +21,20 @@
 namespace blactl::cli {
 namespace {
 
-constexpr std::array<std::string_view, 9> commands{"scan",    "get",  "set",    "save", "erase",
-                                                   "restart", "wait", "models", "sim"};
+constexpr std::array<std::string_view, 10> commands{"scan",    "get",  "set",   "save",   "erase",
+                                                    "restart", "wait", "trace", "models", "sim"};
 
 /// Those that print tables of values.
 constexpr std::array<std::string_view, 2> with_csv{"scan", "get"};
 
+constexpr std::array<std::string_view, 2> streams{"trace", "sim"};
+
 /// Options that take the next argument as their value: what a mistyped command is told apart from.
-constexpr std::array<std::string_view, 15> with_value{
+constexpr std::array<std::string_view, 19> with_value{
     "--interface", "--node",    "--local-node-id", "--color",   "--lang",
     "--timeout",   "--retries", "--profile-dir",   "--profile", "--listen",
-    "--expect",    "--group",   "--wait",          "--stagger", "--record"};
+    "--expect",    "--group",   "--wait",          "--stagger", "--record",
+    "--type",      "--kind",    "--duration",      "--count"};
 
 std::optional<std::string> environment(const char* name) {
   const char* value = std::getenv(name);
@@ -63,6 +66,7 @@ class Parser {
     add_erase();
     add_restart();
     add_wait();
+    add_trace();
     add_models();
     add_sim();
     for (CLI::App* command : app_.get_subcommands({})) {
@@ -84,6 +88,7 @@ class Parser {
   void add_restart();
   void add_wait();
   void add_times(CLI::App& command, RestartTimes& times);
+  void add_trace();
   void add_models();
   void add_sim();
   Result<Invocation> take();
@@ -221,6 +226,23 @@ void Parser::add_wait() {
                   std::chrono::milliseconds(1), std::chrono::hours(24));
 }
 
+void Parser::add_trace() {
+  auto [command, options] = add<TraceOptions>(
+      "trace", "every DroneCAN transfer decoded, live or from a candump log; sends nothing");
+  command.add_option("FILE", options.file, "a log of candump -l, or - (default: the interface)")
+      ->type_name("");
+  values_.text(command, "--type", "only these data types: NodeStatus, param.GetSet, 341", "T",
+               options.types);
+  values_.text(command, "--kind", "only message, request, response", "K", options.kinds);
+  values_.seconds(command, "--duration", "how long; of a log its first seconds", options.duration,
+                  std::chrono::milliseconds(1), std::chrono::hours(24));
+  values_.whole(
+      command, "--count", "end after so many transfers", "N",
+      [&most = options.count](std::uint64_t count) { most = count; }, 1, ~std::uint64_t{0});
+  command.add_flag("--stats", options.stats,
+                   "instead of the transfers, who sends what how often, and the load of the bus");
+}
+
 void Parser::add_models() {
   auto [command, options] =
       add<ModelsOptions>("models", "what the profiles know, without any servo");
@@ -329,6 +351,10 @@ std::optional<std::string> first_word(std::span<const std::string> arguments) {
 std::string peek_command(std::span<const std::string> arguments) {
   const auto word = first_word(arguments);
   return word && std::ranges::find(commands, *word) != commands.end() ? *word : std::string();
+}
+
+bool is_stream(std::string_view command) {
+  return std::ranges::find(streams, command) != streams.end();
 }
 
 Shared peek(std::span<const std::string> arguments) {

@@ -81,14 +81,24 @@ struct ModelsOptions {
   std::string parameter{};
 };
 
+struct TraceOptions {
+  std::string file{};                 ///< a candump log, or "-"; empty: the interface
+  std::optional<std::string> types{}; ///< names or numbers, comma-separated
+  std::optional<std::string> kinds{}; ///< message, request, response
+  std::optional<Duration> duration{};
+  std::optional<std::uint64_t> count{};
+  bool stats = false;
+};
+
 struct SimOptions {
   std::string scenario{};
   std::optional<std::uint64_t> seed{};
   std::string clock{}; ///< "real", "virtual"; empty: as the scenario says
 };
 
-using CommandOptions = std::variant<ScanOptions, GetOptions, SetOptions, SaveOptions, EraseOptions,
-                                    RestartOptions, WaitOptions, ModelsOptions, SimOptions>;
+using CommandOptions =
+    std::variant<ScanOptions, GetOptions, SetOptions, SaveOptions, EraseOptions, RestartOptions,
+                 WaitOptions, TraceOptions, ModelsOptions, SimOptions>;
 
 struct Invocation {
   Shared shared{};
@@ -102,6 +112,9 @@ struct Invocation {
 [[nodiscard]] Shared peek(std::span<const std::string> arguments);
 /// The command that is meant; empty: unknown.
 [[nodiscard]] std::string peek_command(std::span<const std::string> arguments);
+/// Whether a command of this name prints one object a line: then a document of one line ends it,
+/// whatever went wrong.
+[[nodiscard]] bool is_stream(std::string_view command);
 [[nodiscard]] Language peek_language(std::span<const std::string> arguments);
 
 /// Errors: usage, with the nearest command for a mistyped one.

@@ -5,6 +5,7 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -12,8 +13,8 @@
 namespace blactl::cli {
 namespace {
 
-/// Writes everything or tells why not.
-Result<void> write_all(int descriptor, std::string_view text) {
+/// Writes everything or tells why not; false if the reader has left.
+Result<bool> write_all(int descriptor, std::string_view text) {
   while (!text.empty()) {
     const ssize_t written = write(descriptor, text.data(), text.size());
     if (written < 0) {
@@ -21,14 +22,14 @@ Result<void> write_all(int descriptor, std::string_view text) {
         continue;
       }
       if (errno == EPIPE) {
-        return {}; // the reader has left: there is nobody to tell
+        return false;
       }
       return fail(Code::io, say<texts::stdout_failed>(std::strerror(errno)),
                   say<texts::stdout_failed_hint>());
     }
     text.remove_prefix(static_cast<std::size_t>(written));
   }
-  return {};
+  return true;
 }
 
 /// stderr that cannot be written has nobody to tell.
@@ -79,6 +80,11 @@ void Reporter::ask(std::string_view question) const {
 }
 
 Result<void> Reporter::data(std::string_view text) const {
+  const auto written = stream(text);
+  return written ? Result<void>() : std::unexpected(written.error());
+}
+
+Result<bool> Reporter::stream(std::string_view text) const {
   return write_all(STDOUT_FILENO, text);
 }
 
@@ -109,7 +115,10 @@ int Reporter::finish(const Report& report) const {
     this->error(error);
   }
   if (!written) {
-    error(written.error());
+    // A stream has failed with the same before, and said so.
+    if (std::ranges::find(report.errors, Code::io, &Error::code) == report.errors.end()) {
+      error(written.error());
+    }
     return exit_status(written.error().code);
   }
   return report.exit_status();

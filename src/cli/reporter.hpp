@@ -40,8 +40,11 @@ class Reporter {
   /// A question on stderr, answered on stdin by the caller.
   void ask(std::string_view question) const;
 
-  /// A piece of data on stdout at once, for streams. Errors: io.
+  /// A piece of data on stdout at once. A reader that has left is no failure: there is nobody to
+  /// tell. Errors: io.
   [[nodiscard]] Result<void> data(std::string_view text) const;
+  /// The same for streams: false if the reader has left, which ends them. Errors: io.
+  [[nodiscard]] Result<bool> stream(std::string_view text) const;
 
   /// As data(), for a command that must not wait for a slow reader: false if stdout has no room for
   /// a line now, then nothing is printed. Errors: io.

@@ -32,6 +32,7 @@ int run(std::span<const std::string> arguments) {
   if (!invocation) {
     Report report;
     report.command = peek_command(arguments);
+    report.is_stream = is_stream(report.command);
     report.fail(invocation.error());
     return Reporter(peek(arguments).output).finish(report);
   }

@@ -214,6 +214,53 @@ inline constexpr Text not_saved_note{
     "RAM のみの変更です。再起動すると元の値に戻ります",
 };
 
+// trace
+inline constexpr Text unknown_type{"there is no data type '{}'", "データ型 '{}' はありません"};
+inline constexpr Text unknown_type_hint{
+    "give a name such as NodeStatus or param.GetSet, or a data type ID",
+    "NodeStatus や param.GetSet などの名前、またはデータ型 ID を指定してください"};
+inline constexpr Text trace_takes_node_ids{"-n {}: trace takes node IDs only",
+                                           "-n {}: trace で指定できるのはノード ID のみです"};
+inline constexpr Text trace_takes_node_ids_hint{"which servo has which ID: blactl scan",
+                                                "どのサーボがどの ID かを調べるには: blactl scan"};
+inline constexpr Text replay_names_no_file{"-i replay: names no file",
+                                           "-i replay: にファイル名がありません"};
+inline constexpr Text replay_names_no_file_hint{"-i replay:FILE, or blactl trace FILE",
+                                                "-i replay:FILE、または blactl trace FILE"};
+inline constexpr Text log_has_bad_lines{
+    "{}: {} lines are none of candump's and were passed over, the first is line {}",
+    "{}: candump の形式でない {} 行を無視しました (最初は {} 行目)"};
+inline constexpr Text log_has_many_interfaces{
+    "{} frames were not decoded: the log names more than {} interfaces",
+    "{} フレームをデコードしていません (ログのインタフェース数が {} を超えています)"};
+inline constexpr Text trace_crc{"the CRC is wrong", "CRC が一致しません"};
+inline constexpr Text trace_toggle{"a frame before this one was lost",
+                                   "これより前のフレームが失われました"};
+inline constexpr Text trace_missing_start{"its first frame was not heard",
+                                          "先頭のフレームを受信していません"};
+inline constexpr Text trace_transfer_id{
+    "repeated, or begun before the end of the last one",
+    "転送 ID が重複しているか、前の転送の終了前に開始されました"};
+inline constexpr Text trace_truncated{"a frame is too short for its place, or the payload too long",
+                                      "フレームが短すぎるか、ペイロードが長すぎます"};
+inline constexpr Text trace_timeout{"the rest did not come within 2 s",
+                                    "残りのフレームが 2 秒以内に届きませんでした"};
+inline constexpr Text trace_short{"the payload is too short for its type",
+                                  "ペイロードがデータ型より短くなっています"};
+inline constexpr Text trace_no_value{"has no value", "値なし"};
+inline constexpr Text trace_crc_unchecked{"(CRC not checked)", "(CRC 未確認)"};
+inline constexpr Text column_interface{"INTERFACE", "インタフェース"};
+inline constexpr Text column_kind{"KIND", "種別"};
+inline constexpr Text column_type{"TYPE", "データ型"};
+inline constexpr Text column_transfers{"TRANSFERS", "転送数"};
+inline constexpr Text column_per_second{"PER SECOND", "毎秒"};
+inline constexpr Text column_frames{"FRAMES", "フレーム数"};
+inline constexpr Text column_bytes{"BYTES", "バイト数"};
+inline constexpr Text column_errors{"ERRORS", "エラー数"};
+inline constexpr Text column_load{"LOAD %", "負荷 %"};
+inline constexpr Text trace_load{"{}: {} frames in {} s, {} % of 1 Mbit/s\n",
+                                 "{}: {} フレーム / {} 秒、バス負荷 {} % (1 Mbit/s)\n"};
+
 // models
 inline constexpr Text models_pwm{"PWM input", "PWM 入力あり"};
 inline constexpr Text models_no_pwm{"no PWM input", "PWM 入力なし"};

@@ -4,18 +4,24 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace blactl {
 
-/// Two lower-case digits a byte: unique IDs and payloads in every output.
-[[nodiscard]] inline std::string hex(std::span<const std::uint8_t> bytes) {
+/// Appends two lower-case digits a byte: unique IDs and payloads in every output.
+inline void append_hex(std::string& out, std::span<const std::uint8_t> bytes) {
   constexpr std::string_view digits = "0123456789abcdef";
-  std::string out;
-  out.reserve(bytes.size() * 2);
+  auto at = out.size();
+  out.resize(at + bytes.size() * 2);
   for (const std::uint8_t byte : bytes) {
-    out += digits[byte >> 4];
-    out += digits[byte & 0xF];
+    out[at++] = digits[byte >> 4];
+    out[at++] = digits[byte & 0xF];
   }
+}
+
+[[nodiscard]] inline std::string hex(std::span<const std::uint8_t> bytes) {
+  std::string out;
+  append_hex(out, bytes);
   return out;
 }
 

@@ -30,7 +30,8 @@ class JsonWriter {
 
   void key(std::string_view name);
 
-  /// Controls are escaped; a byte that is not well-formed UTF-8 becomes U+FFFD.
+  /// Controls, and what hides in text or turns its direction, are escaped: a reader gets them, a
+  /// terminal does not. A byte that is not well-formed UTF-8 becomes U+FFFD.
   void value(std::string_view text);
 
   void value(const char* text) { value(std::string_view(text)); }
@@ -51,6 +52,10 @@ class JsonWriter {
   template <class T> void value(const std::optional<T>& maybe) {
     maybe ? value(*maybe) : value(nullptr);
   }
+
+  /// The shortest text that gives just this number back; NaN and infinities, which JSON does not
+  /// know, are null. (A float is a double here: whoever reads the text gets one.)
+  void real(double number);
 
   /// A number that is text already: "90.0".
   void number(std::string_view digits) { literal(digits); }

@@ -44,6 +44,10 @@ template <const Text& text, class... Args> [[nodiscard]] std::string say(const A
 /// (RFC 3629: no overlong forms, no surrogates, nothing above U+10FFFF). `text` is not empty.
 [[nodiscard]] std::size_t utf8_length(std::string_view text);
 
+/// Whether a well-formed character is none to be shown: C0, DEL and C1 controls, which terminals
+/// obey, and those that hide in text or change its direction.
+[[nodiscard]] bool is_control(std::string_view character);
+
 /// Foreign bytes made fit for a terminal, a log line or JSON: valid UTF-8 stays, control
 /// characters, escape sequences and broken UTF-8 become \xNN.
 [[nodiscard]] std::string printable(std::string_view foreign);

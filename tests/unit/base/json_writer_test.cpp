@@ -78,6 +78,12 @@ TEST_CASE("text is escaped where JSON or a terminal would stumble") {
         }) == R"({"a\"b":""})");
 }
 
+TEST_CASE("what a terminal obeys or text hides in is escaped, and read back") {
+  CHECK(text("\u009b31m") == R"("\u009b31m")");
+  CHECK(text("a\u202eb\ufeff\u2066") == R"("a\u202eb\ufeff\u2066")");
+  CHECK(text("é角😀") == "\"é角😀\"");
+}
+
 TEST_CASE("text that is no UTF-8 is valid JSON all the same") {
   CHECK(text("a\xFFz") == "\"a\uFFFDz\"");
   CHECK(text("\xE8\xA7") == "\"\uFFFD\uFFFD\"");
@@ -115,6 +121,20 @@ TEST_CASE("what is not there is null, and numbers may be text already") {
           json.number("90.0");
           json.end_array();
         }) == R"([null,5,"x",90.0])");
+}
+
+TEST_CASE("a real number is read back as just itself, and what is none is null") {
+  const auto real = [](double number) {
+    std::string out;
+    JsonWriter(out).real(number);
+    return out;
+  };
+  CHECK(real(0.5) == "0.5");
+  CHECK(real(-0.1F) == "-0.10000000149011612");
+  CHECK(real(65504) == "65504");
+  CHECK(real(5.960464477539063e-08) == "5.960464477539063e-08");
+  CHECK(real(std::numeric_limits<double>::quiet_NaN()) == "null");
+  CHECK(real(-std::numeric_limits<double>::infinity()) == "null");
 }
 
 TEST_CASE("nothing becomes true or false by accident") {

@@ -1,0 +1,93 @@
+#pragma once
+// What a trace finds, and the ways to show it.
+
+#include "blactl/base/json_writer.hpp"
+#include "blactl/base/time.hpp"
+#include "blactl/bla/profile.hpp"
+#include "blactl/can/frame.hpp"
+#include "blactl/dronecan/transfer.hpp"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace blactl::cli {
+
+/// Why a transfer is not shown as one (contract, section 5).
+enum class TraceError : std::uint8_t {
+  crc,
+  toggle,
+  missing_start,
+  transfer_id,
+  truncated,
+  timeout,
+  too_short, ///< complete, but shorter than its type: "short"
+};
+
+/// The word of the contract: "crc", …, "short".
+[[nodiscard]] std::string_view name(TraceError error);
+
+/// message, request, response.
+[[nodiscard]] std::string_view name(dronecan::Kind kind);
+
+/// Where and when something was heard.
+struct Occasion {
+  std::string_view interface; ///< foreign: a log says it
+  WallTime at;
+};
+
+/// One way to show a trace. What it is told has passed the filter, frames apart. The views append
+/// to one string and allocate nothing once it has grown.
+class TraceOutput {
+ public:
+  virtual ~TraceOutput() = default;
+  TraceOutput(const TraceOutput&) = delete;
+  TraceOutput& operator=(const TraceOutput&) = delete;
+
+  /// Every frame, before what comes of it. `wanted`: it is DroneCAN and passes the filter.
+  virtual void frame(const Occasion& occasion, const can::Frame& frame, bool wanted) = 0;
+  /// Whether the transfer was shown: false if its payload is too short for its type.
+  [[nodiscard]] virtual bool transfer(const Occasion& occasion,
+                                      const dronecan::Transfer& transfer) = 0;
+  virtual void broken(const Occasion& occasion, TraceError error, std::uint32_t can_id) = 0;
+
+ protected:
+  TraceOutput() = default;
+};
+
+/// One JSON object a line (contract, section 5, `trace`).
+class JsonTrace final : public TraceOutput {
+ public:
+  /// `out` outlives the view.
+  explicit JsonTrace(std::string& out) : out_(out) {}
+
+  void frame(const Occasion&, const can::Frame&, bool) override {}
+
+  bool transfer(const Occasion& occasion, const dronecan::Transfer& transfer) override;
+  void broken(const Occasion& occasion, TraceError error, std::uint32_t can_id) override;
+
+ private:
+  std::string& out_;
+  std::string hex_; ///< of one payload
+};
+
+/// One line a transfer for a technician.
+class TextTrace final : public TraceOutput {
+ public:
+  /// `out` and `profiles` outlive the view.
+  TextTrace(std::string& out, const bla::Profiles& profiles) : out_(out), profiles_(profiles) {}
+
+  void frame(const Occasion&, const can::Frame&, bool) override {}
+
+  bool transfer(const Occasion& occasion, const dronecan::Transfer& transfer) override;
+  void broken(const Occasion& occasion, TraceError error, std::uint32_t can_id) override;
+
+ private:
+  void begin_line(const Occasion& occasion, const dronecan::Header& header);
+  [[nodiscard]] bool write_register(const dronecan::Transfer& transfer);
+
+  std::string& out_;
+  const bla::Profiles& profiles_;
+};
+
+} // namespace blactl::cli
