@@ -45,6 +45,7 @@ class Loop {
   [[nodiscard]] WallTime wall() const;
 
   [[nodiscard]] Bus& bus() { return *bus_; }
+
   [[nodiscard]] const Bus& bus() const { return *bus_; }
 
   /// Queues a frame; it leaves in order, as the bus takes it.
