@@ -91,9 +91,8 @@ class TextFields final : public dronecan::FieldSink {
 /// "NodeStatus", "GetSet"; "20001" where nobody knows the type.
 std::string short_name(const dronecan::Header& header) {
   const auto* type = dronecan::find_standard_type(header.kind, header.data_type_id);
-  const std::string name = type != nullptr
-                               ? std::string(type->name.substr(type->name.rfind('.') + 1))
-                               : fmt::to_string(header.data_type_id);
+  std::string name = type != nullptr ? std::string(type->name.substr(type->name.rfind('.') + 1))
+                                     : fmt::to_string(header.data_type_id);
   switch (header.kind) {
   case Kind::request: return name + ".Request";
   case Kind::response: return name + ".Response";
