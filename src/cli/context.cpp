@@ -137,8 +137,6 @@ bool Context::may_allocate() {
   return allocating_.has_value();
 }
 
-/// The bus, or a recorder around it. The file is made last: what stops the command before leaves
-/// one that is there as it was.
 Result<std::unique_ptr<can::Bus>> Context::recorded(std::unique_ptr<can::Bus> bus) {
   if (!shared_.record) {
     return bus;
@@ -179,6 +177,10 @@ void Context::tell_losses(Report& report) const {
     reporter_.note(
         say<texts::lines_passed_over>(log.name(), log.bad_lines(), log.first_bad_line()));
   }
+  check_recording(report);
+}
+
+void Context::check_recording(Report& report) const {
   if (recorder_ != nullptr && recorder_->error()) {
     report.fail(*recorder_->error());
   }

@@ -77,6 +77,13 @@ class Context {
   /// error is in `report`.
   [[nodiscard]] bool hear_bus(Report& report);
 
+  /// The bus, or with --record a recorder around it. The file is made last: what stops the command
+  /// before leaves one that is there as it was. Errors: usage, io.
+  [[nodiscard]] Result<std::unique_ptr<can::Bus>> recorded(std::unique_ptr<can::Bus> bus);
+
+  /// A recording that ended early is a failure of the command. The bus is still there.
+  void check_recording(Report& report) const;
+
   /// Says so if frames were dropped on the way to this process, or lines of a log passed over. A
   /// recording that ended early is a failure of the command.
   void tell_losses(Report& report) const;
@@ -85,7 +92,6 @@ class Context {
   void broken(const Error& error, Report& report) const;
 
  private:
-  [[nodiscard]] Result<std::unique_ptr<can::Bus>> recorded(std::unique_ptr<can::Bus> bus);
   void search(Duration time, Report& report, bool failures_count);
   [[nodiscard]] std::vector<fleet::Member*> matching(const fleet::Targets& targets, Report& report);
 

@@ -223,13 +223,6 @@ inline constexpr Text trace_takes_node_ids{"-n {}: trace takes node IDs only",
                                            "-n {}: trace で指定できるのはノード ID のみです"};
 inline constexpr Text trace_takes_node_ids_hint{"which servo has which ID: blactl scan",
                                                 "どのサーボがどの ID かを調べるには: blactl scan"};
-inline constexpr Text replay_names_no_file{"-i replay: names no file",
-                                           "-i replay: にファイル名がありません"};
-inline constexpr Text replay_names_no_file_hint{"-i replay:FILE, or blactl trace FILE",
-                                                "-i replay:FILE、または blactl trace FILE"};
-inline constexpr Text log_has_bad_lines{
-    "{}: {} lines are none of candump's and were passed over, the first is line {}",
-    "{}: candump の形式でない {} 行を無視しました (最初は {} 行目)"};
 inline constexpr Text log_has_many_interfaces{
     "{} frames were not decoded: the log names more than {} interfaces",
     "{} フレームをデコードしていません (ログのインタフェース数が {} を超えています)"};

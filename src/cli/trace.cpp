@@ -30,20 +30,19 @@ constexpr std::size_t block_size = 64 << 10;
 /// How many lines of a log pass until somebody looks for Ctrl-C.
 constexpr std::uint64_t lines_between_looks = 4096;
 
-constexpr std::string_view replay_scheme = "replay:";
-
 /// One run of the command: where frames come from, and what ends it.
 class Trace {
  public:
   Trace(const TraceOptions& options, const Context& context, Tracer& tracer, std::string& out,
         Report& report)
-      : options_(options), reporter_(context.reporter()), tracer_(tracer), out_(out),
-        report_(report) {}
+      : options_(options), context_(context), tracer_(tracer), out_(out), report_(report) {}
 
   void live(std::unique_ptr<can::Bus> bus);
   void log(can::CandumpReader& reader);
 
   [[nodiscard]] std::uint64_t lost() const { return lost_; }
+
+  [[nodiscard]] std::uint64_t unreadable() const { return unreadable_; }
 
  private:
   /// What comes after the lines that were there.
@@ -55,11 +54,12 @@ class Trace {
   [[nodiscard]] bool flush();
 
   const TraceOptions& options_;
-  const Reporter& reporter_;
+  const Context& context_;
   Tracer& tracer_;
   std::string& out_;
   Report& report_;
   std::uint64_t lost_ = 0;
+  std::uint64_t unreadable_ = 0;
   bool has_frames_ = false; ///< the log
   WallTime begin_{};        ///< of the log
 };
@@ -69,7 +69,7 @@ bool Trace::flush() {
   if (out_.empty()) {
     return true;
   }
-  const auto written = reporter_.stream(out_);
+  const auto written = context_.reporter().stream(out_);
   out_.clear();
   if (!written) {
     report_.fail(written.error());
@@ -112,6 +112,8 @@ void Trace::live(std::unique_ptr<can::Bus> bus) {
     }
     goes_on = flush() && goes_on;
   }
+  unreadable_ = loop.bus().unreadable();
+  context_.check_recording(report_);
 }
 
 /// False ends the trace.
@@ -184,16 +186,11 @@ std::optional<std::string> log_path(const TraceOptions& options, const std::stri
   if (!options.file.empty()) {
     return options.file;
   }
-  return interface.starts_with(replay_scheme)
-             ? std::optional(interface.substr(replay_scheme.size()))
-             : std::nullopt;
+  const auto name = parse_interface(interface);
+  return name && name->kind == InterfaceKind::replay ? std::optional(name->rest) : std::nullopt;
 }
 
 Result<std::unique_ptr<can::CandumpReader>> open_log(const std::string& path, bool is_interface) {
-  if (path.empty()) {
-    return fail(Code::usage, say<texts::replay_names_no_file>(),
-                say<texts::replay_names_no_file_hint>());
-  }
   auto reader = can::CandumpReader::open(path);
   if (!reader && is_interface) {
     reader.error().code = Code::interface; // the file stands where an interface would
@@ -201,7 +198,7 @@ Result<std::unique_ptr<can::CandumpReader>> open_log(const std::string& path, bo
   return reader;
 }
 
-/// The lines of this trace, appended to `out`; null: it adds up instead.
+/// The lines of this trace, appended to `out`.
 std::unique_ptr<TraceOutput> make_lines(const Context& context, const bla::Profiles* profiles,
                                         std::string& out) {
   if (context.reporter().format() == Format::json) {
@@ -218,14 +215,17 @@ void count(const Tracer& tracer, std::uint64_t lost, std::uint64_t bad_lines, Re
 }
 
 /// What the user should know of what is not there.
-void tell_losses(const Tracer& tracer, std::uint64_t lost, const can::CandumpReader* log,
+void tell_losses(const Tracer& tracer, const Trace& trace, const can::CandumpReader* log,
                  const Reporter& reporter) {
-  if (lost > 0) {
-    reporter.note(say<texts::frames_lost>(lost));
+  if (trace.lost() > 0) {
+    reporter.note(say<texts::frames_lost>(trace.lost()));
+  }
+  if (trace.unreadable() > 0) {
+    reporter.note(say<texts::unreadable_frames>(trace.unreadable()));
   }
   if (log != nullptr && log->bad_lines() > 0) {
     reporter.note(
-        say<texts::log_has_bad_lines>(log->name(), log->bad_lines(), log->first_bad_line()));
+        say<texts::lines_passed_over>(log->name(), log->bad_lines(), log->first_bad_line()));
   }
   if (tracer.counts().skipped > 0) {
     reporter.note(
@@ -233,27 +233,40 @@ void tell_losses(const Tracer& tracer, std::uint64_t lost, const can::CandumpRea
   }
 }
 
-/// Everything but the profiles, which only text and a bus need (null: a log as JSON).
-void run(const TraceOptions& options, TraceFilter filter, const bla::Profiles* profiles,
-         const Context& context, Report& report) {
-  const std::string& interface = context.shared().interface;
-  const auto path = log_path(options, interface);
-  std::unique_ptr<can::CandumpReader> reader;
-  std::unique_ptr<can::Bus> bus;
-  if (path) {
-    auto opened = open_log(*path, options.file.empty());
-    if (!opened) {
-      return report.fail(opened.error());
-    }
-    reader = std::move(*opened);
-  } else {
-    auto opened = open_bus(interface, *profiles, context.reporter());
-    if (!opened) {
-      return report.fail(opened.error());
-    }
-    bus = std::move(opened->bus);
-  }
+/// Where the frames come from: one of both.
+struct Source {
+  std::unique_ptr<can::CandumpReader> log{};
+  std::unique_ptr<can::Bus> bus{};
+};
 
+/// `profiles` are needed for a bus only.
+Result<Source> open_source(const TraceOptions& options, const bla::Profiles* profiles,
+                           Context& context) {
+  const Shared& shared = context.shared();
+  if (const auto path = log_path(options, shared.interface)) {
+    if (shared.record) {
+      return fail(Code::usage, say<texts::nothing_to_record>("trace " + printable(*path)),
+                  say<texts::see_command_help>("trace"));
+    }
+    auto log = open_log(*path, options.file.empty());
+    return log ? Result<Source>(Source{.log = std::move(*log)}) : std::unexpected(log.error());
+  }
+  auto opened = open_bus(shared.interface, *profiles, context.reporter());
+  if (!opened) {
+    return std::unexpected(opened.error());
+  }
+  auto bus = context.recorded(std::move(opened->bus));
+  return bus ? Result<Source>(Source{.bus = std::move(*bus)}) : std::unexpected(bus.error());
+}
+
+/// `profiles`: null for a log as JSON.
+void run(const TraceOptions& options, TraceFilter filter, const bla::Profiles* profiles,
+         Context& context, Report& report) {
+  auto source = open_source(options, profiles, context);
+  if (!source) {
+    return report.fail(source.error());
+  }
+  const can::CandumpReader* log = source->log.get();
   std::string out;
   const auto stats = std::make_shared<TraceStats>();
   const auto lines = options.stats ? nullptr : make_lines(context, profiles, out);
@@ -261,10 +274,10 @@ void run(const TraceOptions& options, TraceFilter filter, const bla::Profiles* p
   Tracer tracer(std::move(filter), output,
                 options.count.value_or(std::numeric_limits<std::uint64_t>::max()));
   Trace trace(options, context, tracer, out, report);
-  reader ? trace.log(*reader) : trace.live(std::move(bus));
+  log != nullptr ? trace.log(*source->log) : trace.live(std::move(source->bus));
 
-  count(tracer, trace.lost(), reader ? reader->bad_lines() : 0, report);
-  tell_losses(tracer, trace.lost(), reader.get(), context.reporter());
+  count(tracer, trace.lost(), log != nullptr ? log->bad_lines() : 0, report);
+  tell_losses(tracer, trace, log, context.reporter());
   if (options.stats) {
     report.json = [stats](JsonWriter& json) { stats->write(json); };
     report.text = [stats] { return stats->text(); };
@@ -277,8 +290,7 @@ Report execute(const TraceOptions& options, Context& context) {
   Report report;
   report.is_stream = true;
   const auto path = log_path(options, context.shared().interface);
-  report.interface =
-      path ? std::string(replay_scheme) + printable(*path) : printable(context.shared().interface);
+  report.interface = path ? "replay:" + printable(*path) : printable(context.shared().interface);
   auto filter = TraceFilter::make(options, context.shared().nodes);
   if (!filter) {
     report.fail(filter.error());

@@ -449,12 +449,13 @@ TEST_CASE("a log without a frame is a bad file, one that is not there too") {
   CHECK(bench.run({"-i", "replay:no.log", "trace"}).status == 3);
 }
 
-TEST_CASE("lines that are no frames are passed over") {
+TEST_CASE("lines that are no frames are passed over, and told") {
   const Bench bench;
   const std::string log = bench.file("x.log", "dear diary\n" + status_line(0, "1.000000") + "x\n");
   const Result result = bench.run({"trace", log});
   CHECK(result.status == 0);
   CHECK(std::ranges::count(result.out, '\n') == 1);
+  CHECK(contains(result.err, "no frames: 2, the first is line 1"));
 }
 
 TEST_CASE("a pipe is shown while it is filled") {
@@ -492,6 +493,35 @@ TEST_CASE("trace of a bus shows what its servos send, and sends nothing itself")
     CHECK(heard[{node, "uavcan.equipment.actuator.Status"}] >= 19);
   }
   CHECK(heard.size() == 6);
+}
+
+TEST_CASE("a trace that is recorded replays to the same transfers") {
+  const Bench bench;
+  const std::string log = bench.file("t.log", "");
+  const Result live = three_servos().run(bench, {"trace", "-j", "--count", "20", "--record", log});
+  CHECK(live.status == 0);
+  const auto replayed = bench.run({"-i", "replay:" + log, "trace", "-j", "--count", "20"});
+  REQUIRE(traced(live).transfers.size() == 20);
+  const auto named = [](const Result& result) {
+    std::vector<std::string> names;
+    for (const Json& transfer : traced(result).transfers) {
+      names.push_back(transfer["type"].dump() + transfer["source"].dump() +
+                      transfer["transfer_id"].dump() + transfer["fields"].dump());
+    }
+    return names;
+  };
+  CHECK(named(replayed) == named(live));
+}
+
+TEST_CASE("a trace that cannot be recorded is not begun, a log is not recorded again") {
+  const Bench bench;
+  const Result nowhere =
+      three_servos().run(bench, {"trace", "--count", "1", "--record", "/no/where.log"});
+  CHECK(nowhere.status != 0);
+  CHECK(nowhere.out.empty());
+  const Result copied = bench.run({"trace", bench.file("x.log", status_line(0, "1.000000")),
+                                   "--record", bench.file("y.log", "")});
+  CHECK(copied.status == 2);
 }
 
 TEST_CASE("trace of a bus ends after --count transfers that were chosen") {

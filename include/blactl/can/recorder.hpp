@@ -37,13 +37,22 @@ class Recorder final : public Bus {
 
   [[nodiscard]] std::string_view name() const override { return bus_->name(); }
 
+  [[nodiscard]] bool is_open() const override { return bus_->is_open(); }
+
   [[nodiscard]] Result<bool> send(const Frame& frame) override;
+
+  [[nodiscard]] Time send_again_at(Time refused) const override {
+    return bus_->send_again_at(refused);
+  }
+
   [[nodiscard]] std::optional<BusEvent> receive() override;
 
   /// Not passed on: the log has all frames.
   [[nodiscard]] Result<void> filter(std::span<const Filter> filters) override;
 
   [[nodiscard]] bool echoes() const override { return bus_->echoes(); }
+
+  [[nodiscard]] std::uint64_t unreadable() const override { return bus_->unreadable(); }
 
   [[nodiscard]] int descriptor() const override { return bus_->descriptor(); }
 

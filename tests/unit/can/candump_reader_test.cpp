@@ -1,14 +1,13 @@
 #include "blactl/can/candump_reader.hpp"
 
+#include "allocations.hpp"
 #include "catch.hpp"
 #include "scratch_file.hpp"
 
 #include <unistd.h>
 
 #include <array>
-#include <cstdlib>
 #include <memory>
-#include <new>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -17,45 +16,7 @@
 using namespace blactl;
 using namespace blactl::can;
 using blactl::can::test::ScratchFile;
-
-namespace {
-
-std::size_t allocations = 0;
-
-void* allocate(std::size_t size) {
-  ++allocations;
-  void* memory = std::malloc(size);
-  if (memory == nullptr) {
-    throw std::bad_alloc();
-  }
-  return memory;
-}
-
-} // namespace
-
-void* operator new(std::size_t size) {
-  return allocate(size);
-}
-
-void* operator new[](std::size_t size) {
-  return allocate(size);
-}
-
-void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-
-void operator delete[](void* memory) noexcept {
-  std::free(memory);
-}
-
-void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
-
-void operator delete[](void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
+using blactl::test::allocations;
 
 namespace {
 
@@ -216,14 +177,14 @@ TEST_CASE("a million lines are read without one allocation") {
     }
   }
   const auto reader = open(file.path());
-  const std::size_t before = allocations;
+  const std::size_t before = allocations();
   std::uint32_t found = 0;
   bool in_order = true;
   while (const auto line = reader->next()) {
     in_order = in_order && line->frame.id == found && line->frame.size == 8;
     ++found;
   }
-  CHECK(allocations == before);
+  CHECK(allocations() == before);
   CHECK(found == count);
   CHECK(in_order);
   CHECK(reader->bad_lines() == 0);

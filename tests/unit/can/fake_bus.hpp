@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
@@ -26,8 +27,9 @@ struct Wire {
 
   Time now{std::chrono::seconds(1000)};
   Echo echo = Echo::at_once;
-  bool open = true;           ///< else it takes no frame, until Opened has happened
-  std::size_t full = 0;       ///< how many sends find the queue full
+  bool open = true;     ///< else it takes no frame, until Opened has happened
+  std::size_t full = 0; ///< how many sends find the queue full
+  std::uint64_t unreadable = 0;
   std::optional<Error> error; ///< of every send
   std::size_t tries = 0;      ///< how often send() was called
   std::vector<Frame> sent;    ///< taken from the loop
@@ -98,6 +100,8 @@ class FakeBus final : public Bus {
   }
 
   [[nodiscard]] bool echoes() const override { return wire_.echo != Wire::Echo::absent; }
+
+  [[nodiscard]] std::uint64_t unreadable() const override { return wire_.unreadable; }
 
   [[nodiscard]] int descriptor() const override { return -1; }
 

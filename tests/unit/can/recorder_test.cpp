@@ -53,6 +53,20 @@ class FullDisk {
 
 } // namespace
 
+TEST_CASE("a recorded bus is as open and as readable as the bus itself") {
+  const ScratchFile file;
+  Wire wire;
+  wire.open = false;
+  wire.unreadable = 3;
+  const auto recorder = open(wire, file);
+  CHECK_FALSE(recorder->is_open());
+  CHECK(recorder->send_again_at(recorder->now()) == never);
+  CHECK(recorder->unreadable() == 3);
+  wire.open = true;
+  CHECK(recorder->is_open());
+  CHECK(recorder->send_again_at(recorder->now()) == recorder->now() + 1ms);
+}
+
 TEST_CASE("a recorder writes what is heard and what is echoed, each line at once") {
   const ScratchFile file("what was there before");
   Wire wire;

@@ -1,70 +1,18 @@
 #include "blactl/base/crc16.hpp"
 
+#include "allocations.hpp"
 #include "catch.hpp"
 #include "support.hpp"
 
-#include <atomic>
-#include <cstdlib>
 #include <fstream>
 #include <map>
-#include <new>
 #include <numeric>
 #include <random>
 
 using namespace blactl;
 using namespace blactl::dronecan;
 using namespace blactl::dronecan::test;
-
-namespace {
-
-std::atomic<std::size_t> allocations{0};
-
-void* counted_allocation(std::size_t size) noexcept {
-  ++allocations;
-  return std::malloc(size == 0 ? 1 : size);
-}
-
-void* counted_allocation_or_throw(std::size_t size) {
-  if (void* memory = counted_allocation(size)) {
-    return memory;
-  }
-  throw std::bad_alloc();
-}
-
-} // namespace
-
-// For all of this test program: counting them is the only way to see that there are none.
-void* operator new(std::size_t size) {
-  return counted_allocation_or_throw(size);
-}
-
-void* operator new[](std::size_t size) {
-  return counted_allocation_or_throw(size);
-}
-
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  return counted_allocation(size);
-}
-
-void* operator new[](std::size_t size, const std::nothrow_t&) noexcept {
-  return counted_allocation(size);
-}
-
-void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-
-void operator delete[](void* memory) noexcept {
-  std::free(memory);
-}
-
-void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
-
-void operator delete[](void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
+using blactl::test::allocations;
 
 namespace {
 
@@ -442,12 +390,12 @@ TEST_CASE("receiving never allocates") {
     }
   }
   frames.push_back(frame("1EEE8100#0144C08B635E05C0"));
-  const auto before = allocations.load();
+  const auto before = allocations();
   for (const auto& frame : frames) {
     receiver.receive(frame, at(0s));
   }
   receiver.expire(never);
-  CHECK(allocations.load() == before);
+  CHECK(allocations() == before);
   CHECK(heard == 99 * 4 + 1);
   CHECK(errors == 99);
 }
@@ -455,16 +403,16 @@ TEST_CASE("receiving never allocates") {
 TEST_CASE("memory is bounded, however many keys are heard") {
   std::mt19937 random(4);
   std::size_t delivered = 0;
-  const auto before = allocations.load();
+  const auto before = allocations();
   Receiver receiver(1000, listener, {.transfer = [&delivered](const Transfer&) { ++delivered; }});
-  const auto constructed = allocations.load();
+  const auto constructed = allocations();
   CHECK(constructed - before < 32);
   for (int i = 0; i < 100'000; ++i) {
     can::Frame frame{.id = static_cast<std::uint32_t>(random()) & can::extended_id_mask, .size = 8};
     frame.data.fill(static_cast<std::uint8_t>(i));
     receiver.receive(frame, at(i * 1us));
   }
-  CHECK(allocations.load() == constructed);
+  CHECK(allocations() == constructed);
   CHECK(delivered > 0);
 }
 
