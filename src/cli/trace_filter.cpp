@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <memory>
 #include <string_view>
 #include <utility>
 
@@ -79,7 +80,7 @@ Result<TraceFilter> TraceFilter::make(const TraceOptions& options,
 Result<void> TraceFilter::take_types(const std::string& list) {
   for (const std::string_view word : words_of(list)) {
     std::uint16_t id{};
-    const char* end = word.data() + word.size();
+    const char* end = std::to_address(word.end());
     if (const auto [stop, error] = std::from_chars(word.data(), end, id);
         error == std::errc() && stop == end) {
       types_.push_back({id, std::nullopt});

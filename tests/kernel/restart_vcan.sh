@@ -1,0 +1,160 @@
+#!/bin/bash
+# What a write is worth after a restart, on vcan0 of a real kernel: uml.sh restart_vcan.sh BLACTL.
+# The simulator counts ROM writes, candump is the witness of what is on the wire.
+
+# shellcheck disable=SC2119 # witness_start takes an interface, which is vcan0 here
+set -u
+# shellcheck source=tests/kernel/lib.sh
+. "$(dirname "$0")/lib.sh"
+
+blactl=${1:?usage: uml.sh restart_vcan.sh BLACTL}
+simulator=''
+
+# sim SERVO...: simulated servos on vcan0, until sim_end; each is an object of a scenario file.
+sim() {
+  local IFS=,
+  echo "{\"schema\":\"blactl-scenario/1\",\"servos\":[$*]}" >"$TMPDIR/scenario.json"
+  "$blactl" sim -i vcan0 --json "$TMPDIR/scenario.json" >"$TMPDIR/sim.out" 2>"$TMPDIR/sim.err" &
+  simulator=$!
+  wait_for 20 grep -q '"ready"' "$TMPDIR/sim.out"
+}
+
+sim_end() {
+  kill "$simulator"
+  wait "$simulator"
+}
+
+# expect_events N KIND: so many of these have happened in the simulated servos.
+expect_events() {
+  local count
+  count=$(grep -c "\"event\":\"$2\"" "$TMPDIR/sim.out")
+  [ "$count" -eq "$1" ] || fail "expected $1 $2, the simulator tells $count"
+}
+
+# expect_value VALUE NODE PARAMETER: as raw number.
+expect_value() {
+  run "$blactl" get -n "$2" "$3" -j
+  expect_status 0
+  case $out in *"\"raw\": $1,"*) ;; *) fail "expected raw $1 of $3" ;; esac
+}
+
+# at ID [MORE KEYS]: a servo of a scenario.
+at() {
+  echo "{\"model\":\"BLA21-12U-AB\",\"node_id\":$1${2:+,$2}}"
+}
+
+note "a servo with a static ID: set, save, back, read again"
+sim "$(at 11)" "$(at 12 '"servo_id":1')"
+run "$blactl" set -n 11 angle_limit_cw=90deg --save -y
+expect_status 0
+expect_events 1 rom_write
+expect_value 900 11 angle_limit_cw
+run "$blactl" set -n 12 angle_limit_cw=80deg
+expect_status 0
+run "$blactl" restart -n all -y
+expect_status 0
+expect_value 900 11 angle_limit_cw
+expect_value 1799 12 angle_limit_cw # was not saved
+expect_events 1 rom_write
+
+note "it is followed to its new static ID"
+run "$blactl" set -n 12 static_node_id=21 --save -y
+expect_status 0
+expect_out 'node 21'
+expect_value 21 21 static_node_id
+expect_events 2 rom_write
+
+note "erase, save: the servo has no ID of its own any more, and gets the one it had from us"
+run "$blactl" erase -n 11 --save -y
+expect_status 0
+expect_events 1 allocated
+expect_value 0 11 static_node_id
+expect_value 1799 11 angle_limit_cw
+
+note "a servo with a dynamic ID: set, save, back under the same ID, read again"
+run "$blactl" set -n 11 angle_limit_cw=70deg --save -y
+expect_status 0
+expect_events 2 allocated
+expect_events 4 rom_write
+run "$blactl" restart -n 11 -y
+expect_status 0
+expect_events 3 allocated
+expect_value 700 11 angle_limit_cw
+expect_value 0 11 static_node_id
+
+note "wait: it is there, and one that is not ends in 4"
+run "$blactl" wait -n 11,21
+expect_status 0
+run "$blactl" wait -n 44 --wait 1
+expect_status 4
+expect_err '[not_found]'
+sim_end
+
+note "a servo that never comes back ends in 4, and is said to be gone"
+sim "$(at 11 '"faults":{"never_returns":true}')"
+run "$blactl" save -n 11 -y -j
+expect_status 4
+expect_out '"status": "failed"'
+expect_out '"node_id_after": null'
+expect_err '[not_back]'
+sim_end
+
+note "a lost answer to SAVE: no second ROM write, and no second SAVE on the wire"
+sim "$(at 11 '"faults":{"lose_opcode_answers":1}')"
+witness_start
+run "$blactl" save -n 11 -y
+witness_stop
+expect_status 0
+expect_events 1 rom_write
+expect_frames 1 '1E0A8B(FF|FE)'
+sim_end
+
+note "a ROM that kept its old values is found out"
+sim "$(at 11 '"faults":{"rom_write_fails":true}')"
+run "$blactl" set -n 11 angle_limit_cw=90deg --save -y
+expect_status 5
+expect_err '[mismatch]'
+sim_end
+
+note "three processes at once: one writes, a second one that wants to is told who, others read"
+sim "$(at 11 '"faults":{"return_delay":"5s"}')" "$(at 12 '"servo_id":1')"
+"$blactl" save -n 11 -y --wait 20 >"$TMPDIR/save.out" 2>&1 &
+writer=$!
+wait_for 20 grep -q '"event":"rom_write"' "$TMPDIR/sim.out"
+run "$blactl" set -n 12 smoothing=off
+expect_status 9
+expect_err '[busy]'
+expect_err "$writer"
+run "$blactl" save -n 12 -y
+expect_status 9
+"$blactl" scan --listen 2 >"$TMPDIR/scan.out" 2>&1 &
+reader=$!
+run "$blactl" get -n 12 smoothing # the two default IDs are taken
+expect_status 9
+expect_err '[no_local_node_id]'
+run "$blactl" get -n 12 smoothing --local-node-id 101
+expect_status 0
+wait "$reader" || fail "the scan of a third process failed: $(cat "$TMPDIR/scan.out")"
+wait "$writer" || fail "the save failed: $(cat "$TMPDIR/save.out")"
+expect_events 1 rom_write
+sim_end
+
+note "kill -9 of the writer, and of a reader: the others work, the next writer begins at once"
+sim "$(at 11 '"faults":{"return_delay":"20s"}')" "$(at 12 '"servo_id":1')"
+"$blactl" save -n 11 -y --wait 40 >"$TMPDIR/save.out" 2>&1 &
+writer=$!
+"$blactl" scan --listen 60 >/dev/null 2>&1 &
+reader=$!
+"$blactl" trace --count 40 >"$TMPDIR/trace.out" 2>&1 &
+third=$!
+wait_for 20 grep -q '"event":"rom_write"' "$TMPDIR/sim.out"
+kill -9 "$writer" "$reader"
+wait "$writer" "$reader" 2>/dev/null
+run "$blactl" set -n 12 smoothing=off --save -y
+expect_status 0
+wait "$third" || fail "the trace failed: $(cat "$TMPDIR/trace.out")"
+for _ in 1 2 3; do # the local IDs of the killed are free again
+  run "$blactl" get -n 12 smoothing
+  expect_status 0
+done
+sim_end
