@@ -75,6 +75,10 @@ void serve(const std::string& socket, const sim::Scenario& scenario, const Conte
 /// Puts the servos on a real interface until a signal comes or the interface goes.
 void join(const std::string& name, const sim::Scenario& scenario, const bla::Profiles& profiles,
           const Context& context, Report& report) {
+  if (scenario.wire != sim::WireFaults{}) {
+    return report.fail({Code::usage, say<texts::wire_is_real>(printable(name)),
+                        say<texts::wire_is_real_hint>(), std::nullopt});
+  }
   auto bus = open_bus(name, profiles, context.reporter());
   if (!bus) {
     return report.fail(bus.error());

@@ -131,8 +131,13 @@ void Medium::begin(const can::Frame& frame, std::vector<PortId> senders,
   for (const PortId rival : rivals) {
     punish(rival, at);
   }
+  counters_.collisions += destroyed ? 1 : 0;
+  if (!destroyed && disturbance_.destroys(at)) {
+    ++counters_.errors;
+    destroyed = true;
+    length = own.size() + error_frame_bits; // noticed by all when the CRC is wrong
+  }
   if (destroyed) {
-    ++counters_.collisions;
     for (const PortId sender : senders) {
       punish(sender, at);
     }
@@ -159,28 +164,40 @@ void Medium::punish(PortId port, Time at) {
 void Medium::finish() {
   const Transmission done = *std::exchange(on_wire_, std::nullopt);
   if (!done.destroyed) {
-    for (const PortId sender : done.senders) {
-      Port& port = ports_.at(sender);
-      port.queue.pop_front();
-      port.error_count -= port.error_count > 0 ? 1 : 0;
-    }
     ++counters_.frames;
-    deliver(done);
+    const bool repeated = disturbance_.duplicates();
+    if (!repeated) {
+      release(done.senders);
+    }
+    deliver(done, repeated);
   }
   std::erase_if(ports_, [](const auto& entry) {
     return entry.second.listener == nullptr && entry.second.queue.empty();
   });
 }
 
-void Medium::deliver(const Transmission& transmission) {
+/// The frame is through: its senders go on to their next one.
+void Medium::release(const std::vector<PortId>& senders) {
+  for (const PortId sender : senders) {
+    Port& port = ports_.at(sender);
+    port.queue.pop_front();
+    port.error_count -= port.error_count > 0 ? 1 : 0;
+  }
+}
+
+/// `repeated`: the senders do not know that it has arrived, and will send it again.
+void Medium::deliver(const Transmission& transmission, bool repeated) {
+  const can::Frame received = disturbance_.received(transmission.frame);
   for (auto& [id, port] : ports_) {
     if (port.listener == nullptr) {
       continue;
     }
-    if (std::ranges::find(transmission.senders, id) != transmission.senders.end()) {
+    if (std::ranges::find(transmission.senders, id) == transmission.senders.end()) {
+      if (!disturbance_.loses()) {
+        port.listener->heard(received, transmission.end);
+      }
+    } else if (!repeated) {
       port.listener->sent(transmission.frame, transmission.end);
-    } else {
-      port.listener->heard(transmission.frame, transmission.end);
     }
   }
 }

@@ -6,6 +6,7 @@
 #include "sim/scenario_values.hpp"
 #include "sim/servo_reader.hpp"
 
+#include <chrono>
 #include <limits>
 
 namespace blactl::sim {
@@ -32,6 +33,7 @@ class Reader {
 
  private:
   ForeignSetup foreign(const json::Value& value);
+  WireFaults wire(json::Object object);
   CommanderSetup commander(json::Object& object);
 
   const bla::Profiles& profiles_;
@@ -51,8 +53,25 @@ Scenario Reader::scenario(json::Object root) {
   for (const json::Value* item : root.optional_array("foreign")) {
     scenario.foreign.push_back(foreign(*item));
   }
+  scenario.wire = wire(root.optional_object("wire"));
   root.finish();
   return scenario;
+}
+
+WireFaults Reader::wire(json::Object object) {
+  constexpr std::chrono::seconds longest(3600);
+  WireFaults wire;
+  if (!object.exists()) {
+    return wire;
+  }
+  wire.loss = read_probability(object, "loss");
+  wire.duplication = read_probability(object, "duplication");
+  wire.errors = read_probability(object, "errors");
+  wire.bit_flips = read_probability(object, "bit_flips");
+  wire.burst_interval = read_duration(object, "burst_interval", {}, longest, faults_);
+  wire.burst_length = read_duration(object, "burst_length", {}, longest, faults_);
+  object.finish();
+  return wire;
 }
 
 ForeignSetup Reader::foreign(const json::Value& value) {

@@ -68,6 +68,10 @@ Duration read_duration(json::Object& object, std::string_view key, Duration fall
   return duration;
 }
 
+double read_probability(json::Object& object, std::string_view key) {
+  return object.optional_number(key, 0, 1).value_or(0);
+}
+
 dronecan::UniqueId read_unique_id(json::Object& object, std::uint64_t fallback,
                                   json::Faults& faults) {
   const auto text = object.optional_string("unique_id");

@@ -20,6 +20,9 @@ namespace blactl::sim {
 [[nodiscard]] Duration read_duration(json::Object& object, std::string_view key, Duration fallback,
                                      std::chrono::seconds longest, json::Faults& faults);
 
+/// From 0 to 1; 0 if the key is left out.
+[[nodiscard]] double read_probability(json::Object& object, std::string_view key);
+
 /// "unique_id"; left out, one that follows from the number.
 [[nodiscard]] dronecan::UniqueId read_unique_id(json::Object& object, std::uint64_t fallback,
                                                 json::Faults& faults);

@@ -69,6 +69,7 @@ ServoSetup ServoReader::read(const json::Value& value, std::size_t index) {
   servo.ram = registers(object.optional_object("ram"), Memory::ram, servo);
   behaviour(object.optional_object("behaviour"), servo.behaviour);
   servo_faults(object.optional_object("faults"), servo.faults);
+  sending(object.optional_object("sending"), servo.sending);
   object.finish();
   return servo;
 }
@@ -248,6 +249,17 @@ void ServoReader::servo_faults(json::Object object, ServoFaults& into) {
   into.never_returns = flag("never_returns");
   into.return_delay =
       read_duration(object, "return_delay", into.return_delay, longest_absence, faults_);
+  object.finish();
+}
+
+void ServoReader::sending(json::Object object, SendingFaults& into) {
+  if (!object.exists()) {
+    return;
+  }
+  into.jitter = read_duration(object, "jitter", into.jitter, longest_delay, faults_);
+  into.late_answers = read_probability(object, "late_answers");
+  into.late_by = read_duration(object, "late_by", into.late_by, longest_absence, faults_);
+  into.double_answers = read_probability(object, "double_answers");
   object.finish();
 }
 

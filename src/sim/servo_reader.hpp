@@ -44,6 +44,7 @@ class ServoReader {
   void check_pwm_modes(std::int64_t actual);
   void behaviour(json::Object object, Behaviour& into);
   void servo_faults(json::Object object, ServoFaults& into);
+  void sending(json::Object object, SendingFaults& into);
 
   const bla::Profiles& profiles_;
   json::Faults& faults_;

@@ -12,6 +12,9 @@ namespace {
 /// Frames that wait in a device's transmit queue; what comes beyond is lost.
 constexpr std::size_t device_queue = 64;
 
+/// Beyond the index of every device.
+constexpr std::uint64_t seed_of_the_wire = ~std::uint64_t{0};
+
 } // namespace
 
 Devices make_devices(const Scenario& scenario, Time power_on, const EventSink& sink) {
@@ -21,7 +24,12 @@ Devices make_devices(const Scenario& scenario, Time power_on, const EventSink& s
     auto servo = std::make_unique<Servo>(setup, seed, power_on);
     servo->report_to(sink);
     devices.servos.push_back(servo.get());
-    devices.all.push_back(std::move(servo));
+    if (setup.sending.any()) {
+      devices.all.push_back(
+          std::make_unique<DelayedDevice>(std::move(servo), setup.sending, seed_of(seed, 0)));
+    } else {
+      devices.all.push_back(std::move(servo));
+    }
   }
   for (const ForeignSetup& setup : scenario.foreign) {
     devices.all.push_back(std::make_unique<ForeignNode>(setup, power_on));
@@ -54,7 +62,7 @@ class Simulator::Station final : public Medium::Listener {
 };
 
 Simulator::Simulator(const Scenario& scenario, Time power_on, const EventSink& sink)
-    : now_(power_on) {
+    : now_(power_on), medium_(scenario.wire, seed_of(scenario.seed, seed_of_the_wire)) {
   Devices devices = make_devices(scenario, power_on, sink);
   servos_ = std::move(devices.servos);
   for (auto& device : devices.all) {

@@ -3,6 +3,7 @@
 
 #include "blactl/base/time.hpp"
 #include "blactl/can/frame.hpp"
+#include "blactl/sim/wire_faults.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -15,8 +16,9 @@ namespace blactl::sim {
 
 /// Frames take their bits' time, stuffing and CRC included; whoever is lowest in arbitration goes
 /// first; a frame that nobody acknowledges waits. Two nodes that send different frames under one
-/// identifier destroy each other's until the error counters let one of them through.
-/// Not simulated: other errors, receive error counters, suspend transmission, overload frames.
+/// identifier destroy each other's until the error counters let one of them through. Errors come as
+/// WireFaults says.
+/// Not simulated: receive error counters, suspend transmission, overload frames.
 class Medium {
  public:
   /// A node's side of the bus. A call must not attach or detach; it may send.
@@ -42,8 +44,12 @@ class Medium {
   struct Counters {
     std::uint64_t frames = 0; ///< transmitted whole
     std::uint64_t collisions = 0;
-    Duration busy{}; ///< bits of frames, errors and intermissions
+    std::uint64_t errors = 0; ///< frames that WireFaults has destroyed
+    Duration busy{};          ///< bits of frames, errors and intermissions
   };
+
+  explicit Medium(const WireFaults& faults = {}, std::uint64_t seed = 0)
+      : disturbance_(faults, seed) {}
 
   /// `capacity`: frames that wait in this node's queue at most. `listener` must outlive the port.
   PortId attach(Listener& listener, std::size_t capacity, Time now);
@@ -92,13 +98,15 @@ class Medium {
              const std::vector<PortId>& rivals, Time at);
   void punish(PortId port, Time at);
   void finish();
-  void deliver(const Transmission& transmission);
+  void release(const std::vector<PortId>& senders);
+  void deliver(const Transmission& transmission, bool repeated);
 
   std::map<PortId, Port> ports_;
   PortId next_id_ = 0;
   std::optional<Transmission> on_wire_;
   Time idle_from_{};
   Counters counters_;
+  WireDisturbance disturbance_;
 };
 
 } // namespace blactl::sim

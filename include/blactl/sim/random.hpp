@@ -20,6 +20,15 @@ class Random {
     return z ^ (z >> 31U);
   }
 
+  /// True with this probability. One that is never or always true uses up no chance.
+  [[nodiscard]] bool chance(double probability) {
+    if (probability <= 0 || probability >= 1) {
+      return probability >= 1;
+    }
+    constexpr double steps = 9007199254740992.0; // 2^53: all that a double can tell apart
+    return static_cast<double>(next() >> 11U) < probability * steps;
+  }
+
   /// Any duration from `low` to `high`, both included.
   [[nodiscard]] Duration between(Duration low, Duration high) {
     const auto span = static_cast<std::uint64_t>((high - low).count()) + 1;

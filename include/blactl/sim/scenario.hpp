@@ -20,9 +20,15 @@
 //         "rom": {"angle_limit_cw": "90deg"},     of 0x20-0x46; default: as from the factory
 //         "ram": {"reverse": "on", "current_voltage": "11.8V", "fault_warning": 16},
 //         "behaviour": {"out_of_range": "clamp", "rom_write_time": "80ms"},
-//         "faults": {"lose_opcode_answers": 1, "return_delay": "3s"}
+//         "faults": {"lose_opcode_answers": 1, "return_delay": "3s"},
+//         "sending": {"jitter": "2ms", "late_answers": 0.01, "late_by": "2s", "double_answers":
+//         0.01}
 //       }
 //     ],
+//     "wire": {                              what goes wrong by chance; default: nothing
+//       "loss": 0.01, "duplication": 0.01, "errors": 0.001, "bit_flips": 0.001,
+//       "burst_interval": "2s", "burst_length": "3ms"
+//     },
 //     "foreign": [
 //       {
 //         "kind": "node",
@@ -37,13 +43,16 @@
 //
 // At power-on RAM is what ROM holds, then what "ram" says. A restart brings back what ROM holds by
 // then; what "ram" says of 0x08-0x0C, 0x18-0x1B and 0x50 up is no memory of the servo but the world
-// around it, and stays. "behaviour" has the members of Behaviour, "faults" those of ServoFaults.
+// around it, and stays. "behaviour" has the members of Behaviour, "faults" those of ServoFaults,
+// "sending" those of SendingFaults, "wire" those of WireFaults.
 
 #include "blactl/base/error.hpp"
 #include "blactl/base/time.hpp"
 #include "blactl/bla/parameter.hpp"
 #include "blactl/bla/profile.hpp"
 #include "blactl/dronecan/ids.hpp"
+#include "blactl/sim/delayed_device.hpp"
+#include "blactl/sim/wire_faults.hpp"
 
 #include <chrono>
 #include <cstdint>
@@ -105,6 +114,7 @@ struct ServoSetup {
   std::vector<std::pair<bla::Address, std::int64_t>> ram; ///< over ROM, once at power-on
   Behaviour behaviour;
   ServoFaults faults;
+  SendingFaults sending;
 };
 
 /// A stream of ArrayCommand, as an autopilot sends it.
@@ -130,6 +140,7 @@ struct Scenario {
   std::uint64_t seed = 1;
   std::vector<ServoSetup> servos;
   std::vector<ForeignSetup> foreign;
+  WireFaults wire;
 };
 
 /// Both refer to `profiles`, which must outlive the scenario.

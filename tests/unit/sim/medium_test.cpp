@@ -48,6 +48,8 @@ struct Ear final : Medium::Listener {
 
 /// A medium and its listeners.
 struct Wire {
+  explicit Wire(const WireFaults& faults = {}) : medium(faults, 1) {}
+
   Medium medium;
   std::list<Ear> ears;
 
@@ -208,4 +210,53 @@ TEST_CASE("a node that never wins against its double ends off the bus, and comes
   wire.medium.send(a, frame("1F000003#00"), at(100'000));
   wire.run_until(at(101'000));
   CHECK(wire.ear(c).words().back() == "heard 1F000003#00");
+}
+
+TEST_CASE("a lost frame is missed by a receiver, its sender knows nothing") {
+  Wire wire({.loss = 1});
+  const auto a = wire.attach();
+  const auto b = wire.attach();
+  wire.medium.send(a, frame("1E0B7F8B#3078333845"), wire.now);
+  wire.run_until(at(1000));
+  CHECK(wire.ear(a).words() == Words{"sent 1E0B7F8B#3078333845"});
+  CHECK(wire.ear(b).words().empty());
+}
+
+TEST_CASE("a frame that only its sender sees fail is received twice and sent once") {
+  Wire wire({.duplication = 0.5});
+  const auto a = wire.attach();
+  const auto b = wire.attach();
+  for (int i = 0; i < 50; ++i) {
+    wire.medium.send(a, frame("1E0B7F8B#3078333845"), wire.now);
+  }
+  wire.run_until(at(100'000));
+  CHECK(wire.ear(a).events.size() == 50);
+  CHECK(wire.ear(b).events.size() > 75);
+  CHECK(wire.ear(b).events.size() < 130);
+  CHECK(wire.medium.counters().frames == wire.ear(b).events.size());
+}
+
+TEST_CASE("an error costs the bus time, the frame comes through in the end") {
+  Wire wire({.errors = 0.5});
+  const auto a = wire.attach();
+  const auto b = wire.attach();
+  const can::Frame sent = frame("1E0B7F8B#3078333845");
+  for (int i = 0; i < 50; ++i) {
+    wire.medium.send(a, sent, wire.now);
+  }
+  wire.run_until(at(100'000));
+  CHECK(wire.ear(b).events.size() == 50);
+  CHECK(wire.medium.counters().errors > 20);
+  CHECK(wire.medium.counters().busy > 50 * length(sent));
+}
+
+TEST_CASE("a long burst takes its sender off the bus") {
+  Wire wire({.burst_interval = Duration(1), .burst_length = std::chrono::seconds(1)});
+  const auto a = wire.attach();
+  wire.attach();
+  wire.run_until(at(10));
+  wire.medium.send(a, frame("1E0B7F8B#3078333845"), wire.now);
+  wire.run_until(at(10'000));
+  CHECK(wire.ear(a).words() == Words{"bus off"});
+  CHECK(wire.medium.counters().errors == 32);
 }

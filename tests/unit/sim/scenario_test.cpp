@@ -111,6 +111,25 @@ TEST_CASE("a scenario says all there is to say") {
   CHECK(node.armed == false);
 }
 
+TEST_CASE("a scenario says what goes wrong on the wire, and with what a servo sends") {
+  const Scenario faulty = scenario(R"(
+    "wire": {"loss": 0.5, "duplication": 0.25, "errors": 0.125, "bit_flips": 1,
+             "burst_interval": "2s", "burst_length": "3ms"},
+    "servos": [{"model": "BLA21-12U-AB", "sending": {"jitter": "2ms", "late_answers": 0.5,
+                "late_by": "1500ms", "double_answers": 0.25}}])");
+  CHECK(faulty.wire.loss == 0.5);
+  CHECK(faulty.wire.duplication == 0.25);
+  CHECK(faulty.wire.errors == 0.125);
+  CHECK(faulty.wire.bit_flips == 1);
+  CHECK(faulty.wire.burst_interval == std::chrono::seconds(2));
+  CHECK(faulty.wire.burst_length == std::chrono::milliseconds(3));
+  const SendingFaults& sending = faulty.servos.front().sending;
+  CHECK(sending.jitter == std::chrono::milliseconds(2));
+  CHECK(sending.late_answers == 0.5);
+  CHECK(sending.late_by == std::chrono::milliseconds(1500));
+  CHECK(sending.double_answers == 0.25);
+}
+
 TEST_CASE("left out, everything about a servo but its model has a likely value") {
   const ServoSetup servo = testing::servo_setup(R"("model": "BLA15-06U-A0")");
   CHECK(servo.node_id == 0);

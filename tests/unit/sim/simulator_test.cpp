@@ -62,6 +62,23 @@ TEST_CASE("the same seed gives the same frames to the microsecond, another one o
   CHECK(first != run(scenario(fmt::format(mixed, 4)), 10s));
 }
 
+TEST_CASE("the same seed gives the same faults of the wire and of what devices send") {
+  constexpr std::string_view faulty = R"("seed": {}, "wire": {{"loss": 0.02, "duplication": 0.02,
+      "errors": 0.02, "bit_flips": 0.02, "burst_interval": "1s", "burst_length": "2ms"}},
+      "servos": [{{"model": "BLA21-12U-AB", "node_id": 11, "sending": {{"jitter": "3ms"}}}},
+                 {{"model": "BLA15-06U-A0"}}, {{"model": "BLA34-28U-AB"}}])";
+  const auto first = run(scenario(fmt::format(faulty, 3)), 10s);
+  CHECK(first.size() > 200);
+  CHECK(first == run(scenario(fmt::format(faulty, 3)), 10s));
+  CHECK(first != run(scenario(fmt::format(faulty, 4)), 10s));
+}
+
+TEST_CASE("a wire that loses every frame carries none") {
+  CHECK(run(scenario(R"("wire": {"loss": 1}, "servos": [{"model": "BLA21-12U-AB", "node_id": 1}])"),
+            10s)
+            .empty());
+}
+
 TEST_CASE("the same seed gives the same restarts, allocations and events") {
   const auto life = [](int seed) {
     std::vector<std::string> lines;
