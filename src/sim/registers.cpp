@@ -1,44 +1,26 @@
 #include "blactl/sim/registers.hpp"
 
+#include "blactl/sim/world.hpp"
+
+#include "sim/addresses.hpp"
+
 #include <algorithm>
 #include <utility>
 
 namespace blactl::sim {
 
-using bla::Address;
-using namespace bla::address;
+using namespace address;
 
 namespace {
 
-constexpr Address current_temperature{0x0B}, current_voltage{0x0C};
-constexpr Address fault_summary{0x18}, fault_notice{0x19}, fault_warning{0x1A}, fault_failure{0x1B};
-constexpr Address speed_torque_control{0x25};
 constexpr Address last_address{0x5F};
 
 constexpr std::array commands{command_angle, command_speed, command_torque};
-
-/// Room temperature, and a supply inside the default limits of the voltage class.
-constexpr std::int64_t room_celsius = 25;
-
-std::int64_t supply_decivolt(std::string_view voltage_class) {
-  if (voltage_class == "06U") {
-    return 74;
-  }
-  return voltage_class == "28U" ? 280 : 120;
-}
 
 /// 0x58-0x5C: 2025-06-22 15:30.
 constexpr std::array production_date{std::pair{Address{0x58}, 2025}, std::pair{Address{0x59}, 6},
                                      std::pair{Address{0x5A}, 22}, std::pair{Address{0x5B}, 15},
                                      std::pair{Address{0x5C}, 30}};
-
-/// -180.0 to +179.9 deg: a servo knows the position in a turn, not the turns (4.1).
-std::int64_t within_one_turn(std::int64_t decidegrees) {
-  constexpr std::int64_t turn = 3600;
-  constexpr std::int64_t half = turn / 2;
-  const std::int64_t from_lowest = (decidegrees + half) % turn;
-  return (from_lowest < 0 ? from_lowest + turn : from_lowest) - half;
-}
 
 /// Requirement 166: a bit for each level and byte (group of causes) of 0x19-0x1B.
 std::int64_t summary(std::int64_t notice, std::int64_t warning, std::int64_t failure) {
@@ -53,6 +35,10 @@ std::int64_t summary(std::int64_t notice, std::int64_t warning, std::int64_t fai
   return bits;
 }
 
+std::int64_t nearest(const bla::Parameter& parameter, std::int64_t wanted) {
+  return std::clamp(wanted, parameter.min.value_or(wanted), parameter.max.value_or(wanted));
+}
+
 } // namespace
 
 Registers::Registers(const ServoSetup& setup)
@@ -65,8 +51,8 @@ void Registers::power_on(const ServoSetup& setup) {
   for (const bla::Parameter& parameter : profile_->parameters) {
     store(parameter.address, parameter.default_raw.value_or(0));
   }
-  store(current_temperature, room_celsius);
-  store(current_voltage, supply_decivolt(profile_->voltage_class));
+  store(current_temperature, World::room_celsius);
+  store(current_voltage, nominal_decivolt(setup));
   for (const auto& [address, value] : production_date) {
     store(address, value);
   }
@@ -108,7 +94,6 @@ void Registers::restart() {
       store(parameter.address, rom_value(parameter.address));
     }
   }
-  store(current_angle, within_one_turn(value(current_angle)));
 }
 
 void Registers::store(Address address, std::int64_t value) {
@@ -162,30 +147,41 @@ bool Registers::disabled_command(Address address) const {
   return optional_command && !enabled && behaviour_.ignores_disabled_commands;
 }
 
+bool Registers::takes(Address address, std::int64_t wanted) const {
+  const bla::Parameter* parameter = existing(address);
+  if (parameter == nullptr || !parameter->writable() || address == bootloader ||
+      disabled_command(address)) {
+    return false;
+  }
+  const bool in_range =
+      wanted >= parameter->min.value_or(wanted) && wanted <= parameter->max.value_or(wanted);
+  return in_range || behaviour_.out_of_range == OutOfRange::clamp;
+}
+
 std::optional<std::int64_t> Registers::write(Address address, std::int64_t wanted) {
   const bla::Parameter* parameter = existing(address);
   if (parameter == nullptr || !parameter->writable() || address == bootloader) {
     return std::nullopt;
   }
-  const std::int64_t low = parameter->min.value_or(wanted);
-  const std::int64_t high = parameter->max.value_or(wanted);
-  const bool in_range = wanted >= low && wanted <= high;
-  if (disabled_command(address) || (!in_range && behaviour_.out_of_range == OutOfRange::refuse)) {
+  if (!takes(address, wanted)) {
     return value(address);
   }
-  const std::int64_t taken = std::clamp(wanted, low, high);
-  if (parameter->group == bla::Group::operation) {
-    return taken;
+  if (parameter->group == bla::Group::command) {
+    command(address, wanted);
+    return value(address);
   }
-  store(address, taken);
-  if (std::ranges::find(commands, address) != commands.end()) {
-    for (const Address other : commands) {
-      if (other != address) {
-        store(other, bla::not_active); // requirement 114: one kind of command rules
-      }
-    }
+  const std::int64_t taken = nearest(*parameter, wanted);
+  if (parameter->group != bla::Group::operation) {
+    store(address, taken);
   }
   return taken;
+}
+
+void Registers::command(Address address, std::int64_t wanted) {
+  for (const Address other : commands) {
+    store(other, bla::not_active);
+  }
+  store(address, nearest(*profile_->find(address), wanted));
 }
 
 } // namespace blactl::sim

@@ -1,5 +1,9 @@
 #include "blactl/sim/servo.hpp"
 
+#include "blactl/sim/command.hpp"
+
+#include "sim/addresses.hpp"
+
 #include <charconv>
 #include <chrono>
 #include <limits>
@@ -16,8 +20,6 @@ namespace {
 
 /// Answers that wait for their time; a request beyond that is not served.
 constexpr std::size_t max_answers = 16;
-
-constexpr bla::Address fault_warning{0x1A}, fault_failure{0x1B};
 
 /// "0x2A": two upper-case hexadecimal digits (table 2-14).
 std::optional<bla::Address> address_of(std::string_view name) {
@@ -46,7 +48,11 @@ void Servo::handle(const dronecan::Transfer& transfer) {
     return;
   }
   if (transfer.header.kind == Kind::message) {
-    hear_allocation(transfer);
+    if (transfer.header.data_type_id == dronecan::ArrayCommand::type.id) {
+      hear_commands(transfer);
+    } else {
+      hear_allocation(transfer);
+    }
     return;
   }
   switch (transfer.header.data_type_id) {
@@ -66,6 +72,20 @@ void Servo::hear_allocation(const dronecan::Transfer& transfer) {
   const bool anonymous = !transfer.header.source.is_unicast();
   if (const auto id = allocatee_->receive(*message, anonymous, now_)) {
     operate(*id, now_);
+  }
+}
+
+/// Requirement 28: not before there is a node ID.
+void Servo::hear_commands(const dronecan::Transfer& transfer) {
+  const auto message = dronecan::ArrayCommand::decode(transfer.payload);
+  if (!message || allocatee_) {
+    return;
+  }
+  for (const auto& command : message->commands) {
+    const auto wanted = motion_command(command, setup_.behaviour.not_a_number);
+    if (wanted && addresses(command, registers_.value(address::servo_id))) {
+      motion_.command(*wanted, now_);
+    }
   }
 }
 
@@ -118,9 +138,9 @@ void Servo::serve_get_set(const dronecan::Transfer& transfer) {
   const auto* integer = std::get_if<std::int64_t>(&request->value);
   std::optional<std::int64_t> value;
   if (address && integer != nullptr) {
-    value = registers_.write(*address, *integer);
+    value = motion_.write(*address, *integer, now_);
   } else if (address && std::holds_alternative<GetSet::Empty>(request->value)) {
-    value = registers_.read(*address);
+    value = motion_.read(*address, now_);
   }
   const auto done = get_set_answer(*request, value);
   const auto order = integer != nullptr && value == 1 ? order_at(*address) : std::nullopt;
@@ -223,29 +243,35 @@ void Servo::send_message(const dronecan::DataType& type, dronecan::Priority prio
   }
 }
 
-dronecan::NodeStatus Servo::node_status(Time now) const {
+dronecan::NodeStatus Servo::node_status(Time now) {
+  motion_.look(now);
+  const bool noticed = registers_.value(address::fault_notice) != 0;
   dronecan::NodeStatus status;
   status.uptime_s = static_cast<std::uint32_t>(
       std::chrono::duration_cast<std::chrono::seconds>(now - started_).count());
-  if (registers_.value(fault_failure) != 0) {
+  if (registers_.value(address::fault_failure) != 0) {
     status.health = dronecan::Health::error;
-  } else if (registers_.value(fault_warning) != 0) {
+  } else if (registers_.value(address::fault_warning) != 0 ||
+             (noticed && setup_.behaviour.notices_warn)) {
     status.health = dronecan::Health::warning;
   }
   return status;
 }
 
-dronecan::ActuatorStatus Servo::actuator_status() const {
+dronecan::ActuatorStatus Servo::actuator_status(Time now) {
   constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
   constexpr float decidegrees_per_unit = 1000; // the field counts degrees / 100
   constexpr std::uint8_t unknown_rating = 127;
+  motion_.look(now);
   dronecan::ActuatorStatus status;
-  status.actuator_id = static_cast<std::uint8_t>(registers_.value(bla::address::servo_id));
+  status.actuator_id = static_cast<std::uint8_t>(registers_.value(address::servo_id));
   status.position =
-      static_cast<float>(registers_.value(bla::address::current_angle)) / decidegrees_per_unit;
-  status.force = unknown;
-  status.speed = unknown;
-  status.power_rating_pct = unknown_rating;
+      static_cast<float>(registers_.value(address::current_angle)) / decidegrees_per_unit;
+  if (setup_.behaviour.unused_fields == UnusedFields::unknown) {
+    status.force = unknown;
+    status.speed = unknown;
+    status.power_rating_pct = unknown_rating;
+  }
   return status;
 }
 

@@ -2,6 +2,8 @@
 
 #include "blactl/sim/servo.hpp"
 
+#include "sim/fault_bits.hpp"
+
 #include <algorithm>
 #include <chrono>
 
@@ -24,10 +26,14 @@ constexpr Duration max_boot_time = 150ms;
 } // namespace
 
 Servo::Servo(const ServoSetup& setup, std::uint64_t seed, Time power_on)
-    : setup_(setup), random_(seed), registers_(setup),
-      endpoint_({dronecan::Allocation::type.id},
+    : setup_(setup), random_(seed), registers_(setup), motion_(setup, registers_, power_on),
+      endpoint_({dronecan::Allocation::type.id, dronecan::ArrayCommand::type.id},
                 [this](const dronecan::Transfer& transfer) { handle(transfer); }),
-      wake_(power_on + boot_time()), now_(power_on), started_(power_on) {}
+      wake_(power_on + boot_time()), now_(power_on), started_(power_on) {
+  if (!world().powers()) {
+    wake_ = never;
+  }
+}
 
 Duration Servo::boot_time() {
   return random_.between(min_boot_time, max_boot_time);
@@ -81,7 +87,7 @@ void Servo::broadcast(Time now) {
   }
   if (next_status_ <= now) {
     next_status_ += status_period;
-    send_message(dronecan::ActuatorStatus::type, status_priority, actuator_status().encode());
+    send_message(dronecan::ActuatorStatus::type, status_priority, actuator_status(now).encode());
   }
 }
 
@@ -96,6 +102,7 @@ void Servo::wake(Time now) {
 void Servo::start(Time now) {
   phase_ = Phase::run;
   started_ = now;
+  motion_.start(now);
   const dronecan::NodeId id(
       static_cast<std::uint8_t>(registers_.value(bla::address::static_node_id)));
   if (id.is_unicast()) {
@@ -117,7 +124,7 @@ void Servo::operate(dronecan::NodeId id, Time now) {
 /// `answered`: the answer comes first (requirement 57), after the delay of all answers.
 void Servo::obey(Order order, bool answered) {
   if (order == Order::erase) {
-    registers_.initialize();
+    motion_.initialize(now_);
     tell(ServoEvent::Kind::erase);
     return;
   }
@@ -130,6 +137,7 @@ void Servo::depart(Time now) {
   departure_.reset();
   if (saves) {
     phase_ = Phase::rom_write;
+    motion_.stop(now);
     wake_ = now + setup_.behaviour.rom_write_time;
     answers_.clear();
   } else if (!setup_.faults.stays) {
@@ -140,6 +148,7 @@ void Servo::depart(Time now) {
 void Servo::end_rom_write(Time now) {
   if (!setup_.faults.rom_write_fails) {
     registers_.save();
+    rom_is_torn_ = false;
   }
   ++rom_writes_;
   tell(ServoEvent::Kind::rom_write);
@@ -148,18 +157,66 @@ void Servo::end_rom_write(Time now) {
     return;
   }
   phase_ = Phase::run;
+  motion_.start(now);
   next_node_status_ = std::max(next_node_status_, now);
   next_status_ = std::max(next_status_, now);
 }
 
 void Servo::restart(Time now) {
   tell(ServoEvent::Kind::restart);
+  motion_.stop(now);
   registers_.restart();
+  if (rom_is_torn_) { // requirement 65
+    registers_.initialize();
+    show_until_restart(fault::rom_unreadable, 0, now);
+  }
   endpoint_.restart();
   answers_.clear();
   phase_ = Phase::boot;
   const Duration absence = boot_time() + setup_.faults.return_delay;
   wake_ = setup_.faults.never_returns ? never : now + absence;
+}
+
+/// Bits of 0x1A and 0x1B that tell why it restarted.
+void Servo::show_until_restart(std::int64_t warnings, std::int64_t failures, Time now) {
+  World around = world();
+  around.warnings |= warnings;
+  around.failures |= failures;
+  motion_.surround(around, now);
+}
+
+void Servo::surround(const World& world, Time now) {
+  now_ = now;
+  const bool ran = this->world().powers();
+  motion_.surround(world, now);
+  if (ran && !world.powers()) {
+    lose_power(now);
+  } else if (!ran && world.powers() && !setup_.faults.never_returns) {
+    wake_ = now + boot_time();
+  }
+}
+
+void Servo::lose_power(Time now) {
+  rom_is_torn_ = rom_is_torn_ || phase_ == Phase::rom_write;
+  departure_.reset();
+  allocatee_.reset();
+  restart(now);
+  wake_ = never;
+}
+
+void Servo::upset(Upset cause, Time now) {
+  now_ = now;
+  if (phase_ != Phase::run) {
+    return;
+  }
+  departure_.reset();
+  allocatee_.reset();
+  restart(now);
+  show_until_restart(0,
+                     cause == Upset::clock      ? fault::clock
+                     : cause == Upset::watchdog ? fault::watchdog
+                                                : fault::memory,
+                     now);
 }
 
 void Servo::tell(ServoEvent::Kind kind) const {

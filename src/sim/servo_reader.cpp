@@ -224,6 +224,23 @@ void ServoReader::behaviour(json::Object object, Behaviour& into) {
   into.ignores_disabled_commands =
       flag("ignores_disabled_commands", into.ignores_disabled_commands);
   into.answers_save_first = flag("answers_save_first", into.answers_save_first);
+  into.array_command_feeds_timeout =
+      flag("array_command_feeds_timeout", into.array_command_feeds_timeout);
+  into.get_set_feeds_timeout = flag("get_set_feeds_timeout", into.get_set_feeds_timeout);
+  into.inclusive_limits = flag("inclusive_limits", into.inclusive_limits);
+  into.failures_latch = flag("failures_latch", into.failures_latch);
+  into.notices_warn = flag("notices_warn", into.notices_warn);
+  into.pwm_end_points_move = flag("pwm_end_points_move", into.pwm_end_points_move);
+  into.soft_start_shows = flag("soft_start_shows", into.soft_start_shows);
+  const auto second = [&](std::string_view key, std::string_view usual, std::string_view other) {
+    return object.optional_word(key, {usual, other}) == other;
+  };
+  into.not_a_number =
+      second("not_a_number", "ignore", "zero") ? NotANumber::zero : NotANumber::ignore;
+  into.unused_fields =
+      second("unused_fields", "unknown", "zero") ? UnusedFields::zero : UnusedFields::unknown;
+  into.slow_speed = second("slow_speed", "stands", "turns_slowest") ? SlowSpeed::turns_slowest
+                                                                    : SlowSpeed::stands;
   into.rom_write_time =
       read_duration(object, "rom_write_time", into.rom_write_time, longest_delay, faults_);
   object.finish();

@@ -24,6 +24,16 @@ class Registers {
   /// (unproven: what they answer; the vendor's updater waits for an answer to 0x12 of any value.)
   [[nodiscard]] std::optional<std::int64_t> write(bla::Address address, std::int64_t value);
 
+  /// Whether write() takes a value, be it as the nearest in range: else it changes nothing.
+  [[nodiscard]] bool takes(bla::Address address, std::int64_t value) const;
+
+  /// One of 0x00-0x02 gets a value, or the nearest in range; the others become not active
+  /// (requirement 114).
+  void command(bla::Address address, std::int64_t value);
+
+  /// The servo itself changes what it shows: readings, fault bits, a command that it gives up.
+  void set(bla::Address address, std::int64_t value) { store(address, value); }
+
   /// The number in a register, also where read() would fail; 0 where there is none.
   [[nodiscard]] std::int64_t value(bla::Address address) const;
 
@@ -36,8 +46,8 @@ class Registers {
   /// 4.9: the saved registers and the commands 0x00-0x02 get their defaults; ROM keeps its own.
   void initialize();
 
-  /// 4.10: as after power-on, from ROM. The angle comes back within one turn (4.1); what is
-  /// measured, the fault bits and what the factory wrote stay.
+  /// 4.10: as after power-on, from ROM. What is measured, the fault bits and what the factory wrote
+  /// stay.
   void restart();
 
  private:

@@ -42,9 +42,10 @@
 //   }
 //
 // At power-on RAM is what ROM holds, then what "ram" says. A restart brings back what ROM holds by
-// then; what "ram" says of 0x08-0x0C, 0x18-0x1B and 0x50 up is no memory of the servo but the world
-// around it, and stays. "behaviour" has the members of Behaviour, "faults" those of ServoFaults,
-// "sending" those of SendingFaults, "wire" those of WireFaults.
+// then; what "ram" says of 0x0B, 0x0C and 0x19-0x1B is no memory of the servo but the world around
+// it (World), and stays, as 0x50 up does; of 0x08 and 0x09 how the shaft stands and turns at
+// power-on. "behaviour" has the members of Behaviour, "faults" those of ServoFaults, "sending"
+// those of SendingFaults, "wire" those of WireFaults.
 
 #include "blactl/base/error.hpp"
 #include "blactl/base/time.hpp"
@@ -73,6 +74,16 @@ enum class OutOfRange : std::uint8_t { refuse, clamp };
 /// What the read of a register answers that is not there: a failure, or the value 0.
 enum class MissingRead : std::uint8_t { fail, zero };
 
+/// What a servo does with a command of ArrayCommand that is no number or infinite (requirement
+/// 107).
+enum class NotANumber : std::uint8_t { ignore, zero };
+
+/// What the unused numbers of actuator.Status hold (table 2-22).
+enum class UnusedFields : std::uint8_t { unknown, zero };
+
+/// What a speed command does that is slower than the servo can turn (4.2).
+enum class SlowSpeed : std::uint8_t { stands, turns_slowest };
+
 /// What only a real servo can tell. The defaults are what is likelier.
 struct Behaviour {
   OutOfRange out_of_range = OutOfRange::refuse;     ///< unproven
@@ -83,6 +94,16 @@ struct Behaviour {
   bool failure_with_name = false;                   ///< unproven: table 2-16 prints no name
   bool ignores_disabled_commands = true; ///< unproven: 0x01, 0x02 keep their value while 0x25 = 0
   bool answers_save_first = true; ///< unproven: SAVE and 0x12; false: there is no answer at all
+  NotANumber not_a_number = NotANumber::ignore;       ///< unproven
+  UnusedFields unused_fields = UnusedFields::unknown; ///< unproven: DSDL's NaN and 127, or 0
+  SlowSpeed slow_speed = SlowSpeed::stands;           ///< unproven: below 10 rpm
+  bool array_command_feeds_timeout = true;            ///< unproven: 4.19 lists registers only
+  bool get_set_feeds_timeout = false;                 ///< unproven: any other GetSet, reads too
+  bool inclusive_limits = true;    ///< unproven: 4.12 as in Japanese; English: beyond only
+  bool failures_latch = false;     ///< unproven: 0x1B.0, .1, .5 stay until the next start
+  bool notices_warn = false;       ///< unproven: bits of 0x19 too make health 1
+  bool pwm_end_points_move = true; ///< unproven: the ends of the pulse range are valid
+  bool soft_start_shows = false;   ///< unproven: reads tell the limits of the soft start
   Duration rom_write_time = std::chrono::milliseconds(50); ///< "about 0.05 s" (4.11); up to 10 s
 };
 

@@ -1,5 +1,6 @@
 #pragma once
-// A simulated BLA servo (sections 2.2, 2.3, 4.9-4.11 and chapters 3, 4).
+// A simulated BLA servo: what it says and hears on the bus (sections 2.2, 2.3, 4.9-4.11). Its shaft
+// is Motion.
 
 #include "blactl/bla/parameter.hpp"
 #include "blactl/dronecan/types.hpp"
@@ -7,6 +8,7 @@
 #include "blactl/sim/device.hpp"
 #include "blactl/sim/endpoint.hpp"
 #include "blactl/sim/event.hpp"
+#include "blactl/sim/motion.hpp"
 #include "blactl/sim/random.hpp"
 #include "blactl/sim/registers.hpp"
 #include "blactl/sim/scenario.hpp"
@@ -19,9 +21,9 @@
 
 namespace blactl::sim {
 
-/// Sends NodeStatus and actuator.Status, asks for a node ID, answers GetNodeInfo, GetSet,
-/// ExecuteOpcode and RestartNode; restarts, and keeps through that what is saved.
-/// Not simulated: motion, ArrayCommand, stored data that cannot be read.
+/// Sends NodeStatus and actuator.Status, asks for a node ID, obeys ArrayCommand, answers
+/// GetNodeInfo, GetSet, ExecuteOpcode and RestartNode; restarts, and keeps through that what is
+/// saved.
 class Servo final : public Device {
  public:
   /// `seed`: of its boot times and its allocation requests.
@@ -37,7 +39,24 @@ class Servo final : public Device {
   /// The address it uses on the bus; 0 while it has none.
   [[nodiscard]] dronecan::NodeId node_id() const { return endpoint_.node_id(); }
 
-  /// RAM and ROM.
+  /// Why a servo may restart by itself (4.12, note 2).
+  enum class Upset : std::uint8_t { clock, watchdog, memory };
+
+  [[nodiscard]] const World& world() const { return motion_.world(); }
+
+  /// From now on this is around it. Without power it is dead; with power again it starts (4.8).
+  void surround(const World& world, Time now);
+
+  /// It restarts by itself and says why until its next start.
+  void upset(Upset cause, Time now);
+
+  /// Brings the readings in registers() up to `now`.
+  void look(Time now) { motion_.look(now); }
+
+  /// The physical shaft, as of the last look.
+  [[nodiscard]] const Shaft& shaft() const { return motion_.shaft(); }
+
+  /// RAM and ROM, readings as of the last look.
   [[nodiscard]] const Registers& registers() const { return registers_; }
 
   [[nodiscard]] const dronecan::UniqueId& unique_id() const { return setup_.unique_id; }
@@ -74,6 +93,8 @@ class Servo final : public Device {
   void depart(Time now);
   void end_rom_write(Time now);
   void restart(Time now);
+  void lose_power(Time now);
+  void show_until_restart(std::int64_t warnings, std::int64_t failures, Time now);
   void broadcast(Time now);
   void obey(Order order, bool answered);
   void tell(ServoEvent::Kind kind) const;
@@ -81,6 +102,7 @@ class Servo final : public Device {
   // What it answers (servo.cpp).
   void handle(const dronecan::Transfer& transfer);
   void hear_allocation(const dronecan::Transfer& transfer);
+  void hear_commands(const dronecan::Transfer& transfer);
   void serve_node_info(const dronecan::Transfer& request);
   void serve_get_set(const dronecan::Transfer& request);
   void serve_opcode(const dronecan::Transfer& request);
@@ -97,17 +119,19 @@ class Servo final : public Device {
   void send_answers(Time now);
   void send_message(const dronecan::DataType& type, dronecan::Priority priority,
                     const dronecan::Payload& payload);
-  [[nodiscard]] dronecan::NodeStatus node_status(Time now) const;
-  [[nodiscard]] dronecan::ActuatorStatus actuator_status() const;
+  [[nodiscard]] dronecan::NodeStatus node_status(Time now);
+  [[nodiscard]] dronecan::ActuatorStatus actuator_status(Time now);
 
   ServoSetup setup_; ///< its faults count down
   Random random_;
   Registers registers_;
+  Motion motion_;
   Endpoint endpoint_;
   EventSink tell_;
   std::optional<Allocatee> allocatee_; ///< while it asks for a node ID
   std::optional<Departure> departure_; ///< from an order on that ends the run
   std::uint32_t rom_writes_ = 0;
+  bool rom_is_torn_ = false; ///< power was lost while it was written
   Phase phase_ = Phase::boot;
   Time wake_;    ///< the end of a phase other than `run`
   Time now_;     ///< of the present receive() or advance()

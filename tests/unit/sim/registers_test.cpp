@@ -21,7 +21,7 @@ constexpr Address speed_torque_control{0x25};
 
 } // namespace
 
-TEST_CASE("requirement 87: all ten models keep the ranges of their profile") {
+TEST_CASE("requirement 87: all ten models keep the ranges of their profile", "[requirement-87]") {
   REQUIRE(testing::profiles().all().size() == 10);
   for (const bla::Profile& profile : testing::profiles().all()) {
     Registers ram = registers(fmt::format(R"("model": "{}", "ram": {})", profile.model,
@@ -46,7 +46,8 @@ TEST_CASE("requirement 87: all ten models keep the ranges of their profile") {
   }
 }
 
-TEST_CASE("requirement 78: a value out of range leaves the register as it was") {
+TEST_CASE("requirement 78: a value out of range leaves the register as it was",
+          "[requirement-78]") {
   Registers ram = registers(R"("model": "BLA21-12U-AB")");
   CHECK(ram.write(bla::address::angle_limit_cw, 900) == 900);
   CHECK(ram.write(bla::address::angle_limit_cw, -1) == 900);
@@ -60,7 +61,8 @@ TEST_CASE("a servo that clamps takes the nearest value in range") {
   CHECK(ram.write(bla::address::timeout_time, 70'000) == 60'000);
 }
 
-TEST_CASE("requirement 89: without a PWM input 0x34 to 0x37 are 0 and take only 0") {
+TEST_CASE("requirement 89: without a PWM input 0x34 to 0x37 are 0 and take only 0",
+          "[requirement-89]") {
   for (const bla::Profile& profile : testing::profiles().all()) {
     Registers ram = registers(fmt::format(R"("model": "{}")", profile.model));
     for (std::uint8_t a = 0x34; a <= 0x37 && !profile.pwm; ++a) {
@@ -73,7 +75,8 @@ TEST_CASE("requirement 89: without a PWM input 0x34 to 0x37 are 0 and take only 
   }
 }
 
-TEST_CASE("requirements 74, 81: reserved, read-only and high addresses and 0x49 refuse writes") {
+TEST_CASE("requirements 74, 81: reserved, read-only and high addresses and 0x49 refuse writes",
+          "[requirement-74][requirement-81]") {
   Registers ram = registers(R"("model": "BLA21-12U-AB")");
   for (const std::uint8_t a :
        Numbers{0x03, 0x07, 0x17, 0x28, 0x42, 0x49, 0x4F, 0x54, 0x5F, 0x60, 0xFF,
@@ -85,7 +88,8 @@ TEST_CASE("requirements 74, 81: reserved, read-only and high addresses and 0x49 
   CHECK(ram.read(bla::address::model_number) == 61);
 }
 
-TEST_CASE("requirement 74: reserved and write-only registers do not answer a read, unless told") {
+TEST_CASE("requirement 74: reserved and write-only registers do not answer a read, unless told",
+          "[requirement-74]") {
   Registers ram = registers(R"("model": "BLA21-12U-AB")");
   for (const std::uint8_t a :
        Numbers{0x03, 0x17, 0x28, 0x4A, 0x5F, 0x60, 0xFF, 0x10, 0x11, 0x12, 0x49}) {
@@ -99,7 +103,7 @@ TEST_CASE("requirement 74: reserved and write-only registers do not answer a rea
   CHECK_FALSE(zero.read(Address(0x60)));
 }
 
-TEST_CASE("requirement 93: firmware 1010 lacks what came with 1100 and 1200") {
+TEST_CASE("requirement 93: firmware 1010 lacks what came with 1100 and 1200", "[requirement-93]") {
   Registers ram = registers(R"("model": "BLA21-12U-A0", "firmware_version": 1010)");
   for (const std::uint8_t a : Numbers{0x25, 0x2A, 0x2F, 0x34, 0x35, 0x36, 0x37}) {
     INFO(Address(a).name());
@@ -114,7 +118,8 @@ TEST_CASE("requirement 93: firmware 1010 lacks what came with 1100 and 1200") {
   CHECK(zero.read(Address(0x2F)) == 0);
 }
 
-TEST_CASE("requirement 114: one command at a time, the others are not active") {
+TEST_CASE("requirement 114: one command at a time, the others are not active",
+          "[requirement-114]") {
   Registers ram = registers(R"("model": "BLA21-12U-AB", "ram": {"speed_torque_control": "on"})");
   CHECK(ram.write(Address(1), 60) == 60);
   CHECK(ram.read(Address(0)) == bla::not_active);
@@ -126,7 +131,8 @@ TEST_CASE("requirement 114: one command at a time, the others are not active") {
   CHECK(ram.write(Address(0), bla::not_active) == 450); // out of every range
 }
 
-TEST_CASE("requirement 117: speed and torque are ignored while 0x25 is off, or absent") {
+TEST_CASE("requirement 117: speed and torque are ignored while 0x25 is off, or absent",
+          "[requirement-117]") {
   for (const char* firmware : {"1400", "1010"}) {
     Registers ram =
         registers(fmt::format(R"("model": "BLA21-12U-AB", "firmware_version": {})", firmware));
@@ -139,7 +145,8 @@ TEST_CASE("requirement 117: speed and torque are ignored while 0x25 is off, or a
   CHECK(ram.write(Address(1), 60) == 60);
 }
 
-TEST_CASE("requirement 166: 0x18 is the OR of levels and bytes of 0x19 to 0x1B") {
+TEST_CASE("requirement 166: 0x18 is the OR of levels and bytes of 0x19 to 0x1B",
+          "[requirement-166]") {
   Registers ram = registers(R"("model": "BLA21-12U-AB",
       "ram": {"0x19": 1048832, "0x1A": 16, "0x1B": 2147483648})");
   CHECK(ram.read(Address(0x19)) == 1048832); // bits 8 and 20
@@ -164,7 +171,8 @@ TEST_CASE("a fresh servo has the defaults of its model and a supply inside its l
   }
 }
 
-TEST_CASE("requirements 45, 56, 61: all ten models save, forget and come back as they should") {
+TEST_CASE("requirements 45, 56, 61: all ten models save, forget and come back as they should",
+          "[requirement-45][requirement-56][requirement-61]") {
   for (const bla::Profile& profile : testing::profiles().all()) {
     Registers memory(servo_setup(fmt::format(R"("model": "{}")", profile.model)));
     const auto differs = [](const bla::Parameter& parameter) {

@@ -45,19 +45,21 @@ void allocate(Rig& rig, std::uint8_t node_id, dronecan::TransferId& id) {
 
 } // namespace
 
-TEST_CASE("requirements 50, 57: SAVE is answered with argument 0 and ok, 7 bytes") {
+TEST_CASE("requirements 50, 57: SAVE is answered with argument 0 and ok, 7 bytes",
+          "[requirement-50][requirement-57]") {
   Rig rig(bla21);
   CHECK(rig.bench.ask({frame("1E0A8BFF#00000000000000C1")}) == Frames{"1E0A7F8B#00000000000080C1"});
 }
 
-TEST_CASE("requirement 50: the argument of ExecuteOpcode does not matter") {
+TEST_CASE("requirement 50: the argument of ExecuteOpcode does not matter", "[requirement-50]") {
   Rig rig(bla21);
   CHECK(rig.opcode(save, -1) == "ok");
   rig.settle();
   CHECK(rig.servo.rom_writes() == 1);
 }
 
-TEST_CASE("requirement 51: opcodes other than SAVE and ERASE are refused and do nothing") {
+TEST_CASE("requirement 51: opcodes other than SAVE and ERASE are refused and do nothing",
+          "[requirement-51]") {
   Rig rig(with(R"("ram": {"reverse": "on"})"));
   for (const std::uint8_t opcode : std::initializer_list<std::uint8_t>{2, 7, 255}) {
     CHECK(rig.opcode(opcode) == "refused");
@@ -68,8 +70,8 @@ TEST_CASE("requirement 51: opcodes other than SAVE and ERASE are refused and do 
   CHECK(rig.ram(reverse) == 1);
 }
 
-TEST_CASE(
-    "requirements 42, 43: RestartNode with the magic number restarts, with another it fails") {
+TEST_CASE("requirements 42, 43: RestartNode with the magic number restarts, with another it fails",
+          "[requirement-42][requirement-43]") {
   Rig rig(bla21);
   CHECK(rig.bench.ask({frame("1E058BFF#1E1B55CEABC9")}) == Frames{"1E057F8B#00C9"});
   CHECK(rig.restart_node(0) == "refused");
@@ -80,7 +82,7 @@ TEST_CASE(
   CHECK(rig.bench.ask({frame("1E058BFF#1E1B55CEC4")}).empty()); // too short, and it is down
 }
 
-TEST_CASE("requirement 44: 1 written to 0x11 restarts, 0 does nothing") {
+TEST_CASE("requirement 44: 1 written to 0x11 restarts, 0 does nothing", "[requirement-44]") {
   Rig rig(bla21);
   CHECK(rig.write("0x11", 0) == 0);
   CHECK(rig.write("0x11", 2) == 0); // out of range
@@ -92,7 +94,8 @@ TEST_CASE("requirement 44: 1 written to 0x11 restarts, 0 does nothing") {
   CHECK(rig.servo.rom_writes() == 0);
 }
 
-TEST_CASE("requirement 44: 0 written to 0x10 and 0x12 does nothing, reading them fails") {
+TEST_CASE("requirement 44: 0 written to 0x10 and 0x12 does nothing, reading them fails",
+          "[requirement-44]") {
   Rig rig(with(R"("ram": {"reverse": "on"})"));
   CHECK(rig.write("0x10", 0) == 0);
   CHECK(rig.write("0x12", 0) == 0);
@@ -102,14 +105,15 @@ TEST_CASE("requirement 44: 0 written to 0x10 and 0x12 does nothing, reading them
   CHECK(rig.ram(reverse) == 1);
 }
 
-TEST_CASE("requirement 17: uptime and transfer IDs begin anew with a restart") {
+TEST_CASE("requirement 17: uptime and transfer IDs begin anew with a restart", "[requirement-17]") {
   Rig rig(bla21, 0ms);
   CHECK(uptimes(rig.bench.run(2500ms)) == Uptimes{{0, 0}, {1, 1}, {2, 2}});
   CHECK(rig.restart_node() == "ok");
   CHECK(uptimes(rig.bench.run(1500ms)) == Uptimes{{0, 0}, {1, 1}});
 }
 
-TEST_CASE("requirement 45: a restart brings back what ROM holds, and the commands of power-on") {
+TEST_CASE("requirement 45: a restart brings back what ROM holds, and the commands of power-on",
+          "[requirement-45]") {
   Rig rig(with(R"("rom": {"angle_limit_cw": "90deg"}, "ram": {"reverse": "on"})"));
   CHECK(rig.ram(angle_limit_cw) == 900); // RAM comes from ROM
   CHECK(rig.rom(reverse) == 0);          // "ram" is not saved
@@ -126,7 +130,8 @@ TEST_CASE("requirement 45: a restart brings back what ROM holds, and the command
   CHECK(rig.ram(command_speed) == 0);
 }
 
-TEST_CASE("requirement 45: what is measured, what is wrong and who it is survive a restart") {
+TEST_CASE("requirement 45: what is measured, what is wrong and who it is survive a restart",
+          "[requirement-45]") {
   Rig rig(with(R"("serial_number": 7, "ram": {"current_voltage": "11.8V", "fault_warning": 16,
                   "production_year": 2024})"));
   CHECK(rig.restart_node() == "ok");
@@ -137,9 +142,10 @@ TEST_CASE("requirement 45: what is measured, what is wrong and who it is survive
   CHECK(rig.ram(serial_number) == 7);
 }
 
-TEST_CASE("requirement 46: a restart brings the angle back within one turn") {
+TEST_CASE("requirement 46: a restart brings the angle back within one turn", "[requirement-46]") {
   const auto after_restart = [](const char* angle) {
-    Rig rig(with(fmt::format(R"("ram": {{"current_angle": "{}"}})", angle)));
+    Rig rig(with(
+        fmt::format(R"("ram": {{"current_angle": "{}"}}, "rom": {{"soft_start": "off"}})", angle)));
     CHECK(rig.restart_node() == "ok");
     rig.settle();
     return rig.ram(current_angle);
@@ -153,7 +159,8 @@ TEST_CASE("requirement 46: a restart brings the angle back within one turn") {
   CHECK(after_restart("3645deg") == 450);
 }
 
-TEST_CASE("requirement 49: a changed 0x46 is the address after save and restart, not before") {
+TEST_CASE("requirement 49: a changed 0x46 is the address after save and restart, not before",
+          "[requirement-49]") {
   Rig rig(bla21);
   CHECK(rig.write("0x46", 40) == 40);
   CHECK(rig.servo.node_id() == dronecan::NodeId(11));
@@ -168,7 +175,8 @@ TEST_CASE("requirement 49: a changed 0x46 is the address after save and restart,
   CHECK(rig.read("0x46") == 40);
 }
 
-TEST_CASE("requirements 52, 55, 60: SAVE and 0x12 write ROM and restart, GetSet alone does not") {
+TEST_CASE("requirements 52, 55, 60: SAVE and 0x12 write ROM and restart, GetSet alone does not",
+          "[requirement-52][requirement-55][requirement-60]") {
   for (const bool by_register : {false, true}) {
     Rig rig(bla21);
     CHECK(rig.write("0x38", 450) == 450);
@@ -187,7 +195,8 @@ TEST_CASE("requirements 52, 55, 60: SAVE and 0x12 write ROM and restart, GetSet 
   }
 }
 
-TEST_CASE("requirement 54: for 50 ms, and while it starts, a saving servo is silent") {
+TEST_CASE("requirement 54: for 50 ms, and while it starts, a saving servo is silent",
+          "[requirement-54]") {
   Rig rig(bla21);
   const Time asked = rig.bench.now();
   CHECK(rig.opcode(save) == "ok"); // a millisecond goes by
@@ -204,7 +213,7 @@ TEST_CASE("requirement 54: for 50 ms, and while it starts, a saving servo is sil
   CHECK(rig.read("0x38") == 1799);
 }
 
-TEST_CASE("requirement 54: how long a ROM write takes can be set") {
+TEST_CASE("requirement 54: how long a ROM write takes can be set", "[requirement-54]") {
   Rig rig(with(R"("behaviour": {"rom_write_time": "2s"})"));
   CHECK(rig.opcode(save) == "ok");
   CHECK(rig.bench.run(2s - 2ms).empty());
@@ -212,7 +221,8 @@ TEST_CASE("requirement 54: how long a ROM write takes can be set") {
   CHECK_FALSE(rig.settle().empty());
 }
 
-TEST_CASE("requirement 56: 0x20 to 0x4F are saved, the commands and what is fixed are not") {
+TEST_CASE("requirement 56: 0x20 to 0x4F are saved, the commands and what is fixed are not",
+          "[requirement-56]") {
   Rig rig(with(R"("ram": {"reverse": "on"})"));
   CHECK(rig.write("0x00", 300) == 300);
   CHECK(rig.write("0x45", 9) == 9);
@@ -229,7 +239,8 @@ TEST_CASE("requirement 56: 0x20 to 0x4F are saved, the commands and what is fixe
   }
 }
 
-TEST_CASE("requirement 57: the answer to SAVE comes first, unless the servo is set to give none") {
+TEST_CASE("requirement 57: the answer to SAVE comes first, unless the servo is set to give none",
+          "[requirement-57]") {
   Rig first(bla21);
   CHECK(first.opcode(save) == "ok");
   CHECK(first.events.empty());
@@ -245,7 +256,8 @@ TEST_CASE("requirement 57: the answer to SAVE comes first, unless the servo is s
   CHECK(none.restart_node() == "ok"); // it is about saving only
 }
 
-TEST_CASE("requirement 57: answers of before come with the answer to SAVE, none comes after it") {
+TEST_CASE("requirement 57: answers of before come with the answer to SAVE, none comes after it",
+          "[requirement-57]") {
   Rig rig(R"("model": "BLA21-12U-AB", "node_id": 11, "answer_delay": "2ms")");
   const can::Frame read = frame("1E0B8BFF#000030783338C5");
   const can::Frame opcode = frame("1E0A8BFF#00000000000000C1");
@@ -265,7 +277,8 @@ TEST_CASE("a restart forgets the answers that were still to come") {
   CHECK(rig.servo.rom_writes() == 1);
 }
 
-TEST_CASE("requirements 53, 61: ERASE and 0x10 bring defaults to RAM, IDs included, not to ROM") {
+TEST_CASE("requirements 53, 61: ERASE and 0x10 bring defaults to RAM, IDs included, not to ROM",
+          "[requirement-53][requirement-61]") {
   for (const bool by_register : {false, true}) {
     Rig rig(with(R"("rom": {"angle_limit_cw": "90deg"}, "ram": {"current_voltage": "11.8V"})"));
     CHECK(rig.write("0x00", 300) == 300);
@@ -294,7 +307,8 @@ TEST_CASE("requirements 53, 61: ERASE and 0x10 bring defaults to RAM, IDs includ
   }
 }
 
-TEST_CASE("requirement 62: a restart after ERASE without SAVE brings the old values back") {
+TEST_CASE("requirement 62: a restart after ERASE without SAVE brings the old values back",
+          "[requirement-62]") {
   Rig rig(with(R"("rom": {"angle_limit_cw": "90deg"})"));
   CHECK(rig.opcode(erase) == "ok");
   CHECK(rig.write("0x11", 1) == 1);
@@ -304,8 +318,8 @@ TEST_CASE("requirement 62: a restart after ERASE without SAVE brings the old val
   CHECK(rig.read("0x45") == 1);
 }
 
-TEST_CASE(
-    "requirements 27, 63: ERASE, then SAVE: the defaults stay, and the servo asks for an ID") {
+TEST_CASE("requirements 27, 63: ERASE, then SAVE: the defaults stay, and the servo asks for an ID",
+          "[requirement-27][requirement-63]") {
   Rig rig(with(R"("rom": {"angle_limit_cw": "90deg"})"));
   CHECK(rig.write("0x10", 1) == 1);
   CHECK(rig.write("0x12", 1) == 1);
@@ -326,7 +340,8 @@ TEST_CASE(
   CHECK(rig.told() == Frames{"erase 11", "rom_write 11", "restart 11", "allocated 125"});
 }
 
-TEST_CASE("requirements 28, 40: an allocated ID is gone with a restart, another may follow") {
+TEST_CASE("requirements 28, 40: an allocated ID is gone with a restart, another may follow",
+          "[requirement-28][requirement-40]") {
   Rig rig(R"("model": "BLA21-12U-AB", "answer_delay": 0)", 0ms);
   dronecan::TransferId id = 0;
   allocate(rig, 125, id);
@@ -340,7 +355,8 @@ TEST_CASE("requirements 28, 40: an allocated ID is gone with a restart, another 
   CHECK(rig.told() == Frames{"allocated 125", "restart 125", "allocated 124"});
 }
 
-TEST_CASE("requirement 29: each restart has a boot time and allocation times of its own") {
+TEST_CASE("requirement 29: each restart has a boot time and allocation times of its own",
+          "[requirement-29]") {
   Rig rig(bla21);
   std::set<Duration> boot_times;
   for (int i = 0; i < 5; ++i) {

@@ -20,19 +20,21 @@ using Numbers = std::initializer_list<std::uint8_t>;
 
 } // namespace
 
-TEST_CASE("requirements 66, 70: a read is answered with the value and the name, 16 bytes") {
+TEST_CASE("requirements 66, 70: a read is answered with the value and the name, 16 bytes",
+          "[requirement-66][requirement-70]") {
   Rig rig(bla21);
   CHECK(rig.bench.ask({frame("1E0B8BFF#000030783338C5")}) ==
         Frames{"1E0B7F8B#6D4C010707000085", "1E0B7F8B#0000000000000025", "1E0B7F8B#3078333845"});
 }
 
-TEST_CASE("requirement 84: negative values are sign-extended to 64 bits") {
+TEST_CASE("requirement 84: negative values are sign-extended to 64 bits", "[requirement-84]") {
   Rig rig(bla21);
   CHECK(rig.bench.ask({frame("1E0B8BFF#000030783339C5")}) ==
         Frames{"1E0B7F8B#FEF601F8F8FFFF85", "1E0B7F8B#FFFFFFFF00000025", "1E0B7F8B#3078333945"});
 }
 
-TEST_CASE("requirement 70: a write is answered with the value that is true afterwards") {
+TEST_CASE("requirement 70: a write is answered with the value that is true afterwards",
+          "[requirement-70]") {
   Rig rig(bla21);
   CHECK(rig.bench.ask({frame("1E0B8BFF#B477000184030086"), frame("1E0B8BFF#0000000000307826"),
                        frame("1E0B8BFF#333846")}) ==
@@ -40,13 +42,15 @@ TEST_CASE("requirement 70: a write is answered with the value that is true after
   CHECK(rig.servo.registers().value(bla::address::angle_limit_cw) == 900);
 }
 
-TEST_CASE("requirement 78: the answer to a value out of range has the old value") {
+TEST_CASE("requirement 78: the answer to a value out of range has the old value",
+          "[requirement-78]") {
   Rig rig(bla21);
   const auto response = rig.answered(rig.get_set(0, std::int64_t{-5}, "0x38"));
   CHECK(response.value == GetSet::Value(std::int64_t{1799}));
 }
 
-TEST_CASE("requirements 71, 74: a failure is tag 0 without a name, 4 bytes") {
+TEST_CASE("requirements 71, 74: a failure is tag 0 without a name, 4 bytes",
+          "[requirement-71][requirement-74]") {
   Rig rig(bla21);
   CHECK(rig.bench.ask({frame("1E0B8BFF#000030783033C5")}) == Frames{"1E0B7F8B#00000000C5"});
 }
@@ -58,7 +62,8 @@ TEST_CASE("a servo may send the name with a failure") {
   CHECK(response.name == "0x03");
 }
 
-TEST_CASE("requirement 67: the name is 0x and two upper-case hexadecimal digits, nothing else") {
+TEST_CASE("requirement 67: the name is 0x and two upper-case hexadecimal digits, nothing else",
+          "[requirement-67]") {
   Rig rig(bla21);
   CHECK_FALSE(failed(rig.answered(rig.get_set(0, {}, "0x2A"))));
   for (const char* wrong :
@@ -68,7 +73,8 @@ TEST_CASE("requirement 67: the name is 0x and two upper-case hexadecimal digits,
   }
 }
 
-TEST_CASE("requirement 69: a name wins over an index, an index alone is an address") {
+TEST_CASE("requirement 69: a name wins over an index, an index alone is an address",
+          "[requirement-69]") {
   Rig rig(bla21);
   CHECK(rig.answered(rig.get_set(0x39, {}, "0x38")).name == "0x38");
   const auto by_index = rig.answered(rig.get_set(0x38, {}, ""));
@@ -80,7 +86,7 @@ TEST_CASE("requirement 69: a name wins over an index, an index alone is an addre
   CHECK_FALSE(failed(without.answered(without.get_set(0, {}, "0x38"))));
 }
 
-TEST_CASE("requirement 75: reals, booleans and strings are refused") {
+TEST_CASE("requirement 75: reals, booleans and strings are refused", "[requirement-75]") {
   Rig rig(bla21);
   for (const GetSet::Value& value :
        {GetSet::Value(900.0F), GetSet::Value(true), GetSet::Value(std::string("900"))}) {
@@ -89,7 +95,7 @@ TEST_CASE("requirement 75: reals, booleans and strings are refused") {
   CHECK(rig.servo.registers().value(bla::address::angle_limit_cw) == 1799);
 }
 
-TEST_CASE("requirement 8: unlisted services get no answer") {
+TEST_CASE("requirement 8: unlisted services get no answer", "[requirement-8]") {
   Rig rig(bla21);
   CHECK(rig.bench.ask({frame("1E048BFF#C1")}).empty()); // GetTransportStats
   CHECK(rig.bench.ask({frame("1E288BFF#00C1")}).empty());
@@ -105,7 +111,7 @@ TEST_CASE("requests for other nodes and repeated transfer IDs are not answered")
   CHECK(rig.bench.ask({frame("1E0B8BFF#000030783338C6")}).size() == 3); // forgotten after 2 s
 }
 
-TEST_CASE("requirement 11: a write with a bad CRC is dropped") {
+TEST_CASE("requirement 11: a write with a bad CRC is dropped", "[requirement-11]") {
   Rig rig(bla21);
   CHECK(rig.bench
             .ask({frame("1E0B8BFF#B577000184030086"), frame("1E0B8BFF#0000000000307826"),
@@ -114,7 +120,8 @@ TEST_CASE("requirement 11: a write with a bad CRC is dropped") {
   CHECK(rig.servo.registers().value(bla::address::angle_limit_cw) == 1799);
 }
 
-TEST_CASE("requirements 15, 16: GetNodeInfo, with and without the stray byte of table 2-5") {
+TEST_CASE("requirements 15, 16: GetNodeInfo, with and without the stray byte of table 2-5",
+          "[requirement-15][requirement-16]") {
   Rig rig(bla21);
   rig.bench.run(2s);
   const Frames info{
@@ -126,7 +133,8 @@ TEST_CASE("requirements 15, 16: GetNodeInfo, with and without the stray byte of 
   CHECK(rig.bench.ask({frame("1E018BFF#00C2")}) == info);
 }
 
-TEST_CASE("requirements 3, 17, 24: NodeStatus every second at priority 16, with the uptime") {
+TEST_CASE("requirements 3, 17, 24: NodeStatus every second at priority 16, with the uptime",
+          "[requirement-3][requirement-17][requirement-24]") {
   Rig rig(bla21, 0ms);
   const auto statuses = only(rig.bench.run(3400ms), dronecan::NodeStatus::type.id);
   REQUIRE(statuses.size() == 4);
@@ -134,7 +142,8 @@ TEST_CASE("requirements 3, 17, 24: NodeStatus every second at priority 16, with 
   CHECK(testing::text(statuses[3]) == "1001550B#03000000000000C3");
 }
 
-TEST_CASE("requirements 21, 22: health follows the warning and failure bits, failure first") {
+TEST_CASE("requirements 21, 22: health follows the warning and failure bits, failure first",
+          "[requirement-21][requirement-22]") {
   const auto first_status = [](const char* ram) {
     Rig rig(bla21 + fmt::format(R"(, "ram": {{{}}})", ram));
     return only(rig.heard, dronecan::NodeStatus::type.id).at(0).data[4] >> 6U;
@@ -145,7 +154,8 @@ TEST_CASE("requirements 21, 22: health follows the warning and failure bits, fai
   CHECK(first_status(R"("fault_warning": 2048, "fault_failure": 1)") == 2);
 }
 
-TEST_CASE("requirements 4, 108: actuator.Status every 100 ms, degrees / 100, the rest unused") {
+TEST_CASE("requirements 4, 108: actuator.Status every 100 ms, degrees / 100, the rest unused",
+          "[requirement-4][requirement-108]") {
   Rig rig(bla21 + std::string(R"(, "ram": {"current_angle": "45deg"})"), 0ms);
   const auto frames = only(rig.bench.run(1150ms), dronecan::ActuatorStatus::type.id);
   REQUIRE(frames.size() == 2 * 11); // it boots in 50 to 150 ms
@@ -153,14 +163,16 @@ TEST_CASE("requirements 4, 108: actuator.Status every 100 ms, degrees / 100, the
   CHECK(testing::text(frames[1]) == "1003F30B#FF7F7F60");
 }
 
-TEST_CASE("requirement 178: a changed 0x46 has no effect while the servo runs") {
+TEST_CASE("requirement 178: a changed 0x46 has no effect while the servo runs",
+          "[requirement-178]") {
   Rig rig(bla21);
   CHECK_FALSE(failed(rig.answered(rig.get_set(0, std::int64_t{40}, "0x46"))));
   CHECK(rig.servo.node_id() == dronecan::NodeId(11));
   CHECK(rig.answered(rig.get_set(0, {}, "0x46")).value == GetSet::Value(std::int64_t{40}));
 }
 
-TEST_CASE("requirement 95: serial number, firmware and hardware are those of the setup") {
+TEST_CASE("requirement 95: serial number, firmware and hardware are those of the setup",
+          "[requirement-95]") {
   Rig rig(bla21 + std::string(R"(, "serial_number": 240900558, "firmware_version": 1300,
                                    "hardware_version": 12345, "model_number": 99)"));
   const auto value = [&](const char* name) {
@@ -190,7 +202,8 @@ TEST_CASE("the first answers can be lost, and a mute servo never answers") {
   CHECK_FALSE(only(mute.heard, dronecan::ActuatorStatus::type.id).empty());
 }
 
-TEST_CASE("requirements 27, 30: without a static ID the servo asks, anonymously, at priority 24") {
+TEST_CASE("requirements 27, 30: without a static ID the servo asks, anonymously, at priority 24",
+          "[requirement-27][requirement-30]") {
   Rig rig(R"("model": "BLA21-12U-AB", "unique_id": "00112233445566778899AABBCCDDEEFF")", 0ms);
   const auto frames = rig.bench.run(1200ms);
   REQUIRE(frames.size() == 1);
@@ -202,7 +215,7 @@ TEST_CASE("requirements 27, 30: without a static ID the servo asks, anonymously,
   CHECK(testing::text(frames[0]).substr(8) == "#01001122334455C0");
 }
 
-TEST_CASE("requirement 28: until an ID is assigned nothing else works") {
+TEST_CASE("requirement 28: until an ID is assigned nothing else works", "[requirement-28]") {
   Rig rig(R"("model": "BLA21-12U-AB")", 0ms);
   for (std::uint8_t id = 1; id < 127; ++id) {
     const can::Frame info =
@@ -215,7 +228,8 @@ TEST_CASE("requirement 28: until an ID is assigned nothing else works") {
   }
 }
 
-TEST_CASE("requirements 35, 39, 40: the third answer assigns the ID, which 0x46 does not keep") {
+TEST_CASE("requirements 35, 39, 40: the third answer assigns the ID, which 0x46 does not keep",
+          "[requirement-35][requirement-39][requirement-40]") {
   Rig rig(R"("model": "BLA21-12U-AB", "answer_delay": 0,
              "unique_id": "00112233445566778899aabbccddeeff")",
           0ms);

@@ -1,0 +1,48 @@
+#pragma once
+// When a simulated servo last was commanded: the communication timeout (4.19), and whether the PWM
+// input counts (4.30).
+
+#include "blactl/base/time.hpp"
+
+#include <optional>
+
+namespace blactl::sim {
+
+class CommandTimer {
+ public:
+  /// The servo begins to run; the timeout counts from here.
+  void start(Time now) {
+    last_ = now;
+    last_can_.reset();
+  }
+
+  void commanded(Time at) { last_ = at; }
+
+  /// By CAN; `feeds`: it also counts for the timeout.
+  void commanded_by_can(Time at, bool feeds) {
+    last_can_ = at;
+    last_ = feeds ? at : last_;
+  }
+
+  /// Requirement 145: longer than `limit` without a command.
+  [[nodiscard]] bool timed_out(Time at, Duration limit) const { return at - last_ > limit; }
+
+  /// Requirements 156, 157. unproven: before the first command by CAN, PWM counts at once.
+  [[nodiscard]] bool accepts_pwm(Time at, Duration limit) const {
+    return !last_can_ || at - *last_can_ >= limit;
+  }
+
+  /// When one of the two answers changes by time alone.
+  [[nodiscard]] Time next_change(Time at, Duration limit) const {
+    if (!accepts_pwm(at, limit)) {
+      return *last_can_ + limit;
+    }
+    return timed_out(at, limit) ? never : last_ + limit + Duration(1);
+  }
+
+ private:
+  Time last_{};
+  std::optional<Time> last_can_;
+};
+
+} // namespace blactl::sim

@@ -1,0 +1,103 @@
+#pragma once
+// What a simulated servo does with its shaft: commands, readings, protection, soft start, timeouts
+// (chapter 4). Without CAN: it knows registers and the world.
+
+#include "blactl/base/time.hpp"
+#include "blactl/sim/command.hpp"
+#include "blactl/sim/command_timer.hpp"
+#include "blactl/sim/controller.hpp"
+#include "blactl/sim/pwm_input.hpp"
+#include "blactl/sim/registers.hpp"
+#include "blactl/sim/scenario.hpp"
+#include "blactl/sim/shaft.hpp"
+#include "blactl/sim/world.hpp"
+
+#include <cstdint>
+#include <optional>
+
+namespace blactl::sim {
+
+/// Computed in steps of 1 ms from power-on, and only when somebody looks: that one looks more often
+/// or less changes nothing. While nothing moves, time costs nothing.
+class Motion {
+ public:
+  /// `registers` must outlive this. The motor is off until start().
+  Motion(const ServoSetup& setup, Registers& registers, Time power_on);
+
+  /// The servo begins to run: the angle comes back within one turn (requirement 46), soft start.
+  void start(Time now);
+
+  /// The servo goes down: motor off. What told why it last restarted by itself is forgotten.
+  void stop(Time now);
+
+  /// Brings the readings 0x08-0x0C and 0x18-0x1B up to `now`.
+  void look(Time now);
+
+  /// GetSet, as Registers has it.
+  [[nodiscard]] std::optional<std::int64_t> read(bla::Address address, Time now);
+  std::optional<std::int64_t> write(bla::Address address, std::int64_t value, Time now);
+
+  /// ArrayCommand.
+  void command(const MotionCommand& command, Time now);
+
+  /// ERASE and 0x10 (4.9).
+  void initialize(Time now);
+
+  [[nodiscard]] const World& world() const { return world_; }
+
+  /// From now on this is around the servo.
+  void surround(const World& world, Time now);
+
+  [[nodiscard]] const Shaft& shaft() const { return shaft_; }
+
+ private:
+  // What is asked of it (motion.cpp).
+  void advance_to(Time now);
+  void measure();
+  void protect();
+  void obey(bla::Address address, std::int64_t before);
+  void give_up_command();
+  void end_soft_start();
+  [[nodiscard]] std::optional<std::int64_t> soft_start_limit(bla::Address address) const;
+
+  // One millisecond (motion_step.cpp).
+  bool step();
+  bool obey_pulse();
+  [[nodiscard]] Drive drive();
+  [[nodiscard]] Drive::Kind output() const;
+  [[nodiscard]] Mode mode() const;
+  [[nodiscard]] Aim aim() const;
+  [[nodiscard]] Tuning tuning() const;
+  [[nodiscard]] Duration timeout() const;
+
+  // Angles as the servo counts them (motion_step.cpp).
+  [[nodiscard]] std::int64_t sign() const;
+  [[nodiscard]] Position position() const;
+  [[nodiscard]] std::int64_t angle_decideg() const;
+  void wrap();
+
+  Registers& registers_;
+  Behaviour behaviour_;
+  bool has_pwm_input_;
+  std::int64_t nominal_decivolt_;
+  std::int64_t full_speed_;
+  std::int64_t full_current_; ///< the default of 0x2A; 0: there is none
+  bool has_boost_;            ///< 0x2F
+
+  World world_;
+  PulseReading pulse_{}; ///< this and the next: since the registers last changed
+  Tuning tuning_;
+  Shaft shaft_;
+  Controller controller_;
+  Drive drive_;
+  CommandTimer timer_;
+  Time grid_;                      ///< of the last step
+  std::int64_t turns_ = 0;         ///< whole turns of the shaft that the servo does not count
+  std::int64_t kept_failures_ = 0; ///< those that stay until the next start
+  bool runs_ = false;
+  bool stopped_ = false; ///< by its protection
+  bool holds_ = false;   ///< where it is, inside its angle limits or not, until the next command
+  bool soft_start_ = false;
+};
+
+} // namespace blactl::sim

@@ -1,0 +1,26 @@
+#pragma once
+// What a simulated servo says is wrong (0x19-0x1B), and when it stops the motor for that (4.7, 4.8,
+// 4.12).
+
+#include "blactl/sim/registers.hpp"
+#include "blactl/sim/scenario.hpp"
+#include "blactl/sim/world.hpp"
+
+#include <cstdint>
+
+namespace blactl::sim {
+
+/// 0x19, 0x1A and 0x1B.
+struct Faults {
+  std::int64_t notice = 0, warning = 0, failure = 0;
+};
+
+/// By the readings 0x08-0x0C, the commands and the limits in `registers`. Without the PWM input.
+[[nodiscard]] Faults present_faults(const Registers& registers, const World& world,
+                                    const Behaviour& behaviour);
+
+/// Requirements 161, 170: temperature or voltage out of range, or any failure.
+[[nodiscard]] bool stops_motor(const Registers& registers, const Behaviour& behaviour,
+                               std::int64_t failures);
+
+} // namespace blactl::sim

@@ -1,0 +1,244 @@
+#include "blactl/sim/motion.hpp"
+
+#include "blactl/sim/protection.hpp"
+
+#include "sim/addresses.hpp"
+#include "sim/fault_bits.hpp"
+#include "sim/rounded.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+namespace blactl::sim {
+
+using namespace std::chrono_literals;
+using bla::Address;
+
+namespace {
+
+/// Requirement 123; unproven for series other than BLA21.
+std::int64_t full_speed_of(const bla::Profile& profile) {
+  constexpr std::int64_t practical_rpm = 150;
+  const bla::Parameter* limit = profile.find(address::speed_limit_cw);
+  const std::int64_t rpm = limit != nullptr ? limit->default_raw.value_or(0) : 0;
+  return std::clamp<std::int64_t>(rpm, 1, practical_rpm) * speed_per_rpm;
+}
+
+/// The default of a register, 0 if model or firmware lack it.
+std::int64_t default_of(const ServoSetup& setup, Address address) {
+  const bla::Parameter* parameter = setup.profile->find(address);
+  const bool exists = parameter != nullptr && parameter->exists_in(setup.firmware_version);
+  return exists ? parameter->default_raw.value_or(0) : 0;
+}
+
+bool lets_boost(const ServoSetup& setup) {
+  const bla::Parameter* boost = setup.profile->find(address::angle_boost);
+  return boost != nullptr && boost->exists_in(setup.firmware_version);
+}
+
+/// 0x00-0x02 and 0x20: what a servo takes for a command (4.19).
+bool commands(Address address) {
+  return address <= address::command_torque || address == address::torque_output;
+}
+
+} // namespace
+
+Motion::Motion(const ServoSetup& setup, Registers& registers, Time power_on)
+    : registers_(registers), behaviour_(setup.behaviour), has_pwm_input_(setup.profile->pwm),
+      nominal_decivolt_(nominal_decivolt(setup)), full_speed_(full_speed_of(*setup.profile)),
+      full_current_(default_of(setup, address::overcurrent_limit)), has_boost_(lets_boost(setup)),
+      world_(world_of(setup)), grid_(power_on) {
+  const std::int64_t decideg =
+      sign() * registers.value(address::current_angle) + registers.value(address::origin);
+  shaft_.angle = decideg * angle_per_decideg;
+  shaft_.speed = sign() * registers.value(address::current_speed) * speed_per_rpm;
+}
+
+void Motion::start(Time now) {
+  advance_to(now);
+  runs_ = true;
+  stopped_ = false;
+  turns_ = 0;
+  wrap();
+  timer_.start(now);
+  soft_start_ =
+      registers_.value(address::soft_start) != 0 && registers_.value(address::torque_output) == 0;
+  if (!soft_start_) {
+    give_up_command(); // requirement 138: the torque comes on in place
+  }
+  look(now);
+}
+
+void Motion::stop(Time now) {
+  advance_to(now);
+  runs_ = holds_ = soft_start_ = false;
+  kept_failures_ = 0;
+  world_.warnings &= ~fault::restart_warnings;
+  world_.failures &= ~fault::restart_failures;
+}
+
+void Motion::look(Time now) {
+  advance_to(now);
+  measure();
+  protect();
+}
+
+std::optional<std::int64_t> Motion::read(Address address, Time now) {
+  look(now);
+  if (behaviour_.get_set_feeds_timeout) {
+    timer_.commanded(now);
+  }
+  const auto limit = soft_start_limit(address);
+  return limit ? limit : registers_.read(address);
+}
+
+std::optional<std::int64_t> Motion::write(Address address, std::int64_t value, Time now) {
+  look(now);
+  if (behaviour_.get_set_feeds_timeout) {
+    timer_.commanded(now);
+  }
+  const bool obeys = commands(address) && registers_.takes(address, value);
+  const std::int64_t before = registers_.value(address);
+  const auto answer = registers_.write(address, value);
+  if (obeys) {
+    timer_.commanded_by_can(now, true);
+    obey(address, before);
+  }
+  look(now);
+  return answer;
+}
+
+void Motion::command(const MotionCommand& command, Time now) {
+  look(now);
+  if (!registers_.takes(command.address, command.value)) {
+    return;
+  }
+  const std::int64_t before = registers_.value(command.address);
+  (void)registers_.write(command.address, command.value);
+  timer_.commanded_by_can(now, behaviour_.array_command_feeds_timeout);
+  obey(command.address, before);
+  look(now);
+}
+
+void Motion::initialize(Time now) {
+  advance_to(now);
+  registers_.initialize();
+  holds_ = false;
+  look(now);
+}
+
+void Motion::surround(const World& world, Time now) {
+  advance_to(now);
+  world_ = world;
+  look(now);
+}
+
+void Motion::advance_to(Time now) {
+  constexpr Duration grid = 1ms;
+  tuning_ = tuning();
+  pulse_ = has_pwm_input_ ? read_pulse(world_.pulse_us, registers_, behaviour_.pwm_end_points_move)
+                          : PulseReading{};
+  while (grid_ + grid <= now) {
+    grid_ += grid;
+    if (!step()) { // nothing will happen by itself until time alone brings something
+      const Time until = std::min(now, timer_.next_change(grid_, timeout()) - Duration(1));
+      grid_ += until > grid_ ? (until - grid_) / grid * grid : Duration::zero();
+    }
+  }
+  if (runs_) {
+    (void)obey_pulse(); // pulses went on while nothing happened
+  }
+}
+
+void Motion::measure() {
+  const bool counts_turns = mode() == Mode::angle || registers_.value(address::extended_angle) != 0;
+  if (!counts_turns) {
+    wrap();
+  }
+  const auto show = [this](Address address, std::int64_t value, std::int64_t low,
+                           std::int64_t high) {
+    registers_.set(address, std::clamp(value, low, high));
+  };
+  // The ranges of table 3-2.
+  show(address::current_angle, angle_decideg(), -360'000'000, 360'000'000);
+  show(address::current_speed, rounded(position().speed, speed_per_rpm), -300, 300);
+  show(address::current_torque, rounded(drive_.effort, effort_per_percent), -150, 150);
+  show(address::current_temperature, world_.board_celsius, -40, 120);
+  show(address::current_voltage, world_.supply_decivolt, 0, 500);
+  Faults faults = present_faults(registers_, world_, behaviour_);
+  if (behaviour_.failures_latch) {
+    kept_failures_ |= faults.failure & fault::hardware_failures;
+  }
+  registers_.set(address::fault_notice, faults.notice | pulse_.notices);
+  registers_.set(address::fault_warning, faults.warning);
+  registers_.set(address::fault_failure, faults.failure | kept_failures_);
+}
+
+/// Requirements 136, 161, 162, 170.
+void Motion::protect() {
+  const bool stops = stops_motor(registers_, behaviour_, registers_.value(address::fault_failure));
+  if (!runs_ || stops == stopped_) {
+    return;
+  }
+  stopped_ = stops;
+  if (stops) {
+    end_soft_start();
+  } else {
+    give_up_command();
+  }
+}
+
+/// A command was taken; `before` it the register held that.
+void Motion::obey(Address address, std::int64_t before) {
+  end_soft_start();
+  if (address != address::torque_output) {
+    holds_ = false;
+  } else if (before != 0 && registers_.value(address) == 0) {
+    give_up_command(); // requirement 132
+  }
+}
+
+/// Holds the present angle, or brakes (tables of 4.7 and 4.13). unproven: that 0x20 and a start
+/// without soft start change the registers as protection does.
+void Motion::give_up_command() {
+  controller_.rest();
+  switch (mode()) {
+  case Mode::angle:
+    registers_.set(address::command_angle, angle_decideg());
+    holds_ = true;
+    break;
+  case Mode::speed: registers_.set(address::command_speed, 0); break;
+  case Mode::torque: registers_.set(address::command_torque, 0); break;
+  }
+}
+
+void Motion::end_soft_start() {
+  if (soft_start_) {
+    soft_start_ = false;
+    tuning_ = tuning();
+  }
+}
+
+/// What a read of a limit tells while the soft start has its own, if the servo is set to tell it.
+std::optional<std::int64_t> Motion::soft_start_limit(Address address) const {
+  if (!soft_start_ || !behaviour_.soft_start_shows) {
+    return std::nullopt;
+  }
+  if (address == address::speed_torque_control) {
+    return std::int64_t{tuning_.cascade};
+  }
+  if (address == address::speed_limit_cw) {
+    return tuning_.speed_cw / speed_per_rpm;
+  }
+  if (address == address::speed_limit_ccw) {
+    return tuning_.speed_ccw / speed_per_rpm;
+  }
+  if (address == address::torque_limit_cw) {
+    return tuning_.effort_cw / effort_per_percent;
+  }
+  return address == address::torque_limit_ccw
+             ? std::optional(tuning_.effort_ccw / effort_per_percent)
+             : std::nullopt;
+}
+
+} // namespace blactl::sim
