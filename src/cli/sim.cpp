@@ -11,6 +11,7 @@
 
 #include <signal.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace blactl::cli {
@@ -75,7 +76,9 @@ void serve(const std::string& socket, const sim::Scenario& scenario, const Conte
 /// Puts the servos on a real interface until a signal comes or the interface goes.
 void join(const std::string& name, const sim::Scenario& scenario, const bla::Profiles& profiles,
           const Context& context, Report& report) {
-  if (scenario.wire != sim::WireFaults{}) {
+  const bool links = std::ranges::any_of(
+      scenario.events, [](const sim::TimedEvent& event) { return event.serial_number == 0; });
+  if (links || scenario.wire != sim::WireFaults{}) {
     return report.fail({Code::usage, say<texts::wire_is_real>(printable(name)),
                         say<texts::wire_is_real_hint>(), std::nullopt});
   }

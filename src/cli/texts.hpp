@@ -268,7 +268,7 @@ inline constexpr Text models_not_saved{"not kept by save", "保存対象外"};
 
 // sim
 inline constexpr Text wire_is_real{"{} has a wire of its own: the scenario cannot give it faults",
-                                   "{} は実際のバスです: シナリオの \"wire\" は適用できません"};
+                                   "{} は実際のバスです: シナリオのバス障害は適用できません"};
 inline constexpr Text wire_is_real_hint{"without -i the simulator has a wire that can fail",
                                         "-i を省くと、障害を起こせる模擬バスになります"};
 inline constexpr Text sim_serves{"{}: simulated servos: {} (Ctrl-C ends)",

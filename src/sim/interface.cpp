@@ -1,7 +1,5 @@
 #include "blactl/sim/interface.hpp"
 
-#include "blactl/sim/simulator.hpp"
-
 #include <algorithm>
 #include <variant>
 
@@ -16,15 +14,16 @@ constexpr std::size_t nobody = static_cast<std::size_t>(-1);
 } // namespace
 
 Interface::Interface(can::Loop& loop, const Scenario& scenario, const EventSink& sink)
-    : loop_(loop), devices_(make_devices(scenario, loop.now(), sink).all) {
-  for (std::size_t i = 0; i < devices_.size(); ++i) {
-    devices_[i]->connect([this, i](const can::Frame& frame) { send(i, frame); });
+    : loop_(loop), devices_(make_devices(scenario, loop.now(), sink)),
+      timeline_(scenario.events, loop.now()) {
+  for (std::size_t i = 0; i < devices_.all.size(); ++i) {
+    devices_.all[i]->connect([this, i](const can::Frame& frame) { send(i, frame); });
   }
 }
 
 Time Interface::next_deadline() const {
-  Time next = never;
-  for (const auto& device : devices_) {
+  Time next = timeline_.next();
+  for (const auto& device : devices_.all) {
     next = std::min(next, device->next_deadline());
   }
   return next;
@@ -48,7 +47,10 @@ void Interface::handle(const can::Event& event) {
     outgoing_.clear();
   }
   const Time now = loop_.now();
-  for (const auto& device : devices_) {
+  while (const TimedEvent* due = timeline_.take(now)) {
+    devices_.change(due->serial_number, due->changes, now);
+  }
+  for (const auto& device : devices_.all) {
     if (device->next_deadline() <= now) {
       device->advance(now);
     }
@@ -63,9 +65,9 @@ void Interface::send(std::size_t device, const can::Frame& frame) {
 }
 
 void Interface::heard(const can::Frame& frame, Time at, std::size_t sender) {
-  for (std::size_t i = 0; i < devices_.size(); ++i) {
+  for (std::size_t i = 0; i < devices_.all.size(); ++i) {
     if (i != sender) {
-      devices_[i]->receive(frame, at);
+      devices_.all[i]->receive(frame, at);
     }
   }
 }

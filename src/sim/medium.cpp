@@ -31,7 +31,21 @@ auto strength(const can::Frame& frame) {
 } // namespace
 
 Time Medium::Port::ready() const {
-  return queue.empty() ? never : std::max(queue.front().since, off_until);
+  return queue.empty() || cut ? never : std::max(queue.front().since, off_until);
+}
+
+void Medium::cut(PortId port, bool is_cut, Time now) {
+  if (!on_wire_) {
+    idle_from_ = std::max(idle_from_, now); // what waited does not start in the past
+  }
+  ports_.at(port).cut = is_cut;
+}
+
+void Medium::bus_off(PortId port, Time now) {
+  if (on_wire_ && std::ranges::find(on_wire_->senders, port) != on_wire_->senders.end()) {
+    on_wire_->destroyed = true;
+  }
+  leave(ports_.at(port), now);
 }
 
 Medium::PortId Medium::attach(Listener& listener, std::size_t capacity, Time now) {
@@ -40,7 +54,7 @@ Medium::PortId Medium::attach(Listener& listener, std::size_t capacity, Time now
     idle_from_ = std::max(idle_from_, now);
   }
   const PortId id = next_id_++;
-  ports_.emplace(id, Port{&listener, capacity, {}, 0, {}});
+  ports_.emplace(id, Port{&listener, capacity, {}, 0, {}, false});
   return id;
 }
 
@@ -62,7 +76,7 @@ bool Medium::send(PortId port, const can::Frame& frame, Time now) {
 }
 
 Time Medium::next_start() const {
-  if (ports_.size() < 2) {
+  if (std::ranges::count(ports_, false, [](const auto& entry) { return entry.second.cut; }) < 2) {
     return never; // nobody would acknowledge
   }
   Time first = never;
@@ -153,11 +167,15 @@ void Medium::punish(PortId port, Time at) {
   if (guilty.error_count <= error_limit) {
     return;
   }
-  guilty.error_count = 0;
-  guilty.queue.clear();
-  guilty.off_until = at + off_time;
-  if (guilty.listener != nullptr) {
-    guilty.listener->bus_off(at);
+  leave(guilty, at);
+}
+
+void Medium::leave(Port& port, Time at) {
+  port.error_count = 0;
+  port.queue.clear();
+  port.off_until = at + off_time;
+  if (port.listener != nullptr) {
+    port.listener->bus_off(at);
   }
 }
 
@@ -189,7 +207,7 @@ void Medium::release(const std::vector<PortId>& senders) {
 void Medium::deliver(const Transmission& transmission, bool repeated) {
   const can::Frame received = disturbance_.received(transmission.frame);
   for (auto& [id, port] : ports_) {
-    if (port.listener == nullptr) {
+    if (port.listener == nullptr || port.cut) {
       continue;
     }
     if (std::ranges::find(transmission.senders, id) == transmission.senders.end()) {

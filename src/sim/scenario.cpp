@@ -6,6 +6,7 @@
 #include "sim/scenario_values.hpp"
 #include "sim/servo_reader.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <limits>
 
@@ -34,6 +35,8 @@ class Reader {
  private:
   ForeignSetup foreign(const json::Value& value);
   WireFaults wire(json::Object object);
+  TimedEvent event(const json::Value& value, const std::vector<ServoSetup>& servos);
+  std::vector<WorldChange> world(json::Object object);
   CommanderSetup commander(json::Object& object);
 
   const bla::Profiles& profiles_;
@@ -54,6 +57,9 @@ Scenario Reader::scenario(json::Object root) {
     scenario.foreign.push_back(foreign(*item));
   }
   scenario.wire = wire(root.optional_object("wire"));
+  for (const json::Value* item : root.optional_array("events")) {
+    scenario.events.push_back(event(*item, scenario.servos));
+  }
   root.finish();
   return scenario;
 }
@@ -72,6 +78,48 @@ WireFaults Reader::wire(json::Object object) {
   wire.burst_length = read_duration(object, "burst_length", {}, longest, faults_);
   object.finish();
   return wire;
+}
+
+TimedEvent Reader::event(const json::Value& value, const std::vector<ServoSetup>& servos) {
+  constexpr std::chrono::seconds longest(1'000'000);
+  TimedEvent event;
+  json::Object object(value, faults_);
+  event.at = read_duration(object, "at", {}, longest, faults_);
+  if (const auto serial = object.optional_integer("servo", 1)) {
+    event.serial_number = *serial;
+    if (std::ranges::find(servos, *serial, &ServoSetup::serial_number) == servos.end()) {
+      faults_.add(*object.optional_any("servo"), say<texts::scenario_no_such_serial>(*serial));
+    }
+    event.changes = world(object.object("world"));
+  } else if (const auto link = object.optional_word("clients", {"joined", "cut", "bus_off"})) {
+    event.clients = *link == "cut"       ? ClientLink::cut
+                    : *link == "bus_off" ? ClientLink::bus_off
+                                         : ClientLink::joined;
+  } else if (object.exists() && !object.has("servo") && !object.has("clients")) {
+    faults_.add(value, say<texts::scenario_event_object>());
+  }
+  object.finish();
+  return event;
+}
+
+std::vector<WorldChange> Reader::world(json::Object object) {
+  std::vector<WorldChange> changes;
+  if (!object.exists()) {
+    return changes;
+  }
+  for (const json::Value* member : object.members()) {
+    const auto text = typed_text(*member, faults_);
+    if (!text) {
+      continue;
+    }
+    if (auto change = parse_world_change(member->key, *text)) {
+      changes.push_back(*std::move(change));
+    } else {
+      const std::string& hint = change.error().hint;
+      faults_.add(*member, change.error().message + (hint.empty() ? "" : ": " + hint));
+    }
+  }
+  return changes;
 }
 
 ForeignSetup Reader::foreign(const json::Value& value) {

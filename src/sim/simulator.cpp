@@ -37,45 +37,55 @@ Devices make_devices(const Scenario& scenario, Time power_on, const EventSink& s
   return devices;
 }
 
-/// A device and its place on the bus.
+bool Devices::change(std::int64_t serial_number, std::span<const WorldChange> changes,
+                     Time now) const {
+  bool found = false;
+  for (Servo* servo : servos) {
+    if (servo->serial_number() == serial_number) {
+      World world = servo->world();
+      for (const WorldChange& change : changes) {
+        change(world);
+      }
+      servo->surround(world, now);
+      found = true;
+    }
+  }
+  return found;
+}
+
+/// A device's place on the bus.
 class Simulator::Station final : public Medium::Listener {
  public:
-  Station(std::unique_ptr<Device> device, Medium& medium, const Time& now)
-      : device_(std::move(device)) {
+  Station(Device& device, Medium& medium, const Time& now) : device_(device) {
     const Medium::PortId port = medium.attach(*this, device_queue, now);
-    device_->connect(
+    device_.connect(
         [&medium, &now, port](const can::Frame& frame) { medium.send(port, frame, now); });
   }
 
-  void heard(const can::Frame& frame, Time at) override { device_->receive(frame, at); }
+  void heard(const can::Frame& frame, Time at) override { device_.receive(frame, at); }
 
   void sent(const can::Frame&, Time) override {}
 
   void bus_off(Time) override {}
 
-  [[nodiscard]] Device& device() { return *device_; }
-
-  [[nodiscard]] const Device& device() const { return *device_; }
-
  private:
-  std::unique_ptr<Device> device_;
+  Device& device_;
 };
 
 Simulator::Simulator(const Scenario& scenario, Time power_on, const EventSink& sink)
-    : now_(power_on), medium_(scenario.wire, seed_of(scenario.seed, seed_of_the_wire)) {
-  Devices devices = make_devices(scenario, power_on, sink);
-  servos_ = std::move(devices.servos);
-  for (auto& device : devices.all) {
-    stations_.push_back(std::make_unique<Station>(std::move(device), medium_, now_));
+    : now_(power_on), medium_(scenario.wire, seed_of(scenario.seed, seed_of_the_wire)),
+      devices_(make_devices(scenario, power_on, sink)), timeline_(scenario.events, power_on) {
+  for (const auto& device : devices_.all) {
+    stations_.push_back(std::make_unique<Station>(*device, medium_, now_));
   }
 }
 
 Simulator::~Simulator() = default;
 
 Time Simulator::next_event() const {
-  Time next = medium_.next_event();
-  for (const auto& station : stations_) {
-    next = std::min(next, station->device().next_deadline());
+  Time next = std::min(medium_.next_event(), timeline_.next());
+  for (const auto& device : devices_.all) {
+    next = std::min(next, device->next_deadline());
   }
   return next == never ? never : std::max(next, now_);
 }
@@ -85,9 +95,12 @@ Time Simulator::next_event() const {
 void Simulator::advance_to(Time time) {
   for (Time at = next_event(); at <= time && at != never; at = next_event()) {
     now_ = at;
-    for (const auto& station : stations_) {
-      if (station->device().next_deadline() <= now_) {
-        station->device().advance(now_);
+    while (const TimedEvent* event = timeline_.take(now_)) {
+      happen(*event);
+    }
+    for (const auto& device : devices_.all) {
+      if (device->next_deadline() <= now_) {
+        device->advance(now_);
       }
     }
     medium_.advance(now_);
@@ -95,11 +108,34 @@ void Simulator::advance_to(Time time) {
   now_ = std::max(now_, time);
 }
 
+void Simulator::happen(const TimedEvent& event) {
+  if (event.serial_number == 0) {
+    link_clients(event.clients);
+  } else {
+    change(event.serial_number, event.changes);
+  }
+}
+
+void Simulator::link_clients(ClientLink link) {
+  for (const Medium::PortId client : clients_) {
+    if (link == ClientLink::bus_off) {
+      medium_.bus_off(client, now_);
+    } else {
+      medium_.cut(client, link == ClientLink::cut, now_);
+    }
+  }
+  link_ = link == ClientLink::bus_off ? link_ : link;
+}
+
 Medium::PortId Simulator::attach(Medium::Listener& listener, std::size_t capacity) {
-  return medium_.attach(listener, capacity, now_);
+  const Medium::PortId port = medium_.attach(listener, capacity, now_);
+  clients_.insert(port);
+  medium_.cut(port, link_ == ClientLink::cut, now_);
+  return port;
 }
 
 void Simulator::detach(Medium::PortId port) {
+  clients_.erase(port);
   medium_.detach(port);
 }
 

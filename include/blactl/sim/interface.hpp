@@ -5,6 +5,8 @@
 #include "blactl/sim/device.hpp"
 #include "blactl/sim/event.hpp"
 #include "blactl/sim/scenario.hpp"
+#include "blactl/sim/simulator.hpp"
+#include "blactl/sim/timeline.hpp"
 
 #include <cstddef>
 #include <deque>
@@ -14,7 +16,8 @@
 namespace blactl::sim {
 
 /// All devices share the one node that this process is on the bus. What one of them sends the
-/// others hear when it has left; nothing is heard twice.
+/// others hear when it has left; nothing is heard twice. The wire and the clients are real: what a
+/// scenario says of their faults is not for here.
 ///
 ///   for (;;) { interface.handle(loop.next(interface.next_deadline())); }
 class Interface {
@@ -28,6 +31,8 @@ class Interface {
   /// Passes a frame on, and lets the devices do what is due.
   void handle(const can::Event& event);
 
+  [[nodiscard]] const Devices& devices() const { return devices_; }
+
  private:
   struct Outgoing {
     can::Frame frame;
@@ -38,7 +43,8 @@ class Interface {
   void heard(const can::Frame& frame, Time at, std::size_t sender);
 
   can::Loop& loop_;
-  std::vector<std::unique_ptr<Device>> devices_;
+  Devices devices_;
+  Timeline timeline_;
   std::deque<Outgoing> outgoing_; ///< not echoed yet
 };
 

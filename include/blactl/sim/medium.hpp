@@ -57,6 +57,12 @@ class Medium {
   /// The listener hears nothing more; what its queue holds is sent all the same, as a kernel does.
   void detach(PortId port);
 
+  /// A node whose cable is cut hears nothing; what it sends waits, for nobody acknowledges it.
+  void cut(PortId port, bool is_cut, Time now);
+
+  /// The node's controller leaves the bus as after too many errors.
+  void bus_off(PortId port, Time now);
+
   /// Queues a frame; false: the queue is full.
   bool send(PortId port, const can::Frame& frame, Time now);
 
@@ -81,6 +87,7 @@ class Medium {
     std::deque<Waiting> queue;
     unsigned error_count = 0; ///< ISO 11898-1 transmit error counter
     Time off_until{};
+    bool cut = false;
 
     [[nodiscard]] Time ready() const;
   };
@@ -97,6 +104,7 @@ class Medium {
   void begin(const can::Frame& frame, std::vector<PortId> senders,
              const std::vector<PortId>& rivals, Time at);
   void punish(PortId port, Time at);
+  static void leave(Port& port, Time at);
   void finish();
   void release(const std::vector<PortId>& senders);
   void deliver(const Transmission& transmission, bool repeated);

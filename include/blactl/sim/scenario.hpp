@@ -38,6 +38,10 @@
 //         "commands": {"servo_ids": [1, 2], "type": 1, "value": 0.45, "rate": 50},
 //         "armed": false                   sends ArmingStatus
 //       }
+//     ],
+//     "events": [                            at times after power-on
+//       {"at": "2s", "servo": 240900558, "world": {"voltage": "5V", "hand": "45deg"}},
+//       {"at": "3s", "clients": "cut"}       joined, cut or bus_off
 //     ]
 //   }
 //
@@ -45,7 +49,8 @@
 // then; what "ram" says of 0x0B, 0x0C and 0x19-0x1B is no memory of the servo but the world around
 // it (World), and stays, as 0x50 up does; of 0x08 and 0x09 how the shaft stands and turns at
 // power-on. "behaviour" has the members of Behaviour, "faults" those of ServoFaults, "sending"
-// those of SendingFaults, "wire" those of WireFaults.
+// those of SendingFaults, "wire" those of WireFaults; an event names its servo by the serial
+// number, and "world" has the keys of parse_world_change().
 
 #include "blactl/base/error.hpp"
 #include "blactl/base/time.hpp"
@@ -53,6 +58,7 @@
 #include "blactl/bla/profile.hpp"
 #include "blactl/dronecan/ids.hpp"
 #include "blactl/sim/delayed_device.hpp"
+#include "blactl/sim/timeline.hpp"
 #include "blactl/sim/wire_faults.hpp"
 
 #include <chrono>
@@ -162,6 +168,7 @@ struct Scenario {
   std::vector<ServoSetup> servos;
   std::vector<ForeignSetup> foreign;
   WireFaults wire;
+  std::vector<TimedEvent> events;
 };
 
 /// Both refer to `profiles`, which must outlive the scenario.

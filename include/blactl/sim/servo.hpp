@@ -61,6 +61,8 @@ class Servo final : public Device {
 
   [[nodiscard]] const dronecan::UniqueId& unique_id() const { return setup_.unique_id; }
 
+  [[nodiscard]] std::int64_t serial_number() const { return setup_.serial_number; }
+
   /// How often ROM was written since power-on, those included that failed by a fault.
   [[nodiscard]] std::uint32_t rom_writes() const { return rom_writes_; }
 

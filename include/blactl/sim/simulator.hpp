@@ -6,9 +6,12 @@
 #include "blactl/sim/medium.hpp"
 #include "blactl/sim/scenario.hpp"
 #include "blactl/sim/servo.hpp"
+#include "blactl/sim/timeline.hpp"
 
 #include <chrono>
 #include <memory>
+#include <set>
+#include <span>
 #include <vector>
 
 namespace blactl::sim {
@@ -18,7 +21,10 @@ inline constexpr WallTime virtual_epoch{std::chrono::sys_days(std::chrono::year(
 
 struct Devices {
   std::vector<std::unique_ptr<Device>> all;
-  std::vector<const Servo*> servos; ///< those of them that are, in the order of the scenario
+  std::vector<Servo*> servos; ///< those of them that are, in the order of the scenario
+
+  /// What surrounds the servos of this serial number changes. False: there is none.
+  bool change(std::int64_t serial_number, std::span<const WorldChange> changes, Time now) const;
 };
 
 /// The devices of a scenario, just powered on; each is yet to be connected.
@@ -47,18 +53,31 @@ class Simulator {
   void detach(Medium::PortId port);
   bool send(Medium::PortId port, const can::Frame& frame);
 
+  /// All clients, those to come too.
+  void link_clients(ClientLink link);
+
+  /// See Devices.
+  bool change(std::int64_t serial_number, std::span<const WorldChange> changes) {
+    return devices_.change(serial_number, changes, now_);
+  }
+
   [[nodiscard]] const Medium& medium() const { return medium_; }
 
-  /// In the order of the scenario: what they hold, for tests.
-  [[nodiscard]] const std::vector<const Servo*>& servos() const { return servos_; }
+  /// In the order of the scenario.
+  [[nodiscard]] const std::vector<Servo*>& servos() const { return devices_.servos; }
 
  private:
   class Station;
 
+  void happen(const TimedEvent& event);
+
   Time now_;
   Medium medium_;
-  std::vector<std::unique_ptr<Station>> stations_;
-  std::vector<const Servo*> servos_;
+  Devices devices_;
+  std::vector<std::unique_ptr<Station>> stations_; ///< of each of those devices
+  std::set<Medium::PortId> clients_;
+  ClientLink link_ = ClientLink::joined;
+  Timeline timeline_;
 };
 
 } // namespace blactl::sim

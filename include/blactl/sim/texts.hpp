@@ -27,6 +27,15 @@ inline constexpr Text scenario_not_in_rom{"{} is not kept in ROM", "{} は ROM �
 inline constexpr Text scenario_servo_ids{"an ArrayCommand has 1 to 15 servo IDs",
                                          "ArrayCommand のサーボ ID は 1～15 個です"};
 
+inline constexpr Text scenario_no_such_serial{"no servo of this scenario has the serial number {}",
+                                              "製造番号 {} のサーボはこのシナリオにありません"};
+inline constexpr Text scenario_event_object{"an event has a \"servo\" or \"clients\"",
+                                            "イベントには \"servo\" か \"clients\" が必要です"};
+inline constexpr Text world_key{"nothing around a servo is called \"{}\"",
+                                "サーボの周囲に \"{}\" という項目はありません"};
+inline constexpr Text world_word{"{} cannot be \"{}\"", "{} に \"{}\" は設定できません"};
+inline constexpr Text world_words{"there are {}", "指定できるのは {} です"};
+
 inline constexpr Text sim_folder{"{} cannot hold the simulator's socket: {}",
                                  "{} にシミュレータのソケットを置けません: {}"};
 inline constexpr Text sim_folder_foreign{"it is not a folder of this user alone",

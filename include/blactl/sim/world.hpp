@@ -15,20 +15,21 @@ enum class Magnet : std::uint8_t { fine, weak, strong, unreadable };
 struct World {
   static constexpr std::int64_t room_celsius = 25;
 
+  bool plugged = true;                        ///< false: its plug is pulled, supply and CAN
   std::int64_t supply_decivolt = 0;           ///< 0x0C; up to 30 is too little to run (4.8)
   std::int64_t board_celsius = room_celsius;  ///< 0x0B
   std::int64_t load_percent = 0;              ///< of the greatest torque; positive pushes CW
   std::optional<std::int64_t> hand_decideg{}; ///< a hand turns the shaft there and holds it: 0.1
                                               ///< deg CW of the horn notch, the nearest way round
-  bool stuck = false;                     ///< the shaft does not turn, whatever pushes
-  std::optional<std::int64_t> pulse_us{}; ///< width at the PWM input; empty: no signal
+  bool stuck = false;                         ///< the shaft does not turn, whatever pushes
+  std::optional<std::int64_t> pulse_us{};     ///< width at the PWM input; empty: no signal
   Magnet magnet = Magnet::fine;
   bool driver_stopped = false;    ///< 0x1B bit 0
   bool rotation_abnormal = false; ///< 0x1B bit 1
   /// Bits of 0x19, 0x1A and 0x1B that are set whatever else is true.
   std::int64_t notices = 0, warnings = 0, failures = 0;
 
-  [[nodiscard]] bool powers() const { return supply_decivolt > 30; }
+  [[nodiscard]] bool powers() const { return plugged && supply_decivolt > 30; }
 
   friend bool operator==(const World&, const World&) = default;
 };

@@ -273,6 +273,58 @@ TEST_CASE("faulty foreign nodes are told what is wrong with them") {
             "/foreign/0/commands/rate"));
 }
 
+TEST_CASE("faulty events are told what is wrong with them") {
+  const auto faults = [](std::string_view event) {
+    const auto parsed =
+        parse_scenario(fmt::format(R"({{"schema": "blactl-scenario/1", "events": [{}],
+                                        "servos": [{{"model": "BLA21-12U-AB"}}]}})",
+                                   event),
+                       "test.json", testing::profiles());
+    REQUIRE_FALSE(parsed);
+    return parsed.error().message;
+  };
+  CHECK(has(faults(R"({"at": "1s"})"), "/events/0: an event has"));
+  CHECK(has(faults(R"({"at": "1s", "servo": 1, "world": {}})"), "/events/0/servo: no servo"));
+  CHECK(has(faults(R"({"at": "1s", "clients": "gone"})"), "/events/0/clients"));
+  const auto world = [&](std::string_view members) {
+    return faults(fmt::format(R"({{"servo": 240900001, "world": {{{}}}}})", members));
+  };
+  CHECK(has(world(R"("voltage": "5")"), "/events/0/world/voltage"));
+  CHECK(has(world(R"("voltage": "60.1V")"), "60.0V"));
+  CHECK(has(world(R"("voltages": "5V")"), "there are voltage, temperature, load, hand, pulse"));
+  CHECK(has(world(R"("magnet": "off")"), "there are fine, weak, strong, unreadable"));
+  CHECK(has(world(R"("stuck": true)"), "/events/0/world/stuck"));
+}
+
+TEST_CASE("events change one thing of the world each") {
+  const Scenario with_events = scenario(R"("servos": [{"model": "BLA21-12U-AB"}], "events": [
+    {"at": "1.5s", "servo": 240900001, "world": {"voltage": "5.5V", "temperature": "95degC",
+     "load": "-30%", "hand": "45.0deg", "pulse": "1520us", "magnet": "weak", "stuck": "on",
+     "driver_stopped": "on", "rotation_abnormal": "on", "plugged": "off"}},
+    {"at": "3s", "servo": 240900001, "world": {"hand": "free", "pulse": "none"}}])");
+  REQUIRE(with_events.events.size() == 2);
+  CHECK(with_events.events[0].at == std::chrono::milliseconds(1500));
+  World world;
+  for (const WorldChange& change : with_events.events[0].changes) {
+    change(world);
+  }
+  World expected;
+  expected.supply_decivolt = 55;
+  expected.board_celsius = 95;
+  expected.load_percent = -30;
+  expected.hand_decideg = 450;
+  expected.pulse_us = 1520;
+  expected.magnet = Magnet::weak;
+  expected.stuck = expected.driver_stopped = expected.rotation_abnormal = true;
+  expected.plugged = false;
+  CHECK(world == expected);
+  for (const WorldChange& change : with_events.events[1].changes) {
+    change(world);
+  }
+  CHECK_FALSE(world.hand_decideg);
+  CHECK_FALSE(world.pulse_us);
+}
+
 TEST_CASE("what is no scenario at all is said to be none") {
   CHECK(has(faults("["), "line.json:1"));
   CHECK(has(faults("[]"), "line.json:1"));

@@ -250,3 +250,68 @@ TEST_CASE("without serves_get_set a foreign node leaves GetSet unanswered") {
   CHECK(std::ranges::none_of(log.frames,
                              [](const can::Frame& frame) { return frame.id == 0x1E0B7F9E; }));
 }
+
+TEST_CASE("what surrounds a servo changes when the scenario says so") {
+  Simulator simulator(scenario(R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11}],
+      "events": [{"at": "2s", "servo": 240900001, "world": {"plugged": "on", "voltage": "9.5V"}},
+                 {"at": "1s", "servo": 240900001, "world": {"plugged": "off"}}])"),
+                      Time{});
+  Log log;
+  (void)simulator.attach(log, 10);
+  simulator.advance_to(Time{} + 1s);
+  CHECK(log.frames.size() > 10);
+  log.frames.clear();
+  simulator.advance_to(Time{} + 2s);
+  CHECK(log.frames.size() <= 2); // of the last broadcast before
+  simulator.advance_to(Time{} + 3s);
+  CHECK(log.frames.size() > 10);
+  const Servo& servo = *simulator.servos().front();
+  CHECK(servo.world().plugged);
+  CHECK(servo.world().supply_decivolt == 95);
+}
+
+TEST_CASE("a client whose cable is cut hears nothing, and its frames wait") {
+  Simulator simulator(scenario(R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11},
+                                             {"model": "BLA15-06U-A0", "node_id": 12}],
+      "events": [{"at": "1s", "clients": "cut"}, {"at": "3s", "clients": "joined"}])"),
+                      Time{});
+  Log log;
+  const auto port = simulator.attach(log, 10);
+  simulator.advance_to(Time{} + 1001ms);
+  log.lines.clear();
+  simulator.send(port, testing::frame("1E018BFF#C0"));
+  simulator.advance_to(Time{} + 2999ms);
+  CHECK(log.lines.empty());
+  simulator.advance_to(Time{} + 3100ms);
+  CHECK(std::ranges::any_of(log.lines, [](const std::string& line) {
+    return line.find("sent 1E018BFF#C0") != std::string::npos;
+  }));
+}
+
+TEST_CASE("a client's bus-off loses what it wanted to send") {
+  struct Ear final : Medium::Listener {
+    void heard(const can::Frame&, Time) override {}
+
+    void sent(const can::Frame&, Time) override { ++count; }
+
+    void bus_off(Time) override { off = true; }
+
+    int count = 0;
+    bool off = false;
+  } ear;
+
+  Simulator simulator(scenario(R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11}],
+      "events": [{"at": "1000040us", "clients": "bus_off"}])"),
+                      Time{});
+  const auto port = simulator.attach(ear, 10);
+  simulator.advance_to(Time{} + 1s);
+  for (int i = 0; i < 5; ++i) {
+    simulator.send(port, testing::frame("1E018BFF#C0")); // the first is on its way by then
+  }
+  simulator.advance_to(Time{} + 2s);
+  CHECK(ear.off);
+  CHECK(ear.count == 0);
+  simulator.send(port, testing::frame("1E018BFF#C1"));
+  simulator.advance_to(Time{} + 3s);
+  CHECK(ear.count == 1);
+}

@@ -1,0 +1,21 @@
+#include "blactl/sim/timeline.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace blactl::sim {
+
+Timeline::Timeline(std::vector<TimedEvent> events, Time power_on)
+    : events_(std::move(events)), power_on_(power_on) {
+  std::ranges::stable_sort(events_, {}, &TimedEvent::at);
+}
+
+Time Timeline::next() const {
+  return taken_ < events_.size() ? power_on_ + events_[taken_].at : never;
+}
+
+const TimedEvent* Timeline::take(Time now) {
+  return next() <= now ? &events_[taken_++] : nullptr;
+}
+
+} // namespace blactl::sim
