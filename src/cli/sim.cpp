@@ -6,7 +6,9 @@
 
 #include "bus_factory.hpp"
 #include "commands.hpp"
+#include "line_input.hpp"
 #include "sim_events.hpp"
+#include "sim_orders.hpp"
 #include "texts.hpp"
 
 #include <signal.h>
@@ -16,6 +18,10 @@
 
 namespace blactl::cli {
 namespace {
+
+template <class... Cases> struct Overloaded : Cases... {
+  using Cases::operator()...;
+};
 
 Result<sim::Scenario> read_scenario(const SimOptions& options, const bla::Profiles& profiles) {
   auto scenario = options.scenario.empty() ? sim::default_scenario(profiles)
@@ -52,6 +58,36 @@ bool ends(const can::Event& event, const SimEvents& events, Report& report) {
   return false;
 }
 
+/// Tells about an order that cannot be carried out; the simulation goes on.
+void refuse(const Error& error, const Context& context) {
+  context.reporter().error(error);
+}
+
+void no_such_serial(std::int64_t serial_number, const Context& context) {
+  refuse({Code::usage, say<texts::sim_no_such_serial>(serial_number), "", std::nullopt}, context);
+}
+
+void dump(const std::vector<sim::Servo*>& servos, Time now, SimEvents& events) {
+  for (sim::Servo* servo : servos) {
+    servo->look(now);
+    events.print(*servo, now);
+  }
+  events.print_end(servos.size());
+}
+
+/// Carries out what comes in on stdin.
+template <class Perform>
+void obey(LineInput& input, const can::Event& event, const Context& context, Perform perform) {
+  input.handle(event);
+  while (const auto line = input.next()) {
+    if (const auto order = parse_sim_order(*line)) {
+      std::visit(perform, *order);
+    } else {
+      refuse(order.error(), context);
+    }
+  }
+}
+
 /// Serves the simulated bus on a socket until a signal comes.
 void serve(const std::string& socket, const sim::Scenario& scenario, const Context& context,
            Report& report) {
@@ -63,22 +99,41 @@ void serve(const std::string& socket, const sim::Scenario& scenario, const Conte
     return report.fail(server.error());
   }
   loop.watch((*server)->descriptor());
+  LineInput input(loop);
   context.reporter().note(say<texts::sim_serves>(printable(socket), scenario.servos.size()));
   if (auto said = say_ready(context); !said) {
     return report.fail(said.error());
   }
-  while (!ends(loop.next((*server)->next_deadline(loop.now())), events, report)) {
+  sim::Simulator& simulator = (*server)->simulator();
+  const Overloaded perform{
+      [&](const ChangeWorld& order) {
+        if (!simulator.change(order.serial_number, order.changes)) {
+          no_such_serial(order.serial_number, context);
+        }
+      },
+      [&](const LinkClients& order) { simulator.link_clients(order.link); },
+      [&](const HoldClock& order) { (*server)->hold(order.clients); },
+      [&](const DumpState&) { dump(simulator.servos(), simulator.now(), events); },
+  };
+  for (;;) {
+    const can::Event event = loop.next((*server)->next_deadline(loop.now()));
+    if (ends(event, events, report)) {
+      break;
+    }
     (*server)->service();
+    obey(input, event, context, perform);
   }
   events.tell_losses(report);
+}
+
+bool is_for_clients(const sim::TimedEvent& event) {
+  return event.serial_number == 0;
 }
 
 /// Puts the servos on a real interface until a signal comes or the interface goes.
 void join(const std::string& name, const sim::Scenario& scenario, const bla::Profiles& profiles,
           const Context& context, Report& report) {
-  const bool links = std::ranges::any_of(
-      scenario.events, [](const sim::TimedEvent& event) { return event.serial_number == 0; });
-  if (links || scenario.wire != sim::WireFaults{}) {
+  if (std::ranges::any_of(scenario.events, is_for_clients) || scenario.wire != sim::WireFaults{}) {
     return report.fail({Code::usage, say<texts::wire_is_real>(printable(name)),
                         say<texts::wire_is_real_hint>(), std::nullopt});
   }
@@ -90,17 +145,32 @@ void join(const std::string& name, const sim::Scenario& scenario, const bla::Pro
   SimEvents events(context.reporter(), loop, sim::Clock::real);
   sim::Interface interface(loop, scenario,
                            [&events](const sim::ServoEvent& event) { events.print(event); });
+  LineInput input(loop);
   report.interface = loop.bus().name();
   context.reporter().note(say<texts::sim_serves>(name, scenario.servos.size()));
   if (auto said = say_ready(context); !said) {
     return report.fail(said.error());
   }
+  const auto impossible = [&](std::string_view what) {
+    refuse({Code::usage, say<texts::sim_order_impossible>(what), "", std::nullopt}, context);
+  };
+  const Overloaded perform{
+      [&](const ChangeWorld& order) {
+        if (!interface.devices().change(order.serial_number, order.changes, loop.now())) {
+          no_such_serial(order.serial_number, context);
+        }
+      },
+      [&](const LinkClients&) { impossible("clients"); },
+      [&](const HoldClock&) { impossible("hold"); },
+      [&](const DumpState&) { dump(interface.devices().servos, loop.now(), events); },
+  };
   for (;;) {
     const can::Event event = loop.next(interface.next_deadline());
     if (ends(event, events, report)) {
       break;
     }
     interface.handle(event);
+    obey(input, event, context, perform);
   }
   events.tell_losses(report);
 }

@@ -8,6 +8,9 @@
 
 #include <fmt/core.h>
 
+#include <cstdint>
+#include <vector>
+
 namespace blactl::cli {
 namespace {
 
@@ -17,6 +20,35 @@ std::string seconds(Duration duration) {
   return fmt::format("{}.{:06}", duration.count() / per_second, duration.count() % per_second);
 }
 
+/// The readable registers of a servo, in ascending order.
+std::vector<const bla::Parameter*> readable(const sim::Registers& registers) {
+  constexpr unsigned end = 0x60;
+  std::vector<const bla::Parameter*> found;
+  for (unsigned i = 0; i < end; ++i) {
+    const auto* parameter = registers.existing(bla::Address(static_cast<std::uint8_t>(i)));
+    if (parameter != nullptr && parameter->readable()) {
+      found.push_back(parameter);
+    }
+  }
+  return found;
+}
+
+/// For people: what a restart would change.
+std::string memory_text(const sim::Servo& servo) {
+  const sim::Registers& registers = servo.registers();
+  std::string unsaved;
+  for (const bla::Parameter* parameter : readable(registers)) {
+    const auto ram = registers.value(parameter->address);
+    const auto rom = registers.rom_value(parameter->address);
+    if (parameter->saved && ram != rom) {
+      unsaved += say<texts::sim_unsaved>(parameter->name, ram, rom);
+    }
+  }
+  return say<texts::sim_memory>(servo.serial_number(), servo.node_id().value(),
+                                servo.rom_writes()) +
+         (unsaved.empty() ? say<texts::sim_all_saved>() : unsaved) + '\n';
+}
+
 } // namespace
 
 SimEvents::SimEvents(const Reporter& reporter, const can::Loop& loop, sim::Clock clock)
@@ -24,8 +56,21 @@ SimEvents::SimEvents(const Reporter& reporter, const can::Loop& loop, sim::Clock
       wall_power_on_(clock == sim::Clock::simulated ? sim::virtual_epoch : loop.wall()) {}
 
 void SimEvents::print(const sim::ServoEvent& event) {
-  const auto printed =
-      reporter_.offer(reporter_.format() == Format::json ? json(event) : text(event));
+  offer(reporter_.format() == Format::json ? json(event) : text(event));
+}
+
+void SimEvents::print(const sim::Servo& servo, Time at) {
+  offer(reporter_.format() == Format::json ? json(servo, at) : memory_text(servo));
+}
+
+void SimEvents::print_end(std::size_t servos) {
+  if (reporter_.format() == Format::json) {
+    offer(fmt::format("{{\"event\":\"dumped\",\"count\":{}}}\n", servos));
+  }
+}
+
+void SimEvents::offer(const std::string& line) {
+  const auto printed = reporter_.offer(line);
   if (!printed) {
     error_ = printed.error();
   } else if (!*printed) {
@@ -51,6 +96,37 @@ std::string SimEvents::json(const sim::ServoEvent& event) const {
   json.member("serial_number", event.serial_number);
   json.member("node_id", event.node_id.value());
   json.member("count", event.rom_writes);
+  json.end_object();
+  out += '\n';
+  return out;
+}
+
+std::string SimEvents::json(const sim::Servo& servo, Time at) const {
+  const sim::Registers& registers = servo.registers();
+  std::string out;
+  JsonWriter json(out);
+  json.begin_object();
+  json.key("time");
+  json.number(seconds((wall_power_on_ + (at - power_on_)).time_since_epoch()));
+  json.member("event", "state");
+  json.member("unique_id", hex(servo.unique_id()));
+  json.member("serial_number", servo.serial_number());
+  json.member("node_id", servo.node_id().value());
+  json.member("count", servo.rom_writes());
+  json.key("ram");
+  json.begin_object();
+  for (const bla::Parameter* parameter : readable(registers)) {
+    json.member(parameter->address.name(), registers.value(parameter->address));
+  }
+  json.end_object();
+  json.key("rom");
+  json.begin_object();
+  for (const bla::Parameter* parameter : readable(registers)) {
+    if (parameter->saved) {
+      json.member(parameter->address.name(), registers.rom_value(parameter->address));
+    }
+  }
+  json.end_object();
   json.end_object();
   out += '\n';
   return out;

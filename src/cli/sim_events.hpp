@@ -4,10 +4,12 @@
 #include "blactl/can/loop.hpp"
 #include "blactl/sim/event.hpp"
 #include "blactl/sim/scenario.hpp"
+#include "blactl/sim/servo.hpp"
 
 #include "report.hpp"
 #include "reporter.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -26,6 +28,12 @@ class SimEvents {
 
   void print(const sim::ServoEvent& event);
 
+  /// What the servo's memories hold.
+  void print(const sim::Servo& servo, Time at);
+
+  /// As the last line of a dump: how many servos there are.
+  void print_end(std::size_t servos);
+
   /// stdout that cannot be written, though somebody may still read it.
   [[nodiscard]] const std::optional<Error>& error() const { return error_; }
 
@@ -33,8 +41,10 @@ class SimEvents {
   void tell_losses(Report& report) const;
 
  private:
+  void offer(const std::string& line);
   [[nodiscard]] std::string json(const sim::ServoEvent& event) const;
   [[nodiscard]] std::string text(const sim::ServoEvent& event) const;
+  [[nodiscard]] std::string json(const sim::Servo& servo, Time at) const;
 
   const Reporter& reporter_;
   Time power_on_;

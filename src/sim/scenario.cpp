@@ -92,9 +92,7 @@ TimedEvent Reader::event(const json::Value& value, const std::vector<ServoSetup>
     }
     event.changes = world(object.object("world"));
   } else if (const auto link = object.optional_word("clients", {"joined", "cut", "bus_off"})) {
-    event.clients = *link == "cut"       ? ClientLink::cut
-                    : *link == "bus_off" ? ClientLink::bus_off
-                                         : ClientLink::joined;
+    event.clients = parse_client_link(*link).value_or(ClientLink::joined);
   } else if (object.exists() && !object.has("servo") && !object.has("clients")) {
     faults_.add(value, say<texts::scenario_event_object>());
   }

@@ -58,7 +58,8 @@ struct Server::State {
   Simulator simulator;
   std::vector<std::unique_ptr<ServerClient>> clients;
   int epoll;
-  bool more = false; ///< virtual clock: time could pass further at once
+  std::size_t held_for = 0; ///< virtual clock: clients without which no time passes
+  bool more = false;        ///< virtual clock: time could pass further at once
 };
 
 bool Server::State::watch(int descriptor) const {
@@ -102,7 +103,7 @@ void Server::State::pass_time() {
 /// The next thing that happens on the virtual clock; false: somebody works, or nobody is there.
 bool Server::State::step() {
   Time first = simulator.next_event();
-  bool anybody = false;
+  std::size_t attached = 0;
   for (const auto& client : clients) {
     if (!client->attached() || client->gone()) {
       continue;
@@ -111,12 +112,13 @@ bool Server::State::step() {
     if (!deadline) {
       return false;
     }
-    anybody = true;
+    ++attached;
     first = std::min(first, *deadline);
   }
-  if (!anybody || first == never) {
+  if (attached == 0 || attached < held_for || first == never) {
     return false;
   }
+  held_for = 0;
   simulator.advance_to(std::max(first, simulator.now()));
   for (const auto& client : clients) {
     const auto deadline = client->attached() ? client->waits_until() : std::nullopt;
@@ -174,7 +176,11 @@ Time Server::next_deadline(Time now) const {
   return state_->more ? now : never;
 }
 
-const Simulator& Server::simulator() const {
+void Server::hold(std::size_t clients) {
+  state_->held_for = clients;
+}
+
+Simulator& Server::simulator() {
   return state_->simulator;
 }
 

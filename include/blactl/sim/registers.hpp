@@ -16,6 +16,9 @@ class Registers {
   /// As at power-on: ROM from the factory and the setup, RAM from ROM and the setup.
   explicit Registers(const ServoSetup& setup);
 
+  /// The register at this address; null if this model with this firmware has none.
+  [[nodiscard]] const bla::Parameter* existing(bla::Address address) const;
+
   /// What the servo answers to a read; empty: a failure.
   [[nodiscard]] std::optional<std::int64_t> read(bla::Address address) const;
 
@@ -51,7 +54,6 @@ class Registers {
   void restart();
 
  private:
-  [[nodiscard]] const bla::Parameter* existing(bla::Address address) const;
   [[nodiscard]] bool disabled_command(bla::Address address) const;
   void power_on(const ServoSetup& setup);
   void store(bla::Address address, std::int64_t value);

@@ -42,7 +42,10 @@ class Server {
   /// monotonic clock, whatever the clock of the bus.
   [[nodiscard]] Time next_deadline(Time now) const;
 
-  [[nodiscard]] const Simulator& simulator() const;
+  [[nodiscard]] Simulator& simulator();
+
+  /// The virtual clock stands until so many clients are attached at once.
+  void hold(std::size_t clients);
 
   /// Clients that are connected.
   [[nodiscard]] std::size_t clients() const;

@@ -6,6 +6,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <string_view>
 #include <vector>
 
 namespace blactl::sim {
@@ -16,6 +18,9 @@ enum class ClientLink : std::uint8_t {
   cut,     ///< the cable is pulled: nobody hears or acknowledges them
   bus_off, ///< their controllers leave the bus for a moment, and lose what they wanted to send
 };
+
+/// "joined", "cut", "bus_off"; empty: none of them.
+[[nodiscard]] std::optional<ClientLink> parse_client_link(std::string_view word);
 
 struct TimedEvent {
   Duration at{};                      ///< after power-on

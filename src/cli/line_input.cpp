@@ -1,0 +1,52 @@
+#include "line_input.hpp"
+
+#include <signal.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <variant>
+
+namespace blactl::cli {
+namespace {
+
+/// A shell's background job would be stopped if it read the terminal.
+bool is_in_foreground() {
+  return isatty(STDIN_FILENO) == 0 || tcgetpgrp(STDIN_FILENO) == getpgrp();
+}
+
+} // namespace
+
+LineInput::LineInput(can::Loop& loop) : loop_(loop), ended_(!is_in_foreground()) {
+  if (!ended_) {
+    (void)signal(SIGTTIN, SIG_IGN); // sent to the background later: reading fails instead
+    loop_.watch(STDIN_FILENO);
+  }
+}
+
+void LineInput::handle(const can::Event& event) {
+  const auto* ready = std::get_if<can::Ready>(&event);
+  if (ended_ || ready == nullptr || ready->descriptor != STDIN_FILENO) {
+    return;
+  }
+  std::array<char, longest> buffer{};
+  const auto size = read(STDIN_FILENO, buffer.data(), buffer.size());
+  if (size > 0) {
+    text_.append(buffer.data(), static_cast<std::size_t>(size));
+  } else if (size == 0 || (errno != EINTR && errno != EAGAIN)) {
+    ended_ = true;
+    loop_.unwatch(STDIN_FILENO);
+  }
+}
+
+std::optional<std::string> LineInput::next() {
+  const auto end = text_.find('\n');
+  if (end == std::string::npos && text_.size() < longest && (!ended_ || text_.empty())) {
+    return std::nullopt;
+  }
+  std::string line = text_.substr(0, std::min(end, longest));
+  text_.erase(0, line.size() + (end == line.size() ? 1 : 0));
+  return line;
+}
+
+} // namespace blactl::cli

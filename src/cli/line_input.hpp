@@ -1,0 +1,33 @@
+#pragma once
+// Lines that come in on stdin while a command runs.
+
+#include "blactl/can/loop.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+namespace blactl::cli {
+
+/// Never waits: the loop does. A terminal is read only by who stands in its foreground.
+class LineInput {
+ public:
+  /// A longer line is cut into lines of this length.
+  static constexpr std::size_t longest = 4096;
+
+  /// `loop` must outlive this.
+  explicit LineInput(can::Loop& loop);
+
+  /// Reads what is there, if the event says that something is.
+  void handle(const can::Event& event);
+
+  /// The next whole line without its end; empty: there is none yet.
+  [[nodiscard]] std::optional<std::string> next();
+
+ private:
+  can::Loop& loop_;
+  std::string text_;
+  bool ended_ = false;
+};
+
+} // namespace blactl::cli
