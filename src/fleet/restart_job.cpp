@@ -120,7 +120,7 @@ Step RestartJob::judge_answer(const Outcome& outcome) {
     return wait_for_return();
   }
   if (outcome.kind == Outcome::Kind::not_sent) {
-    may_repeat_ = false; // it may still leave the kernel's queue
+    has_left_ = false; // it may still leave the kernel's queue
   }
   at_ = At::settling;
   return dronecan::Pause{.until = sent_at_ + settling_time,
@@ -139,12 +139,10 @@ Step RestartJob::judge_life(const Outcome& outcome) {
   if (!has_not_restarted) {
     return wait_for_return();
   }
-  if (std::exchange(may_repeat_, false)) {
+  if (has_left_ && std::exchange(may_repeat_, false)) {
     return request(outcome.at);
   }
-  const std::uint8_t id = id_.value();
-  return give_up({Code::timeout, say<texts::opcode_ignored>(id, name(options_.kind)),
-                  say<texts::no_answer_hint>(), id});
+  return give_up(not_carried_out());
 }
 
 Step RestartJob::wait_for_return() {
@@ -156,7 +154,8 @@ Step RestartJob::wait_for_return() {
 /// The servo after its restart, in operation; null: not yet.
 Member* RestartJob::find_returned() const {
   for (auto& [id, member] : roster_.members()) {
-    const bool is_restarted = id != id_ || member.boots != boot_;
+    // Where it was before earlier restarts it is heard no more.
+    const bool is_restarted = id != id_ ? member.last_heard > sent_at_ : member.boots != boot_;
     // A NodeStatus is news if it came after the answer to GetNodeInfo.
     if (is_restarted && member.is_unit(unique_id_) &&
         (member.info->status.mode == dronecan::Mode::operational ||
@@ -181,14 +180,28 @@ Step RestartJob::give_up(Error error) {
   return std::nullopt;
 }
 
+/// Of a servo that lives on as before.
+Error RestartJob::not_carried_out() const {
+  const std::uint8_t id = id_.value();
+  const std::string_view request = name(options_.kind);
+  if (is_confirmed_) {
+    return {Code::state, say<texts::did_not_restart>(id, request), say<texts::run_again_hint>(),
+            id};
+  }
+  if (!has_left_) {
+    return {Code::no_acknowledge, say<texts::not_sent>(id, request),
+            say<texts::nobody_acknowledges_hint>(), id};
+  }
+  return {Code::timeout, say<texts::opcode_ignored>(id, request), say<texts::no_answer_hint>(), id};
+}
+
 Error RestartJob::not_back() const {
   const std::uint8_t id = id_.value();
   const Member* before = roster_.find(id_);
   const bool goes_on =
       before != nullptr && before->boots == boot_ && before->last_heard > sent_at_ + settling_time;
-  if (is_confirmed_ && goes_on) {
-    return {Code::state, say<texts::did_not_restart>(id, name(options_.kind)),
-            say<texts::run_again_hint>(), id};
+  if (goes_on) {
+    return not_carried_out();
   }
   const bool is_save = options_.kind == RestartKind::save;
   std::string message = is_confirmed_ ? (is_save ? say<texts::saved_not_back>(id)

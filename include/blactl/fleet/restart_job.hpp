@@ -59,6 +59,7 @@ class RestartJob final : public dronecan::Job {
   [[nodiscard]] dronecan::Step wait_for_return();
   [[nodiscard]] dronecan::Step conclude();
   [[nodiscard]] dronecan::Step give_up(Error error);
+  [[nodiscard]] Error not_carried_out() const;
   [[nodiscard]] Error not_back() const;
   [[nodiscard]] bool has_answered_ok(dronecan::Bytes payload) const;
   [[nodiscard]] Member* find_returned() const;
@@ -72,6 +73,7 @@ class RestartJob final : public dronecan::Job {
   Time sent_at_{}, ended_at_{};
   bool is_sent_ = false;
   bool is_confirmed_ = false; ///< the servo answered that it does it
+  bool has_left_ = true; ///< the last request, for certain
   bool may_repeat_ = true;
   bool is_over_ = false;
   Member* returned_ = nullptr;
