@@ -39,9 +39,9 @@ class FormerIds final : public dronecan::AllocationTable {
     if (it == ids_.end()) {
       return std::nullopt;
     }
-    // Somebody else may have taken the ID in the meantime.
+    // Somebody else may have taken the ID in the meantime, and not have said yet who it is.
     const Member* now = roster_.find(it->second);
-    const bool is_taken = now != nullptr && now->info && now->info->unique_id != unique_id;
+    const bool is_taken = now != nullptr && !now->is_unit(unique_id);
     return is_taken ? std::nullopt : std::optional(it->second);
   }
 
