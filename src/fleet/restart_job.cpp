@@ -69,7 +69,7 @@ Step RestartJob::ask_unit() {
   return ask(id_, GetNodeInfo::type, GetNodeInfo::Request{}.encode(), options_.patience);
 }
 
-/// It must be the servo that is meant, and old enough for its restart to show.
+/// It must be the servo that is meant, old enough for its restart to show, and its turn.
 Step RestartJob::check_unit(const Outcome& outcome) {
   const std::uint8_t id = id_.value();
   if (!outcome.answered()) {
@@ -84,6 +84,10 @@ Step RestartJob::check_unit(const Outcome& outcome) {
     return dronecan::Pause{.until = outcome.at +
                                     std::chrono::seconds(old_enough_s - info->status.uptime_s)};
   }
+  if (options_.pace != nullptr && outcome.at < options_.pace->next) {
+    at_ = At::start;
+    return dronecan::Pause{.until = options_.pace->next};
+  }
   return request(outcome.at);
 }
 
@@ -92,6 +96,9 @@ Step RestartJob::request(Time now) {
   boot_ = roster_.member(id_).boots;
   sent_at_ = now;
   is_sent_ = true;
+  if (options_.pace != nullptr) {
+    options_.pace->next = now + options_.pace->distance;
+  }
   Patience once = options_.patience;
   once.retries = 0;
   return options_.kind == RestartKind::save

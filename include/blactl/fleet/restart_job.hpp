@@ -13,6 +13,12 @@ namespace blactl::fleet {
 /// What restarts a servo: SAVE (opcode 0: RAM to ROM, section 4.11) or RestartNode (4.10).
 enum class RestartKind : std::uint8_t { save, restart };
 
+/// The distance between the requests to several servos: their jobs share it.
+struct RestartPace {
+  Duration distance{};
+  Time next{}; ///< when the next first request may go out
+};
+
 /// The request goes out once. Without an answer the uptime tells whether it was carried out, and
 /// only if it was not the request is sent once more. The servo is recognised by its unique ID,
 /// whatever node ID it comes back with; somebody must ask the nodes that appear for theirs
@@ -24,6 +30,7 @@ class RestartJob final : public dronecan::Job {
     Time start{};         ///< not before
     Duration come_back{}; ///< how long it may take from the request on
     Patience patience;
+    RestartPace* pace = nullptr; ///< outlives the job; null: nobody else is waited for
   };
 
   /// `servo` has been identified; both references outlive the job.

@@ -23,9 +23,12 @@ namespace {
 class Bench {
  public:
   explicit Bench(RestartKind kind = RestartKind::save, Duration start_in = {})
-      : kind_(kind), servo(roster.member(NodeId(11))),
-        job(prepare(), servo,
-            {.kind = kind, .start = now + start_in, .come_back = 5s, .patience = {500ms, 2}}) {}
+      : kind_(kind), servo(roster.member(NodeId(11))), job(prepare(), servo,
+                                                           {.kind = kind,
+                                                            .start = now + start_in,
+                                                            .come_back = 5s,
+                                                            .patience = {500ms, 2},
+                                                            .pace = &pace}) {}
 
   /// What the job does next, after this outcome of its last step.
   std::string next(Outcome outcome) {
@@ -109,6 +112,7 @@ class Bench {
   }
 
   Time now{1000s};
+  RestartPace pace{.distance = 3s};
   const Time boot = now - 100s; ///< of the servo before its restart
 
  private:
@@ -205,6 +209,18 @@ TEST_CASE("nothing is sent before its time") {
   CHECK(bench.step.pause()->until == bench.now + 3s);
   CHECK_FALSE(bench.job.must_finish());
   CHECK(bench.time_is_over() == "GetNodeInfo");
+}
+
+TEST_CASE("requests to several servos keep their distance, whatever delays one of them") {
+  Bench bench;
+  CHECK(bench.start() == "GetNodeInfo");
+  bench.pace.next = bench.now + 2s; // another job has sent its request a second ago
+  CHECK(bench.info(1, bench.boot) == "pause");
+  CHECK(bench.step.pause()->until == bench.now + 2s);
+  CHECK_FALSE(bench.job.is_sent());
+  CHECK(bench.time_is_over() == "GetNodeInfo"); // it may be another servo by now
+  CHECK(bench.info(1, bench.boot) == "ExecuteOpcode");
+  CHECK(bench.pace.next == bench.now + 3s);
 }
 
 TEST_CASE("a servo whose restart would not show is given time to grow old") {
