@@ -47,9 +47,13 @@ class Bench {
 
   /// The pause is over because of its time.
   std::string time_is_over() {
-    REQUIRE(step.pause() != nullptr);
-    now = step.pause()->until;
+    now = until();
     return next({Outcome::Kind::woken, {}, {}});
+  }
+
+  [[nodiscard]] Time until() const {
+    REQUIRE(step.pause() != nullptr);
+    return step.pause()->until;
   }
 
   /// Whether the job wakes now, as a node asks it after each transfer.
@@ -92,6 +96,13 @@ class Bench {
     Member& member = roster.member(NodeId(source));
     member.info = node_info(unit, started, mode);
     member.info_boot = member.boots;
+  }
+
+  /// Servo 11 restarted, was asked (Recognizer) and answers; no NodeStatus has come yet.
+  void recognize_by_answer(Time started, Mode mode) {
+    servo.info = node_info(1, started, mode);
+    hear(service(dronecan::Kind::response, GetNodeInfo::type, 11, 127, servo.info->encode(), id()));
+    servo.info_boot = servo.boots;
   }
 
   void hear(const std::vector<can::Frame>& frames) {
@@ -175,7 +186,7 @@ TEST_CASE("a servo saves, goes, comes back and is recognised", "[requirement-48]
   CHECK(bench.job.must_finish());
   CHECK(bench.job.is_sent());
   CHECK(bench.answer_ok() == "pause");
-  CHECK(bench.step.pause()->until == bench.now + 5s);
+  CHECK(bench.until() == bench.now + 5s);
   CHECK_FALSE(bench.wakes());
   bench.now += 200ms;
   bench.hear_status(11, bench.now);
@@ -206,7 +217,7 @@ TEST_CASE("a restart is asked for with its magic number, once", "[requirement-42
 TEST_CASE("nothing is sent before its time") {
   Bench bench(RestartKind::save, 3s);
   CHECK(bench.start() == "pause");
-  CHECK(bench.step.pause()->until == bench.now + 3s);
+  CHECK(bench.until() == bench.now + 3s);
   CHECK_FALSE(bench.job.must_finish());
   CHECK(bench.time_is_over() == "GetNodeInfo");
 }
@@ -216,7 +227,7 @@ TEST_CASE("requests to several servos keep their distance, whatever delays one o
   CHECK(bench.start() == "GetNodeInfo");
   bench.pace.next = bench.now + 2s; // another job has sent its request a second ago
   CHECK(bench.info(1, bench.boot) == "pause");
-  CHECK(bench.step.pause()->until == bench.now + 2s);
+  CHECK(bench.until() == bench.now + 2s);
   CHECK_FALSE(bench.job.is_sent());
   CHECK(bench.time_is_over() == "GetNodeInfo"); // it may be another servo by now
   CHECK(bench.info(1, bench.boot) == "ExecuteOpcode");
@@ -228,7 +239,7 @@ TEST_CASE("a servo whose restart would not show is given time to grow old") {
   CHECK(bench.start() == "GetNodeInfo");
   const Time young = bench.now - 1s;
   CHECK(bench.info(1, young) == "pause");
-  CHECK(bench.step.pause()->until == bench.now + 1s);
+  CHECK(bench.until() == bench.now + 1s);
   CHECK_FALSE(bench.job.is_sent());
   CHECK(bench.time_is_over() == "GetNodeInfo");
   CHECK(bench.info(1, young) == "ExecuteOpcode");
@@ -274,7 +285,7 @@ TEST_CASE("a lost answer: the servo that is seen to restart is not asked again")
   bench.send();
   const Time sent = bench.now;
   CHECK(bench.timed_out() == "pause");
-  CHECK(bench.step.pause()->until >= sent + 1s); // room for a ROM write and a start
+  CHECK(bench.until() >= sent + 1s); // room for a ROM write and a start
   CHECK(bench.job.must_finish());
   SECTION("at once") {
     bench.now = sent + 700ms;
@@ -294,7 +305,7 @@ TEST_CASE("a lost answer: the servo that is seen to restart is not asked again")
   SECTION("after a long silence") {
     CHECK(bench.time_is_over() == "GetNodeInfo");
     CHECK(bench.timed_out() == "pause");
-    CHECK(bench.step.pause()->until == sent + 5s);
+    CHECK(bench.until() == sent + 5s);
     bench.now = sent + 4s;
     bench.recognize(11, 1, bench.now);
     CHECK(bench.wake() == "nothing");
@@ -314,7 +325,7 @@ TEST_CASE(
   CHECK(bench.step.request()->retries == 0);
   SECTION("with success") {
     CHECK(bench.answer_ok() == "pause");
-    CHECK(bench.step.pause()->until == bench.now + 5s); // from the second request on
+    CHECK(bench.until() == bench.now + 5s); // from the second request on
     bench.now += 200ms;
     bench.recognize(11, 1, bench.now);
     CHECK(bench.wake() == "nothing");
@@ -457,7 +468,12 @@ TEST_CASE("a servo is back when it is in operation") {
   bench.answer_ok();
   bench.now += 300ms;
   const Time restarted = bench.now;
-  bench.recognize(11, 1, restarted, Mode::initialization);
+  SECTION("after NodeStatus said that it starts") {
+    bench.recognize(11, 1, restarted, Mode::initialization);
+  }
+  SECTION("after it was asked before its first NodeStatus") {
+    bench.recognize_by_answer(restarted, Mode::initialization);
+  }
   CHECK_FALSE(bench.wakes());
   bench.now += 1s;
   bench.hear_status(11, restarted);
