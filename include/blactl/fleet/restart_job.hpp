@@ -80,7 +80,7 @@ class RestartJob final : public dronecan::Job {
   Time sent_at_{}, ended_at_{};
   bool is_sent_ = false;
   bool is_confirmed_ = false; ///< the servo answered that it does it
-  bool has_left_ = true; ///< the last request, for certain
+  bool has_left_ = true;      ///< the last request, for certain
   bool may_repeat_ = true;
   bool is_over_ = false;
   Member* returned_ = nullptr;
