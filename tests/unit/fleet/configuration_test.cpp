@@ -43,7 +43,7 @@ bool mentions(const Error& error, std::string_view words) {
 } // namespace
 
 TEST_CASE("the configuration is what SAVE keeps and can be read and written, by address",
-          "[requirement-56][requirement-82]") {
+          "[requirement-82]") {
   const Scene scene(servo_11);
   const Addresses all = addresses(configuration(profiles(), scene.identify(11)));
   // Tables 3-5 to 3-8: no gaps of the reserved addresses, nothing below 0x20, not 0x49.

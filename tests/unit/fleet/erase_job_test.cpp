@@ -125,8 +125,7 @@ TEST_CASE("what is not certainly the servo that is meant is not erased") {
   CHECK_FALSE(bench.job.is_confirmed());
 }
 
-TEST_CASE("an erased servo holds the defaults in its RAM, and stays where it is",
-          "[requirement-53][requirement-61]") {
+TEST_CASE("an erased servo holds the defaults in its RAM, and stays where it is") {
   Scene scene(R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11, "servo_id": 7,
                              "rom": {"angle_limit_cw": "90deg"}}])");
   Member& servo = scene.identify(11);

@@ -87,8 +87,7 @@ Code error_of(const RestartResult& result) {
 
 } // namespace
 
-TEST_CASE("what is saved survives the restart, what is not does not",
-          "[requirement-45][requirement-55]") {
+TEST_CASE("what is saved survives the restart, what is not does not") {
   const auto [kind, limit] =
       GENERATE(std::pair(RestartKind::save, 900), std::pair(RestartKind::restart, 1799));
   Scene scene(servos({servo(11)}));
