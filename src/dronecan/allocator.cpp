@@ -38,14 +38,14 @@ void Allocator::receive(const Transfer& transfer) {
   if (!request || other_) {
     return;
   }
-  if (transfer.at - heard_at_ > followup_timeout) {
+  if (transfer.at - answered_at_ > followup_timeout) {
     collected_ = {};
   }
   if (!takes(*request)) {
     return; // neither the part that is waited for nor a unit of ours: changes nothing
   }
-  heard_at_ = transfer.at;
   answer_due_ = has_answered_ ? transfer.at : transfer.at + courtesy;
+  answered_at_ = answer_due_; // the servo takes its time from our answer on
 }
 
 /// Adds a part, if it is the one that comes next.
@@ -77,7 +77,7 @@ void Allocator::answer() {
   if (reply.size == whole) {
     collected_ = {};
     const auto id = table_.assign(reply.unique_id);
-    if (!id) {
+    if (!id || !id->is_unicast() || id == node_.id()) {
       return;
     }
     reply.node_id = id->value();

@@ -118,9 +118,12 @@ LockFile::take(const std::string& folder, std::string_view interface, std::strin
   if (!had_data) {
     (void)ftruncate(fd, 0); // what lies in it is nobody's
   }
-  // A full disk keeps the name of the holder out of it, and hurts nobody else.
+  // A full disk keeps the name of the holder out of it, and hurts nobody else. Then no name is
+  // better than that of the holder before.
   header = {magic, getpid(), 0};
-  (void)pwrite(fd, &header, sizeof header, 0);
+  if (pwrite(fd, &header, sizeof header, 0) != sizeof header) {
+    (void)ftruncate(fd, 0);
+  }
   return LockFile(fd);
 }
 

@@ -167,15 +167,11 @@ void Node::start(Job& job, Time now) {
   tell_time(now);
   Active& active = jobs_.emplace_back(Active{.job = &job});
   finish(active, {Outcome::Kind::start, {}, now_});
-  if (active.step.request() != nullptr && !local_.is_unicast()) { // a listener asks nothing
-    finish(active, {Outcome::Kind::not_sent, {}, now_});
-    active.step = std::nullopt;
-  }
   ask_waiting(now_);
 }
 
 /// Tells the job how its last step ended and takes its next one.
-void Node::finish(Active& active, const Outcome& outcome) {
+void Node::tell(Active& active, const Outcome& outcome) {
   active.asked = false;
   active.deadline = never;
   active.tries = 0;
@@ -186,6 +182,15 @@ void Node::finish(Active& active, const Outcome& outcome) {
   in_callback_ = nested;
   if (const Pause* pause = active.step.pause()) {
     active.deadline = pause->until;
+  }
+}
+
+/// The same for a job that is to go on: a listener asks nothing, its first question ends the job.
+void Node::finish(Active& active, const Outcome& outcome) {
+  tell(active, outcome);
+  if (active.step.request() != nullptr && !local_.is_unicast()) {
+    tell(active, {Outcome::Kind::not_sent, {}, now_});
+    active.step = std::nullopt;
   }
 }
 
@@ -276,7 +281,7 @@ Time Node::next_deadline() const {
 
 void Node::cancel(Active& active, Time now) {
   withdraw(active);
-  finish(active, {Outcome::Kind::cancelled, {}, now});
+  tell(active, {Outcome::Kind::cancelled, {}, now});
   active.step = std::nullopt;
 }
 

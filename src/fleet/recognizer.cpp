@@ -22,6 +22,9 @@ class Recognizer::AskJob final : public dronecan::Job {
     return std::nullopt;
   }
 
+  /// Those who wait for a unit to come back may not be left half done.
+  [[nodiscard]] bool must_finish() const override { return true; }
+
  private:
   Member& member_;
   Patience patience_;

@@ -39,9 +39,9 @@ class FormerIds final : public dronecan::AllocationTable {
     if (it == ids_.end()) {
       return std::nullopt;
     }
-    // Somebody else may have taken the ID in the meantime.
+    // Somebody else may have taken the ID in the meantime, and not have said yet who it is.
     const Member* now = roster_.find(it->second);
-    const bool is_taken = now != nullptr && now->info && now->info->unique_id != unique_id;
+    const bool is_taken = now != nullptr && !now->is_unit(unique_id);
     return is_taken ? std::nullopt : std::optional(it->second);
   }
 
@@ -72,12 +72,13 @@ RestartResult restart(Session& session, std::span<Member* const> servos, const R
     session.attach(allocator);
   }
   const Recognizer recognizer(session, plan.patience);
+  RestartPace pace{.distance = plan.stagger};
   std::vector<std::unique_ptr<RestartJob>> jobs;
   for (std::size_t i = 0; i < servos.size(); ++i) {
     const Time start = session.now() + static_cast<Duration::rep>(i) * plan.stagger;
     jobs.push_back(std::make_unique<RestartJob>(
         session.roster(), *servos[i],
-        RestartJob::Options{plan.kind, start, come_back, plan.patience}));
+        RestartJob::Options{plan.kind, start, come_back, plan.patience, &pace}));
     session.start(*jobs.back());
   }
   RestartResult result;

@@ -69,7 +69,7 @@ Step RestartJob::ask_unit() {
   return ask(id_, GetNodeInfo::type, GetNodeInfo::Request{}.encode(), options_.patience);
 }
 
-/// It must be the servo that is meant, and old enough for its restart to show.
+/// It must be the servo that is meant, old enough for its restart to show, and its turn.
 Step RestartJob::check_unit(const Outcome& outcome) {
   const std::uint8_t id = id_.value();
   if (!outcome.answered()) {
@@ -84,6 +84,10 @@ Step RestartJob::check_unit(const Outcome& outcome) {
     return dronecan::Pause{.until = outcome.at +
                                     std::chrono::seconds(old_enough_s - info->status.uptime_s)};
   }
+  if (options_.pace != nullptr && outcome.at < options_.pace->next) {
+    at_ = At::start;
+    return dronecan::Pause{.until = options_.pace->next};
+  }
   return request(outcome.at);
 }
 
@@ -92,6 +96,9 @@ Step RestartJob::request(Time now) {
   boot_ = roster_.member(id_).boots;
   sent_at_ = now;
   is_sent_ = true;
+  if (options_.pace != nullptr) {
+    options_.pace->next = now + options_.pace->distance;
+  }
   Patience once = options_.patience;
   once.retries = 0;
   return options_.kind == RestartKind::save
@@ -120,7 +127,7 @@ Step RestartJob::judge_answer(const Outcome& outcome) {
     return wait_for_return();
   }
   if (outcome.kind == Outcome::Kind::not_sent) {
-    may_repeat_ = false; // it may still leave the kernel's queue
+    has_left_ = false; // it may still leave the kernel's queue
   }
   at_ = At::settling;
   return dronecan::Pause{.until = sent_at_ + settling_time,
@@ -139,12 +146,10 @@ Step RestartJob::judge_life(const Outcome& outcome) {
   if (!has_not_restarted) {
     return wait_for_return();
   }
-  if (std::exchange(may_repeat_, false)) {
+  if (has_left_ && std::exchange(may_repeat_, false)) {
     return request(outcome.at);
   }
-  const std::uint8_t id = id_.value();
-  return give_up({Code::timeout, say<texts::opcode_ignored>(id, name(options_.kind)),
-                  say<texts::no_answer_hint>(), id});
+  return give_up(not_carried_out());
 }
 
 Step RestartJob::wait_for_return() {
@@ -156,7 +161,8 @@ Step RestartJob::wait_for_return() {
 /// The servo after its restart, in operation; null: not yet.
 Member* RestartJob::find_returned() const {
   for (auto& [id, member] : roster_.members()) {
-    const bool is_restarted = id != id_ || member.boots != boot_;
+    // Where it was before earlier restarts it is heard no more.
+    const bool is_restarted = id != id_ ? member.last_heard > sent_at_ : member.boots != boot_;
     // A NodeStatus is news if it came after the answer to GetNodeInfo.
     if (is_restarted && member.is_unit(unique_id_) &&
         (member.info->status.mode == dronecan::Mode::operational ||
@@ -181,14 +187,28 @@ Step RestartJob::give_up(Error error) {
   return std::nullopt;
 }
 
+/// Of a servo that lives on as before.
+Error RestartJob::not_carried_out() const {
+  const std::uint8_t id = id_.value();
+  const std::string_view request = name(options_.kind);
+  if (is_confirmed_) {
+    return {Code::state, say<texts::did_not_restart>(id, request), say<texts::run_again_hint>(),
+            id};
+  }
+  if (!has_left_) {
+    return {Code::no_acknowledge, say<texts::not_sent>(id, request),
+            say<texts::nobody_acknowledges_hint>(), id};
+  }
+  return {Code::timeout, say<texts::opcode_ignored>(id, request), say<texts::no_answer_hint>(), id};
+}
+
 Error RestartJob::not_back() const {
   const std::uint8_t id = id_.value();
   const Member* before = roster_.find(id_);
   const bool goes_on =
       before != nullptr && before->boots == boot_ && before->last_heard > sent_at_ + settling_time;
-  if (is_confirmed_ && goes_on) {
-    return {Code::state, say<texts::did_not_restart>(id, name(options_.kind)),
-            say<texts::run_again_hint>(), id};
+  if (goes_on) {
+    return not_carried_out();
   }
   const bool is_save = options_.kind == RestartKind::save;
   std::string message = is_confirmed_ ? (is_save ? say<texts::saved_not_back>(id)

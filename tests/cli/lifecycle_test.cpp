@@ -5,6 +5,9 @@
 #include "tap.hpp"
 
 #include <algorithm>
+#include <csignal>
+#include <string>
+#include <vector>
 
 using namespace blactl::test;
 
@@ -15,6 +18,16 @@ std::ptrdiff_t rom_writes(const std::string& output) {
   const auto events = json_lines(output);
   return std::ranges::count_if(
       events, [](const nlohmann::json& event) { return event.value("event", "") == "rom_write"; });
+}
+
+/// A simulator in real time with one servo, whose restart takes that much longer.
+std::string slow_servo(const Bench& bench, const char* return_delay) {
+  const nlohmann::json scenario{{"schema", "blactl-scenario/1"},
+                                {"servos",
+                                 {{{"model", "BLA21-12U-AB"},
+                                   {"node_id", 11},
+                                   {"faults", {{"return_delay", return_delay}}}}}}};
+  return bench.file("slow.json", scenario.dump());
 }
 
 nlohmann::json node(const Result& result, std::size_t index = 0) {
@@ -195,6 +208,73 @@ TEST_CASE("wait ends when the servos are there") {
   const Result missing = three_servos().run({"wait", "-n", "44", "--wait", "1"});
   CHECK(missing.status == 4);
   CHECK(codes(missing) == std::vector<std::string>{"not_found"});
+}
+
+TEST_CASE("Ctrl-C: a save that runs is waited for, and what is known of it is said") {
+  const Bench bench;
+  Background sim(bench, {"sim", slow_servo(bench, "1s"), "--json"});
+  Background save(bench, {"-i", "sim:", "save", "-n", "11", "-y", "-j"}, {}, "");
+  sim.expect("rom_write");
+  const Result saved = save.stop(SIGINT);
+  CHECK(saved.status == 130);
+  CHECK(contains(saved.err, "waiting for running saves"));
+  CHECK(contains(saved.err, "[interrupted]"));
+  CHECK(contains(saved.err, "node 11 is back, but its values were not read again"));
+  CHECK(node(saved)["node_id_after"] == 11);
+  CHECK(node(saved)["status"] == "failed"); // it was not verified
+  CHECK(rom_writes(sim.stop().out) == 1);
+}
+
+TEST_CASE("Ctrl-C: a servo that does not come back is waited for no longer than that") {
+  const Bench bench;
+  Background sim(bench, {"sim", slow_servo(bench, "600s"), "--json"});
+  Background save(bench, {"-i", "sim:", "save", "-n", "11", "-y", "-j", "--wait", "500"}, {}, "");
+  sim.expect("rom_write");
+  const Result saved = save.stop(SIGINT);
+  CHECK(saved.status == 130);
+  CHECK(codes(saved) == std::vector<std::string>{"interrupted", "not_back"});
+  CHECK(node(saved)["node_id_after"].is_null());
+}
+
+TEST_CASE("a second signal ends a running save at once") {
+  const Bench bench;
+  Background sim(bench, {"sim", slow_servo(bench, "600s"), "--json"});
+  Background save(bench, {"-i", "sim:", "save", "-n", "11", "-y", "-j", "--wait", "500"}, {}, "");
+  sim.expect("rom_write");
+  REQUIRE(kill(save.pid(), SIGINT) == 0);
+  save.expect("waiting for running saves");
+  const Result saved = save.stop(SIGTERM);
+  CHECK(saved.status == 143); // the second one, not the end of the 3 s
+  CHECK(codes(saved) == std::vector<std::string>{"interrupted", "not_back"});
+  CHECK(contains(saved.err, "not known"));
+}
+
+TEST_CASE("Ctrl-C: what was not begun is not begun") {
+  const Bench bench;
+  Background sim(bench, {"sim", "--json"});
+  Background save(bench, {"-i", "sim:", "save", "-n", "11,12", "-y", "-j", "--stagger", "60"}, {},
+                  "");
+  sim.expect("rom_write");
+  const Result saved = save.stop(SIGINT);
+  CHECK(saved.status == 130);
+  CHECK(contains(saved.err, "node 12: interrupted before anything was sent"));
+  CHECK(node(saved, 1)["status"] == "failed");
+  CHECK(rom_writes(sim.stop().out) == 1);
+}
+
+TEST_CASE("--stagger keeps the distance between servos") {
+  const Bench bench;
+  Background sim(bench, {"sim", three_servos().write(bench), "--json"});
+  CHECK(bench.run({"-i", "sim:", "save", "-n", "11-13", "-y", "--stagger", "2.5"}).status == 0);
+  std::vector<double> times;
+  for (const auto& event : json_lines(sim.stop().out)) {
+    if (event.value("event", "") == "rom_write") {
+      times.push_back(event["time"]);
+    }
+  }
+  REQUIRE(times.size() == 3);
+  CHECK(times[1] - times[0] > 2.4); // each servo takes its own time to answer and to write
+  CHECK(times[2] - times[1] > 2.4);
 }
 
 TEST_CASE("one process at a time writes on an interface; a killed one leaves no trace") {

@@ -306,6 +306,62 @@ TEST_CASE("what servos and the bus make blactl say is said in Japanese too") {
   }
 }
 
+TEST_CASE("what becomes of servos that save, restart and are erased is said in Japanese too") {
+  const auto fault = [](const char* name, const nlohmann::json& value) {
+    return nlohmann::json{{"faults", {{name, value}}}};
+  };
+  const Scene scene =
+      Scene()
+          .servo("BLA21-12U-AB", 11)
+          .servo("BLA21-12U-AB", 12, fault("refuse_opcodes", true))
+          .servo("BLA21-12U-AB", 13, fault("stays", true))
+          .servo("BLA21-12U-AB", 14, fault("never_returns", true))
+          .servo("BLA21-12U-AB", 15, fault("ignore_opcodes", 9))
+          .servo("BLA21-12U-AB", 16, fault("rom_write_fails", true))
+          .servo("BLA21-12U-AB", 17, fault("mute", true))
+          .servo("BLA21-12U-AB", 18, {{"servo_id", 4}})
+          .servo("BLA21-12U-AB", 20,
+                 {{"faults", {{"lose_opcode_answers", 1}, {"never_returns", true}}}})
+          .servo("BLA21-12U-AB", 21, {{"model_number", 99}})
+          .servo("BLA21-12U-AB", 22, {{"rom", {{"soft_start", "off"}}}})
+          .foreign(40, {{"commands", {{"servo_ids", {4}}}}});
+  const Scene armed = Scene().servo("BLA21-12U-AB", 11).foreign(40, {{"armed", true}});
+  std::vector<Arguments> lines{{"wait", "-n", "11"},
+                               {"wait", "-n", "44", "--wait", "1"},
+                               {"wait", "-n", "17", "--wait", "1"},
+                               {"save", "-y"},
+                               {"save", "-n", "18,11", "-y"},
+                               {"set", "-n", "16", "angle_limit_cw=90deg", "--save", "-y"},
+                               {"set", "-n", "11", "static_node_id=30", "--save", "-y"},
+                               {"erase", "-n", "11", "--save", "-y"},
+                               {"erase", "-n", "11", "--keep-ids", "-y"},
+                               {"erase", "-n", "11", "--keep-ids", "--save"},
+                               {"erase", "-n", "11", "--save"},
+                               {"save", "-n", "11", "--stagger", "x"},
+                               {"restart", "-n", "11", "--wait", "x"}};
+  for (const char* command : {"save", "restart", "erase"}) {
+    for (const char* id :
+         {"11", "12", "13", "14", "15", "17", "18", "20", "21", "22", "40", "44"}) {
+      lines.push_back({command, "-n", id, "-y"});
+    }
+    lines.push_back({command, "-n", "11"});
+    lines.push_back({command, "-n", "22"});
+    lines.push_back({command, "-n", "11,14,12", "-y"});
+  }
+  const Bench bench;
+  for (Arguments line : lines) {
+    line.insert(line.end(), {"--lang", "ja"});
+    for (const Scene* each : {&scene, &armed}) {
+      const Result result = each->run(bench, line);
+      const std::string said = result.out + result.err;
+      INFO(said);
+      CHECK(is_fit_for_a_terminal(said));
+      CHECK(std::ranges::any_of(said, [](char c) { return (c & 0x80) != 0; }));
+      CHECK_FALSE(has_english(without_commands(said)));
+    }
+  }
+}
+
 TEST_CASE("questions and conflicts are put in Japanese too") {
   const Bench bench;
   const Arguments japanese{"-i", "sim:", "--lang", "ja", "--color", "never"};

@@ -179,6 +179,7 @@ class Node {
   void wake();
   void withdraw(const Active& active);
   void cancel(Active& active, Time now);
+  void tell(Active& active, const Outcome& outcome);
   void finish(Active& active, const Outcome& outcome);
   void ask(Active& active, Time now);
   void ask_waiting(Time now);

@@ -13,6 +13,12 @@ namespace blactl::fleet {
 /// What restarts a servo: SAVE (opcode 0: RAM to ROM, section 4.11) or RestartNode (4.10).
 enum class RestartKind : std::uint8_t { save, restart };
 
+/// The distance between the requests to several servos: their jobs share it.
+struct RestartPace {
+  Duration distance{};
+  Time next{}; ///< when the next first request may go out
+};
+
 /// The request goes out once. Without an answer the uptime tells whether it was carried out, and
 /// only if it was not the request is sent once more. The servo is recognised by its unique ID,
 /// whatever node ID it comes back with; somebody must ask the nodes that appear for theirs
@@ -24,6 +30,7 @@ class RestartJob final : public dronecan::Job {
     Time start{};         ///< not before
     Duration come_back{}; ///< how long it may take from the request on
     Patience patience;
+    RestartPace* pace = nullptr; ///< outlives the job; null: nobody else is waited for
   };
 
   /// `servo` has been identified; both references outlive the job.
@@ -59,6 +66,7 @@ class RestartJob final : public dronecan::Job {
   [[nodiscard]] dronecan::Step wait_for_return();
   [[nodiscard]] dronecan::Step conclude();
   [[nodiscard]] dronecan::Step give_up(Error error);
+  [[nodiscard]] Error not_carried_out() const;
   [[nodiscard]] Error not_back() const;
   [[nodiscard]] bool has_answered_ok(dronecan::Bytes payload) const;
   [[nodiscard]] Member* find_returned() const;
@@ -72,6 +80,7 @@ class RestartJob final : public dronecan::Job {
   Time sent_at_{}, ended_at_{};
   bool is_sent_ = false;
   bool is_confirmed_ = false; ///< the servo answered that it does it
+  bool has_left_ = true;      ///< the last request, for certain
   bool may_repeat_ = true;
   bool is_over_ = false;
   Member* returned_ = nullptr;

@@ -1,113 +1,30 @@
 #include "blactl/dronecan/local_node_id.hpp"
 
 #include "catch.hpp"
-
-#include <fmt/format.h>
+#include "processes.hpp"
 
 #include <fcntl.h>
-#include <signal.h>
 #include <sys/file.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 using namespace blactl;
 using namespace blactl::dronecan;
+using namespace blactl::dronecan::test;
 
 namespace fs = std::filesystem;
 
 namespace {
-
-/// A folder for this test alone.
-class Folder {
- public:
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "blactl-test-XXXXXX").string();
-    REQUIRE(mkdtemp(name.data()) != nullptr);
-    path = name;
-  }
-
-  ~Folder() { fs::remove_all(path); }
-
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-
-  /// Where the lock files go: not there yet.
-  [[nodiscard]] std::string locks() const { return (path / "locks").string(); }
-
-  [[nodiscard]] fs::path file(int id) const { return path / "locks" / fmt::format("vcan0.{}", id); }
-
-  fs::path path;
-};
-
-/// An environment variable for the time of a test.
-class Variable {
- public:
-  Variable(const char* name, const std::string& value) : name_(name) {
-    if (const char* before = std::getenv(name)) {
-      before_ = before;
-    }
-    setenv(name, value.c_str(), 1);
-  }
-
-  ~Variable() { before_ ? setenv(name_, before_->c_str(), 1) : unsetenv(name_); }
-
-  Variable(const Variable&) = delete;
-  Variable& operator=(const Variable&) = delete;
-
- private:
-  const char* name_;
-  std::optional<std::string> before_;
-};
-
-/// Another process; it does its work, says so, and lives until it is killed.
-class Child {
- public:
-  /// `work` returns the number that the child says.
-  explicit Child(const std::function<int()>& work) {
-    std::array<int, 2> pipe{};
-    REQUIRE(::pipe(pipe.data()) == 0);
-    pid = fork();
-    REQUIRE(pid >= 0);
-    if (pid == 0) {
-      const int result = work();
-      if (write(pipe[1], &result, sizeof result) == sizeof result) {
-        pause();
-      }
-      _exit(1);
-    }
-    close(pipe[1]);
-    REQUIRE(read(pipe[0], &said, sizeof said) == sizeof said);
-    close(pipe[0]);
-  }
-
-  ~Child() { end(); }
-
-  Child(const Child&) = delete;
-  Child& operator=(const Child&) = delete;
-
-  void end() {
-    if (pid > 0) {
-      kill(pid, SIGKILL);
-      waitpid(pid, nullptr, 0);
-      pid = 0;
-    }
-  }
-
-  pid_t pid = 0;
-  int said = 0;
-};
 
 Result<LocalNodeId> acquire(const Folder& folder, std::optional<NodeId> wanted = std::nullopt,
                             std::string_view interface = "vcan0") {
@@ -270,6 +187,48 @@ TEST_CASE(
   CHECK(local->id() == NodeId(127));
   const TransferId first = next(*local);
   CHECK(next(*local) == (first + 1) % transfer_id_modulus);
+}
+
+TEST_CASE("a lock file that another user cuts short costs its memory and nothing else") {
+  const Folder folder;
+  {
+    auto local = acquire(folder);
+    REQUIRE(local);
+    CHECK(next(*local) == 0);
+    fs::resize_file(folder.file(127), 0);
+    CHECK(next(*local) == 1);
+    CHECK(next(*local) == 2);
+  }
+  auto local = acquire(folder);
+  REQUIRE(local);
+  CHECK(local->id() == NodeId(127));
+  const TransferId first = next(*local);
+  CHECK(next(*local) == (first + 1) % transfer_id_modulus);
+}
+
+TEST_CASE("on a disk that becomes full the transfer IDs count on in memory") {
+  const Folder folder;
+  const Child child([&folder] {
+    auto local = acquire(folder);
+    std::ignore = next(*local);
+    fill_the_disk();
+    std::ignore = next(*local);
+    return static_cast<int>(next(*local));
+  });
+  CHECK(child.said == 2);
+}
+
+TEST_CASE("on a full disk the ID is held all the same, and counting starts anywhere") {
+  const Folder folder;
+  const Child child([&folder] {
+    fill_the_disk();
+    static std::optional<LocalNodeId> held;
+    held.emplace(*acquire(folder));
+    const TransferId first = next(*held);
+    return next(*held) == (first + 1) % transfer_id_modulus ? int{held->id().value()} : 0;
+  });
+  CHECK(child.said == 127);
+  CHECK(acquire(folder)->id() == NodeId(126));
 }
 
 TEST_CASE("a held lock file that names no process is held by somebody") {

@@ -31,7 +31,13 @@ class Bench {
                     }
                   },
               .error = {},
-              .backlog = [this] { return backlog; }}) {
+              .backlog = [this] { return backlog; },
+              .withdraw =
+                  [this](std::span<const can::Frame> frames) {
+                    for (const auto& line : texts(frames)) {
+                      withdrawn.push_back(line);
+                    }
+                  }}) {
     node.advance(now);
   }
 
@@ -70,7 +76,18 @@ class Bench {
     answer(server, GetNodeInfo::type, id, GetNodeInfo::Response{.name = "servo"}.encode());
   }
 
+  /// A message of somebody else.
+  void hear_a_status(std::uint8_t source = 30) {
+    const Header header{
+        .kind = Kind::message, .data_type_id = NodeStatus::type.id, .source = NodeId(source)};
+    for (const auto& frame : segment(header, heard_++ % transfer_id_modulus,
+                                     NodeStatus::type.signature, NodeStatus{}.encode().bytes())) {
+      node.receive(frame, now);
+    }
+  }
+
   std::size_t backlog = 0;
+  Lines withdrawn; ///< frames that shall not leave any more
   std::function<void(const Transfer&)> on_transfer;
   Time now = at(0ms);
 
@@ -78,6 +95,7 @@ class Bench {
   std::array<TransferIds::Slot, TransferIds::slots> table_{};
   TransferIds ids_{table_};
   std::vector<can::Frame> frames_;
+  TransferId heard_ = 0;
 
  public:
   Node node;
@@ -102,10 +120,10 @@ Request ask_register(std::uint8_t server, const char* name, GetSet::Value value 
           }};
 }
 
-/// Asks its questions one after the other and writes down how each ended.
+/// Goes its steps one after the other and writes down how each ended.
 class Talk final : public Job {
  public:
-  explicit Talk(std::vector<Request> questions) : questions_(questions.begin(), questions.end()) {}
+  explicit Talk(std::vector<Step> steps) : steps_(steps.begin(), steps.end()) {}
 
   Step next(const Outcome& outcome) override {
     outcomes.push_back(outcome.kind);
@@ -114,28 +132,33 @@ class Talk final : public Job {
     if (on_outcome) {
       on_outcome(outcome);
     }
-    if (questions_.empty()) {
+    if (steps_.empty()) {
       return std::nullopt;
     }
-    auto question = std::move(questions_.front());
-    questions_.pop_front();
-    return question;
+    Step step = std::move(steps_.front());
+    steps_.pop_front();
+    return step;
   }
 
+  [[nodiscard]] bool must_finish() const override { return finishes; }
+
   Kinds outcomes;
+  bool finishes = false; ///< it must not be left half done
   std::vector<std::string> payloads;
   Time ended_at{};
   std::function<void(const Outcome&)> on_outcome;
 
  private:
-  std::deque<Request> questions_;
+  std::deque<Step> steps_;
 };
 
 constexpr auto start = Outcome::Kind::start;
 constexpr auto answered = Outcome::Kind::answered;
 constexpr auto timed_out = Outcome::Kind::timed_out;
 constexpr auto not_sent = Outcome::Kind::not_sent;
+constexpr auto woken = Outcome::Kind::woken;
 constexpr auto cancelled = Outcome::Kind::cancelled;
+constexpr auto not_recorded = Outcome::Kind::not_recorded;
 
 } // namespace
 
@@ -186,7 +209,7 @@ TEST_CASE("as many servers are busy as there are jobs") {
   Bench bench;
   std::vector<std::unique_ptr<Talk>> talks;
   for (std::uint8_t server = 1; server <= 125; ++server) {
-    talks.push_back(std::make_unique<Talk>(std::vector{ask_info(server), ask_info(server)}));
+    talks.push_back(std::make_unique<Talk>(std::vector<Step>{ask_info(server), ask_info(server)}));
     bench.node.start(*talks.back(), bench.now);
   }
   CHECK(bench.sent_and_echoed().size() == 125);
@@ -449,6 +472,279 @@ TEST_CASE("a job that asks nothing is over at once") {
   CHECK(talk.outcomes == Kinds{start});
   CHECK(bench.node.jobs() == 0);
   CHECK(bench.sent().empty());
+}
+
+TEST_CASE("a step is a question, a pause, or the end") {
+  const Step question = ask_info(10);
+  CHECK((question.request() != nullptr && question.request()->server == NodeId(10)));
+  CHECK_FALSE((question.pause() != nullptr || question.is_end()));
+  const Step pause = Pause{.until = at(1s)};
+  CHECK((pause.pause() != nullptr && pause.pause()->until == at(1s)));
+  CHECK_FALSE((pause.request() != nullptr || pause.is_end()));
+  CHECK(Step(std::nullopt).is_end());
+  CHECK(Step(std::optional<Request>()).is_end());
+  CHECK(Step(std::optional(ask_info(10))).request() != nullptr);
+}
+
+TEST_CASE("only an answer is an answer") {
+  CHECK(Outcome{.kind = answered, .payload = {}}.answered());
+  for (const auto kind : {start, timed_out, not_sent, woken, cancelled, not_recorded}) {
+    CHECK_FALSE(Outcome{.kind = kind, .payload = {}}.answered());
+  }
+}
+
+TEST_CASE("a pause is over at its time, and asks nothing until then") {
+  Bench bench;
+  Talk talk({Pause{.until = at(900ms)}, ask_info(10)});
+  bench.node.start(talk, bench.now);
+  CHECK(bench.node.next_deadline() == at(900ms));
+  bench.pass(899ms);
+  bench.hear_a_status(); // it waits for nothing that could be heard
+  CHECK(talk.outcomes == Kinds{start});
+  CHECK(bench.node.jobs() == 1);
+  CHECK(bench.sent().empty());
+  bench.pass(1ms);
+  CHECK(talk.outcomes == Kinds{start, woken});
+  CHECK(talk.ended_at == at(900ms));
+  CHECK(bench.sent_and_echoed() == Lines{"1E018AFF#C0"});
+  bench.answer_info(10, 0);
+  CHECK(talk.outcomes == Kinds{start, woken, answered});
+  CHECK(bench.node.jobs() == 0);
+}
+
+TEST_CASE("a pause ends as soon as what it waits for was heard") {
+  Bench bench;
+  bool is_there = false;
+  Talk talk({Pause{.until = at(10s), .ready = [&] { return is_there; }}, ask_info(10)});
+  bench.on_transfer = [&](const Transfer& transfer) {
+    is_there = is_there || transfer.header.source == NodeId(10);
+  };
+  bench.node.start(talk, bench.now);
+  bench.pass(500ms);
+  bench.hear_a_status(30); // not this one
+  CHECK(talk.outcomes == Kinds{start});
+  bench.pass(100ms);
+  bench.hear_a_status(10); // told to those who listen before the job is asked
+  CHECK(talk.outcomes == Kinds{start, woken});
+  CHECK(talk.ended_at == at(600ms));
+  CHECK(bench.sent() == Lines{"1E018AFF#C0"});
+}
+
+TEST_CASE("a pause for what is never heard ends at its time") {
+  Bench bench;
+  Talk talk({Pause{.until = at(700ms), .ready = [] { return false; }}});
+  bench.node.start(talk, bench.now);
+  bench.pass(699ms);
+  bench.hear_a_status();
+  CHECK(talk.outcomes == Kinds{start});
+  bench.pass(1ms);
+  CHECK(talk.outcomes == Kinds{start, woken});
+  CHECK(bench.node.jobs() == 0);
+}
+
+TEST_CASE("a pause without a time waits for what it waits for alone") {
+  Bench bench(anonymous); // whose next deadline is its jobs' alone
+  bool is_there = false;
+  Talk talk({Pause{.ready = [&] { return is_there; }}});
+  bench.node.start(talk, bench.now);
+  CHECK(bench.node.next_deadline() == never);
+  bench.pass(1h);
+  CHECK(talk.outcomes == Kinds{start});
+  is_there = true;
+  bench.hear_a_status();
+  CHECK(talk.outcomes == Kinds{start, woken});
+}
+
+TEST_CASE("two pauses one after the other each have their own end") {
+  Bench bench;
+  unsigned heard = 0;
+  Talk talk({Pause{.until = at(10s), .ready = [&] { return heard > 0; }},
+             Pause{.until = at(10s), .ready = [&] { return heard > 1; }}});
+  bench.on_transfer = [&](const Transfer&) { ++heard; };
+  bench.node.start(talk, bench.now);
+  bench.hear_a_status();
+  CHECK(talk.outcomes == Kinds{start, woken});
+  bench.hear_a_status();
+  CHECK(talk.outcomes == Kinds{start, woken, woken});
+  CHECK(bench.node.jobs() == 0);
+}
+
+TEST_CASE("who pauses keeps no server busy") {
+  Bench bench;
+  Talk pausing({ask_info(10), Pause{.until = at(10s)}});
+  Talk waiting({ask_info(10)});
+  bench.node.start(pausing, bench.now);
+  bench.node.start(waiting, bench.now);
+  CHECK(bench.sent_and_echoed() == Lines{"1E018AFF#C0"});
+  bench.answer_info(10, 0);
+  CHECK(bench.sent_and_echoed() == Lines{"1E018AFF#C1"});
+  bench.answer_info(10, 1);
+  CHECK(waiting.outcomes == Kinds{start, answered});
+  CHECK(pausing.outcomes == Kinds{start, answered});
+}
+
+TEST_CASE("the echo and the answer of others do not end a pause") {
+  Bench bench;
+  Talk pausing({Pause{.until = at(10s)}});
+  Talk asking({ask_info(10)});
+  bench.node.start(pausing, bench.now);
+  bench.node.start(asking, bench.now);
+  bench.sent_and_echoed();
+  bench.node.echoes_lost(bench.now);
+  bench.answer_info(10, 0);
+  bench.pass(5s);
+  CHECK(pausing.outcomes == Kinds{start});
+  CHECK(asking.outcomes == Kinds{start, answered});
+}
+
+TEST_CASE("a listener's pause may end; the question behind it is not asked") {
+  Bench bench(anonymous);
+  Talk talk({Pause{.until = at(1s)}, ask_info(10), ask_info(10)});
+  bench.node.start(talk, bench.now);
+  bench.pass(1s);
+  CHECK(talk.outcomes == Kinds{start, woken, not_sent});
+  CHECK(bench.node.jobs() == 0);
+  bench.pass(10s);
+  CHECK(bench.sent().empty());
+  CHECK(talk.outcomes.size() == 3);
+}
+
+TEST_CASE("stop ends what may be left half done, and nothing else") {
+  Bench bench;
+  Talk idle({ask_info(10), ask_info(10)});
+  Talk pausing({Pause{.until = at(10s)}});
+  Talk writing({ask_info(11), Pause{.until = at(1500ms)}, ask_info(11)});
+  writing.finishes = true;
+  bench.node.start(idle, bench.now);
+  bench.node.start(pausing, bench.now);
+  bench.node.start(writing, bench.now);
+  CHECK(bench.sent_and_echoed() == Lines{"1E018AFF#C0", "1E018BFF#C0"});
+  bench.pass(10ms);
+  bench.node.stop(bench.now);
+  CHECK(idle.outcomes == Kinds{start, cancelled}); // its second question is not asked
+  CHECK(idle.ended_at == bench.now);
+  CHECK(pausing.outcomes == Kinds{start, cancelled});
+  CHECK(writing.outcomes == Kinds{start});
+  CHECK(bench.node.jobs() == 1);
+  bench.answer_info(10, 0);
+  CHECK(idle.outcomes.size() == 2); // it hears nothing any more
+
+  bench.answer_info(11, 0); // the other one goes on to its end: pauses, asks, is tried again
+  CHECK(writing.outcomes == Kinds{start, answered});
+  bench.pass(1490ms);
+  CHECK(writing.outcomes == Kinds{start, answered, woken});
+  CHECK(bench.sent_and_echoed().back() == "1E018BFF#C1");
+  bench.pass(500ms);
+  CHECK(bench.sent_and_echoed().back() == "1E018BFF#C2");
+  bench.answer_info(11, 2);
+  CHECK(writing.outcomes == Kinds{start, answered, woken, answered});
+  CHECK(bench.node.jobs() == 0);
+}
+
+TEST_CASE("whether a job must finish is asked when it is stopped") {
+  Bench bench;
+  Talk writing({ask_info(10), ask_info(10)});
+  bench.node.start(writing, bench.now);
+  bench.sent_and_echoed();
+  writing.finishes = true;
+  bench.node.stop(bench.now);
+  CHECK(writing.outcomes == Kinds{start});
+  bench.answer_info(10, 0);
+  bench.sent_and_echoed();
+  writing.finishes = false;
+  bench.node.stop(bench.now);
+  CHECK(writing.outcomes == Kinds{start, answered, cancelled});
+  CHECK(bench.node.jobs() == 0);
+}
+
+TEST_CASE("a job that must finish gets the server that a stopped one kept busy") {
+  Bench bench;
+  Talk reading({ask_info(10)});
+  Talk writing({ask_info(10)});
+  writing.finishes = true;
+  bench.node.start(reading, bench.now);
+  bench.node.start(writing, bench.now);
+  CHECK(bench.sent_and_echoed() == Lines{"1E018AFF#C0"});
+  bench.node.stop(bench.now);
+  CHECK(bench.sent_and_echoed() == Lines{"1E018AFF#C1"});
+  bench.answer_info(10, 0); // of the question that was stopped
+  CHECK(writing.outcomes == Kinds{start});
+  bench.answer_info(10, 1);
+  CHECK(writing.outcomes == Kinds{start, answered});
+}
+
+TEST_CASE("cancel_all ends also what must finish") {
+  Bench bench;
+  Talk writing({ask_info(10)});
+  Talk pausing({Pause{.until = at(10s)}});
+  writing.finishes = pausing.finishes = true;
+  bench.node.start(writing, bench.now);
+  bench.node.start(pausing, bench.now);
+  bench.sent_and_echoed();
+  bench.node.cancel_all(bench.now);
+  CHECK(writing.outcomes == Kinds{start, cancelled});
+  CHECK(pausing.outcomes == Kinds{start, cancelled});
+  CHECK(bench.node.jobs() == 0);
+}
+
+TEST_CASE("a job that is stopped and wants to pause or to ask is over all the same") {
+  Bench bench;
+  Talk asking({ask_info(10), Pause{.until = at(100ms)}});
+  Talk pausing({Pause{.until = at(10s)}, ask_info(11)});
+  bench.node.start(asking, bench.now);
+  bench.node.start(pausing, bench.now);
+  bench.sent_and_echoed();
+  bench.node.stop(bench.now);
+  CHECK(bench.node.jobs() == 0);
+  bench.pass(900ms);
+  CHECK(bench.sent().empty());
+  CHECK(asking.outcomes == Kinds{start, cancelled});
+  CHECK(pausing.outcomes == Kinds{start, cancelled});
+}
+
+TEST_CASE("frames of a question that is given up shall not leave any more") {
+  Bench bench;
+  Talk talk({ask_register(12, "0x38", std::int64_t{900})});
+  Talk waiting({ask_info(12)}); // not asked yet: nothing of it is anywhere
+  bench.node.start(talk, bench.now);
+  bench.node.start(waiting, bench.now);
+  const Lines question = bench.sent();
+  REQUIRE(question.size() == 3);
+  SECTION("it was stopped") {
+    bench.node.stop(bench.now);
+    CHECK(bench.withdrawn == question);
+  }
+  SECTION("it was cancelled with all others") {
+    bench.node.cancel_all(bench.now);
+    CHECK(bench.withdrawn == question);
+  }
+  SECTION("it did not leave in time") {
+    bench.pass(1s);
+    CHECK(talk.outcomes == Kinds{start, not_sent});
+    CHECK(bench.withdrawn == question);
+  }
+  SECTION("a part of it has left") {
+    bench.node.sent(frame(question[0]), bench.now);
+    bench.node.stop(bench.now);
+    CHECK(bench.withdrawn == question); // as far as they are still here
+  }
+}
+
+TEST_CASE("what has left is not called back") {
+  Bench bench;
+  Talk talk({ask_register(12, "0x38", std::int64_t{900})});
+  bench.node.start(talk, bench.now);
+  bench.sent_and_echoed();
+  SECTION("when it is stopped") {
+    bench.node.stop(bench.now);
+    CHECK(talk.outcomes == Kinds{start, cancelled});
+  }
+  SECTION("when it is answered") {
+    bench.answer(12, GetSet::type, 0,
+                 GetSet::Response{.value = std::int64_t{900}, .name = "0x38"}.encode());
+    CHECK(talk.outcomes == Kinds{start, answered});
+  }
+  CHECK(bench.withdrawn.empty());
 }
 
 TEST_CASE("our NodeStatus comes after a second of life, then every second") {
