@@ -20,6 +20,16 @@ std::string seconds(Duration duration) {
   return fmt::format("{:.3f}", std::chrono::duration<double>(duration).count());
 }
 
+/// The configuration; after a save also whether ROM could be read.
+Result<std::vector<const bla::Parameter*>> to_verify(const bla::Profiles& profiles,
+                                                     const fleet::Member& servo, bool after_save) {
+  auto parameters = fleet::configuration(profiles, servo);
+  if (const auto* rom_state = fleet::rom_state(servo); after_save && rom_state != nullptr) {
+    parameters.push_back(rom_state);
+  }
+  return parameters;
+}
+
 } // namespace
 
 std::string restart_question(const fleet::Member& servo, const fleet::Values& values) {
@@ -35,7 +45,7 @@ std::string restart_question(const fleet::Member& servo, const fleet::Values& va
                            : say<texts::question_restart_hard>(servo.id.value());
 }
 
-bool verify(std::vector<Passage>& passages, Context& context, Report& report) {
+bool verify(std::vector<Passage>& passages, bool after_save, Context& context, Report& report) {
   const auto profiles = context.profiles();
   if (!profiles) {
     report.fail(profiles.error());
@@ -50,16 +60,18 @@ bool verify(std::vector<Passage>& passages, Context& context, Report& report) {
     reads.emplace_back(&passage, std::make_unique<fleet::ReadJob>(
                                      context.session().roster(), *passage.servo, **profiles,
                                      context.identification(), [&](const fleet::Member& servo) {
-                                       return Result<std::vector<const bla::Parameter*>>(
-                                           fleet::configuration(**profiles, servo));
+                                       return to_verify(**profiles, servo, after_save);
                                      }));
     context.session().start(*reads.back().second);
   }
   const auto ran = context.session().run();
   for (auto& [passage, job] : reads) {
     passage->error = fleet::compare(*job, passage->expected);
+    if (!passage->error) {
+      passage->error = fleet::check_rom(*job);
+    }
     passage->is_verified = !passage->error;
-    passage->values_read = job->readings().size();
+    passage->values_read = passage->expected.size();
     passage->servo->static_node_id = job->raw(bla::address::static_node_id);
   }
   if (!ran) {
@@ -119,7 +131,7 @@ bool pass_restart(std::vector<Passage>& passages, fleet::RestartKind kind,
     }
     return true;
   }
-  return verify(passages, context, report);
+  return verify(passages, true, context, report);
 }
 
 void write_json(JsonWriter& json, const std::vector<Passage>& passages) {

@@ -39,8 +39,10 @@ struct Passage {
 [[nodiscard]] bool pass_restart(std::vector<Passage>& passages, fleet::RestartKind kind,
                                 const RestartTimes& times, Context& context, Report& report);
 
-/// Reads the configuration of the servos without an error and compares it with what is expected.
-[[nodiscard]] bool verify(std::vector<Passage>& passages, Context& context, Report& report);
+/// Reads the configuration of the servos without an error and compares it with what is expected;
+/// `after_save` also whether they could read their ROM at their start.
+[[nodiscard]] bool verify(std::vector<Passage>& passages, bool after_save, Context& context,
+                          Report& report);
 
 // The views.
 void write_json(JsonWriter& json, const std::vector<Passage>& passages);

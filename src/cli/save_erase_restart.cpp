@@ -41,6 +41,7 @@ class Life {
 
   bool erase();
   bool restore_ids(const std::vector<Values>& before);
+  void leave_unsaved();
   void conclude();
 
   [[nodiscard]] std::vector<Passage>& passages() { return *passages_; }
@@ -160,7 +161,7 @@ bool Life::send_erase() {
     context_.broken(ran.error(), report_);
     return false;
   }
-  return verify(*passages_, context_, report_);
+  return verify(*passages_, false, context_, report_);
 }
 
 /// Erases and reads back. Where the registers show that a request without an answer was not carried
@@ -210,6 +211,16 @@ bool Life::restore_ids(const std::vector<Values>& before) {
     context_.broken(ran.error(), report_);
   }
   return ran.has_value();
+}
+
+/// It came to an end before SAVE: what is in RAM now is gone with the next restart.
+void Life::leave_unsaved() {
+  for (Passage& passage : *passages_) {
+    const std::uint8_t id = passage.before.id.value();
+    if (!passage.error) {
+      passage.error = Error{Code::interrupted, say<texts::not_saved>(id), {}, id};
+    }
+  }
 }
 
 void Life::conclude() {
@@ -295,8 +306,11 @@ Report execute(const EraseOptions& options, Context& context) {
   if (!report.errors.empty() || !life.confirm(question)) {
     return report;
   }
-  if (life.erase() && (!options.keep_ids || life.restore_ids(before)) && options.save) {
+  const bool erased = life.erase() && (!options.keep_ids || life.restore_ids(before));
+  if (options.save && erased) {
     life.restart(RestartKind::save, options.times);
+  } else if (options.save) {
+    life.leave_unsaved();
   }
   life.conclude();
   return report;

@@ -69,17 +69,25 @@ void Node::echoes_lost(Time at) {
 }
 
 void Node::on_transfer(const Transfer& transfer) {
+  const Header& header = transfer.header;
+  const bool for_us = header.destination == local_ && local_.is_unicast();
+  const bool is_response = header.kind == Kind::response;
+  if (for_us && is_response && asked_for(transfer) == nullptr) {
+    if (hooks_.stray) {
+      hooks_.stray(transfer);
+    }
+    return;
+  }
   // First those who only listen: what a job concludes from an answer rests on what they know.
   if (hooks_.transfer) {
     hooks_.transfer(transfer);
   }
-  const Header& header = transfer.header;
-  if (header.destination == local_ && local_.is_unicast()) {
-    if (header.kind == Kind::response) {
-      on_response(transfer);
-    } else if (header.data_type_id == GetNodeInfo::type.id) {
-      answer_node_info(transfer);
+  if (for_us && is_response) {
+    if (Active* active = asked_for(transfer)) { // a listener may have started and ended jobs
+      finish(*active, {Outcome::Kind::answered, transfer.payload, transfer.at});
     }
+  } else if (for_us && header.data_type_id == GetNodeInfo::type.id) {
+    answer_node_info(transfer);
   }
   wake();
 }
@@ -95,22 +103,19 @@ void Node::wake() {
   ask_waiting(now_);
 }
 
-void Node::on_response(const Transfer& transfer) {
-  const Header& header = transfer.header;
+/// The job whose question this answers; null: none.
+Node::Active* Node::asked_for(const Transfer& response) {
+  const Header& header = response.header;
   const auto it = std::ranges::find_if(jobs_, [&](const Active& active) {
     return active.asked && active.step.request()->server == header.source &&
            active.step.request()->type->id == header.data_type_id &&
-           active.transfer_id == transfer.transfer_id;
+           active.transfer_id == response.transfer_id;
   });
   if (it == jobs_.end()) {
-    return;
+    return nullptr;
   }
   const auto& accepts = it->step.request()->accepts;
-  if (accepts && !accepts(transfer.payload)) {
-    return;
-  }
-  finish(*it, {Outcome::Kind::answered, transfer.payload, transfer.at});
-  ask_waiting(now_);
+  return accepts && !accepts(response.payload) ? nullptr : &*it;
 }
 
 NodeStatus Node::status(Time now) const {

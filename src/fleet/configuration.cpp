@@ -7,6 +7,13 @@
 
 namespace blactl::fleet {
 
+namespace {
+
+constexpr bla::Address fault_warning{0x1A};
+constexpr std::int64_t rom_unreadable = 1 << 15; // 0x1A, requirement 65
+
+} // namespace
+
 std::vector<const bla::Parameter*> configuration(const bla::Profiles& profiles,
                                                  const Member& servo) {
   std::vector<const bla::Parameter*> wanted;
@@ -32,6 +39,20 @@ Result<Values> factory_defaults(const bla::Profiles& profiles, const Member& ser
     defaults[parameter->address] = *parameter->default_raw;
   }
   return defaults;
+}
+
+const bla::Parameter* rom_state(const Member& servo) {
+  return servo.identity.parameter(fault_warning);
+}
+
+std::optional<Error> check_rom(const ReadJob& job) {
+  const auto warnings = job.raw(fault_warning);
+  if (!warnings || (*warnings & rom_unreadable) == 0) {
+    return std::nullopt;
+  }
+  const std::uint8_t id = job.member().id.value();
+  return Error{Code::mismatch, say<texts::rom_unreadable>(id), say<texts::rom_unreadable_hint>(id),
+               id};
 }
 
 Values values(const ReadJob& job) {

@@ -178,6 +178,7 @@ Time Server::next_deadline(Time now) const {
 
 void Server::hold(std::size_t clients) {
   state_->held_for = clients;
+  state_->more = true; // look at once whether that lets time pass
 }
 
 Simulator& Server::simulator() {

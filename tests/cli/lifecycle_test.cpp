@@ -106,6 +106,37 @@ TEST_CASE("a ROM that kept its old values is found out") {
   CHECK(codes(set) == std::vector<std::string>{"mismatch"});
 }
 
+TEST_CASE("a servo that cannot read its ROM after the restart is no success") {
+  // 0x1A bit 15: it runs with initial values, which here are just those that were to be saved.
+  const Scene scene = Scene().servo("BLA21-12U-AB", 11, {{"ram", {{"fault_warning", 1 << 15}}}});
+  const Result saved = scene.run({"save", "-n", "11", "-y", "-j"});
+  CHECK(saved.status == 5);
+  CHECK(codes(saved) == std::vector<std::string>{"mismatch"});
+  CHECK(node(saved)["status"] == "failed");
+  CHECK(scene.run({"erase", "-n", "11", "--save", "-y"}).status == 5);
+  CHECK(scene.run({"erase", "-n", "11", "-y"}).status == 0); // asks nothing of its ROM
+}
+
+TEST_CASE("erase --save that breaks off before SAVE is done with no servo") {
+  int broken = 0;
+  for (int at_ms = 1200; at_ms < 1400; at_ms += 10) {
+    const Bench bench;
+    const std::string scenario = bench.file(
+        "s.json", R"({"schema":"blactl-scenario/1","clock":"virtual","servos":[)"
+                  R"({"model":"BLA21-12U-AB","node_id":11},{"model":"BLA21-12U-AB","node_id":12}],)"
+                  R"("events":[{"at":")" +
+                      std::to_string(at_ms) + R"(ms","clients":"bus_off"}]})");
+    const Result erased =
+        bench.run({"-i", "sim:" + scenario, "erase", "-n", "all", "--save", "-y", "-j"});
+    CHECK(erased.status == 3);
+    for (const auto& one : json(erased.out).at("nodes")) {
+      CHECK(one.at("status") == "failed");
+      ++broken;
+    }
+  }
+  CHECK(broken > 0);
+}
+
 TEST_CASE("a servo that refuses SAVE ends in 5, one that answers and stays up in 1") {
   const auto saved = [](const char* fault) {
     return Scene()

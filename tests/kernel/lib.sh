@@ -75,7 +75,7 @@ mark() {
 witness_start() {
   witness_interface=${1:-vcan0}
   witness_log=$(mktemp)
-  candump -L "$witness_interface,0:0,#FFFFFFFF" >"$witness_log" &
+  candump -r 8388608 -L "$witness_interface,0:0,#FFFFFFFF" >"$witness_log" &
   witness=$!
   wait_for 10 mark 00
 }

@@ -38,6 +38,11 @@ expect_value() {
   case $out in *"\"raw\": $1,"*) ;; *) fail "expected raw $1 of $3" ;; esac
 }
 
+# is_held ID: a process uses this node ID on vcan0.
+is_held() {
+  ! flock -n "/run/lock/blactl/vcan0.$1" true
+}
+
 # at ID [MORE KEYS]: a servo of a scenario.
 at() {
   echo "{\"model\":\"BLA21-12U-AB\",\"node_id\":$1${2:+,$2}}"
@@ -127,8 +132,9 @@ expect_err '[busy]'
 expect_err "$writer"
 run "$blactl" save -n 12 -y
 expect_status 9
-"$blactl" scan --listen 2 >"$TMPDIR/scan.out" 2>&1 &
+"$blactl" scan --listen 10 >"$TMPDIR/scan.out" 2>&1 &
 reader=$!
+wait_for 20 is_held 126
 run "$blactl" get -n 12 smoothing # the two default IDs are taken
 expect_status 9
 expect_err '[no_local_node_id]'

@@ -107,8 +107,11 @@ class Node {
  public:
   struct Hooks {
     std::function<void(const can::Frame&)> send;
-    /// Every transfer heard, services between other nodes included. May be empty.
+    /// Every transfer heard, services between other nodes included; but no answer to this node that
+    /// it does not wait for, or no more: it may tell of a time long past. May be empty.
     std::function<void(const Transfer&)> transfer;
+    /// Such an answer: late, double, or of a second unit under the same node ID. May be empty.
+    std::function<void(const Transfer&)> stray{};
     /// A transfer that could not be reassembled. May be empty.
     std::function<void(ReceiveError, std::uint32_t can_id, Time)> error;
     /// Frames that wait to leave this machine. May be empty: none.
@@ -172,7 +175,7 @@ class Node {
   };
 
   void on_transfer(const Transfer& transfer);
-  void on_response(const Transfer& transfer);
+  [[nodiscard]] Active* asked_for(const Transfer& response);
   void answer_node_info(const Transfer& request);
   [[nodiscard]] bool is_congested() const;
   void broadcast_status(Time now);

@@ -21,6 +21,13 @@ using Values = std::map<bla::Address, std::int64_t>;
 /// What they hold after ERASE. Errors: no_profile, where the model is not known well enough.
 [[nodiscard]] Result<Values> factory_defaults(const bla::Profiles& profiles, const Member& servo);
 
+/// The register that tells after a restart whether ROM could be read (4.12); null: there is none.
+[[nodiscard]] const bla::Parameter* rom_state(const Member& servo);
+
+/// Errors: mismatch, if that register was read and tells that the servo has found its ROM
+/// unreadable and holds initial values.
+[[nodiscard]] std::optional<Error> check_rom(const ReadJob& job);
+
 /// What was read.
 [[nodiscard]] Values values(const ReadJob& job);
 

@@ -127,6 +127,15 @@ inline constexpr Text defaults_unknown_hint{
     "機種情報を確認: blactl get --group product",
 };
 inline constexpr Text holds_instead{"{} is {} instead of {}", "{} は {} (期待値 {})"};
+inline constexpr Text rom_unreadable{
+    "node {} could not read its ROM at its start and holds initial values",
+    "ノード {}: 起動時に ROM のデータを読み出せず、初期値で動作しています"};
+inline constexpr Text rom_unreadable_hint{
+    "was the supply cut while it saved? write its values again, then: blactl save -n {}",
+    "保存中に電源が切れた可能性があります。値を書き直してから blactl save -n {} "
+    "を実行してください"};
+inline constexpr Text not_saved{"node {}: ROM was not written",
+                                "ノード {}: ROM に保存していません"};
 inline constexpr Text values_differ{"node {}: {}", "ノード {}: {}"};
 inline constexpr Text not_begun{"node {}: interrupted before anything was sent",
                                 "ノード {}: 送信前に中断されました"};

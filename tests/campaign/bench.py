@@ -1,0 +1,105 @@
+"""Runs a simulator on the virtual clock and commands beside it, in a folder of their own."""
+
+import json
+import os
+import queue
+import subprocess
+import threading
+
+PATIENCE_S = 120  # of real time: beyond it a process hangs
+
+
+class Hang(Exception):
+    pass
+
+
+class Simulator:
+    """`blactl sim`, steered and questioned by its standard input and output."""
+
+    def __init__(self, blactl, folder, scenario):
+        path = os.path.join(folder, "scenario.json")
+        with open(path, "w", encoding="utf-8") as file:
+            json.dump(scenario, file)
+        self.process = subprocess.Popen(
+            [blactl, "-q", "sim", "--json", path], text=True, env=environment(folder),
+            stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        self._lines = queue.Queue()
+        threading.Thread(target=self._read, daemon=True).start()
+        self._until("ready")
+
+    def _read(self):
+        for line in self.process.stdout:
+            self._lines.put(json.loads(line))
+        self._lines.put(None)
+
+    def _until(self, event):
+        """The events up to this one, which is left out."""
+        events = []
+        while True:
+            try:
+                line = self._lines.get(timeout=PATIENCE_S)
+            except queue.Empty:
+                raise Hang("the simulator says nothing") from None
+            if line is None:
+                raise RuntimeError("the simulator has ended: " + self.process.stderr.read())
+            if line.get("event") == event:
+                return events
+            events.append(line)
+
+    def order(self, text):
+        self.process.stdin.write(text + "\n")
+        self.process.stdin.flush()
+
+    def dump(self):
+        """What has happened since the last dump, and the state of every servo by its serial."""
+        self.order("dump")
+        events = self._until("dumped")
+        states = {line["serial_number"]: line for line in events if line["event"] == "state"}
+        return [line for line in events if line["event"] != "state"], states
+
+    def end(self):
+        self.process.terminate()
+        self.process.communicate(timeout=PATIENCE_S)
+        return self.process.returncode
+
+
+class Outcome:
+    def __init__(self, command, status, out, err):
+        self.command, self.status, self.out, self.err = command, status, out, err
+
+    def __str__(self):
+        return (f"$ blactl {' '.join(self.command)}\nexit status {self.status}\n"
+                f"{self.out}{self.err}")
+
+
+def environment(folder):
+    env = {key: value for key, value in os.environ.items() if not key.startswith("BLACTL_")}
+    env.update(XDG_RUNTIME_DIR=folder, HOME=folder, XDG_STATE_HOME=folder, LC_ALL="C.UTF-8")
+    return env
+
+
+def run_at_once(blactl, folder, simulator, commands, options):
+    """The outcomes of commands that begin at the same moment of virtual time."""
+    simulator.order(f"hold {len(commands)}")
+    running = [subprocess.Popen([blactl, "-i", "sim:", *options, *command], text=True,
+                                env=environment(folder), stdin=subprocess.DEVNULL,
+                                stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+               for command in commands]
+    outputs = [None] * len(running)
+
+    def wait(index):
+        outputs[index] = running[index].communicate(timeout=PATIENCE_S)
+        simulator.order("hold 0")  # one that never came to the bus must not keep the others
+
+    waiting = [threading.Thread(target=wait, args=(i,)) for i in range(len(running))]
+    for thread in waiting:
+        thread.start()
+    for thread in waiting:
+        thread.join()
+    for process, output in zip(running, outputs):
+        if output is None:
+            for other in running:
+                other.kill()
+            raise Hang("a command hangs: " + " ".join(process.args))
+    return [Outcome(command, process.returncode, *output)
+            for command, process, output in zip(commands, running, outputs)]
