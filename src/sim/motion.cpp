@@ -44,7 +44,8 @@ bool commands(Address address) {
 } // namespace
 
 Motion::Motion(const ServoSetup& setup, Registers& registers, Time power_on)
-    : registers_(registers), behaviour_(setup.behaviour), has_pwm_input_(setup.profile->pwm),
+    : registers_(registers), behaviour_(setup.behaviour),
+      has_pwm_input_(default_of(setup, address::pwm_range) != 0),
       nominal_decivolt_(nominal_decivolt(setup)), full_speed_(full_speed_of(*setup.profile)),
       full_current_(default_of(setup, address::overcurrent_limit)), has_boost_(lets_boost(setup)),
       world_(world_of(setup)), grid_(power_on) {
