@@ -385,7 +385,7 @@ TEST_CASE("requirement 129: smoothing levels the command, without it the shaft f
 TEST_CASE("requirement 171: 0x2A limits the motor, also without 0x25", "[requirement-171]") {
   for (const char* control : {"on", "off"}) {
     MotionRig rig(fmt::format(R"("model": "BLA21-12U-AB", "ram": {{"speed_torque_control": "{}"}},
-        "rom": {{"soft_start": "off", "timeout_action": "hold", "overcurrent_limit": 35}})",
+        "rom": {{"soft_start": "off", "timeout_action": "hold", "overcurrent_limit": "3.5A"}})",
                               control));
     rig.write(command_angle, 1700);
     CHECK(greatest(rig, 500ms, [&] { return rig.torque(); }) == 56); // 3.5 A of 6.3 A
@@ -453,13 +453,13 @@ TEST_CASE("requirement 173: 0x2D brakes earlier, with an angle command and 0x25 
 TEST_CASE("a stuck shaft keeps the motor pushing, and goes on when it is free") {
   MotionRig rig;
   rig.around([](World& world) { world.stuck = true; });
-  rig.write(command_angle, 450);
+  rig.write(command_angle, 47);
   rig.run(1s);
   CHECK(rig.angle() == 0);
-  CHECK(rig.torque() == 44); // 4.5 deg beyond the dead band, 1 % for 0.1 deg
+  CHECK(rig.torque() == 44); // 4.4 deg beyond the dead band, 1 % for 0.1 deg
   rig.around([](World& world) { world.stuck = false; });
   rig.run(1s);
-  CHECK(rig.stands_at(450));
+  CHECK(rig.stands_at(47));
 }
 
 TEST_CASE("looking more often changes nothing") {

@@ -166,7 +166,7 @@ TEST_CASE("requirement 139: only the first motion is soft", "[requirement-139]")
   rig.run(2s);
   CHECK(rig.stands_at(0));
   rig.write(command_angle, 1700);
-  rig.run(300ms);
+  rig.run(100ms);
   CHECK(rig.rpm() > 100);
 }
 
