@@ -16,24 +16,10 @@ using bla::Address;
 
 namespace {
 
-/// Requirement 123; unproven for series other than BLA21.
-std::int64_t full_speed_of(const bla::Profile& profile) {
-  constexpr std::int64_t practical_rpm = 150;
-  const bla::Parameter* limit = profile.find(address::speed_limit_cw);
-  const std::int64_t rpm = limit != nullptr ? limit->default_raw.value_or(0) : 0;
-  return std::clamp<std::int64_t>(rpm, 1, practical_rpm) * speed_per_rpm;
-}
-
-/// The default of a register, 0 if model or firmware lack it.
-std::int64_t default_of(const ServoSetup& setup, Address address) {
-  const bla::Parameter* parameter = setup.profile->find(address);
-  const bool exists = parameter != nullptr && parameter->exists_in(setup.firmware_version);
-  return exists ? parameter->default_raw.value_or(0) : 0;
-}
-
-bool lets_boost(const ServoSetup& setup) {
-  const bla::Parameter* boost = setup.profile->find(address::angle_boost);
-  return boost != nullptr && boost->exists_in(setup.firmware_version);
+/// -AB models, with a firmware that knows.
+bool has_pwm_input(const ServoSetup& setup) {
+  const bla::Parameter* range = setup.profile->find(address::pwm_range);
+  return setup.profile->pwm && range != nullptr && range->exists_in(setup.firmware_version);
 }
 
 /// 0x00-0x02 and 0x20: what a servo takes for a command (4.19).
@@ -44,24 +30,19 @@ bool commands(Address address) {
 } // namespace
 
 Motion::Motion(const ServoSetup& setup, Registers& registers, Time power_on)
-    : registers_(registers), behaviour_(setup.behaviour),
-      has_pwm_input_(default_of(setup, address::pwm_range) != 0),
-      nominal_decivolt_(nominal_decivolt(setup)), full_speed_(full_speed_of(*setup.profile)),
-      full_current_(default_of(setup, address::overcurrent_limit)), has_boost_(lets_boost(setup)),
-      world_(world_of(setup)), grid_(power_on) {
-  const std::int64_t decideg =
-      sign() * registers.value(address::current_angle) + registers.value(address::origin);
-  shaft_.angle = decideg * angle_per_decideg;
-  shaft_.speed = sign() * registers.value(address::current_speed) * speed_per_rpm;
+    : registers_(registers), behaviour_(setup.behaviour), has_pwm_input_(has_pwm_input(setup)),
+      motor_(motor_of(setup)), world_(world_of(setup)), grid_(power_on) {
+  heed_registers();
+  shaft_.angle = frame_.shaft_angle(registers.value(address::current_angle));
+  shaft_.speed = frame_.sign() * registers.value(address::current_speed) * speed_per_rpm;
 }
 
 void Motion::start(Time now) {
   advance_to(now);
   runs_ = true;
   stopped_ = false;
-  turns_ = 0;
-  wrap();
-  timer_.start(now);
+  frame_.wrap(shaft_);
+  timer_.start(now, behaviour_.pwm_waits_after_start);
   soft_start_ =
       registers_.value(address::soft_start) != 0 && registers_.value(address::torque_output) == 0;
   if (!soft_start_) {
@@ -134,11 +115,18 @@ void Motion::surround(const World& world, Time now) {
   look(now);
 }
 
+void Motion::heed_registers() {
+  tuning_ = tuning_of(motor_, registers_, soft_start_);
+  tuning_.boost_in_dead_band = behaviour_.boost_in_dead_band;
+  frame_.set(registers_.value(address::reverse) != 0, registers_.value(address::origin));
+  if (has_pwm_input_) {
+    pulse_ = read_pulse(world_.pulse_us, registers_, behaviour_.pwm_end_points_move);
+  }
+}
+
 void Motion::advance_to(Time now) {
   constexpr Duration grid = 1ms;
-  tuning_ = tuning();
-  pulse_ = has_pwm_input_ ? read_pulse(world_.pulse_us, registers_, behaviour_.pwm_end_points_move)
-                          : PulseReading{};
+  heed_registers();
   while (grid_ + grid <= now) {
     grid_ += grid;
     if (!step()) { // nothing will happen by itself until time alone brings something
@@ -154,7 +142,7 @@ void Motion::advance_to(Time now) {
 void Motion::measure() {
   const bool counts_turns = mode() == Mode::angle || registers_.value(address::extended_angle) != 0;
   if (!counts_turns) {
-    wrap();
+    frame_.wrap(shaft_);
   }
   const auto show = [this](Address address, std::int64_t value, std::int64_t low,
                            std::int64_t high) {
@@ -216,7 +204,7 @@ void Motion::give_up_command() {
 void Motion::end_soft_start() {
   if (soft_start_) {
     soft_start_ = false;
-    tuning_ = tuning();
+    heed_registers();
   }
 }
 

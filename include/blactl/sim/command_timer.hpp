@@ -10,10 +10,10 @@ namespace blactl::sim {
 
 class CommandTimer {
  public:
-  /// The servo begins to run; the timeout counts from here.
-  void start(Time now) {
+  /// The servo begins to run; the timeout counts from here. `pwm_waits`: so does the wait of PWM.
+  void start(Time now, bool pwm_waits) {
     last_ = now;
-    last_can_.reset();
+    last_can_ = pwm_waits ? std::optional(now) : std::nullopt;
   }
 
   void commanded(Time at) { last_ = at; }
@@ -27,7 +27,7 @@ class CommandTimer {
   /// Requirement 145: longer than `limit` without a command.
   [[nodiscard]] bool timed_out(Time at, Duration limit) const { return at - last_ > limit; }
 
-  /// Requirements 156, 157. unproven: before the first command by CAN, PWM counts at once.
+  /// Requirements 156, 157.
   [[nodiscard]] bool accepts_pwm(Time at, Duration limit) const {
     return !last_can_ || at - *last_can_ >= limit;
   }

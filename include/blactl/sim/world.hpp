@@ -11,7 +11,8 @@ struct ServoSetup;
 /// How the magnet of the angle sensor reads (bits 4, 5 of 0x1A and bit 5 of 0x1B).
 enum class Magnet : std::uint8_t { fine, weak, strong, unreadable };
 
-/// A plain value: who steers a servo takes Servo::world(), changes it and gives it back.
+/// A plain value: who steers a servo takes Servo::world(), changes it and gives it back by
+/// Servo::surround(). Loads are -1000 to 1000 %, hands at -360,000,000 to 360,000,000.
 struct World {
   static constexpr std::int64_t room_celsius = 25;
 
@@ -20,8 +21,8 @@ struct World {
   std::int64_t load_percent = 0;              ///< of the greatest torque; positive pushes CW
   std::optional<std::int64_t> hand_decideg{}; ///< a hand turns the shaft there and holds it: 0.1
                                               ///< deg CW of the horn notch, the nearest way round
-  bool stuck = false;                     ///< the shaft does not turn, whatever pushes
-  std::optional<std::int64_t> pulse_us{}; ///< width at the PWM input; empty: no signal
+  bool stuck = false;                         ///< the shaft does not turn, whatever pushes
+  std::optional<std::int64_t> pulse_us{};     ///< width at the PWM input; empty: no signal
   Magnet magnet = Magnet::fine;
   bool driver_stopped = false;    ///< 0x1B bit 0
   bool rotation_abnormal = false; ///< 0x1B bit 1

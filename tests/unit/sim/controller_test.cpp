@@ -46,6 +46,17 @@ TEST_CASE("requirements 172, 174: boost is added at once, 100 is 10 %, all toget
   CHECK(angle_effort(-100 * degree, tuning) == -full_effort);
 }
 
+TEST_CASE("requirement 172: boost may work inside the dead band", "[requirement-172][unproven]") {
+  Tuning tuning = plain();
+  tuning.boost = 10 * effort_per_percent;
+  tuning.dead_band = degree;
+  CHECK(angle_effort(degree / 2, tuning) == 0);
+  tuning.boost_in_dead_band = true;
+  CHECK(angle_effort(degree / 2, tuning) == tuning.boost);
+  CHECK(angle_effort(-degree / 2, tuning) == -tuning.boost);
+  CHECK(angle_effort(0, tuning) == 0);
+}
+
 TEST_CASE("requirement 129: without smoothing a step of the command is followed at once",
           "[requirement-129]") {
   const Aim aim{Mode::angle, 90 * degree};

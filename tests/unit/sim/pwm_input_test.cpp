@@ -147,6 +147,19 @@ TEST_CASE("requirements 156, 157: CAN goes first, PWM comes back after 0x27 with
   CHECK(rig.stands_at(200));
 }
 
+TEST_CASE("requirement 157: at the start a pulse counts at once, or after 0x27",
+          "[requirement-157][unproven]") {
+  for (const bool waits : {false, true}) {
+    MotionRig rig(
+        MotionRig::with(fmt::format(R"("behaviour": {{"pwm_waits_after_start": {}}})", waits)));
+    give_pulse(rig, 1720);
+    rig.run(900ms);
+    CHECK(rig.stands_at(waits ? 0 : 200));
+    rig.run(900ms);
+    CHECK(rig.stands_at(200));
+  }
+}
+
 TEST_CASE("requirements 145, 158: pulses feed the timeout, their end does not",
           "[requirement-145][requirement-158]") {
   MotionRig rig(R"("model": "BLA21-12U-AB", "rom": {"soft_start": "off"})");

@@ -72,6 +72,7 @@ TEST_CASE("a scenario says all there is to say") {
                     "slow_speed": "turns_slowest", "array_command_feeds_timeout": false,
                     "get_set_feeds_timeout": true, "inclusive_limits": false,
                     "failures_latch": true, "notices_warn": true, "pwm_end_points_move": false,
+                    "pwm_waits_after_start": true, "boost_in_dead_band": true,
                     "soft_start_shows": true},
       "faults": {"lose_responses": 2, "mute": true, "lose_opcode_answers": 3,
                  "ignore_opcodes": 4, "refuse_opcodes": true, "rom_write_fails": true,
@@ -109,6 +110,8 @@ TEST_CASE("a scenario says all there is to say") {
   CHECK(servo.behaviour.failures_latch);
   CHECK(servo.behaviour.notices_warn);
   CHECK_FALSE(servo.behaviour.pwm_end_points_move);
+  CHECK(servo.behaviour.pwm_waits_after_start);
+  CHECK(servo.behaviour.boost_in_dead_band);
   CHECK(servo.behaviour.soft_start_shows);
   CHECK(servo.faults.lose_opcode_answers == 3);
   CHECK(servo.faults.ignore_opcodes == 4);

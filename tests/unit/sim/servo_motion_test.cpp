@@ -305,3 +305,75 @@ TEST_CASE("requirement 61: after ERASE the commands are those of the defaults",
   CHECK(rig.opcode(dronecan::ExecuteOpcode::erase) == "ok");
   CHECK(rig.read("0x00") == 0);
 }
+
+TEST_CASE("requirement 5: with a node ID it never asks for one", "[requirement-5]") {
+  Rig rig(calm);
+  CHECK(only(rig.bench.run(1min), dronecan::Allocation::type.id).empty());
+}
+
+TEST_CASE("requirement 6: of messages it hears ArrayCommand only", "[requirement-6]") {
+  Rig rig(calm);
+  const ArrayCommand message{{{1, 1, 0.5F}}};
+  for (const std::uint16_t type :
+       std::initializer_list<std::uint16_t>{1009, 1011, 1012, 1030, 341, 1}) {
+    const dronecan::Header header{dronecan::Kind::message, 16, type, dronecan::NodeId(127), {}, 0};
+    rig.bench.deliver(
+        dronecan::segment(header, 0, ArrayCommand::type.signature, message.encode().bytes()));
+  }
+  CHECK(value(rig, address::command_angle) == 0);
+  send(rig, message.commands);
+  CHECK(value(rig, address::command_angle) == 500);
+}
+
+TEST_CASE("requirements 7, 8: four services are served, the others get no answer",
+          "[requirement-7][requirement-8]") {
+  std::vector<int> served;
+  for (int type = 0; type < 256; ++type) {
+    Rig rig(calm);
+    // Right for each of the four: SAVE, the magic number, a read of 0x00 by its index.
+    const char* data = type == 5 ? "1E1B55CEAC" : type == 10 ? "00000000000000" : "0000";
+    const auto request = fmt::format("1E{:02X}8BFF#{}C1", type, type == 1 ? "" : data);
+    if (!rig.bench.ask({frame(request)}).empty()) {
+      served.push_back(type);
+    }
+  }
+  CHECK(served == std::vector{1, 5, 10, 11});
+}
+
+TEST_CASE("requirement 9: type IDs and signatures as chapter 2.3 prints them", "[requirement-9]") {
+  const auto is = [](const dronecan::DataType& type, std::uint16_t id, std::uint64_t signature) {
+    return type.id == id && type.signature == signature;
+  };
+  CHECK(is(dronecan::GetNodeInfo::type, 1, 0xee468a8121c46a9e));
+  CHECK(is(dronecan::Allocation::type, 1, 0x0b2a812620a11d40));
+  CHECK(is(dronecan::RestartNode::type, 5, 0x569e05394a3017f0));
+  CHECK(is(dronecan::ExecuteOpcode::type, 10, 0x3b131ac5eb69d2cd));
+  CHECK(is(dronecan::GetSet::type, 11, 0xa7b622f939d1a4d5));
+  CHECK(is(dronecan::NodeStatus::type, 341, 0x0f0868d0c1a7c6f1));
+  CHECK(is(ArrayCommand::type, 1010, 0xd8a7486238ec3af3));
+  CHECK(is(dronecan::ActuatorStatus::type, 1011, 0x5e9bba44faf1ea04));
+}
+
+TEST_CASE("requirement 10: bit 0 is the most significant, bytes begin with the least",
+          "[requirement-10]") {
+  Rig rig(with(R"("ram": {"fault_failure": 1})"));
+  const auto status = only(rig.bench.run(1100ms), dronecan::NodeStatus::type.id).back();
+  CHECK(testing::text(status) == "1001550B#01000000800000C1"); // health 2, uptime 1
+  CHECK(rig.bench.ask({frame("1E0B8BFF#000030783338DF")}).at(0) == "1E0B7F8B#6D4C01070700009F");
+}
+
+TEST_CASE("requirement 20: one unique ID, in GetNodeInfo and allocation, after restarts too",
+          "[requirement-20]") {
+  const Frames end{"1E017F8B#2233445566778802", "1E017F8B#99AABBCCDDEEFF22"};
+  Rig rig(testing::bla21);
+  for (int start = 0; start < 2; ++start) {
+    const Frames info = rig.bench.ask({frame("1E018BFF#C2")});
+    CHECK(info.at(4) == end[0]);
+    CHECK(info.at(5) == end[1]);
+    CHECK(rig.restart_node() == "ok");
+    rig.settle();
+  }
+  Rig asking(R"("model": "BLA21-12U-AB", "unique_id": "00112233445566778899aabbccddeeff")", 0ms);
+  const auto request = asking.bench.run(1200ms).front();
+  CHECK(testing::text(request).substr(9) == "01001122334455C0");
+}
