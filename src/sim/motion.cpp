@@ -62,7 +62,9 @@ void Motion::stop(Time now) {
 void Motion::look(Time now) {
   advance_to(now);
   measure();
-  protect();
+  if (protect()) {
+    measure();
+  }
 }
 
 std::optional<std::int64_t> Motion::read(Address address, Time now) {
@@ -103,7 +105,7 @@ void Motion::command(const MotionCommand& command, Time now) {
 }
 
 void Motion::initialize(Time now) {
-  advance_to(now);
+  look(now);
   registers_.initialize();
   holds_ = false;
   look(now);
@@ -139,11 +141,15 @@ void Motion::advance_to(Time now) {
   }
 }
 
-void Motion::measure() {
-  const bool counts_turns = mode() == Mode::angle || registers_.value(address::extended_angle) != 0;
-  if (!counts_turns) {
+/// Requirement 124.
+void Motion::forget_turns() {
+  if (mode() != Mode::angle && registers_.value(address::extended_angle) == 0) {
     frame_.wrap(shaft_);
   }
+}
+
+void Motion::measure() {
+  forget_turns();
   const auto show = [this](Address address, std::int64_t value, std::int64_t low,
                            std::int64_t high) {
     registers_.set(address, std::clamp(value, low, high));
@@ -163,11 +169,11 @@ void Motion::measure() {
   registers_.set(address::fault_failure, faults.failure | kept_failures_);
 }
 
-/// Requirements 136, 161, 162, 170.
-void Motion::protect() {
+/// Requirements 136, 161, 162, 170. Whether something changed.
+bool Motion::protect() {
   const bool stops = stops_motor(registers_, behaviour_, registers_.value(address::fault_failure));
   if (!runs_ || stops == stopped_) {
-    return;
+    return false;
   }
   stopped_ = stops;
   if (stops) {
@@ -175,6 +181,7 @@ void Motion::protect() {
   } else {
     give_up_command();
   }
+  return true;
 }
 
 /// A command was taken; `before` it the register held that.

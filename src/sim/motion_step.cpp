@@ -57,6 +57,7 @@ bool Motion::obey_pulse() {
   if (value == before && !holds_) {
     return false;
   }
+  forget_turns();
   holds_ = false;
   registers_.command(address, value);
   return registers_.value(address) != before;

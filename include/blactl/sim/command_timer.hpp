@@ -4,6 +4,7 @@
 
 #include "blactl/base/time.hpp"
 
+#include <algorithm>
 #include <optional>
 
 namespace blactl::sim {
@@ -34,10 +35,8 @@ class CommandTimer {
 
   /// When one of the two answers changes by time alone.
   [[nodiscard]] Time next_change(Time at, Duration limit) const {
-    if (!accepts_pwm(at, limit)) {
-      return *last_can_ + limit;
-    }
-    return timed_out(at, limit) ? never : last_ + limit + Duration(1);
+    const Time pwm = accepts_pwm(at, limit) ? never : *last_can_ + limit;
+    return timed_out(at, limit) ? pwm : std::min(pwm, last_ + limit + Duration(1));
   }
 
  private:

@@ -56,8 +56,9 @@ class Motion {
   // What is asked of it (motion.cpp).
   void advance_to(Time now);
   void heed_registers();
+  void forget_turns();
   void measure();
-  void protect();
+  bool protect();
   void obey(bla::Address address, std::int64_t before);
   void give_up_command();
   void end_soft_start();

@@ -1,6 +1,7 @@
 // Commands and what the shaft makes of them (4.1-4.6, 4.16-4.24, 4.31-4.33, 4.36).
 
 #include "blactl/sim/motion.hpp"
+#include "blactl/sim/random.hpp"
 
 #include "sim/fault_bits.hpp"
 #include "unit/sim/motion_rig.hpp"
@@ -486,6 +487,63 @@ TEST_CASE("looking more often changes nothing") {
   CHECK(life(137us) == once);
   CHECK(life(1ms) == once);
   CHECK(life(10ms) == once);
+}
+
+namespace {
+
+/// Something that happens by chance to a servo or around it.
+void disturb(MotionRig& rig, Random& random) {
+  const auto up_to = [&](std::int64_t most) {
+    return static_cast<std::int64_t>(random.next() % static_cast<std::uint64_t>(most + 1));
+  };
+  const auto around = [&](std::int64_t most) { return up_to(2 * most) - most; };
+  constexpr std::array settings{torque_output,  smoothing,      reverse,
+                                extended_angle, timeout_action, speed_torque_control,
+                                pwm_mode};
+  switch (up_to(9)) {
+  case 0: rig.write(command_angle, around(3000)); break;
+  case 1: rig.write(command_speed, around(300)); break;
+  case 2: rig.motion.command({command_torque, around(100)}, rig.now); break;
+  case 3: rig.write(settings.at(random.next() % settings.size()), up_to(2)); break;
+  case 4: rig.write(timeout_time, 1 + up_to(1500)); break;
+  case 5: rig.write(origin, around(1700)); break;
+  case 6: rig.around([&](World& world) { world.load_percent = around(60); }); break;
+  case 7: rig.around([&](World& world) { world.board_celsius = 25 + up_to(70); }); break;
+  case 8:
+    rig.around([&](World& world) {
+      world.hand_decideg = up_to(1) == 0 ? std::optional(around(1800)) : std::nullopt;
+    });
+    break;
+  default:
+    rig.around([&](World& world) {
+      world.pulse_us = up_to(3) != 0 ? std::optional(700 + up_to(1700)) : std::nullopt;
+    });
+  }
+}
+
+} // namespace
+
+TEST_CASE("whatever happens, looking more often changes nothing") {
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    INFO(seed);
+    const auto life = [&](Duration look) {
+      Random random(seed);
+      MotionRig rig(R"("model": "BLA21-12U-AB")");
+      for (int i = 0; i < 60; ++i) {
+        const Time end = rig.now + random.between(1us, 700ms);
+        while (rig.now < end) {
+          rig.run(std::min(look, end - rig.now));
+        }
+        disturb(rig, random);
+      }
+      std::vector<std::int64_t> all{rig.motion.shaft().angle, rig.motion.shaft().speed};
+      for (std::uint8_t address = 0; address < 0x60; ++address) {
+        all.push_back(rig.registers.value(Address(address)));
+      }
+      return all;
+    };
+    CHECK(life(1h) == life(1700us));
+  }
 }
 
 TEST_CASE("a servo that nobody looks at for a day costs nothing") {

@@ -212,6 +212,16 @@ TEST_CASE("requirement 161: a limit that is moved inside the reading stops as we
   CHECK(rig.torque() != 0);
 }
 
+TEST_CASE("on return a command beyond a limit is given up, and its bit with it",
+          "[requirement-162][requirement-165]") {
+  MotionRig rig;
+  rig.around([](World& world) { world.board_celsius = 85; });
+  rig.write(command_angle, 2000);
+  CHECK(rig.noticed(fault::angle_cw));
+  rig.around([](World& world) { world.board_celsius = 25; });
+  CHECK(rig.registers.value(fault_notice) == fault::pwm_missing);
+}
+
 TEST_CASE("requirement 136: 0x20 cannot override protection", "[requirement-136]") {
   MotionRig rig;
   rig.write(command_angle, 450);

@@ -199,3 +199,21 @@ TEST_CASE("a firmware without 0x34 to 0x37 sees no pulse") {
   rig.run(1s);
   CHECK(rig.read(command_angle) == 0);
 }
+
+TEST_CASE("turns of a speed command are forgotten when PWM takes over, looked at or not",
+          "[requirement-124][requirement-157]") {
+  const auto shaft_after = [](Duration look) {
+    MotionRig rig(MotionRig::cascade());
+    give_pulse(rig, 1720);
+    rig.write(timeout_time, 4000);
+    rig.write(command_speed, 100);
+    for (Duration gone{}; gone < 8s; gone += look) {
+      rig.run(look);
+    }
+    CHECK(rig.stands_at(200));
+    return rig.motion.shaft();
+  };
+  const Shaft once = shaft_after(8s);
+  CHECK(once.angle > 20'000 * angle_per_decideg);
+  CHECK(shaft_after(10ms) == once);
+}
