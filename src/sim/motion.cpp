@@ -176,9 +176,8 @@ bool Motion::protect() {
     return false;
   }
   stopped_ = stops;
-  if (stops) {
-    end_soft_start();
-  } else {
+  end_soft_start();
+  if (!stops) {
     give_up_command();
   }
   return true;

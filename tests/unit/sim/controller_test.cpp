@@ -98,3 +98,14 @@ TEST_CASE("the speed control builds up what a load takes, but not what it cannot
   CHECK(controller.step(aim, {0, 50 * speed_per_rpm}, tuning).effort == full_effort);
   CHECK(controller.step(aim, {0, 120 * speed_per_rpm}, tuning).effort < 0);
 }
+
+TEST_CASE("what the speed control built up is gone with another kind of command") {
+  Tuning tuning = plain();
+  tuning.cascade = true;
+  Controller used;
+  for (int i = 0; i < 100; ++i) {
+    (void)used.step({Mode::speed, 60 * speed_per_rpm}, {0, 50 * speed_per_rpm}, tuning);
+  }
+  const Aim aim{Mode::angle, degree};
+  CHECK(used.step(aim, {}, tuning) == Controller().step(aim, {}, tuning));
+}

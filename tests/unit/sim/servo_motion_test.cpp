@@ -235,6 +235,27 @@ TEST_CASE("requirement 65: power that goes while ROM is written leaves the defau
   CHECK(value(rig, address::angle_limit_cw) == 1799);
   CHECK(value(rig, address::soft_start) == 1);
   CHECK(value(rig, address::fault_warning) == fault::rom_unreadable);
+  around(rig, [](World& world) { world.supply_decivolt = 0; });
+  around(rig, [](World& world) { world.supply_decivolt = 120; });
+  rig.bench.run(200ms);
+  CHECK(value(rig, address::fault_warning) == fault::rom_unreadable); // until it is saved anew
+  rig.allocate(125);
+  CHECK(rig.opcode(dronecan::ExecuteOpcode::save) == "ok");
+  rig.settle();
+  CHECK(rig.servo.rom_writes() == 1);
+  CHECK(value(rig, address::fault_warning) == 0);
+}
+
+TEST_CASE("power that goes before ROM is written leaves ROM as it was") {
+  Rig rig(R"("model": "BLA21-12U-AB", "node_id": 11, "answer_delay": "5ms")");
+  CHECK(rig.bench.ask({frame("1E0A8BFF#00000000000000C1")}).empty());
+  around(rig, [](World& world) { world.supply_decivolt = 0; });
+  around(rig, [](World& world) { world.supply_decivolt = 120; });
+  rig.bench.run(1s);
+  CHECK(rig.servo.rom_writes() == 0);
+  CHECK(rig.servo.node_id() == dronecan::NodeId(11));
+  CHECK(value(rig, address::fault_warning) == 0);
+  CHECK(rig.told() == Frames{"restart 11"});
 }
 
 TEST_CASE("requirement 167: why it restarted by itself stays until the next start",

@@ -262,6 +262,7 @@ TEST_CASE("requirement 143: it ends with a timeout to OFF or brake, and with pro
     rig.run(520ms);
     const std::int64_t there = rig.angle();
     CHECK(there > 700);
+    CHECK(rig.read(speed_limit_cw) == 300);
     rig.run(2s);
     CHECK(std::abs(rig.angle() - there) < 20);
   }
@@ -273,6 +274,14 @@ TEST_CASE("requirement 143: it ends with a timeout to OFF or brake, and with pro
   const std::int64_t there = rig.angle();
   rig.run(2s);
   CHECK(std::abs(rig.angle() - there) <= 3);
+}
+
+TEST_CASE("requirement 143: the shortest stop ends the soft start", "[requirement-143]") {
+  MotionRig rig(at("170deg") + R"(, "behaviour": {"soft_start_shows": true})");
+  rig.run(300ms);
+  rig.around([](World& world) { world.board_celsius = 90; });
+  rig.around([](World& world) { world.board_celsius = 25; });
+  CHECK(rig.read(speed_limit_cw) == 300);
 }
 
 TEST_CASE(
