@@ -53,7 +53,7 @@ void Motion::start(Time now) {
 
 void Motion::stop(Time now) {
   advance_to(now);
-  runs_ = holds_ = soft_start_ = false;
+  runs_ = soft_start_ = false;
   kept_failures_ = 0;
   world_.warnings &= ~fault::restart_warnings;
   world_.failures &= ~fault::restart_failures;
@@ -107,7 +107,6 @@ void Motion::command(const MotionCommand& command, Time now) {
 void Motion::initialize(Time now) {
   look(now);
   registers_.initialize();
-  holds_ = false;
   look(now);
 }
 
@@ -196,7 +195,6 @@ void Motion::obey(Address address, std::int64_t before) {
 /// Holds the present angle, or brakes (tables of 4.7 and 4.13). unproven: that 0x20 and a start
 /// without soft start change the registers as protection does.
 void Motion::give_up_command() {
-  controller_.rest();
   switch (mode()) {
   case Mode::angle:
     registers_.set(address::command_angle, angle_decideg());

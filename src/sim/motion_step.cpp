@@ -52,13 +52,16 @@ bool Motion::obey_pulse() {
   }
   timer_.commanded(grid_);
   end_soft_start();
+  holds_ = false;
   const auto [address, value] = *pulse_.command;
   const std::int64_t before = registers_.value(address);
+  if (value == before) {
+    return false;
+  }
   if (value == before && !holds_) {
     return false;
   }
   forget_turns();
-  holds_ = false;
   registers_.command(address, value);
   return registers_.value(address) != before;
 }

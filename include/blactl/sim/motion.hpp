@@ -96,7 +96,7 @@ class Motion {
   std::int64_t kept_failures_ = 0; ///< those that stay until the next start
   bool runs_ = false;
   bool stopped_ = false; ///< by its protection
-  bool holds_ = false;   ///< where it is, inside its angle limits or not, until the next command
+  bool holds_ = false;   ///< 0x00, inside its angle limits or not, until the next command
   bool soft_start_ = false;
 };
 

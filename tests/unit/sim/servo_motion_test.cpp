@@ -220,6 +220,13 @@ TEST_CASE("requirement 163: a servo that never had power is dead until it has",
   CHECK(rig.read("0x0C") == 120);
 }
 
+TEST_CASE("faults: a servo that is dead after a restart stays dead with new power") {
+  Rig rig(with(R"("faults": {"never_returns": true})"));
+  around(rig, [](World& world) { world.supply_decivolt = 0; });
+  around(rig, [](World& world) { world.supply_decivolt = 120; });
+  CHECK(rig.bench.run(1min).empty());
+}
+
 TEST_CASE("requirement 65: power that goes while ROM is written leaves the defaults and a bit",
           "[requirement-65]") {
   Rig rig(calm);

@@ -256,9 +256,9 @@ TEST_CASE("requirement 142: it ends on every command and on a pulse", "[requirem
 TEST_CASE("requirement 143: it ends with a timeout to OFF or brake, and with protection",
           "[requirement-143]") {
   for (const char* action : {"off", "brake"}) {
-    MotionRig rig(
-        at("170deg",
-           fmt::format(R"({{"timeout_action": "{}", "timeout_time": "500ms"}})", action).c_str()));
+    const std::string rom =
+        fmt::format(R"({{"timeout_action": "{}", "timeout_time": "500ms"}})", action);
+    MotionRig rig(at("170deg", rom.c_str()) + R"(, "behaviour": {"soft_start_shows": true})");
     rig.run(520ms);
     const std::int64_t there = rig.angle();
     CHECK(there > 700);
@@ -274,6 +274,19 @@ TEST_CASE("requirement 143: it ends with a timeout to OFF or brake, and with pro
   const std::int64_t there = rig.angle();
   rig.run(2s);
   CHECK(std::abs(rig.angle() - there) <= 3);
+}
+
+TEST_CASE("a soft start after a stop by protection that is over by then", "[requirement-138]") {
+  MotionRig rig(at("60deg"));
+  rig.around([](World& world) { world.board_celsius = 90; });
+  rig.run(500ms);
+  CHECK(rig.angle() == 600);
+  rig.motion.stop(rig.now);
+  rig.around([](World& world) { world.board_celsius = 25; });
+  rig.registers.restart();
+  rig.motion.start(rig.now);
+  rig.run(2s);
+  CHECK(rig.stands_at(0));
 }
 
 TEST_CASE("requirement 143: the shortest stop ends the soft start", "[requirement-143]") {
