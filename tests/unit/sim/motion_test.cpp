@@ -463,6 +463,30 @@ TEST_CASE("a stuck shaft keeps the motor pushing, and goes on when it is free") 
   CHECK(rig.stands_at(47));
 }
 
+TEST_CASE("the greatest numbers that registers and world may have are computed right") {
+  for (const char* control : {"on", "off"}) {
+    MotionRig rig(fmt::format(R"("model": "BLA21-12U-AB", "ram": {{"speed_torque_control": "{}"}},
+        "rom": {{"soft_start": "off", "timeout_action": "hold", "angle_p_gain": 100,
+                 "angle_d_gain": 100, "0x38": 360000000, "0x39": -360000000}})",
+                              control));
+    rig.write(angle_boost, 100);
+    rig.write(command_angle, 360'000'000);
+    rig.run(1s);
+    CHECK(rig.rpm() > 140);
+    rig.around([](World& world) { world.load_percent = -1000; });
+    rig.run(1h);
+    CHECK(rig.angle() < -100'000'000);
+    CHECK(rig.rpm() == -300); // all that 0x09 can show
+    rig.around([](World& world) {
+      world.load_percent = 1000;
+      world.hand_decideg = 360'000'000;
+    });
+    rig.run(1s);
+    CHECK(rig.rpm() == 0);
+    CHECK(rig.angle() % 3600 == 0);
+  }
+}
+
 TEST_CASE("looking more often changes nothing") {
   const auto life = [](Duration look) {
     MotionRig rig(MotionRig::cascade());
