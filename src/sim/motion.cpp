@@ -54,6 +54,7 @@ void Motion::start(Time now) {
 void Motion::stop(Time now) {
   advance_to(now);
   runs_ = soft_start_ = false;
+  told_commands_.reset();
   kept_failures_ = 0;
   world_.warnings &= ~fault::restart_warnings;
   world_.failures &= ~fault::restart_failures;
@@ -72,8 +73,8 @@ std::optional<std::int64_t> Motion::read(Address address, Time now) {
   if (behaviour_.get_set_feeds_timeout) {
     timer_.commanded(now);
   }
-  const auto limit = soft_start_limit(address);
-  return limit ? limit : registers_.read(address);
+  const auto told = told_instead(address);
+  return told ? told : registers_.read(address);
 }
 
 std::optional<std::int64_t> Motion::write(Address address, std::int64_t value, Time now) {
@@ -85,6 +86,7 @@ std::optional<std::int64_t> Motion::write(Address address, std::int64_t value, T
   const std::int64_t before = registers_.value(address);
   const auto answer = registers_.write(address, value);
   if (obeys) {
+    told_commands_.reset();
     timer_.commanded_by_can(now, true);
     obey(address, before);
   }
@@ -97,6 +99,11 @@ void Motion::command(const MotionCommand& command, Time now) {
   if (!registers_.takes(command.address, command.value)) {
     return;
   }
+  if (!behaviour_.array_command_shows && !told_commands_) {
+    told_commands_ = {registers_.value(address::command_angle),
+                      registers_.value(address::command_speed),
+                      registers_.value(address::command_torque)};
+  }
   const std::int64_t before = registers_.value(command.address);
   (void)registers_.write(command.address, command.value);
   timer_.commanded_by_can(now, behaviour_.array_command_feeds_timeout);
@@ -107,6 +114,7 @@ void Motion::command(const MotionCommand& command, Time now) {
 void Motion::initialize(Time now) {
   look(now);
   registers_.initialize();
+  told_commands_.reset();
   look(now);
 }
 
@@ -210,6 +218,14 @@ void Motion::end_soft_start() {
     soft_start_ = false;
     heed_registers();
   }
+}
+
+/// What a read tells that is not what the register holds, if the servo is set so.
+std::optional<std::int64_t> Motion::told_instead(Address address) const {
+  if (told_commands_ && address <= address::command_torque) {
+    return told_commands_->at(address.value());
+  }
+  return soft_start_limit(address);
 }
 
 /// What a read of a limit tells while the soft start has its own, if the servo is set to tell it.

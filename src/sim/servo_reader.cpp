@@ -234,6 +234,7 @@ void ServoReader::motion_behaviour(json::Object& object, Behaviour& into) {
   const auto flag = [&](std::string_view key, bool fallback) {
     return object.optional_boolean(key).value_or(fallback);
   };
+  into.array_command_shows = flag("array_command_shows", into.array_command_shows);
   into.array_command_feeds_timeout =
       flag("array_command_feeds_timeout", into.array_command_feeds_timeout);
   into.get_set_feeds_timeout = flag("get_set_feeds_timeout", into.get_set_feeds_timeout);

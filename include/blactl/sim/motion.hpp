@@ -14,6 +14,7 @@
 #include "blactl/sim/shaft.hpp"
 #include "blactl/sim/world.hpp"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -62,6 +63,7 @@ class Motion {
   void obey(bla::Address address, std::int64_t before);
   void give_up_command();
   void end_soft_start();
+  [[nodiscard]] std::optional<std::int64_t> told_instead(bla::Address address) const;
   [[nodiscard]] std::optional<std::int64_t> soft_start_limit(bla::Address address) const;
 
   // One millisecond (motion_step.cpp).
@@ -92,7 +94,8 @@ class Motion {
   Controller controller_;
   Drive drive_;
   CommandTimer timer_;
-  Time grid_;                      ///< of the last step
+  std::optional<std::array<std::int64_t, 3>> told_commands_; ///< for 0x00-0x02, if it hides them
+  Time grid_;                                                ///< of the last step
   std::int64_t kept_failures_ = 0; ///< those that stay until the next start
   bool runs_ = false;
   bool stopped_ = false; ///< by its protection

@@ -117,6 +117,31 @@ TEST_CASE("requirement 114: the command that rules silences the others", "[requi
   CHECK(rig.read(command_torque) == bla::not_active);
 }
 
+TEST_CASE("requirement 106: whether 0x00 to 0x02 tell what ArrayCommand brought is a setting",
+          "[requirement-106][unproven]") {
+  for (const bool shows : {true, false}) {
+    MotionRig rig(
+        MotionRig::cascade(fmt::format(R"(, "behaviour": {{"array_command_shows": {}}})", shows)));
+    rig.write(command_angle, 100);
+    rig.motion.command({command_angle, 300}, rig.now);
+    CHECK(rig.read(command_angle) == (shows ? 300 : 100));
+    rig.run(1s);
+    CHECK(rig.stands_at(300)); // it obeys in any case
+    rig.motion.command({command_speed, 60}, rig.now);
+    rig.run(1s);
+    CHECK(rig.rpm() == 60);
+    CHECK(rig.read(command_speed) == (shows ? 60 : bla::not_active));
+    rig.write(command_angle, 0);
+    CHECK(rig.read(command_angle) == 0);
+    rig.motion.command({command_angle, 300}, rig.now);
+    rig.motion.initialize(rig.now);
+    CHECK(rig.read(command_angle) == 0);
+    rig.motion.command({command_angle, 300}, rig.now);
+    rig.restart();
+    CHECK(rig.read(command_angle) == rig.registers.value(command_angle));
+  }
+}
+
 TEST_CASE("requirement 116: speed 0 and torque 0 stop and brake", "[requirement-116]") {
   for (const Address stop : {command_speed, command_torque}) {
     MotionRig rig(MotionRig::cascade());

@@ -69,7 +69,8 @@ TEST_CASE("a scenario says all there is to say") {
                     "failure_with_name": true, "ignores_disabled_commands": false,
                     "answers_save_first": false, "rom_write_time": "80ms",
                     "not_a_number": "zero", "unused_fields": "zero",
-                    "slow_speed": "turns_slowest", "array_command_feeds_timeout": false,
+                    "slow_speed": "turns_slowest", "array_command_shows": false,
+                    "array_command_feeds_timeout": false,
                     "get_set_feeds_timeout": true, "inclusive_limits": false,
                     "failures_latch": true, "notices_warn": true, "pwm_end_points_move": false,
                     "pwm_waits_after_start": true, "boost_in_dead_band": true,
@@ -104,6 +105,7 @@ TEST_CASE("a scenario says all there is to say") {
   CHECK(servo.behaviour.not_a_number == NotANumber::zero);
   CHECK(servo.behaviour.unused_fields == UnusedFields::zero);
   CHECK(servo.behaviour.slow_speed == SlowSpeed::turns_slowest);
+  CHECK_FALSE(servo.behaviour.array_command_shows);
   CHECK_FALSE(servo.behaviour.array_command_feeds_timeout);
   CHECK(servo.behaviour.get_set_feeds_timeout);
   CHECK_FALSE(servo.behaviour.inclusive_limits);
