@@ -73,9 +73,6 @@ void Node::on_transfer(const Transfer& transfer) {
   const bool for_us = header.destination == local_ && local_.is_unicast();
   const bool is_response = header.kind == Kind::response;
   if (for_us && is_response && asked_for(transfer) == nullptr) {
-    if (hooks_.stray) {
-      hooks_.stray(transfer);
-    }
     return;
   }
   // First those who only listen: what a job concludes from an answer rests on what they know.

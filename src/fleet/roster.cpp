@@ -130,18 +130,6 @@ void Roster::receive(const Transfer& transfer) {
   }
 }
 
-void Roster::receive_stray(const Transfer& answer) {
-  const Member* known = find(answer.header.source);
-  if (answer.header.data_type_id != dronecan::GetNodeInfo::type.id || known == nullptr ||
-      !known->info || known->info_boot != known->boots) {
-    return;
-  }
-  if (const auto info = dronecan::GetNodeInfo::Response::decode(answer.payload);
-      info && info->unique_id != known->info->unique_id) {
-    doubled_.insert(answer.header.source);
-  }
-}
-
 void Roster::on_status(const Transfer& transfer) {
   const auto status = dronecan::NodeStatus::decode(transfer.payload);
   if (!status || !transfer.header.source.is_unicast()) {

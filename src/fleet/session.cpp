@@ -79,7 +79,6 @@ Session::Session(std::unique_ptr<can::Bus> bus, std::optional<dronecan::LocalNod
                      playback_->receive(transfer);
                    }
                  },
-             .stray = [this](const dronecan::Transfer& answer) { roster_.receive_stray(answer); },
              .error = {},
              .backlog = [this] { return loop_.unsent(); },
              .withdraw = [this](auto frames) { loop_.withdraw(frames); }}) {

@@ -21,12 +21,11 @@ std::int64_t approach(std::int64_t from, std::int64_t to) {
 
 std::int64_t angle_effort(std::int64_t deviation, const Tuning& tuning) {
   constexpr std::int64_t deviation_per_effort = 4000; // at a gain of 1
-  const std::int64_t beyond = std::abs(deviation) - tuning.dead_band;
-  if (beyond <= 0) {
-    return 0;
-  }
+  const std::int64_t beyond = std::max<std::int64_t>(std::abs(deviation) - tuning.dead_band, 0);
+  const bool boosts = beyond > 0 || (deviation != 0 && tuning.boost_in_dead_band);
+  const std::int64_t boost = boosts ? tuning.boost : 0;
   const std::int64_t effort =
-      std::min(tuning.p_gain * beyond / deviation_per_effort + tuning.boost, full_effort);
+      std::min(tuning.p_gain * beyond / deviation_per_effort + boost, full_effort);
   return deviation < 0 ? -effort : effort;
 }
 

@@ -16,24 +16,10 @@ using bla::Address;
 
 namespace {
 
-/// Requirement 123; unproven for series other than BLA21.
-std::int64_t full_speed_of(const bla::Profile& profile) {
-  constexpr std::int64_t practical_rpm = 150;
-  const bla::Parameter* limit = profile.find(address::speed_limit_cw);
-  const std::int64_t rpm = limit != nullptr ? limit->default_raw.value_or(0) : 0;
-  return std::clamp<std::int64_t>(rpm, 1, practical_rpm) * speed_per_rpm;
-}
-
-/// The default of a register, 0 if model or firmware lack it.
-std::int64_t default_of(const ServoSetup& setup, Address address) {
-  const bla::Parameter* parameter = setup.profile->find(address);
-  const bool exists = parameter != nullptr && parameter->exists_in(setup.firmware_version);
-  return exists ? parameter->default_raw.value_or(0) : 0;
-}
-
-bool lets_boost(const ServoSetup& setup) {
-  const bla::Parameter* boost = setup.profile->find(address::angle_boost);
-  return boost != nullptr && boost->exists_in(setup.firmware_version);
+/// -AB models, with a firmware that knows.
+bool has_pwm_input(const ServoSetup& setup) {
+  const bla::Parameter* range = setup.profile->find(address::pwm_range);
+  return setup.profile->pwm && range != nullptr && range->exists_in(setup.firmware_version);
 }
 
 /// 0x00-0x02 and 0x20: what a servo takes for a command (4.19).
@@ -44,23 +30,19 @@ bool commands(Address address) {
 } // namespace
 
 Motion::Motion(const ServoSetup& setup, Registers& registers, Time power_on)
-    : registers_(registers), behaviour_(setup.behaviour), has_pwm_input_(setup.profile->pwm),
-      nominal_decivolt_(nominal_decivolt(setup)), full_speed_(full_speed_of(*setup.profile)),
-      full_current_(default_of(setup, address::overcurrent_limit)), has_boost_(lets_boost(setup)),
-      world_(world_of(setup)), grid_(power_on) {
-  const std::int64_t decideg =
-      sign() * registers.value(address::current_angle) + registers.value(address::origin);
-  shaft_.angle = decideg * angle_per_decideg;
-  shaft_.speed = sign() * registers.value(address::current_speed) * speed_per_rpm;
+    : registers_(registers), behaviour_(setup.behaviour), has_pwm_input_(has_pwm_input(setup)),
+      motor_(motor_of(setup)), world_(world_of(setup)), grid_(power_on) {
+  heed_registers();
+  shaft_.angle = frame_.shaft_angle(registers.value(address::current_angle));
+  shaft_.speed = frame_.sign() * registers.value(address::current_speed) * speed_per_rpm;
 }
 
 void Motion::start(Time now) {
   advance_to(now);
   runs_ = true;
   stopped_ = false;
-  turns_ = 0;
-  wrap();
-  timer_.start(now);
+  frame_.wrap(shaft_);
+  timer_.start(now, behaviour_.pwm_waits_after_start);
   soft_start_ =
       registers_.value(address::soft_start) != 0 && registers_.value(address::torque_output) == 0;
   if (!soft_start_) {
@@ -71,7 +53,8 @@ void Motion::start(Time now) {
 
 void Motion::stop(Time now) {
   advance_to(now);
-  runs_ = holds_ = soft_start_ = false;
+  runs_ = soft_start_ = false;
+  told_commands_.reset();
   kept_failures_ = 0;
   world_.warnings &= ~fault::restart_warnings;
   world_.failures &= ~fault::restart_failures;
@@ -80,7 +63,9 @@ void Motion::stop(Time now) {
 void Motion::look(Time now) {
   advance_to(now);
   measure();
-  protect();
+  if (protect()) {
+    measure();
+  }
 }
 
 std::optional<std::int64_t> Motion::read(Address address, Time now) {
@@ -88,8 +73,8 @@ std::optional<std::int64_t> Motion::read(Address address, Time now) {
   if (behaviour_.get_set_feeds_timeout) {
     timer_.commanded(now);
   }
-  const auto limit = soft_start_limit(address);
-  return limit ? limit : registers_.read(address);
+  const auto told = told_instead(address);
+  return told ? told : registers_.read(address);
 }
 
 std::optional<std::int64_t> Motion::write(Address address, std::int64_t value, Time now) {
@@ -101,6 +86,7 @@ std::optional<std::int64_t> Motion::write(Address address, std::int64_t value, T
   const std::int64_t before = registers_.value(address);
   const auto answer = registers_.write(address, value);
   if (obeys) {
+    told_commands_.reset();
     timer_.commanded_by_can(now, true);
     obey(address, before);
   }
@@ -113,6 +99,11 @@ void Motion::command(const MotionCommand& command, Time now) {
   if (!registers_.takes(command.address, command.value)) {
     return;
   }
+  if (!behaviour_.array_command_shows && !told_commands_) {
+    told_commands_ = {registers_.value(address::command_angle),
+                      registers_.value(address::command_speed),
+                      registers_.value(address::command_torque)};
+  }
   const std::int64_t before = registers_.value(command.address);
   (void)registers_.write(command.address, command.value);
   timer_.commanded_by_can(now, behaviour_.array_command_feeds_timeout);
@@ -121,9 +112,9 @@ void Motion::command(const MotionCommand& command, Time now) {
 }
 
 void Motion::initialize(Time now) {
-  advance_to(now);
+  look(now);
   registers_.initialize();
-  holds_ = false;
+  told_commands_.reset();
   look(now);
 }
 
@@ -133,11 +124,18 @@ void Motion::surround(const World& world, Time now) {
   look(now);
 }
 
+void Motion::heed_registers() {
+  tuning_ = tuning_of(motor_, registers_, soft_start_);
+  tuning_.boost_in_dead_band = behaviour_.boost_in_dead_band;
+  frame_.set(registers_.value(address::reverse) != 0, registers_.value(address::origin));
+  if (has_pwm_input_) {
+    pulse_ = read_pulse(world_.pulse_us, registers_, behaviour_.pwm_end_points_move);
+  }
+}
+
 void Motion::advance_to(Time now) {
   constexpr Duration grid = 1ms;
-  tuning_ = tuning();
-  pulse_ = has_pwm_input_ ? read_pulse(world_.pulse_us, registers_, behaviour_.pwm_end_points_move)
-                          : PulseReading{};
+  heed_registers();
   while (grid_ + grid <= now) {
     grid_ += grid;
     if (!step()) { // nothing will happen by itself until time alone brings something
@@ -150,11 +148,15 @@ void Motion::advance_to(Time now) {
   }
 }
 
-void Motion::measure() {
-  const bool counts_turns = mode() == Mode::angle || registers_.value(address::extended_angle) != 0;
-  if (!counts_turns) {
-    wrap();
+/// Requirement 124.
+void Motion::forget_turns() {
+  if (mode() != Mode::angle && registers_.value(address::extended_angle) == 0) {
+    frame_.wrap(shaft_);
   }
+}
+
+void Motion::measure() {
+  forget_turns();
   const auto show = [this](Address address, std::int64_t value, std::int64_t low,
                            std::int64_t high) {
     registers_.set(address, std::clamp(value, low, high));
@@ -174,18 +176,18 @@ void Motion::measure() {
   registers_.set(address::fault_failure, faults.failure | kept_failures_);
 }
 
-/// Requirements 136, 161, 162, 170.
-void Motion::protect() {
+/// Requirements 136, 161, 162, 170. Whether something changed.
+bool Motion::protect() {
   const bool stops = stops_motor(registers_, behaviour_, registers_.value(address::fault_failure));
   if (!runs_ || stops == stopped_) {
-    return;
+    return false;
   }
   stopped_ = stops;
-  if (stops) {
-    end_soft_start();
-  } else {
+  end_soft_start();
+  if (!stops) {
     give_up_command();
   }
+  return true;
 }
 
 /// A command was taken; `before` it the register held that.
@@ -201,7 +203,6 @@ void Motion::obey(Address address, std::int64_t before) {
 /// Holds the present angle, or brakes (tables of 4.7 and 4.13). unproven: that 0x20 and a start
 /// without soft start change the registers as protection does.
 void Motion::give_up_command() {
-  controller_.rest();
   switch (mode()) {
   case Mode::angle:
     registers_.set(address::command_angle, angle_decideg());
@@ -215,8 +216,16 @@ void Motion::give_up_command() {
 void Motion::end_soft_start() {
   if (soft_start_) {
     soft_start_ = false;
-    tuning_ = tuning();
+    heed_registers();
   }
+}
+
+/// What a read tells that is not what the register holds, if the servo is set so.
+std::optional<std::int64_t> Motion::told_instead(Address address) const {
+  if (told_commands_ && address <= address::command_torque) {
+    return told_commands_->at(address.value());
+  }
+  return soft_start_limit(address);
 }
 
 /// What a read of a limit tells while the soft start has its own, if the servo is set to tell it.

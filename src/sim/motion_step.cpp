@@ -3,7 +3,6 @@
 #include "blactl/sim/motion.hpp"
 
 #include "sim/addresses.hpp"
-#include "sim/rounded.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -15,15 +14,6 @@ namespace {
 
 /// 0x20; in 0x26 the first means to go on.
 constexpr std::int64_t output_off = 1, output_brake = 2;
-
-constexpr std::int64_t turn_decideg = 3600;
-
-/// How often 360 deg must be taken off to come to -180.0 to +179.9 deg.
-std::int64_t turns_in(std::int64_t decideg) {
-  const std::int64_t from_lowest = decideg + turn_decideg / 2;
-  const std::int64_t turns = from_lowest / turn_decideg;
-  return from_lowest % turn_decideg < 0 ? turns - 1 : turns;
-}
 
 /// Requirement 123: about 10 rpm is the least that a servo can.
 std::int64_t possible_rpm(std::int64_t rpm, SlowSpeed slow_speed) {
@@ -47,8 +37,9 @@ bool Motion::step() {
   const bool soft_start = soft_start_;
   const bool commanded = runs_ && obey_pulse();
   drive_ = drive();
-  const std::int64_t push = sign() * drive_.effort * world_.supply_decivolt / nominal_decivolt_;
-  shaft_.step(drive_.kind, push, world_, full_speed_);
+  const std::int64_t push =
+      frame_.sign() * drive_.effort * world_.supply_decivolt / motor_.nominal_decivolt;
+  shaft_.step(drive_.kind, push, world_, motor_.full_speed);
   return commanded || soft_start != soft_start_ || drive_ != before || shaft_ != shaft ||
          !(controller_ == controller);
 }
@@ -61,12 +52,16 @@ bool Motion::obey_pulse() {
   }
   timer_.commanded(grid_);
   end_soft_start();
+  holds_ = false;
   const auto [address, value] = *pulse_.command;
   const std::int64_t before = registers_.value(address);
+  if (value == before) {
+    return false;
+  }
   if (value == before && !holds_) {
     return false;
   }
-  holds_ = false;
+  forget_turns();
   registers_.command(address, value);
   return registers_.value(address) != before;
 }
@@ -125,54 +120,8 @@ Aim Motion::aim() const {
   return {mode, (holds_ ? commanded : limited) * angle_per_decideg};
 }
 
-Tuning Motion::tuning() const {
-  const auto value = [this](bla::Address address) { return registers_.value(address); };
-  Tuning tuning;
-  tuning.cascade = soft_start_ || value(address::speed_torque_control) != 0;
-  tuning.smooth = value(address::smoothing) != 0;
-  tuning.p_gain = value(address::angle_p_gain);
-  tuning.d_gain = value(address::angle_d_gain);
-  tuning.dead_band = value(address::angle_dead_band) * angle_per_decideg;
-  tuning.boost = has_boost_ ? value(address::angle_boost) * effort_per_percent / 10 : 0;
-  tuning.speed_cw = value(address::speed_limit_cw) * speed_per_rpm;
-  tuning.speed_ccw = value(address::speed_limit_ccw) * speed_per_rpm;
-  tuning.effort_cw = value(address::torque_limit_cw) * effort_per_percent;
-  tuning.effort_ccw = value(address::torque_limit_ccw) * effort_per_percent;
-  if (full_current_ > 0) {
-    tuning.effort_limit =
-        std::min(value(address::overcurrent_limit) * full_effort / full_current_, full_effort);
-  }
-  tuning.full_speed = full_speed_;
-  if (soft_start_) { // requirement 140
-    tuning.speed_cw = 30 * speed_per_rpm;
-    tuning.effort_cw = 30 * effort_per_percent;
-    tuning.speed_ccw = -tuning.speed_cw;
-    tuning.effort_ccw = -tuning.effort_cw;
-  }
-  return tuning;
-}
-
 Duration Motion::timeout() const {
   return std::chrono::milliseconds(registers_.value(address::timeout_time));
-}
-
-/// 4.16.
-std::int64_t Motion::sign() const {
-  return registers_.value(address::reverse) != 0 ? -1 : 1;
-}
-
-/// Requirements 127, 128.
-Position Motion::position() const {
-  const std::int64_t zero = registers_.value(address::origin) + turns_ * turn_decideg;
-  return {sign() * (shaft_.angle - zero * angle_per_decideg), sign() * shaft_.speed};
-}
-
-std::int64_t Motion::angle_decideg() const {
-  return rounded(position().angle, angle_per_decideg);
-}
-
-void Motion::wrap() {
-  turns_ += sign() * turns_in(angle_decideg());
 }
 
 } // namespace blactl::sim

@@ -7,10 +7,10 @@ namespace blactl::sim {
 
 PulseReading read_pulse(std::optional<std::int64_t> width_us, const Registers& registers,
                         bool end_points_move) {
-  const std::int64_t range = registers.value(address::pwm_range);
-  if (!width_us || range == 0) { // 0: a firmware without 0x34-0x37
+  if (!width_us) {
     return {.notices = fault::pwm_missing};
   }
+  const std::int64_t range = registers.value(address::pwm_range);
   const std::int64_t offset = *width_us - registers.value(address::pwm_neutral);
   PulseReading reading;
   reading.notices |= offset <= -range ? fault::pwm_too_short : 0;

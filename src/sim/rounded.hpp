@@ -5,9 +5,11 @@
 
 namespace blactl::sim {
 
-/// The whole number of `unit` that is nearest to `value`, halves away from 0.
+/// The whole number of `unit` that is nearest to `value`, halves upwards: so that values which are
+/// whole units apart stay so.
 [[nodiscard]] constexpr std::int64_t rounded(std::int64_t value, std::int64_t unit) {
-  return (value >= 0 ? value + unit / 2 : value - unit / 2) / unit;
+  const std::int64_t raised = value + unit / 2;
+  return raised >= 0 ? raised / unit : -((unit - 1 - raised) / unit);
 }
 
 } // namespace blactl::sim

@@ -171,6 +171,8 @@ void Servo::restart(Time now) {
     show_until_restart(fault::rom_unreadable, 0, now);
   }
   endpoint_.restart();
+  departure_.reset();
+  allocatee_.reset();
   answers_.clear();
   phase_ = Phase::boot;
   const Duration absence = boot_time() + setup_.faults.return_delay;
@@ -198,8 +200,6 @@ void Servo::surround(const World& world, Time now) {
 
 void Servo::lose_power(Time now) {
   rom_is_torn_ = rom_is_torn_ || phase_ == Phase::rom_write;
-  departure_.reset();
-  allocatee_.reset();
   restart(now);
   wake_ = never;
 }
@@ -209,8 +209,6 @@ void Servo::upset(Upset cause, Time now) {
   if (phase_ != Phase::run) {
     return;
   }
-  departure_.reset();
-  allocatee_.reset();
   restart(now);
   show_until_restart(0,
                      cause == Upset::clock      ? fault::clock

@@ -224,6 +224,18 @@ void ServoReader::behaviour(json::Object object, Behaviour& into) {
   into.ignores_disabled_commands =
       flag("ignores_disabled_commands", into.ignores_disabled_commands);
   into.answers_save_first = flag("answers_save_first", into.answers_save_first);
+  into.rom_write_time =
+      read_duration(object, "rom_write_time", into.rom_write_time, longest_delay, faults_);
+  motion_behaviour(object, into);
+  object.finish();
+}
+
+/// The keys about the shaft.
+void ServoReader::motion_behaviour(json::Object& object, Behaviour& into) {
+  const auto flag = [&](std::string_view key, bool fallback) {
+    return object.optional_boolean(key).value_or(fallback);
+  };
+  into.array_command_shows = flag("array_command_shows", into.array_command_shows);
   into.array_command_feeds_timeout =
       flag("array_command_feeds_timeout", into.array_command_feeds_timeout);
   into.get_set_feeds_timeout = flag("get_set_feeds_timeout", into.get_set_feeds_timeout);
@@ -231,6 +243,8 @@ void ServoReader::behaviour(json::Object object, Behaviour& into) {
   into.failures_latch = flag("failures_latch", into.failures_latch);
   into.notices_warn = flag("notices_warn", into.notices_warn);
   into.pwm_end_points_move = flag("pwm_end_points_move", into.pwm_end_points_move);
+  into.pwm_waits_after_start = flag("pwm_waits_after_start", into.pwm_waits_after_start);
+  into.boost_in_dead_band = flag("boost_in_dead_band", into.boost_in_dead_band);
   into.soft_start_shows = flag("soft_start_shows", into.soft_start_shows);
   const auto second = [&](std::string_view key, std::string_view usual, std::string_view other) {
     return object.optional_word(key, {usual, other}) == other;
@@ -241,9 +255,6 @@ void ServoReader::behaviour(json::Object object, Behaviour& into) {
       second("unused_fields", "unknown", "zero") ? UnusedFields::zero : UnusedFields::unknown;
   into.slow_speed = second("slow_speed", "stands", "turns_slowest") ? SlowSpeed::turns_slowest
                                                                     : SlowSpeed::stands;
-  into.rom_write_time =
-      read_duration(object, "rom_write_time", into.rom_write_time, longest_delay, faults_);
-  object.finish();
 }
 
 void ServoReader::servo_faults(json::Object object, ServoFaults& into) {

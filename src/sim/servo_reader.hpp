@@ -43,6 +43,7 @@ class ServoReader {
                                                 const bla::Profile& profile);
   void check_pwm_modes(std::int64_t actual);
   void behaviour(json::Object object, Behaviour& into);
+  static void motion_behaviour(json::Object& object, Behaviour& into);
   void servo_faults(json::Object object, ServoFaults& into);
   void sending(json::Object object, SendingFaults& into);
 

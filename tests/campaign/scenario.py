@@ -37,6 +37,7 @@ class Episode:
             "wire": self._wire(chance),
             "events": self._events(chance),
         }
+        self._spare_the_undecidable()
         if chance.random() < 0.05:
             self.scenario["foreign"] = [chance.choice([
                 {"kind": "node", "node_id": 100, "armed": True},
@@ -44,6 +45,14 @@ class Episode:
                 {"kind": "node", "node_id": 100, "commands": {
                     "servo_ids": [1, 2], "type": 1, "value": 0.1, "rate": 50}}])]
         self.steps = [self._step(chance) for _ in range(chance.randint(1, 5))]
+
+    def _spare_the_undecidable(self):
+        """A servo that writes ROM and does not restart, and whose answer is lost, cannot be told
+        from one that has heard nothing."""
+        for servo in self.scenario["servos"]:
+            if (self.scenario["wire"] or "sending" in servo or "behaviour" in servo
+                    or "lose_opcode_answers" in servo.get("faults", {})):
+                servo.get("faults", {}).pop("stays", None)
 
     @staticmethod
     def _servo(chance, node_id, index):
@@ -70,11 +79,6 @@ class Episode:
                 "answers_save_first": chance.random() < 0.5,
                 "failure_with_name": chance.random() < 0.5,
                 "rom_write_time": chance.choice(["50ms", "400ms"])}
-        if "lose_opcode_answers" in faults or not servo.get("behaviour", {}).get(
-                "answers_save_first", True):
-            # A servo that writes ROM without an answer and without a restart cannot be told from
-            # one that has heard nothing.
-            faults.pop("stays", None)
         if chance.random() < 0.3:
             servo["sending"] = {
                 "jitter": f"{chance.choice([0, 2, 10])}ms",

@@ -110,8 +110,6 @@ class Node {
     /// Every transfer heard, services between other nodes included; but no answer to this node that
     /// it does not wait for, or no more: it may tell of a time long past. May be empty.
     std::function<void(const Transfer&)> transfer;
-    /// Such an answer: late, double, or of a second unit under the same node ID. May be empty.
-    std::function<void(const Transfer&)> stray{};
     /// A transfer that could not be reassembled. May be empty.
     std::function<void(ReceiveError, std::uint32_t can_id, Time)> error;
     /// Frames that wait to leave this machine. May be empty: none.

@@ -75,10 +75,6 @@ class Roster {
   /// Every transfer heard.
   void receive(const dronecan::Transfer& transfer);
 
-  /// An answer that nobody waited for: where it tells of another unit than the one that has
-  /// answered there are two under this node ID.
-  void receive_stray(const dronecan::Transfer& answer);
-
   /// Two answers to GetNodeInfo gave different unique IDs.
   void mark_doubled(dronecan::NodeId id) { doubled_.insert(id); }
 

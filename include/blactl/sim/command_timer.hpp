@@ -4,16 +4,17 @@
 
 #include "blactl/base/time.hpp"
 
+#include <algorithm>
 #include <optional>
 
 namespace blactl::sim {
 
 class CommandTimer {
  public:
-  /// The servo begins to run; the timeout counts from here.
-  void start(Time now) {
+  /// The servo begins to run; the timeout counts from here. `pwm_waits`: so does the wait of PWM.
+  void start(Time now, bool pwm_waits) {
     last_ = now;
-    last_can_.reset();
+    last_can_ = pwm_waits ? std::optional(now) : std::nullopt;
   }
 
   void commanded(Time at) { last_ = at; }
@@ -27,17 +28,15 @@ class CommandTimer {
   /// Requirement 145: longer than `limit` without a command.
   [[nodiscard]] bool timed_out(Time at, Duration limit) const { return at - last_ > limit; }
 
-  /// Requirements 156, 157. unproven: before the first command by CAN, PWM counts at once.
+  /// Requirements 156, 157.
   [[nodiscard]] bool accepts_pwm(Time at, Duration limit) const {
     return !last_can_ || at - *last_can_ >= limit;
   }
 
   /// When one of the two answers changes by time alone.
   [[nodiscard]] Time next_change(Time at, Duration limit) const {
-    if (!accepts_pwm(at, limit)) {
-      return *last_can_ + limit;
-    }
-    return timed_out(at, limit) ? never : last_ + limit + Duration(1);
+    const Time pwm = accepts_pwm(at, limit) ? never : *last_can_ + limit;
+    return timed_out(at, limit) ? pwm : std::min(pwm, last_ + limit + Duration(1));
   }
 
  private:

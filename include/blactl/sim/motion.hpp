@@ -3,15 +3,18 @@
 // (chapter 4). Without CAN: it knows registers and the world.
 
 #include "blactl/base/time.hpp"
+#include "blactl/sim/angle_frame.hpp"
 #include "blactl/sim/command.hpp"
 #include "blactl/sim/command_timer.hpp"
 #include "blactl/sim/controller.hpp"
+#include "blactl/sim/motor.hpp"
 #include "blactl/sim/pwm_input.hpp"
 #include "blactl/sim/registers.hpp"
 #include "blactl/sim/scenario.hpp"
 #include "blactl/sim/shaft.hpp"
 #include "blactl/sim/world.hpp"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -53,11 +56,14 @@ class Motion {
  private:
   // What is asked of it (motion.cpp).
   void advance_to(Time now);
+  void heed_registers();
+  void forget_turns();
   void measure();
-  void protect();
+  bool protect();
   void obey(bla::Address address, std::int64_t before);
   void give_up_command();
   void end_soft_start();
+  [[nodiscard]] std::optional<std::int64_t> told_instead(bla::Address address) const;
   [[nodiscard]] std::optional<std::int64_t> soft_start_limit(bla::Address address) const;
 
   // One millisecond (motion_step.cpp).
@@ -67,36 +73,33 @@ class Motion {
   [[nodiscard]] Drive::Kind output() const;
   [[nodiscard]] Mode mode() const;
   [[nodiscard]] Aim aim() const;
-  [[nodiscard]] Tuning tuning() const;
   [[nodiscard]] Duration timeout() const;
 
-  // Angles as the servo counts them (motion_step.cpp).
-  [[nodiscard]] std::int64_t sign() const;
-  [[nodiscard]] Position position() const;
-  [[nodiscard]] std::int64_t angle_decideg() const;
-  void wrap();
+  [[nodiscard]] Position position() const { return frame_.position(shaft_); }
+
+  [[nodiscard]] std::int64_t angle_decideg() const { return frame_.decideg(shaft_); }
 
   Registers& registers_;
   Behaviour behaviour_;
   bool has_pwm_input_;
-  std::int64_t nominal_decivolt_;
-  std::int64_t full_speed_;
-  std::int64_t full_current_; ///< the default of 0x2A; 0: there is none
-  bool has_boost_;            ///< 0x2F
+  Motor motor_;
+
+  // Of registers and world, since they last changed.
+  PulseReading pulse_{};
+  Tuning tuning_;
+  AngleFrame frame_;
 
   World world_;
-  PulseReading pulse_{}; ///< this and the next: since the registers last changed
-  Tuning tuning_;
   Shaft shaft_;
   Controller controller_;
   Drive drive_;
   CommandTimer timer_;
-  Time grid_;                      ///< of the last step
-  std::int64_t turns_ = 0;         ///< whole turns of the shaft that the servo does not count
+  std::optional<std::array<std::int64_t, 3>> told_commands_; ///< for 0x00-0x02, if it hides them
+  Time grid_;                                                ///< of the last step
   std::int64_t kept_failures_ = 0; ///< those that stay until the next start
   bool runs_ = false;
   bool stopped_ = false; ///< by its protection
-  bool holds_ = false;   ///< where it is, inside its angle limits or not, until the next command
+  bool holds_ = false;   ///< 0x00, inside its angle limits or not, until the next command
   bool soft_start_ = false;
 };
 

@@ -15,8 +15,8 @@ struct PulseReading {
   std::optional<MotionCommand> command{}; ///< empty: no valid pulse
 };
 
-/// Of a model with a PWM input. A pulse outside the range counts as none (requirement 158).
-/// `end_points_move`: Behaviour::pwm_end_points_move.
+/// Of a model and firmware with a PWM input. A pulse outside the range counts as none (requirement
+/// 158). `end_points_move`: Behaviour::pwm_end_points_move.
 [[nodiscard]] PulseReading read_pulse(std::optional<std::int64_t> width_us,
                                       const Registers& registers, bool end_points_move);
 

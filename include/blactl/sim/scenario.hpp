@@ -103,13 +103,16 @@ struct Behaviour {
   NotANumber not_a_number = NotANumber::ignore;       ///< unproven
   UnusedFields unused_fields = UnusedFields::unknown; ///< unproven: DSDL's NaN and 127, or 0
   SlowSpeed slow_speed = SlowSpeed::stands;           ///< unproven: below 10 rpm
-  bool array_command_feeds_timeout = true;            ///< unproven: 4.19 lists registers only
-  bool get_set_feeds_timeout = false;                 ///< unproven: any other GetSet, reads too
-  bool inclusive_limits = true;    ///< unproven: 4.12 as in Japanese; English: beyond only
-  bool failures_latch = false;     ///< unproven: 0x1B.0, .1, .5 stay until the next start
-  bool notices_warn = false;       ///< unproven: bits of 0x19 too make health 1
-  bool pwm_end_points_move = true; ///< unproven: the ends of the pulse range are valid
-  bool soft_start_shows = false;   ///< unproven: reads tell the limits of the soft start
+  bool array_command_shows = true;         ///< unproven: 0x00-0x02 read what ArrayCommand brought
+  bool array_command_feeds_timeout = true; ///< unproven: 4.19 lists registers only
+  bool get_set_feeds_timeout = false;      ///< unproven: any other GetSet, reads too
+  bool inclusive_limits = true;            ///< unproven: 4.12 as in Japanese; English: beyond only
+  bool failures_latch = false;             ///< unproven: 0x1B.0, .1, .5 stay until the next start
+  bool notices_warn = false;               ///< unproven: bits of 0x19 too make health 1
+  bool pwm_end_points_move = true;         ///< unproven: the ends of the pulse range are valid
+  bool pwm_waits_after_start = false;      ///< unproven: no pulse counts for 0x27 after the start
+  bool boost_in_dead_band = false;         ///< unproven: 0x2F pushes inside the dead band, too
+  bool soft_start_shows = false;           ///< unproven: reads tell the limits of the soft start
   Duration rom_write_time = std::chrono::milliseconds(50); ///< "about 0.05 s" (4.11); up to 10 s
 };
 

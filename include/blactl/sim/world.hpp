@@ -11,7 +11,8 @@ struct ServoSetup;
 /// How the magnet of the angle sensor reads (bits 4, 5 of 0x1A and bit 5 of 0x1B).
 enum class Magnet : std::uint8_t { fine, weak, strong, unreadable };
 
-/// A plain value: who steers a servo takes Servo::world(), changes it and gives it back.
+/// A plain value: who steers a servo takes Servo::world(), changes it and gives it back by
+/// Servo::surround(). Loads are -1000 to 1000 %, hands at -360,000,000 to 360,000,000.
 struct World {
   static constexpr std::int64_t room_celsius = 25;
 

@@ -32,16 +32,6 @@ class Ear {
     }
   }
 
-  /// An answer of GetNodeInfo that this node has not asked for.
-  void stray(std::uint8_t source, const dronecan::Payload& payload) {
-    roster.receive_stray({.header = {.kind = Kind::response,
-                                     .data_type_id = GetNodeInfo::type.id,
-                                     .source = NodeId(source),
-                                     .destination = NodeId(127)},
-                          .payload = payload.bytes(),
-                          .at = now});
-  }
-
   void status(std::uint8_t source, std::uint32_t uptime_s) {
     hear(message(NodeStatus::type, source, NodeStatus{.uptime_s = uptime_s}.encode(), next()));
   }
@@ -270,39 +260,6 @@ TEST_CASE("the uptime of GetNodeInfo counts: a restart before the first NodeStat
   ear.now += 800ms;
   ear.status(10, 0);
   CHECK(ear.roster.find(NodeId(10))->boots == 1);
-}
-
-TEST_CASE("a second answer to GetNodeInfo that tells of another unit shows a doubled node ID") {
-  Ear ear;
-  GetNodeInfo::Response first;
-  first.unique_id = {1};
-  const auto payload_of = [](std::uint8_t unit) {
-    GetNodeInfo::Response info;
-    info.unique_id = {unit};
-    return info.encode();
-  };
-  ear.stray(10, payload_of(2)); // nothing is known yet
-  CHECK_FALSE(ear.roster.is_doubled(NodeId(10)));
-  ear.status(10, 5);
-  ear.roster.member(NodeId(10)).info = first;
-  ear.stray(10, payload_of(1)); // the same unit, late or twice
-  CHECK_FALSE(ear.roster.is_doubled(NodeId(10)));
-  ear.stray(10, payload_of(2));
-  CHECK(ear.roster.is_doubled(NodeId(10)));
-}
-
-TEST_CASE("what was known before a restart shows no doubled node ID") {
-  Ear ear;
-  ear.status(10, 50);
-  GetNodeInfo::Response before;
-  before.unique_id = {1};
-  ear.roster.member(NodeId(10)).info = before;
-  ear.now += 800ms;
-  ear.status(10, 0);
-  GetNodeInfo::Response after;
-  after.unique_id = {2};
-  ear.stray(10, after.encode());
-  CHECK_FALSE(ear.roster.is_doubled(NodeId(10)));
 }
 
 TEST_CASE("who asks for a node ID is pending until it has one") {

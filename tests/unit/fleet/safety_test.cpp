@@ -85,7 +85,7 @@ TEST_CASE("what cannot move anything is not asked") {
 }
 
 TEST_CASE("an angle limit is asked if the shaft stands beyond it") {
-  const Reader reader(R"("current_angle": "45deg")");
+  const Reader reader(R"("current_angle": "45deg", "soft_start": "off")");
   CHECK(may_move(change("angle_limit_cw", 449), reader.values));
   CHECK_FALSE(may_move(change("angle_limit_cw", 450), reader.values));
   CHECK_FALSE(may_move(change("angle_limit_cw", 900), reader.values));

@@ -67,7 +67,14 @@ TEST_CASE("a scenario says all there is to say") {
       "behaviour": {"out_of_range": "clamp", "reserved_reads": "zero", "gated_reads": "zero",
                     "write_only_reads": "zero", "index_only_access": false,
                     "failure_with_name": true, "ignores_disabled_commands": false,
-                    "answers_save_first": false, "rom_write_time": "80ms"},
+                    "answers_save_first": false, "rom_write_time": "80ms",
+                    "not_a_number": "zero", "unused_fields": "zero",
+                    "slow_speed": "turns_slowest", "array_command_shows": false,
+                    "array_command_feeds_timeout": false,
+                    "get_set_feeds_timeout": true, "inclusive_limits": false,
+                    "failures_latch": true, "notices_warn": true, "pwm_end_points_move": false,
+                    "pwm_waits_after_start": true, "boost_in_dead_band": true,
+                    "soft_start_shows": true},
       "faults": {"lose_responses": 2, "mute": true, "lose_opcode_answers": 3,
                  "ignore_opcodes": 4, "refuse_opcodes": true, "rom_write_fails": true,
                  "stays": true, "never_returns": true, "return_delay": "3s"}}],
@@ -95,6 +102,19 @@ TEST_CASE("a scenario says all there is to say") {
   CHECK(servo.rom[1] == std::pair(bla::Address(0x21), std::int64_t{0}));
   CHECK_FALSE(servo.behaviour.answers_save_first);
   CHECK(servo.behaviour.rom_write_time == 80ms);
+  CHECK(servo.behaviour.not_a_number == NotANumber::zero);
+  CHECK(servo.behaviour.unused_fields == UnusedFields::zero);
+  CHECK(servo.behaviour.slow_speed == SlowSpeed::turns_slowest);
+  CHECK_FALSE(servo.behaviour.array_command_shows);
+  CHECK_FALSE(servo.behaviour.array_command_feeds_timeout);
+  CHECK(servo.behaviour.get_set_feeds_timeout);
+  CHECK_FALSE(servo.behaviour.inclusive_limits);
+  CHECK(servo.behaviour.failures_latch);
+  CHECK(servo.behaviour.notices_warn);
+  CHECK_FALSE(servo.behaviour.pwm_end_points_move);
+  CHECK(servo.behaviour.pwm_waits_after_start);
+  CHECK(servo.behaviour.boost_in_dead_band);
+  CHECK(servo.behaviour.soft_start_shows);
   CHECK(servo.faults.lose_opcode_answers == 3);
   CHECK(servo.faults.ignore_opcodes == 4);
   CHECK(servo.faults.refuse_opcodes);

@@ -27,22 +27,6 @@ std::string with(const std::string& members) {
   return std::string(bla21) + ", " + members;
 }
 
-/// The allocator's three answers to a servo that asks.
-void allocate(Rig& rig, std::uint8_t node_id, dronecan::TransferId& id) {
-  for (const std::uint8_t size : std::initializer_list<std::uint8_t>{6, 12, 16}) {
-    while (rig.bench.run(1ms).empty()) {
-    }
-    dronecan::Allocation answer;
-    answer.node_id = size == 16 ? node_id : 0;
-    answer.size = size;
-    answer.unique_id = rig.servo.unique_id();
-    const dronecan::Header header{dronecan::Kind::message, 24, dronecan::Allocation::type.id,
-                                  dronecan::NodeId(127),   {}, 0};
-    rig.bench.deliver(dronecan::segment(header, id++, dronecan::Allocation::type.signature,
-                                        answer.encode().bytes()));
-  }
-}
-
 } // namespace
 
 TEST_CASE("requirements 50, 57: SAVE is answered with argument 0 and ok, 7 bytes",
@@ -334,8 +318,7 @@ TEST_CASE("requirements 27, 63: ERASE, then SAVE: the defaults stay, and the ser
     CHECK(one.id == frames.front().id);
     CHECK(testing::text(one).substr(8, 15) == "#01001122334455");
   }
-  dronecan::TransferId id = 0;
-  allocate(rig, 125, id);
+  rig.allocate(125);
   CHECK(rig.servo.node_id() == dronecan::NodeId(125));
   CHECK(rig.told() == Frames{"erase 11", "rom_write 11", "restart 11", "allocated 125"});
 }
@@ -343,13 +326,12 @@ TEST_CASE("requirements 27, 63: ERASE, then SAVE: the defaults stay, and the ser
 TEST_CASE("requirements 28, 40: an allocated ID is gone with a restart, another may follow",
           "[requirement-28][requirement-40]") {
   Rig rig(R"("model": "BLA21-12U-AB", "answer_delay": 0)", 0ms);
-  dronecan::TransferId id = 0;
-  allocate(rig, 125, id);
+  rig.allocate(125);
   CHECK(rig.restart_node() == "ok");
   CHECK(rig.servo.node_id() == dronecan::anonymous);
   rig.settle();
   CHECK_FALSE(rig.read("0x38"));
-  allocate(rig, 124, id);
+  rig.allocate(124);
   CHECK(rig.servo.node_id() == dronecan::NodeId(124));
   CHECK(uptimes(rig.bench.run(10ms)).at(0).second == 0);
   CHECK(rig.told() == Frames{"allocated 125", "restart 125", "allocated 124"});

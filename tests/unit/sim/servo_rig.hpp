@@ -88,6 +88,23 @@ struct Rig {
   /// Lets a restart, with the ROM write before it, be over.
   std::vector<can::Frame> settle() { return bench.run(std::chrono::milliseconds(210)); }
 
+  /// An allocator's three answers to a servo that asks.
+  void allocate(std::uint8_t node_id) {
+    for (const std::uint8_t size : std::initializer_list<std::uint8_t>{6, 12, 16}) {
+      while (bench.run(std::chrono::milliseconds(1)).empty()) {
+      }
+      dronecan::Allocation answer;
+      answer.node_id = size == 16 ? node_id : 0;
+      answer.size = size;
+      answer.unique_id = servo.unique_id();
+      const dronecan::Header header{dronecan::Kind::message, 24, dronecan::Allocation::type.id,
+                                    dronecan::NodeId(127),   {}, 0};
+      id = static_cast<dronecan::TransferId>((id + 1) % dronecan::transfer_id_modulus);
+      bench.deliver(dronecan::segment(header, id, dronecan::Allocation::type.signature,
+                                      answer.encode().bytes()));
+    }
+  }
+
   Servo servo;
   Bench bench;
   std::vector<can::Frame> heard; ///< while it settled
