@@ -121,7 +121,8 @@ Result<OpenBus> open_simulator(std::string_view text, const std::string& socket,
   // Many paths may lead there.
   std::error_code error;
   const auto canonical = std::filesystem::canonical(path, error);
-  return OpenBus{std::move(*bus), "sim:" + (error ? path : canonical.string()), nullptr};
+  const auto where = error ? std::filesystem::absolute(path, error) : canonical;
+  return OpenBus{std::move(*bus), "sim:" + where.string(), nullptr, where.parent_path().string()};
 }
 
 Result<OpenBus> open_log(std::string_view text, const std::string& path) {

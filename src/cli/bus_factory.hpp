@@ -5,6 +5,7 @@
 #include "blactl/bla/profile.hpp"
 #include "blactl/can/bus.hpp"
 #include "blactl/can/replay.hpp"
+#include "blactl/dronecan/lock_file.hpp"
 
 #include "reporter.hpp"
 
@@ -21,6 +22,8 @@ struct OpenBus {
   std::unique_ptr<can::Bus> bus;
   std::string lock_name;               ///< empty: nobody else can reach it
   const can::ReplayBus* log = nullptr; ///< the bus, if it is one
+  /// Where its lock files lie: where all users meet, or beside the socket of a simulated bus.
+  std::string lock_folder = dronecan::LockFile::shared_folder;
 };
 
 /// What kind of interface a name means.

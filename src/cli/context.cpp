@@ -77,13 +77,14 @@ Result<fleet::Session*> Context::open(fleet::Session::Hearing hearing) {
   if (!listens && bus->lock_name.empty()) {
     local = LocalNodeId::unshared(wanted);
   } else if (!listens) {
-    auto acquired = LocalNodeId::acquire(bus->lock_name, wanted);
+    auto acquired = LocalNodeId::acquire(bus->lock_name, wanted, bus->lock_folder);
     if (!acquired) {
       return std::unexpected(acquired.error());
     }
     local = std::move(*acquired);
   }
   lock_name_ = bus->lock_name;
+  lock_folder_ = bus->lock_folder;
   log_ = bus->log;
   auto recording = recorded(std::move(bus->bus));
   if (!recording) {
@@ -118,7 +119,7 @@ Result<fleet::Session*> Context::open_for_writing(std::string_view command) {
     return session;
   }
   using dronecan::InterfaceLock;
-  auto lock = InterfaceLock::acquire(lock_name_, InterfaceLock::Right::write);
+  auto lock = InterfaceLock::acquire(lock_name_, InterfaceLock::Right::write, lock_folder_);
   if (!lock) {
     return std::unexpected(lock.error());
   }
@@ -131,7 +132,8 @@ bool Context::may_allocate() {
     return true;
   }
   using dronecan::InterfaceLock;
-  if (auto lock = InterfaceLock::acquire(lock_name_, InterfaceLock::Right::allocate)) {
+  if (auto lock =
+          InterfaceLock::acquire(lock_name_, InterfaceLock::Right::allocate, lock_folder_)) {
     allocating_ = std::move(*lock);
   }
   return allocating_.has_value();

@@ -100,6 +100,7 @@ class Context {
   std::optional<bla::Profiles> profiles_;
   const bla::Profile* assumed_ = nullptr;
   std::string lock_name_; ///< of the interface; empty: no other process can reach it
+  std::string lock_folder_;
   std::optional<dronecan::InterfaceLock> writing_, allocating_;
   std::unique_ptr<fleet::Session> session_;
   Time opened_{};

@@ -24,7 +24,8 @@ class Simulator:
             [blactl, "-q", "sim", "--json", path], text=True, env=environment(folder),
             stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         self._lines = queue.Queue()
-        threading.Thread(target=self._read, daemon=True).start()
+        self._reader = threading.Thread(target=self._read, daemon=True)
+        self._reader.start()
         self._until("ready")
 
     def _read(self):
@@ -59,8 +60,11 @@ class Simulator:
 
     def end(self):
         self.process.terminate()
-        self.process.communicate(timeout=PATIENCE_S)
-        return self.process.returncode
+        status = self.process.wait(timeout=PATIENCE_S)
+        self._reader.join(timeout=PATIENCE_S)
+        for stream in (self.process.stdin, self.process.stdout, self.process.stderr):
+            stream.close()
+        return status
 
 
 class Outcome:

@@ -39,8 +39,8 @@ def codes_of(outcome):
 
 
 class Campaign:
-    def __init__(self, blactl, folder, verbose):
-        self.blactl, self.folder, self.verbose = blactl, folder, verbose
+    def __init__(self, blactl, verbose):
+        self.blactl, self.verbose = blactl, verbose
         self.defaults = defaults_of(blactl)
         self.runs = 0
         self.ends = collections.Counter()
@@ -59,17 +59,18 @@ class Campaign:
     def play(self, episode, options, check):
         """The outcomes of all steps, each checked if that is possible."""
         outcomes = []
-        simulator = bench.Simulator(self.blactl, self.folder, episode.scenario)
-        try:
-            _, before = simulator.dump()
-            for commands in episode.steps:
-                outcomes += bench.run_at_once(self.blactl, self.folder, simulator, commands, options)
-                events, after = simulator.dump()
-                if check:
-                    check(outcomes[-len(commands):], story.Step(before, events, after))
-                before = after
-        finally:
-            status = simulator.end()
+        with tempfile.TemporaryDirectory(prefix="blactl-campaign-") as folder:
+            simulator = bench.Simulator(self.blactl, folder, episode.scenario)
+            try:
+                _, before = simulator.dump()
+                for commands in episode.steps:
+                    outcomes += bench.run_at_once(self.blactl, folder, simulator, commands, options)
+                    events, after = simulator.dump()
+                    if check:
+                        check(outcomes[-len(commands):], story.Step(before, events, after))
+                    before = after
+            finally:
+                status = simulator.end()
         if status != 143:
             raise RuntimeError(f"the simulator ended with {status}")
         return outcomes
@@ -109,12 +110,11 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("-v", "--verbose", action="store_true")
     given = parser.parse_args()
-    with tempfile.TemporaryDirectory(prefix="blactl-campaign-") as folder:
-        campaign = Campaign(given.blactl, folder, given.verbose)
-        seed = given.seed
-        while campaign.runs < given.runs:
-            campaign.episode(seed)
-            seed += 1
+    campaign = Campaign(given.blactl, given.verbose)
+    seed = given.seed
+    while campaign.runs < given.runs:
+        campaign.episode(seed)
+        seed += 1
     print(f"{campaign.runs} runs, episodes {given.seed} to {seed - 1}, "
           f"differences: {campaign.differences}; exit statuses with their errors:")
     for end, count in campaign.ends.most_common():

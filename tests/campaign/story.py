@@ -50,8 +50,9 @@ def check(outcome, step, defaults, alone):
         if serial is None:
             continue
         require(serial in step.after, f"there is no servo {serial}")
-        if outcome.command[0] != "get" or not step.is_doubled(serial):
-            # Reading asks no more than it must: it may take two servos of one node ID for one.
+        if outcome.command[0] not in ("get", "set") or not step.is_doubled(serial):
+            # Known: these ask no more than they must, and may take two servos of one node ID for
+            # one before the bus has shown that there are two.
             require(node["unique_id"] in (None, step.after[serial]["unique_id"]),
                     "a wrong unique ID")
         check_node(outcome, node, serial, step, defaults, saves, alone)
