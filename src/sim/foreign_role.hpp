@@ -49,7 +49,6 @@ class ForeignRole {
   virtual void advance(Time /*now*/) {}
 
  protected:
-  // NOLINTNEXTLINE(modernize-use-nodiscard): who only wants it sent needs no frames
   std::vector<can::Frame> broadcast(const dronecan::DataType& type, dronecan::Priority priority,
                                     dronecan::Bytes payload) const {
     return broadcast_(type, priority, payload);

@@ -29,7 +29,6 @@ class ForeignNode final : public Device {
   void handle(const dronecan::Transfer& transfer);
   void answer(const dronecan::Transfer& request, const dronecan::DataType& type,
               const dronecan::Payload& payload);
-  // NOLINTNEXTLINE(modernize-use-nodiscard): who only wants it sent needs no frames
   std::vector<can::Frame> send_message(const dronecan::DataType& type, dronecan::Priority priority,
                                        dronecan::Bytes payload);
   [[nodiscard]] dronecan::NodeStatus node_status() const;

@@ -253,6 +253,77 @@ TEST_CASE("an autopilot that allocates gives a unit its ID again, and none witho
   CHECK_FALSE(without.servos()[0]->node_id().is_unicast());
 }
 
+TEST_CASE("an autopilot that allocates answers the part that comes next, within 500 ms") {
+  Rig rig(R"("kind": "autopilot", "allocates": true)");
+  rig.bench.run(100ms);
+  // Unique ID 00..0F in parts of 6, 6 and 4 bytes.
+  const auto answers = [&](const char* request) {
+    rig.bench.deliver({testing::frame(request)});
+    std::string hex;
+    for (const can::Frame& one : rig.bench.run(0ms)) {
+      CHECK(one.id == (30U << 24U | 1U << 8U | 30U));
+      hex += testing::text(one).substr(9);
+    }
+    return hex;
+  };
+  const char* first = "18000100#01000102030405C0";
+  const char* second = "18000100#00060708090A0BC0";
+  const char* third = "18000100#000C0D0E0FC0";
+  CHECK(answers(second).empty());
+  CHECK(answers(third).empty());
+  CHECK(answers(first) == "00000102030405C0");
+  CHECK(answers(first).empty()); // another servo, in the middle of this exchange
+  rig.bench.run(501ms);
+  CHECK(answers(second).empty());
+  CHECK(answers(first) == "00000102030405C1");
+  rig.bench.run(500ms);
+  CHECK_FALSE(answers(second).empty());
+  CHECK(answers(third).substr(4, 2) == "FA"); // 125
+}
+
+TEST_CASE("an autopilot gives no ID under which somebody was heard, and none when all are taken") {
+  Rig rig(R"("kind": "autopilot", "allocates": true)");
+  for (unsigned id = 2; id <= 125; ++id) {
+    rig.bench.deliver({testing::frame(fmt::format("140155{:02X}#00000000000000C0", id))});
+  }
+  dronecan::UniqueId unique_id{};
+  dronecan::TransferId transfer = 0;
+  const auto ask = [&] {
+    rig.bench.run(1s);
+    std::uint8_t given = 0;
+    dronecan::Receiver receiver(2, dronecan::anonymous,
+                                {[&](const dronecan::Transfer& heard) {
+                                   if (heard.header.data_type_id == dronecan::Allocation::type.id) {
+                                     given = dronecan::Allocation::decode(heard.payload)->node_id;
+                                   }
+                                 },
+                                 {},
+                                 [](dronecan::Kind, std::uint16_t) {
+                                   return std::optional(dronecan::Allocation::type.signature);
+                                 }});
+    for (const std::uint8_t from : std::initializer_list<std::uint8_t>{0, 6, 12}) {
+      dronecan::Allocation part;
+      part.first_part_of_unique_id = from == 0;
+      part.size = from == 12 ? 4 : 6;
+      std::copy_n(unique_id.begin() + from, part.size, part.unique_id.begin());
+      const dronecan::Header header{dronecan::Kind::message, 24, dronecan::Allocation::type.id,
+                                    dronecan::anonymous,     {}, 0};
+      rig.bench.deliver(dronecan::segment(header, transfer, dronecan::Allocation::type.signature,
+                                          part.encode().bytes()));
+      transfer = static_cast<dronecan::TransferId>((transfer + 1) % dronecan::transfer_id_modulus);
+      for (const can::Frame& one : rig.bench.run(0ms)) {
+        receiver.receive(one, rig.bench.now());
+      }
+    }
+    return given;
+  };
+  CHECK(ask() == 1);
+  unique_id[15] = 1;
+  CHECK(ask() == 0);
+  unique_id[15] = 0;
+  CHECK(ask() == 1);
+}
+
 TEST_CASE("two autopilots that allocate do not give way to each other") {
   Simulator simulator(scenario(R"("servos": [{"model": "BLA21-12U-AB"}], "foreign": [
       {"kind": "autopilot", "node_id": 10, "allocates": true},
