@@ -38,11 +38,10 @@
 //         "commands": {"servo_ids": [1, 2], "type": 1, "value": 0.45, "rate": 50},
 //         "armed": false                   sends ArmingStatus
 //       },
-//       {"kind": "gnss", "node_id": 31, "rate": 5},           Fix2 and Auxiliary
-//       {"kind": "esc", "node_id": 32, "index": 0, "rate": 50},    esc.Status; parameters of its
-//       own
-//       {"kind": "autopilot", "node_id": 33, "allocates": true},   disarmed; gives node IDs
-//       {"kind": "babbler", "node_id": 34, "priority": 16, "load": 0.5}      KeyValue without end
+//       {"kind": "gnss", "node_id": 31, "rate": 5},         Fix2 and Auxiliary
+//       {"kind": "esc", "node_id": 32, "index": 0, "rate": 50},      with parameters of its own
+//       {"kind": "autopilot", "node_id": 33, "allocates": true},     disarmed; gives node IDs
+//       {"kind": "babbler", "node_id": 34, "priority": 16, "load": 0.5}
 //     ],
 //     "events": [                            at times after power-on
 //       {"at": "2s", "servo": 240900558, "world": {"voltage": "5V", "hand": "45deg"}},
@@ -55,7 +54,8 @@
 // it (World), and stays, as 0x50 up does; of 0x08 and 0x09 how the shaft stands and turns at
 // power-on. "behaviour" has the members of Behaviour, "faults" those of ServoFaults, "sending"
 // those of SendingFaults, "wire" those of WireFaults; an event names its servo by the serial
-// number, and "world" has the keys of parse_world_change().
+// number, and "world" has the keys of parse_world_change(). Every kind of foreign node has the keys
+// of "node", too. What all of this may be, schemas/scenario.schema.json says to an editor.
 
 #include "blactl/base/error.hpp"
 #include "blactl/base/time.hpp"
