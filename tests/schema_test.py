@@ -1,14 +1,18 @@
 #!/usr/bin/env python3
-"""Validates profiles/*.json with profiles/profile.schema.json, and the schema with bad profiles.
+"""Validates the files that come with blactl with their schemas, and the schemas with bad files.
 
-Usage: schema_test.py PROFILES_DIRECTORY. Without python3-jsonschema it fails: a check that did not
-run must not look like one that passed.
+Usage: schema_test.py SOURCE_DIRECTORY BLACTL. Profiles are checked with their schema alone; of
+scenarios and facts the schema and the reader in the binary BLACTL must say the same. Without
+python3-jsonschema it fails: a check that did not run must not look like one that passed.
 """
 
 import copy
 import json
+import os
 import pathlib
+import subprocess
 import sys
+import tempfile
 
 try:
     import jsonschema
@@ -61,13 +65,157 @@ BAD = [
 ]
 
 
-def main(directory):
-    schema = load(directory / "profile.schema.json")
+
+# What schema and reader must both take, and what both must refuse: place, value. The document
+# around it is the one of EXAMPLES that has everything.
+FULL = "rough_bench.json"
+SERVO = ["servos", 0]
+BEHAVIOUR = [*SERVO, "behaviour"]
+WORLD = ["events", 0, "world"]
+
+
+def foreign(kind, **more):
+    return [{"kind": kind, "node_id": 40, **more}]
+
+
+GOOD_SCENARIOS = [
+    (["$schema"], "anything"),
+    (["clock"], None),
+    (["clock"], "real"),
+    (["seed"], 0),
+    (["foreign"], []),
+    ([*SERVO, "node_id"], 0),
+    ([*SERVO, "servo_id"], 254),
+    ([*SERVO, "answer_delay"], 500),
+    ([*SERVO, "answer_delay"], "500"),
+    ([*SERVO, "answer_delay"], "10s"),
+    ([*SERVO, "rom"], {"ANGLE-LIMIT-CW": "90.0deg", "0x2A": 50}),
+    ([*BEHAVIOUR, "rom_write_time"], "0ms"),
+    ([*SERVO, "faults", "return_delay"], "600s"),
+    ([*SERVO, "sending", "late_answers"], 1),
+    (["wire", "burst_interval"], 3600000000),
+    (["foreign"], foreign("node")),
+    (["foreign"], foreign("node", armed=True, commands={"servo_ids": [255]})),
+    (["foreign"], foreign("gnss", rate=12.5)),
+    (["foreign"], foreign("gnss", armed=False, serves_get_set=True, name="x")),
+    (["foreign"], foreign("esc", index=31, rate=1000, unique_id="00" * 16)),
+    (["foreign"], foreign("autopilot", allocates=True)),
+    (["foreign"], foreign("autopilot", commands={"servo_ids": [1], "value": -1.5, "rate": 400})),
+    (["foreign"], foreign("babbler", priority=0, load=1)),
+    (["foreign"], foreign("babbler")),
+    (["events", 0, "at"], None),
+    (["events", 0, "world"], {}),
+    ([*WORLD, "hand"], "free"),
+    ([*WORLD, "hand"], "-45.5deg"),
+    ([*WORLD, "pulse"], "none"),
+    ([*WORLD, "pulse"], 1520),
+    ([*WORLD, "temperature"], "-20degC"),
+    ([*WORLD, "voltage"], "55raw"),
+    (["events", 1, "clients"], "bus_off"),
+]
+
+BAD_SCENARIOS = [
+    (["schema"], "blactl-scenario/2"),
+    (["schema"], None),
+    (["extra"], 1),
+    (["clock"], "fast"),
+    (["seed"], -1),
+    (["servos"], {}),
+    ([*SERVO, "model"], None),
+    ([*SERVO, "model"], ""),
+    ([*SERVO, "colour"], "red"),
+    ([*SERVO, "node_id"], 128),
+    ([*SERVO, "node_id"], "11"),
+    ([*SERVO, "servo_id"], 255),
+    ([*SERVO, "serial_number"], 4294967296),
+    ([*SERVO, "firmware_version"], 1.4),
+    ([*SERVO, "unique_id"], "0011"),
+    ([*SERVO, "name"], ""),
+    ([*SERVO, "name"], "x" * 81),
+    ([*SERVO, "answer_delay"], "2min"),
+    ([*SERVO, "answer_delay"], "-1ms"),
+    ([*SERVO, "answer_delay"], 10000001),
+    ([*SERVO, "answer_delay"], True),
+    ([*SERVO, "rom"], {"angle_limit_cw": None}),
+    ([*SERVO, "rom"], {"angle limit": 1}),
+    ([*BEHAVIOUR, "out_of_range"], "wrap"),
+    ([*BEHAVIOUR, "reserved_reads"], "one"),
+    ([*BEHAVIOUR, "failures_latch"], 1),
+    ([*BEHAVIOUR, "rom_write_time"], "1h"),
+    ([*BEHAVIOUR, "mood"], "good"),
+    ([*SERVO, "faults", "mute"], "yes"),
+    ([*SERVO, "faults", "lose_responses"], -1),
+    ([*SERVO, "faults", "return_delay"], 600000001),
+    ([*SERVO, "sending", "jitter"], -1),
+    ([*SERVO, "sending", "double_answers"], 1.1),
+    (["wire", "loss"], -0.1),
+    (["wire", "noise"], 1),
+    (["foreign"], [{"kind": "node"}]),
+    (["foreign"], [{"node_id": 1}]),
+    (["foreign"], foreign("radio")),
+    (["foreign"], [{"kind": "node", "node_id": 0}]),
+    (["foreign"], foreign("node", rate=5)),
+    (["foreign"], foreign("node", load=0.5)),
+    (["foreign"], foreign("gnss", rate=51)),
+    (["foreign"], foreign("gnss", index=1)),
+    (["foreign"], foreign("esc", index=32)),
+    (["foreign"], foreign("esc", rate=0)),
+    (["foreign"], foreign("esc", allocates=True)),
+    (["foreign"], foreign("autopilot", allocates=1)),
+    (["foreign"], foreign("autopilot", priority=1)),
+    (["foreign"], foreign("babbler", priority=32)),
+    (["foreign"], foreign("babbler", load=1.5)),
+    (["foreign"], foreign("babbler", rate=5)),
+    (["foreign"], foreign("node", commands={"servo_ids": []})),
+    (["foreign"], foreign("node", commands={"servo_ids": [1] * 16})),
+    (["foreign"], foreign("node", commands={"servo_ids": [256]})),
+    (["foreign"], foreign("node", commands={"servo_ids": [1], "value": 1e5})),
+    (["foreign"], foreign("node", commands={"servo_ids": [1], "mode": 1})),
+    (["events", 0, "world"], None),
+    (["events", 0, "servo"], None),
+    (["events", 0, "servo"], 0),
+    (["events", 0, "clients"], "cut"),
+    (["events", 1, "clients"], None),
+    (["events", 1, "clients"], "gone"),
+    (["events", 1, "at"], "soon"),
+    ([*WORLD, "voltage"], "5"),
+    ([*WORLD, "voltage"], 5),
+    ([*WORLD, "load"], "1.5%"),
+    ([*WORLD, "temperature"], 201),
+    ([*WORLD, "hand"], 45),
+    ([*WORLD, "magnet"], "off"),
+    ([*WORLD, "stuck"], True),
+    ([*WORLD, "weather"], "fine"),
+]
+
+GOOD_FACTS = [
+    (["behaviour"], {}),
+    (["behaviour", "slow_speed"], "turns_slowest"),
+    (["$schema"], None),
+]
+
+BAD_FACTS = [
+    (["schema"], "blactl-scenario/1"),
+    (["behaviour"], None),
+    (["behaviour", "out_of_range"], "wrap"),
+    (["behaviour", "rom_write_time"], 10000001),
+    (["servos"], []),
+]
+
+
+def validator_of(directory, name):
+    """For schemas that refer to each other by their file names."""
+    schemas = {path.name: load(path) for path in directory.glob("*.schema.json")}
+    schema = schemas[name]
     validator_class = jsonschema.validators.validator_for(schema)
     validator_class.check_schema(schema)
-    validator = validator_class(schema)
+    resolver = jsonschema.RefResolver("", schema, store=schemas)
+    return validator_class(schema, resolver=resolver)
+
+
+def check_profiles(directory, faults):
+    validator = validator_of(directory, "profile.schema.json")
     profiles = {path.name: load(path) for path in sorted(directory.glob("BLA*.json"))}
-    faults = []
     if sorted(profiles) != ["BLA.json", "BLA15.json", "BLA21.json", "BLA34.json"]:
         faults.append(f"unexpected files: {', '.join(profiles)}")
     for name, profile in profiles.items():
@@ -76,13 +224,66 @@ def main(directory):
     for name, place, value in BAD:
         if validator.is_valid(change(profiles[name], place, value)):
             faults.append(f"{name}: {place} = {value!r} should be refused")
+    return f"{len(profiles)} profiles valid, {len(BAD)} bad ones refused"
+
+
+def read(blactl, folder, document, *arguments):
+    """What the binary says of a document: "" if it takes it. No simulator runs for that: a log,
+    which takes no frames, is refused after the file was read."""
+    file = pathlib.Path(folder) / "document.json"
+    file.write_text(json.dumps(document), encoding="utf-8")
+    words = [blactl, "-i", "replay:none", "--json", "sim", *arguments, str(file)]
+    done = subprocess.run(words, capture_output=True, text=True, timeout=60, check=False,
+                          env={**os.environ, "XDG_RUNTIME_DIR": folder})
+    errors = json.loads(done.stdout.splitlines()[-1])["errors"]
+    bad = [error["message"] for error in errors if error["code"] == "bad_file"]
+    if not bad and [error["code"] for error in errors] != ["usage"]:
+        raise RuntimeError(f"unexpected: {errors}")
+    return "".join(bad)
+
+
+def check_read_files(kind, validator, documents, blactl, arguments, faults):
+    """`documents`: (name, document, whether it is right)."""
+    with tempfile.TemporaryDirectory() as folder:
+        for name, document, right in documents:
+            told = [f"{error.json_path}: {error.message}" for error in
+                    validator.iter_errors(document)]
+            if bool(told) == right:
+                faults.append(f"{kind}: the schema {'refuses' if right else 'takes'} {name}: {told}")
+            told = read(blactl, folder, document, *arguments)
+            if bool(told) == right:
+                faults.append(f"{kind}: the reader {'refuses' if right else 'takes'} {name}: {told}")
+    right = sum(1 for document in documents if document[2])
+    return f"{right} {kind} taken, {len(documents) - right} refused, by schema and reader"
+
+
+def documents_of(examples, full, good, bad):
+    documents = [(name, document, True) for name, document in examples.items()]
+    for places, right in ((good, True), (bad, False)):
+        for place, value in places:
+            documents.append((f"{place} = {value!r}", change(examples[full], place, value), right))
+    return documents
+
+
+def main(source, blactl):
+    faults = []
+    said = [check_profiles(source / "profiles", faults)]
+    data = source / "tests" / "data"
+    for kind, full, good, bad, arguments in (
+            ("scenarios", FULL, GOOD_SCENARIOS, BAD_SCENARIOS, []),
+            ("facts", "bench.json", GOOD_FACTS, BAD_FACTS, ["--facts"])):
+        examples = {path.name: load(path) for path in sorted((data / kind).glob("*.json"))}
+        schema = {"scenarios": "scenario.schema.json", "facts": "facts.schema.json"}[kind]
+        said.append(check_read_files(kind, validator_of(source / "schemas", schema),
+                                     documents_of(examples, full, good, bad), blactl, arguments,
+                                     faults))
     for fault in faults:
         print(fault, file=sys.stderr)
-    print(f"{len(profiles)} profiles valid, {len(BAD)} bad ones refused" if not faults else "failed")
+    print("; ".join(said) if not faults else "failed")
     return 1 if faults else 0
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 2:
+    if len(sys.argv) != 3:
         sys.exit(__doc__)
-    sys.exit(main(pathlib.Path(sys.argv[1])))
+    sys.exit(main(pathlib.Path(sys.argv[1]), sys.argv[2]))

@@ -30,11 +30,11 @@ constexpr std::array<std::string_view, 2> with_csv{"scan", "get"};
 constexpr std::array<std::string_view, 2> streams{"trace", "sim"};
 
 /// Options that take the next argument as their value: what a mistyped command is told apart from.
-constexpr std::array<std::string_view, 19> with_value{
-    "--interface", "--node",    "--local-node-id", "--color",   "--lang",
-    "--timeout",   "--retries", "--profile-dir",   "--profile", "--listen",
-    "--expect",    "--group",   "--wait",          "--stagger", "--record",
-    "--type",      "--kind",    "--duration",      "--count"};
+constexpr std::array<std::string_view, 22> with_value{
+    "--interface", "--node",        "--local-node-id", "--color",  "--lang",   "--timeout",
+    "--retries",   "--profile-dir", "--profile",       "--listen", "--expect", "--group",
+    "--wait",      "--stagger",     "--record",        "--type",   "--kind",   "--duration",
+    "--count",     "--facts",       "--seed",          "--clock"};
 
 std::optional<std::string> environment(const char* name) {
   const char* value = std::getenv(name);
@@ -255,6 +255,8 @@ void Parser::add_sim() {
       "sim", "simulated servos: serves the sim: bus, or joins a real interface with -i");
   command.add_option("SCENARIO", options.scenario, "scenario file (default: three servos)")
       ->type_name("");
+  values_.text(command, "--facts", "how servos behave, as measured by characterize", "FILE",
+               options.facts);
   values_.whole(
       command, "--seed", "of everything random", "N",
       [&seed = options.seed](std::uint64_t number) { seed = number; }, 0, ~std::uint64_t{0});

@@ -92,6 +92,7 @@ struct TraceOptions {
 
 struct SimOptions {
   std::string scenario{};
+  std::optional<std::string> facts{}; ///< a facts file; empty: servos behave as is likely
   std::optional<std::uint64_t> seed{};
   std::string clock{}; ///< "real", "virtual"; empty: as the scenario says
 };

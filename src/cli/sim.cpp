@@ -1,6 +1,7 @@
 // blactl sim: simulated servos, as a bus of their own or on a real interface.
 
 #include "blactl/can/simbus.hpp"
+#include "blactl/sim/facts.hpp"
 #include "blactl/sim/interface.hpp"
 #include "blactl/sim/server.hpp"
 
@@ -24,8 +25,12 @@ template <class... Cases> struct Overloaded : Cases... {
 };
 
 Result<sim::Scenario> read_scenario(const SimOptions& options, const bla::Profiles& profiles) {
-  auto scenario = options.scenario.empty() ? sim::default_scenario(profiles)
-                                           : sim::read_scenario(options.scenario, profiles);
+  const auto usual = options.facts ? sim::read_facts(*options.facts) : sim::Behaviour{};
+  if (!usual) {
+    return std::unexpected(usual.error());
+  }
+  auto scenario = options.scenario.empty() ? sim::default_scenario(profiles, *usual)
+                                           : sim::read_scenario(options.scenario, profiles, *usual);
   if (scenario && options.seed) {
     scenario->seed = *options.seed;
   }

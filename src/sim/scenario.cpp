@@ -3,12 +3,12 @@
 #include "blactl/base/json_reader.hpp"
 #include "blactl/sim/texts.hpp"
 
+#include "sim/foreign_reader.hpp"
 #include "sim/scenario_values.hpp"
 #include "sim/servo_reader.hpp"
 
 #include <algorithm>
 #include <chrono>
-#include <limits>
 
 namespace blactl::sim {
 namespace {
@@ -27,34 +27,34 @@ constexpr std::string_view default_text = R"({
 /// Reads one scenario; faults go to the document's list.
 class Reader {
  public:
-  Reader(const bla::Profiles& profiles, json::Faults& faults)
-      : profiles_(profiles), faults_(faults) {}
+  Reader(const bla::Profiles& profiles, const Behaviour& usual, json::Faults& faults)
+      : profiles_(profiles), usual_(usual), faults_(faults) {}
 
   Scenario scenario(json::Object root);
 
  private:
-  ForeignSetup foreign(const json::Value& value);
   WireFaults wire(json::Object object);
   TimedEvent event(const json::Value& value, const std::vector<ServoSetup>& servos);
   std::vector<WorldChange> world(json::Object object);
-  CommanderSetup commander(json::Object& object);
 
   const bla::Profiles& profiles_;
+  const Behaviour& usual_;
   json::Faults& faults_;
 };
 
 Scenario Reader::scenario(json::Object root) {
   Scenario scenario;
+  (void)root.optional_string("$schema"); // what editors look at
   (void)root.word("schema", {schema});
   const auto clock = root.optional_word("clock", {"real", "virtual"});
   scenario.clock = clock == "virtual" ? Clock::simulated : Clock::real;
   scenario.seed = static_cast<std::uint64_t>(root.optional_integer("seed", 0).value_or(1));
-  ServoReader servos(profiles_, faults_);
+  ServoReader servos(profiles_, usual_, faults_);
   for (const json::Value* item : root.optional_array("servos")) {
     scenario.servos.push_back(servos.read(*item, scenario.servos.size()));
   }
   for (const json::Value* item : root.optional_array("foreign")) {
-    scenario.foreign.push_back(foreign(*item));
+    scenario.foreign.push_back(read_foreign(*item, faults_));
   }
   scenario.wire = wire(root.optional_object("wire"));
   for (const json::Value* item : root.optional_array("events")) {
@@ -120,53 +120,14 @@ std::vector<WorldChange> Reader::world(json::Object object) {
   return changes;
 }
 
-ForeignSetup Reader::foreign(const json::Value& value) {
-  ForeignSetup node;
-  json::Object object(value, faults_);
-  (void)object.word("kind", {"node"});
-  node.node_id = static_cast<std::uint8_t>(object.integer("node_id", 1, dronecan::NodeId::max));
-  node.name = read_node_name(object, "org.example.node", faults_);
-  // Beyond every serial number, so that no servo has the same.
-  node.unique_id = read_unique_id(object, (std::uint64_t{1} << 32U) + node.node_id, faults_);
-  node.serves_get_set = object.optional_boolean("serves_get_set").value_or(false);
-  if (json::Object commands = object.optional_object("commands"); commands.exists()) {
-    node.commands = commander(commands);
-  }
-  node.armed = object.optional_boolean("armed");
-  object.finish();
-  return node;
-}
-
-CommanderSetup Reader::commander(json::Object& object) {
-  constexpr std::size_t max_commands = 15;
-  constexpr std::int64_t every_servo = 255;
-  constexpr double max_float16 = 65504;
-  constexpr double max_rate_hz = 1000;
-  CommanderSetup commander;
-  const auto ids = object.array("servo_ids");
-  for (const json::Value* item : ids) {
-    const auto id = json::as_integer(*item, faults_, 0, every_servo);
-    commander.servo_ids.push_back(static_cast<std::uint8_t>(id.value_or(0)));
-  }
-  if (object.exists() && (ids.empty() || ids.size() > max_commands)) {
-    faults_.add(object.value(), say<texts::scenario_servo_ids>());
-  }
-  commander.type = static_cast<std::uint8_t>(
-      object.optional_integer("type", 0, std::numeric_limits<std::uint8_t>::max()).value_or(1));
-  commander.value =
-      static_cast<float>(object.optional_number("value", -max_float16, max_float16).value_or(0));
-  const double rate = object.optional_number("rate", 1, max_rate_hz).value_or(50);
-  commander.period = Duration(static_cast<Duration::rep>(1e6 / rate));
-  object.finish();
-  return commander;
-}
-
-Result<Scenario> from_document(Result<json::Document> document, const bla::Profiles& profiles) {
+Result<Scenario> from_document(Result<json::Document> document, const bla::Profiles& profiles,
+                               const Behaviour& usual) {
   if (!document) {
     return std::unexpected(document.error());
   }
   json::Faults& faults = document->faults();
-  Scenario scenario = Reader(profiles, faults).scenario(json::Object(document->root(), faults));
+  Scenario scenario =
+      Reader(profiles, usual, faults).scenario(json::Object(document->root(), faults));
   if (const auto fine = faults.result(); !fine) {
     return std::unexpected(fine.error());
   }
@@ -175,17 +136,18 @@ Result<Scenario> from_document(Result<json::Document> document, const bla::Profi
 
 } // namespace
 
-Result<Scenario> read_scenario(const std::filesystem::path& file, const bla::Profiles& profiles) {
-  return from_document(json::parse_file(file), profiles);
+Result<Scenario> read_scenario(const std::filesystem::path& file, const bla::Profiles& profiles,
+                               const Behaviour& usual) {
+  return from_document(json::parse_file(file), profiles, usual);
 }
 
 Result<Scenario> parse_scenario(std::string_view text, std::string file,
-                                const bla::Profiles& profiles) {
-  return from_document(json::parse(text, std::move(file)), profiles);
+                                const bla::Profiles& profiles, const Behaviour& usual) {
+  return from_document(json::parse(text, std::move(file)), profiles, usual);
 }
 
-Result<Scenario> default_scenario(const bla::Profiles& profiles) {
-  return parse_scenario(default_text, "sim:", profiles);
+Result<Scenario> default_scenario(const bla::Profiles& profiles, const Behaviour& usual) {
+  return parse_scenario(default_text, "sim:", profiles, usual);
 }
 
 } // namespace blactl::sim

@@ -3,6 +3,7 @@
 #include "blactl/bla/value.hpp"
 #include "blactl/sim/texts.hpp"
 
+#include "sim/behaviour_reader.hpp"
 #include "sim/scenario_values.hpp"
 
 #include <algorithm>
@@ -67,7 +68,8 @@ ServoSetup ServoReader::read(const json::Value& value, std::size_t index) {
       read_duration(object, "answer_delay", servo.answer_delay, longest_delay, faults_);
   servo.rom = registers(object.optional_object("rom"), Memory::rom, servo);
   servo.ram = registers(object.optional_object("ram"), Memory::ram, servo);
-  behaviour(object.optional_object("behaviour"), servo.behaviour);
+  servo.behaviour = usual_;
+  read_behaviour(object.optional_object("behaviour"), servo.behaviour, faults_);
   servo_faults(object.optional_object("faults"), servo.faults);
   sending(object.optional_object("sending"), servo.sending);
   object.finish();
@@ -201,60 +203,6 @@ void ServoReader::check_pwm_modes(std::int64_t actual) {
       faults_.add(*value.where, say<texts::scenario_pwm_mode>(value.mode, actual));
     }
   }
-}
-
-void ServoReader::behaviour(json::Object object, Behaviour& into) {
-  if (!object.exists()) {
-    return;
-  }
-  const auto reads = [&](std::string_view key) {
-    return object.optional_word(key, {"fail", "zero"}) == "zero" ? MissingRead::zero
-                                                                 : MissingRead::fail;
-  };
-  const auto flag = [&](std::string_view key, bool fallback) {
-    return object.optional_boolean(key).value_or(fallback);
-  };
-  const bool clamps = object.optional_word("out_of_range", {"refuse", "clamp"}) == "clamp";
-  into.out_of_range = clamps ? OutOfRange::clamp : OutOfRange::refuse;
-  into.reserved_reads = reads("reserved_reads");
-  into.gated_reads = reads("gated_reads");
-  into.write_only_reads = reads("write_only_reads");
-  into.index_only_access = flag("index_only_access", into.index_only_access);
-  into.failure_with_name = flag("failure_with_name", into.failure_with_name);
-  into.ignores_disabled_commands =
-      flag("ignores_disabled_commands", into.ignores_disabled_commands);
-  into.answers_save_first = flag("answers_save_first", into.answers_save_first);
-  into.rom_write_time =
-      read_duration(object, "rom_write_time", into.rom_write_time, longest_delay, faults_);
-  motion_behaviour(object, into);
-  object.finish();
-}
-
-/// The keys about the shaft.
-void ServoReader::motion_behaviour(json::Object& object, Behaviour& into) {
-  const auto flag = [&](std::string_view key, bool fallback) {
-    return object.optional_boolean(key).value_or(fallback);
-  };
-  into.array_command_shows = flag("array_command_shows", into.array_command_shows);
-  into.array_command_feeds_timeout =
-      flag("array_command_feeds_timeout", into.array_command_feeds_timeout);
-  into.get_set_feeds_timeout = flag("get_set_feeds_timeout", into.get_set_feeds_timeout);
-  into.inclusive_limits = flag("inclusive_limits", into.inclusive_limits);
-  into.failures_latch = flag("failures_latch", into.failures_latch);
-  into.notices_warn = flag("notices_warn", into.notices_warn);
-  into.pwm_end_points_move = flag("pwm_end_points_move", into.pwm_end_points_move);
-  into.pwm_waits_after_start = flag("pwm_waits_after_start", into.pwm_waits_after_start);
-  into.boost_in_dead_band = flag("boost_in_dead_band", into.boost_in_dead_band);
-  into.soft_start_shows = flag("soft_start_shows", into.soft_start_shows);
-  const auto second = [&](std::string_view key, std::string_view usual, std::string_view other) {
-    return object.optional_word(key, {usual, other}) == other;
-  };
-  into.not_a_number =
-      second("not_a_number", "ignore", "zero") ? NotANumber::zero : NotANumber::ignore;
-  into.unused_fields =
-      second("unused_fields", "unknown", "zero") ? UnusedFields::zero : UnusedFields::unknown;
-  into.slow_speed = second("slow_speed", "stands", "turns_slowest") ? SlowSpeed::turns_slowest
-                                                                    : SlowSpeed::stands;
 }
 
 void ServoReader::servo_faults(json::Object object, ServoFaults& into) {

@@ -16,9 +16,9 @@ namespace blactl::sim {
 /// Reads the servos of a scenario one by one; what is wrong goes to the faults of the document.
 class ServoReader {
  public:
-  /// Both must outlive this.
-  ServoReader(const bla::Profiles& profiles, json::Faults& faults)
-      : profiles_(profiles), faults_(faults) {}
+  /// All must outlive this. `usual`: how a servo behaves that says nothing of it.
+  ServoReader(const bla::Profiles& profiles, const Behaviour& usual, json::Faults& faults)
+      : profiles_(profiles), usual_(usual), faults_(faults) {}
 
   /// `index`: its place among the servos, which gives it a serial number.
   [[nodiscard]] ServoSetup read(const json::Value& value, std::size_t index);
@@ -42,12 +42,11 @@ class ServoReader {
   [[nodiscard]] const bla::Parameter* parameter(const json::Value& value, Memory memory,
                                                 const bla::Profile& profile);
   void check_pwm_modes(std::int64_t actual);
-  void behaviour(json::Object object, Behaviour& into);
-  static void motion_behaviour(json::Object& object, Behaviour& into);
   void servo_faults(json::Object object, ServoFaults& into);
   void sending(json::Object object, SendingFaults& into);
 
   const bla::Profiles& profiles_;
+  const Behaviour& usual_;
   json::Faults& faults_;
   std::vector<InPwmMode> in_pwm_mode_; ///< of the memory that is being read
 };

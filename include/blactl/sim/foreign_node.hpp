@@ -1,32 +1,40 @@
 #pragma once
-// A node on the simulated bus that is no BLA servo: an autopilot, a GNSS receiver.
+// A node on the simulated bus that is no BLA servo: an autopilot, a satellite receiver.
 
 #include "blactl/dronecan/types.hpp"
 #include "blactl/sim/device.hpp"
 #include "blactl/sim/endpoint.hpp"
-#include "blactl/sim/scenario.hpp"
+#include "blactl/sim/foreign_setup.hpp"
+
+#include <memory>
+#include <vector>
 
 namespace blactl::sim {
 
-/// Sends NodeStatus and answers GetNodeInfo; if the setup says so it answers GetSet like a node
-/// without parameters, streams ArrayCommand, and sends ArmingStatus.
+class ForeignRole;
+
+/// Sends NodeStatus and answers GetNodeInfo; if the setup says so it answers GetSet, streams
+/// ArrayCommand, and sends ArmingStatus. Besides it does what its kind does.
 class ForeignNode final : public Device {
  public:
   ForeignNode(const ForeignSetup& setup, Time power_on);
+  ~ForeignNode() override;
 
   void receive(const can::Frame& frame, Time at) override;
   [[nodiscard]] Time next_deadline() const override;
   void advance(Time now) override;
 
  private:
-  void handle(const dronecan::Transfer& request);
+  [[nodiscard]] std::unique_ptr<ForeignRole> make_role(Time power_on);
+  void handle(const dronecan::Transfer& transfer);
   void answer(const dronecan::Transfer& request, const dronecan::DataType& type,
               const dronecan::Payload& payload);
-  void send_message(const dronecan::DataType& type, dronecan::Priority priority,
-                    const dronecan::Payload& payload);
+  std::vector<can::Frame> send_message(const dronecan::DataType& type, dronecan::Priority priority,
+                                       dronecan::Bytes payload);
   [[nodiscard]] dronecan::NodeStatus node_status() const;
 
   ForeignSetup setup_;
+  std::unique_ptr<ForeignRole> role_; ///< there always is one
   Endpoint endpoint_;
   Time power_on_;
   Time now_;

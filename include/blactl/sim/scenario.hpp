@@ -31,13 +31,17 @@
 //     },
 //     "foreign": [
 //       {
-//         "kind": "node",
+//         "kind": "node",                  or one of those below
 //         "node_id": 30,
 //         "name": "org.ardupilot.f405",
 //         "serves_get_set": true,          answers GetSet as a node without parameters
 //         "commands": {"servo_ids": [1, 2], "type": 1, "value": 0.45, "rate": 50},
 //         "armed": false                   sends ArmingStatus
-//       }
+//       },
+//       {"kind": "gnss", "node_id": 31, "rate": 5},         Fix2 and Auxiliary
+//       {"kind": "esc", "node_id": 32, "index": 0, "rate": 50},      with parameters of its own
+//       {"kind": "autopilot", "node_id": 33, "allocates": true},     disarmed; gives node IDs
+//       {"kind": "babbler", "node_id": 34, "priority": 16, "load": 0.5}
 //     ],
 //     "events": [                            at times after power-on
 //       {"at": "2s", "servo": 240900558, "world": {"voltage": "5V", "hand": "45deg"}},
@@ -50,7 +54,8 @@
 // it (World), and stays, as 0x50 up does; of 0x08 and 0x09 how the shaft stands and turns at
 // power-on. "behaviour" has the members of Behaviour, "faults" those of ServoFaults, "sending"
 // those of SendingFaults, "wire" those of WireFaults; an event names its servo by the serial
-// number, and "world" has the keys of parse_world_change().
+// number, and "world" has the keys of parse_world_change(). Every kind of foreign node has the keys
+// of "node", too. What all of this may be, schemas/scenario.schema.json says to an editor.
 
 #include "blactl/base/error.hpp"
 #include "blactl/base/time.hpp"
@@ -58,6 +63,7 @@
 #include "blactl/bla/profile.hpp"
 #include "blactl/dronecan/ids.hpp"
 #include "blactl/sim/delayed_device.hpp"
+#include "blactl/sim/foreign_setup.hpp"
 #include "blactl/sim/timeline.hpp"
 #include "blactl/sim/wire_faults.hpp"
 
@@ -147,24 +153,6 @@ struct ServoSetup {
   SendingFaults sending;
 };
 
-/// A stream of ArrayCommand, as an autopilot sends it.
-struct CommanderSetup {
-  std::vector<std::uint8_t> servo_ids;
-  std::uint8_t type = 1; ///< table 2-21
-  float value = 0;
-  Duration period = std::chrono::milliseconds(20);
-};
-
-/// A node that is no BLA servo.
-struct ForeignSetup {
-  std::uint8_t node_id = 1;
-  std::string name;
-  dronecan::UniqueId unique_id{};
-  bool serves_get_set = false;
-  std::optional<CommanderSetup> commands;
-  std::optional<bool> armed; ///< empty: sends no ArmingStatus
-};
-
 struct Scenario {
   Clock clock = Clock::real;
   std::uint64_t seed = 1;
@@ -174,14 +162,18 @@ struct Scenario {
   std::vector<TimedEvent> events;
 };
 
-/// Both refer to `profiles`, which must outlive the scenario.
-/// Errors: bad_file with file, line, JSON pointer and reason of every fault.
+/// Both refer to `profiles`, which must outlive the scenario. `usual`: how a servo behaves as far
+/// as its own "behaviour" says nothing else (see facts.hpp). Errors: bad_file with file, line, JSON
+/// pointer and reason of every fault.
 [[nodiscard]] Result<Scenario> read_scenario(const std::filesystem::path& file,
-                                             const bla::Profiles& profiles);
+                                             const bla::Profiles& profiles,
+                                             const Behaviour& usual = {});
 [[nodiscard]] Result<Scenario> parse_scenario(std::string_view text, std::string file,
-                                              const bla::Profiles& profiles);
+                                              const bla::Profiles& profiles,
+                                              const Behaviour& usual = {});
 
 /// Three servos with static IDs: BLA21-12U-AB at 11, BLA15-06U-A0 at 12, BLA34-28U-AB at 13.
-[[nodiscard]] Result<Scenario> default_scenario(const bla::Profiles& profiles);
+[[nodiscard]] Result<Scenario> default_scenario(const bla::Profiles& profiles,
+                                                const Behaviour& usual = {});
 
 } // namespace blactl::sim

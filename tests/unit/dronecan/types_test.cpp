@@ -158,7 +158,7 @@ TEST_CASE("a GetNodeInfo request may have the byte that Futaba prints") {
   CHECK(decoded<GetNodeInfo::Request>("00"));
 }
 
-TEST_CASE("the bits of a NodeStatus fill their byte from the top") {
+TEST_CASE("the bits of a NodeStatus fill their byte from the top", "[requirement-10]") {
   const NodeStatus status{.uptime_s = 0x04030201,
                           .health = Health::critical,
                           .mode = Mode::software_update,

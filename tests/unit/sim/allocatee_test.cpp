@@ -52,7 +52,7 @@ bool is_request_period(Duration duration) {
 
 } // namespace
 
-TEST_CASE("requirement 29: requests come every 600 to 1000 ms, at random") {
+TEST_CASE("requirement 29: requests come every 600 to 1000 ms, at random", "[requirement-29]") {
   Exchange exchange;
   std::vector<Duration> periods{exchange.allocatee.next_deadline() - Time{}};
   for (int i = 0; i < 50; ++i) {
@@ -63,7 +63,8 @@ TEST_CASE("requirement 29: requests come every 600 to 1000 ms, at random") {
   CHECK(std::ranges::max(periods) - std::ranges::min(periods) > 200ms);
 }
 
-TEST_CASE("requirements 30, 31: three parts of 6, 6 and 4 bytes, node ID 0, the first one marked") {
+TEST_CASE("requirements 30, 31: three parts of 6, 6 and 4 bytes, node ID 0, the first one marked",
+          "[requirement-30][requirement-31]") {
   Exchange exchange;
   const Allocation first = exchange.request();
   CHECK(first.node_id == 0);
@@ -83,7 +84,8 @@ TEST_CASE("requirements 30, 31: three parts of 6, 6 and 4 bytes, node ID 0, the 
   CHECK(exchange.hear(answer(16, 125)) == dronecan::NodeId(125));
 }
 
-TEST_CASE("requirement 32: the second and third part follow after 0 to 400 ms") {
+TEST_CASE("requirement 32: the second and third part follow after 0 to 400 ms",
+          "[requirement-32]") {
   Duration longest{};
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
     Exchange exchange{Allocatee(unique_id, seed, Time{})};
@@ -95,8 +97,8 @@ TEST_CASE("requirement 32: the second and third part follow after 0 to 400 ms") 
   CHECK(longest > 200ms);
 }
 
-TEST_CASE(
-    "requirement 33: an answer with another unique ID, or of another length, starts it over") {
+TEST_CASE("requirement 33: an answer with another unique ID, or of another length, starts it over",
+          "[requirement-33]") {
   for (const std::uint8_t wrong_size : Numbers{0, 5, 7, 12, 16}) {
     Exchange exchange;
     exchange.request();
@@ -112,7 +114,7 @@ TEST_CASE(
   CHECK(exchange.request().first_part_of_unique_id);
 }
 
-TEST_CASE("requirement 33: nothing heard after a part starts it over") {
+TEST_CASE("requirement 33: nothing heard after a part starts it over", "[requirement-33]") {
   Exchange exchange;
   exchange.request();
   CHECK_FALSE(exchange.hear(answer(6)));

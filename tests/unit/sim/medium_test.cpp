@@ -74,7 +74,8 @@ using Words = std::vector<std::string>;
 
 } // namespace
 
-TEST_CASE("a frame takes its bits, the next one follows after the intermission") {
+TEST_CASE("a frame takes its bits, the next one follows after the intermission",
+          "[requirement-1]") {
   Wire wire;
   const auto a = wire.attach();
   const auto b = wire.attach();

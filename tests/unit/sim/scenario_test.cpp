@@ -291,6 +291,10 @@ TEST_CASE("faulty foreign nodes are told what is wrong with them") {
             "/foreign/0/commands/servo_ids/0"));
   CHECK(has(foreign(R"("kind": "node", "node_id": 1, "commands": {"servo_ids": [1], "rate": 0})"),
             "/foreign/0/commands/rate"));
+  CHECK(has(foreign(R"("kind": "node", "node_id": 1, "rate": 5)"), "/foreign/0/rate: this key"));
+  CHECK(has(foreign(R"("kind": "gnss", "node_id": 1, "rate": 51)"), "/foreign/0/rate: "));
+  CHECK(has(foreign(R"("kind": "esc", "node_id": 1, "index": 32)"), "/foreign/0/index: "));
+  CHECK(has(foreign(R"("kind": "babbler", "node_id": 1, "load": 2)"), "/foreign/0/load: "));
 }
 
 TEST_CASE("faulty events are told what is wrong with them") {

@@ -43,14 +43,14 @@ TEST_CASE("requirement 70: a write is answered with the value that is true after
 }
 
 TEST_CASE("requirement 78: the answer to a value out of range has the old value",
-          "[requirement-78]") {
+          "[requirement-78][unproven]") {
   Rig rig(bla21);
   const auto response = rig.answered(rig.get_set(0, std::int64_t{-5}, "0x38"));
   CHECK(response.value == GetSet::Value(std::int64_t{1799}));
 }
 
 TEST_CASE("requirements 71, 74: a failure is tag 0 without a name, 4 bytes",
-          "[requirement-71][requirement-74]") {
+          "[requirement-71][requirement-74][unproven]") {
   Rig rig(bla21);
   CHECK(rig.bench.ask({frame("1E0B8BFF#000030783033C5")}) == Frames{"1E0B7F8B#00000000C5"});
 }
@@ -74,7 +74,7 @@ TEST_CASE("requirement 67: the name is 0x and two upper-case hexadecimal digits,
 }
 
 TEST_CASE("requirement 69: a name wins over an index, an index alone is an address",
-          "[requirement-69]") {
+          "[requirement-69][unproven]") {
   Rig rig(bla21);
   CHECK(rig.answered(rig.get_set(0x39, {}, "0x38")).name == "0x38");
   const auto by_index = rig.answered(rig.get_set(0x38, {}, ""));

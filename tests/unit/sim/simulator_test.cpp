@@ -105,7 +105,8 @@ TEST_CASE("the same seed gives the same restarts, allocations and events") {
   CHECK(first != life(4));
 }
 
-TEST_CASE("requirement 54: on the bus nothing of a saving servo follows its answer for 50 ms") {
+TEST_CASE("requirement 54: on the bus nothing of a saving servo follows its answer for 50 ms",
+          "[requirement-54]") {
   Simulator simulator(scenario(R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11},
                                              {"model": "BLA15-06U-A0", "node_id": 12}])"),
                       Time{});

@@ -1,0 +1,41 @@
+#include "blactl/sim/facts.hpp"
+
+#include "blactl/base/json_reader.hpp"
+
+#include "sim/behaviour_reader.hpp"
+
+#include <utility>
+
+namespace blactl::sim {
+namespace {
+
+constexpr std::string_view schema = "blactl-facts/1";
+
+Result<Behaviour> from_document(Result<json::Document> document) {
+  if (!document) {
+    return std::unexpected(document.error());
+  }
+  json::Faults& faults = document->faults();
+  json::Object root(document->root(), faults);
+  (void)root.optional_string("$schema"); // what editors look at
+  (void)root.word("schema", {schema});
+  Behaviour behaviour;
+  read_behaviour(root.object("behaviour"), behaviour, faults);
+  root.finish();
+  if (const auto fine = faults.result(); !fine) {
+    return std::unexpected(fine.error());
+  }
+  return behaviour;
+}
+
+} // namespace
+
+Result<Behaviour> read_facts(const std::filesystem::path& file) {
+  return from_document(json::parse_file(file));
+}
+
+Result<Behaviour> parse_facts(std::string_view text, std::string file) {
+  return from_document(json::parse(text, std::move(file)));
+}
+
+} // namespace blactl::sim

@@ -1,0 +1,61 @@
+#pragma once
+// What a kind of foreign node does beside what every node does.
+
+#include "blactl/base/time.hpp"
+#include "blactl/can/frame.hpp"
+#include "blactl/dronecan/transfer.hpp"
+#include "blactl/dronecan/types.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <utility>
+#include <vector>
+
+namespace blactl::sim {
+
+/// As it is here: nothing.
+class ForeignRole {
+ public:
+  /// Sends a message from the node, and tells its frames.
+  using Broadcast = std::function<std::vector<can::Frame>(
+      const dronecan::DataType&, dronecan::Priority, dronecan::Bytes payload)>;
+
+  explicit ForeignRole(Broadcast broadcast) : broadcast_(std::move(broadcast)) {}
+
+  virtual ~ForeignRole() = default;
+  ForeignRole(const ForeignRole&) = delete;
+  ForeignRole& operator=(const ForeignRole&) = delete;
+
+  /// The data type IDs of the messages that it wants to receive().
+  [[nodiscard]] virtual std::vector<std::uint16_t> subscriptions() const { return {}; }
+
+  /// Of NodeStatus and ArmingStatus.
+  [[nodiscard]] virtual dronecan::Priority status_priority() const { return 20; }
+
+  /// Any frame of another node.
+  virtual void hear(const can::Frame& /*frame*/) {}
+
+  virtual void receive(const dronecan::Transfer& /*message*/) {}
+
+  /// Without value and name, if there is no such parameter (DSDL 11.GetSet).
+  [[nodiscard]] virtual dronecan::GetSet::Response
+  get_set(const dronecan::GetSet::Request& /*request*/) {
+    return {};
+  }
+
+  /// When advance() must be called at the latest.
+  [[nodiscard]] virtual Time next_deadline() const { return never; }
+
+  virtual void advance(Time /*now*/) {}
+
+ protected:
+  std::vector<can::Frame> broadcast(const dronecan::DataType& type, dronecan::Priority priority,
+                                    dronecan::Bytes payload) const {
+    return broadcast_(type, priority, payload);
+  }
+
+ private:
+  Broadcast broadcast_;
+};
+
+} // namespace blactl::sim
