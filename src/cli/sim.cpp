@@ -72,12 +72,13 @@ void no_such_serial(std::int64_t serial_number, const Context& context) {
   refuse({Code::usage, say<texts::sim_no_such_serial>(serial_number), "", std::nullopt}, context);
 }
 
-void dump(const std::vector<sim::Servo*>& servos, Time now, SimEvents& events) {
+void dump(const std::vector<sim::Servo*>& servos, const sim::Medium::Counters* wire, Time now,
+          SimEvents& events) {
   for (sim::Servo* servo : servos) {
     servo->look(now);
     events.print(*servo, now);
   }
-  events.print_end(servos.size());
+  events.print_end(servos.size(), wire, now);
 }
 
 /// Carries out what comes in on stdin.
@@ -118,7 +119,9 @@ void serve(const std::string& socket, const sim::Scenario& scenario, const Conte
       },
       [&](const LinkClients& order) { simulator.link_clients(order.link); },
       [&](const HoldClock& order) { (*server)->hold(order.clients); },
-      [&](const DumpState&) { dump(simulator.servos(), simulator.now(), events); },
+      [&](const DumpState&) {
+        dump(simulator.servos(), &simulator.medium().counters(), simulator.now(), events);
+      },
   };
   for (;;) {
     const can::Event event = loop.next((*server)->next_deadline(loop.now()));
@@ -167,7 +170,7 @@ void join(const std::string& name, const sim::Scenario& scenario, const bla::Pro
       },
       [&](const LinkClients&) { impossible("clients"); },
       [&](const HoldClock&) { impossible("hold"); },
-      [&](const DumpState&) { dump(interface.devices().servos, loop.now(), events); },
+      [&](const DumpState&) { dump(interface.devices().servos, nullptr, loop.now(), events); },
   };
   for (;;) {
     const can::Event event = loop.next(interface.next_deadline());

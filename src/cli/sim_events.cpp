@@ -8,6 +8,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cstdint>
 #include <vector>
 
@@ -63,10 +65,25 @@ void SimEvents::print(const sim::Servo& servo, Time at) {
   offer(reporter_.format() == Format::json ? json(servo, at) : memory_text(servo));
 }
 
-void SimEvents::print_end(std::size_t servos) {
-  if (reporter_.format() == Format::json) {
-    offer(fmt::format("{{\"event\":\"dumped\",\"count\":{}}}\n", servos));
+void SimEvents::print_end(std::size_t servos, const sim::Medium::Counters* wire, Time at) {
+  const double elapsed = std::chrono::duration<double>(at - power_on_).count();
+  const double load =
+      wire != nullptr && elapsed > 0
+          ? std::chrono::duration<double>(std::min(wire->busy, at - power_on_)).count() / elapsed
+          : 0;
+  if (reporter_.format() != Format::json) {
+    if (wire != nullptr) {
+      offer(say<texts::sim_load>(fmt::format("{:.1f}", 100 * load), wire->frames, wire->errors) +
+            '\n');
+    }
+    return;
   }
+  std::string line = fmt::format("{{\"event\":\"dumped\",\"count\":{}", servos);
+  if (wire != nullptr) {
+    line += fmt::format(",\"bus_load\":{:.4f},\"frames\":{},\"wire_errors\":{}", load, wire->frames,
+                        wire->errors);
+  }
+  offer(line + "}\n");
 }
 
 void SimEvents::offer(const std::string& line) {

@@ -3,6 +3,7 @@
 
 #include "blactl/can/loop.hpp"
 #include "blactl/sim/event.hpp"
+#include "blactl/sim/medium.hpp"
 #include "blactl/sim/scenario.hpp"
 #include "blactl/sim/servo.hpp"
 
@@ -31,8 +32,9 @@ class SimEvents {
   /// What the servo's memories hold.
   void print(const sim::Servo& servo, Time at);
 
-  /// As the last line of a dump: how many servos there are.
-  void print_end(std::size_t servos);
+  /// As the last line of a dump: how many servos there are, and what the simulated wire carried
+  /// since power-on (null: the wire is real).
+  void print_end(std::size_t servos, const sim::Medium::Counters* wire, Time at);
 
   /// stdout that cannot be written, though somebody may still read it.
   [[nodiscard]] const std::optional<Error>& error() const { return error_; }

@@ -279,6 +279,8 @@ inline constexpr Text sim_memory{"serial {}  node {}  ROM writes {}  ",
                                  "製造番号 {}  ノード {}  ROM 書込み {} 回  "};
 inline constexpr Text sim_unsaved{"{}: RAM {}, ROM {}; ", "{}: RAM {}、ROM {}; "};
 inline constexpr Text sim_all_saved{"RAM as ROM", "RAM と ROM は同じ"};
+inline constexpr Text sim_load{"bus load {} %, frames {}, destroyed {}",
+                               "バス負荷 {} %、フレーム {}、破損 {}"};
 inline constexpr Text sim_order_unknown{"not understood: {}", "解釈できません: {}"};
 inline constexpr Text sim_order_hint{
     "SERIAL voltage=5V …, clients cut, clients joined, clients bus_off, hold N, dump",

@@ -55,6 +55,10 @@ void Servo::handle(const dronecan::Transfer& transfer) {
     }
     return;
   }
+  if (++requests_ == setup_.faults.restart_instead_of_answer) {
+    restart(now_);
+    return;
+  }
   switch (transfer.header.data_type_id) {
   case dronecan::GetNodeInfo::type.id: serve_node_info(transfer); break;
   case GetSet::type.id: serve_get_set(transfer); break;

@@ -138,7 +138,8 @@ void Servo::depart(Time now) {
   if (saves) {
     phase_ = Phase::rom_write;
     motion_.stop(now);
-    wake_ = now + setup_.behaviour.rom_write_time;
+    wake_ = now + std::min(setup_.behaviour.rom_write_time,
+                           setup_.faults.power_loss_in_save.value_or(Duration::max()));
     answers_.clear();
   } else if (!setup_.faults.stays) {
     restart(now);
@@ -146,13 +147,17 @@ void Servo::depart(Time now) {
 }
 
 void Servo::end_rom_write(Time now) {
-  if (!setup_.faults.rom_write_fails) {
+  const bool lost_power = setup_.faults.power_loss_in_save.has_value();
+  setup_.faults.power_loss_in_save.reset();
+  if (lost_power) {
+    rom_is_torn_ = true;
+  } else if (!setup_.faults.rom_write_fails) {
     registers_.save();
     rom_is_torn_ = false;
   }
   ++rom_writes_;
   tell(ServoEvent::Kind::rom_write);
-  if (!setup_.faults.stays) {
+  if (lost_power || !setup_.faults.stays) {
     restart(now);
     return;
   }

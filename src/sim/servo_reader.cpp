@@ -223,6 +223,13 @@ void ServoReader::servo_faults(json::Object object, ServoFaults& into) {
   into.rom_write_fails = flag("rom_write_fails");
   into.stays = flag("stays");
   into.never_returns = flag("never_returns");
+  into.restart_instead_of_answer = number("restart_instead_of_answer");
+  constexpr Duration never_lost(-1);
+  const Duration lost_after =
+      read_duration(object, "power_loss_in_save", never_lost, longest_delay, faults_);
+  if (lost_after >= Duration::zero()) {
+    into.power_loss_in_save = lost_after;
+  }
   into.return_delay =
       read_duration(object, "return_delay", into.return_delay, longest_absence, faults_);
   object.finish();

@@ -38,12 +38,15 @@ class Episode:
             "events": self._events(chance),
         }
         self._spare_the_undecidable()
-        if chance.random() < 0.05:
+        if chance.random() < 0.2:
             self.scenario["foreign"] = [chance.choice([
-                {"kind": "node", "node_id": 100, "armed": True},
-                {"kind": "node", "node_id": 100, "serves_get_set": True},
-                {"kind": "node", "node_id": 100, "commands": {
-                    "servo_ids": [1, 2], "type": 1, "value": 0.1, "rate": 50}}])]
+                {"kind": "autopilot", "node_id": 100, "armed": True},
+                {"kind": "autopilot", "node_id": 100, "allocates": True},
+                {"kind": "autopilot", "node_id": 100, "commands": {
+                    "servo_ids": [1, 2], "type": 1, "value": 0.1, "rate": 50}},
+                {"kind": "gnss", "node_id": 101},
+                {"kind": "esc", "node_id": 102},
+                {"kind": "babbler", "node_id": 103, "priority": 0, "load": 0.5}])]
         self.steps = [self._step(chance) for _ in range(chance.randint(1, 5))]
 
     def _spare_the_undecidable(self):
@@ -68,6 +71,8 @@ class Episode:
                     ("stays", 0.1, True),
                     ("never_returns", 0.1, True),
                     ("mute", 0.03, True),
+                    ("restart_instead_of_answer", 0.1, chance.randint(1, 60)),
+                    ("power_loss_in_save", 0.1, f"{chance.randint(0, 49)}ms"),
                     ("return_delay", 0.2, f"{chance.choice([1, 3, 8])}s")]:
                 if chance.random() < probability:
                     faults[name] = value

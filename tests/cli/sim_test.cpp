@@ -245,3 +245,71 @@ TEST_CASE("a long scan ends with the signal, and says what it has found") {
     CHECK(codes(result) == std::vector<std::string>{"interrupted"});
   }
 }
+
+TEST_CASE("sim is steered from standard input") {
+  const Bench bench;
+  Background sim(bench, {"sim", "--clock", "virtual"},
+                 {.answers = {{"ready", "240900001 plugged=off\nnonsense\n7 voltage=5V\ndump\n"}}},
+                 "bus load");
+  const Result scan = bench.run({"-i", "sim:", "scan", "--json"});
+  CHECK(scan.status == 0);
+  CHECK(json(scan.out)["nodes"].size() == 2);
+  const Result ended = sim.stop();
+  CHECK(contains(ended.out, "serial 240900001"));
+  CHECK(codes(ended) == std::vector<std::string>{"usage", "usage"});
+  CHECK(contains(ended.err, "no servo has the serial number 7"));
+}
+
+TEST_CASE("sim dumps what RAM and ROM of its servos hold") {
+  const Bench bench;
+  Background sim(bench, {"sim", "--json", "--clock", "virtual"},
+                 {.answers = {{R"("restart")", "dump\n"}}});
+  CHECK(
+      bench.run({"-i", "sim:", "set", "-n", "11", "angle_limit_cw=90deg", "--save", "-y"}).status ==
+      0);
+  sim.expect("dumped");
+  const auto lines = json_lines(sim.stop().out);
+  const auto state = std::ranges::find_if(lines, [](const nlohmann::json& line) {
+    return line.value("event", "") == "state" && line.at("serial_number") == 240900001;
+  });
+  REQUIRE(state != lines.end());
+  CHECK(state->at("ram").at("0x38") == 900);
+  CHECK(state->at("rom").at("0x38") == 900);
+  CHECK(state->at("count") == 1);
+  const auto dumped = std::ranges::find_if(
+      lines, [](const nlohmann::json& line) { return line.value("event", "") == "dumped"; });
+  REQUIRE(dumped != lines.end());
+  CHECK(dumped->at("count") == 3);
+  CHECK(dumped->at("bus_load") > 0);
+  CHECK(dumped->at("bus_load") < 0.5);
+}
+
+TEST_CASE("the time of a held bus stands until its clients are there") {
+  const Bench bench;
+  const Background sim(bench, {"sim", "--clock", "virtual"},
+                       {.answers = {{"ready", "hold 2\ndump\n"}}}, "bus load");
+  Background first(bench, {"-i", "sim:", "wait", "-n", "11", "--wait", "100"}, {}, "");
+  CHECK(bench.run({"-i", "sim:", "get", "-n", "12", "smoothing"}).status == 0);
+  CHECK(first.wait().status == 0);
+}
+
+TEST_CASE("clients that are cut off are told that nobody acknowledges them") {
+  const Bench bench;
+  const Background sim(bench, {"sim", "--clock", "virtual"},
+                       {.answers = {{"ready", "clients cut\ndump\n"}}}, "bus load");
+  const Result got = bench.run({"-i", "sim:", "get", "-n", "11"});
+  CHECK(got.status == 3);
+  CHECK(codes(got) == std::vector<std::string>{"no_acknowledge"});
+}
+
+TEST_CASE("a scenario with faults of the wire does not go onto a real one") {
+  const Bench bench;
+  for (const char* members : {R"("wire":{"loss":0.1})", R"("events":[{"clients":"cut"}])"}) {
+    const Result refused =
+        bench.run({"-i", "can0", "sim",
+                   bench.file("s.json", R"({"schema":"blactl-scenario/1","servos":[],)" +
+                                            std::string(members) + "}")});
+    CHECK(refused.status == 2);
+    CHECK(codes(refused) == std::vector<std::string>{"usage"});
+  }
+}

@@ -133,7 +133,9 @@ struct ServoFaults {
   bool rom_write_fails = false; ///< ok, silence, restart as ever, and counted, but ROM is as it was
   bool stays = false;           ///< answers ok and writes ROM, but does not restart
   bool never_returns = false;   ///< is dead after its first restart
-  Duration return_delay{};      ///< how much longer a restart takes than power-on; up to 600 s
+  std::uint32_t restart_instead_of_answer = 0;  ///< to this request of a service, the first is 1
+  std::optional<Duration> power_loss_in_save{}; ///< once, so long after the ROM write has begun
+  Duration return_delay{}; ///< how much longer a restart takes than power-on; up to 600 s
 };
 
 struct ServoSetup {

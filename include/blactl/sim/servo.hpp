@@ -133,7 +133,8 @@ class Servo final : public Device {
   std::optional<Allocatee> allocatee_; ///< while it asks for a node ID
   std::optional<Departure> departure_; ///< from an order on that ends the run
   std::uint32_t rom_writes_ = 0;
-  bool rom_is_torn_ = false; ///< power was lost while it was written
+  std::uint32_t requests_ = 0; ///< of services, since power-on
+  bool rom_is_torn_ = false;   ///< power was lost while it was written
   Phase phase_ = Phase::boot;
   Time wake_;    ///< the end of a phase other than `run`
   Time now_;     ///< of the present receive() or advance()

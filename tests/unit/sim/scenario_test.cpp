@@ -77,7 +77,8 @@ TEST_CASE("a scenario says all there is to say") {
                     "soft_start_shows": true},
       "faults": {"lose_responses": 2, "mute": true, "lose_opcode_answers": 3,
                  "ignore_opcodes": 4, "refuse_opcodes": true, "rom_write_fails": true,
-                 "stays": true, "never_returns": true, "return_delay": "3s"}}],
+                 "stays": true, "never_returns": true, "restart_instead_of_answer": 5,
+                 "power_loss_in_save": "0s", "return_delay": "3s"}}],
     "foreign": [{"kind": "node", "node_id": 30, "name": "org.example", "serves_get_set": true,
       "commands": {"servo_ids": [1, 255], "type": 3, "value": 60, "rate": 100}, "armed": false}])");
   CHECK(all.clock == Clock::simulated);
@@ -121,6 +122,8 @@ TEST_CASE("a scenario says all there is to say") {
   CHECK(servo.faults.rom_write_fails);
   CHECK(servo.faults.stays);
   CHECK(servo.faults.never_returns);
+  CHECK(servo.faults.restart_instead_of_answer == 5);
+  CHECK(servo.faults.power_loss_in_save == Duration::zero());
   CHECK(servo.faults.return_delay == 3s);
   const ForeignSetup& node = all.foreign.at(0);
   CHECK(node.node_id == 30);
@@ -163,6 +166,7 @@ TEST_CASE("left out, everything about a servo but its model has a likely value")
   CHECK(servo.behaviour.rom_write_time == 50ms);
   CHECK(servo.faults.return_delay == 0ms);
   CHECK_FALSE(servo.faults.never_returns);
+  CHECK_FALSE(servo.faults.power_loss_in_save);
   // The unique ID follows the serial number.
   CHECK(servo.unique_id ==
         testing::servo_setup(R"("model": "BLA21-12U-AB", "serial_number": 240900001)").unique_id);

@@ -460,6 +460,33 @@ TEST_CASE("faults: a servo can take its time to return, but not at power-on") {
   CHECK(uptimes(rig.bench.run(200ms)) == Uptimes{{0, 0}});
 }
 
+TEST_CASE("faults: a servo can restart instead of answering one request") {
+  Rig rig(with(R"("faults": {"restart_instead_of_answer": 3})"));
+  CHECK(rig.read("0x38") == 1799);
+  CHECK(rig.write("0x38", 900) == 900);
+  CHECK(rig.opcode(save) == "silence");
+  CHECK(rig.told() == Frames{"restart 11"});
+  rig.settle();
+  CHECK(rig.servo.rom_writes() == 0);
+  CHECK(rig.read("0x38") == 1799);
+  CHECK(rig.opcode(save) == "ok");
+}
+
+TEST_CASE("faults: a supply that blinks while ROM is written leaves initial values, once",
+          "[requirement-65]") {
+  for (const char* moment : {"0s", "1ms", "49ms"}) {
+    Rig rig(with(R"("rom": {"angle_limit_cw": "45deg"}, "faults": {"power_loss_in_save": ")" +
+                 std::string(moment) + R"("})"));
+    CHECK(rig.write("0x39", -900) == -900);
+    CHECK(rig.opcode(save) == "ok");
+    rig.settle();
+    CHECK(rig.told() == Frames{"rom_write 11", "restart 11"});
+    CHECK(rig.ram(bla::Address(0x38)) == 1799);
+    CHECK((rig.ram(bla::Address(0x1A)) & (1 << 15)) != 0);
+    CHECK(rig.ram(static_node_id) == 0); // it asks for an ID now
+  }
+}
+
 TEST_CASE("faults: a mute servo obeys") {
   Rig rig(with(R"("faults": {"mute": true})"));
   CHECK(rig.opcode(save) == "silence");
