@@ -20,6 +20,7 @@ sim() {
 sim_end() {
   kill "$simulator"
   wait "$simulator"
+  [ $? -eq 143 ] || fail "the simulator did not end by the signal"
 }
 
 # What this tool sends has the source 127 or 126; services bear bit 7.

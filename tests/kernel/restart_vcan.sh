@@ -22,6 +22,7 @@ sim() {
 sim_end() {
   kill "$simulator"
   wait "$simulator"
+  [ $? -eq 143 ] || fail "the simulator did not end by the signal"
 }
 
 # expect_events N KIND: so many of these have happened in the simulated servos.
@@ -132,7 +133,7 @@ expect_err '[busy]'
 expect_err "$writer"
 run "$blactl" save -n 12 -y
 expect_status 9
-"$blactl" scan --listen 10 >"$TMPDIR/scan.out" 2>&1 &
+"$blactl" wait -n 44 --wait 10 >"$TMPDIR/wait.out" 2>&1 & # for what never comes
 reader=$!
 wait_for 20 is_held 126
 run "$blactl" get -n 12 smoothing # the two default IDs are taken
@@ -140,7 +141,8 @@ expect_status 9
 expect_err '[no_local_node_id]'
 run "$blactl" get -n 12 smoothing --local-node-id 101
 expect_status 0
-wait "$reader" || fail "the scan of a third process failed: $(cat "$TMPDIR/scan.out")"
+wait "$reader"
+[ $? -eq 4 ] || fail "the second process did not end with 4: $(cat "$TMPDIR/wait.out")"
 wait "$writer" || fail "the save failed: $(cat "$TMPDIR/save.out")"
 expect_events 1 rom_write
 sim_end
