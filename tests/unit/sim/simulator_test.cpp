@@ -73,6 +73,65 @@ TEST_CASE("the same seed gives the same faults of the wire and of what devices s
   CHECK(first != run(scenario(fmt::format(faulty, 4)), 10s));
 }
 
+TEST_CASE("ten minutes of everything that can go wrong are the same to the microsecond") {
+  /// Counts and mixes what it hears, with the times.
+  struct Digest final : Medium::Listener {
+    void mix(std::uint64_t word) { value = (value ^ word) * 0x100000001B3; }
+
+    void heard(const can::Frame& frame, Time at) override {
+      ++count;
+      mix(static_cast<std::uint64_t>(at.time_since_epoch().count()));
+      mix(frame.id);
+      for (const std::uint8_t byte : frame.payload()) {
+        mix(byte);
+      }
+    }
+
+    void sent(const can::Frame& frame, Time at) override { heard(frame, at); }
+
+    void bus_off(Time at) override {
+      mix(static_cast<std::uint64_t>(at.time_since_epoch().count()));
+    }
+
+    std::uint64_t value = 0xCBF29CE484222325;
+    std::size_t count = 0;
+  };
+
+  const auto run = [](int seed) {
+    Simulator simulator(
+        scenario(fmt::format(R"("seed": {}, "wire": {{"loss": 0.01, "duplication": 0.01,
+      "errors": 0.01, "bit_flips": 0.01, "burst_interval": "5s", "burst_length": "5ms"}},
+      "servos": [
+        {{"model": "BLA21-12U-AB", "node_id": 11, "servo_id": 1, "sending": {{"jitter": "3ms",
+          "late_answers": 0.1, "late_by": "1s", "double_answers": 0.1}}}},
+        {{"model": "BLA15-06U-A0", "faults": {{"lose_opcode_answers": 3, "return_delay": "2s"}}}},
+        {{"model": "BLA34-28U-AB", "node_id": 12, "faults": {{"power_loss_in_save": "20ms"}}}},
+        {{"model": "BLA21-06U-A0", "node_id": 12}}],
+      "foreign": [{{"kind": "autopilot", "node_id": 100, "allocates": true,
+          "commands": {{"servo_ids": [1], "value": 0.5, "rate": 20}}}},
+        {{"kind": "gnss", "node_id": 101}}, {{"kind": "babbler", "node_id": 102, "load": 0.2}}],
+      "events": [{{"at": "60s", "servo": 240900001, "world": {{"voltage": "2V"}}}},
+        {{"at": "70s", "servo": 240900001, "world": {{"voltage": "12V", "load": "30%"}}}},
+        {{"at": "90s", "clients": "cut"}}, {{"at": "95s", "clients": "joined"}},
+        {{"at": "99s", "clients": "bus_off"}}])",
+                             seed)),
+        Time{});
+    Digest digest;
+    const auto port = simulator.attach(digest, 10);
+    for (int minute = 0; minute < 10; ++minute) {
+      for (const char* order : {"1E0A8BFF#00000000000000C1", "1E0A8CFF#00000000000000C2"}) {
+        simulator.send(port, testing::frame(order));
+      }
+      simulator.advance_to(simulator.now() + 60s);
+    }
+    return std::pair(digest.value, digest.count);
+  };
+  const auto first = run(3);
+  CHECK(first.second > 50'000);
+  CHECK(run(3) == first);
+  CHECK(run(4) != first);
+}
+
 TEST_CASE("a wire that loses every frame carries none") {
   CHECK(run(scenario(R"("wire": {"loss": 1}, "servos": [{"model": "BLA21-12U-AB", "node_id": 1}])"),
             10s)
