@@ -17,25 +17,33 @@ bool is_in_foreground() {
 
 } // namespace
 
-LineInput::LineInput(can::Loop& loop) : loop_(loop), ended_(!is_in_foreground()) {
-  if (!ended_) {
-    (void)signal(SIGTTIN, SIG_IGN); // sent to the background later: reading fails instead
-    loop_.watch(STDIN_FILENO);
+LineInput::LineInput(can::Loop& loop) : loop_(loop) {
+  (void)signal(SIGTTIN, SIG_IGN); // between a look and a read: reading fails instead
+  look();
+}
+
+void LineInput::look() {
+  const bool wanted = !ended_ && is_in_foreground();
+  if (wanted == is_watched_) {
+    return;
   }
+  wanted ? loop_.watch(STDIN_FILENO) : loop_.unwatch(STDIN_FILENO);
+  is_watched_ = wanted;
 }
 
 void LineInput::handle(const can::Event& event) {
+  look();
   const auto* ready = std::get_if<can::Ready>(&event);
-  if (ended_ || ready == nullptr || ready->descriptor != STDIN_FILENO) {
+  if (!is_watched_ || ready == nullptr || ready->descriptor != STDIN_FILENO) {
     return;
   }
   std::array<char, longest> buffer{};
   const auto size = read(STDIN_FILENO, buffer.data(), buffer.size());
   if (size > 0) {
     text_.append(buffer.data(), static_cast<std::size_t>(size));
-  } else if (size == 0 || (errno != EINTR && errno != EAGAIN)) {
+  } else if (size == 0 || (errno != EINTR && errno != EAGAIN && errno != EIO)) {
     ended_ = true;
-    loop_.unwatch(STDIN_FILENO);
+    look();
   }
 }
 

@@ -9,7 +9,8 @@
 
 namespace blactl::cli {
 
-/// Never waits: the loop does. A terminal is read only by who stands in its foreground.
+/// Never waits: the loop does. A terminal is read only while the command stands in its foreground;
+/// whether it does is looked at with every event.
 class LineInput {
  public:
   /// A longer line is cut into lines of this length.
@@ -25,8 +26,11 @@ class LineInput {
   [[nodiscard]] std::optional<std::string> next();
 
  private:
+  void look();
+
   can::Loop& loop_;
   std::string text_;
+  bool is_watched_ = false;
   bool ended_ = false;
 };
 
