@@ -5,6 +5,7 @@ import os
 import queue
 import subprocess
 import threading
+import time
 
 PATIENCE_S = 120  # of real time: beyond it a process hangs
 
@@ -72,7 +73,7 @@ class Outcome:
         self.command, self.status, self.out, self.err = command, status, out, err
 
     def __str__(self):
-        return (f"$ blactl {' '.join(self.command)}\nexit status {self.status}\n"
+        return (f"$ {self.command}\nexit status {self.status}\n"
                 f"{self.out}{self.err}")
 
 
@@ -85,13 +86,16 @@ def environment(folder):
 def run_at_once(blactl, folder, simulator, commands, options):
     """The outcomes of commands that begin at the same moment of virtual time."""
     simulator.order(f"hold {len(commands)}")
-    running = [subprocess.Popen([blactl, "-i", "sim:", *options, *command], text=True,
+    running = [subprocess.Popen([blactl, "-i", "sim:", *options, *command.words], text=True,
                                 env=environment(folder), stdin=subprocess.DEVNULL,
                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE)
                for command in commands]
     outputs = [None] * len(running)
 
     def wait(index):
+        if commands[index].killed_after_s:
+            time.sleep(commands[index].killed_after_s)
+            running[index].kill()
         outputs[index] = running[index].communicate(timeout=PATIENCE_S)
         simulator.order("hold 0")  # one that never came to the bus must not keep the others
 

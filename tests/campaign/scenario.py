@@ -1,6 +1,7 @@
 """What an episode of the campaign consists of, all from its seed: servos, faults, commands."""
 
 import random
+import typing
 
 MODELS = ["BLA15-06U-A0", "BLA15-12U-A0", "BLA21-06U-A0", "BLA21-06U-AB", "BLA21-12U-A0",
           "BLA21-12U-AB", "BLA21-28U-A0", "BLA21-28U-AB", "BLA34-12U-AB", "BLA34-28U-AB"]
@@ -19,6 +20,14 @@ SETTINGS = {
     "static_node_id": ["61", "62", "63"],
     "voltage_limit_high": ["99V"],  # what no model takes
 }
+
+
+class Command(typing.NamedTuple):
+    words: list
+    killed_after_s: float | None = None  # of real time: the one thing that a seed does not repeat
+
+    def __str__(self):
+        return "blactl " + " ".join(self.words)
 
 
 class Episode:
@@ -128,9 +137,13 @@ class Episode:
     def _step(self, chance):
         """Commands that begin at once; mostly it is one."""
         at_once = 1 if chance.random() < 0.85 else chance.choice([2, 3])
-        return [self._command(chance) for _ in range(at_once)]
+        commands = [Command(self._command(chance)) for _ in range(at_once)]
+        if at_once > 1 and chance.random() < 0.2:
+            commands[0] = commands[0]._replace(killed_after_s=chance.uniform(0.005, 0.05))
+        return commands
 
     def _command(self, chance):
+        """The words of one."""
         target = chance.choice(["all", str(chance.choice(self.ids)),
                                 f"serial:{chance.choice(self.serials)}"])
         verb = chance.choice(["set", "set", "set", "save", "save", "erase", "restart", "get"])

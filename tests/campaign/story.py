@@ -4,6 +4,7 @@ import json
 
 # Exit statuses of the contract that these commands can end with.
 STATUSES = {0, 1, 2, 3, 4, 5, 6, 9}
+KILLED = -9
 NEVER_COMPARED = {"0x45", "0x46"}  # --keep-ids
 
 
@@ -37,6 +38,8 @@ class Step:
 
 def check(outcome, step, defaults, alone):
     """Raises Lie. `alone`: no other command ran meanwhile."""
+    if outcome.command.killed_after_s and outcome.status == KILLED:
+        return
     require(outcome.status in STATUSES, f"exit status {outcome.status}")
     document = json.loads(outcome.out)
     require(document["exit_status"] == outcome.status, "exit_status is another in the document")
@@ -44,13 +47,13 @@ def check(outcome, step, defaults, alone):
     require(bool(errors) == (outcome.status != 0), f"status {outcome.status}, errors {errors}")
     for code in errors:
         require(f"[{code}]" in outcome.err, f"{code} is not on stderr")
-    saves = "--save" in outcome.command or outcome.command[0] == "save"
+    saves = "--save" in outcome.command.words or outcome.command.words[0] == "save"
     for node in document.get("nodes", []):
         serial = node.get("serial_number")
         if serial is None:
             continue
         require(serial in step.after, f"there is no servo {serial}")
-        if outcome.command[0] not in ("get", "set") or not step.is_doubled(serial):
+        if outcome.command.words[0] not in ("get", "set") or not step.is_doubled(serial):
             # Known: these ask no more than they must, and may take two servos of one node ID for
             # one before the bus has shown that there are two.
             require(node["unique_id"] in (None, step.after[serial]["unique_id"]),
@@ -64,7 +67,7 @@ def check(outcome, step, defaults, alone):
 
 
 def check_node(outcome, node, serial, step, defaults, saves, alone):
-    verb = outcome.command[0]
+    verb = outcome.command.words[0]
     done = node.get("status") == "done" or node.get("saved") is True
     if outcome.status == 0 and verb != "get":
         require(verb == "set" or node["status"] == "done", "0, but not everything is done")
@@ -96,7 +99,7 @@ def check_erased(outcome, node, serial, step, defaults, saves):
     memory = "rom" if saves else "ram"
     if not saves and step.count(serial, "restart") > 0:
         return  # what was not saved is gone again
-    kept = NEVER_COMPARED if "--keep-ids" in outcome.command else set()
+    kept = NEVER_COMPARED if "--keep-ids" in outcome.command.words else set()
     for address, default in defaults[node["model"]].items():
         if address not in kept and address in step.after[serial]["rom"]:
             found = step.after[serial][memory][address]
