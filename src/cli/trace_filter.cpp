@@ -81,7 +81,7 @@ Result<void> TraceFilter::take_types(const std::string& list) {
   for (const std::string_view word : words_of(list)) {
     std::uint16_t id{};
     const char* end = std::to_address(word.end());
-    if (const auto [stop, error] = std::from_chars(word.data(), end, id);
+    if (const auto [stop, error] = std::from_chars(std::to_address(word.begin()), end, id);
         error == std::errc() && stop == end) {
       types_.push_back({id, std::nullopt});
       continue;
