@@ -30,6 +30,15 @@ Result<std::vector<const bla::Parameter*>> to_verify(const bla::Profiles& profil
   return parameters;
 }
 
+/// What RAM has shown before and does not show now, ROM has not taken.
+void check_after_save(const fleet::ReadJob& job, std::optional<Error>& error) {
+  if (auto unreadable = fleet::check_rom(job)) {
+    error = std::move(unreadable);
+  } else if (error && error->code == Code::mismatch) {
+    error->hint = say<texts::rom_differs_hint>();
+  }
+}
+
 } // namespace
 
 std::string restart_question(const fleet::Member& servo, const fleet::Values& values) {
@@ -67,9 +76,11 @@ bool verify(std::vector<Passage>& passages, bool after_save, Context& context, R
   const auto ran = context.session().run();
   for (auto& [passage, job] : reads) {
     passage->error = fleet::compare(*job, passage->expected);
-    if (!passage->error) {
-      passage->error = fleet::check_rom(*job);
+    if (after_save) {
+      check_after_save(*job, passage->error);
     }
+    passage->before.servo_id =
+        job->raw(bla::address::servo_id).or_else([&] { return passage->before.servo_id; });
     passage->is_verified = !passage->error;
     passage->values_read = passage->expected.size();
     passage->servo->static_node_id = job->raw(bla::address::static_node_id);
@@ -96,14 +107,13 @@ bool pass_restart(std::vector<Passage>& passages, fleet::RestartKind kind,
       passage.is_verified = false;
     }
   }
-  const bool somebody_asks = std::ranges::any_of(
-      servos, [&](const fleet::Member* servo) { return fleet::will_ask_for_id(*servo, kind); });
   fleet::RestartPlan plan;
   plan.kind = kind;
   plan.stagger = times.stagger;
   plan.come_back = times.wait;
   plan.patience = context.shared().patience;
-  plan.may_allocate = somebody_asks && context.may_allocate();
+  // A servo that finds its ROM unreadable asks as well, whatever it was given.
+  plan.may_allocate = context.may_allocate();
   const auto result = fleet::restart(context.session(), servos, plan);
   for (std::size_t i = 0; i < passing.size(); ++i) {
     const fleet::Restarted& restarted = result.servos[i];

@@ -86,6 +86,9 @@ template <class Perform>
 void obey(LineInput& input, const can::Event& event, const Context& context, Perform perform) {
   input.handle(event);
   while (const auto line = input.next()) {
+    if (line->empty()) {
+      continue;
+    }
     if (const auto order = parse_sim_order(*line)) {
       std::visit(perform, *order);
     } else {
@@ -104,6 +107,7 @@ void serve(const std::string& socket, const sim::Scenario& scenario, const Conte
   if (!server) {
     return report.fail(server.error());
   }
+  report.interface = "sim:" + printable(socket);
   loop.watch((*server)->descriptor());
   LineInput input(loop);
   context.reporter().note(say<texts::sim_serves>(printable(socket), scenario.servos.size()));
@@ -111,6 +115,9 @@ void serve(const std::string& socket, const sim::Scenario& scenario, const Conte
     return report.fail(said.error());
   }
   sim::Simulator& simulator = (*server)->simulator();
+  const auto impossible = [&](std::string_view what) {
+    refuse({Code::usage, say<texts::sim_needs_virtual_clock>(what), "", std::nullopt}, context);
+  };
   const Overloaded perform{
       [&](const ChangeWorld& order) {
         if (!simulator.change(order.serial_number, order.changes)) {
@@ -118,7 +125,13 @@ void serve(const std::string& socket, const sim::Scenario& scenario, const Conte
         }
       },
       [&](const LinkClients& order) { simulator.link_clients(order.link); },
-      [&](const HoldClock& order) { (*server)->hold(order.clients); },
+      [&](const HoldClock& order) {
+        if (scenario.clock == sim::Clock::real) {
+          impossible("hold");
+        } else {
+          (*server)->hold(order.clients);
+        }
+      },
       [&](const DumpState&) {
         dump(simulator.servos(), &simulator.medium().counters(), simulator.now(), events);
       },

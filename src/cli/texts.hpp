@@ -287,6 +287,8 @@ inline constexpr Text sim_order_hint{
     "製造番号 voltage=5V …、clients cut、clients joined、clients bus_off、hold N、dump"};
 inline constexpr Text sim_no_such_serial{"no servo has the serial number {}",
                                          "製造番号 {} のサーボはありません"};
+inline constexpr Text sim_needs_virtual_clock{"only with --clock virtual: {}",
+                                              "--clock virtual でのみ使えます: {}"};
 inline constexpr Text sim_order_impossible{"not on a real interface: {}",
                                            "実際のバスでは使えません: {}"};
 inline constexpr Text sim_events_dropped{
@@ -298,8 +300,8 @@ inline constexpr Text scenario_is_argument_hint{"blactl sim {}", "blactl sim {}"
 
 inline constexpr Text saving{"RAM to ROM:", "ROM への保存:"};
 inline constexpr Text finishing{
-    "waiting for running saves, 3 s at most (Ctrl-C again: at once)",
-    "実行中の保存の完了を待っています (最大 3 秒。もう一度 Ctrl-C で即時終了)",
+    "waiting for servos that save or restart, 3 s at most (Ctrl-C again: at once)",
+    "保存・再起動中のサーボを待っています (最大 3 秒。もう一度 Ctrl-C で即時終了)",
 };
 inline constexpr Text model_unknown{"the model is not known: it can only be read",
                                     "機種が不明のため読出しのみ可能です"};

@@ -3,6 +3,7 @@
 #include "blactl/fleet/identification.hpp"
 #include "blactl/fleet/texts.hpp"
 
+#include "bus_factory.hpp"
 #include "commands.hpp"
 #include "node_head.hpp"
 #include "texts.hpp"
@@ -125,7 +126,11 @@ void judge(const Wait& wait, const fleet::Targets& targets, Duration time, Conte
     report.statuses.push_back(ready ? 0 : exit_status(Code::timeout));
     if (!ready) {
       const std::uint8_t id = member->id.value();
-      report.fail({Code::timeout, say<texts::wait_not_operational>(id, seconds), {}, id});
+      report.fail(
+          member->is_known()
+              ? Error{Code::timeout, say<texts::wait_not_operational>(id, seconds),
+                      say<texts::opcode_refused_hint>(id), id}
+              : Error{Code::timeout, say<texts::node_mute>(id), say<texts::no_answer_hint>(), id});
     }
   }
   const auto missing = [&](Error error) {
@@ -166,6 +171,10 @@ Report execute(const WaitOptions& options, Context& context) {
   if (context.shared().listen_only) {
     report.fail({Code::usage, say<texts::listen_only_refused>("wait"),
                  say<texts::listen_only_hint>(), std::nullopt});
+    return report;
+  }
+  if (auto refused = takes_no_frames(context.shared().interface)) {
+    report.fail(std::move(*refused)); // what is recorded will not come any more
     return report;
   }
   if (auto session = context.open(fleet::Session::Hearing::answers); !session) {

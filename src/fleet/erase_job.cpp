@@ -39,7 +39,7 @@ Step EraseJob::next(const Outcome& outcome) {
     is_confirmed_ = response && response->ok;
     if (!is_confirmed_) {
       error_ = Error{Code::refused, say<texts::opcode_refused>(id, "ERASE"),
-                     say<texts::register_refused_hint>(id), id};
+                     say<texts::opcode_refused_hint>(id), id};
     }
   } else if (outcome.kind != Outcome::Kind::timed_out) {
     error_ = no_answer(outcome, servo_.id, "ERASE");

@@ -38,7 +38,7 @@ Step RestartJob::next(const Outcome& outcome) {
 
   if (outcome.kind == Outcome::Kind::cancelled) {
     return give_up(
-        is_sent_ ? not_back()
+        is_sent_ ? left_waiting()
                  : Error{Code::interrupted, say<texts::not_begun>(id_.value()), {}, id_.value()});
   }
   switch (at_) {
@@ -121,7 +121,7 @@ Step RestartJob::judge_answer(const Outcome& outcome) {
     if (!has_answered_ok(outcome.payload)) {
       const std::uint8_t id = id_.value();
       return give_up({Code::refused, say<texts::opcode_refused>(id, name(options_.kind)),
-                      say<texts::register_refused_hint>(id), id});
+                      say<texts::opcode_refused_hint>(id), id});
     }
     is_confirmed_ = true;
     return wait_for_return();
@@ -218,6 +218,15 @@ Error RestartJob::not_back() const {
     return {Code::not_back, std::move(message), say<texts::waits_for_id_hint>(), id};
   }
   return {Code::not_back, std::move(message), say<texts::not_back_hint>(), id};
+}
+
+/// Nobody waits any longer; it may come back all the same.
+Error RestartJob::left_waiting() const {
+  const std::uint8_t id = id_.value();
+  return {Code::interrupted,
+          options_.kind == RestartKind::save ? say<texts::save_not_waited_for>(id)
+                                             : say<texts::restart_not_waited_for>(id),
+          say<texts::not_waited_for_hint>(id), id};
 }
 
 } // namespace blactl::fleet

@@ -262,6 +262,10 @@ Result<void> Session::live_until(Time deadline) {
 }
 
 Result<bool> Session::live_until(Time deadline, const std::function<bool()>& done) {
+  if (playback_) {
+    const auto played = play();
+    return played ? Result<bool>(done()) : std::unexpected(played.error());
+  }
   while (!done()) {
     const auto happened = step(deadline);
     if (!happened) {

@@ -123,6 +123,43 @@ TEST_CASE("a servo that cannot read its ROM after the restart is no success") {
   CHECK(node(erased)["status"] == "failed");
 }
 
+TEST_CASE("a servo with an ID of its own that loses its ROM in a save is met again, and says so") {
+  const Result set = Scene()
+                         .servo("BLA21-12U-AB", 17, {{"faults", {{"power_loss_in_save", "10ms"}}}})
+                         .run({"set", "-n", "17", "angle_limit_cw=90deg", "--save", "-y", "-j"});
+  CHECK(set.status == 5);
+  CHECK(contains(set.err, "could not read its ROM"));
+  CHECK(node(set)["saved"] == false);
+}
+
+TEST_CASE("a head tells of the servo as it is in the end") {
+  const Result erased = Scene()
+                            .servo("BLA21-12U-AB", 11, {{"servo_id", 7}})
+                            .run({"erase", "-n", "11", "--save", "-y", "-j"});
+  CHECK(node(erased)["servo_id"] == 0);
+}
+
+TEST_CASE("what ROM did not take and what a servo refuses have hints of their own") {
+  const auto run = [](const char* fault, const Arguments& arguments) {
+    return Scene().servo("BLA21-12U-AB", 11, {{"faults", {{fault, true}}}}).run(arguments).err;
+  };
+  CHECK(contains(run("rom_write_fails", {"set", "-n", "11", "reverse=on", "--save", "-y"}),
+                 "RAM had the right values"));
+  CHECK(contains(run("refuse_opcodes", {"save", "-n", "11", "-y"}), "--group fault"));
+  CHECK(contains(run("refuse_opcodes", {"erase", "-n", "11", "-y"}), "--group fault"));
+}
+
+TEST_CASE("wait waits for nothing that is recorded, and tells a mute servo from one that is away") {
+  const Bench bench;
+  const std::string log = bench.file("r.log", "(1.000000) can0 1401550B#00000000000000C0\n");
+  CHECK(bench.run({"-i", "replay:" + log, "wait", "-n", "12"}).status == 2);
+  const Result mute = Scene()
+                          .servo("BLA21-12U-AB", 20, {{"faults", {{"mute", true}}}})
+                          .run({"wait", "-n", "20", "--wait", "1"});
+  CHECK(mute.status == 4);
+  CHECK(contains(mute.err, "does not answer"));
+}
+
 TEST_CASE("erase --save that breaks off before SAVE is done with no servo") {
   int broken = 0;
   for (int at_ms = 1100; at_ms < 1400; at_ms += 3) {
@@ -254,7 +291,7 @@ TEST_CASE("Ctrl-C: a save that runs is waited for, and what is known of it is sa
   sim.expect("rom_write");
   const Result saved = save.stop(SIGINT);
   CHECK(saved.status == 130);
-  CHECK(contains(saved.err, "waiting for running saves"));
+  CHECK(contains(saved.err, "waiting for servos that save"));
   CHECK(contains(saved.err, "[interrupted]"));
   CHECK(contains(saved.err, "node 11 is back, but its values were not read again"));
   CHECK(node(saved)["node_id_after"] == 11);
@@ -269,7 +306,7 @@ TEST_CASE("Ctrl-C: a servo that does not come back is waited for no longer than 
   sim.expect("rom_write");
   const Result saved = save.stop(SIGINT);
   CHECK(saved.status == 130);
-  CHECK(codes(saved) == std::vector<std::string>{"interrupted", "not_back"});
+  CHECK(codes(saved) == std::vector<std::string>{"interrupted", "interrupted"});
   CHECK(node(saved)["node_id_after"].is_null());
 }
 
@@ -279,10 +316,10 @@ TEST_CASE("a second signal ends a running save at once") {
   Background save(bench, {"-i", "sim:", "save", "-n", "11", "-y", "-j", "--wait", "500"}, {}, "");
   sim.expect("rom_write");
   REQUIRE(kill(save.pid(), SIGINT) == 0);
-  save.expect("waiting for running saves");
+  save.expect("waiting for servos that save");
   const Result saved = save.stop(SIGTERM);
   CHECK(saved.status == 143); // the second one, not the end of the 3 s
-  CHECK(codes(saved) == std::vector<std::string>{"interrupted", "not_back"});
+  CHECK(codes(saved) == std::vector<std::string>{"interrupted", "interrupted"});
   CHECK(contains(saved.err, "not known"));
 }
 

@@ -68,6 +68,7 @@ class RestartJob final : public dronecan::Job {
   [[nodiscard]] dronecan::Step give_up(Error error);
   [[nodiscard]] Error not_carried_out() const;
   [[nodiscard]] Error not_back() const;
+  [[nodiscard]] Error left_waiting() const;
   [[nodiscard]] bool has_answered_ok(dronecan::Bytes payload) const;
   [[nodiscard]] Member* find_returned() const;
 

@@ -148,6 +148,22 @@ inline constexpr Text opcode_ignored{
 };
 inline constexpr Text did_not_restart{"node {} confirmed {} and then did not restart",
                                       "ノード {} は {} に応答しましたが再起動しませんでした"};
+inline constexpr Text opcode_refused_hint{
+    "does it tell why? blactl get -n {} --group fault",
+    "原因を異常情報で確認してください: blactl get -n {} --group fault"};
+inline constexpr Text restart_not_waited_for{
+    "node {} was sent RestartNode, and was not waited for until it was back",
+    "ノード {}: RestartNode 送信後、復帰を確認せずに終了しました"};
+inline constexpr Text save_not_waited_for{
+    "node {} was sent SAVE and was not waited for: what its ROM holds is not known",
+    "ノード {}: SAVE 送信後、復帰を確認せずに終了しました。ROM の内容は不明です"};
+inline constexpr Text not_waited_for_hint{"is it back? blactl wait -n {}",
+                                          "復帰の確認: blactl wait -n {}"};
+inline constexpr Text rom_differs_hint{
+    "RAM had the right values, ROM did not take them: write and save them again; if that does not "
+    "help, the ROM is faulty",
+    "RAM の値は正しく、ROM に保存されていません。書込みと保存を再度行い、改善しなければ ROM "
+    "の異常です"};
 inline constexpr Text saved_not_back{
     "node {} confirmed SAVE and did not come back: what its ROM holds is not known",
     "ノード {} は SAVE に応答後、復帰しません。ROM の内容は不明です",
@@ -163,8 +179,12 @@ inline constexpr Text not_back_hint{
     "電源と配線を確認し、電源を入れ直してから blactl scan を実行してください",
 };
 inline constexpr Text waits_for_id_hint{
-    "it asks for a node ID and no allocator gives it one: is another allocator stopped?",
-    "ノード ID の割当てを要求していますが、割当てるノードがありません",
+    "it asks for a node ID and nobody gives it one: is another allocator stopped? then power it "
+    "off "
+    "and on",
+    "ノード ID "
+    "の割当てを要求していますが、割当てるノードがありません。割当て元を確認し、電源を入れ直してくだ"
+    "さい",
 };
 inline constexpr Text unchanged_no_more{
     "node {} restarted: {} may have another value now",

@@ -499,7 +499,7 @@ TEST_CASE("a job that is cancelled after its request does not claim that nothing
     bench.answer_ok();
   }
   CHECK(bench.next(Script::cancelled()) == "nothing");
-  CHECK(bench.error() == Code::not_back);
+  CHECK(bench.error() == Code::interrupted);
   CHECK(bench.message_of_error().find("not known") != std::string::npos);
   CHECK(bench.job.is_sent());
   CHECK_FALSE(bench.job.must_finish());
