@@ -21,6 +21,10 @@ constexpr unsigned most_statuses_of_one = 14;
 /// are one.
 constexpr Duration boot_tolerance = std::chrono::milliseconds(1500);
 
+/// The same for an answer, which may be as late as it is waited for. RestartJob lets servos grow
+/// older than this before it restarts them.
+constexpr Duration answer_tolerance = std::chrono::seconds(2);
+
 constexpr std::uint8_t tail_start_of_transfer = 0x80;
 
 /// Bound for what anybody on the bus can make us remember.
@@ -102,7 +106,8 @@ void Roster::receive(const Transfer& transfer) {
   }
   if (header.kind == Kind::response && header.data_type_id == dronecan::GetNodeInfo::type.id) {
     // Its uptime counts as well as that of NodeStatus: a restart before the first of these shows.
-    if (const auto info = dronecan::GetNodeInfo::Response::decode(transfer.payload)) {
+    if (const auto info = dronecan::GetNodeInfo::Response::decode(transfer.payload);
+        info && is_news(header.source, info->status.uptime_s, transfer.at)) {
       watch_uptime(member(header.source), info->status.uptime_s, transfer.at);
     }
   }
@@ -139,6 +144,14 @@ void Roster::on_status(const Transfer& transfer) {
   sender.status = *status;
   sender.status_at = transfer.at;
   watch_uptime(sender, status->uptime_s, transfer.at);
+}
+
+/// Whether the uptime of an answer tells of another start than is known. An answer may have been
+/// under way for long: its uptime is older than it looks.
+bool Roster::is_news(NodeId source, std::uint32_t uptime_s, Time at) const {
+  const Pulse& pulse = pulses_[source.value()];
+  const std::optional<Time>& known = pulse.boots[pulse.last_boot];
+  return !known || at - std::chrono::seconds(uptime_s) - *known > answer_tolerance;
 }
 
 void Roster::watch_uptime(Member& sender, std::uint32_t uptime_s, Time at) {

@@ -127,6 +127,7 @@ class Roster {
   void on_allocation(const dronecan::Transfer& transfer);
   void on_command(const dronecan::Transfer& transfer);
   void on_write(const dronecan::Transfer& transfer);
+  [[nodiscard]] bool is_news(dronecan::NodeId source, std::uint32_t uptime_s, Time at) const;
   void watch_uptime(Member& member, std::uint32_t uptime_s, Time at);
   [[nodiscard]] bool has_restarted(Member& member, std::uint32_t uptime_s, Time at);
   Commander& commander(dronecan::NodeId source);

@@ -262,6 +262,18 @@ TEST_CASE("the uptime of GetNodeInfo counts: a restart before the first NodeStat
   CHECK(ear.roster.find(NodeId(10))->boots == 1);
 }
 
+TEST_CASE("an answer that was under way for long is no restart") {
+  Ear ear;
+  ear.status(10, 9);
+  ear.now += 1s;
+  ear.status(10, 10);
+  GetNodeInfo::Response info;
+  info.status.uptime_s = 9;
+  ear.now += 150ms;
+  ear.hear(service(Kind::response, GetNodeInfo::type, 10, 127, info.encode()));
+  CHECK(ear.roster.find(NodeId(10))->boots == 0);
+}
+
 TEST_CASE("who asks for a node ID is pending until it has one") {
   Ear ear;
   ear.allocation(0, unit(1, 6), true);
