@@ -16,7 +16,7 @@ namespace blactl::cli {
 
 /// One servo through a save, erase or restart.
 struct Passage {
-  fleet::Member before;           ///< as it was identified
+  fleet::Member before;           ///< as it was identified; servo_id as it was read last
   fleet::Member* servo = nullptr; ///< under its present node ID
   fleet::Values expected;         ///< what its configuration must be in the end
   std::optional<Error> error{};

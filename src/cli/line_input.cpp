@@ -12,18 +12,18 @@ namespace {
 
 /// A shell's background job would be stopped if it read the terminal.
 bool is_in_foreground() {
-  return isatty(STDIN_FILENO) == 0 || tcgetpgrp(STDIN_FILENO) == getpgrp();
+  return tcgetpgrp(STDIN_FILENO) == getpgrp();
 }
 
 } // namespace
 
-LineInput::LineInput(can::Loop& loop) : loop_(loop) {
+LineInput::LineInput(can::Loop& loop) : loop_(loop), is_terminal_(isatty(STDIN_FILENO) != 0) {
   (void)signal(SIGTTIN, SIG_IGN); // between a look and a read: reading fails instead
   look();
 }
 
 void LineInput::look() {
-  const bool wanted = !ended_ && is_in_foreground();
+  const bool wanted = !ended_ && (!is_terminal_ || is_in_foreground());
   if (wanted == is_watched_) {
     return;
   }

@@ -29,6 +29,7 @@ class LineInput {
   void look();
 
   can::Loop& loop_;
+  bool is_terminal_;
   std::string text_;
   bool is_watched_ = false;
   bool ended_ = false;
