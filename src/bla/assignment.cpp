@@ -1,8 +1,8 @@
 #include "blactl/bla/assignment.hpp"
 
 #include "blactl/base/text.hpp"
-#include "blactl/bla/texts.hpp"
 
+#include "bla/texts.hpp"
 #include "bla/words.hpp"
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 // The family's file: registers of tables 3-1 to 3-11, bits of 4.12, releases of chapter 5.
 
 #include "blactl/base/text.hpp"
-#include "blactl/bla/texts.hpp"
 
 #include "bla/profile_reader.hpp"
+#include "bla/texts.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,9 @@
 #include "blactl/bla/identity.hpp"
 
 #include "blactl/bla/assignment.hpp"
-#include "blactl/bla/texts.hpp"
 #include "blactl/bla/value.hpp"
+
+#include "bla/texts.hpp"
 
 #include <algorithm>
 

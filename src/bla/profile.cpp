@@ -2,8 +2,8 @@
 
 #include "blactl/base/nearest.hpp"
 #include "blactl/base/texts.hpp"
-#include "blactl/bla/texts.hpp"
 
+#include "bla/texts.hpp"
 #include "bla/words.hpp"
 
 #include <fmt/core.h>

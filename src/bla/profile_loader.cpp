@@ -2,10 +2,10 @@
 
 #include "blactl/base/json_reader.hpp"
 #include "blactl/bla/profile.hpp"
-#include "blactl/bla/texts.hpp"
 
 #include "bla/embedded_profiles.hpp"
 #include "bla/profile_reader.hpp"
+#include "bla/texts.hpp"
 
 #include <algorithm>
 #include <system_error>

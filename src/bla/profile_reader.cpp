@@ -2,7 +2,7 @@
 
 #include "bla/profile_reader.hpp"
 
-#include "blactl/bla/texts.hpp"
+#include "bla/texts.hpp"
 
 #include <algorithm>
 

@@ -1,9 +1,9 @@
 // A series file: what table 3-12 says of the series, its voltage classes and its suffixes.
 
 #include "blactl/base/text.hpp"
-#include "blactl/bla/texts.hpp"
 
 #include "bla/profile_reader.hpp"
+#include "bla/texts.hpp"
 
 #include <algorithm>
 

@@ -2,8 +2,7 @@
 
 #include "blactl/bla/value.hpp"
 
-#include "blactl/bla/texts.hpp"
-
+#include "bla/texts.hpp"
 #include "bla/words.hpp"
 
 #include <fmt/core.h>

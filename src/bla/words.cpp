@@ -1,6 +1,6 @@
 #include "bla/words.hpp"
 
-#include "blactl/bla/texts.hpp"
+#include "bla/texts.hpp"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #include "can/ip_link.hpp"
 
-#include "blactl/can/mcast_texts.hpp"
+#include "can/mcast_texts.hpp"
 
 #include <netlink/addr.h>
 #include <netlink/netlink.h>

@@ -1,6 +1,6 @@
 #include "blactl/can/link.hpp"
 
-#include "blactl/can/texts.hpp"
+#include "can/texts.hpp"
 
 #include <netlink/cache.h>
 #include <netlink/netlink.h>

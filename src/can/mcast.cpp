@@ -1,11 +1,10 @@
 #include "blactl/can/mcast.hpp"
 
-#include "blactl/can/mcast_texts.hpp"
-#include "blactl/can/texts.hpp"
-
 #include "can/ip_link.hpp"
 #include "can/mcast_datagram.hpp"
+#include "can/mcast_texts.hpp"
 #include "can/socket_batch.hpp"
+#include "can/texts.hpp"
 
 #include <arpa/inet.h>
 #include <sys/epoll.h>

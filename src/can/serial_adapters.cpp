@@ -1,6 +1,6 @@
 #include "blactl/can/serial_adapters.hpp"
 
-#include "blactl/can/slcan_texts.hpp"
+#include "can/slcan_texts.hpp"
 
 #include <algorithm>
 #include <set>

@@ -1,9 +1,9 @@
 #include "blactl/can/serial_port.hpp"
 
 #include "blactl/can/serial_adapters.hpp"
-#include "blactl/can/slcan_texts.hpp"
 
 #include "can/device_holder.hpp"
+#include "can/slcan_texts.hpp"
 
 #include <fcntl.h>
 #include <grp.h>

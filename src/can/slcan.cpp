@@ -1,9 +1,9 @@
 #include "blactl/can/slcan.hpp"
 
 #include "blactl/can/serial_port.hpp"
-#include "blactl/can/slcan_texts.hpp"
 
 #include "can/slcan_dialogue.hpp"
+#include "can/slcan_texts.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,10 +1,10 @@
 #include "blactl/can/socketcan.hpp"
 
 #include "blactl/can/link.hpp"
-#include "blactl/can/texts.hpp"
 
 #include "can/kernel_frame.hpp"
 #include "can/socket_batch.hpp"
+#include "can/texts.hpp"
 
 #include <linux/can/raw.h>
 #include <net/if.h>

@@ -2,9 +2,9 @@
 // The commands: one function each, from options to a report. They print nothing but through the
 // reporter, ask nothing without it, and never exit.
 
-#include "context.hpp"
-#include "options.hpp"
-#include "report.hpp"
+#include "cli/context.hpp"
+#include "cli/options.hpp"
+#include "cli/output/report.hpp"
 
 namespace blactl::cli {
 

@@ -1,6 +1,6 @@
-#include "confirm.hpp"
+#include "cli/confirm.hpp"
 
-#include "texts.hpp"
+#include "cli/texts.hpp"
 
 #include <termios.h>
 #include <unistd.h>

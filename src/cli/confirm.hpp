@@ -1,7 +1,7 @@
 #pragma once
 // One question to the person at the terminal.
 
-#include "context.hpp"
+#include "cli/context.hpp"
 
 #include <string_view>
 

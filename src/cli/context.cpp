@@ -1,10 +1,10 @@
-#include "context.hpp"
+#include "cli/context.hpp"
 
 #include "blactl/can/replay_texts.hpp"
 #include "blactl/fleet/texts.hpp"
 
-#include "bus_factory.hpp"
-#include "texts.hpp"
+#include "cli/interface/bus_factory.hpp"
+#include "cli/texts.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -14,8 +14,8 @@
 
 namespace blactl::cli {
 
-using dronecan::LocalNodeId;
 using fleet::Member;
+using state::LocalNodeId;
 
 Result<const bla::Profiles*> Context::profiles() {
   if (!profiles_) {
@@ -118,7 +118,7 @@ Result<fleet::Session*> Context::open_for_writing(std::string_view command) {
   if (!session || lock_name_.empty()) {
     return session;
   }
-  using dronecan::InterfaceLock;
+  using state::InterfaceLock;
   auto lock = InterfaceLock::acquire(lock_name_, InterfaceLock::Right::write, lock_folder_);
   if (!lock) {
     return std::unexpected(lock.error());
@@ -131,7 +131,7 @@ bool Context::may_allocate() {
   if (lock_name_.empty() || allocating_) {
     return true;
   }
-  using dronecan::InterfaceLock;
+  using state::InterfaceLock;
   if (auto lock =
           InterfaceLock::acquire(lock_name_, InterfaceLock::Right::allocate, lock_folder_)) {
     allocating_ = std::move(*lock);

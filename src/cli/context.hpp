@@ -4,14 +4,14 @@
 #include "blactl/bla/profile.hpp"
 #include "blactl/can/recorder.hpp"
 #include "blactl/can/replay.hpp"
-#include "blactl/dronecan/interface_lock.hpp"
 #include "blactl/fleet/identification.hpp"
 #include "blactl/fleet/session.hpp"
 #include "blactl/fleet/target.hpp"
+#include "blactl/state/interface_lock.hpp"
 
-#include "options.hpp"
-#include "report.hpp"
-#include "reporter.hpp"
+#include "cli/options.hpp"
+#include "cli/output/report.hpp"
+#include "cli/output/reporter.hpp"
 
 #include <memory>
 #include <optional>
@@ -101,7 +101,7 @@ class Context {
   const bla::Profile* assumed_ = nullptr;
   std::string lock_name_; ///< of the interface; empty: no other process can reach it
   std::string lock_folder_;
-  std::optional<dronecan::InterfaceLock> writing_, allocating_;
+  std::optional<state::InterfaceLock> writing_, allocating_;
   std::unique_ptr<fleet::Session> session_;
   Time opened_{};
   const can::ReplayBus* log_ = nullptr;     ///< the session's bus, with -i replay:

@@ -1,10 +1,10 @@
-#include "lifecycle.hpp"
+#include "cli/lifecycle.hpp"
 
 #include "blactl/fleet/read_job.hpp"
 #include "blactl/fleet/texts.hpp"
 
-#include "node_head.hpp"
-#include "texts.hpp"
+#include "cli/output/node_head.hpp"
+#include "cli/texts.hpp"
 
 #include <algorithm>
 #include <chrono>

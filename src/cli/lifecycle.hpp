@@ -5,7 +5,7 @@
 #include "blactl/fleet/configuration.hpp"
 #include "blactl/fleet/restart.hpp"
 
-#include "context.hpp"
+#include "cli/context.hpp"
 
 #include <memory>
 #include <optional>

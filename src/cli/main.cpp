@@ -1,4 +1,4 @@
-#include "run.hpp"
+#include "cli/run.hpp"
 
 #include <fcntl.h>
 #include <signal.h>

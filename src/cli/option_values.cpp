@@ -1,6 +1,6 @@
-#include "option_values.hpp"
+#include "cli/option_values.hpp"
 
-#include "texts.hpp"
+#include "cli/texts.hpp"
 
 #include <charconv>
 #include <cstdlib>

@@ -1,10 +1,10 @@
-#include "options.hpp"
+#include "cli/options.hpp"
 
 #include "blactl/base/nearest.hpp"
 #include "blactl/base/texts.hpp"
 
-#include "option_values.hpp"
-#include "texts.hpp"
+#include "cli/option_values.hpp"
+#include "cli/texts.hpp"
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>

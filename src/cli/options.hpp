@@ -5,7 +5,7 @@
 #include "blactl/base/text.hpp"
 #include "blactl/fleet/registers.hpp"
 
-#include "reporter.hpp"
+#include "cli/output/reporter.hpp"
 
 #include <chrono>
 #include <cstdint>

@@ -1,9 +1,9 @@
-#include "run.hpp"
+#include "cli/run.hpp"
 
-#include "commands.hpp"
-#include "context.hpp"
-#include "options.hpp"
-#include "reporter.hpp"
+#include "cli/commands.hpp"
+#include "cli/context.hpp"
+#include "cli/options.hpp"
+#include "cli/output/reporter.hpp"
 
 #include <utility>
 

@@ -1,10 +1,10 @@
-#include "scan_findings.hpp"
+#include "cli/scan_findings.hpp"
 
 #include "blactl/fleet/texts.hpp"
 
-#include "health_words.hpp"
-#include "node_head.hpp"
-#include "texts.hpp"
+#include "cli/output/health_words.hpp"
+#include "cli/output/node_head.hpp"
+#include "cli/texts.hpp"
 
 #include <functional>
 #include <map>

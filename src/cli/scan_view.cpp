@@ -1,10 +1,10 @@
 #include "blactl/base/hex.hpp"
 
-#include "health_words.hpp"
-#include "node_head.hpp"
-#include "scan_findings.hpp"
-#include "table.hpp"
-#include "texts.hpp"
+#include "cli/output/health_words.hpp"
+#include "cli/output/node_head.hpp"
+#include "cli/output/table.hpp"
+#include "cli/scan_findings.hpp"
+#include "cli/texts.hpp"
 
 #include <utility>
 

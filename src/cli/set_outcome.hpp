@@ -5,7 +5,7 @@
 #include "blactl/fleet/roster.hpp"
 #include "blactl/fleet/write_job.hpp"
 
-#include "lifecycle.hpp"
+#include "cli/lifecycle.hpp"
 
 #include <cstdint>
 #include <optional>

@@ -1,9 +1,9 @@
 #include "blactl/bla/value.hpp"
 
-#include "node_head.hpp"
-#include "set_outcome.hpp"
-#include "table.hpp"
-#include "texts.hpp"
+#include "cli/output/node_head.hpp"
+#include "cli/output/table.hpp"
+#include "cli/set_outcome.hpp"
+#include "cli/texts.hpp"
 
 #include <optional>
 

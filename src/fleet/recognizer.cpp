@@ -1,4 +1,4 @@
-#include "blactl/fleet/recognizer.hpp"
+#include "fleet/recognizer.hpp"
 
 namespace blactl::fleet {
 

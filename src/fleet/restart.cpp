@@ -1,7 +1,8 @@
 #include "blactl/fleet/restart.hpp"
 
 #include "blactl/dronecan/allocator.hpp"
-#include "blactl/fleet/recognizer.hpp"
+
+#include "fleet/recognizer.hpp"
 
 #include <algorithm>
 #include <chrono>

@@ -62,7 +62,7 @@ std::vector<can::Filter> filters(Session::Hearing hearing, NodeId local) {
 
 } // namespace
 
-Session::Session(std::unique_ptr<can::Bus> bus, std::optional<dronecan::LocalNodeId> local)
+Session::Session(std::unique_ptr<can::Bus> bus, std::optional<state::LocalNodeId> local)
     : local_(std::move(local)), loop_(std::move(bus)),
       roster_(local_ ? local_->id() : dronecan::anonymous),
       node_(local_ ? local_->id() : dronecan::anonymous, local_ ? &local_->transfer_ids() : nullptr,
@@ -88,7 +88,7 @@ Session::Session(std::unique_ptr<can::Bus> bus, std::optional<dronecan::LocalNod
 }
 
 Result<std::unique_ptr<Session>> Session::open(std::unique_ptr<can::Bus> bus,
-                                               std::optional<dronecan::LocalNodeId> local,
+                                               std::optional<state::LocalNodeId> local,
                                                Hearing hearing) {
   std::unique_ptr<Session> session(new Session(std::move(bus), std::move(local)));
   if (auto filtered = session->loop_.bus().filter(filters(hearing, session->node_.id()));

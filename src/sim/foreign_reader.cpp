@@ -1,8 +1,7 @@
 #include "sim/foreign_reader.hpp"
 
-#include "blactl/sim/texts.hpp"
-
 #include "sim/scenario_values.hpp"
+#include "sim/texts.hpp"
 
 #include <cstdint>
 #include <limits>

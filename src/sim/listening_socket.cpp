@@ -2,7 +2,8 @@
 
 #include "blactl/can/simbus.hpp"
 #include "blactl/can/simbus_texts.hpp"
-#include "blactl/sim/texts.hpp"
+
+#include "sim/texts.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>

@@ -1,9 +1,8 @@
 #include "blactl/sim/motion.hpp"
 
-#include "blactl/sim/protection.hpp"
-
 #include "sim/addresses.hpp"
 #include "sim/fault_bits.hpp"
+#include "sim/protection.hpp"
 #include "sim/rounded.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "blactl/sim/private_bus.hpp"
 
-#include "blactl/sim/filter.hpp"
+#include "sim/filter.hpp"
 
 #include <algorithm>
 #include <chrono>

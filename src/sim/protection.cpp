@@ -1,4 +1,4 @@
-#include "blactl/sim/protection.hpp"
+#include "sim/protection.hpp"
 
 #include "sim/addresses.hpp"
 #include "sim/fault_bits.hpp"

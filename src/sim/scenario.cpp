@@ -1,11 +1,11 @@
 #include "blactl/sim/scenario.hpp"
 
 #include "blactl/base/json_reader.hpp"
-#include "blactl/sim/texts.hpp"
 
 #include "sim/foreign_reader.hpp"
 #include "sim/scenario_values.hpp"
 #include "sim/servo_reader.hpp"
+#include "sim/texts.hpp"
 
 #include <algorithm>
 #include <chrono>

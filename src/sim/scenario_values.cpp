@@ -2,7 +2,8 @@
 
 #include "blactl/bla/value.hpp"
 #include "blactl/sim/random.hpp"
-#include "blactl/sim/texts.hpp"
+
+#include "sim/texts.hpp"
 
 #include <charconv>
 #include <chrono>

@@ -1,9 +1,8 @@
 #include "blactl/sim/server.hpp"
 
-#include "blactl/sim/texts.hpp"
-
 #include "sim/listening_socket.hpp"
 #include "sim/server_client.hpp"
+#include "sim/texts.hpp"
 
 #include <sys/epoll.h>
 #include <sys/socket.h>

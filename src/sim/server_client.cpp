@@ -1,6 +1,6 @@
 #include "sim/server_client.hpp"
 
-#include "blactl/sim/filter.hpp"
+#include "sim/filter.hpp"
 
 #include <sys/socket.h>
 #include <unistd.h>

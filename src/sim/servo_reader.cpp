@@ -1,10 +1,10 @@
 #include "sim/servo_reader.hpp"
 
 #include "blactl/bla/value.hpp"
-#include "blactl/sim/texts.hpp"
 
 #include "sim/behaviour_reader.hpp"
 #include "sim/scenario_values.hpp"
+#include "sim/texts.hpp"
 
 #include <algorithm>
 #include <array>

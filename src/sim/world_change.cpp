@@ -2,7 +2,8 @@
 
 #include "blactl/bla/parameter.hpp"
 #include "blactl/bla/value.hpp"
-#include "blactl/sim/texts.hpp"
+
+#include "sim/texts.hpp"
 
 #include <array>
 #include <cstdint>

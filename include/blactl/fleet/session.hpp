@@ -3,11 +3,11 @@
 
 #include "blactl/base/error.hpp"
 #include "blactl/can/loop.hpp"
-#include "blactl/dronecan/local_node_id.hpp"
 #include "blactl/dronecan/node.hpp"
 #include "blactl/dronecan/service.hpp"
 #include "blactl/fleet/playback.hpp"
 #include "blactl/fleet/roster.hpp"
+#include "blactl/state/local_node_id.hpp"
 
 #include <functional>
 #include <memory>
@@ -29,7 +29,7 @@ class Session {
 
   /// Without a local ID the session only listens.
   [[nodiscard]] static Result<std::unique_ptr<Session>>
-  open(std::unique_ptr<can::Bus> bus, std::optional<dronecan::LocalNodeId> local, Hearing hearing);
+  open(std::unique_ptr<can::Bus> bus, std::optional<state::LocalNodeId> local, Hearing hearing);
 
   ~Session() = default;
   Session(const Session&) = delete;
@@ -93,7 +93,7 @@ class Session {
   [[nodiscard]] std::size_t unsent() const { return loop_.unsent(); }
 
  private:
-  Session(std::unique_ptr<can::Bus> bus, std::optional<dronecan::LocalNodeId> local);
+  Session(std::unique_ptr<can::Bus> bus, std::optional<state::LocalNodeId> local);
 
   enum class Happened : std::uint8_t { something, deadline, input };
   [[nodiscard]] Result<Happened> step(Time deadline);
@@ -106,7 +106,7 @@ class Session {
   [[nodiscard]] Time acknowledge_deadline() const;
   [[nodiscard]] Result<void> play();
 
-  std::optional<dronecan::LocalNodeId> local_;
+  std::optional<state::LocalNodeId> local_;
   can::Loop loop_;
   Roster roster_;
   std::optional<Playback> playback_; ///< on a recording

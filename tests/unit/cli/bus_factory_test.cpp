@@ -2,7 +2,7 @@
 #include "blactl/sim/server.hpp"
 
 #include "catch.hpp"
-#include "cli/bus_factory.hpp"
+#include "cli/interface/bus_factory.hpp"
 #include "unit/bla/built_in.hpp"
 
 #include <poll.h>

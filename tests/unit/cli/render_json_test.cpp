@@ -1,5 +1,5 @@
 #include "catch.hpp"
-#include "cli/reporter.hpp"
+#include "cli/output/reporter.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -1,5 +1,5 @@
 #include "catch.hpp"
-#include "cli/report.hpp"
+#include "cli/output/report.hpp"
 
 #include <signal.h>
 

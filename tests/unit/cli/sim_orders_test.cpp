@@ -1,5 +1,5 @@
 #include "catch.hpp"
-#include "cli/sim_orders.hpp"
+#include "cli/sim/orders.hpp"
 
 #include <string>
 #include <variant>

@@ -1,5 +1,5 @@
 #include "catch.hpp"
-#include "cli/slcan_name.hpp"
+#include "cli/interface/slcan_name.hpp"
 
 #include <chrono>
 #include <string>

@@ -1,5 +1,5 @@
 #include "catch.hpp"
-#include "cli/table.hpp"
+#include "cli/output/table.hpp"
 
 using namespace blactl::cli;
 

@@ -265,7 +265,7 @@ TEST_CASE("nothing of the unit that had the ID before is left") {
 TEST_CASE("probes ask every silent ID once, eight at a time, and never our own") {
   Scene scene(R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11},
                             {"model": "BLA21-12U-AB", "node_id": 125}])",
-              Session::Hearing::all, dronecan::LocalNodeId::unshared(NodeId(60)));
+              Session::Hearing::all, state::LocalNodeId::unshared(NodeId(60)));
   std::uint8_t cursor = 0;
   std::vector<std::unique_ptr<ProbeJob>> probes;
   for (int i = 0; i < 8; ++i) {

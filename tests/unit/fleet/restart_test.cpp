@@ -1,10 +1,10 @@
 // Restarts of simulated servos: RestartJob, Recognizer and Allocator together in a session.
 
 #include "blactl/fleet/configuration.hpp"
-#include "blactl/fleet/recognizer.hpp"
 #include "blactl/fleet/restart.hpp"
 #include "blactl/fleet/write_job.hpp"
 
+#include "fleet/recognizer.hpp"
 #include "support.hpp"
 #include "unit/can/fake_bus.hpp"
 
@@ -23,9 +23,9 @@ using can::test::Wire;
 using dronecan::Allocation;
 using dronecan::ExecuteOpcode;
 using dronecan::Kind;
-using dronecan::LocalNodeId;
 using dronecan::NodeStatus;
 using dronecan::RestartNode;
+using state::LocalNodeId;
 
 namespace {
 

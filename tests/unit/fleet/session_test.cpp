@@ -17,7 +17,7 @@ using namespace blactl::fleet::test;
 using can::test::FakeBus;
 using can::test::Wire;
 using dronecan::Kind;
-using dronecan::LocalNodeId;
+using state::LocalNodeId;
 
 namespace {
 

@@ -4,13 +4,13 @@
 
 #include "blactl/bla/profile.hpp"
 #include "blactl/can/bus.hpp"
-#include "blactl/dronecan/local_node_id.hpp"
 #include "blactl/dronecan/transfer.hpp"
 #include "blactl/dronecan/types.hpp"
 #include "blactl/fleet/identification.hpp"
 #include "blactl/fleet/session.hpp"
 #include "blactl/sim/private_bus.hpp"
 #include "blactl/sim/scenario.hpp"
+#include "blactl/state/local_node_id.hpp"
 
 #include "catch.hpp"
 
@@ -116,7 +116,7 @@ class Scene {
   /// `members`: JSON members of the scenario: "servos": […], "foreign": […].
   explicit Scene(
       std::string_view members, Session::Hearing hearing = Session::Hearing::all,
-      std::optional<dronecan::LocalNodeId> local = dronecan::LocalNodeId::unshared(std::nullopt)) {
+      std::optional<state::LocalNodeId> local = state::LocalNodeId::unshared(std::nullopt)) {
     const auto scenario = sim::parse_scenario(
         fmt::format(R"({{"schema": "blactl-scenario/1", "clock": "virtual", {}}})", members),
         "test.json", profiles());

@@ -1,8 +1,7 @@
 // What goes wrong, how it shows and what it stops (4.7, 4.8, 4.12).
 
-#include "blactl/sim/protection.hpp"
-
 #include "sim/fault_bits.hpp"
+#include "sim/protection.hpp"
 #include "unit/sim/motion_rig.hpp"
 
 using namespace blactl;

@@ -1,0 +1,233 @@
+// blactl sim: simulated servos, as a bus of their own or on a real interface.
+
+#include "blactl/can/simbus.hpp"
+#include "blactl/sim/facts.hpp"
+#include "blactl/sim/interface.hpp"
+#include "blactl/sim/server.hpp"
+
+#include "cli/commands.hpp"
+#include "cli/interface/bus_factory.hpp"
+#include "cli/sim/events.hpp"
+#include "cli/sim/line_input.hpp"
+#include "cli/sim/orders.hpp"
+#include "cli/texts.hpp"
+
+#include <signal.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace blactl::cli {
+namespace {
+
+template <class... Cases> struct Overloaded : Cases... {
+  using Cases::operator()...;
+};
+
+Result<sim::Scenario> read_scenario(const SimOptions& options, const bla::Profiles& profiles) {
+  const auto usual = options.facts ? sim::read_facts(*options.facts) : sim::Behaviour{};
+  if (!usual) {
+    return std::unexpected(usual.error());
+  }
+  auto scenario = options.scenario.empty() ? sim::default_scenario(profiles, *usual)
+                                           : sim::read_scenario(options.scenario, profiles, *usual);
+  if (scenario && options.seed) {
+    scenario->seed = *options.seed;
+  }
+  if (scenario && !options.clock.empty()) {
+    scenario->clock = options.clock == "virtual" ? sim::Clock::simulated : sim::Clock::real;
+  }
+  return scenario;
+}
+
+/// Tells scripts that clients may come.
+Result<void> say_ready(const Context& context) {
+  const bool json = context.reporter().format() == Format::json;
+  return context.reporter().data(json ? "{\"event\":\"ready\"}\n" : "ready\n");
+}
+
+/// A signal that ends the simulator, a broken interface or stdout; else the loop goes on.
+bool ends(const can::Event& event, const SimEvents& events, Report& report) {
+  if (events.error()) {
+    report.fail(*events.error());
+    return true;
+  }
+  if (const auto* signal = std::get_if<can::Signal>(&event); signal && signal->number != SIGWINCH) {
+    report.signal = signal->number;
+    return true;
+  }
+  if (const auto* gone = std::get_if<can::Gone>(&event)) {
+    report.fail(gone->error);
+    return true;
+  }
+  return false;
+}
+
+/// Tells about an order that cannot be carried out; the simulation goes on.
+void refuse(const Error& error, const Context& context) {
+  context.reporter().error(error);
+}
+
+void no_such_serial(std::int64_t serial_number, const Context& context) {
+  refuse({Code::usage, say<texts::sim_no_such_serial>(serial_number), "", std::nullopt}, context);
+}
+
+void dump(const std::vector<sim::Servo*>& servos, const sim::Medium::Counters* wire, Time now,
+          SimEvents& events) {
+  for (sim::Servo* servo : servos) {
+    servo->look(now);
+    events.print(*servo, now);
+  }
+  events.print_end(servos.size(), wire, now);
+}
+
+/// Carries out what comes in on stdin.
+template <class Perform>
+void obey(LineInput& input, const can::Event& event, const Context& context, Perform perform) {
+  input.handle(event);
+  while (const auto line = input.next()) {
+    if (line->empty()) {
+      continue;
+    }
+    if (const auto order = parse_sim_order(*line)) {
+      std::visit(perform, *order);
+    } else {
+      refuse(order.error(), context);
+    }
+  }
+}
+
+/// Serves the simulated bus on a socket until a signal comes.
+void serve(const std::string& socket, const sim::Scenario& scenario, const Context& context,
+           Report& report) {
+  can::Loop loop(nullptr);
+  SimEvents events(context.reporter(), loop, scenario.clock);
+  const auto server = sim::Server::open(
+      socket, scenario, [&events](const sim::ServoEvent& event) { events.print(event); });
+  if (!server) {
+    return report.fail(server.error());
+  }
+  report.interface = "sim:" + printable(socket);
+  loop.watch((*server)->descriptor());
+  LineInput input(loop);
+  context.reporter().note(say<texts::sim_serves>(printable(socket), scenario.servos.size()));
+  if (auto said = say_ready(context); !said) {
+    return report.fail(said.error());
+  }
+  sim::Simulator& simulator = (*server)->simulator();
+  const auto impossible = [&](std::string_view what) {
+    refuse({Code::usage, say<texts::sim_needs_virtual_clock>(what), "", std::nullopt}, context);
+  };
+  const Overloaded perform{
+      [&](const ChangeWorld& order) {
+        if (!simulator.change(order.serial_number, order.changes)) {
+          no_such_serial(order.serial_number, context);
+        }
+      },
+      [&](const LinkClients& order) { simulator.link_clients(order.link); },
+      [&](const HoldClock& order) {
+        if (scenario.clock == sim::Clock::real) {
+          impossible("hold");
+        } else {
+          (*server)->hold(order.clients);
+        }
+      },
+      [&](const DumpState&) {
+        dump(simulator.servos(), &simulator.medium().counters(), simulator.now(), events);
+      },
+  };
+  for (;;) {
+    const can::Event event = loop.next((*server)->next_deadline(loop.now()));
+    if (ends(event, events, report)) {
+      break;
+    }
+    (*server)->service();
+    obey(input, event, context, perform);
+  }
+  events.tell_losses(report);
+}
+
+bool is_for_clients(const sim::TimedEvent& event) {
+  return event.serial_number == 0;
+}
+
+/// Puts the servos on a real interface until a signal comes or the interface goes.
+void join(const std::string& name, const sim::Scenario& scenario, const bla::Profiles& profiles,
+          const Context& context, Report& report) {
+  if (std::ranges::any_of(scenario.events, is_for_clients) || scenario.wire != sim::WireFaults{}) {
+    return report.fail({Code::usage, say<texts::wire_is_real>(printable(name)),
+                        say<texts::wire_is_real_hint>(), std::nullopt});
+  }
+  auto bus = open_bus(name, profiles, context.reporter());
+  if (!bus) {
+    return report.fail(bus.error());
+  }
+  can::Loop loop(std::move(bus->bus));
+  SimEvents events(context.reporter(), loop, sim::Clock::real);
+  sim::Interface interface(loop, scenario,
+                           [&events](const sim::ServoEvent& event) { events.print(event); });
+  LineInput input(loop);
+  report.interface = loop.bus().name();
+  context.reporter().note(say<texts::sim_serves>(name, scenario.servos.size()));
+  if (auto said = say_ready(context); !said) {
+    return report.fail(said.error());
+  }
+  const auto impossible = [&](std::string_view what) {
+    refuse({Code::usage, say<texts::sim_order_impossible>(what), "", std::nullopt}, context);
+  };
+  const Overloaded perform{
+      [&](const ChangeWorld& order) {
+        if (!interface.devices().change(order.serial_number, order.changes, loop.now())) {
+          no_such_serial(order.serial_number, context);
+        }
+      },
+      [&](const LinkClients&) { impossible("clients"); },
+      [&](const HoldClock&) { impossible("hold"); },
+      [&](const DumpState&) { dump(interface.devices().servos, nullptr, loop.now(), events); },
+  };
+  for (;;) {
+    const can::Event event = loop.next(interface.next_deadline());
+    if (ends(event, events, report)) {
+      break;
+    }
+    interface.handle(event);
+    obey(input, event, context, perform);
+  }
+  events.tell_losses(report);
+}
+
+} // namespace
+
+Report execute(const SimOptions& options, Context& context) {
+  Report report;
+  report.is_stream = true;
+  const auto profiles = context.profiles();
+  if (!profiles) {
+    report.fail(profiles.error());
+    return report;
+  }
+  const auto scenario = read_scenario(options, **profiles);
+  if (!scenario) {
+    report.fail(scenario.error());
+    return report;
+  }
+  const std::string& text = context.shared().interface;
+  const auto name = parse_interface(text.empty() ? "sim:" : text);
+  if (!name) {
+    report.fail(name.error());
+  } else if (const auto refused = takes_no_frames(text)) {
+    report.fail(*refused);
+  } else if (name->kind == InterfaceKind::socketcan || name->kind == InterfaceKind::slcan ||
+             name->kind == InterfaceKind::mcast) {
+    join(text, *scenario, **profiles, context, report);
+  } else if (name->kind == InterfaceKind::simulator) {
+    serve(name->rest.empty() ? can::default_socket_path().string() : name->rest, *scenario, context,
+          report);
+  } else {
+    report.fail({Code::usage, say<texts::scenario_is_argument>(printable(text)),
+                 say<texts::scenario_is_argument_hint>(printable(name->rest)), std::nullopt});
+  }
+  return report;
+}
+
+} // namespace blactl::cli

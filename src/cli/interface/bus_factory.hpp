@@ -1,0 +1,53 @@
+#pragma once
+// From what stands behind -i to a bus (contract, section 2).
+
+#include "blactl/base/error.hpp"
+#include "blactl/bla/profile.hpp"
+#include "blactl/can/bus.hpp"
+#include "blactl/can/replay.hpp"
+#include "blactl/state/lock_file.hpp"
+
+#include "cli/output/reporter.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace blactl::cli {
+
+/// An open bus, and under which name processes of this machine share it.
+struct OpenBus {
+  std::unique_ptr<can::Bus> bus;
+  std::string lock_name;               ///< empty: nobody else can reach it
+  const can::ReplayBus* log = nullptr; ///< the bus, if it is one
+  /// Where its lock files lie: where all users meet, or beside the socket of a simulated bus.
+  std::string lock_folder = state::LockFile::shared_folder;
+};
+
+/// What kind of interface a name means.
+enum class InterfaceKind : unsigned char { socketcan, slcan, mcast, simulator, scenario, replay };
+
+struct InterfaceName {
+  InterfaceKind kind = InterfaceKind::socketcan;
+  std::string rest; ///< interface name, device with options, socket path, scenario file or log;
+                    ///< empty: the default
+  std::uint8_t bus_number = 0; ///< of a multicast bus
+};
+
+/// `can0`, `socketcan:can0`, `slcan:DEV[?…]`, `mcast:N`, `mcast:N?if=IFACE`, `sim:`, `sim:SOCKET`,
+/// `sim:SCENARIO.json`, `replay:FILE`. Errors: usage.
+[[nodiscard]] Result<InterfaceName> parse_interface(std::string_view text);
+
+/// Why nothing can be sent to what stands behind -i, a log; empty: it can, as far as its name
+/// tells.
+[[nodiscard]] std::optional<Error> takes_no_frames(std::string_view text);
+
+/// The interface that `text` names; empty: the only CAN interface that is up.
+/// Errors: interface with the list of what is there, permission, bad_file (scenario), usage.
+/// `profiles` outlives the bus.
+[[nodiscard]] Result<OpenBus> open_bus(std::string_view text, const bla::Profiles& profiles,
+                                       const Reporter& reporter);
+
+} // namespace blactl::cli

@@ -1,0 +1,207 @@
+// A trace for people: one line a transfer.
+
+#include "blactl/base/hex.hpp"
+#include "blactl/bla/value.hpp"
+#include "blactl/dronecan/fields.hpp"
+#include "blactl/dronecan/standard_types.hpp"
+
+#include "cli/texts.hpp"
+#include "cli/trace/output.hpp"
+#include "cli/trace/time.hpp"
+
+#include <fmt/format.h>
+
+#include <iterator>
+#include <optional>
+
+namespace blactl::cli {
+namespace {
+
+using dronecan::Bytes;
+using dronecan::FieldsResult;
+using dronecan::GetSet;
+using dronecan::Kind;
+
+/// `uptime_sec=1234 health=ok … software_version={major=1 minor=4}`.
+class TextFields final : public dronecan::FieldSink {
+ public:
+  explicit TextFields(std::string& out) : out_(out) {}
+
+  void begin_object() override { open(depth_ == 0 ? "" : "{"); }
+
+  void end_object() override { close(depth_ == 1 ? "" : "}"); }
+
+  void begin_array() override { open("["); }
+
+  void end_array() override { close("]"); }
+
+  void key(std::string_view name) override {
+    separate();
+    out_ += name;
+    out_ += '=';
+    after_key_ = true;
+  }
+
+  void natural(std::uint64_t value, std::string_view word) override {
+    word.empty() ? put(fmt::to_string(value)) : put(word);
+  }
+
+  void integer(std::int64_t value) override { put(fmt::to_string(value)); }
+
+  void truth(bool value) override { put(value ? "true" : "false"); }
+
+  void real(float value) override { put(fmt::to_string(value)); }
+
+  void text(std::string_view bytes) override { put('"' + printable(bytes) + '"'); }
+
+  void bytes(Bytes bytes) override { put(hex(bytes)); }
+
+ private:
+  void open(std::string_view bracket) {
+    separate();
+    out_ += bracket;
+    ++depth_;
+    first_ = true;
+  }
+
+  void close(std::string_view bracket) {
+    out_ += bracket;
+    --depth_;
+    first_ = false;
+  }
+
+  void put(std::string_view text) {
+    separate();
+    out_ += text;
+  }
+
+  void separate() {
+    if (!after_key_ && !first_) {
+      out_ += ' ';
+    }
+    after_key_ = first_ = false;
+  }
+
+  std::string& out_;
+  int depth_ = 0;
+  bool first_ = true;
+  bool after_key_ = false;
+};
+
+/// "NodeStatus", "GetSet"; "20001" where nobody knows the type.
+std::string short_name(const dronecan::Header& header) {
+  const auto* type = dronecan::find_standard_type(header.kind, header.data_type_id);
+  std::string name = type != nullptr ? std::string(type->name.substr(type->name.rfind('.') + 1))
+                                     : fmt::to_string(header.data_type_id);
+  switch (header.kind) {
+  case Kind::request: return name + ".Request";
+  case Kind::response: return name + ".Response";
+  case Kind::message: break;
+  }
+  return name;
+}
+
+std::string explanation(TraceError error) {
+  switch (error) {
+  case TraceError::crc: return say<texts::trace_crc>();
+  case TraceError::toggle: return say<texts::trace_toggle>();
+  case TraceError::missing_start: return say<texts::trace_missing_start>();
+  case TraceError::transfer_id: return say<texts::trace_transfer_id>();
+  case TraceError::truncated: return say<texts::trace_truncated>();
+  case TraceError::timeout: return say<texts::trace_timeout>();
+  case TraceError::too_short: return say<texts::trace_short>();
+  }
+  return {};
+}
+
+/// "900 (90.0 deg)", "0 (on)", "40".
+std::string register_value(const bla::Parameter& parameter, std::int64_t wire) {
+  const auto raw = parameter.width.narrow(wire);
+  const auto shown = bla::display(parameter, raw);
+  const auto number = fmt::to_string(raw);
+  return shown == number ? number : fmt::format("{} ({})", number, shown);
+}
+
+/// The register of a BLA servo and what is done with it; empty: it is none, or not spoken of as BLA
+/// servos do.
+std::optional<std::string> register_text(const bla::Profiles& profiles, const std::string& name,
+                                         const GetSet::Value& value, std::string_view sign,
+                                         std::string_view without_value) {
+  const auto address = bla::find_address(name);
+  const auto* parameter = address ? profiles.find(*address) : nullptr;
+  if (parameter == nullptr || value.index() > 1) {
+    return std::nullopt;
+  }
+  const auto* number = std::get_if<std::int64_t>(&value);
+  return fmt::format("{} {} {}", address->name(), parameter->name,
+                     number != nullptr
+                         ? fmt::format("{} {}", sign, register_value(*parameter, *number))
+                         : std::string(without_value));
+}
+
+std::optional<std::string> register_text(const bla::Profiles& profiles,
+                                         const dronecan::Transfer& transfer) {
+  if (transfer.header.kind == Kind::request) {
+    const auto request = GetSet::Request::decode(transfer.payload);
+    return request ? register_text(profiles, request->name, request->value, ":=", "?")
+                   : std::nullopt;
+  }
+  const auto response = GetSet::Response::decode(transfer.payload);
+  return response ? register_text(profiles, response->name, response->value, "=",
+                                  say<texts::trace_no_value>())
+                  : std::nullopt;
+}
+
+} // namespace
+
+void TextTrace::begin_line(const Occasion& occasion, const dronecan::Header& header) {
+  const bool service = header.kind != Kind::message;
+  fmt::format_to(std::back_inserter(out_), "{}  {}  {:>3} > {:<3}  {:<22}  ",
+                 UnixTime(occasion.at).text(), printable(occasion.interface), header.source.value(),
+                 service ? fmt::to_string(header.destination.value()) : "*", short_name(header));
+}
+
+bool TextTrace::transfer(const Occasion& occasion, const dronecan::Transfer& transfer) {
+  const auto& header = transfer.header;
+  const auto line = out_.size();
+  begin_line(occasion, header);
+  fmt::format_to(std::back_inserter(out_), "{:>2}  ", transfer.transfer_id);
+  if (!write_register(transfer)) {
+    const auto fields = out_.size();
+    TextFields sink(out_);
+    const auto result =
+        dronecan::write_fields(sink, header.kind, header.data_type_id, transfer.payload);
+    if (result == FieldsResult::too_short) {
+      out_.resize(line);
+      return false;
+    }
+    if (result != FieldsResult::complete) {
+      out_.resize(fields);
+      append_hex(out_, transfer.payload);
+    }
+  }
+  if (!transfer.crc_checked) {
+    out_ += "  " + say<texts::trace_crc_unchecked>();
+  }
+  out_.erase(out_.find_last_not_of(' ') + 1);
+  out_ += '\n';
+  return true;
+}
+
+/// Registers of BLA servos are shown by name and in their unit.
+bool TextTrace::write_register(const dronecan::Transfer& transfer) {
+  const auto& header = transfer.header;
+  const auto text = header.kind != Kind::message && header.data_type_id == GetSet::type.id
+                        ? register_text(profiles_, transfer)
+                        : std::nullopt;
+  out_ += text.value_or("");
+  return text.has_value();
+}
+
+void TextTrace::broken(const Occasion& occasion, TraceError error, std::uint32_t can_id) {
+  begin_line(occasion, dronecan::decode_id(can_id).value_or(dronecan::Header()));
+  fmt::format_to(std::back_inserter(out_), "!!  {}: {} ({:08X})\n", name(error), explanation(error),
+                 can_id);
+}
+
+} // namespace blactl::cli

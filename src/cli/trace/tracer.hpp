@@ -1,0 +1,82 @@
+#pragma once
+// From frames to what a trace shows: reassembly of every interface by itself, and the filter.
+
+#include "blactl/dronecan/transfer.hpp"
+
+#include "cli/trace/filter.hpp"
+#include "cli/trace/output.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace blactl::cli {
+
+/// A frame, and where and when it was heard.
+struct Heard {
+  const can::Frame& frame;
+  Time at; ///< may be any clock that agrees with `wall` but for a constant
+  WallTime wall;
+  std::string_view interface; ///< foreign
+};
+
+/// A state machine without I/O: frames come from a bus or a log, what they mean goes to a view.
+class Tracer {
+ public:
+  /// Interfaces that are kept apart. A log may name any number of them; the frames of further ones
+  /// are counted, not decoded.
+  static constexpr std::size_t most_interfaces = 32;
+
+  struct Counts {
+    std::uint64_t frames = 0;
+    std::uint64_t transfers = 0; ///< that passed the filter
+    std::uint64_t errors = 0;    ///< that passed the filter
+    std::uint64_t skipped = 0;   ///< frames of too many interfaces
+  };
+
+  /// `output` outlives the tracer; `most` transfers are shown.
+  Tracer(TraceFilter filter, TraceOutput& output, std::uint64_t most);
+
+  void receive(const Heard& heard);
+
+  /// Reports unfinished transfers that began more than 2 s before `now`.
+  void expire(Time now);
+
+  /// When expire() has something to do if nothing more is heard.
+  [[nodiscard]] Time next_expiry() const { return next_expiry_; }
+
+  /// The most transfers were shown: what comes further is ignored.
+  [[nodiscard]] bool full() const { return counts_.transfers >= most_; }
+
+  [[nodiscard]] const Counts& counts() const { return counts_; }
+
+ private:
+  /// What is connected with each other.
+  struct Network {
+    std::string interface;
+    std::unique_ptr<dronecan::Receiver> receiver;
+    Duration to_wall{}; ///< what makes a time of its clock a wall time
+    Time sweep{};       ///< when unfinished transfers are looked for next
+
+    [[nodiscard]] Occasion occasion(Time at) const {
+      return {interface, WallTime(at.time_since_epoch() + to_wall)};
+    }
+  };
+
+  [[nodiscard]] Network* network_of(std::string_view interface);
+  [[nodiscard]] std::unique_ptr<Network> make_network(std::string_view interface);
+  void show(const Network& network, const dronecan::Transfer& transfer);
+  void show(const Network& network, TraceError error, std::uint32_t can_id, Time at);
+
+  TraceFilter filter_;
+  TraceOutput& output_;
+  std::uint64_t most_;
+  Counts counts_;
+  std::vector<std::unique_ptr<Network>> networks_; ///< their receivers know their addresses
+  Network* last_ = nullptr;
+  Time next_expiry_ = never;
+};
+
+} // namespace blactl::cli

@@ -1,0 +1,33 @@
+#include "blactl/state/interface_lock.hpp"
+
+#include "state/texts.hpp"
+
+#include <cstring>
+#include <utility>
+
+namespace blactl::state {
+
+Result<InterfaceLock> InterfaceLock::acquire(std::string_view interface, Right right,
+                                             const std::string& shared) {
+  const std::string folder = LockFile::folder(shared);
+  if (folder.empty()) {
+    return InterfaceLock(std::nullopt);
+  }
+  auto locked = LockFile::take(folder, interface, right == Right::write ? "write" : "alloc");
+  if (locked) {
+    return InterfaceLock(std::move(*locked));
+  }
+  const LockRefusal& refusal = locked.error();
+  if (refusal.error != 0) {
+    return fail(Code::busy,
+                say<texts::lock_failed>(printable(refusal.path), std::strerror(refusal.error)));
+  }
+  const std::string holder =
+      refusal.pid ? std::to_string(*refusal.pid) : say<texts::unknown_process>();
+  return fail(Code::busy,
+              right == Right::write ? say<texts::writing_held>(interface, holder)
+                                    : say<texts::allocating_held>(interface, holder),
+              say<texts::lock_held_hint>());
+}
+
+} // namespace blactl::state
