@@ -17,3 +17,8 @@ if(BLACTL_SANITIZE)
     target_compile_options(blactl-warnings INTERFACE -Wno-maybe-uninitialized)
   endif()
 endif()
+# Where several files are one unit, a local name may hide one of another file, and a type of a file's
+# own may stand in a unit with another main file: there neither is a mistake.
+set(in_unity $<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>)
+target_compile_options(blactl-warnings INTERFACE
+  "$<${in_unity}:-Wno-shadow;-Wshadow=local;-Wno-subobject-linkage>")

@@ -135,7 +135,7 @@ show_progress() {
   done
 }
 
-# build PRESET
+# build PRESET [OPTIONS…]
 build() {
-  cmake --preset "$1" && cmake --build --preset "$1"
+  cmake --preset "$1" && cmake --build --preset "$@"
 }

@@ -1,10 +1,64 @@
 #include "blactl/base/nearest.hpp"
 
 #include <algorithm>
+#include <compare>
 #include <string>
 #include <utility>
 
 namespace blactl {
+namespace {
+
+/// What separates the parts of a word: "angle_limit_cw", "param.GetSet", "--dry-run".
+bool is_separator(char c) {
+  return c == '_' || c == '-' || c == '.' || c == ' ';
+}
+
+/// Lower case without separators: people leave them out, and mix the case.
+std::string squeezed(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    if (!is_separator(c)) {
+      out += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    }
+  }
+  return out;
+}
+
+std::vector<std::string> parts_of(std::string_view word) {
+  std::vector<std::string> parts;
+  while (!word.empty()) {
+    const auto length =
+        static_cast<std::size_t>(std::ranges::find_if(word, is_separator) - word.begin());
+    if (length > 0) {
+      parts.push_back(squeezed(word.substr(0, length)));
+    }
+    word.remove_prefix(std::min(length + 1, word.size()));
+  }
+  return parts;
+}
+
+/// The distance to the run of neighbouring parts that resembles `typed` most: "nodeid" is near to
+/// the end of "static_node_id".
+std::size_t distance_to_parts(std::string_view typed, const std::vector<std::string>& parts) {
+  std::size_t least = typed.size();
+  for (std::size_t first = 0; first < parts.size(); ++first) {
+    std::string run;
+    for (std::size_t last = first; last < parts.size(); ++last) {
+      run += parts[last];
+      least = std::min(least, edit_distance(typed, run));
+    }
+  }
+  return least;
+}
+
+/// How far a word is from what was typed: the smaller, the nearer.
+struct Nearness {
+  std::size_t rank = 0;     ///< a word as a whole comes before a part that is as near
+  std::size_t distance = 0; ///< of the whole word
+  friend auto operator<=>(const Nearness&, const Nearness&) = default;
+};
+
+} // namespace
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   // Three rows of the table: two letters back (swaps), one back, and the present one.
@@ -38,21 +92,26 @@ std::vector<std::string_view> nearest(std::string_view typed,
   if (typed.size() > too_long) {
     return {};
   }
-  const std::size_t limit = std::max<std::size_t>(1, typed.size() / 3);
-  std::vector<std::pair<std::size_t, std::string_view>> found;
+  const std::string wanted = squeezed(typed);
+  const std::size_t limit = std::max<std::size_t>(1, wanted.size() / 3);
+  std::vector<std::pair<Nearness, std::string_view>> found;
   for (const std::string_view word : words) {
-    const std::size_t distance = edit_distance(typed, word);
-    const bool contains = typed.size() >= long_enough && word.find(typed) != std::string_view::npos;
-    if (distance <= limit || contains) {
-      found.emplace_back(distance, word);
+    const std::string whole = squeezed(word);
+    const std::size_t distance = edit_distance(wanted, whole);
+    const bool has_length = wanted.size() >= long_enough;
+    const std::size_t to_part = has_length ? distance_to_parts(wanted, parts_of(word)) : distance;
+    const bool contains = has_length && whole.find(wanted) != std::string::npos;
+    if (distance <= limit || to_part <= limit || contains) {
+      found.push_back({{std::min(distance, to_part + 1), distance}, word});
     }
   }
-  std::ranges::stable_sort(found, {}, &std::pair<std::size_t, std::string_view>::first);
+  std::ranges::stable_sort(found, {}, &std::pair<Nearness, std::string_view>::first);
   // Beside a word that is nearly right, far ones only distract.
-  const std::size_t least = found.empty() ? 0 : found.front().first;
-  std::erase_if(found, [&](const auto& each) { return least <= limit && each.first > least + 1; });
+  const std::size_t least = found.empty() ? 0 : found.front().first.rank;
+  std::erase_if(found,
+                [&](const auto& each) { return least <= limit && each.first.rank > least + 1; });
   std::vector<std::string_view> best;
-  for (const auto& [distance, word] : found) {
+  for (const auto& [nearness, word] : found) {
     if (best.size() < at_most && std::ranges::find(best, word) == best.end()) {
       best.push_back(word);
     }

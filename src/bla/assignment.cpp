@@ -63,6 +63,11 @@ Result<void> never_sent(const Parameter& parameter, std::int64_t raw) {
   return {};
 }
 
+std::string remark(const Parameter& parameter) {
+  return parameter.address == address::static_node_id ? say<texts::node_ids_of_tools_remark>()
+                                                      : std::string();
+}
+
 Result<void> check_pwm_unit(const Profiles& profiles, const Assignment& assignment,
                             std::int64_t pwm_mode) {
   if (assignment.value.pwm_mode.value_or(pwm_mode) == pwm_mode) {
@@ -95,13 +100,34 @@ Result<void> allowed_by_some_model(const Profiles& profiles, const Parameter& pa
       ranges.push_back(std::move(range));
     }
   }
-  if (auto inside = check_range(parameter, raw); !inside) {
-    return inside;
+  auto outside = check_range(parameter, raw);
+  if (outside) {
+    outside = fail(Code::out_of_range,
+                   say<texts::value_in_a_gap>(parameter.name + '=' + input_text(parameter, raw)));
   }
-  return fail(Code::out_of_range,
-              say<texts::value_in_a_gap>(parameter.name + '=' + input_text(parameter, raw)),
-              say<texts::value_ranges_hint>(either(ranges)));
+  if (parameter.group == Group::pwm) { // other models take nothing at all
+    outside.error().hint = say<texts::pwm_models_take>(either(ranges));
+  } else if (ranges.size() > 1) { // the union of them is no range that one servo takes
+    outside.error().hint = say<texts::value_ranges_hint>(either(ranges));
+  }
+  return outside;
 }
+
+namespace {
+
+/// Each command makes the others inactive (4.1-4.3).
+Result<void> check_commands(std::span<const Assignment> assignments) {
+  const auto commands = std::ranges::count_if(assignments, [](const Assignment& assignment) {
+    return assignment.parameter->can_be_inactive;
+  });
+  if (commands > 1) {
+    return fail(Code::cross_check, say<texts::one_command_only>(),
+                say<texts::one_command_only_hint>());
+  }
+  return {};
+}
+
+} // namespace
 
 Result<Assignment> make_assignment(const Profiles& profiles, std::string_view parameter,
                                    std::string_view value) {
@@ -136,29 +162,41 @@ Result<Assignment> make_assignment(const Profiles& profiles, std::string_view pa
 Result<Assignment> parse_assignment(const Profiles& profiles, std::string_view text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string_view::npos) {
+    const auto known = profiles.find(text);
     return fail(Code::usage, say<texts::assignment_without_equals>(printable(text)),
-                say<texts::assignment_example>("angle_limit_cw=90deg"));
+                known && (*known)->writable()
+                    ? example_text(**known)
+                    : say<texts::assignment_example>("angle_limit_cw=90deg"));
   }
   return make_assignment(profiles, text.substr(0, equals), text.substr(equals + 1));
 }
 
-Result<std::vector<Assignment>> parse_assignments(const Profiles& profiles,
-                                                  std::span<const std::string> texts) {
+std::expected<std::vector<Assignment>, std::vector<Error>>
+parse_assignments(const Profiles& profiles, std::span<const std::string> texts) {
   std::vector<Assignment> assignments;
+  std::vector<Error> faults;
+  const auto take = [&](Result<void> checked) {
+    if (!checked) {
+      faults.push_back(std::move(checked.error()));
+    }
+  };
   for (const std::string& text : texts) {
     auto assignment = parse_assignment(profiles, text);
     if (!assignment) {
-      return std::unexpected(std::move(assignment.error()));
+      faults.push_back(std::move(assignment.error()));
+      continue;
     }
     if (std::ranges::find(assignments, assignment->parameter, &Assignment::parameter) !=
         assignments.end()) {
-      return fail(Code::usage, say<texts::assigned_twice>(assignment->parameter->name),
-                  say<texts::assigned_twice_hint>());
+      take(fail(Code::usage, say<texts::assigned_twice>(assignment->parameter->name),
+                say<texts::assigned_twice_hint>()));
     }
     assignments.push_back(std::move(*assignment));
   }
-  if (auto fits = check_pwm_pair(profiles, assignments); !fits) {
-    return std::unexpected(std::move(fits.error()));
+  take(check_pwm_pair(profiles, assignments));
+  take(check_commands(assignments));
+  if (!faults.empty()) {
+    return std::unexpected(std::move(faults));
   }
   return assignments;
 }

@@ -148,12 +148,17 @@ constexpr std::array<std::string_view, 4> bit_groups{"hardware", "software", "co
 FaultBit read_fault_bit(const json::Value& item, json::Faults& faults) {
   json::Object object(item, faults);
   FaultBit bit;
-  const std::string reg = object.word("register", {"0x19", "0x1A", "0x1B"});
-  bit.reg = find_address(reg).value_or(Address{0x19});
-  bit.level = static_cast<Level>(bit.reg.value() - 0x19);
+  const std::string reg = object.word("register", {"0x18", "0x19", "0x1A", "0x1B"});
+  bit.reg = find_address(reg).value_or(address::fault_notice);
   bit.bit = static_cast<std::uint8_t>(object.integer("bit", 0, 31));
+  const bool sums_up = bit.reg == address::fault_summary;
+  const unsigned level = sums_up ? bit.bit % 8U : bit.reg.value() - address::fault_notice.value();
+  if (level > std::to_underlying(Level::failure)) {
+    faults.add(item, say<texts::profile_no_summary_bit>(bit.bit));
+  }
+  bit.level = static_cast<Level>(level);
   bit.group = object.word("group", {"hardware", "software", "communication", "other"});
-  bit.code = read_name(object, "code", faults);
+  bit.code = sums_up ? std::string() : read_name(object, "code", faults);
   bit.pwm_only = object.optional_boolean("pwm_only").value_or(false);
   bit.latched = object.optional_boolean("latched").value_or(false);
   bit.vendor_only = object.optional_boolean("vendor_only").value_or(false);
@@ -170,7 +175,7 @@ FaultBit read_fault_bit(const json::Value& item, json::Faults& faults) {
   return bit;
 }
 
-std::vector<FaultBit> read_fault_bits(json::Object& root, json::Faults& faults) {
+void read_fault_bits(json::Object& root, Family& family, json::Faults& faults) {
   std::vector<FaultBit> bits;
   for (const json::Value* item : root.array("fault_bits")) {
     FaultBit bit = read_fault_bit(*item, faults);
@@ -178,13 +183,15 @@ std::vector<FaultBit> read_fault_bits(json::Object& root, json::Faults& faults) 
       if (other.reg == bit.reg && other.bit == bit.bit) {
         faults.add(*item, say<texts::profile_bit_twice>(bit.reg.name(), bit.bit));
       }
-      if (other.code == bit.code) {
+      if (other.code == bit.code && !bit.code.empty()) {
         faults.add(*item, say<texts::profile_code_twice>(bit.code));
       }
     }
     bits.push_back(std::move(bit));
   }
-  return bits;
+  for (FaultBit& bit : bits) {
+    (bit.code.empty() ? family.summary_bits : family.fault_bits).push_back(std::move(bit));
+  }
 }
 
 /// "2024-06".
@@ -246,7 +253,7 @@ Family read_family(json::Document& document) {
   static_cast<void>(root.optional_string("source"));
   Family family;
   family.parameters = read_parameters(root, faults);
-  family.fault_bits = read_fault_bits(root, faults);
+  read_fault_bits(root, family, faults);
   family.firmware = read_firmware(root, faults);
   root.finish();
   return family;

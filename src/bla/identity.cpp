@@ -119,7 +119,10 @@ const Parameter* Identity::parameter(Address address) const {
   if (profiles_ == nullptr) {
     return nullptr;
   }
-  const Parameter* first = candidates_.empty() ? nullptr : candidates_.front()->find(address);
+  if (candidates_.empty()) {
+    return profiles_->find_of_unknown(address);
+  }
+  const Parameter* first = candidates_.front()->find(address);
   const bool agreed =
       first != nullptr && std::ranges::all_of(candidates_, [&](const Profile* profile) {
         const Parameter* other = profile->find(address);
@@ -130,6 +133,39 @@ const Parameter* Identity::parameter(Address address) const {
 
 bool Identity::has(const Parameter& parameter) const {
   return !readings_.firmware_version || parameter.exists_in(*readings_.firmware_version);
+}
+
+std::vector<const Parameter*> Identity::configuration() const {
+  std::vector<const Parameter*> wanted;
+  if (profiles_ == nullptr) {
+    return wanted;
+  }
+  for (const Parameter& known : profiles_->registers()) {
+    const Parameter* of_model = parameter(known.address);
+    if (of_model != nullptr && of_model->saved && of_model->readable() && of_model->writable() &&
+        has(*of_model)) {
+      wanted.push_back(of_model);
+    }
+  }
+  return wanted;
+}
+
+Result<Values> Identity::factory_defaults() const {
+  Values defaults;
+  const auto kept = configuration();
+  for (const Parameter* parameter : kept) {
+    if (!parameter->default_raw) {
+      return fail(Code::no_profile, say<texts::default_unknown>(parameter->name),
+                  say<texts::model_unknown_hint>());
+    }
+    defaults[parameter->address] = *parameter->default_raw;
+  }
+  if (kept.empty()) {
+    return fail(Code::no_profile,
+                say<texts::model_unknown>(reading(address::model_number, readings_.model_number)),
+                say<texts::model_unknown_hint>());
+  }
+  return defaults;
 }
 
 Result<void> Identity::may_write(Address address, std::int64_t raw) const {
@@ -178,7 +214,7 @@ Result<void> Identity::check_support(const Parameter& parameter) const {
   // All candidates agree on a range here, so the first speaks for all.
   if (parameter.group == Group::pwm && !candidates_.front()->pwm) {
     return fail(Code::unsupported, say<texts::no_pwm_input>(parameter.name, address, model()),
-                say<texts::no_pwm_input_hint>());
+                say<texts::no_pwm_input_hint>(model()));
   }
   if (!parameter.min_firmware) {
     return {};
@@ -192,7 +228,7 @@ Result<void> Identity::check_support(const Parameter& parameter) const {
     return fail(Code::unsupported,
                 say<texts::firmware_needed>(parameter.name, address, needed,
                                             firmware_text(*readings_.firmware_version)),
-                say<texts::firmware_needed_hint>());
+                say<texts::firmware_needed_hint>(model()));
   }
   return {};
 }

@@ -17,8 +17,9 @@ constexpr std::array<std::string_view, 11> group_names{"command", "status",  "op
                                                        "config",  "control", "pwm",       "limit",
                                                        "option",  "product", "production"};
 constexpr std::array<std::string_view, 3> access_names{"R", "W", "RW"};
-constexpr std::array<std::string_view, 15> unit_names{
-    "", "deg", "rpm", "%", "A", "V", "us", "ms", "degC", "deg/rpm", "", "", "", "", ""};
+constexpr std::array<std::string_view, 15> unit_names{"",     "deg",   "rpm", "%",    "A",
+                                                      "V",    "us",    "ms",  "degC", "deg/rpm",
+                                                      "year", "month", "day", "hour", "minute"};
 
 static_assert(group_names.size() == std::to_underlying(Group::production) + 1U);
 static_assert(access_names.size() == std::to_underlying(Access::read_write) + 1U);
@@ -53,6 +54,13 @@ std::optional<Group> find_group(std::string_view word) {
     return std::nullopt;
   }
   return static_cast<Group>(found - group_names.begin());
+}
+
+std::span<const Group> all_groups() {
+  using enum Group;
+  static constexpr std::array<Group, 11> all{
+      command, status, operation, fault, config, control, pwm, limit, option, product, production};
+  return all;
 }
 
 std::string_view name(Access access) {

@@ -76,8 +76,36 @@ std::string firmware_text(std::int64_t version) {
   return fmt::format("{}.{:03}", version / 1000, version % 1000);
 }
 
+bool FirmwareRelease::Shipment::covers(std::string_view model) const {
+  if (model.size() > models.size() || model.size() + 1 < models.size()) {
+    return false;
+  }
+  return std::ranges::equal(
+      model, std::string_view(models).substr(0, model.size()),
+      [](char letter, char wanted) { return wanted == '*' || wanted == letter; });
+}
+
 const Parameter* Profile::find(Address address) const {
   return find_address_in(parameters, address);
+}
+
+std::vector<const FirmwareRelease*> Profiles::releases_of(const Profile& profile) const {
+  const auto shipped = [&](const FirmwareRelease& release) {
+    return std::ranges::any_of(release.shipments, [&](const FirmwareRelease::Shipment& shipment) {
+      return shipment.covers(profile.model);
+    });
+  };
+  std::vector<const FirmwareRelease*> releases;
+  std::size_t kept = 0;
+  for (const FirmwareRelease& release : firmware_) {
+    const bool is_shipped = shipped(release);
+    if (is_shipped || !releases.empty()) {
+      releases.push_back(&release);
+    }
+    kept = is_shipped ? releases.size() : kept;
+  }
+  releases.resize(kept); // what came after the last one is of other models
+  return releases;
 }
 
 std::vector<const Profile*> Profiles::matching(std::string_view text) const {
@@ -97,6 +125,10 @@ std::vector<const Profile*> Profiles::matching(std::string_view text) const {
 
 const Parameter* Profiles::find(Address address) const {
   return find_address_in(registers_, address);
+}
+
+const Parameter* Profiles::find_of_unknown(Address address) const {
+  return find_address_in(registers_of_unknown_, address);
 }
 
 Result<const Parameter*> Profiles::find(std::string_view text) const {

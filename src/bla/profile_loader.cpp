@@ -2,6 +2,7 @@
 
 #include "blactl/base/json_reader.hpp"
 #include "blactl/bla/profile.hpp"
+#include "blactl/bla/value.hpp"
 
 #include "bla/embedded_profiles.hpp"
 #include "bla/profile_reader.hpp"
@@ -188,10 +189,6 @@ class Merger {
   std::vector<std::string> replaced_;
 };
 
-bool may_be_written(const Parameter& parameter, const Profile& profile) {
-  return parameter.writable() && (parameter.group != Group::pwm || profile.pwm);
-}
-
 /// Widens `all` to hold what `one` allows.
 void widen(Parameter& all, const Parameter& one) {
   if (one.min && one.max) {
@@ -202,6 +199,33 @@ void widen(Parameter& all, const Parameter& one) {
   all.by_suffix = all.by_suffix || one.by_suffix;
 }
 
+/// A value to show how one is typed: no model refuses it if that can be had.
+std::optional<Parameter::Example> find_example(Address address, std::span<const Profile> profiles) {
+  std::vector<Parameter::Example> defaults;
+  for (const Profile& profile : profiles) {
+    const Parameter* one = profile.find(address);
+    if (one != nullptr && one->default_raw && profile.takes(*one)) {
+      defaults.push_back({*one->default_raw, profile.model});
+    }
+  }
+  for (const Parameter::Example& example : defaults) {
+    const bool fits_all = std::ranges::all_of(profiles, [&](const Profile& profile) {
+      const Parameter* one = profile.find(address);
+      return one == nullptr || !profile.takes(*one) || check_range(*one, example.raw);
+    });
+    if (fits_all) {
+      return Parameter::Example{example.raw, {}};
+    }
+  }
+  return defaults.empty() ? std::nullopt : std::optional(defaults.front());
+}
+
+/// The register as a model has it of which nothing is known.
+Parameter of_unknown(Parameter parameter) {
+  parameter.default_raw = parameter.min = parameter.max = std::nullopt;
+  return parameter;
+}
+
 /// The register as all models together have it.
 Parameter unite(const Parameter& general, std::span<const Profile> profiles) {
   Parameter all = general;
@@ -209,7 +233,7 @@ Parameter unite(const Parameter& general, std::span<const Profile> profiles) {
   for (const bool writable : {true, false}) {
     for (const Profile& profile : profiles) {
       const Parameter* one = profile.find(general.address);
-      if (one == nullptr || may_be_written(*one, profile) != writable) {
+      if (one == nullptr || profile.takes(*one) != writable) {
         continue;
       }
       if (first) {
@@ -225,6 +249,7 @@ Parameter unite(const Parameter& general, std::span<const Profile> profiles) {
       break; // the ranges of those that do not let it be written count only where no model does
     }
   }
+  all.example = find_example(general.address, profiles);
   return all;
 }
 
@@ -259,7 +284,9 @@ Result<Profiles> Profiles::load(const std::optional<std::filesystem::path>& dire
   profiles.profiles_ = merger.profiles();
   for (const Parameter& parameter : family.parameters) {
     profiles.registers_.push_back(unite(parameter, profiles.profiles_));
+    profiles.registers_of_unknown_.push_back(of_unknown(profiles.registers_.back()));
   }
+  profiles.summary_bits_ = std::move(family.summary_bits);
   profiles.fault_bits_ = std::move(family.fault_bits);
   profiles.firmware_ = std::move(family.firmware);
   profiles.replaced_ = merger.replaced();

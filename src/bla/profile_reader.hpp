@@ -19,6 +19,7 @@ inline constexpr std::string_view profile_family = "BLA";
 struct Family {
   std::vector<Parameter> parameters; ///< ascending; those of table 3-12 without default and range
   std::vector<FaultBit> fault_bits;
+  std::vector<FaultBit> summary_bits; ///< of 0x18
   std::vector<FirmwareRelease> firmware;
 };
 

@@ -11,17 +11,19 @@ inline constexpr Text parameter_unknown{"{}: there is no such parameter",
 inline constexpr Text parameter_reserved{
     "{} is a reserved address: blactl neither reads nor writes it",
     "{} は Reserve です。blactl は読み書きしません"};
-inline constexpr Text parameter_list{"`blactl models BLA21-12U-AB` lists the parameters",
-                                     "`blactl models BLA21-12U-AB` でパラメータを確認できます"};
+inline constexpr Text parameter_list{
+    "`blactl get` lists the parameters of your servo, `blactl models all` those of every model",
+    "`blactl get` でお使いのサーボ、`blactl models all` で全機種のパラメータを確認できます"};
 inline constexpr Text list_or{" or ", " または "};
 
 // Values as they are typed: the first argument of all is PARAM=VALUE
 inline constexpr Text assignment_without_equals{"{}: not of the form PARAM=VALUE",
                                                 "{}: PARAM=VALUE の形式ではありません"};
 inline constexpr Text assignment_example{"for example {}", "例: {}"};
+inline constexpr Text assignment_example_of{"for example {} for a {}", "例: {} ({} の場合)"};
 inline constexpr Text value_not_a_number{"{}: not a number", "{}: 数値ではありません"};
-inline constexpr Text value_grammar{"a number is written [-]digits[.digits]unit, for example {}",
-                                    "数値は [-]数字[.数字]単位 の形で入力して下さい。例: {}"};
+inline constexpr Text value_grammar{"a number is written [-]digits[.digits]unit, {}",
+                                    "数値は [-]数字[.数字]単位 の形で入力して下さい。{}"};
 inline constexpr Text value_not_whole{"{}: a register number has no decimals",
                                       "{}: レジスタ値に小数は使えません"};
 inline constexpr Text value_without_unit{"{}: the unit is missing", "{}: 単位がありません"};
@@ -55,28 +57,34 @@ inline constexpr Text assigned_twice_hint{"name each parameter once",
                                           "パラメータは 1 回だけ指定して下さい"};
 inline constexpr Text pwm_unit_against_mode{"{}: with {} the unit is {}",
                                             "{}: {} では単位は {} です"};
-inline constexpr Text is_read_only{"{} ({}) can only be read", "{} ({}) は読み出し専用です"};
+inline constexpr Text is_read_only{"{} ({}) can only be read", "{} ({}) は読出し専用です"};
 inline constexpr Text is_read_only_hint{"`blactl get {}` shows it",
                                         "`blactl get {}` で値を確認できます"};
 inline constexpr Text bootloader_refused{
     "0x49 starts the boot loader: the specification forbids writing it",
-    "0x49 はブートローダ起動です。仕様書で書き込みが禁止されています"};
+    "0x49 はブートローダ起動です。仕様書で書込みが禁止されています"};
 inline constexpr Text operation_refused{"{} ({}) is no setting but an operation",
                                         "{} ({}) は設定ではなく操作です"};
 inline constexpr Text operation_hint{"use `blactl {}`", "`blactl {}` を使って下さい"};
 inline constexpr Text node_id_of_tools{
     "{}: the node IDs 126 and 127 belong to tools such as blactl",
     "{}: ノード ID 126 と 127 は blactl などのツール用です"};
+inline constexpr Text node_ids_of_tools_remark{
+    "126 and 127 are reserved for tools such as blactl: they are never written",
+    "126 と 127 は blactl などのツール用に確保されているため、書き込めません"};
 inline constexpr Text node_id_hint{"type an ID from 1 to 125, or 0 for dynamic allocation",
                                    "1 ～ 125、または 0 (動的割当て) を入力して下さい"};
 
 // Refusals that hang on the servo
 inline constexpr Text model_unknown{
     "no profile fits this servo ({}): it is only read",
-    "このサーボ ({}) に合うプロファイルが無いため、読み出しのみ可能です"};
+    "このサーボ ({}) に合うプロファイルが無いため、読出しのみ可能です"};
 inline constexpr Text model_unknown_hint{
     "add a profile for this model with --profile-dir DIR",
     "--profile-dir DIR でこの機種のプロファイルを追加して下さい"};
+inline constexpr Text default_unknown{
+    "the model is not known well enough to tell the default of {}",
+    "機種を特定できないため、{} の初期値が不明です"};
 inline constexpr Text model_not_certain{
     "{} ({}) depends on the model, and {} leaves open which of these it is: {}",
     "{} ({}) の範囲は機種によりますが、{} から機種を特定できません (候補: {})"};
@@ -92,13 +100,24 @@ inline constexpr Text firmware_unknown{
     "{} ({}) にはファームウェア {} 以降が必要ですが、このサーボのバージョンは不明です"};
 inline constexpr Text firmware_unknown_hint{"`blactl get firmware_version` reads it",
                                             "`blactl get firmware_version` で確認して下さい"};
-inline constexpr Text firmware_needed_hint{"`blactl models` shows which servos have it",
-                                           "`blactl models` で対応機種を確認して下さい"};
+inline constexpr Text firmware_needed_hint{
+    "`blactl models {}` tells which firmware has what",
+    "`blactl models {}` でファームウェアごとの機能を確認できます"};
 inline constexpr Text no_pwm_input{"{} ({}): {} has no PWM input",
-                                   "{} ({}): {} は PWM 未対応機種です"};
+                                   "{} ({}): {} に PWM 入力はありません"};
 inline constexpr Text no_pwm_input_hint{
-    "models whose suffix has a B in it, like BLA21-12U-AB, have one",
-    "PWM 対応機種は BLA21-12U-AB のように末尾が *B* の機種です"};
+    "{} is driven over CAN alone; which models have a PWM input: `blactl models`",
+    "{} は CAN 通信専用です。PWM 入力対応機種は `blactl models` で確認できます"};
+inline constexpr Text pwm_models_take{"models with a PWM input take {}",
+                                      "PWM 入力対応機種の設定範囲: {}"};
+
+inline constexpr Text one_command_only{
+    "command_angle, command_speed and command_torque exclude each other",
+    "command_angle、command_speed、command_torque は同時に指定できません",
+};
+inline constexpr Text one_command_only_hint{
+    "the servo obeys the last one: give just that",
+    "最後の指令だけが有効になるため、一つだけ指定して下さい"};
 
 // Profile files: faults
 inline constexpr Text profile_directory{"cannot read the profiles in {}: {}",
@@ -125,7 +144,7 @@ inline constexpr Text profile_range_per_model{
     "a per_model register has its values in the series files",
     "per_model の値はシリーズのファイルに書いて下さい"};
 inline constexpr Text profile_writable_without_range{"a register that can be written needs {}",
-                                                     "書き込み可能なレジスタには {} が必要です"};
+                                                     "書込み可能なレジスタには {} が必要です"};
 inline constexpr Text profile_choice_twice{"{} occurs twice among the choices",
                                            "choices に {} が重複しています"};
 inline constexpr Text profile_unknown_register{"the family has no register {}",
@@ -141,6 +160,7 @@ inline constexpr Text profile_like_another{"{} has the model number and hardware
                                            "{} の機種番号とハードウェアバージョンが {} と同じです"};
 inline constexpr Text profile_bit_twice{"{} bit {} is described twice",
                                         "{} の bit {} が重複しています"};
+inline constexpr Text profile_no_summary_bit{"0x18 has no bit {}", "0x18 に bit {} はありません"};
 inline constexpr Text profile_code_twice{"the code {} is used twice", "code {} が重複しています"};
 inline constexpr Text profile_bit_group{"bit {} belongs to the group {}",
                                         "bit {} はグループ {} に属します"};

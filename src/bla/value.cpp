@@ -158,20 +158,11 @@ class ValueParser {
   /// "angle_limit_cw=90", as it was typed.
   [[nodiscard]] std::string assignment() const { return parameter_.name + '=' + printable(text_); }
 
-  /// The register number `raw` in the parameter's unit.
-  [[nodiscard]] std::string spelled(std::int64_t raw) const {
-    return parameter_.name + '=' + input_text(parameter_, raw, 0);
-  }
-
-  [[nodiscard]] std::string example() const {
-    const auto raw = parameter_.default_raw ? parameter_.default_raw : parameter_.max;
-    return say<texts::assignment_example>(spelled(raw.value_or(0)));
-  }
+  [[nodiscard]] std::string example() const { return example_text(parameter_); }
 
   [[nodiscard]] Result<TypedValue> not_a_number() const {
-    const auto raw = parameter_.default_raw ? parameter_.default_raw : parameter_.max;
     return fail(Code::usage, say<texts::value_not_a_number>(assignment()),
-                say<texts::value_grammar>(spelled(raw.value_or(0))));
+                say<texts::value_grammar>(example()));
   }
 
   [[nodiscard]] Result<TypedValue> too_large() const {
@@ -296,6 +287,16 @@ Result<TypedValue> parse_value(const Parameter& parameter, NamedBy named, std::s
   return ValueParser(parameter, named, text).parse();
 }
 
+std::string example_text(const Parameter& parameter) {
+  const auto raw = parameter.default_raw ? parameter.default_raw : parameter.max;
+  const Parameter::Example any{raw.value_or(0), {}};
+  const Parameter::Example example = parameter.default_raw ? any : parameter.example.value_or(any);
+  // 0x36 is in deg in its factory setting.
+  const std::string typed = parameter.name + '=' + input_text(parameter, example.raw, 0);
+  return example.model.empty() ? say<texts::assignment_example>(typed)
+                               : say<texts::assignment_example_of>(typed, example.model);
+}
+
 Result<void> check_range(const Parameter& parameter, std::int64_t raw) {
   if (!parameter.min || !parameter.max || (raw >= *parameter.min && raw <= *parameter.max)) {
     return {};
@@ -351,6 +352,18 @@ std::string display(const Parameter& parameter, std::int64_t raw,
   const std::string_view unit = unit_text(parameter, pwm_mode);
   const std::string value = value_text(parameter, raw, pwm_mode);
   return unit.empty() ? value : fmt::format("{} {}", value, unit);
+}
+
+std::string register_text(const Parameter& parameter, std::int64_t raw,
+                          std::optional<std::int64_t> pwm_mode) {
+  const std::string number = std::to_string(raw);
+  std::string meaning = display(parameter, raw, pwm_mode);
+  const bool inactive = parameter.can_be_inactive && raw == not_active;
+  return inactive || meaning == number ? meaning : fmt::format("{}  ({})", number, meaning);
+}
+
+bool unit_depends_on_mode(const Parameter& parameter) {
+  return parameter.unit == Unit::deg_or_rpm;
 }
 
 } // namespace blactl::bla

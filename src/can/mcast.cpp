@@ -4,6 +4,7 @@
 #include "can/mcast_datagram.hpp"
 #include "can/mcast_texts.hpp"
 #include "can/socket_batch.hpp"
+#include "can/system_error.hpp"
 #include "can/texts.hpp"
 
 #include <arpa/inet.h>
@@ -12,7 +13,6 @@
 
 #include <array>
 #include <cerrno>
-#include <system_error>
 #include <utility>
 
 namespace blactl::can {
@@ -22,10 +22,6 @@ constexpr std::uint16_t port = 57732;
 
 /// The group of bus 0; the last byte is the number of the bus.
 constexpr std::uint32_t groups = 0xEF41'5200; // 239.65.82.0
-
-std::string reason(int error) {
-  return std::system_category().message(error);
-}
 
 sockaddr_in group_of(std::uint8_t number) {
   sockaddr_in group{};

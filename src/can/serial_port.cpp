@@ -4,6 +4,7 @@
 
 #include "can/device_holder.hpp"
 #include "can/slcan_texts.hpp"
+#include "can/system_error.hpp"
 
 #include <fcntl.h>
 #include <grp.h>
@@ -19,7 +20,6 @@
 #include <cerrno>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <tuple>
 #include <utility>
 
@@ -39,10 +39,6 @@ constexpr std::array<Rate, 21> rates{{
     {2000000, B2000000}, {2500000, B2500000}, {3000000, B3000000}, {3500000, B3500000},
     {4000000, B4000000},
 }};
-
-std::string reason(int error) {
-  return std::generic_category().message(error);
-}
 
 /// What could be meant instead.
 std::string likely() {

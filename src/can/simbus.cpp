@@ -2,6 +2,8 @@
 
 #include "blactl/can/simbus_texts.hpp"
 
+#include "can/system_error.hpp"
+
 #include <poll.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
@@ -12,7 +14,6 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <system_error>
 
 namespace blactl::can {
 
@@ -24,8 +25,10 @@ namespace {
 constexpr std::size_t queue_capacity = 10;
 constexpr int answer_timeout = 2000; // ms
 
-std::string reason(int error) {
-  return std::generic_category().message(error);
+/// A folder of another user stays in the environment of `su`.
+bool is_usable(const char* folder) {
+  struct stat status{};
+  return stat(folder, &status) == 0 && S_ISDIR(status.st_mode) && access(folder, W_OK | X_OK) == 0;
 }
 
 std::unexpected<Error> absent(const std::filesystem::path& path, int error) {
@@ -33,8 +36,18 @@ std::unexpected<Error> absent(const std::filesystem::path& path, int error) {
               say<texts::simbus_absent_hint>());
 }
 
-/// A connected socket, or an error.
-Result<int> connect_to(const std::filesystem::path& path) {
+struct Attempt {
+  int socket = -1;
+  int error = 0; ///< errno, if there is no socket
+
+  /// There is no socket, or the process that made it is gone.
+  [[nodiscard]] bool met_nobody() const {
+    return error == ENOENT || error == ENOTDIR || error == ECONNREFUSED;
+  }
+};
+
+/// Errors: what no simulator could change.
+Result<Attempt> connect_to(const std::filesystem::path& path) {
   sockaddr_un address{};
   const std::string name = path.string();
   if (name.size() >= sizeof address.sun_path) {
@@ -45,15 +58,15 @@ Result<int> connect_to(const std::filesystem::path& path) {
   name.copy(address.sun_path, name.size());
   const int socket = ::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
   if (socket < 0) {
-    return absent(path, errno);
+    return Attempt{.error = errno};
   }
   const void* raw = &address;
   if (connect(socket, static_cast<const sockaddr*>(raw), sizeof address) != 0) {
     const int error = errno;
     close(socket);
-    return absent(path, error);
+    return Attempt{.error = error};
   }
-  return socket;
+  return Attempt{.socket = socket};
 }
 
 } // namespace
@@ -61,7 +74,10 @@ Result<int> connect_to(const std::filesystem::path& path) {
 std::filesystem::path default_socket_path() {
   const char* runtime = std::getenv("XDG_RUNTIME_DIR");
   if (runtime != nullptr && runtime[0] == '/') {
-    return std::filesystem::path(runtime) / "blactl" / "sim";
+    const auto path = std::filesystem::path(runtime) / "blactl" / "sim";
+    if (path.native().size() < sizeof(sockaddr_un::sun_path) && is_usable(runtime)) {
+      return path;
+    }
   }
   return std::filesystem::path("/tmp") / ("blactl-" + std::to_string(geteuid())) / "sim";
 }
@@ -74,16 +90,39 @@ bool is_own_folder(const std::filesystem::path& folder) {
 
 Result<std::unique_ptr<SimBus>> SimBus::open(const std::filesystem::path& socket,
                                              std::string name) {
+  int nobody = 0;
+  auto bus = open(socket, std::move(name), nobody);
+  return nobody != 0 ? absent(socket, nobody) : std::move(bus);
+}
+
+Result<std::unique_ptr<SimBus>> SimBus::open_if_served(const std::filesystem::path& socket,
+                                                       std::string name) {
+  int nobody = 0;
+  return open(socket, std::move(name), nobody);
+}
+
+/// `nobody`: errno where nobody listens, and null is returned.
+Result<std::unique_ptr<SimBus>> SimBus::open(const std::filesystem::path& socket, std::string name,
+                                             int& nobody) {
   const auto folder = socket.parent_path();
-  if (socket == default_socket_path() && std::filesystem::exists(folder) &&
+  std::error_code unseen; // what cannot be looked at cannot be connected to either
+  if (socket == default_socket_path() && std::filesystem::exists(folder, unseen) &&
       !is_own_folder(folder)) {
-    return fail(Code::interface, say<texts::simbus_foreign_folder>(printable(folder.string())));
+    return fail(Code::interface, say<texts::simbus_foreign_folder>(printable(folder.string())),
+                say<texts::simbus_foreign_folder_hint>());
   }
-  const auto connected = connect_to(socket);
-  if (!connected) {
-    return std::unexpected(connected.error());
+  const auto attempt = connect_to(socket);
+  if (!attempt) {
+    return std::unexpected(attempt.error());
   }
-  std::unique_ptr<SimBus> bus(new SimBus(*connected, socket, std::move(name)));
+  if (attempt->socket < 0) {
+    if (!attempt->met_nobody()) {
+      return absent(socket, attempt->error);
+    }
+    nobody = attempt->error;
+    return nullptr;
+  }
+  std::unique_ptr<SimBus> bus(new SimBus(attempt->socket, socket, std::move(name)));
   if (const auto greeted = bus->greet(); !greeted) {
     return std::unexpected(greeted.error());
   }

@@ -3,6 +3,7 @@
 #include "blactl/can/serial_port.hpp"
 
 #include "can/slcan_dialogue.hpp"
+#include "can/slcan_evidence.hpp"
 #include "can/slcan_texts.hpp"
 
 #include <algorithm>
@@ -19,13 +20,16 @@ constexpr Duration vendor_gap = std::chrono::milliseconds(3);
 
 /// Lines without an answer, of an adapter that answers them: enough to keep a bus of 1 Mbit/s
 /// busy over the delay of USB, few enough for the smallest receive buffers (CAN232: 256 bytes).
-constexpr std::size_t window = 4;
+constexpr std::size_t line_window = 4;
 
 /// A frame waits for arbitration; an adapter that says nothing for so long has lost the answer.
 constexpr Duration acknowledge_time = std::chrono::milliseconds(250);
 
 /// So many lost answers in a row: the adapter does not answer frames after all.
 constexpr unsigned most_silent_frames = 3;
+
+/// So many frames refused and none ever taken: more would be, too.
+constexpr std::size_t most_refused_frames = 3;
 
 /// How long after the dialogue an answer may belong to one of its commands.
 constexpr Duration late_answer_time = std::chrono::milliseconds(250);
@@ -38,7 +42,8 @@ constexpr int most_reads = 16;
 Slcan::Slcan(std::unique_ptr<SerialPort> port, std::filesystem::path device, std::string name,
              const SlcanOptions& options)
     : port_(std::move(port)), device_(std::move(device)), name_(std::move(name)), options_(options),
-      dialogue_(std::make_unique<SlcanDialogue>(options.opening, options.await_answers)) {}
+      dialogue_(std::make_unique<SlcanDialogue>(options.opening, options.await_answers)),
+      evidence_(std::make_unique<SlcanEvidence>()) {}
 
 Result<std::unique_ptr<Bus>> Slcan::open(const std::filesystem::path& device, std::string name,
                                          const SlcanOptions& options) {
@@ -67,13 +72,13 @@ Result<bool> Slcan::send(const Frame& frame) {
   const Time at = now();
   forget_lost(at);
   if (!open_ || !outgoing_.empty() || at < next_send_ ||
-      (acknowledges_ && awaited_.size() >= window)) {
+      (acknowledges_ && awaited_.size() >= line_window)) {
     return false;
   }
   outgoing_ = to_slcan(frame);
   next_send_ = at + gap();
   awaited_.push_back(at + acknowledge_time);
-  if (awaited_.size() > window) { // of an adapter that does not answer frames
+  if (awaited_.size() > line_window) { // of an adapter that does not answer frames
     awaited_.pop_front();
   }
   flush();
@@ -84,7 +89,7 @@ Time Slcan::send_again_at(Time /*refused*/) const {
   if (!open_ || !outgoing_.empty()) {
     return never; // receive() will change that
   }
-  const bool full = acknowledges_ && awaited_.size() >= window;
+  const bool full = acknowledges_ && awaited_.size() >= line_window;
   return full ? std::max(next_send_, awaited_.front()) : next_send_;
 }
 
@@ -139,11 +144,27 @@ void Slcan::read_port() {
       return;
     }
     const Time at = now();
+    trace_answer({bytes.data(), *size}, at);
     for (const char byte : std::span(bytes).first(*size)) {
+      evidence_->heard(byte);
       if (const auto line = parser_.take(byte)) {
+        evidence_->understood(*line);
         take(*line, at);
       }
     }
+    if (open_ && !gone_ && evidence_->is_no_slcan()) {
+      broken(speaks_no_slcan());
+    }
+  }
+}
+
+/// What an adapter says until it is open and its last answer is overdue; not all of a flood.
+void Slcan::trace_answer(std::string_view bytes, Time at) {
+  constexpr unsigned most_pieces = 20;
+  if (options_.trace && traced_ < most_pieces &&
+      (!open_ || (late_answers_ > 0 && at < late_answers_until_))) {
+    ++traced_;
+    options_.trace(SlcanTalk::from_adapter, bytes);
   }
 }
 
@@ -167,7 +188,11 @@ void Slcan::converse() {
     return;
   }
   dialogue_->advance(now());
-  outgoing_ += dialogue_->take_commands();
+  const std::string commands = dialogue_->take_commands();
+  if (options_.trace && !commands.empty()) {
+    options_.trace(SlcanTalk::to_adapter, commands);
+  }
+  outgoing_ += commands;
   flush();
   if (dialogue_->is_done() && !gone_) {
     opened();
@@ -181,6 +206,11 @@ void Slcan::opened() {
             say<texts::adapter_refuses_hint>(device)});
     return;
   }
+  if (dialogue_->waited_in_vain() && evidence_->is_no_slcan()) {
+    broken(speaks_no_slcan());
+    return;
+  }
+  evidence_->dialogue_ended(dialogue_->adapter_answers());
   open_ = true;
   late_answers_ = static_cast<unsigned>(dialogue_->unanswered());
   late_answers_until_ = now() + late_answer_time;
@@ -205,8 +235,12 @@ void Slcan::acknowledged(bool accepted, Time at) {
   awaited_.pop_front();
   acknowledges_ = true;
   silent_frames_ = 0;
+  evidence_->frame_answered(accepted);
   if (!accepted) {
     ready_.emplace_back(BusFault{FaultKind::transmit_timeout, at});
+  }
+  if (evidence_->refused_all() >= most_refused_frames) {
+    broken(refuses());
   }
 }
 
@@ -218,6 +252,37 @@ void Slcan::forget_lost(Time now) {
       acknowledges_ = false;
     }
   }
+}
+
+Error Slcan::refuses() const {
+  const std::string device = printable(device_.string());
+  if (dialogue_->open_refused()) {
+    return {Code::interface, say<texts::adapter_stays_closed>(device),
+            say<texts::adapter_stays_closed_hint>(device), std::nullopt};
+  }
+  return {Code::interface, say<texts::adapter_takes_no_frames>(device, evidence_->refused_all()),
+          say<texts::adapter_takes_no_frames_hint>(device), std::nullopt};
+}
+
+Error Slcan::speaks_no_slcan() const {
+  const std::string device = printable(device_.string());
+  return {Code::interface, say<texts::adapter_speaks_no_slcan>(device, options_.baud),
+          say<texts::adapter_speaks_no_slcan_hint>(device), std::nullopt};
+}
+
+std::optional<Error> Slcan::silence() const {
+  if (evidence_->only_garbage()) {
+    return speaks_no_slcan();
+  }
+  if (evidence_->refused_all() > 0 || (dialogue_->open_refused() && !evidence_->took_frames())) {
+    return refuses();
+  }
+  if (evidence_->is_mute()) {
+    const std::string device = printable(device_.string());
+    return Error{Code::not_found, say<texts::adapter_is_mute>(device),
+                 say<texts::adapter_is_mute_hint>(device), std::nullopt};
+  }
+  return std::nullopt;
 }
 
 void Slcan::broken(Error error) {

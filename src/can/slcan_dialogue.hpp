@@ -38,11 +38,17 @@ class SlcanDialogue {
   /// The adapter has answered something.
   [[nodiscard]] bool adapter_answers() const { return answers_ > 0; }
 
+  /// Answers were waited for, and none came.
+  [[nodiscard]] bool waited_in_vain() const { return silences_ > 0 && answers_ == 0; }
+
   /// Commands without an answer, which may still come.
   [[nodiscard]] std::size_t unanswered() const { return next_ - answers_; }
 
   /// The adapter refused the bit rate.
   [[nodiscard]] bool rate_refused() const { return rate_refused_; }
+
+  /// The adapter refused to open; it may have been open.
+  [[nodiscard]] bool open_refused() const { return open_refused_; }
 
   /// The adapter refused the bit rate and to open. A refused O alone means that it is open.
   [[nodiscard]] bool refused() const { return rate_refused_ && open_refused_; }

@@ -4,6 +4,7 @@
 
 #include "can/kernel_frame.hpp"
 #include "can/socket_batch.hpp"
+#include "can/system_error.hpp"
 #include "can/texts.hpp"
 
 #include <linux/can/raw.h>
@@ -14,17 +15,12 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <system_error>
 #include <utility>
 
 namespace blactl::can {
 namespace {
 
-std::string reason(int error) {
-  return std::system_category().message(error);
-}
-
-std::unexpected<Error> cannot_open(std::string_view interface, int error) {
+std::unexpected<Error> cannot_open_interface(std::string_view interface, int error) {
   const std::string name = printable(interface);
   if (error == EAFNOSUPPORT || error == EPROTONOSUPPORT) {
     return fail(Code::interface, say<texts::kernel_without_can>(name),
@@ -46,7 +42,7 @@ std::vector<Link> links_or_none() {
 Result<std::unique_ptr<Bus>> SocketCan::open(std::string_view interface) {
   const int descriptor = ::socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW);
   if (descriptor < 0) {
-    return cannot_open(interface, errno);
+    return cannot_open_interface(interface, errno);
   }
   std::unique_ptr<SocketCan> bus(new SocketCan(interface, descriptor));
   if (auto configured = bus->configure(); !configured) {
@@ -92,7 +88,7 @@ Result<void> SocketCan::bind() {
     return errno == ENODEV
                ? fail(Code::interface, say<texts::not_a_can_interface>(printable(name_)),
                       describe(links_or_none()))
-               : cannot_open(name_, errno);
+               : cannot_open_interface(name_, errno);
   }
   // An interface that is down can be bound; the socket then holds the error.
   int error = 0;

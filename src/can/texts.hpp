@@ -13,7 +13,7 @@ inline constexpr Text kernel_without_can{
 inline constexpr Text kernel_without_can_hint{
     "load it with `sudo modprobe can_raw`; in a container the host has to do that, and some hosts "
     "lack it; the simulated bus works without: `-i sim:`",
-    "`sudo modprobe can_raw` で読み込んでください。コンテナではホスト側で行う必要があり、対応して"
+    "`sudo modprobe can_raw` で読み込んで下さい。コンテナではホスト側で行う必要があり、対応して"
     "いないホストもあります。シミュレーション用のバス `-i sim:` はそのまま使えます"};
 inline constexpr Text can_not_permitted{"opening {} is not permitted ({})",
                                         "{} を開く権限がありません({})"};
@@ -21,7 +21,7 @@ inline constexpr Text can_not_permitted_hint{
     "a sandbox or container policy forbids CAN sockets; allow the address family AF_CAN there",
     "サンドボックスまたはコンテナの設定で CAN ソケットが禁止されています。アドレスファミリー "
     "AF_CAN "
-    "を許可してください"};
+    "を許可して下さい"};
 inline constexpr Text no_such_interface{"there is no interface {}",
                                         "インターフェース {} が見つかりません"};
 inline constexpr Text not_a_can_interface{"{} is not a CAN interface",
@@ -32,16 +32,16 @@ inline constexpr Text interface_gone{"interface {} is gone",
                                      "インターフェース {} がなくなりました"};
 inline constexpr Text interface_gone_hint{
     "check the adapter and its cable, then list the interfaces with `ip -br link show`",
-    "アダプターとケーブルを確認し、`ip -br link show` でインターフェースを確認してください"};
+    "アダプターとケーブルを確認し、`ip -br link show` でインターフェースを確認して下さい"};
 inline constexpr Text interface_failed{"interface {} failed: {}",
                                        "インターフェース {} でエラーが発生しました: {}"};
-inline constexpr Text bring_up_hint{"bring it up with `{}`", "`{}` で起動してください"};
+inline constexpr Text bring_up_hint{"bring it up with `{}`", "`{}` で起動して下さい"};
 inline constexpr Text can_interfaces_here{"CAN interfaces of this machine: {}",
                                           "このマシンの CAN インターフェース: {}"};
 inline constexpr Text no_can_interface_here{
     "this machine has no CAN interface; plug the adapter in, or try the simulated bus: `-i sim:`",
     "このマシンには CAN インターフェースがありません。アダプターを接続するか、シミュレーション用の"
-    "バス `-i sim:` をお使いください"};
+    "バス `-i sim:` をお使い下さい"};
 inline constexpr Text link_is_up{"{} (up)", "{}(動作中)"};
 inline constexpr Text link_is_down{"{} (down)", "{}(停止中)"};
 inline constexpr Text links_unreadable{"the network interfaces cannot be listed: {}",

@@ -1,22 +1,27 @@
 #pragma once
-// The commands: one function each, from options to a report. They print nothing but through the
-// reporter, ask nothing without it, and never exit.
+// The table of commands. Each is declared in its file of commands/: options, help and what it does.
+// They print nothing but through the reporter, ask nothing without it, and never exit.
 
+#include "cli/command.hpp"
 #include "cli/context.hpp"
 #include "cli/options.hpp"
 #include "cli/output/report.hpp"
 
+#include <span>
+#include <string_view>
+
 namespace blactl::cli {
 
-[[nodiscard]] Report execute(const ScanOptions& options, Context& context);
-[[nodiscard]] Report execute(const GetOptions& options, Context& context);
-[[nodiscard]] Report execute(const SetOptions& options, Context& context);
-[[nodiscard]] Report execute(const SaveOptions& options, Context& context);
-[[nodiscard]] Report execute(const EraseOptions& options, Context& context);
-[[nodiscard]] Report execute(const RestartOptions& options, Context& context);
-[[nodiscard]] Report execute(const WaitOptions& options, Context& context);
-[[nodiscard]] Report execute(const TraceOptions& options, Context& context);
-[[nodiscard]] Report execute(const ModelsOptions& options, Context& context);
-[[nodiscard]] Report execute(const SimOptions& options, Context& context);
+namespace commands {
+
+extern const Command scan, get, set, save, erase, restart, wait, trace, models, sim;
+
+} // namespace commands
+
+/// All commands, in the order of --help.
+[[nodiscard]] std::span<const Command* const> all_commands();
+
+/// Null: there is none of this name.
+[[nodiscard]] const Command* find_command(std::string_view name);
 
 } // namespace blactl::cli

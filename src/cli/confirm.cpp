@@ -41,7 +41,7 @@ Result<void> confirm(std::string_view question, Context& context) {
       return {};
     }
   }
-  return fail(Code::not_confirmed, say<texts::not_confirmed>(), say<texts::not_confirmed_hint>());
+  return fail(Code::not_confirmed, say<texts::not_confirmed>()); // who said no needs no advice
 }
 
 } // namespace blactl::cli

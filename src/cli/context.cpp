@@ -14,7 +14,6 @@
 
 namespace blactl::cli {
 
-using fleet::Member;
 using state::LocalNodeId;
 
 Result<const bla::Profiles*> Context::profiles() {
@@ -59,6 +58,57 @@ Result<fleet::Targets> Context::targets() const {
   return shared_.nodes ? fleet::parse_targets(*shared_.nodes) : fleet::Targets{};
 }
 
+Result<std::optional<LocalNodeId>> Context::take_node_id(bool listens) {
+  if (listens) {
+    reporter_.detail(say<texts::no_own_id>());
+    return std::nullopt;
+  }
+  auto local = place_.interface.empty() ? Result<LocalNodeId>(LocalNodeId::unshared(own_ids()))
+                                        : LocalNodeId::acquire(place_, own_ids());
+  if (!local) {
+    return std::unexpected(local.error());
+  }
+  tell(*local);
+  return std::move(*local);
+}
+
+/// The node IDs that this process may take: the one that --local-node-id says, else those of tools.
+/// A node that -n names cannot be asked by one that has its ID.
+LocalNodeId::Candidates Context::own_ids() const {
+  if (shared_.local_node_id) {
+    return {dronecan::NodeId(*shared_.local_node_id)};
+  }
+  LocalNodeId::Candidates ids(state::tool_ids.begin(), state::tool_ids.end());
+  if (const auto targets = this->targets()) {
+    const std::set<dronecan::NodeId> named(targets->ids.begin(), targets->ids.end());
+    std::erase_if(ids, [&](dronecan::NodeId id) { return named.contains(id); });
+  }
+  return ids;
+}
+
+/// Our node ID and why it is this one. Not to have the usual one is worth a note.
+void Context::tell(const LocalNodeId& local) const {
+  const auto id = local.id().value();
+  if (const std::string others = local.passed_over(); !others.empty()) {
+    reporter_.note(say<texts::own_id_instead>(id, others));
+  } else if (shared_.local_node_id) {
+    reporter_.detail(say<texts::own_id_wanted>(id));
+  } else {
+    reporter_.detail(place_.interface.empty() ? say<texts::own_id_private>(id)
+                                              : say<texts::own_id_free>(id));
+  }
+  if (!place_.interface.empty() && local.lock_file().empty()) {
+    reporter_.note(say<texts::no_lock_folder>(printable(place_.interface)));
+  }
+  tell_lock(local.lock_file());
+}
+
+void Context::tell_lock(const std::string& path) const {
+  if (!path.empty()) {
+    reporter_.detail(say<texts::lock_taken>(printable(path)));
+  }
+}
+
 Result<fleet::Session*> Context::open(fleet::Session::Hearing hearing) {
   const auto assumed = assumed_profile();
   if (!assumed) {
@@ -69,40 +119,37 @@ Result<fleet::Session*> Context::open(fleet::Session::Hearing hearing) {
   if (!bus) {
     return std::unexpected(bus.error());
   }
-  const auto wanted = shared_.local_node_id
-                          ? std::optional(dronecan::NodeId(*shared_.local_node_id))
-                          : std::nullopt;
-  std::optional<LocalNodeId> local;
-  const bool listens = shared_.listen_only || bus->bus->is_recording();
-  if (!listens && bus->lock_name.empty()) {
-    local = LocalNodeId::unshared(wanted);
-  } else if (!listens) {
-    auto acquired = LocalNodeId::acquire(bus->lock_name, wanted, bus->lock_folder);
-    if (!acquired) {
-      return std::unexpected(acquired.error());
-    }
-    local = std::move(*acquired);
+  place_ = bus->place;
+  auto local = take_node_id(shared_.listen_only || bus->bus->is_recording());
+  if (!local) {
+    return std::unexpected(local.error());
   }
-  lock_name_ = bus->lock_name;
-  lock_folder_ = bus->lock_folder;
   log_ = bus->log;
   auto recording = recorded(std::move(bus->bus));
   if (!recording) {
     return std::unexpected(recording.error());
   }
-  auto session = fleet::Session::open(std::move(*recording), std::move(local), hearing);
+  auto session = fleet::Session::open(std::move(*recording), std::move(*local), hearing);
   if (!session) {
     return std::unexpected(session.error());
   }
   session_ = std::move(*session);
+  session_->on_new_id([this](const LocalNodeId& other) { tell(other); });
   session_->on_stopping([this] { reporter_.note(say<texts::finishing>()); });
+  session_->on_requests([this](const dronecan::Request& request, int) { requests_.asked(request); },
+                        [this](const dronecan::Request& request, int tries) {
+                          // Whoever asks every ID once looks for somebody: an answer would be the
+                          // surprise.
+                          if (request.retries > 0 || session_->roster().heard(request.server)) {
+                            requests_.unanswered(request, tries);
+                          }
+                        });
   if (auto ready = session_->wait_until_open(); !ready) {
     return std::unexpected(ready.error());
   }
   if (!session_->opening_note().empty()) {
     reporter_.note(session_->opening_note());
   }
-  opened_ = session_->now();
   return session_.get();
 }
 
@@ -115,26 +162,27 @@ Result<fleet::Session*> Context::open_for_writing(std::string_view command) {
     return std::unexpected(std::move(*refused));
   }
   auto session = open(fleet::Session::Hearing::commands);
-  if (!session || lock_name_.empty()) {
+  if (!session || place_.interface.empty()) {
     return session;
   }
   using state::InterfaceLock;
-  auto lock = InterfaceLock::acquire(lock_name_, InterfaceLock::Right::write, lock_folder_);
+  auto lock = InterfaceLock::acquire(place_, InterfaceLock::Right::write);
   if (!lock) {
     return std::unexpected(lock.error());
   }
   writing_ = std::move(*lock);
+  tell_lock(writing_->file());
   return session;
 }
 
 bool Context::may_allocate() {
-  if (lock_name_.empty() || allocating_) {
+  if (place_.interface.empty() || allocating_) {
     return true;
   }
   using state::InterfaceLock;
-  if (auto lock =
-          InterfaceLock::acquire(lock_name_, InterfaceLock::Right::allocate, lock_folder_)) {
+  if (auto lock = InterfaceLock::acquire(place_, InterfaceLock::Right::allocate)) {
     allocating_ = std::move(*lock);
+    tell_lock(allocating_->file());
   }
   return allocating_.has_value();
 }
@@ -182,6 +230,45 @@ void Context::tell_losses(Report& report) const {
   check_recording(report);
 }
 
+namespace {
+
+/// Takes these errors out, and the targets that nothing else is known of.
+void drop(Report& report, const auto& is_meant) {
+  std::erase_if(report.errors, is_meant);
+  std::erase_if(report.targets, [&](Target& target) {
+    return std::erase_if(target.errors, is_meant) > 0 && target.errors.empty();
+  });
+}
+
+} // namespace
+
+void Context::explain_silence(Report& report) const {
+  if (!session_ || session_->heard_anything() || signal() != 0) {
+    return;
+  }
+  const auto reason = session_->silence();
+  const auto is_absence = [](const Error& error) { return error.code == Code::not_found; };
+  if (reason && reason->code == Code::interface) {
+    drop(report, is_absence); // that is but how it shows
+    if (std::ranges::find(report.errors, Code::interface, &Error::code) == report.errors.end()) {
+      report.fail(*reason);
+    }
+    return;
+  }
+  const std::string hint =
+      reason ? reason->hint : silence_hint(shared_.interface, session_->interface());
+  const auto explain = [&](Error& error) {
+    if (!hint.empty() && (is_absence(error) || error.code == Code::no_acknowledge)) {
+      error.message += reason ? ": " + reason->message : "";
+      error.hint = hint;
+    }
+  };
+  std::ranges::for_each(report.errors, explain);
+  for (Target& target : report.targets) {
+    std::ranges::for_each(target.errors, explain);
+  }
+}
+
 void Context::check_recording(Report& report) const {
   if (recorder_ != nullptr && recorder_->error()) {
     report.fail(*recorder_->error());
@@ -190,106 +277,13 @@ void Context::check_recording(Report& report) const {
 
 void Context::broken(const Error& error, Report& report) const {
   // What the jobs say of their cancelled questions is the same news.
-  std::erase_if(report.errors, [](const Error& known) { return known.code == Code::interrupted; });
+  const auto is_same = [](const Error& known) { return known.code == Code::interrupted; };
+  std::erase_if(report.errors, is_same);
+  for (Target& target : report.targets) {
+    std::erase_if(target.errors, is_same);
+  }
   report.errors.insert(report.errors.begin(), error);
-  report.statuses.clear();
   report.signal = signal();
-}
-
-/// Hears who is there and identifies every servo.
-void Context::search(Duration time, Report& report, bool failures_count) {
-  if (auto lived = session_->live_until(session_->now() + time); !lived) {
-    broken(lived.error(), report);
-    return;
-  }
-  std::vector<std::unique_ptr<fleet::IdentifyJob>> jobs;
-  for (auto& [id, member] : session_->roster().members()) {
-    if (member.sends_actuator_status()) {
-      jobs.push_back(std::make_unique<fleet::IdentifyJob>(session_->roster(), member, *profiles_,
-                                                          identification()));
-      session_->start(*jobs.back());
-    }
-  }
-  if (auto ran = session_->run(); !ran) {
-    broken(ran.error(), report);
-    return;
-  }
-  for (const auto& job : jobs) {
-    if (const auto& error = job->identification().error(); error && failures_count) {
-      report.fail(*error);
-      report.statuses.push_back(exit_status(error->code));
-    }
-  }
-}
-
-std::vector<Member*> Context::matching(const fleet::Targets& targets, Report& report) {
-  std::set<dronecan::NodeId> chosen(targets.ids.begin(), targets.ids.end());
-  const auto& members = session_->roster().members();
-  for (const auto& [id, member] : members) {
-    if (targets.mean(member, *profiles_)) {
-      chosen.insert(id);
-    }
-  }
-  for (const fleet::Selector& selector : targets.selectors) {
-    if (std::ranges::none_of(members, [&](const auto& entry) {
-          return selector.matches(entry.second, *profiles_);
-        })) {
-      report.fail({Code::not_found, say<texts::nothing_matches>(printable(selector.text)),
-                   say<texts::node_not_found_hint>(), std::nullopt});
-      report.statuses.push_back(exit_status(Code::not_found));
-    }
-  }
-  std::vector<Member*> servos;
-  servos.reserve(chosen.size());
-  for (const dronecan::NodeId id : chosen) {
-    servos.push_back(&session_->roster().member(id));
-  }
-  return servos;
-}
-
-std::vector<Member*> Context::select(const fleet::Targets& targets, Duration time, Report& report) {
-  if (targets.need_search()) {
-    search(time, report, targets.selectors.empty());
-    if (report.signal != 0 || (!report.errors.empty() && report.statuses.empty())) {
-      return {}; // the bus broke
-    }
-  }
-  auto servos = matching(targets, report);
-  if (servos.empty() && report.errors.empty()) {
-    report.fail({Code::not_found, say<texts::no_servo_found>(), say<texts::no_servo_found_hint>(),
-                 std::nullopt});
-  }
-  return servos;
-}
-
-std::vector<Member*> Context::select_for_writing(const fleet::Targets& targets, Report& report) {
-  auto servos = select(targets, targets.given ? servo_search_time : bus_watch_time, report);
-  if (!report.errors.empty()) {
-    return {};
-  }
-  if (!targets.given && servos.size() > 1) {
-    std::string ids;
-    for (const Member* servo : servos) {
-      ids += (ids.empty() ? "" : ", ") + std::to_string(servo->id.value());
-    }
-    report.fail({Code::usage, say<texts::several_servos>(ids),
-                 say<texts::several_servos_hint>(servos.front()->id.value()), std::nullopt});
-    return {};
-  }
-  return servos;
-}
-
-bool Context::hear_bus(Report& report) {
-  if (auto lived = session_->live_until(opened_ + bus_watch_time); !lived) {
-    broken(lived.error(), report);
-    return false;
-  }
-  if (session_->lost_frames() > 0) {
-    report.fail({Code::state, say<texts::lost_while_listening>(), say<texts::run_again_hint>(),
-                 std::nullopt});
-    return false;
-  }
-  return true;
 }
 
 } // namespace blactl::cli

@@ -12,6 +12,7 @@
 #include "cli/options.hpp"
 #include "cli/output/report.hpp"
 #include "cli/output/reporter.hpp"
+#include "cli/output/request_details.hpp"
 
 #include <memory>
 #include <optional>
@@ -20,11 +21,6 @@
 #include <vector>
 
 namespace blactl::cli {
-
-/// How long a BLA servo may stay unheard: it sends actuator.Status ten times a second.
-inline constexpr Duration servo_search_time = std::chrono::milliseconds(250);
-/// How long to listen until who commands, says armed or shares an ID has been heard.
-inline constexpr Duration bus_watch_time = std::chrono::milliseconds(1100);
 
 class Context {
  public:
@@ -36,6 +32,9 @@ class Context {
 
   /// Reads the profiles once. Errors: bad_file.
   [[nodiscard]] Result<const bla::Profiles*> profiles();
+
+  /// The same, once profiles() went well.
+  [[nodiscard]] const bla::Profiles& known() const { return *profiles_; }
 
   /// The model behind --profile; null without it. Errors: usage, bad_file.
   [[nodiscard]] Result<const bla::Profile*> assumed_profile();
@@ -61,22 +60,6 @@ class Context {
 
   [[nodiscard]] fleet::Identification::Options identification() const;
 
-  /// The servos behind -n, in ascending order of node ID. Where the bus must be searched, it is
-  /// listened to for `search` and what sends actuator.Status is identified.
-  /// Servos that failed to identify themselves become errors of `report` where they are meant for
-  /// certain. An empty list has left its error (not_found) in `report`.
-  [[nodiscard]] std::vector<fleet::Member*> select(const fleet::Targets& targets, Duration search,
-                                                   Report& report);
-
-  /// The same for a command that writes: without -n the one servo there is.
-  /// Empty: an error is in `report`.
-  [[nodiscard]] std::vector<fleet::Member*> select_for_writing(const fleet::Targets& targets,
-                                                               Report& report);
-
-  /// Hears the bus for as long as it takes to know who drives, is armed or shares an ID. False: an
-  /// error is in `report`.
-  [[nodiscard]] bool hear_bus(Report& report);
-
   /// The bus, or with --record a recorder around it. The file is made last: what stops the command
   /// before leaves one that is there as it was. Errors: usage, io.
   [[nodiscard]] Result<std::unique_ptr<can::Bus>> recorded(std::unique_ptr<can::Bus> bus);
@@ -88,22 +71,27 @@ class Context {
   /// recording that ended early is a failure of the command.
   void tell_losses(Report& report) const;
 
+  /// Where nothing at all was heard: says what of the interface may be the reason.
+  void explain_silence(Report& report) const;
+
   /// Ends a command whose session broke: what the report needs of it.
   void broken(const Error& error, Report& report) const;
 
  private:
-  void search(Duration time, Report& report, bool failures_count);
-  [[nodiscard]] std::vector<fleet::Member*> matching(const fleet::Targets& targets, Report& report);
+  /// A node ID of our own for this bus; none where nothing is sent. Errors: no_local_node_id.
+  [[nodiscard]] Result<std::optional<state::LocalNodeId>> take_node_id(bool listens);
+  [[nodiscard]] state::LocalNodeId::Candidates own_ids() const;
+  void tell(const state::LocalNodeId& local) const;
+  void tell_lock(const std::string& path) const;
 
   const Shared& shared_;
   const Reporter& reporter_;
   std::optional<bla::Profiles> profiles_;
   const bla::Profile* assumed_ = nullptr;
-  std::string lock_name_; ///< of the interface; empty: no other process can reach it
-  std::string lock_folder_;
+  state::LockPlace place_; ///< of the interface
   std::optional<state::InterfaceLock> writing_, allocating_;
+  RequestDetails requests_{reporter_};
   std::unique_ptr<fleet::Session> session_;
-  Time opened_{};
   const can::ReplayBus* log_ = nullptr;     ///< the session's bus, with -i replay:
   const can::Recorder* recorder_ = nullptr; ///< around the session's bus, with --record
 };

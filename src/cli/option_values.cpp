@@ -1,9 +1,19 @@
 #include "cli/option_values.hpp"
 
+#include "blactl/base/nearest.hpp"
+#include "blactl/base/texts.hpp"
+#include "blactl/fleet/register_choice.hpp"
+#include "blactl/fleet/target.hpp"
+
+#include "cli/interface/bus_factory.hpp"
 #include "cli/texts.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cstdlib>
+#include <optional>
+#include <ranges>
+#include <utility>
 
 namespace blactl::cli {
 namespace {
@@ -27,94 +37,123 @@ std::string in_seconds(Duration duration) {
   return fmt::format("{}", std::chrono::duration<double>(duration).count());
 }
 
+/// One value of one option.
+class Reading {
+ public:
+  Reading(const Option& option, const std::string& text, const std::string& see_help, Value& value)
+      : option_(option), text_(text), see_help_(see_help), value_(value) {}
+
+  Result<void> take() {
+    // An unset variable of a script: -n "$NODE" must not mean every servo.
+    if (text_.empty()) {
+      return refuse(say<texts::empty_value>(option_.name));
+    }
+    switch (option_.kind) {
+    case Kind::seconds: return take_seconds();
+    case Kind::whole: return take_whole();
+    case Kind::word: return take_word(text_);
+    case Kind::words: return take_words();
+    case Kind::nodes: return just(fleet::parse_targets(text_));
+    case Kind::interface: return just(parse_interface(text_));
+    case Kind::group: return just(fleet::parse_group(text_));
+    default: return {};
+    }
+  }
+
+ private:
+  std::unexpected<Error> refuse(std::string message, std::string hint = {}) const {
+    if (hint.empty()) {
+      hint = see_help_;
+    }
+    return fail(Code::usage, std::move(message), std::move(hint));
+  }
+
+  /// Whether it was understood; what it means is the command's business.
+  template <class T> static Result<void> just(const Result<T>& result) {
+    return result ? Result<void>() : std::unexpected(result.error());
+  }
+
+  Result<void> take_seconds() {
+    const auto [min, max] = option_.seconds;
+    const auto duration = decimal_seconds(text_);
+    if (!duration || *duration < min || *duration > max) {
+      return refuse(say<texts::bad_seconds>(option_.name, printable(text_), in_seconds(min),
+                                            in_seconds(max)));
+    }
+    value_.duration = *duration;
+    return {};
+  }
+
+  Result<void> take_whole() {
+    const auto [min, max] = option_.whole;
+    std::uint64_t number{};
+    const char* end = text_.data() + text_.size();
+    const auto [stop, error] = std::from_chars(text_.data(), end, number);
+    if (error != std::errc() || stop != end || number < min || number > max) {
+      return refuse(say<texts::bad_number>(option_.name, printable(text_), min, max));
+    }
+    value_.number = number;
+    return {};
+  }
+
+  Result<void> take_word(std::string_view word) {
+    const auto found = std::ranges::find(option_.words, word);
+    if (found != option_.words.end()) {
+      value_.number = static_cast<std::uint64_t>(found - option_.words.begin());
+      return {};
+    }
+    std::string known;
+    for (const std::string_view each : option_.words) {
+      known += known.empty() ? "" : ", ";
+      known += each;
+    }
+    return refuse(say<texts::bad_word>(option_.name, printable(word), known),
+                  did_you_mean(word, option_.words, see_help_));
+  }
+
+  Result<void> take_words() {
+    for (const auto part : std::views::split(text_, ',')) {
+      if (auto taken = take_word({part.begin(), part.end()}); !taken) {
+        return taken;
+      }
+    }
+    return {};
+  }
+
+  const Option& option_;
+  const std::string& text_;
+  const std::string& see_help_;
+  Value& value_;
+};
+
 } // namespace
 
-void OptionValues::add(CLI::App& app, const char* names, const char* help, const char* type,
-                       std::function<void(const Given&)> check) {
-  Slot& slot = *slots_.emplace_back(std::make_unique<Slot>());
-  const std::string_view all = names;
-  slot.given.name = all.substr(all.find("--"));
-  slot.given.command = app.get_parent() != nullptr ? app.get_name() : std::string();
-  slot.check = std::move(check);
-  names_.push_back(slot.given.name);
-  app.add_option(names, slot.given.text, help)->type_name(type)->each([&slot](const std::string&) {
-    slot.is_given = true;
-  });
-}
-
-void OptionValues::text(CLI::App& app, const char* names, const char* help, const char* type,
-                        std::optional<std::string>& out) {
-  add(app, names, help, type, [&out](const Given& given) { out = given.text; });
-}
-
-void OptionValues::seconds(CLI::App& app, const char* names, const char* help, Duration& out,
-                           Duration min, Duration max) {
-  add(app, names, help, "SEC", [this, &out, min, max](const Given& given) {
-    take_seconds(given, min, max, [&out](Duration value) { out = value; });
-  });
-}
-
-void OptionValues::seconds(CLI::App& app, const char* names, const char* help,
-                           std::optional<Duration>& out, Duration min, Duration max) {
-  add(app, names, help, "SEC", [this, &out, min, max](const Given& given) {
-    take_seconds(given, min, max, [&out](Duration value) { out = value; });
-  });
-}
-
-void OptionValues::take_seconds(const Given& given, Duration min, Duration max,
-                                const std::function<void(Duration)>& take) {
-  const auto value = decimal_seconds(given.text);
-  if (!value || *value < min || *value > max) {
-    refuse(given, say<texts::bad_seconds>(given.name, printable(given.text), in_seconds(min),
-                                          in_seconds(max)));
-    return;
+std::string did_you_mean(std::string_view typed, std::span<const std::string_view> known,
+                         std::string otherwise) {
+  std::string words;
+  for (const std::string_view word : nearest(typed, known)) {
+    words += words.empty() ? "" : ", ";
+    words += word;
   }
-  take(*value);
+  return words.empty() ? otherwise : say<texts::did_you_mean>(words);
 }
 
-void OptionValues::whole(CLI::App& app, const char* names, const char* help, const char* type,
-                         std::function<void(std::uint64_t)> take, std::uint64_t min,
-                         std::uint64_t max) {
-  add(app, names, help, type, [this, take = std::move(take), min, max](const Given& given) {
-    std::uint64_t value{};
-    const char* end = given.text.data() + given.text.size();
-    const auto [stop, error] = std::from_chars(given.text.data(), end, value);
-    if (error != std::errc() || stop != end || value < min || value > max) {
-      refuse(given, say<texts::bad_number>(given.name, printable(given.text), min, max));
-      return;
-    }
-    take(value);
-  });
-}
-
-void OptionValues::refuse_word(const Given& given, const std::string& known) {
-  refuse(given, say<texts::bad_word>(given.name, printable(given.text), known));
-}
-
-void OptionValues::refuse(const Given& given, std::string message) {
-  failed(std::move(message), given.command.empty() ? say<texts::see_help>()
-                                                   : say<texts::see_command_help>(given.command));
-}
-
-void OptionValues::failed(std::string message, std::string hint) {
-  if (!error_) {
-    error_ = Error{Code::usage, std::move(message), std::move(hint), std::nullopt};
+Value understand(const Option& option, std::span<const std::string> given,
+                 const std::string& see_help, std::vector<Error>& faults) {
+  Value value;
+  if (option.kind == Kind::flag) {
+    value.number = given.size();
+    return value;
   }
-}
-
-Result<void> OptionValues::check() {
-  for (const auto& slot : slots_) {
-    if (!slot->is_given) {
-      continue;
+  const bool is_list = option.repeat == Repeat::list;
+  for (const std::string& text : is_list ? given : given.last(1)) {
+    if (auto taken = Reading(option, text, see_help, value).take(); !taken) {
+      faults.push_back(std::move(taken.error()));
     }
-    // An unset variable of a script: -n "$NODE" must not mean every servo.
-    if (slot->given.text.empty()) {
-      refuse(slot->given, say<texts::empty_value>(slot->given.name));
-    } else {
-      slot->check(slot->given);
-    }
+    value.text += value.text.empty() ? text : "," + text;
+    value.list.push_back(text);
   }
-  return error_ ? Result<void>(std::unexpected(*error_)) : Result<void>();
+  return value;
 }
 
 } // namespace blactl::cli

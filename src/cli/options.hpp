@@ -1,10 +1,11 @@
 #pragma once
-// The command line as plain structs. Only options.cpp knows the parser.
+// The options that every command takes, and those that several commands have in common.
 
-#include "blactl/base/error.hpp"
 #include "blactl/base/text.hpp"
+#include "blactl/base/time.hpp"
 #include "blactl/fleet/registers.hpp"
 
+#include "cli/command.hpp"
 #include "cli/output/reporter.hpp"
 
 #include <chrono>
@@ -13,10 +14,16 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 namespace blactl::cli {
+
+/// An option that a variable of the environment stands for.
+struct Origin {
+  std::string_view option;
+  std::string value;
+  std::string_view variable;
+};
 
 /// Options that every command takes, before or after its name (contract, section 2).
 struct Shared {
@@ -31,18 +38,13 @@ struct Shared {
   std::optional<std::string> profile{};
   std::optional<std::string> record{};
   Reporter::Options output{};
-};
-
-struct ScanOptions {
-  Duration listen = std::chrono::milliseconds(1200);
-  std::optional<std::uint64_t> expect{};
-};
-
-struct GetOptions {
-  std::vector<std::string> parameters{};
-  std::vector<std::string> groups{};
-  bool all = false;
-  bool changed = false;
+  std::vector<Origin> from_environment{}; ///< what no option said
+  bool json = false;
+  bool csv = false;
+  Language language{}; ///< only checked here: spoken before anything is parsed
+  bool help = false;
+  bool version = false;
+  bool dump_cli = false;
 };
 
 /// Where servos restart.
@@ -51,74 +53,30 @@ struct RestartTimes {
   Duration stagger{};             ///< between two servos
 };
 
-struct SetOptions {
-  std::vector<std::string> assignments{};
-  bool dry_run = false;
-  bool save = false;
-  RestartTimes times{};
+[[nodiscard]] std::span<const Option> shared_options();
+
+/// --wait and --stagger of a command that restarts servos; `times` is its RestartTimes.
+template <auto times>
+inline constexpr Option restart_wait{
+    .name = "--wait",
+    .value = "SEC",
+    .kind = Kind::seconds,
+    .seconds = {std::chrono::milliseconds(1), std::chrono::hours(1)},
+    .help =
+        {"how long a servo may take to come back (default 5, and 2 for each that asks for a "
+         "node ID)",
+         "サーボの復帰を待つ時間 (省略時 5 秒、ノード ID 割当て待ちのサーボ 1 台ごとに 2 秒追加)"},
+    .store = into<times, &RestartTimes::wait>,
 };
 
-struct SaveOptions {
-  RestartTimes times{};
+template <auto times>
+inline constexpr Option restart_stagger{
+    .name = "--stagger",
+    .value = "SEC",
+    .kind = Kind::seconds,
+    .seconds = {Duration::zero(), std::chrono::hours(1)},
+    .help = {"pause between two servos (default 0)", "サーボごとの間隔 (省略時 0)"},
+    .store = into<times, &RestartTimes::stagger>,
 };
-
-struct EraseOptions {
-  bool save = false;
-  bool keep_ids = false;
-  RestartTimes times{};
-};
-
-struct RestartOptions {
-  RestartTimes times{};
-};
-
-struct WaitOptions {
-  Duration wait = std::chrono::seconds(10);
-};
-
-struct ModelsOptions {
-  std::string model{};
-  std::string parameter{};
-};
-
-struct TraceOptions {
-  std::string file{};                 ///< a candump log, or "-"; empty: the interface
-  std::optional<std::string> types{}; ///< names or numbers, comma-separated
-  std::optional<std::string> kinds{}; ///< message, request, response
-  std::optional<Duration> duration{};
-  std::optional<std::uint64_t> count{};
-  bool stats = false;
-};
-
-struct SimOptions {
-  std::string scenario{};
-  std::optional<std::string> facts{}; ///< a facts file; empty: servos behave as is likely
-  std::optional<std::uint64_t> seed{};
-  std::string clock{}; ///< "real", "virtual"; empty: as the scenario says
-};
-
-using CommandOptions =
-    std::variant<ScanOptions, GetOptions, SetOptions, SaveOptions, EraseOptions, RestartOptions,
-                 WaitOptions, TraceOptions, ModelsOptions, SimOptions>;
-
-struct Invocation {
-  Shared shared{};
-  CommandOptions command{};
-  std::string name{};      ///< "get"; empty: none
-  std::string help_text{}; ///< not empty: print this and end
-};
-
-/// What can be told before anything is parsed: every failure of a command line with --json prints
-/// a document.
-[[nodiscard]] Shared peek(std::span<const std::string> arguments);
-/// The command that is meant; empty: unknown.
-[[nodiscard]] std::string peek_command(std::span<const std::string> arguments);
-/// Whether a command of this name prints one object a line: then a document of one line ends it,
-/// whatever went wrong.
-[[nodiscard]] bool is_stream(std::string_view command);
-[[nodiscard]] Language peek_language(std::span<const std::string> arguments);
-
-/// Errors: usage, with the nearest command for a mistyped one.
-[[nodiscard]] Result<Invocation> parse(std::span<const std::string> arguments);
 
 } // namespace blactl::cli

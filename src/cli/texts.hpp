@@ -8,18 +8,47 @@ namespace blactl::texts {
 inline constexpr Text stdout_failed{"cannot write to standard output: {}",
                                     "標準出力に書き込めません: {}"};
 inline constexpr Text stdout_failed_hint{"free some space, or send the output elsewhere",
-                                         "空き容量を確保するか、出力先を変更してください"};
+                                         "空き容量を確保するか、出力先を変更して下さい"};
+
+inline constexpr Text own_fault{"blactl itself failed: {}", "blactl の内部エラーです: {}"};
+inline constexpr Text own_fault_hint{
+    "this should not happen: run it again with -v, and report what it says",
+    "本来起こらないエラーです。-v を付けて再実行し、表示された内容を報告して下さい"};
+inline constexpr Text unknown_exception{"an unknown exception", "不明な例外"};
 
 inline constexpr Text unknown_command{"there is no command '{}'", "コマンド '{}' はありません"};
 inline constexpr Text no_command{"no command given", "コマンドが指定されていません"};
 inline constexpr Text unexpected_argument{"not expected: {}", "不要な引数です: {}"};
 inline constexpr Text not_understood{"{}", "コマンドラインを解釈できません: {}"};
 inline constexpr Text empty_value{"{}: the value is empty", "{}: 値が空です"};
-inline constexpr Text takes_one_value{"{} takes one value", "{} には値を一つだけ指定してください"};
-inline constexpr Text assignment_missing{"PARAM=VALUE is missing", "PARAM=VALUE がありません"};
-inline constexpr Text see_help{"see blactl --help", "blactl --help を参照してください"};
-inline constexpr Text see_command_help{"see blactl {} --help",
-                                       "blactl {} --help を参照してください"};
+inline constexpr Text takes_one_value{"{} takes one value", "{} には値を一つだけ指定して下さい"};
+inline constexpr Text takes_no_value{"{} takes no value", "{} に値は指定できません"};
+inline constexpr Text argument_missing{"{} is missing", "{} がありません"};
+
+// --help
+inline constexpr Text help_program{
+    "blactl configures and diagnoses Futaba BLA servos over DroneCAN.",
+    "blactl: 双葉電子工業 BLA サーボを DroneCAN で設定・診断します。"};
+inline constexpr Text help_usage{"Usage: {}", "使い方: {}"};
+inline constexpr Text help_commands{"Commands:", "コマンド:"};
+inline constexpr Text help_arguments{"Arguments:", "引数:"};
+inline constexpr Text help_options{"Options:", "オプション:"};
+inline constexpr Text help_shared{"Options of all commands, before or after the command:",
+                                  "全コマンド共通のオプション (コマンドの前後どちらでも可):"};
+inline constexpr Text help_exit_status{
+    "Exit status: 0 done, 1 failure, 2 refused before any write, 3 interface, 4 no answer, 5 the "
+    "servo refused, 6 mixed, 7 not confirmed, 8 found something, 9 conflict.",
+    "終了ステータス: 0 完了、1 失敗、2 書込み前に拒否、3 インターフェース、4 応答なし、"
+    "5 サーボが拒否、6 サーボごとに異なる結果、7 同意なし、8 検出あり、9 競合。"};
+inline constexpr Text help_writes{"Without -n there must be just one servo on the bus.",
+                                  "-n を省略できるのは、バス上のサーボが 1 台だけの場合です。"};
+inline constexpr Text help_recordings{"Also answers from a recording: -i replay:FILE.",
+                                      "記録からも読出しできます: -i replay:FILE"};
+inline constexpr Text help_see_shared{"Options of all commands: see blactl --help.",
+                                      "共通オプションは blactl --help を参照して下さい。"};
+
+inline constexpr Text see_help{"see blactl --help", "blactl --help を参照して下さい"};
+inline constexpr Text see_command_help{"see blactl {} --help", "blactl {} --help を参照して下さい"};
 inline constexpr Text bad_seconds{"{} {}: not a number of seconds between {} and {}",
                                   "{} {}: {}～{} 秒の範囲の数ではありません"};
 inline constexpr Text bad_number{"{} {}: not a whole number between {} and {}",
@@ -29,7 +58,7 @@ inline constexpr Text json_and_csv{"--json and --csv exclude each other",
                                    "--json と --csv は同時に指定できません"};
 inline constexpr Text no_csv{"{} has no CSV output", "{} は CSV 出力に対応していません"};
 inline constexpr Text record_needs_file{"--record needs a file: standard output is for data",
-                                        "--record にはファイルを指定してください "
+                                        "--record にはファイルを指定して下さい "
                                         "(標準出力はデータ用です)"};
 inline constexpr Text nothing_to_record{"{} has no session that could be recorded",
                                         "{} には記録できるセッションがありません"};
@@ -38,15 +67,19 @@ inline constexpr Text records_itself{"--record {}: that is the log being read",
 inline constexpr Text lines_passed_over{
     "{}: lines passed over because they are no frames: {}, the first is line {}",
     "{}: フレームではない {} 行を無視しました (最初は {} 行目)"};
-inline constexpr Text and_more{"{} and {} more", "{} 他 {} 件"};
 inline constexpr Text listen_only_refused{
     "{} must send, which --listen-only forbids",
     "{} は送信が必要なため --listen-only では実行できません",
 };
-inline constexpr Text listen_only_hint{"leave --listen-only out", "--listen-only を外してください"};
+inline constexpr Text listen_only_hint{"leave --listen-only out", "--listen-only を外して下さい"};
 
 inline constexpr Text bad_interface{"-i {}: no such kind of interface",
-                                    "-i {}: この種類のインタフェースはありません"};
+                                    "-i {}: この種類のインターフェースはありません"};
+inline constexpr Text interface_name_missing{"-i {}: the name of the interface is missing",
+                                             "-i {}: インターフェースの名前がありません"};
+inline constexpr Text interface_meant{"-i {}: the kind of interface is missing",
+                                      "-i {}: インターフェースの種類がありません"};
+inline constexpr Text interface_meant_hint{"did you mean -i {}?", "もしかして: -i {}"};
 inline constexpr Text bad_interface_hint{
     "for example -i can0, -i slcan:/dev/ttyUSB0, -i mcast:0, -i sim:SCENARIO.json, -i replay:FILE",
     "例: -i can0, -i slcan:/dev/ttyUSB0, -i mcast:0, -i sim:SCENARIO.json, -i replay:FILE",
@@ -67,15 +100,15 @@ inline constexpr Text bad_mcast{"-i {}: not of the form mcast:N or mcast:N?if=IF
                                 "-i {}: mcast:N または mcast:N?if=IFACE の形ではありません"};
 inline constexpr Text bad_mcast_hint{
     "N is from 0 to 255, IFACE a network interface, for example -i mcast:0?if=lo",
-    "N は 0～255、IFACE はネットワークインタフェースです (例: -i mcast:0?if=lo)",
+    "N は 0～255、IFACE はネットワークインターフェースです (例: -i mcast:0?if=lo)",
 };
 inline constexpr Text mcast_chosen{"using {} (another interface: ?if=IFACE)",
                                    "{} を使います (変更するには ?if=IFACE)"};
 inline constexpr Text no_interface{"no CAN interface is up",
-                                   "起動している CAN インタフェースがありません"};
+                                   "起動している CAN インターフェースがありません"};
 inline constexpr Text several_interfaces{"several CAN interfaces are up: {}",
-                                         "起動している CAN インタフェースが複数あります: {}"};
-inline constexpr Text several_interfaces_hint{"choose one: -i {}", "一つ選んでください: -i {}"};
+                                         "起動している CAN インターフェースが複数あります: {}"};
+inline constexpr Text several_interfaces_hint{"choose one: -i {}", "一つ選んで下さい: -i {}"};
 inline constexpr Text no_interface_hint{
     "for example: sudo ip link set can0 up type can bitrate 1000000 sample-point 0.875   "
     "(without hardware: -i sim:)",
@@ -93,92 +126,86 @@ inline constexpr Text unknown_model{"there is no model '{}'", "機種 '{}' は�
 inline constexpr Text several_models{"'{}' means several models", "'{}' は複数の機種に該当します"};
 inline constexpr Text known_models{"the models are {}", "機種: {}"};
 
-inline constexpr Text unknown_group{"there is no group '{}'", "グループ '{}' はありません"};
-inline constexpr Text known_groups{"the groups are {}", "グループ: {}"};
-inline constexpr Text write_only{"{} can only be written", "{} は書込み専用です"};
-inline constexpr Text write_only_hint{"it is a command of the servo, not a value",
-                                      "値ではなくサーボへの命令です"};
-inline constexpr Text firmware_lacks{"{} needs firmware {} or later, this servo has {}",
-                                     "{} にはファームウェア {} 以降が必要です (現在 {})"};
-inline constexpr Text firmware_lacks_hint{"read what it has: blactl get -n {}",
-                                          "読み出せるパラメータ: blactl get -n {}"};
-
-inline constexpr Text several_servos{"several servos are on the bus: {}",
-                                     "バス上に複数のサーボがあります: {}"};
-inline constexpr Text several_servos_hint{"say which: -n {}", "-n {} のように指定してください"};
-inline constexpr Text one_command_only{
-    "command_angle, command_speed and command_torque exclude each other",
-    "command_angle、command_speed、command_torque は同時に指定できません",
-};
-inline constexpr Text one_command_only_hint{
-    "the servo obeys the last one: give just that",
-    "最後の指令だけが有効になるため、一つだけ指定してください"};
 inline constexpr Text nothing_written_hint{"nothing was written", "何も書き込んでいません"};
-inline constexpr Text lost_while_listening{
-    "frames were lost while listening: who drives or is armed is not known",
-    "受信中にフレームを失ったため、動作指令や ARM 状態を確認できません",
-};
 inline constexpr Text nothing_matches_list{"no node on {} matches -n {}",
                                            "{} 上に -n {} に該当するノードがありません"};
-inline constexpr Text one_id_for_several{
-    "one static node ID for {} servos: they would collide after a restart",
-    "{} 台のサーボに同じ固定ノード ID を設定すると再起動後に重複します",
-};
-inline constexpr Text one_id_for_several_hint{"give each its own: -n {}",
-                                              "一台ずつ設定してください: -n {}"};
-inline constexpr Text not_written{"{} frames of a write may still be in the queue of {}: "
-                                  "what they change is not known",
-                                  "書込みの {} フレームが {} の送信キューに残っている可能性があり、"
-                                  "変更結果は不明です"};
 
-// Questions before something that moves or lets go.
-inline constexpr Text question_may_move{
-    "This can move the shaft or let go of the load:\n",
-    "出力軸が動く、または負荷を保持できなくなる可能性があります:\n"};
-inline constexpr Text question_change{"  node {}: {} {} -> {}\n", "  ノード {}: {} {} -> {}\n"};
 inline constexpr Text question_yes_no{"Go on? [y/N] ", "続けますか? [y/N] "};
 inline constexpr Text not_confirmed{"not confirmed: nothing was written",
                                     "確認されなかったため書き込んでいません"};
 inline constexpr Text not_confirmed_hint{"add --yes to agree beforehand",
-                                         "事前に同意するには --yes を付けてください"};
-inline constexpr Text unknown_before{"?", "?"};
+                                         "事前に同意するには --yes を付けて下さい"};
+
+// -v
+inline constexpr Text from_environment{"{} {}: from {}", "{} {}: {} による指定"};
+inline constexpr Text only_interface{"using {}: the only CAN interface that is up",
+                                     "{} を使います: 起動している唯一の CAN インターフェース"};
+inline constexpr Text no_own_id{"no node ID of our own: nothing is sent",
+                                "自ノード ID なし: 送信しません"};
+inline constexpr Text own_id_free{"own node ID {}: it was free", "自ノード ID {}: 空いていました"};
+inline constexpr Text own_id_wanted{"own node ID {}: as --local-node-id says",
+                                    "自ノード ID {}: --local-node-id の指定"};
+inline constexpr Text own_id_private{"own node ID {}: no other process reaches this bus",
+                                     "自ノード ID {}: 他のプロセスが使えないバスです"};
+inline constexpr Text own_id_instead{"own node ID {}: {}", "自ノード ID {}: {}"};
+inline constexpr Text lock_taken{"lock file: {}", "ロックファイル: {}"};
+inline constexpr Text no_lock_folder{
+    "no folder for lock files can be written: other blactl processes on {} are not kept away",
+    "ロックファイルを置けるディレクトリがないため、{} 上の他の blactl "
+    "プロセスとの競合を防げません"};
+inline constexpr Text asked_again{"node {}: no answer to {} within {} s: asked again ({} of {})",
+                                  "ノード {}: {} に {} 秒以内の応答なし: 再要求 ({}/{})"};
+inline constexpr Text never_answered{"node {}: no answer to {} within {} s, tries: {}",
+                                     "ノード {}: {} に {} 秒以内の応答なし、要求回数: {}"};
+inline constexpr Text sent_once_more{"node {}: {} was not carried out: sent once more",
+                                     "ノード {}: {} が実行されていないため、もう一度送信しました"};
+inline constexpr Text adapter_sent{"to the adapter: {}", "アダプターへ: {}"};
+inline constexpr Text adapter_said{"from the adapter: {}", "アダプターから: {}"};
+inline constexpr Text adapter_said_much{"from the adapter: {}… ({} bytes)",
+                                        "アダプターから: {}… ({} バイト)"};
 
 // scan
 inline constexpr Text expected_more{"{} servos found, {} expected",
                                     "サーボ {} 台を検出しました (期待 {} 台)"};
 inline constexpr Text expected_more_hint{
     "is every servo powered and connected? listen longer with --listen SEC",
-    "電源と配線を確認するか、--listen で待ち時間を延ばしてください"};
-inline constexpr Text conflict_hint{"connect one of them alone and give it another ID",
-                                    "一台ずつ接続して別の ID を設定してください"};
-inline constexpr Text doubled_servo_id_hint{
-    "give one of them another: blactl set -n {} servo_id=ID",
-    "一方に別の ID を設定してください: blactl set -n {} servo_id=ID"};
+    "電源と配線を確認するか、--listen で待ち時間を延ばして下さい"};
 inline constexpr Text nobody_there{"no node was heard on {}", "{} 上にノードが見つかりません"};
 inline constexpr Text nobody_there_hint{
     "is the supply on? does a servo without an ID wait for one? is the bit rate 1000000?",
-    "電源、ノード ID 割当て待ちのサーボ、ビットレート 1000000 を確認してください",
+    "電源、ノード ID 割当て待ちのサーボ、ビットレート 1000000 を確認して下さい",
 };
+inline constexpr Text silent_slcan_hint{
+    "is the supply on, and the bit rate of the bus 1000000? is a servo connected to the adapter?",
+    "サーボの電源、バスのビットレート 1000000、アダプターとの接続を確認して下さい"};
+inline constexpr Text silent_mcast_hint{
+    "is a peer there? the bus number and the network interface of {} must be its own too: "
+    "-i mcast:N?if=IFACE",
+    "{} に相手がいるか、バス番号とネットワークインターフェースが相手と同じか確認して下さい: "
+    "-i mcast:N?if=IFACE"};
+inline constexpr Text silent_sim_hint{
+    "is a servo in the scenario of `blactl sim`, powered and plugged in? type dump there",
+    "`blactl sim` のシナリオにサーボがあり、電源と接続が有効か確認して下さい (dump と入力)"};
+inline constexpr Text silent_simulator_hint{
+    "is a servo in the scenario of the simulator at {}, powered and plugged in? type dump there",
+    "{} のシミュレータのシナリオにサーボがあり、電源と接続が有効か確認して下さい (dump と入力)"};
+inline constexpr Text silent_scenario_hint{
+    "is a servo in the scenario {}, and do its \"events\" leave it powered and plugged in?",
+    "シナリオ {} にサーボがあり、\"events\" で電源や接続が切れていないか確認して下さい"};
+inline constexpr Text silent_log_hint{
+    "{0} holds nothing that a DroneCAN node said: is it the right log? blactl trace {0}",
+    "{0} には DroneCAN ノードの送信がありません。正しいログか確認して下さい: blactl trace {0}"};
 inline constexpr Text waits_for_id{"waits for a node ID: unique ID {}…",
-                                   "ノード ID 割当て待ち: ユニーク ID {}…"};
+                                   "ノード ID 割当て待ち: 固有 ID {}…"};
+inline constexpr Text more_may_wait{
+    "more servos may wait than were heard: they ask at random times (--listen 10 hears longer)",
+    "受信できていない割当て待ちのサーボがあるかもしれません。要求の間隔は不定です "
+    "(--listen 10 でより長く受信)"};
 inline constexpr Text allocates{"node {} allocates node IDs",
                                 "ノード {} がノード ID を割り当てています"};
 inline constexpr Text commands_servos{"node {} commands servos",
                                       "ノード {} がサーボに動作指令しています"};
 inline constexpr Text says_armed{"node {} says armed", "ノード {} は ARM 状態です"};
-inline constexpr Text warn_stall{
-    "firmware {} may stall at low speed; 1.400 mends it",
-    "ファームウェア {} は低速動作時に停止することがあります (1.400 で修正)",
-};
-inline constexpr Text warn_unknown_model{"no profile fits: it can only be read",
-                                         "該当するプロファイルが無いため読出しのみ可能です"};
-inline constexpr Text warn_uncertain_model{
-    "hardware version {} is not in table 3-12: model by its leading digits only",
-    "ハードウェアバージョン {} は表 3-12 にありません。機種は先頭の桁のみで判定しました",
-};
-inline constexpr Text warn_static_id_differs{"will come back as node {} after a restart",
-                                             "再起動後はノード {} になります"};
-inline constexpr Text warn_health{"health: {} (see 0x1A, 0x1B)", "ヘルス: {} (0x1A, 0x1B を参照)"};
 inline constexpr Text column_node{"NODE", "ノード"};
 inline constexpr Text column_model{"MODEL", "機種"};
 inline constexpr Text column_serial{"SERIAL", "製造番号"};
@@ -187,13 +214,14 @@ inline constexpr Text column_firmware{"FIRMWARE", "ファームウェア"};
 inline constexpr Text column_static_id{"STATIC ID", "固定 ID"};
 inline constexpr Text column_state{"STATE", "状態"};
 inline constexpr Text column_uptime{"UPTIME", "稼働時間"};
-inline constexpr Text column_unique_id{"UNIQUE ID", "ユニーク ID"};
+inline constexpr Text column_unique_id{"UNIQUE ID", "固有 ID"};
 inline constexpr Text dynamic_id{"dynamic", "動的"};
 inline constexpr Text foreign_node{"(not a BLA servo) {}", "(BLA サーボ以外) {}"};
 
 // get, set
 inline constexpr Text head_line{"node {}  {}  serial {}  servo ID {}  firmware {}\n",
                                 "ノード {}  {}  製造番号 {}  サーボ ID {}  ファームウェア {}\n"};
+inline constexpr Text unknown_value{"?", "?"};
 inline constexpr Text unknown_word{"unknown", "不明"};
 inline constexpr Text nothing_changed{"  every parameter has its default\n",
                                       "  すべてのパラメータが初期値です\n"};
@@ -218,14 +246,14 @@ inline constexpr Text not_saved_note{
 inline constexpr Text unknown_type{"there is no data type '{}'", "データ型 '{}' はありません"};
 inline constexpr Text unknown_type_hint{
     "give a name such as NodeStatus or param.GetSet, or a data type ID",
-    "NodeStatus や param.GetSet などの名前、またはデータ型 ID を指定してください"};
+    "NodeStatus や param.GetSet などの名前、またはデータ型 ID を指定して下さい"};
 inline constexpr Text trace_takes_node_ids{"-n {}: trace takes node IDs only",
                                            "-n {}: trace で指定できるのはノード ID のみです"};
 inline constexpr Text trace_takes_node_ids_hint{"which servo has which ID: blactl scan",
                                                 "どのサーボがどの ID かを調べるには: blactl scan"};
 inline constexpr Text log_has_many_interfaces{
     "{} frames were not decoded: the log names more than {} interfaces",
-    "{} フレームをデコードしていません (ログのインタフェース数が {} を超えています)"};
+    "{} フレームをデコードしていません (ログのインターフェース数が {} を超えています)"};
 inline constexpr Text trace_crc{"the CRC is wrong", "CRC が一致しません"};
 inline constexpr Text trace_toggle{"a frame before this one was lost",
                                    "これより前のフレームが失われました"};
@@ -242,7 +270,7 @@ inline constexpr Text trace_short{"the payload is too short for its type",
                                   "ペイロードがデータ型より短くなっています"};
 inline constexpr Text trace_no_value{"has no value", "値なし"};
 inline constexpr Text trace_crc_unchecked{"(CRC not checked)", "(CRC 未確認)"};
-inline constexpr Text column_interface{"INTERFACE", "インタフェース"};
+inline constexpr Text column_interface{"INTERFACE", "インターフェース"};
 inline constexpr Text column_kind{"KIND", "種別"};
 inline constexpr Text column_type{"TYPE", "データ型"};
 inline constexpr Text column_transfers{"TRANSFERS", "転送数"};
@@ -261,6 +289,12 @@ inline constexpr Text column_voltage{"VOLTAGE", "電圧クラス"};
 inline constexpr Text column_numbers{"0x50 / 0x53", "0x50 / 0x53"};
 inline constexpr Text column_access{"ACCESS", "R/W"};
 inline constexpr Text column_meaning{"MEANING", "名称"};
+inline constexpr Text column_shipped{"SHIPPED", "出荷時期"};
+inline constexpr Text column_changes{"CHANGES", "変更内容"};
+inline constexpr Text models_unit{"unit {}, in steps of {}", "単位 {}、分解能 {}"};
+inline constexpr Text models_bit{"bit {}: {}", "bit {}: {}"};
+inline constexpr Text models_bit_latched{"stays until the next start", "次回起動時まで保持"};
+inline constexpr Text models_bit_pwm_only{"models with a PWM input only", "PWM 入力対応機種のみ"};
 inline constexpr Text models_since{"firmware {} or later", "ファームウェア {} 以降"};
 inline constexpr Text models_vendor_label{"vendor's program: {}", "メーカー製ツールの表示: {}"};
 inline constexpr Text models_saved{"kept by save", "保存対象"};
@@ -303,40 +337,29 @@ inline constexpr Text finishing{
     "waiting for servos that save or restart, 3 s at most (Ctrl-C again: at once)",
     "保存・再起動中のサーボを待っています (最大 3 秒。もう一度 Ctrl-C で即時終了)",
 };
-inline constexpr Text model_unknown{"the model is not known: it can only be read",
-                                    "機種が不明のため読出しのみ可能です"};
-inline constexpr Text question_restart_soft{
-    "node {}: torque is on: its output drops, then the shaft runs slowly to 0 deg\n",
-    "ノード {}: トルク ON のため、出力が一旦 OFF になり、ソフトスタートで 0° へ動きます\n",
-};
-inline constexpr Text question_restart_hard{
-    "node {}: torque is on: its output drops, then returns where the shaft is\n",
-    "ノード {}: トルク ON のため、出力が一旦 OFF になり、その位置で再び ON になります\n",
-};
-inline constexpr Text question_erase{
-    "node {}: everything to factory defaults, servo_id {} -> 0, static_node_id {} -> 0; "
-    "commands become 0 deg\n",
-    "ノード {}: 全ての設定を初期値に戻します。servo_id {} -> 0, static_node_id {} -> 0。"
-    "指令値は 0° になります\n",
-};
-inline constexpr Text question_erase_keep{
-    "node {}: everything but its IDs to factory defaults; commands become 0 deg\n",
-    "ノード {}: ID 以外の設定を初期値に戻します。指令値は 0° になります\n",
-};
-inline constexpr Text back_not_verified{"node {} is back, but its values were not read again",
-                                        "ノード {} は復帰しましたが、値を再確認していません"};
-inline constexpr Text passage_done{"done", "完了"};
-inline constexpr Text passage_back{"done: back as node {} after {} s",
-                                   "完了: ノード {} として {} 秒で復帰"};
-inline constexpr Text passage_values{", {} values read again", "、{} 項目を再読出し"};
-inline constexpr Text passage_back_failed{"failed (back as node {})",
-                                          "失敗 (ノード {} として復帰)"};
-inline constexpr Text passage_failed{"failed", "失敗"};
+inline constexpr Text servo_done{"done", "完了"};
+inline constexpr Text servo_back{"done: back as node {} after {} s",
+                                 "完了: ノード {} として {} 秒で復帰"};
+inline constexpr Text values_read_again{", {} values read again", "、{} 項目を再読出し"};
+inline constexpr Text back_but_failed{"failed (back as node {})", "失敗 (ノード {} として復帰)"};
+inline constexpr Text servo_failed{"failed", "失敗"};
 inline constexpr Text wait_there{"operational", "動作中"};
 inline constexpr Text wait_not_ready{"not operational", "未動作"};
-inline constexpr Text wait_not_operational{"node {} was heard but not operational after {} s",
-                                           "ノード {} は {} 秒待っても動作状態になりません"};
-inline constexpr Text wait_not_heard{"node {} was not heard within {} s",
-                                     "ノード {} は {} 秒以内に見つかりません"};
+inline constexpr Text progress_change{"{} of {} servos done, {} s{}{}", "{}/{} 台完了、{} 秒{}{}"};
+inline constexpr Text progress_at_work{"; at work: {}", "、処理中: {}"};
+inline constexpr Text progress_away{"; to come back: {}", "、復帰待ち: {}"};
+inline constexpr Text progress_wait{"waiting, {} of {} s; there: {}",
+                                    "待機中 {}/{} 秒、動作中: {}"};
+inline constexpr Text progress_scan{"listening, {} of {} s; nodes: {}",
+                                    "受信中 {}/{} 秒、ノード: {}"};
+inline constexpr Text no_defaults_known{
+    "the model of node {} is not known, nor are its defaults: all that can be changed is shown",
+    "ノード {} の型式が不明で初期値も不明のため、変更可能な全項目を表示します"};
+inline constexpr Text set_not_written{"not written", "未書込み"};
+inline constexpr Text did_not_tell_ids{
+    "node {} did not say which IDs it has: a conflict with it cannot be ruled out",
+    "ノード {} の ID を読み出せないため、重複の有無は確認できません"};
+inline constexpr Text do_not_cut_supply{"do not cut the supply while servos save",
+                                        "保存中は電源を切らないで下さい"};
 
 } // namespace blactl::texts

@@ -147,6 +147,19 @@ void Node::answer_node_info(const Transfer& request) {
   }
 }
 
+void Node::change_id(NodeId local, TransferIds& transfer_ids, Time now) {
+  tell_time(now);
+  local_ = local;
+  transfer_ids_ = &transfer_ids;
+  for (Active& active : jobs_) {
+    if (active.asked && active.step.request()->retries > 0) {
+      withdraw(active);
+      --active.tries; // it was not the server that stayed silent
+      ask(active, now_);
+    }
+  }
+}
+
 void Node::broadcast(const DataType& type, Priority priority, const Payload& payload) {
   if (!local_.is_unicast()) {
     return;
@@ -180,7 +193,7 @@ void Node::tell(Active& active, const Outcome& outcome) {
   const bool nested = std::exchange(in_callback_, true);
   // The old step lives on during the call: the outcome may point into what it holds.
   Step step = active.job->next(outcome);
-  active.step = std::move(step);
+  active.step = active.is_cancelled ? Step(std::nullopt) : std::move(step);
   in_callback_ = nested;
   if (const Pause* pause = active.step.pause()) {
     active.deadline = pause->until;
@@ -216,6 +229,9 @@ void Node::ask(Active& active, Time now) {
   active.left = false;
   active.deadline = now + transmit_timeout;
   ++active.tries;
+  if (hooks_.asked) {
+    hooks_.asked(request, active.tries);
+  }
   for (const auto& frame : active.frames) {
     hooks_.send(frame);
   }
@@ -257,13 +273,23 @@ void Node::advance(Time now) {
     } else if (!active.left) {
       withdraw(active);
       finish(active, {Outcome::Kind::not_sent, {}, now});
-    } else if (active.tries <= active.step.request()->retries) {
-      ask(active, now_);
     } else {
-      finish(active, {Outcome::Kind::timed_out, {}, now});
+      unanswered(active, now);
     }
   }
   ask_waiting(now_);
+}
+
+void Node::unanswered(Active& active, Time now) {
+  const Request& request = *active.step.request();
+  if (hooks_.unanswered) {
+    hooks_.unanswered(request, active.tries);
+  }
+  if (active.tries <= request.retries) {
+    ask(active, now_);
+  } else {
+    finish(active, {Outcome::Kind::timed_out, {}, now});
+  }
 }
 
 /// What of a question is still here leaves no more: nobody waits for its answer.
@@ -285,6 +311,22 @@ void Node::cancel(Active& active, Time now) {
   withdraw(active);
   tell(active, {Outcome::Kind::cancelled, {}, now});
   active.step = std::nullopt;
+  active.is_cancelled = true;
+}
+
+bool Node::is_running(const Job& job) const {
+  return std::ranges::any_of(
+      jobs_, [&](const Active& active) { return active.job == &job && !active.is_done(); });
+}
+
+void Node::cancel(Job& job, Time now) {
+  tell_time(now);
+  const auto it = std::ranges::find_if(
+      jobs_, [&](const Active& active) { return active.job == &job && !active.is_done(); });
+  if (it != jobs_.end()) {
+    cancel(*it, now);
+    ask_waiting(now_);
+  }
 }
 
 void Node::stop(Time now) {

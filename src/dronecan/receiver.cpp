@@ -10,13 +10,12 @@
 namespace blactl::dronecan {
 namespace {
 
-constexpr std::size_t crc_size = 2;
 constexpr std::size_t buffer_size = Receiver::capacity + crc_size;
 
 /// All of a CAN ID but the priority is just what the specification calls the transfer descriptor:
 /// kind, data type, source and destination.
 constexpr std::uint32_t descriptor_mask = 0x00FF'FFFF;
-constexpr unsigned priority_shift = 24;
+constexpr unsigned priority_in_key = 24;
 
 constexpr TransferId next(TransferId id) {
   return static_cast<TransferId>((id + 1U) % transfer_id_modulus);
@@ -338,7 +337,7 @@ void Receiver::Impl::expire(Time now) {
       session.trust = Trust::broken;
       session.blame(session.expected, over);
       report(ReceiveError::timeout,
-             slots_.key(slot) | static_cast<std::uint32_t>(session.priority) << priority_shift,
+             slots_.key(slot) | static_cast<std::uint32_t>(session.priority) << priority_in_key,
              over);
     }
   }

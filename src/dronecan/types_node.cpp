@@ -5,14 +5,14 @@
 #include "dronecan/wire.hpp"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace blactl::dronecan {
 namespace {
 
-constexpr std::size_t max_name = 80;
+constexpr std::size_t max_node_name = 80;
 constexpr std::size_t max_certificate = 255;
-constexpr std::uint8_t true_bit = 0x80; ///< a bool fills its byte from the most significant bit
 
 void put(Payload& payload, const NodeStatus& status) {
   const auto health = std::min(std::to_underlying(status.health), std::uint8_t{3});
@@ -35,6 +35,22 @@ NodeStatus take_status(Reader& reader) {
 }
 
 } // namespace
+
+std::string_view name(Health health) {
+  constexpr std::array<std::string_view, 4> words{"ok", "warning", "error", "critical"};
+  return words[std::to_underlying(health) & 3U];
+}
+
+std::string_view name(Mode mode) {
+  switch (mode) {
+  case Mode::operational: return "operational";
+  case Mode::initialization: return "initialization";
+  case Mode::maintenance: return "maintenance";
+  case Mode::software_update: return "software_update";
+  case Mode::offline: return "offline";
+  }
+  return {};
+}
 
 Payload NodeStatus::encode() const {
   Payload payload;
@@ -62,7 +78,7 @@ Payload GetNodeInfo::Response::encode() const {
   const auto shown = Bytes(certificate).first(std::min(certificate.size(), max_certificate));
   put_integer(payload, shown.size(), 1);
   payload.append(shown);
-  put_text(payload, name, max_name);
+  put_text(payload, name, max_node_name);
   return payload;
 }
 
@@ -80,7 +96,7 @@ std::optional<GetNodeInfo::Response> GetNodeInfo::Response::decode(Bytes payload
   std::ranges::copy(reader.take(response.unique_id.size()), response.unique_id.begin());
   const auto certificate = reader.take(reader.u8());
   response.certificate.assign(certificate.begin(), certificate.end());
-  response.name = reader.text_to_end(max_name);
+  response.name = reader.text_to_end(max_node_name);
   return reader.ok() ? std::optional(std::move(response)) : std::nullopt;
 }
 

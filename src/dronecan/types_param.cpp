@@ -10,11 +10,10 @@
 namespace blactl::dronecan {
 namespace {
 
-constexpr std::size_t max_name = 92;
+constexpr std::size_t max_param_name = 92;
 constexpr std::size_t max_text = 128;
 constexpr std::size_t opcode_argument_bytes = 6;
 constexpr std::uint16_t max_index = 0x1FFF;
-constexpr std::uint8_t true_bit = 0x80; ///< a bool fills its byte from the most significant bit
 
 // Both unions begin with the tag in the low bits of a byte; the order of the C++ alternatives is
 // that of the DSDL, so tag and index() are the same.
@@ -78,7 +77,7 @@ Payload GetSet::Request::encode() const {
   Payload payload;
   put_integer(payload, capped, 1);
   put_union(payload, value, static_cast<unsigned>(capped >> 8U) << 3U);
-  put_text(payload, name, max_name);
+  put_text(payload, name, max_param_name);
   return payload;
 }
 
@@ -89,7 +88,7 @@ std::optional<GetSet::Request> GetSet::Request::decode(Bytes payload) {
   const auto high_and_tag = reader.u8();
   request.index = static_cast<std::uint16_t>((high_and_tag >> 3U) << 8U | low);
   auto value = take_value(reader, high_and_tag & value_tag_mask);
-  request.name = reader.text_to_end(max_name);
+  request.name = reader.text_to_end(max_param_name);
   if (!reader.ok() || !value) {
     return std::nullopt;
   }
@@ -103,7 +102,7 @@ Payload GetSet::Response::encode() const {
   put_union(payload, default_value);
   put_union(payload, max_value);
   put_union(payload, min_value);
-  put_text(payload, name, max_name);
+  put_text(payload, name, max_param_name);
   return payload;
 }
 
@@ -113,7 +112,7 @@ std::optional<GetSet::Response> GetSet::Response::decode(Bytes payload) {
   auto default_value = take_value(reader, reader.u8() & value_tag_mask);
   const auto max_value = take_numeric(reader);
   const auto min_value = take_numeric(reader);
-  auto name = reader.text_to_end(max_name);
+  auto name = reader.text_to_end(max_param_name);
   if (!reader.ok() || !value || !default_value || !max_value || !min_value) {
     return std::nullopt;
   }

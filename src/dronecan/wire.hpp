@@ -14,6 +14,9 @@
 
 namespace blactl::dronecan {
 
+/// A bool fills its byte from the most significant bit.
+inline constexpr std::uint8_t true_bit = 0x80;
+
 /// `value` in its low `bytes` bytes, least significant first.
 inline void put_integer(Payload& payload, std::uint64_t value, std::size_t bytes) {
   for (; bytes > 0; --bytes, value >>= 8U) {

@@ -1,5 +1,6 @@
 #include "blactl/fleet/erase_job.hpp"
 
+#include "blactl/fleet/guard.hpp"
 #include "blactl/fleet/texts.hpp"
 
 namespace blactl::fleet {
@@ -18,12 +19,20 @@ Step EraseJob::next(const Outcome& outcome) {
   case At::unit: {
     const auto info =
         outcome.answered() ? GetNodeInfo::Response::decode(outcome.payload) : std::nullopt;
+    if (roster_.is_doubled(servo_.id)) {
+      error_ = doubled(roster_, servo_.id);
+      return std::nullopt;
+    }
     if (!info) {
       error_ = no_answer(outcome, servo_.id, "GetNodeInfo");
       return std::nullopt;
     }
-    if (info->unique_id != servo_.info->unique_id || !servo_.is_known()) {
-      error_ = Error{Code::state, say<texts::another_servo>(id), say<texts::run_again_hint>(), id};
+    const bool is_same = info->unique_id == servo_.unique_id;
+    if (!is_same || roster_.member(servo_.id).boots != servo_.boot) {
+      error_ =
+          Error{Code::state,
+                is_same ? say<texts::restarted_before_erase>(id) : say<texts::another_servo>(id),
+                say<texts::run_again_hint>(), id};
       return std::nullopt;
     }
     at_ = At::request;

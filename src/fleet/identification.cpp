@@ -10,9 +10,9 @@ using dronecan::GetNodeInfo;
 using dronecan::Outcome;
 using dronecan::Request;
 
-Identification::Identification(Roster& roster, Member& member, const bla::Profiles& profiles,
+Identification::Identification(Roster& roster, dronecan::NodeId id, const bla::Profiles& profiles,
                                Options options)
-    : roster_(roster), member_(member), profiles_(profiles), options_(options) {}
+    : roster_(roster), profiles_(profiles), options_(options), servo_{.id = id} {}
 
 bla::Address Identification::address_of(Step step) {
   switch (step) {
@@ -31,25 +31,27 @@ std::optional<std::int64_t>& Identification::slot(Step step) {
   case Step::serial_number: return readings_.serial_number;
   case Step::firmware_version: return readings_.firmware_version;
   case Step::hardware_version: return readings_.hardware_version;
-  case Step::servo_id: return member_.servo_id;
-  default: return member_.static_node_id;
+  case Step::servo_id: return servo_.servo_id;
+  default: return servo_.static_node_id;
   }
 }
 
 std::optional<Request> Identification::question(Step step) {
   step_ = step;
   if (step == Step::node_info) {
-    return ask(member_.id, GetNodeInfo::type, GetNodeInfo::Request{}.encode(), options_.patience);
+    return ask(servo_.id, GetNodeInfo::type, GetNodeInfo::Request{}.encode(), options_.patience);
   }
-  return read_register(member_.id, address_of(step), options_.patience);
+  return read_register(servo_.id, address_of(step), options_.patience);
 }
 
 std::optional<Request> Identification::next(const Outcome& outcome) {
   if (step_ == Step::begin) {
-    if (member_.is_known()) {
+    if (const Member* member = roster_.find(servo_.id); member != nullptr && member->is_known()) {
+      servo_ = member->servo();
       done_ = true;
       return std::nullopt;
     }
+    servo_.since = outcome.at;
     return question(Step::node_info);
   }
   if (step_ == Step::node_info) {
@@ -60,7 +62,9 @@ std::optional<Request> Identification::next(const Outcome& outcome) {
   if (error_) {
     return std::nullopt;
   }
-  const bool foreign = step_ == Step::model_number && !member_.is_servo && !recording_lacks_model_;
+  const bool is_decided =
+      step_ == Step::serial_number || (step_ == Step::model_number && !model_silent_);
+  const bool foreign = is_decided && !servo_.is_servo && !recording_lacks_model_;
   const auto following = static_cast<Step>(std::to_underlying(step_) + 1);
   const bool last =
       following == Step::end || (following == Step::static_node_id && !options_.static_node_id);
@@ -71,37 +75,63 @@ void Identification::take_node_info(const Outcome& outcome) {
   auto response =
       outcome.answered() ? GetNodeInfo::Response::decode(outcome.payload) : std::nullopt;
   if (!response && outcome.kind != Outcome::Kind::not_recorded) {
-    error_ = no_answer(outcome, member_.id, "GetNodeInfo");
+    error_ = no_answer(outcome, servo_.id, "GetNodeInfo");
     if (error_->code == Code::timeout) {
-      const std::uint8_t id = member_.id.value();
-      *error_ = roster_.heard(member_.id) ? Error{Code::timeout, say<texts::node_mute>(id),
-                                                  say<texts::no_answer_hint>(), id}
-                                          : Error{Code::not_found, say<texts::node_not_found>(id),
-                                                  say<texts::node_not_found_hint>(), id};
+      const std::uint8_t id = servo_.id.value();
+      *error_ = roster_.heard(servo_.id) ? Error{Code::timeout, say<texts::node_mute>(id),
+                                                 say<texts::no_answer_hint>(), id}
+                                         : Error{Code::not_found, say<texts::node_not_found>(id),
+                                                 say<texts::node_not_found_hint>(), id};
     }
     return;
   }
-  // Whatever was known may be that of another unit.
-  member_.info = std::move(response);
-  member_.identity = {};
-  member_.is_servo = false;
-  member_.servo_id = member_.static_node_id = std::nullopt;
-  boot_ = member_.info_boot = member_.boots;
+  info_ = std::move(response);
+  if (info_) {
+    roster_.learn(servo_.id, *info_);
+    servo_.unique_id = info_->unique_id;
+    servo_.name = info_->name;
+  }
+  servo_.boot = roster_.member(servo_.id).boots;
+}
+
+bool Identification::sends_actuator_status() const {
+  return roster_.member(servo_.id).sends_actuator_status();
+}
+
+/// Two units on an ID disturb each other's answers, which must not make a foreign node of them.
+/// What a BLA servo is called is not in the specification. unproven: its maker or series is in it.
+bool Identification::may_be_servo() const {
+  const auto has = [this](std::string_view part) {
+    return servo_.name.find(part) != std::string::npos;
+  };
+  return has("futaba") || has("bla") || has("BLA") || roster_.is_doubled(servo_.id);
+}
+
+/// A servo that answers, but not what model it is.
+Error Identification::silence_of_model() const {
+  return no_answer({Outcome::Kind::timed_out, {}, {}}, servo_.id,
+                   bla::address::model_number.name());
 }
 
 void Identification::take_register(const Outcome& outcome) {
-  const auto value = register_value(outcome, member_.id, address_of(step_));
+  const auto value = register_value(outcome, servo_.id, address_of(step_));
   const bool first = step_ == Step::model_number;
-  // A node without parameters (a GPS, a battery) answers GetNodeInfo and nothing else.
-  const bool foreign =
-      first && !value && !member_.sends_actuator_status() && value.error().code == Code::timeout;
+  const bool silent = !value && value.error().code == Code::timeout;
+  // A node without parameters (a GPS, a battery) answers GetNodeInfo and nothing else. Of an
+  // actuator, which may be of another make, only the second silent register proves it.
+  const bool foreign = silent && (first || model_silent_);
+  if (model_silent_ && (value || may_be_servo())) {
+    error_ = silence_of_model();
+    return;
+  }
+  model_silent_ = foreign && first && sends_actuator_status();
   const bool not_recorded = outcome.kind == Outcome::Kind::not_recorded;
   if (!value && value.error().code != Code::refused && !foreign && !not_recorded) {
     error_ = value.error();
     return;
   }
   recording_lacks_model_ = recording_lacks_model_ || (first && not_recorded);
-  member_.is_servo = member_.is_servo || value.has_value();
+  servo_.is_servo = servo_.is_servo || value.has_value();
   auto& destination = slot(step_);
   destination = std::nullopt;
   if (value) {
@@ -112,14 +142,14 @@ void Identification::take_register(const Outcome& outcome) {
 
 /// What a recording holds of a node may not tell whether it is a servo.
 std::optional<Error> Identification::undecided() const {
-  const bool foreign = member_.info && !member_.sends_actuator_status();
-  if (!recording_lacks_model_ || member_.is_servo || foreign) {
+  const bool foreign = info_ && !sends_actuator_status();
+  if (!recording_lacks_model_ || servo_.is_servo || foreign) {
     return std::nullopt;
   }
-  const std::uint8_t id = member_.id.value();
+  const std::uint8_t id = servo_.id.value();
   return Error{Code::not_recorded,
-               roster_.heard(member_.id) ? say<texts::identity_not_recorded>(id)
-                                         : say<texts::node_not_recorded>(id),
+               roster_.heard(servo_.id) ? say<texts::identity_not_recorded>(id)
+                                        : say<texts::node_not_recorded>(id),
                say<texts::not_recorded_hint>(), id};
 }
 
@@ -128,19 +158,18 @@ std::optional<Request> Identification::conclude() {
   if (error_) {
     return std::nullopt;
   }
-  if (member_.is_servo) {
-    member_.identity = bla::Identity(profiles_, readings_);
+  if (servo_.is_servo) {
+    servo_.identity = bla::Identity(profiles_, readings_);
     if (options_.assumed != nullptr) {
-      if (auto agreed = member_.identity.assume(*options_.assumed); !agreed) {
+      if (auto agreed = servo_.identity.assume(*options_.assumed); !agreed) {
         error_ = agreed.error();
-        error_->node_id = member_.id.value();
-        error_->message = say<texts::about_node>(member_.id.value(), error_->message);
+        error_->node_id = servo_.id.value();
+        error_->message = say<texts::about_node>(servo_.id.value(), error_->message);
         return std::nullopt;
       }
     }
   }
-  member_.identified = true;
-  member_.identified_boot = boot_; // not the present one: it may have restarted in between
+  roster_.learn(servo_, info_); // of the boot in which it said so: it may have restarted since
   done_ = true;
   return std::nullopt;
 }
@@ -158,15 +187,28 @@ dronecan::Step ProbeJob::next(const Outcome& outcome) {
   return std::nullopt;
 }
 
-dronecan::Step DoubleCheckJob::next(const Outcome& outcome) {
+dronecan::Step UnitJob::next(const Outcome& outcome) {
   if (outcome.kind == Outcome::Kind::start) {
-    return ask(member_.id, GetNodeInfo::type, GetNodeInfo::Request{}.encode(), patience_);
+    return ask(id_, GetNodeInfo::type, GetNodeInfo::Request{}.encode(), patience_);
   }
   const auto info =
       outcome.answered() ? GetNodeInfo::Response::decode(outcome.payload) : std::nullopt;
-  if (info && member_.info && info->unique_id != member_.info->unique_id &&
-      member_.identified_boot == member_.boots) {
-    roster_.mark_doubled(member_.id);
+  if (info) {
+    roster_.learn(id_, *info);
+  }
+  return std::nullopt;
+}
+
+dronecan::Step DoubleCheckJob::next(const Outcome& outcome) {
+  if (outcome.kind == Outcome::Kind::start) {
+    return ask(servo_.id, GetNodeInfo::type, GetNodeInfo::Request{}.encode(), patience_);
+  }
+  const auto info =
+      outcome.answered() ? GetNodeInfo::Response::decode(outcome.payload) : std::nullopt;
+  is_answered_ = info.has_value();
+  const bool has_restarted = roster_.member(servo_.id).boots != servo_.boot;
+  if (info && servo_.unique_id && info->unique_id != *servo_.unique_id && !has_restarted) {
+    roster_.mark_doubled(servo_.id, *servo_.unique_id, info->unique_id);
   }
   return std::nullopt;
 }

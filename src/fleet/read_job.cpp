@@ -1,72 +1,187 @@
 #include "blactl/fleet/read_job.hpp"
 
+#include "blactl/fleet/guard.hpp"
 #include "blactl/fleet/texts.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace blactl::fleet {
 
+using dronecan::GetNodeInfo;
 using dronecan::Outcome;
-using dronecan::Request;
+using dronecan::Step;
 
-ReadJob::ReadJob(Roster& roster, Member& member, const bla::Profiles& profiles,
-                 Identification::Options options, Plan plan)
-    : member_(member), patience_(options.patience),
-      identification_(roster, member, profiles, options), plan_(std::move(plan)) {}
+namespace {
 
-dronecan::Step ReadJob::next(const Outcome& outcome) {
-  if (!identification_.done()) {
+/// Registers in a row that do not answer, before it is asked whether the servo is there at all.
+constexpr int most_silent = 2;
+
+/// A servo that restarts more often while it is read is not read to an end.
+constexpr int most_passes = 4;
+
+} // namespace
+
+ReadJob::ReadJob(Roster& roster, dronecan::NodeId id, const bla::Profiles& profiles,
+                 Identification::Options options, Choice choice, Proof proof)
+    : roster_(roster), id_(id), patience_(options.patience),
+      identification_(roster, id, profiles, options), choice_(std::move(choice)), proof_(proof) {
+  snapshot_.servo.id = id;
+}
+
+Step ReadJob::next(const Outcome& outcome) {
+  switch (at_) {
+  case At::identify:
     if (auto question = identification_.next(outcome)) {
       return question;
     }
-    return make_plan();
+    return begin(outcome.at);
+  case At::read: return take_reading(outcome);
+  case At::presence: return judge_presence(outcome);
+  case At::proof: return judge_proof(outcome);
+  case At::settle: break;
   }
-  const bla::Parameter& parameter = *wanted_[readings_.size()];
-  auto raw = register_value(outcome, member_.id, parameter.address);
-  if (raw) {
-    *raw = parameter.width.narrow(*raw);
+  if (roster_.is_doubled(id_)) {
+    return give_up(doubled(roster_, id_));
   }
-  readings_.push_back({&parameter, std::move(raw)});
-  return outcome.kind == Outcome::Kind::cancelled ? std::nullopt : read_next();
+  return std::nullopt;
 }
 
-std::optional<Request> ReadJob::make_plan() {
+Step ReadJob::begin(Time now) {
   if (identification_.error()) {
-    error_ = identification_.error();
+    snapshot_.error = roster_.is_doubled(id_) ? doubled(roster_, id_) : identification_.error();
     return std::nullopt;
   }
-  if (!member_.is_servo) {
-    const std::uint8_t id = member_.id.value();
-    const std::string name = member_.info ? printable(member_.info->name) : std::string();
-    error_ = Error{Code::not_found, say<texts::not_a_servo>(id, name),
-                   say<texts::node_not_found_hint>(), id};
+  snapshot_.servo = identification_.servo();
+  const std::uint8_t id = id_.value();
+  if (!snapshot_.servo.is_servo) {
+    snapshot_.error =
+        Error{Code::not_found, say<texts::not_a_servo>(id, printable(snapshot_.servo.name)),
+              say<texts::node_not_found_hint>(), id};
     return std::nullopt;
   }
-  auto wanted = plan_(member_);
+  auto wanted = choice_(snapshot_.servo);
   if (!wanted) {
-    error_ = std::move(wanted.error());
-    error_->node_id = member_.id.value();
-    error_->message = say<texts::about_node>(member_.id.value(), error_->message);
+    snapshot_.error = Error{wanted.error().code, say<texts::about_node>(id, wanted.error().message),
+                            wanted.error().hint, id};
     return std::nullopt;
   }
   wanted_ = std::move(*wanted);
-  readings_.reserve(wanted_.size());
+  snapshot_.readings.reserve(wanted_.size());
+  return wanted_.empty() ? settle(now) : read_next();
+}
+
+Step ReadJob::take_reading(const Outcome& outcome) {
+  const bla::Parameter& parameter = *wanted_[snapshot_.readings.size()];
+  auto raw = register_value(outcome, id_, parameter.address);
+  if (raw) {
+    *raw = parameter.width.narrow(*raw);
+  }
+  silent_ = outcome.kind == Outcome::Kind::timed_out ? silent_ + 1 : 0;
+  snapshot_.readings.push_back({&parameter, std::move(raw)});
+  if (outcome.kind == Outcome::Kind::cancelled) {
+    const std::uint8_t id = id_.value();
+    return give_up({Code::interrupted, say<texts::not_read_completely>(id), {}, id});
+  }
+  if (roster_.is_doubled(id_) && proof_ == Proof::moment) {
+    return give_up(doubled(roster_, id_));
+  }
+  if (silent_ == most_silent) {
+    return ask_unit(At::presence);
+  }
   return read_next();
 }
 
-std::optional<Request> ReadJob::read_next() {
-  if (readings_.size() == wanted_.size()) {
-    return std::nullopt;
+Step ReadJob::read_next() {
+  if (snapshot_.readings.size() == wanted_.size()) {
+    return proof_ == Proof::moment ? ask_unit(At::proof) : Step(std::nullopt);
   }
-  return read_register(member_.id, wanted_[readings_.size()]->address, patience_);
+  at_ = At::read;
+  return read_register(id_, wanted_[snapshot_.readings.size()]->address, patience_);
 }
 
-std::optional<std::int64_t> ReadJob::raw(bla::Address address) const {
-  for (const Reading& reading : readings_) {
-    if (reading.parameter->address == address && reading.raw) {
-      return *reading.raw;
-    }
+Step ReadJob::ask_unit(At at) {
+  at_ = at;
+  return ask(id_, GetNodeInfo::type, GetNodeInfo::Request{}.encode(), patience_);
+}
+
+/// Single registers may be silent; a servo that is gone is one error, not one a register.
+Step ReadJob::judge_presence(const Outcome& outcome) {
+  const std::uint8_t id = id_.value();
+  if (outcome.kind == Outcome::Kind::timed_out) {
+    return give_up({Code::timeout, say<texts::node_gone>(id), say<texts::no_answer_hint>(), id});
   }
+  if (!outcome.answered()) {
+    return give_up(no_answer(outcome, id_, "GetNodeInfo"));
+  }
+  silent_ = 0;
+  return read_next();
+}
+
+Step ReadJob::judge_proof(const Outcome& outcome) {
+  const std::uint8_t id = id_.value();
+  if (!outcome.answered()) {
+    return judge_presence(outcome);
+  }
+  Servo& servo = snapshot_.servo;
+  const auto info = GetNodeInfo::Response::decode(outcome.payload);
+  if (roster_.is_doubled(id_)) {
+    return give_up(doubled(roster_, id_));
+  }
+  if (!info || info->unique_id != servo.unique_id) {
+    return give_up(
+        {Code::state, say<texts::restarted_meanwhile>(id), say<texts::run_again_hint>(), id});
+  }
+  const bool runs_on = roster_.member(id_).boots == servo.boot;
+  if (runs_on && has_run_since(servo.since, info->status.uptime_s, outcome.at)) {
+    return settle(outcome.at);
+  }
+  const bool agrees = passes_ == 1 || agrees_with_before();
+  snapshot_.has_restarted = snapshot_.has_restarted || !runs_on || !agrees;
+  if (runs_on && passes_ > 1 && agrees) {
+    return settle(outcome.at);
+  }
+  if (passes_ == most_passes) {
+    return give_up(
+        {Code::state, say<texts::restarts_while_read>(id), say<texts::restarts_again_hint>(), id});
+  }
+  return read_again(outcome.at);
+}
+
+/// The same servo, perhaps after a restart: everything once more.
+Step ReadJob::read_again(Time now) {
+  ++passes_;
+  before_ = std::exchange(snapshot_.readings, {});
+  Servo& servo = snapshot_.servo;
+  servo.boot = roster_.member(id_).boots;
+  servo.since = now;
+  roster_.learn_run(servo);
+  return read_next();
+}
+
+/// Measured values may differ, those that are kept may not.
+bool ReadJob::agrees_with_before() const {
+  return std::ranges::equal(before_, snapshot_.readings,
+                            [](const Reading& before, const Reading& now) {
+                              const bool same = before.raw.has_value() == now.raw.has_value() &&
+                                                (!now.raw || *before.raw == *now.raw);
+                              return same || !now.parameter->saved;
+                            });
+}
+
+Step ReadJob::settle(Time now) {
+  if (proof_ == Proof::none) {
+    return std::nullopt;
+  }
+  at_ = At::settle;
+  return dronecan::Pause{.until = now + twin_time,
+                         .ready = [this] { return roster_.is_doubled(id_); }};
+}
+
+/// What was read is not shown: it may be of two units, or of two times.
+Step ReadJob::give_up(Error error) {
+  snapshot_.error = std::move(error);
+  snapshot_.readings.clear();
   return std::nullopt;
 }
 

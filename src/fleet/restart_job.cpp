@@ -1,7 +1,10 @@
 #include "blactl/fleet/restart_job.hpp"
 
+#include "blactl/base/hex.hpp"
+#include "blactl/fleet/guard.hpp"
 #include "blactl/fleet/texts.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -24,14 +27,19 @@ constexpr std::uint32_t old_enough_s = 2;
 /// whether it did. The vendor's updater waits as long (facts, section 6).
 constexpr Duration settling_time = 1500ms;
 
+/// How often a servo that is awaited and says nothing is asked whether it is there.
+constexpr Duration call_period = 1s;
+constexpr Duration call_timeout = 100ms;
+
 std::string_view name(RestartKind kind) {
   return kind == RestartKind::save ? "SAVE" : "RestartNode";
 }
 
 } // namespace
 
-RestartJob::RestartJob(Roster& roster, const Member& servo, Options options)
-    : roster_(roster), id_(servo.id), unique_id_(servo.info->unique_id), options_(options) {}
+RestartJob::RestartJob(const Roster& roster, const Servo& servo, Options options)
+    : roster_(roster), id_(servo.id), unique_id_(servo.unique_id.value_or(dronecan::UniqueId{})),
+      since_(servo.since), options_(options) {}
 
 Step RestartJob::next(const Outcome& outcome) {
   ended_at_ = outcome.at;
@@ -53,13 +61,14 @@ Step RestartJob::next(const Outcome& outcome) {
   case At::unit: return check_unit(outcome);
   case At::request: return judge_answer(outcome);
   case At::settling:
-    if (find_returned() != nullptr) {
+    if (has_news()) {
       return conclude();
     }
     at_ = At::alive;
     return ask(id_, GetNodeInfo::type, GetNodeInfo::Request{}.encode(), options_.patience);
   case At::alive: return judge_life(outcome);
-  case At::away: return find_returned() != nullptr ? conclude() : give_up(not_back());
+  case At::away: return has_news() ? conclude() : call(outcome.at);
+  case At::call: return judge_call(outcome);
   }
   return std::nullopt;
 }
@@ -72,6 +81,9 @@ Step RestartJob::ask_unit() {
 /// It must be the servo that is meant, old enough for its restart to show, and its turn.
 Step RestartJob::check_unit(const Outcome& outcome) {
   const std::uint8_t id = id_.value();
+  if (const auto shared = doubled_id()) {
+    return give_up(doubled(roster_, *shared));
+  }
   if (!outcome.answered()) {
     return give_up(no_answer(outcome, id_, "GetNodeInfo"));
   }
@@ -84,6 +96,12 @@ Step RestartJob::check_unit(const Outcome& outcome) {
     return dronecan::Pause{.until = outcome.at +
                                     std::chrono::seconds(old_enough_s - info->status.uptime_s)};
   }
+  // SAVE keeps what is in RAM now: that must be what was read.
+  if (options_.kind == RestartKind::save &&
+      !has_run_since(since_, info->status.uptime_s, outcome.at)) {
+    is_unproven_ = true;
+    return std::nullopt;
+  }
   if (options_.pace != nullptr && outcome.at < options_.pace->next) {
     at_ = At::start;
     return dronecan::Pause{.until = options_.pace->next};
@@ -95,7 +113,9 @@ Step RestartJob::request(Time now) {
   at_ = At::request;
   boot_ = roster_.member(id_).boots;
   sent_at_ = now;
-  is_sent_ = true;
+  if (!std::exchange(is_sent_, true)) {
+    first_sent_at_ = now;
+  }
   if (options_.pace != nullptr) {
     options_.pace->next = now + options_.pace->distance;
   }
@@ -120,63 +140,133 @@ Step RestartJob::judge_answer(const Outcome& outcome) {
   if (outcome.answered()) {
     if (!has_answered_ok(outcome.payload)) {
       const std::uint8_t id = id_.value();
+      has_run_on_ = true;
       return give_up({Code::refused, say<texts::opcode_refused>(id, name(options_.kind)),
                       say<texts::opcode_refused_hint>(id), id});
     }
     is_confirmed_ = true;
-    return wait_for_return();
+    return has_news() ? conclude() : wait_for_return(outcome.at);
   }
   if (outcome.kind == Outcome::Kind::not_sent) {
     has_left_ = false; // it may still leave the kernel's queue
   }
   at_ = At::settling;
-  return dronecan::Pause{.until = sent_at_ + settling_time,
-                         .ready = [this] { return find_returned() != nullptr; }};
+  return dronecan::Pause{.until = sent_at_ + settling_time, .ready = [this] { return has_news(); }};
 }
 
 /// Nobody confirmed the request: what does the servo say of itself?
 Step RestartJob::judge_life(const Outcome& outcome) {
-  if (find_returned() != nullptr) {
+  if (has_news()) {
     return conclude();
   }
   const auto info =
       outcome.answered() ? GetNodeInfo::Response::decode(outcome.payload) : std::nullopt;
-  const bool has_not_restarted =
-      info && info->unique_id == unique_id_ && roster_.member(id_).boots == boot_;
-  if (!has_not_restarted) {
-    return wait_for_return();
+  if (!info || info->unique_id != unique_id_) {
+    return wait_for_return(outcome.at);
+  }
+  if (!runs_on(*info, outcome.at)) {
+    has_restarted_ = true;
+    return has_news() ? conclude() : wait_for_return(outcome.at);
   }
   if (has_left_ && std::exchange(may_repeat_, false)) {
     return request(outcome.at);
   }
+  has_run_on_ = true;
   return give_up(not_carried_out());
 }
 
-Step RestartJob::wait_for_return() {
-  at_ = At::away;
-  return dronecan::Pause{.until = sent_at_ + options_.come_back,
-                         .ready = [this] { return find_returned() != nullptr; }};
+/// It was old enough when the request was sent: only without a restart it is older than that.
+bool RestartJob::runs_on(const GetNodeInfo::Response& info, Time now) const {
+  return !has_started_anew() && has_run_since(sent_at_, info.status.uptime_s, now);
 }
 
-/// The servo after its restart, in operation; null: not yet.
-Member* RestartJob::find_returned() const {
-  for (auto& [id, member] : roster_.members()) {
+/// An earlier restart may show late, since uptimes are whole seconds: only one after the request
+/// counts. The servo had run for two seconds then, so what its uptime tells of an earlier start
+/// lies a second before the request at least.
+bool RestartJob::has_started_anew() const {
+  constexpr Duration between = 500ms;
+  const auto started = roster_.started(id_);
+  return roster_.member(id_).boots != boot_ && (!started || *started > sent_at_ - between);
+}
+
+Step RestartJob::wait_for_return(Time now) {
+  at_ = At::away;
+  const Time next = std::max(sent_at_ + settling_time, now + call_period);
+  return dronecan::Pause{.until = std::min(next, sent_at_ + options_.come_back),
+                         .ready = [this] { return has_news(); }};
+}
+
+/// A servo need not say by itself that it is back.
+Step RestartJob::call(Time now) {
+  if (now >= sent_at_ + options_.come_back) {
+    has_run_on_ = lives_on();
+    return give_up(has_run_on_ ? not_carried_out() : not_back());
+  }
+  at_ = At::call;
+  calls_expected_ = !calls_expected_ && options_.expected && *options_.expected != id_;
+  return ask(calls_expected_ ? *options_.expected : id_, GetNodeInfo::type,
+             GetNodeInfo::Request{}.encode(), {call_timeout, 0});
+}
+
+Step RestartJob::judge_call(const Outcome& outcome) {
+  const auto info =
+      outcome.answered() ? GetNodeInfo::Response::decode(outcome.payload) : std::nullopt;
+  // Under another node ID the roster knows it by this answer.
+  if (info && info->unique_id == unique_id_ && !calls_expected_ && !runs_on(*info, outcome.at)) {
+    has_restarted_ = true;
+  }
+  return has_news() ? conclude() : wait_for_return(outcome.at);
+}
+
+/// A node ID on which the servo is, or will be, together with another unit.
+std::optional<dronecan::NodeId> RestartJob::doubled_id() const {
+  if (roster_.is_doubled(id_)) {
+    return id_;
+  }
+  const auto& expected = options_.expected;
+  const bool is_shared = expected && (roster_.is_doubled(*expected) || is_another_at(*expected));
+  return is_shared ? expected : std::nullopt;
+}
+
+/// Somebody is heard where the servo will be who has another unique ID, or has run for longer than
+/// the servo can, which was told to restart. Of a mere restart it is not certain where it will be.
+bool RestartJob::is_another_at(dronecan::NodeId id) const {
+  constexpr Duration tolerance = 1s; // uptime counts whole seconds
+  const Member* member = id != id_ ? roster_.find(id) : nullptr;
+  const bool is_heard = is_sent_ && member != nullptr && member->last_heard > sent_at_;
+  if (options_.kind != RestartKind::save || !is_heard) {
+    return false;
+  }
+  const bool has_other_name =
+      member->info && member->info_boot == member->boots && member->info->unique_id != unique_id_;
+  const bool is_too_old = member->status && member->status_at > sent_at_ &&
+                          std::chrono::seconds(member->status->uptime_s) >
+                              member->status_at - first_sent_at_ + tolerance;
+  return has_other_name || is_too_old;
+}
+
+/// Where the servo is after its restart, in operation; empty: not yet.
+std::optional<dronecan::NodeId> RestartJob::find_returned() const {
+  for (const auto& [id, member] : roster_.members()) {
     // Where it was before earlier restarts it is heard no more.
-    const bool is_restarted = id != id_ ? member.last_heard > sent_at_ : member.boots != boot_;
+    const bool is_restarted =
+        id != id_ ? member.last_heard > sent_at_ : has_restarted_ || has_started_anew();
     // A NodeStatus is news if it came after the answer to GetNodeInfo.
     if (is_restarted && member.is_unit(unique_id_) &&
         (member.info->status.mode == dronecan::Mode::operational ||
          (member.status && member.status_at > sent_at_ &&
           member.status->mode == dronecan::Mode::operational))) {
-      return &member;
+      return id;
     }
   }
-  return nullptr;
+  return std::nullopt;
 }
 
 Step RestartJob::conclude() {
+  if (const auto id = doubled_id()) {
+    return give_up(doubled(roster_, *id));
+  }
   returned_ = find_returned();
-
   is_over_ = true;
   return std::nullopt;
 }
@@ -202,14 +292,14 @@ Error RestartJob::not_carried_out() const {
   return {Code::timeout, say<texts::opcode_ignored>(id, request), say<texts::no_answer_hint>(), id};
 }
 
+/// It is heard where it was, as if nothing had been sent.
+bool RestartJob::lives_on() const {
+  const Member* before = roster_.find(id_);
+  return before != nullptr && !has_started_anew() && before->last_heard > sent_at_ + settling_time;
+}
+
 Error RestartJob::not_back() const {
   const std::uint8_t id = id_.value();
-  const Member* before = roster_.find(id_);
-  const bool goes_on =
-      before != nullptr && before->boots == boot_ && before->last_heard > sent_at_ + settling_time;
-  if (goes_on) {
-    return not_carried_out();
-  }
   const bool is_save = options_.kind == RestartKind::save;
   std::string message = is_confirmed_ ? (is_save ? say<texts::saved_not_back>(id)
                                                  : say<texts::restarted_not_back>(id))
@@ -217,7 +307,9 @@ Error RestartJob::not_back() const {
   if (roster_.is_pending(unique_id_)) {
     return {Code::not_back, std::move(message), say<texts::waits_for_id_hint>(), id};
   }
-  return {Code::not_back, std::move(message), say<texts::not_back_hint>(), id};
+  const auto waited = fmt::format("{}", std::chrono::duration<double>(options_.come_back).count());
+  return {Code::not_back, std::move(message), say<texts::not_back_hint>(waited, hex(unique_id_)),
+          id};
 }
 
 /// Nobody waits any longer; it may come back all the same.
@@ -226,7 +318,7 @@ Error RestartJob::left_waiting() const {
   return {Code::interrupted,
           options_.kind == RestartKind::save ? say<texts::save_not_waited_for>(id)
                                              : say<texts::restart_not_waited_for>(id),
-          say<texts::not_waited_for_hint>(id), id};
+          say<texts::not_waited_for_hint>(hex(unique_id_)), id};
 }
 
 } // namespace blactl::fleet

@@ -32,12 +32,90 @@ constexpr std::size_t most_pending = 256;
 
 } // namespace
 
-Member& Roster::member(NodeId id) {
+Servo Member::servo() const {
+  return {.id = id,
+          .unique_id = info ? std::optional(info->unique_id) : std::nullopt,
+          .boot = identified_boot,
+          .since = since,
+          .name = info ? info->name : std::string(),
+          .is_servo = is_servo,
+          .identity = identity,
+          .servo_id = servo_id,
+          .static_node_id = static_node_id};
+}
+
+Roster::Roster(NodeId local)
+    : local_(local),
+      answers_([this](NodeId id, const dronecan::UniqueId& one, const dronecan::UniqueId& other) {
+        mark_doubled(id, one, other);
+      }) {}
+
+void Roster::mark_doubled(NodeId id, const dronecan::UniqueId& one,
+                          const dronecan::UniqueId& other) {
+  doubled_.insert(id);
+  units_[id].insert({one, other});
+}
+
+std::set<dronecan::UniqueId> Roster::units(NodeId id) const {
+  const auto it = units_.find(id);
+  return it != units_.end() ? it->second : std::set<dronecan::UniqueId>{};
+}
+
+Member& Roster::known(NodeId id) {
   const auto [it, added] = members_.try_emplace(id);
   if (added) {
     it->second.id = id;
   }
   return it->second;
+}
+
+Member Roster::member(NodeId id) const {
+  const Member* known = find(id);
+  return known != nullptr ? *known : Member{.id = id};
+}
+
+void Roster::announce(const Member& member) {
+  for (Listener* listener : std::vector(listeners_)) { // they may leave, bring or remove others
+    if (std::ranges::find(listeners_, listener) != listeners_.end()) {
+      listener->on_new_unit(member);
+    }
+  }
+}
+
+void Roster::learn(NodeId id, const dronecan::GetNodeInfo::Response& info) {
+  Member& member = known(id);
+  if (member.info && member.info_boot == member.boots && member.info->unique_id != info.unique_id) {
+    mark_doubled(id, member.info->unique_id, info.unique_id);
+  }
+  member.info = info;
+  member.info_boot = member.boots;
+  if (!member.is_known()) {
+    member.identified = member.is_servo = false;
+    member.identity = {};
+    member.servo_id = member.static_node_id = std::nullopt;
+  }
+}
+
+void Roster::learn(const Servo& servo, const std::optional<dronecan::GetNodeInfo::Response>& info) {
+  Member& member = known(servo.id);
+  member.info = info;
+  member.info_boot = member.identified_boot = servo.boot;
+  member.since = servo.since;
+  member.is_servo = servo.is_servo;
+  member.identity = servo.identity;
+  member.servo_id = servo.servo_id;
+  member.static_node_id = servo.static_node_id;
+  member.identified = true;
+}
+
+void Roster::learn_run(const Servo& servo) {
+  Member& member = known(servo.id);
+  member.info_boot = member.identified_boot = servo.boot;
+  member.since = servo.since;
+}
+
+void Roster::learn_static_node_id(NodeId id, std::optional<std::int64_t> static_node_id) {
+  known(id).static_node_id = static_node_id;
 }
 
 const Member* Roster::find(NodeId id) const {
@@ -53,27 +131,34 @@ void Roster::hear(const can::Frame& frame, Time at) {
   if (!header || !header->source.is_unicast() || header->source == local_) {
     return;
   }
-  Member& heard = member(header->source);
+  Member& heard = known(header->source);
   heard.last_heard = at;
+  answers_.receive(*header, frame, at);
+  const std::uint8_t tail = frame.data[frame.size - 1U];
   if (header->kind == Kind::message && header->data_type_id == dronecan::ActuatorStatus::type.id &&
-      (frame.data[frame.size - 1U] & tail_start_of_transfer) != 0) {
-    count_status(header->source, at);
+      (tail & tail_start_of_transfer) != 0) {
+    count_status(header->source, tail % dronecan::transfer_id_modulus, at);
   }
   if (!std::exchange(heard_[header->source.value()], true)) {
     heard.first_heard = at;
-    if (new_unit_) {
-      new_unit_(heard);
-    }
+    announce(heard);
   }
 }
 
-void Roster::count_status(NodeId source, Time at) {
+/// Nobody acknowledges a servo that is alone on the bus: when somebody joins, its waiting frames
+/// come all at once. But one unit numbers its transfers one by one; where the numbers of two units
+/// mix, at least every second one does not follow the one before.
+void Roster::count_status(NodeId source, dronecan::TransferId transfer_id, Time at) {
   Pulse& pulse = pulses_[source.value()];
-  if (at - pulse.window_start > status_window) {
+  if (!pulse.window_start || at - *pulse.window_start > status_window) {
     pulse.window_start = at;
-    pulse.count = 0;
+    pulse.count = pulse.leaps = 0;
   }
-  if (++pulse.count > most_statuses_of_one) {
+  const unsigned next = (pulse.last_transfer_id + 1U) % dronecan::transfer_id_modulus;
+  pulse.leaps += transfer_id != next ? 1U : 0U;
+  pulse.last_transfer_id = transfer_id;
+  ++pulse.count;
+  if (pulse.count > most_statuses_of_one && pulse.leaps * 4 > pulse.count) {
     too_fast_.insert(source);
   }
 }
@@ -107,8 +192,11 @@ void Roster::receive(const Transfer& transfer) {
   if (header.kind == Kind::response && header.data_type_id == dronecan::GetNodeInfo::type.id) {
     // Its uptime counts as well as that of NodeStatus: a restart before the first of these shows.
     if (const auto info = dronecan::GetNodeInfo::Response::decode(transfer.payload);
-        info && is_news(header.source, info->status.uptime_s, transfer.at)) {
-      watch_uptime(member(header.source), info->status.uptime_s, transfer.at);
+        info && header.source.is_unicast()) {
+      if (is_news(header.source, info->status.uptime_s, transfer.at)) {
+        watch_uptime(known(header.source), info->status.uptime_s, transfer.at);
+      }
+      learn(header.source, *info);
     }
   }
   if (header.kind != Kind::message) {
@@ -121,7 +209,7 @@ void Roster::receive(const Transfer& transfer) {
   case dronecan::ActuatorStatus::type.id:
     if (const auto status = dronecan::ActuatorStatus::decode(transfer.payload);
         status && header.source.is_unicast()) {
-      member(header.source).actuator_id = status->actuator_id;
+      known(header.source).actuator_id = status->actuator_id;
     }
     break;
   case dronecan::ArmingStatus::type.id:
@@ -140,7 +228,7 @@ void Roster::on_status(const Transfer& transfer) {
   if (!status || !transfer.header.source.is_unicast()) {
     return;
   }
-  Member& sender = member(transfer.header.source);
+  Member& sender = known(transfer.header.source);
   sender.status = *status;
   sender.status_at = transfer.at;
   watch_uptime(sender, status->uptime_s, transfer.at);
@@ -157,9 +245,7 @@ bool Roster::is_news(NodeId source, std::uint32_t uptime_s, Time at) const {
 void Roster::watch_uptime(Member& sender, std::uint32_t uptime_s, Time at) {
   if (has_restarted(sender, uptime_s, at)) {
     ++sender.boots;
-    if (new_unit_) {
-      new_unit_(sender);
-    }
+    announce(sender);
   }
 }
 
@@ -235,17 +321,33 @@ void Roster::on_write(const Transfer& transfer) {
   if (!request || std::holds_alternative<dronecan::GetSet::Empty>(request->value)) {
     return;
   }
-  for (const auto address :
-       {bla::address::command_angle, bla::address::command_speed, bla::address::command_torque}) {
-    // A name wins over an index, which is the address.
-    if (request->name.empty() ? request->index == address.value()
-                              : request->name == address.name()) {
-      commander(transfer.header.source).nodes[transfer.header.destination] = transfer.at;
-    }
+  // A name wins over an index, which is the address.
+  const auto is_at = [&](bla::Address address) {
+    return request->name.empty() ? request->index == address.value()
+                                 : request->name == address.name();
+  };
+  namespace at = bla::address;
+  const auto& [source, server] = std::pair(transfer.header.source, transfer.header.destination);
+  if (is_at(at::command_angle) || is_at(at::command_speed) || is_at(at::command_torque)) {
+    commander(source).nodes[server] = transfer.at;
+  } else {
+    writes_[server] = {source, transfer.at};
   }
 }
 
-std::optional<NodeId> Roster::driver_of(const Member& servo, Time now) const {
+std::optional<Time> Roster::started(NodeId id) const {
+  const Pulse& pulse = pulses_[id.value()];
+  return pulse.boots[pulse.last_boot];
+}
+
+std::optional<NodeId> Roster::writer_to(NodeId id, Time since) const {
+  const auto it = writes_.find(id);
+  return it != writes_.end() && it->second.at > since ? std::optional(it->second.source)
+                                                      : std::nullopt;
+}
+
+std::optional<NodeId> Roster::driver_of(const Servo& servo, Time now) const {
+  const Member* member = find(servo.id);
   const auto recent = [&](Time at) { return now - at <= driving_time; };
   for (const auto& [source, commander] : commanders_) {
     const auto by_node = commander.nodes.find(servo.id);
@@ -255,8 +357,8 @@ std::optional<NodeId> Roster::driver_of(const Member& servo, Time now) const {
     for (const auto& [servo_id, at] : commander.servo_ids) {
       constexpr std::uint8_t every_servo = 255;
       // Register and actuator.Status may differ: which of them it obeys is not known.
-      const bool meant =
-          servo_id == every_servo || servo.servo_id == servo_id || servo.actuator_id == servo_id;
+      const bool meant = servo_id == every_servo || servo.servo_id == servo_id ||
+                         (member != nullptr && member->actuator_id == servo_id);
       if (meant && recent(at)) {
         return source;
       }

@@ -39,20 +39,19 @@ std::vector<can::Filter> filters(Session::Hearing hearing, NodeId local) {
   constexpr std::uint32_t request = 0x8000;
   constexpr std::uint32_t to_us = 0x7F80;
   constexpr std::uint32_t source = 0x7F;
+  constexpr std::uint32_t anonymous_type = 0x3FF;
   std::vector<can::Filter> wanted{
       {static_cast<std::uint32_t>(local.value()) << 8 | service, to_us},
       {local.value(), source},
       message_filter(dronecan::NodeStatus::type),
       message_filter(dronecan::ActuatorStatus::type),
+      message_filter(dronecan::Allocation::type),
+      // An anonymous request has but two bits for its type (specification 4.1).
+      {static_cast<std::uint32_t>(dronecan::Allocation::type.id) << 8, anonymous_type},
   };
-  // An anonymous request has but two bits for its type (specification 4.1).
-  constexpr std::uint32_t anonymous_type = 0x3FF;
   if (hearing == Session::Hearing::commands) {
     wanted.push_back(message_filter(dronecan::ArrayCommand::type));
     wanted.push_back(message_filter(dronecan::ArmingStatus::type));
-    wanted.push_back(message_filter(dronecan::Allocation::type));
-    wanted.push_back(
-        {static_cast<std::uint32_t>(dronecan::Allocation::type.id) << 8, anonymous_type});
     wanted.push_back(
         {static_cast<std::uint32_t>(dronecan::GetSet::type.id) << 16 | request | service,
          0x00FF0000 | request | service});
@@ -60,12 +59,17 @@ std::vector<can::Filter> filters(Session::Hearing hearing, NodeId local) {
   return wanted;
 }
 
+/// As which node a session begins: with an ID that is no tool's it only listens at first.
+NodeId first_id(const std::optional<state::LocalNodeId>& local) {
+  return local && state::is_tool_id(local->id()) ? local->id() : dronecan::anonymous;
+}
+
 } // namespace
 
-Session::Session(std::unique_ptr<can::Bus> bus, std::optional<state::LocalNodeId> local)
-    : local_(std::move(local)), loop_(std::move(bus)),
-      roster_(local_ ? local_->id() : dronecan::anonymous),
-      node_(local_ ? local_->id() : dronecan::anonymous, local_ ? &local_->transfer_ids() : nullptr,
+Session::Session(std::unique_ptr<can::Bus> bus, std::optional<state::LocalNodeId> local,
+                 Hearing hearing)
+    : local_(std::move(local)), hearing_(hearing), loop_(std::move(bus)), roster_(first_id(local_)),
+      node_(first_id(local_), local_ ? &local_->transfer_ids() : nullptr,
             {.name = "blactl",
              .unique_id = own_unique_id(local_ ? local_->id() : dronecan::anonymous)},
             {.send = [this](const can::Frame& frame) { loop_.send(frame); },
@@ -81,7 +85,19 @@ Session::Session(std::unique_ptr<can::Bus> bus, std::optional<state::LocalNodeId
                  },
              .error = {},
              .backlog = [this] { return loop_.unsent(); },
-             .withdraw = [this](auto frames) { loop_.withdraw(frames); }}) {
+             .withdraw = [this](auto frames) { loop_.withdraw(frames); },
+             .asked =
+                 [this](const dronecan::Request& request, int tries) {
+                   if (asked_) {
+                     asked_(request, tries);
+                   }
+                 },
+             .unanswered =
+                 [this](const dronecan::Request& request, int tries) {
+                   if (unanswered_) {
+                     unanswered_(request, tries);
+                   }
+                 }}) {
   if (loop_.bus().is_recording()) {
     playback_.emplace(roster_);
   }
@@ -90,9 +106,9 @@ Session::Session(std::unique_ptr<can::Bus> bus, std::optional<state::LocalNodeId
 Result<std::unique_ptr<Session>> Session::open(std::unique_ptr<can::Bus> bus,
                                                std::optional<state::LocalNodeId> local,
                                                Hearing hearing) {
-  std::unique_ptr<Session> session(new Session(std::move(bus), std::move(local)));
-  if (auto filtered = session->loop_.bus().filter(filters(hearing, session->node_.id()));
-      !filtered) {
+  const NodeId id = local ? local->id() : dronecan::anonymous;
+  std::unique_ptr<Session> session(new Session(std::move(bus), std::move(local), hearing));
+  if (auto filtered = session->loop_.bus().filter(filters(hearing, id)); !filtered) {
     return std::unexpected(filtered.error());
   }
   return session;
@@ -206,17 +222,38 @@ void Session::advance(Time now) {
 }
 
 Result<Session::Happened> Session::take_frame(const can::Received& received) {
-  roster_.hear(received.frame, received.at);
-  node_.receive(received.frame, received.at);
   const auto header = received.frame.extended && received.frame.size > 0
                           ? dronecan::decode_id(received.frame.id)
                           : std::nullopt;
-  if (header && header->source.is_unicast() && header->source == node_.id()) {
-    Error error{Code::duplicate_node_id, say<texts::own_id_in_use>(node_.id().value(), interface()),
-                say<texts::own_id_in_use_hint>(), node_.id().value()};
-    return end(std::move(error));
+  if (header && local_ && header->source == local_->id()) {
+    if (auto changed = give_way(); !changed) {
+      return end(changed.error());
+    }
   }
+  roster_.hear(received.frame, received.at);
+  node_.receive(received.frame, received.at);
+  heard_anything_ = heard_anything_ || header.has_value();
   return Happened::something;
+}
+
+/// Another node has our ID.
+Result<void> Session::give_way() {
+  if (auto other = local_->give_way(interface()); !other) {
+    return other;
+  }
+  if (new_id_) {
+    new_id_(*local_);
+  }
+  if (auto filtered = loop_.bus().filter(filters(hearing_, local_->id())); !filtered) {
+    return filtered;
+  }
+  begin_as_node();
+  return {};
+}
+
+void Session::begin_as_node() {
+  roster_.change_local(local_->id());
+  node_.change_id(local_->id(), local_->transfer_ids(), loop_.now());
 }
 
 Result<void> Session::wait_until_open() {
@@ -225,6 +262,14 @@ Result<void> Session::wait_until_open() {
       return std::unexpected(happened.error());
     }
   }
+  opened_ = loop_.now();
+  if (!local_ || state::is_tool_id(local_->id())) {
+    return {};
+  }
+  if (auto free = live_until(opened_ + bus_watch_time); !free) {
+    return free;
+  }
+  begin_as_node();
   return {};
 }
 
@@ -278,11 +323,28 @@ Result<bool> Session::live_until(Time deadline, const std::function<bool()>& don
   return true;
 }
 
+Result<void> Session::run(std::span<dronecan::Job* const> jobs) {
+  for (dronecan::Job* job : jobs) {
+    start(*job);
+  }
+  // This is asked after every event, and what has ended does not begin again.
+  return run_while([this, jobs]() mutable {
+    while (!jobs.empty() && !node_.is_running(*jobs.front())) {
+      jobs = jobs.subspan(1);
+    }
+    return !jobs.empty();
+  });
+}
+
 Result<void> Session::run() {
+  return run_while([this] { return node_.jobs() > 0; });
+}
+
+Result<void> Session::run_while(const std::function<bool()>& busy) {
   if (playback_) {
     return play();
   }
-  while (node_.jobs() > 0) {
+  while (busy()) {
     if (const auto happened = step(never); !happened) {
       return std::unexpected(happened.error());
     }

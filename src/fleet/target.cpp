@@ -4,9 +4,12 @@
 #include "blactl/bla/profile.hpp"
 #include "blactl/fleet/texts.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <map>
 #include <optional>
 #include <ranges>
 #include <utility>
@@ -36,22 +39,47 @@ std::string lower(std::string_view text) {
   return out;
 }
 
-/// One ID or a range.
-bool add_ids(std::string_view item, Targets& targets) {
+bool is_number(std::string_view text) {
+  return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+/// One ID or a range of them, by its ends.
+struct IdRange {
+  std::string_view first, last;
+};
+
+/// Empty: the item is no number and no range of numbers.
+std::optional<IdRange> id_range(std::string_view item) {
   const auto dash = item.find('-');
-  const auto first = node_id(item.substr(0, dash));
-  const auto last = dash == std::string_view::npos ? first : node_id(item.substr(dash + 1));
-  if (!first || !last || *first > *last) {
-    return false;
+  const auto first = item.substr(0, dash);
+  const IdRange range{first, dash == std::string_view::npos ? first : item.substr(dash + 1)};
+  return is_number(range.first) && is_number(range.last) ? std::optional(range) : std::nullopt;
+}
+
+Error bad_target(std::string_view list) {
+  return {Code::usage, say<texts::bad_target>(printable(list)), say<texts::bad_target_hint>(),
+          std::nullopt};
+}
+
+Result<void> add_ids(const IdRange& range, std::string_view item, Targets& targets) {
+  const auto first = node_id(range.first);
+  const auto last = node_id(range.last);
+  if (!first || !last) {
+    return fail(Code::usage, say<texts::bad_target_id>(item), say<texts::bad_target_id_hint>());
+  }
+  if (*first > *last) {
+    return fail(Code::usage, say<texts::bad_target_range>(item),
+                say<texts::bad_target_range_hint>(last->value(), first->value()));
   }
   for (unsigned id = first->value(); id <= last->value(); ++id) {
     targets.ids.emplace_back(static_cast<std::uint8_t>(id));
   }
-  return true;
+  return {};
 }
 
-bool is_unique_id(std::string_view text) {
-  return text.size() == 2 * sizeof(dronecan::UniqueId) &&
+/// The digits of a unique ID, or the first of them.
+bool begins_unique_id(std::string_view text) {
+  return !text.empty() && text.size() <= 2 * sizeof(dronecan::UniqueId) &&
          text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
 }
 
@@ -67,7 +95,7 @@ bool add_selector(std::string_view item, Targets& targets) {
       {"model", Key::model},
   }};
   const auto colon = item.find(':');
-  const auto word = item.substr(0, colon);
+  const std::string word = lower(item.substr(0, colon));
   const auto key = std::ranges::find(keys, word, &std::pair<std::string_view, Key>::first);
   if (colon == std::string_view::npos || key == keys.end()) {
     return false;
@@ -77,7 +105,7 @@ bool add_selector(std::string_view item, Targets& targets) {
   selector.number = value.value_or(0);
   targets.selectors.push_back(selector);
   switch (selector.key) {
-  case Key::unique_id: return is_unique_id(selector.value);
+  case Key::unique_id: return begins_unique_id(selector.value);
   case Key::model: return !selector.value.empty();
   default: return value.has_value();
   }
@@ -90,7 +118,7 @@ bool Selector::matches(const Member& servo, const bla::Profiles& profiles) const
     return false;
   }
   switch (key) {
-  case Key::unique_id: return servo.info && hex(servo.info->unique_id) == value;
+  case Key::unique_id: return servo.info && hex(servo.info->unique_id).starts_with(value);
   case Key::serial_number: return servo.identity.readings().serial_number == number;
   case Key::servo_id: return servo.servo_id == number;
   case Key::model: {
@@ -112,21 +140,43 @@ bool Targets::mean(const Member& member, const bla::Profiles& profiles) const {
          });
 }
 
+std::optional<Error> Targets::ambiguity(const Roster& roster, const bla::Profiles& profiles) const {
+  for (const Selector& selector : selectors) {
+    std::map<dronecan::UniqueId, dronecan::NodeId> meant;
+    for (const auto& [id, member] : roster.members()) {
+      if (selector.key == Selector::Key::unique_id && selector.matches(member, profiles)) {
+        meant.try_emplace(member.info->unique_id, id);
+      }
+    }
+    if (meant.size() > 1) {
+      std::string listed;
+      for (const auto& [unique_id, id] : meant) {
+        listed += fmt::format("{}{} ({})", listed.empty() ? "" : ", ", hex(unique_id), id.value());
+      }
+      return Error{Code::usage, say<texts::ambiguous_target>(selector.text, listed),
+                   say<texts::ambiguous_target_hint>(), std::nullopt};
+    }
+  }
+  return std::nullopt;
+}
+
 Result<Targets> parse_targets(std::string_view list) {
   Targets targets;
   targets.given = true;
   for (const auto part : std::views::split(list, ',')) {
     const std::string_view item(part.begin(), part.end());
-    if (item == "all") {
+    if (lower(item) == "all") {
       targets.all = true;
-    } else if (!add_ids(item, targets) && !add_selector(item, targets)) {
-      return fail(Code::usage, say<texts::bad_target>(printable(list)),
-                  say<texts::bad_target_hint>());
+    } else if (const auto range = id_range(item)) {
+      if (auto added = add_ids(*range, item, targets); !added) {
+        return std::unexpected(std::move(added.error()));
+      }
+    } else if (!add_selector(item, targets)) {
+      return std::unexpected(bad_target(list));
     }
   }
-  if (!targets.all && targets.ids.empty() && targets.selectors.empty()) {
-    return fail(Code::usage, say<texts::bad_target>(printable(list)),
-                say<texts::bad_target_hint>());
+  if (list.empty()) { // it has no parts at all
+    return std::unexpected(bad_target(list));
   }
   std::ranges::sort(targets.ids);
   const auto repeated = std::ranges::unique(targets.ids);

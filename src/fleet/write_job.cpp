@@ -1,6 +1,8 @@
 #include "blactl/fleet/write_job.hpp"
 
 #include "blactl/bla/value.hpp"
+#include "blactl/fleet/guard.hpp"
+#include "blactl/fleet/read_job.hpp"
 #include "blactl/fleet/texts.hpp"
 
 #include <algorithm>
@@ -10,118 +12,173 @@ namespace blactl::fleet {
 
 using dronecan::GetNodeInfo;
 using dronecan::Outcome;
-using dronecan::Request;
+using dronecan::Step;
 
 namespace {
 
 /// A servo that restarts more often while it is written to does so because of it, or of its supply.
 constexpr int most_restarts = 2;
 
-} // namespace
-
-std::string_view name(ChangeStatus status) {
-  switch (status) {
-  case ChangeStatus::planned: return "planned";
-  case ChangeStatus::unchanged: return "unchanged";
-  case ChangeStatus::written: return "written";
-  case ChangeStatus::failed: return "failed";
-  case ChangeStatus::mismatch: return "mismatch";
-  }
-  return {};
+/// The servo is to hold what was requested.
+bool is_held(const Change& change) {
+  return change.status == ChangeStatus::written || change.status == ChangeStatus::unchanged;
 }
 
-WriteJob::WriteJob(Member& member, std::vector<Change> changes, Patience patience)
-    : member_(member), changes_(std::move(changes)), patience_(patience),
-      boot_(member.identified_boot) {}
+} // namespace
 
-dronecan::Step WriteJob::next(const Outcome& outcome) {
-  switch (step_) {
-  case Step::begin: return go_on();
-  case Step::unique_id:
-    if (!same_servo(outcome)) {
-      return std::nullopt;
-    }
-    return go_on();
-  case Step::write:
-    // Whatever the answer says, or if it was lost: the register itself tells what is true.
-    if (outcome.answered() || outcome.kind == Outcome::Kind::timed_out) {
-      return read_back();
-    }
-    give_up(no_answer(outcome, member_.id, changes_[at_].parameter->name));
-    return std::nullopt;
-  case Step::read:
-    judge(outcome);
-    if (outcome.kind == Outcome::Kind::cancelled || outcome.kind == Outcome::Kind::not_sent) {
-      return std::nullopt;
-    }
-    ++at_;
-    return go_on();
+WriteJob::WriteJob(const Roster& roster, Servo servo, std::vector<Change> changes,
+                   Patience patience)
+    : roster_(roster), servo_(std::move(servo)), changes_(std::move(changes)), patience_(patience) {
+}
+
+Step WriteJob::next(const Outcome& outcome) {
+  switch (at_) {
+  case At::begin: return go_on();
+  case At::unit: return judge_unit(outcome);
+  case At::write: return after_write(outcome);
+  case At::read: return after_read(outcome);
+  case At::recheck: return after_recheck(outcome);
+  case At::twin: return after_twin();
   }
   return std::nullopt;
 }
 
-/// The next write, or the unique ID if the servo may be another one.
-std::optional<Request> WriteJob::go_on() {
-  while (at_ < changes_.size() && changes_[at_].status != ChangeStatus::planned) {
-    ++at_;
+/// The next write; in the end, or if the servo may be another one, who it is.
+Step WriteJob::go_on() {
+  while (current_ < changes_.size() && !changes_[current_].is_planned()) {
+    ++current_;
+  }
+  if (roster_.is_doubled(servo_.id)) {
+    return give_up(unproven(), doubled(roster_, servo_.id));
   }
   const auto concerned = [](const Change& change) {
-    return change.status == ChangeStatus::planned || change.status == ChangeStatus::written ||
-           change.status == ChangeStatus::unchanged;
+    return change.is_planned() || is_held(change);
   };
-  if (boot_ != member_.boots && std::ranges::any_of(changes_, concerned)) {
-    step_ = Step::unique_id;
-    return ask(member_.id, GetNodeInfo::type, GetNodeInfo::Request{}.encode(), patience_);
+  const bool restarted = servo_.boot != boots();
+  if (restarted && std::ranges::any_of(changes_, concerned)) {
+    return ask_unit();
   }
-  if (at_ == changes_.size()) {
-    return std::nullopt;
+  if (current_ == changes_.size()) {
+    return has_written_ && std::ranges::any_of(changes_, is_held) ? ask_unit() : Step(std::nullopt);
   }
-  step_ = Step::write;
-  return write_register(member_.id, changes_[at_].parameter->address, changes_[at_].requested,
-                        patience_);
+  at_ = At::write;
+  has_written_ = true;
+  is_lost_ = false;
+  return write_register(servo_.id, changes_[current_].parameter->address,
+                        changes_[current_].requested, patience_);
 }
 
-std::optional<Request> WriteJob::read_back() {
-  step_ = Step::read;
-  return read_register(member_.id, changes_[at_].parameter->address, patience_);
+Step WriteJob::ask_unit() {
+  at_ = At::unit;
+  return ask(servo_.id, GetNodeInfo::type, GetNodeInfo::Request{}.encode(), patience_);
+}
+
+Step WriteJob::after_write(const Outcome& outcome) {
+  if (!outcome.answered() && outcome.kind != Outcome::Kind::timed_out) {
+    return give_up(current_, no_answer(outcome, servo_.id, changes_[current_].parameter->name));
+  }
+  // Whatever the answer says, or if it was lost: the register itself tells what is true.
+  is_lost_ = !outcome.answered();
+  at_ = At::read;
+  return read_register(servo_.id, changes_[current_].parameter->address, patience_);
+}
+
+Step WriteJob::after_read(const Outcome& outcome) {
+  Change& change = changes_[current_];
+  const auto raw = register_value(outcome, servo_.id, change.parameter->address);
+  if (outcome.kind == Outcome::Kind::cancelled || outcome.kind == Outcome::Kind::not_sent) {
+    return give_up(current_, raw.error());
+  }
+  if (!raw) {
+    change.status = ChangeStatus::failed;
+    change.error = raw.error();
+    ++current_;
+    return go_on();
+  }
+  change.after = change.parameter->width.narrow(*raw);
+  if (*change.after == change.requested) {
+    change.status = ChangeStatus::written;
+    ++current_;
+    return go_on();
+  }
+  // A restart between the write and this answer looks the same.
+  is_doubtful_ = true;
+  return ask_unit();
+}
+
+/// The same servo, without a restart since it was identified?
+Step WriteJob::judge_unit(const Outcome& outcome) {
+  const std::uint8_t id = servo_.id.value();
+  if (outcome.kind == Outcome::Kind::timed_out && has_written_) {
+    return give_up(unproven(), {Code::timeout, say<texts::not_proven_any_more>(id),
+                                say<texts::no_answer_hint>(), id});
+  }
+  if (!outcome.answered()) {
+    return give_up(unproven(), no_answer(outcome, servo_.id, "GetNodeInfo"));
+  }
+  if (roster_.is_doubled(servo_.id)) {
+    return give_up(unproven(), doubled(roster_, servo_.id));
+  }
+  const auto info = GetNodeInfo::Response::decode(outcome.payload);
+  if (!info || info->unique_id != servo_.unique_id) {
+    return give_up(unproven(), {Code::state, say<texts::restarted_meanwhile>(id),
+                                say<texts::node_not_found_hint>(), id});
+  }
+  if (servo_.boot != boots()) {
+    return write_again(outcome.at);
+  }
+  const bool is_proven = has_run_since(servo_.since, info->status.uptime_s, outcome.at);
+  if (is_doubtful_) {
+    // Without a proof once more: a servo that refuses does so again.
+    if (!is_proven && restarts_ == 0) {
+      return write_again(outcome.at);
+    }
+    judge();
+    ++current_;
+    return go_on();
+  }
+  return is_proven ? hear_twin(outcome.at) : recheck_from(0, outcome.at);
+}
+
+/// A second unit on this ID answers the last question too, somewhat later.
+Step WriteJob::hear_twin(Time now) {
+  at_ = At::twin;
+  return dronecan::Pause{.until = now + ReadJob::twin_time,
+                         .ready = [this] { return roster_.is_doubled(servo_.id); }};
+}
+
+Step WriteJob::after_twin() {
+  return roster_.is_doubled(servo_.id) ? give_up(unproven(), doubled(roster_, servo_.id))
+                                       : Step(std::nullopt);
 }
 
 /// The restart brought the values of the ROM back: what was written is to be written again.
-void WriteJob::begin_again() {
+Step WriteJob::write_again(Time now) {
+  const std::uint8_t id = servo_.id.value();
+  const bool is_heard = servo_.boot != boots();
+  if (++restarts_ > most_restarts) {
+    return give_up(unproven(), {Code::state, say<texts::restarts_again>(id),
+                                say<texts::restarts_again_hint>(), id});
+  }
+  is_doubtful_ = false;
+  servo_.boot = boots();
+  servo_.since = now;
+  if (is_heard && !doubt_unchanged()) {
+    return std::nullopt;
+  }
   for (Change& change : changes_) {
     if (change.status == ChangeStatus::written) {
       change.status = ChangeStatus::planned;
     }
   }
-  const auto first = std::ranges::find(changes_, ChangeStatus::planned, &Change::status);
-  at_ = static_cast<std::size_t>(first - changes_.begin());
+  current_ = 0;
+  return go_on();
 }
 
-bool WriteJob::same_servo(const Outcome& outcome) {
-  begin_again();
-  doubt_unchanged();
-  if (!outcome.answered()) {
-    give_up(no_answer(outcome, member_.id, "GetNodeInfo"));
-    return false;
-  }
-  const std::uint8_t id = member_.id.value();
-  const auto info = GetNodeInfo::Response::decode(outcome.payload);
-  if (!info || !member_.info || info->unique_id != member_.info->unique_id) {
-    give_up(
-        {Code::state, say<texts::restarted_meanwhile>(id), say<texts::node_not_found_hint>(), id});
-    return false;
-  }
-  if (++restarts_ > most_restarts) {
-    give_up({Code::state, say<texts::restarts_again>(id), say<texts::restarts_again_hint>(), id});
-    return false;
-  }
-  boot_ = member_.boots;
-  return true;
-}
-
-/// What was equal in RAM may have another value in ROM. To write it was never agreed.
-void WriteJob::doubt_unchanged() {
-  const std::uint8_t id = member_.id.value();
+/// What was equal in RAM may have another value in ROM. To write it was never agreed. False: there
+/// is nothing left to write.
+bool WriteJob::doubt_unchanged() {
+  const std::uint8_t id = servo_.id.value();
   for (Change& change : changes_) {
     if (change.status == ChangeStatus::unchanged) {
       change.status = ChangeStatus::failed;
@@ -130,43 +187,90 @@ void WriteJob::doubt_unchanged() {
                            say<texts::run_again_hint>(), id};
     }
   }
+  return std::ranges::any_of(changes_, [](const Change& change) {
+    return change.is_planned() || change.status == ChangeStatus::written;
+  });
 }
 
-void WriteJob::judge(const Outcome& outcome) {
-  Change& change = changes_[at_];
-  const bla::Parameter& parameter = *change.parameter;
-  const std::uint8_t id = member_.id.value();
-  const auto raw = register_value(outcome, member_.id, parameter.address);
+/// Nothing proves that there was no restart: the values themselves must.
+Step WriteJob::recheck_from(std::size_t first, Time now) {
+  current_ = first;
+  while (current_ < changes_.size() && !is_held(changes_[current_])) {
+    ++current_;
+  }
+  if (current_ == changes_.size()) {
+    const bool is_same = servo_.boot == boots() && !roster_.is_doubled(servo_.id);
+    return is_same ? hear_twin(now) : ask_unit();
+  }
+  at_ = At::recheck;
+  return read_register(servo_.id, changes_[current_].parameter->address, patience_);
+}
+
+Step WriteJob::after_recheck(const Outcome& outcome) {
+  Change& change = changes_[current_];
+  const auto raw = register_value(outcome, servo_.id, change.parameter->address);
   if (!raw) {
-    change.status = ChangeStatus::failed;
-    change.error = raw.error();
-    return;
+    return give_up(current_, raw.error());
   }
-  change.after = parameter.width.narrow(*raw);
-  if (*change.after == change.requested) {
-    change.status = ChangeStatus::written;
-    return;
+  if (change.parameter->width.narrow(*raw) == change.requested) {
+    return recheck_from(current_ + 1, outcome.at);
   }
+  if (change.status == ChangeStatus::unchanged && !doubt_unchanged()) {
+    return std::nullopt;
+  }
+  return write_again(outcome.at);
+}
+
+/// No restart explains why the register holds something else.
+void WriteJob::judge() {
+  is_doubtful_ = false;
+  Change& change = changes_[current_];
+  const bla::Parameter& parameter = *change.parameter;
+  const std::uint8_t id = servo_.id.value();
   const std::string wanted = bla::display(parameter, change.requested);
   const std::string held = bla::display(parameter, *change.after);
-  if (change.after == change.before) {
-    change.status = ChangeStatus::failed;
+  const bool is_as_before = change.after == change.before;
+  change.status = is_as_before ? ChangeStatus::failed : ChangeStatus::mismatch;
+  if (is_as_before && is_lost_) {
+    change.error = Error{Code::timeout, say<texts::write_lost>(id, parameter.name, wanted, held),
+                         say<texts::no_answer_hint>(), id};
+  } else if (is_as_before) {
     change.error = Error{Code::refused, say<texts::write_refused>(id, parameter.name, wanted, held),
                          say<texts::not_taken_hint>(id), id};
   } else {
-    change.status = ChangeStatus::mismatch;
     change.error =
         Error{Code::mismatch, say<texts::write_mismatch>(id, parameter.name, wanted, held),
               say<texts::not_taken_hint>(id), id};
   }
 }
 
-/// This change failed, and those behind it are not tried.
-void WriteJob::give_up(Error error) {
-  // Where nothing is left to write, it is about what was thought to be unchanged.
-  Change& change = at_ < changes_.size() ? changes_[at_] : changes_.front();
-  change.status = ChangeStatus::failed;
-  change.error = std::move(error);
+/// Where the reason is told if the servo is not proven to be the same: at the change that is in
+/// doubt, else at the first that was made, else at the next one.
+std::size_t WriteJob::unproven() const {
+  const auto first = [this](ChangeStatus status) {
+    const auto it = std::ranges::find(changes_, status, &Change::status);
+    return static_cast<std::size_t>(it - changes_.begin());
+  };
+  const std::size_t made = is_doubtful_ ? current_ : first(ChangeStatus::written);
+  const std::size_t next = made < changes_.size() ? made : current_;
+  return next < changes_.size() ? next : first(ChangeStatus::unchanged);
+}
+
+/// This change failed, the planned ones are not tried, and what was written is not proven.
+Step WriteJob::give_up(std::size_t blamed, Error error) {
+  for (Change& change : changes_) {
+    if (change.status == ChangeStatus::written) {
+      change.status = ChangeStatus::failed;
+      change.after = std::nullopt;
+    }
+  }
+  if (blamed < changes_.size()) {
+    Change& change = changes_[blamed];
+    change.status = ChangeStatus::failed;
+    change.after = std::nullopt;
+    change.error = std::move(error);
+  }
+  return std::nullopt;
 }
 
 } // namespace blactl::fleet

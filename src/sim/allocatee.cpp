@@ -36,26 +36,35 @@ std::optional<dronecan::Allocation> Allocatee::advance(Time now) {
   request.size = size;
   std::copy_n(unique_id_.begin() + from, size, request.unique_id.begin());
   sent_ = static_cast<std::uint8_t>(from + size);
+  answered_ = from;
   due_ = now + request_period();
   return request;
 }
 
-bool Allocatee::confirms(const dronecan::Allocation& message) const {
-  return sent_ > 0 && message.size == sent_ &&
-         std::equal(unique_id_.begin(), unique_id_.begin() + sent_, message.unique_id.begin());
+bool Allocatee::begins_with(const dronecan::Allocation& message) const {
+  return message.size > 0 && message.size <= unique_id_.size() &&
+         std::equal(unique_id_.begin(), unique_id_.begin() + message.size,
+                    message.unique_id.begin());
+}
+
+bool Allocatee::repeats(const dronecan::Allocation& message) const {
+  return message.size <= answered_ && begins_with(message);
 }
 
 std::optional<dronecan::NodeId> Allocatee::receive(const dronecan::Allocation& message,
                                                    bool anonymous, Time now) {
-  const bool answer = !anonymous && confirms(message);
+  if (!anonymous && repeats(message)) {
+    return std::nullopt;
+  }
+  const bool answer = !anonymous && message.size == sent_ && begins_with(message);
   const std::uint8_t size = std::exchange(sent_, std::uint8_t{0});
-  confirmed_ = 0;
+  confirmed_ = answered_ = 0;
   due_ = now + request_period();
   if (!answer) {
     return std::nullopt;
   }
   if (size < unique_id_.size()) {
-    confirmed_ = size;
+    confirmed_ = answered_ = size;
     due_ = now + random_.between(0ms, max_followup_delay);
     return std::nullopt;
   }

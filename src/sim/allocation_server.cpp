@@ -12,7 +12,8 @@ using namespace std::chrono_literals;
 /// FOLLOWUP_TIMEOUT_MS (DSDL 1.Allocation).
 constexpr Duration followup_timeout = 500ms;
 
-constexpr std::uint8_t part_size = 6; ///< of the first two parts; the third has the other four
+constexpr std::uint8_t first_part_size =
+    6; ///< of the first two parts; the third has the other four
 constexpr std::uint8_t whole = 16;
 
 /// IDs above are for tools (DSDL 1.Allocation); the search goes down from here.
@@ -40,7 +41,7 @@ void AllocationServer::receive(const dronecan::Transfer& message) {
     collected_ = {};
   }
   const std::uint8_t have = collected_.size;
-  const auto expected = std::min<std::uint8_t>(part_size, whole - have);
+  const auto expected = std::min<std::uint8_t>(first_part_size, whole - have);
   if (request->first_part_of_unique_id != (have == 0) || request->size != expected) {
     return;
   }

@@ -20,6 +20,14 @@ void AngleFrame::wrap(const Shaft& shaft) {
   turns_ += sign_ * turns_in(decideg(shaft));
 }
 
+void AngleFrame::change(bool reversed, std::int64_t origin_decideg, const Shaft& shaft) {
+  const bool moves = origin_decideg != origin_decideg_ && turns_in(decideg(shaft)) == 0;
+  set(reversed, origin_decideg);
+  if (moves) {
+    wrap(shaft);
+  }
+}
+
 Position AngleFrame::position(const Shaft& shaft) const {
   const std::int64_t zero = (origin_decideg_ + turns_ * turn_decideg) * angle_per_decideg;
   return {sign_ * (shaft.angle - zero), sign_ * shaft.speed};

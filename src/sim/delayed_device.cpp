@@ -10,7 +10,7 @@ namespace blactl::sim {
 namespace {
 
 constexpr Duration latest_double = std::chrono::milliseconds(20);
-constexpr std::uint8_t end_of_transfer = 0x40; // of the tail byte
+constexpr std::uint8_t last_frame_bit = 0x40; // of the tail byte
 
 bool is_answer(const can::Frame& frame) {
   const auto header = dronecan::decode_id(frame.id);
@@ -18,7 +18,7 @@ bool is_answer(const can::Frame& frame) {
 }
 
 bool ends_transfer(const can::Frame& frame) {
-  return frame.size == 0 || (frame.data[frame.size - std::size_t{1}] & end_of_transfer) != 0;
+  return frame.size == 0 || (frame.data[frame.size - std::size_t{1}] & last_frame_bit) != 0;
 }
 
 } // namespace

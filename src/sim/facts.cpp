@@ -9,7 +9,7 @@
 namespace blactl::sim {
 namespace {
 
-constexpr std::string_view schema = "blactl-facts/1";
+constexpr std::string_view facts_schema = "blactl-facts/1";
 
 Result<Behaviour> from_document(Result<json::Document> document) {
   if (!document) {
@@ -18,7 +18,7 @@ Result<Behaviour> from_document(Result<json::Document> document) {
   json::Faults& faults = document->faults();
   json::Object root(document->root(), faults);
   (void)root.optional_string("$schema"); // what editors look at
-  (void)root.word("schema", {schema});
+  (void)root.word("schema", {facts_schema});
   Behaviour behaviour;
   read_behaviour(root.object("behaviour"), behaviour, faults);
   root.finish();

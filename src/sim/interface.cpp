@@ -48,7 +48,7 @@ void Interface::handle(const can::Event& event) {
   }
   const Time now = loop_.now();
   while (const TimedEvent* due = timeline_.take(now)) {
-    devices_.change(due->serial_number, due->changes, now);
+    devices_.happen(*due, now);
   }
   for (const auto& device : devices_.all) {
     if (device->next_deadline() <= now) {

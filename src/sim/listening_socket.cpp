@@ -12,15 +12,37 @@
 #include <sys/un.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
+#include <charconv>
 #include <string>
 #include <system_error>
+#include <tuple>
 
 namespace blactl::sim {
 namespace {
 
 std::string reason(int error) {
   return std::generic_category().message(error);
+}
+
+/// The lock file says whose it is, for the next one that wants it. A full disk keeps that out.
+void sign(int lock) {
+  const std::string pid = std::to_string(getpid()) + '\n';
+  std::ignore = ftruncate(lock, 0);
+  std::ignore = pwrite(lock, pid.data(), pid.size(), 0);
+}
+
+/// What sign() wrote; 0: nothing that could be one.
+pid_t signature(int lock) {
+  std::array<char, 16> text{};
+  const auto size = pread(lock, text.data(), text.size(), 0);
+  pid_t pid = 0;
+  if (size > 0) {
+    std::from_chars(text.data(), text.data() + size, pid);
+  }
+  return std::max(pid, 0);
 }
 
 } // namespace
@@ -79,13 +101,17 @@ Result<void> ListeningSocket::lock() {
     return failure(errno);
   }
   if (flock(lock_, LOCK_EX | LOCK_NB) == 0) {
+    sign(lock_);
     return {};
   }
-  if (errno == EWOULDBLOCK) {
-    return fail(Code::busy, say<texts::sim_running>(printable(path_.string())),
-                say<texts::sim_running_hint>());
+  if (errno != EWOULDBLOCK) {
+    return failure(errno);
   }
-  return failure(errno);
+  const std::string name = printable(path_.string());
+  const pid_t holder = signature(lock_);
+  return fail(Code::busy,
+              holder > 0 ? say<texts::sim_running_as>(name, holder) : say<texts::sim_running>(name),
+              say<texts::sim_running_hint>());
 }
 
 Result<void> ListeningSocket::listen() {

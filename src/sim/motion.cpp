@@ -1,7 +1,6 @@
 #include "blactl/sim/motion.hpp"
 
-#include "sim/addresses.hpp"
-#include "sim/fault_bits.hpp"
+#include "sim/names.hpp"
 #include "sim/protection.hpp"
 #include "sim/rounded.hpp"
 
@@ -22,7 +21,7 @@ bool has_pwm_input(const ServoSetup& setup) {
 }
 
 /// 0x00-0x02 and 0x20: what a servo takes for a command (4.19).
-bool commands(Address address) {
+bool is_command(Address address) {
   return address <= address::command_torque || address == address::torque_output;
 }
 
@@ -31,6 +30,7 @@ bool commands(Address address) {
 Motion::Motion(const ServoSetup& setup, Registers& registers, Time power_on)
     : registers_(registers), behaviour_(setup.behaviour), has_pwm_input_(has_pwm_input(setup)),
       motor_(motor_of(setup)), world_(world_of(setup)), grid_(power_on) {
+  frame_.set(registers.value(address::reverse) != 0, registers.value(address::origin));
   heed_registers();
   shaft_.angle = frame_.shaft_angle(registers.value(address::current_angle));
   shaft_.speed = frame_.sign() * registers.value(address::current_speed) * speed_per_rpm;
@@ -44,8 +44,9 @@ void Motion::start(Time now) {
   timer_.start(now, behaviour_.pwm_waits_after_start);
   soft_start_ =
       registers_.value(address::soft_start) != 0 && registers_.value(address::torque_output) == 0;
+  soft_start_cut_ = false;
   if (!soft_start_) {
-    give_up_command(); // requirement 138: the torque comes on in place
+    start_in_place();
   }
   look(now);
 }
@@ -81,13 +82,16 @@ std::optional<std::int64_t> Motion::write(Address address, std::int64_t value, T
   if (behaviour_.get_set_feeds_timeout) {
     timer_.commanded(now);
   }
-  const bool obeys = commands(address) && registers_.takes(address, value);
+  const bool obeys = is_command(address) && registers_.takes(address, value);
   const std::int64_t before = registers_.value(address);
-  const auto answer = registers_.write(address, value);
+  auto answer = registers_.write(address, value);
   if (obeys) {
     told_commands_.reset();
-    timer_.commanded_by_can(now, true);
+    timer_.commanded_by_can(now, true, silences_pwm(address));
     obey(address, before);
+    answer = registers_.value(address);
+  } else if (address == address::speed_torque_control && before != 0) {
+    drop_disabled_command();
   }
   look(now);
   return answer;
@@ -98,22 +102,31 @@ void Motion::command(const MotionCommand& command, Time now) {
   if (!registers_.takes(command.address, command.value)) {
     return;
   }
-  if (!behaviour_.array_command_shows && !told_commands_) {
+  if (behaviour_.array_command_shows) {
+    told_commands_.reset();
+  } else if (!told_commands_) {
     told_commands_ = {registers_.value(address::command_angle),
                       registers_.value(address::command_speed),
                       registers_.value(address::command_torque)};
   }
   const std::int64_t before = registers_.value(command.address);
   (void)registers_.write(command.address, command.value);
-  timer_.commanded_by_can(now, behaviour_.array_command_feeds_timeout);
+  timer_.commanded_by_can(now, behaviour_.array_command_feeds_timeout,
+                          silences_pwm(command.address));
   obey(command.address, before);
   look(now);
 }
 
 void Motion::initialize(Time now) {
   look(now);
+  const bool was_on = registers_.value(address::torque_output) == 0;
   registers_.initialize();
   told_commands_.reset();
+  holds_ = false;
+  heed_registers();
+  if (!was_on && behaviour_.erase_holds) { // requirement 132: 0x20 comes on by that
+    give_up_command();
+  }
   look(now);
 }
 
@@ -126,7 +139,8 @@ void Motion::surround(const World& world, Time now) {
 void Motion::heed_registers() {
   tuning_ = tuning_of(motor_, registers_, soft_start_);
   tuning_.boost_in_dead_band = behaviour_.boost_in_dead_band;
-  frame_.set(registers_.value(address::reverse) != 0, registers_.value(address::origin));
+  registers_.act_with_speed_control(soft_start_);
+  frame_.change(registers_.value(address::reverse) != 0, registers_.value(address::origin), shaft_);
   if (has_pwm_input_) {
     pulse_ = read_pulse(world_.pulse_us, registers_, behaviour_.pwm_end_points_move);
   }
@@ -166,7 +180,7 @@ void Motion::measure() {
   show(address::current_torque, rounded(drive_.effort, effort_per_percent), -150, 150);
   show(address::current_temperature, world_.board_celsius, -40, 120);
   show(address::current_voltage, world_.supply_decivolt, 0, 500);
-  Faults faults = present_faults(registers_, world_, behaviour_);
+  Faults faults = present_faults(registers_, world_, behaviour_, soft_start_);
   if (behaviour_.failures_latch) {
     kept_failures_ |= faults.failure & fault::hardware_failures;
   }
@@ -177,7 +191,8 @@ void Motion::measure() {
 
 /// Requirements 136, 161, 162, 170. Whether something changed.
 bool Motion::protect() {
-  const bool stops = stops_motor(registers_, behaviour_, registers_.value(address::fault_failure));
+  const bool stops =
+      stops_motor(registers_, world_, behaviour_, registers_.value(address::fault_failure));
   if (!runs_ || stops == stopped_) {
     return false;
   }
@@ -187,66 +202,6 @@ bool Motion::protect() {
     give_up_command();
   }
   return true;
-}
-
-/// A command was taken; `before` it the register held that.
-void Motion::obey(Address address, std::int64_t before) {
-  end_soft_start();
-  if (address != address::torque_output) {
-    holds_ = false;
-  } else if (before != 0 && registers_.value(address) == 0) {
-    give_up_command(); // requirement 132
-  }
-}
-
-/// Holds the present angle, or brakes (tables of 4.7 and 4.13). unproven: that 0x20 and a start
-/// without soft start change the registers as protection does.
-void Motion::give_up_command() {
-  switch (mode()) {
-  case Mode::angle:
-    registers_.set(address::command_angle, angle_decideg());
-    holds_ = true;
-    break;
-  case Mode::speed: registers_.set(address::command_speed, 0); break;
-  case Mode::torque: registers_.set(address::command_torque, 0); break;
-  }
-}
-
-void Motion::end_soft_start() {
-  if (soft_start_) {
-    soft_start_ = false;
-    heed_registers();
-  }
-}
-
-/// What a read tells that is not what the register holds, if the servo is set so.
-std::optional<std::int64_t> Motion::told_instead(Address address) const {
-  if (told_commands_ && address <= address::command_torque) {
-    return told_commands_->at(address.value());
-  }
-  return soft_start_limit(address);
-}
-
-/// What a read of a limit tells while the soft start has its own, if the servo is set to tell it.
-std::optional<std::int64_t> Motion::soft_start_limit(Address address) const {
-  if (!soft_start_ || !behaviour_.soft_start_shows) {
-    return std::nullopt;
-  }
-  if (address == address::speed_torque_control) {
-    return std::int64_t{tuning_.cascade};
-  }
-  if (address == address::speed_limit_cw) {
-    return tuning_.speed_cw / speed_per_rpm;
-  }
-  if (address == address::speed_limit_ccw) {
-    return tuning_.speed_ccw / speed_per_rpm;
-  }
-  if (address == address::torque_limit_cw) {
-    return tuning_.effort_cw / effort_per_percent;
-  }
-  return address == address::torque_limit_ccw
-             ? std::optional(tuning_.effort_ccw / effort_per_percent)
-             : std::nullopt;
 }
 
 } // namespace blactl::sim

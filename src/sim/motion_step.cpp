@@ -2,7 +2,7 @@
 
 #include "blactl/sim/motion.hpp"
 
-#include "sim/addresses.hpp"
+#include "sim/names.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -51,14 +51,12 @@ bool Motion::obey_pulse() {
     return false;
   }
   timer_.commanded(grid_);
+  told_commands_.reset();
   end_soft_start();
   holds_ = false;
   const auto [address, value] = *pulse_.command;
   const std::int64_t before = registers_.value(address);
   if (value == before) {
-    return false;
-  }
-  if (value == before && !holds_) {
     return false;
   }
   forget_turns();
@@ -67,17 +65,35 @@ bool Motion::obey_pulse() {
 }
 
 Drive Motion::drive() {
-  constexpr std::int64_t soft_start_end_decideg = 10; // requirement 141
   const Drive::Kind kind = output();
-  if (soft_start_ && (kind != Drive::Kind::on ||
-                      std::abs(position().angle) <= soft_start_end_decideg * angle_per_decideg)) {
-    end_soft_start();
+  if (soft_start_) {
+    heed_soft_start(kind);
   }
   if (kind != Drive::Kind::on) {
     controller_.rest();
     return {.kind = kind};
   }
   return controller_.step(aim(), position(), tuning_);
+}
+
+/// Requirements 141, 143. A soft start that a timeout has cut goes on, if the servo is set so, with
+/// the next command; it ends where that leads, and with a command that leads nowhere.
+void Motion::heed_soft_start(Drive::Kind kind) {
+  constexpr std::int64_t end_decideg = 10;
+  if (kind != Drive::Kind::on) {
+    const bool by_timeout = !stopped_ && registers_.value(address::torque_output) == 0;
+    if (by_timeout && behaviour_.soft_start_resumes) {
+      soft_start_cut_ = true;
+    } else {
+      end_soft_start();
+    }
+    return;
+  }
+  const Aim aim = this->aim();
+  if (aim.mode != Mode::angle ||
+      std::abs(aim.value - position().angle) <= end_decideg * angle_per_decideg) {
+    end_soft_start();
+  }
 }
 
 /// Whether the motor is on: protection first, then 0x20, then the timeout.
@@ -91,10 +107,12 @@ Drive::Kind Motion::output() const {
                                      : Drive::Kind::on;
   };
   const Drive::Kind set = kind(registers_.value(address::torque_output));
-  if (set == Drive::Kind::on && timer_.timed_out(grid_, timeout())) {
-    return kind(registers_.value(address::timeout_action));
+  if (!timer_.timed_out(grid_, timeout())) {
+    return set;
   }
-  return set;
+  const Drive::Kind action = kind(registers_.value(address::timeout_action));
+  const bool lets_go = set == Drive::Kind::brake && action == Drive::Kind::off;
+  return set == Drive::Kind::on || (lets_go && behaviour_.timeout_beats_brake) ? action : set;
 }
 
 Mode Motion::mode() const {
@@ -112,12 +130,15 @@ Aim Motion::aim() const {
     return {mode, rpm * speed_per_rpm};
   }
   if (mode == Mode::torque) {
-    return {mode, registers_.value(address::command_torque) * effort_per_percent};
+    return {mode, registers_.value(address::command_torque) * tuning_.whole_effort() / 100};
   }
   const std::int64_t commanded = registers_.value(address::command_angle);
-  const std::int64_t limited = std::clamp(commanded, registers_.value(address::angle_limit_ccw),
-                                          registers_.value(address::angle_limit_cw));
-  return {mode, (holds_ ? commanded : limited) * angle_per_decideg};
+  return {mode, (holds_ ? commanded : inside_limits(commanded)) * angle_per_decideg};
+}
+
+std::int64_t Motion::inside_limits(std::int64_t decideg) const {
+  return std::clamp(decideg, registers_.value(address::angle_limit_ccw),
+                    registers_.value(address::angle_limit_cw));
 }
 
 Duration Motion::timeout() const {

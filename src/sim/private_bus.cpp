@@ -14,7 +14,7 @@ namespace {
 
 /// Frames that a CAN socket holds by default before it drops some.
 constexpr std::size_t inbox_capacity = 278;
-constexpr std::size_t queue_capacity = 10;
+constexpr std::size_t own_queue_capacity = 10;
 
 /// Virtual time passes in steps, so that the loop sees signals even on a bus of which the filter
 /// lets nothing through.
@@ -74,7 +74,8 @@ class PrivateBus::Inbox final : public Medium::Listener {
 PrivateBus::PrivateBus(std::string name, const Scenario& scenario)
     : name_(std::move(name)), clock_(scenario.clock),
       simulator_(scenario, scenario.clock == Clock::simulated ? Time{} : Bus::now()),
-      inbox_(std::make_unique<Inbox>(*this)), port_(simulator_.attach(*inbox_, queue_capacity)) {}
+      inbox_(std::make_unique<Inbox>(*this)),
+      port_(simulator_.attach(*inbox_, own_queue_capacity)) {}
 
 PrivateBus::~PrivateBus() = default;
 

@@ -1,7 +1,7 @@
 #include "sim/protection.hpp"
 
-#include "sim/addresses.hpp"
-#include "sim/fault_bits.hpp"
+#include "sim/names.hpp"
+#include "sim/soft_start.hpp"
 
 #include <array>
 
@@ -30,14 +30,22 @@ constexpr std::array warnings{
           fault::voltage_high, fault::voltage_low},
 };
 
+bool beyond(std::int64_t value, std::int64_t upper, std::int64_t lower, bool inclusive) {
+  return inclusive ? value >= upper || value <= lower : value > upper || value < lower;
+}
+
 template <std::size_t size>
 std::int64_t bits_of(const std::array<Range, size>& ranges, const Registers& registers,
-                     bool inclusive) {
+                     bool inclusive, bool soft_start = false) {
+  const auto limit = [&](bla::Address address) {
+    const auto temporary = soft_start ? soft_start_value(address) : std::nullopt;
+    return temporary.value_or(registers.value(address));
+  };
   std::int64_t bits = 0;
   for (const Range& range : ranges) {
     const std::int64_t reading = registers.value(range.reading);
-    const std::int64_t upper = registers.value(range.upper);
-    const std::int64_t lower = registers.value(range.lower);
+    const std::int64_t upper = limit(range.upper);
+    const std::int64_t lower = limit(range.lower);
     bits |= reading > upper || (inclusive && reading == upper) ? range.upper_bit : 0;
     bits |= reading < lower || (inclusive && reading == lower) ? range.lower_bit : 0;
   }
@@ -61,9 +69,10 @@ std::int64_t of_magnet(Magnet magnet, Magnet state, std::int64_t bit) {
 
 } // namespace
 
-Faults present_faults(const Registers& registers, const World& world, const Behaviour& behaviour) {
+Faults present_faults(const Registers& registers, const World& world, const Behaviour& behaviour,
+                      bool soft_start) {
   Faults faults{world.notices, world.warnings, world.failures};
-  faults.notice |= bits_of(notices, registers, behaviour.inclusive_limits);
+  faults.notice |= bits_of(notices, registers, behaviour.inclusive_limits, soft_start);
   faults.notice |= commanded_beyond(registers);
   faults.warning |= bits_of(warnings, registers, behaviour.inclusive_limits);
   faults.warning |= of_magnet(world.magnet, Magnet::weak, fault::magnet_weak);
@@ -74,8 +83,16 @@ Faults present_faults(const Registers& registers, const World& world, const Beha
   return faults;
 }
 
-bool stops_motor(const Registers& registers, const Behaviour& behaviour, std::int64_t failures) {
-  return failures != 0 || bits_of(warnings, registers, behaviour.inclusive_limits) != 0;
+bool stops_motor(const Registers& registers, const World& world, const Behaviour& behaviour,
+                 std::int64_t failures) {
+  const std::int64_t past = behaviour.restart_bits_stop ? 0 : fault::restart_failures;
+  const auto stops = [&](std::int64_t measured, const Range& range) {
+    return beyond(measured, registers.value(range.upper), registers.value(range.lower),
+                  behaviour.inclusive_stops);
+  };
+  const auto& [temperature, voltage] = warnings;
+  return (failures & ~past) != 0 || stops(world.board_celsius, temperature) ||
+         stops(world.supply_decivolt, voltage);
 }
 
 } // namespace blactl::sim

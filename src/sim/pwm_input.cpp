@@ -1,7 +1,6 @@
 #include "blactl/sim/pwm_input.hpp"
 
-#include "sim/addresses.hpp"
-#include "sim/fault_bits.hpp"
+#include "sim/names.hpp"
 
 namespace blactl::sim {
 

@@ -2,7 +2,7 @@
 
 #include "blactl/sim/world.hpp"
 
-#include "sim/addresses.hpp"
+#include "sim/names.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -33,6 +33,10 @@ std::int64_t summary(std::int64_t notice, std::int64_t warning, std::int64_t fai
     }
   }
   return bits;
+}
+
+bool in_range(const bla::Parameter& parameter, std::int64_t wanted) {
+  return wanted >= parameter.min.value_or(wanted) && wanted <= parameter.max.value_or(wanted);
 }
 
 std::int64_t nearest(const bla::Parameter& parameter, std::int64_t wanted) {
@@ -142,9 +146,18 @@ std::optional<std::int64_t> Registers::read(Address address) const {
 /// ignored.
 bool Registers::disabled_command(Address address) const {
   const bool optional_command = address == command_speed || address == command_torque;
-  const bool enabled =
-      existing(speed_torque_control) != nullptr && value(speed_torque_control) != 0;
-  return optional_command && !enabled && behaviour_.ignores_disabled_commands;
+  const bool acts = acts_with_speed_control_ && existing(speed_torque_control) != nullptr;
+  return optional_command && !acts && !controls_speed() && behaviour_.ignores_disabled_commands;
+}
+
+bool Registers::controls_speed() const {
+  return existing(speed_torque_control) != nullptr ? value(speed_torque_control) != 0
+                                                   : behaviour_.speed_control_before_1100;
+}
+
+/// Requirement 78: a refused value may be answered with a failure.
+bool Registers::fails(const bla::Parameter& parameter, std::int64_t wanted) const {
+  return behaviour_.out_of_range == OutOfRange::fail && !in_range(parameter, wanted);
 }
 
 bool Registers::takes(Address address, std::int64_t wanted) const {
@@ -153,9 +166,7 @@ bool Registers::takes(Address address, std::int64_t wanted) const {
       disabled_command(address)) {
     return false;
   }
-  const bool in_range =
-      wanted >= parameter->min.value_or(wanted) && wanted <= parameter->max.value_or(wanted);
-  return in_range || behaviour_.out_of_range == OutOfRange::clamp;
+  return in_range(*parameter, wanted) || behaviour_.out_of_range == OutOfRange::clamp;
 }
 
 std::optional<std::int64_t> Registers::write(Address address, std::int64_t wanted) {
@@ -164,7 +175,7 @@ std::optional<std::int64_t> Registers::write(Address address, std::int64_t wante
     return std::nullopt;
   }
   if (!takes(address, wanted)) {
-    return value(address);
+    return fails(*parameter, wanted) ? std::nullopt : std::optional(value(address));
   }
   if (parameter->group == bla::Group::command) {
     command(address, wanted);

@@ -25,9 +25,9 @@ constexpr std::string_view default_text = R"({
 })";
 
 /// Reads one scenario; faults go to the document's list.
-class Reader {
+class ScenarioReader {
  public:
-  Reader(const bla::Profiles& profiles, const Behaviour& usual, json::Faults& faults)
+  ScenarioReader(const bla::Profiles& profiles, const Behaviour& usual, json::Faults& faults)
       : profiles_(profiles), usual_(usual), faults_(faults) {}
 
   Scenario scenario(json::Object root);
@@ -35,6 +35,7 @@ class Reader {
  private:
   WireFaults wire(json::Object object);
   TimedEvent event(const json::Value& value, const std::vector<ServoSetup>& servos);
+  std::optional<Mishap> mishap(json::Object& object);
   std::vector<WorldChange> world(json::Object object);
 
   const bla::Profiles& profiles_;
@@ -42,7 +43,7 @@ class Reader {
   json::Faults& faults_;
 };
 
-Scenario Reader::scenario(json::Object root) {
+Scenario ScenarioReader::scenario(json::Object root) {
   Scenario scenario;
   (void)root.optional_string("$schema"); // what editors look at
   (void)root.word("schema", {schema});
@@ -53,6 +54,7 @@ Scenario Reader::scenario(json::Object root) {
   for (const json::Value* item : root.optional_array("servos")) {
     scenario.servos.push_back(servos.read(*item, scenario.servos.size()));
   }
+  scenario.warnings = servos.warnings();
   for (const json::Value* item : root.optional_array("foreign")) {
     scenario.foreign.push_back(read_foreign(*item, faults_));
   }
@@ -64,7 +66,7 @@ Scenario Reader::scenario(json::Object root) {
   return scenario;
 }
 
-WireFaults Reader::wire(json::Object object) {
+WireFaults ScenarioReader::wire(json::Object object) {
   constexpr std::chrono::seconds longest(3600);
   WireFaults wire;
   if (!object.exists()) {
@@ -80,7 +82,7 @@ WireFaults Reader::wire(json::Object object) {
   return wire;
 }
 
-TimedEvent Reader::event(const json::Value& value, const std::vector<ServoSetup>& servos) {
+TimedEvent ScenarioReader::event(const json::Value& value, const std::vector<ServoSetup>& servos) {
   constexpr std::chrono::seconds longest(1'000'000);
   TimedEvent event;
   json::Object object(value, faults_);
@@ -90,7 +92,11 @@ TimedEvent Reader::event(const json::Value& value, const std::vector<ServoSetup>
     if (std::ranges::find(servos, *serial, &ServoSetup::serial_number) == servos.end()) {
       faults_.add(*object.optional_any("servo"), say<texts::scenario_no_such_serial>(*serial));
     }
-    event.changes = world(object.object("world"));
+    event.changes = world(object.optional_object("world"));
+    event.mishap = mishap(object);
+    if (!object.has("world") && !object.has("happens")) {
+      faults_.add(value, say<texts::scenario_event_servo>());
+    }
   } else if (const auto link = object.optional_word("clients", {"joined", "cut", "bus_off"})) {
     event.clients = parse_client_link(*link).value_or(ClientLink::joined);
   } else if (object.exists() && !object.has("servo") && !object.has("clients")) {
@@ -100,7 +106,15 @@ TimedEvent Reader::event(const json::Value& value, const std::vector<ServoSetup>
   return event;
 }
 
-std::vector<WorldChange> Reader::world(json::Object object) {
+std::optional<Mishap> ScenarioReader::mishap(json::Object& object) {
+  const auto word = object.optional_word(
+      "happens", {"power_off", "power_on", "clock_error", "watchdog_error", "ram_error"});
+  const auto found = std::ranges::find(mishaps, word.value_or(""),
+                                       [](const auto& mishap) { return mishap.first; });
+  return found != mishaps.end() ? std::optional(found->second) : std::nullopt;
+}
+
+std::vector<WorldChange> ScenarioReader::world(json::Object object) {
   std::vector<WorldChange> changes;
   if (!object.exists()) {
     return changes;
@@ -127,7 +141,7 @@ Result<Scenario> from_document(Result<json::Document> document, const bla::Profi
   }
   json::Faults& faults = document->faults();
   Scenario scenario =
-      Reader(profiles, usual, faults).scenario(json::Object(document->root(), faults));
+      ScenarioReader(profiles, usual, faults).scenario(json::Object(document->root(), faults));
   if (const auto fine = faults.result(); !fine) {
     return std::unexpected(fine.error());
   }

@@ -2,7 +2,7 @@
 
 #include "blactl/sim/command.hpp"
 
-#include "sim/addresses.hpp"
+#include "sim/names.hpp"
 
 #include <charconv>
 #include <chrono>
@@ -13,7 +13,6 @@ namespace blactl::sim {
 
 using dronecan::ExecuteOpcode;
 using dronecan::GetSet;
-using dronecan::Kind;
 using dronecan::RestartNode;
 
 namespace {
@@ -47,7 +46,7 @@ void Servo::handle(const dronecan::Transfer& transfer) {
   if (departure_) {
     return;
   }
-  if (transfer.header.kind == Kind::message) {
+  if (transfer.header.kind == dronecan::Kind::message) {
     if (transfer.header.data_type_id == dronecan::ArrayCommand::type.id) {
       hear_commands(transfer);
     } else {
@@ -59,12 +58,23 @@ void Servo::handle(const dronecan::Transfer& transfer) {
     restart(now_);
     return;
   }
+  const auto kind = request_kind(transfer);
+  if (!kind) {
+    return; // requirement 8: no answer
+  }
+  serve(transfer);
+  if (counter_.restarts_after(*kind)) {
+    departure_ = {.at = now_ + setup_.answer_delay, .kind = Departure::Kind::fault};
+  }
+}
+
+void Servo::serve(const dronecan::Transfer& transfer) {
   switch (transfer.header.data_type_id) {
   case dronecan::GetNodeInfo::type.id: serve_node_info(transfer); break;
   case GetSet::type.id: serve_get_set(transfer); break;
   case ExecuteOpcode::type.id: serve_opcode(transfer); break;
   case RestartNode::type.id: serve_restart(transfer); break;
-  default: break; // requirement 8: no answer
+  default: break;
   }
 }
 
@@ -86,7 +96,7 @@ void Servo::hear_commands(const dronecan::Transfer& transfer) {
     return;
   }
   for (const auto& command : message->commands) {
-    const auto wanted = motion_command(command, setup_.behaviour.not_a_number);
+    const auto wanted = motion_command(command, setup_.behaviour);
     if (wanted && addresses(command, registers_.value(address::servo_id))) {
       motion_.command(*wanted, now_);
     }
@@ -251,6 +261,9 @@ dronecan::NodeStatus Servo::node_status(Time now) {
   motion_.look(now);
   const bool noticed = registers_.value(address::fault_notice) != 0;
   dronecan::NodeStatus status;
+  if (assigned_now_ && setup_.behaviour.assignment_shows) {
+    status.mode = dronecan::Mode::initialization;
+  }
   status.uptime_s = static_cast<std::uint32_t>(
       std::chrono::duration_cast<std::chrono::seconds>(now - started_).count());
   if (registers_.value(address::fault_failure) != 0) {

@@ -2,7 +2,7 @@
 
 #include "blactl/sim/servo.hpp"
 
-#include "sim/fault_bits.hpp"
+#include "sim/names.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -15,7 +15,7 @@ namespace {
 
 // Section 2.2.
 constexpr Duration node_status_period = 1s;
-constexpr Duration status_period = 100ms;
+constexpr Duration servo_status_period = 100ms;
 constexpr dronecan::Priority status_priority = 16;
 constexpr dronecan::Priority allocation_priority = 24;
 
@@ -29,7 +29,8 @@ Servo::Servo(const ServoSetup& setup, std::uint64_t seed, Time power_on)
     : setup_(setup), random_(seed), registers_(setup), motion_(setup, registers_, power_on),
       endpoint_({dronecan::Allocation::type.id, dronecan::ArrayCommand::type.id},
                 [this](const dronecan::Transfer& transfer) { handle(transfer); }),
-      wake_(power_on + boot_time()), now_(power_on), started_(power_on) {
+      counter_(setup.faults.restart_after_answer), wake_(power_on + boot_time()), now_(power_on),
+      started_(power_on) {
   if (!world().powers()) {
     wake_ = never;
   }
@@ -84,9 +85,10 @@ void Servo::broadcast(Time now) {
   if (next_node_status_ <= now) {
     next_node_status_ += node_status_period;
     send_message(dronecan::NodeStatus::type, status_priority, node_status(now).encode());
+    assigned_now_ = false;
   }
   if (next_status_ <= now) {
-    next_status_ += status_period;
+    next_status_ += servo_status_period;
     send_message(dronecan::ActuatorStatus::type, status_priority, actuator_status(now).encode());
   }
 }
@@ -114,11 +116,14 @@ void Servo::start(Time now) {
 
 void Servo::operate(dronecan::NodeId id, Time now) {
   endpoint_.set_node_id(id);
+  assigned_now_ = allocatee_.has_value();
   if (allocatee_) {
     allocatee_.reset();
     tell(ServoEvent::Kind::allocated);
   }
-  next_node_status_ = next_status_ = now;
+  next_node_status_ =
+      setup_.faults.no_node_status ? never : now + setup_.behaviour.first_node_status;
+  next_status_ = setup_.faults.no_actuator_status ? never : now;
 }
 
 /// `answered`: the answer comes first (requirement 57), after the delay of all answers.
@@ -128,20 +133,21 @@ void Servo::obey(Order order, bool answered) {
     tell(ServoEvent::Kind::erase);
     return;
   }
-  departure_ = {.at = answered ? now_ + setup_.answer_delay : now_, .saves = order == Order::save};
+  departure_ = {.at = answered ? now_ + setup_.answer_delay : now_,
+                .kind = order == Order::save ? Departure::Kind::save : Departure::Kind::restart};
 }
 
 /// What is in its transmit queue by now leaves all the same: the answer is.
 void Servo::depart(Time now) {
-  const bool saves = departure_->saves;
+  const Departure::Kind kind = departure_->kind;
   departure_.reset();
-  if (saves) {
+  if (kind == Departure::Kind::save) {
     phase_ = Phase::rom_write;
     motion_.stop(now);
     wake_ = now + std::min(setup_.behaviour.rom_write_time,
                            setup_.faults.power_loss_in_save.value_or(Duration::max()));
     answers_.clear();
-  } else if (!setup_.faults.stays) {
+  } else if (kind == Departure::Kind::fault || !setup_.faults.stays) {
     restart(now);
   }
 }
@@ -220,6 +226,20 @@ void Servo::upset(Upset cause, Time now) {
                      : cause == Upset::watchdog ? fault::watchdog
                                                 : fault::memory,
                      now);
+}
+
+void Servo::suffer(Mishap mishap, Time now) {
+  World around = world();
+  switch (mishap) {
+  case Mishap::power_off:
+  case Mishap::power_on:
+    around.plugged = mishap == Mishap::power_on;
+    surround(around, now);
+    break;
+  case Mishap::clock_error: upset(Upset::clock, now); break;
+  case Mishap::watchdog_error: upset(Upset::watchdog, now); break;
+  case Mishap::ram_error: upset(Upset::memory, now); break;
+  }
 }
 
 void Servo::tell(ServoEvent::Kind kind) const {

@@ -3,8 +3,12 @@
 #include "blactl/bla/value.hpp"
 
 #include "sim/behaviour_reader.hpp"
+#include "sim/firmware_history.hpp"
 #include "sim/scenario_values.hpp"
+#include "sim/servo_faults_reader.hpp"
 #include "sim/texts.hpp"
+
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>
@@ -20,20 +24,12 @@ constexpr std::int64_t max_node_id = dronecan::NodeId::max;
 constexpr std::int64_t max_servo_id = 254;
 constexpr std::int64_t max_uint16 = std::numeric_limits<std::uint16_t>::max();
 constexpr std::int64_t max_uint32 = std::numeric_limits<std::uint32_t>::max();
-constexpr std::chrono::seconds longest_delay(10);
-constexpr std::chrono::seconds longest_absence(600);
+constexpr std::chrono::seconds longest_answer_delay(10);
 
-/// The newest firmware that chapter 5 lists for the series of `profile`; 0 if it lists none.
+/// The newest firmware that chapter 5 lists for a model; 0 if it lists none.
 std::int64_t newest_firmware(const bla::Profiles& profiles, const bla::Profile& profile) {
-  std::int64_t newest = 0;
-  for (const bla::FirmwareRelease& release : profiles.firmware()) {
-    const bool shipped =
-        std::ranges::any_of(release.shipments, [&](const bla::FirmwareRelease::Shipment& shipment) {
-          return shipment.models.starts_with(profile.series);
-        });
-    newest = shipped ? std::max(newest, release.version) : newest;
-  }
-  return newest;
+  const auto versions = shipped_firmware(profiles, profile.model);
+  return versions.empty() ? 0 : versions.back();
 }
 
 std::string default_name(std::string_view series) {
@@ -58,29 +54,32 @@ std::int64_t given(const std::vector<std::pair<bla::Address, std::int64_t>>& val
 ServoSetup ServoReader::read(const json::Value& value, std::size_t index) {
   ServoSetup servo;
   json::Object object(value, faults_);
-  servo.profile = model(object);
+  const std::string label = object.string("model");
+  servo.profile = model(object, label);
   numbers(object, index, servo);
+  check_firmware(object, label, servo);
   servo.unique_id =
       read_unique_id(object, static_cast<std::uint64_t>(servo.serial_number), faults_);
   servo.name = read_node_name(
       object, default_name(servo.profile != nullptr ? servo.profile->series : ""), faults_);
   servo.answer_delay =
-      read_duration(object, "answer_delay", servo.answer_delay, longest_delay, faults_);
+      read_duration(object, "answer_delay", servo.answer_delay, longest_answer_delay, faults_);
   servo.rom = registers(object.optional_object("rom"), Memory::rom, servo);
   servo.ram = registers(object.optional_object("ram"), Memory::ram, servo);
   servo.behaviour = usual_;
   read_behaviour(object.optional_object("behaviour"), servo.behaviour, faults_);
-  servo_faults(object.optional_object("faults"), servo.faults);
-  sending(object.optional_object("sending"), servo.sending);
+  read_servo_faults(object.optional_object("faults"), servo.faults, faults_);
+  read_sending(object.optional_object("sending"), servo.sending, faults_);
   object.finish();
   return servo;
 }
 
-const bla::Profile* ServoReader::model(json::Object& object) {
-  const std::string wanted = object.string("model");
-  const auto found = std::ranges::find(profiles_.all(), wanted, &bla::Profile::model);
-  if (found != profiles_.all().end()) {
-    return &*found;
+/// `wanted` is a model or the label of one, not the beginning of its name.
+const bla::Profile* ServoReader::model(json::Object& object, const std::string& wanted) {
+  for (const bla::Profile* profile : profiles_.matching(wanted)) {
+    if (wanted.size() >= profile->model.size()) {
+      return profile;
+    }
   }
   if (const json::Value* value = object.optional_any("model");
       value != nullptr && value->kind == json::Kind::string) {
@@ -91,6 +90,28 @@ const bla::Profile* ServoReader::model(json::Object& object) {
     faults_.add(*value, say<texts::scenario_model_unknown>(wanted, models));
   }
   return nullptr;
+}
+
+/// Requirement 184. A warning only: a firmware may be of a unit that was updated, or to come.
+void ServoReader::check_firmware(json::Object& object, const std::string& label,
+                                 const ServoSetup& servo) {
+  const json::Value* where = object.optional_any("firmware_version");
+  if (servo.profile == nullptr || where == nullptr) {
+    return;
+  }
+  // The letters as the profile has them, the last digit as the label has it.
+  const std::string model = servo.profile->model + label.substr(servo.profile->model.size());
+  const auto versions = shipped_firmware(profiles_, model);
+  if (versions.empty() || std::ranges::find(versions, servo.firmware_version) != versions.end()) {
+    return;
+  }
+  std::string known;
+  for (const std::int64_t version : versions) {
+    known += (known.empty() ? "" : ", ") + bla::firmware_text(version);
+  }
+  warnings_.push_back(fmt::format(
+      "{}:{}: {}: {}", printable(faults_.file()), where->line, where->pointer(),
+      say<texts::scenario_firmware>(model, bla::firmware_text(servo.firmware_version), known)));
 }
 
 /// Keys that are integers; what the model says if they are left out.
@@ -203,47 +224,6 @@ void ServoReader::check_pwm_modes(std::int64_t actual) {
       faults_.add(*value.where, say<texts::scenario_pwm_mode>(value.mode, actual));
     }
   }
-}
-
-void ServoReader::servo_faults(json::Object object, ServoFaults& into) {
-  if (!object.exists()) {
-    return;
-  }
-  const auto number = [&](std::string_view key) {
-    return static_cast<std::uint32_t>(object.optional_integer(key, 0, max_uint32).value_or(0));
-  };
-  const auto flag = [&](std::string_view key) {
-    return object.optional_boolean(key).value_or(false);
-  };
-  into.lose_responses = number("lose_responses");
-  into.mute = flag("mute");
-  into.lose_opcode_answers = number("lose_opcode_answers");
-  into.ignore_opcodes = number("ignore_opcodes");
-  into.refuse_opcodes = flag("refuse_opcodes");
-  into.rom_write_fails = flag("rom_write_fails");
-  into.stays = flag("stays");
-  into.never_returns = flag("never_returns");
-  into.restart_instead_of_answer = number("restart_instead_of_answer");
-  constexpr Duration never_lost(-1);
-  const Duration lost_after =
-      read_duration(object, "power_loss_in_save", never_lost, longest_delay, faults_);
-  if (lost_after >= Duration::zero()) {
-    into.power_loss_in_save = lost_after;
-  }
-  into.return_delay =
-      read_duration(object, "return_delay", into.return_delay, longest_absence, faults_);
-  object.finish();
-}
-
-void ServoReader::sending(json::Object object, SendingFaults& into) {
-  if (!object.exists()) {
-    return;
-  }
-  into.jitter = read_duration(object, "jitter", into.jitter, longest_delay, faults_);
-  into.late_answers = read_probability(object, "late_answers");
-  into.late_by = read_duration(object, "late_by", into.late_by, longest_absence, faults_);
-  into.double_answers = read_probability(object, "double_answers");
-  object.finish();
 }
 
 } // namespace blactl::sim

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -19,6 +20,9 @@ class ServoReader {
   /// All must outlive this. `usual`: how a servo behaves that says nothing of it.
   ServoReader(const bla::Profiles& profiles, const Behaviour& usual, json::Faults& faults)
       : profiles_(profiles), usual_(usual), faults_(faults) {}
+
+  /// See Scenario::warnings; of all servos so far.
+  [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
 
   /// `index`: its place among the servos, which gives it a serial number.
   [[nodiscard]] ServoSetup read(const json::Value& value, std::size_t index);
@@ -34,7 +38,8 @@ class ServoReader {
 
   enum class Memory : std::uint8_t { ram, rom };
 
-  [[nodiscard]] const bla::Profile* model(json::Object& object);
+  [[nodiscard]] const bla::Profile* model(json::Object& object, const std::string& wanted);
+  void check_firmware(json::Object& object, const std::string& label, const ServoSetup& servo);
   void numbers(json::Object& object, std::size_t index, ServoSetup& servo);
   [[nodiscard]] Values registers(json::Object object, Memory memory, const ServoSetup& servo);
   [[nodiscard]] std::optional<std::int64_t> register_value(const json::Value& value,
@@ -42,12 +47,11 @@ class ServoReader {
   [[nodiscard]] const bla::Parameter* parameter(const json::Value& value, Memory memory,
                                                 const bla::Profile& profile);
   void check_pwm_modes(std::int64_t actual);
-  void servo_faults(json::Object object, ServoFaults& into);
-  void sending(json::Object object, SendingFaults& into);
 
   const bla::Profiles& profiles_;
   const Behaviour& usual_;
   json::Faults& faults_;
+  std::vector<std::string> warnings_;
   std::vector<InPwmMode> in_pwm_mode_; ///< of the memory that is being read
 };
 

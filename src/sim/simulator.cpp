@@ -53,6 +53,15 @@ bool Devices::change(std::int64_t serial_number, std::span<const WorldChange> ch
   return found;
 }
 
+void Devices::happen(const TimedEvent& event, Time now) const {
+  (void)change(event.serial_number, event.changes, now);
+  for (Servo* servo : servos) {
+    if (event.mishap && servo->serial_number() == event.serial_number) {
+      servo->suffer(*event.mishap, now);
+    }
+  }
+}
+
 /// A device's place on the bus.
 class Simulator::Station final : public Medium::Listener {
  public:
@@ -112,7 +121,7 @@ void Simulator::happen(const TimedEvent& event) {
   if (event.serial_number == 0) {
     link_clients(event.clients);
   } else {
-    change(event.serial_number, event.changes);
+    devices_.happen(event, now_);
   }
 }
 

@@ -8,7 +8,7 @@ namespace blactl::texts {
 inline constexpr Text scenario_model_unknown{"no model is called \"{}\"; there are {}",
                                              "\"{}\" という機種はありません。あるのは {} です"};
 inline constexpr Text scenario_unique_id{"a unique ID has 32 hexadecimal digits",
-                                         "ユニーク ID は 16 進数 32 桁です"};
+                                         "固有 ID は 16 進数 32 桁です"};
 inline constexpr Text scenario_node_name{"a node name has 1 to 80 bytes",
                                          "ノード名は 1～80 バイトです"};
 inline constexpr Text scenario_own_key{"{} is set by the key \"{}\" of the servo",
@@ -31,6 +31,11 @@ inline constexpr Text scenario_no_such_serial{"no servo of this scenario has the
                                               "製造番号 {} のサーボはこのシナリオにありません"};
 inline constexpr Text scenario_event_object{"an event has a \"servo\" or \"clients\"",
                                             "イベントには \"servo\" か \"clients\" が必要です"};
+inline constexpr Text scenario_event_servo{
+    "an event of a servo has a \"world\" or says what \"happens\"",
+    "サーボのイベントには \"world\" か \"happens\" が必要です"};
+inline constexpr Text scenario_firmware{"{} never had firmware {}; there were {}",
+                                        "{} にファームウェア {} はありません。あるのは {} です"};
 inline constexpr Text world_key{"nothing around a servo is called \"{}\"",
                                 "サーボの周囲に \"{}\" という項目はありません"};
 inline constexpr Text world_word{"{} cannot be \"{}\"", "{} に \"{}\" は設定できません"};
@@ -42,13 +47,15 @@ inline constexpr Text sim_folder_foreign{"it is not a folder of this user alone"
                                          "このユーザー専用のフォルダではありません"};
 inline constexpr Text sim_folder_hint{
     "remove it, or set XDG_RUNTIME_DIR to a folder of your own",
-    "削除するか、XDG_RUNTIME_DIR に自分のフォルダを設定してください"};
+    "削除するか、XDG_RUNTIME_DIR に自分のフォルダを設定して下さい"};
 inline constexpr Text sim_not_a_socket{"{} exists and is no socket", "{} はソケットではありません"};
 inline constexpr Text sim_running{"a simulator already serves {}",
                                   "{} では既にシミュレータが動いています"};
+inline constexpr Text sim_running_as{"a simulator already serves {}: process {}",
+                                     "{} では既にシミュレータが動いています: プロセス {}"};
 inline constexpr Text sim_running_hint{
     "use it with `blactl -i sim: scan`, or stop it with Ctrl-C",
-    "`blactl -i sim: scan` で利用するか、Ctrl-C で停止してください"};
+    "`blactl -i sim: scan` で利用するか、Ctrl-C で停止して下さい"};
 inline constexpr Text sim_cannot_serve{"cannot serve {}: {}", "{} を開始できません: {}"};
 
 } // namespace blactl::texts

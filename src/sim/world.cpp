@@ -2,8 +2,7 @@
 
 #include "blactl/sim/scenario.hpp"
 
-#include "sim/addresses.hpp"
-#include "sim/fault_bits.hpp"
+#include "sim/names.hpp"
 
 namespace blactl::sim {
 namespace {

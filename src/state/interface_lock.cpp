@@ -7,21 +7,22 @@
 
 namespace blactl::state {
 
-Result<InterfaceLock> InterfaceLock::acquire(std::string_view interface, Right right,
-                                             const std::string& shared) {
-  const std::string folder = LockFile::folder(shared);
+Result<InterfaceLock> InterfaceLock::acquire(const LockPlace& place, Right right) {
+  const std::string folder = LockFile::folder(place);
   if (folder.empty()) {
     return InterfaceLock(std::nullopt);
   }
-  auto locked = LockFile::take(folder, interface, right == Right::write ? "write" : "alloc");
+  auto locked = LockFile::take(folder, place, right == Right::write ? "write" : "alloc");
   if (locked) {
     return InterfaceLock(std::move(*locked));
   }
   const LockRefusal& refusal = locked.error();
   if (refusal.error != 0) {
     return fail(Code::busy,
-                say<texts::lock_failed>(printable(refusal.path), std::strerror(refusal.error)));
+                say<texts::lock_failed>(printable(refusal.path), std::strerror(refusal.error)),
+                say<texts::lock_failed_hint>(printable(refusal.path)));
   }
+  const std::string interface = printable(place.interface);
   const std::string holder =
       refusal.pid ? std::to_string(*refusal.pid) : say<texts::unknown_process>();
   return fail(Code::busy,

@@ -4,9 +4,11 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <random>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -57,13 +59,34 @@ struct LocalNodeId::State {
     }
   }
 
+  /// Behind the counters of an ID lies whether another node was heard to have it.
+  static constexpr long mark_offset = LockFile::data_offset + sizeof(Table);
+
+  void mark_as_foreign() const {
+    constexpr char mark = 1;
+    if (file) {
+      (void)pwrite(file->descriptor(), &mark, sizeof mark, mark_offset);
+    }
+  }
+
+  [[nodiscard]] bool was_foreign() const {
+    char mark = 0;
+    return file && pread(file->descriptor(), &mark, sizeof mark, mark_offset) == sizeof mark &&
+           mark != 0;
+  }
+
   NodeId id;
   std::optional<LockFile> file;
   Table table{};
   TransferIds transfer_ids;
 };
 
-LocalNodeId::LocalNodeId(std::unique_ptr<State> state) : state_(std::move(state)) {}
+LocalNodeId::LocalNodeId(LockPlace place, Candidates candidates)
+    : place_(std::move(place)), candidates_(std::move(candidates)) {
+  if (candidates_.empty()) {
+    candidates_.assign(tool_ids.begin(), tool_ids.end());
+  }
+}
 
 LocalNodeId::LocalNodeId(LocalNodeId&&) noexcept = default;
 LocalNodeId& LocalNodeId::operator=(LocalNodeId&&) noexcept = default;
@@ -77,33 +100,91 @@ TransferIds& LocalNodeId::transfer_ids() {
   return state_->transfer_ids;
 }
 
-Result<LocalNodeId> LocalNodeId::acquire(std::string_view interface, std::optional<NodeId> wanted,
-                                         const std::string& shared) {
-  const std::vector<NodeId> choices =
-      wanted ? std::vector{*wanted} : std::vector{NodeId(127), NodeId(126)};
-  const std::string folder = LockFile::folder(shared);
-  if (folder.empty()) {
-    // Nothing is known of other processes: a random start makes a repeated transfer ID unlikely.
-    const auto first =
-        static_cast<TransferId>(std::random_device{}() % dronecan::transfer_id_modulus);
-    return LocalNodeId(std::make_unique<State>(choices.front(), std::nullopt, first));
+std::string LocalNodeId::passed_over() const {
+  std::string all;
+  for (const auto& [id, obstacle] : obstacles_) {
+    all += (all.empty() ? "" : ", ") + obstacle;
   }
-  std::string holders;
-  for (const NodeId id : choices) {
-    auto locked = LockFile::take(folder, interface, std::to_string(id.value()));
-    if (locked) {
-      return LocalNodeId(std::make_unique<State>(id, std::move(*locked), TransferId{0}));
-    }
-    holders += holders.empty() ? "" : ", ";
-    holders += text(locked.error(), id);
-  }
-  return fail(Code::no_local_node_id, say<texts::no_local_node_id>(interface, holders),
-              say<texts::no_local_node_id_hint>());
+  return all;
 }
 
-LocalNodeId LocalNodeId::unshared(std::optional<NodeId> wanted) {
-  return LocalNodeId(
-      std::make_unique<State>(wanted.value_or(NodeId(127)), std::nullopt, TransferId{0}));
+std::string LocalNodeId::lock_file() const {
+  return state_->file ? state_->file->path() : std::string();
+}
+
+/// The first candidate that can be had. One that another node had is the last resort: that node may
+/// be gone.
+Result<void> LocalNodeId::take_one() {
+  const bool is_shared = !place_.interface.empty();
+  const std::string folder = is_shared ? LockFile::folder(place_) : std::string();
+  if (folder.empty()) {
+    // If nothing is known of other processes, a random start makes a repeated transfer ID unlikely.
+    const unsigned first = is_shared ? std::random_device{}() % dronecan::transfer_id_modulus : 0;
+    state_ =
+        std::make_unique<State>(candidates_.front(), std::nullopt, static_cast<TransferId>(first));
+    return {};
+  }
+  std::erase_if(obstacles_, [this](const auto& obstacle) {
+    return std::ranges::find(candidates_, obstacle.first) != candidates_.end();
+  });
+  std::unique_ptr<State> last_resort;
+  bool somebody_holds = false;
+  for (const NodeId id : candidates_) {
+    auto locked = LockFile::take(folder, place_, std::to_string(id.value()));
+    if (!locked) {
+      somebody_holds = somebody_holds || locked.error().error == 0;
+      obstacles_.emplace_back(id, text(locked.error(), id));
+      continue;
+    }
+    auto free = std::make_unique<State>(id, std::move(*locked), TransferId{0});
+    if (!free->was_foreign()) {
+      state_ = std::move(free);
+      return {};
+    }
+    obstacles_.emplace_back(id, say<texts::node_id_was_foreign>(id.value()));
+    if (!last_resort) {
+      last_resort = std::move(free);
+    }
+  }
+  if (last_resort) {
+    state_ = std::move(last_resort);
+    std::erase_if(obstacles_, [this](const auto& obstacle) { return obstacle.first == id(); });
+    return {};
+  }
+  return fail(Code::no_local_node_id,
+              say<texts::no_local_node_id>(printable(place_.interface), passed_over()),
+              somebody_holds ? say<texts::no_local_node_id_hint>()
+                             : say<texts::lock_files_block_hint>(printable(folder)));
+}
+
+Result<LocalNodeId> LocalNodeId::acquire(LockPlace place, Candidates candidates) {
+  LocalNodeId local(std::move(place), std::move(candidates));
+  if (auto taken = local.take_one(); !taken) {
+    return std::unexpected(taken.error());
+  }
+  return local;
+}
+
+LocalNodeId LocalNodeId::unshared(Candidates candidates) {
+  LocalNodeId local({}, std::move(candidates));
+  std::ignore = local.take_one(); // there is nobody to refuse it
+  return local;
+}
+
+Result<void> LocalNodeId::give_way(std::string_view interface) {
+  const NodeId taken = id();
+  state_->mark_as_foreign();
+  std::erase(candidates_, taken);
+  obstacles_.emplace_back(taken, say<texts::node_id_foreign>(taken.value()));
+  if (!candidates_.empty()) {
+    return take_one();
+  }
+  const bool is_alone = obstacles_.size() == 1;
+  return std::unexpected(Error{is_alone ? Code::duplicate_node_id : Code::no_local_node_id,
+                               is_alone ? say<texts::own_id_in_use>(taken.value(), interface)
+                                        : say<texts::no_local_node_id>(interface, passed_over()),
+                               say<texts::own_id_in_use_hint>(),
+                               is_alone ? std::optional(taken.value()) : std::nullopt});
 }
 
 } // namespace blactl::state

@@ -1,6 +1,7 @@
 #include "blactl/state/lock_file.hpp"
 
 #include <fcntl.h>
+#include <pwd.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -30,20 +31,37 @@ bool read_header(int descriptor, FileHeader& header) {
   return pread(descriptor, &header, sizeof header, 0) == sizeof header && header.magic == magic;
 }
 
-/// Empty is as good as unset (XDG base directory specification).
 std::string variable(const char* name) {
   const char* value = std::getenv(name);
   return value != nullptr ? value : "";
+}
+
+/// Of a folder. One that is relative or empty is as good as unset (XDG base directory
+/// specification): what is shared must not depend on where a process was started.
+std::string folder_variable(const char* name) {
+  std::string value = variable(name);
+  return value.starts_with('/') ? value : std::string();
+}
+
+/// Of this user, also where HOME is unset (services, cron); empty: none.
+std::string home_folder() {
+  if (std::string home = folder_variable("HOME"); !home.empty()) {
+    return home;
+  }
+  const passwd* entry = getpwuid(geteuid());
+  return entry != nullptr && entry->pw_dir != nullptr && entry->pw_dir[0] == '/' ? entry->pw_dir
+                                                                                 : "";
 }
 
 std::string state_folder() {
   if (std::string folder = variable("BLACTL_STATE_DIR"); !folder.empty()) {
     return folder;
   }
-  if (const std::string home = variable("XDG_STATE_HOME"); !home.empty()) {
+  if (const std::string home = folder_variable("XDG_STATE_HOME"); !home.empty()) {
     return home + "/blactl";
   }
-  return variable("HOME") + "/.local/state/blactl";
+  const std::string home = home_folder();
+  return home.empty() ? std::string() : home + "/.local/state/blactl";
 }
 
 /// A folder that exists now, is no symbolic link and can be written; 01777 where all users share.
@@ -56,13 +74,27 @@ bool usable(const std::string& folder, mode_t mode) {
          access(folder.c_str(), W_OK | X_OK) == 0;
 }
 
-/// Interface names become one path component.
-std::string file_name(std::string_view interface, std::string_view suffix) {
-  std::string name;
-  for (const char c : interface) {
-    name += c == '/' || c == '\0' ? '_' : c;
+/// FNV-1a: the same in every build.
+std::uint64_t digest(std::string_view text) {
+  std::uint64_t value = 0xCBF29CE484222325;
+  for (const char c : text) {
+    value = (value ^ static_cast<unsigned char>(c)) * 0x100000001B3;
   }
-  return name.append(1, '.').append(suffix);
+  return value;
+}
+
+/// Interface names become one path component. One that is too long for that keeps its end, which is
+/// what tells paths apart, and a number made of all of it.
+std::string file_name(const LockPlace& place, std::string_view suffix) {
+  constexpr std::size_t longest = 200; // NAME_MAX less the number, the network and the suffix
+  std::string name = place.interface;
+  for (char& c : name) {
+    c = c == '/' || c == '\0' ? '_' : c;
+  }
+  if (name.size() > longest) {
+    name = std::to_string(digest(place.interface)) + name.substr(name.size() - longest);
+  }
+  return name.append(place.network).append(1, '.').append(suffix);
 }
 
 /// Opens a lock file, made if it is not there. One that another user made must not be opened with
@@ -84,26 +116,29 @@ int open_file(const std::string& path) {
 } // namespace
 
 /// The same for all users where the system allows it.
-std::string LockFile::folder(const std::string& shared) {
+std::string LockFile::folder(const LockPlace& place) {
   constexpr mode_t of_all = 01777;
   constexpr mode_t own = 0700;
-  if (usable(shared, of_all)) {
-    return shared;
+  if (usable(place.folder, of_all)) {
+    return place.folder;
   }
-  if (const std::string runtime = variable("XDG_RUNTIME_DIR"); !runtime.empty()) {
+  if (const std::string runtime = folder_variable("XDG_RUNTIME_DIR"); !runtime.empty()) {
     if (const std::string folder = runtime + "/blactl"; usable(folder, own)) {
       return folder;
     }
   }
   const std::filesystem::path folder = state_folder();
+  if (folder.empty()) {
+    return {};
+  }
   std::error_code ignored;
   std::filesystem::create_directories(folder.parent_path(), ignored);
   return usable(folder.string(), own) ? folder.string() : std::string();
 }
 
 std::expected<LockFile, LockRefusal>
-LockFile::take(const std::string& folder, std::string_view interface, std::string_view suffix) {
-  const std::string path = folder + '/' + file_name(interface, suffix);
+LockFile::take(const std::string& folder, const LockPlace& place, std::string_view suffix) {
+  const std::string path = folder + '/' + file_name(place, suffix);
   const int fd = open_file(path);
   if (fd < 0) {
     return std::unexpected(LockRefusal{.path = path, .error = errno});
@@ -124,13 +159,15 @@ LockFile::take(const std::string& folder, std::string_view interface, std::strin
   if (pwrite(fd, &header, sizeof header, 0) != sizeof header) {
     (void)ftruncate(fd, 0);
   }
-  return LockFile(fd);
+  return LockFile(fd, path);
 }
 
-LockFile::LockFile(LockFile&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
+LockFile::LockFile(LockFile&& other) noexcept
+    : descriptor_(std::exchange(other.descriptor_, -1)), path_(std::move(other.path_)) {}
 
 LockFile& LockFile::operator=(LockFile&& other) noexcept {
   std::swap(descriptor_, other.descriptor_);
+  std::swap(path_, other.path_);
   return *this;
 }
 

@@ -7,6 +7,8 @@ import subprocess
 import threading
 import time
 
+import record
+
 PATIENCE_S = 120  # of real time: beyond it a process hangs
 
 
@@ -17,7 +19,10 @@ class Hang(Exception):
 class Simulator:
     """`blactl sim`, steered and questioned by its standard input and output."""
 
+    interface = "sim:"
+
     def __init__(self, blactl, folder, scenario):
+        self._blactl, self._folder = blactl, folder
         path = os.path.join(folder, "scenario.json")
         with open(path, "w", encoding="utf-8") as file:
             json.dump(scenario, file)
@@ -52,6 +57,10 @@ class Simulator:
         self.process.stdin.write(text + "\n")
         self.process.stdin.flush()
 
+    def hold(self, commands):
+        """Time stands until so many commands are on the bus."""
+        self.order(f"hold {commands}")
+
     def dump(self):
         """What has happened since the last dump, and the state of every servo by its serial."""
         self.order("dump")
@@ -59,22 +68,42 @@ class Simulator:
         states = {line["serial_number"]: line for line in events if line["event"] == "state"}
         return [line for line in events if line["event"] != "state"], states
 
+    def settle(self):
+        """What was sent before a command broke off happens all the same: lets time pass."""
+        self.hold(1)
+        passing = start(self._blactl, self._folder, self.interface, ["scan", "--listen", "2"])
+        passing.communicate(timeout=PATIENCE_S)
+        self.hold(0)
+
     def end(self):
         self.process.terminate()
         status = self.process.wait(timeout=PATIENCE_S)
         self._reader.join(timeout=PATIENCE_S)
         for stream in (self.process.stdin, self.process.stdout, self.process.stderr):
             stream.close()
-        return status
+        if status != 143:
+            raise RuntimeError(f"the simulator ended with {status}")
 
 
 class Outcome:
-    def __init__(self, command, status, out, err):
+    def __init__(self, command, status, out, err, heard):
         self.command, self.status, self.out, self.err = command, status, out, err
+        self.record = heard
 
     def __str__(self):
-        return (f"$ {self.command}\nexit status {self.status}\n"
-                f"{self.out}{self.err}")
+        return f"$ {self.command}\nexit status {self.status}\n{brief(self.out)}\n{self.err}"
+
+
+def brief(out):
+    """A document on one line, a parameter of `get` as its address and number only."""
+    try:
+        document = json.loads(out)
+    except ValueError:
+        return out
+    for node in document.get("nodes", []):
+        if "params" in node:
+            node["params"] = " ".join(f"{p['address']}={p['raw']}" for p in node["params"])
+    return json.dumps(document)
 
 
 def environment(folder):
@@ -83,13 +112,22 @@ def environment(folder):
     return env
 
 
-def run_at_once(blactl, folder, simulator, commands, options):
-    """The outcomes of commands that begin at the same moment of virtual time."""
-    simulator.order(f"hold {len(commands)}")
-    running = [subprocess.Popen([blactl, "-i", "sim:", *options, *command.words], text=True,
-                                env=environment(folder), stdin=subprocess.DEVNULL,
-                                stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-               for command in commands]
+def start(blactl, folder, interface, words):
+    return subprocess.Popen([blactl, "-i", interface, *words], text=True, env=environment(folder),
+                            stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                            stderr=subprocess.PIPE)
+
+
+def run_at_once(blactl, folder, world, commands, options):
+    """The outcomes of commands that begin at the same moment of the world's time."""
+    world.hold(len(commands))
+    logs = [os.path.join(folder, f"record{i}.log") for i in range(len(commands))]
+    for log in logs:
+        if os.path.exists(log):
+            os.remove(log)
+    running = [start(blactl, folder, world.interface,
+                     [*options, *command.words, "--record", log])
+               for command, log in zip(commands, logs)]
     outputs = [None] * len(running)
 
     def wait(index):
@@ -97,7 +135,7 @@ def run_at_once(blactl, folder, simulator, commands, options):
             time.sleep(commands[index].killed_after_s)
             running[index].kill()
         outputs[index] = running[index].communicate(timeout=PATIENCE_S)
-        simulator.order("hold 0")  # one that never came to the bus must not keep the others
+        world.hold(0)  # one that never came to the bus must not keep the others
 
     waiting = [threading.Thread(target=wait, args=(i,)) for i in range(len(running))]
     for thread in waiting:
@@ -109,5 +147,5 @@ def run_at_once(blactl, folder, simulator, commands, options):
             for other in running:
                 other.kill()
             raise Hang("a command hangs: " + " ".join(process.args))
-    return [Outcome(command, process.returncode, *output)
-            for command, process, output in zip(commands, running, outputs)]
+    return [Outcome(command, process.returncode, *output, record.read(log))
+            for command, process, output, log in zip(commands, running, outputs, logs)]

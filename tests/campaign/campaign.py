@@ -2,14 +2,20 @@
 the memory of the simulated servos, the exit status, JSON and text must tell the same story.
 
   campaign.py BLACTL [--runs N] [--seed S] [--verbose]
+  campaign.py BLACTL --frozen [FILE...]
 
 A run is one command. Every difference is printed with the seed of its episode: `--seed S --runs 1`
 repeats it. Exit status 1 if there was one.
+
+Episodes that have found a fault are kept in frozen/ as the generator of their day made them: from
+the same seed a later one makes others.
 """
 
 import argparse
 import collections
+import glob
 import json
+import os
 import re
 import subprocess
 import sys
@@ -18,9 +24,11 @@ import tempfile
 import bench
 import scenario
 import story
+import truth
 
 
-PASS_TIME = scenario.Command(["scan", "--listen", "2"])
+FROZEN = os.path.join(os.path.dirname(os.path.abspath(__file__)), "frozen")
+FAULTS = (story.Lie, bench.Hang, RuntimeError, ValueError, KeyError)
 
 
 def defaults_of(blactl):
@@ -42,43 +50,49 @@ def codes_of(outcome):
 
 
 class Campaign:
-    def __init__(self, blactl, verbose):
-        self.blactl, self.verbose = blactl, verbose
-        self.defaults = defaults_of(blactl)
+    def __init__(self, blactl, verbose, defaults):
+        self.blactl, self.verbose, self.defaults = blactl, verbose, defaults
         self.runs = 0
         self.ends = collections.Counter()
-        self.differences = 0
+        self.differences, self.unhindered = 0, 0
+        self.name = ""
 
-    def episode(self, seed):
-        episode = scenario.Episode(seed)
+    def episode(self, name, episode):
+        self.name = name
         try:
             told = self.play(episode, ["--json"], self.check)
             if all(len(step) == 1 for step in episode.steps):
                 self.compare(told, self.play(episode, [], None))
-        except (story.Lie, bench.Hang, RuntimeError, ValueError, KeyError) as difference:
-            self.differences += 1
-            print(f"episode {seed}: {type(difference).__name__}: {difference}")
+        except FAULTS as fault:
+            self.differ(fault)
+
+    def differ(self, fault, outcome=""):
+        self.differences += 1
+        print(f"{self.name}: {type(fault).__name__}: {fault}\n{outcome}", flush=True)
+
+    def open_world(self, folder, episode):
+        return bench.Simulator(self.blactl, folder, episode.scenario)
 
     def play(self, episode, options, check):
         """The outcomes of all steps, each checked if that is possible."""
         outcomes = []
         with tempfile.TemporaryDirectory(prefix="blactl-campaign-") as folder:
-            simulator = bench.Simulator(self.blactl, folder, episode.scenario)
+            world = self.open_world(folder, episode)
             try:
-                _, before = simulator.dump()
-                for commands in episode.steps:
-                    outcomes += bench.run_at_once(self.blactl, folder, simulator, commands, options)
-                    if any(outcome.status != 0 for outcome in outcomes[-len(commands):]):
-                        # What was sent before a command broke off happens all the same.
-                        bench.run_at_once(self.blactl, folder, simulator, [PASS_TIME], options)
-                    events, after = simulator.dump()
+                before = begun(world.dump()[1])
+                power_on = min(state["time"] for state in before.values())
+                for index, commands in enumerate(episode.steps):
+                    told = bench.run_at_once(self.blactl, folder, world, commands, options)
+                    events, after = world.dump()
                     if check:
-                        check(outcomes[-len(commands):], story.Step(before, events, after))
-                    before = after
+                        check(told, truth.Step(before, events, after, episode.scenario, power_on))
+                        self.check_use(told, episode.must_succeed(index))
+                    outcomes += told
+                    if any(outcome.status != 0 for outcome in told):
+                        world.settle()
+                    before = world.dump()[1]
             finally:
-                status = simulator.end()
-        if status != 143:
-            raise RuntimeError(f"the simulator ended with {status}")
+                world.end()
         return outcomes
 
     def check(self, outcomes, step):
@@ -89,9 +103,15 @@ class Campaign:
                 print(outcome)
             try:
                 story.check(outcome, step, self.defaults, len(outcomes) == 1)
-            except (story.Lie, ValueError, KeyError):
-                print(outcome)
-                raise
+            except FAULTS as fault:
+                self.differ(fault, outcome)
+
+    def check_use(self, outcomes, must_succeed):
+        if must_succeed:
+            self.unhindered += 1
+            for outcome in outcomes:
+                if outcome.status != 0:
+                    self.differ(story.Lie("nothing was in its way"), outcome)
 
     @staticmethod
     def compare(with_json, with_text):
@@ -109,19 +129,43 @@ class Campaign:
                     raise story.Lie(f"{count} {word} in JSON, {shown} in text:\n{told}{said}")
 
 
-def main():
+def begun(states):
+    """The states at power-on: nobody is on the bus yet, but will be under the ID in ROM."""
+    return {serial: {**state, "node_id": state["rom"]["0x46"]} for serial, state in states.items()}
+
+
+def arguments():
     parser = argparse.ArgumentParser()
     parser.add_argument("blactl")
     parser.add_argument("--runs", type=int, default=5000)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--frozen", nargs="*", metavar="FILE")
     parser.add_argument("-v", "--verbose", action="store_true")
-    given = parser.parse_args()
-    campaign = Campaign(given.blactl, given.verbose)
-    seed = given.seed
-    while campaign.runs < given.runs:
-        campaign.episode(seed)
+    return parser.parse_args()
+
+
+def play_frozen(campaign, files):
+    for path in files or sorted(glob.glob(os.path.join(FROZEN, "*.json"))):
+        campaign.episode(path, scenario.Frozen(path))
+    return "frozen episodes"
+
+
+def play_random(campaign, first, runs):
+    seed = first
+    while campaign.runs < runs:
+        campaign.episode(f"episode {seed}", scenario.Episode(seed))
         seed += 1
-    print(f"{campaign.runs} runs, episodes {given.seed} to {seed - 1}, "
+    return f"episodes {first} to {seed - 1}"
+
+
+def main():
+    given = arguments()
+    campaign = Campaign(given.blactl, given.verbose, defaults_of(given.blactl))
+    if given.frozen is not None:
+        played = play_frozen(campaign, given.frozen)
+    else:
+        played = play_random(campaign, given.seed, given.runs)
+    print(f"{campaign.runs} runs, {campaign.unhindered} of them unhindered, {played}, "
           f"differences: {campaign.differences}; exit statuses with their errors:")
     for end, count in campaign.ends.most_common():
         print(f"{count:7}  {end}")

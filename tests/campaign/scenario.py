@@ -1,5 +1,6 @@
 """What an episode of the campaign consists of, all from its seed: servos, faults, commands."""
 
+import json
 import random
 import typing
 
@@ -21,6 +22,18 @@ SETTINGS = {
     "voltage_limit_high": ["99V"],  # what no model takes
 }
 
+FOREIGN = [
+    {"kind": "autopilot", "node_id": 100, "armed": True},
+    {"kind": "autopilot", "node_id": 100, "allocates": True},
+    {"kind": "autopilot", "node_id": 100, "commands": {
+        "servo_ids": [1, 2], "type": 1, "value": 0.1, "rate": 50}},
+    {"kind": "gnss", "node_id": 101},
+    {"kind": "esc", "node_id": 102},
+    {"kind": "babbler", "node_id": 103, "priority": 0, "load": 0.5},
+    {"kind": "node", "node_id": 127},  # which blactl takes if nobody has it
+    {"kind": "gnss", "node_id": 61},  # which a servo may be given
+]
+
 
 class Command(typing.NamedTuple):
     words: list
@@ -29,70 +42,109 @@ class Command(typing.NamedTuple):
     def __str__(self):
         return "blactl " + " ".join(self.words)
 
+    def may_change_ids(self):
+        """After it a target may be known by another ID, or by none."""
+        return self.words[0] == "erase" or any("static_node_id" in word for word in self.words)
+
+    def is_right(self):
+        """No servo has a reason to refuse it."""
+        # IDs may be another servo's already, and one ID is not given to several.
+        wrong = ("static_node_id", "servo_id", "voltage_limit_high")
+        return not any(word.startswith(wrong) for word in self.words)
+
 
 class Episode:
     def __init__(self, seed):
         self.seed = seed
         chance = random.Random(seed)
         count = chance.choice([1, 1, 2, 3, 4])
-        ids = chance.sample(range(10, 60), count)
-        if count > 1 and chance.random() < 0.05:
-            ids[1] = ids[0]  # two servos under one node ID
+        self.ids = chance.sample(range(10, 60), count)
+        if count > 1 and chance.random() < 0.15:
+            self.ids[1] = self.ids[0]  # two servos under one node ID
         self.serials = [FIRST_SERIAL + i for i in range(count)]
-        self.ids = ids
         self.scenario = {
             "schema": "blactl-scenario/1", "clock": "virtual", "seed": seed,
-            "servos": [self._servo(chance, node_id, i) for i, node_id in enumerate(ids)],
+            "servos": [self._servo(chance, i) for i in range(count)],
             "wire": self._wire(chance),
             "events": self._events(chance),
         }
         self._spare_the_undecidable()
         if chance.random() < 0.2:
-            self.scenario["foreign"] = [chance.choice([
-                {"kind": "autopilot", "node_id": 100, "armed": True},
-                {"kind": "autopilot", "node_id": 100, "allocates": True},
-                {"kind": "autopilot", "node_id": 100, "commands": {
-                    "servo_ids": [1, 2], "type": 1, "value": 0.1, "rate": 50}},
-                {"kind": "gnss", "node_id": 101},
-                {"kind": "esc", "node_id": 102},
-                {"kind": "babbler", "node_id": 103, "priority": 0, "load": 0.5}])]
+            self.scenario["foreign"] = [chance.choice(FOREIGN)]
         self.steps = [self._step(chance) for _ in range(chance.randint(1, 5))]
+        kind = chance.random()
+        if kind < 0.25:
+            self._stumble_once(chance)
+        elif kind < 0.35:
+            self._let_alone()
+
+    def _let_alone(self):
+        """Nothing goes wrong."""
+        self.scenario.update(wire={}, events=[])
+        self.scenario.pop("foreign", None)
+        for servo in self.scenario["servos"]:
+            servo.pop("faults", None)
+            servo.pop("sending", None)
+        self.steps = [step for step in self.steps if len(step) == 1] or [
+            [Command(["restart", "-n", "all", "-y"])]]
+
+    def must_succeed(self, index):
+        """Whether nothing is in the way of a step, not even what an earlier one has done: a tool
+        that refused everything would never lie."""
+        in_the_way = self.scenario["wire"] or self.scenario["events"] or "foreign" in self.scenario
+        if in_the_way or len(set(self.ids)) < len(self.ids) or any(
+                "faults" in servo or "sending" in servo for servo in self.scenario["servos"]):
+            return False
+        return all(len(step) == 1 and not step[0].may_change_ids() for step in self.steps[:index]
+                   ) and len(self.steps[index]) == 1 and self.steps[index][0].is_right()
+
+    def _stumble_once(self, chance):
+        """One restart by itself between two requests of one command, and nothing else: among so
+        many other faults it would hardly ever meet a command that succeeds."""
+        self.scenario.update(wire={}, events=[])
+        for servo in self.scenario["servos"]:
+            servo.pop("sending", None)
+            servo["faults"] = {}
+            servo["behaviour"] = {"first_node_status": chance.choice(["50ms", "500ms", "1s", "1s"])}
+        number = chance.choice([chance.randint(1, 12), chance.randint(1, 70)])
+        self.scenario["servos"][0]["faults"] = {
+            "restart_after_answer": [{"to": "any", "number": number}]}
+        unsaved = Command(["set", "-n", "all", "smoothing=off", "timeout_time=500ms", "-y"])
+        self.steps = [[unsaved]] * chance.choice([0, 1]) + [[Command(self._command(chance))]]
 
     def _spare_the_undecidable(self):
-        """A servo that writes ROM and does not restart, and whose answer is lost, cannot be told
-        from one that has heard nothing."""
+        """What no client can tell apart, whatever it asks, is left out."""
         for servo in self.scenario["servos"]:
+            faults = servo.get("faults", {})
+            # One that writes ROM and does not restart, and whose answer is lost, and one that has
+            # heard nothing.
             if (self.scenario["wire"] or "sending" in servo or "behaviour" in servo
-                    or "lose_opcode_answers" in servo.get("faults", {})):
-                servo.get("faults", {}).pop("stays", None)
+                    or "lose_opcode_answers" in faults or "lose_responses" in faults):
+                faults.pop("stays", None)
+            # One of two under a node ID whose answers are lost, and one that is alone.
+            if self.ids.count(servo["node_id"]) > 1:
+                for silence in ("mute", "lose_responses", "never_returns"):
+                    faults.pop(silence, None)
+                if self.scenario["wire"] or "sending" in servo:
+                    faults.pop("no_node_status", None)
 
-    @staticmethod
-    def _servo(chance, node_id, index):
-        servo = {"model": chance.choice(MODELS), "node_id": node_id, "servo_id": index + 1}
-        faults = {}
-        if chance.random() < 0.4:
-            for name, probability, value in [
-                    ("lose_responses", 0.2, chance.randint(1, 3)),
-                    ("lose_opcode_answers", 0.3, chance.randint(1, 3)),
-                    ("ignore_opcodes", 0.2, chance.randint(1, 3)),
-                    ("refuse_opcodes", 0.05, True),
-                    ("rom_write_fails", 0.1, True),
-                    ("stays", 0.1, True),
-                    ("never_returns", 0.1, True),
-                    ("mute", 0.03, True),
-                    ("restart_instead_of_answer", 0.1, chance.randint(1, 60)),
-                    ("power_loss_in_save", 0.1, f"{chance.randint(0, 49)}ms"),
-                    ("return_delay", 0.2, f"{chance.choice([1, 3, 8])}s")]:
-                if chance.random() < probability:
-                    faults[name] = value
+    def _servo(self, chance, index):
+        servo = {"model": chance.choice(MODELS), "node_id": self.ids[index],
+                 "serial_number": self.serials[index], "servo_id": index + 1}
+        faults = self._faults(chance) if chance.random() < 0.5 else {}
         if faults:
             servo["faults"] = faults
+        behaviour = {}
+        if chance.random() < 0.5:
+            behaviour["first_node_status"] = chance.choice(["50ms", "300ms", "700ms", "1s"])
         if chance.random() < 0.2:
-            servo["behaviour"] = {
-                "out_of_range": chance.choice(["refuse", "clamp"]),
-                "answers_save_first": chance.random() < 0.5,
-                "failure_with_name": chance.random() < 0.5,
-                "rom_write_time": chance.choice(["50ms", "400ms"])}
+            behaviour.update(
+                out_of_range=chance.choice(["refuse", "clamp", "fail"]),
+                answers_save_first=chance.random() < 0.5,
+                failure_with_name=chance.random() < 0.5,
+                rom_write_time=chance.choice(["50ms", "400ms"]))
+        if behaviour:
+            servo["behaviour"] = behaviour
         if chance.random() < 0.3:
             servo["sending"] = {
                 "jitter": f"{chance.choice([0, 2, 10])}ms",
@@ -100,6 +152,26 @@ class Episode:
                 "late_by": f"{chance.choice([60, 250, 1500])}ms",
                 "double_answers": chance.choice([0, 0.1])}
         return servo
+
+    @staticmethod
+    def _faults(chance):
+        possible = [
+            ("lose_responses", 0.2, chance.randint(1, 3)),
+            ("lose_opcode_answers", 0.3, chance.randint(1, 3)),
+            ("ignore_opcodes", 0.2, chance.randint(1, 3)),
+            ("refuse_opcodes", 0.05, True),
+            ("rom_write_fails", 0.1, True),
+            ("stays", 0.1, True),
+            ("never_returns", 0.05, True),
+            ("mute", 0.03, True),
+            ("no_node_status", 0.1, True),
+            ("no_actuator_status", 0.1, True),
+            ("restart_instead_of_answer", 0.1, chance.randint(1, 60)),
+            ("restart_after_answer", 0.3, restarts(chance)),
+            ("power_loss_in_save", 0.1, f"{chance.randint(0, 49)}ms"),
+            ("return_delay", 0.2, f"{chance.choice([1, 3, 8])}s")]
+        return {name: value for name, probability, value in possible
+                if chance.random() < probability}
 
     @staticmethod
     def _wire(chance):
@@ -117,15 +189,8 @@ class Episode:
     def _events(self, chance):
         events = []
         for serial in self.serials:
-            if chance.random() < 0.15:
-                at = chance.randint(100, 4000)
-                what = chance.choice(["plug", "dip", "unplug"])
-                change = {"voltage": "2V"} if what == "dip" else {"plugged": "off"}
-                events.append({"at": f"{at}ms", "servo": serial, "world": change})
-                if what != "unplug":
-                    back = {"voltage": "12V"} if what == "dip" else {"plugged": "on"}
-                    events.append({"at": f"{at + chance.randint(1, 900)}ms", "servo": serial,
-                                   "world": back})
+            if chance.random() < 0.25:
+                events += trouble(chance, serial)
         if chance.random() < 0.05:
             at = chance.randint(100, 4000)
             events.append({"at": f"{at}ms", "clients": "cut"})
@@ -151,11 +216,7 @@ class Episode:
         if verb == "get":
             return command + ["--all"]
         if verb == "set":
-            for name in chance.sample(list(SETTINGS), chance.randint(1, 3)):
-                if name != "voltage_limit_high" or chance.random() < 0.2:
-                    command.append(f"{name}={chance.choice(SETTINGS[name])}")
-            if len(command) == 3:
-                command.append("smoothing=on")
+            command += self._changes(chance)
         if verb == "set" and chance.random() < 0.4 or verb == "erase" and chance.random() < 0.6:
             command.append("--save")
         if verb == "erase" and chance.random() < 0.3:
@@ -163,3 +224,55 @@ class Episode:
         if chance.random() < 0.2 and verb in ("save", "restart"):
             command += ["--stagger", "0.5"]
         return command + ["-y"]
+
+    def _changes(self, chance):
+        changes = []
+        for name in chance.sample(list(SETTINGS), chance.randint(1, 4)):
+            values = SETTINGS[name]
+            if name == "static_node_id" and chance.random() < 0.3:
+                values = [str(node_id) for node_id in self.ids]  # perhaps one that another has
+            if name != "voltage_limit_high" or chance.random() < 0.2:
+                changes.append(f"{name}={chance.choice(values)}")
+        return changes or ["smoothing=on"]
+
+
+def restarts(chance):
+    """By itself, between any two requests."""
+    kinds = ["any", "node_info", "read", "write", "write", "opcode"]
+    numbers = [1, 1, 2, 3, chance.randint(4, 80)]
+    return [{"to": chance.choice(kinds), "number": chance.choice(numbers)}
+            for _ in range(chance.choice([1, 1, 2]))]
+
+
+def trouble(chance, serial):
+    """What befalls a servo from without."""
+    at = chance.randint(100, 4000)
+    back = at + chance.randint(1, 900)
+    what = chance.choice(["dip", "plug", "power", "unplug", "clock_error", "watchdog_error",
+                          "ram_error"])
+    if what == "dip":
+        changes = [(at, "world", {"voltage": "2V"}), (back, "world", {"voltage": "12V"})]
+    elif what == "plug":
+        changes = [(at, "world", {"plugged": "off"}), (back, "world", {"plugged": "on"})]
+    elif what == "power":
+        changes = [(at, "happens", "power_off"), (back, "happens", "power_on")]
+    elif what == "unplug":
+        changes = [(at, "world", {"plugged": "off"})]
+    else:
+        changes = [(at, "happens", what)]
+    return [{"at": f"{time}ms", "servo": serial, key: value} for time, key, value in changes]
+
+
+class Frozen:
+    """An episode from a file."""
+
+    def __init__(self, path):
+        with open(path, encoding="utf-8") as file:
+            kept = json.load(file)
+        self.scenario = kept["scenario"]
+        for index, servo in enumerate(self.scenario["servos"]):
+            servo.setdefault("serial_number", FIRST_SERIAL + index)
+        self.steps = [[Command(**command) for command in step] for step in kept["steps"]]
+
+    def must_succeed(self, _):
+        return False

@@ -1,11 +1,18 @@
-"""Whether what a command has told agrees with what happened in the servos."""
+"""Whether what a command has told agrees with what happened in the servos.
+
+Nothing is exempt that a client can know. What it cannot: a restart after the last frame that could
+have told of it (Step.restarted_unheard)."""
 
 import json
 
+import truth
+
 # Exit statuses of the contract that these commands can end with.
 STATUSES = {0, 1, 2, 3, 4, 5, 6, 9}
+UNTOUCHED = {2, 7, 9}  # refusals: then nothing was sent that changes a servo
 KILLED = -9
-NEVER_COMPARED = {"0x45", "0x46"}  # --keep-ids
+IDS = ("0x45", "0x46")  # --keep-ids
+HELD = ("written", "unchanged")
 
 
 class Lie(Exception):
@@ -17,29 +24,26 @@ def require(condition, text):
         raise Lie(text)
 
 
-class Step:
-    """What the simulator says of one step."""
-
-    def __init__(self, before, events, after):
-        self.before, self.after = before, after
-        self._events = events
-
-    def count(self, serial, event):
-        return sum(1 for line in self._events
-                   if line["event"] == event and line["serial_number"] == serial)
-
-    def is_doubled(self, serial):
-        node_id = self.before[serial]["node_id"]
-        return sum(1 for state in self.before.values() if state["node_id"] == node_id) > 1
-
-    def rom_writes(self, serial):
-        return self.after[serial]["count"] - self.before[serial]["count"]
-
-
 def check(outcome, step, defaults, alone):
     """Raises Lie. `alone`: no other command ran meanwhile."""
     if outcome.command.killed_after_s and outcome.status == KILLED:
         return
+    document = check_document(outcome)
+    for node in document.get("nodes", []):
+        if node.get("serial_number") is not None:
+            check_identity(node, step)
+            if alone:
+                check_node(Told(outcome, node, step), defaults)
+    if outcome.status == 0:
+        check_success(outcome, document)
+    if alone:
+        check_refusal(outcome)
+        check_doubled(outcome, document, step)
+        check_others(outcome, step)
+        check_rom_writes(outcome, step)
+
+
+def check_document(outcome):
     require(outcome.status in STATUSES, f"exit status {outcome.status}")
     document = json.loads(outcome.out)
     require(document["exit_status"] == outcome.status, "exit_status is another in the document")
@@ -47,70 +51,168 @@ def check(outcome, step, defaults, alone):
     require(bool(errors) == (outcome.status != 0), f"status {outcome.status}, errors {errors}")
     for code in errors:
         require(f"[{code}]" in outcome.err, f"{code} is not on stderr")
-    saves = "--save" in outcome.command.words or outcome.command.words[0] == "save"
-    for node in document.get("nodes", []):
-        serial = node.get("serial_number")
-        if serial is None:
-            continue
-        require(serial in step.after, f"there is no servo {serial}")
-        if outcome.command.words[0] not in ("get", "set") or not step.is_doubled(serial):
-            # Known: these ask no more than they must, and may take two servos of one node ID for
-            # one before the bus has shown that there are two.
-            require(node["unique_id"] in (None, step.after[serial]["unique_id"]),
-                    "a wrong unique ID")
-        check_node(outcome, node, serial, step, defaults, saves, alone)
-        if alone and saves:
-            require(step.rom_writes(serial) <= 1, f"{serial}: {step.rom_writes(serial)} ROM writes")
-    if alone and not saves:
-        for serial in step.after:
-            require(step.rom_writes(serial) == 0, f"{serial}: ROM was written")
+    return document
 
 
-def check_node(outcome, node, serial, step, defaults, saves, alone):
+def check_identity(node, step):
+    serial = node["serial_number"]
+    require(serial in step.after, f"there is no servo {serial}")
+    require(node["unique_id"] in (None, step.after[serial]["unique_id"]), "a wrong unique ID")
+
+
+def saves(outcome):
+    return "--save" in outcome.command.words or outcome.command.words[0] == "save"
+
+
+def check_success(outcome, document):
+    """0: everything that was asked for is done."""
     verb = outcome.command.words[0]
-    done = node.get("status") == "done" or node.get("saved") is True
-    if outcome.status == 0 and verb != "get":
-        require(verb == "set" or node["status"] == "done", "0, but not everything is done")
-    if not alone:
-        return  # another one may have written after this one had proved what it wrote
-    if verb == "set":
-        check_changes(node, serial, step)
-    elif done and verb == "erase":
-        check_erased(outcome, node, serial, step, defaults, saves)
-    elif done and verb == "restart":
-        require(step.count(serial, "restart") >= 1, f"{serial} was not restarted")
-    if done and saves:
-        check_saved(serial, step)
+    require(document["nodes"], "0, but of no servo")
+    for node in document["nodes"]:
+        if verb == "set":
+            statuses = {change["status"] for change in node["changes"]}
+            require(statuses <= set(HELD), f"0, but {statuses}")
+            require(node["saved"] or not saves(outcome), "0, but it is not saved")
+        elif verb != "get":
+            require(node["status"] == "done", "0, but not everything is done")
 
 
-def check_changes(node, serial, step):
-    for change in node.get("changes", []):
-        if change["status"] not in ("written", "unchanged"):
+def check_refusal(outcome):
+    if outcome.status in UNTOUCHED:
+        sent = outcome.record.changes()
+        require(not sent, f"refused with {outcome.status}, but {len(sent)} changes were sent")
+
+
+def is_meant(outcome, serial, step):
+    """Whether the command's -n takes in a servo."""
+    _, _, target, *_ = outcome.command.words
+    if target == "all":
+        return True
+    if target.startswith("serial:"):
+        return target == f"serial:{serial}"
+    return int(target) in step.node_ids(serial)
+
+
+def check_doubled(outcome, document, step):
+    """Of two servos under one node ID nothing is told, and nothing is done to them."""
+    told = {node.get("serial_number"): node for node in document.get("nodes", [])}
+    for serial in step.after:
+        if not (serial in told or is_meant(outcome, serial, step)):
+            continue
+        if step.is_doubled(serial, outcome.record):
+            require(outcome.status != 0, f"0, but {serial} is one of two under a node ID")
+            require(not tells_data(told.get(serial, {})), f"data of {serial}, which is one of two")
+
+
+def tells_data(node):
+    return (bool(node.get("params")) or node.get("status") == "done" or
+            any(change["status"] in HELD for change in node.get("changes", [])))
+
+
+def check_others(outcome, step):
+    """Whom the command does not mean, it leaves alone."""
+    for serial in step.after:
+        if is_meant(outcome, serial, step):
+            continue
+        require(step.rom_writes(serial) == 0, f"ROM of {serial} was written, which is not meant")
+        if step.restarts(serial):
+            continue
+        for address in step.saved_addresses(serial):
+            require(step.before[serial]["ram"][address] == step.after[serial]["ram"][address],
+                    f"{serial} {address} has changed, which is not meant")
+
+
+def check_rom_writes(outcome, step):
+    most = 1 if saves(outcome) else 0
+    for serial in step.after:
+        count = step.rom_writes(serial)
+        require(count <= most, f"{serial}: {count} ROM writes")
+
+
+class Told:
+    """What a command says of one servo, and what is true of it."""
+
+    def __init__(self, outcome, node, step):
+        self.outcome, self.node, self.step = outcome, node, step
+        self.serial = node["serial_number"]
+        self.verb = outcome.command.words[0]
+        self.before, self.after = step.before[self.serial], step.after[self.serial]
+        self.done = node.get("status") == "done" or node.get("saved") is True
+
+    def ram_is_due(self):
+        """RAM is as told, unless a restart took it that nobody could hear of."""
+        return not self.step.restarted_unheard(self.serial, self.outcome.record)
+
+    def require_held(self, memory, address, value):
+        found = self.after[memory][address]
+        require(found == value,
+                f"{self.serial} {address}: {memory} holds {found}, told was {value}")
+
+
+def check_node(told, defaults):
+    if told.verb == "get":
+        check_values(told)
+    elif told.verb == "set":
+        check_changes(told)
+    elif told.done and told.verb == "erase":
+        check_erased(told, defaults)
+    elif told.done and told.verb == "restart":
+        require(told.step.restarts(told.serial), f"{told.serial} was not restarted")
+        if not truth.has_lost_rom(told.after):
+            check_same_memories(told)
+    elif told.done and told.verb == "save":
+        check_saved(told)
+    after = told.node.get("node_id_after")
+    if told.done and after is not None and told.ram_is_due():
+        require(after == told.after["node_id"], f"{told.serial} is at {told.after['node_id']}")
+
+
+def check_values(told):
+    """All values of one servo were true at one moment."""
+    if told.outcome.status != 0:
+        return
+    shown = {param["address"]: param["raw"] for param in told.node["params"]
+             if param["address"] in told.step.saved_addresses(told.serial)}
+    moments = told.step.moments(told.serial)
+    require(any(all(held[address] == raw for address, raw in shown.items()) for held in moments),
+            f"{told.serial}: these values never stood in RAM together")
+
+
+def check_changes(told):
+    saved = told.node.get("saved") is True
+    for change in told.node.get("changes", []):
+        if change["status"] not in HELD:
+            require(not saved, f"{told.serial}: saved, but {change['status']}")
             continue
         require(change["after"] == change["requested"], "written, but not as requested")
-        address, after = change["address"], step.after[serial]
-        if node.get("saved") is True:
-            require(after["rom"][address] == change["after"], f"{serial} {address} is not in ROM")
-        elif step.count(serial, "restart") == 0:
-            require(after["ram"][address] == change["after"], f"{serial} {address} is not in RAM")
+        if saved:
+            told.require_held("rom", change["address"], change["after"])
+        if saved or told.ram_is_due():
+            told.require_held("ram", change["address"], change["after"])
 
 
-def check_erased(outcome, node, serial, step, defaults, saves):
-    memory = "rom" if saves else "ram"
-    if not saves and step.count(serial, "restart") > 0:
-        return  # what was not saved is gone again
-    kept = NEVER_COMPARED if "--keep-ids" in outcome.command.words else set()
-    for address, default in defaults[node["model"]].items():
-        if address not in kept and address in step.after[serial]["rom"]:
-            found = step.after[serial][memory][address]
-            require(found == default, f"{serial} {address}: {found} in {memory}, not {default}")
+def check_erased(told, defaults):
+    kept = IDS if "--keep-ids" in told.outcome.command.words else ()
+    saved = saves(told.outcome)
+    if not saved and not told.ram_is_due():
+        return
+    for address, default in defaults[told.node["model"]].items():
+        if address in told.step.saved_addresses(told.serial):
+            due = told.before["ram"][address] if address in kept else default
+            told.require_held("ram", address, due)
+            if saved:
+                told.require_held("rom", address, due)
 
 
-def check_saved(serial, step):
-    """ROM was written, or held everything before: then a restart proves as much."""
-    before, after = step.before[serial], step.after[serial]
-    written = step.rom_writes(serial) >= 1
-    for address, value in after["rom"].items():
-        require(written or before["ram"][address] == value, f"{serial} {address} was not saved")
-        if step.count(serial, "restart") <= 1:
-            require(after["ram"][address] == value, f"{serial} {address}: RAM differs from ROM")
+def check_saved(told):
+    """ROM is what RAM was when the command first heard of the servo."""
+    due = told.step.ram_at_first_contact(told.serial, told.outcome.record)
+    require(due, f"{told.serial}: saved, but its ROM could not be read")
+    for address in told.step.saved_addresses(told.serial):
+        told.require_held("rom", address, due[address])
+    check_same_memories(told)
+
+
+def check_same_memories(told):
+    for address, value in told.after["rom"].items():
+        told.require_held("ram", address, value)

@@ -2,6 +2,9 @@
 #include "scene.hpp"
 
 #include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <thread>
 
 using namespace blactl::test;
 
@@ -285,9 +288,129 @@ TEST_CASE("--profile against a servo that says otherwise is a conflict") {
                              "  leave --profile out"));
 }
 
+TEST_CASE("an unknown model has no known defaults: --changed shows all that may be written") {
+  const Scene scene = Scene().servo("BLA21-12U-AB", 11, {{"model_number", 99}});
+  const auto document = json(scene.run({"get", "--json", "--changed", "--group", "limit"}).out);
+  const auto& params = document["nodes"][0]["params"];
+  CHECK(params.size() > 5);
+  for (const auto& param : params) {
+    for (const auto* key : {"default", "min", "max"}) {
+      CHECK(param[key].is_null());
+    }
+  }
+}
+
 TEST_CASE("--changed leaves nothing out of which the default is not known") {
   const Scene scene = Scene().servo("BLA21-12U-AB", 16, {{"model_number", 99}});
   const Result result = scene.run({"get", "--changed", "voltage_limit_high"});
   CHECK(result.status == 0);
   CHECK(contains(result.out, "voltage_limit_high"));
+}
+
+TEST_CASE("get tells every fault of its arguments at once") {
+  const Result result =
+      three_servos().run({"get", "foo", "limits", "initialize", "--group", "limits", "--json"});
+  CHECK(result.status == 2);
+  const auto errors = json(result.out)["errors"];
+  std::vector<std::string> found;
+  for (const auto& error : errors) {
+    found.push_back(error["code"]);
+  }
+  // The command line itself comes first: nothing is looked up for one that is wrong.
+  CHECK(found == std::vector<std::string>{"usage"});
+  CHECK(errors[0]["hint"] == "did you mean limit?");
+  const Result names = three_servos().run({"get", "foo", "limits", "initialize", "--json"});
+  CHECK(names.status == 2);
+  CHECK(codes(names) ==
+        std::vector<std::string>{"unknown_parameter", "unknown_parameter", "unsupported"});
+  CHECK(contains(names.err, "angle_limit_cw"));
+  CHECK(contains(names.err, "(all of a group: --group limit)"));
+}
+
+TEST_CASE("a mistyped parameter finds the ones that were meant") {
+  const auto hint = [](const char* typed) { return three_servos().run({"get", typed}).err; };
+  CHECK(contains(hint("anglelimit"), "did you mean angle_limit_cw or angle_limit_ccw?"));
+  CHECK(contains(hint("nodeid"), "did you mean static_node_id?"));
+  CHECK(contains(hint("deadband"), "did you mean angle_dead_band or speed_dead_band?"));
+}
+
+TEST_CASE("-n takes the beginning of a unique ID and words of either case") {
+  const Scene scene =
+      Scene()
+          .servo("BLA21-12U-AB", 11, {{"unique_id", "00112233445566778899aabbccddee01"}})
+          .servo("BLA21-12U-AB", 12, {{"unique_id", "00112233445566778899aabbccddee02"}})
+          .servo("BLA34-12U-AB", 13, {{"unique_id", "ff112233445566778899aabbccddee03"}});
+  const auto got = [&](const char* list) {
+    std::vector<int> ids;
+    const auto document = json(scene.run({"get", "servo_id", "-n", list, "-j"}).out);
+    for (const auto& node : document["nodes"]) {
+      ids.push_back(node["node_id"]);
+    }
+    return ids;
+  };
+  CHECK(got("uid:ff") == std::vector{13});
+  CHECK(got("UID:FF11") == std::vector{13});
+  CHECK(got("uid:00112233445566778899aabbccddee02") == std::vector{12});
+  CHECK(got("ALL") == std::vector{11, 12, 13});
+  CHECK(got("Model:bla34") == std::vector{13});
+  for (const char* command : {"get", "save", "scan", "wait"}) {
+    INFO(command);
+    const Result several = scene.run({command, "-n", "uid:0011"});
+    CHECK(several.status == 2);
+    CHECK(codes(several).front() == "usage");
+    CHECK(contains(several.err, "-n uid:0011: several servos have a unique ID that begins so: "
+                                "00112233445566778899aabbccddee01 (11), "
+                                "00112233445566778899aabbccddee02 (12)"));
+  }
+  CHECK(scene.run({"get", "-n", "uid:0a"}).status == 4);
+}
+
+TEST_CASE("a number that is no node ID is answered with what node IDs are") {
+  for (const char* list : {"0", "128"}) {
+    const Result result = three_servos().run({"get", "-n", list});
+    CHECK(result.status == 2);
+    CHECK(contains(result.err, "node IDs are 1 to 127"));
+  }
+}
+
+TEST_CASE("counts of nodes and failed ones mean the same in every command") {
+  for (const Arguments& command : {Arguments{"get", "servo_id"},
+                                   {"set", "smoothing=off"},
+                                   {"save"},
+                                   {"erase"},
+                                   {"restart"},
+                                   {"wait", "--wait", "1"},
+                                   {"scan"}}) {
+    Arguments all = command;
+    all.insert(all.end(), {"-n", "11,12", "-y", "-j"});
+    INFO(command.front());
+    const auto well = json(three_servos().run(all).out)["counts"];
+    CHECK(well["nodes"] == 2);
+    CHECK(well["failed"] == 0);
+  }
+  for (const char* command : {"get", "save", "wait"}) {
+    INFO(command);
+    const auto counts =
+        json(three_servos().run({command, "-n", "11,55", "-y", "-j"}).out)["counts"];
+    CHECK(counts["nodes"] == 2);
+    CHECK(counts["failed"] == 1);
+  }
+}
+
+TEST_CASE("Ctrl-C: a servo that was not read completely is not shown, and is an error of its own") {
+  const Bench bench;
+  const std::string file = bench.file("slow.json", R"({"schema": "blactl-scenario/1",
+      "servos": [{"model": "BLA21-12U-AB", "node_id": 11, "answer_delay": "50ms"}]})");
+  Background sim(bench, {"sim", file, "--json"});
+  Background get(bench, {"-i", "sim:", "get", "-n", "11", "-j", "-v"}, {}, "own node ID");
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500)); // it is being read
+  const Result ended = get.stop(SIGINT);
+  CHECK(ended.status == 130);
+  const auto document = json(ended.out);
+  INFO(ended.out + ended.err);
+  CHECK(document["nodes"].empty());
+  CHECK(document["counts"]["failed"] == 1);
+  CHECK(std::ranges::any_of(document["errors"], [](const nlohmann::json& error) {
+    return error["node_id"] == 11 && error["code"] == "interrupted";
+  }));
 }

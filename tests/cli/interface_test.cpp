@@ -66,7 +66,24 @@ TEST_CASE("a command line that is not understood is refused with the way on") {
       {{"get", "--frob"}, "usage", "not expected: --frob", "see blactl get --help"},
       {{"set"}, "usage", "PARAM=VALUE is missing", "see blactl set --help"},
       {{"get", "-n"}, "usage", "--node takes one value", "see blactl get --help"},
-      {{"-n", "11", "-n", "12", "get"}, "usage", "--node takes one value", "see blactl get --help"},
+      {{"get", "--chnged"}, "usage", "not expected: --chnged", "did you mean --changed?"},
+      {{"get", "--color", "alway"}, "usage", "--color alway: not one of", "did you mean always?"},
+      {{"get", "--changed=no"}, "usage", "--changed takes no value", "see blactl get --help"},
+      {{"-i", "/dev/ttyUSB0", "scan"},
+       "usage",
+       "-i /dev/ttyUSB0: the kind of interface is missing",
+       "did you mean -i slcan:/dev/ttyUSB0?"},
+      {{"-i", "ttyACM1", "scan"},
+       "usage",
+       "-i ttyACM1: the kind",
+       "did you mean -i slcan:/dev/ttyACM1?"},
+      {{"-i", "slcan", "scan"}, "usage", "-i slcan: the kind", "did you mean -i slcan:/dev/"},
+      {{"-i", "sim", "scan"}, "usage", "-i sim: the kind", "did you mean -i sim:?"},
+      {{"-i", "a.json", "scan"}, "usage", "-i a.json: the kind", "did you mean -i sim:a.json?"},
+      {{"-i", "bus.log", "scan"},
+       "usage",
+       "-i bus.log: the kind",
+       "did you mean -i replay:bus.log?"},
       {{"get", "-n", ""}, "usage", "--node: the value is empty", "see blactl --help"},
       {{"-i", "", "scan"}, "usage", "--interface: the value is empty", "see blactl --help"},
       {{"scan", "--listen", "nan"},
@@ -97,6 +114,33 @@ TEST_CASE("a command line that is not understood is refused with the way on") {
   }
 }
 
+TEST_CASE("all faults of a command line come at once") {
+  const Arguments line{"get", "--frob", "--timeout", "x", "-n", "0", "--group", "g", "-i", "sim"};
+  const Result text = run(line);
+  CHECK(text.status == 2);
+  CHECK(text.out.empty());
+  CHECK(codes(text) == std::vector<std::string>(5, "usage"));
+  Arguments with_json = line;
+  with_json.emplace_back("-j");
+  const auto document = json(run(with_json).out);
+  CHECK(document["exit_status"] == 2);
+  REQUIRE(document["errors"].size() == 5);
+  for (const auto& error : document["errors"]) {
+    CHECK(contains(text.err, error["message"].get<std::string>()));
+    CHECK(contains(text.err, error["hint"].get<std::string>()));
+  }
+}
+
+TEST_CASE("of an option given twice the last one holds, and -n adds up") {
+  const auto nodes = json(three_servos()
+                              .run({"-n", "11", "get", "-n", "12", "servo_id", "--timeout", "9",
+                                    "--timeout", "1", "-j"})
+                              .out)["nodes"];
+  REQUIRE(nodes.size() == 2);
+  CHECK(nodes[0]["node_id"] == 11);
+  CHECK(nodes[1]["node_id"] == 12);
+}
+
 TEST_CASE("--csv is refused where there is no table, and beside --json") {
   for (const Arguments& command : {Arguments{"set", "servo_id=3"}, {"models"}, {"sim"}}) {
     Arguments arguments = command;
@@ -116,7 +160,7 @@ TEST_CASE("what every model would refuse opens no interface") {
       {{"set", "0x60=1"},
        "unknown_parameter",
        "0x60: there is no such parameter",
-       "`blactl models BLA21-12U-AB` lists"},
+       "`blactl get` lists"},
       {{"set", "torqe_output=on"},
        "unknown_parameter",
        "torqe_output",
@@ -129,22 +173,10 @@ TEST_CASE("what every model would refuse opens no interface") {
        "unknown_parameter",
        "current_torqe",
        "did you mean current_torque?"},
-      {{"set", "0x03=1"},
-       "unsupported",
-       "0x03 is a reserved address",
-       "`blactl models BLA21-12U-AB` lists"},
-      {{"get", "0x04"},
-       "unsupported",
-       "0x04 is a reserved address",
-       "`blactl models BLA21-12U-AB` lists"},
-      {{"set", "0x49=1"},
-       "unsupported",
-       "0x49 starts the boot loader",
-       "`blactl models BLA21-12U-AB` lists"},
-      {{"set", "bootloader=1"},
-       "unsupported",
-       "0x49 starts the boot loader",
-       "`blactl models BLA21-12U-AB`"},
+      {{"set", "0x03=1"}, "unsupported", "0x03 is a reserved address", "`blactl get` lists"},
+      {{"get", "0x04"}, "unsupported", "0x04 is a reserved address", "`blactl get` lists"},
+      {{"set", "0x49=1"}, "unsupported", "0x49 starts the boot loader", "`blactl get` lists"},
+      {{"set", "bootloader=1"}, "unsupported", "0x49 starts the boot loader", "`blactl get` lists"},
       {{"set", "0x10=1"}, "unsupported", "initialize (0x10) is no setting", "use `blactl erase`"},
       {{"set", "reboot=1"}, "unsupported", "reboot (0x11) is no setting", "use `blactl restart`"},
       {{"set", "0x12=1"}, "unsupported", "write_rom (0x12) is no setting", "use `blactl save`"},
@@ -206,11 +238,14 @@ TEST_CASE("what every model would refuse opens no interface") {
        "there is no group 'motor'",
        "the groups are command status operation fault config control pwm limit option product "
        "production"},
-      {{"get", "-n", "0"}, "usage", "-n 0: not a node ID", "for example -n 12"},
-      {{"get", "-n", "128"}, "usage", "-n 128: not a node ID", "for example -n 12"},
-      {{"get", "-n", "14-10"}, "usage", "-n 14-10: not a node ID", "for example -n 12"},
+      {{"get", "-n", "0"}, "usage", "-n 0: node IDs are 1 to 127", "see who is there: blactl scan"},
+      {{"get", "-n", "128"},
+       "usage",
+       "-n 128: node IDs are 1 to 127",
+       "see who is there: blactl scan"},
+      {{"get", "-n", "14-10"}, "usage", "-n 14-10: the range goes downwards", "type -n 10-14"},
       {{"get", "-n", "11,"}, "usage", "not a node ID", "for example -n 12"},
-      {{"get", "-n", "uid:12"}, "usage", "-n uid:12: not a node ID", "for example -n 12"},
+      {{"get", "-n", "uid:1g"}, "usage", "-n uid:1g: not a node ID", "for example -n 12"},
       {{"scan", "-n", "colour:red"}, "usage", "-n colour:red: not a node ID", "for example"},
       {{"get", "--profile", "BLA99"}, "usage", "there is no model 'BLA99'", "the models are BLA15"},
       {{"get", "--profile", "BLA21"}, "usage", "'BLA21' means several models", "the models are"},
@@ -251,7 +286,8 @@ TEST_CASE("an interface that does not exist is exit 3, by every command that nee
   }
 }
 
-TEST_CASE("a machine without CAN is told how to bring an interface up, or to do without") {
+TEST_CASE("a machine without CAN is told how to bring an interface up, or to do without",
+          "[machine-without-can][may-skip]") {
   if (machine_has_can()) {
     WARN("skipped: this machine has a CAN interface");
     return;
@@ -332,21 +368,80 @@ TEST_CASE("a profile that replaces a built-in one is announced") {
   CHECK(contains(result.err, "BLA34-12U-AB replaces the built-in profile"));
 }
 
-TEST_CASE("a node ID of ours that somebody else uses is a conflict") {
+TEST_CASE("where another node has 127 the command goes on with 126, and one note says so") {
   const Scene scene = three_servos().foreign(127);
-  for (const Arguments& command : {Arguments{"scan"}, {"get", "-n", "11"}}) {
-    const Result result = scene.run(command);
-    CHECK(result.status == 9);
-    CHECK(codes(result) == std::vector<std::string>{"duplicate_node_id"});
-    CHECK(contains(result.err, "node ID 127 is used by another node"));
-    CHECK(contains(result.err, "\n  give a free node ID: --local-node-id ID"));
+  const std::string note = "blactl: own node ID 126: 127 is used by another node\n";
+  const Result scan = scene.run({"scan"});
+  CHECK(scan.status == 0);
+  CHECK(scan.err == note);
+  CHECK(contains(scan.out, "\n127 "));
+  const Result set = scene.run({"set", "-n", "11", "angle_dead_band=0.3deg"});
+  CHECK(set.status == 0);
+  CHECK(set.err == note);
+  const Result japanese = scene.run({"scan", "--lang", "ja"});
+  CHECK(contains(japanese.err, "自ノード ID 126: 127 は別のノードが使用中"));
+}
+
+TEST_CASE("a servo that has a tool's ID is a servo like others") {
+  for (const int id : {126, 127}) {
+    const Scene scene = Scene().servo("BLA21-12U-AB", id, {{"servo_id", 4}});
+    const auto found = json(scene.run({"scan", "--json"}).out);
+    REQUIRE(found["nodes"].size() == 1);
+    CHECK(found["nodes"][0]["node_id"] == id);
+    CHECK(found["nodes"][0]["servo_id"] == 4);
+    const Result get = scene.run({"get", "-n", std::to_string(id), "servo_id"});
+    CHECK(get.status == 0);
+    CHECK(get.err.empty()); // its ID was left to it from the beginning
   }
-  CHECK(scene.run({"get", "-n", "11", "--local-node-id", "126"}).status == 0);
+}
+
+TEST_CASE("where others have both IDs of tools a command ends with 9") {
+  const Result result = three_servos().foreign(127).foreign(126).run({"scan"});
+  CHECK(result.status == 9);
+  CHECK(codes(result) == std::vector<std::string>{"no_local_node_id"});
+  CHECK(contains(result.err, "127 is used by another node, 126 is used by another node"));
+  CHECK(contains(result.err, "\n  give a free node ID: --local-node-id ID"));
+}
+
+TEST_CASE("an ID of ours that somebody has is not spoken with") {
+  const Scene scene = three_servos();
+  const Result taken = scene.run({"scan", "--local-node-id", "11"});
+  CHECK(taken.status == 9);
+  CHECK(contains(taken.err, "node ID 11 is used by another node"));
+  CHECK(scene.run({"get", "-n", "11", "--local-node-id", "50", "servo_id"}).status == 0);
 }
 
 TEST_CASE("nobody acknowledges on a bus without any node") {
   const Result result = Scene().run({"scan"});
   CHECK(result.status == 3);
   CHECK(codes(result) == std::vector<std::string>{"no_acknowledge"});
-  CHECK(contains(result.err, "\n  is a servo powered and connected, the bus terminated"));
+  CHECK(contains(result.err, "\n  is a servo in the scenario "));
+}
+
+TEST_CASE("where nobody was heard the hint fits the kind of interface") {
+  const Bench bench;
+  const std::string log = bench.file("other.log", "(1.000000) can0 123#0102\n");
+  const std::string listed = bench.file("empty.json", R"({"schema": "blactl-scenario/1"})");
+  const std::vector<std::pair<Arguments, std::string>> cases{
+      {{"-i", "replay:" + log, "scan"}, "\n  " + log + " holds nothing that a DroneCAN node said"},
+      {{"-i", "sim:" + listed, "scan", "--listen-only"},
+       "\n  is a servo in the scenario " + listed},
+      {{"-i", "sim:" + listed, "get"}, "\n  is a servo in the scenario " + listed},
+  };
+  for (const auto& [arguments, hint] : cases) {
+    const Result result = bench.run(arguments);
+    INFO(result.err);
+    CHECK(contains(result.err, hint));
+    CHECK_FALSE(contains(result.err, "bit rate"));
+  }
+  const Background sim(bench, {"sim", listed});
+  CHECK(contains(bench.run({"-i", "sim:", "scan"}).err, "type dump there"));
+}
+
+TEST_CASE("an interface without a name is refused") {
+  check_refusal({{"-i", "socketcan:", "scan"},
+                 "usage",
+                 "-i socketcan:: the name of the interface is missing",
+                 "for example -i can0"},
+                2);
 }

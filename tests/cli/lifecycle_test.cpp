@@ -5,8 +5,10 @@
 #include "tap.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <string>
+#include <thread>
 #include <vector>
 
 using namespace blactl::test;
@@ -34,7 +36,74 @@ nlohmann::json node(const Result& result, std::size_t index = 0) {
   return json(result.out).at("nodes").at(index);
 }
 
+/// Eight servos from node ID 11 on, of which the last does not come back from a restart.
+Scene eight_servos() {
+  Scene scene;
+  for (int id = 11; id < 18; ++id) {
+    scene.servo("BLA21-12U-AB", id);
+  }
+  return scene.servo("BLA21-12U-AB", 18, {{"faults", {{"return_delay", "600s"}}}});
+}
+
+/// Seconds from the first sign of life after SAVE to the last register read of this servo.
+double reread_time(std::vector<nlohmann::json> transfers, int id) {
+  std::erase_if(transfers, [](const auto& line) { return !line.contains("type"); }); // the last one
+  double saved = 0;
+  double returned = 0;
+  double last_read = 0;
+  for (const nlohmann::json& transfer : transfers) {
+    const auto& type = transfer["type"];
+    const bool from = transfer["source"] == id;
+    if (transfer["destination"] == id && type == "uavcan.protocol.param.ExecuteOpcode") {
+      saved = transfer["time"];
+    } else if (from && saved > 0 && returned == 0 && type == "uavcan.protocol.NodeStatus" &&
+               transfer["fields"]["uptime_sec"] == 0) {
+      returned = transfer["time"];
+    } else if (from && returned > 0 && type == "uavcan.protocol.param.GetSet") {
+      last_read = transfer["time"];
+    }
+  }
+  REQUIRE(returned > 0);
+  REQUIRE(last_read > returned);
+  return last_read - returned;
+}
+
 } // namespace
+
+TEST_CASE("set --save: a servo that is back is read again at once, whoever else is away") {
+  const Bench bench;
+  const std::string log = (bench.folder() / "bus.log").string();
+  const Result set = eight_servos().run(bench, {"set", "-n", "all", "smoothing=off", "--save", "-y",
+                                                "--wait", "4", "-j", "--record", log});
+  CHECK(set.status == 6);
+  const auto transfers = json_lines(bench.run({"trace", log, "--json"}).out);
+  for (int id = 11; id < 18; ++id) {
+    CAPTURE(id);
+    CHECK(reread_time(transfers, id) < 0.3);
+    CHECK(node(set, static_cast<std::size_t>(id - 11))["saved"] == true);
+  }
+  CHECK(node(set, 7)["saved"] == false);
+}
+
+TEST_CASE("Ctrl-C: what is saved and read again is told as such, whoever else is away") {
+  const Bench bench;
+  Background sim(bench, {"sim", eight_servos().write(bench), "--clock", "real", "--json"});
+  Background set(
+      bench,
+      {"-i", "sim:", "set", "-n", "all", "smoothing=off", "--save", "-y", "-j", "--wait", "500"},
+      {}, "");
+  for (int id = 11; id < 19; ++id) {
+    sim.expect("\"node_id\":" + std::to_string(id) + ",\"count\":1");
+  }
+  const Result ended = set.stop(SIGINT);
+  CHECK(ended.status == 130);
+  for (std::size_t i = 0; i < 7; ++i) {
+    CAPTURE(i);
+    CHECK(node(ended, i)["saved"] == true);
+  }
+  CHECK(node(ended, 7)["saved"] == false);
+  CHECK(codes(ended) == std::vector<std::string>{"interrupted", "interrupted"});
+}
 
 TEST_CASE("set --save: the value survives the restart") {
   const Bench bench;
@@ -95,6 +164,114 @@ TEST_CASE("a servo that never comes back ends in 4 with a true report") {
   CHECK(codes(saved) == std::vector<std::string>{"not_back"});
   CHECK(node(saved)["status"] == "failed");
   CHECK(node(saved)["node_id_after"].is_null());
+  CHECK(contains(saved.err, "it was given 5 s (--wait SEC gives it more)"));
+  CHECK(contains(saved.err, "blactl wait -n uid:"));
+}
+
+TEST_CASE("a servo that refuses, or that nothing was sent to, is where it was") {
+  const Result refused = Scene()
+                             .servo("BLA21-12U-AB", 11, {{"faults", {{"refuse_opcodes", true}}}})
+                             .run({"save", "-n", "11", "-y", "-j"});
+  CHECK(refused.status == 5);
+  CHECK(node(refused)["node_id_after"] == 11);
+  const Result ignored = Scene()
+                             .servo("BLA21-12U-AB", 11, {{"faults", {{"ignore_opcodes", 9}}}})
+                             .run({"save", "-n", "11", "-y", "-j"});
+  CHECK(ignored.status == 4);
+  CHECK(node(ignored)["node_id_after"] == 11);
+}
+
+TEST_CASE("the duration of a SAVE that was sent twice begins with the first") {
+  const Result saved = Scene()
+                           .servo("BLA21-12U-AB", 11, {{"faults", {{"ignore_opcodes", 1}}}})
+                           .run({"save", "-n", "11", "-y", "-j"});
+  CHECK(saved.status == 0);
+  CHECK(node(saved)["duration_s"].get<double>() > 1.5); // it had that long to carry out the first
+}
+
+TEST_CASE("on a terminal one line shows who is awaited, and nothing is left of it") {
+  const Scene scene =
+      Scene()
+          .servo("BLA21-12U-AB", 11)
+          .servo("BLA21-12U-AB", 12, {{"servo_id", 2}, {"faults", {{"return_delay", "4s"}}}});
+  const Arguments save{"save", "-n", "all", "-y"};
+  const Result shown = scene.run(save, {.terminal = true, .columns = 60});
+  CHECK(shown.status == 0);
+  CHECK(contains(shown.err, "1 of 2 servos done, 3 s; to come back: 12"));
+  CHECK(shown.err.ends_with("\r\x1b[K"));
+  CHECK_FALSE(contains(scene.run(save).err, "servos done"));
+  CHECK_FALSE(contains(scene.run({"save", "-n", "all", "-y", "-q"}, {.terminal = true}).err,
+                       "servos done"));
+}
+
+TEST_CASE("wait shows how long it waits, and an interrupted one leaves nobody out") {
+  const Bench bench;
+  Background sim(bench, {"sim", slow_servo(bench, "1s"), "--json"});
+  const Result waited =
+      bench.run({"-i", "sim:", "wait", "-n", "11,99", "--wait", "60", "-j"},
+                {.answers = {{"waiting, 1 of 60 s; there: 1", "\x03"}}, .terminal = true});
+  CHECK(waited.status == 130);
+  const auto errors = json(waited.out)["errors"];
+  REQUIRE(errors.size() == 2);
+  CHECK(errors[0]["code"] == "interrupted");
+  CHECK(errors[1]["code"] == "interrupted");
+  CHECK(errors[1]["node_id"] == 99);
+  CHECK(node(waited)["status"] == "done");
+}
+
+TEST_CASE("a servo that waits for a node ID is not said to be absent") {
+  const Scene scene = three_servos().servo(
+      "BLA21-12U-AB", 0, {{"unique_id", "a1b2c3d4e5f60718293a4b5c6d7e8f90"}, {"servo_id", 9}});
+  for (const std::string uid : {"uid:a1b2c3d4e5f60718293a4b5c6d7e8f90", "uid:a1b2"}) {
+    const Result waited = scene.run({"wait", "-n", uid, "--wait", "3"});
+    CHECK(waited.status == 4);
+    CHECK(contains(waited.err, uid + " waits for a node ID: it cannot be asked before it has one"));
+  }
+  CHECK(contains(scene.run({"wait", "-n", "uid:a1b3", "--wait", "3"}).err,
+                 "no servo on the bus matches uid:a1b3"));
+}
+
+TEST_CASE("wait does not call a servo operational that is gone") {
+  const Bench bench;
+  const std::string file = bench.file("gone.json", R"({"schema": "blactl-scenario/1",
+      "clock": "virtual",
+      "servos": [{"model": "BLA21-12U-AB", "node_id": 11, "servo_id": 1, "serial_number": 1},
+                 {"model": "BLA21-12U-AB", "node_id": 12, "servo_id": 2, "serial_number": 2}],
+      "events": [{"at": "2s", "servo": 1, "happens": "power_off"},
+                 {"at": "0s", "servo": 2, "happens": "power_off"},
+                 {"at": "9s", "servo": 2, "happens": "power_on"}]})");
+  const Result waited = bench.run({"-i", "sim:" + file, "wait", "-n", "11,12", "-j"});
+  CHECK(waited.status == 6);
+  CHECK(node(waited, 0)["status"] == "failed");
+  CHECK(node(waited, 1)["status"] == "done");
+  CHECK(json(waited.out)["errors"][0]["code"] == "timeout");
+  CHECK(json(waited.out)["errors"][0]["node_id"] == 11);
+}
+
+TEST_CASE("wait without -n hears everybody who lives before it ends") {
+  const Bench bench;
+  const std::string file = bench.file("late.json", R"({"schema": "blactl-scenario/1",
+      "clock": "virtual",
+      "servos": [{"model": "BLA21-12U-AB", "node_id": 11, "servo_id": 1, "serial_number": 1},
+                 {"model": "BLA21-12U-AB", "node_id": 12, "servo_id": 2, "serial_number": 2}],
+      "events": [{"at": "0s", "servo": 2, "happens": "power_off"},
+                 {"at": "500ms", "servo": 2, "happens": "power_on"}]})");
+  const Result waited = bench.run({"-i", "sim:" + file, "wait", "-j"});
+  CHECK(waited.status == 0);
+  CHECK(json(waited.out)["nodes"].size() == 2);
+}
+
+TEST_CASE("wait does not tell of one of two servos on an ID what may be the other's") {
+  const Bench bench;
+  const Scene scene = three_servos().servo("BLA21-12U-AB", 11, {{"servo_id", 4}});
+  Background sim(bench, {"sim", scene.write(bench), "--clock", "real", "--json"});
+  REQUIRE(bench.run({"-i", "sim:", "scan"}).status == 9); // both have started
+  const Result waited = bench.run({"-i", "sim:", "wait", "-n", "11", "--wait", "2", "-j"});
+  CHECK(waited.status == 9);
+  CHECK(node(waited)["node_id"] == 11);
+  for (const auto* key : {"unique_id", "model", "serial_number", "servo_id"}) {
+    CHECK(node(waited)[key].is_null());
+  }
 }
 
 TEST_CASE("a ROM that kept its old values is found out") {
@@ -292,10 +469,9 @@ TEST_CASE("Ctrl-C: a save that runs is waited for, and what is known of it is sa
   const Result saved = save.stop(SIGINT);
   CHECK(saved.status == 130);
   CHECK(contains(saved.err, "waiting for servos that save"));
-  CHECK(contains(saved.err, "[interrupted]"));
-  CHECK(contains(saved.err, "node 11 is back, but its values were not read again"));
+  CHECK(codes(saved) == std::vector<std::string>{"interrupted"});
   CHECK(node(saved)["node_id_after"] == 11);
-  CHECK(node(saved)["status"] == "failed"); // it was not verified
+  CHECK(node(saved)["status"] == "done"); // it came back in time, and was read again
   CHECK(rom_writes(sim.stop().out) == 1);
 }
 
@@ -364,4 +540,15 @@ TEST_CASE("one process at a time writes on an interface; a killed one leaves no 
   CHECK(bench.run({"-i", "sim:", "get", "-n", "12", "smoothing"}).status == 0); // readers are free
   first.kill();
   CHECK(bench.run({"-i", "sim:", "set", "-n", "12", "smoothing=off"}).status == 0);
+}
+
+TEST_CASE("a servo that was alone on the bus for long is one servo") {
+  const Bench bench;
+  const std::string file = bench.file("alone.json", R"({"schema": "blactl-scenario/1",
+      "servos": [{"model": "BLA21-12U-AB", "node_id": 11}]})");
+  Background sim(bench, {"sim", file, "--json"});
+  std::this_thread::sleep_for(std::chrono::milliseconds(1200)); // its frames wait for a reader
+  const Result set = bench.run({"-i", "sim:", "set", "-n", "11", "smoothing=off", "-y"});
+  CHECK(set.status == 0);
+  CHECK(set.err.empty());
 }

@@ -2,6 +2,8 @@
 #include "scene.hpp"
 
 #include <filesystem>
+#include <map>
+#include <utility>
 
 using namespace blactl::test;
 
@@ -23,7 +25,8 @@ TEST_CASE("models --json has exactly the keys of the contract, in their order") 
   CHECK(result.status == 0);
   const auto document = ordered_json(result.out);
   CHECK(keys(document) == std::vector<std::string>{"schema", "command", "interface", "exit_status",
-                                                   "models", "fault_bits", "counts", "errors"});
+                                                   "models", "fault_bits", "firmware", "counts",
+                                                   "errors"});
   CHECK(document["interface"].is_null());
   REQUIRE(document["models"].size() == 10);
   for (const auto& model : document["models"]) {
@@ -46,8 +49,9 @@ TEST_CASE("models --json has exactly the keys of the contract, in their order") 
   REQUIRE_FALSE(document["fault_bits"].empty());
   for (const auto& bit : document["fault_bits"]) {
     CHECK(keys(bit) == std::vector<std::string>{"register", "bit", "level", "group", "code",
-                                                "pwm_only", "text_en", "text_ja", "condition_en",
-                                                "condition_ja", "action_en", "action_ja"});
+                                                "pwm_only", "latched", "vendor_only", "text_en",
+                                                "text_ja", "condition_en", "condition_ja",
+                                                "action_en", "action_ja"});
   }
 }
 
@@ -105,6 +109,88 @@ TEST_CASE("a model of --profile-dir is known to models and to the servos that ar
 
 TEST_CASE("a range names only the words that the model takes") {
   const Result result = run({"models", "BLA21-12U", "pwm_mode"});
-  CHECK(contains(result.out, "BLA21-12U-A0  angle    angle\n"));
+  CHECK(contains(result.out, "BLA21-12U-A0  -        no PWM input\n"));
   CHECK(contains(result.out, "BLA21-12U-AB  angle    angle, speed\n"));
+}
+
+TEST_CASE("models MODEL tells of a fault register what its bits mean and what to do") {
+  const Result warnings = run({"models", "BLA21-12U-AB", "0x1A"});
+  CHECK(warnings.status == 0);
+  CHECK(contains(warnings.out, "bit 8: Temperature upper limit [temperature_high]\n"
+                               "      [0x0B] Current Temperature at or above [0x3E] Operation "
+                               "Temperature Upper Limit\n      Let the servo cool"));
+  CHECK(contains(warnings.out, "[rom_corrupt], stays until the next start\n"));
+  CHECK(contains(run({"models", "all", "0x19"}).out, "[pwm_missing], models with a PWM input"));
+  CHECK(contains(run({"models", "all", "0x1B"}).out, "bit 9: Watchdog [watchdog]"));
+  CHECK(contains(run({"models", "all", "0x18"}).out,
+                 "bit 25: Warning level info.\n      Any bit 24-31 of 0x1A is 1"));
+  CHECK(contains(run({"models", "BLA21", "0x1A", "--lang", "ja"}).out, "制限温度上限"));
+}
+
+TEST_CASE("models --json has the bits of all four registers, and the firmware history") {
+  const auto document = json(run({"models", "-j"}).out);
+  std::map<std::string, int> bits;
+  for (const auto& bit : document["fault_bits"]) {
+    ++bits[bit["register"]];
+    CHECK(bit["code"].is_null() == (bit["register"] == "0x18"));
+  }
+  CHECK(bits == std::map<std::string, int>{{"0x18", 12}, {"0x19", 9}, {"0x1A", 9}, {"0x1B", 8}});
+  REQUIRE(document["firmware"].size() == 6);
+  CHECK(document["firmware"][5]["version"] == 1500);
+  CHECK(document["firmware"][5]["shipments"][0]["models"] == "BLA34-**U-AB1");
+  CHECK(document["firmware"][5]["shipments"][0]["until"].is_null());
+}
+
+TEST_CASE("models MODEL tells which firmware mends what, and when it was shipped") {
+  const Result result = run({"models", "BLA21-12U-AB"});
+  CHECK(contains(result.out, "1.400     2024-06 ..          Fixed: servo stalled"));
+  CHECK(contains(result.out, "1.200     2022-05 .. 2023-12  [0x2F] angle control boost"));
+  CHECK_FALSE(contains(result.out, "BLA34"));
+}
+
+TEST_CASE("models shows units, also those of the production date") {
+  for (const auto& [address, unit] : {std::pair{"0x58", "year"},
+                                      {"0x59", "month"},
+                                      {"0x5A", "day"},
+                                      {"0x5B", "hour"},
+                                      {"0x5C", "minute"}}) {
+    CHECK(contains(run({"models", "BLA34", address}).out, std::string("unit ") + unit));
+    const auto document = json(run({"models", "BLA34", address, "-j"}).out);
+    CHECK(document["models"][0]["parameters"][0]["unit"] == unit);
+  }
+  CHECK(contains(run({"models", "BLA34", "0x38"}).out, "unit deg, in steps of 0.1\n"));
+}
+
+TEST_CASE("models says why node IDs within the range are refused") {
+  CHECK(contains(run({"models", "BLA34", "static_node_id"}).out,
+                 "126 and 127 are reserved for tools"));
+}
+
+TEST_CASE("models says of a model without PWM input that it has none") {
+  const Result one = run({"models", "BLA15-12U-A0", "0x34"});
+  CHECK(contains(one.out, "BLA15-12U-A0  -        no PWM input\n"));
+  CHECK_FALSE(contains(one.out, "10000"));
+  CHECK(contains(run({"models", "BLA15-12U-A0"}).out,
+                 "pwm_neutral             RW      -           no PWM input"));
+}
+
+TEST_CASE("models tells both faults of its arguments") {
+  CHECK(codes(run({"models", "BLA99", "foo"})) ==
+        std::vector<std::string>{"usage", "unknown_parameter"});
+}
+
+TEST_CASE("on a terminal of 80 columns no line of a table is longer") {
+  const Options terminal{.terminal = true, .terminal_stdout = true, .columns = 80};
+  for (const Arguments& command : {Arguments{"models"},
+                                   {"models", "BLA21-12U-AB"},
+                                   {"models", "BLA21-12U-AB", "--lang", "ja"},
+                                   {"models", "all", "0x1A"},
+                                   {"models", "all", "0x19", "--lang", "ja"},
+                                   {"models", "all", "0x25"}}) {
+    const Result result = run(command, terminal);
+    CHECK(longest_line(result.out) <= 80);
+    CHECK(is_fit_for_a_terminal(result.out));
+  }
+  const Result wide = run({"models", "BLA21-12U-AB"});
+  CHECK(longest_line(wide.out) > 80);
 }

@@ -193,6 +193,37 @@ TEST_CASE("--help and --version go to stdout and name what there is") {
   }
 }
 
+TEST_CASE("help speaks the language of --lang, fills the terminal and keeps to 80 columns else") {
+  CHECK(contains(run({"--help", "--lang", "ja"}).out, "使い方: blactl"));
+  CHECK(contains(run({"get", "--lang=ja", "-h"}).out, "パラメータの読出し"));
+  CHECK(contains(run({"get", "-h"}, {.env = {{"LC_ALL", "ja_JP.UTF-8"}}}).out, "使い方"));
+  const std::string plain = run({"--help"}).out;
+  const std::string wide = run({"--help"}, {.terminal_stdout = true, .columns = 160}).out;
+  const auto lines = [](const std::string& text) { return std::ranges::count(text, '\n'); };
+  CHECK(lines(wide) < lines(plain));
+}
+
+TEST_CASE("--dump-cli has every command and option in both languages, and --help hides it") {
+  const Result dump = run({"--dump-cli", "--lang", "ja"});
+  CHECK(dump.status == 0);
+  CHECK(dump.err.empty());
+  CHECK(dump.out == run({"--dump-cli"}).out);
+  const auto document = json(dump.out);
+  CHECK(document["schema"] == "blactl-cli/1");
+  CHECK(document["options"][0]["name"] == "--interface");
+  CHECK(document["options"][0]["letter"] == "i");
+  CHECK(document["options"][0]["kind"] == "interface");
+  REQUIRE(document["commands"].size() == 10);
+  const auto get = document["commands"][1];
+  CHECK(get["name"] == "get");
+  CHECK(get["help_en"] == "read parameters");
+  CHECK(get["help_ja"] == "パラメータの読出し");
+  CHECK(get["arguments"][0]["repeat"] == "list");
+  CHECK(get["options"][0]["words"].size() == 11);
+  CHECK_FALSE(contains(run({"--help"}).out, "dump-cli"));
+  CHECK(run({"--dump-cli"}, {.stdout_file = "/dev/full"}).status == 1);
+}
+
 TEST_CASE("a command that does not exist yet is neither in --help nor accepted") {
   const std::string help = run({"--help"}).out;
   for (const char* missing :

@@ -300,3 +300,23 @@ TEST_CASE("a recording of a recording is a copy, and never of itself") {
   CHECK(contains(itself.err, "that is the log being read"));
   CHECK(read(log) == before);
 }
+
+TEST_CASE("a recording too short for an actuator.Status shows the servo without -n all the same") {
+  const Bench bench;
+  const std::string log = (bench.folder() / "short.log").string();
+  const Scene scene = Scene().servo("BLA15-06U-A0", 12);
+  REQUIRE(scene.run(bench, {"get", "-n", "12", "servo_id", "--record", log}).status == 0);
+  std::string rest;
+  std::istringstream lines(read(log));
+  for (std::string line; std::getline(lines, line);) {
+    rest += contains(line, "03F30C#") ? "" : line + '\n'; // the actuator.Status of 12
+  }
+  const std::string cut = bench.file("cut.log", rest);
+  for (const Arguments& more : {Arguments{}, {"-n", "all"}, {"-n", "12"}}) {
+    Arguments get{"-i", "replay:" + cut, "get", "servo_id", "--json"};
+    get.insert(get.end(), more.begin(), more.end());
+    const Result replayed = bench.run(get);
+    CHECK(replayed.status == 0);
+    CHECK(json(replayed.out)["nodes"].size() == 1);
+  }
+}

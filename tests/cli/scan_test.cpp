@@ -30,7 +30,7 @@ TEST_CASE("scan lists every node in ascending order with exactly the keys of the
   CHECK(document["command"] == "scan");
   CHECK(document["interface"].get<std::string>().starts_with("sim:/"));
   CHECK(document["exit_status"] == 0);
-  CHECK(document["counts"] == nlohmann::ordered_json{{"nodes", 4}, {"servos", 3}});
+  CHECK(document["counts"] == nlohmann::ordered_json{{"nodes", 4}, {"failed", 0}, {"servos", 3}});
   REQUIRE(document["nodes"].size() == 4);
   auto expected = head;
   expected.insert(expected.end(), {"static_node_id", "model_certain", "info", "warnings"});
@@ -64,6 +64,37 @@ TEST_CASE("scan tells of a servo what its registers hold") {
   CHECK(node["info"]["health"] == "ok");
   CHECK(node["info"]["vendor_status"] == 0);
   CHECK(node["warnings"].empty());
+}
+
+TEST_CASE("scan tells nobody of servos that wait where none was heard to") {
+  CHECK_FALSE(contains(three_servos().run({"scan"}).out, "may wait"));
+}
+
+TEST_CASE("a servo that is gone is offline and does not count, live and from a recording") {
+  const Bench bench;
+  const std::string file = bench.file("gone.json", R"({"schema": "blactl-scenario/1",
+      "clock": "virtual",
+      "servos": [{"model": "BLA21-12U-AB", "node_id": 11, "servo_id": 1, "serial_number": 1},
+                 {"model": "BLA21-12U-AB", "node_id": 12, "servo_id": 2, "serial_number": 2}],
+      "events": [{"at": "2s", "servo": 1, "happens": "power_off"}]})");
+  const std::string log = (bench.folder() / "gone.log").string();
+  const Result live = bench.run(
+      {"-i", "sim:" + file, "scan", "--listen", "10", "--expect", "2", "--json", "--record", log});
+  CHECK(live.status == 4);
+  const Result replayed = bench.run({"-i", "replay:" + log, "scan", "--json"});
+  for (const Result& result : {live, replayed}) {
+    const auto document = json(result.out);
+    CHECK(document["nodes"][0]["info"]["mode"] == "offline");
+    CHECK(document["nodes"][1]["info"]["mode"] == "operational");
+    CHECK(document["counts"]["servos"] == 1);
+    CHECK(
+        contains(document["nodes"][0]["warnings"][0].get<std::string>(), "has not been heard for"));
+  }
+}
+
+TEST_CASE("a long scan shows on a terminal how far it is") {
+  const Result result = three_servos().run({"scan", "--listen", "5"}, {.terminal = true});
+  CHECK(contains(result.err, "listening, 4 of 5 s; nodes: 3"));
 }
 
 TEST_CASE("what scan does not know of a foreign node is null") {
@@ -105,16 +136,29 @@ TEST_CASE("scan shows who waits for a node ID, commands and says armed") {
   const Result text = scene.run({"scan"});
   CHECK(text.status == 0);
   CHECK(contains(text.out, "! waits for a node ID: unique ID a1b2c3d4e5f6…\n"));
+  CHECK(contains(text.out, "! more servos may wait than were heard"));
   CHECK(contains(text.out, "! node 40 commands servos\n"));
   CHECK(contains(text.out, "! node 40 says armed\n"));
 }
 
-TEST_CASE("two servos with one node ID are a conflict, and the nodes are still listed") {
+TEST_CASE("two servos with one node ID are a conflict, and both are listed") {
   const Scene scene = three_servos().servo("BLA21-12U-AB", 11, {{"servo_id", 4}});
   const Result result = scene.run({"scan", "--json"});
   CHECK(result.status == 9);
   const auto document = json(result.out);
-  CHECK(document["nodes"].size() == 3);
+  REQUIRE(document["nodes"].size() == 4);
+  CHECK(document["counts"]["servos"] == 4);
+  for (const std::size_t index : {0U, 1U}) {
+    const auto& twin = document["nodes"][index];
+    CHECK(twin["node_id"] == 11);
+    CHECK(twin["unique_id"].get<std::string>().size() == 32);
+    for (const auto* key : {"model", "serial_number", "servo_id", "firmware_version",
+                            "hardware_version", "static_node_id", "info"}) {
+      INFO(key);
+      CHECK(twin[key].is_null());
+    }
+  }
+  CHECK(document["nodes"][0]["unique_id"] != document["nodes"][1]["unique_id"]);
   REQUIRE(document["conflicts"].size() == 1);
   const auto conflict = ordered_json(result.out)["conflicts"][0];
   CHECK(keys(conflict) == std::vector<std::string>{"code", "node_ids", "text"});
@@ -125,7 +169,7 @@ TEST_CASE("two servos with one node ID are a conflict, and the nodes are still l
   CHECK(contains(document["errors"][0]["hint"].get<std::string>(), "connect one of them alone"));
   const Result text = scene.run({"scan"});
   CHECK(contains(text.out, "BLA34-28U-AB"));
-  CHECK(contains(text.out, "! two nodes share node ID 11\n"));
+  CHECK(contains(text.out, "! two units use node ID 11: uid:"));
 }
 
 TEST_CASE("two servos with one servo ID are a conflict") {
@@ -145,7 +189,7 @@ TEST_CASE("scan fails with 4 where there is nobody, or fewer servos than expecte
   CHECK(nobody.status == 4);
   CHECK(codes(nobody) == std::vector<std::string>{"not_found"});
   CHECK(contains(nobody.err, "no node was heard on sim:/"));
-  CHECK(contains(nobody.err, "\n  is the supply on?"));
+  CHECK(contains(nobody.err, "\n  let an allocator give it a node ID"));
 
   CHECK(three_servos().foreign(40).run({"scan", "--expect", "3"}).status == 0);
   const Result few = three_servos().foreign(40).run({"scan", "--expect", "4"});
@@ -198,4 +242,35 @@ TEST_CASE("scan -n says that nobody matches, not that nobody is there") {
   const Result result = three_servos().run({"scan", "-n", "99"});
   CHECK(result.status == 4);
   CHECK(contains(result.err, "matches -n 99"));
+}
+
+TEST_CASE("on a terminal of 80 columns scan breaks no line, and leaves nothing out") {
+  const Scene scene =
+      three_servos().foreign(40, {{"name", "org.example.a.rather.long.name.of.a.gps"}});
+  const Bench bench;
+  for (const Arguments& command : {Arguments{"scan"},
+                                   {"scan", "--lang", "ja"},
+                                   {"get"},
+                                   {"get", "--lang", "ja"},
+                                   {"set", "-n", "11", "smoothing=off", "timeout_time=1.5s", "-y"},
+                                   {"set", "-n", "11", "smoothing=off", "-y", "--lang", "ja"}}) {
+    const Options terminal{.terminal = true, .terminal_stdout = true, .columns = 80};
+    const Result shown = scene.run(bench, command, terminal);
+    INFO(shown.out);
+    CHECK(longest_line(without_colour(shown.out)) <= 80);
+  }
+  const auto unique_id = scan(scene)["nodes"][0]["unique_id"].get<std::string>();
+  const Options terminal{.terminal = true, .terminal_stdout = true, .columns = 80};
+  CHECK(contains(scene.run(bench, {"scan"}, terminal).out, "    " + unique_id));
+  CHECK(longest_line(scene.run(bench, {"scan"}).out) > 80);
+}
+
+TEST_CASE("states are coloured on a terminal, as --color says") {
+  const Scene scene = three_servos();
+  const Options terminal{.terminal_stdout = true};
+  CHECK(contains(scene.run({"scan"}, terminal).out, "\x1b[32moperational\x1b[0m"));
+  CHECK_FALSE(contains(scene.run({"scan", "--color", "never"}, terminal).out, "\x1b"));
+  CHECK_FALSE(contains(scene.run({"scan"}).out, "\x1b"));
+  CHECK(contains(scene.run({"set", "-n", "11", "smoothing=off", "-y", "--color", "always"}).out,
+                 "\x1b[32mwritten\x1b[0m"));
 }

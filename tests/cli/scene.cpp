@@ -67,6 +67,25 @@ nlohmann::ordered_json ordered_json(std::string_view text) {
   return nlohmann::ordered_json::parse(text);
 }
 
+std::string without_colour(std::string text) {
+  for (auto at = text.find('\x1b'); at != std::string::npos; at = text.find('\x1b')) {
+    text.erase(at, text.find('m', at) - at + 1);
+  }
+  return text;
+}
+
+std::size_t longest_line(std::string_view text) {
+  std::size_t longest = 0;
+  std::size_t cells = 0;
+  for (const char c : text) {
+    const auto byte = static_cast<std::uint8_t>(c);
+    // Of a character of three bytes or more, which is Japanese here, the first counts two cells.
+    cells = c == '\n' ? 0 : cells + (byte >= 0xE0 ? 2U : (byte & 0xC0U) == 0x80 ? 0U : 1U);
+    longest = std::max(longest, cells);
+  }
+  return longest;
+}
+
 bool is_fit_for_a_terminal(std::string_view text) {
   try {
     // A strict writer of JSON is a strict reader of UTF-8.

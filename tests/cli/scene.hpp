@@ -51,6 +51,12 @@ class Scene {
 [[nodiscard]] std::vector<std::string> keys(const nlohmann::ordered_json& object);
 [[nodiscard]] nlohmann::ordered_json ordered_json(std::string_view text);
 
+/// What is left without the colours of a terminal.
+[[nodiscard]] std::string without_colour(std::string text);
+
+/// The cells of a terminal that the longest line takes; Japanese characters are two.
+[[nodiscard]] std::size_t longest_line(std::string_view text);
+
 /// Well-formed UTF-8 without control characters other than the line break.
 [[nodiscard]] bool is_fit_for_a_terminal(std::string_view text);
 

@@ -98,7 +98,7 @@ TEST_CASE("values are taken in every spelling of the contract") {
       {"speed_limit_cw=60rpm", "0x3A", 60},
       {"pwm_neutral=1500us", "0x34", 1500},
       {"temperature_limit_low=-30degC", "0x3F", -30},
-      {"servo_id=3", "0x45", 3},
+      {"servo_id=7", "0x45", 7},
       {"torque_output=off", "0x20", 1},
       {"torque_output=BRAKE", "0x20", 2},
       {"torque_output=1", "0x20", 1},
@@ -184,7 +184,7 @@ TEST_CASE("a value is checked against the servo's own model") {
 TEST_CASE("what the firmware or the model lacks is refused with the reason") {
   check_error(with_firmware(1100).run({"set", "angle_boost=1%"}), 2, "unsupported",
               "node 11: angle_boost (0x2F) needs firmware 1.200, this servo has 1.100\n"
-              "  `blactl models` shows which servos have it");
+              "  `blactl models BLA21-12U-AB` tells which firmware has what");
   for (const char* assignment :
        {"speed_torque_control=on", "overcurrent_limit=6.5A", "pwm_neutral=1500us"}) {
     INFO(assignment);
@@ -194,7 +194,7 @@ TEST_CASE("what the firmware or the model lacks is refused with the reason") {
   }
   check_error(three_servos().run({"set", "-n", "12", "pwm_neutral=1500us"}), 2, "unsupported",
               "node 12: pwm_neutral (0x34): BLA15-06U-A0 has no PWM input\n"
-              "  models whose suffix has a B in it");
+              "  BLA15-06U-A0 is driven over CAN alone");
 }
 
 TEST_CASE("the unit of the PWM output range must be that of the PWM mode") {
@@ -269,9 +269,7 @@ TEST_CASE("nothing is written on a guess of the model") {
 TEST_CASE("nothing is written to a doubled node ID") {
   const Scene scene = three_servos().servo("BLA21-12U-AB", 11, {{"servo_id", 4}});
   check_error(scene.run({"set", "-n", "11", "smoothing=off", "--yes", "--while-driven"}), 9,
-              "duplicate_node_id",
-              "node ID 11 is used by two nodes: nothing is written to it\n"
-              "  connect one of them alone and give it another ID");
+              "duplicate_node_id", "two units use node ID 11");
   CHECK(scene.run({"set", "-n", "12", "smoothing=off"}).status == 0);
 }
 
@@ -279,11 +277,47 @@ TEST_CASE("a node ID that another unit has is not given away") {
   for (const char* taken : {"12", "40"}) {
     check_error(
         three_servos().foreign(40).run({"set", "-n", "11", std::string("static_node_id=") + taken}),
-        2, "out_of_range",
-        std::string("static_node_id=") + taken +
-            " is in use by another node\n  see which IDs are taken: blactl scan");
+        9, "duplicate_node_id",
+        std::string("node 11 would get node ID ") + taken + ", which another unit has (uid:");
   }
   CHECK(three_servos().run({"set", "-n", "11", "static_node_id=21"}).status == 0);
+}
+
+TEST_CASE("a node ID that another servo will have after a restart is not given away") {
+  const Bench bench;
+  const Background sim(bench, {"sim", three_servos().write(bench), "--clock", "real"});
+  CHECK(bench.run({"-i", "sim:", "set", "-n", "11", "static_node_id=50"}).status == 0);
+  check_error(bench.run({"-i", "sim:", "set", "-n", "12", "static_node_id=50"}), 9,
+              "duplicate_node_id",
+              "node 12 would get node ID 50, which node 11 has or gets with its next restart");
+}
+
+TEST_CASE("a servo ID that another servo has is not given away, 0 excepted") {
+  check_error(three_servos().run({"set", "-n", "11", "servo_id=3"}), 9, "duplicate_servo_id",
+              "node 11 would have servo ID 3, which node ");
+  check_error(three_servos().run({"set", "-n", "11,12", "servo_id=9"}), 9, "duplicate_servo_id",
+              "one servo ID for 2 servos");
+  CHECK(three_servos().run({"set", "-n", "11,12", "servo_id=0"}).status == 0);
+}
+
+TEST_CASE("a command is not saved") {
+  check_error(three_servos().run({"set", "-n", "11", "command_angle=10deg", "--save", "-y"}), 2,
+              "usage", "command_angle is a command: SAVE does not keep it");
+}
+
+TEST_CASE("a command that the servo does not take as it is switched names the switch") {
+  check_error(three_servos().run({"set", "-n", "11", "command_speed=60rpm", "-y"}), 2,
+              "cross_check", "while speed_torque_control (0x25) is off");
+  CHECK(three_servos()
+            .run({"set", "-n", "11", "speed_torque_control=on", "command_speed=60rpm", "-y"})
+            .status == 0);
+}
+
+TEST_CASE("what the manufacturer advises to leave at its default is a warning") {
+  const Result set =
+      three_servos().run({"set", "-n", "11", "speed_p_gain=1", "--dry-run", "--json"});
+  CHECK(set.status == 8);
+  CHECK(json(set.out)["nodes"][0]["warnings"][0]["code"] == "leave_at_default");
 }
 
 // On a bus that has been running: the vehicle said armed before this command began, and will say
@@ -393,4 +427,33 @@ TEST_CASE("the PWM output range is shown in the unit that the mode gives it") {
   const Result speed =
       three_servos().run({"set", "-yn", "11", "pwm_mode=speed", "pwm_output_range=80rpm"});
   CHECK(contains(speed.out, "700  (70.0 deg)  ->  80  (80 rpm)  written\n"));
+}
+
+TEST_CASE("set tells every fault of its arguments at once, and sends nothing") {
+  const Result result =
+      three_servos().run({"set", "-n", "11", "a=x", "b=y", "angle_limit_cw=90", "--json"});
+  CHECK(result.status == 2);
+  const auto errors = json(result.out)["errors"];
+  REQUIRE(errors.size() == 3);
+  CHECK(errors[0]["code"] == "unknown_parameter");
+  CHECK(errors[1]["code"] == "unknown_parameter");
+  CHECK(errors[2]["code"] == "usage");
+}
+
+TEST_CASE("who answers no gets no advice to agree beforehand") {
+  const Result no = three_servos().run({"set", "-n", "11", "torque_output=off"},
+                                       {.answers = {{"[y/N]", "n\n"}}, .terminal = true});
+  CHECK(no.status == 7);
+  CHECK_FALSE(contains(no.err, "--yes"));
+  const Result pipe = three_servos().run({"set", "-n", "11", "torque_output=off"});
+  CHECK(pipe.status == 7);
+  CHECK(contains(pipe.err, "--yes"));
+}
+
+TEST_CASE("a model without PWM input is spoken of as itself") {
+  const Result result = three_servos().run({"set", "-n", "12", "pwm_neutral=1520us"});
+  CHECK(result.status == 2);
+  CHECK(codes(result) == std::vector<std::string>{"unsupported"});
+  CHECK(contains(result.err, "has no PWM input\n  BLA15-"));
+  CHECK_FALSE(contains(result.err, "BLA21"));
 }

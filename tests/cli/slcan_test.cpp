@@ -133,6 +133,42 @@ TEST_CASE("slcan: an adapter without servos behind it is no answer") {
   CHECK(result.status == 4);
 }
 
+TEST_CASE(
+    "slcan: what is wrong with an adapter is told by what it does, never as a missing servo") {
+  struct Case {
+    Dialect dialect;
+    int status;
+    std::string code, message, hint;
+  };
+
+  const std::vector<Case> cases{
+      {can::test::canable(), 4, "not_found", "not one byte came from the adapter at ",
+       "?open=plain"},
+      {can::test::wrong_baud(), 3, "interface", "baud is no slcan", "?baud=115200"},
+      {can::test::garbled(), 3, "interface", "baud is no slcan", "?baud=115200"},
+      {can::test::satellite_receiver(), 3, "interface", "baud is no slcan", "is it a CAN adapter?"},
+      {can::test::closed(), 3, "interface", "refuses to open its CAN channel", "?open=plain"},
+      {can::test::listening(), 3, "interface", "refuses to send", "does anybody acknowledge"},
+      {can::test::lawicel(), 4, "not_found", "", "is the supply on, and the bit rate"},
+  };
+  for (const auto& [dialect, status, code, message, hint] : cases) {
+    for (const Arguments& command :
+         {Arguments{"scan"}, {"get", "-n", "11"}, {"save", "-n", "11"}}) {
+      const Bench bench;
+      const SlcanAdapter adapter(dialect);
+      INFO(message + " " + command.front());
+      Arguments arguments{"-i", interface(adapter)};
+      std::ranges::copy(command, std::back_inserter(arguments));
+      const Result result = bench.run(arguments);
+      INFO(result.err);
+      CHECK(result.status == status);
+      CHECK(codes(result) == std::vector<std::string>{code});
+      CHECK(contains(result.err, message));
+      CHECK(contains(result.err, hint));
+    }
+  }
+}
+
 TEST_CASE("slcan: a port in use names the program and its process") {
   const Bench bench;
   SlcanAdapter adapter(can::test::lawicel(), one_servo());

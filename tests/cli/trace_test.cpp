@@ -348,7 +348,7 @@ TEST_CASE("text is a line a transfer, with words, registers and units") {
                                         "(1436509053.000000) can0 1E0B8AFF#000030783338C2\n"
                                         "(1436509053.200000) can0 1403F32A#00BD1160\n")});
   CHECK(result.status == 0);
-  CHECK(contains(result.out, "1436509052.249713  can0   42 > *    NodeStatus               1  "
+  CHECK(contains(result.out, "    0.000000  can0   42 > *    NodeStatus               1  "
                              "uptime_sec=1234 health=ok mode=operational"));
   CHECK(contains(result.out, "127 > 10   GetSet.Request           2  0x38 angle_limit_cw ?\n"));
   CHECK(contains(result.out, "!!  missing_start: its first frame was not heard (1403F32A)\n"));
@@ -377,6 +377,8 @@ TEST_CASE("--type, --kind and -n choose, and what they do not choose is not an e
   };
   using Shown = std::pair<std::size_t, std::size_t>;
   CHECK(shown({"--type", "NodeStatus"}) == Shown(of(is("dtid", 341)), 0));
+  CHECK(shown({"--type", "nodestatus"}) == Shown(of(is("dtid", 341)), 0));
+  CHECK(shown({"--type", "ACTUATOR.status"}) == Shown(of(is("dtid", 1011)), 1));
   CHECK(shown({"--type", "341"}) == Shown(of(is("dtid", 341)), 0));
   CHECK(shown({"--type", "actuator.Status"}) == Shown(of(is("dtid", 1011)), 1));
   CHECK(shown({"--type", "uavcan.protocol.param.GetSet"}) == Shown(of(is("dtid", 11)), 0));
@@ -408,7 +410,6 @@ TEST_CASE("what cannot be chosen is refused before anything is opened") {
     CHECK(contains(result.err, said));
   };
   refused({"--type", "NodStatus"}, "did you mean NodeStatus");
-  refused({"--type", "nodestatus"}, "did you mean NodeStatus");
   refused({"--type", "70000"}, "there is no data type '70000'");
   refused({"--type", "341,"}, "there is no data type ''");
   refused({"--kind", "reqest"}, "not one of message, request, response");
@@ -632,8 +633,38 @@ TEST_CASE("what trace says to people is said in Japanese too") {
   const std::string log = bench.file("x.log", "x\n(1.000000) can0 1403F32A#00BD1160\n");
   const Result text = bench.run({"trace", log, "--lang", "ja"});
   CHECK(contains(text.out, "missing_start: 先頭のフレームを受信していません"));
-  CHECK(contains(bench.run({"trace", log, "--stats", "--lang", "ja"}).out, "インタフェース"));
+  CHECK(contains(bench.run({"trace", log, "--stats", "--lang", "ja"}).out, "インターフェース"));
   CHECK(contains(bench.run({"trace", "--type", "x", "--lang", "ja"}).err,
                  "データ型 'x' はありません"));
   CHECK(contains(bench.run({"trace", "-n", "all", "--lang", "ja"}).err, "ノード ID のみ"));
+}
+
+TEST_CASE("people read the time since the first frame, with --absolute the time of day") {
+  const Bench bench;
+  const std::string log =
+      bench.file("x.log", "(1436509052.249713) can0 1401557F#0011223344556601\n"
+                          "(1436509053.500000) can0 1401557F#0011223344556602\n");
+  const Result relative = bench.run({"trace", log});
+  CHECK(relative.out.starts_with("    0.000000  can0 "));
+  CHECK(contains(relative.out, "\n    1.250287  can0 "));
+  const Result absolute = bench.run({"trace", log, "--absolute"}, {.env = {{"TZ", "UTC"}}});
+  CHECK(absolute.out.starts_with("2015-07-10 06:17:32.249713  can0 "));
+}
+
+TEST_CASE("types that end alike are told apart, and every fault of the arguments is told") {
+  const Scene scene = three_servos().foreign(30, {{"kind", "esc"}, {"index", 0}});
+  const Result result = scene.run({"trace", "--duration", "1.2"});
+  CHECK(contains(result.out, "  actuator.Status  "));
+  CHECK(contains(result.out, "  esc.Status  "));
+  const Result faults = run({"trace", "-", "--type", "NodStatus,Fooo,gps.Fixx", "-n", "serial:5"});
+  CHECK(faults.status == 2);
+  CHECK(codes(faults) == std::vector<std::string>{"usage", "usage", "usage", "usage"});
+  CHECK(contains(faults.err, "did you mean NodeStatus?"));
+}
+
+TEST_CASE("trace --stats fits a terminal of 80 columns") {
+  const Result result = three_servos().run({"trace", "--stats", "--duration", "1.2"},
+                                           {.terminal_stdout = true, .columns = 80});
+  CHECK(result.status == 0);
+  CHECK(longest_line(result.out) <= 80);
 }

@@ -41,7 +41,7 @@ expect_value() {
 
 # is_held ID: a process uses this node ID on vcan0. To try the lock would be to hold it.
 is_held() {
-  grep -q ":$(stat -c %i "/run/lock/blactl/vcan0.$1") " /proc/locks
+  grep -q ":$(stat -c %i "/run/lock/blactl/vcan0@$(stat -Lc %i /proc/self/ns/net).$1") " /proc/locks
 }
 
 # at ID [MORE KEYS]: a servo of a scenario.

@@ -14,6 +14,9 @@
 #
 #   BLACTL_UML_TIMEOUT   seconds for everything, boot included (default 120)
 #   BLACTL_UML_MEMORY    memory of the machine (default 512M)
+#   BLACTL_UML_PRELOAD   auto: preload BLACTL_UML_XSTATE into linux.uml where the processor has AMX
+#                        (default); always; never. Nothing in the machine has it preloaded.
+#   BLACTL_UML_XSTATE    the library that is built from uml_xstate.c
 #
 # Exit status: that of the program; 77 when User-Mode Linux or insmod is not installed; 124 when
 # it took too long; 125 when it did not come as far as running the program.
@@ -36,6 +39,28 @@ for needed in linux.uml insmod ip; do
 done
 modules=$(echo /usr/lib/uml/modules/*/kernel)
 [ -d "$modules" ] || die 125 "expected one folder /usr/lib/uml/modules/*/kernel, got: $modules"
+
+# has_amx: whether linux.uml would panic at its first program (uml_xstate.c)
+has_amx() {
+  grep -qw amx_tile /proc/cpuinfo
+}
+
+wants_preload() {
+  case ${BLACTL_UML_PRELOAD:-auto} in
+    always) ;;
+    auto) has_amx ;;
+    never) false ;;
+    *) die 125 "BLACTL_UML_PRELOAD=$BLACTL_UML_PRELOAD: not one of auto, always, never" ;;
+  esac
+}
+
+linux=(linux.uml)
+if wants_preload; then
+  # A library that is missing would be passed over by the loader.
+  [ -r "${BLACTL_UML_XSTATE:-}" ] ||
+    die 125 "BLACTL_UML_XSTATE does not name the library to preload: '${BLACTL_UML_XSTATE:-}'"
+  linux=(env LD_PRELOAD="$(realpath -- "$BLACTL_UML_XSTATE")${LD_PRELOAD:+:$LD_PRELOAD}" linux.uml)
+fi
 
 scratch=$(mktemp -d) || die 125 "no scratch folder"
 machine=
@@ -85,7 +110,7 @@ chmod +x "$scratch/init"
 
 # uml_dir: else it leaves files in ~/.uml. timeout(1) makes a process group of its own and ends
 # all of it, the host processes that stand for those of the machine included.
-timeout -k 5 "${BLACTL_UML_TIMEOUT:-120}" linux.uml mem="${BLACTL_UML_MEMORY:-512M}" \
+timeout -k 5 "${BLACTL_UML_TIMEOUT:-120}" "${linux[@]}" mem="${BLACTL_UML_MEMORY:-512M}" \
   uml_dir="$scratch/" rootfstype=hostfs rootflags=/ rw init="$scratch/init" \
   con=null con0=fd:0,fd:1 quiet </dev/null >"$scratch/console.log" 2>&1 &
 machine=$!

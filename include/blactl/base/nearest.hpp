@@ -12,8 +12,10 @@ namespace blactl {
 /// into the other (optimal string alignment).
 [[nodiscard]] std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// At most three of `words` that resemble `typed`, the nearest first: those within a third of its
-/// letters (at least one), and those that contain it, if it has at least three letters.
+/// At most three of `words` that resemble `typed`, the nearest first, whatever the case and with or
+/// without separators (`_`, `-`, `.`, blanks): those within a third of its letters (at least one),
+/// and, if it has at least three letters, those that contain it or have a part within that
+/// distance: "nodeid" and "limits" find static_node_id and angle_limit_cw.
 [[nodiscard]] std::vector<std::string_view> nearest(std::string_view typed,
                                                     std::span<const std::string_view> words);
 

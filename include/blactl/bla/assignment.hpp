@@ -7,6 +7,7 @@
 #include "blactl/bla/value.hpp"
 
 #include <cstdint>
+#include <expected>
 #include <span>
 #include <string>
 #include <string_view>
@@ -32,10 +33,11 @@ make_assignment(const Profiles& profiles, std::string_view parameter, std::strin
 /// `text` is PARAM=VALUE. Errors: usage without "="; as make_assignment().
 [[nodiscard]] Result<Assignment> parse_assignment(const Profiles& profiles, std::string_view text);
 
-/// Errors: as parse_assignment(); usage for a parameter named twice, and for 0x36 in a unit that
-/// the 0x37 beside it does not take.
-[[nodiscard]] Result<std::vector<Assignment>> parse_assignments(const Profiles& profiles,
-                                                                std::span<const std::string> texts);
+/// Errors: every fault, in the order typed: as parse_assignment(); usage for a parameter named
+/// twice, and for 0x36 in a unit that the 0x37 beside it does not take; cross_check for more than
+/// one of 0x00-0x02.
+[[nodiscard]] std::expected<std::vector<Assignment>, std::vector<Error>>
+parse_assignments(const Profiles& profiles, std::span<const std::string> texts);
 
 /// Whether an assigned 0x36 is in the unit that `pwm_mode`, the 0x37 of the same command or of the
 /// servo, makes of it. Errors: usage.
@@ -49,5 +51,8 @@ make_assignment(const Profiles& profiles, std::string_view parameter, std::strin
 /// What is true for every servo whatever its model: what may never be sent to the register.
 /// Errors: unsupported (0x49), read_only, out_of_range (0x46 = 126 or 127).
 [[nodiscard]] Result<void> never_sent(const Parameter& parameter, std::int64_t raw);
+
+/// Why values within the range are refused by never_sent(), for a reference; empty: none are.
+[[nodiscard]] std::string remark(const Parameter& parameter);
 
 } // namespace blactl::bla

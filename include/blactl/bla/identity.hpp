@@ -3,6 +3,7 @@
 
 #include "blactl/base/error.hpp"
 #include "blactl/bla/profile.hpp"
+#include "blactl/bla/values.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -48,6 +49,13 @@ class Identity {
 
   /// Whether this servo's firmware has the register. Unknown firmware: assumed.
   [[nodiscard]] bool has(const Parameter& parameter) const;
+
+  /// The registers that SAVE keeps (0x20-0x46, 4.11), as far as this servo has them, by address.
+  [[nodiscard]] std::vector<const Parameter*> configuration() const;
+
+  /// What they hold after ERASE (4.9). Errors: no_profile, where the model is not known well
+  /// enough.
+  [[nodiscard]] Result<Values> factory_defaults() const;
 
   /// Whether `raw` may be sent to `address` of this servo: never on a guess of the model, never
   /// what firmware or model lack, never outside of the range.

@@ -1,49 +1,16 @@
 #pragma once
 // A register of a BLA servo as the specification describes it (tables 3-1 to 3-12).
 
-#include <compare>
+#include "blactl/bla/address.hpp"
+
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace blactl::bla {
-
-/// A register's address, 0x00..0x5F ("0x2A" on the wire and in every output).
-class Address {
- public:
-  constexpr Address() = default;
-
-  constexpr explicit Address(std::uint8_t value) : value_(value) {}
-
-  [[nodiscard]] constexpr std::uint8_t value() const { return value_; }
-
-  /// As the servo wants it: "0x" and two upper-case hexadecimal digits (table 2-14).
-  [[nodiscard]] std::string name() const;
-  friend constexpr auto operator<=>(Address, Address) = default;
-
- private:
-  std::uint8_t value_ = 0;
-};
-
-/// The address that `text` is: "0x" and two hexadecimal digits, letters of either case. Null: it is
-/// none, or lies above 0x5F, where the servo has nothing.
-[[nodiscard]] std::optional<Address> find_address(std::string_view text);
-
-/// Registers that the tool itself must know by address.
-namespace address {
-inline constexpr Address command_angle{0x00}, command_speed{0x01}, command_torque{0x02};
-inline constexpr Address current_angle{0x08};
-inline constexpr Address initialize{0x10}, reboot{0x11}, write_rom{0x12};
-inline constexpr Address torque_output{0x20}, reverse{0x23}, extended_angle{0x24};
-inline constexpr Address timeout_action{0x26}, timeout_time{0x27};
-inline constexpr Address pwm_output_range{0x36}, pwm_mode{0x37};
-inline constexpr Address angle_limit_cw{0x38}, angle_limit_ccw{0x39};
-inline constexpr Address origin{0x44}, servo_id{0x45}, static_node_id{0x46}, bootloader{0x49};
-inline constexpr Address model_number{0x50}, serial_number{0x51};
-inline constexpr Address firmware_version{0x52}, hardware_version{0x53};
-} // namespace address
 
 /// What 0x00-0x02 hold while another kind of command rules (4.1): never a number to show or send.
 inline constexpr std::int64_t not_active = 555'555'555;
@@ -64,6 +31,9 @@ enum class Group : std::uint8_t {
 
 [[nodiscard]] std::string_view name(Group group);
 [[nodiscard]] std::optional<Group> find_group(std::string_view word);
+
+/// In the order of their addresses.
+[[nodiscard]] std::span<const Group> all_groups();
 
 enum class Access : std::uint8_t { read, write, read_write };
 
@@ -89,8 +59,8 @@ enum class Unit : std::uint8_t {
   minute,
 };
 
-/// As it is typed and shown: "deg", "%", "us", "degC"; "" for none and for date parts; "deg/rpm"
-/// for 0x36, which takes either.
+/// As it is typed and shown: "deg", "%", "us", "degC"; "" for none; "deg/rpm" for 0x36,
+/// which takes either.
 [[nodiscard]] std::string_view name(Unit unit);
 
 /// One word of an enumeration register.
@@ -130,6 +100,15 @@ struct Parameter {
   std::optional<std::int64_t> min_firmware; ///< 0x52 from which on it exists
   std::vector<Choice> choices;              ///< empty: a number
   bool can_be_inactive = false;             ///< 0x00-0x02: not_active is possible
+
+  /// Of a register as all models have it, where they differ in the default: a value that each of
+  /// them takes, or that of one model.
+  struct Example {
+    std::int64_t raw = 0;
+    std::string model; ///< empty: every model takes it
+  };
+
+  std::optional<Example> example;
 
   [[nodiscard]] bool readable() const { return access != Access::write; }
 

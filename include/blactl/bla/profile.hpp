@@ -18,13 +18,13 @@ namespace blactl::bla {
 enum class Level : std::uint8_t { notice, warning, failure };
 [[nodiscard]] std::string_view name(Level level);
 
-/// One bit of 0x19 (notice), 0x1A (warning) or 0x1B (failure): 4.12.
+/// One bit of 0x19 (notice), 0x1A (warning) or 0x1B (failure), or of their summary 0x18: 4.12.
 struct FaultBit {
   Address reg;
   std::uint8_t bit = 0;
   Level level = Level::notice;
   std::string group; ///< hardware, software, communication, other
-  std::string code;  ///< contract, section 7: "voltage_low"
+  std::string code;  ///< contract, section 7: "voltage_low"; empty: a bit of 0x18
   bool pwm_only = false;
   bool latched = false;     ///< tells why the servo restarted, stays until the next start
   bool vendor_only = false; ///< shown by the vendor's program, absent in the specification
@@ -40,6 +40,10 @@ struct FirmwareRelease {
   struct Shipment {
     std::string models;
     std::string from, until; ///< year and month; `until` is empty if it is still so
+
+    /// Whether a model is meant: in `models` a star is any character, and the last one is a digit
+    /// of labels that models are not told apart by.
+    [[nodiscard]] bool covers(std::string_view model) const;
   };
 
   std::int64_t version = 0; ///< as 0x52 has it: 1400 is 1.400
@@ -62,6 +66,11 @@ struct Profile {
   std::vector<Parameter> parameters; ///< ascending by address, without reserved ones
 
   [[nodiscard]] const Parameter* find(Address address) const;
+
+  /// Whether there is a value that the model takes for this register of its own.
+  [[nodiscard]] bool takes(const Parameter& parameter) const {
+    return parameter.writable() && (parameter.group != Group::pwm || pwm);
+  }
 };
 
 /// All profiles: those in the binary, and those of a directory that add to or replace them.
@@ -76,8 +85,15 @@ class Profiles {
 
   [[nodiscard]] std::span<const FaultBit> fault_bits() const { return fault_bits_; }
 
+  /// The bits of 0x18: what there is to look for in the other three.
+  [[nodiscard]] std::span<const FaultBit> summary_bits() const { return summary_bits_; }
+
   /// Ascending by version.
   [[nodiscard]] std::span<const FirmwareRelease> firmware() const { return firmware_; }
+
+  /// The releases that servos of this model have had, from the first to the last that it left the
+  /// factory with: each contains those before it.
+  [[nodiscard]] std::vector<const FirmwareRelease*> releases_of(const Profile& profile) const;
 
   /// The models that `text` means: a full name, its beginning ("BLA21-12U"), or a label with its
   /// last digit ("BLA21-12U-AB2"); letters of either case. Empty: none.
@@ -89,6 +105,9 @@ class Profiles {
   [[nodiscard]] std::span<const Parameter> registers() const { return registers_; }
 
   [[nodiscard]] const Parameter* find(Address address) const;
+
+  /// The same register of a model that is not known: without range and default.
+  [[nodiscard]] const Parameter* find_of_unknown(Address address) const;
 
   /// The register that a person means by an address ("0x38") or a name ("angle_limit_cw",
   /// "angle-limit-cw"; letters of either case in both).
@@ -102,8 +121,10 @@ class Profiles {
  private:
   std::vector<Profile> profiles_;
   std::vector<FaultBit> fault_bits_;
+  std::vector<FaultBit> summary_bits_;
   std::vector<FirmwareRelease> firmware_;
   std::vector<Parameter> registers_;
+  std::vector<Parameter> registers_of_unknown_;
   std::vector<std::string> replaced_;
 };
 

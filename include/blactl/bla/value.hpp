@@ -28,6 +28,10 @@ struct TypedValue {
 [[nodiscard]] Result<TypedValue> parse_value(const Parameter& parameter, NamedBy named,
                                              std::string_view text);
 
+/// "for example angle_limit_cw=179.9deg", in the language of the session: a value that every model
+/// takes, or one with the model that takes it.
+[[nodiscard]] std::string example_text(const Parameter& parameter);
+
 /// Whether `raw` lies in the parameter's range. Errors: out_of_range, naming the range in units.
 [[nodiscard]] Result<void> check_range(const Parameter& parameter, std::int64_t raw);
 
@@ -48,5 +52,12 @@ struct TypedValue {
 /// For people: "90.0 deg", "brake", "not active" (in the language of the session).
 [[nodiscard]] std::string display(const Parameter& parameter, std::int64_t raw,
                                   std::optional<std::int64_t> pwm_mode = std::nullopt);
+
+/// A register and what it means: "900  (90.0 deg)"; one of them where both are the same.
+[[nodiscard]] std::string register_text(const Parameter& parameter, std::int64_t raw,
+                                        std::optional<std::int64_t> pwm_mode = std::nullopt);
+
+/// 0x36 counts in the unit that 0x37 says: only its value means nothing without `pwm_mode`.
+[[nodiscard]] bool unit_depends_on_mode(const Parameter& parameter);
 
 } // namespace blactl::bla

@@ -109,6 +109,10 @@ class Bus {
   /// What came since the bus was opened and was no frame that can be told: CAN FD, damaged.
   [[nodiscard]] virtual std::uint64_t unreadable() const { return 0; }
 
+  /// What of the transport explains that nothing at all was heard; empty: nothing that it knows.
+  /// Code interface: the transport itself fails. not_found: that may be, or the bus is silent.
+  [[nodiscard]] virtual std::optional<Error> silence() const { return std::nullopt; }
+
   /// Becomes readable when receive() has something; -1: nothing to poll.
   [[nodiscard]] virtual int descriptor() const = 0;
 

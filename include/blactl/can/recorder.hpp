@@ -54,6 +54,8 @@ class Recorder final : public Bus {
 
   [[nodiscard]] std::uint64_t unreadable() const override { return bus_->unreadable(); }
 
+  [[nodiscard]] std::optional<Error> silence() const override { return bus_->silence(); }
+
   [[nodiscard]] int descriptor() const override { return bus_->descriptor(); }
 
   [[nodiscard]] bool wants_to_write() const override { return bus_->wants_to_write(); }

@@ -8,7 +8,7 @@ namespace blactl::texts {
 inline constexpr Text log_unreadable{"cannot read {}: {}", "{} を読み込めません: {}"};
 inline constexpr Text log_unreadable_hint{
     "give a log of candump -l, or of blactl --record: -i replay:FILE",
-    "candump -l または blactl --record のログを指定してください: -i replay:FILE"};
+    "candump -l または blactl --record のログを指定して下さい: -i replay:FILE"};
 inline constexpr Text log_without_frames{"{} holds no frame in candump's format",
                                          "{} には candump 形式のフレームがありません"};
 inline constexpr Text standard_input{"standard input", "標準入力"};
@@ -16,14 +16,14 @@ inline constexpr Text log_takes_no_frames{"{} is a log: nothing can be sent to i
                                           "{} はログのため送信できません"};
 inline constexpr Text log_takes_no_frames_hint{
     "give the interface that the servos are on: -i can0",
-    "サーボを接続したインタフェースを指定してください: -i can0"};
+    "サーボを接続したインターフェースを指定して下さい: -i can0"};
 inline constexpr Text record_failed{"recording to {} ended early: {}",
                                     "{} への記録が途中で終了しました: {}"};
 inline constexpr Text record_failed_hint{
     "what it holds is complete up to there; free some space, or record elsewhere",
-    "そこまでの記録は有効です。空き容量を確保するか、別の場所に記録してください"};
+    "そこまでの記録は有効です。空き容量を確保するか、別の場所に記録して下さい"};
 inline constexpr Text record_unopened{"cannot record to {}: {}", "{} に記録できません: {}"};
 inline constexpr Text record_unopened_hint{"give a file that can be written: --record FILE",
-                                           "書込み可能なファイルを指定してください: --record FILE"};
+                                           "書込み可能なファイルを指定して下さい: --record FILE"};
 
 } // namespace blactl::texts

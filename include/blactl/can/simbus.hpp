@@ -12,7 +12,8 @@
 
 namespace blactl::can {
 
-/// `$XDG_RUNTIME_DIR/blactl/sim`, else `/tmp/blactl-<uid>/sim`.
+/// `$XDG_RUNTIME_DIR/blactl/sim`, where that folder can be used and a socket's name holds its path,
+/// else `/tmp/blactl-<uid>/sim`.
 [[nodiscard]] std::filesystem::path default_socket_path();
 
 /// Whether `folder` is a real folder (no symbolic link) that belongs to this user and that nobody
@@ -26,6 +27,10 @@ class SimBus final : public Bus {
   /// Errors: interface, with a hint to start the simulator.
   [[nodiscard]] static Result<std::unique_ptr<SimBus>> open(const std::filesystem::path& socket,
                                                             std::string name);
+
+  /// The same; null if nobody listens there: no simulator was started, or its process is gone.
+  [[nodiscard]] static Result<std::unique_ptr<SimBus>>
+  open_if_served(const std::filesystem::path& socket, std::string name);
   SimBus(const SimBus&) = delete;
   SimBus& operator=(const SimBus&) = delete;
   ~SimBus() override;
@@ -46,6 +51,9 @@ class SimBus final : public Bus {
   [[nodiscard]] Time idle_until(Time deadline) override;
 
  private:
+  static Result<std::unique_ptr<SimBus>> open(const std::filesystem::path& socket, std::string name,
+                                              int& nobody);
+
   SimBus(int socket, std::filesystem::path path, std::string name)
       : socket_(socket), path_(std::move(path)), name_(std::move(name)) {}
 

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <deque>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,6 +18,7 @@ namespace blactl::can {
 
 class SerialPort;
 class SlcanDialogue;
+class SlcanEvidence;
 
 /// Which commands open the CAN channel of an adapter.
 enum class SlcanOpening : std::uint8_t {
@@ -31,6 +33,9 @@ enum class SlcanOpening : std::uint8_t {
   s8,
 };
 
+/// Who speaks.
+enum class SlcanTalk : std::uint8_t { to_adapter, from_adapter };
+
 struct SlcanOptions {
   unsigned baud = 1'000'000;
   SlcanOpening opening = SlcanOpening::careful;
@@ -39,6 +44,8 @@ struct SlcanOptions {
   /// the adapter answers nothing, as the vendor's program waits inside a transfer; else none.
   /// unproven: whether the starter kit's adapter needs it.
   std::optional<Duration> gap{};
+  /// Called with what is sent to the adapter and what it says while it is opened. May be empty.
+  std::function<void(SlcanTalk, std::string_view bytes)> trace{};
 };
 
 /// Frames as lines of text. An adapter tells nothing of acknowledgement on the bus: what it has
@@ -71,6 +78,9 @@ class Slcan final : public Bus {
 
   [[nodiscard]] bool echoes() const override { return false; }
 
+  /// An adapter that refuses to open or to send, that says what is no slcan, or nothing at all.
+  [[nodiscard]] std::optional<Error> silence() const override;
+
   [[nodiscard]] int descriptor() const override;
 
   [[nodiscard]] bool wants_to_write() const override { return !outgoing_.empty(); }
@@ -83,12 +93,15 @@ class Slcan final : public Bus {
 
   void flush();
   void read_port();
+  void trace_answer(std::string_view bytes, Time at);
   void take(const SlcanLine& line, Time at);
   void converse();
   void opened();
   void acknowledged(bool accepted, Time at);
   void forget_lost(Time now);
   void broken(Error error);
+  [[nodiscard]] Error refuses() const;
+  [[nodiscard]] Error speaks_no_slcan() const;
   [[nodiscard]] Duration gap() const;
 
   std::unique_ptr<SerialPort> port_;
@@ -96,6 +109,7 @@ class Slcan final : public Bus {
   std::string name_;
   SlcanOptions options_;
   std::unique_ptr<SlcanDialogue> dialogue_;
+  std::unique_ptr<SlcanEvidence> evidence_;
   SlcanParser parser_;
   std::deque<BusEvent> ready_;
   std::string outgoing_; ///< what the port did not take yet: a frame, or commands
@@ -107,6 +121,7 @@ class Slcan final : public Bus {
   unsigned silent_frames_ = 0; ///< answers given up one after the other
   unsigned late_answers_ = 0;  ///< to commands that were not waited for
   Time late_answers_until_{};
+  unsigned traced_ = 0; ///< pieces of what the adapter said
 };
 
 } // namespace blactl::can

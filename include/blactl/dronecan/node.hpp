@@ -116,6 +116,10 @@ class Node {
     std::function<std::size_t()> backlog{};
     /// These frames shall not leave any more, as far as they are still here. May be empty.
     std::function<void(std::span<const can::Frame>)> withdraw{};
+    /// A question goes out, for the first time (`tries` is 1) or again. May be empty.
+    std::function<void(const Request&, int tries)> asked{};
+    /// No answer came in time to a question that went out. May be empty.
+    std::function<void(const Request&, int tries)> unanswered{};
   };
 
   struct Description {
@@ -142,12 +146,22 @@ class Node {
   /// When advance() is due; `never`: nothing is waited for.
   [[nodiscard]] Time next_deadline() const;
 
+  /// From here on this is node `local`. What waits for an answer to the ID before is asked again. A
+  /// question that must not be asked twice (no retries) stays without its answer.
+  void change_id(NodeId local, TransferIds& transfer_ids, Time now);
+
   /// Begins a job; it must live until it ended or cancel_all() was called. May be called by a job
   /// or hook at any time. Without a local ID its first question ends it, as not sent.
   void start(Job& job, Time now);
 
   /// Jobs that have not ended.
   [[nodiscard]] std::size_t jobs() const { return jobs_.size(); }
+
+  /// Whether this job has begun and not ended.
+  [[nodiscard]] bool is_running(const Job& job) const;
+
+  /// Ends this job, if it runs, with the outcome `cancelled`; what it asks then is not sent.
+  void cancel(Job& job, Time now);
 
   /// Sends a message. Without a local ID nothing is sent.
   void broadcast(const DataType& type, Priority priority, const Payload& payload);
@@ -166,6 +180,7 @@ class Node {
     int tries = 0;
     bool asked = false;               ///< handed to the bus
     bool left = false;                ///< its last frame was echoed
+    bool is_cancelled = false;        ///< perhaps in its own call: what it asks then is not sent
     std::vector<can::Frame> frames{}; ///< of the question; the last one recognises the echo
     Time deadline = never;            ///< of the answer, the echo or the pause
 
@@ -179,6 +194,7 @@ class Node {
   void broadcast_status(Time now);
   void wake();
   void withdraw(const Active& active);
+  void unanswered(Active& active, Time now);
   void cancel(Active& active, Time now);
   void tell(Active& active, const Outcome& outcome);
   void finish(Active& active, const Outcome& outcome);

@@ -39,6 +39,9 @@ struct Header {
 using TransferId = std::uint8_t;
 inline constexpr TransferId transfer_id_modulus = 32;
 
+/// Bytes of the CRC that stands before the payload of a transfer of several frames.
+inline constexpr std::size_t crc_size = 2;
+
 /// The CRC over a data type signature, least significant byte first: where a transfer's CRC starts.
 [[nodiscard]] std::uint16_t base_crc(std::uint64_t signature);
 

@@ -34,6 +34,13 @@ enum class Mode : std::uint8_t {
   offline = 7,
 };
 
+/// "ok", "warning", "error", "critical".
+[[nodiscard]] std::string_view name(Health health);
+
+/// "operational", "initialization", "maintenance", "software_update", "offline"; empty for the
+/// values that the standard reserves.
+[[nodiscard]] std::string_view name(Mode mode);
+
 /// uavcan/protocol/341.NodeStatus.uavcan
 struct NodeStatus {
   static constexpr DataType type{"uavcan.protocol.NodeStatus", 341, false, 0x0F0868D0C1A7C6F1};

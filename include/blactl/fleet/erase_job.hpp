@@ -6,6 +6,7 @@
 #include "blactl/fleet/roster.hpp"
 
 #include <optional>
+#include <utility>
 
 namespace blactl::fleet {
 
@@ -13,11 +14,16 @@ namespace blactl::fleet {
 /// was carried out: that is for the caller to read.
 class EraseJob final : public dronecan::Job {
  public:
-  EraseJob(const Member& servo, Patience patience) : servo_(servo), patience_(patience) {}
+  /// `roster` outlives the job.
+  EraseJob(const Roster& roster, Servo servo, Patience patience)
+      : roster_(roster), servo_(std::move(servo)), patience_(patience) {}
 
   [[nodiscard]] dronecan::Step next(const dronecan::Outcome& outcome) override;
 
   [[nodiscard]] bool is_confirmed() const { return is_confirmed_; }
+
+  /// The request left this machine, or may have.
+  [[nodiscard]] bool is_sent() const { return at_ == At::request; }
 
   /// The request did not leave this machine for certain, or the servo refused it; empty also where
   /// the answer was lost. Errors: refused, no_acknowledge, interrupted, state.
@@ -26,7 +32,8 @@ class EraseJob final : public dronecan::Job {
  private:
   enum class At : std::uint8_t { begin, unit, request };
 
-  const Member& servo_;
+  const Roster& roster_;
+  Servo servo_;
   Patience patience_;
   At at_ = At::begin;
   bool is_confirmed_ = false;

@@ -19,13 +19,17 @@ class Identification {
     bool static_node_id = false;           ///< 0x46 as well
   };
 
-  /// All references outlive this object.
-  Identification(Roster& roster, Member& member, const bla::Profiles& profiles, Options options);
+  /// All references outlive this object. What it finds is entered into `roster`.
+  Identification(Roster& roster, dronecan::NodeId id, const bla::Profiles& profiles,
+                 Options options);
 
   /// The next question; none: done() or failed. The first call's outcome is not looked at.
   [[nodiscard]] std::optional<dronecan::Request> next(const dronecan::Outcome& outcome);
 
   [[nodiscard]] bool done() const { return done_; }
+
+  /// What the node is, when done().
+  [[nodiscard]] const Servo& servo() const { return servo_; }
 
   /// Why it failed: timeout, not_found, model_mismatch, interrupted, no_acknowledge; not_recorded
   /// where a recording holds nothing that tells whether it is a servo. What else a recording lacks
@@ -49,18 +53,22 @@ class Identification {
   [[nodiscard]] std::optional<dronecan::Request> question(Step step);
   [[nodiscard]] std::optional<dronecan::Request> conclude();
   [[nodiscard]] std::optional<Error> undecided() const;
+  [[nodiscard]] bool sends_actuator_status() const;
+  [[nodiscard]] bool may_be_servo() const;
+  [[nodiscard]] Error silence_of_model() const;
   void take_node_info(const dronecan::Outcome& outcome);
   void take_register(const dronecan::Outcome& outcome);
   [[nodiscard]] std::optional<std::int64_t>& slot(Step step);
 
   Roster& roster_;
-  Member& member_;
   const bla::Profiles& profiles_;
   Options options_;
   Step step_ = Step::begin;
+  Servo servo_;
+  std::optional<dronecan::GetNodeInfo::Response> info_;
   bla::Readings readings_;
-  std::uint32_t boot_ = 0; ///< when the servo told its unique ID
   bool recording_lacks_model_ = false;
+  bool model_silent_ = false; ///< an actuator did not answer 0x50
   bool done_ = false;
   std::optional<Error> error_;
 };
@@ -68,20 +76,17 @@ class Identification {
 /// A job that only identifies.
 class IdentifyJob : public dronecan::Job {
  public:
-  IdentifyJob(Roster& roster, Member& member, const bla::Profiles& profiles,
+  IdentifyJob(Roster& roster, dronecan::NodeId id, const bla::Profiles& profiles,
               Identification::Options options)
-      : member_(member), identification_(roster, member, profiles, options) {}
+      : identification_(roster, id, profiles, options) {}
 
   [[nodiscard]] dronecan::Step next(const dronecan::Outcome& outcome) override {
     return identification_.next(outcome);
   }
 
-  [[nodiscard]] const Member& member() const { return member_; }
-
   [[nodiscard]] const Identification& identification() const { return identification_; }
 
  private:
-  Member& member_;
   Identification identification_;
 };
 
@@ -104,18 +109,41 @@ class ProbeJob : public dronecan::Job {
   Duration timeout_;
 };
 
-/// Asks an identified node for its unique ID once more: another answer is another unit.
-class DoubleCheckJob : public dronecan::Job {
+/// Asks a unit that appeared or restarted for its unique ID, and nothing more.
+class UnitJob final : public dronecan::Job {
  public:
-  DoubleCheckJob(Roster& roster, Member& member, Patience patience)
-      : roster_(roster), member_(member), patience_(patience) {}
+  UnitJob(Roster& roster, dronecan::NodeId id, Patience patience)
+      : roster_(roster), id_(id), patience_(patience) {}
 
   [[nodiscard]] dronecan::Step next(const dronecan::Outcome& outcome) override;
 
+  /// Those who wait for a unit to come back may not be left half done.
+  [[nodiscard]] bool must_finish() const override { return true; }
+
  private:
   Roster& roster_;
-  Member& member_;
+  dronecan::NodeId id_;
   Patience patience_;
+};
+
+/// Asks an identified node for its unique ID once more: another answer is another unit.
+class DoubleCheckJob final : public dronecan::Job {
+ public:
+  DoubleCheckJob(Roster& roster, const Servo& servo, Patience patience)
+      : roster_(roster), servo_(servo), patience_(patience) {}
+
+  [[nodiscard]] dronecan::Step next(const dronecan::Outcome& outcome) override;
+
+  [[nodiscard]] dronecan::NodeId id() const { return servo_.id; }
+
+  /// It is there.
+  [[nodiscard]] bool is_answered() const { return is_answered_; }
+
+ private:
+  Roster& roster_;
+  Servo servo_;
+  Patience patience_;
+  bool is_answered_ = false;
 };
 
 } // namespace blactl::fleet

@@ -1,52 +1,65 @@
 #pragma once
-// Identifies one servo and reads registers of it.
+// Identifies one servo and reads registers of it, as they were at one moment.
 
 #include "blactl/fleet/identification.hpp"
+#include "blactl/fleet/snapshot.hpp"
 
 #include <functional>
 #include <vector>
 
 namespace blactl::fleet {
 
-/// What one register held: its number, narrowed to its width, or why it is not known.
-struct Reading {
-  const bla::Parameter* parameter = nullptr;
-  Result<std::int64_t> raw;
-};
-
-class ReadJob : public dronecan::Job {
+/// After the last register the servo is asked once more who it is and how long it has run. Where
+/// that does not prove that it ran on since it was identified, all is read once more: what reads
+/// the same twice was true in between. Two units on the ID have 20 ms to show.
+class ReadJob final : public dronecan::Job {
  public:
   /// The registers to read of a servo, once it is identified.
   /// Errors: whatever makes reading pointless; nothing is read then.
-  using Plan = std::function<Result<std::vector<const bla::Parameter*>>(const Member& servo)>;
+  using Choice = std::function<Result<std::vector<const bla::Parameter*>>(const Servo& servo)>;
 
-  ReadJob(Roster& roster, Member& member, const bla::Profiles& profiles,
-          Identification::Options options, Plan plan);
+  /// How much of it must be proven: on a recording nothing can be asked.
+  enum class Proof : std::uint8_t { none, moment };
+
+  /// How long a second unit on the ID may take longer to answer than the first.
+  static constexpr Duration twin_time = std::chrono::milliseconds(20);
+
+  ReadJob(Roster& roster, dronecan::NodeId id, const bla::Profiles& profiles,
+          Identification::Options options, Choice choice, Proof proof = Proof::moment);
 
   [[nodiscard]] dronecan::Step next(const dronecan::Outcome& outcome) override;
 
-  [[nodiscard]] const Member& member() const { return member_; }
-
-  /// In the order of the plan.
-  [[nodiscard]] const std::vector<Reading>& readings() const { return readings_; }
-
-  /// Why the servo was not identified, is no BLA servo, or the plan was refused.
-  [[nodiscard]] const std::optional<Error>& error() const { return error_; }
-
-  /// What register `address` held, if it was read.
-  [[nodiscard]] std::optional<std::int64_t> raw(bla::Address address) const;
+  /// What was read so far, in the order of the choice. Errors beside those of identification and
+  /// choice: timeout (it does not answer any more), state (it is another unit, or restarts again
+  /// and again), duplicate_node_id.
+  [[nodiscard]] const Snapshot& snapshot() const { return snapshot_; }
 
  private:
-  [[nodiscard]] std::optional<dronecan::Request> make_plan();
-  [[nodiscard]] std::optional<dronecan::Request> read_next();
+  enum class At : std::uint8_t { identify, read, presence, proof, settle };
 
-  Member& member_;
+  [[nodiscard]] dronecan::Step begin(Time now);
+  [[nodiscard]] dronecan::Step take_reading(const dronecan::Outcome& outcome);
+  [[nodiscard]] dronecan::Step read_next();
+  [[nodiscard]] dronecan::Step ask_unit(At at);
+  [[nodiscard]] dronecan::Step judge_presence(const dronecan::Outcome& outcome);
+  [[nodiscard]] dronecan::Step judge_proof(const dronecan::Outcome& outcome);
+  [[nodiscard]] dronecan::Step read_again(Time now);
+  [[nodiscard]] dronecan::Step settle(Time now);
+  [[nodiscard]] dronecan::Step give_up(Error error);
+  [[nodiscard]] bool agrees_with_before() const;
+
+  Roster& roster_;
+  dronecan::NodeId id_;
   Patience patience_;
   Identification identification_;
-  Plan plan_;
+  Choice choice_;
+  Proof proof_;
+  At at_ = At::identify;
   std::vector<const bla::Parameter*> wanted_;
-  std::vector<Reading> readings_;
-  std::optional<Error> error_;
+  int silent_ = 0;              ///< registers in a row
+  int passes_ = 1;              ///< of reading all
+  std::vector<Reading> before_; ///< of the pass before
+  Snapshot snapshot_;
 };
 
 } // namespace blactl::fleet

@@ -21,8 +21,8 @@ struct RestartPace {
 
 /// The request goes out once. Without an answer the uptime tells whether it was carried out, and
 /// only if it was not the request is sent once more. The servo is recognised by its unique ID,
-/// whatever node ID it comes back with; somebody must ask the nodes that appear for theirs
-/// (Recognizer).
+/// whatever node ID it comes back with; somebody must ask the units that appear for theirs
+/// (UnitJob). One that sends nothing by itself is asked at its node ID.
 class RestartJob final : public dronecan::Job {
  public:
   struct Options {
@@ -31,60 +31,83 @@ class RestartJob final : public dronecan::Job {
     Duration come_back{}; ///< how long it may take from the request on
     Patience patience;
     RestartPace* pace = nullptr; ///< outlives the job; null: nobody else is waited for
+    /// The node ID that the servo will have, where it is known.
+    std::optional<dronecan::NodeId> expected{};
   };
 
-  /// `servo` has been identified; both references outlive the job.
-  RestartJob(Roster& roster, const Member& servo, Options options);
+  /// `servo` has a unique ID; `roster` outlives the job.
+  RestartJob(const Roster& roster, const Servo& servo, Options options);
 
   [[nodiscard]] dronecan::Step next(const dronecan::Outcome& outcome) override;
 
   [[nodiscard]] bool must_finish() const override { return is_sent_ && !is_over_; }
 
-  /// The servo under its present node ID; null: it is not back.
-  [[nodiscard]] Member* returned() const { return returned_; }
+  /// The node ID that the servo has now; empty: it is not back.
+  [[nodiscard]] std::optional<dronecan::NodeId> returned() const { return returned_; }
+
+  /// Nothing was sent: its uptime does not prove that the servo still holds what was read of it.
+  [[nodiscard]] bool is_unproven() const { return is_unproven_; }
 
   /// Why it is not, or what is not known: timeout, not_back, refused, state, no_acknowledge,
-  /// interrupted.
+  /// interrupted, duplicate_node_id.
   [[nodiscard]] const std::optional<Error>& error() const { return error_; }
 
   /// A request has left, or may have left, this machine.
   [[nodiscard]] bool is_sent() const { return is_sent_; }
 
-  /// From the request until it was back or given up.
+  /// It ended with a proof that the servo ran on: RAM holds what it held.
+  [[nodiscard]] bool has_run_on() const { return has_run_on_; }
+
+  /// From the first request until it was back or given up.
   [[nodiscard]] Duration duration() const {
-    return is_sent_ ? ended_at_ - sent_at_ : Duration::zero();
+    return is_sent_ ? ended_at_ - first_sent_at_ : Duration::zero();
   }
 
  private:
-  enum class At : std::uint8_t { begin, start, unit, young, request, settling, alive, away };
+  enum class At : std::uint8_t { begin, start, unit, young, request, settling, alive, away, call };
 
   [[nodiscard]] dronecan::Step ask_unit();
   [[nodiscard]] dronecan::Step check_unit(const dronecan::Outcome& outcome);
   [[nodiscard]] dronecan::Step request(Time now);
   [[nodiscard]] dronecan::Step judge_answer(const dronecan::Outcome& outcome);
   [[nodiscard]] dronecan::Step judge_life(const dronecan::Outcome& outcome);
-  [[nodiscard]] dronecan::Step wait_for_return();
+  [[nodiscard]] dronecan::Step wait_for_return(Time now);
+  [[nodiscard]] bool runs_on(const dronecan::GetNodeInfo::Response& info, Time now) const;
+  [[nodiscard]] dronecan::Step call(Time now);
+  [[nodiscard]] dronecan::Step judge_call(const dronecan::Outcome& outcome);
+  [[nodiscard]] std::optional<dronecan::NodeId> doubled_id() const;
+  [[nodiscard]] bool is_another_at(dronecan::NodeId id) const;
+
+  [[nodiscard]] bool has_news() const { return find_returned() || doubled_id(); }
+
   [[nodiscard]] dronecan::Step conclude();
   [[nodiscard]] dronecan::Step give_up(Error error);
+  [[nodiscard]] bool has_started_anew() const;
+  [[nodiscard]] bool lives_on() const;
   [[nodiscard]] Error not_carried_out() const;
   [[nodiscard]] Error not_back() const;
   [[nodiscard]] Error left_waiting() const;
   [[nodiscard]] bool has_answered_ok(dronecan::Bytes payload) const;
-  [[nodiscard]] Member* find_returned() const;
+  [[nodiscard]] std::optional<dronecan::NodeId> find_returned() const;
 
-  Roster& roster_;
+  const Roster& roster_;
   dronecan::NodeId id_;
   dronecan::UniqueId unique_id_;
+  Time since_; ///< Servo::since
   Options options_;
   At at_ = At::begin;
   std::uint32_t boot_ = 0; ///< of the servo when the request was sent
-  Time sent_at_{}, ended_at_{};
+  Time first_sent_at_{}, sent_at_{}, ended_at_{};
   bool is_sent_ = false;
   bool is_confirmed_ = false; ///< the servo answered that it does it
   bool has_left_ = true;      ///< the last request, for certain
   bool may_repeat_ = true;
   bool is_over_ = false;
-  Member* returned_ = nullptr;
+  bool is_unproven_ = false;
+  bool has_run_on_ = false;
+  bool has_restarted_ = false;  ///< its uptime says so, which the roster may have missed
+  bool calls_expected_ = false; ///< whom it called last
+  std::optional<dronecan::NodeId> returned_;
   std::optional<Error> error_;
 };
 

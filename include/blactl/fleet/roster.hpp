@@ -2,12 +2,13 @@
 // Who is on the bus: nodes and servos, who waits for an ID, who commands, allocates, collides.
 
 #include "blactl/bla/identity.hpp"
+#include "blactl/dronecan/answer_watch.hpp"
 #include "blactl/dronecan/transfer.hpp"
 #include "blactl/dronecan/types.hpp"
+#include "blactl/fleet/servo.hpp"
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -18,21 +19,22 @@ namespace blactl::fleet {
 
 /// One node ID on the bus and what is known of the unit behind it.
 struct Member {
-  dronecan::NodeId id;
+  dronecan::NodeId id{};
   Time first_heard{}, last_heard{};
-  std::optional<dronecan::NodeStatus> status;
+  std::optional<dronecan::NodeStatus> status{};
   Time status_at{};
-  std::optional<std::uint8_t> actuator_id; ///< from actuator.Status: only servos send it
-  std::uint32_t boots = 0;                 ///< restarts seen, by uptimes going backwards
+  std::optional<std::uint8_t> actuator_id{}; ///< from actuator.Status: only servos send it
+  std::uint32_t boots = 0;                   ///< restarts seen, by uptimes going backwards
 
-  /// Answers to the questions of Identification.
-  std::optional<dronecan::GetNodeInfo::Response> info;
+  /// What Roster::learn() was told.
+  std::optional<dronecan::GetNodeInfo::Response> info{};
   std::uint32_t info_boot = 0; ///< `boots` when `info` came
   bool is_servo = false;       ///< it answered register 0x50
-  bla::Identity identity;
-  std::optional<std::int64_t> servo_id, static_node_id;
-  bool identified = false;           ///< Identification ended well
+  bla::Identity identity{};
+  std::optional<std::int64_t> servo_id{}, static_node_id{};
+  bool identified = false;           ///< learn() was told all
   std::uint32_t identified_boot = 0; ///< `boots` when it did
+  Time since{};                      ///< Servo::since
 
   [[nodiscard]] bool sends_actuator_status() const { return actuator_id.has_value(); }
 
@@ -43,6 +45,9 @@ struct Member {
   [[nodiscard]] bool is_unit(const dronecan::UniqueId& unique_id) const {
     return info && info_boot == boots && info->unique_id == unique_id;
   }
+
+  /// What is known of the unit now.
+  [[nodiscard]] Servo servo() const;
 };
 
 /// An unsettled allocation request: the part of the unique ID that was heard.
@@ -55,19 +60,49 @@ struct Commander {
   std::map<dronecan::NodeId, Time> nodes; ///< by GetSet
 };
 
+/// A node sends NodeStatus once a second at least; one that was not heard for so long is offline
+/// (uavcan/protocol/341.NodeStatus).
+inline constexpr Duration offline_time = std::chrono::seconds(3);
+
 /// How long a command counts as "drives" (contract, section 4).
 inline constexpr Duration driving_time = std::chrono::seconds(2);
 
+/// How long to listen until who commands, says armed, shares an ID or has one has been heard.
+inline constexpr Duration bus_watch_time = std::chrono::milliseconds(1100);
+
+/// Who is on the bus. A session tells it what is heard and jobs tell it what they were answered;
+/// everybody else only reads it.
 class Roster {
  public:
+  /// Somebody who wants to know at once.
+  class Listener {
+   public:
+    virtual ~Listener() = default;
+    Listener(const Listener&) = delete;
+    Listener& operator=(const Listener&) = delete;
+
+    /// A node was heard for the first time, or its unit restarted: what was known of it may be
+    /// another's.
+    virtual void on_new_unit(const Member& member) = 0;
+
+   protected:
+    Listener() = default;
+  };
+
   /// `local`: our own ID, whose frames are not those of a member.
-  explicit Roster(dronecan::NodeId local) : local_(local) {}
+  explicit Roster(dronecan::NodeId local);
+  ~Roster() = default;
+  Roster(const Roster&) = delete;
+  Roster& operator=(const Roster&) = delete;
 
   [[nodiscard]] dronecan::NodeId local() const { return local_; }
 
-  /// Called for each ID when it is heard for the first time, and whenever its unit restarted: what
-  /// was known of it may be another's.
-  void on_new_unit(std::function<void(Member&)> hook) { new_unit_ = std::move(hook); }
+  void change_local(dronecan::NodeId local) { local_ = local; }
+
+  /// It must live until remove(). Listeners may be added and removed at any time.
+  void add(Listener& listener) { listeners_.push_back(&listener); }
+
+  void remove(Listener& listener) { std::erase(listeners_, &listener); }
 
   /// Every frame of other nodes: who lives, and who sends twice as often as one unit can.
   void hear(const can::Frame& frame, Time at);
@@ -75,23 +110,39 @@ class Roster {
   /// Every transfer heard.
   void receive(const dronecan::Transfer& transfer);
 
-  /// Two answers to GetNodeInfo gave different unique IDs.
-  void mark_doubled(dronecan::NodeId id) { doubled_.insert(id); }
+  /// The unit behind `id` answered GetNodeInfo: whatever was known may have been another's.
+  void learn(dronecan::NodeId id, const dronecan::GetNodeInfo::Response& info);
 
-  /// The member with this ID, heard or not; added if it is new.
-  [[nodiscard]] Member& member(dronecan::NodeId id);
-  /// Null: never heard and never asked for.
+  /// What a node said of itself; `servo.boot` is that of its GetNodeInfo, which may be over.
+  void learn(const Servo& servo, const std::optional<dronecan::GetNodeInfo::Response>& info);
+
+  /// The servo of this node was recognised after a restart, as `servo` says: what it said of
+  /// itself before holds on.
+  void learn_run(const Servo& servo);
+
+  /// The static node ID that a node has now, as it was read or written.
+  void learn_static_node_id(dronecan::NodeId id, std::optional<std::int64_t> static_node_id);
+
+  /// Two answers to GetNodeInfo gave different unique IDs.
+  void mark_doubled(dronecan::NodeId id, const dronecan::UniqueId& one,
+                    const dronecan::UniqueId& other);
+
+  /// Null: never heard and never learnt of.
   [[nodiscard]] const Member* find(dronecan::NodeId id) const;
 
-  [[nodiscard]] const std::map<dronecan::NodeId, Member>& members() const { return members_; }
+  /// What is known of this ID; of one that was never heard nothing is.
+  [[nodiscard]] Member member(dronecan::NodeId id) const;
 
-  [[nodiscard]] std::map<dronecan::NodeId, Member>& members() { return members_; }
+  [[nodiscard]] const std::map<dronecan::NodeId, Member>& members() const { return members_; }
 
   [[nodiscard]] bool heard(dronecan::NodeId id) const { return heard_[id.value()]; }
 
   /// Two units use this ID, as far as heard.
   [[nodiscard]] bool is_doubled(dronecan::NodeId id) const;
   [[nodiscard]] std::set<dronecan::NodeId> doubled() const;
+
+  /// The unique IDs of the units that use this ID, where two told theirs; else none.
+  [[nodiscard]] std::set<dronecan::UniqueId> units(dronecan::NodeId id) const;
 
   [[nodiscard]] const std::set<UniqueIdPrefix>& pending() const { return pending_; }
 
@@ -109,20 +160,31 @@ class Roster {
     return armed_.empty() ? std::nullopt : std::optional(*armed_.begin());
   }
 
+  /// When the unit of this node started at the latest, by its last uptime; empty: it told none.
+  [[nodiscard]] std::optional<Time> started(dronecan::NodeId id) const;
+
+  /// Another node that changed a setting of this one after `since`, as far as heard. Commands to
+  /// move (0x00-0x02) change none.
+  [[nodiscard]] std::optional<dronecan::NodeId> writer_to(dronecan::NodeId id, Time since) const;
+
   /// The node that drives this servo now, as far as heard.
-  [[nodiscard]] std::optional<dronecan::NodeId> driver_of(const Member& servo, Time now) const;
+  [[nodiscard]] std::optional<dronecan::NodeId> driver_of(const Servo& servo, Time now) const;
 
  private:
   /// Two counters of uptime on one ID, and the rate of actuator.Status.
   struct Pulse {
-    Time window_start{};
+    std::optional<Time> window_start{};
     unsigned count = 0;
+    unsigned leaps = 0; ///< transfer IDs that did not follow the one before
+    dronecan::TransferId last_transfer_id = 0;
     std::array<std::optional<Time>, 2> boots{}; ///< when the unit(s) behind the ID started
     std::size_t last_boot = 0;
     std::uint32_t last_uptime_s = 0;
   };
 
-  void count_status(dronecan::NodeId source, Time at);
+  [[nodiscard]] Member& known(dronecan::NodeId id);
+  void announce(const Member& member);
+  void count_status(dronecan::NodeId source, dronecan::TransferId transfer_id, Time at);
   void on_status(const dronecan::Transfer& transfer);
   void on_allocation(const dronecan::Transfer& transfer);
   void on_command(const dronecan::Transfer& transfer);
@@ -134,16 +196,25 @@ class Roster {
   [[nodiscard]] bool is_too_fast(dronecan::NodeId id) const;
 
   dronecan::NodeId local_;
-  std::function<void(Member&)> new_unit_;
+  std::vector<Listener*> listeners_;
   std::map<dronecan::NodeId, Member> members_;
   std::array<bool, 128> heard_{};
   std::array<Pulse, 128> pulses_{};
+  dronecan::AnswerWatch answers_;
   std::set<dronecan::NodeId> doubled_;
+  std::map<dronecan::NodeId, std::set<dronecan::UniqueId>> units_; ///< of doubled IDs
   std::set<dronecan::NodeId> too_fast_; ///< sent actuator.Status like two servos
   std::set<UniqueIdPrefix> pending_;
   std::set<dronecan::NodeId> allocators_;
   std::map<dronecan::NodeId, Commander> commanders_;
   std::set<dronecan::NodeId> armed_;
+
+  struct Write {
+    dronecan::NodeId source{};
+    Time at{};
+  };
+
+  std::map<dronecan::NodeId, Write> writes_; ///< the last one to a setting, by server
 };
 
 } // namespace blactl::fleet

@@ -12,6 +12,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,9 +22,8 @@ class Session {
  public:
   /// What of the bus this session wants to hear; a kernel filter keeps the rest away.
   enum class Hearing : std::uint8_t {
-    answers,  ///< services for us, NodeStatus, actuator.Status, and frames with our own ID
-    commands, ///< also what a writer must know: ArrayCommand, ArmingStatus, GetSet requests, and
-              ///< Allocation
+    answers,  ///< services for us, NodeStatus, actuator.Status, Allocation, and frames with our ID
+    commands, ///< also what a writer must know: ArrayCommand, ArmingStatus, GetSet requests
     all,
   };
 
@@ -35,7 +35,10 @@ class Session {
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  [[nodiscard]] Roster& roster() { return roster_; }
+  [[nodiscard]] const Roster& roster() const { return roster_; }
+
+  /// The roster for jobs: they enter what nodes say of themselves.
+  [[nodiscard]] Roster& records() { return roster_; }
 
   [[nodiscard]] dronecan::Node& node() { return node_; }
 
@@ -43,8 +46,24 @@ class Session {
 
   [[nodiscard]] Time now() const { return loop_.now(); }
 
+  /// When the bus was open: since then it has been heard.
+  [[nodiscard]] Time opened() const { return opened_; }
+
+  /// The bus is a log: what is asked is answered from it.
+  [[nodiscard]] bool is_recording() const { return playback_.has_value(); }
+
+  /// False: nothing is sent, without a node ID of our own.
+  [[nodiscard]] bool may_ask() const { return node_.id().is_unicast() || playback_.has_value(); }
+
   /// On a recording nobody is asked: the job is answered from it, as soon as all of it was heard.
   void start(dronecan::Job& job);
+
+  /// Ends a job that runs, with the outcome `cancelled`.
+  void cancel(dronecan::Job& job) { node_.cancel(job, loop_.now()); }
+
+  /// Begins these jobs and lives until they have ended; what else runs goes on. Errors: as
+  /// live_until().
+  [[nodiscard]] Result<void> run(std::span<dronecan::Job* const> jobs);
 
   /// Lets a service hear and act; it must live until detach().
   void attach(dronecan::Service& service) { services_.push_back(&service); }
@@ -55,16 +74,30 @@ class Session {
   /// `grace` to end. A second signal ends all at once.
   void on_stopping(std::function<void()> hook) { stopping_ = std::move(hook); }
 
+  /// Called for every question that goes out or stays without an answer; see dronecan::Node::Hooks.
+  using RequestHook = std::function<void(const dronecan::Request&, int tries)>;
+
+  void on_requests(RequestHook asked, RequestHook unanswered) {
+    asked_ = std::move(asked);
+    unanswered_ = std::move(unanswered);
+  }
+
+  /// Called when another node had our node ID and this one took another.
+  using IdHook = std::function<void(const state::LocalNodeId&)>;
+
+  void on_new_id(IdHook hook) { new_id_ = std::move(hook); }
+
   static constexpr Duration grace = std::chrono::seconds(3);
 
   /// Lives until the bus is open: what is asked from then on, and how long is listened, has nothing
-  /// to do with how long an adapter took.
+  /// to do with how long an adapter took. A node ID of our own that is no tool's is listened for
+  /// before it is used.
   [[nodiscard]] Result<void> wait_until_open();
 
   /// Lives until `deadline`; on a recording, until all of it was heard, whatever the deadline.
   /// Errors of this, run() and wait_until_open(): interrupted, interface, bus_off, no_acknowledge,
-  /// duplicate_node_id (a foreign frame with our ID); of a recording: bad_file. They end the
-  /// session: every job is cancelled.
+  /// duplicate_node_id, no_local_node_id (others have our IDs); of a recording: bad_file. They end
+  /// the session: every job is cancelled.
   [[nodiscard]] Result<void> live_until(Time deadline);
 
   /// Lives until `done` holds, which is looked at after every event; whether it did before
@@ -83,6 +116,12 @@ class Session {
   /// What a person should know of how the bus was opened; empty: nothing.
   [[nodiscard]] const std::string& opening_note() const { return opening_note_; }
 
+  /// Something of DroneCAN was heard, of whomever.
+  [[nodiscard]] bool heard_anything() const { return heard_anything_; }
+
+  /// What of the transport explains that nothing was heard (see can::Bus).
+  [[nodiscard]] std::optional<Error> silence() const { return loop_.bus().silence(); }
+
   /// Frames that the kernel dropped.
   [[nodiscard]] std::uint64_t lost_frames() const { return lost_; }
 
@@ -93,7 +132,9 @@ class Session {
   [[nodiscard]] std::size_t unsent() const { return loop_.unsent(); }
 
  private:
-  Session(std::unique_ptr<can::Bus> bus, std::optional<state::LocalNodeId> local);
+  Session(std::unique_ptr<can::Bus> bus, std::optional<state::LocalNodeId> local, Hearing hearing);
+  void begin_as_node();
+  [[nodiscard]] Result<void> give_way();
 
   enum class Happened : std::uint8_t { something, deadline, input };
   [[nodiscard]] Result<Happened> step(Time deadline);
@@ -105,18 +146,24 @@ class Session {
   [[nodiscard]] std::unexpected<Error> end(Error error);
   [[nodiscard]] Time acknowledge_deadline() const;
   [[nodiscard]] Result<void> play();
+  [[nodiscard]] Result<void> run_while(const std::function<bool()>& busy);
 
   std::optional<state::LocalNodeId> local_;
+  Hearing hearing_;
   can::Loop loop_;
   Roster roster_;
   std::optional<Playback> playback_; ///< on a recording
   dronecan::Node node_;
   std::vector<dronecan::Service*> services_;
   std::function<void()> stopping_;
+  RequestHook asked_, unanswered_;
+  IdHook new_id_;
   int signal_ = 0;
   Time give_up_at_ = never; ///< after a signal: when running jobs are left half done
   std::uint64_t lost_ = 0;
+  Time opened_{};
   std::string opening_note_;
+  bool heard_anything_ = false;
 };
 
 } // namespace blactl::fleet

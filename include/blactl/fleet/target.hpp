@@ -5,13 +5,14 @@
 #include "blactl/fleet/roster.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace blactl::fleet {
 
-/// `uid:` `serial:` `servo:` `model:` with a value.
+/// `uid:` `serial:` `servo:` `model:` with a value; the beginning of a unique ID is enough.
 struct Selector {
   enum class Key : std::uint8_t { unique_id, serial_number, servo_id, model };
   Key key;
@@ -32,12 +33,16 @@ struct Targets {
   /// Whether the list names this member: its ID, or as a servo that was identified.
   [[nodiscard]] bool mean(const Member& member, const bla::Profiles& profiles) const;
 
+  /// That the beginning of a unique ID means several units: usage, with the list of them.
+  [[nodiscard]] std::optional<Error> ambiguity(const Roster& roster,
+                                               const bla::Profiles& profiles) const;
+
   /// Whether the bus must be searched: IDs alone need no search.
   [[nodiscard]] bool need_search() const { return !given || all || !selectors.empty(); }
 };
 
-/// Reads `12`, `10-14,20`, `all`, `unique_id:…`, `serial:…`, `servo:…`, `model:…`, comma-separated.
-/// Errors: usage.
+/// Reads `12`, `10-14,20`, `all`, `unique_id:…`, `serial:…`, `servo:…`, `model:…`, comma-separated;
+/// letters of either case. Errors: usage.
 [[nodiscard]] Result<Targets> parse_targets(std::string_view list);
 
 } // namespace blactl::fleet

@@ -8,7 +8,7 @@ namespace blactl::texts {
 inline constexpr Text no_answer{"node {}: no answer to {}", "ノード {}: {} に応答がありません"};
 inline constexpr Text no_answer_hint{
     "check supply and cable, or ask more patiently with --timeout and --retries",
-    "電源と配線を確認するか、--timeout と --retries で待ち時間を延ばしてください",
+    "電源と配線を確認するか、--timeout と --retries で待ち時間を延ばして下さい",
 };
 inline constexpr Text not_sent{"node {}: the request for {} did not leave this machine",
                                "ノード {}: {} の要求を送信できませんでした"};
@@ -36,7 +36,7 @@ inline constexpr Text nobody_acknowledges{
 };
 inline constexpr Text nobody_acknowledges_hint{
     "is a servo powered and connected, the bus terminated, and the bit rate 1000000?",
-    "サーボの電源と接続、終端抵抗、ビットレート 1000000 を確認してください",
+    "サーボの電源と接続、終端抵抗、ビットレート 1000000 を確認して下さい",
 };
 inline constexpr Text bus_is_off{"{}: the controller is bus-off",
                                  "{}: コントローラがバスオフ状態です"};
@@ -44,18 +44,13 @@ inline constexpr Text bus_is_off_hint{
     "check wiring and bit rate, then: sudo ip link set {} down; sudo ip link set {} up",
     "配線とビットレートを確認後: sudo ip link set {} down; sudo ip link set {} up",
 };
-inline constexpr Text own_id_in_use{"node ID {} is used by another node on {}",
-                                    "ノード ID {} は {} 上の別のノードが使用しています"};
-inline constexpr Text own_id_in_use_hint{
-    "give a free node ID: --local-node-id ID",
-    "空いているノード ID を指定してください: --local-node-id ID"};
 inline constexpr Text interrupted{"interrupted", "中断されました"};
 inline constexpr Text unreadable_frames{
     "{} messages that were no frames of classic CAN were passed over (CAN FD, or damaged)",
     "Classic CAN フレームではないメッセージ {} 件を無視しました (CAN FD または破損)"};
 inline constexpr Text frames_lost{
     "{} frames were lost because they came faster than they could be read",
-    "読み出しが間に合わず {} フレームを失いました",
+    "読出しが間に合わず {} フレームを失いました",
 };
 
 inline constexpr Text node_not_found{"node {} is not on the bus", "ノード {} はバス上にありません"};
@@ -73,17 +68,23 @@ inline constexpr Text no_servo_found_hint{
 };
 inline constexpr Text nothing_matches{"no servo on the bus matches {}",
                                       "{} に該当するサーボはバス上にありません"};
+inline constexpr Text target_waits_for_id{
+    "{} waits for a node ID: it cannot be asked before it has one",
+    "{} はノード ID の割当て待ちです。割当て前は問い合わせできません"};
+inline constexpr Text target_waits_for_id_hint{
+    "let an allocator give it a node ID (the flight controller, or the vendor's program)",
+    "アロケータ (フライトコントローラ、メーカーのソフトウェア等) でノード ID を割り当てて下さい"};
 inline constexpr Text restarted_meanwhile{
     "node {} restarted and is another servo now: nothing more was written to it",
     "ノード {} は再起動後に別のサーボになりました。以後は書き込んでいません",
 };
 inline constexpr Text restarts_again{
     "node {} restarts again and again while it is written to",
-    "ノード {} は書き込み中に何度も再起動しています",
+    "ノード {} は書込み中に何度も再起動しています",
 };
 inline constexpr Text restarts_again_hint{
     "check its supply voltage",
-    "電源電圧を確認してください",
+    "電源電圧を確認して下さい",
 };
 inline constexpr Text about_node{"node {}: {}", "ノード {}: {}"};
 inline constexpr Text write_refused{"node {}: {}={}: the servo refused it and still holds {}",
@@ -93,35 +94,136 @@ inline constexpr Text write_mismatch{"node {}: {}={}: the servo holds {} instead
 
 inline constexpr Text not_taken_hint{
     "is it the model that it says it is? compare its label with: blactl get -n {} --group product",
-    "機種が正しいか銘板と照合してください: blactl get -n {} --group product"};
+    "機種が正しいか銘板と照合して下さい: blactl get -n {} --group product"};
 
-inline constexpr Text doubled_node_id{"two nodes share node ID {}",
-                                      "ノード ID {} が 2 台で重複しています"};
 inline constexpr Text doubled_static_id{"nodes {} have the same static node ID {}",
                                         "ノード {} の UAVCAN ノード ID 設定が {} で重複しています"};
 inline constexpr Text doubled_servo_id{"nodes {} have the same servo ID {}",
                                        "ノード {} のサーボ ID が {} で重複しています"};
 
-inline constexpr Text doubled_target{"node ID {} is used by two nodes: nothing is written to it",
-                                     "ノード ID {} が重複しているため書き込みません"};
+inline constexpr Text doubled_target{"two units use node ID {}",
+                                     "ノード ID {} を 2 台が使用しています"};
+inline constexpr Text doubled_units{"two units use node ID {}: {}",
+                                    "ノード ID {} を 2 台が使用しています: {}"};
+inline constexpr Text foreign_actuator{
+    "node {} ({}) sends actuator.Status but answers no GetSet: it is not taken for a BLA servo",
+    "ノード {} ({}) は actuator.Status を送信しますが GetSet に応答しないため、BLA "
+    "サーボとして扱いません",
+};
+inline constexpr Text node_gone{"node {} does not answer any more",
+                                "ノード {} が応答しなくなりました"};
+inline constexpr Text restarted_while_read{
+    "node {} restarted while it was read: what was in its RAM only is lost, nothing was saved",
+    "ノード {} は読出し中に再起動しました。RAM のみの変更は失われ、保存していません",
+};
+inline constexpr Text restarts_while_read{
+    "node {} restarts again and again while it is read",
+    "ノード {} は読出し中に何度も再起動しています",
+};
+inline constexpr Text not_proven_any_more{
+    "node {} was written to, but does not answer any more: whether it still holds the values is "
+    "not known",
+    "ノード {} は書込み後に応答しなくなりました。値を保持しているか不明です",
+};
+inline constexpr Text write_lost{"node {}: {}={}: no answer, and the servo still holds {}",
+                                 "ノード {}: {}={}: 応答がなく、値は {} のままです"};
+inline constexpr Text restarted_before_save{
+    "node {} restarted before SAVE: its RAM no longer holds what was to be saved, nothing was "
+    "saved",
+    "ノード {} は SAVE の前に再起動し、保存するはずの値が RAM から失われたため、保存していません",
+};
+inline constexpr Text changed_before_save{
+    "node {} no longer holds in RAM what was to be saved (it restarted, or another node wrote to "
+    "it): nothing was saved",
+    "ノード {} の RAM の値が保存するはずの値と異なります (再起動または別ノードによる書込み)。"
+    "保存していません",
+};
+inline constexpr Text other_writer{
+    "node {1} wrote to node {0} meanwhile: it does not hold what was wanted",
+    "ノード {1} がノード {0} に書き込んだため、設定した値になっていません"};
+inline constexpr Text other_writer_hint{"stop it, then run the command again",
+                                        "停止させてから再度実行して下さい"};
+inline constexpr Text not_read_completely{
+    "node {} was not read completely: none of its values is shown",
+    "ノード {} の読出しは途中で終了したため、表示しません"};
+inline constexpr Text not_there_yet{"node {} was not there yet when the wait ended",
+                                    "ノード {} は待機終了時点で動作していません"};
+inline constexpr Text warn_offline{"has not been heard for {} s", "{} 秒間受信していません"};
+inline constexpr Text id_given_is_taken{
+    "node {} would get node ID {}, which another unit has (uid:{})",
+    "ノード {} に設定されるノード ID {} は別の機器 (uid:{}) が使用しています",
+};
+inline constexpr Text id_given_will_be_taken{
+    "node {} would get node ID {}, which node {} has or gets with its next restart",
+    "ノード {} に設定されるノード ID {} は、ノード {} の (再起動後の) ID と重複します",
+};
+inline constexpr Text servo_id_given_is_taken{
+    "node {} would have servo ID {}, which node {} has",
+    "ノード {} のサーボ ID {} はノード {} と重複します",
+};
+inline constexpr Text servo_id_taken_hint{"see who has which: blactl get -n all servo_id",
+                                          "各サーボの ID を確認: blactl get -n all servo_id"};
+inline constexpr Text servo_id_for_several{
+    "one servo ID for {} servos: a command for one would move all of them",
+    "{} 台に同じサーボ ID を設定すると、一つの指令で全てが動きます",
+};
+inline constexpr Text saved_not_verified{
+    "node {} was sent SAVE and is back, but its values were not read again",
+    "ノード {} は SAVE 後に復帰しましたが、値を再確認していません",
+};
+inline constexpr Text erased_not_verified{
+    "node {}: ERASE was sent, and its values were not read again: what its RAM holds is not known",
+    "ノード {}: ERASE を送信しましたが、値を再確認していません。RAM の内容は不明です",
+};
+inline constexpr Text erased_not_saved{
+    "node {}: its RAM holds factory defaults, its ROM was not written: a SAVE would keep them",
+    "ノード {}: RAM は初期値です。ROM には保存していません (SAVE すると初期値が保存されます)",
+};
+inline constexpr Text what_it_holds_hint{"see what it holds: blactl get -n uid:{} --changed",
+                                         "内容を確認: blactl get -n uid:{} --changed"};
+inline constexpr Text command_is_not_saved{"{} is a command: SAVE does not keep it",
+                                           "{} は動作指令であり、SAVE では保存されません"};
+inline constexpr Text command_is_not_saved_hint{"leave --save out, or the command",
+                                                "--save か指令のどちらかを外して下さい"};
+inline constexpr Text control_is_off{
+    "the servo takes no {} while speed_torque_control (0x25) is off",
+    "speed_torque_control (0x25) が OFF の間、サーボは {} を受け付けません",
+};
+inline constexpr Text control_is_off_hint{
+    "switch it on first: blactl set -n {} speed_torque_control=on",
+    "先に有効にして下さい: blactl set -n {} speed_torque_control=on",
+};
+inline constexpr Text leave_at_default{
+    "{}: the manufacturer advises to leave it at its default ({})",
+    "{}: メーカーは初期値 ({}) のままとすることを推奨しています",
+};
+inline constexpr Text question_restart_unknown{
+    "node {}: it starts with what its ROM holds, which is not known: torque may come on, and the "
+    "shaft may run to 0 deg\n",
+    "ノード {}: ROM の内容 (不明) で起動します。トルクが ON になり、出力軸が 0° "
+    "へ動く可能性があります\n",
+};
+inline constexpr Text question_erase_torque{"node {}: torque comes on\n",
+                                            "ノード {}: トルクが ON になります\n"};
+inline constexpr Text question_erase_rom{
+    "ROM is not touched: a restart brings back what was saved\n",
+    "ROM は変更しません。再起動すると保存済みの値に戻ります\n",
+};
 inline constexpr Text doubled_target_hint{"connect one of them alone and give it another ID",
-                                          "一台ずつ接続して別の ID を設定してください"};
+                                          "一台ずつ接続して別の ID を設定して下さい"};
 inline constexpr Text armed{"node {} says that the vehicle is armed: nothing is written",
                             "ノード {} が ARM 状態を通知しているため書き込みません"};
-inline constexpr Text armed_hint{"disarm it first", "先に DISARM してください"};
+inline constexpr Text armed_hint{"disarm it first", "先に DISARM して下さい"};
 inline constexpr Text driven{"node {} commands node {}: not while it does",
                              "ノード {} がノード {} に動作指令を送信中のため実行しません"};
 inline constexpr Text driven_hint{"stop it, or add --while-driven",
-                                  "停止させるか、--while-driven を付けてください"};
-inline constexpr Text node_id_in_use{"static_node_id={} is in use by another node",
-                                     "static_node_id={} は別のノードが使用中です"};
+                                  "停止させるか、--while-driven を付けて下さい"};
+inline constexpr Text node_id_is_ours_hint{
+    "run the command with another node ID of its own: --local-node-id ID",
+    "自ノードに別の ID を指定して下さい: --local-node-id ID"};
 inline constexpr Text node_id_in_use_hint{"see which IDs are taken: blactl scan",
                                           "使用中の ID を確認: blactl scan"};
 
-inline constexpr Text defaults_unknown{
-    "node {}: the model is not known well enough to tell the default of {}",
-    "ノード {}: 機種を特定できないため、{} の初期値が不明です",
-};
 inline constexpr Text defaults_unknown_hint{
     "see what it says of itself: blactl get --group product",
     "機種情報を確認: blactl get --group product",
@@ -133,14 +235,15 @@ inline constexpr Text rom_unreadable{
 inline constexpr Text rom_unreadable_hint{
     "was the supply cut while it saved? write its values again, then: blactl save -n {}",
     "保存中に電源が切れた可能性があります。値を書き直してから blactl save -n {} "
-    "を実行してください"};
+    "を実行して下さい"};
 inline constexpr Text not_saved{"node {}: ROM was not written",
                                 "ノード {}: ROM に保存していません"};
-inline constexpr Text values_differ{"node {}: {}", "ノード {}: {}"};
 inline constexpr Text not_begun{"node {}: interrupted before anything was sent",
                                 "ノード {}: 送信前に中断されました"};
-inline constexpr Text another_servo{"node {} is another servo now: nothing was sent",
-                                    "ノード {} は別のサーボに替わったため、送信していません"};
+inline constexpr Text another_servo{"node {} is another servo now: nothing more was sent to it",
+                                    "ノード {} は別のサーボに替わったため、以後は送信していません"};
+inline constexpr Text restarted_before_erase{"node {} restarted: nothing more was sent to it",
+                                             "ノード {} が再起動したため、以後は送信していません"};
 inline constexpr Text opcode_refused{"node {} refused {}", "ノード {} が {} を拒否しました"};
 inline constexpr Text opcode_ignored{
     "node {} neither answered {} nor carried it out, although it lives",
@@ -150,15 +253,15 @@ inline constexpr Text did_not_restart{"node {} confirmed {} and then did not res
                                       "ノード {} は {} に応答しましたが再起動しませんでした"};
 inline constexpr Text opcode_refused_hint{
     "does it tell why? blactl get -n {} --group fault",
-    "原因を異常情報で確認してください: blactl get -n {} --group fault"};
+    "原因を異常情報で確認して下さい: blactl get -n {} --group fault"};
 inline constexpr Text restart_not_waited_for{
     "node {} was sent RestartNode, and was not waited for until it was back",
     "ノード {}: RestartNode 送信後、復帰を確認せずに終了しました"};
 inline constexpr Text save_not_waited_for{
     "node {} was sent SAVE and was not waited for: what its ROM holds is not known",
     "ノード {}: SAVE 送信後、復帰を確認せずに終了しました。ROM の内容は不明です"};
-inline constexpr Text not_waited_for_hint{"is it back? blactl wait -n {}",
-                                          "復帰の確認: blactl wait -n {}"};
+inline constexpr Text not_waited_for_hint{"is it back? blactl wait -n uid:{}",
+                                          "復帰の確認: blactl wait -n uid:{}"};
 inline constexpr Text rom_differs_hint{
     "RAM had the right values, ROM did not take them: write and save them again; if that does not "
     "help, the ROM is faulty",
@@ -175,27 +278,33 @@ inline constexpr Text unconfirmed_not_back{
     "ノード {} は {} に応答せず、通信も途絶えました。実行されたかどうかは不明です",
 };
 inline constexpr Text not_back_hint{
-    "check its supply and cable, power it off and on, then: blactl scan",
-    "電源と配線を確認し、電源を入れ直してから blactl scan を実行してください",
+    "it was given {} s (--wait SEC gives it more); check its supply and cable, power it off and "
+    "on, "
+    "then: blactl wait -n uid:{}",
+    "{} 秒待ちました (--wait SEC で延長できます)。電源と配線を確認し、電源を入れ直してから "
+    "blactl wait -n uid:{} を実行して下さい",
 };
 inline constexpr Text waits_for_id_hint{
     "it asks for a node ID and nobody gives it one: is another allocator stopped? then power it "
     "off "
     "and on",
-    "ノード ID "
-    "の割当てを要求していますが、割当てるノードがありません。割当て元を確認し、電源を入れ直してくだ"
-    "さい",
+    "ノード ID の割当てを要求していますが、割り当てるノードがありません。"
+    "割当て元を確認し、電源を入れ直して下さい",
 };
 inline constexpr Text unchanged_no_more{
     "node {} restarted: {} may have another value now",
     "ノード {} が再起動したため、{} の値が変わっている可能性があります",
+};
+inline constexpr Text erased_no_more{
+    "node {} restarted: what ERASE had reset may be back",
+    "ノード {} が再起動したため、初期値に戻した設定が元に戻っている可能性があります",
 };
 inline constexpr Text restarted_before_write{
     "node {} restarted after it was read: nothing was written",
     "ノード {} が読出し後に再起動したため、書き込んでいません",
 };
 inline constexpr Text run_again_hint{"run the command again",
-                                     "同じコマンドをもう一度実行してください"};
+                                     "同じコマンドをもう一度実行して下さい"};
 inline constexpr Text node_id_is_ours{"static_node_id={} is the node ID of this process",
                                       "static_node_id={} はこのプロセスのノード ID です"};
 inline constexpr Text bad_target{"-n {}: not a node ID, range or selector",
@@ -204,5 +313,93 @@ inline constexpr Text bad_target_hint{
     "for example -n 12, -n 10-14,20, -n all, -n serial:240900558, -n model:BLA21-12U",
     "例: -n 12, -n 10-14,20, -n all, -n serial:240900558, -n model:BLA21-12U",
 };
+
+inline constexpr Text bad_target_id{"-n {}: node IDs are 1 to 127",
+                                    "-n {}: ノード ID は 1 ～ 127 です"};
+inline constexpr Text bad_target_id_hint{"see who is there: blactl scan",
+                                         "接続中のノードを確認: blactl scan"};
+inline constexpr Text bad_target_range{"-n {}: the range goes downwards",
+                                       "-n {}: 範囲の前後が逆です"};
+inline constexpr Text bad_target_range_hint{"type -n {}-{}", "-n {}-{} と入力して下さい"};
+inline constexpr Text ambiguous_target{"-n {}: several servos have a unique ID that begins so: {}",
+                                       "-n {}: 固有 ID が該当するサーボが複数あります: {}"};
+inline constexpr Text ambiguous_target_hint{"type more of its digits",
+                                            "固有 ID の桁を増やして下さい"};
+
+inline constexpr Text several_servos{"several servos are on the bus: {}",
+                                     "バス上に複数のサーボがあります: {}"};
+inline constexpr Text several_servos_hint{"say which: -n {}", "-n {} のように指定して下さい"};
+inline constexpr Text lost_while_listening{
+    "frames were lost while listening: who drives or is armed is not known",
+    "受信中にフレームを失ったため、動作指令や ARM 状態を確認できません",
+};
+inline constexpr Text one_id_for_several{
+    "one static node ID for {} servos: they would collide after a restart",
+    "{} 台のサーボに同じ固定ノード ID を設定すると再起動後に重複します",
+};
+inline constexpr Text one_id_for_several_hint{"give each its own: -n {}",
+                                              "一台ずつ設定して下さい: -n {}"};
+inline constexpr Text not_written{"{} frames of a write may still be in the queue of {}: "
+                                  "what they change is not known",
+                                  "書込みの {} フレームが {} の送信キューに残っている可能性があり、"
+                                  "変更結果は不明です"};
+inline constexpr Text question_may_move{
+    "This can move the shaft or let go of the load:\n",
+    "出力軸が動く、または負荷を保持できなくなる可能性があります:\n"};
+inline constexpr Text question_change{"  node {}: {} {} -> {}\n", "  ノード {}: {} {} -> {}\n"};
+inline constexpr Text unknown_before{"?", "?"};
+inline constexpr Text doubled_servo_id_hint{
+    "give one of them another: blactl set -n {} servo_id=ID",
+    "一方に別の ID を設定して下さい: blactl set -n {} servo_id=ID"};
+inline constexpr Text warn_stall{
+    "firmware {} may stall at low speed; 1.400 mends it",
+    "ファームウェア {} は低速動作時に停止することがあります (1.400 で修正)",
+};
+inline constexpr Text warn_unknown_model{"no profile fits: it can only be read",
+                                         "該当するプロファイルが無いため読出しのみ可能です"};
+inline constexpr Text warn_uncertain_model{
+    "hardware version {} is not in table 3-12: model by its leading digits only",
+    "ハードウェアバージョン {} は表 3-12 にありません。機種は先頭の桁のみで判定しました",
+};
+inline constexpr Text warn_static_id_differs{"will come back as node {} after a restart",
+                                             "再起動後はノード {} になります"};
+inline constexpr Text warn_health{"health: {} (see 0x1A, 0x1B)",
+                                  "健康状態: {} (0x1A, 0x1B を参照)"};
+inline constexpr Text only_readable{"the model is not known: it can only be read",
+                                    "機種が不明のため読出しのみ可能です"};
+inline constexpr Text question_restart_soft{
+    "node {}: torque is on: its output drops, then the shaft runs slowly to 0 deg\n",
+    "ノード {}: トルク ON のため、出力が一旦 OFF になり、ソフトスタートで 0° へ動きます\n",
+};
+inline constexpr Text question_restart_hard{
+    "node {}: torque is on: its output drops, then returns where the shaft is\n",
+    "ノード {}: トルク ON のため、出力が一旦 OFF になり、その位置で再び ON になります\n",
+};
+inline constexpr Text question_erase{
+    "node {}: everything to factory defaults, servo_id {} -> 0, static_node_id {} -> 0; "
+    "commands become 0 deg\n",
+    "ノード {}: 全ての設定を初期値に戻します。servo_id {} -> 0, static_node_id {} -> 0。"
+    "指令値は 0° になります\n",
+};
+inline constexpr Text question_erase_keep{
+    "node {}: everything but its IDs to factory defaults; commands become 0 deg\n",
+    "ノード {}: ID 以外の設定を初期値に戻します。指令値は 0° になります\n",
+};
+inline constexpr Text wait_not_operational{"node {} was heard but not operational after {} s",
+                                           "ノード {} は {} 秒待っても動作状態になりません"};
+inline constexpr Text wait_not_heard{"node {} was not heard within {} s",
+                                     "ノード {} は {} 秒以内に見つかりません"};
+
+inline constexpr Text write_only{"{} can only be written", "{} は書込み専用です"};
+inline constexpr Text write_only_hint{"it is a command of the servo, not a value",
+                                      "値ではなくサーボへの命令です"};
+inline constexpr Text firmware_lacks{"{} needs firmware {} or later, this servo has {}",
+                                     "{} にはファームウェア {} 以降が必要です (現在 {})"};
+inline constexpr Text firmware_lacks_hint{"read what it has: blactl get -n {}",
+                                          "読み出せるパラメータ: blactl get -n {}"};
+inline constexpr Text and_more{"{} and {} more", "{} 他 {} 件"};
+inline constexpr Text unknown_group{"there is no group '{}'", "グループ '{}' はありません"};
+inline constexpr Text or_a_group{" (all of a group: --group {})", " (グループ全体: --group {})"};
+inline constexpr Text known_groups{"the groups are {}", "グループ: {}"};
 
 } // namespace blactl::texts

@@ -1,64 +1,65 @@
 #pragma once
 // Writes registers of one identified servo and proves each by its answer and by reading it again.
 
-#include "blactl/bla/parameter.hpp"
 #include "blactl/dronecan/node.hpp"
+#include "blactl/fleet/change.hpp"
 #include "blactl/fleet/registers.hpp"
 #include "blactl/fleet/roster.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <string_view>
 #include <vector>
 
 namespace blactl::fleet {
 
-/// The words of the contract, section 5, `set`.
-enum class ChangeStatus : std::uint8_t { planned, unchanged, written, failed, mismatch };
-[[nodiscard]] std::string_view name(ChangeStatus status);
-
-/// One register from what to what; register numbers.
-struct Change {
-  const bla::Parameter* parameter = nullptr;
-  std::int64_t requested = 0;
-  std::optional<std::int64_t> before{}, after{};
-  ChangeStatus status = ChangeStatus::planned;
-  std::optional<Error> error{};
-};
-
 /// Sends the planned changes in order; those that hold the value already are `unchanged` before.
 /// An answer may show a clamped or refused value (requirement 73), so the register is read again
-/// after each write. If the servo restarted since it was identified, its unique ID is asked again
-/// before the next write, and what was written before is written again: it was in RAM only.
-class WriteJob : public dronecan::Job {
+/// after each write. In the end, and before a refusal is believed, the servo is asked who it is and
+/// how long it has run. What was written before a restart is written again: it was in RAM only.
+/// Where nothing proves that there was none, all values are read once more.
+class WriteJob final : public dronecan::Job {
  public:
-  /// `member` has been identified; all references outlive the job.
-  WriteJob(Member& member, std::vector<Change> changes, Patience patience);
+  /// `roster` outlives the job.
+  WriteJob(const Roster& roster, Servo servo, std::vector<Change> changes, Patience patience);
 
   [[nodiscard]] dronecan::Step next(const dronecan::Outcome& outcome) override;
 
-  [[nodiscard]] const Member& member() const { return member_; }
-
   [[nodiscard]] const std::vector<Change>& changes() const { return changes_; }
 
+  /// The servo as it was recognised last.
+  [[nodiscard]] const Servo& servo() const { return servo_; }
+
  private:
-  enum class Step : std::uint8_t { begin, unique_id, write, read };
+  enum class At : std::uint8_t { begin, unit, write, read, recheck, twin };
 
-  [[nodiscard]] std::optional<dronecan::Request> go_on();
-  [[nodiscard]] std::optional<dronecan::Request> read_back();
-  void begin_again();
-  void doubt_unchanged();
-  [[nodiscard]] bool same_servo(const dronecan::Outcome& outcome);
-  void judge(const dronecan::Outcome& outcome);
-  void give_up(Error error);
+  [[nodiscard]] dronecan::Step go_on();
+  [[nodiscard]] dronecan::Step ask_unit();
+  [[nodiscard]] dronecan::Step judge_unit(const dronecan::Outcome& outcome);
+  [[nodiscard]] dronecan::Step after_write(const dronecan::Outcome& outcome);
+  [[nodiscard]] dronecan::Step after_read(const dronecan::Outcome& outcome);
+  [[nodiscard]] dronecan::Step recheck_from(std::size_t first, Time now);
+  [[nodiscard]] dronecan::Step after_recheck(const dronecan::Outcome& outcome);
+  [[nodiscard]] dronecan::Step hear_twin(Time now);
+  [[nodiscard]] dronecan::Step after_twin();
+  [[nodiscard]] dronecan::Step write_again(Time now);
+  [[nodiscard]] bool doubt_unchanged();
+  void judge();
+  [[nodiscard]] std::size_t unproven() const;
+  [[nodiscard]] dronecan::Step give_up(std::size_t blamed, Error error);
 
-  Member& member_;
+  [[nodiscard]] std::uint32_t boots() const { return roster_.member(servo_.id).boots; }
+
+  const Roster& roster_;
+  Servo servo_;
   std::vector<Change> changes_;
   Patience patience_;
-  Step step_ = Step::begin;
-  std::size_t at_ = 0;
-  std::uint32_t boot_;
-  int restarts_ = 0; ///< seen while writing
+  At at_ = At::begin;
+  std::size_t current_ = 0;  ///< the change that is being made or looked at
+  bool has_written_ = false; ///< a write has left, or may have
+  bool is_lost_ = false;     ///< no answer to the write of this change
+  bool is_doubtful_ = false; ///< the register does not hold what was written
+  int restarts_ = 0;         ///< seen or suspected while writing
 };
 
 } // namespace blactl::fleet

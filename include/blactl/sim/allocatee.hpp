@@ -13,7 +13,8 @@ namespace blactl::sim {
 
 /// Sends its unique ID in three parts; each goes out only after the allocator has repeated all
 /// that came before. Any other Allocation message on the bus makes it start over (DSDL rule C;
-/// unproven: the specification only says that a wrong answer does).
+/// unproven: the specification only says that a wrong answer does). An answer that it has had
+/// already is none of these: two allocators that answer alike both help it.
 class Allocatee {
  public:
   Allocatee(const dronecan::UniqueId& unique_id, std::uint64_t seed, Time now);
@@ -29,13 +30,15 @@ class Allocatee {
                                                         bool anonymous, Time now);
 
  private:
-  [[nodiscard]] bool confirms(const dronecan::Allocation& message) const;
+  [[nodiscard]] bool begins_with(const dronecan::Allocation& message) const;
+  [[nodiscard]] bool repeats(const dronecan::Allocation& message) const;
   [[nodiscard]] Duration request_period();
 
   dronecan::UniqueId unique_id_;
   Random random_;
   std::uint8_t sent_ = 0;      ///< bytes of the unique ID sent in this exchange: 0, 6, 12, 16
-  std::uint8_t confirmed_ = 0; ///< of these, repeated by the allocator: 0, 6, 12
+  std::uint8_t confirmed_ = 0; ///< repeated by the allocator, the next part is due: 0, 6, 12
+  std::uint8_t answered_ = 0;  ///< repeated by the allocator in this exchange: 0, 6, 12
   Time due_;
 };
 

@@ -17,6 +17,10 @@ class AngleFrame {
     origin_decideg_ = origin_decideg;
   }
 
+  /// Requirement 183: as set(), while it runs. With 0x44 the seam moves at once: an angle of
+  /// -180.0 to +179.9 deg stays one. intentional: more turns than that stay, 4.36 has none.
+  void change(bool reversed, std::int64_t origin_decideg, const Shaft& shaft);
+
   /// Requirement 46: the angle of the shaft comes back to -180.0 to +179.9 deg.
   void wrap(const Shaft& shaft);
 

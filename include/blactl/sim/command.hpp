@@ -3,7 +3,7 @@
 
 #include "blactl/bla/parameter.hpp"
 #include "blactl/dronecan/types.hpp"
-#include "blactl/sim/scenario.hpp"
+#include "blactl/sim/behaviour.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -18,9 +18,10 @@ struct MotionCommand {
   friend bool operator==(const MotionCommand&, const MotionCommand&) = default;
 };
 
-/// Empty: an unknown type, or no number (requirements 104, 107).
+/// Empty: an unknown type, no number, or UNITLESS beyond 1 (requirements 104, 107; the last two if
+/// the servo is set so).
 [[nodiscard]] std::optional<MotionCommand>
-motion_command(const dronecan::ArrayCommand::Command& command, NotANumber not_a_number);
+motion_command(const dronecan::ArrayCommand::Command& command, const Behaviour& behaviour);
 
 /// Requirements 98, 99: whether a command is for the servo with this 0x45.
 [[nodiscard]] bool addresses(const dronecan::ArrayCommand::Command& command, std::int64_t servo_id);

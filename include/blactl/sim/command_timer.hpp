@@ -19,14 +19,14 @@ class CommandTimer {
 
   void commanded(Time at) { last_ = at; }
 
-  /// By CAN; `feeds`: it also counts for the timeout.
-  void commanded_by_can(Time at, bool feeds) {
-    last_can_ = at;
+  /// By CAN. `feeds`: it also counts for the timeout; `silences_pwm`: PWM waits from here.
+  void commanded_by_can(Time at, bool feeds, bool silences_pwm = true) {
+    last_can_ = silences_pwm ? std::optional(at) : last_can_;
     last_ = feeds ? at : last_;
   }
 
-  /// Requirement 145: longer than `limit` without a command.
-  [[nodiscard]] bool timed_out(Time at, Duration limit) const { return at - last_ > limit; }
+  /// Requirement 145: `limit` or longer without a command.
+  [[nodiscard]] bool timed_out(Time at, Duration limit) const { return at - last_ >= limit; }
 
   /// Requirements 156, 157.
   [[nodiscard]] bool accepts_pwm(Time at, Duration limit) const {
@@ -36,7 +36,7 @@ class CommandTimer {
   /// When one of the two answers changes by time alone.
   [[nodiscard]] Time next_change(Time at, Duration limit) const {
     const Time pwm = accepts_pwm(at, limit) ? never : *last_can_ + limit;
-    return timed_out(at, limit) ? pwm : std::min(pwm, last_ + limit + Duration(1));
+    return timed_out(at, limit) ? pwm : std::min(pwm, last_ + limit);
   }
 
  private:

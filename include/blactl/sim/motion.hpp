@@ -60,11 +60,16 @@ class Motion {
   void forget_turns();
   void measure();
   bool protect();
+
+  // What a command does (motion_command.cpp).
   void obey(bla::Address address, std::int64_t before);
   void give_up_command();
+  void start_in_place();
+  void limit_command();
+  void drop_disabled_command();
+  [[nodiscard]] bool silences_pwm(bla::Address address) const;
   void end_soft_start();
   [[nodiscard]] std::optional<std::int64_t> told_instead(bla::Address address) const;
-  [[nodiscard]] std::optional<std::int64_t> soft_start_limit(bla::Address address) const;
 
   // One millisecond (motion_step.cpp).
   bool step();
@@ -73,6 +78,8 @@ class Motion {
   [[nodiscard]] Drive::Kind output() const;
   [[nodiscard]] Mode mode() const;
   [[nodiscard]] Aim aim() const;
+  [[nodiscard]] std::int64_t inside_limits(std::int64_t decideg) const;
+  void heed_soft_start(Drive::Kind kind);
   [[nodiscard]] Duration timeout() const;
 
   [[nodiscard]] Position position() const { return frame_.position(shaft_); }
@@ -101,6 +108,7 @@ class Motion {
   bool stopped_ = false; ///< by its protection
   bool holds_ = false;   ///< 0x00, inside its angle limits or not, until the next command
   bool soft_start_ = false;
+  bool soft_start_cut_ = false; ///< by a timeout; it goes on with the next command
 };
 
 } // namespace blactl::sim

@@ -15,6 +15,8 @@ struct Motor {
   std::int64_t full_speed = 0;   ///< requirement 123
   std::int64_t full_current = 0; ///< the default of 0x2A, which is 100 %; 0: there is no 0x2A
   bool has_boost = false;        ///< 0x2F
+  // The defaults of 0x30, 0x31 and 0x33: what speed control is made for.
+  std::int64_t usual_speed_p = 1, usual_speed_i = 1, usual_integral_limit = 1;
 };
 
 [[nodiscard]] Motor motor_of(const ServoSetup& setup);

@@ -30,6 +30,12 @@ class Registers {
   /// Whether write() takes a value, be it as the nearest in range: else it changes nothing.
   [[nodiscard]] bool takes(bla::Address address, std::int64_t value) const;
 
+  /// 0x25, or what a firmware without it does (Behaviour::speed_control_before_1100).
+  [[nodiscard]] bool controls_speed() const;
+
+  /// Requirement 180: from now on commands are taken as if 0x25 were on; what it holds stays.
+  void act_with_speed_control(bool act) { acts_with_speed_control_ = act; }
+
   /// One of 0x00-0x02 gets a value, or the nearest in range; the others become not active
   /// (requirement 114).
   void command(bla::Address address, std::int64_t value);
@@ -55,6 +61,7 @@ class Registers {
 
  private:
   [[nodiscard]] bool disabled_command(bla::Address address) const;
+  [[nodiscard]] bool fails(const bla::Parameter& parameter, std::int64_t value) const;
   void power_on(const ServoSetup& setup);
   void store(bla::Address address, std::int64_t value);
 
@@ -63,6 +70,7 @@ class Registers {
   const bla::Profile* profile_;
   std::int64_t firmware_version_;
   Behaviour behaviour_;
+  bool acts_with_speed_control_ = false;
   std::array<std::int64_t, count> values_{};
   std::array<std::int64_t, count> rom_{}; ///< only of the saved registers
 };

@@ -11,7 +11,9 @@
 #include "blactl/sim/motion.hpp"
 #include "blactl/sim/random.hpp"
 #include "blactl/sim/registers.hpp"
+#include "blactl/sim/request_counter.hpp"
 #include "blactl/sim/scenario.hpp"
+#include "blactl/sim/timeline.hpp"
 
 #include <cstdint>
 #include <deque>
@@ -50,6 +52,9 @@ class Servo final : public Device {
   /// It restarts by itself and says why until its next start.
   void upset(Upset cause, Time now);
 
+  /// As an event of a scenario has it.
+  void suffer(Mishap mishap, Time now);
+
   /// Brings the readings in registers() up to `now`.
   void look(Time now) { motion_.look(now); }
 
@@ -76,10 +81,12 @@ class Servo final : public Device {
   /// What there are three ways to demand: ExecuteOpcode, RestartNode, 1 written to 0x10-0x12.
   enum class Order : std::uint8_t { save, erase, restart };
 
-  /// An order that ends the run, when its answer has gone out.
+  /// What ends the run, when an answer has gone out: an order, or a fault.
   struct Departure {
+    enum class Kind : std::uint8_t { restart, save, fault };
+
     Time at;
-    bool saves = false;
+    Kind kind = Kind::restart;
   };
 
   struct Answer {
@@ -105,6 +112,7 @@ class Servo final : public Device {
   void handle(const dronecan::Transfer& transfer);
   void hear_allocation(const dronecan::Transfer& transfer);
   void hear_commands(const dronecan::Transfer& transfer);
+  void serve(const dronecan::Transfer& request);
   void serve_node_info(const dronecan::Transfer& request);
   void serve_get_set(const dronecan::Transfer& request);
   void serve_opcode(const dronecan::Transfer& request);
@@ -131,10 +139,12 @@ class Servo final : public Device {
   Endpoint endpoint_;
   EventSink tell_;
   std::optional<Allocatee> allocatee_; ///< while it asks for a node ID
-  std::optional<Departure> departure_; ///< from an order on that ends the run
+  std::optional<Departure> departure_; ///< from a request on that ends the run
   std::uint32_t rom_writes_ = 0;
   std::uint32_t requests_ = 0; ///< of services, since power-on
-  bool rom_is_torn_ = false;   ///< power was lost while it was written
+  RequestCounter counter_;
+  bool assigned_now_ = false; ///< no NodeStatus since an allocator gave it an ID
+  bool rom_is_torn_ = false;  ///< power was lost while it was written
   Phase phase_ = Phase::boot;
   Time wake_;    ///< the end of a phase other than `run`
   Time now_;     ///< of the present receive() or advance()

@@ -25,6 +25,9 @@ struct Devices {
 
   /// What surrounds the servos of this serial number changes. False: there is none.
   bool change(std::int64_t serial_number, std::span<const WorldChange> changes, Time now) const;
+
+  /// What an event does to servos.
+  void happen(const TimedEvent& event, Time now) const;
 };
 
 /// The devices of a scenario, just powered on; each is yet to be connected.

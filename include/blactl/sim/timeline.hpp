@@ -4,10 +4,12 @@
 #include "blactl/base/time.hpp"
 #include "blactl/sim/world_change.hpp"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace blactl::sim {
@@ -22,10 +24,29 @@ enum class ClientLink : std::uint8_t {
 /// "joined", "cut", "bus_off"; empty: none of them.
 [[nodiscard]] std::optional<ClientLink> parse_client_link(std::string_view word);
 
+/// What befalls a servo beside what is around it.
+enum class Mishap : std::uint8_t {
+  power_off,      ///< it is dead, RAM is lost; the same as plugged=off
+  power_on,       ///< it starts from ROM
+  clock_error,    ///< it restarts by itself and says why (4.12, note 2): 0x1B.8
+  watchdog_error, ///< the same: 0x1B.9
+  ram_error,      ///< the same: 0x1B.11
+};
+
+/// Each with its word: "power_off", "power_on", "clock_error", "watchdog_error", "ram_error".
+inline constexpr std::array mishaps{
+    std::pair{std::string_view("power_off"), Mishap::power_off},
+    std::pair{std::string_view("power_on"), Mishap::power_on},
+    std::pair{std::string_view("clock_error"), Mishap::clock_error},
+    std::pair{std::string_view("watchdog_error"), Mishap::watchdog_error},
+    std::pair{std::string_view("ram_error"), Mishap::ram_error},
+};
+
 struct TimedEvent {
   Duration at{};                      ///< after power-on
   std::int64_t serial_number = 0;     ///< of the servos that it happens to; 0: to the clients
   std::vector<WorldChange> changes{}; ///< around those servos
+  std::optional<Mishap> mishap{};     ///< of those servos, after the changes
   ClientLink clients = ClientLink::joined;
 };
 

@@ -5,29 +5,44 @@
 #include "blactl/dronecan/transfer_ids.hpp"
 #include "blactl/state/lock_file.hpp"
 
+#include <array>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace blactl::state {
+
+/// The IDs that are reserved for tools (specification 5), in the order in which they are tried.
+inline constexpr std::array tool_ids{dronecan::NodeId(127), dronecan::NodeId(126)};
+
+/// Whether a tool may begin to use it without having listened whether it is free.
+[[nodiscard]] constexpr bool is_tool_id(dronecan::NodeId id) {
+  return id == tool_ids.front() || id == tool_ids.back();
+}
 
 /// A node ID that no other blactl of this machine uses on the same interface, and the transfer IDs
 /// that went out under it. An ID is never shared: one process's read inside another's three-frame
 /// write would break the write.
 ///
-/// The lock file `<interface>.<id>` keeps the transfer IDs, so that the next process goes on where
-/// this one stopped.
+/// Its lock file keeps the transfer IDs, so that the next process goes on where this one stopped.
 class LocalNodeId {
  public:
-  /// Takes `wanted`, or the first free of 127 and 126 (reserved for tools, specification 5).
+  using Candidates = std::vector<dronecan::NodeId>;
+
+  /// Takes the first of the candidates that no process holds, rather one that no other node was
+  /// heard to have; without candidates the tool_ids are.
   /// Errors: no_local_node_id, naming the processes that hold them.
-  [[nodiscard]] static Result<LocalNodeId>
-  acquire(std::string_view interface, std::optional<dronecan::NodeId> wanted,
-          const std::string& shared = LockFile::shared_folder);
+  [[nodiscard]] static Result<LocalNodeId> acquire(LockPlace place, Candidates candidates);
 
   /// For a bus that no other process can reach: no lock, counters from 0.
-  [[nodiscard]] static LocalNodeId unshared(std::optional<dronecan::NodeId> wanted);
+  [[nodiscard]] static LocalNodeId unshared(Candidates candidates);
+
+  /// Another node of the bus has this ID: takes the next candidate in its place, and lets later
+  /// processes know. Errors: duplicate_node_id if there is none, no_local_node_id; then it stays
+  /// what it was.
+  [[nodiscard]] Result<void> give_way(std::string_view interface);
 
   LocalNodeId(const LocalNodeId&) = delete;
   LocalNodeId& operator=(const LocalNodeId&) = delete;
@@ -38,9 +53,21 @@ class LocalNodeId {
   [[nodiscard]] dronecan::NodeId id() const;
   [[nodiscard]] dronecan::TransferIds& transfer_ids();
 
+  /// Why the other candidates were not to be had, for a person; empty: they were not tried.
+  [[nodiscard]] std::string passed_over() const;
+
+  /// The path of its lock file; empty: there is none.
+  [[nodiscard]] std::string lock_file() const;
+
  private:
   struct State;
-  explicit LocalNodeId(std::unique_ptr<State> state);
+  LocalNodeId(LockPlace place, Candidates candidates);
+  [[nodiscard]] Result<void> take_one();
+
+  LockPlace place_;
+  Candidates candidates_;
+  /// What stands in the way of an ID, for a person.
+  std::vector<std::pair<dronecan::NodeId, std::string>> obstacles_;
   std::unique_ptr<State> state_;
 };
 

@@ -6,8 +6,18 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace blactl::state {
+
+/// Where the lock files of an interface lie, and how they begin.
+struct LockPlace {
+  std::string interface{}; ///< as people name it; empty: no other process can reach it
+  /// What tells it from a namesake: "can0" of another network namespace is another interface.
+  /// Empty: the name is enough.
+  std::string network{};
+  std::string folder = "/run/lock/blactl"; ///< where all users meet, if it can be used
+};
 
 /// Why a lock file cannot be had.
 struct LockRefusal {
@@ -16,23 +26,22 @@ struct LockRefusal {
   int error = 0;                     ///< errno; 0: another process holds it
 };
 
-/// A locked file `<interface>.<suffix>` that names this process. It lies in the folder for all
-/// users, else in $XDG_RUNTIME_DIR/blactl, else in the state folder; the kernel releases the lock
-/// when the process dies. Behind its header lies
-/// what the holder before left; nothing, if that was no process of this tool.
+/// A locked file `<interface><network>.<suffix>` that names this process. It lies in the folder for
+/// all users, else in $XDG_RUNTIME_DIR/blactl, else in the state folder; the kernel releases the
+/// lock when the process dies. Behind its header lies what the holder before left; nothing, if that
+/// was no process of this tool.
 class LockFile {
  public:
-  /// Where all users of a machine meet.
-  static constexpr const char* shared_folder = "/run/lock/blactl";
-
   /// Where the holder's data begins.
   static constexpr long data_offset = 16;
 
-  /// The folder for lock files; empty: nothing can be written anywhere.
-  [[nodiscard]] static std::string folder(const std::string& shared = shared_folder);
+  /// The folder for lock files; empty: nothing can be written anywhere. One that cannot be used
+  /// (of another user, no folder, too long a name, read-only) is passed over, whatever names it.
+  [[nodiscard]] static std::string folder(const LockPlace& place);
 
+  /// `folder`: what folder() said.
   [[nodiscard]] static std::expected<LockFile, LockRefusal>
-  take(const std::string& folder, std::string_view interface, std::string_view suffix);
+  take(const std::string& folder, const LockPlace& place, std::string_view suffix);
 
   LockFile(const LockFile&) = delete;
   LockFile& operator=(const LockFile&) = delete;
@@ -42,10 +51,13 @@ class LockFile {
 
   [[nodiscard]] int descriptor() const { return descriptor_; }
 
+  [[nodiscard]] const std::string& path() const { return path_; }
+
  private:
-  explicit LockFile(int descriptor) : descriptor_(descriptor) {}
+  LockFile(int descriptor, std::string path) : descriptor_(descriptor), path_(std::move(path)) {}
 
   int descriptor_;
+  std::string path_;
 };
 
 } // namespace blactl::state

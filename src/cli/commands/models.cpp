@@ -1,5 +1,6 @@
 // blactl models: the profiles as an offline reference.
 
+#include "blactl/bla/assignment.hpp"
 #include "blactl/bla/value.hpp"
 
 #include "cli/commands.hpp"
@@ -12,6 +13,23 @@
 
 namespace blactl::cli {
 namespace {
+
+struct ModelsOptions {
+  std::string model{};
+  std::string parameter{};
+};
+
+constexpr Option argument_table[]{
+    {.name = "MODEL",
+     .kind = Kind::model,
+     .help = {"a model or its beginning: BLA21-12U; all: every model",
+              "機種名またはその先頭部分: BLA21-12U (all: 全機種)"},
+     .store = into<&ModelsOptions::model>},
+    {.name = "PARAM",
+     .kind = Kind::parameter,
+     .help = {"one parameter: a name or an address", "パラメータ 1 個 (名前またはアドレス)"},
+     .store = into<&ModelsOptions::parameter>},
+};
 
 using bla::Parameter;
 using bla::Profile;
@@ -73,14 +91,36 @@ void write_fault_bit(JsonWriter& json, const bla::FaultBit& bit) {
   json.member("bit", bit.bit);
   json.member("level", bla::name(bit.level));
   json.member("group", bit.group);
-  json.member("code", bit.code);
+  json.key("code");
+  bit.code.empty() ? json.value(nullptr) : json.value(bit.code);
   json.member("pwm_only", bit.pwm_only);
+  json.member("latched", bit.latched);
+  json.member("vendor_only", bit.vendor_only);
   json.member("text_en", bit.text_en);
   json.member("text_ja", bit.text_ja);
   json.member("condition_en", bit.condition_en);
   json.member("condition_ja", bit.condition_ja);
   json.member("action_en", bit.action_en);
   json.member("action_ja", bit.action_ja);
+  json.end_object();
+}
+
+void write_release(JsonWriter& json, const bla::FirmwareRelease& release) {
+  json.begin_object();
+  json.member("version", release.version);
+  json.key("shipments");
+  json.begin_array();
+  for (const bla::FirmwareRelease::Shipment& shipment : release.shipments) {
+    json.begin_object();
+    json.member("models", shipment.models);
+    json.member("from", shipment.from);
+    json.key("until");
+    shipment.until.empty() ? json.value(nullptr) : json.value(shipment.until);
+    json.end_object();
+  }
+  json.end_array();
+  json.member("changes_en", release.changes_en);
+  json.member("changes_ja", release.changes_ja);
   json.end_object();
 }
 
@@ -94,65 +134,114 @@ void write_json(JsonWriter& json, const bla::Profiles& profiles,
   json.end_array();
   json.key("fault_bits");
   json.begin_array();
-  for (const bla::FaultBit& bit : profiles.fault_bits()) {
-    write_fault_bit(json, bit);
+  for (const auto& bits : {profiles.summary_bits(), profiles.fault_bits()}) {
+    for (const bla::FaultBit& bit : bits) {
+      write_fault_bit(json, bit);
+    }
+  }
+  json.end_array();
+  json.key("firmware");
+  json.begin_array();
+  for (const bla::FirmwareRelease& release : profiles.firmware()) {
+    write_release(json, release);
   }
   json.end_array();
 }
 
-std::string list_text(const std::vector<const Profile*>& models) {
+std::string pwm_text(const Profile& profile) {
+  return profile.pwm ? say<texts::models_pwm>() : say<texts::models_no_pwm>();
+}
+
+std::string list_text(const std::vector<const Profile*>& models, const Page& page) {
   Table table(
       {say<texts::column_model>(), say<texts::column_voltage>(), say<texts::column_numbers>(), ""});
   for (const Profile* profile : models) {
     table.add({profile->model, profile->voltage_class,
                fmt::format("{} / {}", profile->model_number, profile->hardware_version),
-               profile->pwm ? say<texts::models_pwm>() : say<texts::models_no_pwm>()});
+               pwm_text(*profile)});
   }
-  return table.text();
+  return table.text("", page);
 }
 
-std::string range_text(const Parameter& parameter) {
+std::string words_text(const Parameter& parameter) {
+  std::string words;
+  for (const bla::Choice& choice : parameter.choices) {
+    if (choice.raw >= *parameter.min && choice.raw <= *parameter.max) {
+      words += words.empty() ? "" : ", ";
+      words += choice.word;
+    }
+  }
+  return words;
+}
+
+/// What this model takes; why it takes nothing.
+std::string range_text(const Parameter& parameter, const Profile& profile) {
+  if (parameter.writable() && !profile.takes(parameter)) {
+    return pwm_text(profile);
+  }
   if (!parameter.min || !parameter.max) {
     return {};
   }
-  if (!parameter.choices.empty()) {
-    std::string words;
-    for (const bla::Choice& choice : parameter.choices) {
-      if (choice.raw >= *parameter.min && choice.raw <= *parameter.max) {
-        words += words.empty() ? "" : ", ";
-        words += choice.word;
-      }
-    }
-    return words;
-  }
-  return say<texts::range_text>(bla::value_text(parameter, *parameter.min),
-                                bla::display(parameter, *parameter.max));
+  return parameter.choices.empty()
+             ? say<texts::range_text>(bla::value_text(parameter, *parameter.min),
+                                      bla::display(parameter, *parameter.max))
+             : words_text(parameter);
 }
 
-std::string default_text(const Parameter& parameter) {
+std::string default_text(const Parameter& parameter, const Profile& profile) {
+  if (parameter.writable() && !profile.takes(parameter)) {
+    return "-";
+  }
   return parameter.default_raw ? bla::display(parameter, *parameter.default_raw) : std::string();
 }
 
-std::string model_text(const Profile& profile) {
+/// When this model was shipped with a release: "2021-10 .. 2022-04", "2024-06 ..".
+std::string shipped_text(const bla::FirmwareRelease& release, const Profile& profile) {
+  std::string times;
+  for (const bla::FirmwareRelease::Shipment& shipment : release.shipments) {
+    if (shipment.covers(profile.model)) {
+      times += times.empty() ? "" : ", ";
+      times += say<texts::range_text>(shipment.from, shipment.until);
+      times.erase(times.find_last_not_of(' ') + 1);
+    }
+  }
+  return times.empty() ? "-" : times;
+}
+
+/// What each firmware of this model brought (chapter 5).
+std::string history_text(const Profile& profile, const bla::Profiles& profiles, const Page& page) {
+  Table table(
+      {say<texts::column_firmware>(), say<texts::column_shipped>(), say<texts::column_changes>()});
+  for (const bla::FirmwareRelease* release : profiles.releases_of(profile)) {
+    table.add({version_text(release->version), shipped_text(*release, profile),
+               std::string(choose(release->changes_en, release->changes_ja))});
+  }
+  return table.text("  ", page);
+}
+
+std::string model_text(const Profile& profile, const bla::Profiles& profiles, const Page& page) {
   Table table({"", say<texts::column_parameter>(), say<texts::column_access>(),
                say<texts::column_default>(), say<texts::column_range>(),
                say<texts::column_meaning>()});
   for (const Parameter& parameter : profile.parameters) {
     table.add({parameter.address.name(), parameter.name, std::string(bla::name(parameter.access)),
-               default_text(parameter), range_text(parameter),
+               default_text(parameter, profile), range_text(parameter, profile),
                std::string(choose(parameter.name_en, parameter.name_ja))});
   }
-  const std::string pwm = profile.pwm ? say<texts::models_pwm>() : say<texts::models_no_pwm>();
-  return fmt::format("{}  {}\n{}", profile.model, pwm, table.text("  "));
+  return fmt::format("{}  {}\n{}\n{}", profile.model, pwm_text(profile), table.text("  ", page),
+                     history_text(profile, profiles, page));
 }
 
-/// One register: what it is, and its range by model.
-std::string parameter_text(const Parameter& general, const std::vector<const Profile*>& models) {
+/// What a register is, whatever the model.
+std::string description(const Parameter& general) {
   std::string out = fmt::format("{}  {}  {}\n", general.address.name(), general.name,
                                 choose(general.name_en, general.name_ja));
   const auto line = [&](const std::string& text) { out += "  " + text + "\n"; };
   line(fmt::format("{}, {}", bla::name(general.access),
                    general.saved ? say<texts::models_saved>() : say<texts::models_not_saved>()));
+  if (const auto unit = bla::name(general.unit); !unit.empty()) {
+    line(say<texts::models_unit>(unit, general.scale()));
+  }
   if (!general.vendor_label.empty()) {
     line(say<texts::models_vendor_label>(general.vendor_label));
   }
@@ -163,28 +252,73 @@ std::string parameter_text(const Parameter& general, const std::vector<const Pro
     line(fmt::format("{} ({}): {}", choice.word, choice.raw,
                      choose(choice.text_en, choice.text_ja)));
   }
+  if (const std::string remark = bla::remark(general); !remark.empty()) {
+    line(remark);
+  }
+  return out;
+}
+
+/// The bits of a register: what they are called, when they are set, what to do.
+std::string bits_text(std::span<const bla::FaultBit> bits, bla::Address address) {
+  std::string out;
+  for (const bla::FaultBit& bit : bits) {
+    if (bit.reg != address) {
+      continue;
+    }
+    out += "  " + say<texts::models_bit>(bit.bit, choose(bit.text_en, bit.text_ja));
+    out += bit.code.empty() ? "" : fmt::format(" [{}]", bit.code);
+    out += bit.latched ? ", " + say<texts::models_bit_latched>() : std::string();
+    out += bit.pwm_only ? ", " + say<texts::models_bit_pwm_only>() : std::string();
+    out += fmt::format("\n      {}\n      {}\n", choose(bit.condition_en, bit.condition_ja),
+                       choose(bit.action_en, bit.action_ja));
+  }
+  return out;
+}
+
+/// One register: what it is, its bits, and its range by model.
+std::string parameter_text(const Parameter& general, const std::vector<const Profile*>& models,
+                           const bla::Profiles& profiles, const Page& page) {
+  const std::string bits = bits_text(profiles.summary_bits(), general.address) +
+                           bits_text(profiles.fault_bits(), general.address);
+  if (!bits.empty()) { // they are the same for all models
+    return description(general) + bits;
+  }
   Table table(
       {say<texts::column_model>(), say<texts::column_default>(), say<texts::column_range>()});
   for (const Profile* profile : models) {
     if (const Parameter* parameter = profile->find(general.address)) {
-      table.add({profile->model, default_text(*parameter), range_text(*parameter)});
+      table.add(
+          {profile->model, default_text(*parameter, *profile), range_text(*parameter, *profile)});
     }
   }
-  return out + table.text("  ");
+  return description(general) + table.text("  ", page);
 }
 
-std::string text(const std::vector<const Profile*>& models, const Parameter* only, bool listed) {
-  if (only != nullptr) {
-    return parameter_text(*only, models);
+/// What is asked for.
+struct Asked {
+  std::vector<const Profile*> models;
+  const Parameter* only = nullptr; ///< null: all of their parameters
+  bool listed = false;             ///< just which models there are
+};
+
+std::string text(const Asked& asked, const bla::Profiles& profiles, const Page& page) {
+  if (asked.only != nullptr) {
+    return parameter_text(*asked.only, asked.models, profiles, page);
   }
-  if (listed) {
-    return list_text(models);
+  if (asked.listed) {
+    return list_text(asked.models, page);
   }
   std::string out;
-  for (const Profile* profile : models) {
-    out += (out.empty() ? "" : "\n") + model_text(*profile);
+  for (const Profile* profile : asked.models) {
+    out += (out.empty() ? "" : "\n") + model_text(*profile, profiles, page);
   }
   return out;
+}
+
+bool is_all(std::string_view word) {
+  return word.size() == 3 && std::ranges::equal(word, std::string_view("all"), [](char a, char b) {
+           return a == b || a == b - 'a' + 'A';
+         });
 }
 
 /// The models that the first argument means; all of them without one.
@@ -196,7 +330,7 @@ Result<std::vector<const Profile*>> choose_models(const std::string& word,
     models.push_back(&profile);
     known += (known.empty() ? "" : ", ") + profile.model;
   }
-  if (word.empty() || word == "all") {
+  if (word.empty() || is_all(word)) {
     return models;
   }
   auto chosen = profiles.matching(word);
@@ -206,8 +340,6 @@ Result<std::vector<const Profile*>> choose_models(const std::string& word,
   }
   return chosen;
 }
-
-} // namespace
 
 Report execute(const ModelsOptions& options, Context& context) {
   Report report;
@@ -220,24 +352,35 @@ Report execute(const ModelsOptions& options, Context& context) {
   const auto chosen = choose_models(options.model, profiles);
   if (!chosen) {
     report.fail(chosen.error());
-    return report;
   }
   const Parameter* only = nullptr;
   if (!options.parameter.empty()) {
-    const auto found = profiles.find(options.parameter);
-    if (!found) {
+    if (const auto found = profiles.find(options.parameter)) {
+      only = *found;
+    } else {
       report.fail(found.error());
-      return report;
     }
-    only = *found;
   }
-  const bool listed = options.model.empty();
-  report.counts = {{"models", chosen->size()}};
-  report.json = [&profiles, models = *chosen, only](JsonWriter& json) {
-    write_json(json, profiles, models, only);
+  if (!report.errors.empty()) {
+    return report;
+  }
+  const Asked asked{*chosen, only, options.model.empty()};
+  report.counts = {{"models", asked.models.size()}};
+  report.json = [&profiles, asked](JsonWriter& json) {
+    write_json(json, profiles, asked.models, asked.only);
   };
-  report.text = [models = *chosen, only, listed] { return text(models, only, listed); };
+  report.text = [&profiles, asked](const Page& page) { return text(asked, profiles, page); };
   return report;
 }
+
+} // namespace
+
+constinit const Command commands::models{
+    .name = "models",
+    .traits = {},
+    .help = {"what the profiles know, without any servo", "プロファイルの内容を表示 (サーボ不要)"},
+    .arguments = argument_table,
+    .action = action<execute>,
+};
 
 } // namespace blactl::cli

@@ -1,10 +1,13 @@
 // blactl scan: who is on the bus.
 
-#include "blactl/fleet/identification.hpp"
+#include "blactl/fleet/discovery.hpp"
+#include "blactl/fleet/findings.hpp"
 #include "blactl/fleet/texts.hpp"
+#include "blactl/fleet/ticker.hpp"
 
 #include "cli/commands.hpp"
-#include "cli/scan_findings.hpp"
+#include "cli/output/progress_view.hpp"
+#include "cli/output/scan_view.hpp"
 #include "cli/texts.hpp"
 
 #include <algorithm>
@@ -14,114 +17,91 @@
 namespace blactl::cli {
 namespace {
 
-using fleet::Member;
-
-/// IDs that are asked at a time, and how long for: 125 of them fit into the time of listening.
-constexpr int probes_at_a_time = 8;
-constexpr Duration probe_timeout = std::chrono::milliseconds(60);
-
-/// Listens and asks. The jobs refer to each other's roster and end with this object.
-class Search {
- public:
-  Search(Context& context, const bla::Profiles& profiles) : context_(context), profiles_(profiles) {
-    options_ = context.identification();
-    options_.static_node_id = true;
-  }
-
-  Result<void> run(Duration listen) {
-    fleet::Session& session = context_.session();
-    if (!context_.shared().listen_only) {
-      session.roster().on_new_unit([this](Member& member) { identify(member); });
-      for (int i = 0; i < probes_at_a_time; ++i) {
-        start(std::make_unique<fleet::ProbeJob>(session.roster(), cursor_, probe_timeout));
-      }
-    }
-    if (auto lived = session.live_until(session.now() + listen); !lived) {
-      return lived;
-    }
-    if (auto ran = session.run(); !ran) {
-      return ran;
-    }
-    for (auto& [id, member] : session.roster().members()) {
-      if (member.is_known() && member.is_servo) {
-        start(std::make_unique<fleet::DoubleCheckJob>(session.roster(), member, options_.patience));
-      }
-    }
-    return session.run();
-  }
-
-  /// The errors of the nodes that could not be identified, and how many nodes there are.
-  void conclude(Report& report) const {
-    for (const auto& job : identifications_) {
-      const auto& error = job->identification().error();
-      // Who was heard is all that a recording of others may hold: no failure of this command.
-      const bool failed = error && error->code != Code::not_recorded;
-      report.statuses.push_back(failed ? exit_status(error->code) : 0);
-      if (failed) {
-        report.fail(*error);
-      }
-    }
-  }
-
- private:
-  void identify(Member& member) {
-    identifications_.push_back(std::make_unique<fleet::IdentifyJob>(context_.session().roster(),
-                                                                    member, profiles_, options_));
-    context_.session().start(*identifications_.back());
-  }
-
-  void start(std::unique_ptr<dronecan::Job> job) {
-    jobs_.push_back(std::move(job));
-    context_.session().start(*jobs_.back());
-  }
-
-  Context& context_;
-  const bla::Profiles& profiles_;
-  fleet::Identification::Options options_;
-  std::uint8_t cursor_ = 0;
-  std::vector<std::unique_ptr<fleet::IdentifyJob>> identifications_;
-  std::vector<std::unique_ptr<dronecan::Job>> jobs_;
+struct ScanOptions {
+  Duration listen = std::chrono::milliseconds(1200);
+  std::optional<std::uint64_t> expect{};
 };
+
+constexpr Option option_table[]{
+    {.name = "--listen",
+     .value = "SEC",
+     .kind = Kind::seconds,
+     .seconds = {std::chrono::milliseconds(1), std::chrono::hours(1)},
+     .help = {"how long to listen (default 1.2)", "受信する時間 (省略時 1.2)"},
+     .store = into<&ScanOptions::listen>},
+    {.name = "--expect",
+     .value = "N",
+     .kind = Kind::whole,
+     .whole = {0, dronecan::NodeId::max},
+     .help = {"fail unless so many servos are found", "検出台数がこれより少なければ失敗とする"},
+     .store = into<&ScanOptions::expect>},
+};
+
+using fleet::Conflict;
+using fleet::Findings;
+
+bool is_listed(const Findings& findings, std::uint8_t id) {
+  return std::ranges::any_of(
+      findings.nodes, [&](const fleet::Finding& node) { return node.servo.id.value() == id; });
+}
+
+/// The errors of the nodes that could not be identified.
+void take_failures(const fleet::Discovery& discovery, const Findings& findings, Report& report) {
+  for (auto& error : discovery.identifications()) {
+    const bool is_meant = !error || !error->node_id || is_listed(findings, *error->node_id);
+    if (!is_meant) { // -n leaves it out
+      continue;
+    }
+    // Who was heard is all that a recording of others may hold: no failure of this command.
+    const bool failed = error && error->code != Code::not_recorded;
+    report.targets.push_back(failed ? Target{.errors = {std::move(*error)}} : Target{});
+  }
+}
+
+std::uint64_t count_servos(const Findings& findings) {
+  return static_cast<std::uint64_t>(
+      std::ranges::count_if(findings.nodes, [](const fleet::Finding& node) {
+        return node.servo.is_servo && !node.is_offline;
+      }));
+}
 
 /// What makes a scan fail although it ran: conflicts, too few servos, nobody there.
 /// `listed`: what -n said.
 void judge(const ScanOptions& options, const Findings& findings,
            const std::optional<std::string>& listed, Report& report) {
-  const auto servos = static_cast<std::uint64_t>(
-      std::ranges::count_if(findings.nodes, [](const Member* member) { return member->is_servo; }));
-  report.counts = {{"nodes", findings.nodes.size()}, {"servos", servos}};
-  std::vector<Error> found;
-  found.reserve(findings.conflicts.size() + 1);
+  const std::uint64_t servos = count_servos(findings);
   for (const Conflict& conflict : findings.conflicts) {
-    found.push_back({conflict.code, conflict.text,
-                     conflict.code == Code::duplicate_servo_id
-                         ? say<texts::doubled_servo_id_hint>(conflict.nodes.back().value())
-                         : say<texts::conflict_hint>(),
-                     conflict.nodes.size() == 1 ? std::optional(conflict.nodes.front().value())
-                                                : std::nullopt});
+    const bool of_one_id = conflict.nodes.size() == 1;
+    report.fail({conflict.code, conflict.text, conflict.hint,
+                 of_one_id ? std::optional(conflict.nodes.front().value()) : std::nullopt});
   }
   const auto& members = findings.roster->members();
   const bool somebody = std::ranges::any_of(
       members, [&](const auto& member) { return findings.roster->heard(member.first); });
-  if (findings.nodes.empty() && somebody) {
-    found.push_back(
-        {Code::not_found,
-         say<texts::nothing_matches_list>(report.interface, printable(listed.value_or(""))),
-         say<texts::node_not_found_hint>(), std::nullopt});
-  } else if (findings.nodes.empty()) {
-    found.push_back({Code::not_found, say<texts::nobody_there>(report.interface),
-                     say<texts::nobody_there_hint>(), std::nullopt});
+  const bool may_be_shared = !findings.roster->doubled().empty(); // what is looked for
+  if (findings.nodes.empty() && somebody && !may_be_shared) {
+    report.fail({Code::not_found,
+                 say<texts::nothing_matches_list>(report.interface, printable(listed.value_or(""))),
+                 say<texts::node_not_found_hint>(), std::nullopt});
+  } else if (findings.nodes.empty() && !somebody) {
+    report.fail({Code::not_found, say<texts::nobody_there>(report.interface),
+                 findings.roster->pending().empty() ? say<texts::nobody_there_hint>()
+                                                    : say<texts::target_waits_for_id_hint>(),
+                 std::nullopt});
   } else if (options.expect && servos < *options.expect) {
-    found.push_back({Code::not_found, say<texts::expected_more>(servos, *options.expect),
-                     say<texts::expected_more_hint>(), std::nullopt});
-  }
-  if (!found.empty()) {
-    report.statuses.clear();
-    report.errors.insert(report.errors.begin(), found.begin(), found.end());
+    report.fail({Code::not_found, say<texts::expected_more>(servos, *options.expect),
+                 say<texts::expected_more_hint>(), std::nullopt});
   }
 }
 
-} // namespace
+/// Until when the bus was heard: the end of a recording is not now.
+Time end_of(const fleet::Session& session) {
+  Time last{};
+  for (const auto& [id, member] : session.roster().members()) {
+    last = std::max(last, member.last_heard);
+  }
+  return session.is_recording() ? last : session.now();
+}
 
 Report execute(const ScanOptions& options, Context& context) {
   Report report{.interface = printable(context.shared().interface)};
@@ -141,20 +121,42 @@ Report execute(const ScanOptions& options, Context& context) {
   }
   report.interface = context.session().interface();
 
-  Search search(context, **profiles);
-  const auto ran = search.run(options.listen);
-  search.conclude(report);
-  auto findings =
-      std::make_shared<Findings>(gather(context.session().roster(), *targets, **profiles));
-  if (ran) {
+  fleet::Discovery discovery(context.session(), **profiles, context.identification());
+  const Time begin = context.session().now();
+  const fleet::Ticker ticker(context.session(), std::chrono::seconds(2), [&] {
+    context.reporter().progress(say<texts::progress_scan>(
+        whole_seconds(context.session().now() - begin), whole_seconds(options.listen),
+        context.session().roster().members().size()));
+  });
+  const auto found = discovery.find_all(options.listen);
+  const auto findings = std::make_shared<Findings>(
+      fleet::gather(context.session().roster(), *targets, **profiles, end_of(context.session())));
+  take_failures(discovery, *findings, report);
+  if (const auto ambiguous = targets->ambiguity(context.session().roster(), **profiles);
+      found && ambiguous) {
+    report.fail(*ambiguous);
+  }
+  report.counts = {{"servos", count_servos(*findings)}};
+  report.count_targets(findings->nodes.size());
+  if (found) {
     judge(options, *findings, context.shared().nodes, report);
   } else {
-    context.broken(ran.error(), report);
+    context.broken(found.error(), report);
   }
   report.json = [findings](JsonWriter& json) { write_json(json, *findings); };
   report.csv = [findings] { return csv(*findings); };
-  report.text = [findings] { return text(*findings); };
+  report.text = [findings](const Page& page) { return text(*findings, page); };
   return report;
 }
+
+} // namespace
+
+constinit const Command commands::scan{
+    .name = "scan",
+    .traits = {.tables = true, .session = true, .recordings = true},
+    .help = {"find every node and identify BLA servos", "全ノードを検索し、BLA サーボを識別"},
+    .options = option_table,
+    .action = action<execute>,
+};
 
 } // namespace blactl::cli

@@ -15,10 +15,48 @@
 #include <signal.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace blactl::cli {
 namespace {
+
+struct SimOptions {
+  std::string scenario{};
+  std::optional<std::string> facts{}; ///< a facts file; empty: servos behave as is likely
+  std::optional<std::uint64_t> seed{};
+  std::optional<sim::Clock> clock{}; ///< empty: as the scenario says
+};
+
+constexpr std::array<std::string_view, 2> clocks{"real", "virtual"}; // in the order of sim::Clock
+
+constexpr Option option_table[]{
+    {.name = "--facts",
+     .value = "FILE",
+     .kind = Kind::file,
+     .help = {"how servos behave, as measured on real ones",
+              "サーボの挙動 (実機で測定した facts ファイル)"},
+     .store = into<&SimOptions::facts>},
+    {.name = "--seed",
+     .value = "N",
+     .kind = Kind::whole,
+     .whole = {0, ~std::uint64_t{0}},
+     .help = {"the seed of everything random", "乱数のシード"},
+     .store = into<&SimOptions::seed>},
+    {.name = "--clock",
+     .value = "CLOCK",
+     .kind = Kind::word,
+     .words = clocks,
+     .help = {"the clock (default: as the scenario says)", "時計 (省略時: シナリオに従う)"},
+     .store = into<&SimOptions::clock>},
+};
+
+constexpr Option argument_table[]{
+    {.name = "SCENARIO",
+     .kind = Kind::file,
+     .help = {"scenario file (default: three servos)", "シナリオファイル (省略時: サーボ 3 台)"},
+     .store = into<&SimOptions::scenario>},
+};
 
 template <class... Cases> struct Overloaded : Cases... {
   using Cases::operator()...;
@@ -34,8 +72,8 @@ Result<sim::Scenario> read_scenario(const SimOptions& options, const bla::Profil
   if (scenario && options.seed) {
     scenario->seed = *options.seed;
   }
-  if (scenario && !options.clock.empty()) {
-    scenario->clock = options.clock == "virtual" ? sim::Clock::simulated : sim::Clock::real;
+  if (scenario && options.clock) {
+    scenario->clock = *options.clock;
   }
   return scenario;
 }
@@ -196,8 +234,6 @@ void join(const std::string& name, const sim::Scenario& scenario, const bla::Pro
   events.tell_losses(report);
 }
 
-} // namespace
-
 Report execute(const SimOptions& options, Context& context) {
   Report report;
   report.is_stream = true;
@@ -210,6 +246,9 @@ Report execute(const SimOptions& options, Context& context) {
   if (!scenario) {
     report.fail(scenario.error());
     return report;
+  }
+  for (const std::string& warning : scenario->warnings) {
+    context.reporter().note(printable(warning));
   }
   const std::string& text = context.shared().interface;
   const auto name = parse_interface(text.empty() ? "sim:" : text);
@@ -229,5 +268,17 @@ Report execute(const SimOptions& options, Context& context) {
   }
   return report;
 }
+
+} // namespace
+
+constinit const Command commands::sim{
+    .name = "sim",
+    .traits = {.streams = true},
+    .help = {"simulated servos: serves the sim: bus, or joins a real interface with -i",
+             "模擬サーボ: sim: バスを提供、または -i で実際のバスに参加"},
+    .options = option_table,
+    .arguments = argument_table,
+    .action = action<execute>,
+};
 
 } // namespace blactl::cli

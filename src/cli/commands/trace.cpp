@@ -15,6 +15,7 @@
 #include <signal.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -23,6 +24,65 @@
 
 namespace blactl::cli {
 namespace {
+
+struct TraceOptions {
+  std::string file{}; ///< a candump log, or "-"; empty: the interface
+  TraceFilter::Wish filter{};
+  std::optional<Duration> duration{};
+  std::optional<std::uint64_t> count{};
+  bool stats = false;
+  bool absolute = false;
+};
+
+constexpr std::array<std::string_view, 3> kinds{"message", "request", "response"};
+
+constexpr Option option_table[]{
+    {.name = "--type",
+     .value = "T",
+     .kind = Kind::text,
+     .repeat = Repeat::list,
+     .help = {"only these data types: NodeStatus, param.GetSet, 341",
+              "指定したデータ型のみ: NodeStatus、param.GetSet、341"},
+     .store = into<&TraceOptions::filter, &TraceFilter::Wish::types>},
+    {.name = "--kind",
+     .value = "K",
+     .kind = Kind::words,
+     .repeat = Repeat::list,
+     .words = kinds,
+     .help = {"only these kinds", "指定した種別のみ"},
+     .store = into<&TraceOptions::filter, &TraceFilter::Wish::kinds>},
+    {.name = "--duration",
+     .value = "SEC",
+     .kind = Kind::seconds,
+     .seconds = {std::chrono::milliseconds(1), std::chrono::hours(24)},
+     .help = {"how long to listen; of a log its first seconds",
+              "表示する時間 (ログでは先頭からの秒数)"},
+     .store = into<&TraceOptions::duration>},
+    {.name = "--count",
+     .value = "N",
+     .kind = Kind::whole,
+     .whole = {1, ~std::uint64_t{0}},
+     .help = {"end after so many transfers", "この数の転送を表示したら終了"},
+     .store = into<&TraceOptions::count>},
+    {.name = "--stats",
+     .kind = Kind::flag,
+     .help = {"instead of the transfers, who sends what how often, and the load of the bus",
+              "個々の転送の代わりに、送信元ごとの頻度とバス負荷を表示"},
+     .store = into<&TraceOptions::stats>},
+    {.name = "--absolute",
+     .kind = Kind::flag,
+     .help = {"the time of day instead of seconds since the first frame",
+              "最初のフレームからの秒数の代わりに日時を表示"},
+     .store = into<&TraceOptions::absolute>},
+};
+
+constexpr Option argument_table[]{
+    {.name = "FILE",
+     .kind = Kind::file,
+     .help = {"a log of candump -l, or - (default: the interface)",
+              "candump -l のログ、または - (省略時: インターフェース)"},
+     .store = into<&TraceOptions::file>},
+};
 
 /// What is kept until it is written to stdout at once, where nobody waits for a line.
 constexpr std::size_t block_size = 64 << 10;
@@ -199,12 +259,13 @@ Result<std::unique_ptr<can::CandumpReader>> open_log(const std::string& path, bo
 }
 
 /// The lines of this trace, appended to `out`.
-std::unique_ptr<TraceOutput> make_lines(const Context& context, const bla::Profiles* profiles,
-                                        std::string& out) {
+std::unique_ptr<TraceOutput> make_lines(const TraceOptions& options, const Context& context,
+                                        const bla::Profiles* profiles, std::string& out) {
   if (context.reporter().format() == Format::json) {
     return std::make_unique<JsonTrace>(out);
   }
-  return std::make_unique<TextTrace>(out, *profiles);
+  return std::make_unique<TextTrace>(out, *profiles,
+                                     options.absolute ? Clock::wall : Clock::since_first);
 }
 
 void count(const Tracer& tracer, std::uint64_t lost, std::uint64_t bad_lines, Report& report) {
@@ -269,7 +330,7 @@ void run(const TraceOptions& options, TraceFilter filter, const bla::Profiles* p
   const can::CandumpReader* log = source->log.get();
   std::string out;
   const auto stats = std::make_shared<TraceStats>();
-  const auto lines = options.stats ? nullptr : make_lines(context, profiles, out);
+  const auto lines = options.stats ? nullptr : make_lines(options, context, profiles, out);
   TraceOutput& output = lines ? *lines : *stats;
   Tracer tracer(std::move(filter), output,
                 options.count.value_or(std::numeric_limits<std::uint64_t>::max()));
@@ -280,20 +341,18 @@ void run(const TraceOptions& options, TraceFilter filter, const bla::Profiles* p
   tell_losses(tracer, trace, log, context.reporter());
   if (options.stats) {
     report.json = [stats](JsonWriter& json) { stats->write(json); };
-    report.text = [stats] { return stats->text(); };
+    report.text = [stats](const Page& page) { return stats->text(page); };
   }
 }
-
-} // namespace
 
 Report execute(const TraceOptions& options, Context& context) {
   Report report;
   report.is_stream = true;
   const auto path = log_path(options, context.shared().interface);
   report.interface = path ? "replay:" + printable(*path) : printable(context.shared().interface);
-  auto filter = TraceFilter::make(options, context.shared().nodes);
+  auto filter = TraceFilter::make(options.filter, context.shared().nodes);
   if (!filter) {
-    report.fail(filter.error());
+    report.errors = std::move(filter.error());
     return report;
   }
   const bla::Profiles* profiles = nullptr;
@@ -308,5 +367,17 @@ Report execute(const TraceOptions& options, Context& context) {
   run(options, std::move(*filter), profiles, context, report);
   return report;
 }
+
+} // namespace
+
+constinit const Command commands::trace{
+    .name = "trace",
+    .traits = {.streams = true, .session = true, .recordings = true},
+    .help = {"every DroneCAN transfer decoded, live or from a candump log; sends nothing",
+             "全 DroneCAN 転送をデコードして表示 (バスまたは candump ログ。送信なし)"},
+    .options = option_table,
+    .arguments = argument_table,
+    .action = action<execute>,
+};
 
 } // namespace blactl::cli

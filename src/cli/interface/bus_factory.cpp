@@ -13,6 +13,8 @@
 #include "cli/interface/slcan_name.hpp"
 #include "cli/texts.hpp"
 
+#include <sys/stat.h>
+
 #include <charconv>
 #include <filesystem>
 #include <optional>
@@ -60,14 +62,24 @@ Result<std::string> the_only_interface() {
                                 : say<texts::no_interface_hint>()));
 }
 
+/// Where lock files of a network interface lie. Its name means another interface in every network
+/// namespace, but all of them may share the folder. No process knows which namespace is that of the
+/// machine without being root, so each is named.
+state::LockPlace in_this_network(std::string interface) {
+  struct stat status{};
+  const bool known = stat("/proc/self/ns/net", &status) == 0;
+  return {.interface = std::move(interface),
+          .network = known ? fmt::format("@{}", status.st_ino) : std::string()};
+}
+
 Result<OpenBus> open_socketcan(const std::string& name) {
   auto bus = can::SocketCan::open(name);
   if (!bus) {
     return std::unexpected(bus.error());
   }
   // Not as it was typed: an interface may have further names.
-  const std::string first_name((*bus)->name());
-  return OpenBus{std::move(*bus), first_name, nullptr};
+  auto place = in_this_network(std::string((*bus)->name()));
+  return OpenBus{.bus = std::move(*bus), .place = std::move(place)};
 }
 
 /// The name of the bus says the network interface: those on another one do not hear each other.
@@ -76,18 +88,33 @@ Result<OpenBus> open_mcast(const InterfaceName& name, const Reporter& reporter) 
   if (!bus) {
     return std::unexpected(bus.error());
   }
-  const std::string full_name((*bus)->name());
+  auto place = in_this_network(std::string((*bus)->name()));
   if (name.rest.empty()) {
-    reporter.note(say<texts::mcast_chosen>(full_name));
+    reporter.note(say<texts::mcast_chosen>(place.interface));
   }
-  return OpenBus{std::move(*bus), full_name};
+  return OpenBus{.bus = std::move(*bus), .place = std::move(place)};
 }
 
-Result<OpenBus> open_slcan(std::string_view rest) {
-  const auto name = parse_slcan(rest);
+/// A piece of the dialogue with an adapter, for people.
+void tell(const Reporter& reporter, can::SlcanTalk talk, std::string_view bytes) {
+  constexpr std::size_t longest = 64;
+  const std::string text = printable(bytes.substr(0, longest));
+  if (talk == can::SlcanTalk::to_adapter) {
+    reporter.detail(say<texts::adapter_sent>(text));
+  } else {
+    reporter.detail(bytes.size() <= longest ? say<texts::adapter_said>(text)
+                                            : say<texts::adapter_said_much>(text, bytes.size()));
+  }
+}
+
+Result<OpenBus> open_slcan(std::string_view rest, const Reporter& reporter) {
+  auto name = parse_slcan(rest);
   if (!name) {
     return std::unexpected(name.error());
   }
+  name->options.trace = [&reporter](can::SlcanTalk talk, std::string_view bytes) {
+    tell(reporter, talk, bytes);
+  };
   const std::string device = name->device.string();
   auto bus = can::Slcan::open(name->device, "slcan:" + printable(device), name->options);
   if (!bus) {
@@ -96,33 +123,41 @@ Result<OpenBus> open_slcan(std::string_view rest) {
   // Links by product or by place lead to one device.
   std::error_code error;
   const auto canonical = std::filesystem::canonical(name->device, error);
-  return OpenBus{std::move(*bus), "slcan:" + (error ? device : canonical.string())};
+  return OpenBus{.bus = std::move(*bus),
+                 .place = {.interface = "slcan:" + (error ? device : canonical.string())}};
 }
 
-Result<OpenBus> open_private(std::string_view text, const Result<sim::Scenario>& scenario) {
+Result<OpenBus> open_private(std::string_view text, const Result<sim::Scenario>& scenario,
+                             const Reporter& reporter) {
   if (!scenario) {
     return std::unexpected(scenario.error());
   }
-  return OpenBus{std::make_unique<sim::PrivateBus>(printable(text), *scenario), {}, nullptr};
+  for (const std::string& warning : scenario->warnings) {
+    reporter.note(printable(warning));
+  }
+  return OpenBus{.bus = std::make_unique<sim::PrivateBus>(printable(text), *scenario)};
 }
 
 Result<OpenBus> open_simulator(std::string_view text, const std::string& socket,
                                const bla::Profiles& profiles, const Reporter& reporter) {
-  const bool default_socket = socket.empty();
-  const std::string path = default_socket ? can::default_socket_path().string() : socket;
-  if (default_socket && !std::filesystem::exists(path)) {
-    reporter.note(say<texts::sim_is_private>());
-    return open_private(text, sim::default_scenario(profiles));
-  }
-  auto bus = can::SimBus::open(path, printable(text));
+  const std::filesystem::path path =
+      socket.empty() ? can::default_socket_path() : std::filesystem::path(socket);
+  auto bus = socket.empty() ? can::SimBus::open_if_served(path, printable(text))
+                            : can::SimBus::open(path, printable(text));
   if (!bus) {
     return std::unexpected(bus.error());
+  }
+  if (*bus == nullptr) {
+    reporter.note(say<texts::sim_is_private>());
+    return open_private(text, sim::default_scenario(profiles), reporter);
   }
   // Many paths may lead there.
   std::error_code error;
   const auto canonical = std::filesystem::canonical(path, error);
-  const auto where = error ? std::filesystem::absolute(path, error) : canonical;
-  return OpenBus{std::move(*bus), "sim:" + where.string(), nullptr, where.parent_path().string()};
+  const auto& where = error ? path : canonical;
+  return OpenBus{
+      .bus = std::move(*bus),
+      .place = {.interface = "sim:" + where.string(), .folder = where.parent_path().string()}};
 }
 
 Result<OpenBus> open_log(std::string_view text, const std::string& path) {
@@ -130,8 +165,8 @@ Result<OpenBus> open_log(std::string_view text, const std::string& path) {
   if (!log) {
     return std::unexpected(log.error());
   }
-  const can::ReplayBus* bus = log->get();
-  return OpenBus{std::move(*log), {}, bus};
+  const can::ReplayBus* replay = log->get();
+  return OpenBus{.bus = std::move(*log), .log = replay};
 }
 
 /// What stands behind "mcast:": "0?if=lo". The number alone is enough, and so is nothing: bus 0.
@@ -155,13 +190,52 @@ std::optional<InterfaceName> parse_mcast(std::string_view text) {
   return name;
 }
 
+/// What was probably meant by a text without the kind of interface; empty: nothing comes to mind,
+/// it may be the name of a CAN interface. (One that is called "sim" is socketcan:sim.)
+std::string with_kind(std::string_view text) {
+  const std::string typed = printable(text);
+  if (text == "sim") {
+    return "sim:";
+  }
+  if (text == "mcast") {
+    return "mcast:0";
+  }
+  if (text == "replay") {
+    return "replay:FILE";
+  }
+  if (text == "slcan") {
+    const auto adapters = can::serial_adapters();
+    return "slcan:" + (adapters.empty() ? "/dev/ttyUSB0" : printable(adapters.front().string()));
+  }
+  if (text.ends_with(".json")) {
+    return "sim:" + typed;
+  }
+  if (text.ends_with(".log")) {
+    return "replay:" + typed;
+  }
+  if (text.starts_with("ttyUSB") || text.starts_with("ttyACM")) {
+    return "slcan:/dev/" + typed;
+  }
+  return text.starts_with("/dev/") ? "slcan:" + typed : std::string();
+}
+
 } // namespace
 
 Result<InterfaceName> parse_interface(std::string_view text) {
   const auto colon = text.find(':');
   const std::string_view scheme = text.substr(0, colon);
+  if (colon == std::string_view::npos) {
+    if (const std::string meant = with_kind(text); !meant.empty()) {
+      return fail(Code::usage, say<texts::interface_meant>(printable(text)),
+                  say<texts::interface_meant_hint>(meant));
+    }
+  }
   if (colon == std::string_view::npos || scheme == "socketcan") {
     const auto name = colon == std::string_view::npos ? text : text.substr(colon + 1);
+    if (name.empty()) {
+      return fail(Code::usage, say<texts::interface_name_missing>(printable(text)),
+                  say<texts::bad_interface_hint>());
+    }
     return InterfaceName{.kind = InterfaceKind::socketcan, .rest = std::string(name)};
   }
   if (scheme == "slcan") {
@@ -196,10 +270,28 @@ std::optional<Error> takes_no_frames(std::string_view text) {
                say<texts::log_takes_no_frames_hint>(), std::nullopt};
 }
 
+std::string silence_hint(std::string_view text, std::string_view name) {
+  const auto interface = text.empty() ? InterfaceName{} : parse_interface(text);
+  switch (interface ? interface->kind : InterfaceKind::socketcan) {
+  case InterfaceKind::slcan: return say<texts::silent_slcan_hint>();
+  case InterfaceKind::mcast: return say<texts::silent_mcast_hint>(name);
+  case InterfaceKind::simulator:
+    return interface->rest.empty() ? say<texts::silent_sim_hint>()
+                                   : say<texts::silent_simulator_hint>(name);
+  case InterfaceKind::scenario: return say<texts::silent_scenario_hint>(printable(interface->rest));
+  case InterfaceKind::replay: return say<texts::silent_log_hint>(printable(interface->rest));
+  case InterfaceKind::socketcan: break;
+  }
+  return {};
+}
+
 Result<OpenBus> open_bus(std::string_view text, const bla::Profiles& profiles,
                          const Reporter& reporter) {
   if (text.empty()) {
     const auto name = the_only_interface();
+    if (name) {
+      reporter.detail(say<texts::only_interface>(*name));
+    }
     return name ? open_socketcan(*name) : Result<OpenBus>(std::unexpected(name.error()));
   }
   const auto name = parse_interface(text);
@@ -208,9 +300,10 @@ Result<OpenBus> open_bus(std::string_view text, const bla::Profiles& profiles,
   }
   switch (name->kind) {
   case InterfaceKind::mcast: return open_mcast(*name, reporter);
-  case InterfaceKind::slcan: return open_slcan(name->rest);
+  case InterfaceKind::slcan: return open_slcan(name->rest, reporter);
   case InterfaceKind::simulator: return open_simulator(text, name->rest, profiles, reporter);
-  case InterfaceKind::scenario: return open_private(text, sim::read_scenario(name->rest, profiles));
+  case InterfaceKind::scenario:
+    return open_private(text, sim::read_scenario(name->rest, profiles), reporter);
   case InterfaceKind::replay: return open_log(text, name->rest);
   case InterfaceKind::socketcan: break;
   }

@@ -20,10 +20,8 @@ namespace blactl::cli {
 /// An open bus, and under which name processes of this machine share it.
 struct OpenBus {
   std::unique_ptr<can::Bus> bus;
-  std::string lock_name;               ///< empty: nobody else can reach it
+  state::LockPlace place{}; ///< of its lock files: those of a simulated bus lie beside its socket
   const can::ReplayBus* log = nullptr; ///< the bus, if it is one
-  /// Where its lock files lie: where all users meet, or beside the socket of a simulated bus.
-  std::string lock_folder = state::LockFile::shared_folder;
 };
 
 /// What kind of interface a name means.
@@ -44,9 +42,13 @@ struct InterfaceName {
 /// tells.
 [[nodiscard]] std::optional<Error> takes_no_frames(std::string_view text);
 
+/// What to look at where nothing was heard, by the kind of interface that `text` names; `name`: of
+/// the open bus. Empty: what is said of servos on any CAN bus fits.
+[[nodiscard]] std::string silence_hint(std::string_view text, std::string_view name);
+
 /// The interface that `text` names; empty: the only CAN interface that is up.
 /// Errors: interface with the list of what is there, permission, bad_file (scenario), usage.
-/// `profiles` outlives the bus.
+/// `profiles` and `reporter` outlive the bus.
 [[nodiscard]] Result<OpenBus> open_bus(std::string_view text, const bla::Profiles& profiles,
                                        const Reporter& reporter);
 

@@ -10,12 +10,12 @@
 namespace blactl::cli {
 namespace {
 
-std::optional<std::string> unique_id(const fleet::Member& member) {
-  return member.info ? std::optional(hex(member.info->unique_id)) : std::nullopt;
+std::optional<std::string> unique_id(const fleet::Servo& servo) {
+  return servo.unique_id ? std::optional(hex(*servo.unique_id)) : std::nullopt;
 }
 
-std::optional<std::string> model(const fleet::Member& member) {
-  const std::string name = member.identity.model();
+std::optional<std::string> model(const fleet::Servo& servo) {
+  const std::string name = servo.identity.model();
   return name.empty() ? std::nullopt : std::optional(name);
 }
 
@@ -29,13 +29,13 @@ std::string or_text(const std::optional<std::int64_t>& number, std::string_view 
   return number ? std::to_string(*number) : std::string(none);
 }
 
-void write_head(JsonWriter& json, const fleet::Member& member) {
-  const bla::Readings& readings = member.identity.readings();
-  json.member("node_id", member.id.value());
-  json.member("unique_id", unique_id(member));
-  json.member("model", model(member));
+void write_head(JsonWriter& json, const fleet::Servo& servo) {
+  const bla::Readings& readings = servo.identity.readings();
+  json.member("node_id", servo.id.value());
+  json.member("unique_id", unique_id(servo));
+  json.member("model", model(servo));
   json.member("serial_number", readings.serial_number);
-  json.member("servo_id", member.is_servo ? member.servo_id : std::nullopt);
+  json.member("servo_id", servo.is_servo ? servo.servo_id : std::nullopt);
   json.member("firmware_version", readings.firmware_version);
   json.member("hardware_version", readings.hardware_version);
 }
@@ -45,13 +45,13 @@ std::vector<std::string> head_columns() {
           "servo_id", "firmware_version", "hardware_version"};
 }
 
-std::vector<std::string> head_cells(const fleet::Member& member) {
-  const bla::Readings& readings = member.identity.readings();
-  return {std::to_string(member.id.value()),
-          unique_id(member).value_or(""),
-          model(member).value_or(""),
+std::vector<std::string> head_cells(const fleet::Servo& servo) {
+  const bla::Readings& readings = servo.identity.readings();
+  return {std::to_string(servo.id.value()),
+          unique_id(servo).value_or(""),
+          model(servo).value_or(""),
           or_text(readings.serial_number, ""),
-          or_text(member.is_servo ? member.servo_id : std::nullopt, ""),
+          or_text(servo.is_servo ? servo.servo_id : std::nullopt, ""),
           or_text(readings.firmware_version, ""),
           or_text(readings.hardware_version, "")};
 }
@@ -60,19 +60,11 @@ std::string version_text(std::int64_t raw) {
   return raw < 0 ? std::to_string(raw) : fmt::format("{}.{:03}", raw / 1000, raw % 1000);
 }
 
-std::string register_text(const bla::Parameter& parameter, std::int64_t raw,
-                          std::optional<std::int64_t> pwm_mode) {
-  const std::string number = std::to_string(raw);
-  std::string meaning = bla::display(parameter, raw, pwm_mode);
-  const bool inactive = parameter.can_be_inactive && raw == bla::not_active;
-  return inactive || meaning == number ? meaning : fmt::format("{}  ({})", number, meaning);
-}
-
-std::string head_line(const fleet::Member& member) {
-  const bla::Readings& readings = member.identity.readings();
+std::string head_line(const fleet::Servo& servo) {
+  const bla::Readings& readings = servo.identity.readings();
   return say<texts::head_line>(
-      member.id.value(), model(member).value_or(unknown()),
-      or_text(readings.serial_number, unknown()), or_text(member.servo_id, unknown()),
+      servo.id.value(), model(servo).value_or(unknown()),
+      or_text(readings.serial_number, unknown()), or_text(servo.servo_id, unknown()),
       readings.firmware_version ? version_text(*readings.firmware_version) : unknown());
 }
 

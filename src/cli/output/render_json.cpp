@@ -41,7 +41,7 @@ std::string render_json(const Report& report) {
   json.end_object();
   json.key("errors");
   json.begin_array();
-  for (const Error& error : report.errors) {
+  for (const Error& error : report.all_errors()) {
     write_error(json, error);
   }
   json.end_array();

@@ -3,12 +3,14 @@
 #include "cli/texts.hpp"
 
 #include <poll.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <utility>
 
 namespace blactl::cli {
 namespace {
@@ -39,44 +41,84 @@ void write_stderr(std::string_view text) {
   }
 }
 
+/// Takes what stands in the line of the cursor away (ECMA-48, EL).
+constexpr std::string_view clear_line = "\r\x1b[K";
+
 } // namespace
 
 bool Reporter::has_terminal() {
   return isatty(STDIN_FILENO) != 0 && isatty(STDERR_FILENO) != 0;
 }
 
-bool Reporter::use_colour() const {
+bool Reporter::use_colour(int descriptor) const {
   if (options_.colour != Colour::automatic) {
     return options_.colour == Colour::always;
   }
   const char* no_colour = std::getenv("NO_COLOR");
-  return (no_colour == nullptr || *no_colour == '\0') && isatty(STDERR_FILENO) != 0;
+  return (no_colour == nullptr || *no_colour == '\0') && isatty(descriptor) != 0;
+}
+
+Page Reporter::page(int descriptor) const {
+  constexpr std::size_t usual = 80;
+  constexpr std::size_t least = 40;
+  Page page{.colour = use_colour(descriptor)};
+  if (isatty(descriptor) != 0) {
+    winsize size{};
+    const bool known = ioctl(descriptor, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+    page.width = known ? std::max<std::size_t>(size.ws_col, least) : usual;
+  }
+  return page;
+}
+
+Page Reporter::page() const {
+  return page(STDOUT_FILENO);
+}
+
+void Reporter::clear_progress() const {
+  if (std::exchange(has_progress_, false)) {
+    write_stderr(clear_line);
+  }
+}
+
+void Reporter::print(std::string_view text) const {
+  clear_progress();
+  write_stderr(text);
+}
+
+void Reporter::progress(std::string_view text) const {
+  const Page page = this->page(STDERR_FILENO);
+  if (options_.quiet || page.width == Page::unlimited) {
+    return;
+  }
+  const std::string line = wrap(text, page.width - 1, 0, 0); // a full line would move the cursor
+  has_progress_ = true;
+  write_stderr(std::string(clear_line) + line.substr(0, line.find('\n')));
 }
 
 void Reporter::note(std::string_view text) const {
   if (!options_.quiet) {
-    write_stderr(fmt::format("blactl: {}\n", text));
+    print(page(STDERR_FILENO).fit(fmt::format("blactl: {}\n", text)));
   }
 }
 
 void Reporter::detail(std::string_view text) const {
-  if (options_.verbosity > 0) {
-    write_stderr(fmt::format("blactl: {}\n", text));
+  if (options_.verbosity > 0 && !options_.quiet) {
+    print(page(STDERR_FILENO).fit(fmt::format("blactl: {}\n", text)));
   }
 }
 
 void Reporter::error(const Error& error) const {
-  const bool colour = use_colour();
-  std::string text = fmt::format("blactl: {}[{}]{} {}\n", colour ? "\x1b[1;31m" : "",
-                                 name(error.code), colour ? "\x1b[0m" : "", error.message);
+  const Page page = this->page(STDERR_FILENO);
+  const std::string code = page.paint(Tone::bad, fmt::format("[{}]", name(error.code)));
+  std::string text = page.fit(fmt::format("blactl: {} {}\n", code, error.message));
   if (!error.hint.empty()) {
-    text += fmt::format("  {}\n", error.hint);
+    text += page.fit_hint("  " + error.hint) + '\n';
   }
-  write_stderr(text);
+  print(text);
 }
 
 void Reporter::ask(std::string_view question) const {
-  write_stderr(question);
+  print(page(STDERR_FILENO).fit(question));
 }
 
 Result<void> Reporter::data(std::string_view text) const {
@@ -85,6 +127,7 @@ Result<void> Reporter::data(std::string_view text) const {
 }
 
 Result<bool> Reporter::stream(std::string_view text) const {
+  clear_progress();
   return write_all(STDOUT_FILENO, text);
 }
 
@@ -104,19 +147,20 @@ std::string Reporter::render(const Report& report) const {
   switch (options_.format) {
   case Format::json: return render_json(report);
   case Format::csv: return report.csv ? report.csv() : std::string();
-  case Format::text: return report.text ? report.text() : std::string();
+  case Format::text: return report.text ? page().fit(report.text(page())) : std::string();
   }
   return {};
 }
 
 int Reporter::finish(const Report& report) const {
   const auto written = data(render(report));
-  for (const Error& error : report.errors) {
+  const std::vector<Error> errors = report.all_errors();
+  for (const Error& error : errors) {
     this->error(error);
   }
   if (!written) {
     // A stream has failed with the same before, and said so.
-    if (std::ranges::find(report.errors, Code::io, &Error::code) == report.errors.end()) {
+    if (std::ranges::find(errors, Code::io, &Error::code) == errors.end()) {
       error(written.error());
     }
     return exit_status(written.error().code);

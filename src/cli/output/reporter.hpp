@@ -3,6 +3,7 @@
 
 #include "blactl/base/error.hpp"
 
+#include "cli/output/page.hpp"
 #include "cli/output/report.hpp"
 
 #include <string>
@@ -28,14 +29,21 @@ class Reporter {
 
   [[nodiscard]] Format format() const { return options_.format; }
 
+  /// What a text on stdout is laid out for.
+  [[nodiscard]] Page page() const;
+
   /// stdin and stderr are terminals: questions may be asked.
   [[nodiscard]] static bool has_terminal();
 
   /// Something worth knowing, on stderr; not with --quiet.
   void note(std::string_view text) const;
-  /// Details on stderr, with -v.
+  /// Details on stderr, with -v; not with --quiet.
   void detail(std::string_view text) const;
   void error(const Error& error) const;
+
+  /// How far the command is: one line on stderr, where a terminal is there, until the next line of
+  /// whatever takes its place. Not with --quiet.
+  void progress(std::string_view text) const;
 
   /// A question on stderr, answered on stdin by the caller.
   void ask(std::string_view question) const;
@@ -54,10 +62,16 @@ class Reporter {
   [[nodiscard]] int finish(const Report& report) const;
 
  private:
-  [[nodiscard]] bool use_colour() const;
+  /// Whether what goes to this descriptor is coloured: --color and NO_COLOR are judged here alone.
+  [[nodiscard]] bool use_colour(int descriptor) const;
+  /// The page behind stdout or stderr.
+  [[nodiscard]] Page page(int descriptor) const;
   [[nodiscard]] std::string render(const Report& report) const;
+  void print(std::string_view text) const;
+  void clear_progress() const;
 
   Options options_;
+  mutable bool has_progress_ = false; ///< it stands in the last line of the terminal
 };
 
 /// The document of the contract, section 5.

@@ -1,66 +1,57 @@
 #include "cli/output/table.hpp"
 
 #include <algorithm>
-#include <cstdint>
 
 namespace blactl::cli {
 namespace {
 
-/// One code point of well-formed UTF-8, removed from the front of `text`.
-char32_t take_code_point(std::string_view& text) {
-  const auto first = static_cast<std::uint8_t>(text.front());
-  const std::size_t length = first < 0x80 ? 1 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
-  char32_t point = length == 1 ? first : first & (0x7FU >> length);
-  for (std::size_t i = 1; i < length && i < text.size(); ++i) {
-    point = point << 6 | (static_cast<std::uint8_t>(text[i]) & 0x3FU);
-  }
-  text.remove_prefix(std::min(length, text.size()));
-  return point;
-}
-
-/// East Asian wide and full-width characters (Unicode Standard Annex 11), as far as names of
-/// parameters, hints and foreign nodes bring them.
-bool is_wide(char32_t point) {
-  struct Range {
-    char32_t first, last;
-  };
-
-  constexpr Range wide[] = {
-      {0x1100, 0x115F}, {0x2E80, 0x303E},   {0x3041, 0x33FF},   {0x3400, 0x4DBF}, {0x4E00, 0x9FFF},
-      {0xA000, 0xA4CF}, {0xAC00, 0xD7A3},   {0xF900, 0xFAFF},   {0xFE30, 0xFE4F}, {0xFF00, 0xFF60},
-      {0xFFE0, 0xFFE6}, {0x1F300, 0x1FAFF}, {0x20000, 0x3FFFD},
-  };
-  return std::ranges::any_of(
-      wide, [&](const Range& range) { return point >= range.first && point <= range.last; });
-}
+constexpr std::size_t gap = 2;
+constexpr std::size_t deeper = 4; ///< how far a further line of a row is indented
 
 } // namespace
 
-std::size_t display_width(std::string_view text) {
-  std::size_t width = 0;
-  while (!text.empty()) {
-    width += is_wide(take_code_point(text)) ? 2U : 1U;
-  }
-  return width;
-}
-
-std::string Table::text(std::string_view indent) const {
-  constexpr std::size_t gap = 2;
+std::vector<std::size_t> Table::widths() const {
   std::vector<std::size_t> widths(rows_.front().size());
-  for (const auto& row : rows_) {
+  for (const Row& row : rows_) {
     for (std::size_t i = 0; i < row.size(); ++i) {
       widths[i] = std::max(widths[i], display_width(row[i]));
     }
   }
-  std::string out;
-  for (const auto& row : rows_) {
-    std::string line(indent);
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      line += row[i];
-      line.append(widths[i] - display_width(row[i]) + gap, ' ');
+  return widths;
+}
+
+std::vector<Table::Line> Table::layout(const std::vector<std::size_t>& widths, std::size_t indent,
+                                       std::size_t page_width) {
+  std::vector<Line> lines{{0, 0}};
+  std::size_t used = indent;
+  for (std::size_t i = 0; i < widths.size(); ++i) {
+    const bool begins = lines.back().first == i;
+    if (!begins && used + widths[i] > page_width) {
+      lines.push_back({i, i});
+      used = indent + deeper;
     }
-    line.erase(line.find_last_not_of(' ') + 1);
-    out += line + '\n';
+    used += widths[i] + gap;
+    lines.back().end = i + 1;
+  }
+  return lines;
+}
+
+std::string Table::text(std::string_view indent, const Page& page) const {
+  const std::vector<std::size_t> all_widths = widths();
+  const std::vector<Line> lines = layout(all_widths, indent.size(), page.width);
+  std::string out;
+  for (const Row& row : rows_) {
+    for (const Line& line : lines) {
+      std::string text(indent.size() + (line.first > 0 ? deeper : 0), ' ');
+      for (std::size_t i = line.first; i < line.end; ++i) {
+        text += row[i];
+        text.append(all_widths[i] - display_width(row[i]) + gap, ' ');
+      }
+      text.erase(text.find_last_not_of(' ') + 1);
+      if (!text.empty() || line.first == 0) { // further lines are for what there is to tell
+        out += text + '\n';
+      }
+    }
   }
   return out;
 }

@@ -1,5 +1,7 @@
 #pragma once
-// Columns of text that line up, Japanese characters counted as two cells.
+// Columns of text that line up, on a page of any width.
+
+#include "cli/output/page.hpp"
 
 #include <cstddef>
 #include <string>
@@ -8,10 +10,9 @@
 
 namespace blactl::cli {
 
-/// How many cells of a terminal a UTF-8 text takes.
-[[nodiscard]] std::size_t display_width(std::string_view text);
-
-/// A header and rows of the same number of cells; columns are as wide as their widest cell.
+/// A header and rows of the same number of cells; columns are as wide as their widest cell. The
+/// columns that do not fit beside the others stand below them, in further lines of each row that
+/// are indented: nothing is cut, and nothing is left out.
 class Table {
  public:
   explicit Table(std::vector<std::string> header) : rows_{std::move(header)} {}
@@ -19,10 +20,21 @@ class Table {
   void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
 
   /// Every line begins with `indent` and ends with a line break, without trailing blanks.
-  [[nodiscard]] std::string text(std::string_view indent = "") const;
+  [[nodiscard]] std::string text(std::string_view indent = "", const Page& page = {}) const;
 
  private:
-  std::vector<std::vector<std::string>> rows_;
+  using Row = std::vector<std::string>;
+
+  /// Columns that stand beside each other.
+  struct Line {
+    std::size_t first = 0, end = 0;
+  };
+
+  [[nodiscard]] std::vector<std::size_t> widths() const;
+  [[nodiscard]] static std::vector<Line> layout(const std::vector<std::size_t>& widths,
+                                                std::size_t indent, std::size_t page_width);
+
+  std::vector<Row> rows_;
 };
 
 /// One record of comma-separated values (RFC 4180), with its line break.

@@ -6,6 +6,7 @@
 #include "blactl/fleet/target.hpp"
 
 #include "cli/texts.hpp"
+#include "cli/trace/type_name.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -31,21 +32,10 @@ std::vector<std::string_view> words_of(std::string_view list) {
   }
 }
 
-/// The whole name, or its last parts: "uavcan.protocol.param.GetSet", "param.GetSet", "GetSet".
-bool means(std::string_view typed, std::string_view name) {
-  return name == typed ||
-         (!typed.empty() && name.ends_with(typed) && name[name.size() - typed.size() - 1] == '.');
-}
-
-std::string_view last_part(std::string_view name) {
-  return name.substr(name.rfind('.') + 1);
-}
-
-std::unexpected<Error> unknown_type(std::string_view typed) {
+Error unknown_type(std::string_view typed) {
   std::vector<std::string_view> known;
   for (const DataType& type : dronecan::standard_types()) {
-    known.push_back(type.name);
-    known.push_back(last_part(type.name));
+    known.push_back(short_name(type));
   }
   std::ranges::sort(known);
   known.erase(std::ranges::unique(known).begin(), known.end());
@@ -54,30 +44,33 @@ std::unexpected<Error> unknown_type(std::string_view typed) {
     similar += similar.empty() ? "" : ", ";
     similar += name;
   }
-  return fail(Code::usage, say<texts::unknown_type>(printable(typed)),
-              similar.empty() ? say<texts::unknown_type_hint>()
-                              : say<texts::did_you_mean>(similar));
+  return {Code::usage, say<texts::unknown_type>(printable(typed)),
+          similar.empty() ? say<texts::unknown_type_hint>() : say<texts::did_you_mean>(similar),
+          std::nullopt};
 }
 
 } // namespace
 
-Result<TraceFilter> TraceFilter::make(const TraceOptions& options,
-                                      const std::optional<std::string>& nodes) {
+std::expected<TraceFilter, std::vector<Error>>
+TraceFilter::make(const Wish& wish, const std::optional<std::string>& nodes) {
   TraceFilter filter;
-  Result<void> taken;
-  if (options.types) {
-    taken = filter.take_types(*options.types);
+  std::vector<Error> faults;
+  if (wish.types) {
+    filter.take_types(*wish.types, faults);
   }
-  if (taken && options.kinds) {
-    taken = filter.take_kinds(*options.kinds);
+  if (wish.kinds) {
+    filter.take_kinds(*wish.kinds);
   }
-  if (taken && nodes) {
-    taken = filter.take_nodes(*nodes);
+  if (nodes) {
+    filter.take_nodes(*nodes, faults);
   }
-  return taken ? Result<TraceFilter>(std::move(filter)) : std::unexpected(taken.error());
+  if (!faults.empty()) {
+    return std::unexpected(std::move(faults));
+  }
+  return filter;
 }
 
-Result<void> TraceFilter::take_types(const std::string& list) {
+void TraceFilter::take_types(const std::string& list, std::vector<Error>& faults) {
   for (const std::string_view word : words_of(list)) {
     std::uint16_t id{};
     const char* end = std::to_address(word.end());
@@ -93,41 +86,37 @@ Result<void> TraceFilter::take_types(const std::string& list) {
       }
     }
     if (types_.size() == before) {
-      return unknown_type(word);
+      faults.push_back(unknown_type(word));
     }
   }
-  return {};
 }
 
-Result<void> TraceFilter::take_kinds(const std::string& list) {
+void TraceFilter::take_kinds(const std::string& list) {
   constexpr std::array<std::string_view, 3> words{"message", "request", "response"};
   kinds_.fill(false);
   for (const std::string_view word : words_of(list)) {
     const auto it = std::ranges::find(words, word);
-    if (it == words.end()) {
-      return fail(Code::usage,
-                  say<texts::bad_word>("--kind", printable(word), "message, request, response"),
-                  say<texts::see_command_help>("trace"));
+    if (it != words.end()) { // the declaration of --kind lets no other word pass
+      kinds_[static_cast<std::size_t>(it - words.begin())] = true;
     }
-    kinds_[static_cast<std::size_t>(it - words.begin())] = true;
   }
-  return {};
 }
 
-Result<void> TraceFilter::take_nodes(const std::string& list) {
+void TraceFilter::take_nodes(const std::string& list, std::vector<Error>& faults) {
   const auto targets = fleet::parse_targets(list);
   if (!targets) {
-    return std::unexpected(targets.error());
+    faults.push_back(targets.error());
+    return;
   }
   if (targets->all || !targets->selectors.empty()) {
-    return fail(Code::usage, say<texts::trace_takes_node_ids>(printable(list)),
-                say<texts::trace_takes_node_ids_hint>());
+    faults.push_back({Code::usage, say<texts::trace_takes_node_ids>(printable(list)),
+                      say<texts::trace_takes_node_ids_hint>(), std::nullopt});
+    return;
   }
   nodes_.emplace();
   for (const dronecan::NodeId id : targets->ids) {
     nodes_->set(id.value());
   }
-  return {};
 }
 
 bool TraceFilter::passes(const dronecan::Header& header) const {

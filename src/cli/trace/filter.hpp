@@ -4,11 +4,10 @@
 #include "blactl/base/error.hpp"
 #include "blactl/dronecan/transfer.hpp"
 
-#include "cli/options.hpp"
-
 #include <array>
 #include <bitset>
 #include <cstdint>
+#include <expected>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,10 +19,17 @@ class TraceFilter {
   /// Everything passes.
   TraceFilter() { kinds_.fill(true); }
 
+  /// What --type and --kind say; empty: everything.
+  struct Wish {
+    std::optional<std::string> types{}; ///< names or numbers, comma-separated
+    std::optional<std::string> kinds{}; ///< message, request, response
+  };
+
   /// `nodes`: what -n says, which must be node IDs: who a servo is, a listener cannot ask.
-  /// Errors: usage, with the nearest names of types.
-  [[nodiscard]] static Result<TraceFilter> make(const TraceOptions& options,
-                                                const std::optional<std::string>& nodes);
+  /// Types go in letters of either case. Errors: usage, every fault, with the nearest names of
+  /// types.
+  [[nodiscard]] static std::expected<TraceFilter, std::vector<Error>>
+  make(const Wish& wish, const std::optional<std::string>& nodes);
 
   /// Whether a transfer with this header is wanted; of a node, what it sends and what is sent to
   /// it.
@@ -36,9 +42,9 @@ class TraceFilter {
     std::optional<bool> service;
   };
 
-  [[nodiscard]] Result<void> take_types(const std::string& list);
-  [[nodiscard]] Result<void> take_kinds(const std::string& list);
-  [[nodiscard]] Result<void> take_nodes(const std::string& list);
+  void take_types(const std::string& list, std::vector<Error>& faults);
+  void take_kinds(const std::string& list);
+  void take_nodes(const std::string& list, std::vector<Error>& faults);
 
   std::vector<Type> types_; ///< empty: all
   std::array<bool, 3> kinds_{};

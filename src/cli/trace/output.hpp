@@ -8,6 +8,7 @@
 #include "blactl/dronecan/transfer.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -71,23 +72,32 @@ class JsonTrace final : public TraceOutput {
   std::string hex_; ///< of one payload
 };
 
+/// How people are told when: in seconds since the first frame, or by the wall clock of this place.
+enum class Clock : std::uint8_t { since_first, wall };
+
 /// One line a transfer for a technician.
 class TextTrace final : public TraceOutput {
  public:
   /// `out` and `profiles` outlive the view.
-  TextTrace(std::string& out, const bla::Profiles& profiles) : out_(out), profiles_(profiles) {}
+  TextTrace(std::string& out, const bla::Profiles& profiles, Clock clock)
+      : out_(out), profiles_(profiles), clock_(clock) {}
 
-  void frame(const Occasion&, const can::Frame&, bool) override {}
+  void frame(const Occasion& occasion, const can::Frame&, bool) override {
+    first_ = first_.value_or(occasion.at);
+  }
 
   bool transfer(const Occasion& occasion, const dronecan::Transfer& transfer) override;
   void broken(const Occasion& occasion, TraceError error, std::uint32_t can_id) override;
 
  private:
+  [[nodiscard]] std::string time_text(WallTime at) const;
   void begin_line(const Occasion& occasion, const dronecan::Header& header);
   [[nodiscard]] bool write_register(const dronecan::Transfer& transfer);
 
   std::string& out_;
   const bla::Profiles& profiles_;
+  Clock clock_;
+  std::optional<WallTime> first_; ///< of all frames, shown or not
 };
 
 } // namespace blactl::cli

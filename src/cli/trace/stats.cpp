@@ -165,7 +165,7 @@ std::vector<std::string> TraceStats::cells(const Row& row) const {
   return all;
 }
 
-std::string TraceStats::text() const {
+std::string TraceStats::text(const Page& page) const {
   Table table({say<texts::column_interface>(), say<texts::column_node>(), say<texts::column_kind>(),
                say<texts::column_type>(), say<texts::column_transfers>(),
                say<texts::column_per_second>(), say<texts::column_frames>(),
@@ -173,7 +173,7 @@ std::string TraceStats::text() const {
   for (const auto& [key, row] : rows_) {
     table.add(cells(row));
   }
-  std::string out = table.text();
+  std::string out = table.text("", page);
   for (const Bus& bus : buses_) {
     out += say<texts::trace_load>(
         printable(bus.name), bus.frames,

@@ -4,6 +4,7 @@
 #include "blactl/base/json_writer.hpp"
 #include "blactl/dronecan/ids.hpp"
 
+#include "cli/output/page.hpp"
 #include "cli/trace/output.hpp"
 
 #include <cstdint>
@@ -25,7 +26,7 @@ class TraceStats final : public TraceOutput {
   void broken(const Occasion& occasion, TraceError error, std::uint32_t can_id) override;
 
   /// Tables for people.
-  [[nodiscard]] std::string text() const;
+  [[nodiscard]] std::string text(const Page& page) const;
   /// The members "stats" and "buses".
   void write(JsonWriter& json) const;
 

@@ -30,3 +30,17 @@ TEST_CASE("the nearest words come first, and only those that resemble") {
   CHECK(nearest("", words).empty());
   CHECK(nearest(std::string(100'000, 's'), words).empty());
 }
+
+TEST_CASE("words are found by their parts, and without separators") {
+  constexpr std::array<std::string_view, 6> words{"overcurrent_limit", "angle_dead_band",
+                                                  "speed_dead_band",   "angle_limit_cw",
+                                                  "servo_id",          "static_node_id"};
+  using Words = std::vector<std::string_view>;
+  CHECK(nearest("anglelimit", words) == Words{"angle_limit_cw"});
+  CHECK(nearest("AngleLimitCW", words) == Words{"angle_limit_cw"});
+  CHECK(nearest("nodeid", words) == Words{"static_node_id"});
+  CHECK(nearest("node-id", words) == Words{"static_node_id"});
+  CHECK(nearest("deadband", words) == Words{"angle_dead_band", "speed_dead_band"});
+  CHECK(nearest("limits", words) == Words{"angle_limit_cw", "overcurrent_limit"});
+  CHECK(nearest("xy", words).empty());
+}

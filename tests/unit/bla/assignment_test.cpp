@@ -21,7 +21,7 @@ std::string code_of(std::string_view text) {
   return std::string(name(refused(text).code));
 }
 
-Result<std::vector<Assignment>> all(std::vector<std::string> texts) {
+std::expected<std::vector<Assignment>, std::vector<Error>> all(std::vector<std::string> texts) {
   return parse_assignments(built_in(), texts);
 }
 
@@ -108,8 +108,9 @@ TEST_CASE("a parameter named twice is refused, however it is named") {
   CHECK(all({"servo_id=1", "origin=0deg"})->size() == 2);
   const auto twice = all({"servo_id=1", "0x45=1"});
   REQUIRE_FALSE(twice);
-  CHECK(twice.error().code == Code::usage);
-  CHECK(twice.error().message == "servo_id is given twice");
+  REQUIRE(twice.error().size() == 1);
+  CHECK(twice.error()[0].code == Code::usage);
+  CHECK(twice.error()[0].message == "servo_id is given twice");
 }
 
 TEST_CASE("0x36 must fit the 0x37 beside it, in either order") {
@@ -119,8 +120,9 @@ TEST_CASE("0x36 must fit the 0x37 beside it, in either order") {
   CHECK(all({"pwm_output_range=150rpm"}));
   const auto wrong = all({"pwm_mode=speed", "pwm_output_range=70deg"});
   REQUIRE_FALSE(wrong);
-  CHECK(wrong.error().code == Code::usage);
-  CHECK(wrong.error().message == "pwm_output_range=70deg: with pwm_mode=speed the unit is rpm");
+  REQUIRE(wrong.error().size() == 1);
+  CHECK(wrong.error()[0].code == Code::usage);
+  CHECK(wrong.error()[0].message == "pwm_output_range=70deg: with pwm_mode=speed the unit is rpm");
   CHECK_FALSE(all({"pwm_output_range=150rpm", "0x37=0"}));
   const auto alone = parse_assignment(built_in(), "pwm_output_range=150rpm");
   REQUIRE(alone);
@@ -129,8 +131,29 @@ TEST_CASE("0x36 must fit the 0x37 beside it, in either order") {
         "pwm_output_range=150rpm: with pwm_mode=angle the unit is deg");
 }
 
-TEST_CASE("the first refusal ends the reading") {
-  const auto wrong = all({"servo_id=1", "servo_id=999", "nonsense=1"});
+TEST_CASE("every fault is told, in the order typed") {
+  const auto wrong = all({"nonsense=1", "servo_id=1", "angle_limit_cw=90", "0x45=2", "origin"});
   REQUIRE_FALSE(wrong);
-  CHECK(wrong.error().code == Code::out_of_range);
+  std::vector<std::string> codes;
+  for (const Error& error : wrong.error()) {
+    codes.emplace_back(name(error.code));
+  }
+  CHECK(codes == std::vector<std::string>{"unknown_parameter", "usage", "usage", "usage"});
+  CHECK(wrong.error()[3].hint == "for example origin=0.0deg");
+}
+
+TEST_CASE("an example is a value that every model takes, or tells the model that takes it") {
+  CHECK(refused("overcurrent_limit=x").hint ==
+        "a number is written [-]digits[.digits]unit, "
+        "for example overcurrent_limit=2.1A for a BLA15-06U-A0");
+  CHECK(refused("speed_limit_cw=1V").hint == "for example speed_limit_cw=80rpm");
+  CHECK(refused("pwm_neutral=1V").hint == "for example pwm_neutral=1520us");
+  CHECK(refused("pwm_range").hint == "for example pwm_range=700us");
+}
+
+TEST_CASE("outside of all ranges, the hint tells those that one servo takes") {
+  CHECK(refused("overcurrent_limit=12.1A").hint ==
+        "the models take 1.0A to 3.0A, 0.7A to 1.5A, 6.0A to 12.0A, 3.5A to 7.0A, 1.6A to 3.2A, "
+        "3.5A to 6.3A or 1.6A to 2.4A");
+  CHECK(refused("pwm_neutral=99us").hint == "models with a PWM input take 100us to 10000us");
 }

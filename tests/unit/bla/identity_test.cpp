@@ -3,6 +3,9 @@
 #include "catch.hpp"
 #include "unit/bla/built_in.hpp"
 
+#include <algorithm>
+#include <vector>
+
 using namespace blactl;
 using namespace blactl::bla;
 using test::built_in;
@@ -83,7 +86,12 @@ TEST_CASE("where candidates differ, a register is shown with the range of all mo
   const Identity open = identify(61, 24'050);
   CHECK(open.parameter(Address(0x2A)) == built_in().find(Address(0x2A)));
   CHECK(open.parameter(Address(0x2C)) == model("BLA21-06U-AB").find(Address(0x2C)));
-  CHECK(identify(99, 12'050).parameter(Address(0x2C)) == built_in().find(Address(0x2C)));
+  const Parameter* unknown = identify(99, 12'050).parameter(Address(0x2C));
+  REQUIRE(unknown != nullptr);
+  CHECK(unknown->name == built_in().find(Address(0x2C))->name);
+  CHECK_FALSE(unknown->default_raw);
+  CHECK_FALSE(unknown->min);
+  CHECK_FALSE(unknown->max);
   CHECK(Identity().parameter(Address(0x2C)) == nullptr);
 }
 
@@ -181,4 +189,57 @@ TEST_CASE("registers that the firmware lacks are not written") {
   CHECK(answer(identify(61, 12'050, 1010), 0x2F, 0) == "unsupported");
   CHECK(identify(61, 12'050, 1010).may_write(Address(0x2F), 0).error().message ==
         "angle_boost (0x2F) needs firmware 1.200, this servo has 1.010");
+}
+
+namespace {
+
+using Addresses = std::vector<int>;
+
+Addresses configuration_of(const Identity& identity) {
+  Addresses all;
+  for (const Parameter* each : identity.configuration()) {
+    all.push_back(each->address.value());
+  }
+  return all;
+}
+
+} // namespace
+
+TEST_CASE("the configuration is what SAVE keeps and can be read and written, by address",
+          "[requirement-82]") {
+  // Tables 3-5 to 3-8: no gaps of the reserved addresses, nothing below 0x20, not 0x49.
+  CHECK(configuration_of(identify(61, 12050)) ==
+        Addresses{0x20, 0x21, 0x22, 0x23, 0x24, 0x25, 0x26, 0x27, 0x2A, 0x2C, 0x2D, 0x2E,
+                  0x2F, 0x30, 0x31, 0x32, 0x33, 0x34, 0x35, 0x36, 0x37, 0x38, 0x39, 0x3A,
+                  0x3B, 0x3C, 0x3D, 0x3E, 0x3F, 0x40, 0x41, 0x44, 0x45, 0x46});
+}
+
+TEST_CASE("what a firmware lacks is no part of its configuration", "[requirement-90]") {
+  const Addresses all = configuration_of(identify(61, 12050, 1010));
+  for (const int absent : {0x25, 0x2A, 0x2F, 0x34, 0x35, 0x36, 0x37}) {
+    CHECK(std::ranges::find(all, absent) == all.end());
+  }
+  CHECK(all.size() == 34 - 7);
+}
+
+TEST_CASE("nothing is known of the configuration of nobody") {
+  CHECK(configuration_of(Identity()).empty());
+  CHECK_FALSE(Identity().factory_defaults());
+}
+
+TEST_CASE("the factory defaults are those of the model, one for every register") {
+  const Identity servo = identify(61, 12050);
+  const auto defaults = servo.factory_defaults();
+  REQUIRE(defaults);
+  CHECK(defaults->size() == servo.configuration().size());
+  CHECK(defaults->at(address::angle_limit_cw) == 1799);
+  CHECK(defaults->at(address::servo_id) == 0);
+  CHECK(defaults->at(address::static_node_id) == 0);
+}
+
+TEST_CASE("a model that is not known well enough has no defaults") {
+  const auto defaults = identify(99, 55555).factory_defaults();
+  REQUIRE_FALSE(defaults);
+  CHECK(defaults.error().code == Code::no_profile);
+  CHECK_FALSE(defaults.error().hint.empty());
 }

@@ -320,8 +320,12 @@ TEST_CASE("faults of a family file have place and reason") {
         ": /fault_bits/1: the code angle_limit_cw is used twice");
   fault("\"bit\": 9", "\"bit\": 32", ": /fault_bits/1/bit: 32 is more than 31");
   fault("\"bit\": 9", "\"bit\": 1", ": /fault_bits/1: bit 1 belongs to the group hardware");
-  fault("\"register\": \"0x19\"", "\"register\": \"0x18\"",
-        ": /fault_bits/0/register: \"0x18\" is none of: 0x19, 0x1A, 0x1B");
+  fault("\"register\": \"0x19\"", "\"register\": \"0x17\"",
+        ": /fault_bits/0/register: \"0x17\" is none of: 0x18, 0x19, 0x1A, 0x1B");
+  fault("\"register\": \"0x18\", \"bit\": 26", "\"register\": \"0x18\", \"bit\": 27",
+        ": 0x18 has no bit 27");
+  fault("\"register\": \"0x18\", \"bit\": 26", "\"register\": \"0x18\", \"bit\": 25",
+        ": 0x18 bit 25 is described twice");
   fault("\"version\": 1100", "\"version\": 1010", ": /firmware/1: versions must ascend");
   fault("\"2021-01\"", "\"2021-13\"",
         ": /firmware/0/shipments/0/from: \"2021-13\" is no month like 2024-06");

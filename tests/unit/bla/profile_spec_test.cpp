@@ -279,10 +279,20 @@ TEST_CASE("fault bits are those of 4.12 and of the vendor's program, and no othe
 
 TEST_CASE("the bits of 0x18 follow from group and level") {
   std::size_t compared = 0;
+  REQUIRE(built_in().summary_bits().size() == 12);
   for (const Row& row : read_table("fault_bits.csv", 34)) {
     if (row.at("register") != "0x18") {
       continue;
     }
+    const FaultBit& own_bit = built_in().summary_bits()[compared];
+    CHECK(own_bit.reg == address::fault_summary);
+    CHECK(std::to_string(own_bit.bit) == row.at("bit"));
+    CHECK(own_bit.code.empty());
+    CHECK(own_bit.group == row.at("group"));
+    CHECK(own_bit.text_en == row.at("label_en"));
+    CHECK(own_bit.text_ja == row.at("label_ja"));
+    CHECK(own_bit.condition_en == row.at("condition_en"));
+    CHECK(own_bit.condition_ja == row.at("condition_ja"));
     const std::string level = row.at("label_en").substr(0, row.at("label_en").find(' '));
     for (const FaultBit& bit : built_in().fault_bits()) {
       const std::string own = bit.level == Level::notice    ? "Notification"
@@ -314,6 +324,22 @@ TEST_CASE("fault bits have the codes that scripts read, in the order of levels a
                  "failure.0=motor_driver failure.1=motor failure.4=angle_sensor_interface "
                  "failure.5=angle_sensor failure.8=clock failure.9=watchdog failure.10=rom "
                  "failure.11=ram ");
+}
+
+TEST_CASE("a model has had the releases from its first shipment to its last") {
+  const auto versions = [](std::string_view model) {
+    std::vector<std::int64_t> all;
+    for (const FirmwareRelease* release :
+         built_in().releases_of(*built_in().matching(model).front())) {
+      all.push_back(release->version);
+    }
+    return all;
+  };
+  using Versions = std::vector<std::int64_t>;
+  CHECK(versions("BLA21-12U-AB") == Versions{1100, 1200, 1300, 1400});
+  CHECK(versions("BLA21-06U-A0") == Versions{1010, 1100, 1200, 1300, 1400});
+  CHECK(versions("BLA15-12U-A0") == Versions{1200, 1300, 1400});
+  CHECK(versions("BLA34-28U-AB") == Versions{1500});
 }
 
 TEST_CASE("the firmware history is that of chapter 5") {

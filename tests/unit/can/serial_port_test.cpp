@@ -92,7 +92,8 @@ TEST_CASE("a port is of one user only, and free again after him") {
   CHECK(SerialPort::open(adapter.path(), 1'000'000));
 }
 
-TEST_CASE("a port of a group is a matter of permission, and how to join the group is told") {
+TEST_CASE("a port of a group is a matter of permission, and how to join the group is told",
+          "[root][may-skip]") {
   if (geteuid() != 0) {
     WARN("skipped: only root can become somebody else");
     return;

@@ -85,6 +85,49 @@ inline Dialect noisy() {
                       std::string(5000, 'x') + "\r\a\r"};
 }
 
+/// Another baud rate, as it is read: framing errors, and bytes that mean nothing.
+inline std::string framing_garbage(std::size_t size) {
+  static constexpr std::array<char, 8> pattern{'\x00', '\xF8', '\xE0', '\x98',
+                                               '\x06', 'f',    '\x7F', '\x80'};
+  std::string bytes;
+  for (std::size_t i = 0; i < size; ++i) {
+    bytes += pattern[i % pattern.size()];
+  }
+  return bytes;
+}
+
+/// Streams at another baud rate, whatever it is told.
+inline Dialect wrong_baud() {
+  Dialect dialect = starter_kit();
+  dialect.greeting = framing_garbage(2000);
+  return dialect;
+}
+
+/// Answers at another baud rate.
+inline Dialect garbled() {
+  const std::string some = framing_garbage(3);
+  return {.to_empty = some, .to_close = some, .to_rate = some, .to_open = some, .to_frame = some};
+}
+
+/// A satellite receiver: text, and no interest in what it is told.
+inline Dialect satellite_receiver() {
+  Dialect dialect = starter_kit();
+  for (int i = 0; i < 20; ++i) {
+    dialect.greeting += "$GPGGA,123519,4807.038,N,01131.000,E,1,08,0.9,545.4,M,46.9,M,,*47\r\n";
+  }
+  return dialect;
+}
+
+/// Takes the bit rate and then does not open.
+inline Dialect closed() {
+  return {.to_open = "\a", .to_frame = "\a"};
+}
+
+/// Opens, and takes no frame.
+inline Dialect listening() {
+  return {.to_frame = "\a"};
+}
+
 class SlcanAdapter {
  public:
   explicit SlcanAdapter(Dialect dialect, std::unique_ptr<Bus> bus = nullptr)

@@ -273,3 +273,54 @@ TEST_CASE("slcan: the loop does not spin while the adapter is silent") {
                     std::chrono::nanoseconds(after.tv_nsec - before.tv_nsec);
   CHECK(used < 100ms);
 }
+
+TEST_CASE("slcan: an adapter that says what is no slcan is told, whatever opens it") {
+  for (const Dialect& dialect : {test::wrong_baud(), test::garbled(), test::satellite_receiver()}) {
+    Rig rig(dialect);
+    const auto gone = rig.expect<Gone>();
+    CHECK(gone.error.code == Code::interface);
+    CHECK(gone.error.message.find("no slcan") != std::string::npos);
+    CHECK(gone.error.hint.find("?baud=") != std::string::npos);
+  }
+  for (const Dialect& dialect : {test::wrong_baud(), test::satellite_receiver()}) {
+    Rig rig(dialect, {.opening = SlcanOpening::plain});
+    CHECK(rig.expect<Gone>().error.message.find("no slcan") != std::string::npos);
+  }
+}
+
+TEST_CASE("slcan: noise before the channel is open is forgiven") {
+  Rig rig(test::noisy());
+  std::ignore = rig.expect<Opened>();
+  rig.adapter.say("T1001557F101\r");
+  std::ignore = rig.expect<Received>();
+  CHECK_FALSE(rig.loop.bus().silence());
+}
+
+TEST_CASE("slcan: an adapter that takes no frame at all is told, and why") {
+  const std::vector<std::pair<Dialect, std::string>> cases{
+      {test::closed(), "refuses to open"},
+      {test::listening(), "refuses to send: frames refused 3"}};
+  for (const auto& [dialect, message] : cases) {
+    Rig rig(dialect);
+    std::ignore = rig.expect<Opened>();
+    for (std::uint8_t i = 0; i < 3; ++i) {
+      rig.loop.send(frame(i));
+    }
+    const auto gone = rig.expect<Gone>();
+    CHECK(gone.error.code == Code::interface);
+    CHECK(gone.error.message.find(message) != std::string::npos);
+    CHECK(gone.error.hint.find("?open=plain") != std::string::npos);
+  }
+}
+
+TEST_CASE("slcan: what was heard, or refused, is known when nobody was heard") {
+  Rig silent(test::canable());
+  std::ignore = silent.expect<Opened>();
+  CHECK(silent.loop.bus().silence()->code == Code::not_found);
+  Rig closed(test::closed());
+  std::ignore = closed.expect<Opened>();
+  CHECK(closed.loop.bus().silence()->code == Code::interface);
+  Rig fine(test::lawicel());
+  std::ignore = fine.expect<Opened>();
+  CHECK_FALSE(fine.loop.bus().silence());
+}

@@ -94,7 +94,7 @@ TEST_CASE("a scenario is a bus of this process alone") {
   std::filesystem::remove(file);
   REQUIRE(bus);
   CHECK(bus->bus->name() == text);
-  CHECK(bus->lock_name.empty());
+  CHECK(bus->place.interface.empty());
 }
 
 TEST_CASE("processes that reach one simulator by different paths share their node IDs") {
@@ -119,9 +119,9 @@ TEST_CASE("processes that reach one simulator by different paths share their nod
   REQUIRE(direct);
   REQUIRE(dots);
   REQUIRE(link);
-  CHECK_FALSE(direct->lock_name.empty());
-  CHECK(direct->lock_name == dots->lock_name);
-  CHECK(direct->lock_name == link->lock_name);
+  CHECK_FALSE(direct->place.interface.empty());
+  CHECK(direct->place.interface == dots->place.interface);
+  CHECK(direct->place.interface == link->place.interface);
   std::filesystem::remove_all(folder);
 }
 
@@ -141,11 +141,11 @@ TEST_CASE("a socket nobody serves is an interface that is not there") {
   CHECK(open("sim:/no/such/socket").error().code == Code::interface);
 }
 
-TEST_CASE("a network interface that does not exist is exit 3") {
-  CHECK(exit_status(open("mcast:0?if=nosuchnet0").error().code) == 3);
+TEST_CASE("a network interface that does not exist is an interface that is not there") {
+  CHECK(open("mcast:0?if=nosuchnet0").error().code == Code::interface);
 }
 
-TEST_CASE("a CAN interface that does not exist is exit 3") {
-  CHECK(exit_status(open("nosuchcan0").error().code) == 3);
-  CHECK(exit_status(open("socketcan:").error().code) == 3);
+TEST_CASE("a CAN interface that does not exist is an interface that is not there") {
+  CHECK(open("nosuchcan0").error().code == Code::interface);
+  CHECK(open("socketcan:").error().code == Code::usage); // no name
 }

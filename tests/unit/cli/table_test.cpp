@@ -50,3 +50,35 @@ TEST_CASE("comma-separated values are quoted where they must be (RFC 4180)") {
         "\"a,b\",\"say \"\"x\"\"\",\"1\n2\",\"\r\"\n");
   CHECK(csv_line({}) == "\n");
 }
+
+TEST_CASE("columns that do not fit the page stand below, indented") {
+  Table table({"NODE", "MODEL", "UNIQUE ID"});
+  table.add({"1", "BLA21-12U-AB", "0123456789"});
+  table.add({"2", "BLA34", ""});
+  const Page narrow{.width = 24};
+  CHECK(table.text("", narrow) == "NODE  MODEL\n"
+                                  "    UNIQUE ID\n"
+                                  "1     BLA21-12U-AB\n"
+                                  "    0123456789\n"
+                                  "2     BLA34\n");
+  CHECK(table.text("", {.width = 30}) == table.text());
+  CHECK(table.text("  ", {.width = 31}) != table.text("  "));
+}
+
+TEST_CASE("colour takes no cells, and is there only where it is shown") {
+  const Page colourful{.colour = true};
+  CHECK(display_width(colourful.paint(Tone::bad, "角 x")) == 4);
+  CHECK(Page().paint(Tone::bad, "x") == "x");
+  CHECK(colourful.paint(Tone::good, "") == "");
+  Table table({"A", "B"});
+  table.add({colourful.paint(Tone::good, "ok"), "x"});
+  table.add({"long", "y"});
+  CHECK(table.text() == "A     B\n\x1b[32mok\x1b[0m    x\nlong  y\n");
+}
+
+TEST_CASE("a line that is longer than the page is broken at words") {
+  const Page page{.width = 20};
+  CHECK(page.fit("  one two three four five\nshort  line\n") ==
+        "  one two three four\n      five\nshort  line\n");
+  CHECK(Page().fit("any  line") == "any  line");
+}

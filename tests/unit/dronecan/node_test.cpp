@@ -37,6 +37,14 @@ class Bench {
                     for (const auto& line : texts(frames)) {
                       withdrawn.push_back(line);
                     }
+                  },
+              .asked =
+                  [this](const Request& request, int tries) {
+                    told.push_back(fmt::format("asked {} {}", request.server.value(), tries));
+                  },
+              .unanswered =
+                  [this](const Request& request, int tries) {
+                    told.push_back(fmt::format("unanswered {} {}", request.server.value(), tries));
                   }}) {
     node.advance(now);
   }
@@ -87,6 +95,7 @@ class Bench {
   }
 
   std::size_t backlog = 0;
+  Lines told;      ///< of questions
   Lines withdrawn; ///< frames that shall not leave any more
   std::function<void(const Transfer&)> on_transfer;
   Time now = at(0ms);
@@ -242,6 +251,8 @@ TEST_CASE("an unanswered question is tried again with a new transfer ID each tim
   CHECK(talk.outcomes == Kinds{start, timed_out});
   CHECK(bench.sent().empty());
   CHECK(bench.node.jobs() == 0);
+  CHECK(bench.told == Lines{"asked 10 1", "unanswered 10 1", "asked 10 2", "unanswered 10 2",
+                            "asked 10 3", "unanswered 10 3"});
 }
 
 TEST_CASE("without retries a question is asked once") {
@@ -381,6 +392,119 @@ TEST_CASE("cancel_all ends what is asked and what waits, and sends nothing more"
   bench.pass(600ms);
   CHECK(bench.sent().empty());
   CHECK(asked.outcomes.size() == 2);
+}
+
+TEST_CASE("cancel ends one job; the others go on") {
+  Bench bench;
+  Talk doomed({ask_info(10), ask_info(10)});
+  Talk other({ask_info(11)});
+  bench.node.start(doomed, bench.now);
+  bench.node.start(other, bench.now);
+  bench.sent_and_echoed();
+  CHECK(bench.node.is_running(doomed));
+  bench.node.cancel(doomed, bench.now);
+  CHECK(doomed.outcomes == Kinds{start, cancelled});
+  CHECK_FALSE(bench.node.is_running(doomed));
+  CHECK(bench.node.is_running(other));
+  CHECK(bench.node.jobs() == 1);
+  CHECK(bench.sent().empty()); // its second question is not asked
+  bench.answer_info(10, 0);    // too late
+  bench.answer_info(11, 0);
+  CHECK(doomed.outcomes.size() == 2);
+  CHECK(other.outcomes == Kinds{start, answered});
+}
+
+TEST_CASE("cancel ends a job that pauses, that waits for its turn, that must finish") {
+  Bench bench;
+  Talk pausing({Pause{}});
+  Talk asked({ask_info(10)});
+  Talk waiting({ask_info(10)});
+  Talk finishing({ask_info(11)});
+  finishing.finishes = true;
+  for (Talk* talk : {&pausing, &asked, &waiting, &finishing}) {
+    bench.node.start(*talk, bench.now);
+  }
+  bench.sent_and_echoed();
+  for (Talk* talk : {&pausing, &waiting, &finishing}) {
+    bench.node.cancel(*talk, bench.now);
+    CHECK(talk->outcomes == Kinds{start, cancelled});
+  }
+  CHECK(bench.node.is_running(asked));
+  CHECK(bench.node.jobs() == 1);
+}
+
+TEST_CASE("a job that is cancelled leaves its server to the one that waits for it") {
+  Bench bench;
+  Talk doomed({ask_info(10)});
+  Talk waiting({ask_info(10)});
+  bench.node.start(doomed, bench.now);
+  bench.node.start(waiting, bench.now);
+  CHECK(bench.sent_and_echoed() == Lines{"1E018AFF#C0"});
+  bench.node.cancel(doomed, bench.now);
+  CHECK(bench.sent_and_echoed() == Lines{"1E018AFF#C1"});
+  bench.answer_info(10, 0); // meant for the one that is gone
+  CHECK(waiting.outcomes == Kinds{start});
+  bench.answer_info(10, 1);
+  CHECK(waiting.outcomes == Kinds{start, answered});
+}
+
+TEST_CASE("what has not left of a cancelled question leaves no more") {
+  Bench bench;
+  Talk doomed({ask_register(12, "0x38", std::int64_t{900})});
+  bench.node.start(doomed, bench.now);
+  const Lines question = bench.sent();
+  bench.node.cancel(doomed, bench.now);
+  CHECK(bench.withdrawn == question);
+}
+
+TEST_CASE("to cancel what never began or has ended does nothing") {
+  Bench bench;
+  Talk never_begun({ask_info(10)});
+  Talk ended({});
+  bench.node.start(ended, bench.now);
+  bench.node.cancel(never_begun, bench.now);
+  bench.node.cancel(ended, bench.now);
+  CHECK(never_begun.outcomes.empty());
+  CHECK(ended.outcomes == Kinds{start});
+  CHECK_FALSE(bench.node.is_running(never_begun));
+  CHECK(bench.sent().empty());
+}
+
+TEST_CASE("a job may cancel another one, before or behind it, while it is told of an outcome") {
+  const bool before = GENERATE(true, false);
+  Bench bench;
+  Talk doomed({ask_info(10)});
+  Talk judge({ask_info(11), ask_info(11)});
+  judge.on_outcome = [&](const Outcome& outcome) {
+    if (outcome.answered()) {
+      bench.node.cancel(doomed, bench.now);
+      CHECK_FALSE(bench.node.is_running(doomed));
+    }
+  };
+  bench.node.start(before ? doomed : judge, bench.now);
+  bench.node.start(before ? judge : doomed, bench.now);
+  bench.sent_and_echoed();
+  bench.answer_info(11, 0);
+  CHECK(doomed.outcomes == Kinds{start, cancelled});
+  CHECK(judge.outcomes == Kinds{start, answered}); // and goes on
+  CHECK(bench.sent_and_echoed() == Lines{"1E018BFF#C1"});
+  CHECK(bench.node.jobs() == 1);
+}
+
+TEST_CASE("a job that is cancelled while it is told of its own outcome does not go on") {
+  Bench bench;
+  Talk doomed({ask_info(10), ask_info(10), ask_info(10)});
+  doomed.on_outcome = [&](const Outcome& outcome) {
+    if (outcome.answered()) {
+      bench.node.cancel(doomed, bench.now); // its owner gives it up, because of what was heard
+    }
+  };
+  bench.node.start(doomed, bench.now);
+  bench.sent_and_echoed();
+  bench.answer_info(10, 0);
+  CHECK_FALSE(bench.node.is_running(doomed));
+  CHECK(bench.node.jobs() == 0);
+  CHECK(bench.sent().empty());
 }
 
 TEST_CASE("a job that is cancelled may start another one, which is cancelled with it") {
@@ -758,6 +882,90 @@ TEST_CASE("what has left is not called back") {
     CHECK(talk.outcomes == Kinds{start, answered});
   }
   CHECK(bench.withdrawn.empty());
+}
+
+namespace {
+
+/// The transfer IDs of another node ID.
+struct OtherIds {
+  std::array<TransferIds::Slot, TransferIds::slots> table{};
+  TransferIds ids{table};
+};
+
+} // namespace
+
+TEST_CASE("with a new node ID what was asked is asked again, and the old one gets no answer") {
+  Bench bench;
+  OtherIds other;
+  Talk talk({ask_info(10, 1)});
+  bench.node.start(talk, bench.now);
+  CHECK(bench.sent_and_echoed() == Lines{"1E018AFF#C0"});
+  bench.pass(400ms);
+  bench.node.change_id(NodeId(126), other.ids, bench.now);
+  CHECK(bench.node.id() == NodeId(126));
+  CHECK(bench.sent_and_echoed() == Lines{"1E018AFE#C0"});
+  bench.answer_info(10, 0); // to 127
+  CHECK(talk.outcomes == Kinds{start});
+  bench.pass(499ms); // all of its time
+  bench.answer(10, GetNodeInfo::type, 0, GetNodeInfo::Response{.name = "servo"}.encode(), 126);
+  CHECK(talk.outcomes == Kinds{start, answered});
+}
+
+TEST_CASE("the question under the old node ID is no try that failed") {
+  Bench bench;
+  OtherIds other;
+  Talk talk({ask_info(10, 1)});
+  bench.node.start(talk, bench.now);
+  bench.sent_and_echoed();
+  bench.node.change_id(NodeId(126), other.ids, bench.now);
+  CHECK(bench.sent_and_echoed() == Lines{"1E018AFE#C0"});
+  bench.pass(500ms);
+  CHECK(bench.sent_and_echoed() == Lines{"1E018AFE#C1"});
+  bench.pass(500ms);
+  CHECK(talk.outcomes == Kinds{start, timed_out});
+}
+
+TEST_CASE("what has not left under the old node ID leaves no more") {
+  Bench bench;
+  OtherIds other;
+  Talk talk({ask_info(10, 1)});
+  bench.node.start(talk, bench.now);
+  bench.node.change_id(NodeId(126), other.ids, bench.now);
+  CHECK(bench.withdrawn == Lines{"1E018AFF#C0"});
+}
+
+TEST_CASE("with a new node ID nothing is sent twice that must not be") {
+  Bench bench;
+  OtherIds other;
+  Talk once({ask_info(10, 0), ask_info(10, 0)});
+  Talk waits({ask_info(10, 1)});
+  bench.node.start(once, bench.now);
+  bench.node.start(waits, bench.now);
+  CHECK(bench.sent_and_echoed() == Lines{"1E018AFF#C0"});
+  bench.node.change_id(NodeId(126), other.ids, bench.now);
+  CHECK(bench.sent().empty());
+  CHECK(bench.withdrawn.empty());
+  bench.answer_info(10, 0); // to 127: it may be another's
+  CHECK(once.outcomes == Kinds{start});
+  bench.pass(500ms);
+  CHECK(once.outcomes == Kinds{start, timed_out});
+  CHECK(bench.sent() == Lines{"1E018AFE#C0"});
+}
+
+TEST_CASE("a node that listened first begins to live when it gets its ID") {
+  Bench bench{anonymous};
+  OtherIds own;
+  bench.pass(5s);
+  CHECK(bench.sent().empty());
+  bench.node.change_id(NodeId(11), own.ids, bench.now);
+  bench.node.advance(bench.now);
+  bench.pass(999ms);
+  CHECK(bench.sent().empty());
+  bench.pass(1ms);
+  CHECK(bench.sent() == Lines{"1001550B#01000000000000C0"});
+  Talk talk({ask_info(10)});
+  bench.node.start(talk, bench.now);
+  CHECK(bench.sent() == Lines{"1E018A8B#C0"});
 }
 
 TEST_CASE("our NodeStatus comes after a second of life, then every second") {

@@ -1,4 +1,3 @@
-#include "blactl/fleet/configuration.hpp"
 #include "blactl/fleet/erase_job.hpp"
 
 #include "support.hpp"
@@ -14,13 +13,7 @@ using dronecan::ExecuteOpcode;
 namespace {
 
 /// A servo that is identified, without a bus.
-struct Bench {
-  Bench() {
-    servo.id = NodeId(11);
-    servo.info = GetNodeInfo::Response{.unique_id = {1}};
-    servo.identified = servo.is_servo = true;
-  }
-
+struct Bench : Acquaintance {
   std::string next(const Outcome& outcome) {
     step = job.next(outcome);
     return text(step);
@@ -38,20 +31,16 @@ struct Bench {
     return job.error()->code;
   }
 
-  Member servo;
   Script script;
-  EraseJob job{servo, {500ms, 2}};
+  EraseJob job{roster, servo, {500ms, 2}};
   dronecan::Step step = std::nullopt;
 };
 
-/// Reads the configuration of a servo that is identified, again if it restarted.
-Values read(const Scene& scene, std::uint8_t id) {
-  ReadJob job(scene.roster(), scene.member(id), profiles(), {}, [](const Member& servo) {
-    return Result<std::vector<const bla::Parameter*>>(configuration(profiles(), servo));
-  });
-  scene.run(job);
-  REQUIRE_FALSE(job.error());
-  return values(job);
+/// What a servo holds, identified again if it restarted.
+bla::Values read(const Scene& scene, std::uint8_t id) {
+  const Snapshot snapshot = scene.read(id, configuration);
+  REQUIRE_FALSE(snapshot.first_error());
+  return snapshot.values();
 }
 
 } // namespace
@@ -64,6 +53,7 @@ TEST_CASE("ERASE is sent once, to the servo that is meant", "[requirement-50]") 
   CHECK(request->opcode == ExecuteOpcode::erase);
   CHECK(bench.step.request()->server == NodeId(11));
   CHECK(bench.step.request()->retries == 0); // whatever the patience for other questions
+  CHECK(bench.job.is_sent());
   CHECK_FALSE(bench.job.is_confirmed());
   CHECK(bench.next(bench.script.answer(ExecuteOpcode::Response{.ok = true}.encode())) == "nothing");
   CHECK(bench.job.is_confirmed());
@@ -106,9 +96,19 @@ TEST_CASE("what is not certainly the servo that is meant is not erased") {
     CHECK(bench.error() == Code::state);
   }
   SECTION("one that restarted since it was looked at: its RAM holds something else") {
-    ++bench.servo.boots;
+    bench.restart();
     CHECK(bench.next(bench.script.info(1)) == "nothing");
     CHECK(bench.error() == Code::state);
+  }
+  SECTION("two units on its ID: both would be erased") {
+    bench.roster.mark_doubled(NodeId(11), {1}, {2});
+    CHECK(bench.next(bench.script.info(1)) == "nothing");
+    CHECK(bench.error() == Code::duplicate_node_id);
+  }
+  SECTION("two units on its ID of which no answer can be read") {
+    bench.roster.mark_doubled(NodeId(11), {1}, {2});
+    CHECK(bench.next(Script::timed_out()) == "nothing");
+    CHECK(bench.error() == Code::duplicate_node_id);
   }
   SECTION("one that does not answer") {
     CHECK(bench.next(Script::timed_out()) == "nothing");
@@ -122,26 +122,27 @@ TEST_CASE("what is not certainly the servo that is meant is not erased") {
     CHECK(bench.next(Script::cancelled()) == "nothing");
     CHECK(bench.error() == Code::interrupted);
   }
+  CHECK_FALSE(bench.job.is_sent());
   CHECK_FALSE(bench.job.is_confirmed());
 }
 
 TEST_CASE("an erased servo holds the defaults in its RAM, and stays where it is") {
   Scene scene(R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11, "servo_id": 7,
                              "rom": {"angle_limit_cw": "90deg"}}])");
-  Member& servo = scene.identify(11);
+  const Servo servo = scene.identify(11);
   CHECK(read(scene, 11).at(bla::address::angle_limit_cw) == 900);
-  EraseJob job(servo, {});
+  EraseJob job(scene.roster(), servo, {});
   scene.run(job);
   CHECK(job.is_confirmed());
   CHECK(scene.requests(ExecuteOpcode::type, 11) == 1);
-  CHECK(read(scene, 11) == *factory_defaults(profiles(), servo));
-  CHECK(servo.boots == 0);
+  CHECK(read(scene, 11) == *servo.identity.factory_defaults());
+  CHECK(scene.member(11).boots == 0);
 }
 
 TEST_CASE("an ERASE whose answer is lost is not sent twice, whatever the patience") {
   Scene scene(R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11,
                              "faults": {"lose_opcode_answers": 1}}])");
-  EraseJob job(scene.identify(11), {.timeout = 500ms, .retries = 5});
+  EraseJob job(scene.roster(), scene.identify(11), {.timeout = 500ms, .retries = 5});
   scene.run(job);
   CHECK_FALSE(job.is_confirmed());
   CHECK_FALSE(job.error());

@@ -3,7 +3,9 @@
 #include "support.hpp"
 
 #include <memory>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace blactl;
@@ -21,11 +23,35 @@ constexpr const char* one_servo = R"("servos": [{"model": "BLA21-12U-AB", "node_
 /// An identification that is asked without a bus.
 struct Dialogue {
   explicit Dialogue(Identification::Options options = {})
-      : identification(roster, roster.member(NodeId(11)), profiles(), options) {}
+      : identification(roster, NodeId(11), profiles(), options) {}
 
   std::string next(const Outcome& outcome) { return text(identification.next(outcome)); }
 
-  [[nodiscard]] Member& member() { return roster.member(NodeId(11)); }
+  [[nodiscard]] Member member() const { return roster.member(NodeId(11)); }
+
+  void hear_uptime(std::uint32_t uptime_s) {
+    hear(dronecan::NodeStatus::type, dronecan::NodeStatus{.uptime_s = uptime_s}.encode());
+  }
+
+  void hear(const dronecan::DataType& type, const dronecan::Payload& payload) {
+    roster.receive(
+        {.header = {.kind = dronecan::Kind::message, .data_type_id = type.id, .source = NodeId(11)},
+         .payload = payload.bytes(),
+         .at = Time{1000s}});
+  }
+
+  void hear_actuator() {
+    hear(dronecan::ActuatorStatus::type, dronecan::ActuatorStatus{.actuator_id = 3}.encode());
+  }
+
+  /// It is taken for a servo that does not say what model it is.
+  [[nodiscard]] bool mute() const {
+    REQUIRE(identification.error());
+    CHECK(identification.error()->node_id == 11);
+    CHECK_FALSE(identification.done());
+    CHECK_FALSE(member().is_known());
+    return identification.error()->code == Code::timeout;
+  }
 
   /// As far as 0x50, which is not answered yet.
   void pass_node_info(std::uint8_t unit = 1) {
@@ -48,10 +74,10 @@ void hear_node(Roster& roster) {
 
 TEST_CASE("a servo is asked for its unique ID, 0x50-0x53 and 0x45, each once") {
   Scene scene(one_servo);
-  Member& servo = scene.identify(11);
-  CHECK(servo.is_known());
+  const Servo servo = scene.identify(11);
+  CHECK(scene.member(11).is_known());
   CHECK(servo.is_servo);
-  CHECK(servo.info->unique_id[1] == 0x11);
+  CHECK(servo.unique_id->at(1) == 0x11);
   CHECK(servo.servo_id == 7);
   CHECK_FALSE(servo.static_node_id);
   CHECK(servo.identity.model() == "BLA21-12U-AB");
@@ -65,7 +91,7 @@ TEST_CASE("a servo is asked for its unique ID, 0x50-0x53 and 0x45, each once") {
 
 TEST_CASE("the static node ID is asked for where it is wanted") {
   Scene scene(one_servo);
-  const Member& servo = scene.identify(11, {.patience = {}, .static_node_id = true});
+  const Servo servo = scene.identify(11, {.patience = {}, .static_node_id = true});
   CHECK(servo.static_node_id == 11);
   CHECK(scene.requests(GetSet::type, 11) == 6);
 }
@@ -85,21 +111,27 @@ TEST_CASE("the questions come one after the other") {
 
 TEST_CASE("who is known is not asked again until it restarts") {
   Scene scene(one_servo);
-  Member& servo = scene.identify(11);
-  const std::size_t sent = scene.sent.size();
   scene.identify(11);
+  const std::size_t sent = scene.sent.size();
+  CHECK(scene.identify(11).servo_id == 7);
   CHECK(scene.sent.size() == sent);
-  ++servo.boots;
-  CHECK_FALSE(servo.is_known());
+  const auto long_ago = dronecan::NodeStatus{.uptime_s = 1'000'000}.encode();
+  scene.roster().receive({.header = {.kind = dronecan::Kind::message,
+                                     .data_type_id = dronecan::NodeStatus::type.id,
+                                     .source = NodeId(11)},
+                          .payload = long_ago.bytes(),
+                          .at = scene.session->now()});
+  CHECK_FALSE(scene.member(11).is_known());
   scene.identify(11);
   CHECK(scene.sent.size() == 2 * sent);
-  CHECK(servo.is_known());
+  CHECK(scene.member(11).is_known());
 }
 
 TEST_CASE("a restart in the middle of the questions leaves a servo that is not known") {
   Dialogue dialogue;
+  dialogue.hear_uptime(100);
   dialogue.pass_node_info();
-  ++dialogue.member().boots;
+  dialogue.hear_uptime(0);
   for (const char* name : {"0x50", "0x51", "0x52", "0x53"}) {
     CHECK(dialogue.next(dialogue.script.value(name, std::int64_t{61})) != "nothing");
   }
@@ -115,7 +147,7 @@ TEST_CASE("numbers are narrowed to the width of their registers") {
   dialogue.next(dialogue.script.value("0x52", std::int64_t{1400}));
   dialogue.next(dialogue.script.value("0x53", std::int64_t{12050}));
   dialogue.next(dialogue.script.value("0x45", std::int64_t{0x103}));
-  const auto& readings = dialogue.member().identity.readings();
+  const auto readings = dialogue.member().identity.readings();
   CHECK(readings.model_number == 61);
   CHECK(readings.serial_number == 0xFFFF'FFFF);
   CHECK(dialogue.member().servo_id == 3);
@@ -124,7 +156,8 @@ TEST_CASE("numbers are narrowed to the width of their registers") {
 TEST_CASE("a node without parameters is identified, and is no servo") {
   Scene scene(R"("foreign": [{"kind": "node", "node_id": 30, "name": "org.example.gnss",
                               "serves_get_set": true}])");
-  const Member& node = scene.identify(30);
+  scene.identify(30);
+  const Member node = scene.member(30);
   CHECK(node.is_known());
   CHECK_FALSE(node.is_servo);
   CHECK(node.info->name == "org.example.gnss");
@@ -134,27 +167,68 @@ TEST_CASE("a node without parameters is identified, and is no servo") {
 
 TEST_CASE("a node that does not serve GetSet at all is no servo either") {
   Scene scene(R"("foreign": [{"kind": "node", "node_id": 30}])");
-  const Member& node = scene.identify(30, {.patience = {.timeout = 50ms, .retries = 1}});
+  scene.identify(30, {.patience = {.timeout = 50ms, .retries = 1}});
+  const Member node = scene.member(30);
   CHECK(node.is_known());
   CHECK_FALSE(node.is_servo);
   CHECK(scene.requests(GetSet::type, 30) == 2);
 }
 
-TEST_CASE("what sends actuator.Status and does not answer 0x50 is a servo that is mute") {
+TEST_CASE("an actuator that answers neither 0x50 nor 0x51 is of another make") {
   Dialogue dialogue;
-  dialogue.member().actuator_id = 3;
+  dialogue.hear_actuator();
   dialogue.pass_node_info();
+  CHECK(dialogue.next(Script::timed_out()) == "read 0x51");
+  SECTION("it answers no GetSet") {
+    CHECK(dialogue.next(Script::timed_out()) == "nothing");
+    CHECK(dialogue.identification.done());
+    CHECK_FALSE(dialogue.identification.error());
+    CHECK(dialogue.member().is_known());
+    CHECK_FALSE(dialogue.member().is_servo);
+  }
+  SECTION("it answers the second one: a servo whose model is not known") {
+    CHECK(dialogue.next(dialogue.script.value("0x51", std::int64_t{1})) == "nothing");
+    CHECK(dialogue.mute());
+  }
+  SECTION("two units on the ID disturb each other's answers") {
+    dialogue.roster.mark_doubled(NodeId(11), {1}, {2});
+    CHECK(dialogue.next(Script::timed_out()) == "nothing");
+    CHECK(dialogue.mute());
+  }
+}
+
+TEST_CASE("an actuator that is called like a servo is a servo that is mute") {
+  const std::string name = GENERATE("futaba.bla", "jp.co.futaba.servo", "BLA21");
+  CAPTURE(name);
+  Dialogue dialogue;
+  dialogue.hear_actuator();
+  CHECK(dialogue.next(Script::start()) == "GetNodeInfo");
+  const GetNodeInfo::Response info{.unique_id = {1}, .name = name};
+  CHECK(dialogue.next(dialogue.script.answer(info.encode())) == "read 0x50");
+  CHECK(dialogue.next(Script::timed_out()) == "read 0x51");
   CHECK(dialogue.next(Script::timed_out()) == "nothing");
-  CHECK_FALSE(dialogue.identification.done());
-  REQUIRE(dialogue.identification.error());
-  CHECK(dialogue.identification.error()->code == Code::timeout);
-  CHECK(dialogue.identification.error()->node_id == 11);
-  CHECK_FALSE(dialogue.member().is_known());
+  CHECK(dialogue.mute());
+}
+
+TEST_CASE("a servo is dated by the moment before the first question") {
+  Dialogue dialogue;
+  CHECK(dialogue.next({Outcome::Kind::start, {}, Time{500s}}) == "GetNodeInfo");
+  CHECK(dialogue.next(dialogue.script.info(1)) == "read 0x50");
+  dialogue.next(dialogue.script.value("0x50", std::int64_t{61}));
+  dialogue.next(dialogue.script.value("0x51", std::int64_t{1}));
+  dialogue.next(dialogue.script.value("0x52", std::int64_t{1400}));
+  dialogue.next(dialogue.script.value("0x53", std::int64_t{12050}));
+  dialogue.next(dialogue.script.value("0x45", std::int64_t{3}));
+  CHECK(dialogue.identification.servo().since == Time{500s});
+  CHECK(dialogue.member().servo().since == Time{500s});
+  Identification again(dialogue.roster, NodeId(11), profiles(), {});
+  CHECK_FALSE(again.next({Outcome::Kind::start, {}, Time{600s}}));
+  CHECK(again.servo().since == Time{500s});
 }
 
 TEST_CASE("a servo of an unknown model can be read, and has no model") {
   Scene scene(R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11, "model_number": 99}])");
-  const Member& servo = scene.identify(11);
+  const Servo servo = scene.identify(11);
   CHECK(servo.is_servo);
   CHECK(servo.identity.model().empty());
   CHECK(servo.identity.profile() == nullptr);
@@ -164,7 +238,7 @@ TEST_CASE("a servo of an unknown model can be read, and has no model") {
 
 TEST_CASE("--profile fills in for a model that no profile fits, for reading only") {
   Scene scene(R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11, "model_number": 99}])");
-  const Member& servo = scene.identify(11, {.patience = {}, .assumed = &model("BLA21-12U-AB")});
+  const Servo servo = scene.identify(11, {.patience = {}, .assumed = &model("BLA21-12U-AB")});
   CHECK(servo.identity.model() == "BLA21-12U-AB");
   CHECK(servo.identity.may_write(bla::address::angle_limit_cw, 900).error().code ==
         Code::no_profile);
@@ -172,7 +246,7 @@ TEST_CASE("--profile fills in for a model that no profile fits, for reading only
 
 TEST_CASE("--profile against a successful identification is a mismatch") {
   Scene scene(one_servo);
-  IdentifyJob job(scene.roster(), scene.member(11), profiles(),
+  IdentifyJob job(scene.roster(), NodeId(11), profiles(),
                   {.patience = {}, .assumed = &model("BLA34-28U-AB")});
   scene.run(job);
   REQUIRE(job.identification().error());
@@ -183,7 +257,7 @@ TEST_CASE("--profile against a successful identification is a mismatch") {
 
 TEST_CASE("an ID that was never heard is not found, after all tries") {
   Scene scene(one_servo);
-  IdentifyJob job(scene.roster(), scene.member(55), profiles(),
+  IdentifyJob job(scene.roster(), NodeId(55), profiles(),
                   {.patience = {.timeout = 50ms, .retries = 2}});
   scene.run(job);
   REQUIRE(job.identification().error());
@@ -195,7 +269,7 @@ TEST_CASE("an ID that was never heard is not found, after all tries") {
 
 TEST_CASE("an ID that was heard and does not answer timed out") {
   Scene scene(R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11, "faults": {"mute": true}}])");
-  IdentifyJob job(scene.roster(), scene.member(11), profiles(),
+  IdentifyJob job(scene.roster(), NodeId(11), profiles(),
                   {.patience = {.timeout = 50ms, .retries = 0}});
   scene.run(job);
   REQUIRE(job.identification().error());
@@ -249,12 +323,12 @@ TEST_CASE("a register that is refused stays unknown, and the others are asked") 
 
 TEST_CASE("nothing of the unit that had the ID before is left") {
   Scene scene(R"("foreign": [{"kind": "node", "node_id": 11, "serves_get_set": true}])");
-  Member& node = scene.member(11);
-  node.is_servo = true;
-  node.servo_id = 3;
-  node.static_node_id = 11;
-  node.identity = bla::Identity(profiles(), {61, 240900558, 1400, 12050});
+  Servo before{.id = NodeId(11), .boot = 1, .is_servo = true, .servo_id = 3, .static_node_id = 11};
+  before.identity = bla::Identity(profiles(), {61, 240900558, 1400, 12050});
+  scene.roster().learn(before, std::nullopt);
+  REQUIRE(scene.member(11).is_servo);
   scene.identify(11);
+  const Member node = scene.member(11);
   CHECK_FALSE(node.is_servo);
   CHECK_FALSE(node.servo_id);
   CHECK_FALSE(node.static_node_id);
@@ -265,7 +339,9 @@ TEST_CASE("nothing of the unit that had the ID before is left") {
 TEST_CASE("probes ask every silent ID once, eight at a time, and never our own") {
   Scene scene(R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11},
                             {"model": "BLA21-12U-AB", "node_id": 125}])",
-              Session::Hearing::all, state::LocalNodeId::unshared(NodeId(60)));
+              Session::Hearing::all, state::LocalNodeId::unshared({NodeId(60)}));
+  REQUIRE(scene.session->wait_until_open());
+  const Time begin = scene.session->now();
   std::uint8_t cursor = 0;
   std::vector<std::unique_ptr<ProbeJob>> probes;
   for (int i = 0; i < 8; ++i) {
@@ -278,7 +354,7 @@ TEST_CASE("probes ask every silent ID once, eight at a time, and never our own")
     const bool asked = id != 11 && id != 125 && id != 60 && id < 126;
     CHECK(scene.requests(GetNodeInfo::type, id) == (asked ? 1U : 0U));
   }
-  CHECK(scene.session->now() - Time{} < Scene::start_time + 1100ms);
+  CHECK(scene.session->now() - begin < 1100ms);
 }
 
 TEST_CASE("a probed node answers and is heard; a cancelled probe asks no more") {
@@ -296,11 +372,10 @@ TEST_CASE("a probed node answers and is heard; a cancelled probe asks no more") 
 }
 
 TEST_CASE("a second answer with another unique ID is another unit") {
-  Roster roster(NodeId(127));
-  Member& servo = roster.member(NodeId(11));
-  servo.info = GetNodeInfo::Response{.unique_id = {1}};
+  Acquaintance known;
+  Roster& roster = known.roster;
   Script script;
-  DoubleCheckJob job(roster, servo, {});
+  DoubleCheckJob job(roster, known.servo, {});
   CHECK(text(job.next(Script::start())) == "GetNodeInfo");
   SECTION("the same one") {
     CHECK(text(job.next(script.info(1))) == "nothing");
@@ -309,14 +384,39 @@ TEST_CASE("a second answer with another unique ID is another unit") {
   SECTION("another one") {
     CHECK(text(job.next(script.info(2))) == "nothing");
     CHECK(roster.is_doubled(NodeId(11)));
+    CHECK(roster.units(NodeId(11)) == std::set<dronecan::UniqueId>{{1}, {2}});
   }
   SECTION("another one after a restart came in its place") {
-    ++servo.boots;
+    known.restart();
     CHECK(text(job.next(script.info(2))) == "nothing");
     CHECK_FALSE(roster.is_doubled(NodeId(11)));
   }
   SECTION("no answer tells nothing") {
     CHECK(text(job.next(Script::timed_out())) == "nothing");
     CHECK_FALSE(roster.is_doubled(NodeId(11)));
+  }
+}
+
+TEST_CASE("a unit that appeared is asked for its unique ID, and for nothing else") {
+  Acquaintance known;
+  known.restart();
+  Script script;
+  UnitJob job(known.roster, NodeId(11), {});
+  CHECK(text(job.next(Script::start())) == "GetNodeInfo");
+  CHECK(job.must_finish());
+  SECTION("the unit that was there before is recognised, but what it holds is not known") {
+    CHECK(text(job.next(script.info(1))) == "nothing");
+    CHECK(known.member().is_unit({1}));
+    CHECK_FALSE(known.member().is_known());
+  }
+  SECTION("another unit is another unit") {
+    CHECK(text(job.next(script.info(2))) == "nothing");
+    CHECK(known.member().is_unit({2}));
+    CHECK_FALSE(known.member().is_unit({1}));
+    CHECK_FALSE(known.member().is_servo);
+  }
+  SECTION("without an answer nobody is recognised") {
+    CHECK(text(job.next(Script::timed_out())) == "nothing");
+    CHECK_FALSE(known.member().is_unit({1}));
   }
 }

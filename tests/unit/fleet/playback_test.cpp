@@ -105,17 +105,8 @@ struct Writer {
 };
 
 ReadJob reader(Session& session, std::vector<const char*> names) {
-  return {session.roster(),
-          session.roster().member(NodeId(11)),
-          profiles(),
-          {},
-          [names = std::move(names)](const Member&) -> Result<std::vector<const bla::Parameter*>> {
-            std::vector<const bla::Parameter*> wanted;
-            for (const char* name : names) {
-              wanted.push_back(&parameter(name));
-            }
-            return wanted;
-          }};
+  return {session.records(),           NodeId(11),          profiles(), {},
+          registers(std::move(names)), ReadJob::Proof::none};
 }
 
 } // namespace
@@ -128,17 +119,17 @@ TEST_CASE("a job on a recording is answered from all of it, what comes later inc
   const auto session = writer.play();
   ReadJob job = reader(*session, {"angle_limit_cw", "angle_limit_ccw"});
   session->start(job);
-  CHECK(job.readings().empty());
+  CHECK(job.snapshot().readings.empty());
   REQUIRE(session->run());
-  REQUIRE_FALSE(job.error());
-  CHECK(job.member().identity.readings().serial_number == 240900558);
-  REQUIRE(job.readings().size() == 2);
-  CHECK(job.readings()[0].raw == 901);
-  CHECK(job.readings()[1].raw.error().code == Code::not_recorded);
+  REQUIRE_FALSE(job.snapshot().error);
+  CHECK(job.snapshot().servo.identity.readings().serial_number == 240900558);
+  REQUIRE(job.snapshot().readings.size() == 2);
+  CHECK(job.snapshot().readings[0].raw == 901);
+  CHECK(job.snapshot().readings[1].raw.error().code == Code::not_recorded);
   CHECK(session->now() == writer.at);
   ReadJob later = reader(*session, {"angle_limit_cw"});
   session->start(later);
-  CHECK(later.raw(bla::address::angle_limit_cw) == 901);
+  CHECK(later.snapshot().raw(bla::address::angle_limit_cw) == 901);
 }
 
 TEST_CASE("a session on a recording lives until its end, whatever the deadline") {
@@ -156,15 +147,29 @@ TEST_CASE("who shows up in a recording may be asked at once, and is answered at 
   Writer writer;
   writer.identify();
   const auto session = writer.play();
-  std::optional<IdentifyJob> job;
-  session->roster().on_new_unit([&](Member& member) {
-    job.emplace(session->roster(), member, profiles(), Identification::Options{});
-    session->start(*job);
-  });
+
+  class Curious final : public Roster::Listener {
+   public:
+    explicit Curious(Session& session) : session_(session) { session.records().add(*this); }
+
+    ~Curious() override { session_.records().remove(*this); }
+
+    void on_new_unit(const Member& member) override {
+      job.emplace(session_.records(), member.id, profiles(), Identification::Options{});
+      session_.start(*job);
+    }
+
+    std::optional<IdentifyJob> job;
+
+   private:
+    Session& session_;
+  } curious(*session);
+
   REQUIRE(session->live_until(never));
-  REQUIRE(job);
-  CHECK(job->member().is_known());
-  CHECK(job->member().servo_id == 3);
+  REQUIRE(curious.job);
+  CHECK(curious.job->identification().done());
+  CHECK(curious.job->identification().servo().servo_id == 3);
+  CHECK(session->roster().member(NodeId(11)).is_known());
 }
 
 TEST_CASE("a servo of which only a part was recorded is known by that part") {
@@ -176,11 +181,11 @@ TEST_CASE("a servo of which only a part was recorded is known by that part") {
   ReadJob job = reader(*session, {"angle_limit_cw"});
   session->start(job);
   REQUIRE(session->run());
-  REQUIRE_FALSE(job.error());
-  CHECK(job.member().is_servo);
-  CHECK_FALSE(job.member().info);
-  CHECK(job.member().identity.model().empty());
-  CHECK(job.raw(bla::address::angle_limit_cw) == 900);
+  REQUIRE_FALSE(job.snapshot().error);
+  CHECK(job.snapshot().servo.is_servo);
+  CHECK_FALSE(job.snapshot().servo.unique_id);
+  CHECK(job.snapshot().servo.identity.model().empty());
+  CHECK(job.snapshot().raw(bla::address::angle_limit_cw) == 900);
 }
 
 TEST_CASE("a node of which nothing tells what it is is not_recorded") {
@@ -192,10 +197,10 @@ TEST_CASE("a node of which nothing tells what it is is not_recorded") {
   ReadJob job = reader(*session, {"angle_limit_cw"});
   session->start(job);
   REQUIRE(session->run());
-  REQUIRE(job.error());
-  CHECK(job.error()->code == Code::not_recorded);
-  CHECK(job.error()->node_id == 11);
-  CHECK((job.error()->message.find("what it is") != std::string::npos) == heard);
+  REQUIRE(job.snapshot().error);
+  CHECK(job.snapshot().error->code == Code::not_recorded);
+  CHECK(job.snapshot().error->node_id == 11);
+  CHECK((job.snapshot().error->message.find("what it is") != std::string::npos) == heard);
 }
 
 TEST_CASE("a foreign node in a recording is no servo") {
@@ -206,8 +211,8 @@ TEST_CASE("a foreign node in a recording is no servo") {
   ReadJob job = reader(*session, {"angle_limit_cw"});
   session->start(job);
   REQUIRE(session->run());
-  CHECK(job.error()->code == Code::not_found);
-  CHECK(job.error()->message.find("gps") != std::string::npos);
+  CHECK(job.snapshot().error->code == Code::not_found);
+  CHECK(job.snapshot().error->message.find("gps") != std::string::npos);
 }
 
 TEST_CASE("a bus-off in a recording is history") {
@@ -227,7 +232,7 @@ TEST_CASE("a recording that breaks off ends the session, and what waits is cance
   const auto ran = session->run();
   REQUIRE_FALSE(ran);
   CHECK(ran.error().code == Code::bad_file);
-  CHECK(job.error()->code == Code::interrupted);
+  CHECK(job.snapshot().error->code == Code::interrupted);
   CHECK(session->run());
 }
 

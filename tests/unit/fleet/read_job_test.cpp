@@ -13,145 +13,170 @@ namespace {
 constexpr const char* one_servo = R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11,
     "ram": {"angle_limit_cw": "90deg"}}])";
 
-ReadJob::Plan reading(std::vector<const char*> names) {
-  return [names =
-              std::move(names)](const Member& servo) -> Result<std::vector<const bla::Parameter*>> {
-    std::vector<const bla::Parameter*> wanted;
-    for (const char* name : names) {
-      wanted.push_back(servo.identity.parameter(parameter(name).address));
-    }
-    return wanted;
-  };
-}
+/// A reading of a servo that is known, without its bus.
+struct Reader {
+  explicit Reader(std::vector<const char*> names, ReadJob::Proof proof = ReadJob::Proof::moment)
+      : job(known.roster, NodeId(11), profiles(), {}, registers(std::move(names)), proof) {}
+
+  std::string next(const Outcome& outcome) {
+    step = job.next(outcome);
+    return text(step);
+  }
+
+  std::string value(const char* name, std::int64_t value) {
+    return next(script.value(name, value));
+  }
+
+  /// Nothing that was read is shown.
+  [[nodiscard]] Code given_up() const {
+    CHECK(job.snapshot().readings.empty());
+    REQUIRE(job.snapshot().error);
+    CHECK(job.snapshot().error->node_id == 11);
+    return job.snapshot().error->code;
+  }
+
+  Acquaintance known{bla21()};
+  Script script;
+  ReadJob job;
+  dronecan::Step step = std::nullopt;
+};
+
+constexpr std::uint8_t unit = 11; // of bla21()
 
 } // namespace
 
-TEST_CASE("a servo is identified, then its registers are read in the order of the plan") {
+TEST_CASE("a servo is identified, then its registers are read in the order of the choice") {
   Scene scene(one_servo);
-  ReadJob job(scene.roster(), scene.member(11), profiles(), {},
-              reading({"angle_limit_ccw", "angle_limit_cw"}));
+  scene.grow_old();
+  ReadJob job(scene.roster(), NodeId(11), profiles(), {},
+              registers({"angle_limit_ccw", "angle_limit_cw"}));
   scene.run(job);
-  CHECK_FALSE(job.error());
-  REQUIRE(job.readings().size() == 2);
-  CHECK(job.readings()[0].parameter->name == "angle_limit_ccw");
-  CHECK(job.readings()[1].raw == 900);
-  CHECK(job.raw(bla::address::angle_limit_cw) == 900);
-  CHECK_FALSE(job.raw(bla::address::servo_id)); // of the identification, not of the plan
+  CHECK_FALSE(job.snapshot().error);
+  REQUIRE(job.snapshot().readings.size() == 2);
+  CHECK(job.snapshot().readings[0].parameter->name == "angle_limit_ccw");
+  CHECK(job.snapshot().readings[1].raw == 900);
+  CHECK(job.snapshot().raw(bla::address::angle_limit_cw) == 900);
+  CHECK_FALSE(
+      job.snapshot().raw(bla::address::servo_id)); // of the identification, not of the choice
   CHECK(scene.requests(GetSet::type, 11) == 5 + 2);
+  CHECK(scene.requests(GetNodeInfo::type, 11) == 2); // the last one proves that it ran on
 }
 
 TEST_CASE("a known servo is not identified again") {
   Scene scene(one_servo);
+  scene.grow_old();
   scene.identify(11);
   scene.sent.clear();
-  ReadJob job(scene.roster(), scene.member(11), profiles(), {}, reading({"angle_limit_cw"}));
+  ReadJob job(scene.roster(), NodeId(11), profiles(), {}, registers({"angle_limit_cw"}));
   scene.run(job);
-  CHECK(job.raw(bla::address::angle_limit_cw) == 900);
-  CHECK(scene.sent.size() == 1);
+  CHECK(job.snapshot().raw(bla::address::angle_limit_cw) == 900);
+  CHECK(scene.requests(GetSet::type, 11) == 1);
+  CHECK(scene.requests(GetNodeInfo::type, 11) == 1);
 }
 
-TEST_CASE("an empty plan reads nothing") {
+TEST_CASE("an empty choice reads nothing") {
   Scene scene(one_servo);
   scene.identify(11);
   scene.sent.clear();
-  ReadJob job(scene.roster(), scene.member(11), profiles(), {}, reading({}));
+  ReadJob job(scene.roster(), NodeId(11), profiles(), {}, registers({}));
   scene.run(job);
-  CHECK_FALSE(job.error());
-  CHECK(job.readings().empty());
+  CHECK_FALSE(job.snapshot().error);
+  CHECK(job.snapshot().readings.empty());
   CHECK(scene.sent.empty());
 }
 
-TEST_CASE("a plan that is refused reads nothing, and the error names the servo") {
+TEST_CASE("a choice that is refused reads nothing, and the error names the servo") {
   Scene scene(one_servo);
   scene.identify(11);
   scene.sent.clear();
-  ReadJob job(scene.roster(), scene.member(11), profiles(), {},
-              [](const Member&) -> Result<std::vector<const bla::Parameter*>> {
+  ReadJob job(scene.roster(), NodeId(11), profiles(), {},
+              [](const Servo&) -> Result<std::vector<const bla::Parameter*>> {
                 return fail(Code::unsupported, "no");
               });
   scene.run(job);
-  REQUIRE(job.error());
-  CHECK(job.error()->code == Code::unsupported);
-  CHECK(job.error()->node_id == 11);
+  REQUIRE(job.snapshot().error);
+  CHECK(job.snapshot().error->code == Code::unsupported);
+  CHECK(job.snapshot().error->node_id == 11);
   CHECK(scene.sent.empty());
 }
 
 TEST_CASE("of a node that is no servo no register is read") {
   Scene scene(R"("foreign": [{"kind": "node", "node_id": 30, "name": "gnss",
                               "serves_get_set": true}])");
-  ReadJob job(scene.roster(), scene.member(30), profiles(), {}, reading({"angle_limit_cw"}));
+  ReadJob job(scene.roster(), NodeId(30), profiles(), {}, registers({"angle_limit_cw"}));
   scene.run(job);
-  REQUIRE(job.error());
-  CHECK(job.error()->code == Code::not_found);
-  CHECK(job.error()->message.find("gnss") != std::string::npos);
+  REQUIRE(job.snapshot().error);
+  CHECK(job.snapshot().error->code == Code::not_found);
+  CHECK(job.snapshot().error->message.find("gnss") != std::string::npos);
   CHECK(scene.requests(GetSet::type, 30) == 1); // 0x50, which told what it is
 }
 
 TEST_CASE("the name of a foreign node cannot write to the terminal") {
   Scene scene(R"("foreign": [{"kind": "node", "node_id": 30, "name": "\u001b[2Jx",
                               "serves_get_set": true}])");
-  ReadJob job(scene.roster(), scene.member(30), profiles(), {}, reading({}));
+  ReadJob job(scene.roster(), NodeId(30), profiles(), {}, registers({}));
   scene.run(job);
-  REQUIRE(job.error());
-  CHECK(job.error()->message.find('\x1b') == std::string::npos);
+  REQUIRE(job.snapshot().error);
+  CHECK(job.snapshot().error->message.find('\x1b') == std::string::npos);
 }
 
 TEST_CASE("who does not answer is not read") {
   Scene scene(one_servo);
-  ReadJob job(scene.roster(), scene.member(55), profiles(),
-              {.patience = {.timeout = 20ms, .retries = 0}}, reading({"angle_limit_cw"}));
+  ReadJob job(scene.roster(), NodeId(55), profiles(), {.patience = {.timeout = 20ms, .retries = 0}},
+              registers({"angle_limit_cw"}));
   scene.run(job);
-  REQUIRE(job.error());
-  CHECK(job.error()->code == Code::not_found);
-  CHECK(job.readings().empty());
+  REQUIRE(job.snapshot().error);
+  CHECK(job.snapshot().error->code == Code::not_found);
+  CHECK(job.snapshot().readings.empty());
 }
 
 TEST_CASE("a register that the servo refuses does not hinder the others") {
   Scene scene(R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11}])");
-  ReadJob job(scene.roster(), scene.member(11), profiles(), {},
-              [](const Member& servo) -> Result<std::vector<const bla::Parameter*>> {
+  ReadJob job(scene.roster(), NodeId(11), profiles(), {},
+              [](const Servo& servo) -> Result<std::vector<const bla::Parameter*>> {
                 return std::vector{&parameter("write_rom"),
                                    servo.identity.parameter(bla::address::angle_limit_cw)};
               });
   scene.run(job);
-  CHECK_FALSE(job.error());
-  REQUIRE(job.readings().size() == 2);
-  REQUIRE_FALSE(job.readings()[0].raw);
-  CHECK(job.readings()[0].raw.error().code == Code::refused);
-  CHECK(job.readings()[1].raw);
+  CHECK_FALSE(job.snapshot().error);
+  REQUIRE(job.snapshot().readings.size() == 2);
+  REQUIRE_FALSE(job.snapshot().readings[0].raw);
+  CHECK(job.snapshot().readings[0].raw.error().code == Code::refused);
+  CHECK(job.snapshot().readings[1].raw);
 }
 
 TEST_CASE("a register that is not answered does not hinder the others") {
   Scene scene(one_servo);
-  Member& servo = scene.identify(11);
+  scene.identify(11);
   Script script;
-  ReadJob job(scene.roster(), servo, profiles(), {}, reading({"angle_limit_cw", "reverse"}));
+  ReadJob job(scene.roster(), NodeId(11), profiles(), {}, registers({"angle_limit_cw", "reverse"}));
   CHECK(text(job.next(Script::start())) == "read 0x38");
   CHECK(text(job.next(Script::timed_out())) == "read 0x23");
-  CHECK(text(job.next(script.value("0x23", std::int64_t{1}))) == "nothing");
-  CHECK(job.readings()[0].raw.error().code == Code::timeout);
-  CHECK(job.raw(bla::address::reverse) == 1);
-  CHECK_FALSE(job.raw(bla::address::angle_limit_cw));
+  CHECK(text(job.next(script.value("0x23", std::int64_t{1}))) == "GetNodeInfo");
+  CHECK(job.snapshot().readings[0].raw.error().code == Code::timeout);
+  CHECK(job.snapshot().raw(bla::address::reverse) == 1);
+  CHECK_FALSE(job.snapshot().raw(bla::address::angle_limit_cw));
 }
 
 TEST_CASE("what is read is narrowed to the width of its register") {
   Scene scene(one_servo);
-  Member& servo = scene.identify(11);
+  scene.identify(11);
   Script script;
-  ReadJob job(scene.roster(), servo, profiles(), {}, reading({"angle_limit_ccw"}));
+  ReadJob job(scene.roster(), NodeId(11), profiles(), {}, registers({"angle_limit_ccw"}));
   CHECK(text(job.next(Script::start())) == "read 0x39");
-  CHECK(text(job.next(script.value("0x39", std::int64_t{0xFFFF'FC7C}))) == "nothing");
-  CHECK(job.raw(bla::address::angle_limit_ccw) == -900);
+  CHECK(text(job.next(script.value("0x39", std::int64_t{0xFFFF'FC7C}))) == "GetNodeInfo");
+  CHECK(job.snapshot().raw(bla::address::angle_limit_ccw) == -900);
 }
 
 TEST_CASE("a cancelled job asks nothing more") {
   Scene scene(one_servo);
-  Member& servo = scene.identify(11);
-  ReadJob job(scene.roster(), servo, profiles(), {}, reading({"angle_limit_cw", "reverse"}));
+  scene.identify(11);
+  ReadJob job(scene.roster(), NodeId(11), profiles(), {}, registers({"angle_limit_cw", "reverse"}));
   CHECK(text(job.next(Script::start())) == "read 0x38");
   CHECK(text(job.next(Script::cancelled())) == "nothing");
-  REQUIRE(job.readings().size() == 1);
-  CHECK(job.readings()[0].raw.error().code == Code::interrupted);
+  CHECK(job.snapshot().readings.empty()); // it is not proven that they are of one time
+  REQUIRE(job.snapshot().error);
+  CHECK(job.snapshot().error->code == Code::interrupted);
 }
 
 TEST_CASE("twenty servos are read at the same time") {
@@ -161,19 +186,190 @@ TEST_CASE("twenty servos are read at the same time") {
                           id == 1 ? "" : ",", id, id);
   }
   Scene scene(fmt::format(R"("servos": [{}])", servos));
+  scene.grow_old();
   const Time begin = scene.session->now();
   std::vector<std::unique_ptr<ReadJob>> jobs;
   for (std::uint8_t id = 1; id <= 20; ++id) {
-    jobs.push_back(std::make_unique<ReadJob>(scene.roster(), scene.member(id), profiles(),
-                                             Identification::Options{}, reading({"servo_id"})));
+    jobs.push_back(std::make_unique<ReadJob>(scene.roster(), NodeId(id), profiles(),
+                                             Identification::Options{}, registers({"servo_id"})));
     scene.session->start(*jobs.back());
   }
   REQUIRE(scene.session->run());
   for (std::uint8_t id = 1; id <= 20; ++id) {
-    CHECK(jobs[id - 1U]->raw(bla::address::servo_id) == id);
-    CHECK(scene.requests(GetNodeInfo::type, id) == 1);
+    CHECK(jobs[id - 1U]->snapshot().raw(bla::address::servo_id) == id);
+    CHECK(scene.requests(GetNodeInfo::type, id) == 2);
     CHECK(scene.requests(GetSet::type, id) == 6);
   }
-  // One after the other it would take 20 times seven questions of a millisecond each.
-  CHECK(scene.session->now() - begin < 140ms);
+  // One after the other it would take 20 times eight questions of a millisecond each, and 20 ms.
+  CHECK(scene.session->now() - begin < 160ms);
+}
+
+TEST_CASE("what was read is true once the servo has told that it ran on, and no twin has shown") {
+  Reader reader({"angle_limit_cw"});
+  CHECK(reader.next(Script::start()) == "read 0x38");
+  CHECK(reader.value("0x38", 900) == "GetNodeInfo");
+  CHECK(reader.next(reader.script.info(unit)) == "pause");
+  CHECK(reader.next(Script::start()) == "nothing");
+  CHECK_FALSE(reader.job.snapshot().error);
+  CHECK(reader.job.snapshot().raw(bla::address::angle_limit_cw) == 900);
+}
+
+TEST_CASE("on a recording nothing is proven") {
+  Reader reader({"angle_limit_cw"}, ReadJob::Proof::none);
+  CHECK(reader.next(Script::start()) == "read 0x38");
+  CHECK(reader.value("0x38", 900) == "nothing");
+  CHECK(reader.job.snapshot().raw(bla::address::angle_limit_cw) == 900);
+  Reader empty({}, ReadJob::Proof::none);
+  CHECK(empty.next(Script::start()) == "nothing");
+}
+
+TEST_CASE("where nothing proves that the servo ran on, all is read once more") {
+  Reader reader({"angle_limit_cw", "reverse"});
+  CHECK(reader.next(Script::start()) == "read 0x38");
+  CHECK(reader.value("0x38", 900) == "read 0x23");
+  CHECK(reader.value("0x23", 1) == "GetNodeInfo");
+  CHECK(reader.next(reader.script.young_info(unit)) == "read 0x38");
+  SECTION("what reads the same twice was true in between") {
+    CHECK(reader.value("0x38", 900) == "read 0x23");
+    CHECK(reader.value("0x23", 1) == "GetNodeInfo");
+    CHECK(reader.next(reader.script.young_info(unit)) == "pause");
+    CHECK(reader.next(Script::start()) == "nothing");
+    CHECK(reader.job.snapshot().raw(bla::address::angle_limit_cw) == 900);
+  }
+  SECTION("what reads differently is read until it is proven") {
+    CHECK(reader.value("0x38", 1799) == "read 0x23");
+    CHECK(reader.value("0x23", 1) == "GetNodeInfo");
+    CHECK(reader.next(reader.script.young_info(unit)) == "read 0x38");
+    CHECK(reader.value("0x38", 1799) == "read 0x23");
+    CHECK(reader.value("0x23", 0) == "GetNodeInfo");
+    CHECK(reader.next(reader.script.info(unit)) == "pause");
+    CHECK(reader.job.snapshot().raw(bla::address::angle_limit_cw) == 1799);
+    CHECK(reader.job.snapshot().raw(bla::address::reverse) == 0);
+  }
+  SECTION("a register that was silent once is not the same") {
+    CHECK(reader.next(Script::timed_out()) == "read 0x23");
+    CHECK(reader.value("0x23", 1) == "GetNodeInfo");
+    CHECK(reader.next(reader.script.young_info(unit)) == "read 0x38");
+  }
+}
+
+TEST_CASE("measured values may differ from one reading to the next") {
+  Reader reader({"current_angle"});
+  const std::string question = reader.next(Script::start());
+  CHECK(reader.value(question.substr(5).c_str(), 1) == "GetNodeInfo");
+  CHECK(reader.next(reader.script.young_info(unit)) == question);
+  CHECK(reader.value(question.substr(5).c_str(), 2) == "GetNodeInfo");
+  CHECK(reader.next(reader.script.young_info(unit)) == "pause");
+}
+
+TEST_CASE("after a restart that was heard all is read again, and the servo stays known") {
+  Reader reader({"angle_limit_cw"});
+  CHECK(reader.next(Script::start()) == "read 0x38");
+  reader.known.restart();
+  CHECK(reader.value("0x38", 900) == "GetNodeInfo");
+  CHECK(reader.next(reader.script.info(unit)) == "read 0x38");
+  CHECK(reader.value("0x38", 1799) == "GetNodeInfo");
+  CHECK(reader.next(reader.script.info(unit)) == "pause");
+  CHECK(reader.next(Script::start()) == "nothing");
+  CHECK(reader.job.snapshot().raw(bla::address::angle_limit_cw) == 1799);
+  CHECK(reader.job.snapshot().servo.boot == 1);
+  CHECK(reader.known.member().is_known());
+}
+
+TEST_CASE("a servo that restarts with every reading is given up, and none of them is shown") {
+  Reader reader({"angle_limit_cw"});
+  CHECK(reader.next(Script::start()) == "read 0x38");
+  for (int pass = 1; pass <= 4; ++pass) {
+    reader.known.restart();
+    reader.known.now += 10s;
+    reader.known.hear_uptime(10);
+    CHECK(reader.value("0x38", 900) == "GetNodeInfo");
+    CHECK(reader.next(reader.script.info(unit)) == (pass < 4 ? "read 0x38" : "nothing"));
+  }
+  CHECK(reader.given_up() == Code::state);
+}
+
+TEST_CASE("what was read is shown of no other unit, and of none that is gone") {
+  Reader reader({"angle_limit_cw"});
+  CHECK(reader.next(Script::start()) == "read 0x38");
+  CHECK(reader.value("0x38", 900) == "GetNodeInfo");
+  SECTION("another unit answers") {
+    CHECK(reader.next(reader.script.info(12)) == "nothing");
+    CHECK(reader.given_up() == Code::state);
+  }
+  SECTION("nobody answers") {
+    CHECK(reader.next(Script::timed_out()) == "nothing");
+    CHECK(reader.given_up() == Code::timeout);
+  }
+  SECTION("the question does not leave") {
+    CHECK(reader.next(Script::not_sent()) == "nothing");
+    CHECK(reader.given_up() == Code::no_acknowledge);
+  }
+  SECTION("it is cancelled") {
+    CHECK(reader.next(Script::cancelled()) == "nothing");
+    CHECK(reader.given_up() == Code::interrupted);
+  }
+}
+
+TEST_CASE("what may be of either of two units is not shown") {
+  Reader reader({"angle_limit_cw", "reverse"});
+  const auto double_it = [&] { reader.known.roster.mark_doubled(NodeId(11), {11}, {12}); };
+  CHECK(reader.next(Script::start()) == "read 0x38");
+  SECTION("they show while registers are read") {
+    double_it();
+    CHECK(reader.value("0x38", 900) == "nothing");
+  }
+  SECTION("they show by the last answer") {
+    CHECK(reader.value("0x38", 900) == "read 0x23");
+    CHECK(reader.value("0x23", 1) == "GetNodeInfo");
+    double_it();
+    CHECK(reader.next(reader.script.info(unit)) == "nothing");
+  }
+  SECTION("the second one answers later than the first") {
+    CHECK(reader.value("0x38", 900) == "read 0x23");
+    CHECK(reader.value("0x23", 1) == "GetNodeInfo");
+    CHECK(reader.next(reader.script.info(unit)) == "pause");
+    const auto* pause = reader.step.pause();
+    REQUIRE(pause != nullptr);
+    CHECK_FALSE(pause->ready());
+    double_it();
+    CHECK(pause->ready());
+    CHECK(reader.next(Script::start()) == "nothing");
+  }
+  CHECK(reader.given_up() == Code::duplicate_node_id);
+  CHECK(reader.job.snapshot().error->message.find("uid:0b") != std::string::npos);
+}
+
+TEST_CASE("two silent registers in a row raise the question whether the servo is there") {
+  Reader reader({"angle_limit_cw", "angle_limit_ccw", "reverse"});
+  CHECK(reader.next(Script::start()) == "read 0x38");
+  CHECK(reader.next(Script::timed_out()) == "read 0x39");
+  SECTION("one that answers was only silent about them") {
+    CHECK(reader.next(Script::timed_out()) == "GetNodeInfo");
+    CHECK(reader.next(reader.script.info(unit)) == "read 0x23");
+    CHECK(reader.value("0x23", 1) == "GetNodeInfo");
+    CHECK(reader.next(reader.script.info(unit)) == "pause");
+    REQUIRE(reader.job.snapshot().readings.size() == 3);
+    CHECK(reader.job.snapshot().readings[1].raw.error().code == Code::timeout);
+    CHECK(reader.job.snapshot().raw(bla::address::reverse) == 1);
+  }
+  SECTION("one that does not is gone: that is one error, not one a register") {
+    CHECK(reader.next(Script::timed_out()) == "GetNodeInfo");
+    CHECK(reader.next(Script::timed_out()) == "nothing");
+    CHECK(reader.given_up() == Code::timeout);
+  }
+  SECTION("an answer in between ends the row") {
+    CHECK(reader.value("0x39", 0) == "read 0x23");
+    CHECK(reader.next(Script::timed_out()) == "GetNodeInfo"); // the proof
+    CHECK(reader.next(reader.script.info(unit)) == "pause");
+  }
+}
+
+TEST_CASE("a servo that has run for a moment only is read twice") {
+  Scene scene(one_servo);
+  const Snapshot snapshot = scene.read(11, registers({"angle_limit_cw"}));
+  CHECK_FALSE(snapshot.error);
+  CHECK(snapshot.raw(bla::address::angle_limit_cw) == 900);
+  CHECK(scene.requests(GetNodeInfo::type, 11) == 3);
+  CHECK(scene.requests(GetSet::type, 11) == 5 + 2);
 }

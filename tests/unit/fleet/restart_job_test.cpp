@@ -22,13 +22,15 @@ namespace {
 /// session does it. Time is told by hand.
 class Bench {
  public:
-  explicit Bench(RestartKind kind = RestartKind::save, Duration start_in = {})
-      : kind_(kind), servo(roster.member(NodeId(11))), job(prepare(), servo,
-                                                           {.kind = kind,
-                                                            .start = now + start_in,
-                                                            .come_back = 5s,
-                                                            .patience = {500ms, 2},
-                                                            .pace = &pace}) {}
+  explicit Bench(RestartKind kind = RestartKind::save, Duration start_in = {},
+                 std::optional<NodeId> expected = std::nullopt)
+      : kind_(kind), job(prepare(), servo,
+                         {.kind = kind,
+                          .start = now + start_in,
+                          .come_back = 5s,
+                          .patience = {500ms, 2},
+                          .pace = &pace,
+                          .expected = expected}) {}
 
   /// What the job does next, after this outcome of its last step.
   std::string next(Outcome outcome) {
@@ -41,7 +43,8 @@ class Bench {
   std::string start() { return next(Script::start()); }
 
   std::string timed_out() {
-    now += 500ms;
+    REQUIRE(step.request() != nullptr);
+    now += step.request()->timeout;
     return next(Script::timed_out());
   }
 
@@ -49,6 +52,19 @@ class Bench {
   std::string time_is_over() {
     now = until();
     return next({Outcome::Kind::woken, {}, {}});
+  }
+
+  /// To the end of the job; nobody answers.
+  void wait_in_vain() {
+    while (!step.is_end()) {
+      step.pause() != nullptr ? time_is_over() : timed_out();
+    }
+  }
+
+  /// Whom the job asks.
+  [[nodiscard]] NodeId asked() const {
+    REQUIRE(step.request() != nullptr);
+    return step.request()->server;
   }
 
   [[nodiscard]] Time until() const {
@@ -73,9 +89,9 @@ class Bench {
   }
 
   /// The answer to GetNodeInfo of a unit that started then.
-  std::string info(std::uint8_t unit, Time started) {
-    const auto payload = node_info(unit, started, Mode::operational).encode();
-    hear(service(dronecan::Kind::response, GetNodeInfo::type, 11, 127, payload, id()));
+  std::string info(std::uint8_t unit, Time started, Mode mode = Mode::operational) {
+    const auto payload = node_info(unit, started, mode).encode();
+    hear(service(dronecan::Kind::response, GetNodeInfo::type, asked().value(), 127, payload, id()));
     return next(script_.answer(payload));
   }
 
@@ -89,20 +105,18 @@ class Bench {
     hear(message(NodeStatus::type, source, status(started, mode).encode(), id()));
   }
 
-  /// A unit that started then is heard, asked (Recognizer), and answers.
+  /// A unit that started then is heard, asked (UnitJob), and answers.
   void recognize(std::uint8_t source, std::uint8_t unit, Time started,
                  Mode mode = Mode::operational) {
     hear_status(source, started, mode);
-    Member& member = roster.member(NodeId(source));
-    member.info = node_info(unit, started, mode);
-    member.info_boot = member.boots;
+    roster.learn(NodeId(source), node_info(unit, started, mode));
   }
 
-  /// Servo 11 restarted, was asked (Recognizer) and answers; no NodeStatus has come yet.
+  /// Servo 11 restarted, was asked (UnitJob) and answers; no NodeStatus has come yet.
   void recognize_by_answer(Time started, Mode mode) {
-    servo.info = node_info(1, started, mode);
-    hear(service(dronecan::Kind::response, GetNodeInfo::type, 11, 127, servo.info->encode(), id()));
-    servo.info_boot = servo.boots;
+    const auto info = node_info(1, started, mode);
+    hear(service(dronecan::Kind::response, GetNodeInfo::type, 11, 127, info.encode(), id()));
+    roster.learn(NodeId(11), info);
   }
 
   void hear(const std::vector<can::Frame>& frames) {
@@ -128,9 +142,8 @@ class Bench {
 
  private:
   Roster& prepare() {
-    servo.info = node_info(1, boot, Mode::operational);
-    servo.identified = servo.is_servo = true;
     hear_status(11, boot);
+    roster.learn(servo, node_info(1, boot, Mode::operational));
     return roster;
   }
 
@@ -164,7 +177,7 @@ class Bench {
        }}};
 
  public:
-  Member& servo;
+  Servo servo{.id = NodeId(11), .unique_id = dronecan::UniqueId{1}, .since = now, .is_servo = true};
   RestartJob job;
   dronecan::Step step = std::nullopt;
   std::map<std::string, int> steps; ///< how often the job did what
@@ -186,7 +199,6 @@ TEST_CASE("a servo saves, goes, comes back and is recognised", "[requirement-48]
   CHECK(bench.job.must_finish());
   CHECK(bench.job.is_sent());
   CHECK(bench.answer_ok() == "pause");
-  CHECK(bench.until() == bench.now + 5s);
   CHECK_FALSE(bench.wakes());
   bench.now += 200ms;
   bench.hear_status(11, bench.now);
@@ -194,7 +206,7 @@ TEST_CASE("a servo saves, goes, comes back and is recognised", "[requirement-48]
   bench.recognize(11, 1, bench.now);
   CHECK(bench.job.must_finish());
   CHECK(bench.wake() == "nothing");
-  CHECK(bench.job.returned() == &bench.servo);
+  CHECK(bench.job.returned() == NodeId(11));
   CHECK_FALSE(bench.job.error());
   CHECK(bench.job.duration() == 200ms);
   CHECK_FALSE(bench.job.must_finish());
@@ -211,7 +223,7 @@ TEST_CASE("a restart is asked for with its magic number, once", "[requirement-42
   bench.now += 200ms;
   bench.recognize(11, 1, bench.now);
   CHECK(bench.wake() == "nothing");
-  CHECK(bench.job.returned() == &bench.servo);
+  CHECK(bench.job.returned() == NodeId(11));
 }
 
 TEST_CASE("nothing is sent before its time") {
@@ -249,8 +261,12 @@ TEST_CASE("what is not certainly the servo that is meant gets no request") {
   Bench bench;
   CHECK(bench.start() == "GetNodeInfo");
   SECTION("another servo") {
-    CHECK(bench.info(2, bench.boot) == "nothing");
+    CHECK(bench.info(2, bench.now - 10s) == "nothing");
     CHECK(bench.error() == Code::state);
+  }
+  SECTION("another unit beside it, which has run as long") {
+    CHECK(bench.info(2, bench.boot) == "nothing");
+    CHECK(bench.error() == Code::duplicate_node_id);
   }
   SECTION("one that does not answer") {
     CHECK(bench.timed_out() == "nothing");
@@ -266,7 +282,7 @@ TEST_CASE("what is not certainly the servo that is meant gets no request") {
   }
   CHECK_FALSE(bench.job.is_sent());
   CHECK_FALSE(bench.job.must_finish());
-  CHECK(bench.job.returned() == nullptr);
+  CHECK(bench.job.returned() == std::nullopt);
   CHECK(bench.job.duration() == 0s);
   CHECK(bench.job.error()->node_id == 11);
 }
@@ -276,7 +292,7 @@ TEST_CASE("a servo that refuses is not asked twice") {
   bench.send();
   CHECK(bench.answer_ok(false) == "nothing");
   CHECK(bench.error() == Code::refused);
-  CHECK(bench.job.returned() == nullptr);
+  CHECK(bench.job.returned() == std::nullopt);
   CHECK_FALSE(bench.job.must_finish());
 }
 
@@ -298,20 +314,23 @@ TEST_CASE("a lost answer: the servo that is seen to restart is not asked again")
   }
   SECTION("when it is asked how it is") {
     CHECK(bench.time_is_over() == "GetNodeInfo");
-    CHECK(bench.info(1, sent + 200ms) == "pause"); // its uptime tells; Recognizer asks it as well
-    bench.recognize(11, 1, sent + 200ms);
+    CHECK(bench.info(1, sent + 200ms) == "nothing"); // its uptime tells
+  }
+  SECTION("when it is asked how it is, and is still starting") {
+    CHECK(bench.time_is_over() == "GetNodeInfo");
+    CHECK(bench.info(1, sent + 200ms, Mode::initialization) == "pause");
+    bench.hear_status(11, sent + 200ms);
     CHECK(bench.wake() == "nothing");
   }
   SECTION("after a long silence") {
     CHECK(bench.time_is_over() == "GetNodeInfo");
     CHECK(bench.timed_out() == "pause");
-    CHECK(bench.until() == sent + 5s);
     bench.now = sent + 4s;
     bench.recognize(11, 1, bench.now);
     CHECK(bench.wake() == "nothing");
   }
   CHECK(bench.steps["ExecuteOpcode"] == 1);
-  CHECK(bench.job.returned() == &bench.servo);
+  CHECK(bench.job.returned() == NodeId(11));
   CHECK_FALSE(bench.job.error());
 }
 
@@ -324,20 +343,28 @@ TEST_CASE(
   CHECK(bench.info(1, bench.boot) == "ExecuteOpcode");
   CHECK(bench.step.request()->retries == 0);
   SECTION("with success") {
+    const Duration waited = bench.job.duration(); // since the first request
+    CHECK(waited >= 1500ms);
     CHECK(bench.answer_ok() == "pause");
-    CHECK(bench.until() == bench.now + 5s); // from the second request on
     bench.now += 200ms;
     bench.recognize(11, 1, bench.now);
     CHECK(bench.wake() == "nothing");
-    CHECK(bench.job.returned() == &bench.servo);
-    CHECK(bench.job.duration() == 200ms);
+    CHECK(bench.job.returned() == NodeId(11));
+    CHECK(bench.job.duration() == waited + 200ms);
+  }
+  SECTION("with silence") {
+    const Time sent = bench.now;
+    CHECK(bench.answer_ok() == "pause");
+    bench.wait_in_vain();
+    CHECK(bench.error() == Code::not_back);
+    CHECK(bench.now == sent + 5s); // from the second request on
   }
   SECTION("in vain") {
     CHECK(bench.timed_out() == "pause");
     CHECK(bench.time_is_over() == "GetNodeInfo");
     CHECK(bench.info(1, bench.boot) == "nothing");
     CHECK(bench.error() == Code::timeout);
-    CHECK(bench.job.returned() == nullptr);
+    CHECK(bench.job.returned() == std::nullopt);
   }
   CHECK(bench.steps["ExecuteOpcode"] == 2);
 }
@@ -349,15 +376,20 @@ TEST_CASE("without proof that nothing happened nothing is repeated") {
   CHECK(bench.time_is_over() == "GetNodeInfo");
   SECTION("silence is no proof") {
     CHECK(bench.timed_out() == "pause");
-    CHECK(bench.time_is_over() == "nothing");
+    bench.wait_in_vain();
     CHECK(bench.error() == Code::not_back);
     CHECK(bench.message_of_error().find("not known") != std::string::npos);
   }
   SECTION("nor is another servo under its ID") {
-    CHECK(bench.info(2, bench.boot) == "pause");
+    CHECK(bench.info(2, bench.now - 1s) == "pause");
+  }
+  SECTION("nor is another servo beside it") {
+    CHECK(bench.info(2, bench.boot) == "nothing");
+    CHECK(bench.error() == Code::duplicate_node_id);
   }
   SECTION("nor is a servo that restarted in the meantime and answers now") {
-    CHECK(bench.info(1, bench.now - 1s) == "pause");
+    CHECK(bench.info(1, bench.now - 1s) == "nothing");
+    CHECK(bench.job.returned() == NodeId(11));
   }
   CHECK(bench.steps["ExecuteOpcode"] == 1);
 }
@@ -384,7 +416,7 @@ TEST_CASE("a servo that lives is not said to be gone") {
   bench.now += 1s;
   bench.hear_status(11, bench.boot); // but it goes on as if nothing had been
   CHECK_FALSE(bench.wakes());
-  CHECK(bench.time_is_over() == "nothing");
+  bench.wait_in_vain();
   CHECK(bench.error() == Code::timeout);
   CHECK(bench.message_of_error().find("gone") == std::string::npos);
 }
@@ -392,13 +424,23 @@ TEST_CASE("a servo that lives is not said to be gone") {
 TEST_CASE("a servo that confirms and does not restart is found out") {
   Bench bench(GENERATE(RestartKind::save, RestartKind::restart));
   bench.send();
+  const Time sent = bench.now;
   CHECK(bench.answer_ok() == "pause");
-  bench.now += 4s;
-  bench.hear_status(11, bench.boot);
-  CHECK_FALSE(bench.wakes());
-  CHECK(bench.time_is_over() == "nothing");
+  SECTION("by what it sends") {
+    bench.now += 4s;
+    bench.hear_status(11, bench.boot);
+    CHECK_FALSE(bench.wakes());
+    bench.wait_in_vain();
+  }
+  SECTION("by its answer, where it sends nothing") {
+    while (bench.now < sent + 4s) {
+      CHECK(bench.time_is_over() == "GetNodeInfo");
+      CHECK(bench.info(1, bench.boot) == "pause");
+    }
+    bench.wait_in_vain();
+  }
   CHECK(bench.error() == Code::state);
-  CHECK(bench.job.returned() == nullptr);
+  CHECK(bench.job.returned() == std::nullopt);
 }
 
 TEST_CASE("a servo that never returns is not_back, with what is known of its ROM") {
@@ -406,7 +448,7 @@ TEST_CASE("a servo that never returns is not_back, with what is known of its ROM
   Bench bench(kind);
   bench.send();
   CHECK(bench.answer_ok() == "pause");
-  CHECK(bench.time_is_over() == "nothing");
+  bench.wait_in_vain();
   CHECK(bench.error() == Code::not_back);
   CHECK(bench.job.duration() == 5s);
   CHECK((bench.message_of_error().find("ROM") != std::string::npos) == (kind == RestartKind::save));
@@ -421,7 +463,7 @@ TEST_CASE("a servo that waits for a node ID is said to do so") {
   Allocation request{.first_part_of_unique_id = true, .size = 6, .unique_id = {1}};
   request.unique_id[5] = is_ours ? 0 : 7;
   bench.hear(message(Allocation::type, 0, request.encode()));
-  CHECK(bench.time_is_over() == "nothing");
+  bench.wait_in_vain();
   CHECK(bench.error() == Code::not_back);
   CHECK((bench.job.error()->hint.find("allocator") != std::string::npos) == is_ours);
 }
@@ -435,7 +477,7 @@ TEST_CASE("a servo is found again under another node ID") {
   CHECK_FALSE(bench.wakes());
   bench.recognize(20, 1, bench.now);
   CHECK(bench.wake() == "nothing");
-  CHECK(bench.job.returned() == &bench.roster.member(NodeId(20)));
+  CHECK(bench.job.returned() == NodeId(20));
 }
 
 TEST_CASE("the ID that a servo had before, and left, is not its return") {
@@ -448,7 +490,7 @@ TEST_CASE("the ID that a servo had before, and left, is not its return") {
   bench.now += 300ms;
   bench.recognize(11, 1, bench.now);
   CHECK(bench.wake() == "nothing");
-  CHECK(bench.job.returned() == &bench.servo);
+  CHECK(bench.job.returned() == NodeId(11));
 }
 
 TEST_CASE("another servo under its ID is not its return") {
@@ -458,7 +500,7 @@ TEST_CASE("another servo under its ID is not its return") {
   bench.now += 300ms;
   bench.recognize(11, 2, bench.now);
   CHECK_FALSE(bench.wakes());
-  CHECK(bench.time_is_over() == "nothing");
+  bench.wait_in_vain();
   CHECK(bench.error() == Code::not_back);
 }
 
@@ -478,14 +520,14 @@ TEST_CASE("a servo is back when it is in operation") {
   bench.now += 1s;
   bench.hear_status(11, restarted);
   CHECK(bench.wake() == "nothing");
-  CHECK(bench.job.returned() == &bench.servo);
+  CHECK(bench.job.returned() == NodeId(11));
 }
 
 TEST_CASE("restarts before the request are not the one that was asked for") {
   Bench bench;
   bench.start();
-  bench.recognize(11, 1, bench.now - 50s); // seen only now
-  CHECK(bench.servo.boots == 1);
+  bench.recognize(11, 1, bench.now - 50s); // seen only now, and before it was identified
+  CHECK(bench.roster.member(NodeId(11)).boots == 1);
   CHECK(bench.info(1, bench.now - 50s) == "ExecuteOpcode");
   CHECK(bench.answer_ok() == "pause");
   CHECK_FALSE(bench.wakes());
@@ -503,4 +545,174 @@ TEST_CASE("a job that is cancelled after its request does not claim that nothing
   CHECK(bench.message_of_error().find("not known") != std::string::npos);
   CHECK(bench.job.is_sent());
   CHECK_FALSE(bench.job.must_finish());
+}
+
+TEST_CASE("SAVE keeps what is in RAM now: without proof that it is what was read, none is sent") {
+  Bench bench;
+  const Time read = bench.now;
+  bench.now += 10s; // of looking on, and of asking a person
+  CHECK(bench.start() == "GetNodeInfo");
+  SECTION("a restart since then") {
+    CHECK(bench.info(1, read + 3s) == "nothing");
+  }
+  SECTION("a restart at about the same time") {
+    CHECK(bench.info(1, read) == "nothing");
+  }
+  SECTION("a restart that cannot be told from none by a clock that is wrong by 2 %") {
+    CHECK(bench.info(1, read - 100ms) == "nothing");
+  }
+  CHECK(bench.job.is_unproven());
+  CHECK_FALSE(bench.job.error());
+  CHECK_FALSE(bench.job.is_sent());
+  CHECK_FALSE(bench.job.must_finish());
+  CHECK(bench.job.duration() == 0s);
+}
+
+TEST_CASE("SAVE is sent where the uptime proves that the servo ran on") {
+  Bench bench;
+  const Time read = bench.now;
+  bench.now += 10s;
+  CHECK(bench.start() == "GetNodeInfo");
+  CHECK(bench.info(1, read - 2s) == "ExecuteOpcode");
+  CHECK_FALSE(bench.job.is_unproven());
+}
+
+TEST_CASE("a mere restart needs no proof of what RAM holds") {
+  Bench bench(RestartKind::restart);
+  bench.now += 10s;
+  CHECK(bench.start() == "GetNodeInfo");
+  CHECK(bench.info(1, bench.now - 5s) == "RestartNode");
+  CHECK_FALSE(bench.job.is_unproven());
+}
+
+TEST_CASE("a servo that sends nothing by itself is called, and is back when it answers") {
+  Bench bench(GENERATE(RestartKind::save, RestartKind::restart));
+  bench.send();
+  const Time sent = bench.now;
+  CHECK(bench.answer_ok() == "pause");
+  CHECK(bench.until() == sent + 1500ms); // room for a ROM write and a start
+  CHECK(bench.time_is_over() == "GetNodeInfo");
+  CHECK(bench.asked() == NodeId(11));
+  CHECK(bench.step.request()->timeout == 100ms);
+  CHECK(bench.step.request()->retries == 0);
+  CHECK(bench.job.must_finish());
+  SECTION("at once") {
+    CHECK(bench.info(1, sent + 200ms) == "nothing");
+  }
+  SECTION("at the second call") {
+    CHECK(bench.timed_out() == "pause");
+    CHECK(bench.until() == bench.now + 1s);
+    CHECK(bench.time_is_over() == "GetNodeInfo");
+    CHECK(bench.info(1, sent + 2s) == "nothing");
+  }
+  SECTION("when it is in operation") {
+    CHECK(bench.info(1, sent + 200ms, Mode::initialization) == "pause");
+    CHECK_FALSE(bench.wakes());
+    CHECK(bench.time_is_over() == "GetNodeInfo");
+    CHECK(bench.info(1, sent + 200ms) == "nothing");
+  }
+  CHECK(bench.job.returned() == NodeId(11));
+  CHECK_FALSE(bench.job.error());
+}
+
+TEST_CASE("a silent servo is called where it will be as well") {
+  Bench bench(RestartKind::save, {}, NodeId(20));
+  bench.send();
+  const Time sent = bench.now;
+  CHECK(bench.answer_ok() == "pause");
+  CHECK(bench.time_is_over() == "GetNodeInfo");
+  CHECK(bench.asked() == NodeId(20));
+  SECTION("it is there") {
+    CHECK(bench.info(1, sent + 200ms) == "nothing");
+    CHECK(bench.job.returned() == NodeId(20));
+  }
+  SECTION("it is where it was") {
+    CHECK(bench.timed_out() == "pause");
+    CHECK(bench.time_is_over() == "GetNodeInfo");
+    CHECK(bench.asked() == NodeId(11));
+    CHECK(bench.info(1, sent + 200ms) == "nothing");
+    CHECK(bench.job.returned() == NodeId(11));
+  }
+  SECTION("somebody else is there") {
+    CHECK(bench.info(2, sent - 100s) == "nothing");
+    CHECK(bench.error() == Code::duplicate_node_id);
+    CHECK(bench.job.error()->node_id == 20);
+  }
+}
+
+TEST_CASE("who has run for longer at the ID that the servo will have is another unit") {
+  Bench bench(RestartKind::save, {}, NodeId(20));
+  bench.send();
+  SECTION("heard before SAVE is confirmed") {
+    bench.now += 1ms;
+    bench.hear_status(20, bench.now - 5000s);
+    CHECK(bench.answer_ok() == "nothing");
+  }
+  SECTION("heard while the servo is awaited") {
+    CHECK(bench.answer_ok() == "pause");
+    bench.now += 300ms;
+    CHECK_FALSE(bench.wakes());
+    bench.hear_status(20, bench.now - 2s);
+    CHECK(bench.wake() == "nothing");
+  }
+  CHECK(bench.error() == Code::duplicate_node_id);
+  CHECK(bench.job.error()->node_id == 20);
+  CHECK(bench.job.returned() == std::nullopt);
+}
+
+TEST_CASE("a restart before the request that shows late is not the one that was asked for") {
+  Bench bench;
+  bench.send();
+  CHECK(bench.timed_out() == "pause");
+  bench.hear_status(11, bench.now - 90s); // it started 10 s later than was thought
+  CHECK(bench.roster.member(NodeId(11)).boots == 1);
+  CHECK_FALSE(bench.wakes());
+  CHECK(bench.time_is_over() == "GetNodeInfo");
+  CHECK(bench.info(1, bench.now - 90s) == "ExecuteOpcode"); // SAVE was not carried out
+}
+
+TEST_CASE("the servo itself is no other unit at the ID that it will have") {
+  Bench bench(RestartKind::save, {}, NodeId(20));
+  bench.send();
+  const Time sent = bench.now;
+  CHECK(bench.answer_ok() == "pause");
+  bench.now += 1500ms;
+  bench.recognize(20, 1, sent + 100ms);
+  CHECK(bench.wake() == "nothing");
+  CHECK_FALSE(bench.job.error());
+  CHECK(bench.job.returned() == NodeId(20));
+}
+
+TEST_CASE("where a servo will be after a mere restart is not certain: others may be there") {
+  Bench bench(RestartKind::restart, {}, NodeId(20));
+  bench.send();
+  CHECK(bench.answer_ok() == "pause");
+  bench.now += 300ms;
+  bench.hear_status(20, bench.now - 5000s);
+  CHECK_FALSE(bench.wakes());
+}
+
+TEST_CASE("a servo on whose ID another unit shows is not said to be back") {
+  const auto id = GENERATE(as<std::uint8_t>{}, 11, 20); // its own ID, and the one it will have
+  Bench bench(RestartKind::save, {}, NodeId(20));
+  bench.send();
+  CHECK(bench.answer_ok() == "pause");
+  bench.now += 300ms;
+  bench.roster.mark_doubled(NodeId(id), {1}, {2});
+  CHECK(bench.wake() == "nothing");
+  CHECK(bench.error() == Code::duplicate_node_id);
+  CHECK(bench.job.error()->node_id == id);
+  CHECK(bench.message_of_error().find("uid:02") != std::string::npos);
+  CHECK(bench.job.returned() == std::nullopt);
+  CHECK(bench.job.is_sent());
+  CHECK_FALSE(bench.job.must_finish());
+}
+
+TEST_CASE("nothing is sent to an ID that two units have") {
+  Bench bench(GENERATE(RestartKind::save, RestartKind::restart));
+  CHECK(bench.start() == "GetNodeInfo");
+  bench.roster.mark_doubled(NodeId(11), {1}, {2});
+  CHECK(bench.info(1, bench.boot) == "nothing");
+  CHECK(bench.error() == Code::duplicate_node_id);
+  CHECK_FALSE(bench.job.is_sent());
 }

@@ -4,6 +4,8 @@
 #include "support.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -37,9 +39,11 @@ class Ear {
   }
 
   void actuator(std::uint8_t source, std::uint8_t servo_id = 0) {
-    hear(message(ActuatorStatus::type, source, ActuatorStatus{.actuator_id = servo_id}.encode(),
-                 next()));
+    actuator_of(actuators_, source, servo_id);
   }
+
+  /// Of a second unit, which counts its transfers by itself.
+  void twin(std::uint8_t source) { actuator_of(twins_, source, 0); }
 
   void arming(std::uint8_t source, std::uint8_t status) {
     hear(message(ArmingStatus::type, source, ArmingStatus{status}.encode(), next()));
@@ -68,6 +72,14 @@ class Ear {
     hear(message(Allocation::type, source, part.encode(), next()));
   }
 
+  /// The answer of a unit to our GetNodeInfo.
+  void info(std::uint8_t source, std::uint8_t unit, std::uint32_t uptime_s,
+            dronecan::TransferId id) {
+    const GetNodeInfo::Response response{
+        .status = {.uptime_s = uptime_s}, .unique_id = {unit}, .name = "servo"};
+    hear(service(Kind::response, GetNodeInfo::type, source, 127, response.encode(), id));
+  }
+
   dronecan::TransferId next() {
     return static_cast<dronecan::TransferId>(id_++ % dronecan::transfer_id_modulus);
   }
@@ -76,6 +88,15 @@ class Ear {
   Time now{1000s};
 
  private:
+  void actuator_of(dronecan::TransferId& counter, std::uint8_t source, std::uint8_t servo_id) {
+    const auto id = static_cast<dronecan::TransferId>(counter++ % dronecan::transfer_id_modulus);
+    hear(message(ActuatorStatus::type, source, ActuatorStatus{.actuator_id = servo_id}.encode(),
+                 id));
+  }
+
+  dronecan::TransferId actuators_ = 0;
+  dronecan::TransferId twins_ = 0;
+
   unsigned id_ = 0;
   dronecan::Receiver receiver_{
       256,
@@ -88,11 +109,30 @@ class Ear {
        }}};
 };
 
-Member servo_at(std::uint8_t id) {
-  Member servo;
-  servo.id = NodeId(id);
-  return servo;
+Servo servo_at(std::uint8_t id) {
+  return {.id = NodeId(id)};
 }
+
+/// Writes down who is announced.
+class Witness final : public Roster::Listener {
+ public:
+  explicit Witness(Roster& roster) : roster_(roster) { roster.add(*this); }
+
+  ~Witness() override { roster_.remove(*this); }
+
+  void on_new_unit(const Member& member) override {
+    announced.push_back(member.id.value());
+    if (reaction) {
+      reaction();
+    }
+  }
+
+  std::vector<int> announced;
+  std::function<void()> reaction;
+
+ private:
+  Roster& roster_;
+};
 
 std::vector<std::uint8_t> unit(std::uint8_t number, std::size_t size) {
   std::vector<std::uint8_t> id(size, 0xEE);
@@ -104,14 +144,13 @@ std::vector<std::uint8_t> unit(std::uint8_t number, std::size_t size) {
 
 TEST_CASE("a node becomes a member by any frame of it, and is announced once") {
   Ear ear;
-  std::vector<std::uint8_t> announced;
-  ear.roster.on_new_unit([&](Member& member) { announced.push_back(member.id.value()); });
+  const Witness witness(ear.roster);
   ear.status(10, 0);
   const Time first = ear.now;
   ear.now += 1s;
   ear.status(10, 1);
   ear.hear(service(Kind::response, GetSet::type, 11, 50, GetSet::Response{}.encode()));
-  CHECK(announced == std::vector<std::uint8_t>{10, 11});
+  CHECK(witness.announced == std::vector{10, 11});
   REQUIRE(ear.roster.find(NodeId(10)) != nullptr);
   CHECK(ear.roster.find(NodeId(10))->first_heard == first);
   CHECK(ear.roster.find(NodeId(10))->last_heard == ear.now);
@@ -121,14 +160,14 @@ TEST_CASE("a node becomes a member by any frame of it, and is announced once") {
 
 TEST_CASE("who was only asked for is no node that was heard") {
   Ear ear;
-  bool announced = false;
-  ear.roster.on_new_unit([&](Member&) { announced = true; });
+  const Witness witness(ear.roster);
   CHECK(ear.roster.find(NodeId(10)) == nullptr);
   CHECK(ear.roster.member(NodeId(10)).id == NodeId(10));
   CHECK_FALSE(ear.roster.heard(NodeId(10)));
-  CHECK_FALSE(announced);
+  CHECK(ear.roster.members().empty());
+  CHECK(witness.announced.empty());
   ear.status(10, 0);
-  CHECK(announced);
+  CHECK(witness.announced == std::vector{10});
 }
 
 TEST_CASE("we ourselves, nodes without an ID and other traffic are no members") {
@@ -154,7 +193,7 @@ TEST_CASE("two servos with one ID show by the rate of actuator.Status") {
   for (int i = 0; i < 10; ++i) {
     ear.actuator(10);
     ear.now += 40ms;
-    ear.actuator(10);
+    ear.twin(10);
     ear.now += 60ms;
   }
   CHECK(ear.roster.is_doubled(NodeId(10)));
@@ -173,17 +212,49 @@ TEST_CASE("one servo is not doubled, whatever delays its status has, for hours")
   CHECK_FALSE(ear.roster.is_doubled(NodeId(10)));
 }
 
+TEST_CASE("what a servo that was alone on the bus could not send is no second servo") {
+  const int waiting = GENERATE(3, 10, 60);
+  Ear ear;
+  for (int i = 0; i < waiting; ++i) {
+    ear.actuator(10);
+    ear.now += 250us;
+  }
+  for (int i = 0; i < 30; ++i) {
+    ear.actuator(10);
+    ear.now += 100ms;
+  }
+  CHECK_FALSE(ear.roster.is_doubled(NodeId(10)));
+}
+
+TEST_CASE("two servos show whatever their counters have in common") {
+  const int ahead = GENERATE(0, 1, 2, 31);
+  Ear ear;
+  for (int i = 0; i < ahead; ++i) {
+    ear.actuator(10);
+    ear.now += 100ms;
+  }
+  for (int i = 0; i < 10; ++i) {
+    ear.actuator(10);
+    ear.now += 20ms;
+    ear.twin(10);
+    ear.now += 80ms;
+  }
+  CHECK(ear.roster.is_doubled(NodeId(10)));
+}
+
 TEST_CASE("an actuator of another make may send its status as fast as it likes") {
   Ear ear;
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < 50; ++i) {
     ear.actuator(10);
+    ear.now += 20ms;
+    ear.twin(10);
     ear.now += 20ms;
   }
   CHECK(ear.roster.is_doubled(NodeId(10))); // it may be two servos, as far as known
-  ear.roster.member(NodeId(10)).identified = true;
+  ear.roster.learn(servo_at(10), std::nullopt);
   CHECK_FALSE(ear.roster.is_doubled(NodeId(10)));
   CHECK(ear.roster.doubled().empty());
-  ear.roster.member(NodeId(10)).is_servo = true;
+  ear.roster.learn({.id = NodeId(10), .is_servo = true}, std::nullopt);
   CHECK(ear.roster.is_doubled(NodeId(10)));
   CHECK(ear.roster.doubled() == std::set{NodeId(10)});
 }
@@ -299,8 +370,7 @@ TEST_CASE("our own allocator is no other allocator") {
 
 TEST_CASE("an ArrayCommand drives the servos it names for two seconds") {
   Ear ear;
-  Member servo = servo_at(10);
-  servo.servo_id = 3;
+  const Servo servo{.id = NodeId(10), .servo_id = 3};
   CHECK_FALSE(ear.roster.driver_of(servo, ear.now));
   ear.command(30, {1, 2});
   CHECK_FALSE(ear.roster.driver_of(servo, ear.now));
@@ -313,7 +383,7 @@ TEST_CASE("an ArrayCommand drives the servos it names for two seconds") {
 
 TEST_CASE("actuator ID 255 means every servo, also one whose servo ID is not known") {
   Ear ear;
-  Member unknown = servo_at(10);
+  const Servo unknown = servo_at(10);
   ear.command(30, {1});
   CHECK_FALSE(ear.roster.driver_of(unknown, ear.now));
   ear.command(30, {255});
@@ -324,12 +394,12 @@ TEST_CASE("a servo that was not read yet is driven by the servo ID that it broad
   Ear ear;
   ear.actuator(10, 4);
   ear.command(30, {4});
-  CHECK(ear.roster.driver_of(*ear.roster.find(NodeId(10)), ear.now) == NodeId(30));
+  CHECK(ear.roster.driver_of(servo_at(10), ear.now) == NodeId(30));
 }
 
 TEST_CASE("a write to 0x00-0x02 of a node drives that node, by name and by index") {
-  const Member servo = servo_at(10);
-  const Member other = servo_at(11);
+  const Servo servo = servo_at(10);
+  const Servo other = servo_at(11);
   const auto name = GENERATE(as<std::string>{}, "0x00", "0x01", "0x02", "");
   Ear ear;
   ear.get_set(30, 10, {.index = 2, .value = std::int64_t{100}, .name = name});
@@ -339,7 +409,7 @@ TEST_CASE("a write to 0x00-0x02 of a node drives that node, by name and by index
 }
 
 TEST_CASE("reading 0x00 and writing other registers drives nobody") {
-  const Member servo = servo_at(10);
+  const Servo servo = servo_at(10);
   Ear ear;
   ear.get_set(30, 10, {.index = 0, .value = {}, .name = "0x00"});
   ear.get_set(30, 10, {.index = 0, .value = {}, .name = ""});
@@ -411,4 +481,188 @@ TEST_CASE("payloads of any bytes are heard without harm") {
     ear.now += 100us;
   }
   CHECK(ear.roster.members().size() <= 127);
+}
+
+TEST_CASE("a unit that restarts is announced again, as often as it does") {
+  Ear ear;
+  const Witness witness(ear.roster);
+  ear.status(10, 100);
+  ear.now += 10s;
+  ear.status(10, 110);
+  CHECK(witness.announced == std::vector{10});
+  ear.now += 10s;
+  ear.status(10, 1);
+  ear.now += 10s;
+  ear.status(10, 1);
+  CHECK(witness.announced == std::vector{10, 10, 10});
+}
+
+TEST_CASE("every listener is told, in the order in which they came, until it leaves") {
+  Ear ear;
+  std::vector<int> order;
+  Witness first(ear.roster);
+  first.reaction = [&] { order.push_back(1); };
+  {
+    Witness second(ear.roster);
+    second.reaction = [&] { order.push_back(2); };
+    ear.status(10, 0);
+    CHECK(order == std::vector{1, 2});
+  }
+  ear.status(11, 0);
+  CHECK(order == std::vector{1, 2, 1});
+}
+
+TEST_CASE("a listener that leaves in its call does not keep the others from being told") {
+  Ear ear;
+  Witness first(ear.roster);
+  const Witness second(ear.roster);
+  first.reaction = [&] { ear.roster.remove(first); };
+  ear.status(10, 0);
+  ear.status(11, 0);
+  CHECK(first.announced == std::vector{10});
+  CHECK(second.announced == std::vector{10, 11});
+}
+
+TEST_CASE("a listener that another one sends away in its call is gone: it may live no more") {
+  Ear ear;
+  Witness first(ear.roster);
+  std::optional<Witness> second;
+  second.emplace(ear.roster);
+  std::vector<int> told;
+  second->reaction = [&] { told.push_back(2); };
+  first.reaction = [&] { second.reset(); };
+  ear.status(10, 0);
+  CHECK(told.empty());
+  CHECK(first.announced == std::vector{10});
+}
+
+TEST_CASE("a listener that comes in a call is told of the next unit") {
+  Ear ear;
+  Witness first(ear.roster);
+  std::optional<Witness> second;
+  first.reaction = [&] {
+    if (!second) {
+      second.emplace(ear.roster);
+    }
+  };
+  ear.status(10, 0);
+  REQUIRE(second);
+  CHECK(second->announced.empty());
+  ear.status(11, 0);
+  CHECK(second->announced == std::vector{11});
+}
+
+TEST_CASE("what a node said before its restart is not taken for what it is now") {
+  Ear ear;
+  ear.status(10, 100);
+  ear.roster.learn({.id = NodeId(10), .is_servo = true, .servo_id = 3, .static_node_id = 10},
+                   GetNodeInfo::Response{.unique_id = {1}});
+  CHECK(ear.roster.member(NodeId(10)).is_known());
+  CHECK(ear.roster.member(NodeId(10)).is_unit({1}));
+  ear.now += 10s;
+  ear.status(10, 0);
+  CHECK_FALSE(ear.roster.member(NodeId(10)).is_known());
+  CHECK_FALSE(ear.roster.member(NodeId(10)).is_unit({1}));
+  CHECK(ear.roster.member(NodeId(10)).servo().servo_id == 3); // the last that was heard of it
+  ear.roster.learn(NodeId(10), GetNodeInfo::Response{.unique_id = {2}});
+  CHECK(ear.roster.member(NodeId(10)).is_unit({2}));
+  CHECK_FALSE(ear.roster.member(NodeId(10)).is_servo);
+  CHECK_FALSE(ear.roster.member(NodeId(10)).servo_id);
+}
+
+TEST_CASE("two answers to one question show two units, which the receiver takes for one answer") {
+  Ear ear;
+  ear.info(10, 1, 100, 5);
+  CHECK_FALSE(ear.roster.is_doubled(NodeId(10)));
+  CHECK(ear.roster.units(NodeId(10)).empty());
+  ear.now += 3ms;
+  ear.info(10, 2, 100, 5);
+  CHECK(ear.roster.is_doubled(NodeId(10)));
+  CHECK(ear.roster.units(NodeId(10)) == std::set<dronecan::UniqueId>{{1}, {2}});
+  CHECK(ear.roster.units(NodeId(11)).empty());
+}
+
+TEST_CASE("answers to different questions show two units as well, unless there was a restart") {
+  Ear ear;
+  ear.info(10, 1, 100, 5);
+  ear.now += 10s;
+  SECTION("no restart") {
+    ear.info(10, 2, 110, 6);
+    CHECK(ear.roster.is_doubled(NodeId(10)));
+    CHECK(ear.roster.units(NodeId(10)) == std::set<dronecan::UniqueId>{{1}, {2}});
+  }
+  SECTION("another unit came in its place") {
+    ear.info(10, 2, 3, 6);
+    CHECK_FALSE(ear.roster.is_doubled(NodeId(10)));
+    CHECK(ear.roster.member(NodeId(10)).boots == 1);
+    CHECK(ear.roster.member(NodeId(10)).is_unit({2}));
+  }
+  SECTION("the same one") {
+    ear.info(10, 1, 110, 6);
+    CHECK_FALSE(ear.roster.is_doubled(NodeId(10)));
+  }
+}
+
+TEST_CASE("whoever asked, an answer tells which unit a node is") {
+  Ear ear;
+  const GetNodeInfo::Response response{.unique_id = {7}, .name = "servo"};
+  ear.hear(service(Kind::response, GetNodeInfo::type, 10, 99, response.encode(), 5));
+  CHECK(ear.roster.member(NodeId(10)).is_unit({7}));
+  CHECK_FALSE(ear.roster.member(NodeId(10)).is_known());
+  CHECK_FALSE(ear.roster.is_doubled(NodeId(10)));
+}
+
+TEST_CASE("doubled units without names stay without") {
+  Ear ear;
+  ear.status(10, 100);
+  ear.now += 300ms;
+  ear.status(10, 5);
+  ear.now += 700ms;
+  ear.status(10, 101);
+  REQUIRE(ear.roster.is_doubled(NodeId(10)));
+  CHECK(ear.roster.units(NodeId(10)).empty());
+}
+
+TEST_CASE("the statuses of a servo are counted from its first one, whenever it comes") {
+  Ear ear;
+  ear.now = Time{900ms}; // the clock has just started
+  for (int i = 0; i < 7; ++i) {
+    ear.actuator(10);
+    ear.now += 71ms;
+    ear.twin(10);
+    ear.now += 71ms;
+  }
+  CHECK_FALSE(ear.roster.is_doubled(NodeId(10)));
+  ear.actuator(10); // within the same second
+  CHECK(ear.roster.is_doubled(NodeId(10)));
+}
+
+TEST_CASE("a servo that was recognised after a restart is known as before") {
+  Acquaintance known(bla21());
+  known.restart();
+  REQUIRE_FALSE(known.member().is_known());
+  Servo again = known.servo;
+  again.boot = 1;
+  again.since = known.now;
+  known.roster.learn_run(again);
+  CHECK(known.member().is_known());
+  CHECK(known.member().servo().since == known.now);
+  CHECK(known.member().servo().boot == 1);
+  CHECK(known.member().is_unit(*known.servo.unique_id));
+}
+
+TEST_CASE("who writes to a setting of another node is remembered; commands and reads are no such") {
+  Ear ear;
+  const Time before = ear.now;
+  ear.now += 1s;
+  ear.get_set(40, 11, {.name = "0x38"});
+  ear.get_set(40, 11, {.value = std::int64_t{900}, .name = "0x00"});
+  ear.get_set(40, 11, {.index = 1, .value = std::int64_t{10}});
+  CHECK_FALSE(ear.roster.writer_to(NodeId(11), before));
+  ear.get_set(40, 11, {.value = std::int64_t{900}, .name = "0x38"});
+  CHECK(ear.roster.writer_to(NodeId(11), before) == NodeId(40));
+  CHECK_FALSE(ear.roster.writer_to(NodeId(11), ear.now)); // that was before
+  CHECK_FALSE(ear.roster.writer_to(NodeId(12), before));
+  ear.get_set(127, 12, {.value = std::int64_t{900}, .name = "0x38"}); // it is ours
+  CHECK_FALSE(ear.roster.writer_to(NodeId(12), before));
 }

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -26,7 +27,7 @@ struct Rig {
   explicit Rig(Session::Hearing hearing = Session::Hearing::all, bool listen_only = false) {
     std::optional<LocalNodeId> local;
     if (!listen_only) {
-      local = LocalNodeId::unshared(std::nullopt);
+      local = LocalNodeId::unshared({});
     }
     auto opened = Session::open(std::make_unique<FakeBus>(wire), std::move(local), hearing);
     REQUIRE(opened);
@@ -76,7 +77,7 @@ std::unique_ptr<Session> on_simulated_bus(std::string_view members) {
       "test.json", profiles());
   REQUIRE(scenario);
   auto session = Session::open(std::make_unique<sim::PrivateBus>("sim:", *scenario),
-                               LocalNodeId::unshared(std::nullopt), Session::Hearing::all);
+                               LocalNodeId::unshared({}), Session::Hearing::all);
   REQUIRE(session);
   return std::move(*session);
 }
@@ -149,7 +150,7 @@ TEST_CASE("a session without a node ID sends nothing, and still hears") {
   CHECK(scene.sent.empty());
   CHECK(scene.roster().heard(NodeId(11)));
   CHECK(scene.roster().heard(NodeId(127))); // nobody's but its own
-  IdentifyJob job(scene.roster(), scene.member(11), profiles(), {});
+  IdentifyJob job(scene.roster(), NodeId(11), profiles(), {});
   scene.session->start(job);
   REQUIRE(scene.session->run());
   CHECK(scene.sent.empty());
@@ -168,6 +169,59 @@ TEST_CASE("run lives until no job is left") {
   CHECK(rig.wire.sent.size() == 2);
   REQUIRE(rig.session->run());
   CHECK(rig.wire.now - begin == 7ms);
+}
+
+TEST_CASE("run of a group lives until its jobs have ended; what else runs goes on") {
+  Rig rig;
+
+  class Idle final : public dronecan::Job {
+   public:
+    dronecan::Step next(const Outcome& outcome) override {
+      last = outcome.kind;
+      return dronecan::Pause{};
+    }
+
+    Outcome::Kind last{};
+  } other;
+
+  rig.session->start(other);
+  Ask first;
+  Ask second(2);
+  const std::vector<dronecan::Job*> group{&first, &second};
+  rig.answer(0, 3ms);
+  rig.answer(1, 5ms);
+  rig.answer(2, 7ms);
+  const Time begin = rig.wire.now;
+  REQUIRE(rig.session->run(group));
+  CHECK(rig.wire.now - begin == 7ms);
+  CHECK(first.outcomes.back() == answered);
+  CHECK(second.outcomes.back() == answered);
+  CHECK(rig.session->node().is_running(other));
+  CHECK(rig.session->node().jobs() == 1);
+  rig.session->cancel(other);
+  CHECK(other.last == cancelled);
+  CHECK(rig.session->node().jobs() == 0);
+}
+
+TEST_CASE("run of an empty group is over at once") {
+  Rig rig;
+  const Time begin = rig.wire.now;
+  REQUIRE(rig.session->run(std::span<dronecan::Job* const>()));
+  CHECK(rig.wire.now == begin);
+}
+
+TEST_CASE("a signal ends the jobs of a group and those beside it") {
+  Rig rig;
+  Ask other;
+  rig.session->start(other);
+  Ask first;
+  const std::vector<dronecan::Job*> group{&first};
+  REQUIRE(raise(SIGINT) == 0);
+  const auto ran = rig.session->run(group);
+  REQUIRE_FALSE(ran);
+  CHECK(ran.error().code == Code::interrupted);
+  CHECK(first.outcomes == Kinds{start, cancelled});
+  CHECK(other.outcomes == Kinds{start, cancelled});
 }
 
 TEST_CASE("a signal ends the session, and what is asked is cancelled") {
@@ -193,23 +247,81 @@ TEST_CASE("a window that changes its size ends nothing") {
   CHECK(rig.session->signal() == 0);
 }
 
-TEST_CASE("a foreign frame with our node ID ends the session") {
-  const auto session = on_simulated_bus(R"("foreign": [{"kind": "node", "node_id": 127}])");
-  const auto lived = session->live_until(session->now() + 2s);
-  REQUIRE_FALSE(lived);
-  CHECK(lived.error().code == Code::duplicate_node_id);
-  CHECK(lived.error().node_id == 127);
-  CHECK(lived.error().hint.find("--local-node-id") != std::string::npos);
-  CHECK(session->unsent() == 0);
+TEST_CASE("a node ID that another node has is left to it: the session goes on with the other one") {
+  const auto session = on_simulated_bus(R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11}],
+      "foreign": [{"kind": "node", "node_id": 127}])");
+  std::vector<std::string> told;
+  session->on_new_id([&](const LocalNodeId& local) { told.push_back(local.passed_over()); });
+  REQUIRE(session->live_until(session->now() + 3s));
+  CHECK(told == std::vector<std::string>{"127 is used by another node"});
+  CHECK(session->node().id() == NodeId(126));
+  CHECK(session->roster().local() == NodeId(126));
+  CHECK(session->roster().heard(NodeId(127)));
+  IdentifyJob job(session->records(), NodeId(11), profiles(), {});
+  session->start(job);
+  REQUIRE(session->run());
+  CHECK_FALSE(job.identification().error());
 }
 
-TEST_CASE("any frame with our ID is a conflict, a service too; one without an ID is not") {
+TEST_CASE("a session whose IDs are both another's ends") {
+  const auto session = on_simulated_bus(
+      R"("foreign": [{"kind": "node", "node_id": 127}, {"kind": "node", "node_id": 126}])");
+  const auto lived = session->live_until(session->now() + 2s);
+  REQUIRE_FALSE(lived);
+  CHECK(lived.error().code == Code::no_local_node_id);
+  CHECK(lived.error().hint.find("--local-node-id") != std::string::npos);
+}
+
+TEST_CASE("any frame with our ID is another node's, a service too; one without an ID is not") {
   Rig rig;
   rig.hear(message(dronecan::Allocation::type, 0,
                    dronecan::Allocation{.first_part_of_unique_id = true, .size = 6}.encode()));
   CHECK(rig.session->live_until(rig.wire.now + 10ms));
+  CHECK(rig.session->node().id() == NodeId(127));
   rig.hear(service(Kind::request, GetSet::type, 127, 11, GetSet::Request{}.encode()));
-  CHECK(rig.session->live_until(rig.wire.now + 10ms).error().code == Code::duplicate_node_id);
+  CHECK(rig.session->live_until(rig.wire.now + 10ms));
+  CHECK(rig.session->node().id() == NodeId(126));
+  CHECK(rig.session->roster().heard(NodeId(127)));
+}
+
+TEST_CASE("with the ID the kernel filter changes") {
+  Rig rig(Session::Hearing::answers);
+  const auto answer =
+      service(Kind::response, GetNodeInfo::type, 11, 126, GetNodeInfo::Response{}.encode(), 0)[0];
+  CHECK_FALSE(passes(rig.wire, answer));
+  rig.hear(service(Kind::request, GetSet::type, 127, 11, GetSet::Request{}.encode()));
+  CHECK(rig.session->live_until(rig.wire.now + 10ms));
+  CHECK(passes(rig.wire, answer));
+}
+
+TEST_CASE("an ID that is no tool's is listened for before it is used") {
+  Scene scene(R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11}])", Session::Hearing::all,
+              LocalNodeId::unshared({NodeId(60)}));
+  CHECK_FALSE(scene.session->may_ask());
+  const Time begin = scene.session->now();
+  REQUIRE(scene.session->wait_until_open());
+  CHECK(scene.session->now() - begin == bus_watch_time);
+  CHECK(scene.sent.empty());
+  CHECK(scene.session->node().id() == NodeId(60));
+  CHECK(scene.identify(11).is_servo);
+}
+
+TEST_CASE("an ID that was asked for and is another's is not spoken with") {
+  const auto scenario = sim::parse_scenario(
+      R"({"schema": "blactl-scenario/1", "clock": "virtual",
+          "servos": [{"model": "BLA21-12U-AB", "node_id": 11}]})",
+      "test.json", profiles());
+  REQUIRE(scenario);
+  std::vector<can::Frame> sent;
+  auto session = Session::open(
+      std::make_unique<Tap>(std::make_unique<sim::PrivateBus>("sim:", *scenario), sent),
+      LocalNodeId::unshared({NodeId(11)}), Session::Hearing::all);
+  REQUIRE(session);
+  const auto opened = (*session)->wait_until_open();
+  REQUIRE_FALSE(opened);
+  CHECK(opened.error().code == Code::duplicate_node_id);
+  CHECK(opened.error().node_id == 11);
+  CHECK(sent.empty());
 }
 
 TEST_CASE("on an empty bus nobody acknowledges: told after a tenth of a second") {
@@ -384,5 +496,35 @@ TEST_CASE("commands of another node are heard through the filter") {
               Session::Hearing::commands);
   scene.live(1100ms);
   CHECK(scene.roster().armed_by() == NodeId(30));
-  CHECK(scene.roster().driver_of(scene.member(11), scene.session->now()) == NodeId(30));
+  CHECK(scene.roster().driver_of(scene.member(11).servo(), scene.session->now()) == NodeId(30));
+}
+
+TEST_CASE("what is asked, and what stays without an answer, is told to who wants to know") {
+  Rig rig;
+  std::vector<int> asked;
+  std::vector<int> unanswered;
+  rig.session->on_requests(
+      [&](const dronecan::Request& request, int tries) {
+        CHECK(request.server == NodeId(11));
+        asked.push_back(tries);
+      },
+      [&](const dronecan::Request&, int tries) { unanswered.push_back(tries); });
+  Ask job(1, {.timeout = 50ms, .retries = 1});
+  rig.session->start(job);
+  REQUIRE(rig.session->run());
+  CHECK(asked == std::vector{1, 2});
+  CHECK(unanswered == std::vector{1, 2});
+}
+
+TEST_CASE("that anything of DroneCAN was heard is known, of whomever it is") {
+  Rig rig;
+  CHECK_FALSE(rig.session->heard_anything());
+  CHECK_FALSE(rig.session->is_recording());
+  rig.wire.hear({.id = 0x55, .extended = false, .size = 1, .data = {0xC0}}, 1ms);
+  REQUIRE(rig.session->live_until(rig.wire.now + 10ms));
+  CHECK_FALSE(rig.session->heard_anything());
+  rig.hear(message(dronecan::Allocation::type, 0,
+                   dronecan::Allocation{.first_part_of_unique_id = true, .size = 6}.encode()));
+  REQUIRE(rig.session->live_until(rig.wire.now + 10ms));
+  CHECK(rig.session->heard_anything());
 }

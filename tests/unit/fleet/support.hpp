@@ -7,6 +7,9 @@
 #include "blactl/dronecan/transfer.hpp"
 #include "blactl/dronecan/types.hpp"
 #include "blactl/fleet/identification.hpp"
+#include "blactl/fleet/plan.hpp"
+#include "blactl/fleet/read_job.hpp"
+#include "blactl/fleet/roster.hpp"
 #include "blactl/fleet/session.hpp"
 #include "blactl/sim/private_bus.hpp"
 #include "blactl/sim/scenario.hpp"
@@ -114,9 +117,8 @@ class Tap final : public can::Bus {
 class Scene {
  public:
   /// `members`: JSON members of the scenario: "servos": […], "foreign": […].
-  explicit Scene(
-      std::string_view members, Session::Hearing hearing = Session::Hearing::all,
-      std::optional<state::LocalNodeId> local = state::LocalNodeId::unshared(std::nullopt)) {
+  explicit Scene(std::string_view members, Session::Hearing hearing = Session::Hearing::all,
+                 std::optional<state::LocalNodeId> local = state::LocalNodeId::unshared({})) {
     const auto scenario = sim::parse_scenario(
         fmt::format(R"({{"schema": "blactl-scenario/1", "clock": "virtual", {}}})", members),
         "test.json", profiles());
@@ -130,9 +132,11 @@ class Scene {
     live(start_time);
   }
 
-  [[nodiscard]] Roster& roster() const { return session->roster(); }
+  /// As jobs see it.
+  [[nodiscard]] Roster& roster() const { return session->records(); }
 
-  [[nodiscard]] Member& member(std::uint8_t id) const { return roster().member(NodeId(id)); }
+  /// What is known of this node now.
+  [[nodiscard]] Member member(std::uint8_t id) const { return roster().member(NodeId(id)); }
 
   void run(dronecan::Job& job) const {
     session->start(job);
@@ -144,12 +148,22 @@ class Scene {
   void live(Duration time) const { REQUIRE(session->live_until(session->now() + time)); }
 
   /// Identifies a servo that must be there.
-  Member& identify(std::uint8_t id, Identification::Options options = {}) const {
-    IdentifyJob job(roster(), member(id), profiles(), options);
+  Servo identify(std::uint8_t id, Identification::Options options = {}) const {
+    IdentifyJob job(roster(), NodeId(id), profiles(), options);
     run(job);
     REQUIRE_FALSE(job.identification().error());
-    return member(id);
+    return job.identification().servo();
   }
+
+  /// Identifies a servo, unless it is known, and reads these registers.
+  [[nodiscard]] Snapshot read(std::uint8_t id, const ReadJob::Choice& choice) const {
+    ReadJob job(roster(), NodeId(id), profiles(), {}, choice);
+    run(job);
+    return job.snapshot();
+  }
+
+  /// Until the uptime of everybody proves for some time that there was no restart.
+  void grow_old() const { live(10s); }
 
   /// How many requests of this type went to this server, retries included.
   [[nodiscard]] std::size_t requests(const dronecan::DataType& type, std::uint8_t server) const {
@@ -172,6 +186,102 @@ class Scene {
   std::unique_ptr<Session> session;
 };
 
+/// The registers that SAVE keeps.
+inline Result<std::vector<const bla::Parameter*>> configuration(const Servo& servo) {
+  return servo.identity.configuration();
+}
+
+/// The registers of these names.
+inline ReadJob::Choice registers(std::vector<const char*> names) {
+  return
+      [names = std::move(names)](const Servo& servo) -> Result<std::vector<const bla::Parameter*>> {
+        std::vector<const bla::Parameter*> wanted;
+        for (const char* name : names) {
+          wanted.push_back(servo.identity.parameter(parameter(name).address));
+        }
+        return wanted;
+      };
+}
+
+/// An identified servo as nobody has yet heard it: BLA21-12U-AB, firmware 1.400.
+inline Servo bla21(std::uint8_t id = 11) {
+  Servo servo{.id = NodeId(id), .unique_id = dronecan::UniqueId{id}, .is_servo = true};
+  servo.identity = bla::Identity(profiles(), {61, 240900558, 1400, 12050});
+  servo.servo_id = 0;
+  return servo;
+}
+
+/// What `servo` answered for these registers: `held`, else its defaults, else 0.
+inline Snapshot snapshot_of(const Servo& servo, const std::vector<const bla::Parameter*>& asked,
+                            const bla::Values& held = {}) {
+  Snapshot snapshot{.servo = servo};
+  for (const bla::Parameter* each : asked) {
+    snapshot.readings.push_back(
+        {each, bla::find(held, each->address).value_or(each->default_raw.value_or(0))});
+  }
+  return snapshot;
+}
+
+/// What `texts` ask for: "angle_limit_cw=90deg".
+inline std::vector<bla::Assignment> assignments(const std::vector<std::string>& texts) {
+  auto parsed = bla::parse_assignments(profiles(), texts);
+  INFO((parsed ? "" : parsed.error().front().message));
+  REQUIRE(parsed);
+  return *parsed;
+}
+
+/// The plan for a servo that holds this, and its defaults else.
+inline Result<Plan> try_plan(const Wanted& wanted, const bla::Values& held = {},
+                             const Servo& servo = bla21()) {
+  const auto needed = registers_needed(wanted, servo);
+  if (!needed) {
+    return std::unexpected(needed.error());
+  }
+  return make_plan(wanted, snapshot_of(servo, *needed, held), profiles());
+}
+
+inline Plan plan_for(const Wanted& wanted, const bla::Values& held = {},
+                     const Servo& servo = bla21()) {
+  auto plan = try_plan(wanted, held, servo);
+  INFO((plan ? "" : plan.error().message));
+  REQUIRE(plan);
+  return *plan;
+}
+
+/// A roster without a bus that has identified servo 11, and hears of its restarts.
+class Acquaintance {
+ public:
+  explicit Acquaintance(Servo known = {.id = NodeId(11),
+                                       .unique_id = dronecan::UniqueId{1},
+                                       .name = "servo",
+                                       .is_servo = true},
+                        NodeId local = NodeId(127))
+      : roster(local), servo(std::move(known)) {
+    hear_uptime(100);
+    roster.learn(servo, GetNodeInfo::Response{.unique_id = *servo.unique_id, .name = servo.name});
+  }
+
+  void restart() {
+    now += 10s;
+    hear_uptime(0);
+  }
+
+  void hear_uptime(std::uint32_t uptime_s) {
+    const auto payload = dronecan::NodeStatus{.uptime_s = uptime_s}.encode();
+    roster.receive({.header = {.kind = dronecan::Kind::message,
+                               .data_type_id = dronecan::NodeStatus::type.id,
+                               .source = servo.id},
+                    .payload = payload.bytes(),
+                    .at = now});
+  }
+
+  [[nodiscard]] Member member() const { return roster.member(servo.id); }
+
+  Roster roster;
+  Servo servo;
+  Time now{1000s};
+};
+
 /// Outcomes for a job that is asked without a bus. The payload lives as long as this object.
 class Script {
  public:
@@ -185,9 +295,15 @@ class Script {
         GetSet::Response{.value = std::move(value), .name = std::string(register_name)}.encode());
   }
 
-  [[nodiscard]] Outcome info(std::uint8_t unit) {
-    return answer(GetNodeInfo::Response{.unique_id = {unit}, .name = "servo"}.encode());
+  /// The uptime proves that the unit has run all the time.
+  [[nodiscard]] Outcome info(std::uint8_t unit, std::uint32_t uptime_s = 100) {
+    return answer(GetNodeInfo::Response{
+        .status = {.uptime_s = uptime_s}, .unique_id = {unit}, .name = "servo"}
+                      .encode());
   }
+
+  /// The uptime proves nothing: the unit may have restarted a moment ago.
+  [[nodiscard]] Outcome young_info(std::uint8_t unit) { return info(unit, 0); }
 
   static Outcome start() { return {}; }
 

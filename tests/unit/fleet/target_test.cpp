@@ -1,15 +1,25 @@
 #include "blactl/fleet/target.hpp"
 
-#include "support.hpp"
+#include "catch.hpp"
+#include "unit/bla/built_in.hpp"
 
 #include <string>
 #include <vector>
 
 using namespace blactl;
 using namespace blactl::fleet;
-using namespace blactl::fleet::test;
+using dronecan::GetNodeInfo;
+using dronecan::NodeId;
 
 namespace {
+
+const bla::Profiles& profiles() {
+  return blactl::test::built_in();
+}
+
+const bla::Profile& model(std::string_view name) {
+  return *profiles().matching(name).front();
+}
 
 std::vector<int> ids(std::string_view list) {
   const auto targets = parse_targets(list);
@@ -61,17 +71,29 @@ TEST_CASE("IDs alone need no search of the bus") {
 }
 
 TEST_CASE("what is no target is refused with examples") {
-  const auto list = GENERATE(
-      as<std::string>{}, "", ",", "12,", ",12", "12,,13", "0", "128", "256", "4294967308", "-1",
-      "+1", " 12", "12 ", "12-", "-12", "14-10", "10-128", "10--12", "1e1", "0x0C", "1.5", "ALL",
-      "nan", "uid:", "uid:0011", "uid:00112233445566778899aabbccddeefg", "serial:", "serial:x",
-      "serial:-5", "serial: 5", "serial:0x10", "serial:99999999999999999999", "servo:", "servo:1.5",
-      "model:", "name:x", "12:5", ":", "uid", "node_id:12", "１２");
+  const auto list =
+      GENERATE(as<std::string>{}, "", ",", "12,", ",12", "12,,13", "-1", "+1", " 12", "12 ", "12-",
+               "-12", "10--12", "1e1", "0x0C", "1.5", "nan", "uid:", "uid:00g1",
+               "uid:00112233445566778899aabbccddeefg", "serial:", "serial:x", "serial:-5",
+               "serial: 5", "serial:0x10", "serial:99999999999999999999", "servo:", "servo:1.5",
+               "model:", "name:x", "12:5", ":", "uid", "node_id:12", "１２");
   INFO(list);
   const auto targets = parse_targets(list);
   REQUIRE_FALSE(targets);
   CHECK(targets.error().code == Code::usage);
   CHECK(targets.error().hint.find("serial:240900558") != std::string::npos);
+}
+
+TEST_CASE("a number that is no node ID is refused with what node IDs are") {
+  for (const char* list : {"0", "128", "256", "4294967308", "5,128", "10-128", "0-5", "000"}) {
+    INFO(list);
+    const auto targets = parse_targets(list);
+    REQUIRE_FALSE(targets);
+    CHECK(targets.error().code == Code::usage);
+    CHECK(targets.error().message.find("node IDs are 1 to 127") != std::string::npos);
+  }
+  CHECK(parse_targets("0").error().message == "-n 0: node IDs are 1 to 127");
+  CHECK(parse_targets("14-10").error().hint == "type -n 10-14");
 }
 
 TEST_CASE("a foreign target cannot write to the terminal") {
@@ -80,16 +102,35 @@ TEST_CASE("a foreign target cannot write to the terminal") {
 
 TEST_CASE("a servo is meant by its ID, unique ID, serial number, servo ID and model") {
   const Member member = servo(11);
-  for (const char* list : {"11", "10-12", "5,11", "all", "uid:001122ab000000000000000000000000",
-                           "unique_id:001122AB000000000000000000000000", "serial:240900558",
-                           "serial_number:240900558", "servo:3", "servo_id:3", "model:BLA21-12U-AB",
-                           "model:BLA21", "model:bla21-12u", "model:BLA21-12U-AB2", "5,servo:3"}) {
+  for (const char* list : {"11",
+                           "10-12",
+                           "5,11",
+                           "all",
+                           "uid:001122ab000000000000000000000000",
+                           "unique_id:001122AB000000000000000000000000",
+                           "serial:240900558",
+                           "serial_number:240900558",
+                           "servo:3",
+                           "servo_id:3",
+                           "model:BLA21-12U-AB",
+                           "model:BLA21",
+                           "model:bla21-12u",
+                           "model:BLA21-12U-AB2",
+                           "5,servo:3",
+                           "ALL",
+                           "All",
+                           "SERIAL:240900558",
+                           "Servo_ID:3",
+                           "MODEL:BLA21",
+                           "uid:0",
+                           "UID:001122Ab",
+                           "uid:001122ab00000000000000000000000"}) {
     INFO(list);
     CHECK(means(list, member));
   }
   for (const char* list :
        {"12", "10,12-20", "uid:001122ab000000000000000000000001", "serial:240900559", "servo:4",
-        "servo:11", "model:BLA34", "model:BLA21-28U", "model:XY"}) {
+        "servo:11", "model:BLA34", "model:BLA21-28U", "model:XY", "uid:1", "uid:001123"}) {
     INFO(list);
     CHECK_FALSE(means(list, member));
   }
@@ -118,4 +159,26 @@ TEST_CASE("a selector never picks a model by a guess") {
   member.identity =
       bla::Identity(profiles(), {model("BLA21-12U-AB").model_number, 1, 1400, 99'999});
   CHECK_FALSE(means("model:BLA21-12U", member));
+}
+
+TEST_CASE("the beginning of a unique ID must mean one unit") {
+  Roster roster(NodeId(127));
+  for (const std::uint8_t id : {std::uint8_t{11}, std::uint8_t{12}}) {
+    Member member = servo(id);
+    member.info->unique_id[15] = id;
+    roster.learn(NodeId(id), *member.info);
+    roster.learn(member.servo(), member.info);
+  }
+  const auto ambiguity = [&](std::string_view list) {
+    return parse_targets(list)->ambiguity(roster, profiles());
+  };
+  const auto error = ambiguity("uid:0011");
+  REQUIRE(error);
+  CHECK(error->code == Code::usage);
+  CHECK(error->message == "-n uid:0011: several servos have a unique ID that begins so: "
+                          "001122ab00000000000000000000000b (11), "
+                          "001122ab00000000000000000000000c (12)");
+  CHECK_FALSE(ambiguity("uid:001122ab00000000000000000000000b"));
+  CHECK_FALSE(ambiguity("uid:ff"));
+  CHECK_FALSE(ambiguity("model:BLA21"));
 }

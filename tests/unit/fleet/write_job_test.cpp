@@ -4,6 +4,7 @@
 
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 using namespace blactl;
@@ -22,14 +23,25 @@ Change change(const char* name, std::int64_t requested, std::optional<std::int64
 }
 
 /// A servo that is identified, without a bus.
-struct Bench {
-  Bench() {
-    servo.id = NodeId(11);
-    servo.info = GetNodeInfo::Response{.unique_id = {1}};
-    servo.identified = servo.is_servo = true;
+struct Bench : Acquaintance {
+  [[nodiscard]] WriteJob job(std::vector<Change> changes) const {
+    return {roster, servo, std::move(changes), {}};
   }
 
-  Member servo;
+  std::string value(WriteJob& job, const char* name, std::int64_t value) {
+    return text(job.next(script.value(name, value)));
+  }
+
+  /// Its uptime proves that it has run all the time.
+  std::string proven(WriteJob& job) { return alone(job, text(job.next(script.info(1)))); }
+
+  /// No second unit on the ID is heard within the time that it is listened for.
+  std::string alone(WriteJob& job, const std::string& said) {
+    return said == "pause" ? text(job.next({Outcome::Kind::woken, {}, {}})) : said;
+  }
+
+  std::string unproven(WriteJob& job) { return text(job.next(script.young_info(1))); }
+
   Script script;
 };
 
@@ -50,18 +62,20 @@ constexpr const char* servo_11 = R"("servos": [{"model": "BLA21-12U-AB", "node_i
 
 TEST_CASE("a change is written and read again") {
   Scene scene(servo_11);
-  WriteJob job(scene.identify(11), {change("angle_limit_cw", 900, 1799)}, {});
+  scene.grow_old();
+  WriteJob job(scene.roster(), scene.identify(11), {change("angle_limit_cw", 900, 1799)}, {});
   scene.sent.clear();
   scene.run(job);
   CHECK(job.changes()[0].status == ChangeStatus::written);
   CHECK(job.changes()[0].after == 900);
   CHECK_FALSE(job.changes()[0].error);
-  CHECK(scene.sent.size() == 3 + 1);
+  CHECK(scene.sent.size() == 3 + 1 + 1); // the last one asks whether it ran on
 }
 
 TEST_CASE("a value that is held already is not sent") {
   Scene scene(servo_11);
-  WriteJob job(scene.identify(11),
+  scene.grow_old();
+  WriteJob job(scene.roster(), scene.identify(11),
                {change("angle_limit_cw", 1799, 1799), change("angle_limit_ccw", -900, -1799),
                 change("reverse", 0, 0)},
                {});
@@ -71,24 +85,24 @@ TEST_CASE("a value that is held already is not sent") {
   CHECK(job.changes()[1].status == ChangeStatus::written);
   CHECK(job.changes()[2].status == ChangeStatus::unchanged);
   CHECK(writes(scene) == 1);
-  CHECK(scene.sent.size() == 3 + 1);
+  CHECK(scene.sent.size() == 3 + 1 + 1);
 }
 
 TEST_CASE("nothing to change sends nothing") {
   Scene scene(servo_11);
-  Member& servo = scene.identify(11);
+  const Servo servo = scene.identify(11);
   scene.sent.clear();
-  WriteJob unchanged(servo, {change("reverse", 0, 0)}, {});
+  WriteJob unchanged(scene.roster(), servo, {change("reverse", 0, 0)}, {});
   scene.run(unchanged);
-  WriteJob empty(servo, {}, {});
+  WriteJob empty(scene.roster(), servo, {}, {});
   scene.run(empty);
   CHECK(scene.sent.empty());
 }
 
 TEST_CASE("a servo that keeps its old value refused") {
   Scene scene(servo_11); // refuses what is out of range
-  WriteJob job(scene.identify(11), {change("torque_limit_cw", 200, 100), change("reverse", 1, 0)},
-               {});
+  WriteJob job(scene.roster(), scene.identify(11),
+               {change("torque_limit_cw", 200, 100), change("reverse", 1, 0)}, {});
   scene.run(job);
   CHECK(job.changes()[0].status == ChangeStatus::failed);
   REQUIRE(job.changes()[0].error);
@@ -102,7 +116,7 @@ TEST_CASE("a servo that holds another value than was written is a mismatch") {
   Scene scene(R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11,
                              "ram": {"torque_limit_cw": "50%"},
                              "behaviour": {"out_of_range": "clamp"}}])");
-  WriteJob job(scene.identify(11), {change("torque_limit_cw", 200, 50)}, {});
+  WriteJob job(scene.roster(), scene.identify(11), {change("torque_limit_cw", 200, 50)}, {});
   scene.run(job);
   CHECK(job.changes()[0].status == ChangeStatus::mismatch);
   REQUIRE(job.changes()[0].error);
@@ -112,17 +126,26 @@ TEST_CASE("a servo that holds another value than was written is a mismatch") {
 
 TEST_CASE("a lost answer to a write is no failure: the register tells") {
   Bench bench;
-  WriteJob job(bench.servo, {change("reverse", 1, 0)}, {});
+  WriteJob job = bench.job({change("reverse", 1, 0)});
   CHECK(text(job.next(Script::start())) == "write 0x23=1");
   CHECK(text(job.next(Script::timed_out())) == "read 0x23");
   SECTION("it was written") {
-    CHECK(text(job.next(bench.script.value("0x23", std::int64_t{1}))) == "nothing");
+    CHECK(bench.value(job, "0x23", 1) == "GetNodeInfo");
+    CHECK(bench.proven(job) == "nothing");
     CHECK(job.changes()[0].status == ChangeStatus::written);
   }
-  SECTION("it was not") {
-    CHECK(text(job.next(bench.script.value("0x23", std::int64_t{0}))) == "nothing");
+  SECTION("it was not: whether the servo refused it, or never had it, is not known") {
+    CHECK(bench.value(job, "0x23", 0) == "GetNodeInfo");
+    CHECK(bench.proven(job) == "nothing");
     CHECK(job.changes()[0].status == ChangeStatus::failed);
-    CHECK(job.changes()[0].error->code == Code::refused);
+    CHECK(job.changes()[0].error->code == Code::timeout);
+    CHECK(job.changes()[0].after == 0);
+  }
+  SECTION("it holds neither the one nor the other value") {
+    CHECK(bench.value(job, "0x23", 2) == "GetNodeInfo");
+    CHECK(bench.proven(job) == "nothing");
+    CHECK(job.changes()[0].status == ChangeStatus::mismatch);
+    CHECK(job.changes()[0].error->code == Code::mismatch);
   }
   SECTION("it is mute") {
     CHECK(text(job.next(Script::timed_out())) == "nothing");
@@ -134,16 +157,17 @@ TEST_CASE("a lost answer to a write is no failure: the register tells") {
 
 TEST_CASE("an answer that echoes the value proves nothing by itself") {
   Bench bench;
-  WriteJob job(bench.servo, {change("reverse", 1, 0)}, {});
+  WriteJob job = bench.job({change("reverse", 1, 0)});
   std::ignore = job.next(Script::start());
   CHECK(text(job.next(bench.script.value("0x23", std::int64_t{1}))) == "read 0x23");
-  CHECK(text(job.next(bench.script.value("0x23", std::int64_t{0}))) == "nothing");
+  CHECK(bench.value(job, "0x23", 0) == "GetNodeInfo"); // or it has restarted
+  CHECK(bench.proven(job) == "nothing");
   CHECK(job.changes()[0].error->code == Code::refused);
 }
 
 TEST_CASE("a write that never left is given up, and nothing behind it is tried") {
   Bench bench;
-  WriteJob job(bench.servo, {change("reverse", 1, 0), change("servo_id", 5, 0)}, {});
+  WriteJob job = bench.job({change("reverse", 1, 0), change("servo_id", 5, 0)});
   std::ignore = job.next(Script::start());
   const auto [outcome, code] = GENERATE(std::pair(Outcome::Kind::cancelled, Code::interrupted),
                                         std::pair(Outcome::Kind::not_sent, Code::no_acknowledge));
@@ -155,7 +179,7 @@ TEST_CASE("a write that never left is given up, and nothing behind it is tried")
 
 TEST_CASE("a job that is cancelled while it reads back says so") {
   Bench bench;
-  WriteJob job(bench.servo, {change("reverse", 1, 0), change("servo_id", 5, 0)}, {});
+  WriteJob job = bench.job({change("reverse", 1, 0), change("servo_id", 5, 0)});
   std::ignore = job.next(Script::start());
   std::ignore = job.next(bench.script.value("0x23", std::int64_t{1}));
   CHECK(text(job.next(Script::cancelled())) == "nothing");
@@ -165,8 +189,8 @@ TEST_CASE("a job that is cancelled while it reads back says so") {
 
 TEST_CASE("after a restart nothing is written before the unique ID was asked again") {
   Bench bench;
-  WriteJob job(bench.servo, {change("reverse", 1, 0)}, {});
-  ++bench.servo.boots;
+  WriteJob job = bench.job({change("reverse", 1, 0)});
+  bench.restart();
   CHECK(text(job.next(Script::start())) == "GetNodeInfo");
   SECTION("the same servo is written to") {
     CHECK(text(job.next(bench.script.info(1))) == "write 0x23=1");
@@ -184,10 +208,10 @@ TEST_CASE("after a restart nothing is written before the unique ID was asked aga
 
 TEST_CASE("another servo in the place of the first one gets none of the values") {
   Bench bench;
-  WriteJob job(bench.servo, {change("reverse", 1, 0), change("servo_id", 5, 0)}, {});
+  WriteJob job = bench.job({change("reverse", 1, 0), change("servo_id", 5, 0)});
   std::ignore = job.next(Script::start());
   std::ignore = job.next(bench.script.value("0x23", std::int64_t{1}));
-  ++bench.servo.boots;
+  bench.restart();
   CHECK(text(job.next(bench.script.value("0x23", std::int64_t{1}))) == "GetNodeInfo");
   CHECK(text(job.next(bench.script.info(2))) == "nothing");
   CHECK(job.changes()[0].status == ChangeStatus::failed); // lost with the servo that had it
@@ -197,26 +221,27 @@ TEST_CASE("another servo in the place of the first one gets none of the values")
 
 TEST_CASE("what a restart took from the RAM is written again") {
   Bench bench;
-  WriteJob job(bench.servo, {change("reverse", 1, 0), change("servo_id", 5, 0)}, {});
+  WriteJob job = bench.job({change("reverse", 1, 0), change("servo_id", 5, 0)});
   CHECK(text(job.next(Script::start())) == "write 0x23=1");
   CHECK(text(job.next(bench.script.value("0x23", std::int64_t{1}))) == "read 0x23");
-  ++bench.servo.boots;
+  bench.restart();
   CHECK(text(job.next(bench.script.value("0x23", std::int64_t{1}))) == "GetNodeInfo");
   CHECK(text(job.next(bench.script.info(1))) == "write 0x23=1");
   CHECK(text(job.next(bench.script.value("0x23", std::int64_t{1}))) == "read 0x23");
   CHECK(text(job.next(bench.script.value("0x23", std::int64_t{1}))) == "write 0x45=5");
   CHECK(text(job.next(bench.script.value("0x45", std::int64_t{5}))) == "read 0x45");
-  CHECK(text(job.next(bench.script.value("0x45", std::int64_t{5}))) == "nothing");
+  CHECK(text(job.next(bench.script.value("0x45", std::int64_t{5}))) == "GetNodeInfo");
+  CHECK(bench.proven(job) == "nothing");
   CHECK(job.changes()[0].status == ChangeStatus::written);
   CHECK(job.changes()[1].status == ChangeStatus::written);
 }
 
 TEST_CASE("a servo that restarted behind the last write is written to again") {
   Bench bench;
-  WriteJob job(bench.servo, {change("reverse", 1, 0)}, {});
+  WriteJob job = bench.job({change("reverse", 1, 0)});
   std::ignore = job.next(Script::start());
   std::ignore = job.next(bench.script.value("0x23", std::int64_t{1}));
-  ++bench.servo.boots; // whether before or after the answer was sent nobody knows
+  bench.restart(); // whether before or after the answer was sent nobody knows
   CHECK(text(job.next(bench.script.value("0x23", std::int64_t{1}))) == "GetNodeInfo");
   SECTION("if it answers") {
     CHECK(text(job.next(bench.script.info(1))) == "write 0x23=1");
@@ -232,8 +257,8 @@ TEST_CASE("what was equal before a restart is not called unchanged after it") {
   Bench bench;
   Change equal = change("reverse", 1, 1);
   equal.status = ChangeStatus::unchanged;
-  WriteJob job(bench.servo, {equal}, {});
-  ++bench.servo.boots;
+  WriteJob job = bench.job({equal});
+  bench.restart();
   CHECK(text(job.next(Script::start())) == "GetNodeInfo");
   SECTION("the same servo may hold another value") {
     CHECK(text(job.next(bench.script.info(1))) == "nothing");
@@ -249,7 +274,7 @@ TEST_CASE("what was equal before a restart is not called unchanged after it") {
 
 TEST_CASE("a servo that restarts with every write is given up") {
   Bench bench;
-  WriteJob job(bench.servo, {change("reverse", 1, 0), change("servo_id", 5, 0)}, {});
+  WriteJob job = bench.job({change("reverse", 1, 0), change("servo_id", 5, 0)});
   std::string question = text(job.next(Script::start()));
   int written = 0;
   while (question != "nothing") {
@@ -259,7 +284,9 @@ TEST_CASE("a servo that restarts with every write is given up") {
     } else {
       const bool is_write = question.starts_with("write");
       written += is_write ? 1 : 0;
-      bench.servo.boots += is_write ? 1 : 0;
+      if (is_write) {
+        bench.restart();
+      }
       question = text(job.next(bench.script.value("0x23", std::int64_t{1})));
     }
   }
@@ -271,21 +298,223 @@ TEST_CASE("a servo that restarts with every write is given up") {
 
 TEST_CASE("the value that is read back is narrowed to the width of its register") {
   Bench bench;
-  WriteJob job(bench.servo, {change("angle_limit_ccw", -900, -1799)}, {});
+  WriteJob job = bench.job({change("angle_limit_ccw", -900, -1799)});
   CHECK(text(job.next(Script::start())) == "write 0x39=-900");
   std::ignore = job.next(bench.script.value("0x39", std::int64_t{-900}));
-  CHECK(text(job.next(bench.script.value("0x39", std::int64_t{0xFFFF'FC7C}))) == "nothing");
+  CHECK(bench.value(job, "0x39", 0xFFFF'FC7C) == "GetNodeInfo");
+  CHECK(bench.proven(job) == "nothing");
   CHECK(job.changes()[0].status == ChangeStatus::written);
   CHECK(job.changes()[0].after == -900);
 }
 
 TEST_CASE("a register whose value was not known before and is another one now is a mismatch") {
   Bench bench;
-  WriteJob job(bench.servo, {change("reverse", 1, std::nullopt)}, {});
+  WriteJob job = bench.job({change("reverse", 1, std::nullopt)});
   std::ignore = job.next(Script::start());
   std::ignore = job.next(bench.script.value("0x23", std::int64_t{0}));
-  std::ignore = job.next(bench.script.value("0x23", std::int64_t{0}));
+  CHECK(bench.value(job, "0x23", 0) == "GetNodeInfo");
+  CHECK(bench.proven(job) == "nothing");
   CHECK(job.changes()[0].error->code == Code::mismatch);
+}
+
+TEST_CASE("nothing is called written before the servo has told that it ran on") {
+  Bench bench;
+  WriteJob job = bench.job({change("reverse", 1, 0), change("servo_id", 5, 0)});
+  CHECK(text(job.next(Script::start())) == "write 0x23=1");
+  CHECK(bench.value(job, "0x23", 1) == "read 0x23");
+  CHECK(bench.value(job, "0x23", 1) == "write 0x45=5");
+  CHECK(bench.value(job, "0x45", 5) == "read 0x45");
+  CHECK(bench.value(job, "0x45", 5) == "GetNodeInfo");
+  const auto none_written = [&](Code code) {
+    for (const Change& each : job.changes()) {
+      CHECK(each.status == ChangeStatus::failed);
+      CHECK_FALSE(each.after);
+    }
+    REQUIRE(job.changes()[0].error);
+    CHECK(job.changes()[0].error->code == code);
+    CHECK(job.changes()[0].error->node_id == 11);
+  };
+  SECTION("it did") {
+    CHECK(bench.proven(job) == "nothing");
+    CHECK(job.changes()[0].status == ChangeStatus::written);
+    CHECK(job.changes()[1].status == ChangeStatus::written);
+  }
+  SECTION("it does not answer any more") {
+    CHECK(text(job.next(Script::timed_out())) == "nothing");
+    none_written(Code::timeout);
+  }
+  SECTION("the question does not leave") {
+    CHECK(text(job.next(Script::not_sent())) == "nothing");
+    none_written(Code::no_acknowledge);
+  }
+  SECTION("it is left alone") {
+    CHECK(text(job.next(Script::cancelled())) == "nothing");
+    none_written(Code::interrupted);
+  }
+  SECTION("another unit answers") {
+    CHECK(text(job.next(bench.script.info(2))) == "nothing");
+    none_written(Code::state);
+  }
+  SECTION("two units are on its ID") {
+    bench.roster.mark_doubled(NodeId(11), {1}, {2});
+    CHECK(bench.proven(job) == "nothing");
+    none_written(Code::duplicate_node_id);
+  }
+  SECTION("it restarted") {
+    bench.restart();
+    CHECK(bench.proven(job) == "write 0x23=1");
+  }
+}
+
+TEST_CASE("where no uptime proves that the servo ran on, the values are read once more") {
+  Bench bench;
+  WriteJob job = bench.job(
+      {change("reverse", 1, 0), change("angle_limit_cw", 900, 900), change("servo_id", 5, 0)});
+  CHECK(text(job.next(Script::start())) == "write 0x23=1");
+  CHECK(bench.value(job, "0x23", 1) == "read 0x23");
+  CHECK(bench.value(job, "0x23", 1) == "write 0x45=5");
+  CHECK(bench.value(job, "0x45", 5) == "read 0x45");
+  CHECK(bench.value(job, "0x45", 5) == "GetNodeInfo");
+  CHECK(bench.unproven(job) == "read 0x23");
+  SECTION("they are held, those that were held before, too") {
+    CHECK(bench.value(job, "0x23", 1) == "read 0x38");
+    CHECK(bench.value(job, "0x38", 900) == "read 0x45");
+    CHECK(bench.alone(job, bench.value(job, "0x45", 5)) == "nothing");
+    CHECK(job.changes()[0].status == ChangeStatus::written);
+    CHECK(job.changes()[1].status == ChangeStatus::unchanged);
+    CHECK(job.changes()[2].status == ChangeStatus::written);
+  }
+  SECTION("one that was written is lost: all are written again") {
+    CHECK(bench.value(job, "0x23", 0) == "write 0x23=1");
+    CHECK(bench.value(job, "0x23", 1) == "read 0x23");
+    CHECK(bench.value(job, "0x23", 1) == "write 0x45=5");
+    CHECK(bench.value(job, "0x45", 5) == "read 0x45");
+    CHECK(bench.value(job, "0x45", 5) == "GetNodeInfo");
+    CHECK(bench.proven(job) == "nothing");
+    CHECK(job.changes()[0].status == ChangeStatus::written);
+    CHECK(job.changes()[1].status == ChangeStatus::unchanged);
+  }
+  SECTION("one that was equal is another one: to write it was never agreed") {
+    CHECK(bench.value(job, "0x23", 1) == "read 0x38");
+    CHECK(bench.value(job, "0x38", 1799) == "write 0x23=1");
+    CHECK(job.changes()[1].status == ChangeStatus::failed);
+    CHECK(job.changes()[1].error->code == Code::state);
+  }
+  SECTION("a restart is heard meanwhile") {
+    CHECK(bench.value(job, "0x23", 1) == "read 0x38");
+    bench.restart();
+    CHECK(bench.value(job, "0x38", 900) == "read 0x45");
+    CHECK(bench.value(job, "0x45", 5) == "GetNodeInfo");
+    CHECK(bench.unproven(job) == "write 0x23=1");
+    CHECK(job.changes()[1].status == ChangeStatus::failed);
+  }
+  SECTION("a twin shows meanwhile") {
+    CHECK(bench.value(job, "0x23", 1) == "read 0x38");
+    bench.roster.mark_doubled(NodeId(11), {1}, {2});
+    CHECK(bench.value(job, "0x38", 900) == "read 0x45");
+    CHECK(bench.value(job, "0x45", 5) == "GetNodeInfo");
+    CHECK(bench.unproven(job) == "nothing");
+    CHECK(job.changes()[0].status == ChangeStatus::failed);
+    CHECK(job.changes()[0].error->code == Code::duplicate_node_id);
+    CHECK(job.changes()[2].status == ChangeStatus::failed);
+  }
+  SECTION("one is not answered") {
+    CHECK(bench.value(job, "0x23", 1) == "read 0x38");
+    CHECK(text(job.next(Script::timed_out())) == "nothing");
+    CHECK(job.changes()[0].status == ChangeStatus::failed);
+    CHECK(job.changes()[1].status == ChangeStatus::failed);
+    CHECK(job.changes()[1].error->code == Code::timeout);
+    CHECK(job.changes()[2].status == ChangeStatus::failed);
+  }
+}
+
+TEST_CASE("a refusal is believed if the servo ran on, or if it refuses once more") {
+  Bench bench;
+  WriteJob job = bench.job({change("reverse", 1, 0), change("servo_id", 5, 0)});
+  CHECK(text(job.next(Script::start())) == "write 0x23=1");
+  CHECK(bench.value(job, "0x23", 0) == "read 0x23");
+  CHECK(bench.value(job, "0x23", 0) == "GetNodeInfo");
+  SECTION("it ran on: the others are written all the same") {
+    CHECK(bench.proven(job) == "write 0x45=5");
+    CHECK(job.changes()[0].error->code == Code::refused);
+  }
+  SECTION("it may have restarted") {
+    CHECK(bench.unproven(job) == "write 0x23=1");
+    CHECK(bench.value(job, "0x23", 0) == "read 0x23");
+    SECTION("and takes the value now") {
+      CHECK(bench.value(job, "0x23", 1) == "write 0x45=5");
+      CHECK(job.changes()[0].status == ChangeStatus::written);
+    }
+    SECTION("but refuses it again") {
+      CHECK(bench.value(job, "0x23", 0) == "GetNodeInfo");
+      CHECK(bench.unproven(job) == "write 0x45=5");
+      CHECK(job.changes()[0].error->code == Code::refused);
+    }
+  }
+  SECTION("it does not answer any more") {
+    CHECK(text(job.next(Script::timed_out())) == "nothing");
+    CHECK(job.changes()[0].status == ChangeStatus::failed);
+    CHECK(job.changes()[0].error->code == Code::timeout);
+    CHECK(job.changes()[1].status == ChangeStatus::planned);
+  }
+}
+
+TEST_CASE("an end in between leaves nothing that is called written") {
+  Bench bench;
+  WriteJob job = bench.job({change("reverse", 1, 0), change("servo_id", 5, 0)});
+  CHECK(text(job.next(Script::start())) == "write 0x23=1");
+  CHECK(bench.value(job, "0x23", 1) == "read 0x23");
+  CHECK(bench.value(job, "0x23", 1) == "write 0x45=5");
+  const bool reads_back = GENERATE(false, true);
+  if (reads_back) {
+    CHECK(bench.value(job, "0x45", 5) == "read 0x45");
+  }
+  CHECK(text(job.next(Script::cancelled())) == "nothing");
+  CHECK(job.changes()[0].status == ChangeStatus::failed);
+  CHECK_FALSE(job.changes()[0].after);
+  CHECK(job.changes()[1].status == ChangeStatus::failed);
+  CHECK(job.changes()[1].error->code == Code::interrupted);
+}
+
+TEST_CASE("nothing is written to two units, and an error that was told before stays") {
+  Bench bench;
+  WriteJob job = bench.job({change("reverse", 1, 0), change("servo_id", 5, 0)});
+  SECTION("they were known before") {
+    bench.roster.mark_doubled(NodeId(11), {1}, {2});
+    CHECK(text(job.next(Script::start())) == "nothing");
+    CHECK(job.changes()[0].error->code == Code::duplicate_node_id);
+    CHECK(job.changes()[1].status == ChangeStatus::planned);
+  }
+  SECTION("they show in between") {
+    CHECK(text(job.next(Script::start())) == "write 0x23=1");
+    CHECK(bench.value(job, "0x23", 1) == "read 0x23");
+    bench.roster.mark_doubled(NodeId(11), {1}, {2});
+    CHECK(text(job.next(Script::timed_out())) == "nothing");
+    CHECK(job.changes()[0].error->code == Code::timeout);
+    CHECK(job.changes()[1].error->code == Code::duplicate_node_id);
+  }
+  SECTION("nothing is to be written") {
+    WriteJob empty = bench.job({});
+    bench.roster.mark_doubled(NodeId(11), {1}, {2});
+    CHECK(text(empty.next(Script::start())) == "nothing");
+  }
+}
+
+TEST_CASE("a second unit that answers the last question too is heard") {
+  Bench bench;
+  WriteJob job = bench.job({change("angle_limit_cw", 900, 1799)});
+  CHECK(text(job.next(Script::start())) == "write 0x38=900");
+  CHECK(bench.value(job, "0x38", 900) == "read 0x38");
+  CHECK(bench.value(job, "0x38", 900) == "GetNodeInfo");
+  const dronecan::Step step = job.next(bench.script.info(1));
+  REQUIRE(step.pause() != nullptr);
+  CHECK_FALSE(step.pause()->ready());
+  bench.roster.mark_doubled(NodeId(11), {1}, {2});
+  CHECK(step.pause()->ready());
+  CHECK(text(job.next({Outcome::Kind::woken, {}, {}})) == "nothing");
+  CHECK(job.changes()[0].status == ChangeStatus::failed);
+  REQUIRE(job.changes()[0].error);
+  CHECK(job.changes()[0].error->code == Code::duplicate_node_id);
 }
 
 TEST_CASE("the states of a change are called as scripts read them") {

@@ -122,6 +122,41 @@ TEST_CASE("requirement 33: nothing heard after a part starts it over", "[require
   CHECK(exchange.request().first_part_of_unique_id);
 }
 
+TEST_CASE("an answer that comes twice, of two allocators, does not stop the exchange",
+          "[requirement-33]") {
+  Exchange exchange;
+  exchange.request();
+  CHECK_FALSE(exchange.hear(answer(6)));
+  const Time due = exchange.allocatee.next_deadline();
+  CHECK_FALSE(exchange.hear(answer(6))); // before the next part has left
+  CHECK(exchange.allocatee.next_deadline() == due);
+  const Allocation second = exchange.request();
+  CHECK_FALSE(second.first_part_of_unique_id);
+  CHECK_FALSE(exchange.hear(answer(6))); // after it has left
+  CHECK_FALSE(exchange.hear(answer(12)));
+  CHECK_FALSE(exchange.hear(answer(12)));
+  const Allocation third = exchange.request();
+  CHECK(third.size == 4);
+  CHECK_FALSE(exchange.hear(answer(12)));
+  CHECK(exchange.hear(answer(16, 33)) == dronecan::NodeId(33));
+}
+
+TEST_CASE("requirement 33: an old answer of another unit, or a request, starts it over",
+          "[requirement-33]") {
+  for (const bool anonymous : {false, true}) {
+    Exchange exchange;
+    exchange.request();
+    CHECK_FALSE(exchange.hear(answer(6)));
+    Allocation again = answer(6);
+    again.unique_id[0] = anonymous ? again.unique_id[0] : 0x77;
+    CHECK_FALSE(exchange.hear(again, anonymous));
+    CHECK(is_request_period(exchange.until_next()));
+    CHECK(exchange.request().first_part_of_unique_id);
+    CHECK_FALSE(exchange.hear(answer(12))); // of the exchange before
+    CHECK(exchange.request().first_part_of_unique_id);
+  }
+}
+
 TEST_CASE("an answer before the first request, and the parts of other servos, are not for it") {
   Exchange exchange;
   CHECK_FALSE(exchange.hear(answer(6)));

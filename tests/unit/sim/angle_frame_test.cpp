@@ -50,6 +50,24 @@ TEST_CASE("requirement 46: after a wrap the angle is -180.0 to +179.9 deg, of th
   }
 }
 
+TEST_CASE("requirement 183: a change of the origin keeps an angle of one turn in one turn",
+          "[requirement-183]") {
+  for (const bool reversed : {false, true}) {
+    for (const std::int64_t shaft : {0, 1799, -1700, 1000, -1000}) {
+      for (const std::int64_t origin : {-1800, -1000, 1000, 1799}) {
+        AngleFrame one = frame(reversed);
+        one.change(reversed, origin, at(shaft));
+        INFO(shaft << " " << origin << " " << reversed);
+        CHECK(one.decideg(at(shaft)) >= -1800);
+        CHECK(one.decideg(at(shaft)) <= 1799);
+        AngleFrame beyond = frame(reversed);
+        beyond.change(reversed, origin, at(shaft + 7200));
+        CHECK(beyond.decideg(at(shaft + 7200)) == one.sign() * (shaft + 7200 - origin));
+      }
+    }
+  }
+}
+
 TEST_CASE("an angle is rounded to the nearest 0.1 deg before it is wrapped") {
   AngleFrame one = frame(false);
   const Shaft seam{.angle = 1799 * angle_per_decideg + angle_per_decideg / 2};

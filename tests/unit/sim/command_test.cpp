@@ -13,8 +13,8 @@ namespace {
 
 /// As it arrives: through a float16.
 std::optional<MotionCommand> command(std::uint8_t type, float value,
-                                     NotANumber not_a_number = NotANumber::ignore) {
-  return motion_command({1, type, from_float16(to_float16(value))}, not_a_number);
+                                     const Behaviour& behaviour = {}) {
+  return motion_command({1, type, from_float16(to_float16(value))}, behaviour);
 }
 
 constexpr auto angle = blactl::bla::address::command_angle;
@@ -59,12 +59,30 @@ TEST_CASE("requirement 104: other types are ignored", "[requirement-104]") {
 
 TEST_CASE("requirement 107: what is no number is ignored, or taken for 0 if the servo is set so",
           "[requirement-107][unproven]") {
+  Behaviour zero;
+  zero.not_a_number = NotANumber::zero;
   for (const float value :
        {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
         -std::numeric_limits<float>::infinity()}) {
     CHECK_FALSE(command(1, value));
-    CHECK(command(1, value, NotANumber::zero) == MotionCommand{angle, 0});
-    CHECK_FALSE(command(4, value, NotANumber::zero));
+    CHECK(command(1, value, zero) == MotionCommand{angle, 0});
+    CHECK_FALSE(command(4, value, zero));
+  }
+}
+
+TEST_CASE("requirement 100: UNITLESS beyond 1 is limited by 0x38 and 0x39, by 180 deg, or ignored",
+          "[requirement-100][unproven]") {
+  Behaviour clamps;
+  clamps.beyond_unitless = BeyondUnitless::clamp;
+  Behaviour ignores;
+  ignores.beyond_unitless = BeyondUnitless::ignore;
+  for (const float sign : {1.0F, -1.0F}) {
+    const auto half_turn = static_cast<std::int64_t>(1800 * sign);
+    CHECK(command(0, 2 * sign) == MotionCommand{angle, 2 * half_turn});
+    CHECK(command(0, 2 * sign, clamps) == MotionCommand{angle, half_turn});
+    CHECK_FALSE(command(0, 2 * sign, ignores));
+    CHECK(command(0, sign, ignores) == MotionCommand{angle, half_turn}); // not beyond
+    CHECK(command(1, 2 * sign, ignores) == MotionCommand{angle, 2000 * static_cast<int>(sign)});
   }
 }
 

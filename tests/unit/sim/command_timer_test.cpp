@@ -21,13 +21,13 @@ CommandTimer started(bool pwm_waits = false) {
 
 TEST_CASE("the timeout counts from the start, then from the last command") {
   CommandTimer timer = started();
-  CHECK_FALSE(timer.timed_out(start + 1s, limit));
-  CHECK(timer.timed_out(start + 1s + 1us, limit));
+  CHECK_FALSE(timer.timed_out(start + 1s - 1us, limit));
+  CHECK(timer.timed_out(start + 1s, limit)); // requirement 145: 0x27 or longer
   timer.commanded(start + 500ms);
-  CHECK_FALSE(timer.timed_out(start + 1500ms, limit));
+  CHECK_FALSE(timer.timed_out(start + 1500ms - 1us, limit));
   timer.commanded_by_can(start + 600ms, true);
-  CHECK_FALSE(timer.timed_out(start + 1600ms, limit));
-  CHECK(timer.timed_out(start + 1600ms + 1us, limit));
+  CHECK_FALSE(timer.timed_out(start + 1600ms - 1us, limit));
+  CHECK(timer.timed_out(start + 1600ms, limit));
 }
 
 TEST_CASE("PWM counts from the start, and from 0x27 after a command by CAN") {
@@ -40,6 +40,10 @@ TEST_CASE("PWM counts from the start, and from 0x27 after a command by CAN") {
   CHECK(timer.accepts_pwm(start + 1100ms, limit));
   CHECK_FALSE(started(true).accepts_pwm(start + 999ms, limit));
   CHECK(started(true).accepts_pwm(start + 1s, limit));
+  CommandTimer other = started();
+  other.commanded_by_can(start + 100ms, true, false); // one that PWM does not mind
+  CHECK(other.accepts_pwm(start + 100ms, limit));
+  CHECK_FALSE(other.timed_out(start + 1100ms - 1us, limit));
 }
 
 TEST_CASE("the next change by time alone is never missed") {
@@ -60,7 +64,7 @@ TEST_CASE("the next change by time alone is never missed") {
   CommandTimer timer = started();
   CHECK(checked(timer) == 1); // the timeout
   timer.commanded_by_can(start + 50ms, true);
-  CHECK(checked(timer) == 2); // PWM counts again, the timeout
+  CHECK(checked(timer) == 1); // PWM counts again, at the moment of the timeout
   timer.commanded_by_can(start + 70ms, false);
   CHECK(checked(timer) == 2); // the other way round
 }

@@ -324,6 +324,20 @@ TEST_CASE("an autopilot gives no ID under which somebody was heard, and none whe
   CHECK(ask() == 1);
 }
 
+TEST_CASE("a servo gets an ID while two autopilots answer alike", "[requirement-33]") {
+  for (int seed = 1; seed <= 10; ++seed) {
+    INFO(seed);
+    Simulator simulator(scenario(fmt::format(
+                            R"("seed": {}, "servos": [{{"model": "BLA21-12U-AB"}}], "foreign": [
+        {{"kind": "autopilot", "node_id": 10, "allocates": true}},
+        {{"kind": "autopilot", "node_id": 20, "allocates": true}}])",
+                            seed)),
+                        Time{});
+    simulator.advance_to(Time{} + 10s);
+    CHECK(simulator.servos().front()->node_id().is_unicast());
+  }
+}
+
 TEST_CASE("two autopilots that allocate do not give way to each other") {
   Simulator simulator(scenario(R"("servos": [{"model": "BLA21-12U-AB"}], "foreign": [
       {"kind": "autopilot", "node_id": 10, "allocates": true},

@@ -3,7 +3,7 @@
 
 #include "blactl/sim/motion.hpp"
 
-#include "sim/addresses.hpp"
+#include "sim/names.hpp"
 #include "unit/sim/support.hpp"
 
 #include <cstdlib>

@@ -1,6 +1,6 @@
 // What goes wrong, how it shows and what it stops (4.7, 4.8, 4.12).
 
-#include "sim/fault_bits.hpp"
+#include "sim/names.hpp"
 #include "sim/protection.hpp"
 #include "unit/sim/motion_rig.hpp"
 
@@ -43,7 +43,7 @@ Faults with_reading(Address reading, std::int64_t value, bool inclusive = true) 
   registers.set(reading, value);
   Behaviour behaviour;
   behaviour.inclusive_limits = inclusive;
-  return present_faults(registers, world_of(setup), behaviour);
+  return present_faults(registers, world_of(setup), behaviour, false);
 }
 
 } // namespace
@@ -202,6 +202,7 @@ TEST_CASE("requirement 161: a limit that is moved inside the reading stops as we
   MotionRig rig;
   rig.write(command_angle, 450);
   rig.run(1s);
+  rig.around([](World& world) { world.supply_decivolt = 121; });
   rig.write(voltage_limit_high, 120);
   rig.around([](World& world) { world.load_percent = 20; });
   rig.run(100ms);

@@ -1,6 +1,6 @@
 #include "blactl/sim/pwm_input.hpp"
 
-#include "sim/fault_bits.hpp"
+#include "sim/names.hpp"
 #include "unit/sim/motion_rig.hpp"
 
 using namespace blactl;

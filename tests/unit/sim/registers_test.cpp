@@ -61,6 +61,16 @@ TEST_CASE("a servo that clamps takes the nearest value in range") {
   CHECK(ram.write(bla::address::timeout_time, 70'000) == 60'000);
 }
 
+TEST_CASE("requirements 71, 78: a servo may answer a value out of range with a failure",
+          "[requirement-71][requirement-78][unproven]") {
+  Registers ram = registers(R"("model": "BLA21-12U-AB", "behaviour": {"out_of_range": "fail"})");
+  CHECK(ram.write(bla::address::angle_limit_cw, 900) == 900);
+  CHECK_FALSE(ram.write(bla::address::angle_limit_cw, -1));
+  CHECK_FALSE(ram.write(Address(0), bla::not_active));
+  CHECK(ram.read(bla::address::angle_limit_cw) == 900);
+  CHECK(ram.write(Address(1), 60) == 0); // in range, but 0x25 is off: what there is
+}
+
 TEST_CASE("requirement 89: without a PWM input 0x34 to 0x37 are 0 and take only 0",
           "[requirement-89]") {
   for (const bla::Profile& profile : testing::profiles().all()) {

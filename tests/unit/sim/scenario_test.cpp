@@ -74,8 +74,15 @@ TEST_CASE("a scenario says all there is to say") {
                     "get_set_feeds_timeout": true, "inclusive_limits": false,
                     "failures_latch": true, "notices_warn": true, "pwm_end_points_move": false,
                     "pwm_waits_after_start": true, "boost_in_dead_band": true,
-                    "soft_start_shows": true},
-      "faults": {"lose_responses": 2, "mute": true, "lose_opcode_answers": 3,
+                    "soft_start_shows": true, "soft_start_resumes": true,
+                    "start_angle": "zero", "assignment_shows": true, "first_node_status": "0.5s",
+                    "beyond_unitless": "ignore", "timeout_beats_brake": true,
+                    "keeps_disabled_command": false, "keeps_limited_angle": false,
+                    "erase_holds": false, "speed_control_before_1100": true,
+                    "inclusive_stops": true, "restart_bits_stop": true,
+                    "pwm_yields_to_all": false},
+      "faults": {"no_node_status": true, "no_actuator_status": true,
+                 "restart_after_answer": [{"to": "write", "number": 7}, {}], "lose_responses": 2, "mute": true, "lose_opcode_answers": 3,
                  "ignore_opcodes": 4, "refuse_opcodes": true, "rom_write_fails": true,
                  "stays": true, "never_returns": true, "restart_instead_of_answer": 5,
                  "power_loss_in_save": "0s", "return_delay": "3s"}}],
@@ -116,6 +123,23 @@ TEST_CASE("a scenario says all there is to say") {
   CHECK(servo.behaviour.pwm_waits_after_start);
   CHECK(servo.behaviour.boost_in_dead_band);
   CHECK(servo.behaviour.soft_start_shows);
+  CHECK(servo.behaviour.soft_start_resumes);
+  CHECK(servo.behaviour.start_angle == StartAngle::zero);
+  CHECK(servo.behaviour.assignment_shows);
+  CHECK(servo.behaviour.first_node_status == 500ms);
+  CHECK(servo.behaviour.beyond_unitless == BeyondUnitless::ignore);
+  CHECK(servo.behaviour.timeout_beats_brake);
+  CHECK_FALSE(servo.behaviour.keeps_disabled_command);
+  CHECK_FALSE(servo.behaviour.keeps_limited_angle);
+  CHECK_FALSE(servo.behaviour.erase_holds);
+  CHECK(servo.behaviour.speed_control_before_1100);
+  CHECK(servo.behaviour.inclusive_stops);
+  CHECK(servo.behaviour.restart_bits_stop);
+  CHECK_FALSE(servo.behaviour.pwm_yields_to_all);
+  CHECK(servo.faults.no_node_status);
+  CHECK(servo.faults.no_actuator_status);
+  CHECK(servo.faults.restart_after_answer ==
+        std::vector<RestartAfterAnswer>{{RequestKind::write, 7}, {RequestKind::any, 1}});
   CHECK(servo.faults.lose_opcode_answers == 3);
   CHECK(servo.faults.ignore_opcodes == 4);
   CHECK(servo.faults.refuse_opcodes);
@@ -219,6 +243,10 @@ TEST_CASE("faulty servos are told what is wrong with them") {
             "/servos/0/behaviour/out_of_range"));
   CHECK(has(servo_faults(model + R"("faults": {"lose_responses": -1})"),
             "/servos/0/faults/lose_responses"));
+  CHECK(has(servo_faults(model + R"("faults": {"restart_after_answer": [{"to": "save"}]})"),
+            "/servos/0/faults/restart_after_answer/0/to"));
+  CHECK(has(servo_faults(model + R"("behaviour": {"first_node_status": "1.1s"})"),
+            "/servos/0/behaviour/first_node_status: a time of 0 s to 1 s"));
   CHECK(has(servo_faults(model + R"("faults": {"loose_responses": 1})"),
             "/servos/0/faults/loose_responses"));
 }
@@ -317,6 +345,9 @@ TEST_CASE("faulty events are told what is wrong with them") {
   const auto world = [&](std::string_view members) {
     return faults(fmt::format(R"({{"servo": 240900001, "world": {{{}}}}})", members));
   };
+  CHECK(has(faults(R"({"servo": 240900001})"), "/events/0: an event of a servo has"));
+  CHECK(has(faults(R"({"servo": 240900001, "happens": "fire"})"), "/events/0/happens"));
+  CHECK(has(faults(R"({"clients": "cut", "happens": "power_off"})"), "/events/0/happens"));
   CHECK(has(world(R"("voltage": "5")"), "/events/0/world/voltage"));
   CHECK(has(world(R"("voltage": "60.1V")"), "60.0V"));
   CHECK(has(world(R"("voltages": "5V")"), "there are voltage, temperature, load, hand, pulse"));

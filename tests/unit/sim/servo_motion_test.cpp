@@ -2,8 +2,7 @@
 
 #include "blactl/sim/servo.hpp"
 
-#include "sim/addresses.hpp"
-#include "sim/fault_bits.hpp"
+#include "sim/names.hpp"
 #include "unit/sim/servo_rig.hpp"
 
 #include <limits>

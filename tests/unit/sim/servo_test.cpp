@@ -55,6 +55,17 @@ TEST_CASE("requirements 71, 74: a failure is tag 0 without a name, 4 bytes",
   CHECK(rig.bench.ask({frame("1E0B8BFF#000030783033C5")}) == Frames{"1E0B7F8B#00000000C5"});
 }
 
+TEST_CASE("requirements 71, 78: a refused value may be answered with that failure",
+          "[requirement-71][requirement-78][unproven]") {
+  Rig rig(bla21 + std::string(R"(, "behaviour": {"out_of_range": "fail"})"));
+  const auto failure = rig.get_set(0, std::int64_t{-5}, "0x38");
+  REQUIRE(failure.size() == 1);
+  CHECK(failure.front().starts_with("1E0B7F8B#00000000"));
+  CHECK(failure.front().size() == std::string("1E0B7F8B#00000000C5").size());
+  CHECK(rig.read("0x38") == 1799);
+  CHECK(rig.write("0x38", 900) == 900);
+}
+
 TEST_CASE("a servo may send the name with a failure") {
   Rig rig(bla21 + std::string(R"(, "behaviour": {"failure_with_name": true})"));
   const auto response = rig.answered(rig.get_set(0, {}, "0x03"));

@@ -2,7 +2,7 @@
 
 #include "blactl/sim/motion.hpp"
 
-#include "sim/fault_bits.hpp"
+#include "sim/names.hpp"
 #include "unit/sim/motion_rig.hpp"
 
 using namespace blactl;
@@ -188,6 +188,28 @@ TEST_CASE("requirement 140: 30 rpm and 30 % while it lasts, and 0x25 as if it we
   CHECK(rig.read(torque_limit_ccw) == -100);
 }
 
+TEST_CASE("requirement 180: while it lasts a speed is taken, and the bits of 0x19 know its limits",
+          "[requirement-180][requirement-142]") {
+  for (const Address command : {command_speed, command_torque}) {
+    MotionRig rig(at("-150deg"));
+    CHECK(rig.read(speed_torque_control) == 0);
+    rig.run(300ms);
+    CHECK(rig.rpm() >= 29);
+    CHECK(rig.noticed(fault::speed_cw)); // 30 rpm, while 0x3A reads 300
+    CHECK(rig.write(command, 20) == 20);
+    CHECK(rig.read(command_angle) == bla::not_active);
+    CHECK_FALSE(rig.noticed(fault::speed_cw)); // by that it is over
+    rig.run(1s);
+    CHECK(rig.rpm() == 0); // 0x25 is what it was
+    CHECK(rig.write(command, 30) == 20);
+  }
+  MotionRig pushed(at("-150deg"));
+  load(pushed, -35);
+  pushed.run(1s);
+  CHECK(pushed.torque() == 30);
+  CHECK(pushed.noticed(fault::torque_cw));
+}
+
 TEST_CASE("requirement 140: a load of more than 30 % stops the soft start, a command does not mind",
           "[requirement-140]") {
   MotionRig rig(at("-150deg"));
@@ -248,7 +270,7 @@ TEST_CASE("requirement 142: it ends on every command and on a pulse", "[requirem
     rig.write(command_torque, 20);
   }));
   CHECK(ends([](MotionRig& rig) { rig.around([](World& world) { world.pulse_us = 1500; }); }));
-  CHECK_FALSE(ends([](MotionRig& rig) { rig.write(command_speed, 20); })); // ignored
+  CHECK(ends([](MotionRig& rig) { rig.write(command_speed, 20); })); // requirement 180
   CHECK_FALSE(ends([](MotionRig& rig) { rig.write(angle_limit_cw, 900); }));
   CHECK_FALSE(ends([](MotionRig& rig) { rig.around([](World& world) { world.pulse_us = 100; }); }));
 }
@@ -307,13 +329,13 @@ TEST_CASE(
     rig.run(duration);
     return std::pair(rig.torque() != 0, std::abs(rig.angle() - 450) < 60);
   };
-  CHECK(held_after("", 1000ms) == std::pair(true, true));
-  CHECK(held_after("", 1002ms).first == false);
+  CHECK(held_after("", 999ms) == std::pair(true, true));
+  CHECK(held_after("", 1000ms).first == false);         // 0x27 itself is enough
   CHECK(held_after("", 3s) == std::pair(false, false)); // the load turns it
   CHECK(held_after(R"(, "timeout_action": "hold")", 3s) == std::pair(true, true));
   CHECK(held_after(R"(, "timeout_action": "brake")", 3s) == std::pair(false, true));
-  CHECK(held_after(R"(, "timeout_time": "2500ms")", 2500ms).first == true);
-  CHECK(held_after(R"(, "timeout_time": "2500ms")", 2502ms).first == false);
+  CHECK(held_after(R"(, "timeout_time": "2500ms")", 2499ms).first == true);
+  CHECK(held_after(R"(, "timeout_time": "2500ms")", 2500ms).first == false);
 }
 
 TEST_CASE("requirement 145: every command feeds the timeout", "[requirement-145]") {

@@ -26,7 +26,8 @@ namespace {
 
 Result<InterfaceLock> acquire(const Folder& folder, Right right = Right::write,
                               std::string_view interface = "vcan0") {
-  return InterfaceLock::acquire(interface, right, folder.locks());
+  return InterfaceLock::acquire({.interface = std::string(interface), .folder = folder.locks()},
+                                right);
 }
 
 /// A child that holds the right it asked for; it says 0 if it was refused.
@@ -214,14 +215,17 @@ TEST_CASE("a lock file that cannot be opened keeps away, and says what it is") {
   REQUIRE_FALSE(refused);
   CHECK(refused.error().code == Code::busy);
   CHECK(refused.error().message.find(lock_file(folder).string()) != std::string::npos);
+  CHECK(refused.error().hint.find("ls -ld " + lock_file(folder).string()) != std::string::npos);
 }
 
 TEST_CASE("without a common folder the processes of one user exclude each other") {
   const Folder folder;
   const Variable runtime("XDG_RUNTIME_DIR", folder.path.string());
-  const auto first = InterfaceLock::acquire("vcan0", Right::write, "/proc/no/such/folder");
+  const auto first = InterfaceLock::acquire(
+      {.interface = "vcan0", .folder = "/proc/no/such/folder"}, Right::write);
   REQUIRE(first);
-  CHECK_FALSE(InterfaceLock::acquire("vcan0", Right::write, "/proc/no/such/folder"));
+  CHECK_FALSE(InterfaceLock::acquire({.interface = "vcan0", .folder = "/proc/no/such/folder"},
+                                     Right::write));
   CHECK(fs::exists(folder.path / "blactl" / "vcan0.write"));
 }
 
@@ -229,8 +233,10 @@ TEST_CASE("where nothing can be written nobody is kept away") {
   const std::string nowhere = "/proc/no/such/folder";
   const Variable runtime("XDG_RUNTIME_DIR", nowhere);
   const Variable state("BLACTL_STATE_DIR", nowhere);
-  const auto first = InterfaceLock::acquire("vcan0", Right::write, nowhere);
-  const auto second = InterfaceLock::acquire("vcan0", Right::write, nowhere);
+  const auto first =
+      InterfaceLock::acquire({.interface = "vcan0", .folder = nowhere}, Right::write);
+  const auto second =
+      InterfaceLock::acquire({.interface = "vcan0", .folder = nowhere}, Right::write);
   CHECK(first);
   CHECK(second);
 }

@@ -30,9 +30,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-Result<LocalNodeId> acquire(const Folder& folder, std::optional<NodeId> wanted = std::nullopt,
+Result<LocalNodeId> acquire(const Folder& folder, LocalNodeId::Candidates candidates = {},
                             std::string_view interface = "vcan0") {
-  return LocalNodeId::acquire(interface, wanted, folder.locks());
+  return LocalNodeId::acquire({.interface = std::string(interface), .folder = folder.locks()},
+                              std::move(candidates));
 }
 
 /// A child that holds the ID it got; it says 0 if it got none.
@@ -59,7 +60,7 @@ TEST_CASE("a process gets 127, or the ID it asks for") {
   const auto local = acquire(folder);
   REQUIRE(local);
   CHECK(local->id() == NodeId(127));
-  const auto wanted = acquire(folder, NodeId(50));
+  const auto wanted = acquire(folder, {NodeId(50)});
   REQUIRE(wanted);
   CHECK(wanted->id() == NodeId(50));
   CHECK(fs::exists(folder.file(127)));
@@ -82,13 +83,92 @@ TEST_CASE("two processes get 127 and 126, the third is told who has them") {
 
 TEST_CASE("a wanted ID that is taken is not replaced by another one") {
   const Folder folder;
-  const auto first = acquire(folder, NodeId(50));
+  const auto first = acquire(folder, {NodeId(50)});
   REQUIRE(first);
-  const auto second = acquire(folder, NodeId(50));
+  const auto second = acquire(folder, {NodeId(50)});
   REQUIRE_FALSE(second);
   CHECK(second.error().code == Code::no_local_node_id);
   CHECK(second.error().message.find(std::to_string(getpid())) != std::string::npos);
   CHECK_FALSE(fs::exists(folder.file(127)));
+}
+
+TEST_CASE("an ID that another node has is left to it, and the next process does not try it first") {
+  const Folder folder;
+  {
+    auto local = acquire(folder);
+    REQUIRE(local);
+    REQUIRE(local->give_way("vcan0"));
+    CHECK(local->id() == NodeId(126));
+    CHECK(local->passed_over() == "127 is used by another node");
+    CHECK(local->lock_file() == folder.file(126));
+    const Child other([&] { return acquire(folder, {NodeId(127)}) ? 127 : 0; });
+    CHECK(other.said == 127); // nobody holds what is not used
+  }
+  const auto next = acquire(folder);
+  REQUIRE(next);
+  CHECK(next->id() == NodeId(126));
+  CHECK(next->passed_over() == "127 was used by another node before");
+  const auto elsewhere = acquire(folder, {}, "vcan1");
+  REQUIRE(elsewhere);
+  CHECK(elsewhere->id() == NodeId(127));
+}
+
+TEST_CASE("an ID that another node had is better than none") {
+  const Folder folder;
+  {
+    auto local = acquire(folder);
+    REQUIRE(local);
+    REQUIRE(local->give_way("vcan0"));
+  }
+  const auto first = acquire(folder);
+  REQUIRE(first);
+  CHECK(first->id() == NodeId(126));
+  const auto second = acquire(folder);
+  REQUIRE(second);
+  CHECK(second->id() == NodeId(127));
+  CHECK(second->passed_over() == "126 is held by process " + std::to_string(getpid()));
+}
+
+TEST_CASE("where others have both IDs there is none") {
+  const Folder folder;
+  auto local = acquire(folder);
+  REQUIRE(local);
+  REQUIRE(local->give_way("vcan0"));
+  const auto taken = local->give_way("vcan0");
+  REQUIRE_FALSE(taken);
+  CHECK(taken.error().code == Code::no_local_node_id);
+  CHECK_FALSE(taken.error().node_id);
+  CHECK(taken.error().message == "no node ID is free for this process on vcan0: 127 is used by "
+                                 "another node, 126 is used by another node");
+  CHECK(taken.error().hint == "give a free node ID: --local-node-id ID");
+}
+
+TEST_CASE("what another process holds is not given way to") {
+  const Folder folder;
+  auto first = acquire(folder);
+  const auto second = acquire(folder);
+  REQUIRE(first);
+  REQUIRE(second);
+  const auto none = first->give_way("vcan0");
+  REQUIRE_FALSE(none);
+  CHECK(none.error().code == Code::no_local_node_id);
+  CHECK(none.error().message.find("127 is used by another node, 126 is held by process ") !=
+        std::string::npos);
+  CHECK(first->id() == NodeId(127));
+}
+
+TEST_CASE("an ID that was asked for is not changed for another one") {
+  for (const bool shared : {false, true}) {
+    const Folder folder;
+    auto local = shared ? acquire(folder, {NodeId(50)})
+                        : Result<LocalNodeId>(LocalNodeId::unshared({NodeId(50)}));
+    REQUIRE(local);
+    const auto taken = local->give_way("vcan0");
+    REQUIRE_FALSE(taken);
+    CHECK(taken.error().code == Code::duplicate_node_id);
+    CHECK(taken.error().message == "node ID 50 is used by another node on vcan0");
+    CHECK(taken.error().node_id == 50);
+  }
 }
 
 TEST_CASE("a process that is killed leaves its ID to the next one") {
@@ -242,7 +322,7 @@ TEST_CASE("a held lock file that names no process is held by somebody") {
   const int descriptor = open(folder.file(50).c_str(), O_RDWR | O_CLOEXEC);
   REQUIRE(descriptor >= 0);
   REQUIRE(flock(descriptor, LOCK_EX) == 0);
-  const auto local = acquire(folder, NodeId(50));
+  const auto local = acquire(folder, {NodeId(50)});
   close(descriptor);
   REQUIRE_FALSE(local);
   CHECK(local.error().code == Code::no_local_node_id);
@@ -259,7 +339,7 @@ TEST_CASE("a symbolic link in the place of a lock file is not followed") {
   REQUIRE(local);
   CHECK(local->id() == NodeId(126));
   fs::create_symlink(victim, folder.file(50));
-  const auto wanted = acquire(folder, NodeId(50));
+  const auto wanted = acquire(folder, {NodeId(50)});
   REQUIRE_FALSE(wanted);
   CHECK(wanted.error().code == Code::no_local_node_id);
   CHECK(wanted.error().message.find("held by") == std::string::npos);
@@ -283,8 +363,8 @@ TEST_CASE("where the common folder cannot be written the user's own is taken") {
   const Folder folder;
   const std::string nowhere = "/proc/no/such/folder";
   const Variable runtime("XDG_RUNTIME_DIR", folder.path.string());
-  const auto first = LocalNodeId::acquire("vcan0", {}, nowhere);
-  const auto second = LocalNodeId::acquire("vcan0", {}, nowhere);
+  const auto first = LocalNodeId::acquire({.interface = "vcan0", .folder = nowhere}, {});
+  const auto second = LocalNodeId::acquire({.interface = "vcan0", .folder = nowhere}, {});
   REQUIRE(first);
   REQUIRE(second);
   CHECK(second->id() == NodeId(126));
@@ -296,8 +376,8 @@ TEST_CASE("without a runtime folder the state folder is taken, made with its par
   const std::string nowhere = "/proc/no/such/folder";
   const Variable runtime("XDG_RUNTIME_DIR", GENERATE(as<std::string>{}, "", "/proc/no/such"));
   const Variable state("BLACTL_STATE_DIR", (folder.path / "home" / "state" / "blactl").string());
-  const auto first = LocalNodeId::acquire("vcan0", {}, nowhere);
-  const auto second = LocalNodeId::acquire("vcan0", {}, nowhere);
+  const auto first = LocalNodeId::acquire({.interface = "vcan0", .folder = nowhere}, {});
+  const auto second = LocalNodeId::acquire({.interface = "vcan0", .folder = nowhere}, {});
   REQUIRE(first);
   REQUIRE(second);
   CHECK(second->id() == NodeId(126));
@@ -310,7 +390,7 @@ TEST_CASE("an empty variable is as good as none") {
   const Variable state("BLACTL_STATE_DIR", "");
   const Variable xdg("XDG_STATE_HOME", "");
   const Variable home("HOME", folder.path.string());
-  REQUIRE(LocalNodeId::acquire("vcan0", {}, "/proc/no/such/folder"));
+  REQUIRE(LocalNodeId::acquire({.interface = "vcan0", .folder = "/proc/no/such/folder"}, {}));
   CHECK(fs::exists(folder.path / ".local" / "state" / "blactl" / "vcan0.127"));
 }
 
@@ -318,8 +398,8 @@ TEST_CASE("where nothing can be written the process works all the same, without 
   const std::string nowhere = "/proc/no/such/folder";
   const Variable runtime("XDG_RUNTIME_DIR", nowhere);
   const Variable state("BLACTL_STATE_DIR", nowhere);
-  auto first = LocalNodeId::acquire("vcan0", {}, nowhere);
-  auto second = LocalNodeId::acquire("vcan0", {}, nowhere);
+  auto first = LocalNodeId::acquire({.interface = "vcan0", .folder = nowhere}, {});
+  auto second = LocalNodeId::acquire({.interface = "vcan0", .folder = nowhere}, {});
   REQUIRE(first);
   REQUIRE(second);
   CHECK(first->id() == NodeId(127));
@@ -331,7 +411,7 @@ TEST_CASE("where nothing can be written the process works all the same, without 
 
 TEST_CASE("on a bus that nobody else can reach there is no lock, and counters start at 0") {
   auto first = LocalNodeId::unshared({});
-  auto second = LocalNodeId::unshared(NodeId(3));
+  auto second = LocalNodeId::unshared({NodeId(3)});
   CHECK(first.id() == NodeId(127));
   CHECK(second.id() == NodeId(3));
   CHECK(next(first) == 0);
@@ -345,6 +425,87 @@ TEST_CASE("an ID that was moved is still held, once") {
   LocalNodeId moved = std::move(*first);
   CHECK(moved.id() == NodeId(127));
   CHECK(acquire(folder)->id() == NodeId(126));
-  moved = *acquire(folder, NodeId(50));
+  moved = *acquire(folder, {NodeId(50)});
   CHECK(acquire(folder)->id() == NodeId(127));
+}
+
+TEST_CASE("interfaces of one name in two network namespaces have their own IDs") {
+  const Folder folder;
+  const LockPlace here{.interface = "can0", .network = "@1", .folder = folder.locks()};
+  const LockPlace there{.interface = "can0", .network = "@2", .folder = folder.locks()};
+  const auto first = LocalNodeId::acquire(here, {});
+  const auto second = LocalNodeId::acquire(there, {});
+  const auto third = LocalNodeId::acquire(here, {});
+  REQUIRE((first && second && third));
+  CHECK(first->id() == NodeId(127));
+  CHECK(second->id() == NodeId(127));
+  CHECK(third->id() == NodeId(126));
+  CHECK(first->lock_file() == folder.locks() + "/can0@1.127");
+}
+
+TEST_CASE("an ID that is not the first one says what became of that") {
+  const Folder folder;
+  const auto first = acquire(folder);
+  const auto second = acquire(folder);
+  REQUIRE((first && second));
+  CHECK(first->passed_over().empty());
+  CHECK(second->passed_over() == fmt::format("127 is held by process {}", getpid()));
+}
+
+TEST_CASE("a folder that cannot be used is passed over, whatever names it") {
+  const Folder folder;
+  fs::create_symlink("loop", folder.path / "loop");
+  std::ofstream(folder.path / "file") << "no folder";
+  const std::string useless =
+      GENERATE_COPY(std::string("loop"), std::string("file"), std::string(5000, 'x'));
+  const std::string path = (folder.path / useless).string();
+  const Variable runtime("XDG_RUNTIME_DIR", path);
+  SECTION("then the state folder is taken") {
+    const Variable state("BLACTL_STATE_DIR", (folder.path / "state").string());
+    const auto local = LocalNodeId::acquire({.interface = "can0", .folder = path}, {});
+    REQUIRE(local);
+    CHECK(local->lock_file() == (folder.path / "state" / "can0.127").string());
+  }
+  SECTION("and where none is left there is no lock") {
+    const Variable state("BLACTL_STATE_DIR", path);
+    const auto local = LocalNodeId::acquire({.interface = "can0", .folder = path}, {});
+    REQUIRE(local);
+    CHECK(local->lock_file().empty());
+  }
+}
+
+TEST_CASE("a relative folder in the environment is none: processes start anywhere") {
+  const Folder folder;
+  const fs::path before = fs::current_path();
+  fs::current_path(folder.path);
+  const Variable runtime("XDG_RUNTIME_DIR", ".");
+  const Variable state("BLACTL_STATE_DIR", "");
+  const Variable xdg("XDG_STATE_HOME", "relative");
+  const Variable home("HOME", (folder.path / "home").string());
+  const auto local = LocalNodeId::acquire({.interface = "can0", .folder = "/proc/no/such"}, {});
+  fs::current_path(before);
+  REQUIRE(local);
+  CHECK(local->lock_file() == (folder.path / "home/.local/state/blactl/can0.127").string());
+}
+
+TEST_CASE("the name of an interface may be longer than that of a file") {
+  const Folder folder;
+  const std::string end(300, 'x');
+  const auto one = acquire(folder, {}, "slcan:/dev/a/" + end);
+  const auto other = acquire(folder, {}, "slcan:/dev/b/" + end);
+  REQUIRE((one && other));
+  CHECK(one->id() == NodeId(127));
+  CHECK(other->id() == NodeId(127));
+  CHECK_FALSE(one->lock_file().empty());
+}
+
+TEST_CASE("lock files that nobody can open are told with what to look at") {
+  const Folder folder;
+  fs::create_directories(folder.file(127));
+  fs::create_directories(folder.file(126));
+  const auto local = acquire(folder);
+  REQUIRE_FALSE(local);
+  CHECK(local.error().code == Code::no_local_node_id);
+  CHECK(local.error().message.find(folder.file(126).string()) != std::string::npos);
+  CHECK(local.error().hint.find("ls -ld " + folder.locks()) != std::string::npos);
 }

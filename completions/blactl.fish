@@ -1,0 +1,299 @@
+# fish completion of blactl. Made by scripts/generate from the command table: do not edit.
+# Nothing here asks the bus.
+
+# The command, and its arguments so far.
+function __blactl_words
+    set -l words (commandline -opc)
+    set -l value no
+    for word in $words[2..]
+        if test $value = yes
+            set value no
+        else if string match -qr -- '^(--(clock|color|count|duration|expect|facts|group|interface|kind|lang|listen|local-node-id|node|profile|profile-dir|record|retries|seed|stagger|timeout|type|wait)|-[jqvyhV]*[in])$' $word
+            set value yes
+        else if not string match -q -- '-*' $word
+            echo $word
+        end
+    end
+end
+
+function __blactl_needs_command
+    test (count (__blactl_words)) -eq 0
+end
+
+function __blactl_in
+    set -l words (__blactl_words)
+    test (count $words) -gt 0; and test $words[1] = $argv[1]
+end
+
+# __blactl_argument COMMAND PLACE
+function __blactl_argument
+    set -l words (__blactl_words)
+    __blactl_in $argv[1]; and test (count $words) -eq $argv[2]
+end
+
+# The CAN interfaces in a folder such as /sys/class/net: those of type 280.
+function __blactl_can_interfaces
+    for entry in $argv[1]/*
+        if test -r $entry/type; and test (cat $entry/type) = 280
+            echo (basename $entry)
+        end
+    end
+end
+
+# The serial ports in a folder such as /dev/serial/by-id.
+function __blactl_serial_adapters
+    for entry in $argv[1]/*
+        echo slcan:$entry
+    end
+end
+
+# Without the option that a value may be glued to: --interface=sim
+function __blactl_token
+    string replace -r -- '^--[a-z-]+=' '' (commandline -ct)
+end
+
+# __blactl_files PREFIX: files behind a prefix such as "replay:".
+function __blactl_files
+    set -l typed (string replace -- $argv[1] '' (__blactl_token))
+    printf "$argv[1]%s\n" (__fish_complete_path $typed)
+end
+
+function __blactl_interface
+    switch (__blactl_token)
+        case 'replay:*'
+            __blactl_files replay:
+        case 'sim:*'
+            __blactl_files sim:
+        case '*'
+            __blactl_can_interfaces /sys/class/net
+            __blactl_serial_adapters /dev/serial/by-id
+            printf '%s\n' mcast:0 sim: replay:
+    end
+end
+
+# __blactl_list WORDS…: one or several with commas.
+function __blactl_list
+    set -l before (string match -r -- '^.*,' (__blactl_token))
+    printf "$before%s\n" $argv
+end
+
+function __blactl_nodes
+    if string match -qr -- '(^|,)model:[^,]*$' (__blactl_token)
+        __blactl_list model:(__blactl_models)
+    else
+        __blactl_list all uid: serial: servo: model:
+    end
+end
+
+function __blactl_models
+    printf '%s\n' \
+        BLA15-06U-A0 \
+        BLA15-12U-A0 \
+        BLA21-06U-A0 \
+        BLA21-06U-AB \
+        BLA21-12U-A0 \
+        BLA21-12U-AB \
+        BLA21-28U-A0 \
+        BLA21-28U-AB \
+        BLA34-12U-AB \
+        BLA34-28U-AB
+end
+
+function __blactl_parameters
+    printf '%s\n' \
+        command_angle\t'Command Angle' \
+        command_speed\t'Command Speed' \
+        command_torque\t'Command Torque' \
+        current_angle\t'Current Angle' \
+        current_speed\t'Current Speed' \
+        current_torque\t'Current Torque' \
+        current_temperature\t'Current Temperature' \
+        current_voltage\t'Current Voltage' \
+        fault_summary\t'Occurrence Overview' \
+        fault_notice\t'Notification Level Information' \
+        fault_warning\t'Warning Level Information' \
+        fault_failure\t'Failure Level Information' \
+        torque_output\t'Torque ON/OFF' \
+        soft_start\t'Soft Start ON/OFF' \
+        smoothing\t'Smoothing ON/OFF' \
+        reverse\t'Reverse ON/OFF' \
+        extended_angle\t'Extended Angle Calculation ON/OFF' \
+        speed_torque_control\t'Speed/Torque Control ON/OFF' \
+        timeout_action\t'Timeout Operation' \
+        timeout_time\t'Timeout detection time' \
+        overcurrent_limit\t'Overcurrent protection Current value' \
+        angle_p_gain\t'Angle Control Proportional Gain' \
+        angle_d_gain\t'Angle Control Derivative Gain' \
+        angle_dead_band\t'Angle Control Dead Band' \
+        angle_boost\t'Angle control Boost' \
+        speed_p_gain\t'Speed Control Proportional Gain' \
+        speed_i_gain\t'Speed Control Integral Gain' \
+        speed_dead_band\t'Speed Control Dead Band' \
+        speed_i_limit\t'Speed Control Integral Limit' \
+        pwm_neutral\t'Neutral Pulse Width' \
+        pwm_range\t'Pulse width input range' \
+        pwm_output_range\t'Command value output range (angle/speed)' \
+        pwm_mode\t'Operation Mode' \
+        angle_limit_cw\t'Operation Angle Limit CW' \
+        angle_limit_ccw\t'Operation Angle Limit CCW' \
+        speed_limit_cw\t'Operation Speed Limit CW' \
+        speed_limit_ccw\t'Operation Speed Limit CCW' \
+        torque_limit_cw\t'Operation Torque Limit CW' \
+        torque_limit_ccw\t'Operation Torque Limit CCW' \
+        temperature_limit_high\t'Operation Temperature Upper Limit' \
+        temperature_limit_low\t'Operation Temperature Lower Limit' \
+        voltage_limit_high\t'Operation Voltage Upper Limit' \
+        voltage_limit_low\t'Operation Voltage Lower Limit' \
+        origin\t'The Origin Point' \
+        servo_id\t'Servo ID' \
+        static_node_id\t'UAVCAN Node ID' \
+        model_number\t'Model Number' \
+        serial_number\t'Product Number' \
+        firmware_version\t'Firmware version' \
+        hardware_version\t'Hardware version' \
+        production_year\t'Production year' \
+        production_month\t'Production month' \
+        production_day\t'Production day' \
+        production_hour\t'Production hour' \
+        production_minute\t'Production minute'
+end
+
+function __blactl_settable
+    printf '%s\n' \
+        command_angle=\t'Command Angle' \
+        command_speed=\t'Command Speed' \
+        command_torque=\t'Command Torque' \
+        torque_output=\t'Torque ON/OFF' \
+        soft_start=\t'Soft Start ON/OFF' \
+        smoothing=\t'Smoothing ON/OFF' \
+        reverse=\t'Reverse ON/OFF' \
+        extended_angle=\t'Extended Angle Calculation ON/OFF' \
+        speed_torque_control=\t'Speed/Torque Control ON/OFF' \
+        timeout_action=\t'Timeout Operation' \
+        timeout_time=\t'Timeout detection time' \
+        overcurrent_limit=\t'Overcurrent protection Current value' \
+        angle_p_gain=\t'Angle Control Proportional Gain' \
+        angle_d_gain=\t'Angle Control Derivative Gain' \
+        angle_dead_band=\t'Angle Control Dead Band' \
+        angle_boost=\t'Angle control Boost' \
+        speed_p_gain=\t'Speed Control Proportional Gain' \
+        speed_i_gain=\t'Speed Control Integral Gain' \
+        speed_dead_band=\t'Speed Control Dead Band' \
+        speed_i_limit=\t'Speed Control Integral Limit' \
+        pwm_neutral=\t'Neutral Pulse Width' \
+        pwm_range=\t'Pulse width input range' \
+        pwm_output_range=\t'Command value output range (angle/speed)' \
+        pwm_mode=\t'Operation Mode' \
+        angle_limit_cw=\t'Operation Angle Limit CW' \
+        angle_limit_ccw=\t'Operation Angle Limit CCW' \
+        speed_limit_cw=\t'Operation Speed Limit CW' \
+        speed_limit_ccw=\t'Operation Speed Limit CCW' \
+        torque_limit_cw=\t'Operation Torque Limit CW' \
+        torque_limit_ccw=\t'Operation Torque Limit CCW' \
+        temperature_limit_high=\t'Operation Temperature Upper Limit' \
+        temperature_limit_low=\t'Operation Temperature Lower Limit' \
+        voltage_limit_high=\t'Operation Voltage Upper Limit' \
+        voltage_limit_low=\t'Operation Voltage Lower Limit' \
+        origin=\t'The Origin Point' \
+        servo_id=\t'Servo ID' \
+        static_node_id=\t'UAVCAN Node ID' \
+        bootloader=\t'Boot loader'
+end
+
+function __blactl_assignments
+    switch (commandline -ct)
+        case 'torque_output=*'
+            printf 'torque_output=%s\n' on off brake
+        case 'soft_start=*'
+            printf 'soft_start=%s\n' off on
+        case 'smoothing=*'
+            printf 'smoothing=%s\n' off on
+        case 'reverse=*'
+            printf 'reverse=%s\n' off on
+        case 'extended_angle=*'
+            printf 'extended_angle=%s\n' off on
+        case 'speed_torque_control=*'
+            printf 'speed_torque_control=%s\n' off on
+        case 'timeout_action=*'
+            printf 'timeout_action=%s\n' hold off brake
+        case 'pwm_mode=*'
+            printf 'pwm_mode=%s\n' angle speed
+        case '*=*'
+        case '*'
+            __blactl_settable
+    end
+end
+
+complete -c blactl -f
+complete -c blactl -n __blactl_needs_command -a scan -d 'find every node and identify BLA servos'
+complete -c blactl -n __blactl_needs_command -a get -d 'read parameters'
+complete -c blactl -n __blactl_needs_command -a set -d 'check against the servo\'s model, write, read back'
+complete -c blactl -n __blactl_needs_command -a save -d 'RAM to ROM: restarts the servo, and reads again'
+complete -c blactl -n __blactl_needs_command -a erase -d 'RAM to factory defaults, IDs included (ROM only with --save)'
+complete -c blactl -n __blactl_needs_command -a restart -d 'restart: RAM from ROM'
+complete -c blactl -n __blactl_needs_command -a wait -d 'until the servos are there and operational'
+complete -c blactl -n __blactl_needs_command -a trace -d 'every DroneCAN transfer decoded, live or from a candump log; sends nothing'
+complete -c blactl -n __blactl_needs_command -a models -d 'what the profiles know, without any servo'
+complete -c blactl -n __blactl_needs_command -a sim -d 'simulated servos: serves the sim: bus, or joins a real interface with -i'
+complete -c blactl -s i -l interface -r -f -a '(__blactl_interface)' -d 'can0, slcan:DEV, mcast:N, sim:, sim:SCENARIO.json, replay:FILE (default: the only CAN interface that is up)'
+complete -c blactl -s n -l node -r -f -a '(__blactl_nodes)' -d 'servos'
+complete -c blactl -s j -l json -d 'output as one JSON document; streams'
+complete -c blactl -l csv -d 'output as CSV (scan, get)'
+complete -c blactl -s q -l quiet -d 'no notes on stderr'
+complete -c blactl -s v -l verbose -d 'on stderr'
+complete -c blactl -l color -r -f -a 'auto always never' -d 'colour of states, warnings and errors'
+complete -c blactl -l lang -r -f -a 'en ja' -d 'language of messages (default: of the locale)'
+complete -c blactl -s y -l yes -d 'agree to questions beforehand'
+complete -c blactl -l timeout -r -f -d 'how long an answer may take (default 0.5)'
+complete -c blactl -l retries -r -f -d 'how often a request is repeated (default 2)'
+complete -c blactl -l listen-only -d 'send nothing, take no node ID'
+complete -c blactl -l local-node-id -r -f -d 'own node ID (default 127, else 126)'
+complete -c blactl -l while-driven -d 'even while another node drives the servo'
+complete -c blactl -l profile-dir -r -f -a '(__fish_complete_directories (__blactl_token))' -d 'further model profiles'
+complete -c blactl -l profile -r -f -a '(__blactl_models)' -d 'read as this model where no profile fits'
+complete -c blactl -l record -r -F -d 'write every frame to a candump log'
+complete -c blactl -s h -l help -d 'this text, and the options of a command'
+complete -c blactl -s V -l version -d 'name and version'
+
+complete -c blactl -n '__blactl_in scan' -l listen -r -f -d 'how long to listen (default 1.2)'
+complete -c blactl -n '__blactl_in scan' -l expect -r -f -d 'fail unless so many servos are found'
+
+complete -c blactl -n '__blactl_in get' -l group -r -f -a 'command status operation fault config control pwm limit option product production' -d 'all of a group'
+complete -c blactl -n '__blactl_in get' -l all -d 'every parameter (as without PARAM)'
+complete -c blactl -n '__blactl_in get' -l changed -d 'only what differs from the model\'s default'
+complete -c blactl -n '__blactl_in get' -f -a '(__blactl_parameters)'
+
+complete -c blactl -n '__blactl_in set' -l save -d 'then RAM to ROM'
+complete -c blactl -n '__blactl_in set' -l dry-run -d 'change nothing; exit status 8 when something would change'
+complete -c blactl -n '__blactl_in set' -l wait -r -f -d 'how long a servo may take to come back (default 5, and 2 for each that asks for a node ID)'
+complete -c blactl -n '__blactl_in set' -l stagger -r -f -d 'pause between two servos (default 0)'
+complete -c blactl -n '__blactl_in set' -f -a '(__blactl_assignments)'
+
+complete -c blactl -n '__blactl_in save' -l wait -r -f -d 'how long a servo may take to come back (default 5, and 2 for each that asks for a node ID)'
+complete -c blactl -n '__blactl_in save' -l stagger -r -f -d 'pause between two servos (default 0)'
+
+complete -c blactl -n '__blactl_in erase' -l save -d 'then RAM to ROM'
+complete -c blactl -n '__blactl_in erase' -l keep-ids -d 'servo_id and static_node_id stay'
+complete -c blactl -n '__blactl_in erase' -l wait -r -f -d 'how long a servo may take to come back (default 5, and 2 for each that asks for a node ID)'
+complete -c blactl -n '__blactl_in erase' -l stagger -r -f -d 'pause between two servos (default 0)'
+
+complete -c blactl -n '__blactl_in restart' -l wait -r -f -d 'how long a servo may take to come back (default 5, and 2 for each that asks for a node ID)'
+complete -c blactl -n '__blactl_in restart' -l stagger -r -f -d 'pause between two servos (default 0)'
+
+complete -c blactl -n '__blactl_in wait' -l wait -r -f -d 'how long to wait (default 10)'
+
+complete -c blactl -n '__blactl_in trace' -l type -r -f -d 'only these data types'
+complete -c blactl -n '__blactl_in trace' -l kind -r -f -a '(__blactl_list message request response)' -d 'only these kinds'
+complete -c blactl -n '__blactl_in trace' -l duration -r -f -d 'how long to listen; of a log its first seconds'
+complete -c blactl -n '__blactl_in trace' -l count -r -f -d 'end after so many transfers'
+complete -c blactl -n '__blactl_in trace' -l stats -d 'instead of the transfers, who sends what how often, and the load of the bus'
+complete -c blactl -n '__blactl_in trace' -l absolute -d 'the time of day instead of seconds since the first frame'
+complete -c blactl -n '__blactl_argument trace 1' -F
+
+complete -c blactl -n '__blactl_argument models 1' -f -a '(__blactl_models)'
+complete -c blactl -n '__blactl_argument models 2' -f -a '(__blactl_parameters)'
+
+complete -c blactl -n '__blactl_in sim' -l facts -r -F -d 'how servos behave, as measured on real ones'
+complete -c blactl -n '__blactl_in sim' -l seed -r -f -d 'the seed of everything random'
+complete -c blactl -n '__blactl_in sim' -l clock -r -f -a 'real virtual' -d 'the clock (default: as the scenario says)'
+complete -c blactl -n '__blactl_argument sim 1' -F

@@ -1,0 +1,55 @@
+#pragma once
+// Carries the plans of several servos out, each by a job of its own, all at once.
+
+#include "blactl/fleet/change_job.hpp"
+#include "blactl/fleet/session.hpp"
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace blactl::fleet {
+
+/// How far the servos are, for a person who waits.
+struct Progress {
+  std::size_t servos = 0;
+  std::size_t ended = 0;                   ///< well or not
+  std::vector<dronecan::NodeId> at_work{}; ///< are asked, written or read
+  std::vector<dronecan::NodeId> away{};    ///< were told to save or to restart, and are not back
+  Duration elapsed{};
+};
+
+/// How all of them are treated.
+struct Manner {
+  Identification::Options identification{};
+  Duration stagger{};                  ///< between the requests to restart
+  std::optional<Duration> come_back{}; ///< empty: 5 s, and 2 s for each that will ask for an ID
+  /// Nobody else of this machine allocates on the interface: this process may.
+  bool may_allocate = false;
+  std::function<void(const Progress&)> progress{}; ///< called once a second; may be empty
+};
+
+struct CarriedOut {
+  std::vector<ChangeResult> servos; ///< in the order of the plans
+  /// Why the session ended in between: `error` of each servo tells how far it was.
+  std::optional<Error> broken{};
+};
+
+/// A servo that asks for a node ID gets the one it had, unless another allocator is heard.
+[[nodiscard]] CarriedOut carry_out(Session& session, const bla::Profiles& profiles,
+                                   std::span<const Plan> plans, const Manner& manner);
+
+struct Snapshots {
+  std::vector<Snapshot> servos;  ///< in the order asked
+  std::optional<Error> broken{}; ///< why the session ended in between: they are not complete
+};
+
+/// Reads the registers that `choice` names of several servos at once.
+[[nodiscard]] Snapshots take_snapshots(Session& session, const bla::Profiles& profiles,
+                                       std::span<const dronecan::NodeId> servos,
+                                       const Identification::Options& options,
+                                       const ReadJob::Choice& choice);
+
+} // namespace blactl::fleet

@@ -1,0 +1,28 @@
+#pragma once
+// One register of one servo from what to what.
+
+#include "blactl/base/error.hpp"
+#include "blactl/bla/parameter.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace blactl::fleet {
+
+/// The words of the contract, section 5, `set`.
+enum class ChangeStatus : std::uint8_t { planned, unchanged, written, failed, mismatch };
+[[nodiscard]] std::string_view name(ChangeStatus status);
+
+/// Register numbers; `before` and `after` are empty where they are not known.
+struct Change {
+  const bla::Parameter* parameter = nullptr;
+  std::int64_t requested = 0;
+  std::optional<std::int64_t> before{}, after{};
+  ChangeStatus status = ChangeStatus::planned;
+  std::optional<Error> error{};
+
+  [[nodiscard]] bool is_planned() const { return status == ChangeStatus::planned; }
+};
+
+} // namespace blactl::fleet

@@ -1,0 +1,48 @@
+#pragma once
+// What a technician should know of the nodes on a bus.
+
+#include "blactl/base/error.hpp"
+#include "blactl/fleet/roster.hpp"
+#include "blactl/fleet/target.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace blactl::fleet {
+
+/// Nodes that must not be as they are, together on one bus.
+struct Conflict {
+  Code code; ///< duplicate_node_id, duplicate_servo_id
+  std::vector<dronecan::NodeId> nodes;
+  std::string text, hint;
+};
+
+/// One unit on the bus. Of each of two units on one node ID this says who it is, as far as it said
+/// so itself, and nothing that may be of the other.
+struct Finding {
+  Servo servo;
+  std::optional<dronecan::GetNodeInfo::Response> info{};
+  std::optional<dronecan::NodeStatus> status{}; ///< the newest
+  bool is_foreign = false;                      ///< it said that it is no BLA servo
+  bool is_offline = false;                      ///< it was heard, and is not any more
+  std::vector<std::string> warnings{};
+};
+
+struct Findings {
+  const Roster* roster;
+  std::vector<Finding> nodes; ///< those that -n names; all without it
+  std::vector<Conflict> conflicts;
+};
+
+/// What is there at `now`. `roster` outlives the findings.
+[[nodiscard]] Findings gather(const Roster& roster, const Targets& targets,
+                              const bla::Profiles& profiles, Time now);
+
+/// What a technician should know of one node.
+[[nodiscard]] std::vector<std::string> warnings(const Member& member);
+
+/// The newest status: heard by itself, else that of GetNodeInfo.
+[[nodiscard]] std::optional<dronecan::NodeStatus> status(const Member& member);
+
+} // namespace blactl::fleet

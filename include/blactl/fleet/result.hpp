@@ -1,0 +1,36 @@
+#pragma once
+// How the change of one servo ended.
+
+#include "blactl/fleet/plan.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace blactl::fleet {
+
+struct ChangeResult {
+  Servo servo; ///< as it was identified; its servo ID as it was read last
+  std::vector<Change> changes{};
+  std::optional<std::int64_t> mode_before{}, mode_after{}; ///< as Plan
+  std::vector<Warning> warnings{};                         ///< as Plan
+  bool was_begun = false;     ///< by a job; else it is a plan that is shown
+  bool was_restarted = false; ///< SAVE or RestartNode was due, everything before went well
+  bool is_verified = false;   ///< what it had to show it has shown
+  bool saved = false;         ///< ROM was written, and the servo is back with these values
+  std::optional<dronecan::NodeId> returned{};      ///< where it is back after its restart
+  std::optional<dronecan::NodeId> node_id_after{}; ///< empty: not known, or it is away
+  std::size_t values_read = 0;                     ///< and compared, at the end
+  Duration duration{};          ///< from the request to restart until it was back
+  std::optional<Error> error{}; ///< beside those of single changes
+
+  /// All that went wrong, in the order in which it happened.
+  [[nodiscard]] std::vector<Error> errors() const;
+
+  [[nodiscard]] bool is_done() const { return !error && is_verified; }
+};
+
+/// The result of a plan that is only shown (--dry-run).
+[[nodiscard]] ChangeResult as_planned(const Plan& plan);
+
+} // namespace blactl::fleet

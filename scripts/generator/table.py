@@ -1,0 +1,88 @@
+"""The command table, and what the models add to it."""
+
+import dataclasses
+
+NOTICE = "Made by scripts/generate from the command table: do not edit."
+
+
+@dataclasses.dataclass(frozen=True)
+class Option:
+    """An option, or an argument that goes by its place."""
+
+    name: str
+    letter: str | None
+    value: str
+    kind: str
+    repeats: bool
+    words: tuple[str, ...]
+    help: str
+
+    @property
+    def is_flag(self):
+        return self.kind == "flag"
+
+    @property
+    def names(self):
+        """As people type it: -n, --node."""
+        return [f"-{self.letter}", self.name] if self.letter else [self.name]
+
+
+@dataclasses.dataclass(frozen=True)
+class Command:
+    name: str
+    help: str
+    options: tuple[Option, ...]
+    arguments: tuple[Option, ...]
+
+
+@dataclasses.dataclass(frozen=True)
+class Parameter:
+    name: str
+    help: str
+    readable: bool
+    settable: bool
+    words: tuple[str, ...]
+
+
+def _option(entry):
+    return Option(entry["name"], entry["letter"], entry["value"], entry["kind"],
+                  entry["repeat"] == "list", tuple(entry["words"]), entry["help_en"])
+
+
+def _options(entries):
+    return tuple(_option(entry) for entry in entries)
+
+
+def _parameter(entry):
+    # The opcodes are written by erase, restart and save, never by set.
+    settable = "W" in entry["access"] and entry["group"] != "operation"
+    return Parameter(entry["name"], entry["name_en"], "R" in entry["access"], settable,
+                     tuple(choice["word"] for choice in entry["enumeration"]))
+
+
+class Table:
+    """Everything that completions and manual are made from."""
+
+    def __init__(self, cli, models):
+        self.version = cli["version"]
+        self.shared = _options(cli["options"])
+        self.commands = tuple(
+            Command(entry["name"], entry["help_en"], _options(entry["options"]),
+                    _options(entry["arguments"])) for entry in cli["commands"])
+        self.models = sorted(model["model"] for model in models["models"])
+        by_address = {}
+        for model in models["models"]:
+            for entry in model["parameters"]:
+                known = by_address.setdefault(entry["address"], _parameter(entry))
+                if len(entry["enumeration"]) > len(known.words):
+                    by_address[entry["address"]] = _parameter(entry)
+        self.parameters = [by_address[address] for address in sorted(by_address)]
+
+    def readable(self):
+        return [parameter for parameter in self.parameters if parameter.readable]
+
+    def settable(self):
+        return [parameter for parameter in self.parameters if parameter.settable]
+
+    def with_words(self):
+        return [parameter for parameter in self.settable() if parameter.words]

@@ -1,0 +1,227 @@
+#include "cli/change_servos.hpp"
+
+#include "blactl/fleet/carry_out.hpp"
+#include "blactl/fleet/discovery.hpp"
+#include "blactl/fleet/guard.hpp"
+#include "blactl/fleet/survey.hpp"
+
+#include "cli/confirm.hpp"
+#include "cli/output/progress_view.hpp"
+#include "cli/texts.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace blactl::cli {
+namespace {
+
+using fleet::ChangeResult;
+using fleet::Plan;
+
+/// One run. Each step may end it, with errors in the report.
+class Run {
+ public:
+  Run(const ChangeRequest& request, Context& context, Report& report)
+      : request_(request), context_(context), report_(report) {}
+
+  void all() {
+    if (select() && plan() && hear() && survey() && check() && confirm() && check()) {
+      conclude(request_.dry_run ? planned() : carry_out());
+    } else if (report_.signal != 0) {
+      tell_nothing_was_sent();
+    }
+    report_.count_targets(std::max(named_, report_.targets.size()));
+  }
+
+ private:
+  bool select();
+  bool plan();
+  bool hear();
+  bool survey();
+  bool check();
+  bool confirm();
+  [[nodiscard]] std::vector<ChangeResult> planned() const;
+  [[nodiscard]] std::vector<ChangeResult> carry_out();
+  void conclude(std::vector<ChangeResult> results);
+  void tell_nothing_was_sent();
+
+  bool stop(Error error) {
+    report_.fail(std::move(error));
+    return false;
+  }
+
+  bool broken(const Error& error) {
+    context_.broken(error, report_);
+    return false;
+  }
+
+  const ChangeRequest& request_;
+  Context& context_;
+  Report& report_;
+  std::vector<dronecan::NodeId> servos_;
+  std::size_t named_ = 0; ///< targets, those included that are not there
+  std::vector<Plan> plans_;
+};
+
+bool Run::select() {
+  const auto targets = context_.targets();
+  if (!targets) {
+    return stop(targets.error());
+  }
+  if (auto session = context_.open_for_writing(request_.command); !session) {
+    return stop(session.error());
+  }
+  report_.interface = context_.session().interface();
+  fleet::Discovery discovery(context_.session(), context_.known(), context_.identification());
+  auto selection = discovery.select_for_writing(*targets);
+  if (!selection) {
+    return selection.error().code == Code::usage ? stop(selection.error())
+                                                 : broken(selection.error());
+  }
+  for (const std::string& note : selection->notes) {
+    context_.reporter().note(note);
+  }
+  for (Error& error : selection->errors) {
+    report_.fail_target(std::move(error));
+  }
+  servos_ = std::move(selection->ids);
+  named_ = servos_.size() + report_.targets.size();
+  if (auto refused = fleet::refuse_together(request_.wanted, servos_)) {
+    return stop(std::move(*refused));
+  }
+  return report_.targets.empty();
+}
+
+bool Run::plan() {
+  auto snapshots =
+      fleet::take_snapshots(context_.session(), context_.known(), servos_,
+                            context_.identification(), [this](const fleet::Servo& servo) {
+                              return fleet::registers_needed(request_.wanted, servo);
+                            });
+  if (snapshots.broken) {
+    return broken(*snapshots.broken);
+  }
+  const fleet::Roster& roster = context_.session().roster();
+  for (fleet::Snapshot& snapshot : snapshots.servos) {
+    const dronecan::NodeId id = snapshot.servo.id;
+    auto plan = fleet::make_plan(request_.wanted, std::move(snapshot), context_.known());
+    if (plan) {
+      plans_.push_back(std::move(*plan));
+    } else { // two that answer at once answer nothing
+      report_.fail_target(roster.is_doubled(id) ? fleet::doubled(roster, id)
+                                                : std::move(plan.error()));
+    }
+  }
+  return report_.targets.empty();
+}
+
+bool Run::hear() {
+  // Also where nothing will be written: what was read may be of two units on one ID.
+  const auto heard = fleet::hear_bus(context_.session());
+  return heard || (heard.error().code == Code::state ? stop(heard.error()) : broken(heard.error()));
+}
+
+/// Who has the IDs that are given.
+bool Run::survey() {
+  const auto survey =
+      fleet::survey(context_.session(), context_.known(), plans_, context_.identification());
+  if (!survey) {
+    return broken(survey.error());
+  }
+  for (const dronecan::NodeId id : survey->silent) {
+    context_.reporter().note(say<texts::did_not_tell_ids>(id.value()));
+  }
+  for (const Plan& plan : plans_) {
+    if (auto error = fleet::conflict(*survey, plans_, plan)) {
+      report_.fail(std::move(*error));
+    }
+  }
+  return report_.errors.empty();
+}
+
+/// What the others on the bus forbid; once more after a question, which may take its time.
+bool Run::check() {
+  for (const Plan& plan : plans_) {
+    if (auto error = fleet::forbidden(context_.session().roster(), context_.session().now(), plan,
+                                      context_.shared().while_driven)) {
+      report_.fail(std::move(*error));
+    }
+  }
+  return report_.errors.empty();
+}
+
+bool Run::confirm() {
+  const std::string question = request_.dry_run ? std::string() : fleet::question(plans_);
+  if (question.empty()) {
+    return true;
+  }
+  const auto agreed = blactl::cli::confirm(question, context_);
+  return agreed || (agreed.error().code == Code::not_confirmed ? stop(agreed.error())
+                                                               : broken(agreed.error()));
+}
+
+std::vector<ChangeResult> Run::planned() const {
+  std::vector<ChangeResult> results;
+  std::ranges::transform(plans_, std::back_inserter(results), fleet::as_planned);
+  return results;
+}
+
+std::vector<ChangeResult> Run::carry_out() {
+  if (request_.wanted.restart == fleet::RestartKind::save) {
+    context_.reporter().note(say<texts::do_not_cut_supply>());
+  }
+  const fleet::Manner manner{.identification = context_.identification(),
+                             .stagger = request_.times.stagger,
+                             .come_back = request_.times.wait,
+                             // A servo that finds its ROM unreadable asks as well.
+                             .may_allocate = request_.wanted.restart && context_.may_allocate(),
+                             .progress = [this](const fleet::Progress& progress) {
+                               context_.reporter().progress(text(progress));
+                             }};
+  auto carried_out = fleet::carry_out(context_.session(), context_.known(), plans_, manner);
+  if (carried_out.broken) {
+    (void)broken(*carried_out.broken);
+  }
+  return std::move(carried_out.servos);
+}
+
+void Run::conclude(std::vector<ChangeResult> results) {
+  std::size_t done = 0;
+  for (const ChangeResult& result : results) {
+    const bool would_change =
+        request_.dry_run && std::ranges::any_of(result.changes, &fleet::Change::is_planned);
+    report_.targets.push_back({.errors = result.errors(), .has_found = would_change});
+    done += request_.view == ResultView::servos
+                ? static_cast<std::size_t>(result.is_done())
+                : static_cast<std::size_t>(std::ranges::count(
+                      result.changes, fleet::ChangeStatus::written, &fleet::Change::status));
+  }
+  report_.counts = {{request_.view == ResultView::servos ? "done" : "written", done}};
+  const auto kept = std::make_shared<std::vector<ChangeResult>>(std::move(results));
+  report_.json = [kept, view = request_.view](JsonWriter& json) { write_json(json, view, *kept); };
+  report_.text = [kept, view = request_.view](const Page& page) { return text(view, *kept, page); };
+}
+
+void Run::tell_nothing_was_sent() {
+  for (Error& error : report_.errors) {
+    if (error.code == Code::interrupted) {
+      error.hint = say<texts::nothing_written_hint>();
+    }
+  }
+}
+
+} // namespace
+
+Report change_servos(const ChangeRequest& request, Context& context) {
+  Report report{.interface = printable(context.shared().interface)};
+  if (auto profiles = context.profiles(); !profiles) {
+    report.fail(profiles.error());
+    return report;
+  }
+  Run(request, context, report).all();
+  return report;
+}
+
+} // namespace blactl::cli

@@ -1,0 +1,199 @@
+#pragma once
+// What a command is, declared once: the parser, --help, the completions and the manual go by it.
+//
+//     struct WaitOptions { Duration wait = std::chrono::seconds(10); };
+//
+//     constexpr Option option_table[]{{.name = "--wait", .value = "SEC", .kind = Kind::seconds, …,
+//                                 .store = into<&WaitOptions::wait>}};
+//
+//     constinit const Command commands::wait{.name = "wait", …, .options = option_table,
+//                                            .action = action<execute>};
+
+#include "blactl/base/text.hpp"
+#include "blactl/base/time.hpp"
+
+#include "cli/output/report.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace blactl::cli {
+
+class Context;
+
+/// What the value of an option or argument is. The kinds after `word` are all text; they differ in
+/// what completes them.
+enum class Kind : std::uint8_t {
+  flag,    ///< no value
+  seconds, ///< with up to six decimals
+  whole,   ///< a whole number
+  word,    ///< one of Option::words
+  text,
+  parameter, ///< a name or an address
+  assignment,
+  group,
+  model,
+  nodes,
+  interface,
+  file,
+  folder,
+  words, ///< of Option::words, comma-separated
+};
+
+/// The name of a kind, for the readers of --dump-cli: "parameter".
+[[nodiscard]] std::string_view name(Kind kind);
+
+/// What an option given twice means.
+enum class Repeat : std::uint8_t { last, list };
+
+/// A value as it was understood, in the member of its kind.
+struct Value {
+  std::string text{};              ///< of a list: its items, comma-separated
+  std::vector<std::string> list{}; ///< every value that was given
+  std::uint64_t number = 0;        ///< of a word its place in Option::words, of a flag how often
+  Duration duration{};
+};
+
+/// What a member of an options struct takes from a Value.
+enum class Takes : std::uint8_t { flag, text, list, number, duration };
+
+/// Where the value goes.
+struct Store {
+  void (*put)(void* options, const Value& value);
+  Takes takes;
+};
+
+template <class Number> struct Range {
+  Number min, max;
+};
+
+/// An option, or an argument that goes by its place.
+struct Option {
+  std::string_view name;    ///< "--node"; of an argument "PARAM"
+  char letter = 0;          ///< 'n' for -n; 0: none
+  std::string_view value{}; ///< "LIST"; empty for flags and arguments
+  Kind kind = Kind::text;
+  Repeat repeat = Repeat::last;
+  bool required = false;
+  bool hidden = false;                       ///< from people; still accepted
+  std::span<const std::string_view> words{}; ///< of Kind::word and Kind::words
+  Range<Duration> seconds{};                 ///< of Kind::seconds
+  Range<std::uint64_t> whole{};              ///< of Kind::whole
+  Text help;
+  Store store;
+};
+
+struct Traits {
+  bool writes = false;     ///< changes servos; without -n there must be just one
+  bool streams = false;    ///< prints one object a line while it runs
+  bool tables = false;     ///< takes --csv
+  bool session = false;    ///< talks on an interface, so --record has something to write
+  bool recordings = false; ///< answers from -i replay:FILE too
+};
+
+/// What a command does with its options, whose type only its own file knows.
+struct Action {
+  std::shared_ptr<void> (*make)(); ///< options with their defaults
+  Report (*run)(const void* options, Context& context);
+};
+
+struct Command {
+  std::string_view name;
+  Traits traits{};
+  Text help; ///< one line
+  std::span<const Option> options{};
+  std::span<const Option> arguments{};
+  Action action;
+};
+
+namespace detail {
+
+template <class Member> struct MemberOf;
+
+template <class Owner, class Type> struct MemberOf<Type Owner::*> {
+  using Struct = Owner;
+  using Value = Type;
+};
+
+/// The member at the end of a way into nested structs.
+template <class First, class... Further> struct Last : Last<Further...> {};
+
+template <class Only> struct Last<Only> : MemberOf<Only> {};
+
+template <class To> struct Inner {
+  using Type = To;
+};
+
+template <class To> struct Inner<std::optional<To>> {
+  using Type = To;
+};
+
+template <class To> constexpr Takes takes() {
+  using Plain = typename Inner<To>::Type;
+  if constexpr (std::is_same_v<Plain, bool>) {
+    return Takes::flag;
+  } else if constexpr (std::is_same_v<Plain, std::string>) {
+    return Takes::text;
+  } else if constexpr (std::is_same_v<Plain, std::vector<std::string>>) {
+    return Takes::list;
+  } else if constexpr (std::is_same_v<Plain, Duration>) {
+    return Takes::duration;
+  } else {
+    static_assert(std::is_integral_v<Plain> || std::is_enum_v<Plain>);
+    return Takes::number;
+  }
+}
+
+template <class To> void assign(To& to, const Value& value) {
+  using Plain = typename Inner<To>::Type;
+  constexpr Takes what = takes<To>();
+  if constexpr (what == Takes::flag) {
+    to = value.number > 0;
+  } else if constexpr (what == Takes::text) {
+    to = value.text;
+  } else if constexpr (what == Takes::list) {
+    to = value.list;
+  } else if constexpr (what == Takes::duration) {
+    to = value.duration;
+  } else {
+    to = static_cast<Plain>(value.number); // Option::whole and Option::words keep it in range
+  }
+}
+
+template <class Function> struct ActionOf;
+
+template <class Options> struct ActionOf<Report (*)(const Options&, Context&)> {
+  using Type = Options;
+};
+
+} // namespace detail
+
+/// Stores a value in a member of an options struct, or in a member of that: into<&Set::times,
+/// &Times::wait>. Enumerations are in the order of Option::words.
+template <auto first, auto... further>
+inline constexpr Store into{
+    [](void* options, const Value& value) {
+      auto& owner = *static_cast<typename detail::MemberOf<decltype(first)>::Struct*>(options);
+      detail::assign(((owner.*first).*....*further), value);
+    },
+    detail::takes<typename detail::Last<decltype(first), decltype(further)...>::Value>()};
+
+/// The action of a function `Report function(const Options&, Context&)`.
+template <auto function>
+inline constexpr Action action{
+    []() -> std::shared_ptr<void> {
+      return std::make_shared<typename detail::ActionOf<decltype(function)>::Type>();
+    },
+    [](const void* options, Context& context) {
+      using Options = typename detail::ActionOf<decltype(function)>::Type;
+      return function(*static_cast<const Options*>(options), context);
+    }};
+
+} // namespace blactl::cli

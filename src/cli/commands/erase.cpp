@@ -1,0 +1,47 @@
+// blactl erase: RAM to factory defaults.
+
+#include "cli/change_servos.hpp"
+#include "cli/commands.hpp"
+
+namespace blactl::cli {
+namespace {
+
+struct EraseOptions {
+  bool save = false;
+  bool keep_ids = false;
+  RestartTimes times{};
+};
+
+constexpr Option option_table[]{
+    {.name = "--save",
+     .kind = Kind::flag,
+     .help = {"then RAM to ROM", "続けて RAM を ROM に保存"},
+     .store = into<&EraseOptions::save>},
+    {.name = "--keep-ids",
+     .kind = Kind::flag,
+     .help = {"servo_id and static_node_id stay", "servo_id と static_node_id は変更しない"},
+     .store = into<&EraseOptions::keep_ids>},
+    restart_wait<&EraseOptions::times>,
+    restart_stagger<&EraseOptions::times>,
+};
+
+Report execute(const EraseOptions& options, Context& context) {
+  const auto restart = options.save ? std::optional(fleet::RestartKind::save) : std::nullopt;
+  return change_servos({.command = "erase",
+                        .wanted = {.erase = true, .keep_ids = options.keep_ids, .restart = restart},
+                        .times = options.times},
+                       context);
+}
+
+} // namespace
+
+constinit const Command commands::erase{
+    .name = "erase",
+    .traits = {.writes = true, .session = true},
+    .help = {"RAM to factory defaults, IDs included (ROM only with --save)",
+             "RAM を ID も含めて初期値に戻す (ROM は --save 指定時のみ)"},
+    .options = option_table,
+    .action = action<execute>,
+};
+
+} // namespace blactl::cli

@@ -1,0 +1,35 @@
+// blactl restart: RAM from ROM.
+
+#include "cli/change_servos.hpp"
+#include "cli/commands.hpp"
+
+namespace blactl::cli {
+namespace {
+
+struct RestartOptions {
+  RestartTimes times{};
+};
+
+constexpr Option option_table[]{
+    restart_wait<&RestartOptions::times>,
+    restart_stagger<&RestartOptions::times>,
+};
+
+Report execute(const RestartOptions& options, Context& context) {
+  return change_servos({.command = "restart",
+                        .wanted = {.restart = fleet::RestartKind::restart},
+                        .times = options.times},
+                       context);
+}
+
+} // namespace
+
+constinit const Command commands::restart{
+    .name = "restart",
+    .traits = {.writes = true, .session = true},
+    .help = {"restart: RAM from ROM", "再起動 (RAM は ROM の内容に戻る)"},
+    .options = option_table,
+    .action = action<execute>,
+};
+
+} // namespace blactl::cli

@@ -1,0 +1,35 @@
+// blactl save: RAM to ROM.
+
+#include "cli/change_servos.hpp"
+#include "cli/commands.hpp"
+
+namespace blactl::cli {
+namespace {
+
+struct SaveOptions {
+  RestartTimes times{};
+};
+
+constexpr Option option_table[]{
+    restart_wait<&SaveOptions::times>,
+    restart_stagger<&SaveOptions::times>,
+};
+
+Report execute(const SaveOptions& options, Context& context) {
+  return change_servos(
+      {.command = "save", .wanted = {.restart = fleet::RestartKind::save}, .times = options.times},
+      context);
+}
+
+} // namespace
+
+constinit const Command commands::save{
+    .name = "save",
+    .traits = {.writes = true, .session = true},
+    .help = {"RAM to ROM: restarts the servo, and reads again",
+             "RAM を ROM に保存 (サーボは再起動し、その後再読出し)"},
+    .options = option_table,
+    .action = action<execute>,
+};
+
+} // namespace blactl::cli

@@ -1,0 +1,106 @@
+#include "cli/dump.hpp"
+
+#include "blactl/base/json_writer.hpp"
+
+#include "cli/commands.hpp"
+
+#include <string_view>
+
+namespace blactl::cli {
+namespace {
+
+void write(JsonWriter& json, const Text& text) {
+  json.member("help_en", std::string_view(text.en));
+  json.member("help_ja", std::string_view(text.ja));
+}
+
+double seconds(Duration duration) {
+  return std::chrono::duration<double>(duration).count();
+}
+
+void write_words(JsonWriter& json, const Option& option) {
+  json.key("words");
+  json.begin_array();
+  for (const std::string_view word : option.words) {
+    json.value(word);
+  }
+  if (option.kind == Kind::group) {
+    for (const bla::Group group : bla::all_groups()) {
+      json.value(bla::name(group));
+    }
+  }
+  json.end_array();
+}
+
+void write_range(JsonWriter& json, const Option& option) {
+  if (option.kind == Kind::seconds) {
+    json.key("min");
+    json.real(seconds(option.seconds.min));
+    json.key("max");
+    json.real(seconds(option.seconds.max));
+  } else if (option.kind == Kind::whole) {
+    json.member("min", option.whole.min);
+    json.member("max", option.whole.max);
+  }
+}
+
+void write(JsonWriter& json, std::string_view key, std::span<const Option> options) {
+  json.key(key);
+  json.begin_array();
+  for (const Option& option : options) {
+    if (option.hidden) {
+      continue;
+    }
+    json.begin_object();
+    json.member("name", option.name);
+    json.key("letter");
+    option.letter != 0 ? json.value(std::string_view(&option.letter, 1)) : json.value(nullptr);
+    json.member("value", option.value);
+    json.member("kind", name(option.kind));
+    json.member("repeat", option.repeat == Repeat::list ? "list" : "last");
+    json.member("required", option.required);
+    write_words(json, option);
+    write_range(json, option);
+    write(json, option.help);
+    json.end_object();
+  }
+  json.end_array();
+}
+
+void write(JsonWriter& json, const Command& command) {
+  json.begin_object();
+  json.member("name", command.name);
+  json.key("traits");
+  json.begin_object();
+  json.member("writes", command.traits.writes);
+  json.member("streams", command.traits.streams);
+  json.member("tables", command.traits.tables);
+  json.member("session", command.traits.session);
+  json.member("recordings", command.traits.recordings);
+  json.end_object();
+  write(json, command.help);
+  write(json, "arguments", command.arguments);
+  write(json, "options", command.options);
+  json.end_object();
+}
+
+} // namespace
+
+std::string dump_cli() {
+  std::string out;
+  JsonWriter json(out, JsonWriter::Layout::pretty);
+  json.begin_object();
+  json.member("schema", "blactl-cli/1");
+  json.member("version", BLACTL_VERSION);
+  write(json, "options", shared_options());
+  json.key("commands");
+  json.begin_array();
+  for (const Command* command : all_commands()) {
+    write(json, *command);
+  }
+  json.end_array();
+  json.end_object();
+  return out + '\n';
+}
+
+} // namespace blactl::cli

@@ -1,0 +1,20 @@
+#pragma once
+// --help, written from the command table in the language of this process.
+
+#include "cli/command.hpp"
+#include "cli/output/page.hpp"
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace blactl::cli {
+
+/// The columns of the terminal behind stdout; 80 where there is none.
+[[nodiscard]] std::size_t terminal_width();
+
+/// The help of a command, or of the program (null), in lines of at most `width` columns; at least
+/// 40 are assumed.
+[[nodiscard]] std::string help(const Command* command, std::size_t width);
+
+} // namespace blactl::cli

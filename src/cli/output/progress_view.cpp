@@ -1,0 +1,37 @@
+#include "cli/output/progress_view.hpp"
+
+#include "cli/texts.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <span>
+
+namespace blactl::cli {
+namespace {
+
+/// "11, 12, 13", and no more than one line takes.
+std::string list(std::span<const dronecan::NodeId> ids) {
+  constexpr std::size_t most = 10;
+  std::string out;
+  for (const dronecan::NodeId id : ids.first(std::min(ids.size(), most))) {
+    out += (out.empty() ? "" : ", ") + std::to_string(id.value());
+  }
+  return ids.size() > most ? out + " …" : out;
+}
+
+} // namespace
+
+long long whole_seconds(Duration duration) {
+  return std::chrono::duration_cast<std::chrono::seconds>(duration).count();
+}
+
+std::string text(const fleet::Progress& progress) {
+  const std::string at_work =
+      progress.at_work.empty() ? "" : say<texts::progress_at_work>(list(progress.at_work));
+  const std::string away =
+      progress.away.empty() ? "" : say<texts::progress_away>(list(progress.away));
+  return say<texts::progress_change>(progress.ended, progress.servos,
+                                     whole_seconds(progress.elapsed), at_work, away);
+}
+
+} // namespace blactl::cli

@@ -1,0 +1,174 @@
+#include "cli/output/result_view.hpp"
+
+#include "blactl/bla/value.hpp"
+
+#include "cli/output/node_head.hpp"
+#include "cli/output/table.hpp"
+#include "cli/texts.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+
+namespace blactl::cli {
+
+using fleet::Change;
+using fleet::ChangeResult;
+using fleet::ChangeStatus;
+
+namespace {
+
+std::string seconds(Duration duration) {
+  return fmt::format("{:.3f}", std::chrono::duration<double>(duration).count());
+}
+
+void write_change(JsonWriter& json, const Change& change) {
+  json.begin_object();
+  json.member("address", change.parameter->address.name());
+  json.member("name", change.parameter->name);
+  json.member("before", change.before);
+  json.member("requested", change.requested);
+  json.member("after", change.after);
+  json.member("status", name(change.status));
+  json.end_object();
+}
+
+void write_changes(JsonWriter& json, const ChangeResult& result) {
+  json.key("changes");
+  json.begin_array();
+  for (const Change& change : result.changes) {
+    write_change(json, change);
+  }
+  json.end_array();
+  json.member("saved", result.saved);
+}
+
+void write_servo(JsonWriter& json, const ChangeResult& result) {
+  json.member("status", result.is_done() ? "done" : "failed");
+  json.key("node_id_after");
+  result.node_id_after ? json.value(result.node_id_after->value()) : json.value(nullptr);
+  json.key("duration_s");
+  json.number(seconds(result.duration));
+}
+
+void write_warnings(JsonWriter& json, const ChangeResult& result) {
+  if (result.warnings.empty()) {
+    return;
+  }
+  json.key("warnings");
+  json.begin_array();
+  for (const fleet::Warning& warning : result.warnings) {
+    json.begin_object();
+    json.member("code", warning.code);
+    json.member("text", warning.text);
+    json.end_object();
+  }
+  json.end_array();
+}
+
+std::string status_text(ChangeStatus status, bool was_begun, const Page& page) {
+  switch (status) {
+  case ChangeStatus::planned:
+    return was_begun ? say<texts::set_not_written>() : say<texts::set_planned>();
+  case ChangeStatus::unchanged: return say<texts::set_unchanged>();
+  case ChangeStatus::written: return page.paint(Tone::good, say<texts::set_written>());
+  case ChangeStatus::failed: return page.paint(Tone::bad, say<texts::set_failed>());
+  case ChangeStatus::mismatch: return page.paint(Tone::bad, say<texts::set_mismatch>());
+  }
+  return {};
+}
+
+std::string changes_text(const ChangeResult& result, const Page& page) {
+  // In Japanese the specification's name stands beside the one that is typed.
+  const bool shows_names = language() == Language::japanese;
+  std::vector<std::string> header{"", say<texts::column_parameter>(), say<texts::column_before>(),
+                                  "", say<texts::column_after>(),     ""};
+  if (shows_names) {
+    header.push_back(say<texts::column_meaning>());
+  }
+  Table table(std::move(header));
+  for (const Change& change : result.changes) {
+    const bla::Parameter& parameter = *change.parameter;
+    const auto shown = [&](const std::optional<std::int64_t>& raw,
+                           const std::optional<std::int64_t>& mode) {
+      return raw ? bla::register_text(parameter, *raw, mode) : say<texts::unknown_value>();
+    };
+    const bool is_shown = change.is_planned() && !result.was_begun;
+    const auto after = is_shown ? std::optional(change.requested) : change.after;
+    std::vector<std::string> row{parameter.address.name(),
+                                 parameter.name,
+                                 shown(change.before, result.mode_before),
+                                 "->",
+                                 shown(after, result.mode_after),
+                                 status_text(change.status, result.was_begun, page)};
+    if (shows_names) {
+      row.push_back(parameter.name_ja);
+    }
+    table.add(std::move(row));
+  }
+  std::string out = head_line(result.servo) + table.text("  ", page);
+  for (const fleet::Warning& warning : result.warnings) {
+    out += "  ! " + warning.text + '\n';
+  }
+  return out;
+}
+
+std::string end_text(const ChangeResult& result) {
+  if (!result.is_done()) {
+    return result.returned ? say<texts::back_but_failed>(result.returned->value())
+                           : say<texts::servo_failed>();
+  }
+  return result.returned
+             ? say<texts::servo_back>(result.returned->value(), seconds(result.duration))
+             : say<texts::servo_done>();
+}
+
+std::string servo_text(const ChangeResult& result, const Page& page) {
+  std::string out = head_line(result.servo) + "  " +
+                    page.paint(result.is_done() ? Tone::good : Tone::bad, end_text(result));
+  if (result.is_done() && result.values_read > 0) {
+    out += say<texts::values_read_again>(result.values_read);
+  }
+  return out + '\n';
+}
+
+/// SAVE could keep it, a restart ends it.
+bool is_in_ram_only(const Change& change) {
+  return change.status == ChangeStatus::written && change.parameter->saved;
+}
+
+} // namespace
+
+void write_json(JsonWriter& json, ResultView view, std::span<const ChangeResult> results) {
+  json.key("nodes");
+  json.begin_array();
+  for (const ChangeResult& result : results) {
+    json.begin_object();
+    write_head(json, result.servo);
+    view == ResultView::changes ? write_changes(json, result) : write_servo(json, result);
+    write_warnings(json, result);
+    json.end_object();
+  }
+  json.end_array();
+}
+
+std::string text(ResultView view, std::span<const ChangeResult> results, const Page& page) {
+  std::string changes;
+  std::string servos;
+  bool in_ram_only = false;
+  for (const ChangeResult& result : results) {
+    changes += view == ResultView::changes ? changes_text(result, page) : std::string();
+    servos += view == ResultView::servos || result.was_restarted ? servo_text(result, page)
+                                                                 : std::string();
+    in_ram_only = in_ram_only || std::ranges::any_of(result.changes, is_in_ram_only);
+  }
+  if (view == ResultView::servos) {
+    return servos;
+  }
+  if (!servos.empty()) {
+    return changes + say<texts::saving>() + '\n' + servos;
+  }
+  return in_ram_only ? changes + say<texts::not_saved_note>() + '\n' : changes;
+}
+
+} // namespace blactl::cli

@@ -1,0 +1,223 @@
+#include "cli/output/scan_view.hpp"
+
+#include "blactl/base/hex.hpp"
+#include "blactl/bla/profile.hpp"
+
+#include "cli/output/node_head.hpp"
+#include "cli/output/table.hpp"
+#include "cli/texts.hpp"
+
+#include <utility>
+
+namespace blactl::cli {
+
+using dronecan::NodeId;
+using fleet::Conflict;
+using fleet::Finding;
+using fleet::Findings;
+using fleet::Roster;
+
+namespace {
+
+void write_info(JsonWriter& json, const Finding& node) {
+  json.key("info");
+  const auto& now = node.status;
+  if (!node.info && !now) {
+    json.value(nullptr);
+    return;
+  }
+  const auto version = [](unsigned major, unsigned minor) {
+    return fmt::format("{}.{}", major, minor);
+  };
+  const auto& info = node.info;
+  json.begin_object();
+  json.member("name", info ? std::optional(printable(info->name)) : std::nullopt);
+  json.member("uptime_s", now ? std::optional(now->uptime_s) : std::nullopt);
+  const auto mode = now ? name(now->mode) : std::string_view();
+  json.member("mode", mode.empty() ? std::nullopt : std::optional(mode));
+  json.member("health", now ? std::optional(name(now->health)) : std::nullopt);
+  json.member("vendor_status", now ? std::optional(now->vendor_status) : std::nullopt);
+  json.member("software_version",
+              info ? std::optional(version(info->software_major, info->software_minor))
+                   : std::nullopt);
+  json.member("hardware_version",
+              info ? std::optional(version(info->hardware_major, info->hardware_minor))
+                   : std::nullopt);
+  json.end_object();
+}
+
+void write_ids(JsonWriter& json, const char* key, const std::vector<NodeId>& ids) {
+  json.key(key);
+  json.begin_array();
+  for (const NodeId id : ids) {
+    json.value(id.value());
+  }
+  json.end_array();
+}
+
+void write_node(JsonWriter& json, const Finding& node) {
+  json.begin_object();
+  write_head(json, node.servo);
+  json.member("static_node_id", node.servo.static_node_id);
+  json.member("model_certain", node.servo.identity.certain());
+  write_info(json, node);
+  json.key("warnings");
+  json.begin_array();
+  for (const std::string& warning : node.warnings) {
+    json.value(warning);
+  }
+  json.end_array();
+  json.end_object();
+}
+
+std::vector<NodeId> commanders(const Roster& roster) {
+  std::vector<NodeId> out;
+  for (const auto& [id, commander] : roster.commanders()) {
+    out.push_back(id);
+  }
+  return out;
+}
+
+/// "operational ok", each word in the colour of what it tells.
+std::string state_text(const dronecan::NodeStatus& now, const Page& page) {
+  using dronecan::Health;
+  using dronecan::Mode;
+  const Tone mode = now.mode == Mode::operational ? Tone::good
+                    : now.mode == Mode::offline   ? Tone::bad
+                                                  : Tone::warning;
+  const Tone health = now.health == Health::ok        ? Tone::good
+                      : now.health == Health::warning ? Tone::warning
+                                                      : Tone::bad;
+  return page.paint(mode, name(now.mode)) + ' ' + page.paint(health, name(now.health));
+}
+
+/// "BLA21-12U-AB", with a question mark where it is not certain.
+std::string model_text(const Finding& node) {
+  if (node.is_foreign) {
+    return say<texts::foreign_node>(printable(node.info->name));
+  }
+  const std::string model = node.servo.identity.model();
+  return model.empty() ? say<texts::unknown_word>()
+                       : model + (node.servo.identity.certain() ? "" : " ?");
+}
+
+std::vector<std::string> row(const Finding& node, const Page& page) {
+  const fleet::Servo& servo = node.servo;
+  const auto& readings = servo.identity.readings();
+  const bool dynamic = servo.is_servo && servo.static_node_id == 0;
+  return {std::to_string(servo.id.value()),
+          model_text(node),
+          or_text(readings.serial_number, "-"),
+          servo.is_servo ? or_text(servo.servo_id, "-") : "-",
+          readings.firmware_version ? version_text(*readings.firmware_version) : "-",
+          dynamic ? say<texts::dynamic_id>() : or_text(servo.static_node_id, "-"),
+          node.status ? state_text(*node.status, page) : "-",
+          node.status ? fmt::format("{} s", node.status->uptime_s) : "-",
+          servo.unique_id ? hex(*servo.unique_id) : "-"};
+}
+
+} // namespace
+
+void write_json(JsonWriter& json, const Findings& findings) {
+  const Roster& roster = *findings.roster;
+  json.key("nodes");
+  json.begin_array();
+  for (const Finding& node : findings.nodes) {
+    write_node(json, node);
+  }
+  json.end_array();
+  json.key("pending");
+  json.begin_array();
+  for (const auto& prefix : roster.pending()) {
+    json.begin_object();
+    json.member("unique_id_prefix", hex(prefix));
+    json.end_object();
+  }
+  json.end_array();
+  json.key("conflicts");
+  json.begin_array();
+  for (const Conflict& conflict : findings.conflicts) {
+    json.begin_object();
+    json.member("code", name(conflict.code));
+    write_ids(json, "node_ids", conflict.nodes);
+    json.member("text", conflict.text);
+    json.end_object();
+  }
+  json.end_array();
+  write_ids(json, "allocators", {roster.allocators().begin(), roster.allocators().end()});
+  write_ids(json, "commanders", commanders(roster));
+}
+
+std::string csv(const Findings& findings) {
+  auto columns = head_columns();
+  for (const char* name : {"static_node_id", "model_certain", "name", "uptime_s", "mode", "health",
+                           "vendor_status", "software_version", "warnings"}) {
+    columns.emplace_back(name);
+  }
+  std::string out = csv_line(columns);
+  for (const Finding& node : findings.nodes) {
+    auto cells = head_cells(node.servo);
+    const auto& now = node.status;
+    std::string warned;
+    for (const std::string& warning : node.warnings) {
+      warned += (warned.empty() ? "" : "; ") + warning;
+    }
+    for (std::string cell :
+         {or_text(node.servo.static_node_id, ""),
+          std::string(node.servo.identity.certain() ? "true" : "false"),
+          node.info ? printable(node.info->name) : std::string(),
+          now ? std::to_string(now->uptime_s) : std::string(),
+          std::string(now ? name(now->mode) : ""), std::string(now ? name(now->health) : ""),
+          now ? std::to_string(now->vendor_status) : std::string(),
+          node.info ? fmt::format("{}.{}", node.info->software_major, node.info->software_minor)
+                    : std::string(),
+          warned}) {
+      cells.push_back(std::move(cell));
+    }
+    out += csv_line(cells);
+  }
+  return out;
+}
+
+std::string text(const Findings& findings, const Page& page) {
+  const Roster& roster = *findings.roster;
+  const std::string sign = page.paint(Tone::warning, "!");
+  std::string out;
+  if (!findings.nodes.empty()) {
+    Table table({say<texts::column_node>(), say<texts::column_model>(), say<texts::column_serial>(),
+                 say<texts::column_servo_id>(), say<texts::column_firmware>(),
+                 say<texts::column_static_id>(), say<texts::column_state>(),
+                 say<texts::column_uptime>(), say<texts::column_unique_id>()});
+    for (const Finding& node : findings.nodes) {
+      table.add(row(node, page));
+    }
+    out += table.text("", page);
+  }
+  for (const Finding& node : findings.nodes) {
+    for (const std::string& warning : node.warnings) {
+      out += fmt::format("{} {}: {}\n", sign, node.servo.id.value(), warning);
+    }
+  }
+  const auto line = [&](const std::string& what) { out += fmt::format("{} {}\n", sign, what); };
+  for (const Conflict& conflict : findings.conflicts) {
+    line(conflict.text);
+  }
+  for (const auto& prefix : roster.pending()) {
+    line(say<texts::waits_for_id>(hex(prefix)));
+  }
+  if (!roster.pending().empty()) {
+    line(say<texts::more_may_wait>());
+  }
+  for (const NodeId id : roster.allocators()) {
+    line(say<texts::allocates>(id.value()));
+  }
+  for (const NodeId id : commanders(roster)) {
+    line(say<texts::commands_servos>(id.value()));
+  }
+  if (const auto by = roster.armed_by()) {
+    line(say<texts::says_armed>(by->value()));
+  }
+  return out;
+}
+
+} // namespace blactl::cli

@@ -1,0 +1,41 @@
+#include "cli/trace/type_name.hpp"
+
+#include <algorithm>
+
+namespace blactl::cli {
+namespace {
+
+char lower(char c) {
+  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
+
+bool ends_with(std::string_view name, std::string_view end) {
+  return name.size() >= end.size() &&
+         std::ranges::equal(name.substr(name.size() - end.size()), end, {}, lower, lower);
+}
+
+} // namespace
+
+bool means(std::string_view typed, std::string_view name) {
+  return !typed.empty() && ends_with(name, typed) &&
+         (name.size() == typed.size() || name[name.size() - typed.size() - 1] == '.');
+}
+
+std::string_view short_name(const dronecan::DataType& type) {
+  const std::string_view name = type.name;
+  auto dot = name.rfind('.');
+  while (dot != std::string_view::npos) {
+    const std::string_view end = name.substr(dot + 1);
+    const bool is_shared =
+        std::ranges::any_of(dronecan::standard_types(), [&](const dronecan::DataType& other) {
+          return other.name != name && means(end, other.name);
+        });
+    if (!is_shared) {
+      return end;
+    }
+    dot = dot == 0 ? std::string_view::npos : name.rfind('.', dot - 1);
+  }
+  return name;
+}
+
+} // namespace blactl::cli

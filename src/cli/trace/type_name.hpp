@@ -1,0 +1,18 @@
+#pragma once
+// Names of data types as people read and type them.
+
+#include "blactl/dronecan/standard_types.hpp"
+
+#include <string_view>
+
+namespace blactl::cli {
+
+/// The end of the type's name, as short as it tells the type from all others: "NodeStatus",
+/// "actuator.Status", "esc.Status".
+[[nodiscard]] std::string_view short_name(const dronecan::DataType& type);
+
+/// Whether `typed` is the whole name or its last parts, in letters of either case:
+/// "uavcan.protocol.param.GetSet", "param.getset", "GetSet".
+[[nodiscard]] bool means(std::string_view typed, std::string_view name);
+
+} // namespace blactl::cli

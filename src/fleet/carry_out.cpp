@@ -1,0 +1,163 @@
+#include "blactl/fleet/carry_out.hpp"
+
+#include "blactl/dronecan/allocator.hpp"
+#include "blactl/fleet/discovery.hpp"
+#include "blactl/fleet/texts.hpp"
+#include "blactl/fleet/ticker.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <list>
+#include <ranges>
+#include <utility>
+
+namespace blactl::fleet {
+
+using dronecan::NodeId;
+using dronecan::UniqueId;
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr Duration start_up_time = 5s;
+constexpr Duration allocation_time = 2s; // one servo after the other, about 1 s each
+constexpr Duration leaving_time = 20ms;
+
+/// The IDs that the servos had: each gets its own again, and nobody else gets any.
+class FormerIds final : public dronecan::AllocationTable {
+ public:
+  FormerIds(const Roster& roster, std::span<const Plan> plans) : roster_(roster) {
+    for (const Plan& plan : plans) {
+      if (const Servo& servo = plan.before.servo; servo.unique_id) {
+        ids_.emplace_back(*servo.unique_id, servo.id);
+      }
+    }
+  }
+
+  [[nodiscard]] bool serves(dronecan::Bytes prefix) const override {
+    return std::ranges::any_of(ids_ | std::views::keys, [&](const UniqueId& unique_id) {
+      return std::ranges::equal(std::span(unique_id).first(prefix.size()), prefix);
+    });
+  }
+
+  [[nodiscard]] std::optional<NodeId> assign(const UniqueId& unique_id) override {
+    const auto it = std::ranges::find(ids_, unique_id, &std::pair<UniqueId, NodeId>::first);
+    if (it == ids_.end()) {
+      return std::nullopt;
+    }
+    // Somebody else may have taken the ID in the meantime, and not have said yet who it is.
+    const Member* now = roster_.find(it->second);
+    const bool is_taken = now != nullptr && !now->is_unit(unique_id);
+    return is_taken ? std::nullopt : std::optional(it->second);
+  }
+
+ private:
+  const Roster& roster_;
+  std::vector<std::pair<UniqueId, NodeId>> ids_;
+};
+
+/// Whether this servo will have to ask for a node ID when it starts, as far as is known.
+bool will_ask_for_id(const Plan& plan) {
+  if (!plan.restart) {
+    return false;
+  }
+  const auto expected = bla::find(plan.expected, bla::address::static_node_id);
+  const auto id = expected ? expected : plan.before.raw(bla::address::static_node_id);
+  // What ROM holds is not known before a restart; an ID that is the static one comes from there.
+  return id.value_or(0) == 0 ||
+         (plan.restart == RestartKind::restart && *id != plan.before.servo.id.value());
+}
+
+Duration come_back_time(std::span<const Plan> plans) {
+  return start_up_time + std::ranges::count_if(plans, will_ask_for_id) * allocation_time;
+}
+
+/// What of the last requests waits in the kernel's queue may still take effect.
+std::optional<Error> check_sent(Session& session) {
+  // A NodeStatus of ours may just be due: it is no write, and leaves at once where anything does.
+  if (session.unsent() > 0) {
+    if (const auto lived = session.live_until(session.now() + leaving_time); !lived) {
+      return lived.error();
+    }
+  }
+  const std::size_t frames = session.unsent();
+  return frames == 0 ? std::nullopt
+                     : std::optional(Error{Code::no_acknowledge,
+                                           say<texts::not_written>(frames, session.interface()),
+                                           {},
+                                           std::nullopt});
+}
+
+Progress progress_of(const std::list<ChangeJob>& jobs, Duration elapsed) {
+  Progress progress{.servos = jobs.size(), .elapsed = elapsed};
+  for (const ChangeJob& job : jobs) {
+    if (job.has_ended()) {
+      ++progress.ended;
+    } else {
+      (job.is_away() ? progress.away : progress.at_work).push_back(job.result().servo.id);
+    }
+  }
+  return progress;
+}
+
+} // namespace
+
+CarriedOut carry_out(Session& session, const bla::Profiles& profiles, std::span<const Plan> plans,
+                     const Manner& manner) {
+  FormerIds table(session.roster(), plans);
+  dronecan::Allocator allocator(session.node(), table);
+  if (manner.may_allocate && session.roster().allocators().empty()) {
+    session.attach(allocator);
+  }
+  Discovery recogniser(session, profiles, manner.identification);
+  if (std::ranges::any_of(plans, [](const Plan& plan) { return plan.restart.has_value(); })) {
+    recogniser.recognise();
+  }
+  RestartPace pace{.distance = manner.stagger};
+  ChangeJob::Options options{.identification = manner.identification,
+                             .come_back = manner.come_back.value_or(come_back_time(plans)),
+                             .pace = &pace};
+  std::list<ChangeJob> jobs;
+  std::vector<dronecan::Job*> group;
+  for (const Plan& plan : plans) {
+    options.start = session.now() + static_cast<Duration::rep>(jobs.size()) * manner.stagger;
+    group.push_back(&jobs.emplace_back(session.records(), profiles, plan, options));
+  }
+  const Ticker ticker(session, 1s, [&, begin = session.now()] {
+    if (manner.progress) {
+      manner.progress(progress_of(jobs, session.now() - begin));
+    }
+  });
+  const auto ran = session.run(group);
+  session.detach(allocator);
+  CarriedOut carried_out;
+  for (const ChangeJob& job : jobs) {
+    carried_out.servos.push_back(job.result());
+  }
+  carried_out.broken = ran ? check_sent(session) : std::optional(ran.error());
+  return carried_out;
+}
+
+Snapshots take_snapshots(Session& session, const bla::Profiles& profiles,
+                         std::span<const NodeId> servos, const Identification::Options& options,
+                         const ReadJob::Choice& choice) {
+  using Proof = ReadJob::Proof;
+  const Proof proof = session.is_recording() ? Proof::none : Proof::moment;
+  std::list<ReadJob> jobs;
+  std::vector<dronecan::Job*> group;
+  for (const NodeId id : servos) {
+    group.push_back(&jobs.emplace_back(session.records(), id, profiles, options, choice, proof));
+  }
+  const auto ran = session.run(group);
+  Snapshots snapshots;
+  for (const ReadJob& job : jobs) {
+    snapshots.servos.push_back(job.snapshot());
+  }
+  if (!ran) {
+    snapshots.broken = ran.error();
+  }
+  return snapshots;
+}
+
+} // namespace blactl::fleet

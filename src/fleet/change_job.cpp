@@ -1,0 +1,316 @@
+#include "blactl/fleet/change_job.hpp"
+
+#include "blactl/base/hex.hpp"
+#include "blactl/fleet/texts.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace blactl::fleet {
+
+using dronecan::Outcome;
+using dronecan::Step;
+
+namespace {
+
+bool has_failed(const std::vector<Change>& changes) {
+  return std::ranges::any_of(changes,
+                             [](const Change& change) { return change.error.has_value(); });
+}
+
+/// What ERASE leaves; the IDs are written again after it.
+bla::Values expected_after_erase(const Plan& plan) {
+  bla::Values expected = plan.expected;
+  for (const Change& change : plan.changes) {
+    expected[change.parameter->address] = change.before.value_or(0);
+  }
+  return expected;
+}
+
+} // namespace
+
+ChangeJob::ChangeJob(Roster& roster, const bla::Profiles& profiles, const Plan& plan,
+                     Options options)
+    : roster_(roster), profiles_(profiles), plan_(plan), options_(options),
+      servo_(plan.before.servo), result_(as_planned(plan)) {
+  result_.was_begun = true;
+}
+
+Step ChangeJob::next(const Outcome& outcome) {
+  if (stage_ == Stage::begin) {
+    begin_ = outcome.at;
+    return enter(first_stage(), outcome.at);
+  }
+  Step step = job_->next(outcome);
+  if (!step.is_end()) {
+    return step;
+  }
+  return enter(conclude_stage(outcome.kind == Outcome::Kind::cancelled), outcome.at);
+}
+
+bool ChangeJob::must_finish() const {
+  return stage_ == Stage::read_back || (stage_ == Stage::restart && restart_->must_finish());
+}
+
+ChangeJob::Stage ChangeJob::first_stage() const {
+  return plan_.erase ? Stage::erase : after_erase();
+}
+
+ChangeJob::Stage ChangeJob::after_erase() const {
+  return plan_.changes.empty() ? after_write() : Stage::write;
+}
+
+ChangeJob::Stage ChangeJob::after_write() const {
+  return plan_.restart ? Stage::restart : Stage::end;
+}
+
+std::unique_ptr<RestartJob> ChangeJob::restart() const {
+  const auto given = bla::find(plan_.expected, bla::address::static_node_id);
+  RestartJob::Options options{.kind = *plan_.restart,
+                              .start = options_.start,
+                              .come_back = options_.come_back,
+                              .patience = options_.identification.patience,
+                              .pace = options_.pace};
+  if (given.value_or(0) != 0) {
+    options.expected = dronecan::NodeId(static_cast<std::uint8_t>(*given));
+  }
+  return std::make_unique<RestartJob>(roster_, servo_, options);
+}
+
+/// Begins a stage; one that has nothing to ask is over at once.
+Step ChangeJob::enter(Stage stage, Time now) {
+  for (;; stage = conclude_stage(false)) {
+    stage_ = stage;
+    const Patience patience = options_.identification.patience;
+    switch (stage) {
+    case Stage::erase:
+      job_ = (erase_ = std::make_unique<EraseJob>(roster_, servo_, patience)).get();
+      break;
+    case Stage::write:
+      job_ = (write_ = std::make_unique<WriteJob>(roster_, servo_, plan_.changes, patience)).get();
+      break;
+    case Stage::restart:
+      result_.was_restarted = true;
+      job_ = (restart_ = restart()).get();
+      break;
+    case Stage::read_erased:
+    case Stage::look: job_ = (read_ = read_configuration(servo_.id, false)).get(); break;
+    case Stage::read_back:
+      job_ = (read_ = read_configuration(*result_.returned, true)).get();
+      break;
+    case Stage::begin:
+    case Stage::end: return std::nullopt;
+    }
+    if (Step step = job_->next({Outcome::Kind::start, {}, now}); !step.is_end()) {
+      return step;
+    }
+  }
+}
+
+ChangeJob::Stage ChangeJob::conclude_stage(bool cancelled) {
+  const Stage ended = stage_;
+  Stage following = Stage::end;
+  switch (ended) {
+  case Stage::erase: following = conclude_erase(); break;
+  case Stage::read_erased: following = conclude_read_erased(); break;
+  case Stage::write: following = conclude_write(); break;
+  case Stage::restart: following = conclude_restart(); break;
+  case Stage::look: following = conclude_look(); break;
+  case Stage::read_back: conclude_read_back(); break;
+  case Stage::begin:
+  case Stage::end: break;
+  }
+  blame_other_writer();
+  if (!cancelled) {
+    return following;
+  }
+  explain_interruption(ended);
+  return Stage::end;
+}
+
+ChangeJob::Stage ChangeJob::conclude_erase() {
+  result_.error = erase_->error();
+  return result_.error ? Stage::end : Stage::read_erased;
+}
+
+/// Where the registers show that a request without an answer was not carried out it is sent once
+/// more.
+ChangeJob::Stage ChangeJob::conclude_read_erased() {
+  take_reading(read_->snapshot());
+  result_.error = compare(read_->snapshot(), expected_after_erase(plan_));
+  result_.is_verified = !result_.error;
+  result_.values_read = plan_.expected.size();
+  if (!result_.error) {
+    servo_ = read_->snapshot().servo;
+    return after_erase();
+  }
+  const bool ignored = result_.error->code == Code::mismatch && !erase_->is_confirmed();
+  if (ignored && std::exchange(may_erase_again_, false)) {
+    return Stage::erase;
+  }
+  const std::uint8_t id = servo_.id.value();
+  const bool has_restarted = roster_.member(servo_.id).boots != plan_.before.servo.boot;
+  if (result_.error->code == Code::mismatch && has_restarted) {
+    result_.error =
+        Error{Code::state, say<texts::erased_no_more>(id), say<texts::run_again_hint>(), id};
+  } else if (ignored) {
+    result_.error = Error{Code::timeout, say<texts::opcode_ignored>(id, "ERASE"),
+                          say<texts::no_answer_hint>(), id};
+  }
+  return Stage::end;
+}
+
+ChangeJob::Stage ChangeJob::conclude_write() {
+  result_.changes = write_->changes();
+  servo_ = write_->servo();
+  for (const Change& change : result_.changes) {
+    if (change.parameter->address == bla::address::static_node_id && change.after) {
+      roster_.learn_static_node_id(plan_.before.servo.id, change.after);
+    }
+    if (change.parameter->address == bla::address::servo_id && change.after && plan_.erase) {
+      result_.servo.servo_id = change.after;
+    }
+  }
+  const std::uint8_t id = plan_.before.servo.id.value();
+  if (plan_.erase && roster_.member(plan_.before.servo.id).boots != plan_.before.servo.boot) {
+    result_.error =
+        Error{Code::state, say<texts::erased_no_more>(id), say<texts::run_again_hint>(), id};
+  }
+  result_.is_verified = !result_.error && !has_failed(result_.changes);
+  return result_.is_verified ? after_write() : Stage::end;
+}
+
+ChangeJob::Stage ChangeJob::conclude_restart() {
+  constexpr int most_looks = 3;
+  if (restart_->is_unproven() && ++looks_ <= most_looks) {
+    return Stage::look;
+  }
+  result_.error = restart_->error();
+  if (restart_->is_unproven()) {
+    const std::uint8_t id = servo_.id.value();
+    result_.error = Error{Code::state, say<texts::restarts_while_read>(id),
+                          say<texts::restarts_again_hint>(), id};
+  }
+  result_.duration = restart_->duration();
+  result_.returned = result_.node_id_after = restart_->returned();
+  if (!restart_->is_sent() || restart_->has_run_on()) {
+    result_.node_id_after = servo_.id; // it stayed
+  }
+  result_.is_verified = *plan_.restart == RestartKind::restart && !result_.error;
+  if (result_.error && restart_->is_sent() && !restart_->has_run_on()) {
+    doubt_changes();
+  }
+  const bool reads = *plan_.restart == RestartKind::save && !result_.error && result_.returned;
+  return reads ? Stage::read_back : Stage::end;
+}
+
+/// Values that differ where another node wrote are neither the servo's fault nor ROM's.
+void ChangeJob::blame_other_writer() {
+  const bool differs = result_.error && (result_.error->code == Code::mismatch ||
+                                         result_.error->code == Code::state);
+  const dronecan::NodeId servo = servo_.id;
+  if (const auto writer = roster_.writer_to(servo, begin_); differs && writer) {
+    result_.error = Error{Code::state, say<texts::other_writer>(servo.value(), writer->value()),
+                          say<texts::other_writer_hint>(), servo.value()};
+  }
+}
+
+/// Before SAVE: RAM must still hold what is to be saved.
+ChangeJob::Stage ChangeJob::conclude_look() {
+  const Snapshot& now = read_->snapshot();
+  const std::uint8_t id = servo_.id.value();
+  auto difference = compare(now, plan_.expected);
+  if (!difference) {
+    servo_ = now.servo;
+    return Stage::restart;
+  }
+  const bool has_restarted = now.has_restarted || now.servo.boot != servo_.boot;
+  result_.error = difference->code == Code::mismatch
+                      ? Error{Code::state,
+                              has_restarted ? say<texts::restarted_before_save>(id)
+                                            : say<texts::changed_before_save>(id),
+                              say<texts::run_again_hint>(), id}
+                      : std::move(*difference);
+  result_.is_verified = false;
+  tell_saved(now);
+  return Stage::end;
+}
+
+void ChangeJob::conclude_read_back() {
+  const Snapshot& now = read_->snapshot();
+  take_reading(now);
+  result_.values_read = plan_.expected.size();
+  result_.error = compare(now, plan_.expected);
+  // What RAM has shown before and does not show now, ROM has not taken.
+  if (auto unreadable = check_rom(now)) {
+    result_.error = std::move(unreadable);
+  } else if (result_.error && result_.error->code == Code::mismatch) {
+    result_.error->hint = say<texts::rom_differs_hint>();
+  }
+  result_.saved = result_.is_verified = !result_.error;
+  if (result_.error) {
+    tell_saved(now);
+  }
+}
+
+/// What the registers of the changes hold now, after a SAVE that went wrong.
+void ChangeJob::tell_saved(const Snapshot& now) {
+  doubt_changes();
+  for (Change& change : result_.changes) {
+    if (const auto raw = now.raw(change.parameter->address)) {
+      change.after = raw;
+      change.status = *raw == change.requested ? ChangeStatus::written : ChangeStatus::mismatch;
+    }
+  }
+}
+
+/// The servo restarted, or may have: what was written was in RAM.
+void ChangeJob::doubt_changes() {
+  for (Change& change : result_.changes) {
+    change.after = std::nullopt;
+    change.status = ChangeStatus::failed;
+  }
+}
+
+/// What was not reached, where the stage itself cannot tell.
+void ChangeJob::explain_interruption(Stage at) {
+  const std::uint8_t id = servo_.id.value();
+  const std::string uid = servo_.unique_id ? hex(*servo_.unique_id) : std::string();
+  const bool is_unsaved =
+      at == Stage::write || at == Stage::look || (at == Stage::restart && !restart_->is_sent());
+  const auto interrupted = [&](std::string message) {
+    result_.error =
+        Error{Code::interrupted, std::move(message), say<texts::what_it_holds_hint>(uid), id};
+  };
+  if (at == Stage::read_back) {
+    interrupted(say<texts::saved_not_verified>(id));
+  } else if ((at == Stage::erase && erase_->is_sent()) || at == Stage::read_erased) {
+    interrupted(say<texts::erased_not_verified>(id));
+  } else if (plan_.erase && is_unsaved) {
+    interrupted(say<texts::erased_not_saved>(id));
+  } else if (is_unsaved && at != Stage::write && !plan_.changes.empty()) {
+    interrupted(say<texts::not_saved>(id));
+  }
+}
+
+void ChangeJob::take_reading(const Snapshot& now) {
+  if (const auto servo_id = now.raw(bla::address::servo_id)) {
+    result_.servo.servo_id = servo_id;
+  }
+  roster_.learn_static_node_id(now.servo.id, now.raw(bla::address::static_node_id));
+}
+
+/// The configuration; after a save also whether ROM could be read.
+std::unique_ptr<ReadJob> ChangeJob::read_configuration(dronecan::NodeId id, bool after_save) {
+  return std::make_unique<ReadJob>(
+      roster_, id, profiles_, options_.identification,
+      [after_save](const Servo& servo) -> Result<std::vector<const bla::Parameter*>> {
+        auto parameters = servo.identity.configuration();
+        if (const auto* rom = rom_state(servo.identity); after_save && rom != nullptr) {
+          parameters.push_back(rom);
+        }
+        return parameters;
+      });
+}
+
+} // namespace blactl::fleet

@@ -1,0 +1,149 @@
+#include "blactl/fleet/findings.hpp"
+
+#include "blactl/bla/defect.hpp"
+#include "blactl/fleet/guard.hpp"
+#include "blactl/fleet/texts.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <iterator>
+#include <map>
+#include <utility>
+
+namespace blactl::fleet {
+
+using dronecan::NodeId;
+
+namespace {
+
+std::string list(const std::vector<NodeId>& nodes) {
+  std::string out;
+  for (const NodeId id : nodes) {
+    out += out.empty() ? "" : ", ";
+    out += std::to_string(id.value());
+  }
+  return out;
+}
+
+/// Servos that share the number that `key` gives.
+template <const Text& text>
+void find_shared(const Roster& roster, Code code,
+                 const std::function<std::optional<std::int64_t>(const Member&)>& key,
+                 std::vector<Conflict>& conflicts) {
+  std::map<std::int64_t, std::vector<NodeId>> holders;
+  for (const auto& [id, member] : roster.members()) {
+    const bool is_one = member.is_servo && !roster.is_doubled(id);
+    if (const auto number = is_one ? key(member) : std::nullopt) {
+      holders[*number].push_back(id);
+    }
+  }
+  for (auto& [number, nodes] : holders) {
+    if (nodes.size() > 1) {
+      std::string said = say<text>(list(nodes), number);
+      std::string hint = code == Code::duplicate_servo_id
+                             ? say<texts::doubled_servo_id_hint>(nodes.back().value())
+                             : say<texts::doubled_target_hint>();
+      conflicts.push_back({code, std::move(nodes), std::move(said), std::move(hint)});
+    }
+  }
+}
+
+std::vector<Conflict> find_conflicts(const Roster& roster) {
+  std::vector<Conflict> conflicts;
+  for (const NodeId id : roster.doubled()) {
+    Error error = doubled(roster, id);
+    conflicts.push_back({error.code, {id}, std::move(error.message), std::move(error.hint)});
+  }
+  const auto static_id = [](const Member& member) {
+    return member.static_node_id.value_or(0) != 0 ? member.static_node_id : std::nullopt;
+  };
+  find_shared<texts::doubled_static_id>(roster, Code::duplicate_node_id, static_id, conflicts);
+  find_shared<texts::doubled_servo_id>(
+      roster, Code::duplicate_servo_id, [](const Member& member) { return member.servo_id; },
+      conflicts);
+  return conflicts;
+}
+
+Finding finding(const Member& member, Time now) {
+  Finding found{.servo = member.servo(),
+                .info = member.info,
+                .status = status(member),
+                .is_foreign = member.identified && !member.is_servo && member.info,
+                .is_offline = now - member.last_heard >= offline_time,
+                .warnings = warnings(member)};
+  if (found.is_offline) {
+    const auto silence = std::chrono::duration_cast<std::chrono::seconds>(now - member.last_heard);
+    found.warnings.push_back(say<texts::warn_offline>(silence.count()));
+    if (found.status) {
+      found.status->mode = dronecan::Mode::offline;
+    }
+  }
+  return found;
+}
+
+/// The units on an ID that several share.
+std::vector<Finding> units_on(const Roster& roster, const Member& member) {
+  const Servo unknown{.id = member.id,
+                      .is_servo = member.is_servo || member.sends_actuator_status()};
+  std::vector<Finding> units;
+  for (const dronecan::UniqueId& unique_id : roster.units(member.id)) {
+    units.push_back({.servo = unknown});
+    units.back().servo.unique_id = unique_id;
+  }
+  return units.empty() ? std::vector<Finding>(2, {.servo = unknown}) : units;
+}
+
+} // namespace
+
+/// The newest status: heard by itself, else the one of GetNodeInfo.
+std::optional<dronecan::NodeStatus> status(const Member& member) {
+  if (member.status) {
+    return member.status;
+  }
+  return member.info ? std::optional(member.info->status) : std::nullopt;
+}
+
+std::vector<std::string> warnings(const Member& member) {
+  std::vector<std::string> out;
+  if (const auto now = status(member); now && now->health != dronecan::Health::ok) {
+    out.push_back(say<texts::warn_health>(dronecan::name(now->health)));
+  }
+  if (!member.is_servo) {
+    return out;
+  }
+  const bla::Identity& identity = member.identity;
+  const auto& readings = identity.readings();
+  const std::string model = identity.model();
+  if (model.empty()) {
+    out.push_back(say<texts::warn_unknown_model>());
+  } else if (!identity.certain() && readings.hardware_version) {
+    out.push_back(say<texts::warn_uncertain_model>(*readings.hardware_version));
+  }
+  if (bla::may_stall(identity)) {
+    out.push_back(say<texts::warn_stall>(bla::firmware_text(*readings.firmware_version)));
+  }
+  if (member.static_node_id.value_or(0) != 0 && *member.static_node_id != member.id.value()) {
+    out.push_back(say<texts::warn_static_id_differs>(*member.static_node_id));
+  }
+  return out;
+}
+
+Findings gather(const Roster& roster, const Targets& targets, const bla::Profiles& profiles,
+                Time now) {
+  Findings findings{&roster, {}, {}};
+  for (const auto& [id, member] : roster.members()) {
+    if (!roster.heard(id) || (targets.given && !targets.mean(member, profiles))) {
+      continue;
+    }
+    if (roster.is_doubled(id)) {
+      std::ranges::move(units_on(roster, member), std::back_inserter(findings.nodes));
+    } else {
+      findings.nodes.push_back(finding(member, now));
+    }
+  }
+  findings.conflicts = find_conflicts(roster);
+  return findings;
+}
+
+} // namespace blactl::fleet

@@ -1,0 +1,27 @@
+#include "blactl/fleet/result.hpp"
+
+namespace blactl::fleet {
+
+std::vector<Error> ChangeResult::errors() const {
+  std::vector<Error> all;
+  for (const Change& change : changes) {
+    if (change.error) {
+      all.push_back(*change.error);
+    }
+  }
+  if (error) {
+    all.push_back(*error);
+  }
+  return all;
+}
+
+ChangeResult as_planned(const Plan& plan) {
+  return {.servo = plan.before.servo,
+          .changes = plan.changes,
+          .mode_before = plan.mode_before,
+          .mode_after = plan.mode_after,
+          .warnings = plan.warnings,
+          .node_id_after = plan.before.servo.id};
+}
+
+} // namespace blactl::fleet

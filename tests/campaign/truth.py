@@ -1,0 +1,108 @@
+"""What servos held and went through while commands ran, as whoever plays them tells it."""
+
+# Between a frame in a servo's time and in a client's; less than the shortest start takes.
+TOLERANCE_S = 0.03
+SETTLED_S = 3.0  # after this a servo that has started has sent its first NodeStatus, and some more
+
+
+class Step:
+    """One step of an episode. `before`, `after`: the state of every servo by its serial number;
+    `events`: what happened to them between; `scenario`: what was to go wrong after `power_on`."""
+
+    def __init__(self, before, events, after, scenario, power_on):
+        self.before, self.after = before, after
+        self._events, self._scenario, self._power_on = events, scenario, power_on
+
+    def restarts(self, serial):
+        """The times."""
+        return [line["time"] for line in self._events
+                if line["event"] == "restart" and line["serial_number"] == serial]
+
+    def rom_writes(self, serial):
+        return self.after[serial]["count"] - self.before[serial]["count"]
+
+    def node_ids(self, serial):
+        """All that it had."""
+        ids = {line["node_id"] for line in self._events if line["serial_number"] == serial}
+        return (ids | {self.before[serial]["node_id"], self.after[serial]["node_id"]}) - {0}
+
+    def saved_addresses(self, serial):
+        return self.after[serial]["rom"].keys()
+
+    # What a client can know.
+
+    def restarted_unheard(self, serial, heard):
+        """Whether it restarted when nothing of it was heard any more that could tell: of that no
+        client knows, and what it had said before was true."""
+        last = max(heard.times_of(self.node_ids(serial)), default=0.0)
+        return any(time > last - TOLERANCE_S for time in self.restarts(serial))
+
+    def ram_at_first_contact(self, serial, heard):
+        """What was in RAM when the command first heard of the servo; None: initial values."""
+        first = min(heard.times_of(self.node_ids(serial)), default=float("inf"))
+        before = self.before[serial]
+        if not any(time < first + TOLERANCE_S for time in self.restarts(serial)):
+            return before["ram"]
+        return None if has_lost_rom(before) else before["rom"]
+
+    def moments(self, serial):
+        """Every content that RAM had, if nobody wrote."""
+        contents = [self.before[serial]["ram"], self.after[serial]["ram"]]
+        if self.restarts(serial):
+            known = self.before[serial]["ram"]
+            contents.append({**known, **self.before[serial]["rom"]})
+        return contents
+
+    # Two servos under one node ID.
+
+    def is_doubled(self, serial, heard):
+        """Whether it shared its node ID with another for so long that a client can know."""
+        return any(self._is_pair(serial, other, heard) for other in self.after if other != serial)
+
+    def _is_pair(self, one, other, heard):
+        ended = self.after[one]["node_id"] == self.after[other]["node_id"] != 0
+        if not ended:
+            return False
+        begun = self.before[one]["node_id"] == self.before[other]["node_id"] != 0
+        accidents = self._accidents(one) + self._accidents(other)
+        ordered = heard.changes() and (self.restarts(one) or self.restarts(other))
+        if not begun and not ordered:
+            accidents.append(self._start())  # it was still starting then
+        return all(time + SETTLED_S < heard.end for time in accidents)
+
+    def _start(self):
+        return min(state["time"] for state in self.before.values())
+
+    def _accidents(self, serial):
+        """When it may have come or gone without the client, up to the end of the step; the step's
+        restarts only if a fault may have caused them."""
+        start = self._start()
+        end = max(state["time"] for state in self.after.values())
+        faults = self._faults(serial)
+        delay = seconds(faults.get("return_delay", "0s"))
+        times = [self._power_on + seconds(event["at"]) for event in self._scenario.get("events", [])
+                 if event.get("servo") == serial]
+        times = [time + delay for time in times if start - SETTLED_S - delay < time <= end]
+        if any(name in faults for name in ("restart_after_answer", "restart_instead_of_answer",
+                                           "power_loss_in_save", "return_delay")):
+            times += [time + delay for time in self.restarts(serial)]
+        return times
+
+    def _faults(self, serial):
+        return next(servo.get("faults", {}) for servo in self._scenario["servos"]
+                    if servo["serial_number"] == serial)
+
+
+def has_lost_rom(state):
+    """0x1A.15: what ROM holds could not be loaded, so RAM has the initial values."""
+    return bool(state["ram"]["0x1A"] >> 15 & 1)
+
+
+def seconds(text):
+    """Of a scenario's time: "500ms", "3s", or microseconds."""
+    if isinstance(text, int):
+        return text / 1e6
+    for unit, factor in (("ms", 1e-3), ("us", 1e-6), ("s", 1.0)):
+        if text.endswith(unit):
+            return float(text.removesuffix(unit)) * factor
+    raise ValueError(text)

@@ -1,0 +1,63 @@
+#include "blactl/base/json_writer.hpp"
+
+#include "catch.hpp"
+#include "cli/output/page.hpp"
+#include "cli/output/result_view.hpp"
+#include "unit/bla/built_in.hpp"
+
+#include <span>
+#include <string>
+#include <string_view>
+
+using namespace blactl;
+using cli::ResultView;
+using fleet::ChangeResult;
+using fleet::ChangeStatus;
+
+namespace {
+
+/// Servo 11, of which this register was set to 1.
+ChangeResult written(const char* name) {
+  ChangeResult result;
+  result.servo.id = dronecan::NodeId(11);
+  fleet::Change change;
+  change.parameter = &test::parameter(name);
+  change.before = 0;
+  change.requested = 1;
+  change.after = 1;
+  change.status = ChangeStatus::written;
+  result.changes = {change};
+  return result;
+}
+
+std::string text_of(const ChangeResult& result) {
+  return cli::text(ResultView::changes, std::span(&result, 1), cli::Page());
+}
+
+std::string json_of(const ChangeResult& result) {
+  std::string out;
+  JsonWriter json(out);
+  json.begin_object();
+  cli::write_json(json, ResultView::changes, std::span(&result, 1));
+  json.end_object();
+  return out;
+}
+
+bool has(const std::string& whole, std::string_view part) {
+  return whole.find(part) != std::string::npos;
+}
+
+} // namespace
+
+TEST_CASE("that values are in RAM only is said of those that SAVE could keep") {
+  CHECK(has(text_of(written("reverse")), "in RAM only"));
+  CHECK_FALSE(has(text_of(written("command_angle")), "in RAM only"));
+}
+
+TEST_CASE("a warning stands beside the changes that it is about") {
+  ChangeResult result = written("speed_p_gain");
+  CHECK_FALSE(has(json_of(result), "warnings"));
+  result.warnings = {{"leave_at_default", "better not"}};
+  CHECK(has(text_of(result), "\n  ! better not\n"));
+  CHECK(has(json_of(result), R"("warnings":[{"code":"leave_at_default","text":"better not"}])"));
+}

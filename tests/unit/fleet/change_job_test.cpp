@@ -1,0 +1,784 @@
+#include "blactl/fleet/change_job.hpp"
+
+#include "support.hpp"
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+using namespace blactl;
+using namespace blactl::fleet;
+using namespace blactl::fleet::test;
+using dronecan::ExecuteOpcode;
+using dronecan::RestartNode;
+namespace at = bla::address;
+
+namespace {
+
+/// One servo and the job that changes it, without a bus: the servo answers when the test says so.
+class Bench {
+ public:
+  explicit Bench(const Wanted& wanted, const bla::Values& held = {})
+      : rom(*bla21().identity.factory_defaults()), known_(prepare()) {
+    for (const auto& [address, raw] : held) {
+      rom[address] = raw;
+    }
+    ram = rom;
+    plan = plan_for(wanted, ram, known_.servo);
+    job.emplace(known_.roster, profiles(), plan,
+                ChangeJob::Options{.identification = {}, .come_back = 5s, .pace = nullptr});
+    ask({Outcome::Kind::start, {}, {}});
+  }
+
+  /// Answers as the servo does until the job asks for this; it is not answered.
+  void until(std::string_view question) {
+    while (asked.back() != question) {
+      INFO(question);
+      REQUIRE(asked.back() != "nothing");
+      answer();
+    }
+  }
+
+  /// To the end.
+  const ChangeResult& finish() {
+    until("nothing");
+    return job->result();
+  }
+
+  /// Answers what is asked; comes back from a restart that is waited for.
+  void answer() {
+    if (step_.request() == nullptr) {
+      is_away_ ? come_back() : time_is_over();
+      return;
+    }
+    ask(script_.answer(reply(*step_.request())));
+  }
+
+  void time_out() { ask(Script::timed_out()); }
+
+  /// No answer to anything, to the end.
+  void fall_silent() {
+    while (asked.back() != "nothing") {
+      step_.pause() != nullptr ? time_is_over() : time_out();
+    }
+  }
+
+  /// The pause is over, nothing has been heard.
+  void time_is_over() {
+    REQUIRE(step_.pause() != nullptr);
+    known_.now = step_.pause()->until;
+    ask({Outcome::Kind::woken, {}, {}});
+  }
+
+  const ChangeResult& cancel() {
+    ask(Script::cancelled());
+    CHECK(asked.back() == "nothing");
+    CHECK_FALSE(job->must_finish());
+    return job->result();
+  }
+
+  /// As if its supply had been off for a moment, which its NodeStatus tells.
+  void restart_by_itself() {
+    restart_silently();
+    known_.restart();
+    started = known_.now;
+  }
+
+  /// Only its uptime tells, when it is asked.
+  void restart_silently() {
+    ram = rom;
+    started = known_.now;
+  }
+
+  /// Node 40 writes to a register of it.
+  void other_writes(bla::Address address, std::int64_t raw) {
+    ram[address] = raw;
+    const auto payload = GetSet::Request{.value = raw, .name = address.name()}.encode();
+    known_.roster.receive({.header = {.kind = dronecan::Kind::request,
+                                      .data_type_id = GetSet::type.id,
+                                      .source = NodeId(40),
+                                      .destination = NodeId(11)},
+                           .payload = payload.bytes(),
+                           .at = known_.now});
+  }
+
+  /// Time goes by.
+  void live(Duration time) { known_.now += time; }
+
+  /// The pause is over because of something that was heard.
+  void wake() {
+    REQUIRE(step_.pause() != nullptr);
+    REQUIRE(step_.pause()->ready());
+    ask({Outcome::Kind::woken, {}, {}});
+  }
+
+  /// Another unit shows on its node ID.
+  void double_id() { known_.roster.mark_doubled(NodeId(11), {11}, {2}); }
+
+  [[nodiscard]] std::size_t count(std::string_view question) const {
+    return static_cast<std::size_t>(std::ranges::count(asked, question));
+  }
+
+  /// Which registers were written.
+  [[nodiscard]] std::vector<std::string> writes() const {
+    std::vector<std::string> all;
+    std::ranges::copy_if(asked, std::back_inserter(all),
+                         [](const std::string& each) { return each.starts_with("write"); });
+    return all;
+  }
+
+  bla::Values ram, rom;
+  std::set<bla::Address> stuck{}; ///< registers that keep their value, whatever is written
+  bool obeys = true;              ///< opcodes and restarts
+  bool agrees = true;             ///< to them
+  Duration start_time = 3s;       ///< from a restart until it is heard
+  Time started{900s};             ///< since when it runs
+  Plan plan;
+  std::optional<ChangeJob> job;
+  std::vector<std::string> asked; ///< "SAVE", "write 0x23=1", …, "nothing" in the end
+
+ private:
+  static Servo prepare() {
+    Servo servo = bla21();
+    servo.since = Time{1000s};
+    return servo;
+  }
+
+  void ask(Outcome outcome) {
+    outcome.at = known_.now;
+    step_ = job->next(outcome);
+    // A second unit on the ID is listened for, and is not there.
+    const dronecan::Pause* pause = step_.pause();
+    if (pause != nullptr && pause->until == known_.now + ReadJob::twin_time) {
+      known_.now = pause->until;
+      step_ = job->next({Outcome::Kind::woken, {}, known_.now});
+    }
+    asked.push_back(said());
+  }
+
+  [[nodiscard]] std::string said() const {
+    const std::string question = text(step_);
+    if (question != "ExecuteOpcode") {
+      return question;
+    }
+    const auto request = ExecuteOpcode::Request::decode(step_.request()->payload.bytes());
+    REQUIRE(request);
+    return request->opcode == ExecuteOpcode::save ? "SAVE" : "ERASE";
+  }
+
+  dronecan::Payload reply(const dronecan::Request& request) {
+    if (request.type->id == GetNodeInfo::type.id) {
+      const auto payload = info().encode();
+      known_.roster.receive({.header = {.kind = dronecan::Kind::response,
+                                        .data_type_id = GetNodeInfo::type.id,
+                                        .source = NodeId(11)},
+                             .payload = payload.bytes(),
+                             .at = known_.now});
+      return payload;
+    }
+    if (request.type->id == RestartNode::type.id) {
+      is_away_ = agrees;
+      return RestartNode::Response{.ok = agrees}.encode();
+    }
+    return request.type->id == GetSet::type.id ? reply_value(request) : reply_opcode(request);
+  }
+
+  [[nodiscard]] GetNodeInfo::Response info() const {
+    const auto uptime = std::chrono::duration_cast<std::chrono::seconds>(known_.now - started);
+    return {.status = {.uptime_s = static_cast<std::uint32_t>(uptime.count())},
+            .unique_id = *known_.servo.unique_id,
+            .name = "servo"};
+  }
+
+  dronecan::Payload reply_opcode(const dronecan::Request& request) {
+    const auto opcode = ExecuteOpcode::Request::decode(request.payload.bytes())->opcode;
+    if (agrees && obeys && opcode == ExecuteOpcode::save) {
+      rom = ram;
+      is_away_ = true;
+    } else if (agrees && obeys) {
+      ram = *bla21().identity.factory_defaults();
+    }
+    return ExecuteOpcode::Response{.ok = agrees}.encode();
+  }
+
+  dronecan::Payload reply_value(const dronecan::Request& request) {
+    const auto get_set = GetSet::Request::decode(request.payload.bytes());
+    const bla::Address address = *bla::find_address(get_set->name);
+    const auto* number = std::get_if<std::int64_t>(&get_set->value);
+    if (number != nullptr && !stuck.contains(address)) {
+      ram[address] = *number;
+    }
+    const bla::Values product{{at::model_number, 61},
+                              {at::serial_number, 240900558},
+                              {at::firmware_version, 1400},
+                              {at::hardware_version, 12050}};
+    const auto value = bla::find(product, address).value_or(bla::find(ram, address).value_or(0));
+    return GetSet::Response{.value = value, .name = get_set->name}.encode();
+  }
+
+  void come_back() {
+    REQUIRE(step_.pause() != nullptr);
+    is_away_ = false;
+    restart_silently();
+    known_.now += start_time;
+    known_.hear_uptime(info().status.uptime_s);
+    known_.roster.learn(NodeId(11), info());
+    REQUIRE(step_.pause()->ready());
+    ask({Outcome::Kind::woken, {}, {}});
+  }
+
+  Acquaintance known_;
+  Script script_;
+  dronecan::Step step_ = std::nullopt;
+  bool is_away_ = false; ///< it restarts because it was told to
+};
+
+Wanted set(const std::vector<std::string>& texts, bool save = false) {
+  return {.assignments = assignments(texts),
+          .restart = save ? std::optional(RestartKind::save) : std::nullopt};
+}
+
+const Wanted save{.restart = RestartKind::save};
+const Wanted restart{.restart = RestartKind::restart};
+const Wanted erase{.erase = true};
+const Wanted erase_and_save{.erase = true, .restart = RestartKind::save};
+const Wanted erase_keeping_ids{.erase = true, .keep_ids = true, .restart = RestartKind::save};
+
+const bla::Values with_ids{{at::servo_id, 7}, {at::static_node_id, 11}};
+
+/// That nothing looks like success, and which error there is.
+Code failure(const ChangeResult& result) {
+  CHECK_FALSE(result.is_done());
+  CHECK_FALSE(result.is_verified);
+  CHECK_FALSE(result.saved);
+  REQUIRE_FALSE(result.errors().empty());
+  CHECK(result.errors().front().node_id == 11);
+  return result.errors().front().code;
+}
+
+bool says(const ChangeResult& result, std::string_view words) {
+  return std::ranges::any_of(result.errors(), [&](const Error& error) {
+    return error.message.find(words) != std::string::npos;
+  });
+}
+
+} // namespace
+
+TEST_CASE("what is set is written and read again, and nothing is saved or restarted") {
+  Bench bench(set({"reverse=on", "angle_limit_cw=90deg"}));
+  const ChangeResult& result = bench.finish();
+  CHECK(bench.asked == std::vector<std::string>{"write 0x23=1", "read 0x23", "write 0x38=900",
+                                                "read 0x38", "GetNodeInfo", "nothing"});
+  CHECK(result.is_done());
+  CHECK(result.changes[0].status == ChangeStatus::written);
+  CHECK(result.changes[1].after == 900);
+  CHECK_FALSE(result.saved);
+  CHECK_FALSE(result.was_restarted);
+  CHECK(result.node_id_after == NodeId(11));
+  CHECK(result.errors().empty());
+}
+
+TEST_CASE("a plan that does nothing asks nothing") {
+  Bench bench(set({"reverse=on"}), {{at::reverse, 1}});
+  CHECK(bench.asked == std::vector<std::string>{"nothing"});
+  CHECK(bench.job->result().changes[0].status == ChangeStatus::unchanged);
+  CHECK(bench.job->result().errors().empty());
+}
+
+TEST_CASE("what is set and saved is written, saved once, and all of it read again") {
+  Bench bench(set({"reverse=on"}, true));
+  bench.until("SAVE");
+  CHECK(bench.job->must_finish());
+  const ChangeResult& result = bench.finish();
+  CHECK(result.is_done());
+  CHECK(result.saved);
+  CHECK(result.was_restarted);
+  CHECK(result.returned == NodeId(11));
+  CHECK(result.node_id_after == NodeId(11));
+  CHECK(result.values_read == 34);
+  CHECK(result.duration > 0s);
+  CHECK(bench.count("SAVE") == 1);
+  CHECK(bench.count("read 0x1A") == 1); // whether ROM could be read
+  CHECK(bench.count("read 0x46") == 1);
+  CHECK(bench.rom.at(at::reverse) == 1);
+}
+
+TEST_CASE("a save alone writes no register") {
+  Bench bench(save);
+  CHECK(bench.finish().is_done());
+  CHECK(bench.job->result().saved);
+  CHECK(bench.writes().empty());
+}
+
+TEST_CASE("a restart is no save: nothing is read again, nothing claimed of ROM") {
+  Bench bench(restart);
+  const ChangeResult& result = bench.finish();
+  CHECK(result.is_done());
+  CHECK_FALSE(result.saved);
+  CHECK(result.returned == NodeId(11));
+  CHECK(result.values_read == 0);
+  CHECK(bench.asked == std::vector<std::string>{"GetNodeInfo", "RestartNode", "pause", "nothing"});
+}
+
+TEST_CASE("an erased servo is read again before anything else, and saved only if that is wanted") {
+  const bool saves = GENERATE(true, false);
+  Bench bench(saves ? erase_and_save : erase, with_ids);
+  const ChangeResult& result = bench.finish();
+  CHECK(result.is_done());
+  CHECK(result.saved == saves);
+  CHECK(result.servo.servo_id == 0);
+  CHECK(result.values_read == 34);
+  CHECK(bench.asked[0] == "GetNodeInfo");
+  CHECK(bench.asked[1] == "ERASE");
+  CHECK(bench.asked[2] == "read 0x20");
+  CHECK(bench.count("ERASE") == 1);
+  CHECK(bench.count("SAVE") == (saves ? 1U : 0U));
+  CHECK(bench.writes().empty());
+}
+
+TEST_CASE("kept IDs are written again after ERASE and before SAVE") {
+  Bench bench(erase_keeping_ids, with_ids);
+  const ChangeResult& result = bench.finish();
+  CHECK(result.is_done());
+  CHECK(result.saved);
+  CHECK(result.servo.servo_id == 7);
+  CHECK(bench.writes() == std::vector<std::string>{"write 0x45=7", "write 0x46=11"});
+  CHECK(bench.rom.at(at::servo_id) == 7);
+  CHECK(bench.rom.at(at::static_node_id) == 11);
+}
+
+TEST_CASE("a servo that restarts by itself after ERASE has its old values back: nothing is saved") {
+  const bool saves = GENERATE(true, false);
+  Wanted wanted = erase_keeping_ids;
+  if (!saves) {
+    wanted.restart.reset();
+  }
+  Bench bench(wanted, {{at::servo_id, 7}, {at::static_node_id, 11}, {at::reverse, 1}});
+  bench.until("write 0x46=11");
+  bench.restart_by_itself();
+  const ChangeResult& result = bench.finish();
+  CHECK(failure(result) == Code::state);
+  CHECK(says(result, "may be back"));
+  CHECK(bench.ram.at(at::reverse) == 1);
+  CHECK(bench.count("SAVE") == 0);
+}
+
+TEST_CASE(
+    "a servo that restarts by itself while it is written to is written to again, then saved") {
+  Bench bench(set({"reverse=on", "angle_limit_cw=90deg"}, true));
+  bench.until("write 0x38=900");
+  bench.restart_by_itself();
+  const ChangeResult& result = bench.finish();
+  CHECK(result.is_done());
+  CHECK(bench.count("write 0x23=1") == 2);
+  CHECK(bench.count("SAVE") == 1);
+  CHECK(bench.rom.at(at::reverse) == 1);
+}
+
+TEST_CASE("a servo that restarts while the defaults are read back is not called another model") {
+  Bench bench(erase_keeping_ids, {{at::servo_id, 7}, {at::static_node_id, 11}, {at::reverse, 1}});
+  bench.until("read 0x24");
+  bench.restart_by_itself();
+  bench.live(3s);
+  const ChangeResult& result = bench.finish();
+  CHECK(failure(result) == Code::state);
+  CHECK(says(result, "may be back"));
+  CHECK(bench.count("SAVE") == 0);
+}
+
+TEST_CASE("what another node wrote is blamed on that node, not on ROM or the model") {
+  Bench bench(set({"reverse=on"}, true));
+  bench.until("SAVE");
+  bench.live(1ms);
+  bench.other_writes(at::angle_limit_cw, 900);
+  const ChangeResult& result = bench.finish();
+  CHECK(failure(result) == Code::state);
+  CHECK(says(result, "node 40 wrote to node 11 meanwhile"));
+  CHECK(result.error->hint.find("ROM") == std::string::npos);
+}
+
+TEST_CASE("a servo that refuses ERASE is left alone") {
+  Bench bench(erase_keeping_ids, with_ids);
+  bench.agrees = false;
+  CHECK(failure(bench.finish()) == Code::refused);
+  CHECK(bench.count("ERASE") == 1);
+  CHECK(bench.count("SAVE") == 0);
+  CHECK(bench.writes().empty());
+}
+
+TEST_CASE("an ERASE without an answer is judged by the registers") {
+  Bench bench(erase, with_ids);
+  bench.until("ERASE");
+  SECTION("it was carried out: it is not sent again") {
+    bench.ram = *bla21().identity.factory_defaults();
+    bench.time_out();
+    CHECK(bench.finish().is_done());
+    CHECK(bench.count("ERASE") == 1);
+  }
+  SECTION("it was not: it is sent once more") {
+    bench.time_out();
+    CHECK(bench.finish().is_done());
+    CHECK(bench.count("ERASE") == 2);
+  }
+  SECTION("nor the second time: there is no third one") {
+    bench.time_out();
+    bench.until("ERASE");
+    while (bench.asked.back() == "ERASE") {
+      bench.time_out();
+    }
+    CHECK(failure(bench.finish()) == Code::timeout);
+    CHECK(says(bench.job->result(), "ERASE"));
+    CHECK(bench.count("ERASE") == 2);
+  }
+}
+
+TEST_CASE("a servo that confirms ERASE and keeps its values is a mismatch, and is not saved") {
+  Bench bench(erase_and_save, with_ids);
+  bench.obeys = false;
+  CHECK(failure(bench.finish()) == Code::mismatch);
+  CHECK(says(bench.job->result(), "servo_id"));
+  CHECK(bench.count("ERASE") == 1);
+  CHECK(bench.count("SAVE") == 0);
+}
+
+TEST_CASE("a servo that cannot be read after ERASE is not proven to be erased") {
+  Bench bench(erase_and_save, with_ids);
+  bench.until("read 0x46");
+  bench.time_out();
+  CHECK(failure(bench.finish()) == Code::timeout);
+  CHECK(bench.count("ERASE") == 1);
+  CHECK(bench.count("SAVE") == 0);
+}
+
+TEST_CASE("where one register is not taken nothing is saved") {
+  Bench bench(set({"reverse=on", "angle_limit_cw=90deg"}, true));
+  bench.stuck = {at::reverse};
+  const ChangeResult& result = bench.finish();
+  CHECK(failure(result) == Code::refused);
+  CHECK(result.changes[1].status == ChangeStatus::written); // the others are written all the same
+  CHECK(bench.count("SAVE") == 0);
+  CHECK_FALSE(result.was_restarted);
+  CHECK(result.errors().size() == 1);
+}
+
+TEST_CASE("a servo that refuses to save or restart is not read again") {
+  Bench bench(GENERATE(as<Wanted>{}, save, restart));
+  bench.agrees = false;
+  const ChangeResult& result = bench.finish();
+  CHECK(failure(result) == Code::refused);
+  CHECK_FALSE(result.returned);
+  CHECK(bench.count("read 0x20") == 0);
+}
+
+TEST_CASE("a servo that does not come back has no node ID any more") {
+  Bench bench(GENERATE(as<Wanted>{}, save, restart));
+  bench.until("pause");
+  bench.fall_silent();
+  const ChangeResult& result = bench.job->result();
+  CHECK(failure(result) == Code::not_back);
+  CHECK_FALSE(result.returned);
+  CHECK_FALSE(result.node_id_after);
+  CHECK(result.duration == 5s);
+}
+
+TEST_CASE("a servo whose ROM did not take what RAM had is found out, and told so") {
+  Bench bench(set({"reverse=on"}, true));
+  bench.until("pause");
+  bench.rom[at::reverse] = 0;
+  const ChangeResult& result = bench.finish();
+  CHECK(failure(result) == Code::mismatch);
+  CHECK(says(result, "reverse"));
+  CHECK(result.changes[0].status == ChangeStatus::mismatch);
+  CHECK(result.changes[0].after == 0);
+  CHECK(result.error->hint.find("ROM") != std::string::npos);
+  CHECK(result.returned == NodeId(11));
+  CHECK(bench.count("SAVE") == 1);
+}
+
+TEST_CASE("a servo that says that it could not read its ROM did not save") {
+  Bench bench(save);
+  bench.until("pause");
+  bench.rom[at::fault_warning] = 1 << 15;
+  const ChangeResult& result = bench.finish();
+  CHECK(failure(result) == Code::mismatch);
+  CHECK(says(result, "could not read its ROM"));
+}
+
+TEST_CASE("a servo that is back and cannot be read is not proven to be saved") {
+  Bench bench(save);
+  bench.until("read 0x38");
+  bench.time_out();
+  const ChangeResult& result = bench.finish();
+  CHECK(failure(result) == Code::timeout);
+  CHECK(result.returned == NodeId(11));
+}
+
+TEST_CASE("interrupted while it writes: the rest is not tried, nothing is saved") {
+  const auto* question = GENERATE("write 0x23=1", "read 0x23");
+  Bench bench(set({"reverse=on", "angle_limit_cw=90deg"}, true));
+  bench.until(question);
+  CHECK_FALSE(bench.job->must_finish());
+  const ChangeResult& result = bench.cancel();
+  CHECK(failure(result) == Code::interrupted);
+  CHECK(result.changes[0].status == ChangeStatus::failed);
+  CHECK(result.changes[1].status == ChangeStatus::planned);
+  CHECK(bench.writes() == std::vector<std::string>{"write 0x23=1"});
+  CHECK(bench.count("SAVE") == 0);
+}
+
+TEST_CASE("interrupted between writing and SAVE: RAM has it, ROM does not, and that is told") {
+  const bool erases = GENERATE(true, false);
+  Bench bench(erases ? erase_keeping_ids : set({"reverse=on"}, true), with_ids);
+  bench.until(erases ? "read 0x46" : "read 0x23");
+  if (erases) { // once of all that ERASE left, once of what was written
+    bench.answer();
+    bench.until("read 0x46");
+  }
+  bench.answer();
+  REQUIRE(bench.asked.back() == "GetNodeInfo"); // what was written is proven
+  bench.answer();
+  REQUIRE(bench.asked.back() == "GetNodeInfo"); // SAVE is next
+  CHECK_FALSE(bench.job->must_finish());
+  const ChangeResult& result = bench.cancel();
+  CHECK(failure(result) == Code::interrupted);
+  CHECK(says(result, erases ? "a SAVE would keep them" : "ROM was not written"));
+  CHECK_FALSE(says(result, "before anything was sent"));
+  CHECK(result.changes[0].status == ChangeStatus::written);
+  CHECK(bench.count("SAVE") == 0);
+}
+
+TEST_CASE("interrupted before what was written is proven: it is not said to be written") {
+  Bench bench(set({"reverse=on"}, true));
+  bench.until("GetNodeInfo");
+  CHECK_FALSE(bench.job->must_finish());
+  const ChangeResult& result = bench.cancel();
+  CHECK(failure(result) == Code::interrupted);
+  CHECK(result.changes[0].status == ChangeStatus::failed);
+  CHECK_FALSE(result.changes[0].after);
+  CHECK(bench.count("SAVE") == 0);
+}
+
+TEST_CASE("interrupted while it is looked at before SAVE: ROM was not written") {
+  Bench bench(set({"reverse=on"}, true));
+  bench.until("GetNodeInfo");
+  bench.answer();
+  bench.live(10s);
+  bench.restart_silently();
+  bench.live(3s);
+  bench.until("read 0x20");
+  CHECK_FALSE(bench.job->must_finish());
+  const ChangeResult& result = bench.cancel();
+  CHECK(failure(result) == Code::interrupted);
+  CHECK(says(result, "ROM was not written"));
+  CHECK(bench.count("SAVE") == 0);
+}
+
+TEST_CASE("interrupted before the one request that it is about: nothing was sent") {
+  Bench bench(GENERATE(as<Wanted>{}, save, restart));
+  REQUIRE(bench.asked.back() == "GetNodeInfo");
+  CHECK_FALSE(bench.job->must_finish());
+  const ChangeResult& result = bench.cancel();
+  CHECK(failure(result) == Code::interrupted);
+  CHECK(says(result, "before anything was sent"));
+  CHECK(bench.asked == std::vector<std::string>{"GetNodeInfo", "nothing"});
+}
+
+TEST_CASE("interrupted after SAVE was sent: what ROM holds is not known") {
+  const auto* at = GENERATE("SAVE", "pause");
+  Bench bench(save);
+  bench.until(at);
+  CHECK(bench.job->must_finish());
+  const ChangeResult& result = bench.cancel();
+  CHECK(failure(result) == Code::interrupted);
+  CHECK(says(result, "not known"));
+  CHECK_FALSE(result.returned);
+  CHECK(bench.count("SAVE") == 1);
+  CHECK(bench.count("read 0x20") == 0);
+}
+
+TEST_CASE("interrupted while it is read after SAVE: it is back, and not proven") {
+  const auto* question = GENERATE("read 0x50", "read 0x20", "read 0x1A");
+  Bench bench(save);
+  bench.until(question);
+  CHECK(bench.job->must_finish());
+  const ChangeResult& result = bench.cancel();
+  CHECK(failure(result) == Code::interrupted);
+  CHECK(says(result, "not read again"));
+  CHECK(result.errors().size() == 1);
+  CHECK(result.returned == NodeId(11));
+  CHECK(result.node_id_after == NodeId(11));
+}
+
+TEST_CASE("interrupted before ERASE it is not sent; after it, it is not claimed") {
+  const auto* question = GENERATE("GetNodeInfo", "ERASE", "read 0x20", "read 0x46");
+  Bench bench(erase_and_save, with_ids);
+  bench.until(question);
+  CHECK_FALSE(bench.job->must_finish());
+  const ChangeResult& result = bench.cancel();
+  CHECK(failure(result) == Code::interrupted);
+  const bool is_sent = std::string_view(question) != "GetNodeInfo";
+  CHECK(bench.count("ERASE") == (is_sent ? 1U : 0U));
+  CHECK(says(result, "what its RAM holds is not known") == is_sent);
+  CHECK(bench.count("SAVE") == 0);
+  CHECK(bench.writes().empty());
+}
+
+TEST_CASE("interrupted while the kept IDs are written: they may be lost, and that is told") {
+  Bench bench(erase_keeping_ids, with_ids);
+  bench.until("write 0x45=7");
+  const ChangeResult& result = bench.cancel();
+  CHECK(failure(result) == Code::interrupted);
+  CHECK(result.changes[0].status == ChangeStatus::failed);
+  CHECK(result.changes[1].status == ChangeStatus::planned);
+  CHECK(bench.count("SAVE") == 0);
+}
+
+TEST_CASE("interrupted after ERASE and before SAVE: the defaults are in RAM only") {
+  Bench bench(erase_and_save, with_ids);
+  bench.until("ERASE");
+  bench.answer();
+  bench.until("GetNodeInfo"); // what was read is of one moment
+  bench.answer();
+  bench.until("GetNodeInfo"); // SAVE is next
+  const ChangeResult& result = bench.cancel();
+  CHECK(failure(result) == Code::interrupted);
+  CHECK(says(result, "a SAVE would keep them"));
+  CHECK(result.errors().front().hint.find("blactl get") != std::string::npos);
+  CHECK(bench.count("SAVE") == 0);
+}
+
+TEST_CASE(
+    "a servo that restarted before SAVE is looked at again, and not saved where RAM lost it") {
+  const bool is_heard = GENERATE(true, false);
+  Bench bench(set({"reverse=on"}, true));
+  bench.until("GetNodeInfo");
+  bench.answer();
+  REQUIRE(bench.asked.back() == "GetNodeInfo"); // SAVE is next
+  bench.live(10s);
+  is_heard ? bench.restart_by_itself() : bench.restart_silently();
+  bench.live(3s);
+  const ChangeResult& result = bench.finish();
+  CHECK(failure(result) == Code::state);
+  CHECK(says(result, "restarted before SAVE"));
+  CHECK(says(result, "nothing was saved"));
+  CHECK(result.changes[0].status == ChangeStatus::mismatch);
+  CHECK(result.changes[0].after == 0);
+  CHECK(bench.count("SAVE") == 0);
+  CHECK(bench.count("write 0x23=1") == 1);
+}
+
+TEST_CASE("a servo that restarted before SAVE and holds all of it all the same is saved") {
+  Bench bench(save);
+  bench.live(10s);
+  bench.restart_by_itself();
+  bench.live(3s);
+  const ChangeResult& result = bench.finish();
+  CHECK(result.is_done());
+  CHECK(result.saved);
+  CHECK(bench.count("SAVE") == 1);
+  CHECK(bench.count("read 0x20") == 2); // before SAVE and after it
+}
+
+TEST_CASE("a servo that cannot be read before SAVE is not saved") {
+  Bench bench(save);
+  bench.live(10s);
+  bench.restart_by_itself();
+  bench.live(3s);
+  bench.until("read 0x38");
+  bench.time_out();
+  CHECK(failure(bench.finish()) == Code::timeout);
+  CHECK(bench.count("SAVE") == 0);
+}
+
+TEST_CASE("a servo that restarts again and again is not saved") {
+  Bench bench(save);
+  for (int restarts = 0; bench.asked.back() != "nothing"; ++restarts) {
+    REQUIRE(restarts < 20);
+    bench.live(10s);
+    bench.restart_by_itself();
+    bench.live(3s);
+    bench.answer(); // it restarts whenever it is asked who it is
+    while (bench.asked.back() != "GetNodeInfo" && bench.asked.back() != "nothing") {
+      bench.answer();
+    }
+  }
+  CHECK(failure(bench.job->result()) == Code::state);
+  CHECK(says(bench.job->result(), "again and again"));
+  CHECK(bench.count("SAVE") == 0);
+}
+
+TEST_CASE("a servo that is young when it is read back is read twice: its uptime proves nothing") {
+  Bench bench(save);
+  bench.start_time = 0s;
+  const ChangeResult& result = bench.finish();
+  CHECK(result.is_done());
+  CHECK(result.saved);
+  CHECK(bench.count("read 0x20") == 2);
+}
+
+TEST_CASE("a servo that crashes while it saves does not hold what was told to be written") {
+  Bench bench(set({"reverse=on"}, true));
+  bench.until("SAVE");
+  bench.time_out();
+  bench.fall_silent();
+  const ChangeResult& result = bench.job->result();
+  CHECK(failure(result) == Code::not_back);
+  CHECK(result.changes[0].status == ChangeStatus::failed);
+  CHECK_FALSE(result.changes[0].after);
+}
+
+TEST_CASE("a servo that refuses SAVE holds in RAM what was written") {
+  Bench bench(set({"reverse=on"}, true));
+  bench.agrees = false;
+  const ChangeResult& result = bench.finish();
+  CHECK(failure(result) == Code::refused);
+  CHECK(result.changes[0].status == ChangeStatus::written);
+  CHECK(result.changes[0].after == 1);
+}
+
+TEST_CASE("another unit that shows on the ID while it saves: nothing is claimed") {
+  Bench bench(set({"reverse=on"}, true));
+  bench.until("pause");
+  bench.double_id();
+  bench.wake();
+  const ChangeResult& result = bench.job->result();
+  CHECK(failure(result) == Code::duplicate_node_id);
+  CHECK_FALSE(result.returned);
+  CHECK(result.changes[0].status == ChangeStatus::failed);
+}
+
+TEST_CASE("the warnings of a plan are those of its result") {
+  const Plan plan = plan_for(set({"speed_p_gain=5"}));
+  REQUIRE(plan.warnings.size() == 1);
+  const ChangeResult result = as_planned(plan);
+  REQUIRE(result.warnings.size() == 1);
+  CHECK(result.warnings[0].code == "leave_at_default");
+}
+
+TEST_CASE("errors are told in the order in which they happened: registers, then the servo") {
+  ChangeResult result;
+  Change change;
+  change.error = Error{Code::refused, "first"};
+  result.changes = {change, Change{}};
+  result.error = Error{Code::not_back, "second"};
+  const auto errors = result.errors();
+  REQUIRE(errors.size() == 2);
+  CHECK(errors[0].message == "first");
+  CHECK(errors[1].message == "second");
+}
+
+TEST_CASE("a plan that is only shown has its changes, and is not done") {
+  const Plan plan = plan_for(set({"reverse=on"}, true));
+  const ChangeResult shown = as_planned(plan);
+  CHECK(shown.changes.size() == 1);
+  CHECK(shown.changes[0].is_planned());
+  CHECK(shown.servo.id == NodeId(11));
+  CHECK(shown.node_id_after == NodeId(11));
+  CHECK_FALSE(shown.is_done());
+  CHECK_FALSE(shown.saved);
+  CHECK_FALSE(shown.was_restarted);
+  CHECK(shown.errors().empty());
+}

@@ -1,0 +1,151 @@
+#include "blactl/fleet/guard.hpp"
+
+#include "support.hpp"
+
+#include <string>
+#include <vector>
+
+using namespace blactl;
+using namespace blactl::fleet;
+using namespace blactl::fleet::test;
+namespace at = bla::address;
+
+namespace {
+
+/// A servo on a bus that was heard for as long as writers hear it.
+class Watched {
+ public:
+  explicit Watched(std::string_view others = "")
+      : scene(fmt::format(
+                  R"("servos": [{{"model": "BLA21-12U-AB", "node_id": 11, "servo_id": 3}}]{})",
+                  others),
+              Session::Hearing::commands),
+        servo(scene.identify(11)) {
+    scene.live(1100ms);
+  }
+
+  [[nodiscard]] std::optional<Error> forbids(const Plan& plan, bool while_driven = false) const {
+    return forbidden(scene.roster(), scene.session->now(), plan, while_driven);
+  }
+
+  [[nodiscard]] std::optional<Error> forbids(const char* assignment,
+                                             bool while_driven = false) const {
+    return forbids(plan({.assignments = assignments({assignment})}), while_driven);
+  }
+
+  [[nodiscard]] Plan plan(const Wanted& wanted, const bla::Values& held = {}) const {
+    return plan_for(wanted, held, servo);
+  }
+
+  Scene scene;
+  Servo servo;
+};
+
+constexpr const char* armed_node =
+    R"(, "foreign": [{"kind": "node", "node_id": 30, "armed": true}])";
+constexpr const char* driving_node =
+    R"(, "foreign": [{"kind": "node", "node_id": 30, "commands": {"servo_ids": [3]}}])";
+
+const Wanted restart{.restart = RestartKind::restart};
+const Wanted erase{.erase = true};
+
+} // namespace
+
+TEST_CASE("on a quiet bus nothing is forbidden") {
+  const Watched bus;
+  CHECK_FALSE(bus.forbids("torque_output=off"));
+  CHECK_FALSE(bus.forbids("static_node_id=20"));
+  CHECK_FALSE(bus.forbids(bus.plan(restart)));
+  CHECK_FALSE(bus.forbids(bus.plan(erase)));
+}
+
+TEST_CASE("while the vehicle is armed nothing is written, whatever the options") {
+  const Watched bus(armed_node);
+  const auto error = bus.forbids("smoothing=off", true);
+  REQUIRE(error);
+  CHECK(error->code == Code::armed);
+  CHECK(error->node_id == 11);
+  CHECK(error->message.find("30") != std::string::npos);
+  CHECK(bus.forbids(bus.plan(restart), true)->code == Code::armed);
+  CHECK(bus.forbids(bus.plan(erase), true)->code == Code::armed);
+}
+
+TEST_CASE("a plan that does nothing is not forbidden by anybody") {
+  const Watched bus(armed_node);
+  const Wanted wanted{.assignments = assignments({"reverse=on"})};
+  CHECK_FALSE(bus.forbids(bus.plan(wanted, {{at::reverse, 1}})));
+}
+
+TEST_CASE("while another node drives the servo it is not moved, unless that is wanted") {
+  const Watched bus(driving_node);
+  const auto error = bus.forbids("torque_output=off");
+  REQUIRE(error);
+  CHECK(error->code == Code::driven);
+  CHECK(error->node_id == 11);
+  CHECK_FALSE(bus.forbids("torque_output=off", true));
+  CHECK_FALSE(bus.forbids("smoothing=off")); // moves nothing
+  for (const Wanted& wanted : {restart, erase, Wanted{.restart = RestartKind::save}}) {
+    CHECK(bus.forbids(bus.plan(wanted))->code == Code::driven);
+    CHECK_FALSE(bus.forbids(bus.plan(wanted), true));
+  }
+}
+
+TEST_CASE("nothing is written to a doubled node ID") {
+  const Watched bus;
+  bus.scene.roster().mark_doubled(NodeId(11), {0x11, 1}, {0x11, 2});
+  const auto error = bus.forbids("smoothing=off", true);
+  REQUIRE(error);
+  CHECK(error->code == Code::duplicate_node_id);
+  CHECK(error->node_id == 11);
+  CHECK(error->message == doubled(bus.scene.roster(), NodeId(11)).message);
+}
+
+TEST_CASE("the units on a doubled ID are named where they are known") {
+  const Watched bus;
+  const std::string unnamed = doubled(bus.scene.roster(), NodeId(11)).message;
+  CHECK(unnamed.find("uid:") == std::string::npos);
+  bus.scene.roster().mark_doubled(NodeId(11), {0x11, 1}, {0x11, 2});
+  const Error named = doubled(bus.scene.roster(), NodeId(11));
+  CHECK(named.code == Code::duplicate_node_id);
+  CHECK(named.node_id == 11);
+  CHECK(named.message.find("uid:1101") != std::string::npos);
+  CHECK(named.message.find("uid:1102") != std::string::npos);
+  CHECK_FALSE(named.hint.empty());
+}
+
+TEST_CASE("what was read of a servo before its restart is no ground to write to it") {
+  Acquaintance known(bla21());
+  const Plan plan = plan_for({.assignments = assignments({"smoothing=off"})}, {}, known.servo);
+  CHECK_FALSE(forbidden(known.roster, known.now, plan, false));
+  known.restart();
+  CHECK(forbidden(known.roster, known.now, plan, true)->code == Code::state);
+  // Identified again it is known, but the plan is still that of the time before.
+  Servo again = known.servo;
+  again.boot = 1;
+  known.roster.learn(again, GetNodeInfo::Response{.unique_id = *again.unique_id});
+  REQUIRE(known.member().is_known());
+  CHECK(forbidden(known.roster, known.now, plan, true)->code == Code::state);
+}
+
+TEST_CASE("a static node ID that is not ours is for others to judge") {
+  const Watched bus(R"(, "foreign": [{"kind": "node", "node_id": 30}])");
+  CHECK_FALSE(bus.forbids("static_node_id=30")); // survey() asks who has it
+  CHECK_FALSE(bus.forbids("static_node_id=11")); // its own
+  CHECK_FALSE(bus.forbids("static_node_id=0"));  // dynamic
+}
+
+TEST_CASE("the ID of this process is not given to a servo") {
+  const Acquaintance known(bla21(), NodeId(20));
+  const auto forbids = [&](const Wanted& wanted, const bla::Values& held = {}) {
+    return forbidden(known.roster, known.now, plan_for(wanted, held, known.servo), false);
+  };
+  const auto error = forbids({.assignments = assignments({"static_node_id=20"})});
+  REQUIRE(error);
+  CHECK(error->code == Code::out_of_range);
+  CHECK(error->node_id == 11);
+  CHECK(error->hint.find("--local-node-id") != std::string::npos);
+  CHECK_FALSE(forbids({.assignments = assignments({"servo_id=20"})})); // another number
+  CHECK_FALSE(forbids({.assignments = assignments({"static_node_id=0"})}));
+  const Wanted save{.restart = RestartKind::save};
+  CHECK(forbids(save, {{at::static_node_id, 20}})->code == Code::out_of_range);
+}
