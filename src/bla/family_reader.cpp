@@ -96,6 +96,15 @@ void check_range_given(const json::Object& object, const Parameter& parameter,
   }
 }
 
+Address read_address(const json::Value& item, json::Faults& faults) {
+  const std::string text = json::as_string(item, faults).value_or("0x00");
+  const auto address = find_address(text);
+  if (!address || address->name() != text) {
+    faults.add(item, say<texts::profile_bad_address>('"' + text + '"'));
+  }
+  return address.value_or(Address{});
+}
+
 Parameter read_parameter(const json::Value& item, json::Faults& faults) {
   Parameter parameter;
   const auto address = find_address(item.key);
@@ -168,6 +177,9 @@ FaultBit read_fault_bit(const json::Value& item, json::Faults& faults) {
   bit.condition_ja = read_text(object, "condition_ja", faults);
   bit.action_en = read_text(object, "action_en", faults);
   bit.action_ja = read_text(object, "action_ja", faults);
+  for (const json::Value* value : object.optional_array("values")) {
+    bit.values.push_back(read_address(*value, faults));
+  }
   object.finish();
   if (const auto group = bit_groups[bit.bit / 8U]; !bit.group.empty() && bit.group != group) {
     faults.add(item, say<texts::profile_bit_group>(bit.bit, group));

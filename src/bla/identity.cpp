@@ -186,6 +186,16 @@ Result<void> Identity::may_write(Address address, std::int64_t raw) const {
   return check_range(*candidates_.front()->find(address), raw);
 }
 
+Result<void> Identity::check_pwm_input() const {
+  const auto alike = [&](const Profile* profile) {
+    return profile->pwm == candidates_.front()->pwm;
+  };
+  if (candidates_.empty() || !std::ranges::all_of(candidates_, alike)) {
+    return {};
+  }
+  return check_support(*candidates_.front()->find(address::pwm_mode));
+}
+
 Result<void> Identity::check_model(const Parameter& parameter) const {
   if (candidates_.empty()) {
     return fail(Code::no_profile,

@@ -51,6 +51,31 @@ inline constexpr Text value_range_hint{"type a value from {} to {}",
                                        "{} ～ {} の値を入力して下さい"};
 inline constexpr Text value_not_active{"not active", "無効 (他種の指令中)"};
 
+// The PWM mapping
+inline constexpr Text pwm_endpoint_form{"{}: not of the form PULSE:VALUE,PULSE:VALUE",
+                                        "{}: PULSE:VALUE,PULSE:VALUE の形式ではありません"};
+inline constexpr Text pwm_endpoint_unit{"{}: the value needs a unit, deg or rpm",
+                                        "{}: 値に単位 deg または rpm が必要です"};
+inline constexpr Text pwm_endpoints_example{"for example --endpoints 500us:-70deg,1500us:70deg",
+                                            "例: --endpoints 500us:-70deg,1500us:70deg"};
+inline constexpr Text pwm_endpoints_differ{
+    "--endpoints: the two pulses must differ, and both values must be in the same unit",
+    "--endpoints: パルス幅は異なる値、単位は同じものを指定して下さい"};
+inline constexpr Text pwm_endpoints_fall{
+    "--endpoints: the longer pulse always gives the greater value (clockwise)",
+    "--endpoints: 長いパルスほど大きい値 (CW 方向) になります"};
+inline constexpr Text pwm_endpoints_fall_hint{
+    "swap the values, and turn the direction with: blactl set reverse=on",
+    "値を入れ替え、回転方向は blactl set reverse=on で反転して下さい"};
+inline constexpr Text pwm_asymmetric{
+    "--endpoints: the servo maps both sides alike: the two values must be equal but for the sign",
+    "--endpoints: 出力範囲は正負対称です。絶対値の等しい値を指定して下さい"};
+inline constexpr Text pwm_half_neutral{
+    "--endpoints: the middle between the pulses is no whole microsecond",
+    "--endpoints: パルス幅の中央が整数 µs になりません"};
+inline constexpr Text pwm_nearest{"the nearest that is possible: --endpoints {}",
+                                  "設定可能な最も近い値: --endpoints {}"};
+
 // Refusals that hold for every servo
 inline constexpr Text assigned_twice{"{} is given twice", "{} が 2 回指定されています"};
 inline constexpr Text assigned_twice_hint{"name each parameter once",

@@ -81,7 +81,7 @@ void Node::on_transfer(const Transfer& transfer) {
   }
   if (for_us && is_response) {
     if (Active* active = asked_for(transfer)) { // a listener may have started and ended jobs
-      finish(*active, {Outcome::Kind::answered, transfer.payload, transfer.at});
+      finish(*active, {Outcome::Kind::answered, transfer.payload, transfer.at, active->asked_at});
     }
   } else if (for_us && header.data_type_id == GetNodeInfo::type.id) {
     answer_node_info(transfer);
@@ -227,6 +227,7 @@ void Node::ask(Active& active, Time now) {
       segment(header, active.transfer_id, request.type->signature, request.payload.bytes());
   active.asked = true;
   active.left = false;
+  active.asked_at = now;
   active.deadline = now + transmit_timeout;
   ++active.tries;
   if (hooks_.asked) {

@@ -99,7 +99,7 @@ Outcome Archive::answer(const dronecan::Request& request) const {
   const bool holds = answer != nullptr && !answer->payload.empty() &&
                      answer->boots == boots(request.server) &&
                      (!request.accepts || request.accepts(answer->payload));
-  return holds ? Outcome{Outcome::Kind::answered, answer->payload, answer->at}
+  return holds ? Outcome{Outcome::Kind::answered, answer->payload, answer->at, answer->at}
                : Outcome{Outcome::Kind::not_recorded, {}, {}};
 }
 

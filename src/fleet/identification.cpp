@@ -90,6 +90,7 @@ void Identification::take_node_info(const Outcome& outcome) {
     roster_.learn(servo_.id, *info_);
     servo_.unique_id = info_->unique_id;
     servo_.name = info_->name;
+    servo_.since = outcome.asked; // it may have started after an earlier question, which got lost
   }
   servo_.boot = roster_.member(servo_.id).boots;
 }

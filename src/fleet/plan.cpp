@@ -1,5 +1,6 @@
 #include "blactl/fleet/plan.hpp"
 
+#include "blactl/bla/cross_check.hpp"
 #include "blactl/bla/effect.hpp"
 #include "blactl/bla/value.hpp"
 #include "blactl/fleet/texts.hpp"
@@ -38,7 +39,10 @@ Registers to_judge(const Wanted& wanted, const Servo& servo) {
       add(registers, servo.identity.parameter(at::pwm_mode));
     }
     for (const Address needed : bla::values_needed(assignment.parameter->address)) {
-      add(registers, servo.identity.parameter(needed));
+      const Parameter* parameter = servo.identity.parameter(needed);
+      if (parameter != nullptr && servo.identity.has(*parameter)) {
+        add(registers, parameter);
+      }
     }
   }
   return registers;
@@ -89,41 +93,61 @@ void plan_changes(const Wanted& wanted, const Values& held, Plan& plan) {
   }
 }
 
-/// A command that needs a switch which is off, now and in the same command.
-std::optional<Error> check_switches(const Plan& plan) {
-  const Values held = plan.before.values();
+/// Every change that is going to be made, as the cross-checks judge it, in the order asked.
+template <class Visit> void for_each_proposal(const Plan& plan, Visit visit) {
+  const Values before = plan.before.values();
+  Values after = before;
   for (const Change& change : plan.changes) {
-    const auto needed = bla::needs_on(change.parameter->address);
-    if (!needed || !change.is_planned()) {
-      continue;
-    }
-    const auto sets = [&](const Change& other) { return other.parameter->address == *needed; };
-    const auto set = std::ranges::find_if(plan.changes, sets);
-    const auto value =
-        set != plan.changes.end() ? std::optional(set->requested) : bla::find(held, *needed);
-    if (value == 0) {
-      const std::uint8_t id = plan.before.servo.id.value();
-      return Error{Code::cross_check,
-                   say<texts::about_node>(id, say<texts::control_is_off>(change.parameter->name)),
-                   say<texts::control_is_off_hint>(id), id};
+    after[change.parameter->address] = change.requested;
+  }
+  for (const Change& change : plan.changes) {
+    if (change.is_planned()) {
+      visit(change, bla::Proposal{.address = change.parameter->address,
+                                  .requested = change.requested,
+                                  .before = before,
+                                  .after = after,
+                                  .servo = plan.before.servo.identity});
     }
   }
-  return std::nullopt;
 }
 
+std::string_view reason(const bla::CrossCheck& check) {
+  return choose(check.reason.en, check.reason.ja);
+}
+
+/// "angle_dead_band=0.0deg: …"
+std::string judgement(const Plan& plan, const Change& change, const bla::CrossCheck& check) {
+  const Parameter& parameter = *change.parameter;
+  return say<texts::judged_change>(
+      parameter.name, bla::input_text(parameter, change.requested, plan.mode_after), reason(check));
+}
+
+std::optional<Error> check_together(const Plan& plan) {
+  const std::uint8_t id = plan.before.servo.id.value();
+  std::optional<Error> refused;
+  for_each_proposal(plan, [&](const Change& change, const bla::Proposal& proposal) {
+    for (const auto* check : met(bla::CheckKind::refusal, proposal)) {
+      if (!refused) {
+        refused = Error{
+            Code::cross_check, say<texts::about_node>(id, judgement(plan, change, *check)),
+            check->remedy.empty() ? std::string() : say<texts::set_first_hint>(id, check->remedy),
+            id};
+      }
+    }
+  });
+  return refused;
+}
+
+/// Each kind once, of the change that meets it first.
 std::vector<Warning> warnings_of(const Plan& plan) {
   std::vector<Warning> warnings;
-  for (const Change& change : plan.changes) {
-    const Parameter& parameter = *change.parameter;
-    const auto usual = parameter.default_raw;
-    if (change.is_planned() && bla::should_stay_at_default(parameter.address) &&
-        usual != change.requested) {
-      warnings.push_back(
-          {"leave_at_default",
-           say<texts::leave_at_default>(parameter.name, usual ? bla::display(parameter, *usual)
-                                                              : say<texts::unknown_before>())});
+  for_each_proposal(plan, [&](const Change& change, const bla::Proposal& proposal) {
+    for (const auto* check : met(bla::CheckKind::warning, proposal)) {
+      if (std::ranges::find(warnings, check->code, &Warning::code) == warnings.end()) {
+        warnings.push_back({std::string(check->code), judgement(plan, change, *check)});
+      }
     }
-  }
+  });
   return warnings;
 }
 
@@ -190,20 +214,30 @@ std::string erase_question(const Plan& plan) {
   return lines;
 }
 
+/// A change may be asked for several reasons.
+std::string change_question(const Plan& plan, const Change& change,
+                            std::span<const bla::CrossCheck* const> checks) {
+  const Parameter& parameter = *change.parameter;
+  std::string line = say<texts::question_change>(
+      plan.before.servo.id.value(), parameter.name,
+      change.before ? bla::register_text(parameter, *change.before, plan.mode_before)
+                    : say<texts::unknown_before>(),
+      bla::register_text(parameter, change.requested, plan.mode_after));
+  for (const bla::CrossCheck* check : checks) {
+    line += check->code == bla::always_asked ? std::string()
+                                             : say<texts::question_reason>(reason(*check));
+  }
+  return line;
+}
+
 std::string change_questions(const Plan& plan) {
   std::string lines;
-  const Values now = plan.before.values();
-  for (const Change& change : plan.changes) {
-    const Parameter& parameter = *change.parameter;
-    if (!plan.erase && change.is_planned() &&
-        bla::may_move(parameter.address, change.requested, now)) {
-      lines += say<texts::question_change>(
-          plan.before.servo.id.value(), parameter.name,
-          change.before ? bla::register_text(parameter, *change.before, plan.mode_before)
-                        : say<texts::unknown_before>(),
-          bla::register_text(parameter, change.requested, plan.mode_after));
+  for_each_proposal(plan, [&](const Change& change, const bla::Proposal& proposal) {
+    const auto checks = met(bla::CheckKind::question, proposal);
+    if (!plan.erase && !checks.empty()) {
+      lines += change_question(plan, change, checks);
     }
-  }
+  });
   return lines;
 }
 
@@ -214,11 +248,11 @@ bool Plan::acts() const {
 }
 
 bool Plan::moves() const {
-  const Values now = before.values();
-  return erase || restart || std::ranges::any_of(changes, [&](const Change& change) {
-           return change.is_planned() &&
-                  bla::may_move(change.parameter->address, change.requested, now);
-         });
+  bool moves = erase || restart;
+  for_each_proposal(*this, [&](const Change&, const bla::Proposal& proposal) {
+    moves = moves || bla::may_move(proposal);
+  });
+  return moves;
 }
 
 std::optional<dronecan::NodeId> Plan::given_node_id() const {
@@ -261,12 +295,19 @@ Result<std::vector<const Parameter*>> registers_needed(const Wanted& wanted, con
     return fail(Code::no_profile, say<texts::only_readable>(), say<texts::defaults_unknown_hint>());
   }
   Registers registers = to_judge(wanted, servo);
+  for (const Address address : wanted.also_read) {
+    add(registers, servo.identity.parameter(address));
+  }
   if (wanted.restart || wanted.erase) { // after the restart all of it must be the same
     for (const Parameter* parameter : servo.identity.configuration()) {
       add(registers, parameter);
     }
   }
   return registers;
+}
+
+ReadJob::Proof proof_needed(const Wanted& wanted) {
+  return wanted.restart == RestartKind::save ? ReadJob::Proof::run : ReadJob::Proof::moment;
 }
 
 Result<Plan> make_plan(const Wanted& wanted, Snapshot before, const bla::Profiles& profiles) {
@@ -299,8 +340,8 @@ Result<Plan> make_plan(const Wanted& wanted, Snapshot before, const bla::Profile
   if (wanted.erase && wanted.keep_ids) {
     plan_kept_ids(plan);
   }
-  if (auto misfit = check_switches(plan)) {
-    return std::unexpected(std::move(*misfit));
+  if (auto refused = check_together(plan)) {
+    return std::unexpected(std::move(*refused));
   }
   if (plan.erase || plan.restart == RestartKind::save) {
     plan.expected = expected_after(plan);

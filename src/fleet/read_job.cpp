@@ -20,12 +20,16 @@ constexpr int most_silent = 2;
 /// A servo that restarts more often while it is read is not read to an end.
 constexpr int most_passes = 4;
 
+/// Uptimes that may come too late to tell anything.
+constexpr int most_uptimes = 4;
+
 } // namespace
 
 ReadJob::ReadJob(Roster& roster, dronecan::NodeId id, const bla::Profiles& profiles,
-                 Identification::Options options, Choice choice, Proof proof)
+                 Identification::Options options, Choice choice, Proof proof, More more)
     : roster_(roster), id_(id), patience_(options.patience),
-      identification_(roster, id, profiles, options), choice_(std::move(choice)), proof_(proof) {
+      identification_(roster, id, profiles, options), choice_(std::move(choice)),
+      more_(std::move(more)), proof_(proof) {
   snapshot_.servo.id = id;
 }
 
@@ -39,6 +43,7 @@ Step ReadJob::next(const Outcome& outcome) {
   case At::read: return take_reading(outcome);
   case At::presence: return judge_presence(outcome);
   case At::proof: return judge_proof(outcome);
+  case At::uptime: return ask_unit(At::proof);
   case At::settle: break;
   }
   if (roster_.is_doubled(id_)) {
@@ -83,7 +88,7 @@ Step ReadJob::take_reading(const Outcome& outcome) {
     const std::uint8_t id = id_.value();
     return give_up({Code::interrupted, say<texts::not_read_completely>(id), {}, id});
   }
-  if (roster_.is_doubled(id_) && proof_ == Proof::moment) {
+  if (roster_.is_doubled(id_) && proof_ != Proof::none) {
     return give_up(doubled(roster_, id_));
   }
   if (silent_ == most_silent) {
@@ -92,9 +97,20 @@ Step ReadJob::take_reading(const Outcome& outcome) {
   return read_next();
 }
 
+bool ReadJob::has_next() {
+  if (snapshot_.readings.size() == wanted_.size() && more_) {
+    for (const bla::Parameter* parameter : more_(snapshot_)) {
+      if (std::ranges::find(wanted_, parameter) == wanted_.end()) {
+        wanted_.push_back(parameter);
+      }
+    }
+  }
+  return snapshot_.readings.size() < wanted_.size();
+}
+
 Step ReadJob::read_next() {
-  if (snapshot_.readings.size() == wanted_.size()) {
-    return proof_ == Proof::moment ? ask_unit(At::proof) : Step(std::nullopt);
+  if (!has_next()) {
+    return proof_ == Proof::none ? Step(std::nullopt) : ask_unit(At::proof);
   }
   at_ = At::read;
   return read_register(id_, wanted_[snapshot_.readings.size()]->address, patience_);
@@ -132,20 +148,51 @@ Step ReadJob::judge_proof(const Outcome& outcome) {
     return give_up(
         {Code::state, say<texts::restarted_meanwhile>(id), say<texts::run_again_hint>(), id});
   }
-  const bool runs_on = roster_.member(id_).boots == servo.boot;
+  const bool runs_on = !has_another_boot();
   if (runs_on && has_run_since(servo.since, info->status.uptime_s, outcome.at)) {
     return settle(outcome.at);
   }
+  if (runs_on && proof_ == Proof::run && !snapshot_.has_restarted) {
+    return judge_uptime(info->status.uptime_s, outcome.at);
+  }
+  return judge_passes(runs_on, outcome.at);
+}
+
+/// An uptime near 0, or one that is not older than the first question, is asked for again when it
+/// tells something.
+Step ReadJob::judge_uptime(std::uint32_t uptime_s, Time now) {
+  using Verdict = UptimeCheck::Verdict;
+  const UptimeCheck check(snapshot_.servo.since);
+  const Verdict verdict = check.judge(uptime_s, now);
+  if (verdict == Verdict::ran_on && uptimes_ > 0) {
+    return settle(now);
+  }
+  if (verdict == Verdict::restarted) {
+    return judge_passes(false, now);
+  }
+  if (uptimes_ == most_uptimes) {
+    const std::uint8_t id = id_.value();
+    return give_up(
+        {Code::state, say<texts::answers_too_late>(id), say<texts::run_again_hint>(), id});
+  }
+  ++uptimes_;
+  at_ = At::uptime;
+  return dronecan::Pause{.until = check.next(now),
+                         .ready = [this] { return roster_.is_doubled(id_) || has_another_boot(); }};
+}
+
+Step ReadJob::judge_passes(bool runs_on, Time now) {
   const bool agrees = passes_ == 1 || agrees_with_before();
   snapshot_.has_restarted = snapshot_.has_restarted || !runs_on || !agrees;
   if (runs_on && passes_ > 1 && agrees) {
-    return settle(outcome.at);
+    return settle(now);
   }
   if (passes_ == most_passes) {
+    const std::uint8_t id = id_.value();
     return give_up(
         {Code::state, say<texts::restarts_while_read>(id), say<texts::restarts_again_hint>(), id});
   }
-  return read_again(outcome.at);
+  return read_again(now);
 }
 
 /// The same servo, perhaps after a restart: everything once more.
@@ -157,6 +204,10 @@ Step ReadJob::read_again(Time now) {
   servo.since = now;
   roster_.learn_run(servo);
   return read_next();
+}
+
+bool ReadJob::has_another_boot() const {
+  return roster_.member(id_).boots != snapshot_.servo.boot;
 }
 
 /// Measured values may differ, those that are kept may not.

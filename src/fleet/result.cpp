@@ -15,8 +15,22 @@ std::vector<Error> ChangeResult::errors() const {
   return all;
 }
 
+bla::Values ChangeResult::after() const {
+  bla::Values values = before;
+  for (const Change& change : changes) {
+    const auto raw = was_begun ? change.after : std::optional(change.requested);
+    if (raw) {
+      values[change.parameter->address] = *raw;
+    } else {
+      values.erase(change.parameter->address);
+    }
+  }
+  return values;
+}
+
 ChangeResult as_planned(const Plan& plan) {
   return {.servo = plan.before.servo,
+          .before = plan.before.values(),
           .changes = plan.changes,
           .mode_before = plan.mode_before,
           .mode_after = plan.mode_after,

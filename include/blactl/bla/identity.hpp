@@ -57,6 +57,10 @@ class Identity {
   /// enough.
   [[nodiscard]] Result<Values> factory_defaults() const;
 
+  /// Whether this servo takes commands by PWM, as far as its model is known.
+  /// Errors: unsupported (firmware, no PWM input).
+  [[nodiscard]] Result<void> check_pwm_input() const;
+
   /// Whether `raw` may be sent to `address` of this servo: never on a guess of the model, never
   /// what firmware or model lack, never outside of the range.
   /// Errors: no_profile (unknown model; or candidates disagree about this register),

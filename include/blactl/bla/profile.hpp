@@ -29,6 +29,7 @@ struct FaultBit {
   bool latched = false;     ///< tells why the servo restarted, stays until the next start
   bool vendor_only = false; ///< shown by the vendor's program, absent in the specification
   std::string text_en, text_ja, condition_en, condition_ja, action_en, action_ja;
+  std::vector<Address> values; ///< registers that tell more: what is measured, and its limit
 };
 
 /// The bit of 0x18 that shows that `bit` or another of its group and level is set (4.12).

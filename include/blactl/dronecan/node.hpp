@@ -45,6 +45,7 @@ struct Outcome {
   Kind kind = Kind::start;
   Bytes payload; ///< valid during the call
   Time at{};     ///< when the answer's first frame came, or when the waiting ended
+  Time asked{};  ///< when the question went to the bus that was answered
 
   [[nodiscard]] bool answered() const { return kind == Kind::answered; }
 };
@@ -182,6 +183,7 @@ class Node {
     bool left = false;                ///< its last frame was echoed
     bool is_cancelled = false;        ///< perhaps in its own call: what it asks then is not sent
     std::vector<can::Frame> frames{}; ///< of the question; the last one recognises the echo
+    Time asked_at{};                  ///< the last time
     Time deadline = never;            ///< of the answer, the echo or the pause
 
     [[nodiscard]] bool is_done() const { return step.is_end(); }

@@ -6,6 +6,7 @@
 #include "blactl/bla/profile.hpp"
 #include "blactl/bla/values.hpp"
 #include "blactl/fleet/change.hpp"
+#include "blactl/fleet/read_job.hpp"
 #include "blactl/fleet/restart_job.hpp"
 #include "blactl/fleet/snapshot.hpp"
 
@@ -23,6 +24,7 @@ struct Wanted {
   bool erase = false;
   bool keep_ids = false; ///< 0x45 and 0x46 outlive the erasing
   std::optional<RestartKind> restart{};
+  std::vector<bla::Address> also_read{}; ///< what is to be shown beside the changes
 
   /// Changed are whole servos, not single registers.
   [[nodiscard]] bool is_about_whole_servo() const { return assignments.empty(); }
@@ -65,6 +67,9 @@ struct Plan {
 /// holds: no_profile, unsupported, read_only, out_of_range.
 [[nodiscard]] Result<std::vector<const bla::Parameter*>> registers_needed(const Wanted& wanted,
                                                                           const Servo& servo);
+
+/// How much of them must be proven: what RAM has lost SAVE must not make lasting.
+[[nodiscard]] ReadJob::Proof proof_needed(const Wanted& wanted);
 
 /// `before` holds registers_needed(). Errors: why it does not; usage (0x36 in the unit that 0x37
 /// does not take); no_profile (ERASE, where the defaults are not known); cross_check (a command

@@ -10,7 +10,8 @@
 namespace blactl::fleet {
 
 struct ChangeResult {
-  Servo servo; ///< as it was identified; its servo ID as it was read last
+  Servo servo;          ///< as it was identified; its servo ID as it was read last
+  bla::Values before{}; ///< what was read before anything was changed
   std::vector<Change> changes{};
   std::optional<std::int64_t> mode_before{}, mode_after{}; ///< as Plan
   std::vector<Warning> warnings{};                         ///< as Plan
@@ -28,6 +29,9 @@ struct ChangeResult {
   [[nodiscard]] std::vector<Error> errors() const;
 
   [[nodiscard]] bool is_done() const { return !error && is_verified; }
+
+  /// What it holds now, as far as is known; of a plan, what it would hold.
+  [[nodiscard]] bla::Values after() const;
 };
 
 /// The result of a plan that is only shown (--dry-run).

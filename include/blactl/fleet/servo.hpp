@@ -18,7 +18,7 @@ struct Servo {
   dronecan::NodeId id{};
   std::optional<dronecan::UniqueId> unique_id{}; ///< empty: a recording may lack it
   std::uint32_t boot = 0;                        ///< Member::boots when it said so
-  Time since{};          ///< when it was first asked: all that it said is younger
+  Time since{};          ///< when it was first asked with success: all that it said is younger
   std::string name{};    ///< of GetNodeInfo, foreign bytes
   bool is_servo = false; ///< it answered register 0x50
   bla::Identity identity{};
@@ -28,5 +28,23 @@ struct Servo {
 /// Whether an uptime that was told at `now` proves that the unit has run since then: it counts
 /// whole seconds, and a clock may be wrong by some percent. False is no proof of a restart.
 [[nodiscard]] bool has_run_since(Time since, std::uint32_t uptime_s, Time now);
+
+/// Whole seconds since then: an uptime asked at such a moment is smaller where the unit has started
+/// anew since then, and only there.
+class UptimeCheck {
+ public:
+  explicit UptimeCheck(Time since) : since_(since) {}
+
+  /// The next moment to ask at.
+  [[nodiscard]] Time next(Time now) const;
+
+  enum class Verdict : std::uint8_t { ran_on, restarted, too_late };
+
+  /// What an uptime that was told at `now` means. Too late: it took too long to be asked or told.
+  [[nodiscard]] Verdict judge(std::uint32_t uptime_s, Time now) const;
+
+ private:
+  Time since_;
+};
 
 } // namespace blactl::fleet

@@ -46,6 +46,9 @@ class Session {
 
   [[nodiscard]] Time now() const { return loop_.now(); }
 
+  /// The same moment by the calendar.
+  [[nodiscard]] WallTime wall() const { return loop_.wall(); }
+
   /// When the bus was open: since then it has been heard.
   [[nodiscard]] Time opened() const { return opened_; }
 

@@ -116,6 +116,12 @@ inline constexpr Text restarted_while_read{
     "node {} restarted while it was read: what was in its RAM only is lost, nothing was saved",
     "ノード {} は読出し中に再起動しました。RAM のみの変更は失われ、保存していません",
 };
+inline constexpr Text answers_too_late{
+    "node {} has only just started, and answers too late to tell whether it restarted while it was "
+    "read: nothing was written",
+    "ノード {} "
+    "は起動直後です。応答が遅く、読出し中に再起動したか判定できません。書込みはしていません",
+};
 inline constexpr Text restarts_while_read{
     "node {} restarts again and again while it is read",
     "ノード {} は読出し中に何度も再起動しています",
@@ -185,18 +191,9 @@ inline constexpr Text command_is_not_saved{"{} is a command: SAVE does not keep 
                                            "{} は動作指令であり、SAVE では保存されません"};
 inline constexpr Text command_is_not_saved_hint{"leave --save out, or the command",
                                                 "--save か指令のどちらかを外して下さい"};
-inline constexpr Text control_is_off{
-    "the servo takes no {} while speed_torque_control (0x25) is off",
-    "speed_torque_control (0x25) が OFF の間、サーボは {} を受け付けません",
-};
-inline constexpr Text control_is_off_hint{
-    "switch it on first: blactl set -n {} speed_torque_control=on",
-    "先に有効にして下さい: blactl set -n {} speed_torque_control=on",
-};
-inline constexpr Text leave_at_default{
-    "{}: the manufacturer advises to leave it at its default ({})",
-    "{}: メーカーは初期値 ({}) のままとすることを推奨しています",
-};
+inline constexpr Text judged_change{"{}={}: {}", "{}={}: {}"};
+inline constexpr Text set_first_hint{"first: blactl set -n {} {}",
+                                     "先に実行して下さい: blactl set -n {} {}"};
 inline constexpr Text question_restart_unknown{
     "node {}: it starts with what its ROM holds, which is not known: torque may come on, and the "
     "shaft may run to 0 deg\n",
@@ -347,6 +344,7 @@ inline constexpr Text question_may_move{
     "This can move the shaft or let go of the load:\n",
     "出力軸が動く、または負荷を保持できなくなる可能性があります:\n"};
 inline constexpr Text question_change{"  node {}: {} {} -> {}\n", "  ノード {}: {} {} -> {}\n"};
+inline constexpr Text question_reason{"    ({})\n", "    ({})\n"};
 inline constexpr Text unknown_before{"?", "?"};
 inline constexpr Text doubled_servo_id_hint{
     "give one of them another: blactl set -n {} servo_id=ID",

@@ -148,7 +148,7 @@ class Bench {
   }
 
   void ask(Outcome outcome) {
-    outcome.at = known_.now;
+    outcome.at = outcome.asked = known_.now;
     step_ = job->next(outcome);
     // A second unit on the ID is listened for, and is not there.
     const dronecan::Pause* pause = step_.pause();

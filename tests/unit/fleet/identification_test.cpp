@@ -210,10 +210,13 @@ TEST_CASE("an actuator that is called like a servo is a servo that is mute") {
   CHECK(dialogue.mute());
 }
 
-TEST_CASE("a servo is dated by the moment before the first question") {
+TEST_CASE("a servo is dated by the question that it answered first") {
   Dialogue dialogue;
-  CHECK(dialogue.next({Outcome::Kind::start, {}, Time{500s}}) == "GetNodeInfo");
-  CHECK(dialogue.next(dialogue.script.info(1)) == "read 0x50");
+  CHECK(dialogue.next({Outcome::Kind::start, {}, Time{499s}}) == "GetNodeInfo");
+  Outcome answer = dialogue.script.info(1);
+  answer.asked = Time{500s}; // once more: it may have started after the one before
+  answer.at = Time{501s};
+  CHECK(dialogue.next(answer) == "read 0x50");
   dialogue.next(dialogue.script.value("0x50", std::int64_t{61}));
   dialogue.next(dialogue.script.value("0x51", std::int64_t{1}));
   dialogue.next(dialogue.script.value("0x52", std::int64_t{1400}));

@@ -60,17 +60,21 @@ std::string question_of(const Plan& plan) {
 
 TEST_CASE("what is written is read before, with what tells whether it moves the shaft") {
   CHECK(needed(set({"reverse=on"})) == std::vector{0x23});
-  CHECK(needed(set({"angle_limit_cw=90deg"})) == std::vector{0x38, 0x08, 0x00});
+  CHECK(needed(set({"angle_limit_cw=90deg"})) ==
+        std::vector{0x38, 0x08, 0x00, 0x36, 0x37, 0x39}); // and whether it cuts off PWM
   CHECK(needed(set({"angle_limit_cw=90deg", "angle_limit_ccw=-90deg"})) ==
-        std::vector{0x38, 0x39, 0x08, 0x00}); // each once
-  CHECK(needed(set({"temperature_limit_high=60"})) == std::vector{0x3E, 0x0B, 0x1A});
-  CHECK(needed(set({"voltage_limit_low=9V"})) == std::vector{0x41, 0x0C, 0x1A});
-  CHECK(needed(set({"command_speed=100rpm"})) == std::vector{0x01, 0x25}); // does it take it?
+        std::vector{0x38, 0x39, 0x08, 0x00, 0x36, 0x37}); // each once
+  CHECK(needed(set({"temperature_limit_high=60"})) == std::vector{0x3E, 0x3F, 0x0B, 0x1A});
+  CHECK(needed(set({"voltage_limit_low=9V"})) == std::vector{0x41, 0x40, 0x0C, 0x1A});
+  CHECK(needed(set({"command_speed=100rpm"})) ==
+        std::vector{0x01, 0x25, 0x02, 0x26}); // does it take it, and what stops it?
 }
 
 TEST_CASE("the unit of 0x36 hangs on 0x37, which is read beside it") {
-  CHECK(needed(set({"pwm_output_range=90deg"})) == std::vector{0x36, 0x37, 0x19});
-  CHECK(needed(set({"pwm_output_range=90deg", "pwm_mode=angle"})) == std::vector{0x36, 0x37, 0x19});
+  CHECK(needed(set({"pwm_output_range=90deg"})) ==
+        std::vector{0x36, 0x37, 0x19, 0x38, 0x39, 0x3A, 0x3B});
+  CHECK(needed(set({"pwm_output_range=90deg", "pwm_mode=angle"})) ==
+        std::vector{0x36, 0x37, 0x19, 0x38, 0x39, 0x3A, 0x3B, 0x25});
 }
 
 TEST_CASE("where ROM is written or RAM erased the whole configuration is read") {

@@ -253,6 +253,58 @@ TEST_CASE("where nothing proves that the servo ran on, all is read once more") {
   }
 }
 
+TEST_CASE(
+    "whether a young servo ran on since it was first asked shows by its uptime a second later") {
+  Reader reader({"angle_limit_cw"}, ReadJob::Proof::run);
+  const auto told = [&](std::uint32_t uptime_s, Duration later) {
+    Outcome outcome = reader.script.info(unit, uptime_s);
+    outcome.at += later;
+    return reader.next(outcome);
+  };
+  CHECK(reader.next(Script::start()) == "read 0x38");
+  CHECK(reader.value("0x38", 900) == "GetNodeInfo");
+  CHECK(told(0, 15ms) == "pause");
+  REQUIRE(reader.step.pause() != nullptr);
+  CHECK(reader.step.pause()->until == Time{} + 1s);
+  SECTION("it did") {
+    CHECK(reader.next(Script::start()) == "GetNodeInfo");
+    CHECK(told(1, 1001ms) == "pause"); // for a twin
+    CHECK(reader.next(Script::start()) == "nothing");
+    CHECK_FALSE(reader.job.snapshot().has_restarted);
+  }
+  SECTION("it did not: that is told, and what it holds now is read") {
+    CHECK(reader.next(Script::start()) == "GetNodeInfo");
+    CHECK(told(0, 1001ms) == "read 0x38");
+    CHECK(reader.value("0x38", 900) == "GetNodeInfo");
+    CHECK(told(0, 1005ms) == "pause");
+    CHECK(reader.next(Script::start()) == "nothing");
+    CHECK(reader.job.snapshot().has_restarted);
+    CHECK_FALSE(reader.job.snapshot().error);
+  }
+  SECTION("an answer that is late is asked for again a second later") {
+    CHECK(reader.next(Script::start()) == "GetNodeInfo");
+    CHECK(told(1, 1100ms) == "pause");
+    REQUIRE(reader.step.pause() != nullptr);
+    CHECK(reader.step.pause()->until == Time{} + 2s);
+    CHECK(reader.next(Script::start()) == "GetNodeInfo");
+    CHECK(told(2, 2001ms) == "pause");
+    CHECK(reader.next(Script::start()) == "nothing");
+    CHECK_FALSE(reader.job.snapshot().has_restarted);
+  }
+  SECTION("answers that are always late prove nothing") {
+    for (std::uint32_t second = 1; second <= 4; ++second) {
+      CHECK(reader.next(Script::start()) == "GetNodeInfo");
+      CHECK(told(second, second * 1s + 100ms) == (second < 4 ? "pause" : "nothing"));
+    }
+    CHECK(reader.given_up() == Code::state);
+  }
+  SECTION("a restart that is heard ends the pause") {
+    CHECK_FALSE(reader.step.pause()->ready());
+    reader.known.restart();
+    CHECK(reader.step.pause()->ready());
+  }
+}
+
 TEST_CASE("measured values may differ from one reading to the next") {
   Reader reader({"current_angle"});
   const std::string question = reader.next(Script::start());
@@ -372,4 +424,27 @@ TEST_CASE("a servo that has run for a moment only is read twice") {
   CHECK(snapshot.raw(bla::address::angle_limit_cw) == 900);
   CHECK(scene.requests(GetNodeInfo::type, 11) == 3);
   CHECK(scene.requests(GetSet::type, 11) == 5 + 2);
+}
+
+TEST_CASE("what was read may ask for more, until it names nothing new") {
+  Acquaintance known{bla21()};
+  Script script;
+  ReadJob job(known.roster, NodeId(11), profiles(), {}, registers({"fault_summary"}),
+              ReadJob::Proof::moment, [](const Snapshot& so_far) {
+                const auto summary = so_far.raw(bla::address::fault_summary);
+                return summary == 2 ? std::vector{&parameter("fault_warning")}
+                                    : std::vector<const bla::Parameter*>{};
+              });
+  CHECK(text(job.next(Script::start())) == "read 0x18");
+  SECTION("there is more") {
+    CHECK(text(job.next(script.value("0x18", std::int64_t{2}))) == "read 0x1A");
+    CHECK(text(job.next(script.value("0x1A", std::int64_t{64}))) == "GetNodeInfo");
+    CHECK(text(job.next(script.info(unit))) == "pause");
+    CHECK(job.snapshot().raw(bla::address::fault_warning) == 64);
+  }
+  SECTION("there is not") {
+    CHECK(text(job.next(script.value("0x18", std::int64_t{0}))) == "GetNodeInfo");
+    CHECK(text(job.next(script.info(unit))) == "pause");
+    CHECK(job.snapshot().readings.size() == 1);
+  }
 }

@@ -34,7 +34,7 @@ class Bench {
 
   /// What the job does next, after this outcome of its last step.
   std::string next(Outcome outcome) {
-    outcome.at = now;
+    outcome.at = outcome.asked = now;
     step = job.next(outcome);
     ++steps[text(step)];
     return text(step);

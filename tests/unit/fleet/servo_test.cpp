@@ -39,3 +39,40 @@ TEST_CASE("an uptime proves that a unit has run since, or proves nothing") {
   CAPTURE(row.uptime_s, row.since_ago.count());
   CHECK(has_run_since(now - row.since_ago, row.uptime_s, now) == row.proves);
 }
+
+TEST_CASE("an uptime asked a whole number of seconds later tells whether a unit started anew") {
+  using Verdict = UptimeCheck::Verdict;
+
+  struct Row {
+    Duration later;
+    std::uint32_t uptime_s;
+    Verdict verdict;
+  };
+
+  const auto row = GENERATE(values<Row>({
+      {1s, 1, Verdict::ran_on}, // also if it had just started
+      {1s, 2, Verdict::ran_on},
+      {1s, 0, Verdict::restarted},
+      {1020ms, 1, Verdict::ran_on},
+      {1021ms, 1, Verdict::too_late}, // it may have started 21 ms after
+      {1021ms, 0, Verdict::restarted},
+      {1999ms, 1, Verdict::too_late},
+      {2s, 1, Verdict::restarted},
+      {2s, 2, Verdict::ran_on},
+      {3001ms, 3, Verdict::ran_on},
+      {3001ms, 2, Verdict::restarted},
+      {1s, 0xFFFF'FFFF, Verdict::ran_on},
+  }));
+  const Time since{1'000'000s};
+  CAPTURE(row.uptime_s, row.later.count());
+  CHECK(UptimeCheck(since).judge(row.uptime_s, since + row.later) == row.verdict);
+}
+
+TEST_CASE("an uptime is asked for at the next whole second") {
+  const Time since{1'000'000s};
+  const UptimeCheck check(since);
+  CHECK(check.next(since) == since + 1s);
+  CHECK(check.next(since + 999ms) == since + 1s);
+  CHECK(check.next(since + 1s) == since + 2s);
+  CHECK(check.next(since + 2500ms) == since + 3s);
+}

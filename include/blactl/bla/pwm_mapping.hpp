@@ -1,0 +1,72 @@
+#pragma once
+// How the pulse at the PWM input becomes a command: 0x34-0x37 as one mapping (4.29, 4.30).
+
+#include "blactl/base/error.hpp"
+#include "blactl/bla/profile.hpp"
+#include "blactl/bla/values.hpp"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace blactl::bla {
+
+/// All four registers, and the limits that cut its commands off where they are known.
+struct PwmMapping {
+  std::int64_t neutral_us = 0;
+  std::int64_t range_us = 0;                           ///< to either side
+  std::int64_t output_raw = 0;                         ///< at the ends of the range: 0.1 deg or rpm
+  std::int64_t mode = 0;                               ///< 0x37: 0 angle, 1 speed
+  std::optional<std::int64_t> limit_cw{}, limit_ccw{}; ///< 0x38/0x39, or 0x3A/0x3B
+
+  [[nodiscard]] bool is_angle() const { return mode == 0; }
+
+  [[nodiscard]] std::int64_t shortest_us() const { return neutral_us - range_us; }
+
+  [[nodiscard]] std::int64_t longest_us() const { return neutral_us + range_us; }
+
+  /// The command that a pulse gives, as 0x00 or 0x01 counts it; between two steps the one nearer to
+  /// 0 (unproven). Empty: the pulse counts as none.
+  [[nodiscard]] std::optional<std::int64_t> command(std::int64_t pulse_us) const;
+
+  /// The same as the limits let it through.
+  [[nodiscard]] std::optional<std::int64_t> limited_command(std::int64_t pulse_us) const;
+
+  /// The pulses beyond which a limit cuts the command off, ascending; empty: none does.
+  [[nodiscard]] std::vector<std::int64_t> cut_off_us() const;
+
+  /// The pulses worth telling, ascending: shortest, neutral, longest, those of cut_off_us(), and
+  /// what autopilots send (1000, 1500, 2000) where the servo takes it.
+  [[nodiscard]] std::vector<std::int64_t> points_us() const;
+
+  friend bool operator==(const PwmMapping&, const PwmMapping&) = default;
+};
+
+/// Empty: one of 0x34-0x37 is not known.
+[[nodiscard]] std::optional<PwmMapping> pwm_mapping(const Values& values);
+
+/// The registers that tell the mapping, what cuts it off, what is at the input, and when PWM rules.
+[[nodiscard]] const std::vector<Address>& pwm_registers();
+
+/// What the servo sees at its PWM input (0x19).
+enum class PwmInput : std::uint8_t { ok, none, too_short, too_long };
+
+/// "ok", "none", "short", "long".
+[[nodiscard]] std::string_view name(PwmInput input);
+
+/// Empty: not known.
+[[nodiscard]] std::optional<PwmInput> pwm_input(const Values& values);
+
+/// The specification's examples (4.30), 1 to 4, as values of 0x34-0x37.
+[[nodiscard]] std::vector<std::string> pwm_preset(std::size_t number);
+inline constexpr std::size_t pwm_presets = 4;
+
+/// The mapping that goes through two points: "500us:-70deg,1500us:70deg", as values of 0x34-0x37.
+/// Errors: usage, with the nearest that is possible.
+[[nodiscard]] Result<std::vector<std::string>> pwm_from_endpoints(const Profiles& profiles,
+                                                                  std::string_view text);
+
+} // namespace blactl::bla

@@ -1,0 +1,60 @@
+#include "blactl/base/replace_file.hpp"
+
+#include "blactl/base/texts.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+namespace blactl {
+namespace {
+
+bool write_all(int descriptor, std::string_view content) {
+  while (!content.empty()) {
+    const ssize_t written = write(descriptor, content.data(), content.size());
+    if (written < 0 && errno != EINTR) {
+      return false;
+    }
+    content.remove_prefix(static_cast<std::size_t>(written < 0 ? 0 : written));
+  }
+  return fsync(descriptor) == 0;
+}
+
+/// As a new file would have them: mkstemp() makes it private.
+bool set_usual_rights(int descriptor) {
+  const mode_t mask = umask(0);
+  umask(mask);
+  return fchmod(descriptor, 0666 & ~mask) == 0;
+}
+
+std::unexpected<Error> failure(const std::string& path, int error) {
+  return fail(Code::io, say<texts::file_unwritable>(printable(path), std::strerror(error)),
+              say<texts::file_unwritable_hint>());
+}
+
+} // namespace
+
+Result<void> replace_file(const std::string& path, std::string_view content) {
+  std::string beside = path + ".XXXXXX";
+  const int descriptor = mkostemp(beside.data(), O_CLOEXEC);
+  if (descriptor < 0) {
+    return failure(path, errno);
+  }
+  const bool written = set_usual_rights(descriptor) && write_all(descriptor, content);
+  int error = errno;
+  const bool closed = close(descriptor) == 0;
+  error = written && !closed ? errno : error;
+  if (written && closed && std::rename(beside.c_str(), path.c_str()) == 0) {
+    return {};
+  }
+  error = written && closed ? errno : error;
+  unlink(beside.c_str());
+  return failure(path, error);
+}
+
+} // namespace blactl

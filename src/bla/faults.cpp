@@ -1,0 +1,82 @@
+#include "blactl/bla/faults.hpp"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+namespace blactl::bla {
+namespace {
+
+constexpr std::uint8_t register_bits = 32;
+constexpr std::array<std::string_view, 4> groups{"hardware", "software", "communication", "other"};
+
+Level level_of(Address reg) {
+  return static_cast<Level>(reg.value() - address::fault_notice.value());
+}
+
+/// The four bits of 0x18 that tell whether a register of this level has any (4.12).
+std::int64_t summary_mask(Level level) {
+  constexpr std::int64_t one_a_group = 0x01010101;
+  return one_a_group << std::to_underlying(level);
+}
+
+const FaultBit* find_bit(std::span<const FaultBit> bits, Address reg, std::uint8_t bit) {
+  const auto it = std::ranges::find_if(
+      bits, [&](const FaultBit& known) { return known.reg == reg && known.bit == bit; });
+  return it != bits.end() ? &*it : nullptr;
+}
+
+void add_once(std::vector<Address>& all, Address address) {
+  if (std::ranges::find(all, address) == all.end()) {
+    all.push_back(address);
+  }
+}
+
+} // namespace
+
+std::optional<std::int64_t> fault_register(const Values& values, Address reg) {
+  if (const auto read = find(values, reg)) {
+    return read;
+  }
+  const auto summary = find(values, address::fault_summary);
+  const bool is_clear =
+      reg != address::fault_summary && summary && (*summary & summary_mask(level_of(reg))) == 0;
+  return is_clear ? std::optional<std::int64_t>(0) : std::nullopt;
+}
+
+std::vector<Fault> faults(const Values& values, const Profiles& profiles) {
+  std::vector<Fault> found;
+  for (auto it = fault_registers.rbegin(); it != fault_registers.rend(); ++it) {
+    const std::int64_t bits = fault_register(values, *it).value_or(0);
+    for (std::uint8_t bit = 0; bit < register_bits; ++bit) {
+      if ((bits >> bit & 1) != 0) {
+        found.push_back({*it, bit, level_of(*it), groups.at(bit / 8U),
+                         find_bit(profiles.fault_bits(), *it, bit)});
+      }
+    }
+  }
+  return found;
+}
+
+std::vector<Address> fault_details(const Values& values, const Profiles& profiles) {
+  std::vector<Address> wanted;
+  for (const Address reg : fault_registers) {
+    if (!fault_register(values, reg)) {
+      wanted.push_back(reg);
+    }
+  }
+  if (!wanted.empty()) {
+    return wanted;
+  }
+  for (const Fault& fault : faults(values, profiles)) {
+    for (const Address address :
+         fault.known != nullptr ? std::span(fault.known->values) : std::span<const Address>()) {
+      if (!find(values, address)) {
+        add_once(wanted, address);
+      }
+    }
+  }
+  return wanted;
+}
+
+} // namespace blactl::bla

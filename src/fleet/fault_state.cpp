@@ -1,0 +1,100 @@
+#include "blactl/fleet/fault_state.hpp"
+
+#include "blactl/fleet/guard.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace blactl::fleet {
+namespace {
+
+using bla::Parameter;
+
+std::vector<const Parameter*> registers_at(const Servo& servo,
+                                           std::span<const bla::Address> addresses) {
+  std::vector<const Parameter*> registers;
+  for (const bla::Address address : addresses) {
+    const Parameter* parameter = servo.identity.parameter(address);
+    if (parameter != nullptr && servo.identity.has(*parameter)) {
+      registers.push_back(parameter);
+    }
+  }
+  return registers;
+}
+
+/// What is missing of the three registers is missing of the faults; the values behind them and
+/// 0x18 are not.
+std::vector<Error> errors_of(const Snapshot& snapshot, const Roster& roster) {
+  const dronecan::NodeId id = snapshot.servo.id;
+  if (roster.is_doubled(id)) {
+    return {doubled(roster, id)};
+  }
+  Snapshot needed{.servo = snapshot.servo, .error = snapshot.error};
+  const auto values = snapshot.values();
+  for (const Reading& reading : snapshot.readings) {
+    const bool is_missing = std::ranges::find(bla::fault_registers, reading.parameter->address) !=
+                                bla::fault_registers.end() &&
+                            !bla::fault_register(values, reading.parameter->address);
+    if (is_missing) {
+      needed.readings.push_back(reading);
+    }
+  }
+  return needed.errors();
+}
+
+FaultState state_of(Snapshot snapshot, const Roster& roster, const bla::Profiles& profiles) {
+  FaultState state{.snapshot = std::move(snapshot), .faults = {}, .health = {}, .errors = {}};
+  state.errors = errors_of(state.snapshot, roster);
+  if (roster.is_doubled(state.snapshot.servo.id)) {
+    state.snapshot.readings.clear(); // they may be of either
+  }
+  state.faults = bla::faults(state.snapshot.values(), profiles);
+  if (const auto& status = roster.member(state.snapshot.servo.id).status) {
+    state.health = status->health;
+  }
+  return state;
+}
+
+} // namespace
+
+std::optional<std::int64_t> FaultState::fault_register(bla::Address reg) const {
+  return bla::fault_register(snapshot.values(), reg);
+}
+
+std::optional<bla::Level> FaultState::worst() const {
+  return faults.empty() ? std::nullopt : std::optional(faults.front().level);
+}
+
+std::vector<Reading> FaultState::values_of(const bla::Fault& fault) const {
+  std::vector<Reading> values;
+  for (const Reading& reading : snapshot.readings) {
+    const bla::Address address = reading.parameter->address;
+    if (reading.raw && fault.known != nullptr &&
+        std::ranges::find(fault.known->values, address) != fault.known->values.end()) {
+      values.push_back(reading);
+    }
+  }
+  return values;
+}
+
+FaultStates read_faults(Session& session, const bla::Profiles& profiles,
+                        std::span<const dronecan::NodeId> servos,
+                        const Identification::Options& options) {
+  constexpr std::array first{bla::address::fault_summary};
+  auto snapshots = take_snapshots(
+      session, profiles, servos, options,
+      [&](const Servo& servo) -> Result<std::vector<const Parameter*>> {
+        return registers_at(servo, first);
+      },
+      ReadJob::Proof::moment,
+      [&](const Snapshot& so_far) {
+        return registers_at(so_far.servo, bla::fault_details(so_far.values(), profiles));
+      });
+  FaultStates states{.servos = {}, .broken = std::move(snapshots.broken)};
+  for (Snapshot& snapshot : snapshots.servos) {
+    states.servos.push_back(state_of(std::move(snapshot), session.roster(), profiles));
+  }
+  return states;
+}
+
+} // namespace blactl::fleet
