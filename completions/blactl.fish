@@ -8,7 +8,7 @@ function __blactl_words
     for word in $words[2..]
         if test $value = yes
             set value no
-        else if string match -qr -- '^(--(clock|color|count|duration|expect|facts|group|interface|kind|lang|listen|local-node-id|node|profile|profile-dir|record|retries|seed|stagger|timeout|type|wait)|-[jqvyhV]*[in])$' $word
+        else if string match -qr -- '^(--(clock|color|count|duration|endpoints|expect|facts|group|interface|kind|lang|level|listen|local-node-id|mode|neutral|node|output|preset|profile|profile-dir|range|record|retries|seed|stagger|svg|timeout|type|wait)|-[jqvyhV]*[in])$' $word
             set value yes
         else if not string match -q -- '-*' $word
             echo $word
@@ -232,6 +232,8 @@ complete -c blactl -n __blactl_needs_command -a save -d 'RAM to ROM: restarts th
 complete -c blactl -n __blactl_needs_command -a erase -d 'RAM to factory defaults, IDs included (ROM only with --save)'
 complete -c blactl -n __blactl_needs_command -a restart -d 'restart: RAM from ROM'
 complete -c blactl -n __blactl_needs_command -a wait -d 'until the servos are there and operational'
+complete -c blactl -n __blactl_needs_command -a faults -d 'what is wrong with servos, and what to do'
+complete -c blactl -n __blactl_needs_command -a pwm-config -d 'how PWM pulses become commands: show, plot, change'
 complete -c blactl -n __blactl_needs_command -a trace -d 'every DroneCAN transfer decoded, live or from a candump log; sends nothing'
 complete -c blactl -n __blactl_needs_command -a models -d 'what the profiles know, without any servo'
 complete -c blactl -n __blactl_needs_command -a sim -d 'simulated servos: serves the sim: bus, or joins a real interface with -i'
@@ -281,6 +283,21 @@ complete -c blactl -n '__blactl_in restart' -l wait -r -f -d 'how long a servo m
 complete -c blactl -n '__blactl_in restart' -l stagger -r -f -d 'pause between two servos (default 0)'
 
 complete -c blactl -n '__blactl_in wait' -l wait -r -f -d 'how long to wait (default 10)'
+
+complete -c blactl -n '__blactl_in faults' -l level -r -f -a 'notice warning failure' -d 'only faults of this level and above; they make the exit status 8 (default: all are shown, warning and above make it 8)'
+complete -c blactl -n '__blactl_in faults' -l watch -d 'goes on until Ctrl-C'
+
+complete -c blactl -n '__blactl_in pwm-config' -l neutral -r -f -d 'the pulse that gives 0'
+complete -c blactl -n '__blactl_in pwm-config' -l range -r -f -d 'how far pulses go to either side'
+complete -c blactl -n '__blactl_in pwm-config' -l output -r -f -d 'what the ends of the range give, to either side'
+complete -c blactl -n '__blactl_in pwm-config' -l mode -r -f -d 'angle or speed (0x37), with --output in deg or rpm'
+complete -c blactl -n '__blactl_in pwm-config' -l endpoints -r -f -d 'all four by two points'
+complete -c blactl -n '__blactl_in pwm-config' -l preset -r -f -d 'all four by an example of the specification'
+complete -c blactl -n '__blactl_in pwm-config' -l svg -r -F -d 'draws the mapping of one servo into FILE, for a browser or a printer'
+complete -c blactl -n '__blactl_in pwm-config' -l save -d 'then RAM to ROM'
+complete -c blactl -n '__blactl_in pwm-config' -l dry-run -d 'change nothing, show the mapping before and after; exit status 8 when something would change'
+complete -c blactl -n '__blactl_in pwm-config' -l wait -r -f -d 'how long a servo may take to come back (default 5, and 2 for each that asks for a node ID)'
+complete -c blactl -n '__blactl_in pwm-config' -l stagger -r -f -d 'pause between two servos (default 0)'
 
 complete -c blactl -n '__blactl_in trace' -l type -r -f -d 'only these data types'
 complete -c blactl -n '__blactl_in trace' -l kind -r -f -a '(__blactl_list message request response)' -d 'only these kinds'

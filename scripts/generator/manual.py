@@ -4,7 +4,8 @@ import re
 import shutil
 import subprocess
 
-BEGIN = "; options of {}: made by scripts/generate, do not edit"
+BEGIN = "; {}: made by scripts/generate, do not edit"
+OPTIONS = "options of "
 END = "; end of the options"
 
 
@@ -31,7 +32,14 @@ def _argument(option):
     return f"_{_escaped(option.name)}_\n\t{_sentence(option.help)}\n"
 
 
+def _cross_check(check):
+    parameters = ", ".join(f"*{_escaped(name)}*" for name in check.parameters)
+    return f"_{_escaped(check.code)}_ ({check.kind})\n\t{parameters}: {_escaped(check.reason)}.\n"
+
+
 def _section(table, name):
+    if name == "cross-checks":
+        return "\n".join(_cross_check(check) for check in table.cross_checks)
     if name == "all commands":
         return "\n".join(_entry(option) for option in table.shared)
     command = next((each for each in table.commands if each.name == name), None)
@@ -51,16 +59,17 @@ def fill(source, table):
     for line in source.splitlines():
         marker = begin.fullmatch(line)
         if marker:
-            named.add(marker[1])
-            lines += [line, *_section(table, marker[1]).splitlines()]
+            name = marker[1].removeprefix(OPTIONS)
+            named.add(name)
+            lines += [line, *_section(table, name).splitlines()]
             inside = True
         elif line == END:
             inside = False
         if not inside:
             lines.append(line)
-    missing = {"all commands", *(command.name for command in table.commands)} - named
+    missing = {"all commands", "cross-checks", *(command.name for command in table.commands)} - named
     if missing:
-        raise SystemExit(f"man/blactl.1.scd has no place for the options of {sorted(missing)}")
+        raise SystemExit(f"man/blactl.1.scd has no place for {sorted(missing)}")
     lines[0] = re.sub(r'"blactl [^"]*"', f'"blactl {table.version}"', lines[0])
     return "\n".join(lines) + "\n"
 

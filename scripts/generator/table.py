@@ -36,6 +36,14 @@ class Command:
 
 
 @dataclasses.dataclass(frozen=True)
+class CrossCheck:
+    code: str
+    kind: str
+    parameters: tuple[str, ...]
+    reason: str
+
+
+@dataclasses.dataclass(frozen=True)
 class Parameter:
     name: str
     help: str
@@ -77,6 +85,10 @@ class Table:
                 if len(entry["enumeration"]) > len(known.words):
                     by_address[entry["address"]] = _parameter(entry)
         self.parameters = [by_address[address] for address in sorted(by_address)]
+        self.cross_checks = tuple(
+            CrossCheck(entry["code"], entry["kind"],
+                       tuple(by_address[address].name for address in entry["addresses"]),
+                       entry["help_en"]) for entry in cli["cross_checks"])
 
     def readable(self):
         return [parameter for parameter in self.parameters if parameter.readable]

@@ -95,11 +95,10 @@ bool Run::select() {
 }
 
 bool Run::plan() {
-  auto snapshots =
-      fleet::take_snapshots(context_.session(), context_.known(), servos_,
-                            context_.identification(), [this](const fleet::Servo& servo) {
-                              return fleet::registers_needed(request_.wanted, servo);
-                            });
+  auto snapshots = fleet::take_snapshots(
+      context_.session(), context_.known(), servos_, context_.identification(),
+      [this](const fleet::Servo& servo) { return fleet::registers_needed(request_.wanted, servo); },
+      fleet::proof_needed(request_.wanted));
   if (snapshots.broken) {
     return broken(*snapshots.broken);
   }
@@ -199,9 +198,16 @@ void Run::conclude(std::vector<ChangeResult> results) {
                       result.changes, fleet::ChangeStatus::written, &fleet::Change::status));
   }
   report_.counts = {{request_.view == ResultView::servos ? "done" : "written", done}};
+  if (request_.results) {
+    request_.results(results);
+  }
   const auto kept = std::make_shared<std::vector<ChangeResult>>(std::move(results));
-  report_.json = [kept, view = request_.view](JsonWriter& json) { write_json(json, view, *kept); };
-  report_.text = [kept, view = request_.view](const Page& page) { return text(view, *kept, page); };
+  report_.json = [kept, request = request_](JsonWriter& json) {
+    request.json ? request.json(json, *kept) : write_json(json, request.view, *kept);
+  };
+  report_.text = [kept, request = request_](const Page& page) {
+    return request.text ? request.text(*kept, page) : text(request.view, *kept, page);
+  };
 }
 
 void Run::tell_nothing_was_sent() {

@@ -9,6 +9,9 @@
 #include "cli/output/report.hpp"
 #include "cli/output/result_view.hpp"
 
+#include <functional>
+#include <span>
+#include <string>
 #include <string_view>
 
 namespace blactl::cli {
@@ -19,6 +22,11 @@ struct ChangeRequest {
   RestartTimes times{};
   bool dry_run = false;
   ResultView view = ResultView::servos;
+  /// In place of the view, where a command has its own way to show what became of single registers.
+  std::function<void(JsonWriter&, std::span<const fleet::ChangeResult>)> json{};
+  std::function<std::string(std::span<const fleet::ChangeResult>, const Page&)> text{};
+  /// Gets the results too, before they are told.
+  std::function<void(std::span<const fleet::ChangeResult>)> results{};
 };
 
 /// Changes the servos behind -n. If one of them refuses, none is written.

@@ -1,6 +1,7 @@
 #include "cli/dump.hpp"
 
 #include "blactl/base/json_writer.hpp"
+#include "blactl/bla/cross_check.hpp"
 
 #include "cli/commands.hpp"
 
@@ -84,6 +85,20 @@ void write(JsonWriter& json, const Command& command) {
   json.end_object();
 }
 
+void write(JsonWriter& json, const bla::CrossCheck& check) {
+  json.begin_object();
+  json.member("code", check.code);
+  json.member("kind", name(check.kind));
+  json.key("addresses");
+  json.begin_array();
+  for (const bla::Address address : check.of) {
+    json.value(address.name());
+  }
+  json.end_array();
+  write(json, check.reason);
+  json.end_object();
+}
+
 } // namespace
 
 std::string dump_cli() {
@@ -97,6 +112,12 @@ std::string dump_cli() {
   json.begin_array();
   for (const Command* command : all_commands()) {
     write(json, *command);
+  }
+  json.end_array();
+  json.key("cross_checks");
+  json.begin_array();
+  for (const bla::CrossCheck& check : bla::cross_checks()) {
+    write(json, check);
   }
   json.end_array();
   json.end_object();

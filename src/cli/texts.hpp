@@ -292,6 +292,78 @@ inline constexpr Text column_meaning{"MEANING", "名称"};
 inline constexpr Text column_shipped{"SHIPPED", "出荷時期"};
 inline constexpr Text column_changes{"CHANGES", "変更内容"};
 inline constexpr Text models_unit{"unit {}, in steps of {}", "単位 {}、分解能 {}"};
+// faults
+inline constexpr Text level_notice{"NOTICE", "通知"};
+inline constexpr Text level_warning{"WARNING", "警告"};
+inline constexpr Text level_failure{"FAILURE", "障害"};
+inline constexpr Text no_faults{"no faults", "異常なし"};
+inline constexpr Text faults_unknown{"not known whether it has faults", "異常の有無は不明です"};
+inline constexpr Text faults_hidden{"{} below {}: not shown", "{} 件は{}未満のため非表示"};
+inline constexpr Text unknown_bit{"a bit that no document describes", "仕様書に記載のないビット"};
+inline constexpr Text unknown_bit_action{
+    "Ask the manufacturer, with the firmware version and the name of the bit.",
+    "ファームウェアバージョンとビット番号を添えてメーカーに問い合わせて下さい。"};
+inline constexpr Text fault_now{"now: {}", "現在値: {}"};
+inline constexpr Text fault_latched{
+    "It tells why the servo last restarted by itself, and stays until the next start.",
+    "直前の自己再起動の原因です。次回起動時まで保持されます。"};
+inline constexpr Text fault_event{"{}  node {}  {}  {}", "{}  ノード {}  {}  {}"};
+inline constexpr Text fault_present{"present", "発生中"};
+inline constexpr Text fault_came{"came", "発生"};
+inline constexpr Text fault_went{"went", "解消"};
+inline constexpr Text answers_again{"node {} answers again", "ノード {} の応答が回復しました"};
+inline constexpr Text more_lines{"… {} more lines", "… 他 {} 行"};
+
+// pwm-config
+inline constexpr Text pwm_one_way{
+    "one of three ways: --endpoints, --preset, or --neutral, --range, --output, --mode",
+    "--endpoints、--preset、または --neutral / --range / --output / --mode "
+    "のいずれか一つの方法で指定して下さい"};
+inline constexpr Text pwm_mode_needs_output{
+    "--mode without --output: the output range counts in the unit of the mode",
+    "--mode には --output も必要です (出力範囲の単位が動作モードで変わるため)"};
+inline constexpr Text pwm_mode_hint{"for example --mode speed --output 150rpm",
+                                    "例: --mode speed --output 150rpm"};
+inline constexpr Text pwm_output_symmetric{
+    "--output {}: the range is the same to either side, so it is one positive value",
+    "--output {}: 出力範囲は両側対称です。正の値を一つ指定して下さい"};
+inline constexpr Text pwm_output_hint{"for example --output 70deg", "例: --output 70deg"};
+inline constexpr Text pwm_nothing_to_change{"{}: nothing to change is given",
+                                            "{}: 変更内容の指定がありません"};
+inline constexpr Text pwm_nothing_hint{
+    "say what: --neutral, --range, --output, --mode, --endpoints or --preset",
+    "--neutral、--range、--output、--mode、--endpoints、--preset のいずれかを指定して下さい"};
+inline constexpr Text pwm_svg_one_servo{"--svg draws one servo, not {}",
+                                        "--svg で描画できるのは 1 台です ({} 台指定)"};
+inline constexpr Text pwm_svg_hint{"choose it: -n", "-n で 1 台選んで下さい"};
+inline constexpr Text pwm_unknown{"the PWM mapping is not known", "PWM の設定を取得できません"};
+inline constexpr Text pwm_pulses{"  pulses   {} us +-{} us: {} to {} us\n",
+                                 "  パルス幅  {} us ±{} us: {} ～ {} us\n"};
+inline constexpr Text pwm_output{"  command  +-{} ({})\n", "  指令値    ±{} ({})\n"};
+inline constexpr Text pwm_angle{"angle", "角度"};
+inline constexpr Text pwm_speed{"speed", "速度"};
+inline constexpr Text pwm_input_now{"  input    {}\n", "  現在入力  {}\n"};
+inline constexpr Text pwm_input_ok{"a pulse within the range", "入力範囲内のパルスあり"};
+inline constexpr Text pwm_input_none{"no pulse", "パルス無し"};
+inline constexpr Text pwm_input_short{"a pulse at or below the shortest", "パルス下限以下"};
+inline constexpr Text pwm_input_long{"a pulse at or above the longest", "パルス上限以上"};
+inline constexpr Text pwm_fallback{
+    "  CAN      goes first; PWM takes over {} ms after the last CAN command (0x27)\n",
+    "  CAN 指令  優先。最後の CAN 指令から {} ms 後に PWM が有効になります (0x27)\n"};
+inline constexpr Text pwm_cut_below{"  limit    below {} us it stays at {}\n",
+                                    "  制限      {} us 未満では {} にとどまります\n"};
+inline constexpr Text pwm_cut_above{"  limit    above {} us it stays at {}\n",
+                                    "  制限      {} us を超えると {} にとどまります\n"};
+inline constexpr Text pwm_before{"  before   {}\n", "  変更前    {}\n"};
+inline constexpr Text column_pulse{"PULSE", "パルス幅"};
+inline constexpr Text column_command{"COMMAND", "指令値"};
+inline constexpr Text pwm_limited_to{", limited to {}", " ({} に制限)"};
+inline constexpr Text pwm_neutral_point{"neutral", "ニュートラル"};
+inline constexpr Text pwm_shortest_point{"shortest", "下限"};
+inline constexpr Text pwm_longest_point{"longest", "上限"};
+inline constexpr Text pwm_limit_point{"limit", "動作制限"};
+inline constexpr Text pwm_autopilot_point{"as autopilots send", "フライトコントローラーの標準値"};
+
 inline constexpr Text models_bit{"bit {}: {}", "bit {}: {}"};
 inline constexpr Text models_bit_latched{"stays until the next start", "次回起動時まで保持"};
 inline constexpr Text models_bit_pwm_only{"models with a PWM input only", "PWM 入力対応機種のみ"};

@@ -33,6 +33,11 @@ def remove_shared_option(cli):
     cli["options"] = [each for each in cli["options"] if each["name"] != "--while-driven"]
 
 
+def change_cross_check(cli):
+    """A cross-check gets another reason."""
+    cli["cross_checks"][0]["help_en"] = "another"
+
+
 def change_words(cli):
     """--color learns a word."""
     next(each for each in cli["options"] if each["name"] == "--color")["words"].append("sometimes")
@@ -48,6 +53,7 @@ CHANGES = [
     (add_option, COMPLETIONS + MANUAL),
     (remove_shared_option, COMPLETIONS + MANUAL),
     (change_words, COMPLETIONS + MANUAL),
+    (change_cross_check, MANUAL),
     (change_help, ["completions/_blactl", "completions/blactl.fish"] + MANUAL),
 ]
 

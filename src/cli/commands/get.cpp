@@ -1,14 +1,12 @@
 // blactl get: reads parameters.
 
 #include "blactl/fleet/carry_out.hpp"
-#include "blactl/fleet/discovery.hpp"
 #include "blactl/fleet/guard.hpp"
 #include "blactl/fleet/register_choice.hpp"
-#include "blactl/fleet/texts.hpp"
 
 #include "cli/commands.hpp"
-#include "cli/interface/bus_factory.hpp"
 #include "cli/output/parameter_view.hpp"
+#include "cli/read_servos.hpp"
 #include "cli/texts.hpp"
 
 #include <algorithm>
@@ -100,63 +98,26 @@ std::vector<Error> errors(const fleet::Snapshot& snapshot, const fleet::Register
   return all;
 }
 
-/// Why the command cannot be carried out at all: nothing may be sent, and it is no recording.
-std::optional<Error> refuse(const Context& context) {
-  if (!context.shared().listen_only || takes_no_frames(context.shared().interface)) {
-    return std::nullopt;
-  }
-  return Error{Code::usage, say<texts::listen_only_refused>("get"), say<texts::listen_only_hint>(),
-               std::nullopt};
-}
-
-/// Reads what was chosen of the servos behind -n.
-fleet::Snapshots read(const fleet::RegisterChoice& choice, const fleet::Targets& targets,
-                      Context& context, Report& report) {
-  fleet::Discovery discovery(context.session(), context.known(), context.identification());
-  auto selection = discovery.select(targets, fleet::servo_search_time);
-  if (!selection) {
-    return {.servos = {}, .broken = selection.error()};
-  }
-  for (const std::string& note : selection->notes) {
-    context.reporter().note(note);
-  }
-  for (Error& error : selection->errors) {
-    report.fail_target(std::move(error));
-  }
-  return fleet::take_snapshots(
-      context.session(), context.known(), selection->ids, context.identification(),
-      [&](const fleet::Servo& servo) { return choice.registers_of(servo); });
-}
-
 Report execute(const GetOptions& options, Context& context) {
   Report report{.interface = printable(context.shared().interface)};
-  const auto stop = [&](Error error) {
-    report.fail(std::move(error));
-    return std::move(report);
-  };
   const auto profiles = context.profiles();
   if (!profiles) {
-    return stop(profiles.error());
+    report.fail(profiles.error());
+    return report;
   }
   const auto choice = understand(options, **profiles);
   if (!choice) {
     report.errors = choice.error();
     return report;
   }
-  if (auto refused = refuse(context)) {
-    return stop(std::move(*refused));
+  const auto servos = select_for_reading("get", context, report);
+  if (!servos) {
+    return report;
   }
-  const auto targets = context.targets();
-  if (!targets) {
-    return stop(targets.error());
-  }
-  if (auto session = context.open(fleet::Session::Hearing::answers); !session) {
-    return stop(session.error());
-  }
-  report.interface = context.session().interface();
-
   const auto answers = std::make_shared<std::vector<ServoValues>>();
-  auto snapshots = read(*choice, *targets, context, report);
+  auto snapshots =
+      fleet::take_snapshots(context.session(), context.known(), *servos, context.identification(),
+                            [&](const fleet::Servo& servo) { return choice->registers_of(servo); });
   const fleet::Roster& roster = context.session().roster();
   if (snapshots.broken) { // before the servos: what they say of it is said of each
     context.broken(*snapshots.broken, report);

@@ -2,6 +2,8 @@
 
 #include "blactl/base/text.hpp"
 
+#include "cli/texts.hpp"
+
 #include <algorithm>
 #include <cstdint>
 #include <span>
@@ -131,6 +133,19 @@ std::string wrap(std::string_view text, std::size_t width, std::size_t indent, s
     line_is_empty = false;
   }
   return out;
+}
+
+std::string Page::cut(std::string_view text) const {
+  const auto lines = static_cast<std::size_t>(std::ranges::count(text, '\n'));
+  if (height == unlimited || lines < height) {
+    return std::string(text);
+  }
+  const std::size_t kept = height - 2;
+  std::size_t end = 0;
+  for (std::size_t line = 0; line < kept; ++line) {
+    end = text.find('\n', end) + 1;
+  }
+  return std::string(text.substr(0, end)) + say<texts::more_lines>(lines - kept) + '\n';
 }
 
 std::string Page::paint(Tone tone, std::string_view text) const {

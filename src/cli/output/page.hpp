@@ -14,8 +14,16 @@ enum class Tone : unsigned char { good, warning, bad };
 struct Page {
   static constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
 
-  std::size_t width = unlimited; ///< in cells; a pipe has no end of line
+  std::size_t width = unlimited;  ///< in cells; a pipe has no end of line
+  std::size_t height = unlimited; ///< in lines
   bool colour = false;
+  bool unicode = true; ///< lines and dots for drawings; else ASCII
+
+  [[nodiscard]] bool is_terminal() const { return width != unlimited; }
+
+  /// `text` as far as its lines fit on the page with one to spare; the last one tells how many do
+  /// not.
+  [[nodiscard]] std::string cut(std::string_view text) const;
 
   /// `text` in the colour of `tone`; as it is where no colour is shown.
   [[nodiscard]] std::string paint(Tone tone, std::string_view text) const;

@@ -58,14 +58,33 @@ bool Reporter::use_colour(int descriptor) const {
   return (no_colour == nullptr || *no_colour == '\0') && isatty(descriptor) != 0;
 }
 
+namespace {
+
+/// What the locale of this process says of its terminal.
+bool has_unicode() {
+  for (const char* variable : {"LC_ALL", "LC_CTYPE", "LANG"}) {
+    const char* value = std::getenv(variable); // NOLINT(concurrency-mt-unsafe): nobody sets it
+    if (value != nullptr && *value != '\0') {
+      const std::string_view locale = value;
+      return locale.find("UTF-8") != std::string_view::npos ||
+             locale.find("utf8") != std::string_view::npos;
+    }
+  }
+  return false;
+}
+
+} // namespace
+
 Page Reporter::page(int descriptor) const {
   constexpr std::size_t usual = 80;
+  constexpr std::size_t usual_height = 24;
   constexpr std::size_t least = 40;
-  Page page{.colour = use_colour(descriptor)};
+  Page page{.colour = use_colour(descriptor), .unicode = has_unicode()};
   if (isatty(descriptor) != 0) {
     winsize size{};
     const bool known = ioctl(descriptor, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
     page.width = known ? std::max<std::size_t>(size.ws_col, least) : usual;
+    page.height = known && size.ws_row > 1 ? size.ws_row : usual_height;
   }
   return page;
 }

@@ -33,16 +33,6 @@ void write_change(JsonWriter& json, const Change& change) {
   json.end_object();
 }
 
-void write_changes(JsonWriter& json, const ChangeResult& result) {
-  json.key("changes");
-  json.begin_array();
-  for (const Change& change : result.changes) {
-    write_change(json, change);
-  }
-  json.end_array();
-  json.member("saved", result.saved);
-}
-
 void write_servo(JsonWriter& json, const ChangeResult& result) {
   json.member("status", result.is_done() ? "done" : "failed");
   json.key("node_id_after");
@@ -76,6 +66,43 @@ std::string status_text(ChangeStatus status, bool was_begun, const Page& page) {
   case ChangeStatus::mismatch: return page.paint(Tone::bad, say<texts::set_mismatch>());
   }
   return {};
+}
+
+std::string end_text(const ChangeResult& result) {
+  if (!result.is_done()) {
+    return result.returned ? say<texts::back_but_failed>(result.returned->value())
+                           : say<texts::servo_failed>();
+  }
+  return result.returned
+             ? say<texts::servo_back>(result.returned->value(), seconds(result.duration))
+             : say<texts::servo_done>();
+}
+
+std::string servo_text(const ChangeResult& result, const Page& page) {
+  std::string out = head_line(result.servo) + "  " +
+                    page.paint(result.is_done() ? Tone::good : Tone::bad, end_text(result));
+  if (result.is_done() && result.values_read > 0) {
+    out += say<texts::values_read_again>(result.values_read);
+  }
+  return out + '\n';
+}
+
+/// SAVE could keep it, a restart ends it.
+bool is_in_ram_only(const Change& change) {
+  return change.status == ChangeStatus::written && change.parameter->saved;
+}
+
+} // namespace
+
+void write_changes(JsonWriter& json, const ChangeResult& result) {
+  json.key("changes");
+  json.begin_array();
+  for (const Change& change : result.changes) {
+    write_change(json, change);
+  }
+  json.end_array();
+  json.member("saved", result.saved);
+  write_warnings(json, result);
 }
 
 std::string changes_text(const ChangeResult& result, const Page& page) {
@@ -113,31 +140,18 @@ std::string changes_text(const ChangeResult& result, const Page& page) {
   return out;
 }
 
-std::string end_text(const ChangeResult& result) {
-  if (!result.is_done()) {
-    return result.returned ? say<texts::back_but_failed>(result.returned->value())
-                           : say<texts::servo_failed>();
+std::string saving_text(std::span<const ChangeResult> results, const Page& page) {
+  std::string servos;
+  bool in_ram_only = false;
+  for (const ChangeResult& result : results) {
+    servos += result.was_restarted ? servo_text(result, page) : std::string();
+    in_ram_only = in_ram_only || std::ranges::any_of(result.changes, is_in_ram_only);
   }
-  return result.returned
-             ? say<texts::servo_back>(result.returned->value(), seconds(result.duration))
-             : say<texts::servo_done>();
-}
-
-std::string servo_text(const ChangeResult& result, const Page& page) {
-  std::string out = head_line(result.servo) + "  " +
-                    page.paint(result.is_done() ? Tone::good : Tone::bad, end_text(result));
-  if (result.is_done() && result.values_read > 0) {
-    out += say<texts::values_read_again>(result.values_read);
+  if (!servos.empty()) {
+    return say<texts::saving>() + '\n' + servos;
   }
-  return out + '\n';
+  return in_ram_only ? say<texts::not_saved_note>() + '\n' : std::string();
 }
-
-/// SAVE could keep it, a restart ends it.
-bool is_in_ram_only(const Change& change) {
-  return change.status == ChangeStatus::written && change.parameter->saved;
-}
-
-} // namespace
 
 void write_json(JsonWriter& json, ResultView view, std::span<const ChangeResult> results) {
   json.key("nodes");
@@ -145,30 +159,23 @@ void write_json(JsonWriter& json, ResultView view, std::span<const ChangeResult>
   for (const ChangeResult& result : results) {
     json.begin_object();
     write_head(json, result.servo);
-    view == ResultView::changes ? write_changes(json, result) : write_servo(json, result);
-    write_warnings(json, result);
+    if (view == ResultView::changes) {
+      write_changes(json, result);
+    } else {
+      write_servo(json, result);
+      write_warnings(json, result);
+    }
     json.end_object();
   }
   json.end_array();
 }
 
 std::string text(ResultView view, std::span<const ChangeResult> results, const Page& page) {
-  std::string changes;
-  std::string servos;
-  bool in_ram_only = false;
+  std::string out;
   for (const ChangeResult& result : results) {
-    changes += view == ResultView::changes ? changes_text(result, page) : std::string();
-    servos += view == ResultView::servos || result.was_restarted ? servo_text(result, page)
-                                                                 : std::string();
-    in_ram_only = in_ram_only || std::ranges::any_of(result.changes, is_in_ram_only);
+    out += view == ResultView::changes ? changes_text(result, page) : servo_text(result, page);
   }
-  if (view == ResultView::servos) {
-    return servos;
-  }
-  if (!servos.empty()) {
-    return changes + say<texts::saving>() + '\n' + servos;
-  }
-  return in_ram_only ? changes + say<texts::not_saved_note>() + '\n' : changes;
+  return view == ResultView::changes ? out + saving_text(results, page) : out;
 }
 
 } // namespace blactl::cli

@@ -14,6 +14,16 @@ namespace blactl::cli {
 /// What a command tells of each servo: its single registers (`set`), or the servo as a whole.
 enum class ResultView : unsigned char { changes, servos };
 
+/// `changes`, `saved` and `warnings` of one servo.
+void write_changes(JsonWriter& json, const fleet::ChangeResult& result);
+
+/// The table of its changes, and its warnings.
+[[nodiscard]] std::string changes_text(const fleet::ChangeResult& result, const Page& page);
+
+/// What is said below the changes of all: the servos that were saved, or that nothing was.
+[[nodiscard]] std::string saving_text(std::span<const fleet::ChangeResult> results,
+                                      const Page& page);
+
 void write_json(JsonWriter& json, ResultView view, std::span<const fleet::ChangeResult> results);
 [[nodiscard]] std::string text(ResultView view, std::span<const fleet::ChangeResult> results,
                                const Page& page);

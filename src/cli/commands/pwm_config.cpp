@@ -1,0 +1,325 @@
+// blactl pwm-config: 0x34-0x37 as one mapping.
+
+#include "blactl/base/replace_file.hpp"
+#include "blactl/bla/assignment.hpp"
+#include "blactl/bla/pwm_mapping.hpp"
+#include "blactl/fleet/carry_out.hpp"
+#include "blactl/fleet/guard.hpp"
+
+#include "cli/change_servos.hpp"
+#include "cli/commands.hpp"
+#include "cli/output/node_head.hpp"
+#include "cli/output/pwm_view.hpp"
+#include "cli/read_servos.hpp"
+#include "cli/texts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <utility>
+
+namespace blactl::cli {
+namespace {
+
+using fleet::ChangeResult;
+
+struct PwmOptions {
+  std::string neutral{}, range{}, output{}, mode{};
+  std::string endpoints{};
+  std::optional<std::uint64_t> preset{};
+  std::string svg{};
+  bool save = false;
+  bool dry_run = false;
+  RestartTimes times{};
+
+  [[nodiscard]] bool changes() const { return has_parts() || !endpoints.empty() || preset; }
+
+  [[nodiscard]] bool has_parts() const {
+    return !neutral.empty() || !range.empty() || !output.empty() || !mode.empty();
+  }
+};
+
+constexpr Option option_table[]{
+    {.name = "--neutral",
+     .value = "US",
+     .kind = Kind::text,
+     .help = {"the pulse that gives 0: 1520us (0x34)", "指令値 0 となるパルス幅: 1520us (0x34)"},
+     .store = into<&PwmOptions::neutral>},
+    {.name = "--range",
+     .value = "US",
+     .kind = Kind::text,
+     .help = {"how far pulses go to either side: 700us (0x35)",
+              "ニュートラルからの片側の入力範囲: 700us (0x35)"},
+     .store = into<&PwmOptions::range>},
+    {.name = "--output",
+     .value = "VALUE",
+     .kind = Kind::text,
+     .help = {"what the ends of the range give, to either side: 70deg, 150rpm (0x36)",
+              "入力範囲の端での指令値 (両側対称): 70deg、150rpm (0x36)"},
+     .store = into<&PwmOptions::output>},
+    {.name = "--mode",
+     .value = "MODE",
+     .kind = Kind::text,
+     .help = {"angle or speed (0x37), with --output in deg or rpm",
+              "angle または speed (0x37)、--output (deg または rpm) と併用"},
+     .store = into<&PwmOptions::mode>},
+    {.name = "--endpoints",
+     .value = "A,B",
+     .kind = Kind::text,
+     .help = {"all four by two points: 500us:-70deg,1500us:70deg",
+              "2 点で一括指定: 500us:-70deg,1500us:70deg"},
+     .store = into<&PwmOptions::endpoints>},
+    {.name = "--preset",
+     .value = "N",
+     .kind = Kind::whole,
+     .whole = {1, bla::pwm_presets},
+     .help = {"all four by an example of the specification: 1 +-70 deg (default), 2 +-140 deg, "
+              "3 500-1500 us, 4 +-150 rpm",
+              "仕様書の例で一括指定: 1 ±70° (初期値)、2 ±140°、3 500～1500 us、4 ±150 rpm"},
+     .store = into<&PwmOptions::preset>},
+    {.name = "--svg",
+     .value = "FILE",
+     .kind = Kind::file,
+     .help = {"draws the mapping of one servo into FILE, for a browser or a printer",
+              "1 台の変換特性を FILE に SVG で出力 (ブラウザ表示・印刷用)"},
+     .store = into<&PwmOptions::svg>},
+    {.name = "--save",
+     .kind = Kind::flag,
+     .help = {"then RAM to ROM: restarts the servo, and reads again",
+              "続けて RAM を ROM に保存 (サーボは再起動し、その後再読出し)"},
+     .store = into<&PwmOptions::save>},
+    {.name = "--dry-run",
+     .kind = Kind::flag,
+     .help = {"change nothing, show the mapping before and after; exit status 8 when something "
+              "would change",
+              "変更せず、変更前後の特性を表示 (変更がある場合は終了ステータス 8)"},
+     .store = into<&PwmOptions::dry_run>},
+    restart_wait<&PwmOptions::times>,
+    restart_stagger<&PwmOptions::times>,
+};
+
+Error usage(std::string message, std::string hint = {}) {
+  return {Code::usage, std::move(message), std::move(hint), std::nullopt};
+}
+
+/// What the options say against each other. Every fault.
+std::vector<Error> contradictions(const PwmOptions& options) {
+  std::vector<Error> faults;
+  const int ways = static_cast<int>(options.has_parts()) +
+                   static_cast<int>(!options.endpoints.empty()) +
+                   static_cast<int>(options.preset.has_value());
+  if (ways > 1) {
+    faults.push_back(usage(say<texts::pwm_one_way>()));
+  }
+  if (!options.mode.empty() && options.output.empty()) {
+    faults.push_back(usage(say<texts::pwm_mode_needs_output>(), say<texts::pwm_mode_hint>()));
+  }
+  if (options.output.find_first_of(",:") != std::string::npos) {
+    faults.push_back(usage(say<texts::pwm_output_symmetric>(printable(options.output)),
+                           say<texts::pwm_output_hint>()));
+  }
+  if (!options.changes() && (options.save || options.dry_run)) {
+    faults.push_back(usage(say<texts::pwm_nothing_to_change>(options.save ? "--save" : "--dry-run"),
+                           say<texts::pwm_nothing_hint>()));
+  }
+  return faults;
+}
+
+/// The values of 0x34-0x37 that are asked for.
+Result<std::vector<std::string>> wanted_values(const PwmOptions& options,
+                                               const bla::Profiles& profiles) {
+  if (options.preset) {
+    return bla::pwm_preset(*options.preset);
+  }
+  if (!options.endpoints.empty()) {
+    return bla::pwm_from_endpoints(profiles, options.endpoints);
+  }
+  std::vector<std::string> values;
+  for (const auto& [name, value] : {std::pair{"pwm_neutral", &options.neutral},
+                                    {"pwm_range", &options.range},
+                                    {"pwm_output_range", &options.output},
+                                    {"pwm_mode", &options.mode}}) {
+    if (!value->empty()) {
+      values.push_back(std::string(name) + '=' + *value);
+    }
+  }
+  return values;
+}
+
+/// The mapping of the one servo into the file that was named.
+void draw(const std::string& path, std::span<const std::pair<fleet::Servo, bla::Values>> servos,
+          Report& report) {
+  if (servos.size() != 1) {
+    report.fail(usage(say<texts::pwm_svg_one_servo>(servos.size()), say<texts::pwm_svg_hint>()));
+    return;
+  }
+  const auto& [servo, values] = servos.front();
+  const auto mapping = bla::pwm_mapping(values);
+  if (!mapping) {
+    report.fail({Code::state, say<texts::pwm_unknown>(), {}, servo.id.value()});
+    return;
+  }
+  std::string title = head_line(servo);
+  title.erase(title.find_last_not_of('\n') + 1);
+  if (auto written = replace_file(path, pwm_svg(*mapping, title)); !written) {
+    report.fail(written.error());
+  }
+}
+
+std::vector<const bla::Parameter*> mapping_registers(const fleet::Servo& servo) {
+  std::vector<const bla::Parameter*> registers;
+  for (const bla::Address address : bla::pwm_registers()) {
+    const bla::Parameter* parameter = servo.identity.parameter(address);
+    if (parameter != nullptr && servo.identity.has(*parameter)) {
+      registers.push_back(parameter);
+    }
+  }
+  return registers;
+}
+
+/// Errors: unsupported, for a servo without a PWM input.
+Result<std::vector<const bla::Parameter*>> registers_of(const fleet::Servo& servo) {
+  if (auto possible = servo.identity.check_pwm_input(); !possible) {
+    return std::unexpected(possible.error());
+  }
+  return mapping_registers(servo);
+}
+
+Report show(const PwmOptions& options, Context& context) {
+  Report report{.interface = printable(context.shared().interface)};
+  const auto ids = select_for_reading("pwm-config", context, report);
+  if (!ids) {
+    return report;
+  }
+  auto snapshots = fleet::take_snapshots(context.session(), context.known(), *ids,
+                                         context.identification(), registers_of);
+  if (snapshots.broken) {
+    context.broken(*snapshots.broken, report);
+  }
+  const auto servos = std::make_shared<std::vector<std::pair<fleet::Servo, bla::Values>>>();
+  for (fleet::Snapshot& snapshot : snapshots.servos) {
+    const auto id = snapshot.servo.id;
+    const bool doubled = context.session().roster().is_doubled(id);
+    report.targets.push_back(
+        {.errors = doubled ? std::vector{fleet::doubled(context.session().roster(), id)}
+                           : snapshot.errors()});
+    if (!snapshot.error && !doubled) {
+      servos->emplace_back(snapshot.servo, snapshot.values());
+    }
+  }
+  if (!options.svg.empty() && !servos->empty()) {
+    draw(options.svg, *servos, report);
+  }
+  report.count_targets();
+  report.json = [servos](JsonWriter& json) {
+    json.key("nodes");
+    json.begin_array();
+    for (const auto& [servo, values] : *servos) {
+      json.begin_object();
+      write_head(json, servo);
+      write_pwm(json, values);
+      json.end_object();
+    }
+    json.end_array();
+  };
+  report.text = [servos](const Page& page) {
+    std::string out;
+    for (const auto& [servo, values] : *servos) {
+      out += (out.empty() ? "" : "\n") + head_line(servo) + pwm_text(values, page);
+    }
+    return out;
+  };
+  return report;
+}
+
+void write_changed(JsonWriter& json, std::span<const ChangeResult> results) {
+  json.key("nodes");
+  json.begin_array();
+  for (const ChangeResult& result : results) {
+    json.begin_object();
+    write_head(json, result.servo);
+    write_pwm(json, result.after());
+    json.key("before");
+    json.begin_object();
+    write_pwm(json, result.before);
+    json.end_object();
+    write_changes(json, result);
+    json.end_object();
+  }
+  json.end_array();
+}
+
+std::string changed_text(std::span<const ChangeResult> results, const Page& page) {
+  std::string out;
+  for (const ChangeResult& result : results) {
+    out += (out.empty() ? "" : "\n") + changes_text(result, page);
+    if (const auto before = bla::pwm_mapping(result.before)) {
+      out += page.fit(say<texts::pwm_before>(pwm_summary(*before)));
+    }
+    out += '\n' + pwm_text(result.after(), page);
+  }
+  return out + saving_text(results, page);
+}
+
+Report change(const PwmOptions& options, const bla::Profiles& profiles, Context& context) {
+  Report report{.interface = printable(context.shared().interface)};
+  const auto values = wanted_values(options, profiles);
+  if (!values) {
+    report.fail(values.error());
+    return report;
+  }
+  auto assignments = bla::parse_assignments(profiles, *values);
+  if (!assignments) {
+    report.errors = std::move(assignments.error());
+    return report;
+  }
+  const auto drawn = std::make_shared<std::vector<std::pair<fleet::Servo, bla::Values>>>();
+  report = change_servos(
+      {.command = "pwm-config",
+       .wanted = {.assignments = std::move(*assignments),
+                  .restart = options.save ? std::optional(fleet::RestartKind::save) : std::nullopt,
+                  .also_read = bla::pwm_registers()},
+       .times = options.times,
+       .dry_run = options.dry_run,
+       .view = ResultView::changes,
+       .json = write_changed,
+       .text = changed_text,
+       .results =
+           [drawn](std::span<const ChangeResult> results) {
+             for (const ChangeResult& result : results) {
+               drawn->emplace_back(result.servo, result.after());
+             }
+           }},
+      context);
+  if (!options.svg.empty() && !drawn->empty()) {
+    draw(options.svg, *drawn, report);
+  }
+  return report;
+}
+
+Report execute(const PwmOptions& options, Context& context) {
+  Report report{.interface = printable(context.shared().interface)};
+  const auto profiles = context.profiles();
+  if (!profiles) {
+    report.fail(profiles.error());
+    return report;
+  }
+  report.errors = contradictions(options);
+  if (!report.errors.empty()) {
+    return report;
+  }
+  return options.changes() ? change(options, **profiles, context) : show(options, context);
+}
+
+} // namespace
+
+constinit const Command commands::pwm_config{
+    .name = "pwm-config",
+    .traits = {.session = true, .recordings = true},
+    .help = {"how PWM pulses become commands: show, plot, change",
+             "PWM 入力と指令値の対応を表示・変更"},
+    .options = option_table,
+    .action = action<execute>,
+};
+
+} // namespace blactl::cli

@@ -1,0 +1,200 @@
+#include "cli/faults/watch.hpp"
+
+#include "blactl/fleet/fault_state.hpp"
+
+#include "cli/output/faults_view.hpp"
+#include "cli/output/node_head.hpp"
+#include "cli/texts.hpp"
+#include "cli/trace/time.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <iterator>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace blactl::cli {
+namespace {
+
+using bla::Fault;
+using dronecan::NodeId;
+using fleet::FaultState;
+
+constexpr Duration interval = std::chrono::milliseconds(500);
+
+/// What happened to a fault: it was there when the watch began, it came, it went.
+enum class Happened : std::uint8_t { present, came, went };
+
+std::string_view name(Happened happened) {
+  switch (happened) {
+  case Happened::present: return "present";
+  case Happened::came: return "came";
+  case Happened::went: break;
+  }
+  return "went";
+}
+
+std::string word(Happened happened) {
+  switch (happened) {
+  case Happened::present: return say<texts::fault_present>();
+  case Happened::came: return say<texts::fault_came>();
+  case Happened::went: break;
+  }
+  return say<texts::fault_went>();
+}
+
+class Watch {
+ public:
+  Watch(std::span<const NodeId> ids, bla::Level shown, Context& context, Report& report)
+      : ids_(ids), shown_(shown), context_(context), report_(report) {}
+
+  void run();
+
+  [[nodiscard]] const std::map<NodeId, FaultState>& last() const { return last_; }
+
+ private:
+  [[nodiscard]] bool look();
+  [[nodiscard]] bool take(FaultState now);
+  [[nodiscard]] bool tell(Happened happened, const FaultState& servo, const Fault& fault);
+  [[nodiscard]] bool redraw();
+  [[nodiscard]] bool print(std::string_view text);
+  void tell_silence(const FaultState& now);
+
+  std::span<const NodeId> ids_;
+  bla::Level shown_;
+  Context& context_;
+  Report& report_;
+  std::map<NodeId, FaultState> last_; ///< what was read of each servo
+  std::set<NodeId> silent_;
+  std::size_t drawn_ = 0; ///< lines of the list on the terminal
+};
+
+/// False: the reader of stdout has left.
+bool Watch::print(std::string_view text) {
+  const auto printed = context_.reporter().stream(text);
+  if (!printed) {
+    report_.fail(printed.error());
+  }
+  return printed.value_or(false);
+}
+
+bool Watch::tell(Happened happened, const FaultState& servo, const Fault& fault) {
+  if (fault.level < shown_) {
+    return true;
+  }
+  if (context_.reporter().format() == Format::json) {
+    std::string line;
+    JsonWriter json(line);
+    json.begin_object();
+    json.key("time");
+    json.number(UnixTime(context_.session().wall()).text());
+    write_head(json, servo.snapshot.servo);
+    json.member("event", name(happened));
+    write_fault(json, servo, fault);
+    json.end_object();
+    return print(line + '\n');
+  }
+  if (context_.reporter().page().is_terminal()) {
+    return true; // the list says it
+  }
+  return print(say<texts::fault_event>(UnixTime(context_.session().wall()).text(),
+                                       servo.snapshot.servo.id.value(), word(happened),
+                                       fault_line(fault, context_.reporter().page())) +
+               '\n');
+}
+
+/// A servo that does not answer keeps what was known of it.
+void Watch::tell_silence(const FaultState& now) {
+  const NodeId id = now.snapshot.servo.id;
+  if (now.errors.empty()) {
+    if (silent_.erase(id) > 0) {
+      context_.reporter().note(say<texts::answers_again>(id.value()));
+    }
+  } else if (silent_.insert(id).second) {
+    context_.reporter().note(now.errors.front().message);
+  }
+}
+
+/// What one look shows of a servo against the look before.
+bool Watch::take(FaultState now) {
+  tell_silence(now);
+  const NodeId id = now.snapshot.servo.id;
+  const auto before = last_.find(id);
+  const bool is_first = before == last_.end();
+  if (!now.errors.empty() && !is_first) {
+    before->second.errors = std::move(now.errors);
+    return true;
+  }
+  const auto had = is_first ? std::vector<Fault>() : before->second.faults;
+  bool goes_on = true;
+  for (const Fault& fault : now.faults) {
+    if (std::ranges::find(had, fault) == had.end()) {
+      goes_on = goes_on && tell(is_first ? Happened::present : Happened::came, now, fault);
+    }
+  }
+  for (const Fault& fault : had) {
+    if (std::ranges::find(now.faults, fault) == now.faults.end()) {
+      goes_on = goes_on && tell(Happened::went, now, fault);
+    }
+  }
+  last_.insert_or_assign(id, std::move(now));
+  return goes_on;
+}
+
+/// The list in place of the one before.
+bool Watch::redraw() {
+  const Page page = context_.reporter().page();
+  if (context_.reporter().format() == Format::json || !page.is_terminal()) {
+    return true;
+  }
+  std::vector<FaultState> servos;
+  std::ranges::transform(last_, std::back_inserter(servos),
+                         &std::pair<const NodeId, FaultState>::second);
+  const std::string list = page.cut(text(servos, shown_, page));
+  const std::string up = drawn_ > 0 ? fmt::format("\x1b[{}F\x1b[J", drawn_) : std::string();
+  drawn_ = static_cast<std::size_t>(std::ranges::count(list, '\n'));
+  return print(up + list);
+}
+
+/// Reads all of them once. False ends the watch.
+bool Watch::look() {
+  auto read =
+      fleet::read_faults(context_.session(), context_.known(), ids_, context_.identification());
+  if (read.broken) {
+    context_.broken(*read.broken, report_);
+    return false;
+  }
+  bool goes_on = true;
+  for (FaultState& servo : read.servos) {
+    goes_on = goes_on && take(std::move(servo));
+  }
+  return goes_on && redraw();
+}
+
+void Watch::run() {
+  while (look() && !context_.session().is_recording()) {
+    const auto lived = context_.session().live_until(context_.session().now() + interval);
+    if (!lived) {
+      context_.broken(lived.error(), report_);
+      return;
+    }
+  }
+}
+
+} // namespace
+
+void watch_faults(std::span<const NodeId> servos, bla::Level shown, bla::Level counted,
+                  Context& context, Report& report) {
+  Watch watch(servos, shown, context, report);
+  watch.run();
+  for (const auto& [id, servo] : watch.last()) {
+    report.targets.push_back(
+        {.errors = servo.errors, .has_found = servo.worst() >= std::optional(counted)});
+  }
+}
+
+} // namespace blactl::cli

@@ -1,0 +1,177 @@
+#include "cli/output/faults_view.hpp"
+
+#include "blactl/bla/value.hpp"
+
+#include "cli/output/node_head.hpp"
+#include "cli/texts.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace blactl::cli {
+
+using bla::Fault;
+using bla::Level;
+using fleet::FaultState;
+
+namespace {
+
+std::string level_word(Level level) {
+  switch (level) {
+  case Level::notice: return say<texts::level_notice>();
+  case Level::warning: return say<texts::level_warning>();
+  case Level::failure: break;
+  }
+  return say<texts::level_failure>();
+}
+
+Tone tone(Level level) {
+  return level == Level::notice ? Tone::good : level == Level::warning ? Tone::warning : Tone::bad;
+}
+
+std::string title(const Fault& fault) {
+  return fault.known != nullptr ? std::string(choose(fault.known->text_en, fault.known->text_ja))
+                                : say<texts::unknown_bit>();
+}
+
+std::string condition(const Fault& fault) {
+  return fault.known != nullptr
+             ? std::string(choose(fault.known->condition_en, fault.known->condition_ja))
+             : std::string();
+}
+
+std::string action_text(const Fault& fault) {
+  return fault.known != nullptr
+             ? std::string(choose(fault.known->action_en, fault.known->action_ja))
+             : say<texts::unknown_bit_action>();
+}
+
+/// "0x1A.8 temperature_high"
+std::string place(const Fault& fault) {
+  return fmt::format("{}.{}{}", fault.reg.name(), fault.bit,
+                     fault.known != nullptr ? " " + fault.known->code : std::string());
+}
+
+bool is_latched(const Fault& fault) {
+  return fault.known != nullptr && fault.known->latched;
+}
+
+/// "current_temperature 85 degC, temperature_limit_high 80 degC"
+std::string values_text(const FaultState& servo, const Fault& fault) {
+  std::string out;
+  for (const fleet::Reading& reading : servo.values_of(fault)) {
+    out += out.empty() ? "" : ", ";
+    out += reading.parameter->name + ' ' + bla::display(*reading.parameter, *reading.raw);
+  }
+  return out;
+}
+
+std::string fault_text(const FaultState& servo, const Fault& fault, const Page& page) {
+  std::string out = "  " + fault_line(fault, page) + '\n';
+  const auto line = [&](const std::string& text) {
+    out += text.empty() ? "" : "      " + text + '\n';
+  };
+  line(condition(fault));
+  if (const auto values = values_text(servo, fault); !values.empty()) {
+    line(say<texts::fault_now>(values));
+  }
+  line(is_latched(fault) ? say<texts::fault_latched>() : std::string());
+  line(action_text(fault));
+  return out;
+}
+
+std::string servo_text(const FaultState& servo, Level level, const Page& page) {
+  std::string out = head_line(servo.snapshot.servo);
+  if (!servo.errors.empty()) {
+    out += "  " + page.paint(Tone::bad, say<texts::faults_unknown>()) + '\n';
+  }
+  std::size_t hidden = 0;
+  for (const Fault& fault : servo.faults) {
+    fault.level >= level ? out += fault_text(servo, fault, page) : std::string();
+    hidden += static_cast<std::size_t>(fault.level < level);
+  }
+  if (servo.faults.empty() && servo.errors.empty()) {
+    out += "  " + page.paint(Tone::good, say<texts::no_faults>()) + '\n';
+  } else if (hidden > 0) {
+    out += "  " + say<texts::faults_hidden>(hidden, level_word(level)) + '\n';
+  }
+  return out;
+}
+
+void write_registers(JsonWriter& json, const FaultState& servo) {
+  json.key("registers");
+  json.begin_object();
+  json.member(bla::address::fault_summary.name(),
+              servo.fault_register(bla::address::fault_summary));
+  for (const bla::Address reg : bla::fault_registers) {
+    json.member(reg.name(), servo.fault_register(reg));
+  }
+  json.end_object();
+}
+
+} // namespace
+
+void write_fault(JsonWriter& json, const FaultState& servo, const Fault& fault) {
+  json.member("register", fault.reg.name());
+  json.member("bit", fault.bit);
+  json.member("level", bla::name(fault.level));
+  json.member("group", fault.group);
+  json.key("code");
+  fault.known != nullptr ? json.value(fault.known->code) : json.value(nullptr);
+  json.member("latched", is_latched(fault));
+  json.member("text", title(fault));
+  json.member("condition", condition(fault));
+  json.member("action", action_text(fault));
+  json.key("values");
+  json.begin_object();
+  for (const fleet::Reading& reading : servo.values_of(fault)) {
+    json.key(reading.parameter->name);
+    json.number(bla::value_text(*reading.parameter, *reading.raw));
+  }
+  json.end_object();
+}
+
+std::string fault_line(const Fault& fault, const Page& page) {
+  return fmt::format("{}  {}  [{}]", page.paint(tone(fault.level), level_word(fault.level)),
+                     title(fault), place(fault));
+}
+
+void write_json(JsonWriter& json, std::span<const FaultState> servos, Level level) {
+  json.key("nodes");
+  json.begin_array();
+  for (const FaultState& servo : servos) {
+    json.begin_object();
+    write_head(json, servo.snapshot.servo);
+    json.member("health", servo.health ? std::optional(name(*servo.health)) : std::nullopt);
+    write_registers(json, servo);
+    json.key("active");
+    json.begin_array();
+    for (const Fault& fault : servo.faults) {
+      if (fault.level >= level) {
+        json.begin_object();
+        write_fault(json, servo, fault);
+        json.end_object();
+      }
+    }
+    json.end_array();
+    json.end_object();
+  }
+  json.end_array();
+}
+
+std::string text(std::span<const FaultState> servos, Level level, const Page& page) {
+  std::vector<const FaultState*> order;
+  for (const FaultState& servo : servos) {
+    order.push_back(&servo);
+  }
+  std::ranges::stable_sort(order, [](const FaultState* a, const FaultState* b) {
+    return a->worst() > b->worst(); // none is the least
+  });
+  std::string out;
+  for (const FaultState* servo : order) {
+    out += (out.empty() ? "" : "\n") + servo_text(*servo, level, page);
+  }
+  return page.fit(out);
+}
+
+} // namespace blactl::cli

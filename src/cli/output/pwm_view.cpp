@@ -1,0 +1,221 @@
+#include "cli/output/pwm_view.hpp"
+
+#include "cli/output/table.hpp"
+#include "cli/texts.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <vector>
+
+namespace blactl::cli {
+
+using bla::PwmInput;
+using bla::PwmMapping;
+
+namespace {
+
+constexpr std::int64_t tenths = 10;
+
+/// A command in the unit of the mode: "-70.0", "150".
+std::string number(const PwmMapping& mapping, std::int64_t command) {
+  if (!mapping.is_angle()) {
+    return std::to_string(command);
+  }
+  const std::int64_t size = std::abs(command);
+  return fmt::format("{}{}.{}", command < 0 ? "-" : "", size / tenths, size % tenths);
+}
+
+std::string_view unit(const PwmMapping& mapping) {
+  return mapping.is_angle() ? "deg" : "rpm";
+}
+
+std::string input_text(const bla::Values& values) {
+  const auto input = bla::pwm_input(values);
+  if (!input) {
+    return say<texts::unknown_value>();
+  }
+  switch (*input) {
+  case PwmInput::ok: return say<texts::pwm_input_ok>();
+  case PwmInput::none: return say<texts::pwm_input_none>();
+  case PwmInput::too_short: return say<texts::pwm_input_short>();
+  case PwmInput::too_long: break;
+  }
+  return say<texts::pwm_input_long>();
+}
+
+/// Why a pulse is in the table.
+std::string remark(const PwmMapping& mapping, std::int64_t pulse) {
+  const auto cuts = mapping.cut_off_us();
+  return pulse == mapping.neutral_us                    ? say<texts::pwm_neutral_point>()
+         : pulse == mapping.shortest_us()               ? say<texts::pwm_shortest_point>()
+         : pulse == mapping.longest_us()                ? say<texts::pwm_longest_point>()
+         : std::ranges::find(cuts, pulse) != cuts.end() ? say<texts::pwm_limit_point>()
+                                                        : say<texts::pwm_autopilot_point>();
+}
+
+std::string points_table(const PwmMapping& mapping, const Page& page) {
+  Table table({say<texts::column_pulse>(), say<texts::column_command>(), ""});
+  for (const std::int64_t pulse : mapping.points_us()) {
+    const auto given = mapping.command(pulse);
+    const auto limited = mapping.limited_command(pulse);
+    std::string command = given ? pwm_command_text(mapping, *given) : std::string("-");
+    if (given && limited != given) {
+      command += say<texts::pwm_limited_to>(pwm_command_text(mapping, *limited));
+    }
+    table.add({fmt::format("{} us", pulse), std::move(command), remark(mapping, pulse)});
+  }
+  return table.text("  ", page);
+}
+
+/// A grid of characters, one a cell of the terminal.
+class Plot {
+ public:
+  Plot(const PwmMapping& mapping, const Page& page)
+      : mapping_(mapping),
+        signs_(page.unicode ? Signs{"│", "─", "┼", "●", "·"} : Signs{"|", "-", "+", "*", "."}) {
+    cells_.assign(rows, std::vector<std::string>(columns, " "));
+  }
+
+  std::string text();
+
+ private:
+  struct Signs {
+    std::string_view vertical, horizontal, cross, curve, cut;
+  };
+
+  static constexpr std::size_t rows = 11, columns = 57; // odd: neutral is in the middle
+
+  [[nodiscard]] std::int64_t pulse_at(std::size_t column) const {
+    const auto half = static_cast<std::int64_t>(columns / 2);
+    return mapping_.neutral_us +
+           (static_cast<std::int64_t>(column) - half) * mapping_.range_us / half;
+  }
+
+  [[nodiscard]] std::size_t row_of(std::int64_t command) const {
+    const auto half = static_cast<std::int64_t>(rows / 2);
+    const std::int64_t most = std::max<std::int64_t>(mapping_.output_raw, 1);
+    const std::int64_t twice = 2 * command * half;
+    const std::int64_t up = (twice + (twice < 0 ? -most : most)) / (2 * most); // rounded
+    return static_cast<std::size_t>(half - up);
+  }
+
+  const PwmMapping& mapping_;
+  Signs signs_;
+  std::vector<std::vector<std::string>> cells_;
+};
+
+std::string Plot::text() {
+  for (std::size_t column = 0; column < columns; ++column) {
+    cells_[rows / 2][column] = signs_.horizontal;
+  }
+  for (auto& row : cells_) {
+    row[columns / 2] = signs_.vertical;
+  }
+  cells_[rows / 2][columns / 2] = signs_.cross;
+  for (std::size_t column = 0; column < columns; ++column) {
+    const std::int64_t pulse = pulse_at(column);
+    const std::int64_t given = mapping_.command(pulse).value_or(0);
+    const std::int64_t limited = mapping_.limited_command(pulse).value_or(0);
+    cells_[row_of(given)][column] = signs_.cut;
+    cells_[row_of(limited)][column] = signs_.curve;
+  }
+  constexpr std::size_t label = 12;
+  std::string out;
+  for (std::size_t row = 0; row < rows; ++row) {
+    const std::string scale = row == 0          ? pwm_command_text(mapping_, mapping_.output_raw)
+                              : row == rows / 2 ? pwm_command_text(mapping_, 0)
+                              : row == rows - 1 ? pwm_command_text(mapping_, -mapping_.output_raw)
+                                                : std::string();
+    out += fmt::format("  {:>{}} ", scale, label);
+    for (const std::string& cell : cells_[row]) {
+      out += cell;
+    }
+    out.erase(out.find_last_not_of(' ') + 1);
+    out += '\n';
+  }
+  const auto shortest = std::to_string(mapping_.shortest_us());
+  const auto neutral = std::to_string(mapping_.neutral_us);
+  out += fmt::format("  {:>{}} {:<{}}{:^{}}{:>{}} us\n", "", label, shortest, (columns - 9) / 2,
+                     neutral, 9, mapping_.longest_us(), (columns - 9) / 2);
+  return out;
+}
+
+} // namespace
+
+std::string pwm_command_text(const PwmMapping& mapping, std::int64_t command) {
+  return number(mapping, command) + ' ' + std::string(unit(mapping));
+}
+
+void write_pwm(JsonWriter& json, const bla::Values& values) {
+  const auto mapping = bla::pwm_mapping(values);
+  const auto member = [&](std::string_view key, auto value) {
+    json.key(key);
+    mapping ? json.value(value(*mapping)) : json.value(nullptr);
+  };
+  member("neutral_us", [](const PwmMapping& it) { return it.neutral_us; });
+  member("range_us", [](const PwmMapping& it) { return it.range_us; });
+  member("output_range_raw", [](const PwmMapping& it) { return it.output_raw; });
+  member("mode",
+         [](const PwmMapping& it) { return std::string_view(it.is_angle() ? "angle" : "speed"); });
+  member("unit", [](const PwmMapping& it) { return unit(it); });
+  member("pulse_min_us", [](const PwmMapping& it) { return it.shortest_us(); });
+  member("pulse_max_us", [](const PwmMapping& it) { return it.longest_us(); });
+  const auto input = bla::pwm_input(values);
+  json.member("input", input ? std::optional(name(*input)) : std::nullopt);
+  json.member("fallback_after_ms", bla::find(values, bla::address::timeout_time));
+  json.key("cut_off_us");
+  json.begin_array();
+  for (const std::int64_t pulse : mapping ? mapping->cut_off_us() : std::vector<std::int64_t>()) {
+    json.value(pulse);
+  }
+  json.end_array();
+  json.key("points");
+  json.begin_array();
+  for (const std::int64_t pulse : mapping ? mapping->points_us() : std::vector<std::int64_t>()) {
+    const auto command = mapping->command(pulse);
+    json.begin_object();
+    json.member("pulse_us", pulse);
+    json.key("command");
+    command ? json.number(number(*mapping, *command)) : json.value(nullptr);
+    json.end_object();
+  }
+  json.end_array();
+}
+
+std::string pwm_text(const bla::Values& values, const Page& page) {
+  const auto mapping = bla::pwm_mapping(values);
+  if (!mapping) {
+    return "  " + say<texts::pwm_unknown>() + '\n';
+  }
+  const auto timeout = bla::find(values, bla::address::timeout_time);
+  std::string out = say<texts::pwm_pulses>(mapping->neutral_us, mapping->range_us,
+                                           mapping->shortest_us(), mapping->longest_us()) +
+                    say<texts::pwm_output>(pwm_command_text(*mapping, mapping->output_raw),
+                                           mapping->is_angle() ? say<texts::pwm_angle>()
+                                                               : say<texts::pwm_speed>()) +
+                    say<texts::pwm_input_now>(input_text(values));
+  if (timeout) {
+    out += say<texts::pwm_fallback>(*timeout);
+  }
+  for (const std::int64_t pulse : mapping->cut_off_us()) {
+    const auto limit = pulse < mapping->neutral_us ? mapping->limit_ccw : mapping->limit_cw;
+    out += pulse < mapping->neutral_us
+               ? say<texts::pwm_cut_below>(pulse, pwm_command_text(*mapping, *limit))
+               : say<texts::pwm_cut_above>(pulse, pwm_command_text(*mapping, *limit));
+  }
+  out = page.fit(out);
+  constexpr std::size_t plot_width = 75;
+  if (mapping->range_us > 0 && mapping->output_raw > 0 && page.width >= plot_width) {
+    out += '\n' + Plot(*mapping, page).text();
+  }
+  return out + '\n' + points_table(*mapping, page);
+}
+
+std::string pwm_summary(const PwmMapping& mapping) {
+  return fmt::format("{} us {}, {} us {}, {} us {}", mapping.shortest_us(),
+                     pwm_command_text(mapping, -mapping.output_raw), mapping.neutral_us,
+                     pwm_command_text(mapping, 0), mapping.longest_us(),
+                     pwm_command_text(mapping, mapping.output_raw));
+}
+
+} // namespace blactl::cli

@@ -1,0 +1,18 @@
+#pragma once
+// How a command that only reads comes to its servos.
+
+#include "cli/context.hpp"
+#include "cli/output/report.hpp"
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace blactl::cli {
+
+/// Opens the interface and finds the servos behind -n. What went wrong with some of them, and why
+/// the session broke, is in the report then. Empty: it holds why there is nothing to read at all.
+[[nodiscard]] std::optional<std::vector<dronecan::NodeId>>
+select_for_reading(std::string_view command, Context& context, Report& report);
+
+} // namespace blactl::cli

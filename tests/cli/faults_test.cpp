@@ -1,0 +1,148 @@
+// blactl faults of the built binary.
+
+#include "catch.hpp"
+#include "scene.hpp"
+
+#include <csignal>
+#include <string>
+#include <vector>
+
+using namespace blactl::test;
+
+namespace {
+
+/// 11 is fine but for the PWM that is missing, 12 is too hot, 13 has no PWM input and is fine.
+Scene hot_servo() {
+  return Scene()
+      .servo("BLA21-12U-AB", 11, {{"servo_id", 1}})
+      .servo("BLA21-12U-AB", 12, {{"servo_id", 2}, {"ram", {{"temperature_limit_high", "20degC"}}}})
+      .servo("BLA15-06U-A0", 13, {{"servo_id", 3}});
+}
+
+} // namespace
+
+TEST_CASE("faults has exactly the keys of the contract, in their order") {
+  const Result result = hot_servo().run({"faults", "-n", "12", "-j"});
+  CHECK(result.status == 8);
+  CHECK(result.err.empty());
+  const auto node = ordered_json(result.out)["nodes"][0];
+  CHECK(keys(node) == std::vector<std::string>{"node_id", "unique_id", "model", "serial_number",
+                                               "servo_id", "firmware_version", "hardware_version",
+                                               "health", "registers", "active"});
+  CHECK(node["registers"].dump() == R"({"0x18":66048,"0x19":1048576,"0x1A":256,"0x1B":0})");
+  REQUIRE(node["active"].size() == 2);
+  CHECK(keys(node["active"][0]) == std::vector<std::string>{"register", "bit", "level", "group",
+                                                            "code", "latched", "text", "condition",
+                                                            "action", "values"});
+  CHECK(node["active"][0]["code"] == "temperature_high");
+  CHECK(node["active"][0]["values"].dump() ==
+        R"({"current_temperature":25,"temperature_limit_high":20})");
+  CHECK(node["active"][1]["code"] == "pwm_missing");
+}
+
+TEST_CASE("faults shows the worst servo first, and what to do") {
+  const Result result = hot_servo().run({"faults"});
+  CHECK(result.status == 8);
+  CHECK(result.out.starts_with("node 12 "));
+  CHECK(contains(result.out, "WARNING  Temperature upper limit  [0x1A.8 temperature_high]\n"));
+  CHECK(contains(result.out, "now: current_temperature 25 degC, temperature_limit_high 20 degC\n"));
+  CHECK(contains(result.out, "Let the servo cool"));
+  CHECK(contains(result.out, "node 13  BLA15-06U-A0"));
+  CHECK(result.out.ends_with("  no faults\n"));
+}
+
+TEST_CASE("from which level faults are found is said by --level; by default from warnings on") {
+  const auto status = [](const Arguments& arguments) { return hot_servo().run(arguments).status; };
+  CHECK(status({"faults", "-n", "11"}) == 0); // a notice only
+  CHECK(status({"faults", "-n", "11", "--level", "notice"}) == 8);
+  CHECK(status({"faults", "-n", "12", "--level", "failure"}) == 0);
+  CHECK(status({"faults", "-n", "11-13"}) == 8);
+  const Result failures = hot_servo().run({"faults", "-n", "12", "--level", "failure", "-j"});
+  CHECK(json(failures.out)["nodes"][0]["active"].empty());
+  CHECK(json(failures.out)["nodes"][0]["registers"]["0x1A"] == 256);
+  const Result text = hot_servo().run({"faults", "-n", "12", "--level", "failure"});
+  CHECK(contains(text.out, "2 below FAILURE: not shown"));
+}
+
+TEST_CASE("a word that is no level is refused with those that are") {
+  const Result result = hot_servo().run({"faults", "--level", "nonsense"});
+  CHECK(result.status == 2);
+  CHECK(contains(result.err, "notice, warning, failure"));
+  CHECK(result.out.empty());
+}
+
+TEST_CASE("a servo that does not answer has no faults that one knows of") {
+  const Result result = hot_servo().run({"faults", "-n", "11,55"});
+  CHECK(result.status == 6);
+  CHECK(codes(result) == std::vector<std::string>{"not_found"});
+  CHECK(contains(result.out, "node 11"));
+}
+
+TEST_CASE("why a servo restarted by itself is told as a memory") {
+  const nlohmann::json event{{"at", "100ms"}, {"servo", 7}, {"happens", "watchdog_error"}};
+  const nlohmann::json scenario{
+      {"schema", "blactl-scenario/1"},
+      {"clock", "virtual"},
+      {"servos", {{{"model", "BLA15-06U-A0"}, {"node_id", 11}, {"serial_number", 7}}}},
+      {"events", {event}}};
+  const Bench bench;
+  const Result result =
+      bench.run({"-i", "sim:" + bench.file("s.json", scenario.dump()), "faults", "--timeout", "2"});
+  INFO(result.out << result.err);
+  CHECK(result.status == 8);
+  CHECK(contains(result.out, "FAILURE"));
+  CHECK(contains(result.out, "[0x1B.9 watchdog]"));
+  CHECK(contains(result.out, "stays until the next start"));
+}
+
+TEST_CASE("faults --watch tells what is there, what comes and what goes, a line each") {
+  const Bench bench;
+  const nlohmann::json servo{{"model", "BLA15-06U-A0"},
+                             {"node_id", 11},
+                             {"serial_number", 7},
+                             {"ram", {{"temperature_limit_high", "20degC"}}}};
+  const nlohmann::json scenario{{"schema", "blactl-scenario/1"}, {"servos", {servo}}};
+  const Background sim(bench, {"sim", bench.file("s.json", scenario.dump())});
+  Background watch(bench, {"-i", "sim:", "faults", "--watch", "-j", "-n", "11"}, {}, "present");
+  const auto set = [&](const char* limit) {
+    CHECK(bench.run({"-i", "sim:", "set", "-n", "11", "-y", limit}).status == 0);
+  };
+  set("temperature_limit_high=80");
+  watch.expect("went");
+  set("temperature_limit_high=20");
+  watch.expect("came");
+  const Result watched = watch.stop(SIGINT);
+  CHECK(watched.status == 130);
+  std::vector<std::string> events;
+  for (const auto& line : json_lines(watched.out)) {
+    if (line.contains("event")) {
+      CHECK(line["node_id"] == 11);
+      CHECK(line["time"].is_number());
+      events.push_back(line["event"].get<std::string>() + ' ' + line["code"].get<std::string>());
+    }
+  }
+  CHECK(events == std::vector<std::string>{"present temperature_high", "went temperature_high",
+                                           "came temperature_high"});
+  CHECK(json_lines(watched.out).back()["exit_status"] == 130);
+}
+
+TEST_CASE("faults are read from a recording") {
+  const Bench bench;
+  const std::string log = (bench.folder() / "log").string();
+  const Scene scene = hot_servo();
+  REQUIRE(scene.run(bench, {"faults", "--record", log}).status == 8);
+  const Result replayed = bench.run({"-i", "replay:" + log, "faults", "-j", "-n", "12"});
+  CHECK(replayed.status == 8);
+  CHECK(json(replayed.out)["nodes"][0]["active"][0]["code"] == "temperature_high");
+  const Result watched = bench.run({"-i", "replay:" + log, "faults", "-j", "--watch", "-n", "12"});
+  CHECK(json_lines(watched.out).front()["event"] == "present");
+  CHECK(watched.status == 8);
+}
+
+TEST_CASE("every fault fits on 80 columns, in both languages") {
+  for (const char* language : {"en", "ja"}) {
+    const Result result =
+        hot_servo().run({"faults", "--lang", language}, {.terminal_stdout = true, .columns = 80});
+    CHECK(longest_line(without_colour(result.out)) <= 80);
+  }
+}
