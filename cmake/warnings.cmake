@@ -7,14 +7,16 @@ target_compile_options(blactl-warnings INTERFACE
 if(BLACTL_WERROR)
   target_compile_options(blactl-warnings INTERFACE -Werror)
 endif()
+# They watch what users run; tests are only linked with them, which are a third less to compile so.
+add_library(blactl-sanitizers INTERFACE)
 if(BLACTL_SANITIZE)
-  target_compile_options(blactl-warnings INTERFACE
+  target_compile_options(blactl-sanitizers INTERFACE
     -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
-  target_link_options(blactl-warnings INTERFACE -fsanitize=address,undefined)
+  target_link_options(blactl-sanitizers INTERFACE -fsanitize=address,undefined)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     # GCC 12 sees uninitialised memory in std::regex and std::variant that is not, once it
     # instruments them.
-    target_compile_options(blactl-warnings INTERFACE -Wno-maybe-uninitialized)
+    target_compile_options(blactl-sanitizers INTERFACE -Wno-maybe-uninitialized)
   endif()
 endif()
 # Where several files are one unit, a local name may hide one of another file, and a type of a file's
