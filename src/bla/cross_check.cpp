@@ -156,6 +156,12 @@ bool meets_no_motion(const Proposal& change) {
   return both(change.after, at::angle_limit_cw, at::angle_limit_ccw, std::equal_to());
 }
 
+/// Such a pulse cannot be.
+bool meets_negative_pulse(const Proposal& change) {
+  return has_pwm_input(change.servo) &&
+         both(change.after, at::pwm_range, at::pwm_neutral, std::greater());
+}
+
 bool meets_zero(const Proposal& change) {
   return change.requested == 0;
 }
@@ -213,6 +219,7 @@ constexpr std::array present_command{at::command_angle};
 constexpr std::array torque_limits{at::torque_limit_cw, at::torque_limit_ccw};
 constexpr std::array pwm_mapping{at::pwm_neutral, at::pwm_range, at::pwm_output_range,
                                  at::pwm_mode};
+constexpr std::array pulse_range{at::pwm_neutral, at::pwm_range};
 constexpr std::array notices{at::fault_notice};
 constexpr std::array pwm_and_angle{at::pwm_output_range, at::pwm_mode, at::angle_limit_cw,
                                    at::angle_limit_ccw};
@@ -352,6 +359,13 @@ constexpr CrossCheck table[]{
      angle_limits,
      meets_no_motion,
      {"this range leaves no motion", "この範囲では動作しません"}},
+    {"pwm_below_zero",
+     CheckKind::warning,
+     pulse_range,
+     pulse_range,
+     meets_negative_pulse,
+     {"the range reaches below 0 us: that end of the output cannot be reached",
+      "入力範囲の下限が 0 us 未満になります。その側の端までは動作しません"}},
     {"dead_band_zero",
      CheckKind::warning,
      dead_bands,

@@ -91,6 +91,9 @@ bool Run::select() {
   if (auto refused = fleet::refuse_together(request_.wanted, servos_)) {
     return stop(std::move(*refused));
   }
+  if (auto refused = request_.refuse ? request_.refuse(servos_.size()) : std::nullopt) {
+    return stop(std::move(*refused));
+  }
   return report_.targets.empty();
 }
 

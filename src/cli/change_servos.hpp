@@ -9,7 +9,9 @@
 #include "cli/output/report.hpp"
 #include "cli/output/result_view.hpp"
 
+#include <cstddef>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -21,6 +23,7 @@ struct ChangeRequest {
   fleet::Wanted wanted{};
   RestartTimes times{};
   bool dry_run = false;
+  std::function<std::optional<Error>(std::size_t servos)> refuse{}; ///< by how many are meant
   ResultView view = ResultView::servos;
   /// In place of the view, where a command has its own way to show what became of single registers.
   std::function<void(JsonWriter&, std::span<const fleet::ChangeResult>)> json{};

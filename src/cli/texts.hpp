@@ -335,6 +335,9 @@ inline constexpr Text pwm_nothing_hint{
     "--neutral、--range、--output、--mode、--endpoints、--preset のいずれかを指定して下さい"};
 inline constexpr Text pwm_svg_one_servo{"--svg draws one servo, not {}",
                                         "--svg で描画できるのは 1 台です ({} 台指定)"};
+inline constexpr Text pwm_svg_to_stdout{"--svg needs a file: standard output is for data",
+                                        "--svg にはファイルを指定して下さい "
+                                        "(標準出力はデータ用です)"};
 inline constexpr Text pwm_svg_hint{"choose it: -n", "-n で 1 台選んで下さい"};
 inline constexpr Text pwm_unknown{"the PWM mapping is not known", "PWM の設定を取得できません"};
 inline constexpr Text pwm_pulses{"  pulses   {} us +-{} us: {} to {} us\n",

@@ -85,6 +85,10 @@ void plan_changes(const Wanted& wanted, const Values& held, Plan& plan) {
     }
     plan.changes.push_back(std::move(change));
   }
+  // A command may need a switch that is set with it.
+  std::ranges::stable_partition(plan.changes, [](const Change& change) {
+    return change.parameter->group != bla::Group::command;
+  });
   plan.mode_before = plan.mode_after = bla::find(held, at::pwm_mode);
   for (const Change& change : plan.changes) {
     if (change.parameter->address == at::pwm_mode) {

@@ -149,7 +149,7 @@ Step ReadJob::judge_proof(const Outcome& outcome) {
         {Code::state, say<texts::restarted_meanwhile>(id), say<texts::run_again_hint>(), id});
   }
   const bool runs_on = !has_another_boot();
-  if (runs_on && has_run_since(servo.since, info->status.uptime_s, outcome.at)) {
+  if (runs_on && has_run_since(must_run_since(), info->status.uptime_s, outcome.at)) {
     return settle(outcome.at);
   }
   if (runs_on && proof_ == Proof::run && !snapshot_.has_restarted) {
@@ -162,7 +162,7 @@ Step ReadJob::judge_proof(const Outcome& outcome) {
 /// tells something.
 Step ReadJob::judge_uptime(std::uint32_t uptime_s, Time now) {
   using Verdict = UptimeCheck::Verdict;
-  const UptimeCheck check(snapshot_.servo.since);
+  const UptimeCheck check(must_run_since());
   const Verdict verdict = check.judge(uptime_s, now);
   if (verdict == Verdict::ran_on && uptimes_ > 0) {
     return settle(now);
@@ -204,6 +204,13 @@ Step ReadJob::read_again(Time now) {
   servo.since = now;
   roster_.learn_run(servo);
   return read_next();
+}
+
+/// What RAM held when this session heard the servo first may be meant, however often it was
+/// identified since.
+Time ReadJob::must_run_since() const {
+  return proof_ == Proof::run && !snapshot_.has_restarted ? roster_.member(id_).first_heard
+                                                          : snapshot_.servo.since;
 }
 
 bool ReadJob::has_another_boot() const {

@@ -157,6 +157,7 @@ TEST_CASE("--svg draws one servo, as a whole or not at all") {
   CHECK(contains(svg, "2220 us"));
   const Result two = three_servos().run(bench, {"pwm-config", "-n", "11,13", "--svg", file});
   CHECK(two.status == 2);
+  CHECK(two.out.empty());
   CHECK(content(file) == svg);
   const std::string folder = (bench.folder() / "none").string();
   const Result nowhere =

@@ -21,7 +21,7 @@ class ReadJob final : public dronecan::Job {
 
   /// How much of it must be proven. On a recording nothing can be asked. `moment`: that it was true
   /// of one servo at one time. `run`: also that the servo has not restarted since it was first
-  /// asked, without which RAM may have lost what it is told to save; this may take some seconds.
+  /// heard, without which RAM may have lost what it is told to save; this may take some seconds.
   enum class Proof : std::uint8_t { none, moment, run };
 
   /// What else to read, after what was read so far; asked until it names nothing new.
@@ -58,6 +58,7 @@ class ReadJob final : public dronecan::Job {
   [[nodiscard]] dronecan::Step give_up(Error error);
   [[nodiscard]] bool agrees_with_before() const;
   [[nodiscard]] bool has_another_boot() const;
+  [[nodiscard]] Time must_run_since() const;
 
   Roster& roster_;
   dronecan::NodeId id_;

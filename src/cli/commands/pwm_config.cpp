@@ -118,6 +118,9 @@ std::vector<Error> contradictions(const PwmOptions& options) {
     faults.push_back(usage(say<texts::pwm_output_symmetric>(printable(options.output)),
                            say<texts::pwm_output_hint>()));
   }
+  if (options.svg == "-") {
+    faults.push_back(usage(say<texts::pwm_svg_to_stdout>()));
+  }
   if (!options.changes() && (options.save || options.dry_run)) {
     faults.push_back(usage(say<texts::pwm_nothing_to_change>(options.save ? "--save" : "--dry-run"),
                            say<texts::pwm_nothing_hint>()));
@@ -146,14 +149,18 @@ Result<std::vector<std::string>> wanted_values(const PwmOptions& options,
   return values;
 }
 
+/// --svg and several servos: before anything is written.
+std::optional<Error> refuse_several(const PwmOptions& options, std::size_t servos) {
+  return options.svg.empty() || servos <= 1
+             ? std::nullopt
+             : std::optional(
+                   usage(say<texts::pwm_svg_one_servo>(servos), say<texts::pwm_svg_hint>()));
+}
+
 /// The mapping of the one servo into the file that was named.
-void draw(const std::string& path, std::span<const std::pair<fleet::Servo, bla::Values>> servos,
+void draw(const std::string& path, const std::pair<fleet::Servo, bla::Values>& one,
           Report& report) {
-  if (servos.size() != 1) {
-    report.fail(usage(say<texts::pwm_svg_one_servo>(servos.size()), say<texts::pwm_svg_hint>()));
-    return;
-  }
-  const auto& [servo, values] = servos.front();
+  const auto& [servo, values] = one;
   const auto mapping = bla::pwm_mapping(values);
   if (!mapping) {
     report.fail({Code::state, say<texts::pwm_unknown>(), {}, servo.id.value()});
@@ -191,6 +198,10 @@ Report show(const PwmOptions& options, Context& context) {
   if (!ids) {
     return report;
   }
+  if (auto refused = refuse_several(options, ids->size())) {
+    report.fail(std::move(*refused));
+    return report;
+  }
   auto snapshots = fleet::take_snapshots(context.session(), context.known(), *ids,
                                          context.identification(), registers_of);
   if (snapshots.broken) {
@@ -208,7 +219,7 @@ Report show(const PwmOptions& options, Context& context) {
     }
   }
   if (!options.svg.empty() && !servos->empty()) {
-    draw(options.svg, *servos, report);
+    draw(options.svg, servos->front(), report);
   }
   report.count_targets();
   report.json = [servos](JsonWriter& json) {
@@ -281,6 +292,7 @@ Report change(const PwmOptions& options, const bla::Profiles& profiles, Context&
                   .also_read = bla::pwm_registers()},
        .times = options.times,
        .dry_run = options.dry_run,
+       .refuse = [&](std::size_t servos) { return refuse_several(options, servos); },
        .view = ResultView::changes,
        .json = write_changed,
        .text = changed_text,
@@ -292,7 +304,7 @@ Report change(const PwmOptions& options, const bla::Profiles& profiles, Context&
            }},
       context);
   if (!options.svg.empty() && !drawn->empty()) {
-    draw(options.svg, *drawn, report);
+    draw(options.svg, drawn->front(), report);
   }
   return report;
 }

@@ -57,6 +57,7 @@ class Watch {
   [[nodiscard]] const std::map<NodeId, FaultState>& last() const { return last_; }
 
  private:
+  [[nodiscard]] bool draws() const;
   [[nodiscard]] bool look();
   [[nodiscard]] bool take(FaultState now);
   [[nodiscard]] bool tell(Happened happened, const FaultState& servo, const Fault& fault);
@@ -72,6 +73,11 @@ class Watch {
   std::set<NodeId> silent_;
   std::size_t drawn_ = 0; ///< lines of the list on the terminal
 };
+
+/// A list on a terminal, instead of lines.
+bool Watch::draws() const {
+  return context_.reporter().format() != Format::json && context_.reporter().page().is_terminal();
+}
 
 /// False: the reader of stdout has left.
 bool Watch::print(std::string_view text) {
@@ -98,7 +104,7 @@ bool Watch::tell(Happened happened, const FaultState& servo, const Fault& fault)
     json.end_object();
     return print(line + '\n');
   }
-  if (context_.reporter().page().is_terminal()) {
+  if (draws()) {
     return true; // the list says it
   }
   return print(say<texts::fault_event>(UnixTime(context_.session().wall()).text(),
@@ -109,6 +115,9 @@ bool Watch::tell(Happened happened, const FaultState& servo, const Fault& fault)
 
 /// A servo that does not answer keeps what was known of it.
 void Watch::tell_silence(const FaultState& now) {
+  if (draws()) {
+    return; // the list says it, and a note would stand in its way
+  }
   const NodeId id = now.snapshot.servo.id;
   if (now.errors.empty()) {
     if (silent_.erase(id) > 0) {
@@ -148,7 +157,7 @@ bool Watch::take(FaultState now) {
 /// The list in place of the one before.
 bool Watch::redraw() {
   const Page page = context_.reporter().page();
-  if (context_.reporter().format() == Format::json || !page.is_terminal()) {
+  if (!draws()) {
     return true;
   }
   std::vector<FaultState> servos;

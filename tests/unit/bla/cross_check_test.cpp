@@ -333,6 +333,11 @@ const std::vector<Case> cases{
     {"no_motion", "pwm_range", 1, false},
     {"no_motion", "pwm_output_range", 0, true},
 
+    {"pwm_below_zero", "pwm_range", 1521, true},
+    {"pwm_below_zero", "pwm_range", 1520, false},
+    {"pwm_below_zero", "pwm_neutral", 699, true},
+    {"pwm_below_zero", "pwm_neutral", 700, false},
+
     {"dead_band_zero", "angle_dead_band", 0, true},
     {"dead_band_zero", "angle_dead_band", 1, false},
 

@@ -254,18 +254,19 @@ TEST_CASE("where nothing proves that the servo ran on, all is read once more") {
 }
 
 TEST_CASE(
-    "whether a young servo ran on since it was first asked shows by its uptime a second later") {
+    "whether a young servo ran on since it was first heard shows by its uptime a second later") {
   Reader reader({"angle_limit_cw"}, ReadJob::Proof::run);
+  const Time heard = reader.known.member().first_heard;
   const auto told = [&](std::uint32_t uptime_s, Duration later) {
     Outcome outcome = reader.script.info(unit, uptime_s);
-    outcome.at += later;
+    outcome.at = heard + later;
     return reader.next(outcome);
   };
   CHECK(reader.next(Script::start()) == "read 0x38");
   CHECK(reader.value("0x38", 900) == "GetNodeInfo");
   CHECK(told(0, 15ms) == "pause");
   REQUIRE(reader.step.pause() != nullptr);
-  CHECK(reader.step.pause()->until == Time{} + 1s);
+  CHECK(reader.step.pause()->until == heard + 1s);
   SECTION("it did") {
     CHECK(reader.next(Script::start()) == "GetNodeInfo");
     CHECK(told(1, 1001ms) == "pause"); // for a twin
@@ -285,7 +286,7 @@ TEST_CASE(
     CHECK(reader.next(Script::start()) == "GetNodeInfo");
     CHECK(told(1, 1100ms) == "pause");
     REQUIRE(reader.step.pause() != nullptr);
-    CHECK(reader.step.pause()->until == Time{} + 2s);
+    CHECK(reader.step.pause()->until == heard + 2s);
     CHECK(reader.next(Script::start()) == "GetNodeInfo");
     CHECK(told(2, 2001ms) == "pause");
     CHECK(reader.next(Script::start()) == "nothing");
