@@ -150,10 +150,6 @@ std::vector<Parameter> read_parameters(json::Object& root, json::Faults& faults)
   return parameters;
 }
 
-/// Which bits belong to which group (4.12): a byte each.
-constexpr std::array<std::string_view, 4> bit_groups{"hardware", "software", "communication",
-                                                     "other"};
-
 FaultBit read_fault_bit(const json::Value& item, json::Faults& faults) {
   json::Object object(item, faults);
   FaultBit bit;
@@ -181,7 +177,7 @@ FaultBit read_fault_bit(const json::Value& item, json::Faults& faults) {
     bit.values.push_back(read_address(*value, faults));
   }
   object.finish();
-  if (const auto group = bit_groups[bit.bit / 8U]; !bit.group.empty() && bit.group != group) {
+  if (const auto group = fault_group(bit.bit); !bit.group.empty() && bit.group != group) {
     faults.add(item, say<texts::profile_bit_group>(bit.bit, group));
   }
   return bit;

@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <span>
-#include <utility>
 
 namespace blactl::bla {
 namespace {
 
 constexpr std::uint8_t register_bits = 32;
-constexpr std::array<std::string_view, 4> groups{"hardware", "software", "communication", "other"};
 
 Level level_of(Address reg) {
   return static_cast<Level>(reg.value() - address::fault_notice.value());
@@ -16,8 +14,11 @@ Level level_of(Address reg) {
 
 /// The four bits of 0x18 that tell whether a register of this level has any (4.12).
 std::int64_t summary_mask(Level level) {
-  constexpr std::int64_t one_a_group = 0x01010101;
-  return one_a_group << std::to_underlying(level);
+  std::int64_t mask = 0;
+  for (std::uint8_t bit = 0; bit < register_bits; ++bit) {
+    mask |= std::int64_t{1} << summary_bit(level, bit);
+  }
+  return mask;
 }
 
 const FaultBit* find_bit(std::span<const FaultBit> bits, Address reg, std::uint8_t bit) {
@@ -50,8 +51,8 @@ std::vector<Fault> faults(const Values& values, const Profiles& profiles) {
     const std::int64_t bits = fault_register(values, *it).value_or(0);
     for (std::uint8_t bit = 0; bit < register_bits; ++bit) {
       if ((bits >> bit & 1) != 0) {
-        found.push_back({*it, bit, level_of(*it), groups.at(bit / 8U),
-                         find_bit(profiles.fault_bits(), *it, bit)});
+        found.push_back(
+            {*it, bit, level_of(*it), fault_group(bit), find_bit(profiles.fault_bits(), *it, bit)});
       }
     }
   }

@@ -150,6 +150,17 @@ std::vector<const Parameter*> Identity::configuration() const {
   return wanted;
 }
 
+std::vector<const Parameter*> Identity::registers(std::span<const Address> addresses) const {
+  std::vector<const Parameter*> found;
+  for (const Address address : addresses) {
+    const Parameter* known = parameter(address);
+    if (known != nullptr && has(*known)) {
+      found.push_back(known);
+    }
+  }
+  return found;
+}
+
 Result<Values> Identity::factory_defaults() const {
   Values defaults;
   const auto kept = configuration();

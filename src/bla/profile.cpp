@@ -67,9 +67,14 @@ std::string_view name(Level level) {
   return level_names[std::to_underlying(level)];
 }
 
-std::uint8_t summary_bit(const FaultBit& bit) {
-  const unsigned group = bit.bit / 8U;
-  return static_cast<std::uint8_t>(group * 8U + std::to_underlying(bit.level));
+std::string_view fault_group(std::uint8_t bit) {
+  constexpr std::array<std::string_view, 4> groups{"hardware", "software", "communication",
+                                                   "other"};
+  return groups.at(bit / 8U);
+}
+
+std::uint8_t summary_bit(Level level, std::uint8_t bit) {
+  return static_cast<std::uint8_t>(bit / 8 * 8 + std::to_underlying(level));
 }
 
 std::string firmware_text(std::int64_t version) {

@@ -10,18 +10,6 @@ namespace {
 
 using bla::Parameter;
 
-std::vector<const Parameter*> registers_at(const Servo& servo,
-                                           std::span<const bla::Address> addresses) {
-  std::vector<const Parameter*> registers;
-  for (const bla::Address address : addresses) {
-    const Parameter* parameter = servo.identity.parameter(address);
-    if (parameter != nullptr && servo.identity.has(*parameter)) {
-      registers.push_back(parameter);
-    }
-  }
-  return registers;
-}
-
 /// What is missing of the three registers is missing of the faults; the values behind them and
 /// 0x18 are not.
 std::vector<Error> errors_of(const Snapshot& snapshot, const Roster& roster) {
@@ -84,11 +72,11 @@ FaultStates read_faults(Session& session, const bla::Profiles& profiles,
   auto snapshots = take_snapshots(
       session, profiles, servos, options,
       [&](const Servo& servo) -> Result<std::vector<const Parameter*>> {
-        return registers_at(servo, first);
+        return servo.identity.registers(first);
       },
       ReadJob::Proof::moment,
       [&](const Snapshot& so_far) {
-        return registers_at(so_far.servo, bla::fault_details(so_far.values(), profiles));
+        return so_far.servo.identity.registers(bla::fault_details(so_far.values(), profiles));
       });
   FaultStates states{.servos = {}, .broken = std::move(snapshots.broken)};
   for (Snapshot& snapshot : snapshots.servos) {

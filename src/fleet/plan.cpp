@@ -38,11 +38,9 @@ Registers to_judge(const Wanted& wanted, const Servo& servo) {
     if (bla::unit_depends_on_mode(*assignment.parameter)) {
       add(registers, servo.identity.parameter(at::pwm_mode));
     }
-    for (const Address needed : bla::values_needed(assignment.parameter->address)) {
-      const Parameter* parameter = servo.identity.parameter(needed);
-      if (parameter != nullptr && servo.identity.has(*parameter)) {
-        add(registers, parameter);
-      }
+    const auto needed = bla::values_needed(assignment.parameter->address);
+    for (const Parameter* parameter : servo.identity.registers(needed)) {
+      add(registers, parameter);
     }
   }
   return registers;
@@ -299,8 +297,8 @@ Result<std::vector<const Parameter*>> registers_needed(const Wanted& wanted, con
     return fail(Code::no_profile, say<texts::only_readable>(), say<texts::defaults_unknown_hint>());
   }
   Registers registers = to_judge(wanted, servo);
-  for (const Address address : wanted.also_read) {
-    add(registers, servo.identity.parameter(address));
+  for (const Parameter* parameter : servo.identity.registers(wanted.also_read)) {
+    add(registers, parameter);
   }
   if (wanted.restart || wanted.erase) { // after the restart all of it must be the same
     for (const Parameter* parameter : servo.identity.configuration()) {

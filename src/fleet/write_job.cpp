@@ -59,7 +59,7 @@ Step WriteJob::go_on() {
     return ask_unit();
   }
   if (current_ == changes_.size()) {
-    return has_written_ && std::ranges::any_of(changes_, is_held) ? ask_unit() : Step(std::nullopt);
+    return std::ranges::any_of(changes_, is_held) ? ask_unit() : Step(std::nullopt);
   }
   at_ = At::write;
   has_written_ = true;

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,9 @@ class Identity {
 
   /// Whether this servo's firmware has the register. Unknown firmware: assumed.
   [[nodiscard]] bool has(const Parameter& parameter) const;
+
+  /// Those of these registers that this servo has, in their order.
+  [[nodiscard]] std::vector<const Parameter*> registers(std::span<const Address> addresses) const;
 
   /// The registers that SAVE keeps (0x20-0x46, 4.11), as far as this servo has them, by address.
   [[nodiscard]] std::vector<const Parameter*> configuration() const;

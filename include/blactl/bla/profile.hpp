@@ -32,8 +32,12 @@ struct FaultBit {
   std::vector<Address> values; ///< registers that tell more: what is measured, and its limit
 };
 
-/// The bit of 0x18 that shows that `bit` or another of its group and level is set (4.12).
-[[nodiscard]] std::uint8_t summary_bit(const FaultBit& bit);
+/// "hardware", "software", "communication", "other": a byte each of every fault register (4.12).
+[[nodiscard]] std::string_view fault_group(std::uint8_t bit);
+
+/// The bit of 0x18 that shows that this bit of the register of `level`, or another of its group, is
+/// set (4.12).
+[[nodiscard]] std::uint8_t summary_bit(Level level, std::uint8_t bit);
 
 /// One release of the servos' firmware (chapter 5).
 struct FirmwareRelease {

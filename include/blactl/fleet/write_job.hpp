@@ -16,7 +16,8 @@ namespace blactl::fleet {
 /// Sends the planned changes in order; those that hold the value already are `unchanged` before.
 /// An answer may show a clamped or refused value (requirement 73), so the register is read again
 /// after each write. In the end, and before a refusal is believed, the servo is asked who it is and
-/// how long it has run. What was written before a restart is written again: it was in RAM only.
+/// how long it has run, also where all values were held already: they were read some time ago. What
+/// was written before a restart is written again: it was in RAM only.
 /// Where nothing proves that there was none, all values are read once more.
 class WriteJob final : public dronecan::Job {
  public:

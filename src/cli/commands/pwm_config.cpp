@@ -173,23 +173,12 @@ void draw(const std::string& path, const std::pair<fleet::Servo, bla::Values>& o
   }
 }
 
-std::vector<const bla::Parameter*> mapping_registers(const fleet::Servo& servo) {
-  std::vector<const bla::Parameter*> registers;
-  for (const bla::Address address : bla::pwm_registers()) {
-    const bla::Parameter* parameter = servo.identity.parameter(address);
-    if (parameter != nullptr && servo.identity.has(*parameter)) {
-      registers.push_back(parameter);
-    }
-  }
-  return registers;
-}
-
 /// Errors: unsupported, for a servo without a PWM input.
 Result<std::vector<const bla::Parameter*>> registers_of(const fleet::Servo& servo) {
   if (auto possible = servo.identity.check_pwm_input(); !possible) {
     return std::unexpected(possible.error());
   }
-  return mapping_registers(servo);
+  return servo.identity.registers(bla::pwm_registers());
 }
 
 Report show(const PwmOptions& options, Context& context) {

@@ -19,7 +19,7 @@ namespace {
 std::int64_t summary_of(Values values) {
   std::int64_t summary = 0;
   for (const Fault& fault : faults(values, built_in())) {
-    summary |= std::int64_t{1} << (fault.bit / 8 * 8 + static_cast<int>(fault.level));
+    summary |= std::int64_t{1} << summary_bit(fault.level, fault.bit);
   }
   return summary;
 }

@@ -299,7 +299,7 @@ TEST_CASE("the bits of 0x18 follow from group and level") {
                               : bit.level == Level::warning ? "Warning"
                                                             : "Failure";
       const bool summed_up = own == level && bit.group == row.at("group");
-      CHECK(summed_up == (std::to_string(summary_bit(bit)) == row.at("bit")));
+      CHECK(summed_up == (std::to_string(summary_bit(bit.level, bit.bit)) == row.at("bit")));
     }
     ++compared;
   }

@@ -281,11 +281,12 @@ TEST_CASE("what is set is written and read again, and nothing is saved or restar
   CHECK(result.errors().empty());
 }
 
-TEST_CASE("a plan that does nothing asks nothing") {
+TEST_CASE("a plan that does nothing asks whether it is the same servo, and no more") {
   Bench bench(set({"reverse=on"}), {{at::reverse, 1}});
-  CHECK(bench.asked == std::vector<std::string>{"nothing"});
-  CHECK(bench.job->result().changes[0].status == ChangeStatus::unchanged);
-  CHECK(bench.job->result().errors().empty());
+  const ChangeResult& result = bench.finish();
+  CHECK(bench.asked == std::vector<std::string>{"GetNodeInfo", "nothing"});
+  CHECK(result.changes[0].status == ChangeStatus::unchanged);
+  CHECK(result.errors().empty());
 }
 
 TEST_CASE("what is set and saved is written, saved once, and all of it read again") {

@@ -88,15 +88,31 @@ TEST_CASE("a value that is held already is not sent") {
   CHECK(scene.sent.size() == 3 + 1 + 1);
 }
 
-TEST_CASE("nothing to change sends nothing") {
+TEST_CASE("nothing to change writes nothing, and is proven all the same") {
   Scene scene(servo_11);
+  scene.grow_old();
   const Servo servo = scene.identify(11);
   scene.sent.clear();
-  WriteJob unchanged(scene.roster(), servo, {change("reverse", 0, 0)}, {});
-  scene.run(unchanged);
   WriteJob empty(scene.roster(), servo, {}, {});
   scene.run(empty);
   CHECK(scene.sent.empty());
+  WriteJob unchanged(scene.roster(), servo, {change("reverse", 0, 0)}, {});
+  scene.run(unchanged);
+  CHECK(unchanged.changes()[0].status == ChangeStatus::unchanged);
+  CHECK(scene.sent.size() == 1);
+  CHECK(scene.requests(GetNodeInfo::type, 11) == 1);
+}
+
+TEST_CASE("what was held already is not called unchanged once the servo has restarted unheard") {
+  const auto known = Acquaintance(bla21());
+  Script script;
+  WriteJob job(known.roster, bla21(), {change("reverse", 1, 1)}, {});
+  CHECK(text(job.next(Script::start())) == "GetNodeInfo");
+  CHECK(text(job.next(script.young_info(11))) == "read 0x23"); // its uptime proves nothing
+  CHECK(text(job.next(script.value("0x23", std::int64_t{0}))) == "nothing");
+  CHECK(job.changes()[0].status == ChangeStatus::failed);
+  REQUIRE(job.changes()[0].error);
+  CHECK(job.changes()[0].error->code == Code::state);
 }
 
 TEST_CASE("a servo that keeps its old value refused") {

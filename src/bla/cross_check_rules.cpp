@@ -1,0 +1,206 @@
+#include "bla/cross_check_rules.hpp"
+
+#include "blactl/bla/defect.hpp"
+#include "blactl/bla/fault_bits.hpp"
+#include "blactl/bla/parameter.hpp"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <optional>
+
+namespace blactl::bla {
+
+namespace at = address;
+
+namespace {
+
+constexpr std::int64_t off = 0, on = 1;                // most switches
+constexpr std::int64_t torque_on = 0;                  // 0x20 counts upside down (4.13)
+constexpr std::int64_t timeout_hold = 0;               // 0x26
+constexpr std::int64_t angle_mode = 0, speed_mode = 1; // 0x37
+constexpr std::int64_t tenths = 10;
+
+bool holds(const Values& values, Address address, std::int64_t raw) {
+  return find(values, address) == raw;
+}
+
+/// Both are known, and `compare` holds.
+template <class Compare>
+bool both(const Values& values, Address first, Address second, Compare compare) {
+  const auto left = find(values, first);
+  const auto right = find(values, second);
+  return left && right && compare(*left, *right);
+}
+
+bool has_pwm_input(const Identity& servo) {
+  return servo.profile() != nullptr && servo.profile()->pwm;
+}
+
+bool is_cw(Address address) {
+  return address == at::angle_limit_cw;
+}
+
+/// A command of speed or torque that runs until something ends it.
+bool runs(std::optional<std::int64_t> command) {
+  return command && *command != 0 && *command != not_active;
+}
+
+/// In this mode the PWM output range reaches beyond one of the limits.
+bool maps_beyond(const Proposal& change, std::int64_t mode, Address limit_cw, Address limit_ccw) {
+  const auto is_above = [](std::int64_t output, std::int64_t limit) { return output > limit; };
+  const auto is_below = [](std::int64_t output, std::int64_t limit) { return -output < limit; };
+  return has_pwm_input(change.servo) && holds(change.after, at::pwm_mode, mode) &&
+         (both(change.after, at::pwm_output_range, limit_cw, is_above) ||
+          both(change.after, at::pwm_output_range, limit_ccw, is_below));
+}
+
+/// The measured value that a protection limit is compared with, and on which side of it.
+struct Protection {
+  Address limit, measured;
+  bool is_upper;
+  std::int64_t warning; ///< bit of 0x1A while it holds the motor off
+};
+
+constexpr std::array protections{
+    Protection{at::temperature_limit_high, at::current_temperature, true, fault::temperature_high},
+    Protection{at::temperature_limit_low, at::current_temperature, false, fault::temperature_low},
+    Protection{at::voltage_limit_high, at::current_voltage, true, fault::voltage_high},
+    Protection{at::voltage_limit_low, at::current_voltage, false, fault::voltage_low},
+};
+
+const Protection& protection(Address limit) {
+  return *std::ranges::find(protections, limit, &Protection::limit);
+}
+
+} // namespace
+
+// Refusals
+
+bool meets_control_off(const Proposal& change) {
+  return holds(change.after, at::speed_torque_control, off);
+}
+
+bool meets_no_stop(const Proposal& change) {
+  if (!holds(change.after, at::timeout_action, timeout_hold)) {
+    return false;
+  }
+  if (change.address != at::timeout_action) {
+    return runs(change.requested);
+  }
+  return runs(find(change.after, at::command_speed)) ||
+         runs(find(change.after, at::command_torque));
+}
+
+bool meets_reversed_limits(const Proposal& change) {
+  const bool is_voltage =
+      change.address == at::voltage_limit_high || change.address == at::voltage_limit_low;
+  return both(change.after, is_voltage ? at::voltage_limit_high : at::temperature_limit_high,
+              is_voltage ? at::voltage_limit_low : at::temperature_limit_low, std::less_equal());
+}
+
+// Questions: what is not known may be the worst
+
+/// An angle limit inside of the present angle.
+bool meets_pulled_back(const Proposal& change) {
+  const auto angle = find(change.before, at::current_angle);
+  return !angle || (is_cw(change.address) ? change.requested < *angle : change.requested > *angle);
+}
+
+/// A wider limit, with a command beyond the old one that is still there.
+bool meets_let_go_on(const Proposal& change) {
+  const auto command = find(change.before, at::command_angle);
+  const auto held = find(change.before, change.address);
+  if (!command || !held) {
+    return true;
+  }
+  const bool cw = is_cw(change.address);
+  const bool is_wider = cw ? change.requested > *held : change.requested < *held;
+  const bool is_beyond = cw ? *command > *held : *command < *held;
+  return is_wider && is_beyond && *command != not_active;
+}
+
+/// Limits are inclusive (4.12).
+bool meets_trips(const Proposal& change) {
+  const Protection& watched = protection(change.address);
+  const auto measured = find(change.before, watched.measured);
+  return !measured ||
+         (watched.is_upper ? *measured >= change.requested : *measured <= change.requested);
+}
+
+/// A protection that holds the motor off now, and would not with this limit.
+bool meets_protection_ends(const Proposal& change) {
+  const auto warnings = find(change.before, at::fault_warning);
+  const bool is_active = !warnings || (*warnings & protection(change.address).warning) != 0;
+  return is_active && !meets_trips(change);
+}
+
+bool meets_pwm_present(const Proposal& change) {
+  const auto notices = find(change.before, at::fault_notice);
+  return !notices || (*notices & fault::pwm_missing) == 0;
+}
+
+// Warnings
+
+bool meets_pwm_cut_off(const Proposal& change) {
+  return maps_beyond(change, angle_mode, at::angle_limit_cw, at::angle_limit_ccw);
+}
+
+bool meets_pwm_speed_limited(const Proposal& change) {
+  return maps_beyond(change, speed_mode, at::speed_limit_cw, at::speed_limit_ccw);
+}
+
+bool meets_pwm_without_control(const Proposal& change) {
+  return has_pwm_input(change.servo) && holds(change.after, at::pwm_mode, speed_mode) &&
+         holds(change.after, at::speed_torque_control, off);
+}
+
+bool meets_no_motion(const Proposal& change) {
+  if (change.address == at::pwm_range || change.address == at::pwm_output_range) {
+    return change.requested == 0;
+  }
+  return both(change.after, at::angle_limit_cw, at::angle_limit_ccw, std::equal_to());
+}
+
+/// Such a pulse cannot be.
+bool meets_negative_pulse(const Proposal& change) {
+  return has_pwm_input(change.servo) &&
+         both(change.after, at::pwm_range, at::pwm_neutral, std::greater());
+}
+
+bool meets_zero(const Proposal& change) {
+  return change.requested == 0;
+}
+
+bool meets_near_supply(const Proposal& change) {
+  constexpr std::int64_t margin = tenths / 2;
+  const auto supply = find(change.before, at::current_voltage);
+  const std::int64_t distance = !supply ? margin
+                                : change.address == at::voltage_limit_high
+                                    ? change.requested - *supply
+                                    : *supply - change.requested;
+  return distance > 0 && distance < margin;
+}
+
+bool meets_short_timeout(const Proposal& change) {
+  constexpr std::int64_t some_commands_ms = 100;
+  return change.requested < some_commands_ms;
+}
+
+bool meets_not_default(const Proposal& change) {
+  const Parameter* parameter = change.servo.parameter(change.address);
+  return parameter != nullptr && parameter->default_raw != change.requested;
+}
+
+bool meets_hard_start(const Proposal& change) {
+  return holds(change.after, at::soft_start, off) &&
+         holds(change.after, at::torque_output, torque_on);
+}
+
+bool meets_stall(const Proposal& change) {
+  const bool is_speed =
+      change.address == at::command_speed ? runs(change.requested) : change.requested == on;
+  return is_speed && may_stall(change.servo);
+}
+
+} // namespace blactl::bla

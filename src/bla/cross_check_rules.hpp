@@ -1,0 +1,29 @@
+#pragma once
+// When each cross-check fires; the table of them is in cross_check.cpp.
+
+#include "blactl/bla/cross_check.hpp"
+
+namespace blactl::bla {
+
+// Refusals and warnings need to know; what questions do not know may be the worst.
+[[nodiscard]] bool meets_control_off(const Proposal& change);
+[[nodiscard]] bool meets_no_stop(const Proposal& change);
+[[nodiscard]] bool meets_reversed_limits(const Proposal& change);
+[[nodiscard]] bool meets_pulled_back(const Proposal& change);
+[[nodiscard]] bool meets_let_go_on(const Proposal& change);
+[[nodiscard]] bool meets_trips(const Proposal& change);
+[[nodiscard]] bool meets_protection_ends(const Proposal& change);
+[[nodiscard]] bool meets_pwm_present(const Proposal& change);
+[[nodiscard]] bool meets_pwm_cut_off(const Proposal& change);
+[[nodiscard]] bool meets_pwm_speed_limited(const Proposal& change);
+[[nodiscard]] bool meets_pwm_without_control(const Proposal& change);
+[[nodiscard]] bool meets_no_motion(const Proposal& change);
+[[nodiscard]] bool meets_negative_pulse(const Proposal& change);
+[[nodiscard]] bool meets_zero(const Proposal& change);
+[[nodiscard]] bool meets_near_supply(const Proposal& change);
+[[nodiscard]] bool meets_short_timeout(const Proposal& change);
+[[nodiscard]] bool meets_not_default(const Proposal& change);
+[[nodiscard]] bool meets_hard_start(const Proposal& change);
+[[nodiscard]] bool meets_stall(const Proposal& change);
+
+} // namespace blactl::bla
