@@ -9,16 +9,27 @@
 namespace blactl::dronecan {
 namespace {
 
-/// The longest answer to GetNodeInfo, with its CRC: longer ones are none.
+/// The longest answer, that to GetNodeInfo, with its CRC: longer ones are none.
 constexpr std::size_t most_bytes = 400;
 
+/// The data type of an answer that is watched; null: it is not.
+const DataType* watched(const Header& header) {
+  for (const DataType* type : {&GetNodeInfo::type, &GetSet::type}) {
+    if (header.kind == Kind::response && header.data_type_id == type->id) {
+      return type;
+    }
+  }
+  return nullptr;
+}
+
 /// The payload of a transfer of several frames, if its CRC is right.
-std::optional<std::span<const std::uint8_t>> checked(std::span<const std::uint8_t> bytes) {
+std::optional<std::span<const std::uint8_t>> checked(const DataType& type,
+                                                     std::span<const std::uint8_t> bytes) {
   if (bytes.size() < crc_size) {
     return std::nullopt;
   }
   const auto payload = bytes.subspan(crc_size);
-  const unsigned crc = crc16(payload, base_crc(GetNodeInfo::type.signature));
+  const unsigned crc = crc16(payload, base_crc(type.signature));
   const unsigned sent = bytes[0] | static_cast<unsigned>(bytes[1]) << 8U;
   return crc == sent ? std::optional(payload) : std::nullopt;
 }
@@ -26,11 +37,11 @@ std::optional<std::span<const std::uint8_t>> checked(std::span<const std::uint8_
 } // namespace
 
 void AnswerWatch::receive(const Header& header, const can::Frame& frame, Time at) {
-  if (header.kind != Kind::response || header.data_type_id != GetNodeInfo::type.id) {
+  if (watched(header) == nullptr) {
     return;
   }
   const Tail tail = Tail::decode(frame.data[frame.size - 1U]);
-  Assembly& assembly = assemblies_[header.source];
+  Assembly& assembly = assemblies_[{header.source, header.data_type_id}];
   if (tail.start) {
     assembly.transfer_id = tail.transfer_id;
     assembly.toggle = false;
@@ -50,19 +61,34 @@ void AnswerWatch::receive(const Header& header, const can::Frame& frame, Time at
   }
 }
 
+std::optional<AnswerWatch::Trait> AnswerWatch::trait(const DataType& type, Bytes payload) const {
+  if (type.id == GetNodeInfo::type.id) {
+    const auto info = GetNodeInfo::Response::decode(payload);
+    return info ? std::optional(Trait{.value = info->unique_id}) : std::nullopt;
+  }
+  const auto told = GetSet::Response::decode(payload);
+  return told && constants_.contains(told->name)
+             ? std::optional(Trait{.name = told->name, .value = told->value})
+             : std::nullopt;
+}
+
 void AnswerWatch::complete(Assembly& assembly, const Header& header, Time at) {
-  const auto payload = checked(assembly.bytes);
-  const auto info = payload ? GetNodeInfo::Response::decode(*payload) : std::nullopt;
-  if (!info) {
-    return;
-  }
+  const DataType& type = *watched(header);
+  const auto payload = checked(type, assembly.bytes);
+  const auto trait = payload ? this->trait(type, *payload) : std::nullopt;
   Answer& first = assembly.answers[assembly.transfer_id];
-  const bool is_second = first.unit && first.client == header.destination &&
+  const bool is_second = trait && first.trait && first.trait->name == trait->name &&
+                         first.client == header.destination &&
                          at - first.at < Receiver::transfer_timeout;
-  if (is_second && *first.unit != info->unique_id) {
-    report_(header.source, *first.unit, info->unique_id);
+  if (is_second && first.trait->value != trait->value) {
+    const auto* one = std::get_if<UniqueId>(&first.trait->value);
+    const auto* other = std::get_if<UniqueId>(&trait->value);
+    report_(header.source,
+            one != nullptr && other != nullptr ? std::set{*one, *other} : std::set<UniqueId>{});
   }
-  first = {info->unique_id, header.destination, at};
+  if (trait) {
+    first = {trait, header.destination, at};
+  }
 }
 
 } // namespace blactl::dronecan

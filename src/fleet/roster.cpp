@@ -30,6 +30,13 @@ constexpr std::uint8_t tail_start_of_transfer = 0x80;
 /// Bound for what anybody on the bus can make us remember.
 constexpr std::size_t most_pending = 256;
 
+/// What a servo is (table 3-11): two values of it are of two servos.
+std::set<std::string> names_of_constants() {
+  namespace at = bla::address;
+  return {at::model_number.name(), at::serial_number.name(), at::firmware_version.name(),
+          at::hardware_version.name()};
+}
+
 } // namespace
 
 Servo Member::servo() const {
@@ -46,8 +53,9 @@ Servo Member::servo() const {
 
 Roster::Roster(NodeId local)
     : local_(local),
-      answers_([this](NodeId id, const dronecan::UniqueId& one, const dronecan::UniqueId& other) {
-        mark_doubled(id, one, other);
+      answers_(names_of_constants(), [this](NodeId id, const std::set<dronecan::UniqueId>& units) {
+        doubled_.insert(id);
+        units_[id].insert(units.begin(), units.end());
       }) {}
 
 void Roster::mark_doubled(NodeId id, const dronecan::UniqueId& one,

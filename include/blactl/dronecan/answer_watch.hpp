@@ -9,26 +9,40 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
 namespace blactl::dronecan {
 
 /// The receiver of the specification takes a second answer with the same transfer ID for a
-/// repetition of the first, and drops it (4.1). This one puts every answer to GetNodeInfo together,
-/// and reports two of them with one transfer ID and different unique IDs. Answers whose frames mix
+/// repetition of the first, and drops it (4.1). This one puts every answer to GetNodeInfo and
+/// GetSet together, and reports two of them with one transfer ID that cannot be of one unit: their
+/// unique IDs differ, or their values of a parameter that never changes. Answers whose frames mix
 /// are not read: then nobody takes them for an answer.
 class AnswerWatch {
  public:
-  using Report = std::function<void(NodeId, const UniqueId&, const UniqueId&)>;
+  /// The unique IDs of the two units, or none where parameters told them apart.
+  using Report = std::function<void(NodeId, const std::set<UniqueId>&)>;
 
-  explicit AnswerWatch(Report report) : report_(std::move(report)) {}
+  /// `constants`: names of parameters that never change.
+  AnswerWatch(std::set<std::string> constants, Report report)
+      : constants_(std::move(constants)), report_(std::move(report)) {}
 
   /// A frame of whatever kind with the header that its ID says; it has data.
   void receive(const Header& header, const can::Frame& frame, Time at);
 
  private:
+  /// What an answer says of the unit that gave it.
+  struct Trait {
+    std::string name{}; ///< of the parameter; empty: its unique ID
+    std::variant<UniqueId, GetSet::Value> value{};
+  };
+
   struct Answer {
-    std::optional<UniqueId> unit{};
+    std::optional<Trait> trait{};
     NodeId client{};
     Time at{};
   };
@@ -42,9 +56,11 @@ class AnswerWatch {
   };
 
   void complete(Assembly& assembly, const Header& header, Time at);
+  [[nodiscard]] std::optional<Trait> trait(const DataType& type, Bytes payload) const;
 
+  std::set<std::string> constants_;
   Report report_;
-  std::map<NodeId, Assembly> assemblies_; ///< by server, so it is bounded
+  std::map<std::pair<NodeId, std::uint16_t>, Assembly> assemblies_; ///< by server and data type ID
 };
 
 } // namespace blactl::dronecan

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <random>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,6 +31,17 @@ Frames answer(std::uint8_t unit, TransferId id, std::uint8_t client = 127,
   return segment(header, id, GetNodeInfo::type.signature, payload.bytes());
 }
 
+/// The answer to a question for a parameter.
+Frames value(const char* name, std::int64_t value, TransferId id) {
+  const Header header{.kind = Kind::response,
+                      .priority = 30,
+                      .data_type_id = GetSet::type.id,
+                      .source = NodeId(11),
+                      .destination = NodeId(127)};
+  const auto payload = GetSet::Response{.value = value, .name = name}.encode();
+  return segment(header, id, GetSet::type.signature, payload.bytes());
+}
+
 /// A watch that writes down whom it reports.
 struct Watch {
   void hear(const Frames& frames, Duration when = {}) {
@@ -39,9 +51,13 @@ struct Watch {
   }
 
   std::vector<std::string> reports; ///< "11: 1 2"
-  AnswerWatch watch{[this](NodeId id, const UniqueId& one, const UniqueId& other) {
-    reports.push_back(fmt::format("{}: {} {}", id.value(), one[0], other[0]));
-  }};
+  AnswerWatch watch{{"0x50", "0x51"}, [this](NodeId id, const std::set<UniqueId>& units) {
+                      std::string report = fmt::format("{}:", id.value());
+                      for (const UniqueId& unit : units) {
+                        report += fmt::format(" {}", unit[0]);
+                      }
+                      reports.push_back(report);
+                    }};
 };
 
 using Reports = std::vector<std::string>;
@@ -93,7 +109,7 @@ TEST_CASE("a transfer ID comes again after 2 s: that is another question") {
   watch.hear(answer(2, 5), 2s);
   CHECK(watch.reports.empty());
   watch.hear(answer(1, 5), 2s + 1999ms);
-  CHECK(watch.reports == Reports{"11: 2 1"});
+  CHECK(watch.reports == Reports{"11: 1 2"});
 }
 
 TEST_CASE("answers whose frames mix are not read, and do no harm to those after them") {
@@ -139,18 +155,34 @@ TEST_CASE("a frame that comes twice counts once") {
   CHECK(watch.reports == Reports{"11: 1 2"});
 }
 
-TEST_CASE("what answers something else is not watched") {
+TEST_CASE("two values of a parameter that never changes are of two units") {
   Watch watch;
-  const Header header{.kind = Kind::response,
-                      .priority = 30,
-                      .data_type_id = GetSet::type.id,
-                      .source = NodeId(11),
-                      .destination = NodeId(127)};
-  for (const std::int64_t value : {1, 2}) {
-    const auto payload = GetSet::Response{.value = value, .name = "0x38"}.encode();
-    watch.hear(segment(header, 5, GetSet::type.signature, payload.bytes()));
+  SECTION("in answers to one question") {
+    watch.hear(value("0x51", 1, 5));
+    watch.hear(answer(1, 5), 1ms); // another question, with transfer IDs of its own
+    watch.hear(value("0x51", 2, 5), 3ms);
+    CHECK(watch.reports == Reports{"11:"});
   }
-  CHECK(watch.reports.empty());
+  SECTION("a repeated answer is of the same unit") {
+    watch.hear(value("0x51", 1, 5));
+    watch.hear(value("0x51", 1, 5), 3ms);
+    CHECK(watch.reports.empty());
+  }
+  SECTION("in answers to two questions: the unit may have been replaced") {
+    watch.hear(value("0x51", 1, 5));
+    watch.hear(value("0x51", 2, 6), 3ms);
+    CHECK(watch.reports.empty());
+  }
+  SECTION("another parameter has another value") {
+    watch.hear(value("0x50", 1, 5));
+    watch.hear(value("0x51", 2, 5), 70ms);
+    CHECK(watch.reports.empty());
+  }
+  SECTION("what may change may have changed when the transfer ID comes again") {
+    watch.hear(value("0x38", 1, 5));
+    watch.hear(value("0x38", 2, 5), 70ms);
+    CHECK(watch.reports.empty());
+  }
 }
 
 TEST_CASE("frames of any bytes are heard without harm, and an endless answer fills no memory") {
