@@ -19,8 +19,15 @@ if(BLACTL_SANITIZE)
     target_compile_options(blactl-sanitizers INTERFACE -Wno-maybe-uninitialized)
   endif()
 endif()
+if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+  # What std::stable_sort() of GCC 12 does itself.
+  target_compile_options(blactl-warnings INTERFACE -Wno-deprecated-declarations)
+endif()
 # Where several files are one unit, a local name may hide one of another file, and a type of a file's
 # own may stand in a unit with another main file: there neither is a mistake.
 set(in_unity $<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>)
-target_compile_options(blactl-warnings INTERFACE
-  "$<${in_unity}:-Wno-shadow;-Wshadow=local;-Wno-subobject-linkage>")
+target_compile_options(blactl-warnings INTERFACE $<${in_unity}:-Wno-shadow>)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  target_compile_options(blactl-warnings INTERFACE
+    "$<${in_unity}:-Wshadow=local;-Wno-subobject-linkage>")
+endif()

@@ -103,7 +103,7 @@ std::optional<GetNodeInfo::Response> GetNodeInfo::Response::decode(Bytes payload
 Payload Allocation::encode() const {
   Payload payload;
   const auto id = std::min(node_id, NodeId::max);
-  put_integer(payload, static_cast<unsigned>(id << 1U | (first_part_of_unique_id ? 1U : 0U)), 1);
+  put_integer(payload, (unsigned{id} << 1U) | (first_part_of_unique_id ? 1U : 0U), 1);
   payload.append(Bytes(unique_id).first(std::min<std::size_t>(size, unique_id.size())));
   return payload;
 }

@@ -393,10 +393,10 @@ TEST_CASE("requirement 128: 0x44 shifts zero, and the seam with it", "[requireme
 }
 
 TEST_CASE("requirement 183: with 0x44 the seam moves at once", "[requirement-183]") {
-  const auto shown = [](std::int64_t shaft, std::int64_t new_origin, const char* reverse = "off") {
+  const auto shown = [](std::int64_t shaft, std::int64_t new_origin, const char* turned = "off") {
     MotionRig rig(fmt::format(R"("model": "BLA21-12U-AB", "rom": {{"soft_start": "off",
         "torque_output": "off", "reverse": "{}"}}, "ram": {{"current_angle": "{}deg"}})",
-                              reverse, shaft / 10));
+                              turned, shaft / 10));
     CHECK(rig.angle() == shaft);
     rig.write(origin, new_origin);
     return rig.angle();
