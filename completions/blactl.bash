@@ -111,6 +111,7 @@ _blactl_option() {
     trace:--kind) kind='words' value_words='message request response' ;;
     trace:--duration) kind='seconds' ;;
     trace:--count) kind='whole' ;;
+    models:--group) kind='group' value_words='command status operation fault config control pwm limit option product production' ;;
     sim:--facts) kind='file' ;;
     sim:--seed) kind='whole' ;;
     sim:--clock) kind='word' value_words='real virtual' ;;
@@ -123,7 +124,7 @@ _blactl_argument() {
     get:*) kind='parameter' ;;
     set:*) kind='assignment' ;;
     trace:0) kind='file' ;;
-    models:0) kind='model' ;;
+    models:0) kind='model_or_parameter' ;;
     models:1) kind='parameter' ;;
     sim:0) kind='file' ;;
   esac
@@ -142,6 +143,7 @@ _blactl_options() {
     faults) echo '--level --watch' ;;
     pwm-config) echo '--neutral --range --output --mode --endpoints --preset --svg --save --dry-run --wait --stagger' ;;
     trace) echo '--type --kind --duration --count --stats --absolute' ;;
+    models) echo '--group' ;;
     sim) echo '--facts --seed --clock' ;;
   esac
 }
@@ -172,6 +174,7 @@ _blactl_offer_value() {
     parameter) _blactl_offer "$_blactl_parameters" ;;
     assignment) _blactl_offer_assignment ;;
     model) _blactl_offer "$_blactl_models" ;;
+    model_or_parameter) _blactl_offer "$_blactl_models $_blactl_parameters" ;;
     nodes) _blactl_offer_nodes ;;
     interface) _blactl_offer_interface ;;
     file) _blactl_offer_files '' ;;

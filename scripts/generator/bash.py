@@ -82,6 +82,7 @@ _blactl_offer_value() {
     parameter) _blactl_offer "$_blactl_parameters" ;;
     assignment) _blactl_offer_assignment ;;
     model) _blactl_offer "$_blactl_models" ;;
+    model_or_parameter) _blactl_offer "$_blactl_models $_blactl_parameters" ;;
     nodes) _blactl_offer_nodes ;;
     interface) _blactl_offer_interface ;;
     file) _blactl_offer_files '' ;;

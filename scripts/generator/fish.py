@@ -112,6 +112,7 @@ def _values(option):
         "parameter": "'(__blactl_parameters)'",
         "assignment": "'(__blactl_assignments)'",
         "model": "'(__blactl_models)'",
+        "model_or_parameter": "'(__blactl_models; __blactl_parameters)'",
         "nodes": "'(__blactl_nodes)'",
         "interface": "'(__blactl_interface)'",
         "folder": "'(__fish_complete_directories (__blactl_token))'",

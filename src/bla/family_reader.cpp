@@ -105,6 +105,15 @@ Address read_address(const json::Value& item, json::Faults& faults) {
   return address.value_or(Address{});
 }
 
+std::vector<Address> read_addresses(json::Object& object, std::string_view key,
+                                    json::Faults& faults) {
+  std::vector<Address> addresses;
+  for (const json::Value* value : object.optional_array(key)) {
+    addresses.push_back(read_address(*value, faults));
+  }
+  return addresses;
+}
+
 Parameter read_parameter(const json::Value& item, json::Faults& faults) {
   Parameter parameter;
   const auto address = find_address(item.key);
@@ -128,6 +137,10 @@ Parameter read_parameter(const json::Value& item, json::Faults& faults) {
   parameter.min_firmware = object.optional_integer("min_firmware", 0);
   parameter.can_be_inactive = object.optional_boolean("can_be_inactive").value_or(false);
   parameter.choices = read_choices(object, faults);
+  parameter.section = object.optional_string("section").value_or("");
+  parameter.meaning_en = object.optional_string("meaning_en").value_or("");
+  parameter.meaning_ja = object.optional_string("meaning_ja").value_or("");
+  parameter.see = read_addresses(object, "see", faults);
   object.finish();
   if (object.exists()) {
     check_range_given(object, parameter, faults);
@@ -173,9 +186,7 @@ FaultBit read_fault_bit(const json::Value& item, json::Faults& faults) {
   bit.condition_ja = read_text(object, "condition_ja", faults);
   bit.action_en = read_text(object, "action_en", faults);
   bit.action_ja = read_text(object, "action_ja", faults);
-  for (const json::Value* value : object.optional_array("values")) {
-    bit.values.push_back(read_address(*value, faults));
-  }
+  bit.values = read_addresses(object, "values", faults);
   object.finish();
   if (const auto group = fault_group(bit.bit); !bit.group.empty() && bit.group != group) {
     faults.add(item, say<texts::profile_bit_group>(bit.bit, group));

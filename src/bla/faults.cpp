@@ -6,8 +6,6 @@
 namespace blactl::bla {
 namespace {
 
-constexpr std::uint8_t register_bits = 32;
-
 Level level_of(Address reg) {
   return static_cast<Level>(reg.value() - address::fault_notice.value());
 }
@@ -15,16 +13,10 @@ Level level_of(Address reg) {
 /// The four bits of 0x18 that tell whether a register of this level has any (4.12).
 std::int64_t summary_mask(Level level) {
   std::int64_t mask = 0;
-  for (std::uint8_t bit = 0; bit < register_bits; ++bit) {
+  for (std::uint8_t bit = 0; bit < fault_register_bits; ++bit) {
     mask |= std::int64_t{1} << summary_bit(level, bit);
   }
   return mask;
-}
-
-const FaultBit* find_bit(std::span<const FaultBit> bits, Address reg, std::uint8_t bit) {
-  const auto it = std::ranges::find_if(
-      bits, [&](const FaultBit& known) { return known.reg == reg && known.bit == bit; });
-  return it != bits.end() ? &*it : nullptr;
 }
 
 void add_once(std::vector<Address>& all, Address address) {
@@ -49,10 +41,9 @@ std::vector<Fault> faults(const Values& values, const Profiles& profiles) {
   std::vector<Fault> found;
   for (auto it = fault_registers.rbegin(); it != fault_registers.rend(); ++it) {
     const std::int64_t bits = fault_register(values, *it).value_or(0);
-    for (std::uint8_t bit = 0; bit < register_bits; ++bit) {
+    for (std::uint8_t bit = 0; bit < fault_register_bits; ++bit) {
       if ((bits >> bit & 1) != 0) {
-        found.push_back(
-            {*it, bit, level_of(*it), fault_group(bit), find_bit(profiles.fault_bits(), *it, bit)});
+        found.push_back({*it, bit, level_of(*it), fault_group(bit), profiles.fault_bit(*it, bit)});
       }
     }
   }

@@ -94,6 +94,13 @@ const Parameter* Profile::find(Address address) const {
   return find_address_in(parameters, address);
 }
 
+const FaultBit* Profiles::fault_bit(Address reg, std::uint8_t bit) const {
+  const auto& bits = reg == address::fault_summary ? summary_bits_ : fault_bits_;
+  const auto it = std::ranges::find_if(
+      bits, [&](const FaultBit& known) { return known.reg == reg && known.bit == bit; });
+  return it != bits.end() ? &*it : nullptr;
+}
+
 std::vector<const FirmwareRelease*> Profiles::releases_of(const Profile& profile) const {
   const auto shipped = [&](const FirmwareRelease& release) {
     return std::ranges::any_of(release.shipments, [&](const FirmwareRelease::Shipment& shipment) {

@@ -2,6 +2,8 @@
 
 #include "blactl/bla/value.hpp"
 
+#include "blactl/bla/profile.hpp"
+
 #include "bla/texts.hpp"
 #include "bla/words.hpp"
 
@@ -341,6 +343,20 @@ std::string input_text(const Parameter& parameter, std::int64_t raw,
   return fmt::format("{}{}", value_text(parameter, raw, pwm_mode), unit_text(parameter, pwm_mode));
 }
 
+namespace {
+
+bool is_version(const Parameter& parameter) {
+  return parameter.address == address::firmware_version ||
+         parameter.address == address::hardware_version;
+}
+
+/// Which part it is, its name says.
+bool is_part_of_date(const Parameter& parameter) {
+  return parameter.unit >= Unit::year;
+}
+
+} // namespace
+
 std::string display(const Parameter& parameter, std::int64_t raw,
                     std::optional<std::int64_t> pwm_mode) {
   if (parameter.can_be_inactive && raw == not_active) {
@@ -349,9 +365,12 @@ std::string display(const Parameter& parameter, std::int64_t raw,
   if (const Choice* choice = parameter.choice(raw)) {
     return choice->word;
   }
+  if (is_version(parameter)) {
+    return firmware_text(raw);
+  }
   const std::string_view unit = unit_text(parameter, pwm_mode);
   const std::string value = value_text(parameter, raw, pwm_mode);
-  return unit.empty() ? value : fmt::format("{} {}", value, unit);
+  return unit.empty() || is_part_of_date(parameter) ? value : fmt::format("{} {}", value, unit);
 }
 
 std::string register_text(const Parameter& parameter, std::int64_t raw,

@@ -40,6 +40,7 @@ enum class Kind : std::uint8_t {
   assignment,
   group,
   model,
+  model_or_parameter,
   nodes,
   interface,
   file,

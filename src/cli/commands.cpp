@@ -16,6 +16,7 @@ std::string_view name(Kind kind) {
   case Kind::assignment: return "assignment";
   case Kind::group: return "group";
   case Kind::model: return "model";
+  case Kind::model_or_parameter: return "model_or_parameter";
   case Kind::nodes: return "nodes";
   case Kind::interface: return "interface";
   case Kind::file: return "file";

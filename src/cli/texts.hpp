@@ -208,6 +208,7 @@ inline constexpr Text commands_servos{"node {} commands servos",
 inline constexpr Text says_armed{"node {} says armed", "ノード {} は ARM 状態です"};
 inline constexpr Text column_node{"NODE", "ノード"};
 inline constexpr Text column_model{"MODEL", "機種"};
+inline constexpr Text column_models{"MODELS", "機種"};
 inline constexpr Text column_serial{"SERIAL", "製造番号"};
 inline constexpr Text column_servo_id{"SERVO ID", "サーボ ID"};
 inline constexpr Text column_firmware{"FIRMWARE", "ファームウェア"};
@@ -299,7 +300,6 @@ inline constexpr Text level_failure{"FAILURE", "障害"};
 inline constexpr Text no_faults{"no faults", "異常なし"};
 inline constexpr Text faults_unknown{"not known whether it has faults", "異常の有無は不明です"};
 inline constexpr Text faults_hidden{"{} below {}: not shown", "{} 件は{}未満のため非表示"};
-inline constexpr Text unknown_bit{"a bit that no document describes", "仕様書に記載のないビット"};
 inline constexpr Text unknown_bit_action{
     "Ask the manufacturer, with the firmware version and the name of the bit.",
     "ファームウェアバージョンとビット番号を添えてメーカーに問い合わせて下さい。"};
@@ -372,6 +372,20 @@ inline constexpr Text models_bit_latched{"stays until the next start", "次回�
 inline constexpr Text models_bit_pwm_only{"models with a PWM input only", "PWM 入力対応機種のみ"};
 inline constexpr Text models_since{"firmware {} or later", "ファームウェア {} 以降"};
 inline constexpr Text models_vendor_label{"vendor's program: {}", "メーカー製ツールの表示: {}"};
+inline constexpr Text models_section{"specification: section {}", "仕様書: {}"};
+inline constexpr Text models_all{"all models", "全機種"};
+inline constexpr Text models_same{"What they have in common:", "共通のパラメータ:"};
+inline constexpr Text models_differ{"Where they differ:", "機種により異なるパラメータ:"};
+inline constexpr Text models_checks{"When it is changed:", "変更時:"};
+inline constexpr Text models_refusal{"refused", "拒否"};
+inline constexpr Text models_question{"asked first", "確認"};
+inline constexpr Text models_warning{"warning", "警告"};
+inline constexpr Text models_see{"See also: {}", "関連: {}"};
+inline constexpr Text models_group_of_one{"a parameter or a group, not both",
+                                          "パラメータとグループは同時に指定できません"};
+inline constexpr Text models_group_of_one_hint{
+    "type one of them, for example: blactl models --group {}",
+    "どちらか一方を指定してください。例: blactl models --group {}"};
 inline constexpr Text models_saved{"kept by save", "保存対象"};
 inline constexpr Text models_not_saved{"not kept by save", "保存対象外"};
 

@@ -25,8 +25,8 @@ TEST_CASE("models --json has exactly the keys of the contract, in their order") 
   CHECK(result.status == 0);
   const auto document = ordered_json(result.out);
   CHECK(keys(document) == std::vector<std::string>{"schema", "command", "interface", "exit_status",
-                                                   "models", "fault_bits", "firmware", "counts",
-                                                   "errors"});
+                                                   "models", "fault_bits", "firmware",
+                                                   "cross_checks", "counts", "errors"});
   CHECK(document["interface"].is_null());
   REQUIRE(document["models"].size() == 10);
   for (const auto& model : document["models"]) {
@@ -37,7 +37,10 @@ TEST_CASE("models --json has exactly the keys of the contract, in their order") 
       CHECK(keys(parameter) == std::vector<std::string>{"address", "name", "name_en", "name_ja",
                                                         "vendor_label", "group", "access", "unit",
                                                         "scale", "default", "min", "max", "saved",
-                                                        "min_firmware", "enumeration"});
+                                                        "min_firmware", "enumeration", "section",
+                                                        "see", "meaning_en", "meaning_ja"});
+      CHECK_FALSE(std::string(parameter["meaning_en"]).empty());
+      CHECK_FALSE(std::string(parameter["meaning_ja"]).empty());
       for (const auto& choice : parameter["enumeration"]) {
         CHECK(keys(choice) == std::vector<std::string>{"raw", "word", "text_en", "text_ja"});
       }
@@ -73,7 +76,7 @@ TEST_CASE("models MODEL PARAM narrows to one register of one model") {
   const Result text = run({"models", "BLA21-12U-AB2", "overcurrent-limit"});
   CHECK(text.status == 0);
   CHECK(contains(text.out, "firmware 1.100 or later"));
-  CHECK(contains(text.out, "BLA21-12U-AB  6.3 A    3.5 .. 7.0 A\n"));
+  CHECK(contains(text.out, "  6.3 A    3.5 .. 7.0 A  BLA21-12U-AB\n"));
 }
 
 TEST_CASE("a model's beginning is enough") {
@@ -109,8 +112,8 @@ TEST_CASE("a model of --profile-dir is known to models and to the servos that ar
 
 TEST_CASE("a range names only the words that the model takes") {
   const Result result = run({"models", "BLA21-12U", "pwm_mode"});
-  CHECK(contains(result.out, "BLA21-12U-A0  -        no PWM input\n"));
-  CHECK(contains(result.out, "BLA21-12U-AB  angle    angle, speed\n"));
+  CHECK(contains(result.out, "  -        no PWM input  BLA21-12U-A0\n"));
+  CHECK(contains(result.out, "  angle    angle, speed  BLA21-12U-AB\n"));
 }
 
 TEST_CASE("models MODEL tells of a fault register what its bits mean and what to do") {
@@ -168,7 +171,7 @@ TEST_CASE("models says why node IDs within the range are refused") {
 
 TEST_CASE("models says of a model without PWM input that it has none") {
   const Result one = run({"models", "BLA15-12U-A0", "0x34"});
-  CHECK(contains(one.out, "BLA15-12U-A0  -        no PWM input\n"));
+  CHECK(contains(one.out, "  -        no PWM input  BLA15-12U-A0\n"));
   CHECK_FALSE(contains(one.out, "10000"));
   CHECK(contains(run({"models", "BLA15-12U-A0"}).out,
                  "pwm_neutral             RW      -           no PWM input"));
@@ -193,4 +196,56 @@ TEST_CASE("on a terminal of 80 columns no line of a table is longer") {
   }
   const Result wide = run({"models", "BLA21-12U-AB"});
   CHECK(longest_line(wide.out) > 80);
+}
+
+TEST_CASE("models PARAM is the data sheet of a parameter, over all models") {
+  const Result sheet = run({"models", "0x2A"});
+  CHECK(sheet.status == 0);
+  CHECK(run({"models", "overcurrent-limit"}).out == sheet.out);
+  CHECK(run({"models", "all", "overcurrent_limit"}).out == sheet.out);
+  CHECK(contains(sheet.out, "0x2A  overcurrent_limit  Overcurrent protection Current value\n"
+                            "  The most current that the motor takes. "));
+  CHECK(contains(sheet.out, "  specification: section 4.20\n"));
+  CHECK(contains(sheet.out, "  12.0 A   6.0 .. 12.0 A  BLA21-06U\n"));
+  CHECK(contains(sheet.out, "  2.4 A    1.6 .. 3.2 A   BLA21-28U\n"));
+}
+
+TEST_CASE("a parameter's sheet tells what a change meets, and what it works together with") {
+  const Result sheet = run({"models", "pwm_mode"});
+  CHECK(contains(sheet.out, "  speed (1): "));
+  CHECK(contains(sheet.out, "\nWhen it is changed:\n  asked first: "));
+  CHECK(contains(sheet.out, "  warning: "));
+  CHECK(contains(sheet.out, "\nSee also: 0x36 pwm_output_range, 0x25 speed_torque_control\n"));
+  CHECK(contains(run({"models", "command_speed"}).out, "  refused: "));
+  CHECK(contains(sheet.out, "no PWM input  BLA15, BLA21-**U-A0\n"));
+}
+
+TEST_CASE("models all puts the models side by side") {
+  const Result all = run({"models", "all"});
+  CHECK(all.status == 0);
+  const auto differ = all.out.find("Where they differ:\n");
+  REQUIRE(differ != std::string::npos);
+  CHECK(all.out.find("angle_limit_cw") < differ);
+  CHECK(all.out.find("overcurrent_limit") > differ);
+  CHECK(contains(run({"models", "BLA34"}).out, "BLA34\nWhat they have in common:\n"));
+}
+
+TEST_CASE("models --group shows the parameters of a group") {
+  const Result group = run({"models", "BLA34-12U", "--group", "pwm"});
+  CHECK(group.status == 0);
+  CHECK(contains(group.out, "pwm_neutral"));
+  CHECK_FALSE(contains(group.out, "angle_limit_cw"));
+  CHECK(contains(run({"models", "--group", "pwm"}).out, "Where they differ:\n"));
+  const auto document = json(run({"models", "--group", "pwm", "-j"}).out);
+  CHECK(document["models"][0]["parameters"].size() == 4);
+  const Result both = run({"models", "0x2A", "--group", "pwm"});
+  CHECK(both.status == 2);
+  CHECK(contains(both.err, "[usage] a parameter or a group, not both\n"));
+}
+
+TEST_CASE("what is neither a model nor a parameter is refused as what it looks like") {
+  CHECK(contains(run({"models", "angel_limit_cw"}).err,
+                 "[unknown_parameter] angel_limit_cw: there is no such parameter\n"
+                 "  did you mean angle_limit_cw"));
+  CHECK(contains(run({"models", "bla7", "0x38"}).err, "[usage] there is no model 'bla7'\n"));
 }

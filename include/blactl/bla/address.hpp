@@ -55,6 +55,8 @@ inline constexpr Address voltage_limit_high{0x40}, voltage_limit_low{0x41};
 inline constexpr Address origin{0x44}, servo_id{0x45}, static_node_id{0x46}, bootloader{0x49};
 inline constexpr Address model_number{0x50}, serial_number{0x51};
 inline constexpr Address firmware_version{0x52}, hardware_version{0x53};
+inline constexpr Address production_year{0x58}, production_month{0x59}, production_day{0x5A};
+inline constexpr Address production_hour{0x5B}, production_minute{0x5C};
 } // namespace address
 
 } // namespace blactl::bla

@@ -100,6 +100,9 @@ struct Parameter {
   std::optional<std::int64_t> min_firmware; ///< 0x52 from which on it exists
   std::vector<Choice> choices;              ///< empty: a number
   bool can_be_inactive = false;             ///< 0x00-0x02: not_active is possible
+  std::string section;                      ///< of the specification: "4.20"
+  std::string meaning_en, meaning_ja;       ///< in a sentence or two
+  std::vector<Address> see;                 ///< what it works together with
 
   /// Of a register as all models have it, where they differ in the default: a value that each of
   /// them takes, or that of one model.

@@ -18,6 +18,8 @@ namespace blactl::bla {
 enum class Level : std::uint8_t { notice, warning, failure };
 [[nodiscard]] std::string_view name(Level level);
 
+inline constexpr std::uint8_t fault_register_bits = 32;
+
 /// One bit of 0x19 (notice), 0x1A (warning) or 0x1B (failure), or of their summary 0x18: 4.12.
 struct FaultBit {
   Address reg;
@@ -92,6 +94,9 @@ class Profiles {
 
   /// The bits of 0x18: what there is to look for in the other three.
   [[nodiscard]] std::span<const FaultBit> summary_bits() const { return summary_bits_; }
+
+  /// What a bit of 0x18-0x1B is; null: no document tells it.
+  [[nodiscard]] const FaultBit* fault_bit(Address reg, std::uint8_t bit) const;
 
   /// Ascending by version.
   [[nodiscard]] std::span<const FirmwareRelease> firmware() const { return firmware_; }

@@ -49,7 +49,7 @@ struct TypedValue {
 [[nodiscard]] std::string input_text(const Parameter& parameter, std::int64_t raw,
                                      std::optional<std::int64_t> pwm_mode = std::nullopt);
 
-/// For people: "90.0 deg", "brake", "not active" (in the language of the session).
+/// For people: "90.0 deg", "brake", "1.400", "not active" (in the language of the session).
 [[nodiscard]] std::string display(const Parameter& parameter, std::int64_t raw,
                                   std::optional<std::int64_t> pwm_mode = std::nullopt);
 

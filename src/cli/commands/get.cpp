@@ -133,8 +133,8 @@ Report execute(const GetOptions& options, Context& context) {
   report.count_targets();
   report.json = [answers](JsonWriter& json) { write_json(json, *answers); };
   report.csv = [answers] { return csv(*answers); };
-  report.text = [answers, changed = options.changed](const Page& page) {
-    return text(*answers, changed, page);
+  report.text = [answers, &known = **profiles, changed = options.changed](const Page& page) {
+    return text(*answers, known, changed, page);
   };
   return report;
 }

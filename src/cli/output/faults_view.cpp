@@ -1,5 +1,6 @@
 #include "cli/output/faults_view.hpp"
 
+#include "blactl/bla/explain.hpp"
 #include "blactl/bla/value.hpp"
 
 #include "cli/output/node_head.hpp"
@@ -27,11 +28,6 @@ std::string level_word(Level level) {
 
 Tone tone(Level level) {
   return level == Level::notice ? Tone::good : level == Level::warning ? Tone::warning : Tone::bad;
-}
-
-std::string title(const Fault& fault) {
-  return fault.known != nullptr ? std::string(choose(fault.known->text_en, fault.known->text_ja))
-                                : say<texts::unknown_bit>();
 }
 
 std::string condition(const Fault& fault) {
@@ -119,7 +115,7 @@ void write_fault(JsonWriter& json, const FaultState& servo, const Fault& fault) 
   json.key("code");
   fault.known != nullptr ? json.value(fault.known->code) : json.value(nullptr);
   json.member("latched", is_latched(fault));
-  json.member("text", title(fault));
+  json.member("text", bla::bit_title(fault.known));
   json.member("condition", condition(fault));
   json.member("action", action_text(fault));
   json.key("values");
@@ -133,7 +129,7 @@ void write_fault(JsonWriter& json, const FaultState& servo, const Fault& fault) 
 
 std::string fault_line(const Fault& fault, const Page& page) {
   return fmt::format("{}  {}  [{}]", page.paint(tone(fault.level), level_word(fault.level)),
-                     title(fault), place(fault));
+                     bla::bit_title(fault.known), place(fault));
 }
 
 void write_json(JsonWriter& json, std::span<const FaultState> servos, Level level) {

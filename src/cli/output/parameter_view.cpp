@@ -1,5 +1,6 @@
 #include "cli/output/parameter_view.hpp"
 
+#include "blactl/bla/explain.hpp"
 #include "blactl/bla/value.hpp"
 
 #include "cli/output/node_head.hpp"
@@ -52,7 +53,8 @@ bool shows_names() {
   return language() == Language::japanese;
 }
 
-std::string table_text(const ServoValues& servo, const Page& page) {
+std::string table_text(const ServoValues& servo, const bla::Profiles& profiles, const Page& page) {
+  const auto values = servo.snapshot.values();
   const auto mode = servo.snapshot.pwm_mode();
   std::vector<std::string> header{"", say<texts::column_parameter>(), say<texts::column_value>(),
                                   say<texts::column_default>()};
@@ -63,7 +65,7 @@ std::string table_text(const ServoValues& servo, const Page& page) {
   for (const Reading& reading : servo.shown) {
     const Parameter& parameter = *reading.parameter;
     std::vector<std::string> row{parameter.address.name(), parameter.name,
-                                 register_text(parameter, *reading.raw, mode),
+                                 bla::explained(parameter, *reading.raw, values),
                                  parameter.default_raw && parameter.writable()
                                      ? bla::display(parameter, *parameter.default_raw, mode)
                                      : ""};
@@ -71,6 +73,9 @@ std::string table_text(const ServoValues& servo, const Page& page) {
       row.push_back(parameter.name_ja);
     }
     table.add(std::move(row));
+    for (std::string& line : bla::explained_bits(parameter, *reading.raw, profiles)) {
+      table.add_below(std::move(line));
+    }
   }
   return table.text("  ", page);
 }
@@ -120,7 +125,8 @@ std::string csv(std::span<const ServoValues> servos) {
   return out;
 }
 
-std::string text(std::span<const ServoValues> servos, bool changed_only, const Page& page) {
+std::string text(std::span<const ServoValues> servos, const bla::Profiles& profiles,
+                 bool changed_only, const Page& page) {
   std::string out;
   for (const ServoValues& servo : servos) {
     out += out.empty() ? "" : "\n";
@@ -129,7 +135,7 @@ std::string text(std::span<const ServoValues> servos, bool changed_only, const P
       out += changed_only ? say<texts::nothing_changed>() : "";
       continue;
     }
-    out += table_text(servo, page);
+    out += table_text(servo, profiles, page);
   }
   return out;
 }

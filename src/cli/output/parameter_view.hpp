@@ -21,7 +21,7 @@ struct ServoValues {
 void write_json(JsonWriter& json, std::span<const ServoValues> servos);
 [[nodiscard]] std::string csv(std::span<const ServoValues> servos);
 /// `changed_only`: a servo without values has nothing but defaults.
-[[nodiscard]] std::string text(std::span<const ServoValues> servos, bool changed_only,
-                               const Page& page);
+[[nodiscard]] std::string text(std::span<const ServoValues> servos, const bla::Profiles& profiles,
+                               bool changed_only, const Page& page);
 
 } // namespace blactl::cli

@@ -40,7 +40,8 @@ std::string Table::text(std::string_view indent, const Page& page) const {
   const std::vector<std::size_t> all_widths = widths();
   const std::vector<Line> lines = layout(all_widths, indent.size(), page.width);
   std::string out;
-  for (const Row& row : rows_) {
+  for (std::size_t number = 0; number < rows_.size(); ++number) {
+    const Row& row = rows_[number];
     for (const Line& line : lines) {
       std::string text(indent.size() + (line.first > 0 ? deeper : 0), ' ');
       for (std::size_t i = line.first; i < line.end; ++i) {
@@ -51,6 +52,12 @@ std::string Table::text(std::string_view indent, const Page& page) const {
       if (!text.empty() || line.first == 0) { // further lines are for what there is to tell
         out += text + '\n';
       }
+    }
+    const auto below = below_.find(number);
+    for (const std::string& text :
+         below != below_.end() ? below->second : std::vector<std::string>{}) {
+      out += indent;
+      out += std::string(all_widths.front() + gap, ' ') + text + '\n';
     }
   }
   return out;

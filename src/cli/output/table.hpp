@@ -4,6 +4,7 @@
 #include "cli/output/page.hpp"
 
 #include <cstddef>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,6 +19,9 @@ class Table {
   explicit Table(std::vector<std::string> header) : rows_{std::move(header)} {}
 
   void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
+
+  /// A line below the last row, from the second column on, however long it is.
+  void add_below(std::string line) { below_[rows_.size() - 1].push_back(std::move(line)); }
 
   /// Every line begins with `indent` and ends with a line break, without trailing blanks.
   [[nodiscard]] std::string text(std::string_view indent = "", const Page& page = {}) const;
@@ -35,6 +39,7 @@ class Table {
                                                 std::size_t indent, std::size_t page_width);
 
   std::vector<Row> rows_;
+  std::map<std::size_t, std::vector<std::string>> below_; ///< by row
 };
 
 /// One record of comma-separated values (RFC 4180), with its line break.

@@ -251,7 +251,8 @@ TEST_CASE("values are shown in their unit") {
   CHECK(display(test::parameter("angle_p_gain"), 40) == "40");
   CHECK(display(test::parameter("torque_limit_cw"), 100) == "100 %");
   CHECK(display(test::parameter("model_number"), 61) == "BLA21");
-  CHECK(display(test::parameter("production_year"), 2020) == "2020 year");
+  CHECK(display(test::parameter("production_year"), 2020) == "2020");
+  CHECK(display(test::parameter("firmware_version"), 1400) == "1.400");
   CHECK(value_text(angle, std::numeric_limits<std::int64_t>::max()) == "922337203685477580.7");
   CHECK(value_text(angle, std::numeric_limits<std::int64_t>::min()) == "-922337203685477580.8");
 }

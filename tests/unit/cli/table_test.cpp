@@ -82,3 +82,14 @@ TEST_CASE("a line that is longer than the page is broken at words") {
         "  one two three four\n      five\nshort  line\n");
   CHECK(Page().fit("any  line") == "any  line");
 }
+
+TEST_CASE("a line below a row begins at the second column, and widens none") {
+  Table table({"", "NAME", "VALUE"});
+  table.add({"0x1A", "warnings", "1"});
+  table.add_below("bit 0: a text longer than the columns");
+  table.add({"0x1B", "failures", "0"});
+  CHECK(table.text("  ") == "        NAME      VALUE\n"
+                            "  0x1A  warnings  1\n"
+                            "        bit 0: a text longer than the columns\n"
+                            "  0x1B  failures  0\n");
+}

@@ -1,7 +1,10 @@
+#include "blactl/bla/pwm_mapping.hpp"
 #include "blactl/sim/pwm_input.hpp"
 
 #include "sim/names.hpp"
 #include "unit/sim/motion_rig.hpp"
+
+#include <vector>
 
 using namespace blactl;
 using namespace blactl::sim;
@@ -216,4 +219,72 @@ TEST_CASE("turns of a speed command are forgotten when PWM takes over, looked at
   const Shaft once = shaft_after(8s);
   CHECK(once.angle > 20'000 * angle_per_decideg);
   CHECK(shaft_after(10ms) == once);
+}
+
+namespace {
+
+/// What the tool makes of the servo's registers.
+bla::PwmMapping mapping_of(MotionRig& rig) {
+  bla::Values values;
+  for (const Address address : bla::pwm_registers()) {
+    values.emplace(address, rig.read(address));
+  }
+  const auto mapping = bla::pwm_mapping(values);
+  REQUIRE(mapping);
+  return *mapping;
+}
+
+/// Pulses from below the shortest to above the longest: twenty.
+std::vector<std::int64_t> widths_of(const bla::PwmMapping& mapping) {
+  constexpr std::int64_t count = 20;
+  const std::int64_t first = mapping.shortest_us() - 10;
+  const std::int64_t length = mapping.longest_us() + 10 - first;
+  std::vector<std::int64_t> widths;
+  for (std::int64_t i = 0; i < count; ++i) {
+    widths.push_back(first + length * i / (count - 1));
+  }
+  return widths;
+}
+
+} // namespace
+
+TEST_CASE("the servo goes where the mapping says that a pulse sends it") {
+  MotionRig rig(
+      MotionRig::with(R"("ram": {"angle_limit_cw": "50deg", "angle_limit_ccw": "-60deg"})"));
+  const bla::PwmMapping mapping = mapping_of(rig);
+  std::size_t valid = 0;
+  for (const std::int64_t width : widths_of(mapping)) {
+    INFO(width);
+    const std::int64_t before = rig.angle();
+    give_pulse(rig, width);
+    rig.run(5s);
+    const auto limited = mapping.limited_command(width);
+    CHECK(rig.stands_at(limited.value_or(before)));
+    if (const auto command = mapping.command(width)) {
+      CHECK(rig.read(command_angle) == *command);
+      ++valid;
+    }
+  }
+  CHECK(valid == 18);
+}
+
+TEST_CASE("the servo turns as fast as the mapping says that a pulse makes it") {
+  MotionRig rig(R"("model": "BLA21-12U-AB", "rom": {"soft_start": "off", "timeout_action": "off",
+      "speed_torque_control": "on", "pwm_mode": "speed", "pwm_output_range": "100rpm",
+      "speed_limit_cw": "60rpm"})");
+  const bla::PwmMapping mapping = mapping_of(rig);
+  std::size_t valid = 0;
+  for (const std::int64_t width : widths_of(mapping)) {
+    INFO(width);
+    give_pulse(rig, width);
+    rig.run(5s);
+    const std::int64_t limited = mapping.limited_command(width).value_or(0);
+    constexpr std::int64_t slowest = 10; // 4.2: below, a servo may stand
+    CHECK(rig.rpm() == (std::abs(limited) < slowest ? 0 : limited));
+    if (const auto command = mapping.command(width)) {
+      CHECK(rig.read(command_speed) == *command);
+      ++valid;
+    }
+  }
+  CHECK(valid == 18);
 }

@@ -1,0 +1,73 @@
+#include "blactl/bla/explain.hpp"
+
+#include "blactl/bla/value.hpp"
+
+#include "bla/texts.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+
+namespace blactl::bla {
+
+namespace at = address;
+
+std::optional<std::string> production_time(const Values& values) {
+  const auto year = find(values, at::production_year);
+  const auto month = find(values, at::production_month);
+  const auto day = find(values, at::production_day);
+  const auto holds = [](std::optional<std::int64_t> part, std::int64_t first, std::int64_t last) {
+    return part && *part >= first && *part <= last;
+  };
+  if (!holds(year, 1, 9999) || !holds(month, 1, 12) || !holds(day, 1, 31)) {
+    return std::nullopt;
+  }
+  const std::chrono::year_month_day date(std::chrono::year(static_cast<int>(*year)),
+                                         std::chrono::month(static_cast<unsigned>(*month)),
+                                         std::chrono::day(static_cast<unsigned>(*day)));
+  if (!date.ok()) {
+    return std::nullopt;
+  }
+  std::string text = fmt::format("{:04}-{:02}-{:02}", *year, *month, *day);
+  const auto hour = find(values, at::production_hour);
+  const auto minute = find(values, at::production_minute);
+  if (holds(hour, 0, 23) && holds(minute, 0, 59)) {
+    text += fmt::format(" {:02}:{:02}", *hour, *minute);
+  }
+  return text;
+}
+
+std::string explained(const Parameter& parameter, std::int64_t raw, const Values& values) {
+  if (parameter.address == at::production_year) {
+    if (const auto date = production_time(values)) {
+      return fmt::format("{}  ({})", raw, *date);
+    }
+  }
+  return register_text(parameter, raw, find(values, at::pwm_mode));
+}
+
+std::string bit_title(const FaultBit* known) {
+  return known != nullptr ? std::string(choose(known->text_en, known->text_ja))
+                          : say<texts::unknown_bit>();
+}
+
+std::vector<std::string> explained_bits(const Parameter& parameter, std::int64_t raw,
+                                        const Profiles& profiles) {
+  std::vector<std::string> lines;
+  if (parameter.group != Group::fault) {
+    return lines;
+  }
+  for (std::uint8_t bit = 0; bit < fault_register_bits; ++bit) {
+    if ((raw >> bit & 1) != 0) {
+      const FaultBit* known = profiles.fault_bit(parameter.address, bit);
+      // The bits of 0x18 have one title in common.
+      const bool is_summary = known != nullptr && known->code.empty();
+      lines.push_back(say<texts::bit_line>(
+          bit, is_summary ? std::string(choose(known->condition_en, known->condition_ja))
+                          : bit_title(known)));
+    }
+  }
+  return lines;
+}
+
+} // namespace blactl::bla

@@ -1,0 +1,321 @@
+#include "cli/output/data_sheet.hpp"
+
+#include "blactl/bla/assignment.hpp"
+#include "blactl/bla/cross_check.hpp"
+#include "blactl/bla/value.hpp"
+
+#include "cli/output/node_head.hpp"
+#include "cli/output/table.hpp"
+#include "cli/texts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <string_view>
+#include <utility>
+
+namespace blactl::cli {
+
+using bla::Parameter;
+using bla::Profile;
+
+namespace {
+
+using Models = std::vector<const Profile*>;
+
+/// A default and a range as they are shown, and the models that have them.
+struct Variant {
+  std::string initial, range;
+  Models models{};
+};
+
+std::string pwm_text(const Profile& profile) {
+  return profile.pwm ? say<texts::models_pwm>() : say<texts::models_no_pwm>();
+}
+
+std::string words_text(const Parameter& parameter) {
+  std::string words;
+  for (const bla::Choice& choice : parameter.choices) {
+    if (choice.raw >= *parameter.min && choice.raw <= *parameter.max) {
+      words += words.empty() ? "" : ", ";
+      words += choice.word;
+    }
+  }
+  return words;
+}
+
+/// What this model takes; why it takes nothing.
+std::string range_text(const Parameter& parameter, const Profile& profile) {
+  if (parameter.writable() && !profile.takes(parameter)) {
+    return pwm_text(profile);
+  }
+  if (!parameter.min || !parameter.max) {
+    return {};
+  }
+  return parameter.choices.empty()
+             ? say<texts::range_text>(bla::value_text(parameter, *parameter.min),
+                                      bla::display(parameter, *parameter.max))
+             : words_text(parameter);
+}
+
+std::string default_text(const Parameter& parameter, const Profile& profile) {
+  if (parameter.writable() && !profile.takes(parameter)) {
+    return "-";
+  }
+  return parameter.default_raw ? bla::display(parameter, *parameter.default_raw) : std::string();
+}
+
+/// When this model was shipped with a release: "2021-10 .. 2022-04", "2024-06 ..".
+std::string shipped_text(const bla::FirmwareRelease& release, const Profile& profile) {
+  std::string times;
+  for (const bla::FirmwareRelease::Shipment& shipment : release.shipments) {
+    if (shipment.covers(profile.model)) {
+      times += times.empty() ? "" : ", ";
+      times += say<texts::range_text>(shipment.from, shipment.until);
+      times.erase(times.find_last_not_of(' ') + 1);
+    }
+  }
+  return times.empty() ? "-" : times;
+}
+
+/// What each firmware of this model brought (chapter 5).
+std::string history_text(const Profile& profile, const bla::Profiles& profiles, const Page& page) {
+  Table table(
+      {say<texts::column_firmware>(), say<texts::column_shipped>(), say<texts::column_changes>()});
+  for (const bla::FirmwareRelease* release : profiles.releases_of(profile)) {
+    table.add({version_text(release->version), shipped_text(*release, profile),
+               std::string(choose(release->changes_en, release->changes_ja))});
+  }
+  return table.text("  ", page);
+}
+
+/// "all models", "BLA15, BLA21-**U-A0": these models and no other, as the specification writes
+/// several.
+std::string names_of(Models models, const bla::Profiles& profiles) {
+  if (models.size() == profiles.all().size()) {
+    return say<texts::models_all>();
+  }
+  using Word = std::string (*)(const Profile&);
+  constexpr std::array<Word, 4> words{
+      [](const Profile& one) { return one.series; },
+      [](const Profile& one) { return fmt::format("{}-**U-{}", one.series, one.suffix); },
+      [](const Profile& one) { return fmt::format("{}-{}", one.series, one.voltage_class); },
+      [](const Profile& one) { return one.model; }};
+  std::string names;
+  for (const Word word : words) {
+    for (const Profile* model : Models(models)) {
+      const std::string name = word(*model);
+      const auto means = [&](const Profile& one) { return word(one) == name; };
+      const auto ours = std::ranges::count_if(models, [&](auto* one) { return means(*one); });
+      const auto all = std::ranges::count_if(profiles.all(), means);
+      if (ours == all && (all > 1 || name == model->model)) {
+        names += (names.empty() ? "" : ", ") + name;
+        std::erase_if(models, [&](auto* one) { return means(*one); });
+      }
+    }
+  }
+  return names;
+}
+
+std::vector<Variant> variants_of(bla::Address address, const Models& models) {
+  std::vector<Variant> variants;
+  for (const Profile* profile : models) {
+    const Parameter* parameter = profile->find(address);
+    if (parameter == nullptr) {
+      continue;
+    }
+    Variant one{default_text(*parameter, *profile), range_text(*parameter, *profile)};
+    auto it = std::ranges::find_if(variants, [&](const Variant& other) {
+      return other.initial == one.initial && other.range == one.range;
+    });
+    if (it == variants.end()) {
+      it = variants.insert(it, std::move(one));
+    }
+    it->models.push_back(profile);
+  }
+  return variants;
+}
+
+std::string meaning(const Parameter& parameter) {
+  return std::string(choose(parameter.meaning_en, parameter.meaning_ja));
+}
+
+std::string title(const Parameter& parameter) {
+  return std::string(choose(parameter.name_en, parameter.name_ja));
+}
+
+/// One model: its registers, and what its firmware was.
+std::string model_text(const Profile& profile, const Sheet& sheet, const bla::Profiles& profiles,
+                       const Page& page) {
+  Table table({"", say<texts::column_parameter>(), say<texts::column_access>(),
+               say<texts::column_default>(), say<texts::column_range>(),
+               say<texts::column_meaning>()});
+  for (const Parameter& parameter : profile.parameters) {
+    if (sheet.takes(parameter)) {
+      table.add({parameter.address.name(), parameter.name, std::string(bla::name(parameter.access)),
+                 default_text(parameter, profile), range_text(parameter, profile),
+                 title(parameter)});
+    }
+  }
+  return fmt::format("{}  {}\n{}{}", profile.model, pwm_text(profile), table.text("  ", page),
+                     sheet.group ? "" : "\n" + history_text(profile, profiles, page));
+}
+
+/// Several models: what they have in common, and where they differ.
+std::string side_by_side(const Sheet& sheet, const bla::Profiles& profiles, const Page& page) {
+  Table same({"", say<texts::column_parameter>(), say<texts::column_access>(),
+              say<texts::column_default>(), say<texts::column_range>(),
+              say<texts::column_meaning>()});
+  Table different({"", say<texts::column_parameter>(), say<texts::column_default>(),
+                   say<texts::column_range>(), say<texts::column_models>()});
+  bool any_same = false, any_different = false;
+  for (const Parameter& general : profiles.registers()) {
+    const auto variants =
+        sheet.takes(general) ? variants_of(general.address, sheet.models) : std::vector<Variant>{};
+    for (const Variant& one : variants) {
+      const bool is_first = &one == &variants.front();
+      const std::string address = is_first ? general.address.name() : std::string();
+      const std::string name = is_first ? general.name : std::string();
+      if (variants.size() == 1) {
+        same.add({address, name, std::string(bla::name(general.access)), one.initial, one.range,
+                  title(general)});
+        any_same = true;
+      } else {
+        different.add({address, name, one.initial, one.range, names_of(one.models, profiles)});
+        any_different = true;
+      }
+    }
+  }
+  std::string out = names_of(sheet.models, profiles) + '\n';
+  if (any_same) {
+    out += say<texts::models_same>() + '\n' + same.text("  ", page);
+  }
+  if (any_different) {
+    out += (any_same ? "\n" : "") + say<texts::models_differ>() + '\n' + different.text("  ", page);
+  }
+  return out;
+}
+
+/// What a register is, whatever the model.
+std::string description(const Parameter& general) {
+  std::string out =
+      fmt::format("{}  {}  {}\n", general.address.name(), general.name, title(general));
+  const auto line = [&](const std::string& text) { out += text.empty() ? "" : "  " + text + "\n"; };
+  line(meaning(general));
+  line(bla::remark(general));
+  line(fmt::format("{}, {}", bla::name(general.access),
+                   general.saved ? say<texts::models_saved>() : say<texts::models_not_saved>()));
+  if (const auto unit = bla::name(general.unit); !unit.empty()) {
+    line(say<texts::models_unit>(unit, general.scale()));
+  }
+  for (const bla::Choice& choice : general.choices) {
+    line(fmt::format("{} ({}): {}", choice.word, choice.raw,
+                     choose(choice.text_en, choice.text_ja)));
+  }
+  if (general.min_firmware) {
+    line(say<texts::models_since>(version_text(*general.min_firmware)));
+  }
+  if (!general.vendor_label.empty()) {
+    line(say<texts::models_vendor_label>(general.vendor_label));
+  }
+  if (!general.section.empty()) {
+    line(say<texts::models_section>(general.section));
+  }
+  return out;
+}
+
+/// The bits of a register: what they are called, when they are set, what to do.
+std::string bits_text(std::span<const bla::FaultBit> bits, bla::Address address) {
+  std::string out;
+  for (const bla::FaultBit& bit : bits) {
+    if (bit.reg != address) {
+      continue;
+    }
+    out += "  " + say<texts::models_bit>(bit.bit, choose(bit.text_en, bit.text_ja));
+    out += bit.code.empty() ? "" : fmt::format(" [{}]", bit.code);
+    out += bit.latched ? ", " + say<texts::models_bit_latched>() : std::string();
+    out += bit.pwm_only ? ", " + say<texts::models_bit_pwm_only>() : std::string();
+    out += fmt::format("\n      {}\n      {}\n", choose(bit.condition_en, bit.condition_ja),
+                       choose(bit.action_en, bit.action_ja));
+  }
+  return out;
+}
+
+std::string variants_text(const Parameter& general, const Sheet& sheet,
+                          const bla::Profiles& profiles, const Page& page) {
+  Table table(
+      {say<texts::column_default>(), say<texts::column_range>(), say<texts::column_models>()});
+  for (const Variant& one : variants_of(general.address, sheet.models)) {
+    table.add({one.initial, one.range, names_of(one.models, profiles)});
+  }
+  return '\n' + table.text("  ", page);
+}
+
+std::string kind_text(bla::CheckKind kind) {
+  switch (kind) {
+  case bla::CheckKind::refusal: return say<texts::models_refusal>();
+  case bla::CheckKind::question: return say<texts::models_question>();
+  case bla::CheckKind::warning: break;
+  }
+  return say<texts::models_warning>();
+}
+
+/// What a change of this register meets.
+std::string checks_text(const Parameter& general) {
+  std::string out;
+  for (const bla::CrossCheck& check : bla::cross_checks()) {
+    if (check.is_about(general.address)) {
+      out += fmt::format("  {}: {}\n", kind_text(check.kind),
+                         choose(check.reason.en, check.reason.ja));
+    }
+  }
+  return out.empty() ? out : '\n' + say<texts::models_checks>() + '\n' + out;
+}
+
+std::string see_text(const Parameter& general, const bla::Profiles& profiles) {
+  std::string names;
+  for (const bla::Address address : general.see) {
+    const Parameter* other = profiles.find(address);
+    names += names.empty() ? "" : ", ";
+    names += address.name() + (other != nullptr ? ' ' + other->name : std::string());
+  }
+  return names.empty() ? names : '\n' + say<texts::models_see>(names) + '\n';
+}
+
+/// One register: what it is, its bits, its range by model, what to mind.
+std::string parameter_text(const Parameter& general, const Sheet& sheet,
+                           const bla::Profiles& profiles, const Page& page) {
+  const std::string bits = bits_text(profiles.summary_bits(), general.address) +
+                           bits_text(profiles.fault_bits(), general.address);
+  // Bits are the same for all models.
+  return description(general) +
+         (bits.empty() ? variants_text(general, sheet, profiles, page) : '\n' + bits) +
+         checks_text(general) + see_text(general, profiles);
+}
+
+} // namespace
+
+bool Sheet::takes(const Parameter& one) const {
+  return parameter != nullptr ? one.address == parameter->address : !group || one.group == *group;
+}
+
+std::string list_text(const Sheet& sheet, const Page& page) {
+  Table table(
+      {say<texts::column_model>(), say<texts::column_voltage>(), say<texts::column_numbers>(), ""});
+  for (const Profile* profile : sheet.models) {
+    table.add({profile->model, profile->voltage_class,
+               fmt::format("{} / {}", profile->model_number, profile->hardware_version),
+               pwm_text(*profile)});
+  }
+  return table.text("", page);
+}
+
+std::string sheet_text(const Sheet& sheet, const bla::Profiles& profiles, const Page& page) {
+  if (sheet.parameter != nullptr) {
+    return parameter_text(*sheet.parameter, sheet, profiles, page);
+  }
+  return sheet.models.size() == 1 ? model_text(*sheet.models.front(), sheet, profiles, page)
+                                  : side_by_side(sheet, profiles, page);
+}
+
+} // namespace blactl::cli
