@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Which folder of the source may include which; README.md, "Source tree", draws it.
+"""Which folder of the source may include which; README.md, "Source tree", draws it. And what is true
+of servos lives below cli: it names no register's address.
 
 Usage: includes_test.py ROOT. First every include of ROOT is looked at, then, in a copy, an include
 is planted for every arrow that must not be, to see that it is found.
@@ -25,6 +26,7 @@ MAY_INCLUDE = {
 }
 INCLUDE = re.compile(r"^[ \t]*#[ \t]*include\b[ \t]*(.*)$", re.MULTILINE)
 NAME = re.compile(r'(["<])([^">]+)[">]')
+REGISTER = re.compile(r"\baddress::\w+|\bAddress[({]\s*0x\w*")
 
 
 def folder_of(path, root):
@@ -61,7 +63,11 @@ def fault_of(source, target, root):
 
 
 def faults_in(source, root):
-    for match in INCLUDE.finditer(source.read_text(encoding="utf-8")):
+    text = source.read_text(encoding="utf-8")
+    if folder_of(source, root)[0] == "cli":
+        for match in REGISTER.finditer(text):
+            yield f"{source.relative_to(root)}: {match[0]}: cli knows no register"
+    for match in INCLUDE.finditer(text):
         name = NAME.match(match[1])
         if not name:
             yield f"{source.relative_to(root)}: {match[0].strip()}: no name to be seen"
@@ -112,6 +118,8 @@ def plants(root):
                 yield source, f'#include "{private(other).relative_to(root / "src")}"'
         if folder != "cli" and private(folder):
             yield public(folder), f'#include "{private(folder).relative_to(root / "src")}"'
+    yield source, "static_assert(bla::address::torque_output == bla::Address());"
+    yield source, "constexpr auto reg = bla::Address(0x20);"
     yield source, "#include SOME_MACRO"
     yield source, '#include "no/such/file.hpp"'
     yield source, '#include "../../tests/catch.hpp"'

@@ -172,6 +172,10 @@ std::optional<PwmInput> pwm_input(const Values& values) {
                                                   : PwmInput::ok;
 }
 
+std::optional<std::int64_t> pwm_fallback_ms(const Values& values) {
+  return find(values, at::timeout_time);
+}
+
 std::vector<std::string> pwm_preset(std::size_t number) {
   constexpr std::array<std::array<std::string_view, 4>, pwm_presets> presets{{
       {"pwm_neutral=1520us", "pwm_range=700us", "pwm_output_range=70.0deg", "pwm_mode=angle"},

@@ -16,6 +16,10 @@ namespace blactl::bla {
 inline constexpr std::array fault_registers{address::fault_notice, address::fault_warning,
                                             address::fault_failure};
 
+/// These below their summary.
+inline constexpr std::array all_fault_registers{address::fault_summary, address::fault_notice,
+                                                address::fault_warning, address::fault_failure};
+
 /// One bit that is set.
 struct Fault {
   Address reg;

@@ -60,6 +60,9 @@ enum class PwmInput : std::uint8_t { ok, none, too_short, too_long };
 /// Empty: not known.
 [[nodiscard]] std::optional<PwmInput> pwm_input(const Values& values);
 
+/// After how long without commands over CAN pulses are obeyed (4.30); empty: not known.
+[[nodiscard]] std::optional<std::int64_t> pwm_fallback_ms(const Values& values);
+
 /// The specification's examples (4.30), 1 to 4, as values of 0x34-0x37.
 [[nodiscard]] std::vector<std::string> pwm_preset(std::size_t number);
 inline constexpr std::size_t pwm_presets = 4;

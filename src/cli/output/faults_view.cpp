@@ -97,9 +97,7 @@ std::string servo_text(const FaultState& servo, Level level, const Page& page) {
 void write_registers(JsonWriter& json, const FaultState& servo) {
   json.key("registers");
   json.begin_object();
-  json.member(bla::address::fault_summary.name(),
-              servo.fault_register(bla::address::fault_summary));
-  for (const bla::Address reg : bla::fault_registers) {
+  for (const bla::Address reg : bla::all_fault_registers) {
     json.member(reg.name(), servo.fault_register(reg));
   }
   json.end_object();

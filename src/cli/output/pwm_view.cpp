@@ -162,7 +162,7 @@ void write_pwm(JsonWriter& json, const bla::Values& values) {
   member("pulse_max_us", [](const PwmMapping& it) { return it.longest_us(); });
   const auto input = bla::pwm_input(values);
   json.member("input", input ? std::optional(name(*input)) : std::nullopt);
-  json.member("fallback_after_ms", bla::find(values, bla::address::timeout_time));
+  json.member("fallback_after_ms", bla::pwm_fallback_ms(values));
   json.key("cut_off_us");
   json.begin_array();
   for (const std::int64_t pulse : mapping ? mapping->cut_off_us() : std::vector<std::int64_t>()) {
@@ -187,7 +187,7 @@ std::string pwm_text(const bla::Values& values, const Page& page) {
   if (!mapping) {
     return "  " + say<texts::pwm_unknown>() + '\n';
   }
-  const auto timeout = bla::find(values, bla::address::timeout_time);
+  const auto timeout = bla::pwm_fallback_ms(values);
   std::string out = say<texts::pwm_pulses>(mapping->neutral_us, mapping->range_us,
                                            mapping->shortest_us(), mapping->longest_us()) +
                     say<texts::pwm_output>(pwm_command_text(*mapping, mapping->output_raw),
