@@ -57,4 +57,19 @@ Result<void> replace_file(const std::string& path, std::string_view content) {
   return failure(path, error);
 }
 
+Result<void> check_replaceable(const std::string& path) {
+  struct stat there{};
+  if (stat(path.c_str(), &there) == 0 && S_ISDIR(there.st_mode)) {
+    return failure(path, EISDIR);
+  }
+  std::string beside = path + ".XXXXXX";
+  const int descriptor = mkostemp(beside.data(), O_CLOEXEC);
+  if (descriptor < 0) {
+    return failure(path, errno);
+  }
+  close(descriptor);
+  unlink(beside.c_str());
+  return {};
+}
+
 } // namespace blactl

@@ -75,35 +75,38 @@ Result<void> check_pwm_unit(const Profiles& profiles, const Assignment& assignme
   }
   const Parameter& range = *assignment.parameter;
   const Parameter& mode = *profiles.find(address::pwm_mode);
+  // The number that was typed, in the other unit: what was meant more likely than the register's.
+  const std::int64_t raw = pwm_mode == 0 ? assignment.value.raw * range.steps_per_unit
+                                         : assignment.value.raw / range.steps_per_unit;
   return fail(Code::usage,
               say<texts::pwm_unit_against_mode>(printable(assignment.text),
                                                 mode.name + '=' + input_text(mode, pwm_mode),
                                                 unit_text(range, pwm_mode)),
-              say<texts::assignment_example>(range.name + '=' +
-                                             input_text(range, assignment.value.raw, pwm_mode)));
+              say<texts::assignment_example>(range.name + '=' + input_text(range, raw, pwm_mode)));
 }
 
 Result<void> allowed_by_some_model(const Profiles& profiles, const Parameter& parameter,
-                                   std::int64_t raw) {
+                                   const TypedValue& value) {
   std::vector<std::string> ranges;
   for (const Profile& profile : profiles.all()) {
     const Parameter* one = profile.find(parameter.address);
     if (one == nullptr || !one->min || !one->max || (one->group == Group::pwm && !profile.pwm)) {
       continue;
     }
-    if (check_range(*one, raw)) {
+    if (check_range(*one, value.raw)) {
       return {};
     }
-    std::string range =
-        say<texts::value_one_range>(input_text(*one, *one->min), input_text(*one, *one->max));
+    std::string range = say<texts::value_one_range>(input_text(*one, *one->min, value.pwm_mode),
+                                                    input_text(*one, *one->max, value.pwm_mode));
     if (std::ranges::find(ranges, range) == ranges.end()) {
       ranges.push_back(std::move(range));
     }
   }
-  auto outside = check_range(parameter, raw);
+  auto outside = check_range(parameter, value.raw, value.pwm_mode);
   if (outside) {
     outside = fail(Code::out_of_range,
-                   say<texts::value_in_a_gap>(parameter.name + '=' + input_text(parameter, raw)));
+                   say<texts::value_in_a_gap>(parameter.name + '=' +
+                                              input_text(parameter, value.raw, value.pwm_mode)));
   }
   if (parameter.group == Group::pwm) { // other models take nothing at all
     outside.error().hint = say<texts::pwm_models_take>(either(ranges));
@@ -150,7 +153,7 @@ Result<Assignment> make_assignment(const Profiles& profiles, std::string_view pa
     return std::unexpected(typed.error());
   }
   assignment.value = *typed;
-  if (auto allowed = allowed_by_some_model(profiles, **found, typed->raw); !allowed) {
+  if (auto allowed = allowed_by_some_model(profiles, **found, *typed); !allowed) {
     return std::unexpected(allowed.error());
   }
   if (auto allowed = never_sent(**found, typed->raw); !allowed) {

@@ -299,13 +299,14 @@ std::string example_text(const Parameter& parameter) {
                                : say<texts::assignment_example_of>(typed, example.model);
 }
 
-Result<void> check_range(const Parameter& parameter, std::int64_t raw) {
+Result<void> check_range(const Parameter& parameter, std::int64_t raw,
+                         std::optional<std::int64_t> pwm_mode) {
   if (!parameter.min || !parameter.max || (raw >= *parameter.min && raw <= *parameter.max)) {
     return {};
   }
-  const std::string value = parameter.name + '=' + input_text(parameter, raw);
-  const std::string min = input_text(parameter, *parameter.min);
-  const std::string max = input_text(parameter, *parameter.max);
+  const std::string value = parameter.name + '=' + input_text(parameter, raw, pwm_mode);
+  const std::string min = input_text(parameter, *parameter.min, pwm_mode);
+  const std::string max = input_text(parameter, *parameter.max, pwm_mode);
   if (min == max) {
     return fail(Code::out_of_range, say<texts::value_only_one>(value, min),
                 say<texts::value_type>(parameter.name + '=' + min));

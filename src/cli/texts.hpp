@@ -385,7 +385,7 @@ inline constexpr Text models_group_of_one{"a parameter or a group, not both",
                                           "パラメータとグループは同時に指定できません"};
 inline constexpr Text models_group_of_one_hint{
     "type one of them, for example: blactl models --group {}",
-    "どちらか一方を指定してください。例: blactl models --group {}"};
+    "どちらか一方を指定して下さい。例: blactl models --group {}"};
 inline constexpr Text models_saved{"kept by save", "保存対象"};
 inline constexpr Text models_not_saved{"not kept by save", "保存対象外"};
 

@@ -106,7 +106,11 @@ TEST_CASE("what contradicts itself or cannot be held is refused before any frame
       {{"--preset", "5"}, "between 1 and 4"},
       {{"--mode", "speed"}, "--mode without --output"},
       {{"--mode", "fast", "--output", "70deg"}, "angle"},
-      {{"--mode", "speed", "--output", "70deg"}, "rpm"},
+      {{"--mode", "speed", "--output", "70deg"},
+       "--output 70deg: with --mode speed the unit is rpm\n  for example --output 70rpm\n"},
+      {{"--output", "400deg"},
+       "--output 400.0deg: outside of the range 0.0deg to 360.0deg\n"
+       "  models with a PWM input take 0.0deg to 360.0deg\n"},
       {{"--output", "-60deg,70deg"}, "one positive value"},
       {{"--output", "70"}, "unit"},
       {{"--output", "70.05deg"}, "steps of 0.1deg"},
@@ -165,4 +169,16 @@ TEST_CASE("--svg draws one servo, as a whole or not at all") {
   CHECK(nowhere.status == 1);
   CHECK(codes(nowhere) == std::vector<std::string>{"io"});
   CHECK_FALSE(std::filesystem::exists(folder));
+}
+
+TEST_CASE("a drawing that could not be kept is refused before anything is changed") {
+  const Bench bench;
+  const std::string file = (bench.folder() / "none" / "map.svg").string();
+  const Result result =
+      three_servos().run(bench, {"pwm-config", "-n", "11", "--preset", "2", "-y", "--svg", file,
+                                 "--record", (bench.folder() / "bus.log").string()});
+  CHECK(result.status == 1);
+  CHECK(codes(result) == std::vector<std::string>{"io"});
+  CHECK(result.out.empty());
+  CHECK_FALSE(std::filesystem::exists(bench.folder() / "bus.log")); // it did not even join
 }

@@ -12,4 +12,8 @@ namespace blactl {
 /// leaves what was there. Errors: io.
 [[nodiscard]] Result<void> replace_file(const std::string& path, std::string_view content);
 
+/// Whether replace_file() can be expected to succeed: to be asked before what the file is to tell
+/// of is done. Leaves nothing behind. Errors: io.
+[[nodiscard]] Result<void> check_replaceable(const std::string& path);
+
 } // namespace blactl

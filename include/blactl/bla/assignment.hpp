@@ -44,9 +44,10 @@ parse_assignments(const Profiles& profiles, std::span<const std::string> texts);
 [[nodiscard]] Result<void> check_pwm_unit(const Profiles& profiles, const Assignment& assignment,
                                           std::int64_t pwm_mode);
 
-/// Whether some model takes `raw`. Errors: out_of_range, naming the range over all models.
+/// Whether some model takes the value. Errors: out_of_range, naming the range over all models.
 [[nodiscard]] Result<void> allowed_by_some_model(const Profiles& profiles,
-                                                 const Parameter& parameter, std::int64_t raw);
+                                                 const Parameter& parameter,
+                                                 const TypedValue& value);
 
 /// What is true for every servo whatever its model: what may never be sent to the register.
 /// Errors: unsupported (0x49), read_only, out_of_range (0x46 = 126 or 127).

@@ -32,8 +32,10 @@ struct TypedValue {
 /// takes, or one with the model that takes it.
 [[nodiscard]] std::string example_text(const Parameter& parameter);
 
-/// Whether `raw` lies in the parameter's range. Errors: out_of_range, naming the range in units.
-[[nodiscard]] Result<void> check_range(const Parameter& parameter, std::int64_t raw);
+/// Whether `raw` lies in the parameter's range. Errors: out_of_range, naming the range in units;
+/// `pwm_mode` decides for 0x36.
+[[nodiscard]] Result<void> check_range(const Parameter& parameter, std::int64_t raw,
+                                       std::optional<std::int64_t> pwm_mode = std::nullopt);
 
 /// The number in the parameter's unit as a decimal text: "90.0", "1520". Exact. `pwm_mode` decides
 /// for 0x36; without it register numbers are shown. Empty for "not active" in 0x00-0x02.

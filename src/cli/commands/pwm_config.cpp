@@ -128,6 +128,25 @@ std::vector<Error> contradictions(const PwmOptions& options) {
   return faults;
 }
 
+/// What the parts are of which the mapping is made, by their options.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 4> parts{
+    {{"pwm_neutral=", "--neutral "},
+     {"pwm_range=", "--range "},
+     {"pwm_output_range=", "--output "},
+     {"pwm_mode=", "--mode "}}};
+
+/// An error about an assignment, as one about the option that was typed.
+Error about_options(Error error) {
+  for (const auto& [assigned, option] : parts) {
+    for (std::string* text : {&error.message, &error.hint}) {
+      for (std::size_t at = 0; (at = text->find(assigned, at)) != std::string::npos;) {
+        text->replace(at, assigned.size(), option);
+      }
+    }
+  }
+  return error;
+}
+
 /// The values of 0x34-0x37 that are asked for.
 Result<std::vector<std::string>> wanted_values(const PwmOptions& options,
                                                const bla::Profiles& profiles) {
@@ -138,12 +157,10 @@ Result<std::vector<std::string>> wanted_values(const PwmOptions& options,
     return bla::pwm_from_endpoints(profiles, options.endpoints);
   }
   std::vector<std::string> values;
-  for (const auto& [name, value] : {std::pair{"pwm_neutral", &options.neutral},
-                                    {"pwm_range", &options.range},
-                                    {"pwm_output_range", &options.output},
-                                    {"pwm_mode", &options.mode}}) {
-    if (!value->empty()) {
-      values.push_back(std::string(name) + '=' + *value);
+  const std::array typed{&options.neutral, &options.range, &options.output, &options.mode};
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (!typed.at(i)->empty()) {
+      values.push_back(std::string(parts.at(i).first) + *typed.at(i));
     }
   }
   return values;
@@ -270,7 +287,9 @@ Report change(const PwmOptions& options, const bla::Profiles& profiles, Context&
   }
   auto assignments = bla::parse_assignments(profiles, *values);
   if (!assignments) {
-    report.errors = std::move(assignments.error());
+    for (Error& error : assignments.error()) {
+      report.fail(options.has_parts() ? about_options(std::move(error)) : std::move(error));
+    }
     return report;
   }
   const auto drawn = std::make_shared<std::vector<std::pair<fleet::Servo, bla::Values>>>();
@@ -307,6 +326,11 @@ Report execute(const PwmOptions& options, Context& context) {
   }
   report.errors = contradictions(options);
   if (!report.errors.empty()) {
+    return report;
+  }
+  if (const auto drawable = options.svg.empty() ? Result<void>() : check_replaceable(options.svg);
+      !drawable) {
+    report.fail(drawable.error());
     return report;
   }
   return options.changes() ? change(options, **profiles, context) : show(options, context);

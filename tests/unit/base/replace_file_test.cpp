@@ -73,3 +73,13 @@ TEST_CASE("a file that cannot be written leaves what was there, and nothing besi
   CHECK(std::filesystem::is_directory(taken));
   CHECK(folder.files() == 1);
 }
+
+TEST_CASE("whether a file can be replaced is known before, and asking leaves nothing") {
+  const Folder folder;
+  CHECK(check_replaceable(folder.file("map.svg")));
+  CHECK(folder.files() == 0);
+  CHECK_FALSE(check_replaceable(folder.file("none/map.svg")));
+  std::filesystem::create_directory(folder.file("taken"));
+  CHECK_FALSE(check_replaceable(folder.file("taken")));
+  CHECK(folder.files() == 1);
+}
