@@ -132,7 +132,8 @@ CarriedOut carry_out(Session& session, const bla::Profiles& profiles, std::span<
   const auto ran = session.run(group);
   session.detach(allocator);
   CarriedOut carried_out;
-  for (const ChangeJob& job : jobs) {
+  for (ChangeJob& job : jobs) {
+    job.look_back();
     carried_out.servos.push_back(job.result());
   }
   carried_out.broken = ran ? check_sent(session) : std::optional(ran.error());

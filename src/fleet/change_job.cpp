@@ -1,6 +1,7 @@
 #include "blactl/fleet/change_job.hpp"
 
 #include "blactl/base/hex.hpp"
+#include "blactl/fleet/guard.hpp"
 #include "blactl/fleet/texts.hpp"
 
 #include <algorithm>
@@ -270,6 +271,24 @@ void ChangeJob::doubt_changes() {
     change.after = std::nullopt;
     change.status = ChangeStatus::failed;
   }
+}
+
+void ChangeJob::look_back() {
+  if (!result_.is_done()) {
+    return;
+  }
+  const dronecan::NodeId id = result_.node_id_after.value_or(servo_.id);
+  const bool is_in_ram_only = !plan_.restart && (plan_.erase || !result_.changes.empty());
+  if (roster_.is_doubled(id)) {
+    result_.error = doubled(roster_, id);
+  } else if (is_in_ram_only && roster_.member(id).boots != servo_.boot) {
+    result_.error = Error{Code::state, say<texts::lost_since>(id.value()),
+                          say<texts::run_again_hint>(), id.value()};
+  } else {
+    return;
+  }
+  result_.is_verified = result_.saved = false;
+  doubt_changes();
 }
 
 /// What was not reached, where the stage itself cannot tell.

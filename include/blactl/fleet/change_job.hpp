@@ -35,6 +35,11 @@ class ChangeJob final : public dronecan::Job {
   /// From the request to restart until what the servo holds has been read.
   [[nodiscard]] bool must_finish() const override;
 
+  /// The job has ended, and others have not: is its result still true, as far as was heard? What
+  /// was in RAM only is lost by a restart, and what was proven may be of another unit on the same
+  /// ID.
+  void look_back();
+
   /// It was told to save or to restart, and is not back.
   [[nodiscard]] bool is_away() const { return stage_ == Stage::restart && restart_->is_sent(); }
 

@@ -292,6 +292,10 @@ inline constexpr Text unchanged_no_more{
     "node {} restarted: {} may have another value now",
     "ノード {} が再起動したため、{} の値が変わっている可能性があります",
 };
+inline constexpr Text lost_since{
+    "node {} has restarted since: what was changed in RAM only is lost",
+    "ノード {} がその後再起動したため、RAM のみの変更は失われました",
+};
 inline constexpr Text erased_no_more{
     "node {} restarted: what ERASE had reset may be back",
     "ノード {} が再起動したため、初期値に戻した設定が元に戻っている可能性があります",

@@ -289,6 +289,50 @@ TEST_CASE("a plan that does nothing asks whether it is the same servo, and no mo
   CHECK(result.errors().empty());
 }
 
+TEST_CASE("what is in RAM only is lost if the servo restarts while others are still at work") {
+  const auto after_the_end = [](Bench& bench, bool restarts) {
+    bench.finish();
+    if (restarts) {
+      bench.restart_by_itself();
+    }
+    bench.job->look_back();
+    return bench.job->result();
+  };
+  SECTION("written") {
+    Bench bench(set({"reverse=on"}));
+    CHECK(failure(after_the_end(bench, true)) == Code::state);
+    CHECK(bench.job->result().changes[0].status == ChangeStatus::failed);
+    CHECK_FALSE(bench.job->result().changes[0].after);
+  }
+  SECTION("held already") {
+    Bench bench(set({"reverse=on"}), {{at::reverse, 1}});
+    CHECK(failure(after_the_end(bench, true)) == Code::state);
+  }
+  SECTION("erased") {
+    Bench bench(erase);
+    CHECK(failure(after_the_end(bench, true)) == Code::state);
+  }
+  SECTION("but not if it runs on") {
+    Bench bench(set({"reverse=on"}));
+    CHECK(after_the_end(bench, false).is_done());
+  }
+  SECTION("and not if it was saved") {
+    Bench bench(set({"reverse=on"}, true));
+    CHECK(after_the_end(bench, true).saved);
+    CHECK(bench.job->result().is_done());
+  }
+}
+
+TEST_CASE(
+    "what was proven is not, if another unit shows on the ID while others are still at work") {
+  Bench bench(set({"reverse=on"}, true));
+  bench.finish();
+  bench.double_id();
+  bench.job->look_back();
+  CHECK(failure(bench.job->result()) == Code::duplicate_node_id);
+  CHECK(bench.job->result().changes[0].status == ChangeStatus::failed);
+}
+
 TEST_CASE("what is set and saved is written, saved once, and all of it read again") {
   Bench bench(set({"reverse=on"}, true));
   bench.until("SAVE");
