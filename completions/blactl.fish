@@ -291,7 +291,7 @@ complete -c blactl -n '__blactl_in pwm-config' -l neutral -r -f -d 'the pulse th
 complete -c blactl -n '__blactl_in pwm-config' -l range -r -f -d 'how far pulses go to either side'
 complete -c blactl -n '__blactl_in pwm-config' -l output -r -f -d 'what the ends of the range give, to either side'
 complete -c blactl -n '__blactl_in pwm-config' -l mode -r -f -d 'angle or speed (0x37), with --output in deg or rpm'
-complete -c blactl -n '__blactl_in pwm-config' -l endpoints -r -f -d 'all four by two points'
+complete -c blactl -n '__blactl_in pwm-config' -l endpoints -r -f -d 'neutral, range, output and mode from two points'
 complete -c blactl -n '__blactl_in pwm-config' -l preset -r -f -d 'all four by an example of the specification'
 complete -c blactl -n '__blactl_in pwm-config' -l svg -r -F -d 'draws the mapping of one servo into FILE, for a browser or a printer'
 complete -c blactl -n '__blactl_in pwm-config' -l save -d 'then RAM to ROM'

@@ -38,7 +38,7 @@ constexpr std::array pwm_and_angle{at::pwm_output_range, at::pwm_mode, at::angle
 constexpr std::array pwm_and_speed{at::pwm_output_range, at::pwm_mode, at::speed_limit_cw,
                                    at::speed_limit_ccw};
 constexpr std::array pwm_and_control{at::pwm_mode, at::speed_torque_control};
-constexpr std::array ranges_of_motion{at::pwm_range, at::pwm_output_range, at::angle_limit_cw,
+constexpr std::array ranges_of_motion{at::pwm_output_range, at::angle_limit_cw,
                                       at::angle_limit_ccw};
 constexpr std::array dead_bands{at::angle_dead_band};
 constexpr std::array timeout_time{at::timeout_time};
@@ -55,7 +55,7 @@ constexpr CrossCheck table[]{
      control_switch,
      meets_control_off,
      {"the servo takes no speed or torque while speed_torque_control (0x25) is off",
-      "speed_torque_control (0x25) が OFF の間、サーボは速度・トルク指令を受け付けません"},
+      "speed_torque_control (0x25) が OFF の間、指令速度/指令トルクは無視されます"},
      "speed_torque_control=on"},
     {"no_stop",
      CheckKind::refusal,
@@ -64,7 +64,7 @@ constexpr CrossCheck table[]{
      meets_no_stop,
      {"with timeout_action=hold (0x26) nothing stops a speed or torque command when the sender "
       "falls silent",
-      "timeout_action=hold (0x26) では、送信元が停止しても速度・トルク指令が継続します"},
+      "timeout_action=hold (0x26) では、送信元が停止しても指令速度/指令トルクの動作が継続します"},
      "timeout_action=off"},
     {"temperature_limits_reversed",
      CheckKind::refusal,
@@ -107,7 +107,8 @@ constexpr CrossCheck table[]{
      torque_limits,
      nothing_else,
      meets_zero,
-     {"without torque the servo lets go of the load", "トルクが 0 になり、負荷を保持できません"}},
+     {"with a limit of 0 % the servo lets go of the load",
+      "制限値が 0 % の場合、負荷を保持できません"}},
     {"temperature_trips",
      CheckKind::question,
      temperature_limits,
@@ -157,7 +158,7 @@ constexpr CrossCheck table[]{
      pwm_and_control,
      meets_pwm_without_control,
      {"PWM in speed mode moves nothing while speed_torque_control (0x25) is off",
-      "speed_torque_control (0x25) が OFF の間、速度モードの PWM では動作しません"}},
+      "speed_torque_control (0x25) が OFF の間、PWM の速度指令では動作しません"}},
     {"pwm_speed_limited",
      CheckKind::warning,
      pwm_and_speed,
@@ -170,7 +171,7 @@ constexpr CrossCheck table[]{
      ranges_of_motion,
      angle_limits,
      meets_no_motion,
-     {"this range leaves no motion", "この範囲では動作しません"}},
+     {"the range is 0: nothing moves", "範囲が 0 のため動作しません"}},
     {"pwm_below_zero",
      CheckKind::warning,
      pulse_range,
@@ -184,7 +185,7 @@ constexpr CrossCheck table[]{
      nothing_else,
      meets_zero,
      {"without a dead band the servo may hunt and heat up",
-      "不感帯が 0 の場合、ハンチングや発熱の可能性があります"}},
+      "デッドバンドが 0 の場合、ハンチングや発熱の可能性があります"}},
     {"near_supply",
      CheckKind::warning,
      voltage_limits,
@@ -220,8 +221,8 @@ constexpr CrossCheck table[]{
      speeds,
      nothing_else,
      meets_stall,
-     {"this firmware may stall at low speed; 1.400 mends it",
-      "このファームウェアは低速動作時に停止することがあります (1.400 で修正)"}},
+     {"firmware before 1.400 may stall at low speed",
+      "1.400 より前のファームウェアは低速動作時にストールすることがあります"}},
 };
 
 } // namespace

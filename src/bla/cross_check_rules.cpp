@@ -156,7 +156,7 @@ bool meets_pwm_without_control(const Proposal& change) {
 }
 
 bool meets_no_motion(const Proposal& change) {
-  if (change.address == at::pwm_range || change.address == at::pwm_output_range) {
+  if (change.address == at::pwm_output_range) {
     return change.requested == 0;
   }
   return both(change.after, at::angle_limit_cw, at::angle_limit_ccw, std::equal_to());

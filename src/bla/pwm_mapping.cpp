@@ -38,12 +38,13 @@ Result<Endpoint> parse_endpoint(const Profiles& profiles, std::string_view text)
   if (!pulse) {
     return std::unexpected(pulse.error());
   }
-  const auto command =
-      parse_value(*profiles.find(at::pwm_output_range), NamedBy::name, text.substr(colon + 1));
-  if (!command) {
+  const std::string_view value = text.substr(colon + 1);
+  const auto command = parse_value(*profiles.find(at::pwm_output_range), NamedBy::name, value);
+  const bool is_bare = !value.empty() && value.back() >= '0' && value.back() <= '9';
+  if (!command && !is_bare) {
     return std::unexpected(command.error());
   }
-  if (!command->pwm_mode) {
+  if (!command || !command->pwm_mode) {
     return fail(Code::usage, say<texts::pwm_endpoint_unit>(printable(text)),
                 say<texts::pwm_endpoints_example>());
   }

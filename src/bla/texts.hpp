@@ -14,6 +14,7 @@ inline constexpr Text parameter_reserved{
 inline constexpr Text parameter_list{
     "`blactl get` lists the parameters of your servo, `blactl models all` those of every model",
     "`blactl get` でお使いのサーボ、`blactl models all` で全機種のパラメータを確認できます"};
+inline constexpr Text list_and_more{", ", "、"};
 inline constexpr Text list_or{" or ", " または "};
 
 // Values as they are typed: the first argument of all is PARAM=VALUE
@@ -63,7 +64,7 @@ inline constexpr Text pwm_endpoints_differ{
     "--endpoints: パルス幅は異なる値、単位は同じものを指定して下さい"};
 inline constexpr Text pwm_endpoints_fall{
     "--endpoints: the longer pulse always gives the greater value (clockwise)",
-    "--endpoints: 長いパルスほど大きい値 (CW 方向) になります"};
+    "--endpoints: パルス幅が広いほど大きい値 (CW 方向) になります"};
 inline constexpr Text pwm_endpoints_fall_hint{
     "swap the values, and turn the direction with: blactl set reverse=on",
     "値を入れ替え、回転方向は blactl set reverse=on で反転して下さい"};
@@ -72,7 +73,7 @@ inline constexpr Text pwm_asymmetric{
     "--endpoints: 出力範囲は正負対称です。絶対値の等しい値を指定して下さい"};
 inline constexpr Text pwm_half_neutral{
     "--endpoints: the middle between the pulses is no whole microsecond",
-    "--endpoints: パルス幅の中央が整数 µs になりません"};
+    "--endpoints: パルス幅の中央が整数 (us) になりません"};
 inline constexpr Text pwm_nearest{"the nearest that is possible: --endpoints {}",
                                   "設定可能な最も近い値: --endpoints {}"};
 
@@ -98,7 +99,7 @@ inline constexpr Text node_ids_of_tools_remark{
     "126 and 127 are reserved for tools such as blactl: they are never written",
     "126 と 127 は blactl などのツール用に確保されているため、書き込めません"};
 inline constexpr Text node_id_hint{"type an ID from 1 to 125, or 0 for dynamic allocation",
-                                   "1 ～ 125、または 0 (動的割当て) を入力して下さい"};
+                                   "1～125、または 0 (動的割当て) を入力して下さい"};
 
 // Refusals that hang on the servo
 inline constexpr Text model_unknown{
@@ -151,7 +152,7 @@ inline constexpr Text profile_directory_hint{
     "check --profile-dir or BLACTL_PROFILE_DIR",
     "--profile-dir または BLACTL_PROFILE_DIR を確認して下さい"};
 inline constexpr Text profile_bad_address{"{} is no address; addresses are 0x00 to 0x5F",
-                                          "{} はアドレスではありません (0x00 ～ 0x5F)"};
+                                          "{} はアドレスではありません (0x00～0x5F)"};
 inline constexpr Text profile_bad_name{"{} is no name; names are a-z, 0-9 and _",
                                        "{} は名前に使えません (a-z、0-9、_ のみ)"};
 inline constexpr Text profile_bad_model_part{
@@ -199,6 +200,6 @@ inline constexpr Text profile_no_family{"no file describes the family",
                                         "ファミリーのファイルがありません"};
 
 inline constexpr Text bit_line{"bit {}: {}", "bit {}: {}"};
-inline constexpr Text unknown_bit{"a bit that no document describes", "仕様書に記載のないビット"};
+inline constexpr Text unknown_bit{"Undocumented bit", "仕様書に記載のないビット"};
 
 } // namespace blactl::texts

@@ -38,8 +38,8 @@ inline constexpr Text help_shared{"Options of all commands, before or after the 
 inline constexpr Text help_exit_status{
     "Exit status: 0 done, 1 failure, 2 refused before any write, 3 interface, 4 no answer, 5 the "
     "servo refused, 6 mixed, 7 not confirmed, 8 found something, 9 conflict.",
-    "終了ステータス: 0 完了、1 失敗、2 書込み前に拒否、3 インターフェース、4 応答なし、"
-    "5 サーボが拒否、6 サーボごとに異なる結果、7 同意なし、8 検出あり、9 競合。"};
+    "終了ステータス: 0=完了、1=失敗、2=書込み前に拒否、3=インターフェース、4=応答なし、"
+    "5=サーボが拒否、6=サーボごとに異なる結果、7=同意なし、8=検出あり、9=競合。"};
 inline constexpr Text help_writes{"Without -n there must be just one servo on the bus.",
                                   "-n を省略できるのは、バス上のサーボが 1 台だけの場合です。"};
 inline constexpr Text help_recordings{"Also answers from a recording: -i replay:FILE.",
@@ -239,8 +239,8 @@ inline constexpr Text set_failed{"failed", "失敗"};
 inline constexpr Text set_mismatch{"mismatch", "不一致"};
 inline constexpr Text set_planned{"planned", "予定"};
 inline constexpr Text not_saved_note{
-    "in RAM only: a restart brings the old values back",
-    "RAM のみの変更です。再起動すると元の値に戻ります",
+    "in RAM only: a restart brings the old values back (to keep them: blactl save)",
+    "RAM のみの変更です。再起動すると元の値に戻ります (保存: blactl save)",
 };
 
 // trace
@@ -284,14 +284,17 @@ inline constexpr Text trace_load{"{}: {} frames in {} s, {} % of 1 Mbit/s\n",
                                  "{}: {} フレーム / {} 秒、バス負荷 {} % (1 Mbit/s)\n"};
 
 // models
-inline constexpr Text models_pwm{"PWM input", "PWM 入力あり"};
-inline constexpr Text models_no_pwm{"no PWM input", "PWM 入力なし"};
+inline constexpr Text models_pwm{"with PWM input", "PWM 入力対応"};
+inline constexpr Text models_no_pwm{"without PWM input", "PWM 入力未対応"};
 inline constexpr Text column_voltage{"VOLTAGE", "電圧クラス"};
-inline constexpr Text column_numbers{"0x50 / 0x53", "0x50 / 0x53"};
+inline constexpr Text column_numbers{"MODEL NUMBER / HARDWARE", "機種番号 / ハードウェア"};
 inline constexpr Text column_access{"ACCESS", "R/W"};
-inline constexpr Text column_meaning{"MEANING", "名称"};
+inline constexpr Text column_meaning{"TITLE", "名称"};
 inline constexpr Text column_shipped{"SHIPPED", "出荷時期"};
 inline constexpr Text column_changes{"CHANGES", "変更内容"};
+inline constexpr Text models_unit_by_mode{
+    "unit deg in steps of 0.1, or rpm in steps of 1, as pwm_mode says",
+    "単位 deg (分解能 0.1) または rpm (分解能 1)、動作モードによる"};
 inline constexpr Text models_unit{"unit {}, in steps of {}", "単位 {}、分解能 {}"};
 // faults
 inline constexpr Text level_notice{"NOTICE", "通知"};
@@ -299,14 +302,14 @@ inline constexpr Text level_warning{"WARNING", "警告"};
 inline constexpr Text level_failure{"FAILURE", "障害"};
 inline constexpr Text no_faults{"no faults", "異常なし"};
 inline constexpr Text faults_unknown{"not known whether it has faults", "異常の有無は不明です"};
-inline constexpr Text faults_hidden{"{} below {}: not shown", "{} 件は{}未満のため非表示"};
+inline constexpr Text faults_hidden{"{} below {} not shown", "{} 件は{}レベル未満のため非表示"};
 inline constexpr Text unknown_bit_action{
-    "Ask the manufacturer, with the firmware version and the name of the bit.",
+    "Ask the manufacturer, with the firmware version and the number of the bit.",
     "ファームウェアバージョンとビット番号を添えてメーカーに問い合わせて下さい。"};
 inline constexpr Text fault_now{"now: {}", "現在値: {}"};
 inline constexpr Text fault_latched{
-    "It tells why the servo last restarted by itself, and stays until the next start.",
-    "直前の自己再起動の原因です。次回起動時まで保持されます。"};
+    "It tells why the servo last reset or restarted itself, not its state now.",
+    "サーボが自ら初期化/再起動した原因で、現在の異常ではありません。"};
 inline constexpr Text fault_event{"{}  node {}  {}  {}", "{}  ノード {}  {}  {}"};
 inline constexpr Text fault_present{"present", "発生中"};
 inline constexpr Text fault_came{"came", "発生"};
@@ -351,8 +354,8 @@ inline constexpr Text pwm_input_none{"no pulse", "パルス無し"};
 inline constexpr Text pwm_input_short{"a pulse at or below the shortest", "パルス下限以下"};
 inline constexpr Text pwm_input_long{"a pulse at or above the longest", "パルス上限以上"};
 inline constexpr Text pwm_fallback{
-    "  CAN      goes first; PWM takes over {} ms after the last CAN command (0x27)\n",
-    "  CAN 指令  優先。最後の CAN 指令から {} ms 後に PWM が有効になります (0x27)\n"};
+    "  CAN      goes first; PWM counts after {} ms without CAN (timeout_time)\n",
+    "  CAN 指令  優先。CAN 指令が {} ms 以上無いと PWM が有効になります (timeout_time)\n"};
 inline constexpr Text pwm_cut_below{"  limit    below {} us it stays at {}\n",
                                     "  制限      {} us 未満では {} にとどまります\n"};
 inline constexpr Text pwm_cut_above{"  limit    above {} us it stays at {}\n",
@@ -365,18 +368,20 @@ inline constexpr Text pwm_neutral_point{"neutral", "ニュートラル"};
 inline constexpr Text pwm_shortest_point{"shortest", "下限"};
 inline constexpr Text pwm_longest_point{"longest", "上限"};
 inline constexpr Text pwm_limit_point{"limit", "動作制限"};
-inline constexpr Text pwm_autopilot_point{"as autopilots send", "フライトコントローラーの標準値"};
+inline constexpr Text pwm_autopilot_point{"usual autopilot pulse", "フライトコントローラの標準値"};
 
 inline constexpr Text models_bit{"bit {}: {}", "bit {}: {}"};
 inline constexpr Text models_bit_latched{"stays until the next start", "次回起動時まで保持"};
 inline constexpr Text models_bit_pwm_only{"models with a PWM input only", "PWM 入力対応機種のみ"};
 inline constexpr Text models_since{"firmware {} or later", "ファームウェア {} 以降"};
-inline constexpr Text models_vendor_label{"vendor's program: {}", "メーカー製ツールの表示: {}"};
+inline constexpr Text models_vendor_label{"manufacturer's program: {}",
+                                          "メーカー製ツールの表示: {}"};
 inline constexpr Text models_section{"specification: section {}", "仕様書: {}"};
 inline constexpr Text models_all{"all models", "全機種"};
 inline constexpr Text models_same{"What they have in common:", "共通のパラメータ:"};
 inline constexpr Text models_differ{"Where they differ:", "機種により異なるパラメータ:"};
-inline constexpr Text models_checks{"When it is changed:", "変更時:"};
+inline constexpr Text models_checks{"When it is changed, each only where it applies:",
+                                    "変更時 (該当する場合のみ):"};
 inline constexpr Text models_refusal{"refused", "拒否"};
 inline constexpr Text models_question{"asked first", "確認"};
 inline constexpr Text models_warning{"warning", "警告"};
@@ -386,8 +391,8 @@ inline constexpr Text models_group_of_one{"a parameter or a group, not both",
 inline constexpr Text models_group_of_one_hint{
     "type one of them, for example: blactl models --group {}",
     "どちらか一方を指定して下さい。例: blactl models --group {}"};
-inline constexpr Text models_saved{"kept by save", "保存対象"};
-inline constexpr Text models_not_saved{"not kept by save", "保存対象外"};
+inline constexpr Text models_saved{"stored in ROM by save", "ROM に保存される"};
+inline constexpr Text models_not_saved{"not stored in ROM", "ROM に保存されない"};
 
 // sim
 inline constexpr Text wire_is_real{"{} has a wire of its own: the scenario cannot give it faults",
@@ -443,7 +448,7 @@ inline constexpr Text progress_scan{"listening, {} of {} s; nodes: {}",
                                     "受信中 {}/{} 秒、ノード: {}"};
 inline constexpr Text no_defaults_known{
     "the model of node {} is not known, nor are its defaults: all that can be changed is shown",
-    "ノード {} の型式が不明で初期値も不明のため、変更可能な全項目を表示します"};
+    "ノード {} の機種が不明で初期値も不明のため、変更可能な全項目を表示します"};
 inline constexpr Text set_not_written{"not written", "未書込み"};
 inline constexpr Text did_not_tell_ids{
     "node {} did not say which IDs it has: a conflict with it cannot be ruled out",

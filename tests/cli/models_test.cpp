@@ -16,8 +16,8 @@ TEST_CASE("models lists every built-in model without any bus") {
         "BLA21-12U-AB", "BLA21-28U-A0", "BLA21-28U-AB", "BLA34-12U-AB", "BLA34-28U-AB"}) {
     CHECK(contains(result.out, model));
   }
-  CHECK(contains(result.out, "61 / 12050   PWM input\n"));
-  CHECK(contains(result.out, "62 / 6010    no PWM input\n"));
+  CHECK(contains(result.out, "61 / 12.050              with PWM input\n"));
+  CHECK(contains(result.out, "62 / 6.010               without PWM input\n"));
 }
 
 TEST_CASE("models --json has exactly the keys of the contract, in their order") {
@@ -112,8 +112,8 @@ TEST_CASE("a model of --profile-dir is known to models and to the servos that ar
 
 TEST_CASE("a range names only the words that the model takes") {
   const Result result = run({"models", "BLA21-12U", "pwm_mode"});
-  CHECK(contains(result.out, "  -        no PWM input  BLA21-12U-A0\n"));
-  CHECK(contains(result.out, "  angle    angle, speed  BLA21-12U-AB\n"));
+  CHECK(contains(result.out, "  -        without PWM input  BLA21-12U-A0\n"));
+  CHECK(contains(result.out, "  angle    angle, speed       BLA21-12U-AB\n"));
 }
 
 TEST_CASE("models MODEL tells of a fault register what its bits mean and what to do") {
@@ -171,10 +171,10 @@ TEST_CASE("models says why node IDs within the range are refused") {
 
 TEST_CASE("models says of a model without PWM input that it has none") {
   const Result one = run({"models", "BLA15-12U-A0", "0x34"});
-  CHECK(contains(one.out, "  -        no PWM input  BLA15-12U-A0\n"));
+  CHECK(contains(one.out, "  -        without PWM input  BLA15-12U-A0\n"));
   CHECK_FALSE(contains(one.out, "10000"));
   CHECK(contains(run({"models", "BLA15-12U-A0"}).out,
-                 "pwm_neutral             RW      -           no PWM input"));
+                 "pwm_neutral             RW      -           without PWM input"));
 }
 
 TEST_CASE("models tells both faults of its arguments") {
@@ -204,7 +204,7 @@ TEST_CASE("models PARAM is the data sheet of a parameter, over all models") {
   CHECK(run({"models", "overcurrent-limit"}).out == sheet.out);
   CHECK(run({"models", "all", "overcurrent_limit"}).out == sheet.out);
   CHECK(contains(sheet.out, "0x2A  overcurrent_limit  Overcurrent protection Current value\n"
-                            "  The most current that the motor takes. "));
+                            "  The highest current that the motor may draw. "));
   CHECK(contains(sheet.out, "  specification: section 4.20\n"));
   CHECK(contains(sheet.out, "  12.0 A   6.0 .. 12.0 A  BLA21-06U\n"));
   CHECK(contains(sheet.out, "  2.4 A    1.6 .. 3.2 A   BLA21-28U\n"));
@@ -213,11 +213,11 @@ TEST_CASE("models PARAM is the data sheet of a parameter, over all models") {
 TEST_CASE("a parameter's sheet tells what a change meets, and what it works together with") {
   const Result sheet = run({"models", "pwm_mode"});
   CHECK(contains(sheet.out, "  speed (1): "));
-  CHECK(contains(sheet.out, "\nWhen it is changed:\n  asked first: "));
+  CHECK(contains(sheet.out, "\nWhen it is changed, each only where it applies:\n  asked first: "));
   CHECK(contains(sheet.out, "  warning: "));
   CHECK(contains(sheet.out, "\nSee also: 0x36 pwm_output_range, 0x25 speed_torque_control\n"));
   CHECK(contains(run({"models", "command_speed"}).out, "  refused: "));
-  CHECK(contains(sheet.out, "no PWM input  BLA15, BLA21-**U-A0\n"));
+  CHECK(contains(sheet.out, "without PWM input  BLA15, BLA21-**U-A0\n"));
 }
 
 TEST_CASE("models all puts the models side by side") {

@@ -12,7 +12,7 @@ inline constexpr Text file_hint{"check the file's name and permissions",
 inline constexpr Text file_unwritable{"cannot write {}: {}", "{} に書き込めません: {}"};
 inline constexpr Text file_unwritable_hint{
     "what was there is unchanged; check the folder, its permissions and free space",
-    "元のファイルは変更していません。フォルダーとアクセス権、空き容量を確認して下さい"};
+    "元のファイルは変更していません。フォルダとアクセス権、空き容量を確認して下さい"};
 inline constexpr Text file_too_large{"{} is larger than {} MiB", "{} は {} MiB を超えています"};
 inline constexpr Text json_invalid{"not valid JSON: {}", "JSON として正しくありません: {}"};
 inline constexpr Text json_zero_byte{"not valid JSON: it contains a zero byte",

@@ -59,6 +59,9 @@ struct TypedValue {
 [[nodiscard]] std::string register_text(const Parameter& parameter, std::int64_t raw,
                                         std::optional<std::int64_t> pwm_mode = std::nullopt);
 
+/// What 0x37 may be: pulses are commands of angle, or of speed.
+inline constexpr std::int64_t pwm_angle_mode = 0, pwm_speed_mode = 1;
+
 /// 0x36 counts in the unit that 0x37 says: only its value means nothing without `pwm_mode`.
 [[nodiscard]] bool unit_depends_on_mode(const Parameter& parameter);
 

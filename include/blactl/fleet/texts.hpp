@@ -72,8 +72,8 @@ inline constexpr Text target_waits_for_id{
     "{} waits for a node ID: it cannot be asked before it has one",
     "{} はノード ID の割当て待ちです。割当て前は問い合わせできません"};
 inline constexpr Text target_waits_for_id_hint{
-    "let an allocator give it a node ID (the flight controller, or the vendor's program)",
-    "アロケータ (フライトコントローラ、メーカーのソフトウェア等) でノード ID を割り当てて下さい"};
+    "let an allocator give it a node ID (the flight controller, or the manufacturer's program)",
+    "アロケータ (フライトコントローラ、メーカー製ツール等) でノード ID を割り当てて下さい"};
 inline constexpr Text restarted_meanwhile{
     "node {} restarted and is another servo now: nothing more was written to it",
     "ノード {} は再起動後に別のサーボになりました。以後は書き込んでいません",
@@ -312,11 +312,11 @@ inline constexpr Text bad_target{"-n {}: not a node ID, range or selector",
                                  "-n {}: ノード ID、範囲、セレクタのいずれでもありません"};
 inline constexpr Text bad_target_hint{
     "for example -n 12, -n 10-14,20, -n all, -n serial:240900558, -n model:BLA21-12U",
-    "例: -n 12, -n 10-14,20, -n all, -n serial:240900558, -n model:BLA21-12U",
+    "例: -n 12、-n 10-14,20、-n all、-n serial:240900558、-n model:BLA21-12U",
 };
 
 inline constexpr Text bad_target_id{"-n {}: node IDs are 1 to 127",
-                                    "-n {}: ノード ID は 1 ～ 127 です"};
+                                    "-n {}: ノード ID は 1～127 です"};
 inline constexpr Text bad_target_id_hint{"see who is there: blactl scan",
                                          "接続中のノードを確認: blactl scan"};
 inline constexpr Text bad_target_range{"-n {}: the range goes downwards",
@@ -355,7 +355,7 @@ inline constexpr Text doubled_servo_id_hint{
     "一方に別の ID を設定して下さい: blactl set -n {} servo_id=ID"};
 inline constexpr Text warn_stall{
     "firmware {} may stall at low speed; 1.400 mends it",
-    "ファームウェア {} は低速動作時に停止することがあります (1.400 で修正)",
+    "ファームウェア {} は低速動作時にストールすることがあります (1.400 で修正)",
 };
 inline constexpr Text warn_unknown_model{"no profile fits: it can only be read",
                                          "該当するプロファイルが無いため読出しのみ可能です"};
@@ -393,8 +393,7 @@ inline constexpr Text wait_not_heard{"node {} was not heard within {} s",
                                      "ノード {} は {} 秒以内に見つかりません"};
 
 inline constexpr Text write_only{"{} can only be written", "{} は書込み専用です"};
-inline constexpr Text write_only_hint{"it is a command of the servo, not a value",
-                                      "値ではなくサーボへの命令です"};
+inline constexpr Text write_only_hint{"it is an operation, not a value", "値ではなく操作です"};
 inline constexpr Text firmware_lacks{"{} needs firmware {} or later, this servo has {}",
                                      "{} にはファームウェア {} 以降が必要です (現在 {})"};
 inline constexpr Text firmware_lacks_hint{"read what it has: blactl get -n {}",

@@ -66,16 +66,17 @@ constexpr Option option_table[]{
     {.name = "--endpoints",
      .value = "A,B",
      .kind = Kind::text,
-     .help = {"all four by two points: 500us:-70deg,1500us:70deg",
+     .help = {"neutral, range, output and mode from two points: 500us:-70deg,1500us:70deg",
               "2 点で一括指定: 500us:-70deg,1500us:70deg"},
      .store = into<&PwmOptions::endpoints>},
     {.name = "--preset",
      .value = "N",
      .kind = Kind::whole,
      .whole = {1, bla::pwm_presets},
-     .help = {"all four by an example of the specification: 1 +-70 deg (default), 2 +-140 deg, "
-              "3 500-1500 us, 4 +-150 rpm",
-              "仕様書の例で一括指定: 1 ±70° (初期値)、2 ±140°、3 500～1500 us、4 ±150 rpm"},
+     .help = {"all four by an example of the specification: 1: +-70 deg (default of BLA21), "
+              "2: +-140 deg, 3: 500 to 1500 us, 4: +-150 rpm",
+              "仕様書の例で一括指定: 1=±70deg (BLA21 の初期値)、2=±140deg、3=500～1500us、"
+              "4=±150rpm"},
      .store = into<&PwmOptions::preset>},
     {.name = "--svg",
      .value = "FILE",

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -44,6 +45,11 @@ std::string words_text(const Parameter& parameter) {
   return words;
 }
 
+std::string bounds_text(const Parameter& parameter, std::optional<std::int64_t> pwm_mode = {}) {
+  return say<texts::range_text>(bla::value_text(parameter, *parameter.min, pwm_mode),
+                                bla::display(parameter, *parameter.max, pwm_mode));
+}
+
 /// What this model takes; why it takes nothing.
 std::string range_text(const Parameter& parameter, const Profile& profile) {
   if (parameter.writable() && !profile.takes(parameter)) {
@@ -52,17 +58,21 @@ std::string range_text(const Parameter& parameter, const Profile& profile) {
   if (!parameter.min || !parameter.max) {
     return {};
   }
-  return parameter.choices.empty()
-             ? say<texts::range_text>(bla::value_text(parameter, *parameter.min),
-                                      bla::display(parameter, *parameter.max))
-             : words_text(parameter);
+  if (bla::unit_depends_on_mode(parameter)) {
+    return bounds_text(parameter, bla::pwm_angle_mode) + ", " +
+           bounds_text(parameter, bla::pwm_speed_mode);
+  }
+  return parameter.choices.empty() ? bounds_text(parameter) : words_text(parameter);
 }
 
 std::string default_text(const Parameter& parameter, const Profile& profile) {
   if (parameter.writable() && !profile.takes(parameter)) {
     return "-";
   }
-  return parameter.default_raw ? bla::display(parameter, *parameter.default_raw) : std::string();
+  // Pulses are angles by default.
+  return parameter.default_raw
+             ? bla::display(parameter, *parameter.default_raw, bla::pwm_angle_mode)
+             : std::string();
 }
 
 /// When this model was shipped with a release: "2021-10 .. 2022-04", "2024-06 ..".
@@ -161,39 +171,63 @@ std::string model_text(const Profile& profile, const Sheet& sheet, const bla::Pr
                      sheet.group ? "" : "\n" + history_text(profile, profiles, page));
 }
 
+/// Defaults and ranges, and who has them.
+std::string variants_text(const std::vector<Variant>& variants, const bla::Profiles& profiles,
+                          std::string_view indent, const Page& page) {
+  const auto row = [&](const Variant& one) {
+    return std::vector{one.initial, one.range, names_of(one.models, profiles)};
+  };
+  Table table(row(variants.front()));
+  for (const Variant& one : std::span(variants).subspan(1)) {
+    table.add(row(one));
+  }
+  return table.text(indent, page);
+}
+
 /// Several models: what they have in common, and where they differ.
 std::string side_by_side(const Sheet& sheet, const bla::Profiles& profiles, const Page& page) {
   Table same({"", say<texts::column_parameter>(), say<texts::column_access>(),
               say<texts::column_default>(), say<texts::column_range>(),
               say<texts::column_meaning>()});
-  Table different({"", say<texts::column_parameter>(), say<texts::column_default>(),
-                   say<texts::column_range>(), say<texts::column_models>()});
-  bool any_same = false, any_different = false;
+  bool any_same = false;
+  std::string different;
   for (const Parameter& general : profiles.registers()) {
     const auto variants =
         sheet.takes(general) ? variants_of(general.address, sheet.models) : std::vector<Variant>{};
-    for (const Variant& one : variants) {
-      const bool is_first = &one == &variants.front();
-      const std::string address = is_first ? general.address.name() : std::string();
-      const std::string name = is_first ? general.name : std::string();
-      if (variants.size() == 1) {
-        same.add({address, name, std::string(bla::name(general.access)), one.initial, one.range,
-                  title(general)});
-        any_same = true;
-      } else {
-        different.add({address, name, one.initial, one.range, names_of(one.models, profiles)});
-        any_different = true;
-      }
+    if (variants.size() == 1) {
+      same.add({general.address.name(), general.name, std::string(bla::name(general.access)),
+                variants.front().initial, variants.front().range, title(general)});
+      any_same = true;
+    } else if (!variants.empty()) {
+      different += fmt::format("  {}  {}\n", general.address.name(), general.name) +
+                   variants_text(variants, profiles, "        ", page);
     }
   }
   std::string out = names_of(sheet.models, profiles) + '\n';
   if (any_same) {
     out += say<texts::models_same>() + '\n' + same.text("  ", page);
   }
-  if (any_different) {
-    out += (any_same ? "\n" : "") + say<texts::models_differ>() + '\n' + different.text("  ", page);
+  if (!different.empty()) {
+    out += (any_same ? "\n" : "") + say<texts::models_differ>() + '\n' + different;
   }
   return out;
+}
+
+/// "RW: stored in ROM by save"; what can only be read or written is no setting to be kept.
+std::string access_text(const Parameter& general) {
+  const std::string access(bla::name(general.access));
+  return general.access != bla::Access::read_write
+             ? access
+             : access + ": " +
+                   (general.saved ? say<texts::models_saved>() : say<texts::models_not_saved>());
+}
+
+std::string unit_line(const Parameter& general) {
+  if (bla::unit_depends_on_mode(general)) {
+    return say<texts::models_unit_by_mode>();
+  }
+  const auto unit = bla::name(general.unit);
+  return unit.empty() ? std::string() : say<texts::models_unit>(unit, general.scale());
 }
 
 /// What a register is, whatever the model.
@@ -203,11 +237,8 @@ std::string description(const Parameter& general) {
   const auto line = [&](const std::string& text) { out += text.empty() ? "" : "  " + text + "\n"; };
   line(meaning(general));
   line(bla::remark(general));
-  line(fmt::format("{}, {}", bla::name(general.access),
-                   general.saved ? say<texts::models_saved>() : say<texts::models_not_saved>()));
-  if (const auto unit = bla::name(general.unit); !unit.empty()) {
-    line(say<texts::models_unit>(unit, general.scale()));
-  }
+  line(access_text(general));
+  line(unit_line(general));
   for (const bla::Choice& choice : general.choices) {
     line(fmt::format("{} ({}): {}", choice.word, choice.raw,
                      choose(choice.text_en, choice.text_ja)));
@@ -241,14 +272,14 @@ std::string bits_text(std::span<const bla::FaultBit> bits, bla::Address address)
   return out;
 }
 
-std::string variants_text(const Parameter& general, const Sheet& sheet,
-                          const bla::Profiles& profiles, const Page& page) {
+std::string ranges_text(const Parameter& general, const Sheet& sheet, const bla::Profiles& profiles,
+                        const Page& page) {
   Table table(
       {say<texts::column_default>(), say<texts::column_range>(), say<texts::column_models>()});
   for (const Variant& one : variants_of(general.address, sheet.models)) {
     table.add({one.initial, one.range, names_of(one.models, profiles)});
   }
-  return '\n' + table.text("  ", page);
+  return table.text("  ", page);
 }
 
 std::string kind_text(bla::CheckKind kind) {
@@ -288,8 +319,8 @@ std::string parameter_text(const Parameter& general, const Sheet& sheet,
   const std::string bits = bits_text(profiles.summary_bits(), general.address) +
                            bits_text(profiles.fault_bits(), general.address);
   // Bits are the same for all models.
-  return description(general) +
-         (bits.empty() ? variants_text(general, sheet, profiles, page) : '\n' + bits) +
+  return description(general) + '\n' +
+         (bits.empty() ? ranges_text(general, sheet, profiles, page) : bits) +
          checks_text(general) + see_text(general, profiles);
 }
 
@@ -303,9 +334,10 @@ std::string list_text(const Sheet& sheet, const Page& page) {
   Table table(
       {say<texts::column_model>(), say<texts::column_voltage>(), say<texts::column_numbers>(), ""});
   for (const Profile* profile : sheet.models) {
-    table.add({profile->model, profile->voltage_class,
-               fmt::format("{} / {}", profile->model_number, profile->hardware_version),
-               pwm_text(*profile)});
+    table.add(
+        {profile->model, profile->voltage_class,
+         fmt::format("{} / {}", profile->model_number, version_text(profile->hardware_version)),
+         pwm_text(*profile)});
   }
   return table.text("", page);
 }

@@ -329,8 +329,7 @@ const std::vector<Case> cases{
 
     {"no_motion", "angle_limit_cw", 0, true, {{"angle_limit_ccw", 0}}},
     {"no_motion", "angle_limit_cw", 0, false},
-    {"no_motion", "pwm_range", 0, true},
-    {"no_motion", "pwm_range", 1, false},
+    {"no_motion", "pwm_range", 10, false},
     {"no_motion", "pwm_output_range", 0, true},
 
     {"pwm_below_zero", "pwm_range", 1521, true},
