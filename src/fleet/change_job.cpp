@@ -164,7 +164,13 @@ ChangeJob::Stage ChangeJob::conclude_read_erased() {
 ChangeJob::Stage ChangeJob::conclude_write() {
   result_.changes = write_->changes();
   servo_ = write_->servo();
-  for (const Change& change : result_.changes) {
+  for (Change& change : result_.changes) {
+    const std::uint8_t servo = servo_.id.value();
+    const auto writer = roster_.writer_to(servo_.id, known_since(), change.parameter->address);
+    if (writer && change.error && change.after) { // neither a refusal nor a mismatch of the servo
+      change.error = Error{Code::state, say<texts::other_writer>(servo, writer->value()),
+                           say<texts::other_writer_hint>(), servo};
+    }
     if (change.parameter->address == bla::address::static_node_id && change.after) {
       roster_.learn_static_node_id(plan_.before.servo.id, change.after);
     }
@@ -210,7 +216,7 @@ void ChangeJob::blame_other_writer() {
   const bool differs = result_.error && (result_.error->code == Code::mismatch ||
                                          result_.error->code == Code::state);
   const dronecan::NodeId servo = servo_.id;
-  if (const auto writer = roster_.writer_to(servo, begin_); differs && writer) {
+  if (const auto writer = roster_.writer_to(servo, known_since()); differs && writer) {
     result_.error = Error{Code::state, say<texts::other_writer>(servo.value(), writer->value()),
                           say<texts::other_writer_hint>(), servo.value()};
   }
@@ -273,6 +279,25 @@ void ChangeJob::doubt_changes() {
   }
 }
 
+/// Since when all that is told of the servo was asked.
+Time ChangeJob::known_since() const {
+  return std::min(begin_, plan_.before.servo.since);
+}
+
+/// Another node that wrote, as far as was heard, what this job has changed or found to be right.
+std::optional<dronecan::NodeId> ChangeJob::other_writer() const {
+  const dronecan::NodeId id = plan_.before.servo.id;
+  if (plan_.erase) {
+    return roster_.writer_to(id, known_since());
+  }
+  for (const Change& change : result_.changes) {
+    if (const auto writer = roster_.writer_to(id, known_since(), change.parameter->address)) {
+      return writer;
+    }
+  }
+  return std::nullopt;
+}
+
 void ChangeJob::look_back() {
   if (!result_.is_done()) {
     return;
@@ -284,6 +309,9 @@ void ChangeJob::look_back() {
   } else if (is_in_ram_only && roster_.member(id).boots != servo_.boot) {
     result_.error = Error{Code::state, say<texts::lost_since>(id.value()),
                           say<texts::run_again_hint>(), id.value()};
+  } else if (const auto writer = is_in_ram_only ? other_writer() : std::nullopt; writer) {
+    result_.error = Error{Code::state, say<texts::written_by_other>(id.value(), writer->value()),
+                          say<texts::other_writer_hint>(), id.value()};
   } else {
     return;
   }

@@ -27,6 +27,10 @@ constexpr Duration answer_tolerance = std::chrono::seconds(2);
 
 constexpr std::uint8_t tail_start_of_transfer = 0x80;
 
+/// ERASE writes all of them; a name that is none of ours may be any.
+constexpr std::optional<bla::Address> every_register{};
+constexpr std::uint16_t last_index = 0xFF;
+
 /// Bound for what anybody on the bus can make us remember.
 constexpr std::size_t most_pending = 256;
 
@@ -197,6 +201,12 @@ void Roster::receive(const Transfer& transfer) {
   if (header.kind == Kind::request && header.data_type_id == dronecan::GetSet::type.id) {
     on_write(transfer);
   }
+  if (header.kind == Kind::request && header.data_type_id == dronecan::ExecuteOpcode::type.id) {
+    const auto request = dronecan::ExecuteOpcode::Request::decode(transfer.payload);
+    if (request && request->opcode == dronecan::ExecuteOpcode::erase) {
+      writes_[header.destination][every_register] = {header.source, transfer.at};
+    }
+  }
   if (header.kind == Kind::response && header.data_type_id == dronecan::GetNodeInfo::type.id) {
     // Its uptime counts as well as that of NodeStatus: a restart before the first of these shows.
     if (const auto info = dronecan::GetNodeInfo::Response::decode(transfer.payload);
@@ -339,7 +349,10 @@ void Roster::on_write(const Transfer& transfer) {
   if (is_at(at::command_angle) || is_at(at::command_speed) || is_at(at::command_torque)) {
     commander(source).nodes[server] = transfer.at;
   } else {
-    writes_[server] = {source, transfer.at};
+    const auto reg = request->name.empty() ? std::optional(bla::Address(static_cast<std::uint8_t>(
+                                                 std::min(request->index, last_index))))
+                                           : bla::find_address(request->name);
+    writes_[server][reg] = {source, transfer.at};
   }
 }
 
@@ -348,10 +361,18 @@ std::optional<Time> Roster::started(NodeId id) const {
   return pulse.boots[pulse.last_boot];
 }
 
-std::optional<NodeId> Roster::writer_to(NodeId id, Time since) const {
+std::optional<NodeId> Roster::writer_to(NodeId id, Time since,
+                                        std::optional<bla::Address> reg) const {
   const auto it = writes_.find(id);
-  return it != writes_.end() && it->second.at > since ? std::optional(it->second.source)
-                                                      : std::nullopt;
+  if (it == writes_.end()) {
+    return std::nullopt;
+  }
+  for (const auto& [written, write] : it->second) {
+    if (write.at > since && (!reg || !written || *written == *reg)) {
+      return write.source;
+    }
+  }
+  return std::nullopt;
 }
 
 std::optional<NodeId> Roster::driver_of(const Servo& servo, Time now) const {

@@ -36,8 +36,8 @@ class ChangeJob final : public dronecan::Job {
   [[nodiscard]] bool must_finish() const override;
 
   /// The job has ended, and others have not: is its result still true, as far as was heard? What
-  /// was in RAM only is lost by a restart, and what was proven may be of another unit on the same
-  /// ID.
+  /// was in RAM only is lost by a restart, and another node may have written to it since; what was
+  /// proven may be of another unit on the same ID.
   void look_back();
 
   /// It was told to save or to restart, and is not back.
@@ -69,6 +69,8 @@ class ChangeJob final : public dronecan::Job {
   [[nodiscard]] Stage conclude_restart();
   [[nodiscard]] Stage conclude_look();
   void conclude_read_back();
+  [[nodiscard]] Time known_since() const;
+  [[nodiscard]] std::optional<dronecan::NodeId> other_writer() const;
   void explain_interruption(Stage at);
   void blame_other_writer();
   void doubt_changes();

@@ -165,7 +165,9 @@ class Roster {
 
   /// Another node that changed a setting of this one after `since`, as far as heard. Commands to
   /// move (0x00-0x02) change none.
-  [[nodiscard]] std::optional<dronecan::NodeId> writer_to(dronecan::NodeId id, Time since) const;
+  /// With `reg` of this register, or of all at once.
+  [[nodiscard]] std::optional<dronecan::NodeId>
+  writer_to(dronecan::NodeId id, Time since, std::optional<bla::Address> reg = std::nullopt) const;
 
   /// The node that drives this servo now, as far as heard.
   [[nodiscard]] std::optional<dronecan::NodeId> driver_of(const Servo& servo, Time now) const;
@@ -214,7 +216,8 @@ class Roster {
     Time at{};
   };
 
-  std::map<dronecan::NodeId, Write> writes_; ///< the last one to a setting, by server
+  /// The last ones to settings, by server and register; empty: to all of them.
+  std::map<dronecan::NodeId, std::map<std::optional<bla::Address>, Write>> writes_;
 };
 
 } // namespace blactl::fleet

@@ -147,6 +147,9 @@ inline constexpr Text changed_before_save{
 inline constexpr Text other_writer{
     "node {1} wrote to node {0} meanwhile: it does not hold what was wanted",
     "ノード {1} がノード {0} に書き込んだため、設定した値になっていません"};
+inline constexpr Text written_by_other{
+    "node {1} wrote to node {0} meanwhile: what it holds now is not known",
+    "ノード {1} がノード {0} に書き込んだため、現在の値は不明です"};
 inline constexpr Text other_writer_hint{"stop it, then run the command again",
                                         "停止させてから再度実行して下さい"};
 inline constexpr Text not_read_completely{

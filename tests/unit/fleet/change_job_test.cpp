@@ -333,6 +333,34 @@ TEST_CASE(
   CHECK(bench.job->result().changes[0].status == ChangeStatus::failed);
 }
 
+TEST_CASE("what another node wrote meanwhile is not told as what the servo holds") {
+  SECTION("to a register that held the value already") {
+    Bench bench(set({"reverse=on"}), {{at::reverse, 1}});
+    bench.live(1s);
+    bench.other_writes(at::reverse, 0);
+    bench.finish();
+    bench.job->look_back();
+    CHECK(failure(bench.job->result()) == Code::state);
+    CHECK(says(bench.job->result(), "node 40 wrote to node 11"));
+  }
+  SECTION("after it was read back") {
+    Bench bench(set({"reverse=on"}));
+    bench.finish();
+    bench.live(1s);
+    bench.other_writes(at::reverse, 0);
+    bench.job->look_back();
+    CHECK(failure(bench.job->result()) == Code::state);
+  }
+  SECTION("but another register is another matter") {
+    Bench bench(set({"reverse=on"}));
+    bench.live(1s);
+    bench.other_writes(at::smoothing, 0);
+    bench.finish();
+    bench.job->look_back();
+    CHECK(bench.job->result().is_done());
+  }
+}
+
 TEST_CASE("what is set and saved is written, saved once, and all of it read again") {
   Bench bench(set({"reverse=on"}, true));
   bench.until("SAVE");

@@ -663,6 +663,8 @@ TEST_CASE("who writes to a setting of another node is remembered; commands and r
   CHECK(ear.roster.writer_to(NodeId(11), before) == NodeId(40));
   CHECK_FALSE(ear.roster.writer_to(NodeId(11), ear.now)); // that was before
   CHECK_FALSE(ear.roster.writer_to(NodeId(12), before));
+  CHECK(ear.roster.writer_to(NodeId(11), before, bla::Address(0x38)) == NodeId(40));
+  CHECK_FALSE(ear.roster.writer_to(NodeId(11), before, bla::Address(0x39)));
   ear.get_set(127, 12, {.value = std::int64_t{900}, .name = "0x38"}); // it is ours
   CHECK_FALSE(ear.roster.writer_to(NodeId(12), before));
 }
