@@ -20,7 +20,7 @@ if(BLACTL_SANITIZE)
   endif()
 endif()
 if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
-  # What std::stable_sort() of GCC 12 does itself.
+  # std::stable_sort() of GCC 12 calls a function that it has deprecated.
   target_compile_options(blactl-warnings INTERFACE -Wno-deprecated-declarations)
 endif()
 # Where several files are one unit, a local name may hide one of another file, and a type of a file's

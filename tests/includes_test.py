@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Which folder of the source may include which; README.md, "Source tree", draws it. And what is true
-of servos lives below cli: it names no register's address.
+"""Which folder of the source may include which; README.md, "Source tree", draws it. Also that
+cli names no register's address: what is true of servos lives below it.
 
 Usage: includes_test.py ROOT. First every include of ROOT is looked at, then, in a copy, an include
 is planted for every arrow that must not be, to see that it is found.

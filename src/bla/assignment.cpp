@@ -75,7 +75,7 @@ Result<void> check_pwm_unit(const Profiles& profiles, const Assignment& assignme
   }
   const Parameter& range = *assignment.parameter;
   const Parameter& mode = *profiles.find(address::pwm_mode);
-  // The number that was typed, in the other unit: what was meant more likely than the register's.
+  // The example keeps the number that was typed; the register's would be ten times off.
   const std::int64_t raw = pwm_mode == 0 ? assignment.value.raw * range.steps_per_unit
                                          : assignment.value.raw / range.steps_per_unit;
   return fail(Code::usage,

@@ -3,6 +3,7 @@
 #include "blactl/bla/defect.hpp"
 #include "blactl/bla/fault_bits.hpp"
 #include "blactl/bla/parameter.hpp"
+#include "blactl/bla/value.hpp"
 
 #include <algorithm>
 #include <array>
@@ -15,10 +16,9 @@ namespace at = address;
 
 namespace {
 
-constexpr std::int64_t off = 0, on = 1;                // most switches
-constexpr std::int64_t torque_on = 0;                  // 0x20 counts upside down (4.13)
-constexpr std::int64_t timeout_hold = 0;               // 0x26
-constexpr std::int64_t angle_mode = 0, speed_mode = 1; // 0x37
+constexpr std::int64_t off = 0, on = 1;  // most switches
+constexpr std::int64_t torque_on = 0;    // 0x20 counts upside down (4.13)
+constexpr std::int64_t timeout_hold = 0; // 0x26
 constexpr std::int64_t tenths = 10;
 
 bool holds(const Values& values, Address address, std::int64_t raw) {
@@ -143,15 +143,15 @@ bool meets_pwm_present(const Proposal& change) {
 // Warnings
 
 bool meets_pwm_cut_off(const Proposal& change) {
-  return maps_beyond(change, angle_mode, at::angle_limit_cw, at::angle_limit_ccw);
+  return maps_beyond(change, pwm_angle_mode, at::angle_limit_cw, at::angle_limit_ccw);
 }
 
 bool meets_pwm_speed_limited(const Proposal& change) {
-  return maps_beyond(change, speed_mode, at::speed_limit_cw, at::speed_limit_ccw);
+  return maps_beyond(change, pwm_speed_mode, at::speed_limit_cw, at::speed_limit_ccw);
 }
 
 bool meets_pwm_without_control(const Proposal& change) {
-  return has_pwm_input(change.servo) && holds(change.after, at::pwm_mode, speed_mode) &&
+  return has_pwm_input(change.servo) && holds(change.after, at::pwm_mode, pwm_speed_mode) &&
          holds(change.after, at::speed_torque_control, off);
 }
 

@@ -62,9 +62,10 @@ std::vector<std::string> explained_bits(const Parameter& parameter, std::int64_t
       const FaultBit* known = profiles.fault_bit(parameter.address, bit);
       // The bits of 0x18 have one title in common.
       const bool is_summary = known != nullptr && known->code.empty();
-      lines.push_back(say<texts::bit_line>(
-          bit, is_summary ? std::string(choose(known->condition_en, known->condition_ja))
-                          : bit_title(known)));
+      lines.push_back(
+          fmt::format("bit {}: {}", bit,
+                      is_summary ? std::string(choose(known->condition_en, known->condition_ja))
+                                 : bit_title(known)));
     }
   }
   return lines;

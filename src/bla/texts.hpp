@@ -199,7 +199,6 @@ inline constexpr Text profile_second_family{"there is already a family, in {}",
 inline constexpr Text profile_no_family{"no file describes the family",
                                         "ファミリーのファイルがありません"};
 
-inline constexpr Text bit_line{"bit {}: {}", "bit {}: {}"};
 inline constexpr Text unknown_bit{"Undocumented bit", "仕様書に記載のないビット"};
 
 } // namespace blactl::texts

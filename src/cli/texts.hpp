@@ -1,5 +1,5 @@
 #pragma once
-// The catalogue of the floor cli.
+// The catalogue of the floor cli; commands with many texts of their own have one beside.
 
 #include "blactl/base/text.hpp"
 
@@ -208,7 +208,6 @@ inline constexpr Text commands_servos{"node {} commands servos",
 inline constexpr Text says_armed{"node {} says armed", "ノード {} は ARM 状態です"};
 inline constexpr Text column_node{"NODE", "ノード"};
 inline constexpr Text column_model{"MODEL", "機種"};
-inline constexpr Text column_models{"MODELS", "機種"};
 inline constexpr Text column_serial{"SERIAL", "製造番号"};
 inline constexpr Text column_servo_id{"SERVO ID", "サーボ ID"};
 inline constexpr Text column_firmware{"FIRMWARE", "ファームウェア"};
@@ -232,6 +231,7 @@ inline constexpr Text column_before{"BEFORE", "変更前"};
 inline constexpr Text column_after{"AFTER", "変更後"};
 inline constexpr Text column_default{"DEFAULT", "初期値"};
 inline constexpr Text column_range{"RANGE", "範囲"};
+inline constexpr Text column_meaning{"TITLE", "名称"};
 inline constexpr Text range_text{"{} .. {}", "{} ～ {}"};
 inline constexpr Text set_written{"written", "書込み済み"};
 inline constexpr Text set_unchanged{"unchanged", "変更なし"};
@@ -243,59 +243,6 @@ inline constexpr Text not_saved_note{
     "RAM のみの変更です。再起動すると元の値に戻ります (保存: blactl save)",
 };
 
-// trace
-inline constexpr Text unknown_type{"there is no data type '{}'", "データ型 '{}' はありません"};
-inline constexpr Text unknown_type_hint{
-    "give a name such as NodeStatus or param.GetSet, or a data type ID",
-    "NodeStatus や param.GetSet などの名前、またはデータ型 ID を指定して下さい"};
-inline constexpr Text trace_takes_node_ids{"-n {}: trace takes node IDs only",
-                                           "-n {}: trace で指定できるのはノード ID のみです"};
-inline constexpr Text trace_takes_node_ids_hint{"which servo has which ID: blactl scan",
-                                                "どのサーボがどの ID かを調べるには: blactl scan"};
-inline constexpr Text log_has_many_interfaces{
-    "{} frames were not decoded: the log names more than {} interfaces",
-    "{} フレームをデコードしていません (ログのインターフェース数が {} を超えています)"};
-inline constexpr Text trace_crc{"the CRC is wrong", "CRC が一致しません"};
-inline constexpr Text trace_toggle{"a frame before this one was lost",
-                                   "これより前のフレームが失われました"};
-inline constexpr Text trace_missing_start{"its first frame was not heard",
-                                          "先頭のフレームを受信していません"};
-inline constexpr Text trace_transfer_id{
-    "repeated, or begun before the end of the last one",
-    "転送 ID が重複しているか、前の転送の終了前に開始されました"};
-inline constexpr Text trace_truncated{"a frame is too short for its place, or the payload too long",
-                                      "フレームが短すぎるか、ペイロードが長すぎます"};
-inline constexpr Text trace_timeout{"the rest did not come within 2 s",
-                                    "残りのフレームが 2 秒以内に届きませんでした"};
-inline constexpr Text trace_short{"the payload is too short for its type",
-                                  "ペイロードがデータ型より短くなっています"};
-inline constexpr Text trace_no_value{"has no value", "値なし"};
-inline constexpr Text trace_crc_unchecked{"(CRC not checked)", "(CRC 未確認)"};
-inline constexpr Text column_interface{"INTERFACE", "インターフェース"};
-inline constexpr Text column_kind{"KIND", "種別"};
-inline constexpr Text column_type{"TYPE", "データ型"};
-inline constexpr Text column_transfers{"TRANSFERS", "転送数"};
-inline constexpr Text column_per_second{"PER SECOND", "毎秒"};
-inline constexpr Text column_frames{"FRAMES", "フレーム数"};
-inline constexpr Text column_bytes{"BYTES", "バイト数"};
-inline constexpr Text column_errors{"ERRORS", "エラー数"};
-inline constexpr Text column_load{"LOAD %", "負荷 %"};
-inline constexpr Text trace_load{"{}: {} frames in {} s, {} % of 1 Mbit/s\n",
-                                 "{}: {} フレーム / {} 秒、バス負荷 {} % (1 Mbit/s)\n"};
-
-// models
-inline constexpr Text models_pwm{"with PWM input", "PWM 入力対応"};
-inline constexpr Text models_no_pwm{"without PWM input", "PWM 入力未対応"};
-inline constexpr Text column_voltage{"VOLTAGE", "電圧クラス"};
-inline constexpr Text column_numbers{"MODEL NUMBER / HARDWARE", "機種番号 / ハードウェア"};
-inline constexpr Text column_access{"ACCESS", "R/W"};
-inline constexpr Text column_meaning{"TITLE", "名称"};
-inline constexpr Text column_shipped{"SHIPPED", "出荷時期"};
-inline constexpr Text column_changes{"CHANGES", "変更内容"};
-inline constexpr Text models_unit_by_mode{
-    "unit deg in steps of 0.1, or rpm in steps of 1, as pwm_mode says",
-    "単位 deg (分解能 0.1) または rpm (分解能 1)、動作モードによる"};
-inline constexpr Text models_unit{"unit {}, in steps of {}", "単位 {}、分解能 {}"};
 // faults
 inline constexpr Text level_notice{"NOTICE", "通知"};
 inline constexpr Text level_warning{"WARNING", "警告"};
@@ -317,115 +264,7 @@ inline constexpr Text fault_went{"went", "解消"};
 inline constexpr Text answers_again{"node {} answers again", "ノード {} の応答が回復しました"};
 inline constexpr Text more_lines{"… {} more lines", "… 他 {} 行"};
 
-// pwm-config
-inline constexpr Text pwm_one_way{
-    "one of three ways: --endpoints, --preset, or --neutral, --range, --output, --mode",
-    "--endpoints、--preset、または --neutral / --range / --output / --mode "
-    "のいずれか一つの方法で指定して下さい"};
-inline constexpr Text pwm_mode_needs_output{
-    "--mode without --output: the output range counts in the unit of the mode",
-    "--mode には --output も必要です (出力範囲の単位が動作モードで変わるため)"};
-inline constexpr Text pwm_mode_hint{"for example --mode speed --output 150rpm",
-                                    "例: --mode speed --output 150rpm"};
-inline constexpr Text pwm_output_symmetric{
-    "--output {}: the range is the same to either side, so it is one positive value",
-    "--output {}: 出力範囲は両側対称です。正の値を一つ指定して下さい"};
-inline constexpr Text pwm_output_hint{"for example --output 70deg", "例: --output 70deg"};
-inline constexpr Text pwm_nothing_to_change{"{}: nothing to change is given",
-                                            "{}: 変更内容の指定がありません"};
-inline constexpr Text pwm_nothing_hint{
-    "say what: --neutral, --range, --output, --mode, --endpoints or --preset",
-    "--neutral、--range、--output、--mode、--endpoints、--preset のいずれかを指定して下さい"};
-inline constexpr Text pwm_svg_one_servo{"--svg draws one servo, not {}",
-                                        "--svg で描画できるのは 1 台です ({} 台指定)"};
-inline constexpr Text pwm_svg_to_stdout{"--svg needs a file: standard output is for data",
-                                        "--svg にはファイルを指定して下さい "
-                                        "(標準出力はデータ用です)"};
-inline constexpr Text pwm_svg_hint{"choose it: -n", "-n で 1 台選んで下さい"};
-inline constexpr Text pwm_unknown{"the PWM mapping is not known", "PWM の設定を取得できません"};
-inline constexpr Text pwm_pulses{"  pulses   {} us +-{} us: {} to {} us\n",
-                                 "  パルス幅  {} us ±{} us: {} ～ {} us\n"};
-inline constexpr Text pwm_output{"  command  +-{} ({})\n", "  指令値    ±{} ({})\n"};
-inline constexpr Text pwm_angle{"angle", "角度"};
-inline constexpr Text pwm_speed{"speed", "速度"};
-inline constexpr Text pwm_input_now{"  input    {}\n", "  現在入力  {}\n"};
-inline constexpr Text pwm_input_ok{"a pulse within the range", "入力範囲内のパルスあり"};
-inline constexpr Text pwm_input_none{"no pulse", "パルス無し"};
-inline constexpr Text pwm_input_short{"a pulse at or below the shortest", "パルス下限以下"};
-inline constexpr Text pwm_input_long{"a pulse at or above the longest", "パルス上限以上"};
-inline constexpr Text pwm_fallback{
-    "  CAN      goes first; PWM counts after {} ms without CAN (timeout_time)\n",
-    "  CAN 指令  優先。CAN 指令が {} ms 以上無いと PWM が有効になります (timeout_time)\n"};
-inline constexpr Text pwm_cut_below{"  limit    below {} us it stays at {}\n",
-                                    "  制限      {} us 未満では {} にとどまります\n"};
-inline constexpr Text pwm_cut_above{"  limit    above {} us it stays at {}\n",
-                                    "  制限      {} us を超えると {} にとどまります\n"};
-inline constexpr Text pwm_before{"  before   {}\n", "  変更前    {}\n"};
-inline constexpr Text column_pulse{"PULSE", "パルス幅"};
-inline constexpr Text column_command{"COMMAND", "指令値"};
-inline constexpr Text pwm_limited_to{", limited to {}", " ({} に制限)"};
-inline constexpr Text pwm_neutral_point{"neutral", "ニュートラル"};
-inline constexpr Text pwm_shortest_point{"shortest", "下限"};
-inline constexpr Text pwm_longest_point{"longest", "上限"};
-inline constexpr Text pwm_limit_point{"limit", "動作制限"};
-inline constexpr Text pwm_autopilot_point{"usual autopilot pulse", "フライトコントローラの標準値"};
-
-inline constexpr Text models_bit{"bit {}: {}", "bit {}: {}"};
-inline constexpr Text models_bit_latched{"stays until the next start", "次回起動時まで保持"};
-inline constexpr Text models_bit_pwm_only{"models with a PWM input only", "PWM 入力対応機種のみ"};
-inline constexpr Text models_since{"firmware {} or later", "ファームウェア {} 以降"};
-inline constexpr Text models_vendor_label{"manufacturer's program: {}",
-                                          "メーカー製ツールの表示: {}"};
-inline constexpr Text models_section{"specification: section {}", "仕様書: {}"};
-inline constexpr Text models_all{"all models", "全機種"};
-inline constexpr Text models_same{"What they have in common:", "共通のパラメータ:"};
-inline constexpr Text models_differ{"Where they differ:", "機種により異なるパラメータ:"};
-inline constexpr Text models_checks{"When it is changed, each only where it applies:",
-                                    "変更時 (該当する場合のみ):"};
-inline constexpr Text models_refusal{"refused", "拒否"};
-inline constexpr Text models_question{"asked first", "確認"};
-inline constexpr Text models_warning{"warning", "警告"};
-inline constexpr Text models_see{"See also: {}", "関連: {}"};
-inline constexpr Text models_group_of_one{"a parameter or a group, not both",
-                                          "パラメータとグループは同時に指定できません"};
-inline constexpr Text models_group_of_one_hint{
-    "type one of them, for example: blactl models --group {}",
-    "どちらか一方を指定して下さい。例: blactl models --group {}"};
-inline constexpr Text models_saved{"stored in ROM by save", "ROM に保存される"};
-inline constexpr Text models_not_saved{"not stored in ROM", "ROM に保存されない"};
-
-// sim
-inline constexpr Text wire_is_real{"{} has a wire of its own: the scenario cannot give it faults",
-                                   "{} は実際のバスです: シナリオのバス障害は適用できません"};
-inline constexpr Text wire_is_real_hint{"without -i the simulator has a wire that can fail",
-                                        "-i を省くと、障害を起こせる模擬バスになります"};
-inline constexpr Text sim_serves{"{}: simulated servos: {} (Ctrl-C ends)",
-                                 "{}: サーボ {} 台をシミュレート中 (Ctrl-C で終了)"};
-inline constexpr Text sim_event{"{}  {}  serial {}  node {}  count {}",
-                                "{}  {}  製造番号 {}  ノード {}  書込み回数 {}"};
-inline constexpr Text sim_memory{"serial {}  node {}  ROM writes {}  ",
-                                 "製造番号 {}  ノード {}  ROM 書込み {} 回  "};
-inline constexpr Text sim_unsaved{"{}: RAM {}, ROM {}; ", "{}: RAM {}、ROM {}; "};
-inline constexpr Text sim_all_saved{"RAM as ROM", "RAM と ROM は同じ"};
-inline constexpr Text sim_load{"bus load {} %, frames {}, destroyed {}",
-                               "バス負荷 {} %、フレーム {}、破損 {}"};
-inline constexpr Text sim_order_unknown{"not understood: {}", "解釈できません: {}"};
-inline constexpr Text sim_order_hint{
-    "SERIAL voltage=5V …, clients cut, clients joined, clients bus_off, hold N, dump",
-    "製造番号 voltage=5V …、clients cut、clients joined、clients bus_off、hold N、dump"};
-inline constexpr Text sim_no_such_serial{"no servo has the serial number {}",
-                                         "製造番号 {} のサーボはありません"};
-inline constexpr Text sim_needs_virtual_clock{"only with --clock virtual: {}",
-                                              "--clock virtual でのみ使えます: {}"};
-inline constexpr Text sim_order_impossible{"not on a real interface: {}",
-                                           "実際のバスでは使えません: {}"};
-inline constexpr Text sim_events_dropped{
-    "events that nobody read in time and that are not printed: {}",
-    "読み取られなかったため出力していないイベント: {}"};
-inline constexpr Text scenario_is_argument{"-i {}: a scenario is an argument of sim",
-                                           "-i {}: シナリオは sim の引数で指定します"};
-inline constexpr Text scenario_is_argument_hint{"blactl sim {}", "blactl sim {}"};
-
+// what becomes of servos
 inline constexpr Text saving{"RAM to ROM:", "ROM への保存:"};
 inline constexpr Text finishing{
     "waiting for servos that save or restart, 3 s at most (Ctrl-C again: at once)",

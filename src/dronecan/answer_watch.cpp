@@ -37,7 +37,8 @@ std::optional<std::span<const std::uint8_t>> checked(const DataType& type,
 } // namespace
 
 void AnswerWatch::receive(const Header& header, const can::Frame& frame, Time at) {
-  if (watched(header) == nullptr) {
+  const DataType* type = watched(header);
+  if (type == nullptr) {
     return;
   }
   const Tail tail = Tail::decode(frame.data[frame.size - 1U]);
@@ -56,7 +57,7 @@ void AnswerWatch::receive(const Header& header, const can::Frame& frame, Time at
   if (assembly.bytes.size() > most_bytes) {
     assembly.bytes.clear();
   } else if (tail.end) {
-    complete(assembly, header, at);
+    complete(assembly, *type, header, at);
     assembly.bytes.clear();
   }
 }
@@ -72,8 +73,8 @@ std::optional<AnswerWatch::Trait> AnswerWatch::trait(const DataType& type, Bytes
              : std::nullopt;
 }
 
-void AnswerWatch::complete(Assembly& assembly, const Header& header, Time at) {
-  const DataType& type = *watched(header);
+void AnswerWatch::complete(Assembly& assembly, const DataType& type, const Header& header,
+                           Time at) {
   const auto payload = checked(type, assembly.bytes);
   const auto trait = payload ? this->trait(type, *payload) : std::nullopt;
   Answer& first = assembly.answers[assembly.transfer_id];

@@ -165,12 +165,7 @@ ChangeJob::Stage ChangeJob::conclude_write() {
   result_.changes = write_->changes();
   servo_ = write_->servo();
   for (Change& change : result_.changes) {
-    const std::uint8_t servo = servo_.id.value();
-    const auto writer = roster_.writer_to(servo_.id, known_since(), change.parameter->address);
-    if (writer && change.error && change.after) { // neither a refusal nor a mismatch of the servo
-      change.error = Error{Code::state, say<texts::other_writer>(servo, writer->value()),
-                           say<texts::other_writer_hint>(), servo};
-    }
+    blame_other_writer(change);
     if (change.parameter->address == bla::address::static_node_id && change.after) {
       roster_.learn_static_node_id(plan_.before.servo.id, change.after);
     }
@@ -209,6 +204,16 @@ ChangeJob::Stage ChangeJob::conclude_restart() {
   }
   const bool reads = *plan_.restart == RestartKind::save && !result_.error && result_.returned;
   return reads ? Stage::read_back : Stage::end;
+}
+
+/// What another node has written the servo neither refused nor changed.
+void ChangeJob::blame_other_writer(Change& change) const {
+  const auto writer = roster_.writer_to(servo_.id, known_since(), change.parameter->address);
+  if (writer && change.error && change.after) {
+    const std::uint8_t id = servo_.id.value();
+    change.error = Error{Code::state, say<texts::other_writer>(id, writer->value()),
+                         say<texts::other_writer_hint>(), id};
+  }
 }
 
 /// Values that differ where another node wrote are neither the servo's fault nor ROM's.

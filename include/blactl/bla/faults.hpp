@@ -16,7 +16,7 @@ namespace blactl::bla {
 inline constexpr std::array fault_registers{address::fault_notice, address::fault_warning,
                                             address::fault_failure};
 
-/// These below their summary.
+/// The same after their summary, 0x18.
 inline constexpr std::array all_fault_registers{address::fault_summary, address::fault_notice,
                                                 address::fault_warning, address::fault_failure};
 

@@ -55,7 +55,7 @@ class AnswerWatch {
     std::array<Answer, transfer_id_modulus> answers{};
   };
 
-  void complete(Assembly& assembly, const Header& header, Time at);
+  void complete(Assembly& assembly, const DataType& type, const Header& header, Time at);
   [[nodiscard]] std::optional<Trait> trait(const DataType& type, Bytes payload) const;
 
   std::set<std::string> constants_;

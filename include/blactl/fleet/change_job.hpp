@@ -73,6 +73,7 @@ class ChangeJob final : public dronecan::Job {
   [[nodiscard]] std::optional<dronecan::NodeId> other_writer() const;
   void explain_interruption(Stage at);
   void blame_other_writer();
+  void blame_other_writer(Change& change) const;
   void doubt_changes();
   void tell_saved(const Snapshot& now);
   [[nodiscard]] std::unique_ptr<RestartJob> restart() const;

@@ -1,8 +1,9 @@
 // blactl models: the profiles as an offline reference.
 
-#include "blactl/fleet/register_choice.hpp"
+#include "blactl/bla/profile.hpp"
 
 #include "cli/commands.hpp"
+#include "cli/models_texts.hpp"
 #include "cli/output/data_sheet.hpp"
 #include "cli/output/models_json.hpp"
 #include "cli/texts.hpp"

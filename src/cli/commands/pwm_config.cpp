@@ -10,8 +10,8 @@
 #include "cli/commands.hpp"
 #include "cli/output/node_head.hpp"
 #include "cli/output/pwm_view.hpp"
+#include "cli/pwm_texts.hpp"
 #include "cli/read_servos.hpp"
-#include "cli/texts.hpp"
 
 #include <algorithm>
 #include <array>

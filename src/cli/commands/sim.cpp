@@ -10,7 +10,7 @@
 #include "cli/sim/events.hpp"
 #include "cli/sim/line_input.hpp"
 #include "cli/sim/orders.hpp"
-#include "cli/texts.hpp"
+#include "cli/sim/texts.hpp"
 
 #include <signal.h>
 

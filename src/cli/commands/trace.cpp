@@ -10,6 +10,7 @@
 #include "cli/interface/bus_factory.hpp"
 #include "cli/texts.hpp"
 #include "cli/trace/stats.hpp"
+#include "cli/trace/texts.hpp"
 #include "cli/trace/tracer.hpp"
 
 #include <signal.h>

@@ -4,6 +4,7 @@
 #include "blactl/bla/cross_check.hpp"
 #include "blactl/bla/value.hpp"
 
+#include "cli/models_texts.hpp"
 #include "cli/output/node_head.hpp"
 #include "cli/output/table.hpp"
 #include "cli/texts.hpp"
@@ -154,53 +155,64 @@ std::string title(const Parameter& parameter) {
   return std::string(choose(parameter.name_en, parameter.name_ja));
 }
 
+Table parameter_table() {
+  return Table({"", say<texts::column_parameter>(), say<texts::column_access>(),
+                say<texts::column_default>(), say<texts::column_range>(),
+                say<texts::column_meaning>()});
+}
+
+std::vector<std::string> parameter_row(const Parameter& parameter, const std::string& initial,
+                                       const std::string& range) {
+  return {parameter.address.name(),
+          parameter.name,
+          std::string(bla::name(parameter.access)),
+          initial,
+          range,
+          title(parameter)};
+}
+
 /// One model: its registers, and what its firmware was.
 std::string model_text(const Profile& profile, const Sheet& sheet, const bla::Profiles& profiles,
                        const Page& page) {
-  Table table({"", say<texts::column_parameter>(), say<texts::column_access>(),
-               say<texts::column_default>(), say<texts::column_range>(),
-               say<texts::column_meaning>()});
+  Table table = parameter_table();
   for (const Parameter& parameter : profile.parameters) {
     if (sheet.takes(parameter)) {
-      table.add({parameter.address.name(), parameter.name, std::string(bla::name(parameter.access)),
-                 default_text(parameter, profile), range_text(parameter, profile),
-                 title(parameter)});
+      table.add(parameter_row(parameter, default_text(parameter, profile),
+                              range_text(parameter, profile)));
     }
   }
   return fmt::format("{}  {}\n{}{}", profile.model, pwm_text(profile), table.text("  ", page),
                      sheet.group ? "" : "\n" + history_text(profile, profiles, page));
 }
 
-/// Defaults and ranges, and who has them.
-std::string variants_text(const std::vector<Variant>& variants, const bla::Profiles& profiles,
-                          std::string_view indent, const Page& page) {
-  const auto row = [&](const Variant& one) {
-    return std::vector{one.initial, one.range, names_of(one.models, profiles)};
-  };
-  Table table(row(variants.front()));
-  for (const Variant& one : std::span(variants).subspan(1)) {
-    table.add(row(one));
+std::vector<std::string> variant_row(const Variant& one, const bla::Profiles& profiles) {
+  return {one.initial, one.range, names_of(one.models, profiles)};
+}
+
+/// Defaults and ranges, and who has them, without a header.
+std::string variants_text(std::span<const Variant> variants, const bla::Profiles& profiles,
+                          const Page& page) {
+  Table table(variant_row(variants.front(), profiles));
+  for (const Variant& one : variants.subspan(1)) {
+    table.add(variant_row(one, profiles));
   }
-  return table.text(indent, page);
+  return table.text("        ", page);
 }
 
 /// Several models: what they have in common, and where they differ.
 std::string side_by_side(const Sheet& sheet, const bla::Profiles& profiles, const Page& page) {
-  Table same({"", say<texts::column_parameter>(), say<texts::column_access>(),
-              say<texts::column_default>(), say<texts::column_range>(),
-              say<texts::column_meaning>()});
+  Table same = parameter_table();
   bool any_same = false;
   std::string different;
   for (const Parameter& general : profiles.registers()) {
     const auto variants =
         sheet.takes(general) ? variants_of(general.address, sheet.models) : std::vector<Variant>{};
     if (variants.size() == 1) {
-      same.add({general.address.name(), general.name, std::string(bla::name(general.access)),
-                variants.front().initial, variants.front().range, title(general)});
+      same.add(parameter_row(general, variants.front().initial, variants.front().range));
       any_same = true;
     } else if (!variants.empty()) {
       different += fmt::format("  {}  {}\n", general.address.name(), general.name) +
-                   variants_text(variants, profiles, "        ", page);
+                   variants_text(variants, profiles, page);
     }
   }
   std::string out = names_of(sheet.models, profiles) + '\n';
@@ -262,7 +274,7 @@ std::string bits_text(std::span<const bla::FaultBit> bits, bla::Address address)
     if (bit.reg != address) {
       continue;
     }
-    out += "  " + say<texts::models_bit>(bit.bit, choose(bit.text_en, bit.text_ja));
+    out += "  " + fmt::format("bit {}: {}", bit.bit, choose(bit.text_en, bit.text_ja));
     out += bit.code.empty() ? "" : fmt::format(" [{}]", bit.code);
     out += bit.latched ? ", " + say<texts::models_bit_latched>() : std::string();
     out += bit.pwm_only ? ", " + say<texts::models_bit_pwm_only>() : std::string();
@@ -277,7 +289,7 @@ std::string ranges_text(const Parameter& general, const Sheet& sheet, const bla:
   Table table(
       {say<texts::column_default>(), say<texts::column_range>(), say<texts::column_models>()});
   for (const Variant& one : variants_of(general.address, sheet.models)) {
-    table.add({one.initial, one.range, names_of(one.models, profiles)});
+    table.add(variant_row(one, profiles));
   }
   return table.text("  ", page);
 }

@@ -9,14 +9,20 @@ using bla::Profile;
 
 namespace {
 
-void write_addresses(JsonWriter& json, std::string_view key,
-                     std::span<const bla::Address> addresses) {
+/// `write` of each of `items`, as a member.
+template <class Items, class Write>
+void write_all(JsonWriter& json, std::string_view key, const Items& items, const Write& write) {
   json.key(key);
   json.begin_array();
-  for (const bla::Address address : addresses) {
-    json.value(address.name());
+  for (const auto& item : items) {
+    write(item);
   }
   json.end_array();
+}
+
+void write_addresses(JsonWriter& json, std::string_view key,
+                     std::span<const bla::Address> addresses) {
+  write_all(json, key, addresses, [&](bla::Address address) { json.value(address.name()); });
 }
 
 void write_parameter(JsonWriter& json, const Parameter& parameter) {
@@ -36,17 +42,14 @@ void write_parameter(JsonWriter& json, const Parameter& parameter) {
   json.member("max", parameter.max);
   json.member("saved", parameter.saved);
   json.member("min_firmware", parameter.min_firmware);
-  json.key("enumeration");
-  json.begin_array();
-  for (const bla::Choice& choice : parameter.choices) {
+  write_all(json, "enumeration", parameter.choices, [&](const bla::Choice& choice) {
     json.begin_object();
     json.member("raw", choice.raw);
     json.member("word", choice.word);
     json.member("text_en", choice.text_en);
     json.member("text_ja", choice.text_ja);
     json.end_object();
-  }
-  json.end_array();
+  });
   json.member("section", parameter.section);
   write_addresses(json, "see", parameter.see);
   json.member("meaning_en", parameter.meaning_en);
@@ -97,17 +100,15 @@ void write_fault_bit(JsonWriter& json, const bla::FaultBit& bit) {
 void write_release(JsonWriter& json, const bla::FirmwareRelease& release) {
   json.begin_object();
   json.member("version", release.version);
-  json.key("shipments");
-  json.begin_array();
-  for (const bla::FirmwareRelease::Shipment& shipment : release.shipments) {
+  using Shipment = bla::FirmwareRelease::Shipment;
+  write_all(json, "shipments", release.shipments, [&](const Shipment& shipment) {
     json.begin_object();
     json.member("models", shipment.models);
     json.member("from", shipment.from);
     json.key("until");
     shipment.until.empty() ? json.value(nullptr) : json.value(shipment.until);
     json.end_object();
-  }
-  json.end_array();
+  });
   json.member("changes_en", release.changes_en);
   json.member("changes_ja", release.changes_ja);
   json.end_object();
@@ -121,17 +122,6 @@ void write_check(JsonWriter& json, const bla::CrossCheck& check) {
   json.member("text_en", std::string_view(check.reason.en));
   json.member("text_ja", std::string_view(check.reason.ja));
   json.end_object();
-}
-
-/// `write` of each of `items`, as a member.
-template <class Items, class Write>
-void write_all(JsonWriter& json, std::string_view key, const Items& items, const Write& write) {
-  json.key(key);
-  json.begin_array();
-  for (const auto& item : items) {
-    write(item);
-  }
-  json.end_array();
 }
 
 } // namespace

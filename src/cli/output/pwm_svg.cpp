@@ -1,5 +1,4 @@
 #include "cli/output/pwm_view.hpp"
-#include "cli/texts.hpp"
 
 #include <algorithm>
 

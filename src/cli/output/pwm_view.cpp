@@ -1,6 +1,7 @@
 #include "cli/output/pwm_view.hpp"
 
 #include "cli/output/table.hpp"
+#include "cli/pwm_texts.hpp"
 #include "cli/texts.hpp"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 #include "blactl/base/json_writer.hpp"
 #include "blactl/sim/simulator.hpp"
 
-#include "cli/texts.hpp"
+#include "cli/sim/texts.hpp"
 
 #include <fmt/core.h>
 

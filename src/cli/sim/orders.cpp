@@ -2,7 +2,7 @@
 
 #include "blactl/base/text.hpp"
 
-#include "cli/texts.hpp"
+#include "cli/sim/texts.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -5,7 +5,7 @@
 #include "blactl/dronecan/standard_types.hpp"
 #include "blactl/fleet/target.hpp"
 
-#include "cli/texts.hpp"
+#include "cli/trace/texts.hpp"
 #include "cli/trace/type_name.hpp"
 
 #include <algorithm>

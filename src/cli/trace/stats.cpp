@@ -6,6 +6,7 @@
 
 #include "cli/output/table.hpp"
 #include "cli/texts.hpp"
+#include "cli/trace/texts.hpp"
 
 #include <algorithm>
 #include <optional>

@@ -5,8 +5,8 @@
 #include "blactl/dronecan/fields.hpp"
 #include "blactl/dronecan/standard_types.hpp"
 
-#include "cli/texts.hpp"
 #include "cli/trace/output.hpp"
+#include "cli/trace/texts.hpp"
 #include "cli/trace/type_name.hpp"
 
 #include <fmt/format.h>

@@ -1,0 +1,43 @@
+#pragma once
+// The catalogue of `blactl models`.
+
+#include "blactl/base/text.hpp"
+
+namespace blactl::texts {
+
+inline constexpr Text column_models{"MODELS", "機種"};
+inline constexpr Text models_pwm{"with PWM input", "PWM 入力対応"};
+inline constexpr Text models_no_pwm{"without PWM input", "PWM 入力未対応"};
+inline constexpr Text column_voltage{"VOLTAGE", "電圧クラス"};
+inline constexpr Text column_numbers{"MODEL NUMBER / HARDWARE", "機種番号 / ハードウェア"};
+inline constexpr Text column_access{"ACCESS", "R/W"};
+inline constexpr Text column_shipped{"SHIPPED", "出荷時期"};
+inline constexpr Text column_changes{"CHANGES", "変更内容"};
+inline constexpr Text models_unit_by_mode{
+    "unit deg in steps of 0.1, or rpm in steps of 1, as pwm_mode says",
+    "単位 deg (分解能 0.1) または rpm (分解能 1)、動作モードによる"};
+inline constexpr Text models_unit{"unit {}, in steps of {}", "単位 {}、分解能 {}"};
+inline constexpr Text models_bit_latched{"stays until the next start", "次回起動時まで保持"};
+inline constexpr Text models_bit_pwm_only{"models with a PWM input only", "PWM 入力対応機種のみ"};
+inline constexpr Text models_since{"firmware {} or later", "ファームウェア {} 以降"};
+inline constexpr Text models_vendor_label{"manufacturer's program: {}",
+                                          "メーカー製ツールの表示: {}"};
+inline constexpr Text models_section{"specification: section {}", "仕様書: {}"};
+inline constexpr Text models_all{"all models", "全機種"};
+inline constexpr Text models_same{"What they have in common:", "共通のパラメータ:"};
+inline constexpr Text models_differ{"Where they differ:", "機種により異なるパラメータ:"};
+inline constexpr Text models_checks{"When it is changed, each only where it applies:",
+                                    "変更時 (該当する場合のみ):"};
+inline constexpr Text models_refusal{"refused", "拒否"};
+inline constexpr Text models_question{"asked first", "確認"};
+inline constexpr Text models_warning{"warning", "警告"};
+inline constexpr Text models_see{"See also: {}", "関連: {}"};
+inline constexpr Text models_group_of_one{"a parameter or a group, not both",
+                                          "パラメータとグループは同時に指定できません"};
+inline constexpr Text models_group_of_one_hint{
+    "type one of them, for example: blactl models --group {}",
+    "どちらか一方を指定して下さい。例: blactl models --group {}"};
+inline constexpr Text models_saved{"stored in ROM by save", "ROM に保存される"};
+inline constexpr Text models_not_saved{"not stored in ROM", "ROM に保存されない"};
+
+} // namespace blactl::texts
