@@ -62,6 +62,10 @@ void AnswerWatch::receive(const Header& header, const can::Frame& frame, Time at
   }
 }
 
+void AnswerWatch::forget(NodeId server) {
+  std::erase_if(assemblies_, [&](const auto& entry) { return entry.first.first == server; });
+}
+
 std::optional<AnswerWatch::Trait> AnswerWatch::trait(const DataType& type, Bytes payload) const {
   if (type.id == GetNodeInfo::type.id) {
     const auto info = GetNodeInfo::Response::decode(payload);

@@ -169,7 +169,7 @@ ChangeJob::Stage ChangeJob::conclude_write() {
     if (change.parameter->address == bla::address::static_node_id && change.after) {
       roster_.learn_static_node_id(plan_.before.servo.id, change.after);
     }
-    if (change.parameter->address == bla::address::servo_id && change.after && plan_.erase) {
+    if (change.parameter->address == bla::address::servo_id && change.after) {
       result_.servo.servo_id = change.after;
     }
   }
@@ -257,7 +257,14 @@ void ChangeJob::conclude_read_back() {
   if (auto unreadable = check_rom(now)) {
     result_.error = std::move(unreadable);
   } else if (result_.error && result_.error->code == Code::mismatch) {
-    result_.error->hint = say<texts::rom_differs_hint>();
+    result_.error->hint =
+        restart_->is_confirmed() ? say<texts::rom_differs_hint>() : say<texts::run_again_hint>();
+  }
+  const std::uint8_t id = now.servo.id.value();
+  if (const auto writer = roster_.writer_to(now.servo.id, restart_->sent_at());
+      writer && !result_.error) {
+    result_.error = Error{Code::state, say<texts::written_by_other>(id, writer->value()),
+                          say<texts::other_writer_hint>(), id};
   }
   result_.saved = result_.is_verified = !result_.error;
   if (result_.error) {
@@ -362,7 +369,8 @@ std::unique_ptr<ReadJob> ChangeJob::read_configuration(dronecan::NodeId id, bool
           parameters.push_back(rom);
         }
         return parameters;
-      });
+      },
+      after_save ? ReadJob::Proof::unit : ReadJob::Proof::moment);
 }
 
 } // namespace blactl::fleet

@@ -246,7 +246,7 @@ Result<void> Discovery::look_for_twins(const std::vector<const Member*>& members
   for (const DoubleCheckJob& check : checks) {
     check.is_answered() ? gone_.erase(check.id()) : gone_.insert(check.id()).second;
   }
-  return session_.live_until(session_.now() + ReadJob::twin_time);
+  return session_.live_until(session_.now() + RunProof::twin_time);
 }
 
 std::vector<const Member*> Discovery::meant(const Targets& targets) const {

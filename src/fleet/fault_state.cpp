@@ -8,6 +8,7 @@
 namespace blactl::fleet {
 namespace {
 
+using bla::Level;
 using bla::Parameter;
 
 /// What is missing of the three registers is missing of the faults; the values behind them and
@@ -43,6 +44,34 @@ FaultState state_of(Snapshot snapshot, const Roster& roster, const bla::Profiles
   return state;
 }
 
+/// Its NodeStatus tells of more than the registers did, which were not read at one time.
+bool is_surpassed(const FaultState& state) {
+  const bool warns = state.health && *state.health != dronecan::Health::ok;
+  const bool fails = warns && *state.health != dronecan::Health::warning;
+  return state.errors.empty() && ((warns && state.worst() < std::optional(Level::warning)) ||
+                                  (fails && state.worst() < std::optional(Level::failure)));
+}
+
+/// `first`: the registers to read of each in any case.
+FaultStates read(Session& session, const bla::Profiles& profiles,
+                 std::span<const dronecan::NodeId> servos, const Identification::Options& options,
+                 std::span<const bla::Address> first) {
+  auto snapshots = take_snapshots(
+      session, profiles, servos, options,
+      [&](const Servo& servo) -> Result<std::vector<const Parameter*>> {
+        return servo.identity.registers(first);
+      },
+      ReadJob::Proof::moment,
+      [&](const Snapshot& so_far) {
+        return so_far.servo.identity.registers(bla::fault_details(so_far.values(), profiles));
+      });
+  FaultStates states{.servos = {}, .broken = std::move(snapshots.broken)};
+  for (Snapshot& snapshot : snapshots.servos) {
+    states.servos.push_back(state_of(std::move(snapshot), session.roster(), profiles));
+  }
+  return states;
+}
+
 } // namespace
 
 std::optional<std::int64_t> FaultState::fault_register(bla::Address reg) const {
@@ -68,20 +97,24 @@ std::vector<Reading> FaultState::values_of(const bla::Fault& fault) const {
 FaultStates read_faults(Session& session, const bla::Profiles& profiles,
                         std::span<const dronecan::NodeId> servos,
                         const Identification::Options& options) {
-  constexpr std::array first{bla::address::fault_summary};
-  auto snapshots = take_snapshots(
-      session, profiles, servos, options,
-      [&](const Servo& servo) -> Result<std::vector<const Parameter*>> {
-        return servo.identity.registers(first);
-      },
-      ReadJob::Proof::moment,
-      [&](const Snapshot& so_far) {
-        return so_far.servo.identity.registers(bla::fault_details(so_far.values(), profiles));
-      });
-  FaultStates states{.servos = {}, .broken = std::move(snapshots.broken)};
-  for (Snapshot& snapshot : snapshots.servos) {
-    states.servos.push_back(state_of(std::move(snapshot), session.roster(), profiles));
+  constexpr std::array summary{bla::address::fault_summary};
+  FaultStates states = read(session, profiles, servos, options, summary);
+  std::vector<dronecan::NodeId> surpassed;
+  for (const FaultState& state : states.servos) {
+    if (is_surpassed(state)) {
+      surpassed.push_back(state.snapshot.servo.id);
+    }
   }
+  if (states.broken || surpassed.empty() || session.is_recording()) {
+    return states;
+  }
+  FaultStates again = read(session, profiles, surpassed, options, bla::all_fault_registers);
+  for (FaultState& now : again.servos) {
+    const auto before = std::ranges::find(states.servos, now.snapshot.servo.id,
+                                          [](const auto& each) { return each.snapshot.servo.id; });
+    *before = std::move(now);
+  }
+  states.broken = std::move(again.broken);
   return states;
 }
 

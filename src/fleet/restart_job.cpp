@@ -38,8 +38,9 @@ std::string_view name(RestartKind kind) {
 } // namespace
 
 RestartJob::RestartJob(const Roster& roster, const Servo& servo, Options options)
-    : roster_(roster), id_(servo.id), unique_id_(servo.unique_id.value_or(dronecan::UniqueId{})),
-      since_(servo.since), options_(options) {}
+    : roster_(roster), servo_(servo), id_(servo.id),
+      unique_id_(servo.unique_id.value_or(dronecan::UniqueId{})), since_(servo.since),
+      options_(options) {}
 
 Step RestartJob::next(const Outcome& outcome) {
   ended_at_ = outcome.at;
@@ -59,6 +60,7 @@ Step RestartJob::next(const Outcome& outcome) {
   case At::start:
   case At::young: return ask_unit();
   case At::unit: return check_unit(outcome);
+  case At::proof: return judge_proof(outcome);
   case At::request: return judge_answer(outcome);
   case At::settling:
     if (has_news()) {
@@ -99,14 +101,32 @@ Step RestartJob::check_unit(const Outcome& outcome) {
   // SAVE keeps what is in RAM now: that must be what was read.
   if (options_.kind == RestartKind::save &&
       !has_run_since(since_, info->status.uptime_s, outcome.at)) {
-    is_unproven_ = true;
-    return std::nullopt;
+    at_ = At::proof;
+    run_proof_.emplace(roster_, servo_, since_, options_.patience);
+    return run_proof_->next({Outcome::Kind::start, {}, outcome.at});
   }
   if (options_.pace != nullptr && outcome.at < options_.pace->next) {
     at_ = At::start;
     return dronecan::Pause{.until = options_.pace->next};
   }
   return request(outcome.at);
+}
+
+/// A servo that has run on until now is old enough to show a restart after this moment.
+Step RestartJob::judge_proof(const Outcome& outcome) {
+  if (Step step = run_proof_->next(outcome); !step.is_end()) {
+    return step;
+  }
+  const std::uint8_t id = id_.value();
+  switch (run_proof_->verdict()) {
+  case RunProof::Verdict::failed: return give_up(*run_proof_->error());
+  case RunProof::Verdict::too_late:
+    return give_up({Code::state, say<texts::saved_too_late>(id), say<texts::run_again_hint>(), id});
+  case RunProof::Verdict::restarted: is_unproven_ = true; return std::nullopt;
+  case RunProof::Verdict::ran_on: break;
+  }
+  since_ = outcome.at;
+  return ask_unit();
 }
 
 Step RestartJob::request(Time now) {
@@ -118,6 +138,7 @@ Step RestartJob::request(Time now) {
   }
   if (options_.pace != nullptr) {
     options_.pace->next = now + options_.pace->distance;
+    options_.pace->leaving.insert(id_);
   }
   Patience once = options_.patience;
   once.retries = 0;
@@ -234,15 +255,14 @@ bool RestartJob::is_another_at(dronecan::NodeId id) const {
   constexpr Duration tolerance = 1s; // uptime counts whole seconds
   const Member* member = id != id_ ? roster_.find(id) : nullptr;
   const bool is_heard = is_sent_ && member != nullptr && member->last_heard > sent_at_;
-  if (options_.kind != RestartKind::save || !is_heard) {
+  const bool is_leaving = options_.pace != nullptr && options_.pace->leaving.contains(id);
+  if (options_.kind != RestartKind::save || !is_heard || is_leaving) {
     return false;
   }
-  const bool has_other_name =
-      member->info && member->info_boot == member->boots && member->info->unique_id != unique_id_;
   const bool is_too_old = member->status && member->status_at > sent_at_ &&
                           std::chrono::seconds(member->status->uptime_s) >
                               member->status_at - first_sent_at_ + tolerance;
-  return has_other_name || is_too_old;
+  return member->is_another_unit(unique_id_) || is_too_old;
 }
 
 /// Where the servo is after its restart, in operation; empty: not yet.
@@ -295,7 +315,8 @@ Error RestartJob::not_carried_out() const {
 /// It is heard where it was, as if nothing had been sent.
 bool RestartJob::lives_on() const {
   const Member* before = roster_.find(id_);
-  return before != nullptr && !has_started_anew() && before->last_heard > sent_at_ + settling_time;
+  return before != nullptr && !before->is_another_unit(unique_id_) && !has_started_anew() &&
+         before->last_heard > sent_at_ + settling_time;
 }
 
 Error RestartJob::not_back() const {

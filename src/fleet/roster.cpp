@@ -211,8 +211,11 @@ void Roster::receive(const Transfer& transfer) {
     // Its uptime counts as well as that of NodeStatus: a restart before the first of these shows.
     if (const auto info = dronecan::GetNodeInfo::Response::decode(transfer.payload);
         info && header.source.is_unicast()) {
+      Member& sender = known(header.source);
+      sender.status = info->status;
+      sender.status_at = transfer.at;
       if (is_news(header.source, info->status.uptime_s, transfer.at)) {
-        watch_uptime(known(header.source), info->status.uptime_s, transfer.at);
+        watch_uptime(sender, info->status.uptime_s, transfer.at);
       }
       learn(header.source, *info);
     }
@@ -263,6 +266,7 @@ bool Roster::is_news(NodeId source, std::uint32_t uptime_s, Time at) const {
 void Roster::watch_uptime(Member& sender, std::uint32_t uptime_s, Time at) {
   if (has_restarted(sender, uptime_s, at)) {
     ++sender.boots;
+    answers_.forget(sender.id);
     announce(sender);
   }
 }
@@ -274,10 +278,12 @@ bool Roster::has_restarted(Member& sender, std::uint32_t uptime_s, Time at) {
   Pulse& pulse = pulses_[sender.id.value()];
   const Time boot = at - std::chrono::seconds(uptime_s);
   const std::uint32_t before = std::exchange(pulse.last_uptime_s, uptime_s);
-  const auto is = [&](const std::optional<Time>& known) {
-    return known && std::chrono::abs(*known - boot) < boot_tolerance;
+  // A servo that restarts right after its start has two that are close to each other.
+  const auto distance = [&](const std::optional<Time>& known) {
+    return known ? std::chrono::abs(*known - boot) : Duration::max();
   };
-  if (const auto it = std::ranges::find_if(pulse.boots, is); it != pulse.boots.end()) {
+  const auto it = std::ranges::min_element(pulse.boots, {}, distance);
+  if (distance(*it) < boot_tolerance) {
     const auto index = static_cast<std::size_t>(it - pulse.boots.begin());
     *it = boot; // clocks drift
     if (index != std::exchange(pulse.last_boot, index)) {

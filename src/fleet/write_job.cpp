@@ -2,7 +2,6 @@
 
 #include "blactl/bla/value.hpp"
 #include "blactl/fleet/guard.hpp"
-#include "blactl/fleet/read_job.hpp"
 #include "blactl/fleet/texts.hpp"
 
 #include <algorithm>
@@ -33,18 +32,39 @@ WriteJob::WriteJob(const Roster& roster, Servo servo, std::vector<Change> change
 
 Step WriteJob::next(const Outcome& outcome) {
   switch (at_) {
-  case At::begin: return go_on();
+  case At::begin: return begin(outcome.at);
   case At::unit: return judge_unit(outcome);
   case At::write: return after_write(outcome);
   case At::read: return after_read(outcome);
-  case At::recheck: return after_recheck(outcome);
-  case At::twin: return after_twin();
+  case At::proof: return judge_proof(outcome);
   }
   return std::nullopt;
 }
 
-/// The next write; in the end, or if the servo may be another one, who it is.
-Step WriteJob::go_on() {
+/// Between reading and writing another unit may have come to the node ID.
+Step WriteJob::begin(Time now) {
+  if (roster_.is_doubled(servo_.id) || std::ranges::none_of(changes_, &Change::is_planned)) {
+    return go_on(now);
+  }
+  at_ = At::unit;
+  return ask(servo_.id, GetNodeInfo::type, GetNodeInfo::Request{}.encode(), patience_);
+}
+
+Step WriteJob::judge_unit(const Outcome& outcome) {
+  const std::uint8_t id = servo_.id.value();
+  if (!outcome.answered()) {
+    return give_up(unproven(), no_answer(outcome, servo_.id, "GetNodeInfo"));
+  }
+  const auto info = GetNodeInfo::Response::decode(outcome.payload);
+  if (!roster_.is_doubled(servo_.id) && (!info || info->unique_id != servo_.unique_id)) {
+    return give_up(unproven(), {Code::state, say<texts::another_servo>(id),
+                                say<texts::node_not_found_hint>(), id});
+  }
+  return go_on(outcome.at);
+}
+
+/// The next write; in the end, or after a restart, the proof.
+Step WriteJob::go_on(Time now) {
   while (current_ < changes_.size() && !changes_[current_].is_planned()) {
     ++current_;
   }
@@ -54,23 +74,17 @@ Step WriteJob::go_on() {
   const auto concerned = [](const Change& change) {
     return change.is_planned() || is_held(change);
   };
-  const bool restarted = servo_.boot != boots();
-  if (restarted && std::ranges::any_of(changes_, concerned)) {
-    return ask_unit();
+  if (servo_.boot != boots() && std::ranges::any_of(changes_, concerned)) {
+    return prove(now);
   }
   if (current_ == changes_.size()) {
-    return std::ranges::any_of(changes_, is_held) ? ask_unit() : Step(std::nullopt);
+    return std::ranges::any_of(changes_, is_held) ? prove(now) : Step(std::nullopt);
   }
   at_ = At::write;
   has_written_ = true;
   is_lost_ = false;
   return write_register(servo_.id, changes_[current_].parameter->address,
                         changes_[current_].requested, patience_);
-}
-
-Step WriteJob::ask_unit() {
-  at_ = At::unit;
-  return ask(servo_.id, GetNodeInfo::type, GetNodeInfo::Request{}.encode(), patience_);
 }
 
 Step WriteJob::after_write(const Outcome& outcome) {
@@ -93,69 +107,61 @@ Step WriteJob::after_read(const Outcome& outcome) {
     change.status = ChangeStatus::failed;
     change.error = raw.error();
     ++current_;
-    return go_on();
+    return go_on(outcome.at);
   }
   change.after = change.parameter->width.narrow(*raw);
   if (*change.after == change.requested) {
     change.status = ChangeStatus::written;
     ++current_;
-    return go_on();
+    return go_on(outcome.at);
   }
   // A restart between the write and this answer looks the same.
   is_doubtful_ = true;
-  return ask_unit();
+  return prove(outcome.at);
 }
 
-/// The same servo, without a restart since it was identified?
-Step WriteJob::judge_unit(const Outcome& outcome) {
+Step WriteJob::prove(Time now) {
+  at_ = At::proof;
+  run_proof_.emplace(roster_, servo_, servo_.since, patience_);
+  return run_proof_->next({Outcome::Kind::start, {}, now});
+}
+
+Step WriteJob::judge_proof(const Outcome& outcome) {
+  if (Step step = run_proof_->next(outcome); !step.is_end()) {
+    return step;
+  }
   const std::uint8_t id = servo_.id.value();
-  if (outcome.kind == Outcome::Kind::timed_out && has_written_) {
-    return give_up(unproven(), {Code::timeout, say<texts::not_proven_any_more>(id),
-                                say<texts::no_answer_hint>(), id});
+  switch (run_proof_->verdict()) {
+  case RunProof::Verdict::failed: return give_up(unproven(), told_by(*run_proof_->error()));
+  case RunProof::Verdict::restarted: return write_again(outcome.at);
+  case RunProof::Verdict::too_late:
+    return give_up(unproven(), {Code::state, say<texts::written_too_late>(id),
+                                say<texts::run_again_hint>(), id});
+  case RunProof::Verdict::ran_on: break;
   }
-  if (!outcome.answered()) {
-    return give_up(unproven(), no_answer(outcome, servo_.id, "GetNodeInfo"));
+  if (!is_doubtful_) {
+    return std::nullopt;
   }
-  if (roster_.is_doubled(servo_.id)) {
-    return give_up(unproven(), doubled(roster_, servo_.id));
-  }
-  const auto info = GetNodeInfo::Response::decode(outcome.payload);
-  if (!info || info->unique_id != servo_.unique_id) {
-    return give_up(unproven(), {Code::state, say<texts::restarted_meanwhile>(id),
-                                say<texts::node_not_found_hint>(), id});
-  }
-  if (servo_.boot != boots()) {
-    return write_again(outcome.at);
-  }
-  const bool is_proven = has_run_since(servo_.since, info->status.uptime_s, outcome.at);
-  if (is_doubtful_) {
-    // Without a proof once more: a servo that refuses does so again.
-    if (!is_proven && restarts_ == 0) {
-      return write_again(outcome.at);
-    }
-    judge();
-    ++current_;
-    return go_on();
-  }
-  return is_proven ? hear_twin(outcome.at) : recheck_from(0, outcome.at);
+  judge();
+  ++current_;
+  return go_on(outcome.at);
 }
 
-/// A second unit on this ID answers the last question too, somewhat later.
-Step WriteJob::hear_twin(Time now) {
-  at_ = At::twin;
-  return dronecan::Pause{.until = now + ReadJob::twin_time,
-                         .ready = [this] { return roster_.is_doubled(servo_.id); }};
-}
-
-Step WriteJob::after_twin() {
-  return roster_.is_doubled(servo_.id) ? give_up(unproven(), doubled(roster_, servo_.id))
-                                       : Step(std::nullopt);
+/// A servo that has been written to is in doubt.
+Error WriteJob::told_by(const Error& error) const {
+  const std::uint8_t id = servo_.id.value();
+  if (has_written_ && error.code == Code::timeout) {
+    return {Code::timeout, say<texts::not_proven_any_more>(id), say<texts::no_answer_hint>(), id};
+  }
+  if (has_written_ && error.code == Code::state) {
+    return {Code::state, say<texts::written_to_another>(id), say<texts::node_not_found_hint>(), id};
+  }
+  return error;
 }
 
 /// The restart brought the values of the ROM back: what was written is to be written again.
 Step WriteJob::write_again(Time now) {
   const std::uint8_t id = servo_.id.value();
-  const bool is_heard = servo_.boot != boots();
   if (++restarts_ > most_restarts) {
     return give_up(unproven(), {Code::state, say<texts::restarts_again>(id),
                                 say<texts::restarts_again_hint>(), id});
@@ -163,7 +169,7 @@ Step WriteJob::write_again(Time now) {
   is_doubtful_ = false;
   servo_.boot = boots();
   servo_.since = now;
-  if (is_heard && !doubt_unchanged()) {
+  if (!doubt_unchanged()) {
     return std::nullopt;
   }
   for (Change& change : changes_) {
@@ -172,7 +178,7 @@ Step WriteJob::write_again(Time now) {
     }
   }
   current_ = 0;
-  return go_on();
+  return go_on(now);
 }
 
 /// What was equal in RAM may have another value in ROM. To write it was never agreed. False: there
@@ -190,35 +196,6 @@ bool WriteJob::doubt_unchanged() {
   return std::ranges::any_of(changes_, [](const Change& change) {
     return change.is_planned() || change.status == ChangeStatus::written;
   });
-}
-
-/// Nothing proves that there was no restart: the values themselves must.
-Step WriteJob::recheck_from(std::size_t first, Time now) {
-  current_ = first;
-  while (current_ < changes_.size() && !is_held(changes_[current_])) {
-    ++current_;
-  }
-  if (current_ == changes_.size()) {
-    const bool is_same = servo_.boot == boots() && !roster_.is_doubled(servo_.id);
-    return is_same ? hear_twin(now) : ask_unit();
-  }
-  at_ = At::recheck;
-  return read_register(servo_.id, changes_[current_].parameter->address, patience_);
-}
-
-Step WriteJob::after_recheck(const Outcome& outcome) {
-  Change& change = changes_[current_];
-  const auto raw = register_value(outcome, servo_.id, change.parameter->address);
-  if (!raw) {
-    return give_up(current_, raw.error());
-  }
-  if (change.parameter->width.narrow(*raw) == change.requested) {
-    return recheck_from(current_ + 1, outcome.at);
-  }
-  if (change.status == ChangeStatus::unchanged && !doubt_unchanged()) {
-    return std::nullopt;
-  }
-  return write_again(outcome.at);
 }
 
 /// No restart explains why the register holds something else.

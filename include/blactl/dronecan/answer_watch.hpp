@@ -31,6 +31,9 @@ class AnswerWatch {
   AnswerWatch(std::set<std::string> constants, Report report)
       : constants_(std::move(constants)), report_(std::move(report)) {}
 
+  /// Another unit may be on this node ID now: what was answered before tells nothing of it.
+  void forget(NodeId server);
+
   /// A frame of whatever kind with the header that its ID says; it has data.
   void receive(const Header& header, const can::Frame& frame, Time at);
 

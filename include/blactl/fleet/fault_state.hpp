@@ -35,7 +35,8 @@ struct FaultStates {
   std::optional<Error> broken; ///< why the session ended before
 };
 
-/// Reads 0x18 of several servos at once, and of those that it says have faults what tells more.
+/// Reads 0x18 of several servos at once, and of those that it says have faults what tells more. A
+/// servo whose NodeStatus tells of more than that is read once more, all four registers.
 /// `profiles` outlives the states.
 [[nodiscard]] FaultStates read_faults(Session& session, const bla::Profiles& profiles,
                                       std::span<const dronecan::NodeId> servos,

@@ -4,9 +4,11 @@
 #include "blactl/dronecan/node.hpp"
 #include "blactl/fleet/registers.hpp"
 #include "blactl/fleet/roster.hpp"
+#include "blactl/fleet/run_proof.hpp"
 
 #include <cstdint>
 #include <optional>
+#include <set>
 
 namespace blactl::fleet {
 
@@ -16,7 +18,8 @@ enum class RestartKind : std::uint8_t { save, restart };
 /// The distance between the requests to several servos: their jobs share it.
 struct RestartPace {
   Duration distance{};
-  Time next{}; ///< when the next first request may go out
+  Time next{};                          ///< when the next first request may go out
+  std::set<dronecan::NodeId> leaving{}; ///< who was told to restart, and may go to another ID
 };
 
 /// The request goes out once. Without an answer the uptime tells whether it was carried out, and
@@ -45,7 +48,7 @@ class RestartJob final : public dronecan::Job {
   /// The node ID that the servo has now; empty: it is not back.
   [[nodiscard]] std::optional<dronecan::NodeId> returned() const { return returned_; }
 
-  /// Nothing was sent: its uptime does not prove that the servo still holds what was read of it.
+  /// Nothing was sent: the servo has restarted, and may not hold any more what was read of it.
   [[nodiscard]] bool is_unproven() const { return is_unproven_; }
 
   /// Why it is not, or what is not known: timeout, not_back, refused, state, no_acknowledge,
@@ -54,6 +57,12 @@ class RestartJob final : public dronecan::Job {
 
   /// A request has left, or may have left, this machine.
   [[nodiscard]] bool is_sent() const { return is_sent_; }
+
+  /// When the first one did.
+  [[nodiscard]] Time sent_at() const { return first_sent_at_; }
+
+  /// The servo answered that it does it.
+  [[nodiscard]] bool is_confirmed() const { return is_confirmed_; }
 
   /// It ended with a proof that the servo ran on: RAM holds what it held.
   [[nodiscard]] bool has_run_on() const { return has_run_on_; }
@@ -64,10 +73,22 @@ class RestartJob final : public dronecan::Job {
   }
 
  private:
-  enum class At : std::uint8_t { begin, start, unit, young, request, settling, alive, away, call };
+  enum class At : std::uint8_t {
+    begin,
+    start,
+    unit,
+    young,
+    proof,
+    request,
+    settling,
+    alive,
+    away,
+    call
+  };
 
   [[nodiscard]] dronecan::Step ask_unit();
   [[nodiscard]] dronecan::Step check_unit(const dronecan::Outcome& outcome);
+  [[nodiscard]] dronecan::Step judge_proof(const dronecan::Outcome& outcome);
   [[nodiscard]] dronecan::Step request(Time now);
   [[nodiscard]] dronecan::Step judge_answer(const dronecan::Outcome& outcome);
   [[nodiscard]] dronecan::Step judge_life(const dronecan::Outcome& outcome);
@@ -91,16 +112,18 @@ class RestartJob final : public dronecan::Job {
   [[nodiscard]] std::optional<dronecan::NodeId> find_returned() const;
 
   const Roster& roster_;
+  Servo servo_;
   dronecan::NodeId id_;
   dronecan::UniqueId unique_id_;
-  Time since_; ///< Servo::since
+  Time since_; ///< RAM must be as it was then
+  std::optional<RunProof> run_proof_;
   Options options_;
   At at_ = At::begin;
   std::uint32_t boot_ = 0; ///< of the servo when the request was sent
   Time first_sent_at_{}, sent_at_{}, ended_at_{};
   bool is_sent_ = false;
-  bool is_confirmed_ = false; ///< the servo answered that it does it
-  bool has_left_ = true;      ///< the last request, for certain
+  bool is_confirmed_ = false;
+  bool has_left_ = true; ///< the last request, for certain
   bool may_repeat_ = true;
   bool is_over_ = false;
   bool is_unproven_ = false;

@@ -21,7 +21,7 @@ namespace blactl::fleet {
 struct Member {
   dronecan::NodeId id{};
   Time first_heard{}, last_heard{};
-  std::optional<dronecan::NodeStatus> status{};
+  std::optional<dronecan::NodeStatus> status{}; ///< the newest, heard or answered
   Time status_at{};
   std::optional<std::uint8_t> actuator_id{}; ///< from actuator.Status: only servos send it
   std::uint32_t boots = 0;                   ///< restarts seen, by uptimes going backwards
@@ -44,6 +44,11 @@ struct Member {
   /// This unit said since its last restart that it has this unique ID.
   [[nodiscard]] bool is_unit(const dronecan::UniqueId& unique_id) const {
     return info && info_boot == boots && info->unique_id == unique_id;
+  }
+
+  /// It said that it is another one.
+  [[nodiscard]] bool is_another_unit(const dronecan::UniqueId& unique_id) const {
+    return info && info_boot == boots && info->unique_id != unique_id;
   }
 
   /// What is known of the unit now.

@@ -35,13 +35,13 @@ class UptimeCheck {
  public:
   explicit UptimeCheck(Time since) : since_(since) {}
 
-  /// The next moment to ask at.
-  [[nodiscard]] Time next(Time now) const;
+  /// The next moment to ask at, where an answer takes `round_trip`.
+  [[nodiscard]] Time next(Time now, Duration round_trip) const;
 
-  enum class Verdict : std::uint8_t { ran_on, restarted, too_late };
+  enum class Verdict : std::uint8_t { ran_on, restarted, unclear };
 
-  /// What an uptime that was told at `now` means. Too late: it took too long to be asked or told.
-  [[nodiscard]] Verdict judge(std::uint32_t uptime_s, Time now) const;
+  /// What an uptime means that was asked for and told at these moments.
+  [[nodiscard]] Verdict judge(std::uint32_t uptime_s, Time asked, Time told) const;
 
  private:
   Time since_;

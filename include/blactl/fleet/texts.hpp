@@ -74,9 +74,17 @@ inline constexpr Text target_waits_for_id{
 inline constexpr Text target_waits_for_id_hint{
     "let an allocator give it a node ID (the flight controller, or the manufacturer's program)",
     "アロケータ (フライトコントローラ、メーカー製ツール等) でノード ID を割り当てて下さい"};
-inline constexpr Text restarted_meanwhile{
-    "node {} restarted and is another servo now: nothing more was written to it",
-    "ノード {} は再起動後に別のサーボになりました。以後は書き込んでいません",
+inline constexpr Text written_to_another{
+    "node {} became another servo while it was written to: which of them took the values is not "
+    "known",
+    "ノード {} は書込み中に別のサーボに替わりました。どちらに書き込まれたかは不明です",
+};
+inline constexpr Text written_too_late{
+    "node {} has only just started, and answers too late to tell whether it restarted while it was "
+    "written to: it may not hold the values",
+    "ノード {} "
+    "は起動直後で応答が遅いため、書込み中に再起動したか判定できません。値を保持していない可能性が"
+    "あります",
 };
 inline constexpr Text restarts_again{
     "node {} restarts again and again while it is written to",
@@ -118,9 +126,12 @@ inline constexpr Text restarted_while_read{
 };
 inline constexpr Text answers_too_late{
     "node {} has only just started, and answers too late to tell whether it restarted while it was "
-    "read: nothing was written",
-    "ノード {} "
-    "は起動直後です。応答が遅く、読出し中に再起動したか判定できません。書込みはしていません",
+    "read",
+    "ノード {} は起動直後で応答が遅いため、読出し中に再起動したか判定できません",
+};
+inline constexpr Text saved_too_late{
+    "node {} answers too late to tell whether it restarted before SAVE: nothing was saved",
+    "ノード {} の応答が遅く、SAVE の前に再起動したか判定できないため、保存していません",
 };
 inline constexpr Text restarts_while_read{
     "node {} restarts again and again while it is read",
@@ -240,8 +251,8 @@ inline constexpr Text not_saved{"node {}: ROM was not written",
                                 "ノード {}: ROM に保存していません"};
 inline constexpr Text not_begun{"node {}: interrupted before anything was sent",
                                 "ノード {}: 送信前に中断されました"};
-inline constexpr Text another_servo{"node {} is another servo now: nothing more was sent to it",
-                                    "ノード {} は別のサーボに替わったため、以後は送信していません"};
+inline constexpr Text another_servo{"node {} is another servo now",
+                                    "ノード {} は別のサーボに替わりました"};
 inline constexpr Text restarted_before_erase{"node {} restarted: nothing more was sent to it",
                                              "ノード {} が再起動したため、以後は送信していません"};
 inline constexpr Text opcode_refused{"node {} refused {}", "ノード {} が {} を拒否しました"};

@@ -5,6 +5,7 @@
 #include "blactl/fleet/change.hpp"
 #include "blactl/fleet/registers.hpp"
 #include "blactl/fleet/roster.hpp"
+#include "blactl/fleet/run_proof.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -13,12 +14,12 @@
 
 namespace blactl::fleet {
 
-/// Sends the planned changes in order; those that hold the value already are `unchanged` before.
+/// Sends the planned changes in order, once the servo has said that it is still the one that is
+/// meant; those that hold the value already are `unchanged` before.
 /// An answer may show a clamped or refused value (requirement 73), so the register is read again
-/// after each write. In the end, and before a refusal is believed, the servo is asked who it is and
-/// how long it has run, also where all values were held already: they were read some time ago. What
-/// was written before a restart is written again: it was in RAM only.
-/// Where nothing proves that there was none, all values are read once more.
+/// after each write. In the end, and before a refusal is believed, the servo must prove that it ran
+/// on, also where all values were held already: they were read some time ago. What was written
+/// before a restart is written again: it was in RAM only.
 class WriteJob final : public dronecan::Job {
  public:
   /// `roster` outlives the job.
@@ -32,21 +33,20 @@ class WriteJob final : public dronecan::Job {
   [[nodiscard]] const Servo& servo() const { return servo_; }
 
  private:
-  enum class At : std::uint8_t { begin, unit, write, read, recheck, twin };
+  enum class At : std::uint8_t { begin, unit, write, read, proof };
 
-  [[nodiscard]] dronecan::Step go_on();
-  [[nodiscard]] dronecan::Step ask_unit();
+  [[nodiscard]] dronecan::Step begin(Time now);
+  [[nodiscard]] dronecan::Step go_on(Time now);
   [[nodiscard]] dronecan::Step judge_unit(const dronecan::Outcome& outcome);
+  [[nodiscard]] dronecan::Step prove(Time now);
+  [[nodiscard]] dronecan::Step judge_proof(const dronecan::Outcome& outcome);
   [[nodiscard]] dronecan::Step after_write(const dronecan::Outcome& outcome);
   [[nodiscard]] dronecan::Step after_read(const dronecan::Outcome& outcome);
-  [[nodiscard]] dronecan::Step recheck_from(std::size_t first, Time now);
-  [[nodiscard]] dronecan::Step after_recheck(const dronecan::Outcome& outcome);
-  [[nodiscard]] dronecan::Step hear_twin(Time now);
-  [[nodiscard]] dronecan::Step after_twin();
   [[nodiscard]] dronecan::Step write_again(Time now);
   [[nodiscard]] bool doubt_unchanged();
   void judge();
   [[nodiscard]] std::size_t unproven() const;
+  [[nodiscard]] Error told_by(const Error& error) const;
   [[nodiscard]] dronecan::Step give_up(std::size_t blamed, Error error);
 
   [[nodiscard]] std::uint32_t boots() const { return roster_.member(servo_.id).boots; }
@@ -60,7 +60,8 @@ class WriteJob final : public dronecan::Job {
   bool has_written_ = false; ///< a write has left, or may have
   bool is_lost_ = false;     ///< no answer to the write of this change
   bool is_doubtful_ = false; ///< the register does not hold what was written
-  int restarts_ = 0;         ///< seen or suspected while writing
+  int restarts_ = 0;         ///< seen while writing
+  std::optional<RunProof> run_proof_;
 };
 
 } // namespace blactl::fleet

@@ -64,6 +64,7 @@ class Watch {
   [[nodiscard]] bool redraw();
   [[nodiscard]] bool print(std::string_view text);
   void tell_silence(const FaultState& now);
+  void tell_replacement(NodeId id);
 
   std::span<const NodeId> ids_;
   bla::Level shown_;
@@ -128,11 +129,25 @@ void Watch::tell_silence(const FaultState& now) {
   }
 }
 
+/// What the servo that was there before had does not go: it is another one's.
+void Watch::tell_replacement(NodeId id) {
+  if (!draws()) {
+    context_.reporter().note(say<texts::fault_other_servo>(id.value()));
+  }
+}
+
 /// What one look shows of a servo against the look before.
 bool Watch::take(FaultState now) {
   tell_silence(now);
   const NodeId id = now.snapshot.servo.id;
-  const auto before = last_.find(id);
+  auto before = last_.find(id);
+  const auto& unit = now.snapshot.servo.unique_id;
+  if (before != last_.end() && now.errors.empty() &&
+      before->second.snapshot.servo.unique_id != unit) {
+    tell_replacement(id);
+    last_.erase(before);
+    before = last_.end();
+  }
   const bool is_first = before == last_.end();
   if (!now.errors.empty() && !is_first) {
     before->second.errors = std::move(now.errors);

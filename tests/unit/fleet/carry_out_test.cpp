@@ -159,7 +159,7 @@ TEST_CASE("whenever a servo restarts by itself, only what ROM holds is said to b
       CHECK(read(scene, 11, "angle_limit_cw") == 900);
     }
   }
-  CHECK(saved > 30);
+  CHECK(saved >= 9); // nearly all who restart are told so
 }
 
 TEST_CASE("a request that was lost is repeated once, and never again") {
@@ -249,6 +249,7 @@ TEST_CASE("where somebody else allocates, or may, this process does not") {
 
 TEST_CASE("an ID that another servo has taken is not given", "[requirement-41]") {
   const Scene scene(servos({servo(11), servo(12)}));
+  grow_old(scene);
   write(scene, 11, "static_node_id=0");
   write(scene, 12, "static_node_id=11"); // and is faster
   const auto carried_out = change(scene, save, {11, 12}, allocating);
@@ -259,8 +260,8 @@ TEST_CASE("an ID that another servo has taken is not given", "[requirement-41]")
 
 TEST_CASE("requests to several servos keep their distance") {
   const Scene scene(servos({servo(11), servo(12), servo(13)}));
-  const auto plans = plans_for(scene, save, {11, 12, 13});
   grow_old(scene);
+  const auto plans = plans_for(scene, save, {11, 12, 13});
   const Time begin = scene.session->now();
   const auto carried_out = carry_out(*scene.session, profiles(), plans, {.stagger = 2s});
   CHECK(scene.session->now() - begin >= 4s); // the third begins when two distances have passed
@@ -325,8 +326,8 @@ class Readings final : public dronecan::Service {
 TEST_CASE("a dead servo does not hold up the others: each is read as soon as it is back") {
   const Scene scene(servos({servo(11), servo(12, R"(, "faults": {"never_returns": true})"),
                             servo(13, R"(, "faults": {"return_delay": "2s"})"), servo(14)}));
-  const auto plans = plans_for(scene, set("reverse=on", true), {11, 12, 13, 14});
   grow_old(scene);
+  const auto plans = plans_for(scene, set("reverse=on", true), {11, 12, 13, 14});
   const Readings readings(*scene.session);
   const Time begin = scene.session->now();
   const auto carried_out = carry_out(*scene.session, profiles(), plans, {});

@@ -298,6 +298,19 @@ TEST_CASE("a servo that restarts right after its start restarted all the same") 
   CHECK_FALSE(ear.roster.is_doubled(NodeId(10)));
 }
 
+TEST_CASE("start times that are close to each other are those of one servo") {
+  Ear ear;
+  ear.status(10, 0);
+  ear.now += 2050ms; // it restarted a second ago
+  GetNodeInfo::Response info;
+  ear.hear(service(Kind::response, GetNodeInfo::type, 10, 127, info.encode()));
+  CHECK(ear.roster.find(NodeId(10))->boots == 1);
+  ear.now += 200ms;
+  ear.status(10, 1);
+  CHECK(ear.roster.find(NodeId(10))->boots == 1);
+  CHECK_FALSE(ear.roster.is_doubled(NodeId(10)));
+}
+
 TEST_CASE("a clock that drifts for hours is neither a restart nor a second unit") {
   const auto period = GENERATE(995ms, 1s, 1005ms); // ten times as bad as a ceramic resonator
   Ear ear;
@@ -601,6 +614,30 @@ TEST_CASE("answers to different questions show two units as well, unless there w
     ear.info(10, 1, 110, 6);
     CHECK_FALSE(ear.roster.is_doubled(NodeId(10)));
   }
+}
+
+TEST_CASE("the answer of another unit after a restart is no second answer to an old question") {
+  Ear ear;
+  ear.info(10, 1, 100, 5);
+  ear.now += 1s;
+  ear.status(10, 0);
+  ear.now += 10ms;
+  ear.info(10, 2, 0, 5); // the transfer IDs have gone round meanwhile
+  CHECK_FALSE(ear.roster.is_doubled(NodeId(10)));
+}
+
+TEST_CASE("what a node answers of its status is news like its NodeStatus") {
+  Ear ear;
+  ear.status(10, 100);
+  ear.now += 10ms;
+  const GetNodeInfo::Response info{
+      .status = {.uptime_s = 100, .mode = dronecan::Mode::software_update}, .unique_id = {1}};
+  ear.hear(service(Kind::response, GetNodeInfo::type, 10, 127, info.encode()));
+  REQUIRE(ear.roster.member(NodeId(10)).status);
+  CHECK(ear.roster.member(NodeId(10)).status->mode == dronecan::Mode::software_update);
+  ear.now += 10ms;
+  ear.status(10, 100);
+  CHECK(ear.roster.member(NodeId(10)).status->mode == dronecan::Mode::operational);
 }
 
 TEST_CASE("whoever asked, an answer tells which unit a node is") {

@@ -44,35 +44,41 @@ TEST_CASE("an uptime asked a whole number of seconds later tells whether a unit 
   using Verdict = UptimeCheck::Verdict;
 
   struct Row {
-    Duration later;
+    Duration asked, told;
     std::uint32_t uptime_s;
     Verdict verdict;
   };
 
   const auto row = GENERATE(values<Row>({
-      {1s, 1, Verdict::ran_on}, // also if it had just started
-      {1s, 2, Verdict::ran_on},
-      {1s, 0, Verdict::restarted},
-      {1020ms, 1, Verdict::ran_on},
-      {1021ms, 1, Verdict::too_late}, // it may have started 21 ms after
-      {1021ms, 0, Verdict::restarted},
-      {1999ms, 1, Verdict::too_late},
-      {2s, 1, Verdict::restarted},
-      {2s, 2, Verdict::ran_on},
-      {3001ms, 3, Verdict::ran_on},
-      {3001ms, 2, Verdict::restarted},
-      {1s, 0xFFFF'FFFF, Verdict::ran_on},
+      {1s, 1s, 1, Verdict::ran_on}, // also if it had just started
+      {1s, 1s, 2, Verdict::ran_on},
+      {1s, 1s, 0, Verdict::restarted},
+      {1s, 1020ms, 1, Verdict::ran_on},
+      {1s, 1021ms, 1, Verdict::unclear}, // it may have started 21 ms after
+      {1s, 1021ms, 0, Verdict::restarted},
+      {990ms, 1010ms, 0, Verdict::unclear}, // it may have been told before the second was full
+      {990ms, 1010ms, 1, Verdict::ran_on},
+      {5ms, 10ms, 0, Verdict::unclear},
+      {500ms, 510ms, 1, Verdict::ran_on}, // it is older than that
+      {1999ms, 1999ms, 1, Verdict::unclear},
+      {2s, 2s, 1, Verdict::restarted},
+      {2s, 2s, 2, Verdict::ran_on},
+      {3s, 3001ms, 3, Verdict::ran_on},
+      {3s, 3001ms, 2, Verdict::restarted},
+      {1s, 1s, 0xFFFF'FFFF, Verdict::ran_on},
   }));
   const Time since{1'000'000s};
-  CAPTURE(row.uptime_s, row.later.count());
-  CHECK(UptimeCheck(since).judge(row.uptime_s, since + row.later) == row.verdict);
+  CAPTURE(row.uptime_s, row.asked.count(), row.told.count());
+  CHECK(UptimeCheck(since).judge(row.uptime_s, since + row.asked, since + row.told) == row.verdict);
 }
 
-TEST_CASE("an uptime is asked for at the next whole second") {
+TEST_CASE("an uptime is asked for so that it is told at the next whole second") {
   const Time since{1'000'000s};
   const UptimeCheck check(since);
-  CHECK(check.next(since) == since + 1s);
-  CHECK(check.next(since + 999ms) == since + 1s);
-  CHECK(check.next(since + 1s) == since + 2s);
-  CHECK(check.next(since + 2500ms) == since + 3s);
+  CHECK(check.next(since, 1ms) == since + 1s);
+  CHECK(check.next(since + 999ms, 1ms) == since + 1s);
+  CHECK(check.next(since + 1s, 1ms) == since + 2s);
+  CHECK(check.next(since + 2500ms, 10ms) == since + 3s);
+  CHECK(check.next(since + 30ms, 30ms) == since + 980ms);
+  CHECK(check.next(since + 985ms, 30ms) == since + 1980ms);
 }

@@ -1,0 +1,43 @@
+#include "blactl/fleet/fault_state.hpp"
+
+#include "support.hpp"
+
+#include <array>
+
+using namespace blactl;
+using namespace blactl::fleet;
+using namespace blactl::fleet::test;
+namespace at = bla::address;
+
+namespace {
+
+constexpr std::array node_11{NodeId(11)};
+
+/// A servo without a load, which has one notice: no pulse at its PWM input.
+std::string servo_11(const char* more) {
+  return fmt::format(R"("servos": [{{"model": "BLA15-06U-A0", "node_id": 11{}}}])", more);
+}
+
+} // namespace
+
+TEST_CASE("0x18 that shows no bit of a level tells what its register holds, unread") {
+  Scene scene(servo_11(""));
+  scene.grow_old();
+  const auto states = read_faults(*scene.session, profiles(), node_11, {});
+  REQUIRE(states.servos.size() == 1);
+  CHECK(states.servos[0].errors.empty());
+  CHECK(states.servos[0].fault_register(at::fault_warning) == 0);
+  CHECK_FALSE(states.servos[0].snapshot.raw(at::fault_warning));
+}
+
+TEST_CASE("where NodeStatus tells of more than 0x18 did, all four registers are read") {
+  Scene scene(servo_11(R"(, "behaviour": {"notices_warn": true}, "ram": {"fault_notice": 256})"));
+  scene.grow_old();
+  const auto states = read_faults(*scene.session, profiles(), node_11, {});
+  REQUIRE(states.servos.size() == 1);
+  CHECK(states.servos[0].health == dronecan::Health::warning);
+  CHECK(states.servos[0].errors.empty());
+  for (const bla::Address reg : bla::all_fault_registers) {
+    CHECK(states.servos[0].snapshot.raw(reg));
+  }
+}
