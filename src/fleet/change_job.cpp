@@ -122,6 +122,7 @@ ChangeJob::Stage ChangeJob::conclude_stage(bool cancelled) {
   case Stage::end: break;
   }
   blame_other_writer();
+  tell_reach();
   if (!cancelled) {
     return following;
   }
@@ -224,6 +225,21 @@ void ChangeJob::blame_other_writer() {
   if (const auto writer = roster_.writer_to(servo, known_since()); differs && writer) {
     result_.error = Error{Code::state, say<texts::other_writer>(servo.value(), writer->value()),
                           say<texts::other_writer_hint>(), servo.value()};
+  }
+}
+
+/// A second unit that shows when something has been sent may have taken it, too.
+void ChangeJob::tell_reach() {
+  const bool has_sent = (erase_ && erase_->is_sent()) || (write_ && write_->has_written()) ||
+                        (restart_ && restart_->is_sent());
+  const auto tell = [&](std::optional<Error>& error) {
+    if (has_sent && error && error->code == Code::duplicate_node_id) {
+      error->hint = say<texts::doubled_meanwhile_hint>();
+    }
+  };
+  tell(result_.error);
+  for (Change& change : result_.changes) {
+    tell(change.error);
   }
 }
 

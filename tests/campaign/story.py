@@ -37,7 +37,7 @@ def check(outcome, step, defaults, alone):
     if outcome.status == 0:
         check_success(outcome, document)
     if alone:
-        check_refusal(outcome)
+        check_refusal(outcome, step)
         check_doubled(outcome, document, step)
         check_others(outcome, step)
         check_rom_writes(outcome, step)
@@ -77,10 +77,12 @@ def check_success(outcome, document):
             require(node["status"] == "done", "0, but not everything is done")
 
 
-def check_refusal(outcome):
-    if outcome.status in UNTOUCHED:
-        sent = outcome.record.changes()
-        require(not sent, f"refused with {outcome.status}, but {len(sent)} changes were sent")
+def check_refusal(outcome, step):
+    """A second servo under a node ID ends a command also while it is at work."""
+    sent = outcome.record.changes()
+    if outcome.status in UNTOUCHED and sent:
+        require(outcome.status == 9 and step.comes_to_another(sent[0].time),
+                f"refused with {outcome.status}, but {len(sent)} changes were sent")
 
 
 def is_meant(outcome, serial, step):

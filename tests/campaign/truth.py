@@ -59,6 +59,13 @@ class Step:
         """Whether it shared its node ID with another for so long that a client can know."""
         return any(self._is_pair(serial, other, heard) for other in self.after if other != serial)
 
+    def comes_to_another(self, first_change):
+        """Whether one of two servos with one node ID was not there for so long before this moment
+        that a client can know."""
+        return any(self.after[one]["node_id"] == self.after[other]["node_id"] != 0 and
+                   any(time + SETTLED_S > first_change for time in self._accidents(one))
+                   for one in self.after for other in self.after if one != other)
+
     def _is_pair(self, one, other, heard):
         ended = self.after[one]["node_id"] == self.after[other]["node_id"] != 0
         if not ended:

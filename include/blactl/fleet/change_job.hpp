@@ -74,6 +74,7 @@ class ChangeJob final : public dronecan::Job {
   void explain_interruption(Stage at);
   void blame_other_writer();
   void blame_other_writer(Change& change) const;
+  void tell_reach();
   void doubt_changes();
   void tell_saved(const Snapshot& now);
   [[nodiscard]] std::unique_ptr<RestartJob> restart() const;

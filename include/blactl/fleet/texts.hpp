@@ -220,6 +220,12 @@ inline constexpr Text question_erase_rom{
     "ROM is not touched: a restart brings back what was saved\n",
     "ROM は変更しません。再起動すると保存済みの値に戻ります\n",
 };
+inline constexpr Text doubled_meanwhile_hint{
+    "one of them, or both, may have taken what was sent: connect one of them alone, give it another "
+    "ID, and look at both",
+    "送信した内容は一方または両方に反映された可能性があります。1 台だけ接続して ID "
+    "を変更し、両方の設定を確認して下さい",
+};
 inline constexpr Text doubled_target_hint{"connect one of them alone and give it another ID",
                                           "一台ずつ接続して別の ID を設定して下さい"};
 inline constexpr Text armed{"node {} says that the vehicle is armed: nothing is written",

@@ -29,6 +29,9 @@ class WriteJob final : public dronecan::Job {
 
   [[nodiscard]] const std::vector<Change>& changes() const { return changes_; }
 
+  /// A write has left, or may have.
+  [[nodiscard]] bool has_written() const { return has_written_; }
+
   /// The servo as it was recognised last.
   [[nodiscard]] const Servo& servo() const { return servo_; }
 
@@ -57,7 +60,7 @@ class WriteJob final : public dronecan::Job {
   Patience patience_;
   At at_ = At::begin;
   std::size_t current_ = 0;  ///< the change that is being made or looked at
-  bool has_written_ = false; ///< a write has left, or may have
+  bool has_written_ = false;
   bool is_lost_ = false;     ///< no answer to the write of this change
   bool is_doubtful_ = false; ///< the register does not hold what was written
   int restarts_ = 0;         ///< seen while writing

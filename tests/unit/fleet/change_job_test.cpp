@@ -854,6 +854,23 @@ TEST_CASE("another unit that shows on the ID while it saves: nothing is claimed"
   CHECK(result.changes[0].status == ChangeStatus::failed);
 }
 
+TEST_CASE("another unit that shows when something was sent may have taken it, which is told") {
+  const auto hint_after = [](const Wanted& wanted, std::string_view sent) {
+    Bench bench(wanted);
+    bench.until(sent);
+    bench.until("GetNodeInfo");
+    bench.double_id();
+    const ChangeResult& result = bench.finish();
+    CHECK(failure(result) == Code::duplicate_node_id);
+    return result.errors().front().hint;
+  };
+  const std::string after_write = hint_after(set({"reverse=on"}), "read 0x23");
+  CHECK(after_write.find("may have taken what was sent") != std::string::npos);
+  const std::string after_erase = hint_after(Wanted{.erase = true}, "read 0x38");
+  CHECK(after_erase == after_write);
+  CHECK(hint_after(set({"reverse=on"}), "GetNodeInfo") != after_write);
+}
+
 TEST_CASE("the warnings of a plan are those of its result") {
   const Plan plan = plan_for(set({"speed_p_gain=5"}));
   REQUIRE(plan.warnings.size() == 1);
