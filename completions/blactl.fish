@@ -307,7 +307,7 @@ complete -c blactl -n '__blactl_in trace' -l stats -d 'instead of the transfers,
 complete -c blactl -n '__blactl_in trace' -l absolute -d 'the time of day instead of seconds since the first frame'
 complete -c blactl -n '__blactl_argument trace 1' -F
 
-complete -c blactl -n '__blactl_in models' -l group -r -f -a 'command status operation fault config control pwm limit option product production' -d 'the parameters of a group only'
+complete -c blactl -n '__blactl_in models' -l group -r -f -a 'command status operation fault config control pwm limit option product production' -d 'the parameters of one group only'
 complete -c blactl -n '__blactl_argument models 1' -f -a '(__blactl_models; __blactl_parameters)'
 complete -c blactl -n '__blactl_argument models 2' -f -a '(__blactl_parameters)'
 

@@ -1,7 +1,5 @@
 #include "blactl/bla/explain.hpp"
 
-#include "blactl/bla/value.hpp"
-
 #include "bla/texts.hpp"
 
 #include <fmt/format.h>
@@ -37,26 +35,17 @@ std::optional<std::string> production_time(const Values& values) {
   return text;
 }
 
-std::string explained(const Parameter& parameter, std::int64_t raw, const Values& values) {
-  if (parameter.address == at::production_year) {
-    if (const auto date = production_time(values)) {
-      return fmt::format("{}  ({})", raw, *date);
-    }
-  }
-  return register_text(parameter, raw, find(values, at::pwm_mode));
-}
-
 std::string bit_title(const FaultBit* known) {
   return known != nullptr ? std::string(choose(known->text_en, known->text_ja))
                           : say<texts::unknown_bit>();
 }
 
-std::vector<std::string> explained_bits(const Parameter& parameter, std::int64_t raw,
-                                        const Profiles& profiles) {
+namespace {
+
+/// The bits that are set, one a line.
+std::vector<std::string> bit_lines(const Parameter& parameter, std::int64_t raw,
+                                   const Profiles& profiles) {
   std::vector<std::string> lines;
-  if (parameter.group != Group::fault) {
-    return lines;
-  }
   for (std::uint8_t bit = 0; bit < fault_register_bits; ++bit) {
     if ((raw >> bit & 1) != 0) {
       const FaultBit* known = profiles.fault_bit(parameter.address, bit);
@@ -69,6 +58,18 @@ std::vector<std::string> explained_bits(const Parameter& parameter, std::int64_t
     }
   }
   return lines;
+}
+
+} // namespace
+
+std::vector<std::string> explained(const Parameter& parameter, std::int64_t raw,
+                                   const Values& values, const Profiles& profiles) {
+  if (parameter.group == Group::fault) {
+    return bit_lines(parameter, raw, profiles);
+  }
+  const auto date =
+      parameter.address == at::production_year ? production_time(values) : std::nullopt;
+  return date ? std::vector{*date} : std::vector<std::string>{};
 }
 
 } // namespace blactl::bla

@@ -204,7 +204,11 @@ Result<void> Identity::check_pwm_input() const {
   if (candidates_.empty() || !std::ranges::all_of(candidates_, alike)) {
     return {};
   }
-  return check_support(*candidates_.front()->find(address::pwm_mode));
+  if (candidates_.front()->pwm) {
+    return {};
+  }
+  return fail(Code::unsupported, say<texts::no_pwm_input>(model()),
+              say<texts::no_pwm_input_hint>(model()));
 }
 
 Result<void> Identity::check_model(const Parameter& parameter) const {
@@ -234,7 +238,7 @@ Result<void> Identity::check_support(const Parameter& parameter) const {
   const std::string address = parameter.address.name();
   // All candidates agree on a range here, so the first speaks for all.
   if (parameter.group == Group::pwm && !candidates_.front()->pwm) {
-    return fail(Code::unsupported, say<texts::no_pwm_input>(parameter.name, address, model()),
+    return fail(Code::unsupported, say<texts::no_pwm_parameter>(model(), parameter.name, address),
                 say<texts::no_pwm_input_hint>(model()));
   }
   if (!parameter.min_firmware) {

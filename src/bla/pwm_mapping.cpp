@@ -141,14 +141,15 @@ std::optional<PwmMapping> pwm_mapping(const Values& values) {
                     *output,
                     *mode,
                     find(values, is_angle ? at::angle_limit_cw : at::speed_limit_cw),
-                    find(values, is_angle ? at::angle_limit_ccw : at::speed_limit_ccw)};
+                    find(values, is_angle ? at::angle_limit_ccw : at::speed_limit_ccw),
+                    !is_angle && find(values, at::speed_torque_control) == 0};
 }
 
 const std::vector<Address>& pwm_registers() {
   static const std::vector<Address> registers{
-      at::fault_notice,     at::timeout_time,   at::pwm_neutral,    at::pwm_range,
-      at::pwm_output_range, at::pwm_mode,       at::angle_limit_cw, at::angle_limit_ccw,
-      at::speed_limit_cw,   at::speed_limit_ccw};
+      at::fault_notice,    at::speed_torque_control, at::timeout_time,   at::pwm_neutral,
+      at::pwm_range,       at::pwm_output_range,     at::pwm_mode,       at::angle_limit_cw,
+      at::angle_limit_ccw, at::speed_limit_cw,       at::speed_limit_ccw};
   return registers;
 }
 

@@ -129,8 +129,9 @@ inline constexpr Text firmware_unknown_hint{"`blactl get firmware_version` reads
 inline constexpr Text firmware_needed_hint{
     "`blactl models {}` tells which firmware has what",
     "`blactl models {}` でファームウェアごとの機能を確認できます"};
-inline constexpr Text no_pwm_input{"{} ({}): {} has no PWM input",
-                                   "{} ({}): {} に PWM 入力はありません"};
+inline constexpr Text no_pwm_input{"{} has no PWM input", "{} に PWM 入力はありません"};
+inline constexpr Text no_pwm_parameter{"{} has no PWM input, and so no {} ({})",
+                                       "{} に PWM 入力はないため、{} ({}) は使用できません"};
 inline constexpr Text no_pwm_input_hint{
     "{} is driven over CAN alone; which models have a PWM input: `blactl models`",
     "{} は CAN 通信専用です。PWM 入力対応機種は `blactl models` で確認できます"};

@@ -43,6 +43,9 @@ inline constexpr Text pwm_input_long{"a pulse at or above the longest", "パル�
 inline constexpr Text pwm_fallback{
     "  CAN      goes first; PWM counts after {} ms without CAN (timeout_time)\n",
     "  CAN 指令  優先。CAN 指令が {} ms 以上無いと PWM が有効になります (timeout_time)\n"};
+inline constexpr Text pwm_idle{
+    "  speed    pulses move nothing while speed_torque_control is off\n",
+    "  速度指令  speed_torque_control が OFF の間、PWM では動作しません\n"};
 inline constexpr Text pwm_cut_below{"  limit    below {} us it stays at {}\n",
                                     "  制限      {} us 未満では {} にとどまります\n"};
 inline constexpr Text pwm_cut_above{"  limit    above {} us it stays at {}\n",

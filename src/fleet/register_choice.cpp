@@ -59,7 +59,7 @@ Result<bla::Group> parse_group(std::string_view word) {
   const auto similar = similar_groups(word);
   std::string known;
   for (const std::string_view group : group_names()) {
-    known += known.empty() ? "" : " ";
+    known += known.empty() ? "" : ", ";
     known += group;
   }
   return fail(Code::usage, say<texts::unknown_group>(printable(word)),

@@ -72,11 +72,11 @@ TEST_CASE("get shows the register and what it means") {
       Scene().servo("BLA21-12U-AB", 11, {{"ram", {{"angle_limit_cw", "90deg"}}}}).run({"get"});
   CHECK(result.status == 0);
   CHECK(result.err.empty());
-  for (const auto* line : {"  0x38  angle_limit_cw          900  (90.0 deg)           179.9 deg\n",
-                           "  0x20  torque_output           0  (on)                   on\n",
-                           "  0x27  timeout_time            1000  (1000 ms)           1000 ms\n",
+  for (const auto* line : {"  0x38  angle_limit_cw          900  (90.0 deg)      179.9 deg\n",
+                           "  0x20  torque_output           0  (on)              on\n",
+                           "  0x27  timeout_time            1000  (1000 ms)      1000 ms\n",
                            "  0x0C  current_voltage         120  (12.0 V)\n",
-                           "  0x2C  angle_p_gain            40                        40\n"}) {
+                           "  0x2C  angle_p_gain            40                   40\n"}) {
     INFO(line);
     CHECK(contains(result.out, line));
   }
@@ -420,12 +420,22 @@ TEST_CASE("get puts date and version together, and tells fault registers in word
       "BLA21-12U-AB", 11,
       {{"rom", {{"voltage_limit_high", "12V"}}}, {"ram", {{"current_voltage", "13V"}}}});
   const Result result = scene.run({"get", "-n", "11"});
-  CHECK(contains(result.out, "  0x58  production_year         2025  (2025-06-22 15:30)\n"
+  CHECK(contains(result.out, "  0x58  production_year         2025\n"
+                             "        2025-06-22 15:30\n"
                              "  0x59  production_month        6\n"));
   CHECK(contains(result.out, "  0x52  firmware_version        1400  (1.400)\n"));
   CHECK(contains(result.out, "  0x1A  fault_warning           1024\n"
                              "        bit 10: Voltage upper limit\n"));
   CHECK(contains(result.out, "        bit 9: Any bit 8-15 of 0x1A is 1 "));
+  const auto lines = [&](unsigned short columns) {
+    return scene
+        .run({"get", "-n", "11", "0x36", "--lang", "ja"},
+             {.terminal_stdout = true, .columns = columns})
+        .out;
+  };
+  // A name beside each value, and its default where there is room for it.
+  CHECK(contains(lines(100), "700  (70.0 deg)  70.0 deg  指令値出力範囲(角度/速度)"));
+  CHECK(contains(lines(72), "700  (70.0 deg)  指令値出力範囲(角度/速度)"));
   const Result year = scene.run({"get", "-n", "11", "0x58"});
   CHECK(contains(year.out, "  0x58  production_year  2025\n")); // the rest was not read
 }

@@ -236,8 +236,8 @@ TEST_CASE("what every model would refuse opens no interface") {
       {{"get", "--group", "motor"},
        "usage",
        "there is no group 'motor'",
-       "the groups are command status operation fault config control pwm limit option product "
-       "production"},
+       "the groups are command, status, operation, fault, config, control, pwm, limit, option, "
+       "product, production"},
       {{"get", "-n", "0"}, "usage", "-n 0: node IDs are 1 to 127", "see who is there: blactl scan"},
       {{"get", "-n", "128"},
        "usage",

@@ -118,6 +118,11 @@ TEST_CASE("what contradicts itself or cannot be held is refused before any frame
       {{"--neutral", "1520.5us"}, "steps of 1us"},
       {{"--endpoints", "500us:-70deg,1501us:70deg"}, "1502us"},
       {{"--endpoints", "500us:-60deg,1500us:70deg"}, "alike"},
+      {{"--endpoints", "1us:-70deg,3us:70deg"},
+       "--endpoints, neutral 2us: outside of the range 100us to 10000us\n"},
+      {{"--output", "70rpm"},
+       "node 11: --output 70rpm: with --mode angle the unit is deg\n"
+       "  for example --output 70.0deg\n"},
       {{"--save"}, "nothing to change"},
   };
   for (const Case& each : cases) {
@@ -129,6 +134,18 @@ TEST_CASE("what contradicts itself or cannot be held is refused before any frame
     CHECK(contains(result.err, each.said));
     CHECK(result.out.empty());
   }
+}
+
+TEST_CASE("in speed mode it is told that pulses move nothing while speed control is off") {
+  const auto said = [](const char* control) {
+    return Scene()
+        .servo("BLA21-12U-AB", 11,
+               {{"ram", {{"pwm_mode", "speed"}, {"speed_torque_control", control}}}})
+        .run({"pwm-config"})
+        .out;
+  };
+  CHECK(contains(said("off"), "pulses move nothing while speed_torque_control is off"));
+  CHECK_FALSE(contains(said("on"), "move nothing"));
 }
 
 TEST_CASE("limits that cut the mapping off are told, and so are commands that PWM speed lacks") {

@@ -195,7 +195,7 @@ TEST_CASE("what the firmware or the model lacks is refused with the reason") {
     CHECK(with_firmware(1100).run({"set", assignment, "-y"}).status == 0);
   }
   check_error(three_servos().run({"set", "-n", "12", "pwm_neutral=1500us"}), 2, "unsupported",
-              "node 12: pwm_neutral (0x34): BLA15-06U-A0 has no PWM input\n"
+              "node 12: BLA15-06U-A0 has no PWM input, and so no pwm_neutral (0x34)\n"
               "  BLA15-06U-A0 is driven over CAN alone");
 }
 
@@ -456,6 +456,6 @@ TEST_CASE("a model without PWM input is spoken of as itself") {
   const Result result = three_servos().run({"set", "-n", "12", "pwm_neutral=1520us"});
   CHECK(result.status == 2);
   CHECK(codes(result) == std::vector<std::string>{"unsupported"});
-  CHECK(contains(result.err, "has no PWM input\n  BLA15-"));
+  CHECK(contains(result.err, "has no PWM input, and so no pwm_neutral (0x34)\n  BLA15-"));
   CHECK_FALSE(contains(result.err, "BLA21"));
 }

@@ -16,16 +16,12 @@ namespace blactl::bla {
 /// as a whole.
 [[nodiscard]] std::optional<std::string> production_time(const Values& values);
 
-/// register_text() of one of `values`; the year of production tells the whole date.
-[[nodiscard]] std::string explained(const Parameter& parameter, std::int64_t raw,
-                                    const Values& values);
-
 /// What a bit of a fault register is called; null: one that no document describes.
 [[nodiscard]] std::string bit_title(const FaultBit* known);
 
-/// What the bits mean that are set in a fault register (4.12), one a line; of other registers,
-/// nothing.
-[[nodiscard]] std::vector<std::string> explained_bits(const Parameter& parameter, std::int64_t raw,
-                                                      const Profiles& profiles);
+/// What one of `values` tells beyond its number, line by line: of a fault register the bits that
+/// are set (4.12), of the year of production the whole date; of others nothing.
+[[nodiscard]] std::vector<std::string> explained(const Parameter& parameter, std::int64_t raw,
+                                                 const Values& values, const Profiles& profiles);
 
 } // namespace blactl::bla

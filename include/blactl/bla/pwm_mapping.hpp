@@ -21,6 +21,7 @@ struct PwmMapping {
   std::int64_t output_raw = 0;                         ///< at the ends of the range: 0.1 deg or rpm
   std::int64_t mode = 0;                               ///< 0x37: 0 angle, 1 speed
   std::optional<std::int64_t> limit_cw{}, limit_ccw{}; ///< 0x38/0x39, or 0x3A/0x3B
+  bool is_idle = false; ///< in speed mode while 0x25 is off: pulses move nothing
 
   [[nodiscard]] bool is_angle() const { return mode == 0; }
 

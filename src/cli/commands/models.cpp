@@ -24,7 +24,11 @@ constexpr Option option_table[]{
     {.name = "--group",
      .value = "GROUP",
      .kind = Kind::group,
-     .help = {"the parameters of a group only", "グループのパラメータのみ"},
+     .help =
+         {"the parameters of one group only: command, status, operation, fault, config, "
+          "control, pwm, limit, option, product, production",
+          "1 グループのパラメータのみ: command、status、operation、fault、config、control、pwm、"
+          "limit、option、product、production"},
      .store = into<&ModelsOptions::group>},
 };
 

@@ -129,23 +129,33 @@ std::vector<Error> contradictions(const PwmOptions& options) {
   return faults;
 }
 
-/// What the parts are of which the mapping is made, by their options.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 4> parts{
-    {{"pwm_neutral=", "--neutral "},
-     {"pwm_range=", "--range "},
-     {"pwm_output_range=", "--output "},
-     {"pwm_mode=", "--mode "}}};
+/// What the mapping is made of, as it is assigned and as the options call it.
+struct Part {
+  std::string_view assigned, option, of_endpoints;
+};
+
+constexpr std::array<Part, 4> parts{{{"pwm_neutral=", "--neutral ", "--endpoints, neutral "},
+                                     {"pwm_range=", "--range ", "--endpoints, range "},
+                                     {"pwm_output_range=", "--output ", "--endpoints, output "},
+                                     {"pwm_mode=", "--mode ", "--endpoints, mode "}}};
+
+void replace_all(std::string& text, std::string_view what, std::string_view with) {
+  for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += with.size()) {
+    text.replace(at, what.size(), with);
+  }
+}
 
 /// An error about an assignment, as one about the option that was typed.
-Error about_options(Error error) {
-  for (const auto& [assigned, option] : parts) {
+void tell_by_options(Error& error, const PwmOptions& options) {
+  for (const Part& part : parts) {
     for (std::string* text : {&error.message, &error.hint}) {
-      for (std::size_t at = 0; (at = text->find(assigned, at)) != std::string::npos;) {
-        text->replace(at, assigned.size(), option);
+      if (options.has_parts()) {
+        replace_all(*text, part.assigned, part.option);
+      } else if (!options.endpoints.empty()) {
+        replace_all(*text, part.assigned, part.of_endpoints);
       }
     }
   }
-  return error;
 }
 
 /// The values of 0x34-0x37 that are asked for.
@@ -161,7 +171,7 @@ Result<std::vector<std::string>> wanted_values(const PwmOptions& options,
   const std::array typed{&options.neutral, &options.range, &options.output, &options.mode};
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (!typed.at(i)->empty()) {
-      values.push_back(std::string(parts.at(i).first) + *typed.at(i));
+      values.push_back(std::string(parts.at(i).assigned) + *typed.at(i));
     }
   }
   return values;
@@ -289,7 +299,8 @@ Report change(const PwmOptions& options, const bla::Profiles& profiles, Context&
   auto assignments = bla::parse_assignments(profiles, *values);
   if (!assignments) {
     for (Error& error : assignments.error()) {
-      report.fail(options.has_parts() ? about_options(std::move(error)) : std::move(error));
+      tell_by_options(error, options);
+      report.fail(std::move(error));
     }
     return report;
   }
@@ -312,6 +323,10 @@ Report change(const PwmOptions& options, const bla::Profiles& profiles, Context&
              }
            }},
       context);
+  std::ranges::for_each(report.errors, [&](Error& error) { tell_by_options(error, options); });
+  for (Target& target : report.targets) {
+    std::ranges::for_each(target.errors, [&](Error& error) { tell_by_options(error, options); });
+  }
   if (!options.svg.empty() && !drawn->empty()) {
     draw(options.svg, drawn->front(), report);
   }

@@ -53,31 +53,45 @@ bool shows_names() {
   return language() == Language::japanese;
 }
 
-std::string table_text(const ServoValues& servo, const bla::Profiles& profiles, const Page& page) {
+Table table(const ServoValues& servo, const bla::Profiles& profiles, bool with_defaults) {
   const auto values = servo.snapshot.values();
   const auto mode = servo.snapshot.pwm_mode();
-  std::vector<std::string> header{"", say<texts::column_parameter>(), say<texts::column_value>(),
-                                  say<texts::column_default>()};
-  if (shows_names()) {
-    header.push_back(say<texts::column_meaning>());
-  }
-  Table table(std::move(header));
+  const auto row_of = [&](std::string address, std::string name, std::string value,
+                          std::string initial, std::string_view title) {
+    std::vector row{std::move(address), std::move(name), std::move(value)};
+    if (with_defaults) {
+      row.push_back(std::move(initial));
+    }
+    if (shows_names()) {
+      row.emplace_back(title);
+    }
+    return row;
+  };
+  Table table(row_of("", say<texts::column_parameter>(), say<texts::column_value>(),
+                     say<texts::column_default>(), say<texts::column_meaning>()));
   for (const Reading& reading : servo.shown) {
     const Parameter& parameter = *reading.parameter;
-    std::vector<std::string> row{parameter.address.name(), parameter.name,
-                                 bla::explained(parameter, *reading.raw, values),
-                                 parameter.default_raw && parameter.writable()
-                                     ? bla::display(parameter, *parameter.default_raw, mode)
-                                     : ""};
-    if (shows_names()) {
-      row.push_back(parameter.name_ja);
-    }
-    table.add(std::move(row));
-    for (std::string& line : bla::explained_bits(parameter, *reading.raw, profiles)) {
+    table.add(row_of(parameter.address.name(), parameter.name,
+                     bla::register_text(parameter, *reading.raw, mode),
+                     parameter.default_raw && parameter.writable()
+                         ? bla::display(parameter, *parameter.default_raw, mode)
+                         : "",
+                     parameter.name_ja));
+    for (std::string& line : bla::explained(parameter, *reading.raw, values, profiles)) {
       table.add_below(std::move(line));
     }
   }
-  return table.text("  ", page);
+  return table;
+}
+
+/// Where a page is too narrow for both, names are worth more than defaults; what differs from its
+/// default is shown beside it.
+std::string table_text(const ServoValues& servo, const bla::Profiles& profiles, bool changed_only,
+                       const Page& page) {
+  constexpr std::string_view indent = "  ";
+  const Table whole = table(servo, profiles, true);
+  const bool is_whole = changed_only || !shows_names() || whole.fits(indent, page);
+  return (is_whole ? whole : table(servo, profiles, false)).text(indent, page);
 }
 
 } // namespace
@@ -135,7 +149,7 @@ std::string text(std::span<const ServoValues> servos, const bla::Profiles& profi
       out += changed_only ? say<texts::nothing_changed>() : "";
       continue;
     }
-    out += table_text(servo, profiles, page);
+    out += table_text(servo, profiles, changed_only, page);
   }
   return out;
 }

@@ -198,6 +198,7 @@ std::string pwm_text(const bla::Values& values, const Page& page) {
   if (timeout) {
     out += say<texts::pwm_fallback>(*timeout);
   }
+  out += mapping->is_idle ? say<texts::pwm_idle>() : "";
   for (const std::int64_t pulse : mapping->cut_off_us()) {
     const auto limit = pulse < mapping->neutral_us ? mapping->limit_ccw : mapping->limit_cw;
     out += pulse < mapping->neutral_us

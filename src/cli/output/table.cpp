@@ -36,6 +36,10 @@ std::vector<Table::Line> Table::layout(const std::vector<std::size_t>& widths, s
   return lines;
 }
 
+bool Table::fits(std::string_view indent, const Page& page) const {
+  return layout(widths(), indent.size(), page.width).size() == 1;
+}
+
 std::string Table::text(std::string_view indent, const Page& page) const {
   const std::vector<std::size_t> all_widths = widths();
   const std::vector<Line> lines = layout(all_widths, indent.size(), page.width);

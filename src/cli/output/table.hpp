@@ -23,6 +23,9 @@ class Table {
   /// A line below the last row, from the second column on, however long it is.
   void add_below(std::string line) { below_[rows_.size() - 1].push_back(std::move(line)); }
 
+  /// Nothing has to stand below.
+  [[nodiscard]] bool fits(std::string_view indent, const Page& page) const;
+
   /// Every line begins with `indent` and ends with a line break, without trailing blanks.
   [[nodiscard]] std::string text(std::string_view indent = "", const Page& page = {}) const;
 

@@ -42,20 +42,22 @@ TEST_CASE("what is no date is none") {
   CHECK_FALSE(time_of({-2020, 6, 22}));
 }
 
-TEST_CASE("a register is told in words where its number is not enough") {
+TEST_CASE("the year of production tells the whole date") {
   const Values values{{address::production_year, 2020},
                       {address::production_month, 6},
-                      {address::production_day, 22},
-                      {address::pwm_mode, 1}};
-  CHECK(explained(test::parameter("production_year"), 2020, values) == "2020  (2020-06-22)");
-  CHECK(explained(test::parameter("production_month"), 6, values) == "6");
-  CHECK(explained(test::parameter("pwm_output_range"), 100, values) == "100  (100 rpm)");
-  CHECK(explained(test::parameter("production_year"), 2020, {}) == "2020");
+                      {address::production_day, 22}};
+  const auto lines = [](const char* name, std::int64_t raw, const Values& among) {
+    return explained(test::parameter(name), raw, among, test::built_in());
+  };
+  using Lines = std::vector<std::string>;
+  CHECK(lines("production_year", 2020, values) == Lines{"2020-06-22"});
+  CHECK(lines("production_year", 2020, {}).empty());
+  CHECK(lines("production_month", 6, values).empty());
 }
 
 TEST_CASE("the bits of fault registers are told, known or not") {
   const auto lines = [](const char* name, std::int64_t raw) {
-    return explained_bits(test::parameter(name), raw, test::built_in());
+    return explained(test::parameter(name), raw, {}, test::built_in());
   };
   using Lines = std::vector<std::string>;
   CHECK(lines("fault_warning", 0x400) == Lines{"bit 10: Voltage upper limit"});

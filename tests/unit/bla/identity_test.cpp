@@ -160,7 +160,7 @@ TEST_CASE("without a PWM input 0x34-0x37 are not written") {
     }
   }
   CHECK(identify(62, 6'010).may_write(Address(0x34), 0).error().message ==
-        "pwm_neutral (0x34): BLA15-06U-A0 has no PWM input");
+        "BLA15-06U-A0 has no PWM input, and so no pwm_neutral (0x34)");
 }
 
 TEST_CASE("registers that the firmware lacks are not written") {
