@@ -49,6 +49,10 @@ Result<void> check_pwm_pair(const Profiles& profiles, std::span<const Assignment
   return check_pwm_unit(profiles, *range, mode->value.raw);
 }
 
+bool is_other_unit(const Assignment& assignment, std::int64_t pwm_mode) {
+  return assignment.value.pwm_mode.value_or(pwm_mode) != pwm_mode;
+}
+
 } // namespace
 
 Result<void> never_sent(const Parameter& parameter, std::int64_t raw) {
@@ -70,19 +74,36 @@ std::string remark(const Parameter& parameter) {
 
 Result<void> check_pwm_unit(const Profiles& profiles, const Assignment& assignment,
                             std::int64_t pwm_mode) {
-  if (assignment.value.pwm_mode.value_or(pwm_mode) == pwm_mode) {
+  if (!is_other_unit(assignment, pwm_mode)) {
     return {};
   }
   const Parameter& range = *assignment.parameter;
   const Parameter& mode = *profiles.find(address::pwm_mode);
   // The example keeps the number that was typed; the register's would be ten times off.
-  const std::int64_t raw = pwm_mode == 0 ? assignment.value.raw * range.steps_per_unit
-                                         : assignment.value.raw / range.steps_per_unit;
+  const std::int64_t raw = pwm_mode == pwm_angle_mode ? assignment.value.raw * range.steps_per_unit
+                                                      : assignment.value.raw / range.steps_per_unit;
   return fail(Code::usage,
               say<texts::pwm_unit_against_mode>(printable(assignment.text),
                                                 mode.name + '=' + input_text(mode, pwm_mode),
                                                 unit_text(range, pwm_mode)),
               say<texts::assignment_example>(range.name + '=' + input_text(range, raw, pwm_mode)));
+}
+
+Result<void> check_pwm_unit_of_servo(const Profiles& profiles, const Assignment& assignment,
+                                     std::int64_t pwm_mode) {
+  if (!is_other_unit(assignment, pwm_mode)) {
+    return {};
+  }
+  const Parameter& range = *assignment.parameter;
+  const Parameter& mode = *profiles.find(address::pwm_mode);
+  const std::int64_t wanted = *assignment.value.pwm_mode;
+  return fail(Code::usage,
+              say<texts::pwm_unit_against_servo>(printable(assignment.text),
+                                                 mode.name + '=' + input_text(mode, pwm_mode),
+                                                 unit_text(range, pwm_mode)),
+              say<texts::pwm_other_mode>(
+                  unit_text(range, wanted), mode.name + '=' + input_text(mode, wanted),
+                  range.name + '=' + input_text(range, assignment.value.raw, wanted)));
 }
 
 Result<void> allowed_by_some_model(const Profiles& profiles, const Parameter& parameter,

@@ -164,7 +164,7 @@ constexpr CrossCheck table[]{
      pwm_and_speed,
      pwm_and_speed,
      meets_pwm_speed_limited,
-     {"the PWM output range is beyond the speed limits: the speed stays at the limit",
+     {"the PWM output range exceeds the speed limits: the speed stays at the limit",
       "PWM の出力範囲が動作速度制限を超えています。速度は制限値にとどまります"}},
     {"no_motion",
      CheckKind::warning,

@@ -67,9 +67,10 @@ std::vector<std::string> explained(const Parameter& parameter, std::int64_t raw,
   if (parameter.group == Group::fault) {
     return bit_lines(parameter, raw, profiles);
   }
-  const auto date =
-      parameter.address == at::production_year ? production_time(values) : std::nullopt;
-  return date ? std::vector{*date} : std::vector<std::string>{};
+  const Address last =
+      find(values, at::production_minute) ? at::production_minute : at::production_day;
+  const auto date = parameter.address == last ? production_time(values) : std::nullopt;
+  return date ? std::vector{say<texts::made>(*date)} : std::vector<std::string>{};
 }
 
 } // namespace blactl::bla

@@ -204,11 +204,12 @@ Result<void> Identity::check_pwm_input() const {
   if (candidates_.empty() || !std::ranges::all_of(candidates_, alike)) {
     return {};
   }
-  if (candidates_.front()->pwm) {
-    return {};
+  if (!candidates_.front()->pwm) {
+    return fail(Code::unsupported, say<texts::no_pwm_input>(model()),
+                say<texts::no_pwm_input_hint>(model()));
   }
-  return fail(Code::unsupported, say<texts::no_pwm_input>(model()),
-              say<texts::no_pwm_input_hint>(model()));
+  return readings_.firmware_version ? check_support(*candidates_.front()->find(address::pwm_mode))
+                                    : Result<void>();
 }
 
 Result<void> Identity::check_model(const Parameter& parameter) const {

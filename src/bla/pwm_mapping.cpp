@@ -6,6 +6,8 @@
 #include "bla/texts.hpp"
 
 #include <algorithm>
+#include <cstdlib>
+#include <iterator>
 #include <utility>
 
 namespace blactl::bla {
@@ -56,6 +58,23 @@ std::string endpoints_text(const Parameter& output, const Endpoint& low, const E
                      high.pulse_us, input_text(output, high.command, high.mode));
 }
 
+/// The mapping through two points whose values are not opposite, as options of pwm-config; empty:
+/// the registers cannot hold it exactly.
+std::optional<std::string> same_line(const Parameter& output, const Endpoint& low,
+                                     const Endpoint& high) {
+  const std::int64_t width = high.pulse_us - low.pulse_us, rise = high.command - low.command;
+  if (low.command * width % rise != 0) {
+    return std::nullopt;
+  }
+  const std::int64_t neutral = low.pulse_us - low.command * width / rise;
+  const std::int64_t range = std::max(std::abs(low.pulse_us - neutral), high.pulse_us - neutral);
+  if (range <= 0 || rise * range % width != 0) {
+    return std::nullopt;
+  }
+  return fmt::format("--neutral {}us --range {}us --output {}", neutral, range,
+                     input_text(output, rise * range / width, low.mode));
+}
+
 /// What the registers cannot hold. Errors: usage, with the nearest that they can.
 Result<void> check_endpoints(const Parameter& output, const Endpoint& low, const Endpoint& high) {
   const auto nearest = [&](Endpoint left, Endpoint right) {
@@ -72,7 +91,9 @@ Result<void> check_endpoints(const Parameter& output, const Endpoint& low, const
   if (low.command != -high.command) {
     Endpoint left = low;
     left.command = -high.command;
-    return fail(Code::usage, say<texts::pwm_asymmetric>(), nearest(left, high));
+    const auto same = same_line(output, low, high);
+    return fail(Code::usage, say<texts::pwm_asymmetric>(),
+                same ? say<texts::pwm_same_line>(*same) : nearest(left, high));
   }
   if ((low.pulse_us + high.pulse_us) % 2 != 0) {
     Endpoint right = high;
@@ -102,20 +123,36 @@ std::optional<std::int64_t> PwmMapping::limited_command(std::int64_t pulse_us) c
   return given;
 }
 
+std::optional<std::int64_t> PwmMapping::cut_off_below_us() const {
+  const bool cuts = limit_ccw && output_raw > 0 && -output_raw < *limit_ccw;
+  return cuts ? std::optional(neutral_us + *limit_ccw * range_us / output_raw) : std::nullopt;
+}
+
+std::optional<std::int64_t> PwmMapping::cut_off_above_us() const {
+  const bool cuts = limit_cw && output_raw > 0 && output_raw > *limit_cw;
+  return cuts ? std::optional(neutral_us + *limit_cw * range_us / output_raw) : std::nullopt;
+}
+
 std::vector<std::int64_t> PwmMapping::cut_off_us() const {
   std::vector<std::int64_t> pulses;
-  if (limit_ccw && -output_raw < *limit_ccw) {
-    pulses.push_back(neutral_us + *limit_ccw * range_us / output_raw);
+  for (const auto& pulse : {cut_off_below_us(), cut_off_above_us()}) {
+    if (pulse) {
+      pulses.push_back(*pulse);
+    }
   }
-  if (limit_cw && output_raw > *limit_cw) {
-    pulses.push_back(neutral_us + *limit_cw * range_us / output_raw);
-  }
+  return pulses;
+}
+
+std::vector<std::int64_t> PwmMapping::missed_us() const {
+  std::vector<std::int64_t> pulses;
+  std::ranges::copy_if(autopilot_us, std::back_inserter(pulses),
+                       [this](std::int64_t pulse) { return !command(pulse); });
   return pulses;
 }
 
 std::vector<std::int64_t> PwmMapping::points_us() const {
   std::vector<std::int64_t> pulses = cut_off_us();
-  pulses.insert(pulses.end(), {shortest_us(), neutral_us, longest_us()});
+  pulses.insert(pulses.end(), {std::max<std::int64_t>(shortest_us(), 0), neutral_us, longest_us()});
   for (const std::int64_t pulse : autopilot_us) {
     if (command(pulse)) {
       pulses.push_back(pulse);

@@ -69,8 +69,9 @@ inline constexpr Text pwm_endpoints_fall_hint{
     "swap the values, and turn the direction with: blactl set reverse=on",
     "値を入れ替え、回転方向は blactl set reverse=on で反転して下さい"};
 inline constexpr Text pwm_asymmetric{
-    "--endpoints: the servo maps both sides alike: the two values must be equal but for the sign",
-    "--endpoints: 出力範囲は正負対称です。絶対値の等しい値を指定して下さい"};
+    "--endpoints: the output is symmetric: give its two ends, for example -90deg and 90deg",
+    "--endpoints: 出力範囲は正負対称です。両端を -90deg と 90deg のように指定して下さい"};
+inline constexpr Text pwm_same_line{"these two points as asked: {}", "指定の 2 点を通る設定: {}"};
 inline constexpr Text pwm_half_neutral{
     "--endpoints: the middle between the pulses is no whole microsecond",
     "--endpoints: パルス幅の中央が整数 (us) になりません"};
@@ -81,6 +82,9 @@ inline constexpr Text pwm_nearest{"the nearest that is possible: --endpoints {}"
 inline constexpr Text assigned_twice{"{} is given twice", "{} が 2 回指定されています"};
 inline constexpr Text assigned_twice_hint{"name each parameter once",
                                           "パラメータは 1 回だけ指定して下さい"};
+inline constexpr Text pwm_unit_against_servo{"{}: this servo has {}, the unit is {}",
+                                             "{}: このサーボは {} のため、単位は {} です"};
+inline constexpr Text pwm_other_mode{"for {}: {} {}", "{} で指定する場合: {} {}"};
 inline constexpr Text pwm_unit_against_mode{"{}: with {} the unit is {}",
                                             "{}: {} では単位は {} です"};
 inline constexpr Text is_read_only{"{} ({}) can only be read", "{} ({}) は読出し専用です"};
@@ -200,6 +204,7 @@ inline constexpr Text profile_second_family{"there is already a family, in {}",
 inline constexpr Text profile_no_family{"no file describes the family",
                                         "ファミリーのファイルがありません"};
 
+inline constexpr Text made{"made {}", "製造日時 {}"};
 inline constexpr Text unknown_bit{"Undocumented bit", "仕様書に記載のないビット"};
 
 } // namespace blactl::texts

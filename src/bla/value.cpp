@@ -386,4 +386,9 @@ bool unit_depends_on_mode(const Parameter& parameter) {
   return parameter.unit == Unit::deg_or_rpm;
 }
 
+std::string default_text(const Parameter& parameter) {
+  return parameter.default_raw ? display(parameter, *parameter.default_raw, pwm_angle_mode)
+                               : std::string();
+}
+
 } // namespace blactl::bla

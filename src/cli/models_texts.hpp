@@ -17,6 +17,11 @@ inline constexpr Text models_unit_by_mode{
     "unit deg in steps of 0.1, or rpm in steps of 1, as pwm_mode says",
     "単位 deg (分解能 0.1) または rpm (分解能 1)、動作モードによる"};
 inline constexpr Text models_unit{"unit {}, in steps of {}", "単位 {}、分解能 {}"};
+inline constexpr Text models_unit_year{"unit year", "単位 年"};
+inline constexpr Text models_unit_month{"unit month", "単位 月"};
+inline constexpr Text models_unit_day{"unit day", "単位 日"};
+inline constexpr Text models_unit_hour{"unit hour", "単位 時"};
+inline constexpr Text models_unit_minute{"unit minute", "単位 分"};
 inline constexpr Text models_bit_latched{"stays until the next start", "次回起動時まで保持"};
 inline constexpr Text models_bit_pwm_only{"models with a PWM input only", "PWM 入力対応機種のみ"};
 inline constexpr Text models_since{"firmware {} or later", "ファームウェア {} 以降"};
@@ -25,7 +30,8 @@ inline constexpr Text models_vendor_label{"manufacturer's program: {}",
 inline constexpr Text models_section{"specification: section {}", "仕様書: {}"};
 inline constexpr Text models_all{"all models", "全機種"};
 inline constexpr Text models_same{"What they have in common:", "共通のパラメータ:"};
-inline constexpr Text models_differ{"Where they differ:", "機種により異なるパラメータ:"};
+inline constexpr Text models_differ{"Where they differ (default, range, models):",
+                                    "機種により異なるパラメータ (初期値、範囲、機種):"};
 inline constexpr Text models_checks{"When it is changed, each only where it applies:",
                                     "変更時 (該当する場合のみ):"};
 inline constexpr Text models_refusal{"refused", "拒否"};
@@ -37,7 +43,7 @@ inline constexpr Text models_group_of_one{"a parameter or a group, not both",
 inline constexpr Text models_group_of_one_hint{
     "type one of them, for example: blactl models --group {}",
     "どちらか一方を指定して下さい。例: blactl models --group {}"};
-inline constexpr Text models_saved{"stored in ROM by save", "ROM に保存される"};
-inline constexpr Text models_not_saved{"not stored in ROM", "ROM に保存されない"};
+inline constexpr Text models_saved{"stored in ROM by save", "save で ROM に保存されます"};
+inline constexpr Text models_not_saved{"not stored in ROM", "ROM には保存されません"};
 
 } // namespace blactl::texts

@@ -12,8 +12,9 @@ inline constexpr Text pwm_one_way{
 inline constexpr Text pwm_mode_needs_output{
     "--mode without --output: the output range counts in the unit of the mode",
     "--mode には --output も必要です (出力範囲の単位が動作モードで変わるため)"};
-inline constexpr Text pwm_mode_hint{"for example --mode speed --output 150rpm",
-                                    "例: --mode speed --output 150rpm"};
+inline constexpr Text pwm_mode_hint{
+    "for example --mode angle --output 70deg or --mode speed --output 150rpm",
+    "例: --mode angle --output 70deg、--mode speed --output 150rpm"};
 inline constexpr Text pwm_output_symmetric{
     "--output {}: the range is the same to either side, so it is one positive value",
     "--output {}: 出力範囲は両側対称です。正の値を一つ指定して下さい"};
@@ -41,15 +42,20 @@ inline constexpr Text pwm_input_none{"no pulse", "パルス無し"};
 inline constexpr Text pwm_input_short{"a pulse at or below the shortest", "パルス下限以下"};
 inline constexpr Text pwm_input_long{"a pulse at or above the longest", "パルス上限以上"};
 inline constexpr Text pwm_fallback{
-    "  CAN      goes first; PWM counts after {} ms without CAN (timeout_time)\n",
-    "  CAN 指令  優先。CAN 指令が {} ms 以上無いと PWM が有効になります (timeout_time)\n"};
+    "  CAN      has priority; PWM is accepted after {} ms without CAN commands\n",
+    "  CAN 指令  優先。{} ms 以上無いと PWM を受け付けます (timeout_time)\n"};
 inline constexpr Text pwm_idle{
-    "  speed    pulses move nothing while speed_torque_control is off\n",
+    "  speed    pulses have no effect while speed_torque_control is off\n",
     "  速度指令  speed_torque_control が OFF の間、PWM では動作しません\n"};
 inline constexpr Text pwm_cut_below{"  limit    below {} us it stays at {}\n",
                                     "  制限      {} us 未満では {} にとどまります\n"};
 inline constexpr Text pwm_cut_above{"  limit    above {} us it stays at {}\n",
                                     "  制限      {} us を超えると {} にとどまります\n"};
+inline constexpr Text pwm_beyond{"  beyond   a pulse out of this range counts as no pulse\n",
+                                 "  範囲外    パルス無しと同じ扱いになります\n"};
+inline constexpr Text pwm_missed{"none: counts as no pulse", "無し (パルス無しと同じ)"};
+inline constexpr Text pwm_after_dry_run{"\n  after (--dry-run: nothing was written)\n",
+                                        "\n  変更後 (--dry-run のため書き込んでいません)\n"};
 inline constexpr Text pwm_before{"  before   {}\n", "  変更前    {}\n"};
 inline constexpr Text column_pulse{"PULSE", "パルス幅"};
 inline constexpr Text column_command{"COMMAND", "指令値"};

@@ -21,7 +21,7 @@ inline constexpr Text no_command{"no command given", "コマンドが指定さ�
 inline constexpr Text unexpected_argument{"not expected: {}", "不要な引数です: {}"};
 inline constexpr Text not_understood{"{}", "コマンドラインを解釈できません: {}"};
 inline constexpr Text empty_value{"{}: the value is empty", "{}: 値が空です"};
-inline constexpr Text takes_one_value{"{} takes one value", "{} には値を一つだけ指定して下さい"};
+inline constexpr Text takes_one_value{"{} needs a value", "{} の値がありません"};
 inline constexpr Text takes_no_value{"{} takes no value", "{} に値は指定できません"};
 inline constexpr Text argument_missing{"{} is missing", "{} がありません"};
 
@@ -223,8 +223,8 @@ inline constexpr Text head_line{"node {}  {}  serial {}  servo ID {}  firmware {
                                 "ノード {}  {}  製造番号 {}  サーボ ID {}  ファームウェア {}\n"};
 inline constexpr Text unknown_value{"?", "?"};
 inline constexpr Text unknown_word{"unknown", "不明"};
-inline constexpr Text nothing_changed{"  every parameter has its default\n",
-                                      "  すべてのパラメータが初期値です\n"};
+inline constexpr Text nothing_changed{"  all parameters asked for have their defaults\n",
+                                      "  対象のパラメータはすべて初期値です\n"};
 inline constexpr Text column_parameter{"PARAMETER", "パラメータ"};
 inline constexpr Text column_value{"VALUE", "値"};
 inline constexpr Text column_before{"BEFORE", "変更前"};
@@ -239,7 +239,7 @@ inline constexpr Text set_failed{"failed", "失敗"};
 inline constexpr Text set_mismatch{"mismatch", "不一致"};
 inline constexpr Text set_planned{"planned", "予定"};
 inline constexpr Text not_saved_note{
-    "in RAM only: a restart brings the old values back (to keep them: blactl save)",
+    "in RAM only: a restart brings the old values back (to keep the new ones: blactl save)",
     "RAM のみの変更です。再起動すると元の値に戻ります (保存: blactl save)",
 };
 
@@ -248,12 +248,14 @@ inline constexpr Text level_notice{"NOTICE", "通知"};
 inline constexpr Text level_warning{"WARNING", "警告"};
 inline constexpr Text level_failure{"FAILURE", "障害"};
 inline constexpr Text no_faults{"no faults", "異常なし"};
-inline constexpr Text faults_unknown{"not known whether it has faults", "異常の有無は不明です"};
-inline constexpr Text faults_hidden{"{} below {} not shown", "{} 件は{}レベル未満のため非表示"};
+inline constexpr Text faults_unknown{"does not tell its faults now; the last ones known:",
+                                     "現在の異常は不明です。以下は最後に取得した内容です"};
+inline constexpr Text faults_hidden{"{} faults below {} are not shown",
+                                    "{} 件は{}レベル未満のため非表示"};
 inline constexpr Text unknown_bit_action{
     "Ask the manufacturer, with the firmware version and the number of the bit.",
     "ファームウェアバージョンとビット番号を添えてメーカーに問い合わせて下さい。"};
-inline constexpr Text fault_now{"now: {}", "現在値: {}"};
+inline constexpr Text fault_now{"now: {}", "{}"};
 inline constexpr Text fault_latched{
     "It tells why the servo last reset or restarted itself, not its state now.",
     "サーボが自ら初期化/再起動した原因で、現在の異常ではありません。"};

@@ -63,7 +63,7 @@ std::optional<Error> check_unit(const Wanted& wanted, const Snapshot& before,
     return std::nullopt; // parse_assignments() has compared the two
   }
   for (const Assignment& assignment : wanted.assignments) {
-    if (auto fits = bla::check_pwm_unit(profiles, assignment, *mode); !fits) {
+    if (auto fits = bla::check_pwm_unit_of_servo(profiles, assignment, *mode); !fits) {
       return about(before.servo, fits.error());
     }
   }

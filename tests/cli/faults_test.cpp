@@ -61,7 +61,7 @@ TEST_CASE("from which level faults are found is said by --level; by default from
   CHECK(json(failures.out)["nodes"][0]["active"].empty());
   CHECK(json(failures.out)["nodes"][0]["registers"]["0x1A"] == 256);
   const Result text = hot_servo().run({"faults", "-n", "12", "--level", "failure"});
-  CHECK(contains(text.out, "2 below FAILURE not shown"));
+  CHECK(contains(text.out, "2 faults below FAILURE are not shown"));
 }
 
 TEST_CASE("a word that is no level is refused with those that are") {

@@ -160,7 +160,7 @@ TEST_CASE("get --changed shows only what differs from the model's default") {
   CHECK(addresses(get(scene, {"--changed"})) == std::vector<std::string>{"0x38", "0x46"});
   CHECK(addresses(get(scene, {"--changed", "--group", "pwm"})).empty());
   const Result none = scene.run({"get", "--changed", "--group", "pwm"});
-  CHECK(contains(none.out, "  every parameter has its default\n"));
+  CHECK(contains(none.out, "  all parameters asked for have their defaults\n"));
 }
 
 TEST_CASE("every form of -n finds its servos, in ascending order") {
@@ -421,8 +421,9 @@ TEST_CASE("get puts date and version together, and tells fault registers in word
       {{"rom", {{"voltage_limit_high", "12V"}}}, {"ram", {{"current_voltage", "13V"}}}});
   const Result result = scene.run({"get", "-n", "11"});
   CHECK(contains(result.out, "  0x58  production_year         2025\n"
-                             "        2025-06-22 15:30\n"
                              "  0x59  production_month        6\n"));
+  CHECK(contains(result.out, "  0x5C  production_minute       30\n"
+                             "        made 2025-06-22 15:30\n"));
   CHECK(contains(result.out, "  0x52  firmware_version        1400  (1.400)\n"));
   CHECK(contains(result.out, "  0x1A  fault_warning           1024\n"
                              "        bit 10: Voltage upper limit\n"));

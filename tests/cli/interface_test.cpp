@@ -65,7 +65,7 @@ TEST_CASE("a command line that is not understood is refused with the way on") {
       {{"frobnicate"}, "usage", "there is no command 'frobnicate'", "see blactl --help"},
       {{"get", "--frob"}, "usage", "not expected: --frob", "see blactl get --help"},
       {{"set"}, "usage", "PARAM=VALUE is missing", "see blactl set --help"},
-      {{"get", "-n"}, "usage", "--node takes one value", "see blactl get --help"},
+      {{"get", "-n"}, "usage", "--node needs a value", "see blactl get --help"},
       {{"get", "--chnged"}, "usage", "not expected: --chnged", "did you mean --changed?"},
       {{"get", "--color", "alway"}, "usage", "--color alway: not one of", "did you mean always?"},
       {{"get", "--changed=no"}, "usage", "--changed takes no value", "see blactl get --help"},

@@ -206,8 +206,8 @@ TEST_CASE("models PARAM is the data sheet of a parameter, over all models") {
   CHECK(contains(sheet.out, "0x2A  overcurrent_limit  Overcurrent protection Current value\n"
                             "  The highest current that the motor may draw. "));
   CHECK(contains(sheet.out, "  specification: section 4.20\n"));
-  CHECK(contains(sheet.out, "  12.0 A   6.0 .. 12.0 A  BLA21-06U\n"));
-  CHECK(contains(sheet.out, "  2.4 A    1.6 .. 3.2 A   BLA21-28U\n"));
+  CHECK(contains(sheet.out, "  12.0 A   6 .. 12 A     BLA21-06U\n"));
+  CHECK(contains(sheet.out, "  2.4 A    1.6 .. 3.2 A  BLA21-28U\n"));
 }
 
 TEST_CASE("a parameter's sheet tells what a change meets, and what it works together with") {
@@ -223,7 +223,7 @@ TEST_CASE("a parameter's sheet tells what a change meets, and what it works toge
 TEST_CASE("models all puts the models side by side") {
   const Result all = run({"models", "all"});
   CHECK(all.status == 0);
-  const auto differ = all.out.find("Where they differ:\n");
+  const auto differ = all.out.find("Where they differ (default, range, models):\n");
   REQUIRE(differ != std::string::npos);
   CHECK(all.out.find("angle_limit_cw") < differ);
   CHECK(all.out.find("overcurrent_limit") > differ);
@@ -235,7 +235,8 @@ TEST_CASE("models --group shows the parameters of a group") {
   CHECK(group.status == 0);
   CHECK(contains(group.out, "pwm_neutral"));
   CHECK_FALSE(contains(group.out, "angle_limit_cw"));
-  CHECK(contains(run({"models", "--group", "pwm"}).out, "Where they differ:\n"));
+  CHECK(contains(run({"models", "--group", "pwm"}).out,
+                 "Where they differ (default, range, models):\n"));
   const auto document = json(run({"models", "--group", "pwm", "-j"}).out);
   CHECK(document["models"][0]["parameters"].size() == 4);
   const Result both = run({"models", "0x2A", "--group", "pwm"});

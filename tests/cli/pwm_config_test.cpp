@@ -117,12 +117,14 @@ TEST_CASE("what contradicts itself or cannot be held is refused before any frame
       {{"--output=-70deg"}, "range"},
       {{"--neutral", "1520.5us"}, "steps of 1us"},
       {{"--endpoints", "500us:-70deg,1501us:70deg"}, "1502us"},
-      {{"--endpoints", "500us:-60deg,1500us:70deg"}, "alike"},
+      {{"--endpoints", "500us:-60deg,1500us:70deg"}, "symmetric"},
+      {{"--endpoints", "1000us:0deg,2000us:90deg"},
+       "--neutral 1000us --range 1000us --output 90.0deg"},
       {{"--endpoints", "1us:-70deg,3us:70deg"},
        "--endpoints, neutral 2us: outside of the range 100us to 10000us\n"},
       {{"--output", "70rpm"},
-       "node 11: --output 70rpm: with --mode angle the unit is deg\n"
-       "  for example --output 70.0deg\n"},
+       "node 11: --output 70rpm: this servo has --mode angle, the unit is deg\n"
+       "  for rpm: --mode speed --output 70rpm\n"},
       {{"--save"}, "nothing to change"},
   };
   for (const Case& each : cases) {
@@ -144,8 +146,8 @@ TEST_CASE("in speed mode it is told that pulses move nothing while speed control
         .run({"pwm-config"})
         .out;
   };
-  CHECK(contains(said("off"), "pulses move nothing while speed_torque_control is off"));
-  CHECK_FALSE(contains(said("on"), "move nothing"));
+  CHECK(contains(said("off"), "pulses have no effect while speed_torque_control is off"));
+  CHECK_FALSE(contains(said("on"), "have no effect"));
 }
 
 TEST_CASE("limits that cut the mapping off are told, and so are commands that PWM speed lacks") {

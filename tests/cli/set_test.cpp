@@ -66,9 +66,9 @@ TEST_CASE("set says what was there, what is there now, and that it is not saved"
   CHECK(result.status == 0);
   CHECK(contains(result.out,
                  "  0x38  angle_limit_cw  1799  (179.9 deg)  ->  900  (90.0 deg)  written\n"));
-  CHECK(
-      contains(result.out,
-               "in RAM only: a restart brings the old values back (to keep them: blactl save)\n"));
+  CHECK(contains(
+      result.out,
+      "in RAM only: a restart brings the old values back (to keep the new ones: blactl save)\n"));
   const Result same = three_servos().run({"set", "-n", "11", "angle_limit_cw=179.9deg"});
   CHECK(same.status == 0);
   CHECK(contains(same.out, "unchanged\n"));
@@ -209,9 +209,8 @@ TEST_CASE("the unit of the PWM output range must be that of the PWM mode") {
   CHECK(changes(set({"pwm_mode=speed", "pwm_output_range=60rpm"}))[1]["after"] == 60);
   CHECK(changes(set({"pwm_output_range=600raw"}))[0]["after"] == 600);
   const Result wrong = set({"pwm_output_range=60rpm"});
-  check_error(wrong, 2, "usage",
-              "node 11: pwm_output_range=60rpm: with pwm_mode=angle the unit is deg\n"
-              "  for example pwm_output_range=60.0deg");
+  check_error(wrong, 2, "usage", "\n  for rpm: pwm_mode=speed pwm_output_range=60rpm\n");
+  CHECK(contains(wrong.err, "node 11: pwm_output_range=60rpm: this servo has pwm_mode="));
 }
 
 TEST_CASE("a servo that does not take the value ends with 5 and what it holds instead") {

@@ -39,10 +39,15 @@ make_assignment(const Profiles& profiles, std::string_view parameter, std::strin
 [[nodiscard]] std::expected<std::vector<Assignment>, std::vector<Error>>
 parse_assignments(const Profiles& profiles, std::span<const std::string> texts);
 
-/// Whether an assigned 0x36 is in the unit that `pwm_mode`, the 0x37 of the same command or of the
-/// servo, makes of it. Errors: usage.
+/// Whether an assigned 0x36 is in the unit that `pwm_mode`, the 0x37 of the same command, makes of
+/// it. Errors: usage.
 [[nodiscard]] Result<void> check_pwm_unit(const Profiles& profiles, const Assignment& assignment,
                                           std::int64_t pwm_mode);
+
+/// The same for the 0x37 of a servo, which the command leaves as it is.
+[[nodiscard]] Result<void> check_pwm_unit_of_servo(const Profiles& profiles,
+                                                   const Assignment& assignment,
+                                                   std::int64_t pwm_mode);
 
 /// Whether some model takes the value. Errors: out_of_range, naming the range over all models.
 [[nodiscard]] Result<void> allowed_by_some_model(const Profiles& profiles,

@@ -20,7 +20,8 @@ namespace blactl::bla {
 [[nodiscard]] std::string bit_title(const FaultBit* known);
 
 /// What one of `values` tells beyond its number, line by line: of a fault register the bits that
-/// are set (4.12), of the year of production the whole date; of others nothing.
+/// are set (4.12), of the last register of the date of production the whole date; of others
+/// nothing.
 [[nodiscard]] std::vector<std::string> explained(const Parameter& parameter, std::int64_t raw,
                                                  const Values& values, const Profiles& profiles);
 

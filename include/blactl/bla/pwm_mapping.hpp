@@ -36,12 +36,21 @@ struct PwmMapping {
   /// The same as the limits let it through.
   [[nodiscard]] std::optional<std::int64_t> limited_command(std::int64_t pulse_us) const;
 
-  /// The pulses beyond which a limit cuts the command off, ascending; empty: none does.
+  /// The pulse below which limit_ccw cuts the command off; empty: it does not.
+  [[nodiscard]] std::optional<std::int64_t> cut_off_below_us() const;
+
+  /// The pulse above which limit_cw does.
+  [[nodiscard]] std::optional<std::int64_t> cut_off_above_us() const;
+
+  /// Both, ascending.
   [[nodiscard]] std::vector<std::int64_t> cut_off_us() const;
 
-  /// The pulses worth telling, ascending: shortest, neutral, longest, those of cut_off_us(), and
-  /// what autopilots send (1000, 1500, 2000) where the servo takes it.
+  /// The pulses worth telling, ascending: shortest (no pulse is shorter than 0), neutral, longest,
+  /// those of cut_off_us(), and what autopilots send (1000, 1500, 2000) where the servo takes it.
   [[nodiscard]] std::vector<std::int64_t> points_us() const;
+
+  /// What autopilots send and this servo takes for no pulse.
+  [[nodiscard]] std::vector<std::int64_t> missed_us() const;
 
   friend bool operator==(const PwmMapping&, const PwmMapping&) = default;
 };

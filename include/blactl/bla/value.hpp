@@ -51,6 +51,9 @@ struct TypedValue {
 [[nodiscard]] std::string input_text(const Parameter& parameter, std::int64_t raw,
                                      std::optional<std::int64_t> pwm_mode = std::nullopt);
 
+/// Its default for people, in the unit that the default of 0x37 gives it; empty: it has none.
+[[nodiscard]] std::string default_text(const Parameter& parameter);
+
 /// For people: "90.0 deg", "brake", "1.400", "not active" (in the language of the session).
 [[nodiscard]] std::string display(const Parameter& parameter, std::int64_t raw,
                                   std::optional<std::int64_t> pwm_mode = std::nullopt);

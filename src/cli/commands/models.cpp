@@ -78,15 +78,18 @@ Error unknown_model(const std::string& word, const bla::Profiles& profiles) {
 /// report.
 Sheet choose(const ModelsOptions& options, const bla::Profiles& profiles, Report& report) {
   Sheet sheet{.models = all_models(profiles)};
-  std::string parameter = options.parameter;
-  if (!options.model.empty()) {
-    const Models named = models_of(options.model, profiles);
+  std::string model = options.model, parameter = options.parameter;
+  if (models_of(model, profiles).empty() && !models_of(parameter, profiles).empty()) {
+    std::swap(model, parameter); // nobody can mistake one for the other
+  }
+  if (!model.empty()) {
+    const Models named = models_of(model, profiles);
     if (!named.empty()) {
       sheet.models = named;
-    } else if (parameter.empty() && !begins_with(options.model, "bla")) {
-      parameter = options.model;
+    } else if (parameter.empty() && !begins_with(model, "bla")) {
+      parameter = model;
     } else {
-      report.fail(unknown_model(options.model, profiles));
+      report.fail(unknown_model(model, profiles));
     }
   }
   if (!parameter.empty()) {

@@ -284,7 +284,8 @@ std::string changed_text(std::span<const ChangeResult> results, const Page& page
     if (const auto before = bla::pwm_mapping(result.before)) {
       out += page.fit(say<texts::pwm_before>(pwm_summary(*before)));
     }
-    out += '\n' + pwm_text(result.after(), page);
+    out += result.was_begun ? "\n" : say<texts::pwm_after_dry_run>();
+    out += pwm_text(result.after(), page);
   }
   return out + saving_text(results, page);
 }

@@ -47,8 +47,14 @@ std::string words_text(const Parameter& parameter) {
 }
 
 std::string bounds_text(const Parameter& parameter, std::optional<std::int64_t> pwm_mode = {}) {
-  return say<texts::range_text>(bla::value_text(parameter, *parameter.min, pwm_mode),
-                                bla::display(parameter, *parameter.max, pwm_mode));
+  std::string least = bla::value_text(parameter, *parameter.min, pwm_mode);
+  std::string most = bla::value_text(parameter, *parameter.max, pwm_mode);
+  if (least.ends_with(".0") && most.ends_with(".0")) { // shorter, and no less exact
+    least.erase(least.size() - 2);
+    most.erase(most.size() - 2);
+  }
+  const auto unit = bla::unit_text(parameter, pwm_mode);
+  return say<texts::range_text>(least, most) + (unit.empty() ? "" : ' ' + std::string(unit));
 }
 
 /// What this model takes; why it takes nothing.
@@ -67,13 +73,10 @@ std::string range_text(const Parameter& parameter, const Profile& profile) {
 }
 
 std::string default_text(const Parameter& parameter, const Profile& profile) {
-  if (parameter.writable() && !profile.takes(parameter)) {
-    return "-";
+  if (parameter.access != bla::Access::read_write) {
+    return {}; // what the tables give there is no setting
   }
-  // Pulses are angles by default.
-  return parameter.default_raw
-             ? bla::display(parameter, *parameter.default_raw, bla::pwm_angle_mode)
-             : std::string();
+  return profile.takes(parameter) ? bla::default_text(parameter) : "-";
 }
 
 /// When this model was shipped with a release: "2021-10 .. 2022-04", "2024-06 ..".
@@ -155,14 +158,39 @@ std::string title(const Parameter& parameter) {
   return std::string(choose(parameter.name_en, parameter.name_ja));
 }
 
-Table parameter_table() {
-  return Table({"", say<texts::column_parameter>(), say<texts::column_access>(),
-                say<texts::column_default>(), say<texts::column_range>(),
-                say<texts::column_meaning>()});
+using Row = std::vector<std::string>;
+
+Table table_of(const std::vector<Row>& rows, std::size_t columns) {
+  const auto cut = [&](const Row& row) {
+    return Row(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(columns));
+  };
+  Table table(cut(rows.front()));
+  for (const Row& row : std::span(rows).subspan(1)) {
+    table.add(cut(row));
+  }
+  return table;
 }
 
-std::vector<std::string> parameter_row(const Parameter& parameter, const std::string& initial,
-                                       const std::string& range) {
+/// A header and rows as of parameter_row(). In English the title, which comes last, tells little
+/// that the name does not: it is left out where there is no room beside the others.
+std::string parameters_text(const std::vector<Row>& rows, const Page& page) {
+  constexpr std::string_view indent = "  ";
+  const Table whole = table_of(rows, rows.front().size());
+  const bool is_whole = whole.fits(indent, page) || language() == Language::japanese;
+  return (is_whole ? whole : table_of(rows, rows.front().size() - 1)).text(indent, page);
+}
+
+Row parameter_header() {
+  return {"",
+          say<texts::column_parameter>(),
+          say<texts::column_access>(),
+          say<texts::column_default>(),
+          say<texts::column_range>(),
+          say<texts::column_meaning>()};
+}
+
+Row parameter_row(const Parameter& parameter, const std::string& initial,
+                  const std::string& range) {
   return {parameter.address.name(),
           parameter.name,
           std::string(bla::name(parameter.access)),
@@ -174,18 +202,18 @@ std::vector<std::string> parameter_row(const Parameter& parameter, const std::st
 /// One model: its registers, and what its firmware was.
 std::string model_text(const Profile& profile, const Sheet& sheet, const bla::Profiles& profiles,
                        const Page& page) {
-  Table table = parameter_table();
+  std::vector<Row> rows{parameter_header()};
   for (const Parameter& parameter : profile.parameters) {
     if (sheet.takes(parameter)) {
-      table.add(parameter_row(parameter, default_text(parameter, profile),
-                              range_text(parameter, profile)));
+      rows.push_back(parameter_row(parameter, default_text(parameter, profile),
+                                   range_text(parameter, profile)));
     }
   }
-  return fmt::format("{}  {}\n{}{}", profile.model, pwm_text(profile), table.text("  ", page),
+  return fmt::format("{}  {}\n{}{}", profile.model, pwm_text(profile), parameters_text(rows, page),
                      sheet.group ? "" : "\n" + history_text(profile, profiles, page));
 }
 
-std::vector<std::string> variant_row(const Variant& one, const bla::Profiles& profiles) {
+Row variant_row(const Variant& one, const bla::Profiles& profiles) {
   return {one.initial, one.range, names_of(one.models, profiles)};
 }
 
@@ -201,23 +229,22 @@ std::string variants_text(std::span<const Variant> variants, const bla::Profiles
 
 /// Several models: what they have in common, and where they differ.
 std::string side_by_side(const Sheet& sheet, const bla::Profiles& profiles, const Page& page) {
-  Table same = parameter_table();
-  bool any_same = false;
+  std::vector<Row> same{parameter_header()};
   std::string different;
   for (const Parameter& general : profiles.registers()) {
     const auto variants =
         sheet.takes(general) ? variants_of(general.address, sheet.models) : std::vector<Variant>{};
     if (variants.size() == 1) {
-      same.add(parameter_row(general, variants.front().initial, variants.front().range));
-      any_same = true;
+      same.push_back(parameter_row(general, variants.front().initial, variants.front().range));
     } else if (!variants.empty()) {
       different += fmt::format("  {}  {}\n", general.address.name(), general.name) +
                    variants_text(variants, profiles, page);
     }
   }
   std::string out = names_of(sheet.models, profiles) + '\n';
+  const bool any_same = same.size() > 1;
   if (any_same) {
-    out += say<texts::models_same>() + '\n' + same.text("  ", page);
+    out += say<texts::models_same>() + '\n' + parameters_text(same, page);
   }
   if (!different.empty()) {
     out += (any_same ? "\n" : "") + say<texts::models_differ>() + '\n' + different;
@@ -234,9 +261,24 @@ std::string access_text(const Parameter& general) {
                    (general.saved ? say<texts::models_saved>() : say<texts::models_not_saved>());
 }
 
+/// Parts of a date are words.
+std::string date_unit_line(bla::Unit unit) {
+  switch (unit) {
+  case bla::Unit::year: return say<texts::models_unit_year>();
+  case bla::Unit::month: return say<texts::models_unit_month>();
+  case bla::Unit::day: return say<texts::models_unit_day>();
+  case bla::Unit::hour: return say<texts::models_unit_hour>();
+  case bla::Unit::minute: return say<texts::models_unit_minute>();
+  default: return {};
+  }
+}
+
 std::string unit_line(const Parameter& general) {
   if (bla::unit_depends_on_mode(general)) {
     return say<texts::models_unit_by_mode>();
+  }
+  if (general.group == bla::Group::production) {
+    return date_unit_line(general.unit);
   }
   const auto unit = bla::name(general.unit);
   return unit.empty() ? std::string() : say<texts::models_unit>(unit, general.scale());
@@ -284,14 +326,18 @@ std::string bits_text(std::span<const bla::FaultBit> bits, bla::Address address)
   return out;
 }
 
+/// Of what takes a word to carry it out, its description tells all.
 std::string ranges_text(const Parameter& general, const Sheet& sheet, const bla::Profiles& profiles,
                         const Page& page) {
+  if (general.access == bla::Access::write) {
+    return {};
+  }
   Table table(
       {say<texts::column_default>(), say<texts::column_range>(), say<texts::column_models>()});
   for (const Variant& one : variants_of(general.address, sheet.models)) {
     table.add(variant_row(one, profiles));
   }
-  return table.text("  ", page);
+  return '\n' + table.text("  ", page);
 }
 
 std::string kind_text(bla::CheckKind kind) {
@@ -331,8 +377,8 @@ std::string parameter_text(const Parameter& general, const Sheet& sheet,
   const std::string bits = bits_text(profiles.summary_bits(), general.address) +
                            bits_text(profiles.fault_bits(), general.address);
   // Bits are the same for all models.
-  return description(general) + '\n' +
-         (bits.empty() ? ranges_text(general, sheet, profiles, page) : bits) +
+  return description(general) +
+         (bits.empty() ? ranges_text(general, sheet, profiles, page) : '\n' + bits) +
          checks_text(general) + see_text(general, profiles);
 }
 

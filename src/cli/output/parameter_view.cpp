@@ -73,10 +73,7 @@ Table table(const ServoValues& servo, const bla::Profiles& profiles, bool with_d
     const Parameter& parameter = *reading.parameter;
     table.add(row_of(parameter.address.name(), parameter.name,
                      bla::register_text(parameter, *reading.raw, mode),
-                     parameter.default_raw && parameter.writable()
-                         ? bla::display(parameter, *parameter.default_raw, mode)
-                         : "",
-                     parameter.name_ja));
+                     parameter.writable() ? bla::default_text(parameter) : "", parameter.name_ja));
     for (std::string& line : bla::explained(parameter, *reading.raw, values, profiles)) {
       table.add_below(std::move(line));
     }

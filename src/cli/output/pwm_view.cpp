@@ -44,11 +44,16 @@ std::string input_text(const bla::Values& values) {
   return say<texts::pwm_input_long>();
 }
 
+/// No pulse is shorter than 0.
+std::int64_t first_pulse(const PwmMapping& mapping) {
+  return std::max<std::int64_t>(mapping.shortest_us(), 0);
+}
+
 /// Why a pulse is in the table.
 std::string remark(const PwmMapping& mapping, std::int64_t pulse) {
   const auto cuts = mapping.cut_off_us();
   return pulse == mapping.neutral_us                    ? say<texts::pwm_neutral_point>()
-         : pulse == mapping.shortest_us()               ? say<texts::pwm_shortest_point>()
+         : pulse == first_pulse(mapping)                ? say<texts::pwm_shortest_point>()
          : pulse == mapping.longest_us()                ? say<texts::pwm_longest_point>()
          : std::ranges::find(cuts, pulse) != cuts.end() ? say<texts::pwm_limit_point>()
                                                         : say<texts::pwm_autopilot_point>();
@@ -64,6 +69,10 @@ std::string points_table(const PwmMapping& mapping, const Page& page) {
       command += say<texts::pwm_limited_to>(pwm_command_text(mapping, *limited));
     }
     table.add({fmt::format("{} us", pulse), std::move(command), remark(mapping, pulse)});
+  }
+  for (const std::int64_t pulse : mapping.missed_us()) {
+    table.add(
+        {fmt::format("{} us", pulse), say<texts::pwm_missed>(), say<texts::pwm_autopilot_point>()});
   }
   return table.text("  ", page);
 }
@@ -134,7 +143,7 @@ std::string Plot::text() {
     out.erase(out.find_last_not_of(' ') + 1);
     out += '\n';
   }
-  const auto shortest = std::to_string(mapping_.shortest_us());
+  const auto shortest = mapping_.shortest_us() < 0 ? "" : std::to_string(mapping_.shortest_us());
   const auto neutral = std::to_string(mapping_.neutral_us);
   out += fmt::format("  {:>{}} {:<{}}{:^{}}{:>{}} us\n", "", label, shortest, (columns - 9) / 2,
                      neutral, 9, mapping_.longest_us(), (columns - 9) / 2);
@@ -190,7 +199,7 @@ std::string pwm_text(const bla::Values& values, const Page& page) {
   }
   const auto timeout = bla::pwm_fallback_ms(values);
   std::string out = say<texts::pwm_pulses>(mapping->neutral_us, mapping->range_us,
-                                           mapping->shortest_us(), mapping->longest_us()) +
+                                           first_pulse(*mapping), mapping->longest_us()) +
                     say<texts::pwm_output>(pwm_command_text(*mapping, mapping->output_raw),
                                            mapping->is_angle() ? say<texts::pwm_angle>()
                                                                : say<texts::pwm_speed>()) +
@@ -199,12 +208,13 @@ std::string pwm_text(const bla::Values& values, const Page& page) {
     out += say<texts::pwm_fallback>(*timeout);
   }
   out += mapping->is_idle ? say<texts::pwm_idle>() : "";
-  for (const std::int64_t pulse : mapping->cut_off_us()) {
-    const auto limit = pulse < mapping->neutral_us ? mapping->limit_ccw : mapping->limit_cw;
-    out += pulse < mapping->neutral_us
-               ? say<texts::pwm_cut_below>(pulse, pwm_command_text(*mapping, *limit))
-               : say<texts::pwm_cut_above>(pulse, pwm_command_text(*mapping, *limit));
+  if (const auto pulse = mapping->cut_off_below_us()) {
+    out += say<texts::pwm_cut_below>(*pulse, pwm_command_text(*mapping, *mapping->limit_ccw));
   }
+  if (const auto pulse = mapping->cut_off_above_us()) {
+    out += say<texts::pwm_cut_above>(*pulse, pwm_command_text(*mapping, *mapping->limit_cw));
+  }
+  out += say<texts::pwm_beyond>();
   out = page.fit(out);
   constexpr std::size_t plot_width = 75;
   if (mapping->range_us > 0 && mapping->output_raw > 0 && page.width >= plot_width) {

@@ -42,7 +42,7 @@ TEST_CASE("what is no date is none") {
   CHECK_FALSE(time_of({-2020, 6, 22}));
 }
 
-TEST_CASE("the year of production tells the whole date") {
+TEST_CASE("the last register of the date of production tells the whole date") {
   const Values values{{address::production_year, 2020},
                       {address::production_month, 6},
                       {address::production_day, 22}};
@@ -50,9 +50,14 @@ TEST_CASE("the year of production tells the whole date") {
     return explained(test::parameter(name), raw, among, test::built_in());
   };
   using Lines = std::vector<std::string>;
-  CHECK(lines("production_year", 2020, values) == Lines{"2020-06-22"});
-  CHECK(lines("production_year", 2020, {}).empty());
+  CHECK(lines("production_day", 22, values) == Lines{"made 2020-06-22"});
+  CHECK(lines("production_day", 22, {}).empty());
   CHECK(lines("production_month", 6, values).empty());
+  Values whole = values;
+  whole[address::production_hour] = 15;
+  whole[address::production_minute] = 30;
+  CHECK(lines("production_day", 22, whole).empty());
+  CHECK(lines("production_minute", 30, whole) == Lines{"made 2020-06-22 15:30"});
 }
 
 TEST_CASE("the bits of fault registers are told, known or not") {

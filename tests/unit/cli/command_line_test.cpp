@@ -301,7 +301,7 @@ TEST_CASE("all faults of a command line come at once") {
     messages += fault.message + '\n';
   }
   CHECK(messages == "--node: the value is empty\n"
-                    "--text takes one value\n"
+                    "--text needs a value\n"
                     "not expected: --frob\n"
                     "-n 0: node IDs are 1 to 127\n"
                     "--flag takes no value\n"
