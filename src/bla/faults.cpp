@@ -37,6 +37,11 @@ std::optional<std::int64_t> fault_register(const Values& values, Address reg) {
   return is_clear ? std::optional<std::int64_t>(0) : std::nullopt;
 }
 
+bool is_summed_up(const Values& values, Address reg) {
+  const auto summary = find(values, address::fault_summary);
+  return summary && (*summary & summary_mask(level_of(reg))) != 0;
+}
+
 std::vector<Fault> faults(const Values& values, const Profiles& profiles) {
   std::vector<Fault> found;
   for (auto it = fault_registers.rbegin(); it != fault_registers.rend(); ++it) {

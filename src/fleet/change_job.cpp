@@ -5,6 +5,7 @@
 #include "blactl/fleet/texts.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace blactl::fleet {
@@ -95,10 +96,8 @@ Step ChangeJob::enter(Stage stage, Time now) {
       job_ = (restart_ = restart()).get();
       break;
     case Stage::read_erased:
-    case Stage::look: job_ = (read_ = read_configuration(servo_.id, false)).get(); break;
-    case Stage::read_back:
-      job_ = (read_ = read_configuration(*result_.returned, true)).get();
-      break;
+    case Stage::look:
+    case Stage::read_back: job_ = (read_ = read_configuration()).get(); break;
     case Stage::begin:
     case Stage::end: return std::nullopt;
     }
@@ -123,6 +122,10 @@ ChangeJob::Stage ChangeJob::conclude_stage(bool cancelled) {
   }
   blame_other_writer();
   tell_reach();
+  if (servo_.unique_id && result_.node_id_after &&
+      roster_.member(*result_.node_id_after).is_another_unit(*servo_.unique_id)) {
+    result_.node_id_after = std::nullopt; // it is somewhere else
+  }
   if (!cancelled) {
     return following;
   }
@@ -140,6 +143,9 @@ ChangeJob::Stage ChangeJob::conclude_erase() {
 ChangeJob::Stage ChangeJob::conclude_read_erased() {
   take_reading(read_->snapshot());
   result_.error = compare(read_->snapshot(), expected_after_erase(plan_));
+  if (!result_.error) {
+    result_.error = check_commands(read_->snapshot());
+  }
   result_.is_verified = !result_.error;
   result_.values_read = plan_.expected.size();
   if (!result_.error) {
@@ -327,10 +333,14 @@ std::optional<dronecan::NodeId> ChangeJob::other_writer() const {
 }
 
 void ChangeJob::look_back() {
+  const dronecan::NodeId id = result_.node_id_after.value_or(servo_.id);
   if (!result_.is_done()) {
+    const bool has_stayed = !restart_ || !restart_->is_sent() || restart_->has_run_on();
+    if (has_stayed && (roster_.member(id).boots != servo_.boot || other_writer())) {
+      doubt_changes();
+    }
     return;
   }
-  const dronecan::NodeId id = result_.node_id_after.value_or(servo_.id);
   const bool is_in_ram_only = !plan_.restart && (plan_.erase || !result_.changes.empty());
   if (roster_.is_doubled(id)) {
     result_.error = doubled(roster_, id);
@@ -375,18 +385,37 @@ void ChangeJob::take_reading(const Snapshot& now) {
   roster_.learn_static_node_id(now.servo.id, now.raw(bla::address::static_node_id));
 }
 
-/// The configuration; after a save also whether ROM could be read.
-std::unique_ptr<ReadJob> ChangeJob::read_configuration(dronecan::NodeId id, bool after_save) {
+/// The configuration; after ERASE also the commands, after a save also whether ROM could be read.
+std::unique_ptr<ReadJob> ChangeJob::read_configuration() {
+  const bool after_save = stage_ == Stage::read_back;
+  const bool after_erase = stage_ == Stage::read_erased;
   return std::make_unique<ReadJob>(
-      roster_, id, profiles_, options_.identification,
-      [after_save](const Servo& servo) -> Result<std::vector<const bla::Parameter*>> {
+      roster_, after_save ? *result_.returned : servo_.id, profiles_, options_.identification,
+      [=](const Servo& servo) -> Result<std::vector<const bla::Parameter*>> {
         auto parameters = servo.identity.configuration();
         if (const auto* rom = rom_state(servo.identity); after_save && rom != nullptr) {
           parameters.push_back(rom);
         }
+        if (after_erase) {
+          std::ranges::copy(servo.identity.registers(bla::command_registers),
+                            std::back_inserter(parameters));
+        }
         return parameters;
       },
       after_save ? ReadJob::Proof::unit : ReadJob::Proof::moment);
+}
+
+/// ERASE sets the commands to 0, too (4.9), unless somebody drives the servo.
+std::optional<Error> ChangeJob::check_commands(const Snapshot& now) const {
+  if (roster_.driver_of(now.servo, now.servo.since)) {
+    return std::nullopt;
+  }
+  bla::Values expected;
+  for (const bla::Address command : bla::command_registers) {
+    const auto raw = now.raw(command);
+    expected[command] = raw == bla::not_active ? bla::not_active : 0;
+  }
+  return compare(now, expected);
 }
 
 } // namespace blactl::fleet

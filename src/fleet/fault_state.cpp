@@ -1,6 +1,7 @@
 #include "blactl/fleet/fault_state.hpp"
 
 #include "blactl/fleet/guard.hpp"
+#include "blactl/fleet/texts.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -44,12 +45,21 @@ FaultState state_of(Snapshot snapshot, const Roster& roster, const bla::Profiles
   return state;
 }
 
+/// 0x18 has bits of a register that had none when it was read.
+bool contradicts_itself(const FaultState& state) {
+  const auto values = state.snapshot.values();
+  return std::ranges::any_of(bla::fault_registers, [&](bla::Address reg) {
+    return bla::is_summed_up(values, reg) && bla::find(values, reg) == 0;
+  });
+}
+
 /// Its NodeStatus tells of more than the registers did, which were not read at one time.
 bool is_surpassed(const FaultState& state) {
   const bool warns = state.health && *state.health != dronecan::Health::ok;
   const bool fails = warns && *state.health != dronecan::Health::warning;
-  return state.errors.empty() && ((warns && state.worst() < std::optional(Level::warning)) ||
-                                  (fails && state.worst() < std::optional(Level::failure)));
+  return state.errors.empty() &&
+         (contradicts_itself(state) || (warns && state.worst() < std::optional(Level::warning)) ||
+          (fails && state.worst() < std::optional(Level::failure)));
 }
 
 /// `first`: the registers to read of each in any case.
@@ -110,6 +120,11 @@ FaultStates read_faults(Session& session, const bla::Profiles& profiles,
   }
   FaultStates again = read(session, profiles, surpassed, options, bla::all_fault_registers);
   for (FaultState& now : again.servos) {
+    if (now.errors.empty() && contradicts_itself(now)) {
+      const std::uint8_t id = now.snapshot.servo.id.value();
+      now.errors.push_back(
+          {Code::state, say<texts::faults_flicker>(id), say<texts::run_again_hint>(), id});
+    }
     const auto before = std::ranges::find(states.servos, now.snapshot.servo.id,
                                           [](const auto& each) { return each.snapshot.servo.id; });
     *before = std::move(now);

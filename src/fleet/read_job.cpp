@@ -65,6 +65,7 @@ Step ReadJob::begin(Time now) {
   }
   wanted_ = std::move(*wanted);
   snapshot_.readings.reserve(wanted_.size());
+  pass_began_ = now;
   return read_next(now);
 }
 
@@ -138,7 +139,7 @@ Step ReadJob::judge_proof(const Outcome& outcome) {
   }
   const std::uint8_t id = id_.value();
   switch (run_proof_->verdict()) {
-  case RunProof::Verdict::ran_on: return std::nullopt;
+  case RunProof::Verdict::ran_on: return judge_writers(outcome.at);
   case RunProof::Verdict::failed: return give_up(told_by(*run_proof_->error()));
   case RunProof::Verdict::too_late:
     return give_up(
@@ -153,9 +154,28 @@ Step ReadJob::judge_proof(const Outcome& outcome) {
   return read_again(outcome.at);
 }
 
-/// The same servo, after a restart: everything once more.
+/// What another node changed while it was read was not true at one time.
+Step ReadJob::judge_writers(Time now) {
+  std::optional<dronecan::NodeId> writer;
+  for (const bla::Parameter* parameter : wanted_) {
+    const auto by = roster_.writer_to(id_, pass_began_, parameter->address);
+    writer = by ? by : writer;
+  }
+  if (!writer) {
+    return std::nullopt;
+  }
+  if (passes_ == most_passes) {
+    const std::uint8_t id = id_.value();
+    return give_up({Code::state, say<texts::written_while_read>(id, writer->value()),
+                    say<texts::other_writer_hint>(), id});
+  }
+  return read_again(now);
+}
+
+/// The same servo: everything once more.
 Step ReadJob::read_again(Time now) {
   ++passes_;
+  pass_began_ = now;
   snapshot_.readings.clear();
   Servo& servo = snapshot_.servo;
   servo.boot = roster_.member(id_).boots;

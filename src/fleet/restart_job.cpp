@@ -29,7 +29,6 @@ constexpr Duration settling_time = 1500ms;
 
 /// How often a servo that is awaited and says nothing is asked whether it is there.
 constexpr Duration call_period = 1s;
-constexpr Duration call_timeout = 100ms;
 
 std::string_view name(RestartKind kind) {
   return kind == RestartKind::save ? "SAVE" : "RestartNode";
@@ -226,7 +225,8 @@ Step RestartJob::call(Time now) {
   at_ = At::call;
   calls_expected_ = !calls_expected_ && options_.expected && *options_.expected != id_;
   return ask(calls_expected_ ? *options_.expected : id_, GetNodeInfo::type,
-             GetNodeInfo::Request{}.encode(), {call_timeout, 0});
+             GetNodeInfo::Request{}.encode(),
+             {std::min(options_.patience.timeout, sent_at_ + options_.come_back - now), 0});
 }
 
 Step RestartJob::judge_call(const Outcome& outcome) {
@@ -265,17 +265,14 @@ bool RestartJob::is_another_at(dronecan::NodeId id) const {
   return member->is_another_unit(unique_id_) || is_too_old;
 }
 
-/// Where the servo is after its restart, in operation; empty: not yet.
-std::optional<dronecan::NodeId> RestartJob::find_returned() const {
+/// Where the servo is after its restart; empty: not yet.
+std::optional<dronecan::NodeId> RestartJob::find_returned(bool must_operate) const {
   for (const auto& [id, member] : roster_.members()) {
     // Where it was before earlier restarts it is heard no more.
     const bool is_restarted =
         id != id_ ? member.last_heard > sent_at_ : has_restarted_ || has_started_anew();
-    // A NodeStatus is news if it came after the answer to GetNodeInfo.
-    if (is_restarted && member.is_unit(unique_id_) &&
-        (member.info->status.mode == dronecan::Mode::operational ||
-         (member.status && member.status_at > sent_at_ &&
-          member.status->mode == dronecan::Mode::operational))) {
+    const bool is_operational = member.status && member.status->mode == dronecan::Mode::operational;
+    if (is_restarted && member.is_unit(unique_id_) && (is_operational || !must_operate)) {
       return id;
     }
   }
@@ -286,7 +283,7 @@ Step RestartJob::conclude() {
   if (const auto id = doubled_id()) {
     return give_up(doubled(roster_, *id));
   }
-  returned_ = find_returned();
+  returned_ = find_returned(true);
   is_over_ = true;
   return std::nullopt;
 }
@@ -312,15 +309,27 @@ Error RestartJob::not_carried_out() const {
   return {Code::timeout, say<texts::opcode_ignored>(id, request), say<texts::no_answer_hint>(), id};
 }
 
-/// It is heard where it was, as if nothing had been sent.
+/// The last uptime that it told, by itself or asked, is that of before. That it is heard proves
+/// nothing.
 bool RestartJob::lives_on() const {
-  const Member* before = roster_.find(id_);
-  return before != nullptr && !before->is_another_unit(unique_id_) && !has_started_anew() &&
-         before->last_heard > sent_at_ + settling_time;
+  const Member* member = roster_.find(id_);
+  return member != nullptr && !member->is_another_unit(unique_id_) && !has_restarted_ &&
+         !has_started_anew() && member->status && member->status_at > sent_at_ + settling_time &&
+         has_run_since(sent_at_, member->status->uptime_s, member->status_at);
 }
 
 Error RestartJob::not_back() const {
   const std::uint8_t id = id_.value();
+  if (const auto back = find_returned(false)) {
+    return {Code::not_back, say<texts::back_not_operational>(back->value()),
+            say<texts::not_waited_for_hint>(hex(unique_id_)), id};
+  }
+  const Member* heard = roster_.find(id_);
+  if (heard != nullptr && heard->last_heard > sent_at_ + settling_time &&
+      !heard->is_another_unit(unique_id_)) {
+    return {Code::not_back, say<texts::heard_not_answering>(id, name(options_.kind)),
+            say<texts::no_answer_hint>(), id};
+  }
   const bool is_save = options_.kind == RestartKind::save;
   std::string message = is_confirmed_ ? (is_save ? say<texts::saved_not_back>(id)
                                                  : say<texts::restarted_not_back>(id))

@@ -15,8 +15,6 @@ namespace {
 
 constexpr Address last_address{0x5F};
 
-constexpr std::array commands{command_angle, command_speed, command_torque};
-
 /// 0x58-0x5C: 2025-06-22 15:30.
 constexpr std::array production_date{std::pair{Address{0x58}, 2025}, std::pair{Address{0x59}, 6},
                                      std::pair{Address{0x5A}, 22}, std::pair{Address{0x5B}, 15},
@@ -189,7 +187,7 @@ std::optional<std::int64_t> Registers::write(Address address, std::int64_t wante
 }
 
 void Registers::command(Address address, std::int64_t wanted) {
-  for (const Address other : commands) {
+  for (const Address other : bla::command_registers) {
     store(other, bla::not_active);
   }
   store(address, nearest(*profile_->find(address), wanted));

@@ -1,6 +1,7 @@
 #pragma once
 // The registers of a BLA servo by address (tables 3-1 to 3-11).
 
+#include <array>
 #include <compare>
 #include <cstdint>
 #include <optional>
@@ -58,5 +59,9 @@ inline constexpr Address firmware_version{0x52}, hardware_version{0x53};
 inline constexpr Address production_year{0x58}, production_month{0x59}, production_day{0x5A};
 inline constexpr Address production_hour{0x5B}, production_minute{0x5C};
 } // namespace address
+
+/// What moves the shaft (4.1 to 4.3): none of them is kept in ROM.
+inline constexpr std::array command_registers{address::command_angle, address::command_speed,
+                                              address::command_torque};
 
 } // namespace blactl::bla

@@ -37,6 +37,9 @@ struct Fault {
 /// not known.
 [[nodiscard]] std::optional<std::int64_t> fault_register(const Values& values, Address reg);
 
+/// Whether 0x18 tells that bits of this register are set; false also where 0x18 is not known.
+[[nodiscard]] bool is_summed_up(const Values& values, Address reg);
+
 /// The bits that are set as far as is known, the worst level first. `profiles` outlives them.
 [[nodiscard]] std::vector<Fault> faults(const Values& values, const Profiles& profiles);
 

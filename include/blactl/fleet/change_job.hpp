@@ -75,12 +75,13 @@ class ChangeJob final : public dronecan::Job {
   void blame_other_writer();
   void blame_other_writer(Change& change) const;
   void tell_reach();
+  [[nodiscard]] std::optional<Error> check_commands(const Snapshot& now) const;
   void doubt_changes();
   void tell_saved(const Snapshot& now);
   [[nodiscard]] std::unique_ptr<RestartJob> restart() const;
   [[nodiscard]] Stage after_erase() const;
   [[nodiscard]] Stage after_write() const;
-  [[nodiscard]] std::unique_ptr<ReadJob> read_configuration(dronecan::NodeId id, bool after_save);
+  [[nodiscard]] std::unique_ptr<ReadJob> read_configuration();
   void take_reading(const Snapshot& now);
 
   Roster& roster_;

@@ -50,6 +50,7 @@ class ReadJob final : public dronecan::Job {
   [[nodiscard]] dronecan::Step prove(Time now);
   [[nodiscard]] dronecan::Step judge_presence(const dronecan::Outcome& outcome);
   [[nodiscard]] dronecan::Step judge_proof(const dronecan::Outcome& outcome);
+  [[nodiscard]] dronecan::Step judge_writers(Time now);
   [[nodiscard]] dronecan::Step read_again(Time now);
   [[nodiscard]] dronecan::Step give_up(Error error);
   [[nodiscard]] Error told_by(const Error& error) const;
@@ -66,6 +67,7 @@ class ReadJob final : public dronecan::Job {
   std::vector<const bla::Parameter*> wanted_;
   int silent_ = 0; ///< registers in a row
   int passes_ = 1; ///< of reading all
+  Time pass_began_{};
   std::optional<RunProof> run_proof_;
   Snapshot snapshot_;
 };

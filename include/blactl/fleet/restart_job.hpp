@@ -99,7 +99,7 @@ class RestartJob final : public dronecan::Job {
   [[nodiscard]] std::optional<dronecan::NodeId> doubled_id() const;
   [[nodiscard]] bool is_another_at(dronecan::NodeId id) const;
 
-  [[nodiscard]] bool has_news() const { return find_returned() || doubled_id(); }
+  [[nodiscard]] bool has_news() const { return find_returned(true) || doubled_id(); }
 
   [[nodiscard]] dronecan::Step conclude();
   [[nodiscard]] dronecan::Step give_up(Error error);
@@ -109,7 +109,7 @@ class RestartJob final : public dronecan::Job {
   [[nodiscard]] Error not_back() const;
   [[nodiscard]] Error left_waiting() const;
   [[nodiscard]] bool has_answered_ok(dronecan::Bytes payload) const;
-  [[nodiscard]] std::optional<dronecan::NodeId> find_returned() const;
+  [[nodiscard]] std::optional<dronecan::NodeId> find_returned(bool must_operate) const;
 
   const Roster& roster_;
   Servo servo_;

@@ -161,6 +161,11 @@ inline constexpr Text other_writer{
 inline constexpr Text written_by_other{
     "node {1} wrote to node {0} meanwhile: what it holds now is not known",
     "ノード {1} がノード {0} に書き込んだため、現在の値は不明です"};
+inline constexpr Text written_while_read{
+    "node {1} writes to node {0} again and again while it is read",
+    "ノード {0} の読出し中に、ノード {1} が繰り返し書き込んでいます"};
+inline constexpr Text faults_flicker{"node {}: its faults come and go while they are read",
+                                     "ノード {}: 読出し中に異常の発生と解消を繰り返しています"};
 inline constexpr Text other_writer_hint{"stop it, then run the command again",
                                         "停止させてから再度実行して下さい"};
 inline constexpr Text not_read_completely{
@@ -221,7 +226,8 @@ inline constexpr Text question_erase_rom{
     "ROM は変更しません。再起動すると保存済みの値に戻ります\n",
 };
 inline constexpr Text doubled_meanwhile_hint{
-    "one of them, or both, may have taken what was sent: connect one of them alone, give it another "
+    "one of them, or both, may have taken what was sent: connect one of them alone, give it "
+    "another "
     "ID, and look at both",
     "送信した内容は一方または両方に反映された可能性があります。1 台だけ接続して ID "
     "を変更し、両方の設定を確認して下さい",
@@ -288,6 +294,12 @@ inline constexpr Text saved_not_back{
     "node {} confirmed SAVE and did not come back: what its ROM holds is not known",
     "ノード {} は SAVE に応答後、復帰しません。ROM の内容は不明です",
 };
+inline constexpr Text back_not_operational{
+    "node {} has restarted and answers, but is not operational yet",
+    "ノード {} は再起動後に応答していますが、まだ動作状態ではありません"};
+inline constexpr Text heard_not_answering{
+    "node {} is heard, but does not answer any more: whether it carried out {} is not known",
+    "ノード {} は受信できていますが応答しません。{} が実行されたかどうかは不明です"};
 inline constexpr Text restarted_not_back{"node {} confirmed the restart and did not come back",
                                          "ノード {} は再起動に応答後、復帰しません"};
 inline constexpr Text unconfirmed_not_back{

@@ -59,7 +59,7 @@ class WriteJob final : public dronecan::Job {
   std::vector<Change> changes_;
   Patience patience_;
   At at_ = At::begin;
-  std::size_t current_ = 0;  ///< the change that is being made or looked at
+  std::size_t current_ = 0; ///< the change that is being made or looked at
   bool has_written_ = false;
   bool is_lost_ = false;     ///< no answer to the write of this change
   bool is_doubtful_ = false; ///< the register does not hold what was written

@@ -142,7 +142,7 @@ bool Watch::take(FaultState now) {
   const NodeId id = now.snapshot.servo.id;
   auto before = last_.find(id);
   const auto& unit = now.snapshot.servo.unique_id;
-  if (before != last_.end() && now.errors.empty() &&
+  if (before != last_.end() && now.errors.empty() && before->second.snapshot.servo.unique_id &&
       before->second.snapshot.servo.unique_id != unit) {
     tell_replacement(id);
     last_.erase(before);

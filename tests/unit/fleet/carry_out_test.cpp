@@ -285,7 +285,8 @@ TEST_CASE("how long a servo may stay away hangs on how many will ask for an ID")
   grow_old(scene);
   const auto result = change_one(scene, wanted);
   CHECK(error_of(result) == Code::not_back);
-  CHECK(result.duration == longest);
+  CHECK(result.duration >= longest);
+  CHECK(result.duration < longest + 10ms); // an answer to the last call may still be under way
 }
 
 TEST_CASE("how long a servo may stay away can be said") {

@@ -753,6 +753,30 @@ TEST_CASE("interrupted after ERASE and before SAVE: the defaults are in RAM only
   CHECK(bench.count("SAVE") == 0);
 }
 
+TEST_CASE("what is in RAM only is doubted as well where another register was refused") {
+  const bool restarts = GENERATE(true, false);
+  Bench bench(set({"reverse=on", "angle_limit_cw=90deg"}));
+  bench.stuck = {at::angle_limit_cw};
+  bench.finish();
+  REQUIRE(bench.job->result().changes[0].status == ChangeStatus::written);
+  bench.live(10s);
+  restarts ? bench.restart_by_itself() : bench.other_writes(at::reverse, 0);
+  bench.job->look_back();
+  const ChangeResult& result = bench.job->result();
+  CHECK(result.changes[0].status == ChangeStatus::failed);
+  CHECK_FALSE(result.changes[0].after);
+  CHECK(failure(result) == Code::refused);
+}
+
+TEST_CASE("an ERASE that left a command as it was did nothing") {
+  Bench bench(Wanted{.erase = true});
+  bench.obeys = false;
+  bench.ram[at::command_angle] = 450;
+  const ChangeResult& result = bench.finish();
+  CHECK(failure(result) == Code::mismatch);
+  CHECK(says(result, "command_angle"));
+}
+
 TEST_CASE(
     "a servo that restarted before SAVE is looked at again, and not saved where RAM lost it") {
   const bool is_heard = GENERATE(true, false);

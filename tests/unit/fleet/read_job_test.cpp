@@ -315,6 +315,39 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("what another node changed while it was read is read again") {
+  Reader reader({"angle_limit_cw", "reverse"});
+  const auto other_writes = [&](const char* name) {
+    const auto payload = GetSet::Request{.value = std::int64_t{0}, .name = name}.encode();
+    reader.known.roster.receive({.header = {.kind = dronecan::Kind::request,
+                                            .data_type_id = GetSet::type.id,
+                                            .source = NodeId(40),
+                                            .destination = NodeId(11)},
+                                 .payload = payload.bytes(),
+                                 .at = reader.known.now});
+  };
+  CHECK(reader.next(Script::start()) == "read 0x38");
+  CHECK(reader.value("0x38", 900) == "read 0x23");
+  SECTION("one of those that are read") {
+    other_writes("0x38");
+    CHECK(reader.value("0x23", 1) == "GetNodeInfo");
+    CHECK(reader.next(reader.script.info(unit)) == "pause");
+    CHECK(reader.next({Outcome::Kind::woken, {}, reader.known.now + 1s}) == "read 0x38");
+    CHECK(reader.value("0x38", 0) == "read 0x23");
+    CHECK(reader.value("0x23", 1) == "GetNodeInfo");
+    CHECK(reader.told(unit, 5000, reader.known.now + 2s - Time{}) == "pause");
+    CHECK(reader.next({Outcome::Kind::woken, {}, reader.known.now + 3s}) == "nothing");
+    CHECK(reader.job.snapshot().raw(bla::address::angle_limit_cw) == 0);
+    CHECK_FALSE(reader.job.snapshot().has_restarted);
+  }
+  SECTION("another one") {
+    other_writes("0x45");
+    CHECK(reader.value("0x23", 1) == "GetNodeInfo");
+    CHECK(reader.next(reader.script.info(unit)) == "pause");
+    CHECK(reader.next(Script::start()) == "nothing");
+  }
+}
+
 TEST_CASE("after SAVE it is enough that it is one servo, however young") {
   Reader reader({"angle_limit_cw"}, ReadJob::Proof::unit);
   CHECK(reader.next(Script::start()) == "read 0x38");

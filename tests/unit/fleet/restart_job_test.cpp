@@ -443,6 +443,35 @@ TEST_CASE("a servo that confirms and does not restart is found out") {
   CHECK(bench.job.returned() == std::nullopt);
 }
 
+TEST_CASE("a servo that is heard and does not answer is not said to have run on") {
+  Bench bench;
+  bench.send();
+  const Time sent = bench.now;
+  CHECK(bench.answer_ok() == "pause");
+  while (bench.now < sent + 4s) {
+    bench.hear(message(dronecan::ActuatorStatus::type, 11, dronecan::ActuatorStatus{}.encode()));
+    bench.time_is_over();
+    bench.timed_out();
+  }
+  bench.wait_in_vain();
+  CHECK(bench.error() == Code::not_back);
+  CHECK_FALSE(bench.job.has_run_on());
+  CHECK(bench.message_of_error().find("does not answer") != std::string::npos);
+}
+
+TEST_CASE("a servo that is back and not in operation is said to be back") {
+  Bench bench(GENERATE(RestartKind::save, RestartKind::restart));
+  bench.send();
+  const Time sent = bench.now;
+  CHECK(bench.answer_ok() == "pause");
+  while (!bench.step.is_end()) {
+    bench.step.pause() != nullptr ? bench.time_is_over()
+                                  : bench.info(1, sent + 200ms, Mode::initialization);
+  }
+  CHECK(bench.error() == Code::not_back);
+  CHECK(bench.message_of_error().find("not operational") != std::string::npos);
+}
+
 TEST_CASE("a servo that never returns is not_back, with what is known of its ROM") {
   const RestartKind kind = GENERATE(RestartKind::save, RestartKind::restart);
   Bench bench(kind);
@@ -587,7 +616,7 @@ TEST_CASE("a servo that sends nothing by itself is called, and is back when it a
   CHECK(bench.until() == sent + 1500ms); // room for a ROM write and a start
   CHECK(bench.time_is_over() == "GetNodeInfo");
   CHECK(bench.asked() == NodeId(11));
-  CHECK(bench.step.request()->timeout == 100ms);
+  CHECK(bench.step.request()->timeout == 500ms); // as patient as with every question
   CHECK(bench.step.request()->retries == 0);
   CHECK(bench.job.must_finish());
   SECTION("at once") {
