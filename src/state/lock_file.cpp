@@ -1,14 +1,16 @@
 #include "blactl/state/lock_file.hpp"
 
+#include "blactl/state/state_folder.hpp"
+
+#include "state/environment.hpp"
+
 #include <fcntl.h>
-#include <pwd.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
-#include <cstdlib>
 #include <filesystem>
 #include <system_error>
 #include <utility>
@@ -29,39 +31,6 @@ constexpr std::array<char, 8> magic{'b', 'l', 'a', 'c', 't', 'l', '\1', '\0'};
 
 bool read_header(int descriptor, FileHeader& header) {
   return pread(descriptor, &header, sizeof header, 0) == sizeof header && header.magic == magic;
-}
-
-std::string variable(const char* name) {
-  const char* value = std::getenv(name);
-  return value != nullptr ? value : "";
-}
-
-/// Of a folder. One that is relative or empty is as good as unset (XDG base directory
-/// specification): what is shared must not depend on where a process was started.
-std::string folder_variable(const char* name) {
-  std::string value = variable(name);
-  return value.starts_with('/') ? value : std::string();
-}
-
-/// Of this user, also where HOME is unset (services, cron); empty: none.
-std::string home_folder() {
-  if (std::string home = folder_variable("HOME"); !home.empty()) {
-    return home;
-  }
-  const passwd* entry = getpwuid(geteuid());
-  return entry != nullptr && entry->pw_dir != nullptr && entry->pw_dir[0] == '/' ? entry->pw_dir
-                                                                                 : "";
-}
-
-std::string state_folder() {
-  if (std::string folder = variable("BLACTL_STATE_DIR"); !folder.empty()) {
-    return folder;
-  }
-  if (const std::string home = folder_variable("XDG_STATE_HOME"); !home.empty()) {
-    return home + "/blactl";
-  }
-  const std::string home = home_folder();
-  return home.empty() ? std::string() : home + "/.local/state/blactl";
 }
 
 /// A folder that exists now, is no symbolic link and can be written; 01777 where all users share.
