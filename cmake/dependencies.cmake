@@ -21,6 +21,9 @@ if(PkgConfig_FOUND)
   # Link state, bit timing and queue length of CAN interfaces.
   pkg_check_modules(NL_ROUTE IMPORTED_TARGET QUIET libnl-route-3.0)
   blactl_require(NL_ROUTE_FOUND libnl-route-3-dev)
+  # What must survive a power cut, and several processes at once. 3.37 is the first with STRICT.
+  pkg_check_modules(SQLITE3 IMPORTED_TARGET QUIET sqlite3>=3.37)
+  blactl_require(SQLITE3_FOUND libsqlite3-dev)
 endif()
 if(BUILD_TESTING)
   find_package(Catch2 QUIET) # 2 in Debian 12, 3 elsewhere

@@ -12,7 +12,8 @@ if [[ -t 1 && -z ${NO_COLOR:-} ]]; then
 fi
 
 build_packages=(g++ cmake ninja-build ccache pkg-config
-                libcli11-dev nlohmann-json3-dev libfmt-dev libnl-route-3-dev)
+                libcli11-dev nlohmann-json3-dev libfmt-dev libnl-route-3-dev
+                libsqlite3-dev)
 
 say() {
   printf '%s\n' "$*"

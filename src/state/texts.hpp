@@ -42,4 +42,70 @@ inline constexpr Text lock_failed_hint{
     "see whose it is with `ls -ld {0}`; once no blactl runs it can be removed",
     "`ls -ld {0}` で所有者を確認して下さい。blactl が動作していなければ削除できます"};
 
+inline constexpr Text no_state_folder{
+    "there is no folder for what blactl must remember: BLACTL_STATE_DIR and HOME are not set",
+    "blactl の状態を保存するフォルダがありません (BLACTL_STATE_DIR も HOME も未設定です)"};
+inline constexpr Text no_state_folder_hint{"set BLACTL_STATE_DIR to a folder of your own",
+                                           "BLACTL_STATE_DIR に自分のフォルダを設定して下さい"};
+inline constexpr Text table_foreign{"{} is no allocation table of blactl",
+                                    "{} は blactl の割当て表ではありません"};
+inline constexpr Text table_is_link{"{} is a symbolic link, which is not followed",
+                                    "{} はシンボリックリンクのため使用できません"};
+inline constexpr Text table_left_over{"{} is left over from another allocation table",
+                                      "{} は別の割当て表の残りです"};
+inline constexpr Text table_damaged{"the allocation table {} is damaged ({})",
+                                    "割当て表 {} が壊れています ({})"};
+inline constexpr Text table_unusable_hint{
+    "it was left as it is; move it away with `mv {0}* FOLDER`, then bring in what you exported "
+    "with "
+    "`blactl alloc --import FILE`",
+    "ファイルは変更していません。`mv {0}* フォルダ` で移動し、エクスポートした表があれば "
+    "`blactl alloc --import ファイル` で取り込んで下さい"};
+inline constexpr Text table_newer{
+    "the allocation table {} has version {}; this blactl knows version {} at most",
+    "割当て表 {} のバージョンは {} です。この blactl はバージョン {} までに対応しています"};
+inline constexpr Text table_newer_hint{
+    "update blactl; or move the file away with `mv {0}* FOLDER`, then bring in what you exported "
+    "with `blactl alloc --import FILE`",
+    "blactl を更新して下さい。または `mv {0}* フォルダ` でファイルを移動し、エクスポートした表を "
+    "`blactl alloc --import ファイル` で取り込んで下さい"};
+inline constexpr Text table_moved{
+    "the allocation table {} was moved away or removed while it was in use",
+    "割当て表 {} が使用中に移動または削除されました"};
+inline constexpr Text table_moved_hint{"nothing was changed; run the command again",
+                                       "何も変更していません。コマンドをもう一度実行して下さい"};
+inline constexpr Text table_busy{"another process is writing to the allocation table {}",
+                                 "別のプロセスが割当て表 {} に書込み中です"};
+inline constexpr Text table_busy_hint{
+    "wait until it ends and try again; `fuser {0}` shows which one it is",
+    "その終了を待って、もう一度実行して下さい。プロセスは `fuser {0}` で確認できます"};
+inline constexpr Text table_denied{"the allocation table {} cannot be used ({})",
+                                   "割当て表 {} を使用できません ({})"};
+inline constexpr Text table_denied_hint{
+    "check the permissions with `ls -la {0}`, or set BLACTL_STATE_DIR to a folder of your own",
+    "`ls -la {0}` でアクセス権を確認するか、BLACTL_STATE_DIR に自分のフォルダを設定して下さい"};
+inline constexpr Text table_io{"the allocation table {} cannot be read or written ({})",
+                               "割当て表 {} を読み書きできません ({})"};
+inline constexpr Text table_io_hint{
+    "nothing was changed; check the disk and its free space with `df {0}`",
+    "何も変更していません。`df {0}` でディスクとその空き容量を確認して下さい"};
+inline constexpr Text table_full{"no node ID from {} to {} is free",
+                                 "{}～{} に空いているノード ID がありません"};
+inline constexpr Text table_full_hint{"forget a servo that is gone, `blactl alloc --forget UID` "
+                                      "(`blactl alloc --list` shows all), or "
+                                      "give a wider --range",
+                                      "使わなくなったサーボを `blactl alloc --forget UID` "
+                                      "で削除するか (一覧は `blactl alloc --list`)、"
+                                      "--range を広げて下さい"};
+inline constexpr Text node_id_given{"node ID {} belongs to the unique ID {}",
+                                    "ノード ID {} は固有 ID {} に割当て済みです"};
+inline constexpr Text node_id_given_hint{
+    "choose another one, or give it up first with `blactl alloc --forget {}`",
+    "別のノード ID を指定するか、先に `blactl alloc --forget {}` で解放して下さい"};
+inline constexpr Text node_id_not_dynamic{"node ID {} cannot be allocated",
+                                          "ノード ID {} は割り当てられません"};
+inline constexpr Text node_id_not_dynamic_hint{
+    "1 to 125 can; 126 and 127 are for tools",
+    "1～125 を指定して下さい。126 と 127 はツール用です"};
+
 } // namespace blactl::texts

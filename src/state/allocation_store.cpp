@@ -1,0 +1,314 @@
+#include "blactl/state/allocation_store.hpp"
+
+#include "blactl/base/hex.hpp"
+
+#include "state/database_errors.hpp"
+#include "state/database_file.hpp"
+#include "state/sqlite.hpp"
+#include "state/texts.hpp"
+
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdint>
+#include <filesystem>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+namespace blactl::state {
+
+using dronecan::NodeId;
+using dronecan::UniqueId;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Both IDs stand in the table and in its index, so the check of the whole file finds it if one has
+/// changed. `at`: microseconds since 1970, UTC.
+const DatabaseFormat& allocations_format() {
+  static const DatabaseFormat format{
+      .application_id = 0x626C6163, // "blac"
+      .version = 1,
+      .schema = "CREATE TABLE allocations ("
+                "node_id INTEGER PRIMARY KEY CHECK (node_id BETWEEN 1 AND 125), "
+                "unique_id BLOB NOT NULL UNIQUE CHECK (length(unique_id) = 16), "
+                "at INTEGER NOT NULL) STRICT"};
+  return format;
+}
+
+bool may_be_given(NodeId id) {
+  return first_dynamic_id <= id && id <= last_dynamic_id;
+}
+
+/// From `preferred` upward, then downward (1.Allocation.uavcan); 0: none.
+NodeId first_free(const AllocationChoice& choice, const NodeIds& used) {
+  const auto is_free = [&](std::uint8_t value) {
+    const NodeId id(value);
+    return choice.first <= id && id <= choice.last && may_be_given(id) && !used[value];
+  };
+  const NodeId preferred = choice.preferred.is_unicast() ? choice.preferred : last_dynamic_id;
+  for (std::uint8_t id = preferred.value(); id <= last_dynamic_id.value(); ++id) {
+    if (is_free(id)) {
+      return NodeId(id);
+    }
+  }
+  for (std::uint8_t id = preferred.value(); id > 0; --id) {
+    if (is_free(id)) {
+      return NodeId(id);
+    }
+  }
+  return {};
+}
+
+/// Of a row of node_id, unique_id, at.
+AllocationEntry entry_of(const Statement& row) {
+  AllocationEntry entry{.node_id = NodeId(static_cast<std::uint8_t>(row.integer(0))),
+                        .at = WallTime(Duration(row.integer(2)))};
+  const auto bytes = row.bytes(1);
+  std::copy_n(bytes.begin(), std::min(bytes.size(), entry.unique_id.size()),
+              entry.unique_id.begin());
+  return entry;
+}
+
+Result<std::optional<AllocationEntry>> one_entry(Statement&& statement) {
+  const auto row = statement.step();
+  if (!row) {
+    return std::unexpected(row.error());
+  }
+  return *row ? std::optional(entry_of(statement)) : std::nullopt;
+}
+
+Result<std::optional<AllocationEntry>> entry_with(const Database& database,
+                                                  const UniqueId& unique_id) {
+  return one_entry(std::move(
+      Statement(database, "SELECT node_id, unique_id, at FROM allocations WHERE unique_id = ?")
+          .bind(unique_id)));
+}
+
+Result<std::optional<AllocationEntry>> entry_with(const Database& database, NodeId node_id) {
+  return one_entry(std::move(
+      Statement(database, "SELECT node_id, unique_id, at FROM allocations WHERE node_id = ?")
+          .bind(node_id.value())));
+}
+
+Result<NodeIds> all_given(const Database& database) {
+  Statement statement(database, "SELECT node_id FROM allocations");
+  NodeIds given;
+  for (;;) {
+    const auto row = statement.step();
+    if (!row) {
+      return std::unexpected(row.error());
+    }
+    if (!*row) {
+      return given;
+    }
+    given.set(NodeId(static_cast<std::uint8_t>(statement.integer(0))).value());
+  }
+}
+
+/// A new row, or another node ID for a unit that has one.
+Result<void> store(const Database& database, const UniqueId& unique_id, NodeId node_id,
+                   WallTime now) {
+  return Statement(database, "INSERT INTO allocations (node_id, unique_id, at) VALUES (?, ?, ?) "
+                             "ON CONFLICT (unique_id) DO UPDATE "
+                             "SET node_id = excluded.node_id, at = excluded.at")
+      .bind(node_id.value())
+      .bind(unique_id)
+      .bind(now.time_since_epoch().count())
+      .run();
+}
+
+/// In the transaction of assign().
+Result<NodeId> known_or_new(const Database& database, const UniqueId& unique_id,
+                            const AllocationChoice& choice, WallTime now) {
+  const auto known = entry_with(database, unique_id);
+  if (!known) {
+    return std::unexpected(known.error());
+  }
+  if (*known) {
+    return (*known)->node_id;
+  }
+  const auto given = all_given(database);
+  if (!given) {
+    return std::unexpected(given.error());
+  }
+  const NodeId id = first_free(choice, *given | choice.taken);
+  if (!id.is_unicast()) {
+    return fail(Code::table_full, say<texts::table_full>(choice.first.value(), choice.last.value()),
+                say<texts::table_full_hint>());
+  }
+  if (auto stored = store(database, unique_id, id, now); !stored) {
+    return std::unexpected(stored.error());
+  }
+  return id;
+}
+
+/// In the transaction of put().
+Result<void> put_unless_taken(const Database& database, const UniqueId& unique_id, NodeId node_id,
+                              WallTime now) {
+  const auto holder = entry_with(database, node_id);
+  if (!holder) {
+    return std::unexpected(holder.error());
+  }
+  if (!*holder) {
+    return store(database, unique_id, node_id, now);
+  }
+  if ((*holder)->unique_id == unique_id) {
+    return {};
+  }
+  const std::string other = hex((*holder)->unique_id);
+  return std::unexpected(Error{Code::duplicate_node_id,
+                               say<texts::node_id_given>(node_id.value(), other),
+                               say<texts::node_id_given_hint>(other), node_id.value()});
+}
+
+/// The folder without symbolic links: SQLite, which is told to follow none, would refuse the file
+/// for a link anywhere in its path, and /home may be one.
+std::string path_in(const std::string& folder) {
+  std::error_code error;
+  const fs::path real = fs::weakly_canonical(fs::absolute(folder), error);
+  return ((error ? fs::path(folder) : real) / "allocations.db").string();
+}
+
+/// The folder of the file, private if it is new.
+Result<void> make_folder(const std::string& path) {
+  const fs::path folder = fs::path(path).parent_path();
+  std::error_code ignored; // what matters is whether the folder itself can be made
+  fs::create_directories(folder.parent_path(), ignored);
+  if (mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST) {
+    return std::unexpected(errors::of_system(path, errno));
+  }
+  return {};
+}
+
+/// Whether the file is there. Errors: something else is.
+Result<bool> is_there(const std::string& path) {
+  struct stat info{};
+  if (lstat(path.c_str(), &info) != 0) {
+    return errno == ENOENT ? Result<bool>(false) : std::unexpected(errors::of_system(path, errno));
+  }
+  if (S_ISLNK(info.st_mode)) {
+    return std::unexpected(errors::link(path));
+  }
+  return S_ISREG(info.st_mode) ? Result<bool>(true) : std::unexpected(errors::foreign(path));
+}
+
+/// Makes the file if it is not there and `writable`; whether it is there then.
+Result<bool> provide(const std::string& path, bool writable) {
+  if (writable) {
+    if (auto made = make_folder(path); !made) {
+      return std::unexpected(made.error());
+    }
+  }
+  const auto there = is_there(path);
+  if (!there || *there || !writable) {
+    return there;
+  }
+  if (auto made = make_database(path, allocations_format()); !made) {
+    return std::unexpected(made.error());
+  }
+  return is_there(path);
+}
+
+} // namespace
+
+AllocationStore::AllocationStore(std::string path, std::unique_ptr<Database> database)
+    : path_(std::move(path)), database_(std::move(database)) {}
+
+AllocationStore::AllocationStore(AllocationStore&&) noexcept = default;
+AllocationStore& AllocationStore::operator=(AllocationStore&&) noexcept = default;
+AllocationStore::~AllocationStore() = default;
+
+Result<AllocationStore> AllocationStore::open(const std::string& folder, Access access,
+                                              std::chrono::milliseconds patience) {
+  if (folder.empty()) {
+    return fail(Code::state, say<texts::no_state_folder>(), say<texts::no_state_folder_hint>());
+  }
+  std::string path = path_in(folder);
+  const bool writable = access == Access::write;
+  const auto there = provide(path, writable);
+  if (!there) {
+    return std::unexpected(there.error());
+  }
+  if (!*there) {
+    return AllocationStore(std::move(path), nullptr);
+  }
+  auto database = open_database(path, allocations_format(), writable, patience);
+  if (!database) {
+    return std::unexpected(database.error());
+  }
+  return AllocationStore(std::move(path), std::make_unique<Database>(std::move(*database)));
+}
+
+Result<std::vector<AllocationEntry>> AllocationStore::entries() const {
+  std::vector<AllocationEntry> all;
+  if (!database_) {
+    return all;
+  }
+  Statement statement(*database_,
+                      "SELECT node_id, unique_id, at FROM allocations ORDER BY node_id");
+  for (;;) {
+    const auto row = statement.step();
+    if (!row) {
+      return std::unexpected(row.error());
+    }
+    if (!*row) {
+      return all;
+    }
+    all.push_back(entry_of(statement));
+  }
+}
+
+Result<std::optional<AllocationEntry>> AllocationStore::find(const UniqueId& unique_id) const {
+  return database_ ? entry_with(*database_, unique_id) : std::nullopt;
+}
+
+Result<std::optional<AllocationEntry>> AllocationStore::find(NodeId node_id) const {
+  return database_ ? entry_with(*database_, node_id) : std::nullopt;
+}
+
+Result<NodeId> AllocationStore::assign(const UniqueId& unique_id, const AllocationChoice& choice,
+                                       WallTime now) {
+  if (auto writable = check_writable(); !writable) {
+    return std::unexpected(writable.error());
+  }
+  return database_->transact([&] { return known_or_new(*database_, unique_id, choice, now); });
+}
+
+Result<void> AllocationStore::put(const UniqueId& unique_id, NodeId node_id, WallTime now) {
+  if (!may_be_given(node_id)) {
+    return fail(Code::out_of_range, say<texts::node_id_not_dynamic>(node_id.value()),
+                say<texts::node_id_not_dynamic_hint>());
+  }
+  if (auto writable = check_writable(); !writable) {
+    return writable;
+  }
+  return database_->transact([&] { return put_unless_taken(*database_, unique_id, node_id, now); });
+}
+
+Result<bool> AllocationStore::forget(const UniqueId& unique_id) {
+  if (auto writable = check_writable(); !writable) {
+    return std::unexpected(writable.error());
+  }
+  return database_->transact([&]() -> Result<bool> {
+    auto deleted =
+        Statement(*database_, "DELETE FROM allocations WHERE unique_id = ?").bind(unique_id).run();
+    if (!deleted) {
+      return std::unexpected(deleted.error());
+    }
+    return sqlite3_changes(database_->handle()) > 0;
+  });
+}
+
+/// A file that was opened for reading is for SQLite to refuse.
+Result<void> AllocationStore::check_writable() const {
+  if (!database_) {
+    return std::unexpected(errors::denied(path_, sqlite3_errstr(SQLITE_READONLY)));
+  }
+  return {};
+}
+
+} // namespace blactl::state

@@ -1,0 +1,158 @@
+#include "state/sqlite.hpp"
+
+#include "state/database_errors.hpp"
+
+#include <cstring>
+
+namespace blactl::state {
+namespace {
+
+constexpr const char* main_database = "main";
+
+/// What SQLite says, or the system where that is to blame.
+std::string reason_of(sqlite3* handle, int result) {
+  const int primary = result & 0xFF;
+  const int error = handle != nullptr ? sqlite3_system_errno(handle) : 0;
+  const bool is_of_system = primary == SQLITE_IOERR || primary == SQLITE_CANTOPEN;
+  return is_of_system && error != 0 ? std::strerror(error) : sqlite3_errstr(result);
+}
+
+} // namespace
+
+Result<Database> Database::open(const std::string& path, std::string told_as,
+                                std::chrono::milliseconds patience) {
+  constexpr int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_NOFOLLOW | SQLITE_OPEN_NOMUTEX |
+                        SQLITE_OPEN_PRIVATECACHE | SQLITE_OPEN_EXRESCODE;
+  sqlite3* handle = nullptr;
+  const int result = sqlite3_open_v2(path.c_str(), &handle, flags, nullptr);
+  Database database(handle, std::move(told_as));
+  if (result != SQLITE_OK) {
+    return std::unexpected(database.failure(result));
+  }
+  sqlite3_busy_timeout(handle, static_cast<int>(patience.count()));
+  database.leave_as_it_is(true);
+  return database;
+}
+
+Result<Database::Header> Database::header() const {
+  sqlite3_file* file = nullptr;
+  int result = sqlite3_file_control(handle(), main_database, SQLITE_FCNTL_FILE_POINTER,
+                                    static_cast<void*>(&file));
+  Header header{};
+  if (result == SQLITE_OK) {
+    result = file->pMethods->xRead(file, header.data(), static_cast<int>(header.size()), 0);
+  }
+  if (result != SQLITE_OK && result != SQLITE_IOERR_SHORT_READ) {
+    return std::unexpected(failure(result));
+  }
+  return header;
+}
+
+Result<void> Database::execute(const char* sql) const {
+  const int result = sqlite3_exec(handle(), sql, nullptr, nullptr, nullptr);
+  if (result != SQLITE_OK) {
+    return std::unexpected(failure(result));
+  }
+  return {};
+}
+
+/// What is written into a file that was moved away or removed is lost for all others.
+Result<void> Database::begin() const {
+  int has_moved = 0;
+  sqlite3_file_control(handle(), main_database, SQLITE_FCNTL_HAS_MOVED, &has_moved);
+  if (has_moved != 0) {
+    return std::unexpected(errors::moved_away(told_as_));
+  }
+  return execute("BEGIN IMMEDIATE");
+}
+
+/// Some failures end a transaction by themselves.
+void Database::roll_back_if_open() const {
+  if (sqlite3_get_autocommit(handle()) == 0) {
+    sqlite3_exec(handle(), "ROLLBACK", nullptr, nullptr, nullptr);
+  }
+}
+
+void Database::leave_as_it_is(bool leave) const {
+  sqlite3_db_config(handle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, leave ? 1 : 0, nullptr);
+}
+
+bool Database::is_read_only() const {
+  return sqlite3_db_readonly(handle(), main_database) == 1;
+}
+
+/// What is not listed tells that the database is not the one that we made.
+Error Database::failure(int result) const {
+  const std::string reason = reason_of(handle(), result);
+  switch (result & 0xFF) {
+  case SQLITE_BUSY:
+  case SQLITE_LOCKED:
+  case SQLITE_PROTOCOL: return errors::busy(told_as_);
+  case SQLITE_FULL:
+  case SQLITE_IOERR:
+  case SQLITE_NOMEM: return errors::io(told_as_, reason);
+  case SQLITE_PERM:
+  case SQLITE_AUTH:
+  case SQLITE_READONLY: return errors::denied(told_as_, reason);
+  case SQLITE_CANTOPEN:
+    return result == SQLITE_CANTOPEN_SYMLINK
+               ? errors::link(told_as_)
+               : errors::of_system(told_as_, sqlite3_system_errno(handle()));
+  default: leave_as_it_is(true); return errors::damaged(told_as_, reason);
+  }
+}
+
+Statement::Statement(const Database& database, std::string_view sql)
+    : database_(database),
+      failed_(sqlite3_prepare_v2(database.handle(), sql.data(), static_cast<int>(sql.size()),
+                                 &statement_, nullptr)) {}
+
+Statement::~Statement() {
+  sqlite3_finalize(statement_);
+}
+
+Statement& Statement::bind(std::int64_t value) {
+  note(sqlite3_bind_int64(statement_, ++bound_, value));
+  return *this;
+}
+
+Statement& Statement::bind(std::span<const std::uint8_t> value) {
+  note(sqlite3_bind_blob64(statement_, ++bound_, value.data(), value.size(), nullptr));
+  return *this;
+}
+
+Result<bool> Statement::step() {
+  const int result = failed_ == SQLITE_OK ? sqlite3_step(statement_) : failed_;
+  if (result != SQLITE_ROW && result != SQLITE_DONE) {
+    return std::unexpected(database_.failure(result));
+  }
+  return result == SQLITE_ROW;
+}
+
+Result<void> Statement::run() {
+  for (;;) {
+    const auto row = step();
+    if (!row) {
+      return std::unexpected(row.error());
+    }
+    if (!*row) {
+      return {};
+    }
+  }
+}
+
+std::int64_t Statement::integer(int column) const {
+  return sqlite3_column_int64(statement_, column);
+}
+
+std::span<const std::uint8_t> Statement::bytes(int column) const {
+  const auto* begin = static_cast<const std::uint8_t*>(sqlite3_column_blob(statement_, column));
+  return {begin, static_cast<std::size_t>(sqlite3_column_bytes(statement_, column))};
+}
+
+std::string_view Statement::text(int column) const {
+  const auto all = bytes(column);
+  return {reinterpret_cast<const char*>(all.data()), all.size()};
+}
+
+} // namespace blactl::state
