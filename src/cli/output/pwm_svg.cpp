@@ -1,4 +1,8 @@
+#include "blactl/base/text.hpp"
+
 #include "cli/output/pwm_view.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 
