@@ -248,8 +248,9 @@ inline constexpr Text level_notice{"NOTICE", "通知"};
 inline constexpr Text level_warning{"WARNING", "警告"};
 inline constexpr Text level_failure{"FAILURE", "障害"};
 inline constexpr Text no_faults{"no faults", "異常なし"};
-inline constexpr Text faults_unknown{"does not tell its faults now; the last ones known:",
-                                     "現在の異常は不明です。以下は最後に取得した内容です"};
+inline constexpr Text faults_unknown{"not known whether it has faults", "異常の有無は不明です"};
+inline constexpr Text faults_of_before{"does not tell its faults now; the last ones known:",
+                                       "現在の異常は不明です。以下は最後に取得した内容です"};
 inline constexpr Text faults_hidden{"{} faults below {} are not shown",
                                     "{} 件は{}レベル未満のため非表示"};
 inline constexpr Text unknown_bit_action{

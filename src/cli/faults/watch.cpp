@@ -148,7 +148,8 @@ bool Watch::take(FaultState now) {
     last_.erase(before);
     before = last_.end();
   }
-  const bool is_first = before == last_.end();
+  // What was not readable before was there, as far as one knows.
+  const bool is_first = before == last_.end() || before->second.snapshot.readings.empty();
   if (!now.errors.empty() && !is_first) {
     before->second.errors = std::move(now.errors);
     return true;

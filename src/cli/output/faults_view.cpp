@@ -79,7 +79,10 @@ std::string fault_text(const FaultState& servo, const Fault& fault, const Page& 
 std::string servo_text(const FaultState& servo, Level level, const Page& page) {
   std::string out = head_line(servo.snapshot.servo);
   if (!servo.errors.empty()) {
-    out += "  " + page.paint(Tone::bad, say<texts::faults_unknown>()) + '\n';
+    out += "  " +
+           page.paint(Tone::bad, servo.faults.empty() ? say<texts::faults_unknown>()
+                                                      : say<texts::faults_of_before>()) +
+           '\n';
   }
   std::size_t hidden = 0;
   for (const Fault& fault : servo.faults) {
