@@ -72,7 +72,7 @@ std::optional<AnswerWatch::Trait> AnswerWatch::trait(const DataType& type, Bytes
     return info ? std::optional(Trait{.value = info->unique_id}) : std::nullopt;
   }
   const auto told = GetSet::Response::decode(payload);
-  return told && constants_.contains(told->name)
+  return told && settled_.contains(told->name)
              ? std::optional(Trait{.name = told->name, .value = told->value})
              : std::nullopt;
 }
@@ -91,8 +91,18 @@ void AnswerWatch::complete(Assembly& assembly, const DataType& type, const Heade
     report_(header.source,
             one != nullptr && other != nullptr ? std::set{*one, *other} : std::set<UniqueId>{});
   }
+  forget_last_lap(assembly, header.destination);
   if (trait) {
     first = {trait, header.destination, at};
+  }
+}
+
+void AnswerWatch::forget_last_lap(Assembly& assembly, NodeId client) {
+  for (unsigned ahead = 1; ahead <= transfer_id_modulus / 2U; ++ahead) {
+    Answer& answer = assembly.answers[(assembly.transfer_id + ahead) % transfer_id_modulus];
+    if (answer.client == client) {
+      answer = {};
+    }
   }
 }
 

@@ -34,11 +34,16 @@ constexpr std::uint16_t last_index = 0xFF;
 /// Bound for what anybody on the bus can make us remember.
 constexpr std::size_t most_pending = 256;
 
-/// What a servo is (table 3-11): two values of it are of two servos.
-std::set<std::string> names_of_constants() {
+/// What a servo is (table 3-11), and how it is set (what SAVE keeps, 4.11): two values in answers to
+/// one question are of two servos.
+std::set<std::string> names_of_settled() {
   namespace at = bla::address;
-  return {at::model_number.name(), at::serial_number.name(), at::firmware_version.name(),
-          at::hardware_version.name()};
+  std::set<std::string> names{at::model_number.name(), at::serial_number.name(),
+                              at::firmware_version.name(), at::hardware_version.name()};
+  for (unsigned saved = at::torque_output.value(); saved <= at::static_node_id.value(); ++saved) {
+    names.insert(bla::Address(static_cast<std::uint8_t>(saved)).name());
+  }
+  return names;
 }
 
 } // namespace
@@ -57,7 +62,7 @@ Servo Member::servo() const {
 
 Roster::Roster(NodeId local)
     : local_(local),
-      answers_(names_of_constants(), [this](NodeId id, const std::set<dronecan::UniqueId>& units) {
+      answers_(names_of_settled(), [this](NodeId id, const std::set<dronecan::UniqueId>& units) {
         doubled_.insert(id);
         units_[id].insert(units.begin(), units.end());
       }) {}

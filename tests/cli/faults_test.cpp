@@ -126,6 +126,27 @@ TEST_CASE("faults --watch tells what is there, what comes and what goes, a line 
   CHECK(json_lines(watched.out).back()["exit_status"] == 130);
 }
 
+TEST_CASE("what a servo tells first, after a silence, was there before") {
+  const Bench bench;
+  const nlohmann::json servo{{"model", "BLA15-06U-A0"},
+                             {"node_id", 11},
+                             {"serial_number", 7},
+                             {"rom", {{"temperature_limit_high", "20degC"}}}};
+  const auto plug = [](const char* at, const char* to) {
+    return nlohmann::json{{"at", at}, {"servo", 7}, {"world", {{"plugged", to}}}};
+  };
+  const nlohmann::json scenario{{"schema", "blactl-scenario/1"},
+                                {"clock", "virtual"},
+                                {"servos", {servo}},
+                                {"events", {plug("600ms", "off"), plug("6s", "on")}}};
+  const std::string interface = "sim:" + bench.file("s.json", scenario.dump());
+  Background watch(bench, {"-i", interface, "faults", "--watch", "-n", "11"}, {}, "0x1A.8");
+  const Result watched = watch.stop(SIGINT);
+  CHECK(contains(watched.err, "node 11 does not answer any more"));
+  CHECK(contains(watched.out, "present"));
+  CHECK_FALSE(contains(watched.out, "came"));
+}
+
 TEST_CASE("faults are read from a recording") {
   const Bench bench;
   const std::string log = (bench.folder() / "log").string();

@@ -20,16 +20,16 @@ namespace blactl::dronecan {
 /// The receiver of the specification takes a second answer with the same transfer ID for a
 /// repetition of the first, and drops it (4.1). This one puts every answer to GetNodeInfo and
 /// GetSet together, and reports two of them with one transfer ID that cannot be of one unit: their
-/// unique IDs differ, or their values of a parameter that never changes. Answers whose frames mix
-/// are not read: then nobody takes them for an answer.
+/// unique IDs differ, or their values of a parameter that changes only by a question. Answers whose
+/// frames mix are not read: then nobody takes them for an answer.
 class AnswerWatch {
  public:
   /// The unique IDs of the two units, or none where parameters told them apart.
   using Report = std::function<void(NodeId, const std::set<UniqueId>&)>;
 
-  /// `constants`: names of parameters that never change.
-  AnswerWatch(std::set<std::string> constants, Report report)
-      : constants_(std::move(constants)), report_(std::move(report)) {}
+  /// `settled`: names of parameters that never change by themselves, as measured values do.
+  AnswerWatch(std::set<std::string> settled, Report report)
+      : settled_(std::move(settled)), report_(std::move(report)) {}
 
   /// Another unit may be on this node ID now: what was answered before tells nothing of it.
   void forget(NodeId server);
@@ -59,9 +59,11 @@ class AnswerWatch {
   };
 
   void complete(Assembly& assembly, const DataType& type, const Header& header, Time at);
+  /// Transfer IDs soon come again: the next ones of this client are not those that were answered.
+  static void forget_last_lap(Assembly& assembly, NodeId client);
   [[nodiscard]] std::optional<Trait> trait(const DataType& type, Bytes payload) const;
 
-  std::set<std::string> constants_;
+  std::set<std::string> settled_;
   Report report_;
   std::map<std::pair<NodeId, std::uint16_t>, Assembly> assemblies_; ///< by server and data type ID
 };

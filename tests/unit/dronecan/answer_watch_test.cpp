@@ -51,7 +51,7 @@ struct Watch {
   }
 
   std::vector<std::string> reports; ///< "11: 1 2"
-  AnswerWatch watch{{"0x50", "0x51"}, [this](NodeId id, const std::set<UniqueId>& units) {
+  AnswerWatch watch{{"0x38", "0x50", "0x51"}, [this](NodeId id, const std::set<UniqueId>& units) {
                       std::string report = fmt::format("{}:", id.value());
                       for (const UniqueId& unit : units) {
                         report += fmt::format(" {}", unit[0]);
@@ -155,7 +155,7 @@ TEST_CASE("a frame that comes twice counts once") {
   CHECK(watch.reports == Reports{"11: 1 2"});
 }
 
-TEST_CASE("two values of a parameter that never changes are of two units") {
+TEST_CASE("two values of a parameter that does not change by itself are of two units") {
   Watch watch;
   SECTION("in answers to one question") {
     watch.hear(value("0x51", 1, 5));
@@ -178,8 +178,14 @@ TEST_CASE("two values of a parameter that never changes are of two units") {
     watch.hear(value("0x51", 2, 5), 70ms);
     CHECK(watch.reports.empty());
   }
-  SECTION("what may change may have changed when the transfer ID comes again") {
+  SECTION("a measured value may be another one when the unit answers again") {
+    watch.hear(value("0x08", 1, 5));
+    watch.hear(value("0x08", 2, 5), 3ms);
+    CHECK(watch.reports.empty());
+  }
+  SECTION("what is set may be set anew until the transfer ID comes again") {
     watch.hear(value("0x38", 1, 5));
+    watch.hear(value("0x08", 0, 23), 50ms); // others were asked, and not all of them answered
     watch.hear(value("0x38", 2, 5), 70ms);
     CHECK(watch.reports.empty());
   }

@@ -595,6 +595,26 @@ TEST_CASE("two answers to one question show two units, which the receiver takes 
   CHECK(ear.roster.units(NodeId(11)).empty());
 }
 
+TEST_CASE("two values of what is set, in answers to one question, show two units") {
+  Ear ear;
+  const auto answer = [&ear](const char* name, std::int64_t value) {
+    const GetSet::Response response{.value = value, .name = name};
+    ear.hear(service(Kind::response, GetSet::type, 10, 127, response.encode(), 5));
+    ear.now += 1ms;
+  };
+  SECTION("a setting") {
+    answer("0x46", 10);
+    CHECK_FALSE(ear.roster.is_doubled(NodeId(10)));
+    answer("0x46", 11);
+    CHECK(ear.roster.is_doubled(NodeId(10)));
+  }
+  SECTION("a measured value") {
+    answer("0x08", 10);
+    answer("0x08", 11);
+    CHECK_FALSE(ear.roster.is_doubled(NodeId(10)));
+  }
+}
+
 TEST_CASE("answers to different questions show two units as well, unless there was a restart") {
   Ear ear;
   ear.info(10, 1, 100, 5);
