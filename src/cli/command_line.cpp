@@ -215,7 +215,8 @@ void Parser::refuse_unknown(Arguments arguments) {
                            std::ranges::search(arguments, pair).begin() != arguments.end();
     if (!was_value && extra != "--") {
       const std::string_view name = std::string_view(extra).substr(0, extra.find('='));
-      refuse(say<texts::unexpected_argument>(printable(extra)),
+      refuse(looks_like_option(extra) ? say<texts::unknown_option>(printable(extra))
+                                      : say<texts::unexpected_argument>(printable(extra)),
              extra.starts_with("--") ? did_you_mean(name, known, see_help()) : see_help());
     }
   }
@@ -298,7 +299,7 @@ std::vector<Error> Parser::faults_beside_unknown_command(Arguments arguments, Co
   for (const std::string& extra : app_.remaining()) {
     const bool is_known = find_option(extra.substr(0, extra.find('=')), commands) != nullptr;
     if (extra.starts_with("--") && extra != "--" && !is_known) {
-      refuse(say<texts::unexpected_argument>(printable(extra)), see_help());
+      refuse(say<texts::unknown_option>(printable(extra)), see_help());
     }
   }
   understand_given();

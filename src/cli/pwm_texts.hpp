@@ -10,8 +10,8 @@ inline constexpr Text pwm_one_way{
     "--endpoints、--preset、または --neutral / --range / --output / --mode "
     "のいずれか一つの方法で指定して下さい"};
 inline constexpr Text pwm_mode_needs_output{
-    "--mode without --output: the output range counts in the unit of the mode",
-    "--mode には --output も必要です (出力範囲の単位が動作モードで変わるため)"};
+    "--mode {} without --output: the output range counts in the unit of the mode",
+    "--mode {} には --output も必要です (出力範囲の単位が動作モードで変わるため)"};
 inline constexpr Text pwm_mode_hint{
     "for example --mode angle --output 70deg or --mode speed --output 150rpm",
     "例: --mode angle --output 70deg、--mode speed --output 150rpm"};

@@ -19,6 +19,7 @@ inline constexpr Text unknown_exception{"an unknown exception", "不明な例外
 inline constexpr Text unknown_command{"there is no command '{}'", "コマンド '{}' はありません"};
 inline constexpr Text no_command{"no command given", "コマンドが指定されていません"};
 inline constexpr Text unexpected_argument{"not expected: {}", "不要な引数です: {}"};
+inline constexpr Text unknown_option{"unknown option: {}", "不明なオプションです: {}"};
 inline constexpr Text not_understood{"{}", "コマンドラインを解釈できません: {}"};
 inline constexpr Text empty_value{"{}: the value is empty", "{}: 値が空です"};
 inline constexpr Text takes_one_value{"{} needs a value", "{} の値がありません"};
@@ -223,6 +224,8 @@ inline constexpr Text head_line{"node {}  {}  serial {}  servo ID {}  firmware {
                                 "ノード {}  {}  製造番号 {}  サーボ ID {}  ファームウェア {}\n"};
 inline constexpr Text unknown_value{"?", "?"};
 inline constexpr Text unknown_word{"unknown", "不明"};
+inline constexpr Text nothing_readable{"  nothing of this can be read\n",
+                                       "  読み出せるパラメータはありません\n"};
 inline constexpr Text nothing_changed{"  all parameters asked for have their defaults\n",
                                       "  対象のパラメータはすべて初期値です\n"};
 inline constexpr Text column_parameter{"PARAMETER", "パラメータ"};

@@ -151,7 +151,7 @@ Result<Session::Happened> Session::step(Time deadline) {
                 say<texts::nobody_acknowledges_hint>()});
   }
   if (give_up_at_ <= now) {
-    return end({Code::interrupted, say<texts::interrupted>()});
+    return end(interrupted());
   }
   advance(now);
   return now >= deadline ? Happened::deadline : Happened::something;
@@ -187,6 +187,10 @@ Result<Session::Happened> Session::take(const can::Event& event) {
   return Happened::something;
 }
 
+Error Session::interrupted() const {
+  return {Code::interrupted, say<texts::interrupted>(signal_ == SIGTERM ? "SIGTERM" : "SIGINT")};
+}
+
 /// The first signal ends what may be ended, the second one everything.
 Result<Session::Happened> Session::take_signal(int number) {
   if (number == SIGWINCH) {
@@ -197,7 +201,7 @@ Result<Session::Happened> Session::take_signal(int number) {
     node_.stop(loop_.now());
   }
   if (!first || node_.jobs() == 0) {
-    return end({Code::interrupted, say<texts::interrupted>()});
+    return end(interrupted());
   }
   give_up_at_ = loop_.now() + grace;
   if (stopping_) {
@@ -350,7 +354,7 @@ Result<void> Session::run_while(const std::function<bool()>& busy) {
     }
   }
   if (signal_ != 0) { // the jobs that had to be finished are
-    return end({Code::interrupted, say<texts::interrupted>()});
+    return end(interrupted());
   }
   return {};
 }

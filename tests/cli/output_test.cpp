@@ -410,7 +410,7 @@ TEST_CASE("questions and conflicts are put in Japanese too") {
   for (Background* asked : {&first, &second}) {
     const Result ended = asked->stop(SIGTERM);
     CHECK(ended.status == 143);
-    CHECK(contains(ended.err, "[interrupted] 中断されました"));
+    CHECK(contains(ended.err, "[interrupted] SIGTERM により中断されました"));
     CHECK_FALSE(has_english(without_commands(ended.err)));
   }
 }

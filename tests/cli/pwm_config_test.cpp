@@ -104,7 +104,7 @@ TEST_CASE("what contradicts itself or cannot be held is refused before any frame
   const Case cases[]{
       {{"--preset", "1", "--output", "70deg"}, "one of three ways"},
       {{"--preset", "5"}, "between 1 and 4"},
-      {{"--mode", "speed"}, "--mode without --output"},
+      {{"--mode", "speed"}, "--mode speed without --output"},
       {{"--mode", "fast", "--output", "70deg"}, "angle"},
       {{"--mode", "speed", "--output", "70deg"},
        "--output 70deg: with --mode speed the unit is rpm\n  for example --output 70rpm\n"},

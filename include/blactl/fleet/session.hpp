@@ -144,6 +144,7 @@ class Session {
   [[nodiscard]] Result<Happened> take(const can::Event& event);
   [[nodiscard]] Result<Happened> take_frame(const can::Received& received);
   [[nodiscard]] Result<Happened> take_signal(int number);
+  [[nodiscard]] Error interrupted() const;
   [[nodiscard]] Time next_deadline() const;
   void advance(Time now);
   [[nodiscard]] std::unexpected<Error> end(Error error);

@@ -44,7 +44,7 @@ inline constexpr Text bus_is_off_hint{
     "check wiring and bit rate, then: sudo ip link set {} down; sudo ip link set {} up",
     "配線とビットレートを確認後: sudo ip link set {} down; sudo ip link set {} up",
 };
-inline constexpr Text interrupted{"interrupted", "中断されました"};
+inline constexpr Text interrupted{"ended by {}", "{} により中断されました"};
 inline constexpr Text unreadable_frames{
     "{} messages that were no frames of classic CAN were passed over (CAN FD, or damaged)",
     "Classic CAN フレームではないメッセージ {} 件を無視しました (CAN FD または破損)"};

@@ -113,7 +113,8 @@ std::vector<Error> contradictions(const PwmOptions& options) {
     faults.push_back(usage(say<texts::pwm_one_way>()));
   }
   if (!options.mode.empty() && options.output.empty()) {
-    faults.push_back(usage(say<texts::pwm_mode_needs_output>(), say<texts::pwm_mode_hint>()));
+    faults.push_back(usage(say<texts::pwm_mode_needs_output>(printable(options.mode)),
+                           say<texts::pwm_mode_hint>()));
   }
   if (options.output.find_first_of(",:") != std::string::npos) {
     faults.push_back(usage(say<texts::pwm_output_symmetric>(printable(options.output)),

@@ -136,6 +136,17 @@ std::string csv(std::span<const ServoValues> servos) {
   return out;
 }
 
+namespace {
+
+std::string without_values(const ServoValues& servo, bool changed_only) {
+  if (changed_only) {
+    return say<texts::nothing_changed>();
+  }
+  return servo.snapshot.errors().empty() ? say<texts::nothing_readable>() : std::string();
+}
+
+} // namespace
+
 std::string text(std::span<const ServoValues> servos, const bla::Profiles& profiles,
                  bool changed_only, const Page& page) {
   std::string out;
@@ -143,7 +154,7 @@ std::string text(std::span<const ServoValues> servos, const bla::Profiles& profi
     out += out.empty() ? "" : "\n";
     out += head_line(servo.snapshot.servo);
     if (servo.shown.empty()) {
-      out += changed_only ? say<texts::nothing_changed>() : "";
+      out += without_values(servo, changed_only);
       continue;
     }
     out += table_text(servo, profiles, changed_only, page);

@@ -302,7 +302,7 @@ TEST_CASE("all faults of a command line come at once") {
   }
   CHECK(messages == "--node: the value is empty\n"
                     "--text needs a value\n"
-                    "not expected: --frob\n"
+                    "unknown option: --frob\n"
                     "-n 0: node IDs are 1 to 127\n"
                     "--flag takes no value\n"
                     "--time x: not a number of seconds between 0.001 and 3600\n"
