@@ -146,23 +146,52 @@ Result<NodeId> known_or_new(const Database& database, const UniqueId& unique_id,
   return id;
 }
 
-/// In the transaction of put().
-Result<void> put_unless_taken(const Database& database, const UniqueId& unique_id, NodeId node_id,
+Result<void> drop(const Database& database, const UniqueId& unique_id) {
+  return Statement(database, "DELETE FROM allocations WHERE unique_id = ?").bind(unique_id).run();
+}
+
+Error given_to(const UniqueId& holder, NodeId node_id) {
+  const std::string other = hex(holder);
+  return {Code::duplicate_node_id, say<texts::node_id_given>(node_id.value(), other),
+          say<texts::node_id_given_hint>(other), node_id.value()};
+}
+
+Result<void> put_unless_taken(const Database& database, const AllocationStore::Wish& wish,
                               WallTime now) {
-  const auto holder = entry_with(database, node_id);
+  const auto holder = entry_with(database, wish.node_id);
   if (!holder) {
     return std::unexpected(holder.error());
   }
-  if (!*holder) {
-    return store(database, unique_id, node_id, now);
+  if (*holder) {
+    return std::unexpected(given_to((*holder)->unique_id, wish.node_id));
   }
-  if ((*holder)->unique_id == unique_id) {
-    return {};
+  return store(database, wish.unique_id, wish.node_id, now);
+}
+
+/// In the transaction of put(): first all give up what they have, for somebody else may wish it.
+/// Who has what it wishes keeps it, and since when.
+Result<void> put_all(const Database& database, std::span<const AllocationStore::Wish> wishes,
+                     WallTime now) {
+  std::vector<AllocationStore::Wish> changes;
+  for (const auto& wish : wishes) {
+    const auto known = entry_with(database, wish.unique_id);
+    if (!known) {
+      return std::unexpected(known.error());
+    }
+    if (*known && (*known)->node_id == wish.node_id) {
+      continue;
+    }
+    if (auto dropped = drop(database, wish.unique_id); !dropped) {
+      return dropped;
+    }
+    changes.push_back(wish);
   }
-  const std::string other = hex((*holder)->unique_id);
-  return std::unexpected(Error{Code::duplicate_node_id,
-                               say<texts::node_id_given>(node_id.value(), other),
-                               say<texts::node_id_given_hint>(other), node_id.value()});
+  for (const auto& wish : changes) {
+    if (auto put = put_unless_taken(database, wish, now); !put) {
+      return put;
+    }
+  }
+  return {};
 }
 
 /// The folder without symbolic links: SQLite, which is told to follow none, would refuse the file
@@ -243,6 +272,14 @@ Result<AllocationStore> AllocationStore::open(const std::string& folder, Access 
   return AllocationStore(std::move(path), std::make_unique<Database>(std::move(*database)));
 }
 
+Result<AllocationStore> AllocationStore::unshared() {
+  auto database = make_temporary_database(allocations_format());
+  if (!database) {
+    return std::unexpected(database.error());
+  }
+  return AllocationStore({}, std::make_unique<Database>(std::move(*database)));
+}
+
 Result<std::vector<AllocationEntry>> AllocationStore::entries() const {
   std::vector<AllocationEntry> all;
   if (!database_) {
@@ -278,15 +315,17 @@ Result<NodeId> AllocationStore::assign(const UniqueId& unique_id, const Allocati
   return database_->transact([&] { return known_or_new(*database_, unique_id, choice, now); });
 }
 
-Result<void> AllocationStore::put(const UniqueId& unique_id, NodeId node_id, WallTime now) {
-  if (!may_be_given(node_id)) {
-    return fail(Code::out_of_range, say<texts::node_id_not_dynamic>(node_id.value()),
-                say<texts::node_id_not_dynamic_hint>());
+Result<void> AllocationStore::put(std::span<const Wish> wishes, WallTime now) {
+  for (const Wish& wish : wishes) {
+    if (!may_be_given(wish.node_id)) {
+      return fail(Code::out_of_range, say<texts::node_id_not_dynamic>(wish.node_id.value()),
+                  say<texts::node_id_not_dynamic_hint>());
+    }
   }
   if (auto writable = check_writable(); !writable) {
     return writable;
   }
-  return database_->transact([&] { return put_unless_taken(*database_, unique_id, node_id, now); });
+  return database_->transact([&] { return put_all(*database_, wishes, now); });
 }
 
 Result<bool> AllocationStore::forget(const UniqueId& unique_id) {
@@ -294,10 +333,8 @@ Result<bool> AllocationStore::forget(const UniqueId& unique_id) {
     return std::unexpected(writable.error());
   }
   return database_->transact([&]() -> Result<bool> {
-    auto deleted =
-        Statement(*database_, "DELETE FROM allocations WHERE unique_id = ?").bind(unique_id).run();
-    if (!deleted) {
-      return std::unexpected(deleted.error());
+    if (auto dropped = drop(*database_, unique_id); !dropped) {
+      return std::unexpected(dropped.error());
     }
     return sqlite3_changes(database_->handle()) > 0;
   });

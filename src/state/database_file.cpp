@@ -228,4 +228,16 @@ Result<void> make_database(const std::string& path, const DatabaseFormat& format
   return made ? sync_folder_of(path) : made;
 }
 
+Result<Database> make_temporary_database(const DatabaseFormat& format) {
+  constexpr const char* in_memory = ":memory:";
+  auto database = Database::open(in_memory, in_memory, std::chrono::milliseconds(0));
+  if (!database) {
+    return database;
+  }
+  if (auto made = database->execute(format.schema.c_str()); !made) {
+    return std::unexpected(made.error());
+  }
+  return database;
+}
+
 } // namespace blactl::state

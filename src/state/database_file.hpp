@@ -27,4 +27,7 @@ struct DatabaseFormat {
 /// faster.
 [[nodiscard]] Result<void> make_database(const std::string& path, const DatabaseFormat& format);
 
+/// One in memory, that ends with the object.
+[[nodiscard]] Result<Database> make_temporary_database(const DatabaseFormat& format);
+
 } // namespace blactl::state

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -67,6 +68,9 @@ class AllocationStore {
   open(const std::string& folder, Access access,
        std::chrono::milliseconds patience = usual_patience);
 
+  /// For a bus that no other process can reach: an empty table that ends with this object.
+  [[nodiscard]] static Result<AllocationStore> unshared();
+
   AllocationStore(const AllocationStore&) = delete;
   AllocationStore& operator=(const AllocationStore&) = delete;
   AllocationStore(AllocationStore&&) noexcept;
@@ -89,15 +93,21 @@ class AllocationStore {
   [[nodiscard]] Result<dronecan::NodeId> assign(const dronecan::UniqueId& unique_id,
                                                 const AllocationChoice& choice, WallTime now);
 
-  /// Gives this unit the ID that the user wishes for it, in place of the one that it had.
-  /// Errors: out_of_range: not 1 to 125; duplicate_node_id: another unit has it.
-  [[nodiscard]] Result<void> put(const dronecan::UniqueId& unique_id, dronecan::NodeId node_id,
-                                 WallTime now);
+  /// A unit and the ID that the user wishes for it.
+  struct Wish {
+    dronecan::UniqueId unique_id{};
+    dronecan::NodeId node_id;
+  };
+
+  /// Gives units the IDs that the user wishes for them, in place of those that they had: all, or
+  /// none of them. They may exchange theirs. Errors: out_of_range: not 1 to 125; duplicate_node_id:
+  /// another unit has it, or two wishes are for the same.
+  [[nodiscard]] Result<void> put(std::span<const Wish> wishes, WallTime now);
 
   /// Drops this unit; its ID is free. False: it was not in the table.
   [[nodiscard]] Result<bool> forget(const dronecan::UniqueId& unique_id);
 
-  /// The path of its file, also where there is none.
+  /// The path of its file, also while it is not there; empty: it never is.
   [[nodiscard]] const std::string& path() const { return path_; }
 
  private:

@@ -44,6 +44,10 @@ namespace {
 
 std::atomic<int> syncs{0};
 
+Result<void> put(AllocationStore& store, const UniqueId& unique_id, NodeId id, WallTime at) {
+  return store.put(std::array{AllocationStore::Wish{unique_id, id}}, at);
+}
+
 } // namespace
 
 // In place of those of the C library, which SQLite would call: counting is the only way to see what
@@ -378,7 +382,7 @@ TEST_CASE("entries come by node ID, with the time of their allocation") {
   auto store = opened(folder);
   CHECK(store.entries()->empty());
   REQUIRE(assigned(store, 1) == 125);
-  REQUIRE(store.put(unit(2), NodeId(7), noon + 1us));
+  REQUIRE(put(store, unit(2), NodeId(7), noon + 1us));
   const std::vector<AllocationEntry> expected{{NodeId(7), unit(2), noon + 1us},
                                               {NodeId(125), unit(1), noon}};
   CHECK(store.entries() == expected);
@@ -392,7 +396,7 @@ TEST_CASE("the user gives a unit another ID, and the old one is free") {
   const Folder folder;
   auto store = opened(folder);
   REQUIRE(assigned(store, 1) == 125);
-  REQUIRE(store.put(unit(1), NodeId(21), noon + 1h));
+  REQUIRE(put(store, unit(1), NodeId(21), noon + 1h));
   CHECK(store.entries() == std::vector{AllocationEntry{NodeId(21), unit(1), noon + 1h}});
   CHECK(assigned(store, 1) == 21);
   CHECK(assigned(store, 2) == 125);
@@ -401,19 +405,19 @@ TEST_CASE("the user gives a unit another ID, and the old one is free") {
 TEST_CASE("to wish the ID that a unit has changes nothing, not even its time") {
   const Folder folder;
   auto store = opened(folder);
-  REQUIRE(store.put(unit(1), NodeId(21), noon));
-  REQUIRE(store.put(unit(1), NodeId(21), noon + 1h));
+  REQUIRE(put(store, unit(1), NodeId(21), noon));
+  REQUIRE(put(store, unit(1), NodeId(21), noon + 1h));
   CHECK(store.find(unit(1)).value()->at == noon);
 }
 
 TEST_CASE("an ID that another unit has is not given by a wish") {
   const Folder folder;
   auto store = opened(folder);
-  REQUIRE(store.put(unit(1), NodeId(21), noon));
-  REQUIRE(store.put(unit(2), NodeId(22), noon));
+  REQUIRE(put(store, unit(1), NodeId(21), noon));
+  REQUIRE(put(store, unit(2), NodeId(22), noon));
   const int number = GENERATE(2, 3); // one in the table and a new one
   const auto before = *store.entries();
-  const auto refused = store.put(unit(number), NodeId(21), noon);
+  const auto refused = put(store, unit(number), NodeId(21), noon);
   REQUIRE_FALSE(refused);
   CHECK(refused.error().code == Code::duplicate_node_id);
   CHECK(refused.error().node_id == 21);
@@ -422,18 +426,47 @@ TEST_CASE("an ID that another unit has is not given by a wish") {
   CHECK(store.entries() == before);
 }
 
+TEST_CASE("several wishes are granted together, an exchange too, or none of them") {
+  const Folder folder;
+  auto store = opened(folder);
+  REQUIRE(put(store, unit(1), NodeId(21), noon));
+  REQUIRE(put(store, unit(2), NodeId(22), noon));
+  const std::array swapped{AllocationStore::Wish{unit(1), NodeId(22)},
+                           AllocationStore::Wish{unit(2), NodeId(21)}};
+  REQUIRE(store.put(swapped, noon + 1h));
+  const std::vector<AllocationEntry> expected{{NodeId(21), unit(2), noon + 1h},
+                                              {NodeId(22), unit(1), noon + 1h}};
+  CHECK(store.entries() == expected);
+  const std::array impossible{AllocationStore::Wish{unit(3), NodeId(30)},
+                              AllocationStore::Wish{unit(4), NodeId(21)}};
+  CHECK(store.put(impossible, noon).error().code == Code::duplicate_node_id);
+  const std::array twice{AllocationStore::Wish{unit(3), NodeId(30)},
+                         AllocationStore::Wish{unit(4), NodeId(30)}};
+  CHECK(store.put(twice, noon).error().code == Code::duplicate_node_id);
+  CHECK(store.entries() == expected);
+}
+
+TEST_CASE("a table that nobody shares is in no file") {
+  auto store = AllocationStore::unshared().value();
+  CHECK(store.path().empty());
+  CHECK(store.assign(unit(1), {}, noon) == NodeId(125));
+  CHECK(store.assign(unit(2), {}, noon) == NodeId(124));
+  CHECK(store.assign(unit(1), {}, noon) == NodeId(125));
+  CHECK(AllocationStore::unshared()->entries()->empty());
+}
+
 TEST_CASE("0, 126 and 127 are not given by a wish either") {
   const Folder folder;
   auto store = opened(folder);
   for (const NodeId id : {NodeId(0), NodeId(126), NodeId(127)}) {
-    const auto refused = store.put(unit(1), id, noon);
+    const auto refused = put(store, unit(1), id, noon);
     REQUIRE_FALSE(refused);
     CHECK(refused.error().code == Code::out_of_range);
     CHECK_FALSE(refused.error().hint.empty());
   }
   CHECK(store.entries()->empty());
-  CHECK(store.put(unit(1), NodeId(1), noon));
-  CHECK(store.put(unit(2), NodeId(125), noon));
+  CHECK(put(store, unit(1), NodeId(1), noon));
+  CHECK(put(store, unit(2), NodeId(125), noon));
 }
 
 TEST_CASE("what is forgotten is free, once") {
@@ -490,8 +523,8 @@ TEST_CASE("what was told is on the disk, and what changes nothing costs nothing"
   CHECK(syncs_of([&] { return store.assign(unit(1), {}, noon); }) > 0);
   CHECK(syncs_of([&] { return store.assign(unit(2), {}, noon); }) > 0);
   CHECK(syncs_of([&] { return store.assign(unit(1), {}, noon); }) == 0);
-  CHECK(syncs_of([&] { return store.put(unit(3), NodeId(9), noon); }) > 0);
-  CHECK(syncs_of([&] { return store.put(unit(3), NodeId(9), noon); }) == 0);
+  CHECK(syncs_of([&] { return put(store, unit(3), NodeId(9), noon); }) > 0);
+  CHECK(syncs_of([&] { return put(store, unit(3), NodeId(9), noon); }) == 0);
   CHECK(syncs_of([&] { return store.forget(unit(3)); }) > 0);
   CHECK(syncs_of([&] { return store.entries(); }) == 0);
 }
@@ -514,7 +547,7 @@ TEST_CASE("what was opened for reading cannot be changed") {
   auto store = opened(folder, Access::read);
   const auto entries = *store.entries();
   CHECK(store.assign(unit(2), {}, noon).error().code == Code::permission);
-  CHECK(store.put(unit(2), NodeId(5), noon).error().code == Code::permission);
+  CHECK(put(store, unit(2), NodeId(5), noon).error().code == Code::permission);
   CHECK(store.forget(unit(1)).error().code == Code::permission);
   CHECK(store.entries() == entries);
 }
