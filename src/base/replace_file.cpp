@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <memory>
 
 namespace blactl {
 namespace {
@@ -37,9 +38,29 @@ std::unexpected<Error> failure(const std::string& path, int error) {
               say<texts::file_unwritable_hint>());
 }
 
+/// The file behind a symbolic link, which stays one. What is there and is no regular file (a
+/// device, a pipe) must not be replaced by one.
+Result<std::string> target_of(const std::string& path) {
+  struct stat there{};
+  if (stat(path.c_str(), &there) != 0) {
+    return path;
+  }
+  if (!S_ISREG(there.st_mode)) {
+    return failure(path, S_ISDIR(there.st_mode) ? EISDIR : EINVAL);
+  }
+  const std::unique_ptr<char, decltype(&std::free)> real(realpath(path.c_str(), nullptr),
+                                                         &std::free);
+  return real ? Result<std::string>(real.get()) : failure(path, errno);
+}
+
 } // namespace
 
-Result<void> replace_file(const std::string& path, std::string_view content) {
+Result<void> replace_file(const std::string& named, std::string_view content) {
+  const auto target = target_of(named);
+  if (!target) {
+    return std::unexpected(target.error());
+  }
+  const std::string& path = *target;
   std::string beside = path + ".XXXXXX";
   const int descriptor = mkostemp(beside.data(), O_CLOEXEC);
   if (descriptor < 0) {
@@ -57,11 +78,12 @@ Result<void> replace_file(const std::string& path, std::string_view content) {
   return failure(path, error);
 }
 
-Result<void> check_replaceable(const std::string& path) {
-  struct stat there{};
-  if (stat(path.c_str(), &there) == 0 && S_ISDIR(there.st_mode)) {
-    return failure(path, EISDIR);
+Result<void> check_replaceable(const std::string& named) {
+  const auto target = target_of(named);
+  if (!target) {
+    return std::unexpected(target.error());
   }
+  const std::string& path = *target;
   std::string beside = path + ".XXXXXX";
   const int descriptor = mkostemp(beside.data(), O_CLOEXEC);
   if (descriptor < 0) {

@@ -4,6 +4,7 @@
 #include "blactl/fleet/discovery.hpp"
 #include "blactl/fleet/guard.hpp"
 #include "blactl/fleet/survey.hpp"
+#include "blactl/fleet/texts.hpp"
 
 #include "cli/confirm.hpp"
 #include "cli/output/progress_view.hpp"
@@ -27,7 +28,8 @@ class Run {
       : request_(request), context_(context), report_(report) {}
 
   void all() {
-    if (select() && plan() && hear() && survey() && check() && confirm() && check()) {
+    if (select() && plan() && hear() && choose_again() && survey() && check() && confirm() &&
+        check()) {
       conclude(request_.dry_run ? planned() : carry_out());
     } else if (report_.signal != 0) {
       tell_nothing_was_sent();
@@ -39,6 +41,7 @@ class Run {
   bool select();
   bool plan();
   bool hear();
+  bool choose_again();
   bool survey();
   bool check();
   bool confirm();
@@ -60,6 +63,8 @@ class Run {
   const ChangeRequest& request_;
   Context& context_;
   Report& report_;
+  bool has_searched_ = false; ///< the bus, for the servos that are meant
+  Time chosen_at_{};
   std::vector<dronecan::NodeId> servos_;
   std::size_t named_ = 0; ///< targets, those included that are not there
   std::vector<Plan> plans_;
@@ -87,6 +92,8 @@ bool Run::select() {
     report_.fail_target(std::move(error));
   }
   servos_ = std::move(selection->ids);
+  has_searched_ = targets->need_search();
+  chosen_at_ = context_.session().now();
   named_ = servos_.size() + report_.targets.size();
   if (auto refused = fleet::refuse_together(request_.wanted, servos_)) {
     return stop(std::move(*refused));
@@ -123,6 +130,25 @@ bool Run::hear() {
   // Also where nothing will be written: what was read may be of two units on one ID.
   const auto heard = fleet::hear_bus(context_.session());
   return heard || (heard.error().code == Code::state ? stop(heard.error()) : broken(heard.error()));
+}
+
+/// A servo that came since they were chosen may be one of those that are meant. One without a node
+/// ID is none of them, and that is said.
+bool Run::choose_again() {
+  if (!has_searched_) {
+    return true;
+  }
+  const fleet::Roster& roster = context_.session().roster();
+  for (const auto& [id, member] : roster.members()) {
+    if (member.first_heard > chosen_at_ && member.sends_actuator_status()) {
+      report_.fail({Code::state, say<texts::came_since>(id.value()), say<texts::run_again_hint>(),
+                    id.value()});
+    }
+  }
+  if (!roster.pending().empty()) {
+    context_.reporter().note(say<texts::units_wait_for_id>(roster.pending().size()));
+  }
+  return report_.errors.empty();
 }
 
 /// Who has the IDs that are given.
@@ -192,8 +218,9 @@ std::vector<ChangeResult> Run::carry_out() {
 void Run::conclude(std::vector<ChangeResult> results) {
   std::size_t done = 0;
   for (const ChangeResult& result : results) {
-    const bool would_change =
-        request_.dry_run && std::ranges::any_of(result.changes, &fleet::Change::is_planned);
+    const bool acts =
+        result.saves || std::ranges::any_of(result.changes, &fleet::Change::is_planned);
+    const bool would_change = request_.dry_run && acts;
     report_.targets.push_back({.errors = result.errors(), .has_found = would_change});
     done += request_.view == ResultView::servos
                 ? static_cast<std::size_t>(result.is_done())

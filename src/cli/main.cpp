@@ -30,6 +30,8 @@ int main(int argc, char** argv) {
   struct sigaction ignore{};
   ignore.sa_handler = SIG_IGN; // NOLINT: the macro casts
   sigaction(SIGPIPE, &ignore, nullptr);
+  // Nor is a file that may not grow any more (ulimit -f).
+  sigaction(SIGXFSZ, &ignore, nullptr);
   const std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
   return blactl::cli::run(arguments);
 }

@@ -241,9 +241,21 @@ inline constexpr Text set_unchanged{"unchanged", "変更なし"};
 inline constexpr Text set_failed{"failed", "失敗"};
 inline constexpr Text set_mismatch{"mismatch", "不一致"};
 inline constexpr Text set_planned{"planned", "予定"};
+inline constexpr Text ids_not_kept{"the node IDs given now are not kept: {}",
+                                   "割り当てるノード ID は保存されません: {}"};
+inline constexpr Text came_since{
+    "node {} has come to the bus since the servos were looked for: nothing was written",
+    "サーボの検索後にノード {} がバスに加わったため、書込みを行っていません"};
+inline constexpr Text units_wait_for_id{
+    "{} unit(s) without a node ID are left out (to give them one: blactl alloc --once)",
+    "ノード ID のないユニット {} 台は対象外です (割当て: blactl alloc --once)"};
+inline constexpr Text would_save{
+    "then SAVE: all of RAM goes to ROM, and the servo restarts",
+    "続いて SAVE により RAM の全設定を ROM に保存し、サーボを再起動します"};
+inline constexpr Text servo_not_saved{"not saved", "未保存"};
 inline constexpr Text not_saved_note{
-    "in RAM only: a restart brings the old values back (to keep the new ones: blactl save)",
-    "RAM のみの変更です。再起動すると元の値に戻ります (保存: blactl save)",
+    "in RAM only: a restart brings back what ROM holds (to keep the new values: blactl save)",
+    "RAM のみの変更です。再起動すると ROM の値に戻ります (保存: blactl save)",
 };
 
 // faults

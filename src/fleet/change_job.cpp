@@ -325,7 +325,11 @@ std::optional<dronecan::NodeId> ChangeJob::other_writer() const {
     return roster_.writer_to(id, known_since());
   }
   for (const Change& change : result_.changes) {
-    if (const auto writer = roster_.writer_to(id, known_since(), change.parameter->address)) {
+    const bool is_command = change.parameter->group == bla::Group::command;
+    const auto writer = is_command
+                            ? roster_.commander_of(plan_.before.servo, known_since())
+                            : roster_.writer_to(id, known_since(), change.parameter->address);
+    if (writer) {
       return writer;
     }
   }

@@ -65,19 +65,25 @@ std::vector<Conflict> find_conflicts(const Roster& roster) {
   return conflicts;
 }
 
-Finding finding(const Member& member, Time now) {
+/// A servo sends actuator.Status ten times a second: so long it was not heard if it is away.
+constexpr Duration servo_silence = std::chrono::milliseconds(300);
+
+Finding finding(const Member& member, Time now, bool is_gone) {
   Finding found{.servo = member.servo(),
                 .info = member.info,
                 .status = status(member),
                 .is_foreign = member.identified && !member.is_servo && member.info,
-                .is_offline = now - member.last_heard >= offline_time,
+                .is_offline = is_gone || now - member.last_heard >= offline_time,
                 .warnings = warnings(member)};
-  if (found.is_offline) {
+  if (now - member.last_heard >= offline_time) {
     const auto silence = std::chrono::duration_cast<std::chrono::seconds>(now - member.last_heard);
     found.warnings.push_back(say<texts::warn_offline>(silence.count()));
-    if (found.status) {
-      found.status->mode = dronecan::Mode::offline;
-    }
+  } else if (is_gone) {
+    found.warnings.push_back(say<texts::warn_gone>());
+  }
+  // A mute one may send its NodeStatus all the same.
+  if (found.is_offline && found.status && now - member.last_heard >= servo_silence) {
+    found.status->mode = dronecan::Mode::offline;
   }
   return found;
 }
@@ -130,7 +136,7 @@ std::vector<std::string> warnings(const Member& member) {
 }
 
 Findings gather(const Roster& roster, const Targets& targets, const bla::Profiles& profiles,
-                Time now) {
+                Time now, const std::set<NodeId>& gone) {
   Findings findings{&roster, {}, {}};
   for (const auto& [id, member] : roster.members()) {
     if (!roster.heard(id) || (targets.given && !targets.mean(member, profiles))) {
@@ -139,7 +145,7 @@ Findings gather(const Roster& roster, const Targets& targets, const bla::Profile
     if (roster.is_doubled(id)) {
       std::ranges::move(units_on(roster, member), std::back_inserter(findings.nodes));
     } else {
-      findings.nodes.push_back(finding(member, now));
+      findings.nodes.push_back(finding(member, now, gone.contains(id)));
     }
   }
   findings.conflicts = find_conflicts(roster);

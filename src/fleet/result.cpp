@@ -35,6 +35,7 @@ ChangeResult as_planned(const Plan& plan) {
           .mode_before = plan.mode_before,
           .mode_after = plan.mode_after,
           .warnings = plan.warnings,
+          .saves = plan.restart == RestartKind::save,
           .node_id_after = plan.before.servo.id};
 }
 

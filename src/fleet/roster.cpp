@@ -34,8 +34,8 @@ constexpr std::uint16_t last_index = 0xFF;
 /// Bound for what anybody on the bus can make us remember.
 constexpr std::size_t most_pending = 256;
 
-/// What a servo is (table 3-11), and how it is set (what SAVE keeps, 4.11): two values in answers to
-/// one question are of two servos.
+/// What a servo is (table 3-11), and how it is set (what SAVE keeps, 4.11): two values in answers
+/// to one question are of two servos.
 std::set<std::string> names_of_settled() {
   namespace at = bla::address;
   std::set<std::string> names{at::model_number.name(), at::serial_number.name(),
@@ -387,8 +387,12 @@ std::optional<NodeId> Roster::writer_to(NodeId id, Time since,
 }
 
 std::optional<NodeId> Roster::driver_of(const Servo& servo, Time now) const {
+  return commander_of(servo, now - driving_time);
+}
+
+std::optional<NodeId> Roster::commander_of(const Servo& servo, Time since) const {
   const Member* member = find(servo.id);
-  const auto recent = [&](Time at) { return now - at <= driving_time; };
+  const auto recent = [&](Time at) { return at >= since; };
   for (const auto& [source, commander] : commanders_) {
     const auto by_node = commander.nodes.find(servo.id);
     if (by_node != commander.nodes.end() && recent(by_node->second)) {

@@ -321,7 +321,7 @@ TEST_CASE("what ROM did not take and what a servo refuses have hints of their ow
     return Scene().servo("BLA21-12U-AB", 11, {{"faults", {{fault, true}}}}).run(arguments).err;
   };
   CHECK(contains(run("rom_write_fails", {"set", "-n", "11", "reverse=on", "--save", "-y"}),
-                 "RAM had the right values"));
+                 "ROM did not take what RAM held"));
   CHECK(contains(run("refuse_opcodes", {"save", "-n", "11", "-y"}), "--group fault"));
   CHECK(contains(run("refuse_opcodes", {"erase", "-n", "11", "-y"}), "--group fault"));
 }

@@ -184,6 +184,21 @@ TEST_CASE("two servos with one servo ID are a conflict") {
   CHECK(contains(document["errors"][0]["hint"].get<std::string>(), "blactl set -n 12 servo_id="));
 }
 
+TEST_CASE("a servo that does not answer in the end is not said to be there") {
+  const nlohmann::json scenario{
+      {"schema", "blactl-scenario/1"},
+      {"clock", "virtual"},
+      {"servos", {{{"model", "BLA21-12U-AB"}, {"node_id", 11}, {"serial_number", 7}}}},
+      {"events", {{{"at", "900ms"}, {"servo", 7}, {"world", {{"plugged", "off"}}}}}}};
+  const Bench bench;
+  const Result result =
+      bench.run({"-i", "sim:" + bench.file("s.json", scenario.dump()), "scan", "--expect", "1"});
+  CHECK(result.status == 4);
+  CHECK(contains(result.out, "offline"));
+  CHECK_FALSE(contains(result.out, "operational"));
+  CHECK(contains(result.out, "does not answer any more"));
+}
+
 TEST_CASE("scan fails with 4 where there is nobody, or fewer servos than expected") {
   const Result nobody = Scene().servo("BLA21-12U-AB", 0).run({"scan"});
   CHECK(nobody.status == 4);

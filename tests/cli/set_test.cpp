@@ -68,7 +68,7 @@ TEST_CASE("set says what was there, what is there now, and that it is not saved"
                  "  0x38  angle_limit_cw  1799  (179.9 deg)  ->  900  (90.0 deg)  written\n"));
   CHECK(contains(
       result.out,
-      "in RAM only: a restart brings the old values back (to keep the new ones: blactl save)\n"));
+      "in RAM only: a restart brings back what ROM holds (to keep the new values: blactl save)\n"));
   const Result same = three_servos().run({"set", "-n", "11", "angle_limit_cw=179.9deg"});
   CHECK(same.status == 0);
   CHECK(contains(same.out, "unchanged\n"));
@@ -136,6 +136,40 @@ TEST_CASE("--dry-run tells whether something would change, and changes nothing")
   CHECK(contains(changing.out, "->  1  (off)  planned\n"));
   CHECK(with("torque_output=on").status == 0);
   CHECK(tap.writes().empty());
+}
+
+TEST_CASE(
+    "--dry-run --save tells that all of RAM goes to ROM, also where nothing is written before") {
+  const Result same =
+      three_servos().run({"set", "-n", "11", "torque_output=on", "--save", "--dry-run"});
+  CHECK(same.status == 8);
+  CHECK(contains(same.out, "unchanged"));
+  CHECK(contains(same.out, "then SAVE: all of RAM goes to ROM, and the servo restarts\n"));
+}
+
+TEST_CASE("who comes while others are looked for is not left out silently") {
+  const auto plug = [](const char* at, const char* to) {
+    return nlohmann::json{{"at", at}, {"servo", 8}, {"world", {{"plugged", to}}}};
+  };
+  const auto servo = [](int node_id, int serial) {
+    return nlohmann::json{
+        {"model", "BLA21-12U-AB"}, {"node_id", node_id}, {"serial_number", serial}};
+  };
+  const nlohmann::json scenario{{"schema", "blactl-scenario/1"},
+                                {"clock", "virtual"},
+                                {"servos", {servo(11, 7), servo(12, 8), servo(0, 9)}},
+                                {"events", {plug("1ms", "off"), plug("400ms", "on")}}};
+  const Bench bench;
+  const std::string interface = "sim:" + bench.file("s.json", scenario.dump());
+  const auto set = [&](const char* nodes) {
+    return bench.run({"-i", interface, "set", "-n", nodes, "smoothing=on", "-y"});
+  };
+  const Result all = set("all");
+  CHECK(all.status == 1);
+  CHECK(codes(all) == std::vector<std::string>{"state"});
+  CHECK(contains(all.err, "node 12 has come to the bus"));
+  CHECK(contains(all.err, "1 unit(s) without a node ID"));
+  CHECK(set("11").status == 0);
 }
 
 TEST_CASE("set writes only what differs, in the order asked, and it stays") {
@@ -216,7 +250,7 @@ TEST_CASE("the unit of the PWM output range must be that of the PWM mode") {
 TEST_CASE("a servo that does not take the value ends with 5 and what it holds instead") {
   const Result refused = impostor("refuse").run({"set", "overcurrent_limit=6.5A", "-j"});
   check_error(refused, 5, "refused",
-              "node 11: overcurrent_limit=6.5 A: the servo refused it and still holds 2.1 A\n"
+              "node 11: overcurrent_limit=6.5 A: the servo did not take it and still holds 2.1 A\n"
               "  is it the model that it says it is?");
   CHECK(changes(refused)[0]["status"] == "failed");
   CHECK(changes(refused)[0]["after"] == 21);
@@ -290,7 +324,7 @@ TEST_CASE("a node ID that another servo will have after a restart is not given a
   CHECK(bench.run({"-i", "sim:", "set", "-n", "11", "static_node_id=50"}).status == 0);
   check_error(bench.run({"-i", "sim:", "set", "-n", "12", "static_node_id=50"}), 9,
               "duplicate_node_id",
-              "node 12 would get node ID 50, which node 11 has or gets with its next restart");
+              "node 12 would get node ID 50, which node 11 has, or gets once it is saved");
 }
 
 TEST_CASE("a servo ID that another servo has is not given away, 0 excepted") {

@@ -71,6 +71,9 @@ class Discovery final : private Roster::Listener {
   /// From now on every unit that appears or restarts is asked for its unique ID.
   void recognise();
 
+  /// Those that were there, and did not answer when they were asked last.
+  [[nodiscard]] const std::set<dronecan::NodeId>& gone() const { return gone_; }
+
   /// How each identification that was begun ended; empty: well.
   [[nodiscard]] std::vector<std::optional<Error>> identifications() const;
 

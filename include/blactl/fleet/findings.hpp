@@ -6,6 +6,7 @@
 #include "blactl/fleet/target.hpp"
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,7 @@ struct Finding {
   std::optional<dronecan::GetNodeInfo::Response> info{};
   std::optional<dronecan::NodeStatus> status{}; ///< the newest
   bool is_foreign = false;                      ///< it said that it is no BLA servo
-  bool is_offline = false;                      ///< it was heard, and is not any more
+  bool is_offline = false; ///< it was heard or answered, and does not any more
   std::vector<std::string> warnings{};
 };
 
@@ -35,9 +36,11 @@ struct Findings {
   std::vector<Conflict> conflicts;
 };
 
-/// What is there at `now`. `roster` outlives the findings.
+/// What is there at `now`. `roster` outlives the findings. `gone`: those who did not answer when
+/// they were asked last.
 [[nodiscard]] Findings gather(const Roster& roster, const Targets& targets,
-                              const bla::Profiles& profiles, Time now);
+                              const bla::Profiles& profiles, Time now,
+                              const std::set<dronecan::NodeId>& gone = {});
 
 /// What a technician should know of one node.
 [[nodiscard]] std::vector<std::string> warnings(const Member& member);

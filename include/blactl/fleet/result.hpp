@@ -16,6 +16,7 @@ struct ChangeResult {
   std::optional<std::int64_t> mode_before{}, mode_after{}; ///< as Plan
   std::vector<Warning> warnings{};                         ///< as Plan
   bool was_begun = false;     ///< by a job; else it is a plan that is shown
+  bool saves = false;         ///< SAVE is part of it: all of RAM goes to ROM
   bool was_restarted = false; ///< SAVE or RestartNode was due, everything before went well
   bool is_verified = false;   ///< what it had to show it has shown
   bool saved = false;         ///< ROM was written, and the servo is back with these values

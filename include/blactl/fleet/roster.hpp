@@ -174,6 +174,9 @@ class Roster {
   [[nodiscard]] std::optional<dronecan::NodeId>
   writer_to(dronecan::NodeId id, Time since, std::optional<bla::Address> reg = std::nullopt) const;
 
+  /// Another node that commanded this servo to move after `since`, as far as heard.
+  [[nodiscard]] std::optional<dronecan::NodeId> commander_of(const Servo& servo, Time since) const;
+
   /// The node that drives this servo now, as far as heard.
   [[nodiscard]] std::optional<dronecan::NodeId> driver_of(const Servo& servo, Time now) const;
 

@@ -95,8 +95,8 @@ inline constexpr Text restarts_again_hint{
     "電源電圧を確認して下さい",
 };
 inline constexpr Text about_node{"node {}: {}", "ノード {}: {}"};
-inline constexpr Text write_refused{"node {}: {}={}: the servo refused it and still holds {}",
-                                    "ノード {}: {}={}: サーボが拒否しました。値は {} のままです"};
+inline constexpr Text write_refused{"node {}: {}={}: the servo did not take it and still holds {}",
+                                    "ノード {}: {}={}: サーボが受け付けません。値は {} のままです"};
 inline constexpr Text write_mismatch{"node {}: {}={}: the servo holds {} instead",
                                      "ノード {}: {}={}: サーボの値は {} になっています"};
 
@@ -173,14 +173,15 @@ inline constexpr Text not_read_completely{
     "ノード {} の読出しは途中で終了したため、表示しません"};
 inline constexpr Text not_there_yet{"node {} was not there yet when the wait ended",
                                     "ノード {} は待機終了時点で動作していません"};
+inline constexpr Text warn_gone{"does not answer any more", "応答しなくなりました"};
 inline constexpr Text warn_offline{"has not been heard for {} s", "{} 秒間受信していません"};
 inline constexpr Text id_given_is_taken{
     "node {} would get node ID {}, which another unit has (uid:{})",
     "ノード {} に設定されるノード ID {} は別の機器 (uid:{}) が使用しています",
 };
 inline constexpr Text id_given_will_be_taken{
-    "node {} would get node ID {}, which node {} has or gets with its next restart",
-    "ノード {} に設定されるノード ID {} は、ノード {} の (再起動後の) ID と重複します",
+    "node {} would get node ID {}, which node {} has, or gets once it is saved and restarts",
+    "ノード {} に設定されるノード ID {} は、ノード {} の (または保存・再起動後の) ID と重複します",
 };
 inline constexpr Text servo_id_given_is_taken{
     "node {} would have servo ID {}, which node {} has",
@@ -286,10 +287,10 @@ inline constexpr Text save_not_waited_for{
 inline constexpr Text not_waited_for_hint{"is it back? blactl wait -n uid:{}",
                                           "復帰の確認: blactl wait -n uid:{}"};
 inline constexpr Text rom_differs_hint{
-    "RAM had the right values, ROM did not take them: write and save them again; if that does not "
-    "help, the ROM is faulty",
-    "RAM の値は正しく、ROM に保存されていません。書込みと保存を再度行い、改善しなければ ROM "
-    "の異常です"};
+    "RAM changed between the last reading and SAVE, or ROM did not take what RAM held: write and "
+    "save again; if it stays like this, the ROM may be faulty",
+    "最後の読出しから SAVE までの間に RAM の値が変わったか、ROM に保存されていません。"
+    "書込みと保存を再度行い、改善しなければ ROM の異常の可能性があります"};
 inline constexpr Text saved_not_back{
     "node {} confirmed SAVE and did not come back: what its ROM holds is not known",
     "ノード {} は SAVE に応答後、復帰しません。ROM の内容は不明です",
@@ -325,8 +326,8 @@ inline constexpr Text unchanged_no_more{
     "ノード {} が再起動したため、{} の値が変わっている可能性があります",
 };
 inline constexpr Text lost_since{
-    "node {} has restarted since: what was changed in RAM only is lost",
-    "ノード {} がその後再起動したため、RAM のみの変更は失われました",
+    "node {} has restarted since: what was in RAM only, and nobody has saved, is lost",
+    "ノード {} がその後再起動したため、保存されていない RAM の変更は失われました",
 };
 inline constexpr Text erased_no_more{
     "node {} restarted: what ERASE had reset may be back",
@@ -395,8 +396,9 @@ inline constexpr Text warn_uncertain_model{
     "hardware version {} is not in table 3-12: model by its leading digits only",
     "ハードウェアバージョン {} は表 3-12 にありません。機種は先頭の桁のみで判定しました",
 };
-inline constexpr Text warn_static_id_differs{"will come back as node {} after a restart",
-                                             "再起動後はノード {} になります"};
+inline constexpr Text warn_static_id_differs{
+    "0x46 in RAM is {}: once it is saved, that is its node ID after a restart",
+    "RAM の 0x46 は {} です。ROM に保存されていれば再起動後のノード ID になります"};
 inline constexpr Text warn_health{"health: {} (see 0x1A, 0x1B)",
                                   "健康状態: {} (0x1A, 0x1B を参照)"};
 inline constexpr Text only_readable{"the model is not known: it can only be read",
@@ -434,5 +436,18 @@ inline constexpr Text and_more{"{} and {} more", "{} 他 {} 件"};
 inline constexpr Text unknown_group{"there is no group '{}'", "グループ '{}' はありません"};
 inline constexpr Text or_a_group{" (all of a group: --group {})", " (グループ全体: --group {})"};
 inline constexpr Text known_groups{"the groups are {}", "グループ: {}"};
+
+inline constexpr Text other_allocator{"node {}{} allocates node IDs as well",
+                                      "ノード {}{} もノード ID を割り当てています"};
+inline constexpr Text other_allocator_hint{
+    "two tables would give an ID twice: end one of the allocators, then run the command again",
+    "割当てが重複する恐れがあります。一方のアロケータを停止してから再実行して下さい"};
+inline constexpr Text another_unit{"another unit", "別のユニット"};
+inline constexpr Text allocated_id_in_use{
+    "node ID {} is uid:{}'s by the allocation table, but {} uses it",
+    "ノード ID {} は割当て表では uid:{} のものですが、{} が使用しています"};
+inline constexpr Text allocated_id_in_use_hint{
+    "give one of them another ID: blactl alloc --assign {}=ID",
+    "いずれかに別の ID を指定して下さい: blactl alloc --assign {}=ID"};
 
 } // namespace blactl::texts

@@ -130,7 +130,8 @@ Report execute(const ScanOptions& options, Context& context) {
   });
   const auto found = discovery.find_all(options.listen);
   const auto findings = std::make_shared<Findings>(
-      fleet::gather(context.session().roster(), *targets, **profiles, end_of(context.session())));
+      fleet::gather(context.session().roster(), *targets, **profiles, end_of(context.session()),
+                    discovery.gone()));
   take_failures(discovery, *findings, report);
   if (const auto ambiguous = targets->ambiguity(context.session().roster(), **profiles);
       found && ambiguous) {

@@ -143,9 +143,19 @@ std::string changes_text(const ChangeResult& result, const Page& page) {
 std::string saving_text(std::span<const ChangeResult> results, const Page& page) {
   std::string servos;
   bool in_ram_only = false;
+  bool would_save = false;
   for (const ChangeResult& result : results) {
-    servos += result.was_restarted ? servo_text(result, page) : std::string();
+    if (result.was_restarted) {
+      servos += servo_text(result, page);
+    } else if (result.saves && result.was_begun) {
+      servos +=
+          head_line(result.servo) + "  " + page.paint(Tone::bad, say<texts::servo_not_saved>()) + '\n';
+    }
+    would_save = would_save || (result.saves && !result.was_begun);
     in_ram_only = in_ram_only || std::ranges::any_of(result.changes, is_in_ram_only);
+  }
+  if (would_save) {
+    return say<texts::would_save>() + '\n';
   }
   if (!servos.empty()) {
     return say<texts::saving>() + '\n' + servos;

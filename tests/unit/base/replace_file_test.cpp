@@ -74,6 +74,23 @@ TEST_CASE("a file that cannot be written leaves what was there, and nothing besi
   CHECK(folder.files() == 1);
 }
 
+TEST_CASE("what is no regular file is not replaced by one; a symbolic link stays one") {
+  const Folder folder;
+  const std::string pipe = folder.file("pipe");
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  CHECK_FALSE(check_replaceable(pipe));
+  CHECK_FALSE(replace_file(pipe, "x"));
+  CHECK(std::filesystem::is_fifo(pipe));
+  const std::string target = folder.file("map.svg");
+  const std::string link = folder.file("link.svg");
+  REQUIRE(replace_file(target, "one"));
+  std::filesystem::create_symlink(target, link);
+  CHECK(check_replaceable(link));
+  CHECK(replace_file(link, "two"));
+  CHECK(std::filesystem::is_symlink(link));
+  CHECK(content(target) == "two");
+}
+
 TEST_CASE("whether a file can be replaced is known before, and asking leaves nothing") {
   const Folder folder;
   CHECK(check_replaceable(folder.file("map.svg")));

@@ -352,6 +352,14 @@ TEST_CASE("what another node wrote meanwhile is not told as what the servo holds
     bench.job->look_back();
     CHECK(failure(bench.job->result()) == Code::state);
   }
+  SECTION("a command to move is no setting, and overwritten all the same") {
+    Bench bench(set({"command_angle=10deg"}));
+    bench.finish();
+    bench.live(1s);
+    bench.other_writes(at::command_angle, 0);
+    bench.job->look_back();
+    CHECK(failure(bench.job->result()) == Code::state);
+  }
   SECTION("but another register is another matter") {
     Bench bench(set({"reverse=on"}));
     bench.live(1s);

@@ -202,7 +202,7 @@ TEST_CASE("an unknown or uncertain model and old firmware are warned of") {
 TEST_CASE("a servo that will be somewhere else after a restart is warned of") {
   Member member{.id = NodeId(11), .is_servo = true, .identity = bla21().identity};
   member.static_node_id = 20;
-  CHECK(says(warnings(member), "node 20 after a restart"));
+  CHECK(says(warnings(member), "0x46 in RAM is 20"));
   member.static_node_id = 11;
   CHECK(warnings(member).empty());
   member.static_node_id = 0; // it asks for one
