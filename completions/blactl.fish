@@ -8,7 +8,7 @@ function __blactl_words
     for word in $words[2..]
         if test $value = yes
             set value no
-        else if string match -qr -- '^(--(clock|color|count|duration|endpoints|expect|facts|group|interface|kind|lang|level|listen|local-node-id|mode|neutral|node|output|preset|profile|profile-dir|range|record|retries|seed|stagger|svg|timeout|type|wait)|-[jqvyhV]*[in])$' $word
+        else if string match -qr -- '^(--(assign|clock|color|count|duration|endpoints|expect|export|facts|forget|group|import|interface|kind|lang|level|listen|local-node-id|mode|neutral|node|output|preset|profile|profile-dir|range|record|retries|seed|stagger|svg|timeout|type|wait)|-[jqvyhV]*[in])$' $word
             set value yes
         else if not string match -q -- '-*' $word
             echo $word
@@ -226,6 +226,7 @@ end
 
 complete -c blactl -f
 complete -c blactl -n __blactl_needs_command -a scan -d 'find every node and identify BLA servos'
+complete -c blactl -n __blactl_needs_command -a alloc -d 'give node IDs to servos that ask for one'
 complete -c blactl -n __blactl_needs_command -a get -d 'read parameters'
 complete -c blactl -n __blactl_needs_command -a set -d 'check against the servo\'s model, write, read back'
 complete -c blactl -n __blactl_needs_command -a save -d 'RAM to ROM: restarts the servo, and reads again'
@@ -259,6 +260,16 @@ complete -c blactl -s V -l version -d 'name and version'
 
 complete -c blactl -n '__blactl_in scan' -l listen -r -f -d 'how long to listen (default 1.2)'
 complete -c blactl -n '__blactl_in scan' -l expect -r -f -d 'fail unless so many servos are found'
+
+complete -c blactl -n '__blactl_in alloc' -l once -d 'end when nobody asks any more'
+complete -c blactl -n '__blactl_in alloc' -l count -r -f -d 'end when so many units have their node ID'
+complete -c blactl -n '__blactl_in alloc' -l wait -r -f -d 'with --once'
+complete -c blactl -n '__blactl_in alloc' -l range -r -f -d 'take new node IDs from these (default 1-125, from the top)'
+complete -c blactl -n '__blactl_in alloc' -l assign -r -f -d 'this unit gets this node ID from now on'
+complete -c blactl -n '__blactl_in alloc' -l list -d 'show the table, without a bus'
+complete -c blactl -n '__blactl_in alloc' -l forget -r -f -d 'drop a unit from the table'
+complete -c blactl -n '__blactl_in alloc' -l export -r -F -d 'write the table to a file, - for stdout'
+complete -c blactl -n '__blactl_in alloc' -l import -r -F -d 'take over the entries of such a file'
 
 complete -c blactl -n '__blactl_in get' -l group -r -f -a 'command status operation fault config control pwm limit option product production' -d 'all of a group'
 complete -c blactl -n '__blactl_in get' -l all -d 'every parameter (as without PARAM)'

@@ -223,6 +223,32 @@ BAD_FACTS = [
 ]
 
 
+ENTRY = ["entries", 0]
+
+GOOD_ALLOCATIONS = [
+    (["$schema"], None),
+    (["entries"], []),
+    ([*ENTRY, "time"], None),
+    ([*ENTRY, "node_id"], 1),
+]
+
+BAD_ALLOCATIONS = [
+    (["schema"], "blactl-facts/1"),
+    (["entries"], None),
+    (["entries"], {}),
+    (["range"], "1-125"),
+    ([*ENTRY, "unique_id"], None),
+    ([*ENTRY, "unique_id"], "00"),
+    ([*ENTRY, "unique_id"], "uid:00112233445566778899aabbccddee"),
+    ([*ENTRY, "node_id"], None),
+    ([*ENTRY, "node_id"], 0),
+    ([*ENTRY, "node_id"], 126),
+    ([*ENTRY, "node_id"], "21"),
+    ([*ENTRY, "time"], 5),
+    ([*ENTRY, "name"], "x"),
+]
+
+
 def validator_of(directory, name):
     """For schemas that refer to each other by their file names."""
     schemas = {path.name: load(path) for path in directory.glob("*.schema.json")}
@@ -250,27 +276,41 @@ def check_profiles(directory, faults):
 def read(blactl, folder, document, *arguments):
     """What the binary says of a document: "" if it takes it. No simulator runs for that: a log,
     which takes no frames, is refused after the file was read."""
-    file = pathlib.Path(folder) / "document.json"
-    file.write_text(json.dumps(document), encoding="utf-8")
-    words = [blactl, "-i", "replay:none", "--json", "sim", *arguments, str(file)]
-    done = subprocess.run(words, capture_output=True, text=True, timeout=60, check=False,
-                          env={**os.environ, "XDG_RUNTIME_DIR": folder})
-    errors = json.loads(done.stdout.splitlines()[-1])["errors"]
+    errors = errors_of([blactl, "-i", "replay:none", "--json", "sim", *arguments], folder, document)
     bad = [error["message"] for error in errors if error["code"] == "bad_file"]
     if not bad and [error["code"] for error in errors] != ["usage"]:
         raise RuntimeError(f"unexpected: {errors}")
     return "".join(bad)
 
 
-def check_read_files(kind, validator, documents, blactl, arguments, faults):
-    """`documents`: (name, document, whether it is right)."""
+def read_allocations(blactl, folder, document, *arguments):
+    """The same of an allocation table, each for an empty one."""
+    with tempfile.TemporaryDirectory(dir=folder) as state:
+        errors = errors_of([blactl, "--json", "alloc", *arguments], state, document)
+    if any(error["code"] != "bad_file" for error in errors):
+        raise RuntimeError(f"unexpected: {errors}")
+    return "".join(error["message"] for error in errors)
+
+
+def errors_of(words, folder, document):
+    file = pathlib.Path(folder) / "document.json"
+    file.write_text(json.dumps(document), encoding="utf-8")
+    done = subprocess.run([*words, str(file)], capture_output=True, text=True, timeout=60,
+                          check=False, env={**os.environ, "XDG_RUNTIME_DIR": str(folder),
+                                            "BLACTL_STATE_DIR": str(folder)})
+    is_stream = done.stdout.startswith('{"')
+    return json.loads(done.stdout.splitlines()[-1] if is_stream else done.stdout)["errors"]
+
+
+def check_read_files(kind, validator, documents, read_with, faults):
+    """`documents`: (name, document, whether it is right); `read_with`: of folder and document."""
     with tempfile.TemporaryDirectory() as folder:
         for name, document, right in documents:
             told = [f"{error.json_path}: {error.message}" for error in
                     validator.iter_errors(document)]
             if bool(told) == right:
                 faults.append(f"{kind}: the schema {'refuses' if right else 'takes'} {name}: {told}")
-            told = read(blactl, folder, document, *arguments)
+            told = read_with(folder, document)
             if bool(told) == right:
                 faults.append(f"{kind}: the reader {'refuses' if right else 'takes'} {name}: {told}")
     right = sum(1 for document in documents if document[2])
@@ -289,14 +329,18 @@ def main(source, blactl):
     faults = []
     said = [check_profiles(source / "profiles", faults)]
     data = source / "tests" / "data"
-    for kind, full, good, bad, arguments in (
-            ("scenarios", FULL, GOOD_SCENARIOS, BAD_SCENARIOS, []),
-            ("facts", "bench.json", GOOD_FACTS, BAD_FACTS, ["--facts"])):
+    for kind, schema, full, good, bad, reader, arguments in (
+            ("scenarios", "scenario", FULL, GOOD_SCENARIOS, BAD_SCENARIOS, read, []),
+            ("facts", "facts", "bench.json", GOOD_FACTS, BAD_FACTS, read, ["--facts"]),
+            ("allocations", "allocations", "table.json", GOOD_ALLOCATIONS, BAD_ALLOCATIONS,
+             read_allocations, ["--import"])):
         examples = {path.name: load(path) for path in sorted((data / kind).glob("*.json"))}
-        schema = {"scenarios": "scenario.schema.json", "facts": "facts.schema.json"}[kind]
-        said.append(check_read_files(kind, validator_of(source / "schemas", schema),
-                                     documents_of(examples, full, good, bad), blactl, arguments,
-                                     faults))
+
+        def read_with(folder, document, reader=reader, arguments=arguments):
+            return reader(blactl, folder, document, *arguments)
+
+        said.append(check_read_files(kind, validator_of(source / "schemas", f"{schema}.schema.json"),
+                                     documents_of(examples, full, good, bad), read_with, faults))
     for fault in faults:
         print(fault, file=sys.stderr)
     print("; ".join(said) if not faults else "failed")

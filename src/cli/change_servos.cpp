@@ -46,6 +46,7 @@ class Run {
   bool check();
   bool confirm();
   [[nodiscard]] std::vector<ChangeResult> planned() const;
+  [[nodiscard]] Result<state::AllocationStore> open_allocations();
   [[nodiscard]] std::vector<ChangeResult> carry_out();
   void conclude(std::vector<ChangeResult> results);
   void tell_nothing_was_sent();
@@ -196,6 +197,14 @@ std::vector<ChangeResult> Run::planned() const {
   return results;
 }
 
+Result<state::AllocationStore> Run::open_allocations() {
+  auto table = context_.allocations(state::AllocationStore::Access::write);
+  if (!table) { // no reason to leave a servo without its node ID
+    context_.reporter().note(say<texts::ids_not_kept>(table.error().message));
+  }
+  return table;
+}
+
 std::vector<ChangeResult> Run::carry_out() {
   if (request_.wanted.restart == fleet::RestartKind::save) {
     context_.reporter().note(say<texts::do_not_cut_supply>());
@@ -205,6 +214,7 @@ std::vector<ChangeResult> Run::carry_out() {
                              .come_back = request_.times.wait,
                              // A servo that finds its ROM unreadable asks as well.
                              .may_allocate = request_.wanted.restart && context_.may_allocate(),
+                             .allocations = [this] { return open_allocations(); },
                              .progress = [this](const fleet::Progress& progress) {
                                context_.reporter().progress(text(progress));
                              }};

@@ -14,8 +14,8 @@ namespace blactl::cli {
 
 namespace commands {
 
-extern const Command scan, get, set, save, erase, restart, wait, faults, pwm_config, trace, models,
-    sim;
+extern const Command scan, alloc, get, set, save, erase, restart, wait, faults, pwm_config, trace,
+    models, sim;
 
 } // namespace commands
 

@@ -2,6 +2,7 @@
 
 #include "blactl/can/replay_texts.hpp"
 #include "blactl/fleet/texts.hpp"
+#include "blactl/state/state_folder.hpp"
 
 #include "cli/interface/bus_factory.hpp"
 #include "cli/texts.hpp"
@@ -175,16 +176,42 @@ Result<fleet::Session*> Context::open_for_writing(std::string_view command) {
   return session;
 }
 
-bool Context::may_allocate() {
+Result<fleet::Session*> Context::open_for_allocation() {
+  auto session = open(fleet::Session::Hearing::all);
+  if (!session) {
+    return session;
+  }
+  if (auto locked = lock_allocation(); !locked) {
+    return std::unexpected(locked.error());
+  }
+  return session;
+}
+
+Result<void> Context::lock_allocation() {
   if (place_.interface.empty() || allocating_) {
-    return true;
+    return {};
   }
   using state::InterfaceLock;
-  if (auto lock = InterfaceLock::acquire(place_, InterfaceLock::Right::allocate)) {
-    allocating_ = std::move(*lock);
-    tell_lock(allocating_->file());
+  auto lock = InterfaceLock::acquire(place_, InterfaceLock::Right::allocate);
+  if (!lock) {
+    return std::unexpected(lock.error());
   }
-  return allocating_.has_value();
+  allocating_ = std::move(*lock);
+  tell_lock(allocating_->file());
+  return {};
+}
+
+Result<state::AllocationStore> Context::allocations(state::AllocationStore::Access access) const {
+  using state::AllocationStore;
+  const auto interface = parse_interface(shared_.interface);
+  if (interface && interface->kind == InterfaceKind::scenario) {
+    return AllocationStore::unshared();
+  }
+  std::string folder = state::state_folder();
+  if (!folder.empty() && interface && interface->kind == InterfaceKind::simulator) {
+    folder += "/sim";
+  }
+  return AllocationStore::open(folder, access);
 }
 
 Result<std::unique_ptr<can::Bus>> Context::recorded(std::unique_ptr<can::Bus> bus) {

@@ -7,6 +7,7 @@
 #include "blactl/fleet/identification.hpp"
 #include "blactl/fleet/session.hpp"
 #include "blactl/fleet/target.hpp"
+#include "blactl/state/allocation_store.hpp"
 #include "blactl/state/interface_lock.hpp"
 
 #include "cli/options.hpp"
@@ -50,8 +51,17 @@ class Context {
   /// (--listen-only; `command` is named), busy.
   [[nodiscard]] Result<fleet::Session*> open_for_writing(std::string_view command);
 
+  /// The same, to allocate node IDs, and to hear everybody. Further errors: busy.
+  [[nodiscard]] Result<fleet::Session*> open_for_allocation();
+
   /// Whether this process may give node IDs: nobody else of this machine does.
-  [[nodiscard]] bool may_allocate();
+  [[nodiscard]] bool may_allocate() { return lock_allocation().has_value(); }
+
+  /// The allocation table for the interface: that of this user; simulated servos, which would fill
+  /// it, have one of their own, and those of a private simulation one in memory. Errors: as
+  /// AllocationStore::open().
+  [[nodiscard]] Result<state::AllocationStore>
+  allocations(state::AllocationStore::Access access) const;
 
   [[nodiscard]] fleet::Session& session() { return *session_; }
 
@@ -81,6 +91,7 @@ class Context {
   /// A node ID of our own for this bus; none where nothing is sent. Errors: no_local_node_id.
   [[nodiscard]] Result<std::optional<state::LocalNodeId>> take_node_id(bool listens);
   [[nodiscard]] state::LocalNodeId::Candidates own_ids() const;
+  [[nodiscard]] Result<void> lock_allocation();
   void tell(const state::LocalNodeId& local) const;
   void tell_lock(const std::string& path) const;
 

@@ -62,6 +62,7 @@ bool Allocator::takes(const Allocation& request) {
     return false;
   }
   collected_ = longer;
+  preferred_ = NodeId(request.node_id);
   return true;
 }
 
@@ -76,7 +77,7 @@ void Allocator::answer() {
   Allocation reply = collected_;
   if (reply.size == whole) {
     collected_ = {};
-    const auto id = table_.assign(reply.unique_id);
+    const auto id = table_.assign(reply.unique_id, preferred_);
     if (!id || !id->is_unicast() || id == node_.id()) {
       return;
     }

@@ -7,8 +7,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <list>
+#include <map>
 #include <ranges>
+#include <span>
 #include <utility>
 
 namespace blactl::fleet {
@@ -24,13 +27,14 @@ constexpr Duration start_up_time = 5s;
 constexpr Duration allocation_time = 2s; // one servo after the other, about 1 s each
 constexpr Duration leaving_time = 20ms;
 
-/// The IDs that the servos had: each gets its own again, and nobody else gets any.
+/// The IDs of the servos that restart: each gets its own again, and nobody else gets any.
 class FormerIds final : public dronecan::AllocationTable {
  public:
-  FormerIds(const Roster& roster, std::span<const Plan> plans) : roster_(roster) {
+  FormerIds(Session& session, std::span<const Plan> plans, const Manner& manner)
+      : session_(session), open_(manner.allocations) {
     for (const Plan& plan : plans) {
       if (const Servo& servo = plan.before.servo; servo.unique_id) {
-        ids_.emplace_back(*servo.unique_id, servo.id);
+        ids_.emplace(*servo.unique_id, servo.id);
       }
     }
   }
@@ -41,20 +45,42 @@ class FormerIds final : public dronecan::AllocationTable {
     });
   }
 
-  [[nodiscard]] std::optional<NodeId> assign(const UniqueId& unique_id) override {
-    const auto it = std::ranges::find(ids_, unique_id, &std::pair<UniqueId, NodeId>::first);
-    if (it == ids_.end()) {
+  [[nodiscard]] std::optional<NodeId> assign(const UniqueId& unique_id,
+                                             NodeId /*preferred*/) override {
+    const auto former = ids_.find(unique_id);
+    if (former == ids_.end()) {
       return std::nullopt;
     }
+    const NodeId id = from_table(unique_id, former->second).value_or(former->second);
     // Somebody else may have taken the ID in the meantime, and not have said yet who it is.
-    const Member* now = roster_.find(it->second);
+    const Member* now = session_.roster().find(id);
     const bool is_taken = now != nullptr && !now->is_unit(unique_id);
-    return is_taken ? std::nullopt : std::optional(it->second);
+    return is_taken ? std::nullopt : std::optional(id);
   }
 
  private:
-  const Roster& roster_;
-  std::vector<std::pair<UniqueId, NodeId>> ids_;
+  /// Empty: the table cannot be used, and the servo gets the ID that it had.
+  [[nodiscard]] std::optional<NodeId> from_table(const UniqueId& unique_id, NodeId former) {
+    if (!table_ && open_) {
+      table_ = open_();
+      open_ = {};
+    }
+    if (!table_ || !*table_) {
+      return std::nullopt;
+    }
+    state::AllocationChoice choice{.preferred = former};
+    for (const auto& [id, member] : session_.roster().members()) {
+      choice.taken.set(id.value(), session_.roster().heard(id) && id != former);
+    }
+    choice.taken.set(session_.node().id().value());
+    const auto id = (*table_)->assign(unique_id, choice, session_.wall());
+    return id ? std::optional(*id) : std::nullopt;
+  }
+
+  Session& session_;
+  std::function<Result<state::AllocationStore>()> open_; ///< empty: it was tried
+  std::optional<Result<state::AllocationStore>> table_;
+  std::map<UniqueId, NodeId> ids_; ///< that they had
 };
 
 /// Whether this servo will have to ask for a node ID when it starts, as far as is known.
@@ -105,7 +131,7 @@ Progress progress_of(const std::list<ChangeJob>& jobs, Duration elapsed) {
 
 CarriedOut carry_out(Session& session, const bla::Profiles& profiles, std::span<const Plan> plans,
                      const Manner& manner) {
-  FormerIds table(session.roster(), plans);
+  FormerIds table(session, plans, manner);
   dronecan::Allocator allocator(session.node(), table);
   if (manner.may_allocate && session.roster().allocators().empty()) {
     session.attach(allocator);

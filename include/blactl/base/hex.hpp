@@ -1,10 +1,15 @@
 #pragma once
 // Bytes as hexadecimal digits.
 
+#include <array>
+#include <charconv>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 namespace blactl {
 
@@ -23,6 +28,23 @@ inline void append_hex(std::string& out, std::span<const std::uint8_t> bytes) {
   std::string out;
   append_hex(out, bytes);
   return out;
+}
+
+/// The bytes that exactly so many digits of either case are; null: they are not.
+template <std::size_t size>
+[[nodiscard]] std::optional<std::array<std::uint8_t, size>> from_hex(std::string_view digits) {
+  std::array<std::uint8_t, size> bytes{};
+  if (digits.size() != size * 2) {
+    return std::nullopt;
+  }
+  for (std::size_t i = 0; i < size; ++i) {
+    const std::string_view two = digits.substr(i * 2, 2);
+    const auto [end, error] = std::from_chars(two.data(), two.data() + 2, bytes[i], 16);
+    if (error != std::errc() || end != two.data() + 2) {
+      return std::nullopt;
+    }
+  }
+  return bytes;
 }
 
 } // namespace blactl

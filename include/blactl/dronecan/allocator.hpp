@@ -21,8 +21,10 @@ class AllocationTable {
   /// Whether a unit whose unique ID begins with these bytes may get an ID from here.
   [[nodiscard]] virtual bool serves(Bytes prefix) const = 0;
 
-  /// The ID of this unit; empty: it gets none. Our own ID is never given.
-  [[nodiscard]] virtual std::optional<NodeId> assign(const UniqueId& unique_id) = 0;
+  /// The ID of this unit; empty: it gets none now. Our own ID is never given. `preferred`: what the
+  /// unit would like; 0: it does not mind.
+  [[nodiscard]] virtual std::optional<NodeId> assign(const UniqueId& unique_id,
+                                                     NodeId preferred) = 0;
 
  protected:
   AllocationTable() = default;
@@ -51,6 +53,7 @@ class Allocator final : public Service {
   Node& node_;
   AllocationTable& table_;
   Allocation collected_; ///< the parts of the unique ID that were heard
+  NodeId preferred_{};   ///< by the last part
   Time answered_at_{};   ///< the last accepted part: when its answer was or is due
   Time answer_due_ = never;
   bool has_answered_ = false;

@@ -3,6 +3,7 @@
 
 #include "blactl/fleet/change_job.hpp"
 #include "blactl/fleet/session.hpp"
+#include "blactl/state/allocation_store.hpp"
 
 #include <cstddef>
 #include <functional>
@@ -28,6 +29,9 @@ struct Manner {
   std::optional<Duration> come_back{}; ///< empty: 5 s, and 2 s for each that will ask for an ID
   /// Nobody else of this machine allocates on the interface: this process may.
   bool may_allocate = false;
+  /// Opens the allocation table, when a servo asks for an ID. Where it cannot be opened, or this is
+  /// empty, each gets the ID that it had, and that is not kept.
+  std::function<Result<state::AllocationStore>()> allocations{};
   std::function<void(const Progress&)> progress{}; ///< called once a second; may be empty
 };
 
@@ -37,7 +41,8 @@ struct CarriedOut {
   std::optional<Error> broken{};
 };
 
-/// A servo that asks for a node ID gets the one it had, unless another allocator is heard.
+/// A servo that asks for a node ID gets that of the allocation table; one that is not in there the
+/// one it had, or a free one if that is another's in the table. Unless another allocator is heard.
 [[nodiscard]] CarriedOut carry_out(Session& session, const bla::Profiles& profiles,
                                    std::span<const Plan> plans, const Manner& manner);
 

@@ -38,14 +38,16 @@ class Book final : public AllocationTable {
     });
   }
 
-  [[nodiscard]] std::optional<NodeId> assign(const UniqueId& unique_id) override {
+  [[nodiscard]] std::optional<NodeId> assign(const UniqueId& unique_id, NodeId wish) override {
     assigned.push_back(unique_id);
+    preferred = wish;
     const auto it = ids.find(unique_id);
     return it != ids.end() ? it->second : std::nullopt;
   }
 
   std::map<UniqueId, std::optional<NodeId>> ids;
   std::vector<UniqueId> assigned;
+  NodeId preferred{};
 };
 
 /// An allocator on a bench: time is told by hand, its answers are decoded.

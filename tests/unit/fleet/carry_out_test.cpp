@@ -6,6 +6,7 @@
 
 #include "support.hpp"
 #include "unit/can/fake_bus.hpp"
+#include "unit/state/processes.hpp"
 
 #include <signal.h>
 
@@ -220,6 +221,49 @@ TEST_CASE("servos that have no ID of their own get those they had, again and aga
     grow_old(scene);
   }
   CHECK(read(scene, 11, "static_node_id") == 0);
+}
+
+TEST_CASE("the allocation table says which ID a servo gets back, and keeps what it was given") {
+  const state::test::Folder folder;
+  const auto open = [&] {
+    return state::AllocationStore::open(folder.path.string(),
+                                        state::AllocationStore::Access::write);
+  };
+  const Scene scene(servos({servo(11), servo(12), servo(13)}));
+  const dronecan::UniqueId first = *scene.identify(11).unique_id;
+  const dronecan::UniqueId second = *scene.identify(12).unique_id;
+  const std::array wishes{
+      state::AllocationStore::Wish{first, NodeId(40)},
+      state::AllocationStore::Wish{dronecan::UniqueId{1}, NodeId(12)}}; // of a servo that is away
+  REQUIRE(open()->put(wishes, {}));
+  for (const std::uint8_t id : std::array<std::uint8_t, 3>{11, 12, 13}) {
+    write(scene, id, "static_node_id=0");
+  }
+  Manner manner = allocating;
+  manner.allocations = open;
+  const auto carried_out = change(scene, save, {11, 12, 13}, manner);
+  for (const ChangeResult& result : carried_out.servos) {
+    INFO((result.error ? result.error->message : ""));
+    CHECK(result.is_done());
+  }
+  CHECK(carried_out.servos[0].returned == NodeId(40));
+  CHECK(carried_out.servos[1].returned == NodeId(14)); // 12 is another's, 13 is in use
+  CHECK(carried_out.servos[2].returned == NodeId(13));
+  CHECK(open()->find(second).value()->node_id == NodeId(14));
+  CHECK(open()->entries()->size() == 4);
+}
+
+TEST_CASE("where the allocation table cannot be opened, a servo gets the ID that it had") {
+  const Scene scene(servos({servo(11)}));
+  write(scene, 11, "static_node_id=0");
+  Manner manner = allocating;
+  int asked = 0;
+  manner.allocations = [&]() -> Result<state::AllocationStore> {
+    ++asked;
+    return fail(Code::io, "no table");
+  };
+  CHECK(change_one(scene, save, 11, manner).returned == NodeId(11));
+  CHECK(asked == 1);
 }
 
 TEST_CASE("where somebody else allocates, or may, this process does not") {

@@ -1,0 +1,138 @@
+#include "cli/alloc/book.hpp"
+
+#include "blactl/base/hex.hpp"
+#include "blactl/base/replace_file.hpp"
+#include "blactl/base/rfc3339.hpp"
+#include "blactl/can/loop.hpp"
+#include "blactl/state/allocation_file.hpp"
+
+#include "cli/alloc/texts.hpp"
+#include "cli/output/table.hpp"
+
+#include <memory>
+#include <utility>
+
+namespace blactl::cli {
+
+using state::AllocationEntry;
+using state::AllocationStore;
+
+namespace {
+
+using Entries = std::vector<AllocationEntry>;
+
+Report failed(Error error) {
+  Report report;
+  report.fail(std::move(error));
+  return report;
+}
+
+Result<Entries> entries_of(Context& context) {
+  const auto store = context.allocations(AllocationStore::Access::read);
+  return store ? store->entries() : std::unexpected(store.error());
+}
+
+std::string text(const Entries& entries, const Page& page) {
+  if (entries.empty()) {
+    return say<texts::alloc_table_empty>();
+  }
+  Table table({say<texts::alloc_column_node>(), say<texts::alloc_column_unit>(),
+               say<texts::alloc_column_since>()});
+  for (const AllocationEntry& entry : entries) {
+    table.add({std::to_string(entry.node_id.value()), hex(entry.unique_id), rfc3339(entry.at)});
+  }
+  return table.text("", page);
+}
+
+/// What was done with a file.
+Report done_with(const std::string& file, std::string text) {
+  Report report;
+  report.json = [file](JsonWriter& json) {
+    json.member("file", file);
+    json.member("status", "done");
+  };
+  report.text = [text = std::move(text)](const Page& /*page*/) { return text; };
+  return report;
+}
+
+} // namespace
+
+Report list_allocations(Context& context) {
+  auto entries = entries_of(context);
+  if (!entries) {
+    return failed(std::move(entries.error()));
+  }
+  Report report;
+  const auto kept = std::make_shared<Entries>(std::move(*entries));
+  report.counts = {{"entries", kept->size()}};
+  report.json = [kept](JsonWriter& json) { state::write_entries(json, *kept); };
+  report.text = [kept](const Page& page) { return text(*kept, page); };
+  return report;
+}
+
+Report forget_units(const std::vector<std::string>& units, Context& context) {
+  Report report;
+  std::vector<dronecan::UniqueId> meant;
+  for (const std::string& unit : units) {
+    const auto unique_id = parse_unique_id(unit);
+    unique_id ? meant.push_back(*unique_id) : report.fail(unique_id.error());
+  }
+  if (!report.errors.empty()) {
+    return report;
+  }
+  auto store = context.allocations(AllocationStore::Access::write);
+  if (!store) {
+    return failed(std::move(store.error()));
+  }
+  std::string out;
+  for (const dronecan::UniqueId& unique_id : meant) {
+    const auto forgotten = store->forget(unique_id);
+    if (!forgotten) {
+      report.fail(forgotten.error());
+      break;
+    }
+    if (*forgotten) {
+      report.targets.emplace_back();
+      out += say<texts::alloc_forgotten>(hex(unique_id));
+    } else {
+      report.fail_target({Code::not_found, say<texts::alloc_not_in_table>(hex(unique_id)),
+                          say<texts::alloc_not_in_table_hint>(), std::nullopt});
+    }
+  }
+  report.count_targets(meant.size());
+  report.text = [out](const Page& /*page*/) { return out; };
+  return report;
+}
+
+Report export_allocations(const std::string& file, Context& context) {
+  const auto entries = entries_of(context);
+  if (!entries) {
+    return failed(entries.error());
+  }
+  std::string content = state::allocation_file(*entries);
+  if (file == "-") {
+    return done_with(file, std::move(content));
+  }
+  if (auto written = replace_file(file, content); !written) {
+    return failed(std::move(written.error()));
+  }
+  return done_with(file, say<texts::alloc_exported>(entries->size(), printable(file)));
+}
+
+Report import_allocations(const std::string& file, Context& context) {
+  const auto wishes = state::read_allocation_file(file);
+  if (!wishes) {
+    return failed(wishes.error());
+  }
+  auto store = context.allocations(AllocationStore::Access::write);
+  if (!store) {
+    return failed(std::move(store.error()));
+  }
+  const can::Loop clock(nullptr);
+  if (auto put = store->put(*wishes, clock.wall()); !put) {
+    return failed(std::move(put.error()));
+  }
+  return done_with(file, say<texts::alloc_imported>(wishes->size(), printable(file)));
+}
+
+} // namespace blactl::cli

@@ -1,0 +1,39 @@
+#pragma once
+// What `blactl alloc` is asked to do.
+
+#include "blactl/base/error.hpp"
+#include "blactl/base/time.hpp"
+#include "blactl/fleet/allocation_service.hpp"
+#include "blactl/state/allocation_store.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace blactl::cli {
+
+struct AllocOptions {
+  bool once = false;
+  std::optional<std::uint64_t> count{};
+  Duration wait = std::chrono::seconds(10);
+  std::string range{};
+  std::vector<std::string> assign{};
+  bool list = false;
+  std::vector<std::string> forget{};
+  std::string export_to{};
+  std::string import_from{};
+};
+
+/// "10-99". Errors: usage.
+[[nodiscard]] Result<fleet::AllocationService::Range> parse_range(const std::string& text);
+
+/// "UID=ID" each. Errors: usage, out_of_range; every fault.
+[[nodiscard]] std::expected<std::vector<state::AllocationStore::Wish>, std::vector<Error>>
+parse_wishes(const std::vector<std::string>& texts);
+
+/// 32 hexadecimal digits, with or without "uid:". Errors: usage.
+[[nodiscard]] Result<dronecan::UniqueId> parse_unique_id(std::string_view text);
+
+} // namespace blactl::cli

@@ -1,0 +1,326 @@
+#include "cli/alloc/serve.hpp"
+
+#include "blactl/base/hex.hpp"
+#include "blactl/fleet/discovery.hpp"
+#include "blactl/fleet/ticker.hpp"
+
+#include "cli/alloc/texts.hpp"
+#include "cli/interface/bus_factory.hpp"
+#include "cli/output/progress_view.hpp"
+#include "cli/output/table.hpp"
+#include "cli/texts.hpp"
+#include "cli/trace/time.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+namespace blactl::cli {
+namespace {
+
+using fleet::AllocatedUnit;
+using fleet::AllocationService;
+using Event = AllocationService::Event;
+using state::AllocationStore;
+
+/// A unit without a node ID asks again after 1 s at most (1.Allocation.uavcan): so long nobody has
+/// asked even if two requests of a unit were lost.
+constexpr Duration quiet_time = std::chrono::seconds(3);
+
+/// How long a unit may take from the answer to its first frame under the new ID.
+constexpr Duration come_up_time = std::chrono::seconds(3);
+
+/// Beyond that whoever asks and does not get to the end does something else.
+constexpr Duration patience = std::chrono::seconds(30);
+
+constexpr std::size_t few_ids = 5;
+
+std::string_view name(Event event) {
+  switch (event) {
+  case Event::request: return "request";
+  case Event::assigned: return "assigned";
+  case Event::kept: return "kept";
+  case Event::conflict: return "conflict";
+  case Event::full: break;
+  }
+  return "full";
+}
+
+std::string words(Event event, const AllocatedUnit& unit) {
+  switch (event) {
+  case Event::request: return say<texts::alloc_event_request>();
+  case Event::assigned: return say<texts::alloc_event_assigned>(unit.node_id.value());
+  case Event::kept: return say<texts::alloc_event_kept>(unit.node_id.value());
+  case Event::conflict:
+  case Event::full: break;
+  }
+  return unit.refused ? unit.refused->message : std::string();
+}
+
+/// One run of the allocator.
+class Serve {
+ public:
+  Serve(const AllocOptions& options, AllocationService::Range range, Context& context,
+        AllocationStore& store, Report& report)
+      : options_(options), context_(context), report_(report), begin_(context.session().now()),
+        progress_at_(begin_),
+        service_(context.session(), store, range,
+                 [this](Event event, const AllocatedUnit& unit) { tell(event, unit); }) {}
+
+  void run();
+
+ private:
+  [[nodiscard]] fleet::Session& session() const { return context_.session(); }
+
+  [[nodiscard]] bool draws() const;
+  void tell(Event event, const AllocatedUnit& unit);
+  void print(std::string_view text);
+  void redraw();
+  [[nodiscard]] std::string list(const Page& page) const;
+  [[nodiscard]] std::string state(const AllocatedUnit& unit, const Page& page) const;
+  void tell_space();
+  [[nodiscard]] std::size_t there() const;
+  [[nodiscard]] bool is_coming_up() const;
+  [[nodiscard]] bool is_over() const;
+  [[nodiscard]] bool is_quiet() const;
+  [[nodiscard]] bool is_stuck() const;
+  void wait();
+  void conclude();
+
+  const AllocOptions& options_;
+  Context& context_;
+  Report& report_;
+  Time begin_;
+  Time progress_at_; ///< when a unit got somewhere last
+  bool has_reader_ = true;
+  std::size_t drawn_ = 0; ///< lines of the list on the terminal
+  std::uint64_t assigned_ = 0, kept_ = 0;
+  AllocationService service_;
+};
+
+bool Serve::draws() const {
+  return context_.reporter().format() != Format::json && context_.reporter().page().is_terminal();
+}
+
+void Serve::print(std::string_view text) {
+  const auto printed = context_.reporter().stream(text);
+  if (!printed) {
+    report_.fail(printed.error());
+  }
+  has_reader_ = has_reader_ && printed.value_or(false);
+}
+
+void Serve::tell(Event event, const AllocatedUnit& unit) {
+  assigned_ += event == Event::assigned ? 1 : 0;
+  kept_ += event == Event::kept ? 1 : 0;
+  progress_at_ = event == Event::request ? progress_at_ : session().now();
+  const auto time = UnixTime(session().wall());
+  if (context_.reporter().format() == Format::json) {
+    std::string line;
+    JsonWriter json(line);
+    json.begin_object();
+    json.key("time");
+    json.number(time.text());
+    json.member("event", name(event));
+    json.member("unique_id", hex(unit.unique_id));
+    json.key("node_id");
+    unit.node_id.is_unicast() ? json.value(unit.node_id.value()) : json.value(nullptr);
+    json.end_object();
+    print(line + '\n');
+  } else if (!draws()) { // else the list says it
+    print(fmt::format("{}  uid:{}  {}\n", time.text(), hex(unit.unique_id), words(event, unit)));
+  }
+  if (event == Event::assigned) {
+    tell_space();
+  }
+}
+
+/// Before the table is full, somebody should know.
+void Serve::tell_space() {
+  if (const auto free = service_.free_ids(); free && *free <= few_ids) {
+    context_.reporter().note(say<texts::alloc_few_left>(*free));
+  }
+}
+
+std::string Serve::state(const AllocatedUnit& unit, const Page& page) const {
+  if (unit.refused) {
+    return page.paint(Tone::bad, say<texts::alloc_state_refused>());
+  }
+  if (!unit.node_id.is_unicast()) {
+    return say<texts::alloc_event_request>();
+  }
+  return service_.is_there(unit) ? page.paint(Tone::good, say<texts::alloc_state_there>())
+                                 : say<texts::alloc_state_given>();
+}
+
+std::string Serve::list(const Page& page) const {
+  Table table({say<texts::alloc_column_node>(), say<texts::alloc_column_unit>(),
+               say<texts::alloc_column_state>(), say<texts::alloc_column_servo>()});
+  for (const auto& [unique_id, unit] : service_.units()) {
+    const fleet::Servo servo = session().roster().member(unit.node_id).servo();
+    const bool is_known = service_.is_there(unit) && servo.is_servo;
+    const auto serial = servo.identity.readings().serial_number;
+    table.add({unit.node_id.is_unicast() ? std::to_string(unit.node_id.value()) : "-",
+               hex(unique_id), state(unit, page),
+               is_known ? fmt::format("{} {}", servo.identity.model(),
+                                      serial ? std::to_string(*serial) : std::string())
+                        : std::string()});
+  }
+  std::string out = service_.units().empty() ? std::string() : table.text("", page);
+  if (const std::size_t asking = session().roster().pending().size(); asking > 0) {
+    out += say<texts::alloc_asking>(asking);
+  }
+  return out;
+}
+
+void Serve::redraw() {
+  if (!draws()) {
+    return;
+  }
+  const Page page = context_.reporter().page();
+  const std::string now = page.cut(list(page));
+  const std::string up = drawn_ > 0 ? fmt::format("\x1b[{}F\x1b[J", drawn_) : std::string();
+  drawn_ = static_cast<std::size_t>(std::ranges::count(now, '\n'));
+  print(up + now);
+}
+
+std::size_t Serve::there() const {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      service_.units(), [this](const auto& entry) { return service_.is_there(entry.second); }));
+}
+
+/// Somebody was given an ID of late, and was not heard under it yet.
+bool Serve::is_coming_up() const {
+  return std::ranges::any_of(service_.units(), [this](const auto& entry) {
+    const AllocatedUnit& unit = entry.second;
+    return unit.node_id.is_unicast() && !unit.refused && !service_.is_there(unit) &&
+           session().now() - unit.asked_at < come_up_time;
+  });
+}
+
+bool Serve::is_quiet() const {
+  const Duration enough = service_.units().empty() ? options_.wait : quiet_time;
+  return session().now() - service_.last_request() >= enough && !is_coming_up();
+}
+
+/// They ask and ask, and nobody gets anywhere.
+bool Serve::is_stuck() const {
+  return session().now() - progress_at_ >= std::max(patience, options_.wait);
+}
+
+bool Serve::is_over() const {
+  return !has_reader_ || service_.end() || (options_.count && there() >= *options_.count) ||
+         (options_.once && (is_quiet() || is_stuck()));
+}
+
+void Serve::wait() {
+  constexpr Duration interval = std::chrono::milliseconds(250); // of a person's patience
+  const fleet::Ticker ticker(session(), interval, [this] { redraw(); });
+  while (!is_over()) {
+    // What only time decides is looked at with every tick.
+    const auto lived =
+        session().live_until(session().now() + interval, [this] { return is_over(); });
+    if (!lived) {
+      context_.broken(lived.error(), report_);
+      return;
+    }
+  }
+}
+
+void Serve::run() {
+  fleet::Discovery discovery(session(), context_.known(), context_.identification());
+  if (const auto found = discovery.find_all(fleet::bus_watch_time); !found) {
+    context_.broken(found.error(), report_);
+    conclude();
+    return;
+  }
+  service_.bus_is_known();
+  wait();
+  redraw();
+  conclude();
+}
+
+void Serve::conclude() {
+  if (auto end = service_.end()) {
+    report_.fail(std::move(*end));
+  }
+  for (const auto& [unique_id, unit] : service_.units()) {
+    if (unit.refused) {
+      report_.fail_target(*unit.refused);
+    } else if (unit.node_id.is_unicast() && !service_.is_there(unit)) {
+      report_.fail_target({Code::not_back,
+                           say<texts::alloc_not_up>(unit.node_id.value(), hex(unique_id)),
+                           say<texts::alloc_not_up_hint>(), unit.node_id.value()});
+    } else {
+      report_.targets.emplace_back();
+    }
+  }
+  if (options_.once && report_.errors.empty()) {
+    const std::size_t asking = session().roster().pending().size();
+    if (is_stuck() && !is_quiet()) {
+      report_.fail(
+          {Code::timeout,
+           say<texts::alloc_unfinished>(asking, whole_seconds(session().now() - progress_at_)),
+           say<texts::alloc_unfinished_hint>(), std::nullopt});
+    } else if (is_quiet()) {
+      context_.reporter().note(
+          say<texts::alloc_quiet>(whole_seconds(session().now() - service_.last_request())));
+    }
+  }
+  if (options_.once && options_.count && there() < *options_.count && report_.errors.empty()) {
+    report_.fail({Code::not_found, say<texts::alloc_expected_more>(there(), *options_.count),
+                  say<texts::alloc_expected_more_hint>(), std::nullopt});
+  }
+  report_.counts = {{"assigned", assigned_}, {"kept", kept_}};
+  report_.count_targets();
+}
+
+/// Why nothing can be allocated: no frame may be sent.
+std::optional<Error> refuse(const Context& context) {
+  if (context.shared().listen_only) {
+    return Error{Code::usage, say<texts::listen_only_refused>("alloc"),
+                 say<texts::listen_only_hint>(), std::nullopt};
+  }
+  return takes_no_frames(context.shared().interface);
+}
+
+} // namespace
+
+Report serve_allocations(const AllocOptions& options, Context& context) {
+  Report report{.interface = printable(context.shared().interface), .is_stream = true};
+  const auto range = parse_range(options.range);
+  const auto wishes = parse_wishes(options.assign);
+  if (!range) {
+    report.fail(range.error());
+  }
+  if (!wishes) {
+    std::ranges::copy(wishes.error(), std::back_inserter(report.errors));
+  }
+  if (auto refused = refuse(context)) {
+    report.fail(std::move(*refused));
+  }
+  if (const auto profiles = context.profiles(); !profiles) {
+    report.fail(profiles.error());
+  }
+  if (!report.errors.empty()) {
+    return report;
+  }
+  auto store = context.allocations(AllocationStore::Access::write);
+  if (!store) {
+    report.fail(store.error());
+    return report;
+  }
+  if (const auto session = context.open_for_allocation(); !session) {
+    report.fail(session.error());
+    return report;
+  }
+  report.interface = context.session().interface();
+  if (const auto put = store->put(*wishes, context.session().wall()); !put) {
+    report.fail(put.error());
+    return report;
+  }
+  Serve(options, *range, context, *store, report).run();
+  return report;
+}
+
+} // namespace blactl::cli

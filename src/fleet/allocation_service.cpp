@@ -1,0 +1,234 @@
+#include "blactl/fleet/allocation_service.hpp"
+
+#include "blactl/base/hex.hpp"
+#include "blactl/fleet/texts.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace blactl::fleet {
+
+using dronecan::Bytes;
+using dronecan::NodeId;
+using dronecan::UniqueId;
+
+namespace {
+
+/// More units than there are node IDs, so that those which get none are remembered, too.
+constexpr std::size_t most_units = 256;
+
+bool begins_with(const UniqueId& unique_id, Bytes prefix) {
+  return std::ranges::equal(Bytes(unique_id).first(prefix.size()), prefix);
+}
+
+} // namespace
+
+AllocationService::AllocationService(Session& session, state::AllocationStore& store, Range range,
+                                     Hook hook)
+    : session_(session), store_(store), range_(range), hook_(std::move(hook)),
+      allocator_(session.node(), *this), last_request_(session.now()) {
+  session_.attach(*this);
+}
+
+AllocationService::~AllocationService() {
+  session_.detach(*this);
+}
+
+std::optional<Error> AllocationService::end() const {
+  if (failure_) {
+    return failure_;
+  }
+  const auto& others = session_.roster().allocators();
+  if (others.empty()) {
+    return std::nullopt;
+  }
+  const NodeId other = *others.begin();
+  const Member member = session_.roster().member(other);
+  const std::string name = member.info ? " (" + printable(member.info->name) + ")" : std::string();
+  return Error{Code::other_allocator, say<texts::other_allocator>(other.value(), name),
+               say<texts::other_allocator_hint>(), other.value()};
+}
+
+void AllocationService::receive(const dronecan::Transfer& transfer) {
+  const dronecan::Header& header = transfer.header;
+  const bool is_request = header.kind == dronecan::Kind::message && !header.source.is_unicast() &&
+                          header.data_type_id == dronecan::Allocation::type.id;
+  if (is_request) {
+    const auto request = dronecan::Allocation::decode(transfer.payload);
+    if (request && request->first_part_of_unique_id &&
+        !is_refused(Bytes(request->unique_id).first(request->size))) {
+      last_request_ = transfer.at;
+    }
+  }
+  allocator_.receive(transfer);
+}
+
+/// Who is refused asks on for ever.
+bool AllocationService::is_refused(Bytes prefix) const {
+  return std::ranges::any_of(units_, [&](const auto& entry) {
+    return entry.second.refused && begins_with(entry.first, prefix);
+  });
+}
+
+bool AllocationService::serves(Bytes prefix) const {
+  if (end()) {
+    return false;
+  }
+  if (bus_is_known_) {
+    return true;
+  }
+  const auto entries = store_.entries();
+  return entries && std::ranges::any_of(*entries, [&](const state::AllocationEntry& entry) {
+           return begins_with(entry.unique_id, prefix);
+         });
+}
+
+/// Null: there are too many already.
+AllocatedUnit* AllocationService::known(const UniqueId& unique_id) {
+  const auto unit = units_.find(unique_id);
+  if (unit != units_.end()) {
+    return &unit->second;
+  }
+  return units_.size() < most_units
+             ? &units_.emplace(unique_id, AllocatedUnit{.unique_id = unique_id}).first->second
+             : nullptr;
+}
+
+std::optional<NodeId> AllocationService::assign(const UniqueId& unique_id, NodeId preferred) {
+  AllocatedUnit* unit = known(unique_id);
+  if (unit == nullptr || end()) {
+    return std::nullopt;
+  }
+  unit->asked_at = session_.now();
+  if (!unit->refused) {
+    hook_(Event::request, *unit);
+  }
+  const auto entry = store_.find(unique_id);
+  if (!entry) {
+    failure_ = entry.error();
+    return std::nullopt;
+  }
+  return *entry ? keep(*unit, (*entry)->node_id) : give(*unit, preferred);
+}
+
+Error AllocationService::in_use(const AllocatedUnit& unit) const {
+  const NodeId id = unit.node_id;
+  const Member member = session_.roster().member(id);
+  std::string who = say<texts::another_unit>();
+  if (id == session_.node().id()) {
+    who = "blactl";
+  } else if (member.info && member.info->unique_id != unit.unique_id) {
+    who = "uid:" + hex(member.info->unique_id);
+  }
+  return {Code::duplicate_node_id,
+          say<texts::allocated_id_in_use>(id.value(), hex(unit.unique_id), who),
+          say<texts::allocated_id_in_use_hint>(hex(unit.unique_id)), id.value()};
+}
+
+std::optional<NodeId> AllocationService::keep(AllocatedUnit& unit, NodeId id) {
+  unit.node_id = id;
+  switch (holder(id, unit.unique_id)) {
+  case Holder::unknown: return std::nullopt; // it asks again, and then more is known
+  case Holder::other: refuse(unit, Event::conflict, in_use(unit)); return std::nullopt;
+  case Holder::nobody: break;
+  }
+  unit.refused.reset();
+  hook_(Event::kept, unit);
+  return id;
+}
+
+std::optional<NodeId> AllocationService::give(AllocatedUnit& unit, NodeId preferred) {
+  if (!bus_is_known_) {
+    return std::nullopt; // its unique ID only begins like one of the table
+  }
+  const auto id = store_.assign(
+      unit.unique_id,
+      {.preferred = preferred, .taken = taken(), .first = range_.first, .last = range_.last},
+      session_.wall());
+  if (id) {
+    unit.node_id = *id;
+    unit.is_new = true;
+    unit.refused.reset();
+    hook_(Event::assigned, unit);
+    return *id;
+  }
+  if (id.error().code == Code::table_full) {
+    refuse(unit, Event::full, id.error());
+  } else if (id.error().code != Code::busy) { // then it is free when the unit asks again
+    failure_ = id.error();
+  }
+  return std::nullopt;
+}
+
+void AllocationService::refuse(AllocatedUnit& unit, Event event, Error error) {
+  const bool is_news = !unit.refused;
+  unit.refused = std::move(error);
+  if (is_news) {
+    hook_(event, unit);
+  }
+}
+
+/// Who has this node ID on the bus, beside this unit itself, which may have been heard before it
+/// restarted.
+AllocationService::Holder AllocationService::holder(NodeId id, const UniqueId& unique_id) const {
+  const Roster& roster = session_.roster();
+  if (id == session_.node().id()) {
+    return Holder::other;
+  }
+  if (!roster.heard(id)) {
+    return Holder::nobody;
+  }
+  const Member member = roster.member(id);
+  if (roster.is_doubled(id)) {
+    return Holder::other;
+  }
+  if (member.info && member.info->unique_id == unique_id) {
+    return Holder::nobody;
+  }
+  const bool is_gone = session_.now() - member.last_heard >= offline_time;
+  const bool comes_back = member.static_node_id == id.value();
+  if (is_gone && !comes_back) {
+    return Holder::nobody;
+  }
+  return member.info ? Holder::other : Holder::unknown;
+}
+
+/// What nobody new gets: IDs of which any frame was seen, our own, and the static ones.
+state::NodeIds AllocationService::taken() const {
+  state::NodeIds ids;
+  ids.set(session_.node().id().value());
+  for (const auto& [id, member] : session_.roster().members()) {
+    if (session_.roster().heard(id)) {
+      ids.set(id.value());
+    }
+    if (member.static_node_id && *member.static_node_id > 0 &&
+        *member.static_node_id <= NodeId::max) {
+      ids.set(static_cast<std::size_t>(*member.static_node_id));
+    }
+  }
+  return ids;
+}
+
+bool AllocationService::is_there(const AllocatedUnit& unit) const {
+  const Member member = session_.roster().member(unit.node_id);
+  return !unit.refused && member.is_unit(unit.unique_id) && member.last_heard >= unit.asked_at;
+}
+
+Result<std::size_t> AllocationService::free_ids() const {
+  const auto entries = store_.entries();
+  if (!entries) {
+    return std::unexpected(entries.error());
+  }
+  state::NodeIds used = taken();
+  for (const state::AllocationEntry& entry : *entries) {
+    used.set(entry.node_id.value());
+  }
+  std::size_t free = 0;
+  for (std::size_t id = range_.first.value(); id <= range_.last.value(); ++id) {
+    free += used[id] ? 0 : 1;
+  }
+  return free;
+}
+
+} // namespace blactl::fleet

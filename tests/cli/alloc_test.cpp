@@ -1,0 +1,244 @@
+#include "catch.hpp"
+#include "run.hpp"
+#include "scene.hpp"
+#include "tap.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+using namespace blactl::test;
+
+namespace {
+
+Scene dynamic_servos(int count) {
+  Scene scene;
+  for (int i = 1; i <= count; ++i) {
+    scene.servo("BLA21-12U-AB", 0, {{"serial_number", i}});
+  }
+  return scene;
+}
+
+std::string scenario(const Bench& bench, int count) {
+  nlohmann::json servos = nlohmann::json::array();
+  for (int i = 1; i <= count; ++i) {
+    servos.push_back({{"model", "BLA21-12U-AB"}, {"node_id", 0}, {"serial_number", i}});
+  }
+  return bench.file(
+      "s.json",
+      nlohmann::json{{"schema", "blactl-scenario/1"}, {"clock", "virtual"}, {"servos", servos}}
+          .dump());
+}
+
+nlohmann::json entries(const Bench& bench, const Arguments& more = {}) {
+  Arguments arguments{"-i", "sim:", "alloc", "--list", "-j"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return json(bench.run(arguments).out)["entries"];
+}
+
+/// The events of a stream, without what a unit is.
+std::vector<std::string> events(const Result& result) {
+  std::vector<std::string> all;
+  for (const auto& line : json_lines(result.out)) {
+    if (line.contains("event")) {
+      all.push_back(line["event"].get<std::string>());
+    }
+  }
+  return all;
+}
+
+const std::string unit = "00112233445566778899aabbccddeeff";
+
+} // namespace
+
+TEST_CASE("alloc --once gives every servo that asks an ID of its own, and tells how it ends") {
+  const Result result = dynamic_servos(3).run({"alloc", "--once", "-j"});
+  INFO(result.out << result.err);
+  CHECK(result.status == 0);
+  std::set<int> ids;
+  for (const auto& line : json_lines(result.out)) {
+    if (line.contains("event") && line["event"] == "assigned") {
+      ids.insert(line["node_id"].get<int>());
+      CHECK(line["unique_id"].get<std::string>().size() == 32);
+      CHECK(line["time"].is_number());
+    }
+  }
+  CHECK(ids == std::set<int>{123, 124, 125});
+  const auto last = json_lines(result.out).back();
+  CHECK(last["counts"]["assigned"] == 3);
+  CHECK(last["counts"]["failed"] == 0);
+  CHECK(contains(result.err, "nobody has asked for 3 s"));
+}
+
+TEST_CASE("a bus on which nobody asks is no failure, unless so many were expected") {
+  const Result nobody = three_servos().run({"alloc", "--once", "--wait", "2"});
+  CHECK(nobody.status == 0);
+  CHECK(contains(nobody.err, "nobody has asked for 2 s"));
+  const Result expected = three_servos().run({"alloc", "--once", "--count", "2", "--wait", "2"});
+  CHECK(expected.status == 4);
+  CHECK(codes(expected) == std::vector<std::string>{"not_found"});
+}
+
+TEST_CASE("--count ends as soon as so many have their ID") {
+  const Result result = dynamic_servos(3).run({"alloc", "--count", "2"});
+  CHECK(result.status == 0);
+  CHECK(contains(result.out, "gets node ID 125, new in the table"));
+  CHECK_FALSE(contains(result.out, "gets node ID 123"));
+}
+
+TEST_CASE("a unit has its ID for ever: the next command gives the same, and the table shows it") {
+  const Bench bench;
+  const std::string file = scenario(bench, 2);
+  const auto run = [&](const Arguments& arguments) {
+    const Background sim(bench, {"sim", file});
+    return bench.run(arguments);
+  };
+  const Result first = run({"-i", "sim:", "alloc", "--once", "--range", "30-40", "-j"});
+  REQUIRE(first.status == 0);
+  const auto given = entries(bench);
+  REQUIRE(given.size() == 2);
+  CHECK(given[0]["node_id"] == 39);
+  CHECK(given[1]["node_id"] == 40);
+  const Result again = run({"-i", "sim:", "alloc", "--once", "-j"});
+  CHECK(json_lines(again.out).back()["counts"]["kept"] == 2);
+  CHECK(json_lines(again.out).back()["counts"]["assigned"] == 0);
+  CHECK(entries(bench) == given);
+  CHECK(json(bench.run({"alloc", "--list", "-j"}).out)["entries"].empty()); // of real servos
+}
+
+TEST_CASE("what is assigned by hand is given; what is forgotten is free") {
+  const Bench bench;
+  const std::string file = scenario(bench, 1);
+  {
+    const Background sim(bench, {"sim", file});
+    REQUIRE(bench.run({"-i", "sim:", "alloc", "--once"}).status == 0);
+  }
+  const std::string uid = entries(bench)[0]["unique_id"];
+  const Background sim(bench, {"sim", file});
+  const Result moved =
+      bench.run({"-i", "sim:", "alloc", "--assign", "uid:" + uid + "=21", "--count", "1"});
+  CHECK(moved.status == 0);
+  CHECK(contains(moved.out, "gets node ID 21, as always"));
+  CHECK(bench.run({"-i", "sim:", "alloc", "--forget", uid}).status == 0);
+  CHECK(entries(bench).empty());
+  const Result gone = bench.run({"-i", "sim:", "alloc", "--forget", uid});
+  CHECK(gone.status == 4);
+  CHECK(codes(gone) == std::vector<std::string>{"not_found"});
+}
+
+TEST_CASE("a table goes to another machine as a file, whole or not at all") {
+  const Bench bench;
+  const std::string file =
+      bench.file("table.json", R"({"schema": "blactl-allocations/1", "entries": [
+        {"unique_id": "00112233445566778899aabbccddeeff", "node_id": 21},
+        {"unique_id": "10112233445566778899AABBCCDDEEFF", "node_id": 22, "time": "x"}]})");
+  const Result imported = bench.run({"alloc", "--import", file});
+  INFO(imported.err);
+  CHECK(imported.status == 0);
+  CHECK(contains(imported.out, "2 entries taken over"));
+  const std::string out = (bench.folder() / "out.json").string();
+  CHECK(bench.run({"alloc", "--export", out}).status == 0);
+  const Result printed = bench.run({"alloc", "--export", "-"});
+  std::ifstream stream(out);
+  std::ostringstream content;
+  content << stream.rdbuf();
+  CHECK(printed.out == content.str());
+  const auto document = nlohmann::json::parse(content.str());
+  CHECK(document["schema"] == "blactl-allocations/1");
+  CHECK(document["entries"][1]["unique_id"] == "10112233445566778899aabbccddeeff");
+  const Bench other;
+  CHECK(other.run({"alloc", "--import", out}).status == 0);
+  CHECK(json(other.run({"alloc", "--list", "-j"}).out)["entries"].size() == 2);
+  SECTION("a file with faults changes nothing, and every fault is named") {
+    const std::string bad = bench.file("bad.json",
+                                       R"({"schema": "blactl-allocations/1", "entries": [
+          {"unique_id": "00", "node_id": 21}, {"unique_id": ")" +
+                                           unit + R"(", "node_id": 126},
+          {"unique_id": ")" + unit + R"(", "node_id": 5, "name": 1}]})");
+    const Result refused = bench.run({"alloc", "--import", bad});
+    CHECK(refused.status == 2);
+    for (const char* place :
+         {"/entries/0:", "/entries/1/node_id:", "/entries/2:", "/entries/2/name:"}) {
+      CHECK(contains(refused.err, place));
+    }
+    CHECK(json(bench.run({"alloc", "--list", "-j"}).out)["entries"].size() == 2);
+  }
+  SECTION("an ID that another unit has is a conflict, and nothing is taken over") {
+    const std::string taken =
+        bench.file("taken.json", R"({"schema": "blactl-allocations/1", "entries": [
+          {"unique_id": "20112233445566778899aabbccddeeff", "node_id": 30},
+          {"unique_id": "30112233445566778899aabbccddeeff", "node_id": 21}]})");
+    const Result refused = bench.run({"alloc", "--import", taken});
+    CHECK(refused.status == 9);
+    CHECK(codes(refused) == std::vector<std::string>{"duplicate_node_id"});
+    CHECK(json(bench.run({"alloc", "--list", "-j"}).out)["entries"].size() == 2);
+  }
+}
+
+TEST_CASE("another allocator is named, nothing is given, and it ends with 9") {
+  Scene scene = dynamic_servos(2);
+  scene.foreign(100, {{"kind", "autopilot"}, {"allocates", true}});
+  const Result result = scene.run({"alloc", "--once", "-j"});
+  CHECK(result.status == 9);
+  CHECK(codes(result) == std::vector<std::string>{"other_allocator"});
+  CHECK(contains(result.err, "node 100 (org.example.autopilot) allocates node IDs as well"));
+  CHECK(events(result).empty());
+}
+
+TEST_CASE("two allocators of this machine on one bus do not run at once") {
+  const Bench bench;
+  const Background sim(bench, {"sim", scenario(bench, 1)});
+  const Background first(bench, {"-i", "sim:", "alloc", "-j"}, {}, "assigned");
+  const Result second = bench.run({"-i", "sim:", "alloc", "--once"});
+  CHECK(second.status == 9);
+  CHECK(codes(second) == std::vector<std::string>{"busy"});
+}
+
+TEST_CASE("a table that cannot be used refuses before the first answer") {
+  const Bench bench;
+  const Background sim(bench, {"sim", scenario(bench, 1)});
+  const std::filesystem::path table = bench.folder() / "state/sim/allocations.db";
+  std::filesystem::create_directories(table.parent_path());
+  std::ofstream(table) << "no database";
+  const Result foreign =
+      bench.run({"-i", "sim:", "alloc", "--once", "-j"},
+                {.env = {{"BLACTL_STATE_DIR", (bench.folder() / "state").string()}}});
+  CHECK(foreign.status == 2);
+  CHECK(codes(foreign) == std::vector<std::string>{"bad_file"});
+  CHECK(events(foreign).empty());
+  std::ifstream stream(table);
+  std::string content;
+  std::getline(stream, content);
+  CHECK(content == "no database");
+  CHECK(bench.run({"-i", "sim:", "alloc", "--once"}).status == 0); // elsewhere
+}
+
+TEST_CASE("what is asked of alloc wrongly is refused with all faults, and nothing is sent") {
+  const std::vector<std::pair<Arguments, std::string>> cases{
+      {{"alloc", "--range", "10"}, "--range 10: no range of node IDs"},
+      {{"alloc", "--range", "99-10"}, "no range of node IDs"},
+      {{"alloc", "--range", "1-126"}, "no range of node IDs"},
+      {{"alloc", "--assign", unit}, "UID=ID is needed"},
+      {{"alloc", "--assign", "12=21"}, "12 is no unique ID"},
+      {{"alloc", "--assign", unit + "=126"}, "126 is no node ID that can be allocated"},
+      {{"alloc", "--assign", unit + "=21", "--assign", unit + "=22"}, "was given before"},
+      {{"alloc", "--forget", "12"}, "12 is no unique ID"},
+      {{"alloc", "--list", "--once"}, "--once and --list do not go together"},
+      {{"alloc", "--import", "a", "--export", "b"}, "--export and --import do not go together"},
+      {{"alloc", "--listen-only"}, "alloc"},
+  };
+  for (const auto& [arguments, said] : cases) {
+    const Result result = three_servos().run(arguments);
+    INFO(result.err);
+    CHECK(result.status == 2);
+    CHECK(contains(result.err, said));
+    CHECK(codes(result).front() == (said.find("126 is") == 0 ? "out_of_range" : "usage"));
+  }
+}

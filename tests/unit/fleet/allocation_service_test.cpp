@@ -1,0 +1,164 @@
+#include "blactl/fleet/allocation_service.hpp"
+#include "blactl/fleet/discovery.hpp"
+
+#include "support.hpp"
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace blactl;
+using namespace blactl::fleet;
+using namespace blactl::fleet::test;
+using state::AllocationStore;
+using Event = AllocationService::Event;
+
+namespace {
+
+std::string dynamic_servos(int count, std::string_view more = "") {
+  std::string servos;
+  for (int i = 1; i <= count; ++i) {
+    servos += fmt::format(R"({}{{"model": "BLA21-12U-AB", "node_id": 0, "serial_number": {}}})",
+                          i > 1 ? "," : "", i);
+  }
+  return fmt::format(R"("servos": [{}{}])", servos, more);
+}
+
+AllocationStore memory() {
+  auto store = AllocationStore::unshared();
+  REQUIRE(store);
+  return std::move(*store);
+}
+
+/// An allocator on a simulated bus, and what it tells.
+class Bench {
+ public:
+  explicit Bench(std::string_view members, AllocationService::Range range = {})
+      : scene(members),
+        service(*scene.session, store, range, [this](Event event, const AllocatedUnit& unit) {
+          events.emplace_back(event, unit.node_id.value());
+        }) {}
+
+  /// Hears the bus, as the command does, and lives on.
+  void serve(Duration time) {
+    REQUIRE(discovery.find_all(bus_watch_time));
+    service.bus_is_known();
+    scene.live(time);
+  }
+
+  [[nodiscard]] std::ptrdiff_t count(Event event) const {
+    return std::ranges::count(events, event, &std::pair<Event, int>::first);
+  }
+
+  [[nodiscard]] std::set<int> given() const {
+    std::set<int> ids;
+    for (const auto& [unique_id, unit] : service.units()) {
+      if (service.is_there(unit)) {
+        ids.insert(unit.node_id.value());
+      }
+    }
+    return ids;
+  }
+
+  AllocationStore store = memory();
+  Scene scene;
+  std::vector<std::pair<Event, int>> events;
+  AllocationService service;
+  Discovery discovery{*scene.session, profiles(), {}};
+};
+
+} // namespace
+
+TEST_CASE("every unit that asks gets an ID of its own, which is in the table") {
+  Bench bench(dynamic_servos(5));
+  bench.serve(15s);
+  CHECK(bench.given() == std::set<int>{121, 122, 123, 124, 125});
+  CHECK(bench.count(Event::assigned) == 5);
+  CHECK(bench.store.entries()->size() == 5);
+  CHECK_FALSE(bench.service.end());
+  CHECK(bench.service.free_ids() == std::size_t{120});
+}
+
+TEST_CASE("new IDs come from the range, and are none that is in use, static or our own") {
+  const std::string others =
+      R"(, {"model": "BLA21-12U-AB", "node_id": 20, "serial_number": 50},
+           {"model": "BLA21-12U-AB", "node_id": 23, "serial_number": 51})";
+  Bench bench(dynamic_servos(2, others), {NodeId(20), NodeId(24)});
+  REQUIRE(bench.discovery.find_all(bus_watch_time));
+  bench.scene.roster().learn_static_node_id(NodeId(23), 22); // somebody has written it
+  bench.service.bus_is_known();
+  bench.scene.live(15s);
+  CHECK(bench.given() == std::set<int>{21, 24});
+}
+
+TEST_CASE("a unit of the table gets its ID again, before the bus is known, too") {
+  Bench bench(dynamic_servos(1));
+  bench.serve(5s);
+  REQUIRE(bench.given() == std::set<int>{125});
+  const dronecan::UniqueId unit = bench.store.entries()->front().unique_id;
+  REQUIRE(bench.store.put(std::array{AllocationStore::Wish{unit, NodeId(40)}}, {}));
+
+  Scene again(dynamic_servos(1));
+  std::vector<Event> events;
+  const AllocationService service(
+      *again.session, bench.store, {},
+      [&](Event event, const AllocatedUnit&) { events.push_back(event); });
+  again.live(5s); // bus_is_known() was not said
+  CHECK(events == std::vector{Event::request, Event::kept});
+  CHECK_FALSE(service.is_there(service.units().at(unit))); // nobody has asked who that is
+  CHECK(again.roster().heard(NodeId(40)));
+}
+
+TEST_CASE("until the bus is known nobody new gets an ID") {
+  Bench bench(dynamic_servos(1));
+  bench.scene.live(5s);
+  CHECK(bench.events.empty());
+  CHECK(bench.store.entries()->empty());
+}
+
+TEST_CASE("an ID of the table that another unit uses is a conflict, told once, and not given") {
+  Bench bench(
+      dynamic_servos(1, R"(, {"model": "BLA21-12U-AB", "node_id": 60, "serial_number": 50})"));
+  bench.serve(5s);
+  REQUIRE(bench.given() == std::set<int>{125});
+  const dronecan::UniqueId unit = bench.store.entries()->front().unique_id;
+  REQUIRE(bench.store.put(std::array{AllocationStore::Wish{unit, NodeId(60)}}, {}));
+
+  Scene again(
+      dynamic_servos(1, R"(, {"model": "BLA21-12U-AB", "node_id": 60, "serial_number": 50})"));
+  std::vector<Event> events;
+  AllocationService service(*again.session, bench.store, {},
+                            [&](Event event, const AllocatedUnit&) { events.push_back(event); });
+  Discovery discovery(*again.session, profiles(), {});
+  REQUIRE(discovery.find_all(bus_watch_time));
+  service.bus_is_known();
+  again.live(10s);
+  CHECK(std::ranges::count(events, Event::conflict) == 1);
+  CHECK(std::ranges::count(events, Event::kept) == 0);
+  const auto& refused = service.units().at(unit).refused;
+  REQUIRE(refused);
+  CHECK(refused->code == Code::duplicate_node_id);
+  CHECK(again.session->now() - service.last_request() > 5s); // its asking keeps nobody waiting
+}
+
+TEST_CASE("where no ID of the range is free, that is told, and the others keep theirs") {
+  Bench bench(dynamic_servos(3), {NodeId(10), NodeId(11)});
+  bench.serve(15s);
+  CHECK(bench.given() == std::set<int>{10, 11});
+  CHECK(bench.count(Event::full) == 1);
+  CHECK(bench.service.free_ids() == std::size_t{0});
+}
+
+TEST_CASE("beside another allocator nobody is served") {
+  Bench bench(dynamic_servos(3) +
+              R"(, "foreign": [{"kind": "autopilot", "node_id": 100, "allocates": true}])");
+  bench.serve(10s);
+  const auto end = bench.service.end();
+  REQUIRE(end);
+  CHECK(end->code == Code::other_allocator);
+  CHECK(end->node_id == 100);
+  CHECK(bench.store.entries()->empty());
+}
