@@ -78,6 +78,10 @@ std::int64_t Width::narrow(std::int64_t wire) const {
                    : static_cast<std::int64_t>(shifted >> unused);
 }
 
+bool Width::holds(std::int64_t wire) const {
+  return wire == Width{bits, true}.narrow(wire) || wire == Width{bits, false}.narrow(wire);
+}
+
 std::int64_t Width::lowest() const {
   return is_signed ? -(std::int64_t{1} << (bits - 1U)) : 0;
 }

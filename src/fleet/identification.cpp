@@ -7,8 +7,20 @@
 namespace blactl::fleet {
 
 using dronecan::GetNodeInfo;
+using dronecan::GetSet;
 using dronecan::Outcome;
 using dronecan::Request;
+
+namespace {
+
+/// An answer as only registers have it, even if the number is none that this one can hold.
+bool is_number(const Outcome& outcome) {
+  const auto response =
+      outcome.answered() ? GetSet::Response::decode(outcome.payload) : std::nullopt;
+  return response && std::holds_alternative<std::int64_t>(response->value);
+}
+
+} // namespace
 
 Identification::Identification(Roster& roster, dronecan::NodeId id, const bla::Profiles& profiles,
                                Options options)
@@ -115,7 +127,9 @@ Error Identification::silence_of_model() const {
 }
 
 void Identification::take_register(const Outcome& outcome) {
-  const auto value = register_value(outcome, servo_.id, address_of(step_));
+  const auto* parameter = profiles_.find(address_of(step_));
+  const bla::Width width = parameter != nullptr ? parameter->width : bla::Width{.bits = 64};
+  const auto value = register_value(outcome, servo_.id, address_of(step_), width);
   const bool first = step_ == Step::model_number;
   const bool silent = !value && value.error().code == Code::timeout;
   // A node without parameters (a GPS, a battery) answers GetNodeInfo and nothing else. Of an
@@ -132,13 +146,8 @@ void Identification::take_register(const Outcome& outcome) {
     return;
   }
   recording_lacks_model_ = recording_lacks_model_ || (first && not_recorded);
-  servo_.is_servo = servo_.is_servo || value.has_value();
-  auto& destination = slot(step_);
-  destination = std::nullopt;
-  if (value) {
-    const auto* parameter = profiles_.find(address_of(step_));
-    destination = parameter != nullptr ? parameter->width.narrow(*value) : *value;
-  }
+  servo_.is_servo = servo_.is_servo || is_number(outcome);
+  slot(step_) = value ? std::optional(*value) : std::nullopt;
 }
 
 /// What a recording holds of a node may not tell whether it is a servo.

@@ -71,10 +71,7 @@ Step ReadJob::begin(Time now) {
 
 Step ReadJob::take_reading(const Outcome& outcome) {
   const bla::Parameter& parameter = *wanted_[snapshot_.readings.size()];
-  auto raw = register_value(outcome, id_, parameter.address);
-  if (raw) {
-    *raw = parameter.width.narrow(*raw);
-  }
+  auto raw = register_value(outcome, id_, parameter.address, parameter.width);
   silent_ = outcome.kind == Outcome::Kind::timed_out ? silent_ + 1 : 0;
   snapshot_.readings.push_back({&parameter, std::move(raw)});
   if (outcome.kind == Outcome::Kind::cancelled) {

@@ -74,18 +74,23 @@ Error no_answer(const Outcome& outcome, dronecan::NodeId server, std::string_vie
 }
 
 Result<std::int64_t> register_value(const Outcome& outcome, dronecan::NodeId server,
-                                    bla::Address address) {
+                                    bla::Address address, bla::Width width) {
+  const std::string name = address.name();
   if (!outcome.answered()) {
-    return std::unexpected(no_answer(outcome, server, address.name()));
+    return std::unexpected(no_answer(outcome, server, name));
   }
+  const std::uint8_t node = server.value();
   const auto response = GetSet::Response::decode(outcome.payload);
-  const auto* value = response ? std::get_if<std::int64_t>(&response->value) : nullptr;
-  if (value == nullptr) {
-    const std::uint8_t node = server.value();
-    return std::unexpected(Error{Code::refused, say<texts::register_refused>(node, address.name()),
+  if (!response || std::holds_alternative<GetSet::Empty>(response->value)) {
+    return std::unexpected(Error{Code::refused, say<texts::register_refused>(node, name),
                                  say<texts::register_refused_hint>(node), node});
   }
-  return *value;
+  const auto* value = std::get_if<std::int64_t>(&response->value);
+  if (value == nullptr || !width.holds(*value)) {
+    return std::unexpected(Error{Code::refused, say<texts::no_register_value>(node, name),
+                                 say<texts::not_taken_hint>(node), node});
+  }
+  return width.narrow(*value);
 }
 
 } // namespace blactl::fleet

@@ -99,7 +99,8 @@ Step WriteJob::after_write(const Outcome& outcome) {
 
 Step WriteJob::after_read(const Outcome& outcome) {
   Change& change = changes_[current_];
-  const auto raw = register_value(outcome, servo_.id, change.parameter->address);
+  const bla::Parameter& parameter = *change.parameter;
+  const auto raw = register_value(outcome, servo_.id, parameter.address, parameter.width);
   if (outcome.kind == Outcome::Kind::cancelled || outcome.kind == Outcome::Kind::not_sent) {
     return give_up(current_, raw.error());
   }
@@ -109,7 +110,7 @@ Step WriteJob::after_read(const Outcome& outcome) {
     ++current_;
     return go_on(outcome.at);
   }
-  change.after = change.parameter->width.narrow(*raw);
+  change.after = *raw;
   if (*change.after == change.requested) {
     change.status = ChangeStatus::written;
     ++current_;

@@ -1,8 +1,12 @@
+#include "blactl/dronecan/transfer.hpp"
+#include "blactl/dronecan/types.hpp"
+
 #include "catch.hpp"
 #include "scene.hpp"
 #include "tap.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <fstream>
@@ -352,6 +356,25 @@ TEST_CASE("text is a line a transfer, with words, registers and units") {
                              "uptime_sec=1234 health=ok mode=operational"));
   CHECK(contains(result.out, "127 > 10   GetSet.Request           2  0x38 angle_limit_cw ?\n"));
   CHECK(contains(result.out, "!!  missing_start: its first frame was not heard (1403F32A)\n"));
+}
+
+TEST_CASE("a number that the register cannot hold is shown as it came, not cut") {
+  namespace dronecan = blactl::dronecan;
+  const auto frames = dronecan::segment(
+      {.kind = dronecan::Kind::response,
+       .priority = 30,
+       .data_type_id = dronecan::GetSet::type.id,
+       .source = dronecan::NodeId(11),
+       .destination = dronecan::NodeId(127)},
+      1, dronecan::GetSet::type.signature,
+      dronecan::GetSet::Response{.value = std::int64_t{999}, .name = "0x50"}.encode().bytes());
+  std::string log;
+  for (const can::Frame& frame : frames) {
+    log += fmt::format("(1436509052.000000) can0 {:08X}#{:02X}\n", frame.id,
+                       fmt::join(frame.payload(), ""));
+  }
+  const Bench bench;
+  CHECK(contains(bench.run({"trace", bench.file("x.log", log)}).out, "0x50 model_number = 999\n"));
 }
 
 TEST_CASE("--type, --kind and -n choose, and what they do not choose is not an error either") {

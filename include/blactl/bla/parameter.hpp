@@ -77,6 +77,8 @@ struct Width {
 
   /// The register's number in the low bits of `wire`, sign-extended if signed.
   [[nodiscard]] std::int64_t narrow(std::int64_t wire) const;
+  /// Nothing of `wire` is lost by that: it is a number of this width, with or without a sign.
+  [[nodiscard]] bool holds(std::int64_t wire) const;
   /// The least and the greatest number that it can hold.
   [[nodiscard]] std::int64_t lowest() const;
   [[nodiscard]] std::int64_t highest() const;

@@ -30,9 +30,10 @@ struct Patience {
 [[nodiscard]] Error no_answer(const dronecan::Outcome& outcome, dronecan::NodeId server,
                               std::string_view subject);
 
-/// The 64-bit integer that a GetSet answer carries, not yet narrowed to the register's width.
-/// Errors: refused (no value, or no integer), and those of no_answer().
+/// The register's number that a GetSet answer carries. Errors: refused (no value, no integer, or
+/// one that the register cannot hold), and those of no_answer().
 [[nodiscard]] Result<std::int64_t> register_value(const dronecan::Outcome& outcome,
-                                                  dronecan::NodeId server, bla::Address address);
+                                                  dronecan::NodeId server, bla::Address address,
+                                                  bla::Width width);
 
 } // namespace blactl::fleet

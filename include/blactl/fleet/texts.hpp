@@ -30,6 +30,9 @@ inline constexpr Text register_refused_hint{
     "the firmware of this servo may lack this parameter: blactl get firmware_version -n {}",
     "このサーボのファームウェアには無いパラメータかもしれません: blactl get firmware_version -n {}",
 };
+inline constexpr Text no_register_value{
+    "node {}: what the servo answers for {} is no value of that register",
+    "ノード {}: {} の応答がこのレジスタの値ではありません"};
 inline constexpr Text nobody_acknowledges{
     "{}: nobody acknowledges our frames",
     "{}: 送信フレームに対する ACK がありません",

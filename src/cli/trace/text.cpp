@@ -142,6 +142,9 @@ std::string explanation(TraceError error) {
 
 /// "900 (90.0 deg)", "0 (on)", "40".
 std::string register_value(const bla::Parameter& parameter, std::int64_t wire) {
+  if (!parameter.width.holds(wire)) {
+    return fmt::to_string(wire);
+  }
   const auto raw = parameter.width.narrow(wire);
   const auto shown = bla::display(parameter, raw);
   const auto number = fmt::to_string(raw);

@@ -52,6 +52,12 @@ TEST_CASE("a register's number is the low bits of what the servo sends, sign-ext
   CHECK(uint16.narrow(-1) == 65'535);
   CHECK(uint32.narrow(-1) == 4'294'967'295);
   CHECK(uint32.narrow(std::numeric_limits<std::int64_t>::min()) == 0);
+  CHECK(int8.holds(0xD8));
+  CHECK(uint8.holds(-128));
+  CHECK_FALSE(uint8.holds(-129));
+  CHECK_FALSE(uint8.holds(999));
+  CHECK(int32.holds(0xFFFFFFFF));
+  CHECK_FALSE(int32.holds((std::int64_t{1} << 32) + 900));
   CHECK(int8.lowest() == -128);
   CHECK(int8.highest() == 127);
   CHECK(uint32.lowest() == 0);

@@ -56,7 +56,7 @@ struct Recording {
 
   /// What 0x38 held; empty: not recorded.
   [[nodiscard]] std::optional<std::int64_t> value() const {
-    const auto found = register_value(read(), NodeId(11), angle_limit_cw);
+    const auto found = register_value(read(), NodeId(11), angle_limit_cw, {});
     return found ? std::optional(*found) : std::nullopt;
   }
 
@@ -107,7 +107,8 @@ TEST_CASE("a failure without a name belongs to the question with its transfer ID
   CHECK(recording.value() == 900);
   recording.answer(GetSet::Empty{}, "", 4);
   CHECK(recording.read().kind == answered);
-  CHECK(register_value(recording.read(), NodeId(11), angle_limit_cw).error().code == Code::refused);
+  CHECK(register_value(recording.read(), NodeId(11), angle_limit_cw, {}).error().code ==
+        Code::refused);
 }
 
 TEST_CASE("tools that ask by index are understood, too") {

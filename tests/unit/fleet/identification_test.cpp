@@ -109,6 +109,18 @@ TEST_CASE("the questions come one after the other") {
   CHECK(dialogue.member().is_known());
 }
 
+TEST_CASE("a model number that 0x50 cannot hold is not known; who tells one is a servo") {
+  Dialogue dialogue;
+  dialogue.pass_node_info();
+  CHECK(dialogue.next(dialogue.script.value("0x50", std::int64_t{999})) == "read 0x51");
+  dialogue.next(dialogue.script.value("0x51", std::int64_t{1}));
+  dialogue.next(dialogue.script.value("0x52", std::int64_t{1400}));
+  dialogue.next(dialogue.script.value("0x53", std::int64_t{12050}));
+  CHECK(dialogue.next(dialogue.script.value("0x45", std::int64_t{3})) == "nothing");
+  CHECK(dialogue.identification.servo().is_servo);
+  CHECK_FALSE(dialogue.identification.servo().identity.readings().model_number);
+}
+
 TEST_CASE("who is known is not asked again until it restarts") {
   Scene scene(one_servo);
   scene.identify(11);
@@ -142,15 +154,15 @@ TEST_CASE("a restart in the middle of the questions leaves a servo that is not k
 TEST_CASE("numbers are narrowed to the width of their registers") {
   Dialogue dialogue;
   dialogue.pass_node_info();
-  CHECK(dialogue.next(dialogue.script.value("0x50", std::int64_t{0x1'0000'003D})) == "read 0x51");
+  CHECK(dialogue.next(dialogue.script.value("0x50", std::int64_t{61})) == "read 0x51");
   dialogue.next(dialogue.script.value("0x51", std::int64_t{-1}));
   dialogue.next(dialogue.script.value("0x52", std::int64_t{1400}));
   dialogue.next(dialogue.script.value("0x53", std::int64_t{12050}));
-  dialogue.next(dialogue.script.value("0x45", std::int64_t{0x103}));
+  dialogue.next(dialogue.script.value("0x45", std::int64_t{-2}));
   const auto readings = dialogue.member().identity.readings();
   CHECK(readings.model_number == 61);
   CHECK(readings.serial_number == 0xFFFF'FFFF);
-  CHECK(dialogue.member().servo_id == 3);
+  CHECK(dialogue.member().servo_id == 254);
 }
 
 TEST_CASE("a node without parameters is identified, and is no servo") {
