@@ -1,14 +1,17 @@
 #include "blactl/fleet/archive.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <string_view>
 
 namespace blactl::fleet {
 
+using dronecan::ExecuteOpcode;
 using dronecan::GetNodeInfo;
 using dronecan::GetSet;
 using dronecan::Kind;
 using dronecan::Outcome;
+using dronecan::RestartNode;
 using dronecan::Transfer;
 
 namespace {
@@ -25,25 +28,71 @@ std::optional<bla::Address> address_of(const GetSet::Request& request) {
              : std::nullopt;
 }
 
+/// ERASE sets the commands to 0, too (4.9).
+bool is_erasable(bla::Address address) {
+  return bla::is_setting(address) ||
+         std::ranges::find(bla::command_registers, address) != bla::command_registers.end();
+}
+
 } // namespace
 
+Archive::Moment Archive::Server::unchanged_since(bla::Address address) const {
+  const auto write = written.find(address);
+  return std::max(
+      {restarted, is_erasable(address) ? erased : 0, write != written.end() ? write->second : 0});
+}
+
 void Archive::receive(const Transfer& transfer) {
+  ++now_;
   const auto& header = transfer.header;
-  if (header.kind == Kind::request && header.data_type_id == GetSet::type.id) {
-    receive_question(transfer);
+  if (header.kind == Kind::request) {
+    receive_request(transfer);
   } else if (header.kind == Kind::response && header.data_type_id == GetSet::type.id) {
     receive_register(transfer);
   } else if (header.kind == Kind::response && header.data_type_id == GetNodeInfo::type.id &&
              GetNodeInfo::Response::decode(transfer.payload)) {
-    keep(servers_[header.source].info, transfer);
+    keep(servers_[header.source].info, transfer, now_);
+  }
+}
+
+void Archive::receive_request(const Transfer& transfer) {
+  const auto& header = transfer.header;
+  if (header.data_type_id == GetSet::type.id) {
+    receive_question(transfer);
+  } else if (header.data_type_id == RestartNode::type.id) {
+    servers_[header.destination].restarted = now_;
+  } else if (header.data_type_id == ExecuteOpcode::type.id) {
+    const auto request = ExecuteOpcode::Request::decode(transfer.payload);
+    Server& server = servers_[header.destination];
+    if (request && request->opcode == ExecuteOpcode::erase) {
+      server.erased = now_;
+    } else if (request && request->opcode == ExecuteOpcode::save) {
+      server.restarted = now_;
+    }
   }
 }
 
 void Archive::receive_question(const Transfer& transfer) {
+  Server& server = servers_[transfer.header.destination];
+  const std::pair asked_by(transfer.header.source, transfer.transfer_id);
   const auto request = GetSet::Request::decode(transfer.payload);
   const auto address = request ? address_of(*request) : std::nullopt;
-  auto& question = servers_[transfer.header.destination].questions[transfer.transfer_id];
-  question = address ? Question{transfer.header.source, *address} : Question{};
+  if (!address) {
+    server.questions.erase(asked_by);
+    return;
+  }
+  server.questions[asked_by] = {*address, now_};
+  if (std::holds_alternative<GetSet::Empty>(request->value)) {
+    return;
+  }
+  namespace at = bla::address;
+  if (*address == at::initialize) {
+    server.erased = now_;
+  } else if (*address == at::reboot || *address == at::write_rom) {
+    server.restarted = now_;
+  } else {
+    server.written[*address] = now_;
+  }
 }
 
 void Archive::receive_register(const Transfer& transfer) {
@@ -52,20 +101,23 @@ void Archive::receive_register(const Transfer& transfer) {
     return;
   }
   Server& server = servers_[transfer.header.source];
-  const Question& question = server.questions[transfer.transfer_id];
+  const auto question = server.questions.find({transfer.header.destination, transfer.transfer_id});
+  const bool is_known = question != server.questions.end();
   auto address = bla::find_address(response->name);
-  if (response->name.empty() && question.client == transfer.header.destination) {
-    address = question.address;
+  if (response->name.empty() && is_known) {
+    address = question->second.address;
   }
   if (address) {
-    keep(server.registers[*address], transfer);
+    const bool is_about_it = is_known && question->second.address == *address;
+    keep(server.registers[*address], transfer, is_about_it ? question->second.at : now_);
   }
 }
 
-void Archive::keep(Answer& slot, const Transfer& transfer) {
+void Archive::keep(Answer& slot, const Transfer& transfer, Moment asked) {
   slot.payload.assign(transfer.payload.begin(), transfer.payload.end());
   slot.at = transfer.at;
   slot.boots = boots(transfer.header.source);
+  slot.asked = asked;
 }
 
 /// How often the node has restarted so far.
@@ -79,8 +131,9 @@ const Archive::Answer* Archive::find(const dronecan::Request& request) const {
   if (server == servers_.end()) {
     return nullptr;
   }
+  const Server& held = server->second;
   if (request.type->id == GetNodeInfo::type.id) {
-    return &server->second.info;
+    return held.info.asked >= held.restarted ? &held.info : nullptr;
   }
   const auto get_set = request.type->id == GetSet::type.id
                            ? GetSet::Request::decode(request.payload.bytes())
@@ -89,9 +142,10 @@ const Archive::Answer* Archive::find(const dronecan::Request& request) const {
     return nullptr;
   }
   const auto address = address_of(*get_set);
-  const auto& registers = server->second.registers;
-  const auto answer = address ? registers.find(*address) : registers.end();
-  return answer != registers.end() ? &answer->second : nullptr;
+  const auto answer = address ? held.registers.find(*address) : held.registers.end();
+  const bool is_valid =
+      answer != held.registers.end() && answer->second.asked >= held.unchanged_since(*address);
+  return is_valid ? &answer->second : nullptr;
 }
 
 Outcome Archive::answer(const dronecan::Request& request) const {

@@ -148,8 +148,8 @@ TEST_CASE("what a recording lacks is one error for each servo, and what it has i
   CHECK(got.status == 4);
   CHECK(codes(got) == std::vector<std::string>{"not_recorded"});
   CHECK(contains(got.err, "node 11: not in the recording: command_angle, "));
-  CHECK(contains(got.err, " more\n  what a servo says counts until it restarts; record all of it: "
-                          "blactl get --all --record FILE\n"));
+  CHECK(contains(got.err, " more\n  what a servo says counts until it restarts or is changed; "
+                          "record all of it: blactl get --all --record FILE\n"));
   CHECK(got.err.size() < 500);
   CHECK(contains(got.out, "serial_number     240900001"));
 
@@ -160,6 +160,21 @@ TEST_CASE("what a recording lacks is one error for each servo, and what it has i
   CHECK(json(all.out)["nodes"][0]["serial_number"] == 240900001);
 
   CHECK(bench.run({"-i", "replay:" + log, "get", "-n", "11", "serial_number"}).status == 0);
+}
+
+TEST_CASE("what was erased after it was read is not told from a recording") {
+  const Bench bench;
+  const std::string log = record(bench, {"get", "-n", "11", "angle_limit_cw"});
+  const Arguments get{"-i", "replay:" + log, "get", "-n", "11", "angle_limit_cw", "-j"};
+  CHECK(bench.run(get).status == 0);
+  const std::string text = read(log);
+  const std::size_t last = text.rfind('(');
+  std::ofstream(log, std::ios::app) << text.substr(last, text.find("sim", last) - last)
+                                    << "sim 1E0A8BE4#01000000000000C0\n"; // ERASE by node 100
+  const Result erased = bench.run(get);
+  CHECK(erased.status == 4);
+  CHECK(json(erased.out)["nodes"][0]["params"].empty());
+  CHECK(json(erased.out)["errors"][0]["code"] == "not_recorded");
 }
 
 TEST_CASE("nodes that a recording does not tell more of are listed, and cannot be read") {

@@ -6,9 +6,9 @@
 #include "blactl/dronecan/transfer.hpp"
 #include "blactl/fleet/roster.hpp"
 
-#include <array>
 #include <cstdint>
 #include <map>
+#include <utility>
 #include <vector>
 
 namespace blactl::fleet {
@@ -16,9 +16,11 @@ namespace blactl::fleet {
 /// Keeps the last answer to each question that reads: GetNodeInfo, and GetSet of each register,
 /// whoever asked. An answer to a write tells the value after it, so it counts as well.
 ///
-/// A restart, as far as uptimes show it (see Roster), makes all of a node's earlier answers
-/// history: its RAM is gone, and another unit may have its ID. Memory is bounded: one answer for
-/// each node and register.
+/// What a node was told after that makes its answers history, whatever it answers: a write that of
+/// its register, until the value after it is told; ERASE all that it sets; RestartNode and SAVE, or
+/// a restart that uptimes show (see Roster), all: its RAM is gone, its ID may be that of another.
+/// Memory is bounded: one answer for each node and register, one question for each two nodes and
+/// transfer ID.
 class Archive {
  public:
   /// `roster` outlives this and has been told of each transfer first.
@@ -31,32 +33,43 @@ class Archive {
   [[nodiscard]] dronecan::Outcome answer(const dronecan::Request& request) const;
 
  private:
+  /// The transfers of the recording, counted: many may have one time.
+  using Moment = std::uint64_t;
+
   struct Answer {
     std::vector<std::uint8_t> payload;
     Time at{};
     std::uint32_t boots = 0; ///< of the node when it said so
+    Moment asked = 0;        ///< where the question was not recorded: answered
   };
 
   /// Which register was asked for: a failure comes without its name (errata C7).
   struct Question {
-    dronecan::NodeId client;
     bla::Address address;
+    Moment at = 0;
   };
 
   struct Server {
     Answer info;
     std::map<bla::Address, Answer> registers;
-    /// By transfer ID; two clients that use the same one at a time hide one another.
-    std::array<Question, dronecan::transfer_id_modulus> questions{};
+    std::map<std::pair<dronecan::NodeId, dronecan::TransferId>, Question> questions; ///< by client
+    // What it was told last, whatever it answered.
+    std::map<bla::Address, Moment> written;
+    Moment erased = 0, restarted = 0;
+
+    /// Since when its answers tell what a register holds.
+    [[nodiscard]] Moment unchanged_since(bla::Address address) const;
   };
 
+  void receive_request(const dronecan::Transfer& transfer);
   void receive_question(const dronecan::Transfer& transfer);
   void receive_register(const dronecan::Transfer& transfer);
-  void keep(Answer& slot, const dronecan::Transfer& transfer);
+  void keep(Answer& slot, const dronecan::Transfer& transfer, Moment asked);
   [[nodiscard]] std::uint32_t boots(dronecan::NodeId node) const;
   [[nodiscard]] const Answer* find(const dronecan::Request& request) const;
 
   const Roster& roster_;
+  Moment now_ = 0;
   std::map<dronecan::NodeId, Server> servers_;
 };
 

@@ -16,8 +16,9 @@ inline constexpr Text cancelled{"node {}: {} was not finished", "ノード {}: {
 inline constexpr Text not_recorded{"node {}: not in the recording: {}",
                                    "ノード {}: 記録にありません: {}"};
 inline constexpr Text not_recorded_hint{
-    "what a servo says counts until it restarts; record all of it: blactl get --all --record FILE",
-    "サーボの応答は再起動までの分だけが有効です。すべて記録するには: "
+    "what a servo says counts until it restarts or is changed; record all of it: blactl get --all "
+    "--record FILE",
+    "サーボの応答は再起動や設定変更までの分だけが有効です。すべて記録するには: "
     "blactl get --all --record FILE"};
 inline constexpr Text identity_not_recorded{
     "node {} is in the recording, but not what it is",

@@ -44,6 +44,11 @@ struct Recording {
          GetSet::Request{.index = index, .value = {}, .name = std::move(name)}.encode(), id);
   }
 
+  void write(std::string name, std::int64_t raw, dronecan::TransferId id = 0) {
+    hear(Kind::request, GetSet::type, 127, 11,
+         GetSet::Request{.value = raw, .name = std::move(name)}.encode(), id);
+  }
+
   void answer(GetSet::Value value, std::string name, dronecan::TransferId id = 0,
               std::uint8_t client = 127) {
     hear(Kind::response, GetSet::type, 11, client,
@@ -137,6 +142,81 @@ TEST_CASE("a restart makes what was said before it history") {
   CHECK(recording.info() == not_recorded);
   recording.answer(std::int64_t{1799}, "0x38");
   CHECK(recording.value() == 1799);
+}
+
+TEST_CASE("a write makes unknown what its register held, until it is answered") {
+  Recording recording;
+  recording.answer(std::int64_t{450}, "0x38");
+  recording.answer(std::int64_t{-450}, "0x39");
+  recording.write("0x38", 900, 7);
+  CHECK_FALSE(recording.value());
+  CHECK(recording.read(bla::Address{0x39}).kind == answered);
+  SECTION("by its own answer") {
+    recording.answer(std::int64_t{900}, "0x38", 7);
+    CHECK(recording.value() == 900);
+  }
+  SECTION("or by a later read") {
+    recording.ask_for("0x38", 8);
+    recording.answer(std::int64_t{900}, "0x38", 8);
+    CHECK(recording.value() == 900);
+  }
+  SECTION("but not by the answer to an earlier read") {
+    Recording other;
+    other.ask_for("0x38", 3, 126);
+    other.write("0x38", 900, 3);
+    other.answer(std::int64_t{450}, "0x38", 3, 126);
+    CHECK_FALSE(other.value());
+  }
+}
+
+TEST_CASE("ERASE makes unknown what it sets, and a restart all, from the moment they are sent") {
+  constexpr bla::Address serial_number{0x51};
+  Recording recording;
+  recording.answer(std::int64_t{450}, "0x38");
+  recording.answer(std::int64_t{0}, "0x00");
+  recording.answer(std::int64_t{240900558}, "0x51");
+  recording.hear(Kind::response, GetNodeInfo::type, 11, 127,
+                 GetNodeInfo::Response{.status = {.uptime_s = 100}}.encode());
+  const auto opcode = [&](std::uint8_t code) {
+    recording.hear(Kind::request, dronecan::ExecuteOpcode::type, 127, 11,
+                   dronecan::ExecuteOpcode::Request{.opcode = code}.encode());
+  };
+  const auto loses_settings = [&] {
+    CHECK_FALSE(recording.value());
+    CHECK(recording.read(bla::Address{0x00}).kind == not_recorded);
+    CHECK(recording.read(serial_number).kind == answered);
+    CHECK(recording.info() == answered);
+  };
+  const auto loses_all = [&] {
+    CHECK_FALSE(recording.value());
+    CHECK(recording.read(serial_number).kind == not_recorded);
+    CHECK(recording.info() == not_recorded);
+  };
+  SECTION("ERASE") {
+    opcode(dronecan::ExecuteOpcode::erase);
+    loses_settings();
+    recording.answer(std::int64_t{1799}, "0x38");
+    CHECK(recording.value() == 1799);
+  }
+  SECTION("0x10") {
+    recording.write("0x10", 1);
+    loses_settings();
+  }
+  SECTION("SAVE") {
+    opcode(dronecan::ExecuteOpcode::save);
+    loses_all();
+  }
+  SECTION("0x12") {
+    recording.write("0x12", 1);
+    loses_all();
+  }
+  SECTION("RestartNode") {
+    recording.hear(Kind::request, dronecan::RestartNode::type, 127, 11,
+                   dronecan::RestartNode::Request{}.encode());
+    loses_all();
+    recording.answer(std::int64_t{1799}, "0x38");
+    CHECK(recording.value() == 1799);
+  }
 }
 
 TEST_CASE("other nodes, other services and nonsense leave no answer") {
