@@ -62,6 +62,23 @@ bool is_surpassed(const FaultState& state) {
           (fails && state.worst() < std::optional(Level::failure)));
 }
 
+/// A log cannot be asked again: of a servo that tells later of more it is not known what 0x18
+/// holds, nor what the registers do in which nothing was found.
+void doubt(FaultState& state) {
+  const std::uint8_t id = state.snapshot.servo.id.value();
+  const Error error{Code::not_recorded, say<texts::faults_not_recorded>(id),
+                    say<texts::faults_not_recorded_hint>(), id};
+  for (Reading& reading : state.snapshot.readings) {
+    const bla::Address address = reading.parameter->address;
+    const bool is_empty = reading.raw == 0 && std::ranges::find(bla::fault_registers, address) !=
+                                                  bla::fault_registers.end();
+    if (is_empty || address == bla::address::fault_summary) {
+      reading.raw = std::unexpected(error);
+    }
+  }
+  state.errors.push_back(error);
+}
+
 /// `first`: the registers to read of each in any case.
 FaultStates read(Session& session, const bla::Profiles& profiles,
                  std::span<const dronecan::NodeId> servos, const Identification::Options& options,
@@ -110,12 +127,14 @@ FaultStates read_faults(Session& session, const bla::Profiles& profiles,
   constexpr std::array summary{bla::address::fault_summary};
   FaultStates states = read(session, profiles, servos, options, summary);
   std::vector<dronecan::NodeId> surpassed;
-  for (const FaultState& state : states.servos) {
-    if (is_surpassed(state)) {
+  for (FaultState& state : states.servos) {
+    if (is_surpassed(state) && session.is_recording()) {
+      doubt(state);
+    } else if (is_surpassed(state)) {
       surpassed.push_back(state.snapshot.servo.id);
     }
   }
-  if (states.broken || surpassed.empty() || session.is_recording()) {
+  if (states.broken || surpassed.empty()) {
     return states;
   }
   FaultStates again = read(session, profiles, surpassed, options, bla::all_fault_registers);

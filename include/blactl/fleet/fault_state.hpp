@@ -36,7 +36,8 @@ struct FaultStates {
 };
 
 /// Reads 0x18 of several servos at once, and of those that it says have faults what tells more. A
-/// servo whose NodeStatus tells of more than that is read once more, all four registers.
+/// servo whose NodeStatus tells of more than that is read once more, all four registers; on a
+/// recording its faults are not_recorded, as far as none were found.
 /// `profiles` outlives the states.
 [[nodiscard]] FaultStates read_faults(Session& session, const bla::Profiles& profiles,
                                       std::span<const dronecan::NodeId> servos,

@@ -170,6 +170,11 @@ inline constexpr Text written_while_read{
     "ノード {0} の読出し中に、ノード {1} が繰り返し書き込んでいます"};
 inline constexpr Text faults_flicker{"node {}: its faults come and go while they are read",
                                      "ノード {}: 読出し中に異常の発生と解消を繰り返しています"};
+inline constexpr Text faults_not_recorded{
+    "node {}: it tells of faults which the registers in the recording do not show",
+    "ノード {}: 異常が通知されていますが、記録されたレジスタの値に現れていません"};
+inline constexpr Text faults_not_recorded_hint{"record them: blactl faults --record FILE",
+                                               "記録するには: blactl faults --record FILE"};
 inline constexpr Text other_writer_hint{"stop it, then run the command again",
                                         "停止させてから再度実行して下さい"};
 inline constexpr Text not_read_completely{

@@ -1,3 +1,4 @@
+#include "blactl/fleet/fault_state.hpp"
 #include "blactl/fleet/playback.hpp"
 #include "blactl/fleet/read_job.hpp"
 
@@ -130,6 +131,36 @@ TEST_CASE("a job on a recording is answered from all of it, what comes later inc
   ReadJob later = reader(*session, {"angle_limit_cw"});
   session->start(later);
   CHECK(later.snapshot().raw(bla::address::angle_limit_cw) == 901);
+}
+
+TEST_CASE("what a recording tells of faults only later is not known, where none were found") {
+  const auto faults = [](dronecan::Health health, std::int64_t warnings) {
+    Writer writer;
+    writer.identify();
+    writer.answer("0x18", warnings != 0 ? 0x200 : 0);
+    writer.answer("0x1A", warnings);
+    writer.say(dronecan::NodeStatus::type, dronecan::NodeStatus{.health = health}.encode());
+    const auto session = writer.play();
+    auto states = read_faults(*session, profiles(), std::vector{NodeId(11)}, {});
+    REQUIRE(states.servos.size() == 1);
+    return std::move(states.servos.front());
+  };
+  namespace at = bla::address;
+  const FaultState fine = faults(dronecan::Health::ok, 0);
+  CHECK(fine.errors.empty());
+  CHECK(fine.fault_register(at::fault_failure) == 0);
+  const FaultState critical = faults(dronecan::Health::critical, 0);
+  REQUIRE(critical.errors.size() == 1);
+  CHECK(critical.errors.front().code == Code::not_recorded);
+  CHECK(critical.faults.empty());
+  for (const bla::Address reg : bla::all_fault_registers) {
+    CHECK_FALSE(critical.fault_register(reg));
+  }
+  const FaultState found = faults(dronecan::Health::critical, 0x100);
+  CHECK(found.errors.size() == 1);
+  CHECK(found.faults.size() == 1); // the last one known
+  CHECK_FALSE(found.fault_register(at::fault_failure));
+  CHECK(faults(dronecan::Health::warning, 0x100).errors.empty());
 }
 
 TEST_CASE("a session on a recording lives until its end, whatever the deadline") {
