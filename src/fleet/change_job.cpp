@@ -63,7 +63,11 @@ ChangeJob::Stage ChangeJob::after_erase() const {
 }
 
 ChangeJob::Stage ChangeJob::after_write() const {
-  return plan_.restart ? Stage::restart : Stage::end;
+  return plan_.restart ? Stage::restart : to_show();
+}
+
+ChangeJob::Stage ChangeJob::to_show() const {
+  return std::ranges::all_of(plan_.shown, bla::is_setting) ? Stage::end : Stage::read_shown;
 }
 
 std::unique_ptr<RestartJob> ChangeJob::restart() const {
@@ -98,6 +102,7 @@ Step ChangeJob::enter(Stage stage, Time now) {
     case Stage::read_erased:
     case Stage::look:
     case Stage::read_back: job_ = (read_ = read_configuration()).get(); break;
+    case Stage::read_shown: job_ = (read_ = read_shown()).get(); break;
     case Stage::begin:
     case Stage::end: return std::nullopt;
     }
@@ -116,7 +121,8 @@ ChangeJob::Stage ChangeJob::conclude_stage(bool cancelled) {
   case Stage::write: following = conclude_write(); break;
   case Stage::restart: following = conclude_restart(); break;
   case Stage::look: following = conclude_look(); break;
-  case Stage::read_back: conclude_read_back(); break;
+  case Stage::read_back: following = conclude_read_back(); break;
+  case Stage::read_shown: conclude_read_shown(); break;
   case Stage::begin:
   case Stage::end: break;
   }
@@ -270,7 +276,7 @@ ChangeJob::Stage ChangeJob::conclude_look() {
   return Stage::end;
 }
 
-void ChangeJob::conclude_read_back() {
+ChangeJob::Stage ChangeJob::conclude_read_back() {
   const Snapshot& now = read_->snapshot();
   take_reading(now);
   result_.values_read = plan_.expected.size();
@@ -292,6 +298,12 @@ void ChangeJob::conclude_read_back() {
   if (result_.error) {
     tell_saved(now);
   }
+  return result_.error ? Stage::end : to_show();
+}
+
+/// Nothing rests on it: what cannot be read is not shown.
+void ChangeJob::conclude_read_shown() {
+  result_.now = read_->snapshot().values();
 }
 
 /// What the registers of the changes hold now, after a SAVE that went wrong.
@@ -307,6 +319,7 @@ void ChangeJob::tell_saved(const Snapshot& now) {
 
 /// The servo restarted, or may have: what was written was in RAM.
 void ChangeJob::doubt_changes() {
+  result_.now.clear();
   for (Change& change : result_.changes) {
     change.after = std::nullopt;
     change.status = ChangeStatus::failed;
@@ -407,6 +420,18 @@ std::unique_ptr<ReadJob> ChangeJob::read_configuration() {
         return parameters;
       },
       after_save ? ReadJob::Proof::unit : ReadJob::Proof::moment);
+}
+
+/// What tells of a moment only: the settings were read before, or written since. unproven: that
+/// 0x19 follows a change before the writes have been proven.
+std::unique_ptr<ReadJob> ChangeJob::read_shown() {
+  return std::make_unique<ReadJob>(
+      roster_, result_.node_id_after.value_or(servo_.id), profiles_, options_.identification,
+      [this](const Servo& servo) -> Result<std::vector<const bla::Parameter*>> {
+        auto parameters = servo.identity.registers(plan_.shown);
+        std::erase_if(parameters, [](const auto* each) { return bla::is_setting(each->address); });
+        return parameters;
+      });
 }
 
 /// ERASE sets the commands to 0, too (4.9), unless somebody drives the servo.

@@ -330,7 +330,8 @@ Result<Plan> make_plan(const Wanted& wanted, Snapshot before, const bla::Profile
   Plan plan{.before = std::move(before),
             .erase = wanted.erase,
             .keep_ids = wanted.keep_ids,
-            .restart = wanted.restart};
+            .restart = wanted.restart,
+            .shown = wanted.also_read};
   if (wanted.erase) {
     auto defaults = plan.before.servo.identity.factory_defaults();
     if (!defaults) {

@@ -73,6 +73,28 @@ TEST_CASE("every way to say the same mapping gives the same changes") {
   CHECK(preset == changes({"--endpoints", "820us:-150rpm,2220us:150rpm"}));
 }
 
+TEST_CASE("what is at the input is told as the new mapping sees it, or not at all") {
+  const Bench bench;
+  const nlohmann::json scenario{
+      {"schema", "blactl-scenario/1"},
+      {"clock", "virtual"},
+      {"servos", {{{"model", "BLA21-12U-AB"}, {"node_id", 11}, {"serial_number", 7}}}},
+      {"events", {{{"at", "100ms"}, {"servo", 7}, {"world", {{"pulse", "1900us"}}}}}}};
+  const std::string interface = "sim:" + bench.file("s.json", scenario.dump());
+  const auto node = [&](const char* more) {
+    const Result result =
+        bench.run({"-i", interface, "pwm-config", "--range", "100us", "-y", "-j", more});
+    return json(result.out)["nodes"][0];
+  };
+  const auto changed = node("-q");
+  CHECK(changed["before"]["input"] == "ok");
+  CHECK(changed["input"] != "ok");
+  CHECK(changed["input"].is_string());
+  const auto planned = node("--dry-run");
+  CHECK(planned["before"]["input"] == "ok");
+  CHECK(planned["input"].is_null());
+}
+
 TEST_CASE("--dry-run changes nothing and shows both mappings") {
   const Bench bench;
   const Background sim(bench, {"sim"});

@@ -18,6 +18,7 @@ namespace blactl::fleet {
 /// Erases and reads back, writes, restarts, recognises the servo and reads it once more: each stage
 /// is a job of its own, and begins only if everything before it went well. Where nothing proves
 /// that the servo ran on until SAVE, it is looked at again before: SAVE keeps what RAM holds then.
+/// What is to be shown and is no setting is read last, as the changes have left it.
 class ChangeJob final : public dronecan::Job {
  public:
   struct Options {
@@ -57,6 +58,7 @@ class ChangeJob final : public dronecan::Job {
     restart,
     look, ///< instead of a SAVE that was not sent
     read_back,
+    read_shown,
     end,
   };
 
@@ -68,7 +70,8 @@ class ChangeJob final : public dronecan::Job {
   [[nodiscard]] Stage conclude_write();
   [[nodiscard]] Stage conclude_restart();
   [[nodiscard]] Stage conclude_look();
-  void conclude_read_back();
+  [[nodiscard]] Stage conclude_read_back();
+  void conclude_read_shown();
   [[nodiscard]] Time known_since() const;
   [[nodiscard]] std::optional<dronecan::NodeId> other_writer() const;
   void explain_interruption(Stage at);
@@ -81,7 +84,9 @@ class ChangeJob final : public dronecan::Job {
   [[nodiscard]] std::unique_ptr<RestartJob> restart() const;
   [[nodiscard]] Stage after_erase() const;
   [[nodiscard]] Stage after_write() const;
+  [[nodiscard]] Stage to_show() const;
   [[nodiscard]] std::unique_ptr<ReadJob> read_configuration();
+  [[nodiscard]] std::unique_ptr<ReadJob> read_shown();
   void take_reading(const Snapshot& now);
 
   Roster& roster_;

@@ -43,6 +43,7 @@ struct Plan {
   bool keep_ids = false;
   std::vector<Change> changes{};
   std::optional<RestartKind> restart{};
+  std::vector<bla::Address> shown{}; ///< as Wanted::also_read
   /// The configuration afterwards; empty where nobody can know or asks: a mere restart brings what
   /// ROM holds.
   bla::Values expected{};

@@ -12,6 +12,7 @@ namespace blactl::fleet {
 struct ChangeResult {
   Servo servo;          ///< as it was identified; its servo ID as it was read last
   bla::Values before{}; ///< what was read before anything was changed
+  bla::Values now{};    ///< what is shown and no setting, as it was read again after the changes
   std::vector<Change> changes{};
   std::optional<std::int64_t> mode_before{}, mode_after{}; ///< as Plan
   std::vector<Warning> warnings{};                         ///< as Plan
@@ -31,7 +32,8 @@ struct ChangeResult {
 
   [[nodiscard]] bool is_done() const { return !error && is_verified; }
 
-  /// What it holds now, as far as is known; of a plan, what it would hold.
+  /// What it holds now, as far as is known; of a plan, what it would hold. What changes by itself
+  /// or by the changes is known only where it was read again.
   [[nodiscard]] bla::Values after() const;
 };
 

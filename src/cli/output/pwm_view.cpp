@@ -30,12 +30,8 @@ std::string_view unit(const PwmMapping& mapping) {
   return mapping.is_angle() ? "deg" : "rpm";
 }
 
-std::string input_text(const bla::Values& values) {
-  const auto input = bla::pwm_input(values);
-  if (!input) {
-    return say<texts::unknown_value>();
-  }
-  switch (*input) {
+std::string input_text(PwmInput input) {
+  switch (input) {
   case PwmInput::ok: return say<texts::pwm_input_ok>();
   case PwmInput::none: return say<texts::pwm_input_none>();
   case PwmInput::too_short: return say<texts::pwm_input_short>();
@@ -202,8 +198,10 @@ std::string pwm_text(const bla::Values& values, const Page& page) {
                                            first_pulse(*mapping), mapping->longest_us()) +
                     say<texts::pwm_output>(pwm_command_text(*mapping, mapping->output_raw),
                                            mapping->is_angle() ? say<texts::pwm_angle>()
-                                                               : say<texts::pwm_speed>()) +
-                    say<texts::pwm_input_now>(input_text(values));
+                                                               : say<texts::pwm_speed>());
+  if (const auto input = bla::pwm_input(values)) {
+    out += say<texts::pwm_input_now>(input_text(*input));
+  }
   if (timeout) {
     out += say<texts::pwm_fallback>(*timeout);
   }

@@ -370,6 +370,46 @@ TEST_CASE("what another node wrote meanwhile is not told as what the servo holds
   }
 }
 
+TEST_CASE("what is shown beside the changes and tells of a moment is read again after them") {
+  constexpr std::int64_t no_pulse = 1 << 20, too_long = 1 << 22;
+  Wanted wanted = set({"pwm_range=100us"});
+  wanted.also_read = {at::fault_notice, at::pwm_neutral};
+  SECTION("what is only written") {
+    Bench bench(wanted, {{at::fault_notice, no_pulse}});
+    bench.until("write 0x35=100");
+    bench.ram[at::fault_notice] = too_long;
+    const ChangeResult& result = bench.finish();
+    CHECK(bench.asked == std::vector<std::string>{"GetNodeInfo", "write 0x35=100", "read 0x35",
+                                                  "GetNodeInfo", "read 0x19", "GetNodeInfo",
+                                                  "nothing"});
+    CHECK(result.is_done());
+    CHECK(bla::find(result.before, at::fault_notice) == no_pulse);
+    CHECK(bla::find(result.after(), at::fault_notice) == too_long);
+    CHECK(bla::find(result.after(), at::pwm_neutral) == 1520);
+  }
+  SECTION("what is saved") {
+    wanted.restart = RestartKind::save;
+    Bench bench(wanted, {{at::fault_notice, no_pulse}});
+    bench.until("SAVE");
+    bench.ram[at::fault_notice] = too_long;
+    const ChangeResult& result = bench.finish();
+    CHECK(result.saved);
+    CHECK(bla::find(result.after(), at::fault_notice) == too_long);
+  }
+  SECTION("what cannot be read is not shown, and hinders nothing") {
+    Bench bench(wanted, {{at::fault_notice, no_pulse}});
+    bench.until("read 0x19");
+    bench.fall_silent();
+    CHECK(bench.job->result().is_done());
+    CHECK_FALSE(bla::find(bench.job->result().after(), at::fault_notice));
+  }
+  SECTION("what is only planned tells nothing of a moment to come") {
+    const ChangeResult planned = as_planned(plan_for(wanted, {{at::fault_notice, no_pulse}}));
+    CHECK(bla::find(planned.before, at::fault_notice) == no_pulse);
+    CHECK_FALSE(bla::find(planned.after(), at::fault_notice));
+  }
+}
+
 TEST_CASE("what is set and saved is written, saved once, and all of it read again") {
   Bench bench(set({"reverse=on"}, true));
   bench.until("SAVE");
