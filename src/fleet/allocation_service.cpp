@@ -226,7 +226,7 @@ Result<std::size_t> AllocationService::free_ids() const {
   }
   std::size_t free = 0;
   for (std::size_t id = range_.first.value(); id <= range_.last.value(); ++id) {
-    free += used[id] ? 0 : 1;
+    free += used[id] ? 0U : 1U;
   }
   return free;
 }

@@ -331,17 +331,22 @@ Time ChangeJob::known_since() const {
   return std::min(begin_, plan_.before.servo.since);
 }
 
-/// Another node that wrote, as far as was heard, what this job has changed or found to be right.
+/// Another node that wrote, as far as was heard, what this job has changed, found to be right or
+/// shows.
 std::optional<dronecan::NodeId> ChangeJob::other_writer() const {
   const dronecan::NodeId id = plan_.before.servo.id;
   if (plan_.erase) {
     return roster_.writer_to(id, known_since());
   }
+  std::vector<bla::Address> concerned = plan_.shown;
   for (const Change& change : result_.changes) {
-    const bool is_command = change.parameter->group == bla::Group::command;
-    const auto writer = is_command
-                            ? roster_.commander_of(plan_.before.servo, known_since())
-                            : roster_.writer_to(id, known_since(), change.parameter->address);
+    concerned.push_back(change.parameter->address);
+  }
+  for (const bla::Address address : concerned) {
+    const bool is_command =
+        std::ranges::find(bla::command_registers, address) != bla::command_registers.end();
+    const auto writer = is_command ? roster_.commander_of(plan_.before.servo, known_since())
+                                   : roster_.writer_to(id, known_since(), address);
     if (writer) {
       return writer;
     }

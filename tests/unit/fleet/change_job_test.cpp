@@ -410,6 +410,22 @@ TEST_CASE("what is shown beside the changes and tells of a moment is read again 
   }
 }
 
+TEST_CASE("what another node wrote meanwhile is not shown beside the changes, either") {
+  Wanted wanted = set({"pwm_range=100us"});
+  wanted.also_read = {at::fault_notice, at::pwm_output_range};
+  Bench bench(wanted);
+  bench.until("write 0x35=100");
+  bench.live(1s);
+  bench.other_writes(at::pwm_output_range, 1400);
+  bench.finish();
+  bench.job->look_back();
+  const ChangeResult& result = bench.job->result();
+  CHECK(failure(result) == Code::state);
+  CHECK(says(result, "node 40 wrote to node 11"));
+  CHECK_FALSE(bla::find(result.after(), at::pwm_range));
+  CHECK_FALSE(bla::find(result.after(), at::fault_notice));
+}
+
 TEST_CASE("what is set and saved is written, saved once, and all of it read again") {
   Bench bench(set({"reverse=on"}, true));
   bench.until("SAVE");
