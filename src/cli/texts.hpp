@@ -226,8 +226,13 @@ inline constexpr Text unknown_value{"?", "?"};
 inline constexpr Text unknown_word{"unknown", "不明"};
 inline constexpr Text nothing_readable{"  nothing of this can be read\n",
                                        "  読み出せるパラメータはありません\n"};
-inline constexpr Text nothing_changed{"  all parameters asked for have their defaults\n",
-                                      "  対象のパラメータはすべて初期値です\n"};
+inline constexpr Text nothing_changed{"  nothing of this differs from its default\n",
+                                      "  初期値と異なるパラメータはありません\n"};
+inline constexpr Text nothing_read_changed{
+    "  nothing that could be read differs from its default\n",
+    "  読み出せた中に初期値と異なるパラメータはありません\n"};
+inline constexpr Text nothing_with_default{"  nothing of this has a default\n",
+                                           "  対象に初期値のあるパラメータはありません\n"};
 inline constexpr Text column_parameter{"PARAMETER", "パラメータ"};
 inline constexpr Text column_value{"VALUE", "値"};
 inline constexpr Text column_before{"BEFORE", "変更前"};

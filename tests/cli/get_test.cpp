@@ -163,7 +163,19 @@ TEST_CASE("get --changed shows only what differs from the model's default") {
   CHECK(addresses(get(scene, {"--changed"})) == std::vector<std::string>{"0x38", "0x46"});
   CHECK(addresses(get(scene, {"--changed", "--group", "pwm"})).empty());
   const Result none = scene.run({"get", "--changed", "--group", "pwm"});
-  CHECK(contains(none.out, "  all parameters asked for have their defaults\n"));
+  CHECK(contains(none.out, "  nothing of this differs from its default\n"));
+}
+
+TEST_CASE("get --changed claims no default of what could not be read, or has none") {
+  const Scene old = Scene().servo("BLA21-12U-A0", 11, {{"firmware_version", 1000}});
+  const Result gated = old.run({"get", "--changed", "angle_limit_ccw", "speed_torque_control"});
+  CHECK(gated.status == 2);
+  CHECK(contains(gated.out, "  nothing that could be read differs from its default\n"));
+  const Result none = old.run({"get", "--changed", "speed_torque_control"});
+  CHECK_FALSE(contains(none.out, "default"));
+  const Result measured = old.run({"get", "--changed", "serial_number", "current_voltage"});
+  CHECK(measured.status == 0);
+  CHECK(contains(measured.out, "  nothing of this has a default\n"));
 }
 
 TEST_CASE("every form of -n finds its servos, in ascending order") {

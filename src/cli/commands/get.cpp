@@ -61,18 +61,17 @@ std::expected<fleet::RegisterChoice, std::vector<Error>> understand(const GetOpt
 
 /// What is shown of one servo. Where its model, and so the default, is not known for sure, nothing
 /// is left out.
-std::vector<fleet::Reading> shown(const fleet::Snapshot& snapshot,
-                                  const fleet::RegisterChoice& choice, bool changed_only) {
+ServoValues shown(fleet::Snapshot snapshot, const fleet::RegisterChoice& choice,
+                  bool changed_only) {
   auto readings = choice.asked_for(snapshot);
+  std::erase_if(readings, [](const fleet::Reading& reading) { return !reading.raw; });
+  const bool can_differ = std::ranges::any_of(
+      readings, [](const fleet::Reading& reading) { return reading.parameter->writable(); });
   std::erase_if(readings, [&](const fleet::Reading& reading) {
     const bla::Parameter& parameter = *reading.parameter;
-    if (!reading.raw) {
-      return true;
-    }
-    const bool is_default = !parameter.writable() || parameter.default_raw == *reading.raw;
-    return changed_only && is_default;
+    return changed_only && (!parameter.writable() || parameter.default_raw == *reading.raw);
   });
-  return readings;
+  return {.snapshot = std::move(snapshot), .shown = std::move(readings), .can_differ = can_differ};
 }
 
 /// Where no default is known, --changed cannot leave anything out.
@@ -126,8 +125,8 @@ Report execute(const GetOptions& options, Context& context) {
     tell_unknown_defaults(options, snapshot.servo, context.reporter());
     report.targets.push_back({.errors = errors(snapshot, *choice, roster)});
     if (!snapshot.error && !roster.is_doubled(snapshot.servo.id)) {
-      auto chosen = shown(snapshot, *choice, options.changed);
-      answers->push_back({std::move(snapshot), std::move(chosen)});
+      answers->push_back(shown(std::move(snapshot), *choice, options.changed));
+      answers->back().is_complete = report.targets.back().errors.empty();
     }
   }
   report.count_targets();

@@ -139,8 +139,11 @@ std::string csv(std::span<const ServoValues> servos) {
 namespace {
 
 std::string without_values(const ServoValues& servo, bool changed_only) {
-  if (changed_only) {
-    return say<texts::nothing_changed>();
+  if (changed_only && servo.can_differ) {
+    return servo.is_complete ? say<texts::nothing_changed>() : say<texts::nothing_read_changed>();
+  }
+  if (changed_only && servo.is_complete) {
+    return say<texts::nothing_with_default>();
   }
   return servo.snapshot.errors().empty() ? say<texts::nothing_readable>() : std::string();
 }
