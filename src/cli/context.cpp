@@ -209,7 +209,7 @@ Result<state::AllocationStore> Context::allocations(state::AllocationStore::Acce
   }
   std::string folder = state::state_folder();
   if (!folder.empty() && interface && interface->kind == InterfaceKind::simulator) {
-    folder += "/sim";
+    folder += "/simulated";
   }
   return AllocationStore::open(folder, access);
 }

@@ -4,6 +4,7 @@
 #include "blactl/fleet/texts.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <string>
 #include <utility>
 
@@ -17,6 +18,9 @@ namespace {
 
 /// More units than there are node IDs, so that those which get none are remembered, too.
 constexpr std::size_t most_units = 256;
+
+/// A unit without a node ID asks again after 0.6 s to 1 s; one request may be lost.
+constexpr Duration request_period = std::chrono::seconds(2);
 
 bool begins_with(const UniqueId& unique_id, Bytes prefix) {
   return std::ranges::equal(Bytes(unique_id).first(prefix.size()), prefix);
@@ -56,12 +60,33 @@ void AllocationService::receive(const dronecan::Transfer& transfer) {
                           header.data_type_id == dronecan::Allocation::type.id;
   if (is_request) {
     const auto request = dronecan::Allocation::decode(transfer.payload);
-    if (request && request->first_part_of_unique_id &&
-        !is_refused(Bytes(request->unique_id).first(request->size))) {
-      last_request_ = transfer.at;
+    if (request && request->first_part_of_unique_id) {
+      hear_first_part(Bytes(request->unique_id).first(request->size), transfer.at);
     }
   }
   allocator_.receive(transfer);
+}
+
+void AllocationService::hear_first_part(Bytes prefix, Time at) {
+  if (!is_refused(prefix)) {
+    last_request_ = at;
+  }
+  UniqueIdPrefix known(prefix.begin(), prefix.end());
+  if (first_parts_.size() < most_units || first_parts_.contains(known)) {
+    first_parts_[std::move(known)] = at;
+  }
+}
+
+std::size_t AllocationService::asking() const {
+  const auto is_there = [this](const UniqueIdPrefix& prefix, Time asked) {
+    return std::ranges::any_of(units_, [&](const auto& entry) {
+      return begins_with(entry.first, prefix) && entry.second.asked_at >= asked &&
+             this->is_there(entry.second);
+    });
+  };
+  return static_cast<std::size_t>(std::ranges::count_if(first_parts_, [&](const auto& part) {
+    return session_.now() - part.second < request_period && !is_there(part.first, part.second);
+  }));
 }
 
 /// Who is refused asks on for ever.
@@ -211,8 +236,9 @@ state::NodeIds AllocationService::taken() const {
 }
 
 bool AllocationService::is_there(const AllocatedUnit& unit) const {
-  const Member member = session_.roster().member(unit.node_id);
-  return !unit.refused && member.is_unit(unit.unique_id) && member.last_heard >= unit.asked_at;
+  const Member* member = session_.roster().find(unit.node_id);
+  return member != nullptr && !unit.refused && member->is_unit(unit.unique_id) &&
+         member->last_heard >= unit.asked_at;
 }
 
 Result<std::size_t> AllocationService::free_ids() const {

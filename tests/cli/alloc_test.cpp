@@ -204,7 +204,7 @@ TEST_CASE("two allocators of this machine on one bus do not run at once") {
 TEST_CASE("a table that cannot be used refuses before the first answer") {
   const Bench bench;
   const Background sim(bench, {"sim", scenario(bench, 1)});
-  const std::filesystem::path table = bench.folder() / "state/sim/allocations.db";
+  const std::filesystem::path table = bench.folder() / "state/simulated/allocations.db";
   std::filesystem::create_directories(table.parent_path());
   std::ofstream(table) << "no database";
   const Result foreign =

@@ -70,6 +70,10 @@ class AllocationService final : private dronecan::Service, private dronecan::All
   /// When a unit asked last that is not refused; the begin of this service, if none did.
   [[nodiscard]] Time last_request() const { return last_request_; }
 
+  /// How many units ask now: they did of late, and have not been heard under an ID since. Units
+  /// whose unique IDs begin alike count as one.
+  [[nodiscard]] std::size_t asking() const;
+
   /// How many IDs of the range are left for new units. Errors: of the table.
   [[nodiscard]] Result<std::size_t> free_ids() const;
 
@@ -95,6 +99,7 @@ class AllocationService final : private dronecan::Service, private dronecan::All
   [[nodiscard]] Holder holder(dronecan::NodeId id, const dronecan::UniqueId& unique_id) const;
   [[nodiscard]] state::NodeIds taken() const;
   [[nodiscard]] bool is_refused(dronecan::Bytes prefix) const;
+  void hear_first_part(dronecan::Bytes prefix, Time at);
 
   Session& session_;
   state::AllocationStore& store_;
@@ -104,6 +109,7 @@ class AllocationService final : private dronecan::Service, private dronecan::All
   std::map<dronecan::UniqueId, AllocatedUnit> units_;
   std::optional<Error> failure_; ///< of the table
   Time last_request_;
+  std::map<UniqueIdPrefix, Time> first_parts_; ///< of requests, when they were heard last
   bool bus_is_known_ = false;
 };
 

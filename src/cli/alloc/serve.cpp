@@ -13,7 +13,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
+#include <ranges>
 #include <utility>
+#include <vector>
 
 namespace blactl::cli {
 namespace {
@@ -63,7 +66,7 @@ class Serve {
   Serve(const AllocOptions& options, AllocationService::Range range, Context& context,
         AllocationStore& store, Report& report)
       : options_(options), context_(context), report_(report), begin_(context.session().now()),
-        progress_at_(begin_),
+        progress_at_(begin_), range_(range),
         service_(context.session(), store, range,
                  [this](Event event, const AllocatedUnit& unit) { tell(event, unit); }) {}
 
@@ -92,6 +95,7 @@ class Serve {
   Report& report_;
   Time begin_;
   Time progress_at_; ///< when a unit got somewhere last
+  AllocationService::Range range_;
   bool has_reader_ = true;
   std::size_t drawn_ = 0; ///< lines of the list on the terminal
   std::uint64_t assigned_ = 0, kept_ = 0;
@@ -156,18 +160,22 @@ std::string Serve::state(const AllocatedUnit& unit, const Page& page) const {
 std::string Serve::list(const Page& page) const {
   Table table({say<texts::alloc_column_node>(), say<texts::alloc_column_unit>(),
                say<texts::alloc_column_state>(), say<texts::alloc_column_servo>()});
-  for (const auto& [unique_id, unit] : service_.units()) {
+  std::vector<AllocatedUnit> units;
+  std::ranges::copy(service_.units() | std::views::values, std::back_inserter(units));
+  std::ranges::sort(
+      units, {}, [](const AllocatedUnit& unit) { return std::pair(unit.node_id, unit.unique_id); });
+  for (const AllocatedUnit& unit : units) {
     const fleet::Servo servo = session().roster().member(unit.node_id).servo();
     const bool is_known = service_.is_there(unit) && servo.is_servo;
     const auto serial = servo.identity.readings().serial_number;
     table.add({unit.node_id.is_unicast() ? std::to_string(unit.node_id.value()) : "-",
-               hex(unique_id), state(unit, page),
+               hex(unit.unique_id), state(unit, page),
                is_known ? fmt::format("{} {}", servo.identity.model(),
                                       serial ? std::to_string(*serial) : std::string())
                         : std::string()});
   }
   std::string out = service_.units().empty() ? std::string() : table.text("", page);
-  if (const std::size_t asking = session().roster().pending().size(); asking > 0) {
+  if (const std::size_t asking = service_.asking(); asking > 0) {
     out += say<texts::alloc_asking>(asking);
   }
   return out;
@@ -235,6 +243,10 @@ void Serve::run() {
     return;
   }
   service_.bus_is_known();
+  if (const auto free = service_.free_ids(); free && !service_.end()) {
+    context_.reporter().note(
+        say<texts::alloc_started>(range_.first.value(), range_.last.value(), *free));
+  }
   wait();
   redraw();
   conclude();
@@ -256,7 +268,7 @@ void Serve::conclude() {
     }
   }
   if (options_.once && report_.errors.empty()) {
-    const std::size_t asking = session().roster().pending().size();
+    const std::size_t asking = service_.asking();
     if (is_stuck() && !is_quiet()) {
       report_.fail(
           {Code::timeout,

@@ -43,8 +43,9 @@ inline constexpr Text alloc_exported{"{} entries written to {}\n", "{} 件を {}
 inline constexpr Text alloc_imported{"{} entries taken over from {}\n",
                                      "{1} から {0} 件を取り込みました\n"};
 
-inline constexpr Text alloc_started{"allocates node IDs {} to {} until Ctrl-C; {} of them are free",
-                                    "ノード ID {}～{} を割り当てます (Ctrl-C で終了)。空き {} 個"};
+inline constexpr Text alloc_started{
+    "node IDs {} to {} are given to units that ask; {} of them are free",
+    "ノード ID {}～{} の割当てを開始しました (空き {} 個)"};
 inline constexpr Text alloc_few_left{
     "only {} node IDs are free: forget servos that are gone, `blactl alloc --forget UID`",
     "空きノード ID は残り {} 個です。使わなくなったサーボは `blactl alloc --forget UID` "

@@ -77,6 +77,7 @@ TEST_CASE("every unit that asks gets an ID of its own, which is in the table") {
   bench.serve(15s);
   CHECK(bench.given() == std::set<int>{121, 122, 123, 124, 125});
   CHECK(bench.count(Event::assigned) == 5);
+  CHECK(bench.service.asking() == 0);
   CHECK(bench.store.entries()->size() == 5);
   CHECK_FALSE(bench.service.end());
   CHECK(bench.service.free_ids() == std::size_t{120});
@@ -116,6 +117,7 @@ TEST_CASE("until the bus is known nobody new gets an ID") {
   Bench bench(dynamic_servos(1));
   bench.scene.live(5s);
   CHECK(bench.events.empty());
+  CHECK(bench.service.asking() == 1);
   CHECK(bench.store.entries()->empty());
 }
 
