@@ -8,7 +8,7 @@ namespace blactl::texts {
 inline constexpr Text column_models{"MODELS", "機種"};
 inline constexpr Text models_pwm{"with PWM input", "PWM 入力対応"};
 inline constexpr Text models_no_pwm{"without PWM input", "PWM 入力未対応"};
-inline constexpr Text column_voltage{"VOLTAGE", "電圧クラス"};
+inline constexpr Text column_voltage{"VOLTAGE CLASS", "電圧クラス"};
 inline constexpr Text column_numbers{"MODEL NUMBER / HARDWARE", "機種番号 / ハードウェア"};
 inline constexpr Text column_access{"ACCESS", "R/W"};
 inline constexpr Text column_shipped{"SHIPPED", "出荷時期"};

@@ -39,11 +39,13 @@ inline constexpr Text pwm_speed{"speed", "速度"};
 inline constexpr Text pwm_input_now{"  input    {}\n", "  現在入力  {}\n"};
 inline constexpr Text pwm_input_ok{"a pulse within the range", "入力範囲内のパルスあり"};
 inline constexpr Text pwm_input_none{"no pulse", "パルス無し"};
-inline constexpr Text pwm_input_short{"a pulse at or below the shortest", "パルス下限以下"};
-inline constexpr Text pwm_input_long{"a pulse at or above the longest", "パルス上限以上"};
+inline constexpr Text pwm_input_short{"a pulse at or below the shortest",
+                                      "入力範囲の下限以下のパルスあり"};
+inline constexpr Text pwm_input_long{"a pulse at or above the longest",
+                                     "入力範囲の上限以上のパルスあり"};
 inline constexpr Text pwm_fallback{
     "  CAN      has priority; PWM is accepted after {} ms without CAN commands\n",
-    "  CAN 指令  優先。{} ms 以上無いと PWM を受け付けます (timeout_time)\n"};
+    "  CAN 指令  優先。{} ms (timeout_time) 以上途絶えると PWM を受け付けます\n"};
 inline constexpr Text pwm_idle{
     "  speed    pulses have no effect while speed_torque_control is off\n",
     "  速度指令  speed_torque_control が OFF の間、PWM では動作しません\n"};

@@ -271,8 +271,7 @@ inline constexpr Text no_faults{"no faults", "異常なし"};
 inline constexpr Text faults_unknown{"not known whether it has faults", "異常の有無は不明です"};
 inline constexpr Text faults_of_before{"does not tell its faults now; the last ones known:",
                                        "現在の異常は不明です。以下は最後に取得した内容です"};
-inline constexpr Text faults_hidden{"{} faults below {} are not shown",
-                                    "{} 件は{}レベル未満のため非表示"};
+inline constexpr Text faults_hidden{"not shown: {} below {}", "{} 件は{}レベル未満のため非表示"};
 inline constexpr Text unknown_bit_action{
     "Ask the manufacturer, with the firmware version and the number of the bit.",
     "ファームウェアバージョンとビット番号を添えてメーカーに問い合わせて下さい。"};

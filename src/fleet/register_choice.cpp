@@ -38,6 +38,10 @@ std::vector<std::string_view> similar_groups(std::string_view word) {
 /// Errors: as Profiles::find(), with the group that the name may be; unsupported.
 Result<const Parameter*> find_readable(const bla::Profiles& profiles, std::string_view name) {
   auto parameter = profiles.find(name);
+  if (parameter && (*parameter)->address == bla::address::bootloader) {
+    return fail(Code::unsupported, say<texts::bootloader_unread>(),
+                say<texts::bootloader_unread_hint>());
+  }
   if (parameter && !(*parameter)->readable()) {
     return fail(Code::unsupported, say<texts::write_only>((*parameter)->name),
                 say<texts::write_only_hint>());

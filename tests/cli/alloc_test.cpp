@@ -222,14 +222,14 @@ TEST_CASE("a table that cannot be used refuses before the first answer") {
 
 TEST_CASE("what is asked of alloc wrongly is refused with all faults, and nothing is sent") {
   const std::vector<std::pair<Arguments, std::string>> cases{
-      {{"alloc", "--range", "10"}, "--range 10: no range of node IDs"},
-      {{"alloc", "--range", "99-10"}, "no range of node IDs"},
-      {{"alloc", "--range", "1-126"}, "no range of node IDs"},
+      {{"alloc", "--range", "10"}, "--range 10: not a range of node IDs"},
+      {{"alloc", "--range", "99-10"}, "not a range of node IDs"},
+      {{"alloc", "--range", "1-126"}, "not a range of node IDs"},
       {{"alloc", "--assign", unit}, "UID=ID is needed"},
-      {{"alloc", "--assign", "12=21"}, "12 is no unique ID"},
-      {{"alloc", "--assign", unit + "=126"}, "126 is no node ID that can be allocated"},
+      {{"alloc", "--assign", "12=21"}, "12 is not a unique ID"},
+      {{"alloc", "--assign", unit + "=126"}, "node ID 126 cannot be allocated"},
       {{"alloc", "--assign", unit + "=21", "--assign", unit + "=22"}, "was given before"},
-      {{"alloc", "--forget", "12"}, "12 is no unique ID"},
+      {{"alloc", "--forget", "12"}, "12 is not a unique ID"},
       {{"alloc", "--list", "--once"}, "--once and --list do not go together"},
       {{"alloc", "--import", "a", "--export", "b"}, "--export and --import do not go together"},
       {{"alloc", "--listen-only"}, "alloc"},
@@ -239,6 +239,6 @@ TEST_CASE("what is asked of alloc wrongly is refused with all faults, and nothin
     INFO(result.err);
     CHECK(result.status == 2);
     CHECK(contains(result.err, said));
-    CHECK(codes(result).front() == (said.find("126 is") == 0 ? "out_of_range" : "usage"));
+    CHECK(codes(result).front() == (said.find("node ID 126") == 0 ? "out_of_range" : "usage"));
   }
 }

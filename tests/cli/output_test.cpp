@@ -214,7 +214,7 @@ TEST_CASE("--dump-cli has every command and option in both languages, and --help
   CHECK(document["options"][0]["letter"] == "i");
   CHECK(document["options"][0]["kind"] == "interface");
   REQUIRE(document["commands"].size() == 13);
-  const auto get = document["commands"][1];
+  const auto get = document["commands"][2];
   CHECK(get["name"] == "get");
   CHECK(get["help_en"] == "read parameters");
   CHECK(get["help_ja"] == "パラメータの読出し");

@@ -39,8 +39,9 @@ template <std::size_t size>
   }
   for (std::size_t i = 0; i < size; ++i) {
     const std::string_view two = digits.substr(i * 2, 2);
-    const auto [end, error] = std::from_chars(two.data(), two.data() + 2, bytes[i], 16);
-    if (error != std::errc() || end != two.data() + 2) {
+    const char* last = two.data() + two.size();
+    const auto [end, error] = std::from_chars(two.data(), last, bytes[i], 16);
+    if (error != std::errc() || end != last) {
       return std::nullopt;
     }
   }

@@ -469,6 +469,10 @@ inline constexpr Text wait_not_operational{"node {} was heard but not operationa
 inline constexpr Text wait_not_heard{"node {} was not heard within {} s",
                                      "ノード {} は {} 秒以内に見つかりません"};
 
+inline constexpr Text bootloader_unread{"bootloader (0x49) is neither read nor written",
+                                        "bootloader (0x49) は読み書きできません"};
+inline constexpr Text bootloader_unread_hint{"the specification forbids it (section 4.39)",
+                                             "仕様書 4.39 により書込み禁止です"};
 inline constexpr Text write_only{"{} can only be written", "{} は書込み専用です"};
 inline constexpr Text write_only_hint{"it is an operation, not a value", "値ではなく操作です"};
 inline constexpr Text firmware_lacks{"{} needs firmware {} or later, this servo has {}",
@@ -487,7 +491,7 @@ inline constexpr Text other_allocator_hint{
     "割当てが重複する恐れがあります。一方のアロケータを停止してから再実行して下さい"};
 inline constexpr Text another_unit{"another unit", "別のユニット"};
 inline constexpr Text allocated_id_in_use{
-    "node ID {} is uid:{}'s by the allocation table, but {} uses it",
+    "the allocation table gives node ID {} to uid:{}, but {} uses it",
     "ノード ID {} は割当て表では uid:{} のものですが、{} が使用しています"};
 inline constexpr Text allocated_id_in_use_hint{
     "give one of them another ID: blactl alloc --assign {}=ID",

@@ -88,6 +88,7 @@ class Serve {
   [[nodiscard]] bool is_quiet() const;
   [[nodiscard]] bool is_stuck() const;
   void wait();
+  void tell_quiet();
   void conclude();
 
   const AllocOptions& options_;
@@ -252,6 +253,23 @@ void Serve::run() {
   conclude();
 }
 
+/// How it knows that nobody asks any more, or that nobody gets anywhere.
+void Serve::tell_quiet() {
+  const auto seconds = [this](Time since) { return whole_seconds(session().now() - since); };
+  if (!is_quiet() && is_stuck()) {
+    report_.fail({Code::timeout,
+                  say<texts::alloc_unfinished>(service_.asking(), seconds(progress_at_)),
+                  say<texts::alloc_unfinished_hint>(), std::nullopt});
+  } else if (is_quiet()) {
+    const bool refuses =
+        std::ranges::any_of(service_.units() | std::views::values,
+                            [](const AllocatedUnit& unit) { return unit.refused.has_value(); });
+    const auto silence = seconds(service_.last_request());
+    context_.reporter().note(refuses ? say<texts::alloc_quiet_others>(silence)
+                                     : say<texts::alloc_quiet>(silence));
+  }
+}
+
 void Serve::conclude() {
   if (auto end = service_.end()) {
     report_.fail(std::move(*end));
@@ -268,16 +286,7 @@ void Serve::conclude() {
     }
   }
   if (options_.once && report_.errors.empty()) {
-    const std::size_t asking = service_.asking();
-    if (is_stuck() && !is_quiet()) {
-      report_.fail(
-          {Code::timeout,
-           say<texts::alloc_unfinished>(asking, whole_seconds(session().now() - progress_at_)),
-           say<texts::alloc_unfinished_hint>(), std::nullopt});
-    } else if (is_quiet()) {
-      context_.reporter().note(
-          say<texts::alloc_quiet>(whole_seconds(session().now() - service_.last_request())));
-    }
+    tell_quiet();
   }
   if (options_.once && options_.count && there() < *options_.count && report_.errors.empty()) {
     report_.fail({Code::not_found, say<texts::alloc_expected_more>(there(), *options_.count),
@@ -330,6 +339,13 @@ Report serve_allocations(const AllocOptions& options, Context& context) {
   if (const auto put = store->put(*wishes, context.session().wall()); !put) {
     report.fail(put.error());
     return report;
+  }
+  for (const AllocationStore::Wish& wish : *wishes) {
+    context.reporter().note(
+        say<texts::alloc_wish_taken>(hex(wish.unique_id), wish.node_id.value()));
+  }
+  if (store->path().empty()) {
+    context.reporter().note(say<texts::alloc_not_kept>());
   }
   Serve(options, *range, context, *store, report).run();
   return report;

@@ -12,22 +12,21 @@ inline constexpr Text alloc_wish_hint{
     "例: --assign 0011223344556677889900aabbccddee=21 (固有 ID とノード ID の重複は不可)"};
 inline constexpr Text alloc_wish_twice{"--assign {}: this unit or this ID was given before",
                                        "--assign {}: 固有 ID またはノード ID が重複しています"};
-inline constexpr Text alloc_no_id{"{} is no node ID that can be allocated",
-                                  "{} は割当て可能なノード ID ではありません"};
-inline constexpr Text alloc_no_id_hint{"1 to 125 can; 126 and 127 are for tools",
+inline constexpr Text alloc_no_id{"node ID {} cannot be allocated",
+                                  "ノード ID {} は割り当てられません"};
+inline constexpr Text alloc_no_id_hint{"give one from 1 to 125; 126 and 127 are for tools",
                                        "1～125 を指定して下さい。126 と 127 はツール用です"};
-inline constexpr Text alloc_no_range{"--range {}: no range of node IDs",
+inline constexpr Text alloc_no_range{"--range {}: not a range of node IDs",
                                      "--range {}: ノード ID の範囲ではありません"};
 inline constexpr Text alloc_range_hint{"for example --range 10-99, within 1 to 125",
                                        "例: --range 10-99 (1～125 の範囲内)"};
-inline constexpr Text alloc_no_unique_id{"{} is no unique ID", "{} は固有 ID ではありません"};
+inline constexpr Text alloc_no_unique_id{"{} is not a unique ID", "{} は固有 ID ではありません"};
 inline constexpr Text alloc_no_unique_id_hint{
     "32 hexadecimal digits; see `blactl scan --json` or `blactl alloc --list`",
     "16 進数 32 桁です。`blactl scan --json` または `blactl alloc --list` で確認できます"};
 inline constexpr Text alloc_one_thing{"{} and {} do not go together",
                                       "{} と {} は同時に指定できません"};
-inline constexpr Text alloc_one_thing_hint{"one after the other, in two commands",
-                                           "2 回に分けて実行して下さい"};
+inline constexpr Text alloc_one_thing_hint{"leave one of them out", "どちらか一方を指定して下さい"};
 inline constexpr Text alloc_column_node{"NODE", "ノード"};
 inline constexpr Text alloc_column_unit{"UNIQUE ID", "固有 ID"};
 inline constexpr Text alloc_column_since{"SINCE", "割当て日時"};
@@ -47,12 +46,21 @@ inline constexpr Text alloc_started{
     "node IDs {} to {} are given to units that ask; {} of them are free",
     "ノード ID {}～{} の割当てを開始しました (空き {} 個)"};
 inline constexpr Text alloc_few_left{
-    "only {} node IDs are free: forget servos that are gone, `blactl alloc --forget UID`",
+    "node IDs that are still free: {}. Forget servos that are gone: `blactl alloc --forget UID`",
     "空きノード ID は残り {} 個です。使わなくなったサーボは `blactl alloc --forget UID` "
     "で削除して下さい"};
 inline constexpr Text alloc_quiet{
     "nobody has asked for {} s; a unit without a node ID asks at least once a second",
-    "{} 秒間、割当て要求はありません (ノード ID のないユニットは 1 秒以内に要求を繰り返します)"};
+    "{} 秒間、割当て要求がありませんでした (ノード ID 未割当てのサーボは 1 "
+    "秒以内の間隔で要求します)"};
+inline constexpr Text alloc_quiet_others{
+    "no other unit has asked for {} s; those that were refused go on asking",
+    "割当て不可の機器を除き、{} 秒間、割当て要求がありませんでした"};
+inline constexpr Text alloc_not_kept{
+    "a private simulation: this allocation table ends with the command",
+    "シミュレーションのため、割当て表はコマンド終了後に残りません"};
+inline constexpr Text alloc_wish_taken{"uid:{} gets node ID {} when it asks",
+                                       "uid:{} の要求時にノード ID {} を割り当てます"};
 inline constexpr Text alloc_event_request{"asks for a node ID", "割当てを要求"};
 inline constexpr Text alloc_event_assigned{"gets node ID {}, new in the table",
                                            "ノード ID {} を新規割当て"};
@@ -60,12 +68,12 @@ inline constexpr Text alloc_event_kept{"gets node ID {}, as always", "ノード 
 inline constexpr Text alloc_state_there{"there", "接続中"};
 inline constexpr Text alloc_state_given{"given, not heard yet", "割当て済み (未受信)"};
 inline constexpr Text alloc_state_refused{"refused", "割当て不可"};
-inline constexpr Text alloc_asking{"{} unit(s) ask for a node ID\n", "割当て要求中: {} 台\n"};
+inline constexpr Text alloc_asking{"asking for a node ID: {}\n", "割当て要求中: {} 台\n"};
 inline constexpr Text alloc_not_up{"node ID {} was given to uid:{}, which was not heard on it",
                                    "ノード ID {} を uid:{} に割り当てましたが、受信できません"};
 inline constexpr Text alloc_not_up_hint{"see whether it is there: blactl scan; then run it again",
                                         "接続を確認 (blactl scan) してから再実行して下さい"};
-inline constexpr Text alloc_expected_more{"{} units have got their node ID, {} were expected",
+inline constexpr Text alloc_expected_more{"units with a node ID: {}, expected: {}",
                                           "ノード ID を取得したユニットは {} 台です ({} 台の予定)"};
 inline constexpr Text alloc_expected_more_hint{
     "is every servo powered and connected? one with a node ID of its own does not ask",

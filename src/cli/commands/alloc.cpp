@@ -40,7 +40,8 @@ constexpr Option option_table[]{
      .value = "UID=ID",
      .kind = Kind::text,
      .repeat = Repeat::list,
-     .help = {"this unit gets this node ID from now on", "指定した固有 ID に割り当てるノード ID"},
+     .help = {"this unit gets this node ID from now on",
+              "以後、この固有 ID にこのノード ID を割り当てる"},
      .store = into<&AllocOptions::assign>},
     {.name = "--list",
      .kind = Kind::flag,
@@ -61,7 +62,7 @@ constexpr Option option_table[]{
      .value = "FILE",
      .kind = Kind::file,
      .help = {"take over the entries of such a file: all, or none",
-              "出力したファイルから割当て表に取り込む"},
+              "--export で出力したファイルを割当て表に取り込む (全件または中止)"},
      .store = into<&AllocOptions::import_from>},
 };
 
@@ -114,7 +115,8 @@ Report execute(const AllocOptions& options, Context& context) {
 constinit const Command commands::alloc{
     .name = "alloc",
     .traits = {.session = true},
-    .help = {"give node IDs to servos that ask for one", "ノード ID を要求するサーボに割り当てる"},
+    .help = {"give node IDs to servos that ask for one",
+             "ノード ID を要求するサーボにノード ID を割り当てる"},
     .options = option_table,
     .action = action<execute>,
 };
