@@ -215,9 +215,10 @@ std::vector<ChangeResult> Run::carry_out() {
                              // A servo that finds its ROM unreadable asks as well.
                              .may_allocate = request_.wanted.restart && context_.may_allocate(),
                              .allocations = [this] { return open_allocations(); },
-                             .progress = [this](const fleet::Progress& progress) {
-                               context_.reporter().progress(text(progress));
-                             }};
+                             .progress =
+                                 [this](const fleet::Progress& progress) {
+                                   context_.reporter().progress(text(progress));
+                                 }};
   auto carried_out = fleet::carry_out(context_.session(), context_.known(), plans_, manner);
   if (carried_out.broken) {
     (void)broken(*carried_out.broken);

@@ -110,7 +110,8 @@ inline constexpr Text node_id_not_dynamic_hint{
 
 inline constexpr Text no_unique_id{"not a unique ID: 32 hexadecimal digits",
                                    "固有 ID ではありません (16 進数 32 桁)"};
-inline constexpr Text unit_twice{"this unique ID stands here before", "この固有 ID は重複しています"};
+inline constexpr Text unit_twice{"this unique ID stands here before",
+                                 "この固有 ID は重複しています"};
 inline constexpr Text node_id_twice{"this node ID stands here before",
                                     "このノード ID は重複しています"};
 

@@ -38,10 +38,9 @@ template <std::size_t size>
     return std::nullopt;
   }
   for (std::size_t i = 0; i < size; ++i) {
-    const std::string_view two = digits.substr(i * 2, 2);
-    const char* last = two.data() + two.size();
-    const auto [end, error] = std::from_chars(two.data(), last, bytes[i], 16);
-    if (error != std::errc() || end != last) {
+    const std::string two(digits.substr(i * 2, 2));
+    const auto [end, error] = std::from_chars(two.data(), two.data() + two.size(), bytes[i], 16);
+    if (error != std::errc() || end != two.data() + two.size()) {
       return std::nullopt;
     }
   }

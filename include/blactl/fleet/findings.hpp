@@ -26,7 +26,7 @@ struct Finding {
   std::optional<dronecan::GetNodeInfo::Response> info{};
   std::optional<dronecan::NodeStatus> status{}; ///< the newest
   bool is_foreign = false;                      ///< it said that it is no BLA servo
-  bool is_offline = false; ///< it was heard or answered, and does not any more
+  bool is_offline = false;                      ///< it was heard or answered, and does not any more
   std::vector<std::string> warnings{};
 };
 

@@ -129,9 +129,9 @@ Report execute(const ScanOptions& options, Context& context) {
         context.session().roster().members().size()));
   });
   const auto found = discovery.find_all(options.listen);
-  const auto findings = std::make_shared<Findings>(
-      fleet::gather(context.session().roster(), *targets, **profiles, end_of(context.session()),
-                    discovery.gone()));
+  const auto findings =
+      std::make_shared<Findings>(fleet::gather(context.session().roster(), *targets, **profiles,
+                                               end_of(context.session()), discovery.gone()));
   take_failures(discovery, *findings, report);
   if (const auto ambiguous = targets->ambiguity(context.session().roster(), **profiles);
       found && ambiguous) {

@@ -148,8 +148,8 @@ std::string saving_text(std::span<const ChangeResult> results, const Page& page)
     if (result.was_restarted) {
       servos += servo_text(result, page);
     } else if (result.saves && result.was_begun) {
-      servos +=
-          head_line(result.servo) + "  " + page.paint(Tone::bad, say<texts::servo_not_saved>()) + '\n';
+      servos += head_line(result.servo) + "  " +
+                page.paint(Tone::bad, say<texts::servo_not_saved>()) + '\n';
     }
     would_save = would_save || (result.saves && !result.was_begun);
     in_ram_only = in_ram_only || std::ranges::any_of(result.changes, is_in_ram_only);
