@@ -5,9 +5,9 @@
 #include "blactl/fleet/ticker.hpp"
 
 #include "cli/alloc/texts.hpp"
+#include "cli/alloc/view.hpp"
 #include "cli/interface/bus_factory.hpp"
 #include "cli/output/progress_view.hpp"
-#include "cli/output/table.hpp"
 #include "cli/texts.hpp"
 #include "cli/trace/time.hpp"
 
@@ -38,35 +38,13 @@ constexpr Duration patience = std::chrono::seconds(30);
 
 constexpr std::size_t few_ids = 5;
 
-std::string_view name(Event event) {
-  switch (event) {
-  case Event::request: return "request";
-  case Event::assigned: return "assigned";
-  case Event::kept: return "kept";
-  case Event::conflict: return "conflict";
-  case Event::full: break;
-  }
-  return "full";
-}
-
-std::string words(Event event, const AllocatedUnit& unit) {
-  switch (event) {
-  case Event::request: return say<texts::alloc_event_request>();
-  case Event::assigned: return say<texts::alloc_event_assigned>(unit.node_id.value());
-  case Event::kept: return say<texts::alloc_event_kept>(unit.node_id.value());
-  case Event::conflict:
-  case Event::full: break;
-  }
-  return unit.refused ? unit.refused->message : std::string();
-}
-
 /// One run of the allocator.
 class Serve {
  public:
   Serve(const AllocOptions& options, AllocationService::Range range, Context& context,
         AllocationStore& store, Report& report)
-      : options_(options), context_(context), report_(report), begin_(context.session().now()),
-        progress_at_(begin_), range_(range),
+      : options_(options), context_(context), report_(report),
+        progress_at_(context.session().now()), range_(range),
         service_(context.session(), store, range,
                  [this](Event event, const AllocatedUnit& unit) { tell(event, unit); }) {}
 
@@ -75,12 +53,9 @@ class Serve {
  private:
   [[nodiscard]] fleet::Session& session() const { return context_.session(); }
 
-  [[nodiscard]] bool draws() const;
+  void check(const Result<bool>& printed);
   void tell(Event event, const AllocatedUnit& unit);
-  void print(std::string_view text);
   void redraw();
-  [[nodiscard]] std::string list(const Page& page) const;
-  [[nodiscard]] std::string state(const AllocatedUnit& unit, const Page& page) const;
   void tell_space();
   [[nodiscard]] std::size_t there() const;
   [[nodiscard]] bool is_coming_up() const;
@@ -94,21 +69,15 @@ class Serve {
   const AllocOptions& options_;
   Context& context_;
   Report& report_;
-  Time begin_;
   Time progress_at_; ///< when a unit got somewhere last
   AllocationService::Range range_;
   bool has_reader_ = true;
-  std::size_t drawn_ = 0; ///< lines of the list on the terminal
   std::uint64_t assigned_ = 0, kept_ = 0;
   AllocationService service_;
 };
 
-bool Serve::draws() const {
-  return context_.reporter().format() != Format::json && context_.reporter().page().is_terminal();
-}
-
-void Serve::print(std::string_view text) {
-  const auto printed = context_.reporter().stream(text);
+/// A reader that has left ends the run.
+void Serve::check(const Result<bool>& printed) {
   if (!printed) {
     report_.fail(printed.error());
   }
@@ -119,21 +88,12 @@ void Serve::tell(Event event, const AllocatedUnit& unit) {
   assigned_ += event == Event::assigned ? 1 : 0;
   kept_ += event == Event::kept ? 1 : 0;
   progress_at_ = event == Event::request ? progress_at_ : session().now();
-  const auto time = UnixTime(session().wall());
-  if (context_.reporter().format() == Format::json) {
-    std::string line;
-    JsonWriter json(line);
-    json.begin_object();
-    json.key("time");
-    json.number(time.text());
-    json.member("event", name(event));
-    json.member("unique_id", hex(unit.unique_id));
-    json.key("node_id");
-    unit.node_id.is_unicast() ? json.value(unit.node_id.value()) : json.value(nullptr);
-    json.end_object();
-    print(line + '\n');
-  } else if (!draws()) { // else the list says it
-    print(fmt::format("{}  uid:{}  {}\n", time.text(), hex(unit.unique_id), words(event, unit)));
+  const Reporter& reporter = context_.reporter();
+  const UnixTime time(session().wall());
+  if (reporter.format() == Format::json) {
+    check(reporter.stream(json_line(time, event, unit)));
+  } else if (!reporter.has_screen()) {
+    check(reporter.stream(text_line(time, event, unit)));
   }
   if (event == Event::assigned) {
     tell_space();
@@ -147,50 +107,12 @@ void Serve::tell_space() {
   }
 }
 
-std::string Serve::state(const AllocatedUnit& unit, const Page& page) const {
-  if (unit.refused) {
-    return page.paint(Tone::bad, say<texts::alloc_state_refused>());
-  }
-  if (!unit.node_id.is_unicast()) {
-    return say<texts::alloc_event_request>();
-  }
-  return service_.is_there(unit) ? page.paint(Tone::good, say<texts::alloc_state_there>())
-                                 : say<texts::alloc_state_given>();
-}
-
-std::string Serve::list(const Page& page) const {
-  Table table({say<texts::alloc_column_node>(), say<texts::alloc_column_unit>(),
-               say<texts::alloc_column_state>(), say<texts::alloc_column_servo>()});
-  std::vector<AllocatedUnit> units;
-  std::ranges::copy(service_.units() | std::views::values, std::back_inserter(units));
-  std::ranges::sort(
-      units, {}, [](const AllocatedUnit& unit) { return std::pair(unit.node_id, unit.unique_id); });
-  for (const AllocatedUnit& unit : units) {
-    const fleet::Servo servo = session().roster().member(unit.node_id).servo();
-    const bool is_known = service_.is_there(unit) && servo.is_servo;
-    const auto serial = servo.identity.readings().serial_number;
-    table.add({unit.node_id.is_unicast() ? std::to_string(unit.node_id.value()) : "-",
-               hex(unit.unique_id), state(unit, page),
-               is_known ? fmt::format("{} {}", servo.identity.model(),
-                                      serial ? std::to_string(*serial) : std::string())
-                        : std::string()});
-  }
-  std::string out = service_.units().empty() ? std::string() : table.text("", page);
-  if (const std::size_t asking = service_.asking(); asking > 0) {
-    out += say<texts::alloc_asking>(asking);
-  }
-  return out;
-}
-
+/// On a terminal the list says how things are, instead of lines of what happened.
 void Serve::redraw() {
-  if (!draws()) {
-    return;
+  const Reporter& reporter = context_.reporter();
+  if (reporter.has_screen()) {
+    check(reporter.show(text(service_, session().roster(), reporter.page())));
   }
-  const Page page = context_.reporter().page();
-  const std::string now = page.cut(list(page));
-  const std::string up = drawn_ > 0 ? fmt::format("\x1b[{}F\x1b[J", drawn_) : std::string();
-  drawn_ = static_cast<std::size_t>(std::ranges::count(now, '\n'));
-  print(up + now);
 }
 
 std::size_t Serve::there() const {

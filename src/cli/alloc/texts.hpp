@@ -66,11 +66,11 @@ inline constexpr Text alloc_event_assigned{"gets node ID {}, new in the table",
                                            "ノード ID {} を新規割当て"};
 inline constexpr Text alloc_event_kept{"gets node ID {}, as always", "ノード ID {} を再割当て"};
 inline constexpr Text alloc_state_there{"there", "接続中"};
-inline constexpr Text alloc_state_given{"given, not heard yet", "割当て済み (未受信)"};
+inline constexpr Text alloc_state_given{"given, no answer yet", "割当て済み (応答待ち)"};
 inline constexpr Text alloc_state_refused{"refused", "割当て不可"};
 inline constexpr Text alloc_asking{"asking for a node ID: {}\n", "割当て要求中: {} 台\n"};
-inline constexpr Text alloc_not_up{"node ID {} was given to uid:{}, which was not heard on it",
-                                   "ノード ID {} を uid:{} に割り当てましたが、受信できません"};
+inline constexpr Text alloc_not_up{"node ID {} was given to uid:{}, which does not answer on it",
+                                   "ノード ID {} を uid:{} に割り当てましたが、応答がありません"};
 inline constexpr Text alloc_not_up_hint{"see whether it is there: blactl scan; then run it again",
                                         "接続を確認 (blactl scan) してから再実行して下さい"};
 inline constexpr Text alloc_expected_more{"units with a node ID: {}, expected: {}",

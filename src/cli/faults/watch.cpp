@@ -57,14 +57,12 @@ class Watch {
   [[nodiscard]] const std::map<NodeId, FaultState>& last() const { return last_; }
 
  private:
-  [[nodiscard]] bool draws() const;
   [[nodiscard]] bool look();
   [[nodiscard]] bool take(FaultState now);
   [[nodiscard]] bool tell(Happened happened, const FaultState& servo, const Fault& fault);
   [[nodiscard]] bool redraw();
-  [[nodiscard]] bool print(std::string_view text);
+  [[nodiscard]] bool check(const Result<bool>& printed);
   void tell_silence(const FaultState& now);
-  void tell_replacement(NodeId id);
 
   std::span<const NodeId> ids_;
   bla::Level shown_;
@@ -72,17 +70,10 @@ class Watch {
   Report& report_;
   std::map<NodeId, FaultState> last_; ///< what was read of each servo
   std::set<NodeId> silent_;
-  std::size_t drawn_ = 0; ///< lines of the list on the terminal
 };
 
-/// A list on a terminal, instead of lines.
-bool Watch::draws() const {
-  return context_.reporter().format() != Format::json && context_.reporter().page().is_terminal();
-}
-
 /// False: the reader of stdout has left.
-bool Watch::print(std::string_view text) {
-  const auto printed = context_.reporter().stream(text);
+bool Watch::check(const Result<bool>& printed) {
   if (!printed) {
     report_.fail(printed.error());
   }
@@ -103,21 +94,22 @@ bool Watch::tell(Happened happened, const FaultState& servo, const Fault& fault)
     json.member("event", name(happened));
     write_fault(json, servo, fault);
     json.end_object();
-    return print(line + '\n');
+    return check(context_.reporter().stream(line + '\n'));
   }
-  if (draws()) {
+  if (context_.reporter().has_screen()) {
     return true; // the list says it
   }
-  return print(say<texts::fault_event>(UnixTime(context_.session().wall()).text(),
-                                       servo.snapshot.servo.id.value(), word(happened),
-                                       fault_line(fault, context_.reporter().page())) +
-               '\n');
+  return check(context_.reporter().stream(
+      say<texts::fault_event>(UnixTime(context_.session().wall()).text(),
+                              servo.snapshot.servo.id.value(), word(happened),
+                              fault_line(fault, context_.reporter().page())) +
+      '\n'));
 }
 
 /// A servo that does not answer keeps what was known of it.
 void Watch::tell_silence(const FaultState& now) {
-  if (draws()) {
-    return; // the list says it, and a note would stand in its way
+  if (context_.reporter().has_screen()) {
+    return; // the list says it
   }
   const NodeId id = now.snapshot.servo.id;
   if (now.errors.empty()) {
@@ -129,13 +121,6 @@ void Watch::tell_silence(const FaultState& now) {
   }
 }
 
-/// What the servo that was there before had does not go: it is another one's.
-void Watch::tell_replacement(NodeId id) {
-  if (!draws()) {
-    context_.reporter().note(say<texts::fault_other_servo>(id.value()));
-  }
-}
-
 /// What one look shows of a servo against the look before.
 bool Watch::take(FaultState now) {
   tell_silence(now);
@@ -144,7 +129,8 @@ bool Watch::take(FaultState now) {
   const auto& unit = now.snapshot.servo.unique_id;
   if (before != last_.end() && now.errors.empty() && before->second.snapshot.servo.unique_id &&
       before->second.snapshot.servo.unique_id != unit) {
-    tell_replacement(id);
+    // What the servo that was there before had does not go: it is another one's.
+    context_.reporter().note(say<texts::fault_other_servo>(id.value()));
     last_.erase(before);
     before = last_.end();
   }
@@ -170,19 +156,15 @@ bool Watch::take(FaultState now) {
   return goes_on;
 }
 
-/// The list in place of the one before.
+/// On a terminal the list says how things are, instead of lines of what happened.
 bool Watch::redraw() {
-  const Page page = context_.reporter().page();
-  if (!draws()) {
+  if (!context_.reporter().has_screen()) {
     return true;
   }
   std::vector<FaultState> servos;
   std::ranges::transform(last_, std::back_inserter(servos),
                          &std::pair<const NodeId, FaultState>::second);
-  const std::string list = page.cut(text(servos, shown_, page));
-  const std::string up = drawn_ > 0 ? fmt::format("\x1b[{}F\x1b[J", drawn_) : std::string();
-  drawn_ = static_cast<std::size_t>(std::ranges::count(list, '\n'));
-  return print(up + list);
+  return check(context_.reporter().show(text(servos, shown_, context_.reporter().page())));
 }
 
 /// Reads all of them once. False ends the watch.

@@ -99,9 +99,18 @@ void Reporter::clear_progress() const {
   }
 }
 
+/// Takes the list away (ECMA-48, CPL and ED).
+std::string Reporter::clear_list() const {
+  const auto lines = std::ranges::count(list_, '\n');
+  return lines > 0 ? fmt::format("\x1b[{}F\x1b[J", lines) : std::string();
+}
+
 void Reporter::print(std::string_view text) const {
   clear_progress();
-  write_stderr(text);
+  // On one terminal the text would be written into the list.
+  const bool is_in_the_way = !list_.empty() && isatty(STDERR_FILENO) != 0;
+  const std::string list = is_in_the_way ? list_ : std::string();
+  write_stderr(is_in_the_way ? clear_list() + std::string(text) + list : std::string(text));
 }
 
 void Reporter::progress(std::string_view text) const {
@@ -150,6 +159,16 @@ Result<bool> Reporter::stream(std::string_view text) const {
   return write_all(STDOUT_FILENO, text);
 }
 
+bool Reporter::has_screen() const {
+  return options_.format != Format::json && isatty(STDOUT_FILENO) != 0;
+}
+
+Result<bool> Reporter::show(std::string_view list) const {
+  const std::string up = clear_list();
+  list_ = page().cut(list);
+  return stream(up + list_);
+}
+
 Result<bool> Reporter::offer(std::string_view line) const {
   // A pipe that can be written takes PIPE_BUF bytes, and a line is shorter.
   pollfd room{.fd = STDOUT_FILENO, .events = POLLOUT, .revents = 0};
@@ -172,6 +191,7 @@ std::string Reporter::render(const Report& report) const {
 }
 
 int Reporter::finish(const Report& report) const {
+  list_.clear(); // it stays as it is
   const auto written = data(render(report));
   const std::vector<Error> errors = report.all_errors();
   for (const Error& error : errors) {

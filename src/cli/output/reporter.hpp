@@ -54,6 +54,13 @@ class Reporter {
   /// The same for streams: false if the reader has left, which ends them. Errors: io.
   [[nodiscard]] Result<bool> stream(std::string_view text) const;
 
+  /// stdout is a terminal, and what it is shown may change in place.
+  [[nodiscard]] bool has_screen() const;
+
+  /// The list in place of the one before, where there is a screen, cut to what fits on it. Notes
+  /// stand above it. False if the reader has left. Errors: io.
+  [[nodiscard]] Result<bool> show(std::string_view list) const;
+
   /// As data(), for a command that must not wait for a slow reader: false if stdout has no room for
   /// a line now, then nothing is printed. Errors: io.
   [[nodiscard]] Result<bool> offer(std::string_view line) const;
@@ -69,9 +76,11 @@ class Reporter {
   [[nodiscard]] std::string render(const Report& report) const;
   void print(std::string_view text) const;
   void clear_progress() const;
+  [[nodiscard]] std::string clear_list() const;
 
   Options options_;
   mutable bool has_progress_ = false; ///< it stands in the last line of the terminal
+  mutable std::string list_;          ///< the last lines of the terminal behind stdout
 };
 
 /// The document of the contract, section 5.

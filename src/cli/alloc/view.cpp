@@ -1,0 +1,101 @@
+#include "cli/alloc/view.hpp"
+
+#include "blactl/base/hex.hpp"
+#include "blactl/base/json_writer.hpp"
+
+#include "cli/alloc/texts.hpp"
+#include "cli/output/table.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <ranges>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace blactl::cli {
+
+using fleet::AllocatedUnit;
+using fleet::AllocationService;
+using Event = AllocationService::Event;
+
+namespace {
+
+std::string_view name(Event event) {
+  switch (event) {
+  case Event::request: return "request";
+  case Event::assigned: return "assigned";
+  case Event::kept: return "kept";
+  case Event::conflict: return "conflict";
+  case Event::full: break;
+  }
+  return "full";
+}
+
+std::string words(Event event, const AllocatedUnit& unit) {
+  switch (event) {
+  case Event::request: return say<texts::alloc_event_request>();
+  case Event::assigned: return say<texts::alloc_event_assigned>(unit.node_id.value());
+  case Event::kept: return say<texts::alloc_event_kept>(unit.node_id.value());
+  case Event::conflict:
+  case Event::full: break;
+  }
+  return unit.refused ? unit.refused->message : std::string();
+}
+
+std::string state(const AllocationService& service, const AllocatedUnit& unit, const Page& page) {
+  if (unit.refused) {
+    return page.paint(Tone::bad, say<texts::alloc_state_refused>());
+  }
+  if (!unit.node_id.is_unicast()) {
+    return say<texts::alloc_event_request>();
+  }
+  return service.is_there(unit) ? page.paint(Tone::good, say<texts::alloc_state_there>())
+                                : say<texts::alloc_state_given>();
+}
+
+} // namespace
+
+std::string json_line(UnixTime time, Event event, const AllocatedUnit& unit) {
+  std::string line;
+  JsonWriter json(line);
+  json.begin_object();
+  json.key("time");
+  json.number(time.text());
+  json.member("event", name(event));
+  json.member("unique_id", hex(unit.unique_id));
+  json.key("node_id");
+  unit.node_id.is_unicast() ? json.value(unit.node_id.value()) : json.value(nullptr);
+  json.end_object();
+  return line + '\n';
+}
+
+std::string text_line(UnixTime time, Event event, const AllocatedUnit& unit) {
+  return fmt::format("{}  uid:{}  {}\n", time.text(), hex(unit.unique_id), words(event, unit));
+}
+
+std::string text(const AllocationService& service, const fleet::Roster& roster, const Page& page) {
+  Table table({say<texts::alloc_column_node>(), say<texts::alloc_column_unit>(),
+               say<texts::alloc_column_state>(), say<texts::alloc_column_servo>()});
+  std::vector<AllocatedUnit> units;
+  std::ranges::copy(service.units() | std::views::values, std::back_inserter(units));
+  std::ranges::sort(
+      units, {}, [](const AllocatedUnit& unit) { return std::pair(unit.node_id, unit.unique_id); });
+  for (const AllocatedUnit& unit : units) {
+    const fleet::Servo servo = roster.member(unit.node_id).servo();
+    const bool is_known = service.is_there(unit) && servo.is_servo;
+    const auto serial = servo.identity.readings().serial_number;
+    table.add({unit.node_id.is_unicast() ? std::to_string(unit.node_id.value()) : "-",
+               hex(unit.unique_id), state(service, unit, page),
+               is_known ? fmt::format("{} {}", servo.identity.model(),
+                                      serial ? std::to_string(*serial) : std::string())
+                        : std::string()});
+  }
+  std::string out = service.units().empty() ? std::string() : table.text("", page);
+  if (const std::size_t asking = service.asking(); asking > 0) {
+    out += say<texts::alloc_asking>(asking);
+  }
+  return out;
+}
+
+} // namespace blactl::cli

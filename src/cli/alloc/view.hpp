@@ -1,0 +1,26 @@
+#pragma once
+// What blactl alloc shows: a line for each thing that happens, or the list of the units as it is.
+
+#include "blactl/fleet/allocation_service.hpp"
+#include "blactl/fleet/roster.hpp"
+
+#include "cli/output/page.hpp"
+#include "cli/trace/time.hpp"
+
+#include <string>
+
+namespace blactl::cli {
+
+/// The object of the contract, section 5, with its line end.
+[[nodiscard]] std::string json_line(UnixTime time, fleet::AllocationService::Event event,
+                                    const fleet::AllocatedUnit& unit);
+
+/// The same for people.
+[[nodiscard]] std::string text_line(UnixTime time, fleet::AllocationService::Event event,
+                                    const fleet::AllocatedUnit& unit);
+
+/// Who has which ID, by node ID, and how many still ask.
+[[nodiscard]] std::string text(const fleet::AllocationService& service, const fleet::Roster& roster,
+                               const Page& page);
+
+} // namespace blactl::cli
