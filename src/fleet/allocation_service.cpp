@@ -1,6 +1,7 @@
 #include "blactl/fleet/allocation_service.hpp"
 
 #include "blactl/base/hex.hpp"
+#include "blactl/fleet/node_id_texts.hpp"
 #include "blactl/fleet/texts.hpp"
 
 #include <algorithm>
@@ -167,10 +168,12 @@ std::optional<NodeId> AllocationService::give(AllocatedUnit& unit, NodeId prefer
   if (!bus_is_known_) {
     return std::nullopt; // its unique ID only begins like one of the table
   }
-  const auto id = store_.assign(
-      unit.unique_id,
-      {.preferred = preferred, .taken = taken(), .first = range_.first, .last = range_.last},
-      session_.wall());
+  const auto id = store_.assign(unit.unique_id,
+                                {.preferred = preferred,
+                                 .taken = session_.roster().ids_in_use(unit.unique_id),
+                                 .first = range_.first,
+                                 .last = range_.last},
+                                session_.wall());
   if (id) {
     unit.node_id = *id;
     unit.is_new = true;
@@ -219,22 +222,6 @@ AllocationService::Holder AllocationService::holder(NodeId id, const UniqueId& u
   return member.info ? Holder::other : Holder::unknown;
 }
 
-/// What nobody new gets: IDs of which any frame was seen, our own, and the static ones.
-state::NodeIds AllocationService::taken() const {
-  state::NodeIds ids;
-  ids.set(session_.node().id().value());
-  for (const auto& [id, member] : session_.roster().members()) {
-    if (session_.roster().heard(id)) {
-      ids.set(id.value());
-    }
-    if (member.static_node_id && *member.static_node_id > 0 &&
-        *member.static_node_id <= NodeId::max) {
-      ids.set(static_cast<std::size_t>(*member.static_node_id));
-    }
-  }
-  return ids;
-}
-
 bool AllocationService::is_there(const AllocatedUnit& unit) const {
   const Member* member = session_.roster().find(unit.node_id);
   return member != nullptr && !unit.refused && member->is_unit(unit.unique_id) &&
@@ -246,7 +233,7 @@ Result<std::size_t> AllocationService::free_ids() const {
   if (!entries) {
     return std::unexpected(entries.error());
   }
-  state::NodeIds used = taken();
+  state::NodeIds used = session_.roster().ids_in_use({});
   for (const state::AllocationEntry& entry : *entries) {
     used.set(entry.node_id.value());
   }

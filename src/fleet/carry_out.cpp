@@ -68,11 +68,8 @@ class FormerIds final : public dronecan::AllocationTable {
     if (!table_ || !*table_) {
       return std::nullopt;
     }
-    state::AllocationChoice choice{.preferred = former};
-    for (const auto& [id, member] : session_.roster().members()) {
-      choice.taken.set(id.value(), session_.roster().heard(id) && id != former);
-    }
-    choice.taken.set(session_.node().id().value());
+    const state::AllocationChoice choice{.preferred = former,
+                                         .taken = session_.roster().ids_in_use(unique_id)};
     const auto id = (*table_)->assign(unique_id, choice, session_.wall());
     return id ? std::optional(*id) : std::nullopt;
   }

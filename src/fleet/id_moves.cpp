@@ -1,6 +1,7 @@
 #include "blactl/fleet/id_moves.hpp"
 
 #include "blactl/base/hex.hpp"
+#include "blactl/fleet/node_id_texts.hpp"
 #include "blactl/fleet/texts.hpp"
 
 #include <algorithm>

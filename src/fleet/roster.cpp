@@ -40,8 +40,10 @@ std::set<std::string> names_of_settled() {
   namespace at = bla::address;
   std::set<std::string> names{at::model_number.name(), at::serial_number.name(),
                               at::firmware_version.name(), at::hardware_version.name()};
-  for (unsigned saved = at::torque_output.value(); saved <= at::static_node_id.value(); ++saved) {
-    names.insert(bla::Address(static_cast<std::uint8_t>(saved)).name());
+  for (unsigned value = 0; value <= last_index; ++value) {
+    if (const bla::Address address(static_cast<std::uint8_t>(value)); bla::is_setting(address)) {
+      names.insert(address.name());
+    }
   }
   return names;
 }
@@ -321,6 +323,24 @@ void Roster::on_allocation(const Transfer& transfer) {
              pending_.size() < most_pending) {
     pending_.insert(prefix);
   }
+}
+
+state::NodeIds Roster::ids_in_use(const dronecan::UniqueId& unit) const {
+  state::NodeIds ids;
+  ids.set(local_.value());
+  for (const auto& [id, member] : members_) {
+    const bool is_own = member.info && member.info->unique_id == unit && !is_doubled(id);
+    if (is_own) {
+      continue;
+    }
+    if (heard(id)) {
+      ids.set(id.value());
+    }
+    if (const auto fixed = member.static_node_id.value_or(0); fixed > 0 && fixed <= NodeId::max) {
+      ids.set(static_cast<std::size_t>(fixed));
+    }
+  }
+  return ids;
 }
 
 bool Roster::is_pending(const dronecan::UniqueId& unique_id) const {

@@ -97,7 +97,6 @@ class AllocationService final : private dronecan::Service, private dronecan::All
   [[nodiscard]] Error in_use(const AllocatedUnit& unit) const;
   [[nodiscard]] AllocatedUnit* known(const dronecan::UniqueId& unique_id);
   [[nodiscard]] Holder holder(dronecan::NodeId id, const dronecan::UniqueId& unique_id) const;
-  [[nodiscard]] state::NodeIds taken() const;
   [[nodiscard]] bool is_refused(dronecan::Bytes prefix) const;
   void hear_first_part(dronecan::Bytes prefix, Time at);
 

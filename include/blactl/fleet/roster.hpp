@@ -6,6 +6,7 @@
 #include "blactl/dronecan/transfer.hpp"
 #include "blactl/dronecan/types.hpp"
 #include "blactl/fleet/servo.hpp"
+#include "blactl/state/allocation_store.hpp"
 
 #include <array>
 #include <cstdint>
@@ -148,6 +149,10 @@ class Roster {
 
   /// The unique IDs of the units that use this ID, where two told theirs; else none.
   [[nodiscard]] std::set<dronecan::UniqueId> units(dronecan::NodeId id) const;
+
+  /// What this unit cannot be given: IDs of which any frame of another was heard, those that others
+  /// have in 0x46, and our own.
+  [[nodiscard]] state::NodeIds ids_in_use(const dronecan::UniqueId& unit) const;
 
   [[nodiscard]] const std::set<UniqueIdPrefix>& pending() const { return pending_; }
 
