@@ -91,6 +91,7 @@ _blactl_option() {
     alloc:--wait) kind='seconds' ;;
     alloc:--range) kind='text' ;;
     alloc:--assign) kind='text' ;;
+    alloc:--id) kind='whole' ;;
     alloc:--forget) kind='text' ;;
     alloc:--export) kind='file' ;;
     alloc:--import) kind='file' ;;
@@ -141,7 +142,7 @@ _blactl_options() {
   echo '-i --interface -n --node -j --json --csv -q --quiet -v --verbose --color --lang -y --yes --timeout --retries --listen-only --local-node-id --while-driven --profile-dir --profile --record -h --help -V --version'
   case $1 in
     scan) echo '--listen --expect' ;;
-    alloc) echo '--once --count --wait --range --assign --list --forget --export --import' ;;
+    alloc) echo '--once --count --wait --range --assign --static --id --list --forget --export --import' ;;
     get) echo '--group --all --changed' ;;
     set) echo '--save --dry-run --wait --stagger' ;;
     save) echo '--wait --stagger' ;;

@@ -8,7 +8,7 @@ function __blactl_words
     for word in $words[2..]
         if test $value = yes
             set value no
-        else if string match -qr -- '^(--(assign|clock|color|count|duration|endpoints|expect|export|facts|forget|group|import|interface|kind|lang|level|listen|local-node-id|mode|neutral|node|output|preset|profile|profile-dir|range|record|retries|seed|stagger|svg|timeout|type|wait)|-[jqvyhV]*[in])$' $word
+        else if string match -qr -- '^(--(assign|clock|color|count|duration|endpoints|expect|export|facts|forget|group|id|import|interface|kind|lang|level|listen|local-node-id|mode|neutral|node|output|preset|profile|profile-dir|range|record|retries|seed|stagger|svg|timeout|type|wait)|-[jqvyhV]*[in])$' $word
             set value yes
         else if not string match -q -- '-*' $word
             echo $word
@@ -266,6 +266,8 @@ complete -c blactl -n '__blactl_in alloc' -l count -r -f -d 'end when so many un
 complete -c blactl -n '__blactl_in alloc' -l wait -r -f -d 'with --once'
 complete -c blactl -n '__blactl_in alloc' -l range -r -f -d 'take new node IDs from these (default 1-125, from the top)'
 complete -c blactl -n '__blactl_in alloc' -l assign -r -f -d 'this unit gets this node ID from now on'
+complete -c blactl -n '__blactl_in alloc' -l static -d 'make the node IDs of the servos behind -n permanent, or those that --id or --assign say (save, restart, proof)'
+complete -c blactl -n '__blactl_in alloc' -l id -r -f -d 'with --static and one servo'
 complete -c blactl -n '__blactl_in alloc' -l list -d 'show the table, without a bus'
 complete -c blactl -n '__blactl_in alloc' -l forget -r -f -d 'drop a unit from the table'
 complete -c blactl -n '__blactl_in alloc' -l export -r -F -d 'write the table to a file, - for stdout'

@@ -19,6 +19,14 @@ Error doubled(const Roster& roster, dronecan::NodeId id) {
           say<texts::doubled_target_hint>(), id.value()};
 }
 
+Error silent(const Roster& roster, dronecan::NodeId node) {
+  const std::uint8_t id = node.value();
+  return roster.heard(node)
+             ? Error{Code::timeout, say<texts::node_mute>(id), say<texts::no_answer_hint>(), id}
+             : Error{Code::not_found, say<texts::node_not_found>(id),
+                     say<texts::node_not_found_hint>(), id};
+}
+
 std::optional<Error> forbidden(const Roster& roster, Time now, const Plan& plan,
                                bool while_driven) {
   const Servo& servo = plan.before.servo;

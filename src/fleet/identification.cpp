@@ -1,5 +1,6 @@
 #include "blactl/fleet/identification.hpp"
 
+#include "blactl/fleet/guard.hpp"
 #include "blactl/fleet/texts.hpp"
 
 #include <utility>
@@ -89,11 +90,7 @@ void Identification::take_node_info(const Outcome& outcome) {
   if (!response && outcome.kind != Outcome::Kind::not_recorded) {
     error_ = no_answer(outcome, servo_.id, "GetNodeInfo");
     if (error_->code == Code::timeout) {
-      const std::uint8_t id = servo_.id.value();
-      *error_ = roster_.heard(servo_.id) ? Error{Code::timeout, say<texts::node_mute>(id),
-                                                 say<texts::no_answer_hint>(), id}
-                                         : Error{Code::not_found, say<texts::node_not_found>(id),
-                                                 say<texts::node_not_found_hint>(), id};
+      error_ = silent(roster_, servo_.id);
     }
     return;
   }

@@ -54,6 +54,12 @@ std::vector<std::string> events(const Result& result) {
   return all;
 }
 
+/// A unique ID that ends like this.
+std::string uid(int number) {
+  return "0011223344556677889900aabbccdd" + std::string(number < 10 ? "0" : "") +
+         std::to_string(number);
+}
+
 const std::string unit = "00112233445566778899aabbccddeeff";
 
 } // namespace
@@ -241,4 +247,145 @@ TEST_CASE("what is asked of alloc wrongly is refused with all faults, and nothin
     CHECK(contains(result.err, said));
     CHECK(codes(result).front() == (said.find("node ID 126") == 0 ? "out_of_range" : "usage"));
   }
+}
+
+namespace {
+
+/// 11, 12 and 13, which can be named by these unique IDs.
+Scene named_servos() {
+  Scene scene;
+  for (int i = 1; i <= 3; ++i) {
+    scene.servo("BLA21-12U-AB", 10 + i, {{"serial_number", i}, {"unique_id", uid(i)}});
+  }
+  return scene;
+}
+
+/// What a stream says is static now: the unit's last digits and its node ID.
+std::vector<std::pair<std::string, int>> made_static(const Result& result) {
+  std::vector<std::pair<std::string, int>> all;
+  for (const auto& line : json_lines(result.out)) {
+    if (line.contains("event") && line["event"] == "made_static") {
+      all.emplace_back(line["unique_id"].get<std::string>().substr(30), line["node_id"]);
+    }
+  }
+  return all;
+}
+
+using Made = std::vector<std::pair<std::string, int>>;
+
+} // namespace
+
+TEST_CASE("alloc --static makes the IDs that servos have permanent, or gives one another") {
+  const Result all = named_servos().run({"alloc", "--static", "-n", "all", "-y", "-j"});
+  INFO(all.err);
+  CHECK(all.status == 0);
+  CHECK(made_static(all) == Made{{"01", 11}, {"02", 12}, {"03", 13}});
+  CHECK(json_lines(all.out).back()["counts"]["made_static"] == 3);
+  const Result one =
+      named_servos().run({"alloc", "--static", "-n", "12", "--id", "50", "-y", "-j"});
+  CHECK(one.status == 0);
+  CHECK(made_static(one) == Made{{"02", 50}});
+}
+
+TEST_CASE("alloc --static lets servos exchange and rotate their IDs by way of a free one") {
+  const Result swapped = named_servos().run(
+      {"alloc", "--static", "--assign", uid(1) + "=12", "--assign", uid(2) + "=11", "-y", "-j"});
+  INFO(swapped.err);
+  CHECK(swapped.status == 0);
+  CHECK(made_static(swapped) == Made{{"02", 11}, {"01", 12}});
+  CHECK(contains(swapped.err, "node 11 makes way for the others"));
+  const Result rotated =
+      named_servos().run({"alloc", "--static", "--assign", uid(1) + "=12", "--assign",
+                          uid(2) + "=13", "--assign", uid(3) + "=11", "-y", "-j"});
+  CHECK(rotated.status == 0);
+  CHECK(made_static(rotated) == Made{{"03", 11}, {"02", 13}, {"01", 12}});
+}
+
+TEST_CASE("alloc --static gives a servo that asks for an ID one, and then its static one") {
+  Scene scene = named_servos();
+  scene.servo("BLA21-12U-AB", 0, {{"serial_number", 4}, {"unique_id", uid(4)}});
+  const Result result = scene.run(
+      {"alloc", "--static", "--assign", uid(4) + "=12", "--assign", uid(2) + "=40", "-y", "-j"});
+  INFO(result.err);
+  CHECK(result.status == 0);
+  CHECK(made_static(result) == Made{{"02", 40}, {"04", 12}});
+}
+
+TEST_CASE("alloc --static keeps its IDs in the table, where no other unit gets them") {
+  const Bench bench;
+  const Background sim(bench, {"sim", named_servos().write(bench)});
+  REQUIRE(bench.run({"-i", "sim:", "alloc", "--static", "-n", "11", "--id", "20", "-y"}).status ==
+          0);
+  const auto kept = entries(bench);
+  REQUIRE(kept.size() == 1);
+  CHECK(kept[0]["node_id"] == 20);
+  // Whom the table promised an ID has it, also while it is away.
+  REQUIRE(bench
+              .run({"-i", "sim:", "alloc", "--assign", uid(9) + "=30", "--count", "1", "--once",
+                    "--wait", "2"})
+              .status == 4);
+  const Result refused =
+      bench.run({"-i", "sim:", "alloc", "--static", "-n", "12", "--id", "30", "-y"});
+  CHECK(refused.status == 9);
+  CHECK(codes(refused) == std::vector<std::string>{"duplicate_node_id"});
+}
+
+TEST_CASE("alloc --static refuses before anything is written") {
+  struct Case {
+    Arguments arguments;
+    int status;
+    std::string code, said;
+  };
+
+  const std::vector<Case> cases{
+      {{"alloc", "--static", "-y"}, 2, "usage", "several servos are on the bus"},
+      {{"alloc", "--static", "-n", "11", "--id", "12", "-y"},
+       9,
+       "duplicate_node_id",
+       "node 11 would get node ID 12"},
+      {{"alloc", "--static", "-n", "11,12", "--id", "20", "-y"}, 2, "usage", "2 servos are meant"},
+      {{"alloc", "--static", "-n", "11", "--id", "126", "-y"}, 2, "usage", "--id 126"},
+      {{"alloc", "--static", "-n", "55", "-y"}, 4, "not_found", "55"},
+      {{"alloc", "--static", "--assign", uid(9) + "=20", "-y"}, 4, "not_found", uid(9)},
+      {{"alloc", "--static", "-n", "11"}, 7, "not_confirmed", "torque is on"},
+      {{"alloc", "--static", "-n", "11", "--once"}, 2, "usage", "do not go together"},
+      {{"alloc", "--static", "-n", "11", "--assign", uid(1) + "=20"},
+       2,
+       "usage",
+       "--node and --assign do not go together"},
+      {{"alloc", "-n", "11"}, 2, "usage", "--node needs --static"},
+      {{"alloc", "--id", "11"}, 2, "usage", "--id needs --static"},
+      {{"--listen-only", "alloc", "--static", "-n", "11"}, 2, "usage", "alloc --static"},
+  };
+  for (const auto& [arguments, status, code, said] : cases) {
+    const Bench bench;
+    const Background sim(bench, {"sim", "-j", named_servos().write(bench)});
+    Arguments whole{"-i", "sim:"};
+    whole.insert(whole.end(), arguments.begin(), arguments.end());
+    const Result result = bench.run(whole);
+    INFO(said << '\n' << result.err);
+    CHECK(result.status == status);
+    CHECK(codes(result) == std::vector<std::string>{code});
+    CHECK(contains(result.err, said));
+    const auto servos = json(bench.run({"-i", "sim:", "get", "0x46", "-j"}).out)["nodes"];
+    for (const auto& servo : servos) {
+      CHECK(servo["params"][0]["raw"] == servo["node_id"]);
+    }
+  }
+}
+
+TEST_CASE("alloc --static is refused while another node drives a servo, or says armed") {
+  Scene driven = named_servos();
+  driven.foreign(100,
+                 {{"kind", "autopilot"},
+                  {"commands", {{"servo_ids", {0}}, {"type", 0}, {"value", 0.1}, {"rate", 50}}}});
+  const Result refused = driven.run({"alloc", "--static", "-n", "11", "-y", "-j"});
+  CHECK(refused.status == 9);
+  CHECK(codes(refused) == std::vector<std::string>{"driven"});
+  CHECK(made_static(refused).empty());
+  CHECK(driven.run({"alloc", "--static", "-n", "11", "-y", "--while-driven"}).status == 0);
+  Scene armed = named_servos();
+  armed.foreign(100, {{"kind", "autopilot"}, {"armed", true}});
+  CHECK(codes(armed.run({"alloc", "--static", "-n", "11", "-y"})) ==
+        std::vector<std::string>{"armed"});
 }

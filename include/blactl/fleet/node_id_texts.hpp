@@ -51,5 +51,8 @@ inline constexpr Text no_temporary_id_hint{
     "UID",
     "ノードを 1 台外すか、使わなくなった機器を削除して下さい: blactl alloc --list; "
     "blactl alloc --forget UID"};
+inline constexpr Text saved_and_elsewhere{
+    "node {} has saved static node ID {} and came back under another",
+    "ノード {} は固定ノード ID {} を保存しましたが、別の ID で復帰しました"};
 
 } // namespace blactl::texts

@@ -76,8 +76,8 @@ inline constexpr Text target_waits_for_id{
     "{} waits for a node ID: it cannot be asked before it has one",
     "{} はノード ID の割当て待ちです。割当て前は問い合わせできません"};
 inline constexpr Text target_waits_for_id_hint{
-    "let an allocator give it a node ID (the flight controller, or the manufacturer's program)",
-    "アロケータ (フライトコントローラ、メーカー製ツール等) でノード ID を割り当てて下さい"};
+    "give it a node ID: blactl alloc --once (or let the flight controller do it)",
+    "ノード ID を割り当てて下さい: blactl alloc --once (フライトコントローラでも可)"};
 inline constexpr Text written_to_another{
     "node {} became another servo while it was written to: which of them took the values is not "
     "known",

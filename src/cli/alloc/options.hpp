@@ -20,6 +20,8 @@ struct AllocOptions {
   Duration wait = std::chrono::seconds(10);
   std::string range{};
   std::vector<std::string> assign{};
+  bool makes_static = false;
+  std::optional<std::uint64_t> id{}; ///< with makes_static, of the one servo that is meant
   bool list = false;
   std::vector<std::string> forget{};
   std::string export_to{};

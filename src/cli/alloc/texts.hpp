@@ -65,6 +65,24 @@ inline constexpr Text alloc_event_request{"asks for a node ID", "割当てを要
 inline constexpr Text alloc_event_assigned{"gets node ID {}, new in the table",
                                            "ノード ID {} を新規割当て"};
 inline constexpr Text alloc_event_kept{"gets node ID {}, as always", "ノード ID {} を再割当て"};
+inline constexpr Text alloc_event_made_static{"has node ID {} for good, proven after its restart",
+                                              "ノード ID {} を固定 (再起動後に確認済み)"};
+inline constexpr Text alloc_event_makes_way{"makes way: node ID {} for the time being",
+                                            "ID 入替えのため、一時的にノード ID {} に移動"};
+inline constexpr Text alloc_will_make_way{
+    "node {} makes way for the others: it is saved twice, node ID {} comes in between",
+    "ノード {} は ID 入替えのため一時的にノード ID {} に移動します (保存は 2 回)"};
+inline constexpr Text alloc_not_begun{
+    "uid:{} still has node ID {}: what came before it did not go well",
+    "uid:{} のノード ID は {} のままです (先の変更が完了しなかったため)"};
+inline constexpr Text alloc_only_static{"{} needs --static", "{} には --static が必要です"};
+inline constexpr Text alloc_only_static_hint{"for example: blactl alloc --static -n 12 --id 20",
+                                             "例: blactl alloc --static -n 12 --id 20"};
+inline constexpr Text alloc_several_for_id{"--id {} is one ID, and {} servos are meant",
+                                           "--id {} は 1 台分ですが、対象は {} 台です"};
+inline constexpr Text alloc_several_for_id_hint{
+    "name one servo with -n, or give each its own: --assign UID=ID",
+    "-n で 1 台を指定するか、--assign UID=ID で個別に指定して下さい"};
 inline constexpr Text alloc_state_there{"there", "接続中"};
 inline constexpr Text alloc_state_given{"given, no answer yet", "割当て済み (応答待ち)"};
 inline constexpr Text alloc_state_refused{"refused", "割当て不可"};

@@ -43,6 +43,25 @@ std::string words(Event event, const AllocatedUnit& unit) {
   return unit.refused ? unit.refused->message : std::string();
 }
 
+std::string json_line(UnixTime time, std::string_view event, const dronecan::UniqueId& unique_id,
+                      dronecan::NodeId node_id) {
+  std::string line;
+  JsonWriter json(line);
+  json.begin_object();
+  json.key("time");
+  json.number(time.text());
+  json.member("event", event);
+  json.member("unique_id", hex(unique_id));
+  json.key("node_id");
+  node_id.is_unicast() ? json.value(node_id.value()) : json.value(nullptr);
+  json.end_object();
+  return line + '\n';
+}
+
+std::string text_line(UnixTime time, const dronecan::UniqueId& unique_id, std::string_view what) {
+  return fmt::format("{}  uid:{}  {}\n", time.text(), hex(unique_id), what);
+}
+
 std::string state(const AllocationService& service, const AllocatedUnit& unit, const Page& page) {
   if (unit.refused) {
     return page.paint(Tone::bad, say<texts::alloc_state_refused>());
@@ -57,21 +76,22 @@ std::string state(const AllocationService& service, const AllocatedUnit& unit, c
 } // namespace
 
 std::string json_line(UnixTime time, Event event, const AllocatedUnit& unit) {
-  std::string line;
-  JsonWriter json(line);
-  json.begin_object();
-  json.key("time");
-  json.number(time.text());
-  json.member("event", name(event));
-  json.member("unique_id", hex(unit.unique_id));
-  json.key("node_id");
-  unit.node_id.is_unicast() ? json.value(unit.node_id.value()) : json.value(nullptr);
-  json.end_object();
-  return line + '\n';
+  return json_line(time, name(event), unit.unique_id, unit.node_id);
+}
+
+std::string json_line(UnixTime time, const fleet::IdMove& move) {
+  return move.is_temporary ? std::string()
+                           : json_line(time, "made_static", move.unique_id, move.to);
 }
 
 std::string text_line(UnixTime time, Event event, const AllocatedUnit& unit) {
-  return fmt::format("{}  uid:{}  {}\n", time.text(), hex(unit.unique_id), words(event, unit));
+  return text_line(time, unit.unique_id, words(event, unit));
+}
+
+std::string text_line(UnixTime time, const fleet::IdMove& move) {
+  return text_line(time, move.unique_id,
+                   move.is_temporary ? say<texts::alloc_event_makes_way>(move.to.value())
+                                     : say<texts::alloc_event_made_static>(move.to.value()));
 }
 
 std::string text(const AllocationService& service, const fleet::Roster& roster, const Page& page) {

@@ -2,6 +2,7 @@
 // What blactl alloc shows: a line for each thing that happens, or the list of the units as it is.
 
 #include "blactl/fleet/allocation_service.hpp"
+#include "blactl/fleet/id_moves.hpp"
 #include "blactl/fleet/roster.hpp"
 
 #include "cli/output/page.hpp"
@@ -18,6 +19,10 @@ namespace blactl::cli {
 /// The same for people.
 [[nodiscard]] std::string text_line(UnixTime time, fleet::AllocationService::Event event,
                                     const fleet::AllocatedUnit& unit);
+
+/// The same of a move to a static node ID; one that is only temporary is no event of the contract.
+[[nodiscard]] std::string json_line(UnixTime time, const fleet::IdMove& move);
+[[nodiscard]] std::string text_line(UnixTime time, const fleet::IdMove& move);
 
 /// Who has which ID, by node ID, and how many still ask.
 [[nodiscard]] std::string text(const fleet::AllocationService& service, const fleet::Roster& roster,

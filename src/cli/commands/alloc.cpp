@@ -1,13 +1,17 @@
 // blactl alloc: dynamic node IDs, and the table of who has which.
 
 #include "cli/alloc/book.hpp"
+#include "cli/alloc/make_static.hpp"
 #include "cli/alloc/options.hpp"
 #include "cli/alloc/serve.hpp"
 #include "cli/alloc/texts.hpp"
 #include "cli/commands.hpp"
 
-#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 namespace blactl::cli {
 namespace {
@@ -43,6 +47,20 @@ constexpr Option option_table[]{
      .help = {"this unit gets this node ID from now on",
               "以後、この固有 ID にこのノード ID を割り当てる"},
      .store = into<&AllocOptions::assign>},
+    {.name = "--static",
+     .kind = Kind::flag,
+     .help = {"make the node IDs of the servos behind -n permanent, or those that --id or --assign "
+              "say (save, restart, proof)",
+              "-n のサーボの現在のノード ID、または --id や --assign の ID を固定する "
+              "(保存・再起動・確認)"},
+     .store = into<&AllocOptions::makes_static>},
+    {.name = "--id",
+     .value = "ID",
+     .kind = Kind::whole,
+     .whole = {1, 125},
+     .help = {"with --static and one servo: this node ID",
+              "--static 使用時、1 台のサーボにこのノード ID を設定"},
+     .store = into<&AllocOptions::id>},
     {.name = "--list",
      .kind = Kind::flag,
      .help = {"show the table, without a bus", "割当て表を表示 (バス不要)"},
@@ -66,34 +84,62 @@ constexpr Option option_table[]{
      .store = into<&AllocOptions::import_from>},
 };
 
-/// The options that mean a thing of its own, in the order in which they are named.
-std::vector<std::string_view> things(const AllocOptions& options) {
-  const bool serves =
-      options.once || options.count || !options.range.empty() || !options.assign.empty();
-  const std::array<std::pair<bool, std::string_view>, 5> all{
-      {{serves, options.once            ? "--once"
-                : options.count         ? "--count"
-                : options.range.empty() ? "--assign"
-                                        : "--range"},
-       {options.list, "--list"},
-       {!options.forget.empty(), "--forget"},
-       {!options.export_to.empty(), "--export"},
-       {!options.import_from.empty(), "--import"}}};
-  std::vector<std::string_view> given;
-  for (const auto& [is_given, option] : all) {
-    if (is_given) {
-      given.push_back(option);
+/// What the command does; options that share none of them do not go together.
+enum Does : std::uint8_t { serve = 1, fix = 2, list = 4, forget = 8, write = 16, read = 32 };
+
+struct Given {
+  bool is_given;
+  std::string_view option;
+  unsigned does; ///< the things that it goes with
+};
+
+std::vector<Given> given(const AllocOptions& options, const Shared& shared) {
+  std::vector<Given> all{{options.makes_static, "--static", fix},
+                         {options.id.has_value(), "--id", fix},
+                         {shared.nodes.has_value(), "--node", fix},
+                         {options.once, "--once", serve},
+                         {options.count.has_value(), "--count", serve},
+                         {!options.range.empty(), "--range", serve},
+                         {!options.assign.empty(), "--assign", serve | fix},
+                         {options.list, "--list", list},
+                         {!options.forget.empty(), "--forget", forget},
+                         {!options.export_to.empty(), "--export", write},
+                         {!options.import_from.empty(), "--import", read}};
+  std::erase_if(all, [](const Given& each) { return !each.is_given; });
+  return all;
+}
+
+std::optional<Error> refuse_together(const AllocOptions& options, const Shared& shared) {
+  const auto all = given(options, shared);
+  for (const Given& one : all) {
+    for (const Given& other : all) {
+      if ((one.does & other.does) == 0) {
+        return Error{Code::usage, say<texts::alloc_one_thing>(one.option, other.option),
+                     say<texts::alloc_one_thing_hint>(), std::nullopt};
+      }
+    }
+    if (one.does == fix && !options.makes_static) {
+      return Error{Code::usage, say<texts::alloc_only_static>(one.option),
+                   say<texts::alloc_only_static_hint>(), std::nullopt};
     }
   }
-  return given;
+  const bool names_servos = options.id || shared.nodes.has_value();
+  if (names_servos && !options.assign.empty()) { // each says which servo gets which ID
+    return Error{Code::usage,
+                 say<texts::alloc_one_thing>(options.id ? "--id" : "--node", "--assign"),
+                 say<texts::alloc_one_thing_hint>(), std::nullopt};
+  }
+  return std::nullopt;
 }
 
 Report execute(const AllocOptions& options, Context& context) {
-  if (const auto given = things(options); given.size() > 1) {
+  if (auto refused = refuse_together(options, context.shared())) {
     Report report;
-    report.fail({Code::usage, say<texts::alloc_one_thing>(given[0], given[1]),
-                 say<texts::alloc_one_thing_hint>(), std::nullopt});
+    report.fail(std::move(*refused));
     return report;
+  }
+  if (options.makes_static) {
+    return make_static(options, context);
   }
   if (options.list) {
     return list_allocations(context);

@@ -1,0 +1,227 @@
+#include "cli/alloc/make_static.hpp"
+
+#include "blactl/base/hex.hpp"
+#include "blactl/fleet/discovery.hpp"
+#include "blactl/fleet/static_ids.hpp"
+#include "blactl/fleet/texts.hpp"
+
+#include "cli/alloc/texts.hpp"
+#include "cli/alloc/view.hpp"
+#include "cli/confirm.hpp"
+#include "cli/output/progress_view.hpp"
+#include "cli/texts.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+namespace blactl::cli {
+namespace {
+
+using dronecan::NodeId;
+using fleet::StaticId;
+using fleet::StaticIds;
+using state::AllocationStore;
+
+/// One run. Each step may end it, with errors in the report.
+class MakeStatic {
+ public:
+  MakeStatic(const AllocOptions& options, Context& context, AllocationStore& table, Report& report)
+      : options_(options), context_(context), table_(table), report_(report) {}
+
+  void run(std::vector<StaticIds::Wish> wishes) {
+    wishes_ = std::move(wishes);
+    if (!open()) {
+      return;
+    }
+    StaticIds ids(context_.session(), context_.known(), table_, manner());
+    if (find(ids) && prepare(ids) && confirm(ids)) {
+      carry_out(ids);
+    }
+  }
+
+ private:
+  bool open();
+  bool find(StaticIds& ids);
+  bool wish_for(const StaticIds& ids, std::span<const NodeId> nodes);
+  bool prepare(StaticIds& ids);
+  bool confirm(const StaticIds& ids);
+  void carry_out(StaticIds& ids);
+  void conclude(const StaticId& unit);
+  [[nodiscard]] fleet::Manner manner();
+
+  bool stop(Error error) {
+    report_.fail(std::move(error));
+    return false;
+  }
+
+  /// What ends a session ends the command; anything else is a refusal.
+  bool stop(const std::vector<Error>& errors) {
+    for (const Error& error : errors) {
+      context_.signal() != 0 ? context_.broken(error, report_) : report_.fail(error);
+    }
+    return errors.empty();
+  }
+
+  bool broken(const Error& error) {
+    context_.broken(error, report_);
+    return false;
+  }
+
+  const AllocOptions& options_;
+  Context& context_;
+  AllocationStore& table_;
+  Report& report_;
+  std::vector<StaticIds::Wish> wishes_;
+};
+
+fleet::Manner MakeStatic::manner() {
+  return {.identification = context_.identification(),
+          .may_allocate = context_.may_allocate(),
+          .allocations = [this] { return context_.allocations(AllocationStore::Access::write); },
+          .progress =
+              [this](const fleet::Progress& progress) {
+                context_.reporter().progress(cli::text(progress));
+              }};
+}
+
+bool MakeStatic::open() {
+  if (auto session = context_.open_for_writing("alloc --static"); !session) {
+    return stop(session.error());
+  }
+  report_.interface = context_.session().interface();
+  return true;
+}
+
+/// The servos that are meant, and everybody else: whoever has an ID may stand in the way.
+bool MakeStatic::find(StaticIds& ids) {
+  const auto targets = context_.targets();
+  if (!targets) {
+    return stop(targets.error());
+  }
+  auto identification = context_.identification();
+  identification.static_node_id = true;
+  fleet::Discovery discovery(context_.session(), context_.known(), identification);
+  std::vector<NodeId> nodes;
+  if (options_.assign.empty()) {
+    auto selection = discovery.select_for_writing(*targets);
+    if (!selection) {
+      return selection.error().code == Code::usage ? stop(selection.error())
+                                                   : broken(selection.error());
+    }
+    for (const std::string& note : selection->notes) {
+      context_.reporter().note(note);
+    }
+    if (!stop(selection->errors)) {
+      return false;
+    }
+    nodes = std::move(selection->ids);
+  }
+  if (const auto found = discovery.find_all(fleet::bus_watch_time); !found) {
+    return broken(found.error());
+  }
+  if (const auto heard = fleet::hear_bus(context_.session()); !heard) {
+    return heard.error().code == Code::state ? stop(heard.error()) : broken(heard.error());
+  }
+  if (options_.assign.empty() && !wish_for(ids, nodes)) {
+    return false;
+  }
+  if (const auto there = ids.let_in(wishes_); !there) {
+    return broken(there.error());
+  }
+  return true;
+}
+
+bool MakeStatic::wish_for(const StaticIds& ids, std::span<const NodeId> nodes) {
+  if (options_.id && nodes.size() != 1) {
+    return stop({Code::usage, say<texts::alloc_several_for_id>(*options_.id, nodes.size()),
+                 say<texts::alloc_several_for_id_hint>(), std::nullopt});
+  }
+  auto wishes = ids.as_they_are(nodes);
+  if (!wishes) {
+    return stop(wishes.error());
+  }
+  wishes_ = std::move(*wishes);
+  if (options_.id) {
+    wishes_.front().node_id = NodeId(static_cast<std::uint8_t>(*options_.id));
+  }
+  return true;
+}
+
+bool MakeStatic::prepare(StaticIds& ids) {
+  if (const auto ready = ids.prepare(wishes_, context_.shared().while_driven); !ready) {
+    return stop(ready.error());
+  }
+  for (const fleet::IdMove& move : ids.temporary()) {
+    context_.reporter().note(say<texts::alloc_will_make_way>(move.from.value(), move.to.value()));
+  }
+  return true;
+}
+
+bool MakeStatic::confirm(const StaticIds& ids) {
+  const std::string question = ids.question();
+  if (question.empty()) {
+    return true;
+  }
+  const auto agreed = blactl::cli::confirm(question, context_);
+  return agreed || (agreed.error().code == Code::not_confirmed ? stop(agreed.error())
+                                                               : broken(agreed.error()));
+}
+
+void MakeStatic::carry_out(StaticIds& ids) {
+  const Reporter& reporter = context_.reporter();
+  reporter.note(say<texts::do_not_cut_supply>());
+  const auto errors = ids.carry_out([&](const fleet::IdMove& move) {
+    const UnixTime time(context_.session().wall());
+    const auto printed = reporter.stream(reporter.format() == Format::json ? json_line(time, move)
+                                                                           : text_line(time, move));
+    if (!printed) {
+      report_.fail(printed.error());
+    }
+  });
+  (void)stop(errors);
+  std::uint64_t done = 0;
+  for (const StaticId& unit : ids.units()) {
+    conclude(unit);
+    done += unit.is_done ? 1U : 0U;
+  }
+  report_.counts = {{"made_static", done}};
+}
+
+/// Servos whose turn did not come are as they were, and that is said.
+void MakeStatic::conclude(const StaticId& unit) {
+  std::vector<Error> errors = unit.last ? unit.last->errors() : std::vector<Error>();
+  if (!unit.is_done && errors.empty()) {
+    errors.push_back({Code::state,
+                      say<texts::alloc_not_begun>(hex(unit.unique_id), unit.now.value()),
+                      say<texts::run_again_hint>(), unit.now.value()});
+  }
+  report_.targets.push_back({.errors = std::move(errors)});
+}
+
+} // namespace
+
+Report make_static(const AllocOptions& options, Context& context) {
+  Report report{.interface = printable(context.shared().interface), .is_stream = true};
+  auto wishes = parse_wishes(options.assign);
+  if (!wishes) {
+    std::ranges::copy(wishes.error(), std::back_inserter(report.errors));
+  }
+  if (const auto profiles = context.profiles(); !profiles) {
+    report.fail(profiles.error());
+  }
+  if (!report.errors.empty()) {
+    return report;
+  }
+  auto table = context.allocations(AllocationStore::Access::write);
+  if (!table) {
+    report.fail(table.error());
+    return report;
+  }
+  MakeStatic(options, context, *table, report).run(std::move(*wishes));
+  report.count_targets();
+  return report;
+}
+
+} // namespace blactl::cli
