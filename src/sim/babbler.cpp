@@ -1,6 +1,6 @@
 #include "sim/babbler.hpp"
 
-#include "blactl/sim/frame_bits.hpp"
+#include "blactl/can/frame_bits.hpp"
 
 #include <array>
 #include <cmath>
@@ -33,7 +33,7 @@ void Babbler::advance(Time now) {
   // A float32 that changes and a name of three letters.
   const std::array<std::uint8_t, 7> payload{counter_++, 0, 0x80, 0x3F, 'b', 'l', 'a'};
   for (const can::Frame& frame : broadcast(key_value, setup_.priority, payload)) {
-    bits_ += static_cast<double>(frame_length(frame) + intermission_bits);
+    bits_ += static_cast<double>(can::frame_length(frame) + can::intermission_bits);
   }
 }
 

@@ -1,6 +1,6 @@
 #include "blactl/sim/medium.hpp"
 
-#include "blactl/sim/frame_bits.hpp"
+#include "blactl/can/frame_bits.hpp"
 
 #include <algorithm>
 #include <tuple>
@@ -25,7 +25,7 @@ constexpr std::size_t error_frame_bits = 6 + 6 + 8;
 
 /// The order in which frames win: a dominant bit is 0.
 auto strength(const can::Frame& frame) {
-  return std::tuple(arbitration_field(frame), frame.size, frame.data);
+  return std::tuple(can::arbitration_field(frame), frame.size, frame.data);
 }
 
 } // namespace
@@ -121,7 +121,7 @@ void Medium::start(Time at) {
   for (const PortId id : contenders) {
     if (head(id) == frame) {
       senders.push_back(id);
-    } else if (arbitration_field(head(id)) == arbitration_field(frame)) {
+    } else if (can::arbitration_field(head(id)) == can::arbitration_field(frame)) {
       rivals.push_back(id);
     }
   }
@@ -131,13 +131,13 @@ void Medium::start(Time at) {
 /// A rival notices the difference: if it is error active its error flag destroys the frame.
 void Medium::begin(const can::Frame& frame, std::vector<PortId> senders,
                    const std::vector<PortId>& rivals, Time at) {
-  const FrameBits own(frame);
-  std::size_t length = frame_length(frame);
+  const can::FrameBits own(frame);
+  std::size_t length = can::frame_length(frame);
   bool destroyed = false;
   for (const PortId rival : rivals) {
     const Port& port = ports_.at(rival);
     if (port.error_count < error_passive) {
-      const std::size_t noticed = own.first_difference(FrameBits(port.queue.front().frame)) + 1;
+      const std::size_t noticed = own.first_difference(can::FrameBits(port.queue.front().frame)) + 1;
       length = std::min(length, noticed + error_frame_bits);
       destroyed = true;
     }
@@ -157,7 +157,7 @@ void Medium::begin(const can::Frame& frame, std::vector<PortId> senders,
     }
   }
   on_wire_ = Transmission{frame, std::move(senders), at + bits(length), destroyed};
-  idle_from_ = on_wire_->end + bits(intermission_bits);
+  idle_from_ = on_wire_->end + bits(can::intermission_bits);
   counters_.busy += idle_from_ - at;
 }
 

@@ -2,7 +2,7 @@
 
 #include "blactl/dronecan/fields.hpp"
 #include "blactl/dronecan/standard_types.hpp"
-#include "blactl/sim/frame_bits.hpp"
+#include "blactl/can/frame_bits.hpp"
 
 #include "cli/output/table.hpp"
 #include "cli/texts.hpp"
@@ -111,7 +111,7 @@ TraceStats::Row& TraceStats::row_of(std::string_view interface, const dronecan::
 }
 
 void TraceStats::frame(const Occasion& occasion, const can::Frame& frame, bool wanted) {
-  const auto bits = sim::frame_length(frame) + sim::intermission_bits;
+  const auto bits = can::frame_length(frame) + can::intermission_bits;
   Bus& bus = buses_[bus_of(occasion.interface)];
   if (bus.frames == 0) {
     bus.first = bus.last = occasion.at;

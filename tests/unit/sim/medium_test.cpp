@@ -1,4 +1,4 @@
-#include "blactl/sim/frame_bits.hpp"
+#include "blactl/can/frame_bits.hpp"
 #include "blactl/sim/medium.hpp"
 
 #include "unit/sim/support.hpp"
@@ -16,7 +16,7 @@ Time at(std::int64_t microseconds) {
 }
 
 Duration length(const can::Frame& one) {
-  return Duration(frame_length(one));
+  return Duration(can::frame_length(one));
 }
 
 struct Ear final : Medium::Listener {

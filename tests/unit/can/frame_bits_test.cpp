@@ -1,4 +1,4 @@
-#include "blactl/sim/frame_bits.hpp"
+#include "blactl/can/frame_bits.hpp"
 
 #include "unit/sim/support.hpp"
 
@@ -14,7 +14,7 @@ namespace {
 std::size_t on_wire(const std::vector<can::Frame>& frames) {
   std::size_t bits = 0;
   for (const can::Frame& one : frames) {
-    bits += frame_length(one) + intermission_bits;
+    bits += can::frame_length(one) + can::intermission_bits;
   }
   return bits;
 }
@@ -46,8 +46,8 @@ TEST_CASE("an extended frame of 8 bytes takes 128 bits without stuffing and 157 
     for (std::uint8_t j = 0; j < 8; ++j) {
       one.data[j] = static_cast<std::uint8_t>((i * (j + 7U)) >> 3U);
     }
-    shortest = std::min(shortest, frame_length(one));
-    longest = std::max(longest, frame_length(one));
+    shortest = std::min(shortest, can::frame_length(one));
+    longest = std::max(longest, can::frame_length(one));
   }
   CHECK(shortest >= 128);
   CHECK(longest <= 157);
@@ -56,13 +56,13 @@ TEST_CASE("an extended frame of 8 bytes takes 128 bits without stuffing and 157 
 TEST_CASE("a frame without bytes and one of standard format have their textbook lengths") {
   // SOF, 32 bits of arbitration, 6 of control, 15 of CRC, 10 of trailer; 10101… needs no stuffing.
   can::Frame extended{.id = 0x15555555, .size = 0};
-  CHECK(frame_length(extended) >= 64);
-  CHECK(frame_length(extended) <= 68);
+  CHECK(can::frame_length(extended) >= 64);
+  CHECK(can::frame_length(extended) <= 68);
   can::Frame standard{.id = 0x555, .extended = false, .size = 0};
-  CHECK(frame_length(standard) >= 44);
-  CHECK(frame_length(standard) <= 47);
+  CHECK(can::frame_length(standard) >= 44);
+  CHECK(can::frame_length(standard) <= 47);
   can::Frame remote{.id = 0x555, .extended = false, .remote = true, .size = 8};
-  CHECK(frame_length(remote) <= 47); // no data whatever the DLC
+  CHECK(can::frame_length(remote) <= 47); // no data whatever the DLC
 }
 
 TEST_CASE("stuff bits follow every run of five, those that the stuffing makes included") {
@@ -70,7 +70,7 @@ TEST_CASE("stuff bits follow every run of five, those that the stuffing makes in
   can::Frame zeros{.id = 0, .extended = false, .size = 0};
   const std::size_t unstuffed = 1 + 11 + 3 + 4 + 15 + 10;
   // CRC-15 of zeros is zero: 34 zero bits; a stuff bit after 5 and then after every further 5.
-  CHECK(frame_length(zeros) == unstuffed + 6);
+  CHECK(can::frame_length(zeros) == unstuffed + 6);
 }
 
 TEST_CASE("the bus costs of the messages are those computed elsewhere") {
@@ -93,21 +93,21 @@ TEST_CASE("reading a register costs about 533 bits, writing it 784") {
 TEST_CASE("arbitration compares identifiers, and a standard frame beats an extended one") {
   const can::Frame low = frame("1001550B#00");
   const can::Frame high = frame("1E0B7F8B#00");
-  CHECK(arbitration_field(low) < arbitration_field(high));
+  CHECK(can::arbitration_field(low) < can::arbitration_field(high));
   can::Frame standard = low;
   standard.extended = false;
   standard.id = low.id >> 18U;
-  CHECK(arbitration_field(standard) < arbitration_field(low));
+  CHECK(can::arbitration_field(standard) < can::arbitration_field(low));
   can::Frame remote = standard;
   remote.remote = true;
-  CHECK(arbitration_field(standard) < arbitration_field(remote));
-  CHECK(arbitration_field(remote) < arbitration_field(low));
+  CHECK(can::arbitration_field(standard) < can::arbitration_field(remote));
+  CHECK(can::arbitration_field(remote) < can::arbitration_field(low));
 }
 
 TEST_CASE("the first difference of two frames is found where it is on the wire") {
-  const FrameBits a(frame("10015555#0000"));
-  const FrameBits b(frame("10015555#0001"));
-  const FrameBits c(frame("10015555#8000"));
+  const can::FrameBits a(frame("10015555#0000"));
+  const can::FrameBits b(frame("10015555#0001"));
+  const can::FrameBits c(frame("10015555#8000"));
   CHECK(a.first_difference(a) == a.size());
   CHECK(a.first_difference(c) < a.first_difference(b));
   CHECK(a.first_difference(c) > 32);

@@ -7,12 +7,12 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace blactl::sim {
+namespace blactl::can {
 
 /// The stuffed part of a frame, start of frame to CRC. At 1 Mbit/s a bit takes 1 us.
 class FrameBits {
  public:
-  explicit FrameBits(const can::Frame& frame);
+  explicit FrameBits(const Frame& frame);
 
   /// The first bit in which two frames differ; size() of the shorter if none of its bits does.
   [[nodiscard]] std::size_t first_difference(const FrameBits& other) const;
@@ -36,9 +36,9 @@ inline constexpr std::size_t intermission_bits = 3;
 
 /// The whole frame: stuffed part, CRC delimiter, acknowledgement, end of frame.
 /// An extended frame of 8 bytes has 128 to 157 bits here, without the intermission.
-[[nodiscard]] std::size_t frame_length(const can::Frame& frame);
+[[nodiscard]] std::size_t frame_length(const Frame& frame);
 
 /// What decides who goes first: identifier, RTR and IDE in the order of the bus. Less wins.
-[[nodiscard]] std::uint32_t arbitration_field(const can::Frame& frame);
+[[nodiscard]] std::uint32_t arbitration_field(const Frame& frame);
 
-} // namespace blactl::sim
+} // namespace blactl::can

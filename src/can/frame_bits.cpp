@@ -1,8 +1,8 @@
-#include "blactl/sim/frame_bits.hpp"
+#include "blactl/can/frame_bits.hpp"
 
 #include <algorithm>
 
-namespace blactl::sim {
+namespace blactl::can {
 namespace {
 
 constexpr unsigned crc_bits = 15;
@@ -17,7 +17,7 @@ constexpr unsigned low_id_bits = 18; // of an extended identifier
 
 } // namespace
 
-FrameBits::FrameBits(const can::Frame& frame) {
+FrameBits::FrameBits(const Frame& frame) {
   push(false); // start of frame
   if (frame.extended) {
     push_field(frame.id >> low_id_bits, 11);
@@ -66,11 +66,11 @@ std::size_t FrameBits::first_difference(const FrameBits& other) const {
                                   bits_.begin());
 }
 
-std::size_t frame_length(const can::Frame& frame) {
+std::size_t frame_length(const Frame& frame) {
   return FrameBits(frame).size() + trailer_bits;
 }
 
-std::uint32_t arbitration_field(const can::Frame& frame) {
+std::uint32_t arbitration_field(const Frame& frame) {
   const std::uint32_t remote = frame.remote ? 1U : 0U;
   if (!frame.extended) {
     return (frame.id << 21U) | (remote << 20U);
@@ -79,4 +79,4 @@ std::uint32_t arbitration_field(const can::Frame& frame) {
   return ((frame.id >> low_id_bits) << 21U) | (3U << 19U) | (low << 1U) | remote;
 }
 
-} // namespace blactl::sim
+} // namespace blactl::can
