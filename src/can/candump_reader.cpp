@@ -62,7 +62,9 @@ std::optional<LogLine> CandumpReader::next() {
     if (auto line = parse_line(*text)) {
       return line;
     }
-    count_bad();
+    if (!text->starts_with('#')) { // a comment
+      count_bad();
+    }
   }
   return std::nullopt;
 }

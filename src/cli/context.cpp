@@ -215,19 +215,19 @@ Result<state::AllocationStore> Context::allocations(state::AllocationStore::Acce
 }
 
 Result<std::unique_ptr<can::Bus>> Context::recorded(std::unique_ptr<can::Bus> bus) {
-  if (!shared_.record) {
+  if (!record_) {
     return bus;
   }
   const auto name = parse_interface(shared_.interface);
   if (log_ != nullptr && name) {
     std::error_code error;
     const std::string path = name->rest == "-" ? "/dev/stdin" : name->rest;
-    if (std::filesystem::equivalent(path, *shared_.record, error)) {
-      return fail(Code::usage, say<texts::records_itself>(printable(*shared_.record)),
+    if (std::filesystem::equivalent(path, *record_, error)) {
+      return fail(Code::usage, say<texts::records_itself>(printable(*record_)),
                   say<texts::record_unopened_hint>());
     }
   }
-  auto recorder = can::Recorder::open(std::move(bus), *shared_.record);
+  auto recorder = can::Recorder::open(std::move(bus), *record_);
   if (!recorder) {
     return std::unexpected(recorder.error());
   }

@@ -19,13 +19,15 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace blactl::cli {
 
 class Context {
  public:
-  Context(const Shared& shared, const Reporter& reporter) : shared_(shared), reporter_(reporter) {}
+  Context(const Shared& shared, const Reporter& reporter)
+      : shared_(shared), reporter_(reporter), record_(shared.record) {}
 
   [[nodiscard]] const Shared& shared() const { return shared_; }
 
@@ -70,6 +72,9 @@ class Context {
 
   [[nodiscard]] fleet::Identification::Options identification() const;
 
+  /// Every frame of the session goes to this file, as with --record. To be called before open().
+  void record_to(std::string file) { record_ = std::move(file); }
+
   /// The bus, or with --record a recorder around it. The file is made last: what stops the command
   /// before leaves one that is there as it was. Errors: usage, io.
   [[nodiscard]] Result<std::unique_ptr<can::Bus>> recorded(std::unique_ptr<can::Bus> bus);
@@ -97,6 +102,7 @@ class Context {
 
   const Shared& shared_;
   const Reporter& reporter_;
+  std::optional<std::string> record_; ///< the file for all frames
   std::optional<bla::Profiles> profiles_;
   const bla::Profile* assumed_ = nullptr;
   state::LockPlace place_; ///< of the interface

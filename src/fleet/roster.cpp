@@ -361,7 +361,8 @@ void Roster::on_command(const Transfer& transfer) {
     return;
   }
   for (const auto& entry : command->commands) {
-    commander(transfer.header.source).servo_ids[entry.actuator_id] = transfer.at;
+    commander(transfer.header.source).servo_ids[entry.actuator_id] = {transfer.at,
+                                                                      entry.command_type};
   }
 }
 
@@ -418,12 +419,12 @@ std::optional<NodeId> Roster::commander_of(const Servo& servo, Time since) const
     if (by_node != commander.nodes.end() && recent(by_node->second)) {
       return source;
     }
-    for (const auto& [servo_id, at] : commander.servo_ids) {
+    for (const auto& [servo_id, command] : commander.servo_ids) {
       constexpr std::uint8_t every_servo = 255;
       // Register and actuator.Status may differ: which of them it obeys is not known.
       const bool meant = servo_id == every_servo || servo.servo_id == servo_id ||
                          (member != nullptr && member->actuator_id == servo_id);
-      if (meant && recent(at)) {
+      if (meant && recent(command.at)) {
         return source;
       }
     }

@@ -163,7 +163,13 @@ Result<Session::Happened> Session::take(const can::Event& event) {
   }
   if (const auto* sent = std::get_if<can::Sent>(&event)) {
     node_.sent(sent->frame, sent->at);
+    if (traffic_ != nullptr) {
+      traffic_->hear(sent->frame, sent->at);
+    }
   } else if (const auto* fault = std::get_if<can::BusFault>(&event)) {
+    if (traffic_ != nullptr) {
+      traffic_->hear(*fault);
+    }
     if (fault->kind == can::FaultKind::bus_off && !playback_) {
       return end({Code::bus_off, say<texts::bus_is_off>(interface()),
                   say<texts::bus_is_off_hint>(interface(), interface())});
@@ -233,6 +239,9 @@ Result<Session::Happened> Session::take_frame(const can::Received& received) {
     if (auto changed = give_way(); !changed) {
       return end(changed.error());
     }
+  }
+  if (traffic_ != nullptr) {
+    traffic_->hear(received.frame, received.at);
   }
   roster_.hear(received.frame, received.at);
   node_.receive(received.frame, received.at);

@@ -1,9 +1,13 @@
 #include "blactl/state/state_folder.hpp"
 
 #include "state/environment.hpp"
+#include "state/texts.hpp"
 
 #include <pwd.h>
 #include <unistd.h>
+
+#include <filesystem>
+#include <system_error>
 
 namespace blactl::state {
 namespace {
@@ -29,6 +33,23 @@ std::string state_folder() {
   }
   const std::string home = home_folder();
   return home.empty() ? std::string() : home + "/.local/state/blactl";
+}
+
+Result<void> check_state_folder(const std::string& folder) {
+  if (folder.empty()) {
+    return fail(Code::state, say<texts::no_state_folder>(), say<texts::no_state_folder_hint>());
+  }
+  std::error_code error;
+  std::filesystem::path nearest = std::filesystem::absolute(folder, error);
+  while (!std::filesystem::exists(nearest, error) && nearest.has_relative_path()) {
+    nearest = nearest.parent_path();
+  }
+  const bool is_folder = std::filesystem::is_directory(nearest, error);
+  if (!is_folder || access(nearest.c_str(), W_OK | X_OK) != 0) {
+    return fail(Code::permission, say<texts::state_folder_closed>(printable(nearest.string())),
+                say<texts::no_state_folder_hint>());
+  }
+  return {};
 }
 
 } // namespace blactl::state

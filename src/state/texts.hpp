@@ -45,6 +45,9 @@ inline constexpr Text lock_failed_hint{
 inline constexpr Text no_state_folder{
     "there is no folder for what blactl must remember: BLACTL_STATE_DIR and HOME are not set",
     "blactl の状態を保存するフォルダがありません (BLACTL_STATE_DIR も HOME も未設定です)"};
+inline constexpr Text state_folder_closed{
+    "{} cannot be written: allocations are not kept there",
+    "{} に書き込めません。ノード ID の割当てを保存できません"};
 inline constexpr Text no_state_folder_hint{"set BLACTL_STATE_DIR to a folder of your own",
                                            "BLACTL_STATE_DIR に自分のフォルダを設定して下さい"};
 inline constexpr Text table_foreign{"{} is no allocation table of blactl",

@@ -14,7 +14,8 @@
 
 namespace blactl::can {
 
-/// One buffer is all the memory it takes. Lines that are not candump's are passed over and counted.
+/// One buffer is all the memory it takes. Lines that begin with # are comments; others that are not
+/// candump's are passed over and counted.
 class CandumpReader {
  public:
   /// `path`: a file, or `-` for standard input. Errors: bad_file.

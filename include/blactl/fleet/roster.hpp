@@ -61,9 +61,15 @@ using UniqueIdPrefix = std::vector<std::uint8_t>;
 
 /// Another node that moves servos: ArrayCommand, or writes to 0x00-0x02.
 struct Commander {
+  /// The last command to one servo ID.
+  struct Command {
+    Time at{};
+    std::uint8_t type = 0; ///< ArrayCommand::Command::command_type
+  };
+
   dronecan::NodeId source;
-  std::map<std::uint8_t, Time> servo_ids; ///< by ArrayCommand; 255: every servo
-  std::map<dronecan::NodeId, Time> nodes; ///< by GetSet
+  std::map<std::uint8_t, Command> servo_ids; ///< by ArrayCommand; 255: every servo
+  std::map<dronecan::NodeId, Time> nodes;    ///< by GetSet
 };
 
 /// A node sends NodeStatus once a second at least; one that was not heard for so long is offline

@@ -7,6 +7,7 @@
 #include "blactl/dronecan/service.hpp"
 #include "blactl/fleet/playback.hpp"
 #include "blactl/fleet/roster.hpp"
+#include "blactl/fleet/traffic.hpp"
 #include "blactl/state/local_node_id.hpp"
 
 #include <functional>
@@ -72,6 +73,9 @@ class Session {
   void attach(dronecan::Service& service) { services_.push_back(&service); }
 
   void detach(dronecan::Service& service) { std::erase(services_, &service); }
+
+  /// Counts all frames from now on, ours too; null: no more. It must live as long as it counts.
+  void count(Traffic* traffic) { traffic_ = traffic; }
 
   /// Called when a first signal came while jobs run that must not be left half done: they have
   /// `grace` to end. A second signal ends all at once.
@@ -159,6 +163,7 @@ class Session {
   std::optional<Playback> playback_; ///< on a recording
   dronecan::Node node_;
   std::vector<dronecan::Service*> services_;
+  Traffic* traffic_ = nullptr;
   std::function<void()> stopping_;
   RequestHook asked_, unanswered_;
   IdHook new_id_;

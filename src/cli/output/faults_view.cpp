@@ -15,8 +15,6 @@ using bla::Fault;
 using bla::Level;
 using fleet::FaultState;
 
-namespace {
-
 std::string level_word(Level level) {
   switch (level) {
   case Level::notice: return say<texts::level_notice>();
@@ -25,6 +23,8 @@ std::string level_word(Level level) {
   }
   return say<texts::level_failure>();
 }
+
+namespace {
 
 Tone tone(Level level) {
   return level == Level::notice ? Tone::good : level == Level::warning ? Tone::warning : Tone::bad;

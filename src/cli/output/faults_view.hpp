@@ -11,6 +11,9 @@
 
 namespace blactl::cli {
 
+/// "WARNING", in the language of the person.
+[[nodiscard]] std::string level_word(bla::Level level);
+
 /// "nodes", with the faults from `level` up.
 void write_json(JsonWriter& json, std::span<const fleet::FaultState> servos, bla::Level level);
 

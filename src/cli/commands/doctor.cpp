@@ -1,0 +1,71 @@
+// blactl doctor: what is wrong with interface, bus and nodes, how bad it is, what mends it.
+
+#include "cli/commands.hpp"
+#include "cli/doctor/examination.hpp"
+#include "cli/doctor/report_file.hpp"
+#include "cli/doctor/texts.hpp"
+#include "cli/doctor/view.hpp"
+
+#include <chrono>
+#include <memory>
+#include <utility>
+
+namespace blactl::cli {
+namespace {
+
+struct DoctorOptions {
+  std::string report{};
+};
+
+constexpr Option option_table[]{
+    {.name = "--report",
+     .value = "FILE",
+     .kind = Kind::file,
+     .help = {"write all of it to one file for the support: findings, parameters, faults, node IDs "
+              "given, and 10 s of traffic; -i replay:FILE answers from it",
+              "サポート用に、診断結果・パラメータ・障害・割当て表・10 秒間の通信を 1 つのファイルに"
+              "保存 (-i replay:FILE で参照可能)"},
+     .store = into<&DoctorOptions::report>},
+};
+
+/// Longer than a node may be silent before it counts as lost.
+constexpr Duration look_time = std::chrono::milliseconds(3500);
+constexpr Duration report_time = std::chrono::seconds(10);
+
+Report execute(const DoctorOptions& options, Context& context) {
+  Report report{.interface = printable(context.shared().interface)};
+  if (const auto profiles = context.profiles(); !profiles) {
+    report.fail(profiles.error());
+    return report;
+  }
+  const bool writes = !options.report.empty();
+  if (const auto ready = writes ? prepare_report(options.report, context) : Result<void>();
+      !ready) {
+    report.fail(ready.error());
+    return report;
+  }
+  const auto examination = std::make_shared<Examination>();
+  examine(writes ? report_time : look_time, context, *examination, report);
+  if (writes && examination->nodes) {
+    write_report(options.report, *examination, context, report);
+  }
+  report.targets.push_back({.has_found = !examination->diagnoses.empty()});
+  report.counts = {{"findings", examination->diagnoses.size()}};
+  report.count_targets(examination->nodes ? examination->nodes->nodes.size() : 0);
+  report.json = [examination](JsonWriter& json) { write_json(json, *examination); };
+  report.text = [examination](const Page& page) { return text(*examination, page); };
+  return report;
+}
+
+} // namespace
+
+constinit const Command commands::doctor{
+    .name = "doctor",
+    .traits = {.session = true, .recordings = true},
+    .help = {"what is wrong with interface, bus and nodes, and what mends it",
+             "インタフェース・バス・ノードの問題と対処"},
+    .options = option_table,
+    .action = action<execute>,
+};
+
+} // namespace blactl::cli

@@ -1,0 +1,138 @@
+#include "cli/doctor/examination.hpp"
+
+#include "blactl/fleet/carry_out.hpp"
+#include "blactl/fleet/discovery.hpp"
+#include "blactl/fleet/ticker.hpp"
+#include "blactl/state/state_folder.hpp"
+
+#include "cli/doctor/texts.hpp"
+#include "cli/interface/bus_factory.hpp"
+#include "cli/output/progress_view.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <iterator>
+#include <utility>
+
+namespace blactl::cli {
+namespace {
+
+using bla::Level;
+using fleet::Diagnosis;
+
+void add(fleet::Diagnoses more, Examination& examination) {
+  std::ranges::move(more, std::back_inserter(examination.diagnoses));
+}
+
+Diagnosis as_diagnosis(const Error& error, Level level) {
+  return {.code = std::string(name(error.code)),
+          .level = level,
+          .text = error.message,
+          .fix = error.hint};
+}
+
+/// The network interface behind -i, or the only one that could be meant.
+std::optional<can::Link> find_link(const std::string& interface) {
+  const auto name = parse_interface(interface);
+  const bool is_link = interface.empty() || (name && name->kind == InterfaceKind::socketcan);
+  const auto links = is_link ? can::links() : Result<std::vector<can::Link>>();
+  if (!links) {
+    return std::nullopt;
+  }
+  for (const can::Link& link : *links) {
+    const bool is_meant = interface.empty()
+                              ? links->size() == 1 || can::only_one_up(*links) == &link
+                              : link.name == name->rest;
+    if (is_meant) {
+      return link;
+    }
+  }
+  return std::nullopt;
+}
+
+/// What must be kept on this machine can be.
+void examine_state(const Context& context, Examination& examination) {
+  if (const auto writable = state::check_state_folder(state::state_folder()); !writable) {
+    examination.diagnoses.push_back(as_diagnosis(writable.error(), Level::warning));
+  } else if (const auto table = context.allocations(state::AllocationStore::Access::read); !table) {
+    examination.diagnoses.push_back(as_diagnosis(table.error(), Level::failure));
+  }
+}
+
+/// The angle limits, where somebody commands in parts of 180 deg.
+std::vector<fleet::Snapshot> read_limits(Context& context, const fleet::Findings& findings) {
+  std::vector<dronecan::NodeId> servos;
+  for (const fleet::Finding& node : findings.nodes) {
+    const bool is_one = node.servo.is_servo && !findings.roster->is_doubled(node.servo.id);
+    if (is_one && !node.is_offline && !findings.roster->commanders().empty()) {
+      servos.push_back(node.servo.id);
+    }
+  }
+  const auto choice = [](const fleet::Servo& servo) -> Result<std::vector<const bla::Parameter*>> {
+    return fleet::registers_to_diagnose(servo);
+  };
+  return fleet::take_snapshots(context.session(), context.known(), servos, context.identification(),
+                               choice)
+      .servos;
+}
+
+/// Until when the bus was heard: the end of a recording is not now.
+Time end_of(const fleet::Session& session) {
+  Time last{};
+  for (const auto& [id, member] : session.roster().members()) {
+    last = std::max(last, member.last_heard);
+  }
+  return session.is_recording() ? last : session.now();
+}
+
+void examine_bus(Duration time, Context& context, Examination& examination, Report& report) {
+  fleet::Session& session = context.session();
+  session.count(&examination.traffic);
+  const auto targets = context.targets();
+  if (!targets) {
+    report.fail(targets.error());
+    return;
+  }
+  fleet::Discovery discovery(session, context.known(), context.identification());
+  const fleet::Ticker ticker(session, std::chrono::seconds(1), [&] {
+    context.reporter().progress(say<texts::doctor_listens>(whole_seconds(time)));
+  });
+  auto found = discovery.find_all(time);
+  auto findings =
+      fleet::gather(session.roster(), *targets, context.known(), end_of(session), discovery.gone());
+  const auto limits = found ? read_limits(context, findings) : std::vector<fleet::Snapshot>();
+  if (!found) {
+    if (auto diagnosis = fleet::diagnose_end(found.error())) {
+      examination.diagnoses.push_back(std::move(*diagnosis));
+    } else {
+      context.broken(found.error(), report);
+    }
+  } else {
+    add(fleet::diagnose_traffic(examination.traffic, session.silence()), examination);
+  }
+  add(fleet::diagnose_nodes(findings, examination.traffic, limits), examination);
+  examination.nodes = std::move(findings);
+  session.count(nullptr);
+}
+
+} // namespace
+
+void examine(Duration time, Context& context, Examination& examination, Report& report) {
+  examination.interface = printable(context.shared().interface);
+  const auto opened = context.open(fleet::Session::Hearing::all);
+  if (opened) {
+    report.interface = examination.interface = context.session().interface();
+    examine_bus(time, context, examination, report);
+  } else {
+    report.fail(opened.error());
+  }
+  // Now, when the controller has had its time to count errors.
+  examination.link = find_link(context.shared().interface);
+  if (examination.link) {
+    add(fleet::diagnose_link(*examination.link), examination);
+  }
+  examine_state(context, examination);
+  std::ranges::stable_sort(examination.diagnoses, std::greater(), &Diagnosis::level);
+}
+
+} // namespace blactl::cli

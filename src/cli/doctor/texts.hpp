@@ -1,0 +1,45 @@
+#pragma once
+// The catalogue of `blactl doctor`.
+
+#include "blactl/base/text.hpp"
+
+namespace blactl::texts {
+
+inline constexpr Text doctor_interface{"interface", "インタフェース"};
+inline constexpr Text doctor_bus{"bus", "バス"};
+inline constexpr Text doctor_nodes{"nodes", "ノード"};
+inline constexpr Text doctor_up{"up", "動作中"};
+inline constexpr Text doctor_down{"down", "停止中"};
+inline constexpr Text doctor_bit_timing{"{} bit/s, sample point {}.{} %",
+                                        "{} bit/s、サンプルポイント {}.{} %"};
+inline constexpr Text doctor_restart_after{"restart-ms {}", "restart-ms {}"};
+inline constexpr Text doctor_queue{"queue {} frames", "送信キュー {} フレーム"};
+inline constexpr Text doctor_errors{"errors {} sending, {} receiving", "エラー 送信 {}、受信 {}"};
+inline constexpr Text doctor_traffic{"{} frames in {} s, {}.{} % busy",
+                                     "{} フレーム / {} 秒、負荷 {}.{} %"};
+inline constexpr Text doctor_no_traffic{"no frames", "フレームなし"};
+inline constexpr Text doctor_senders{"frames/s by node: {}", "ノード別フレーム/秒: {}"};
+inline constexpr Text doctor_found{"{} servos, {} other nodes", "サーボ {} 台、その他 {} ノード"};
+inline constexpr Text doctor_nothing{"nothing is wrong, as far as it was heard\n",
+                                     "受信した範囲で問題は見つかりませんでした\n"};
+inline constexpr Text doctor_fix{"fix: {}", "対処: {}"};
+inline constexpr Text doctor_written{
+    "report written to {}: it can be read, and answers -i replay:{}",
+    "{} に診断結果を保存しました (-i replay:{} でも参照できます)"};
+inline constexpr Text doctor_listens{"listening for {} s", "{} 秒間受信しています"};
+inline constexpr Text doctor_report_and_record{
+    "--report and --record do not go together: the report holds all frames",
+    "--report と --record は同時に指定できません (診断結果に全フレームが含まれます)"};
+inline constexpr Text doctor_report_and_record_hint{"leave one of them out",
+                                                    "どちらか一方を指定して下さい"};
+inline constexpr Text doctor_report_head{"report of blactl {}, {}, interface {}",
+                                         "blactl {} 診断結果、{}、インタフェース {}"};
+inline constexpr Text doctor_report_faults{"faults", "障害・警告・通知"};
+inline constexpr Text doctor_report_parameters{"parameters", "パラメータ"};
+inline constexpr Text doctor_report_allocations{"allocation table", "割当て表"};
+inline constexpr Text doctor_report_traffic{"traffic, as candump -L writes it",
+                                            "通信ログ (candump -L 形式)"};
+inline constexpr Text doctor_to_stdout_no{"--report {}: a file is needed",
+                                          "--report {}: ファイルを指定して下さい"};
+
+} // namespace blactl::texts

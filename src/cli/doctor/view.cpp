@@ -1,0 +1,128 @@
+#include "cli/doctor/view.hpp"
+
+#include "cli/doctor/texts.hpp"
+#include "cli/output/faults_view.hpp"
+#include "cli/output/node_head.hpp"
+#include "cli/output/progress_view.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+namespace blactl::cli {
+namespace {
+
+using fleet::Diagnosis;
+
+void join(std::string& line, const std::string& part) {
+  line += (line.empty() ? "" : ", ") + part;
+}
+
+std::string link_text(const can::Link& link) {
+  std::string line = printable(link.name) + ' ' +
+                     (link.is_up ? say<texts::doctor_up>() : say<texts::doctor_down>());
+  if (link.bit_rate && link.sample_point) {
+    join(line, say<texts::doctor_bit_timing>(*link.bit_rate, *link.sample_point / 10,
+                                             *link.sample_point % 10));
+  }
+  if (link.restart_after) {
+    join(line, say<texts::doctor_restart_after>(link.restart_after->count()));
+  }
+  join(line, say<texts::doctor_queue>(link.queue_length));
+  if (link.errors) {
+    join(line, say<texts::doctor_errors>(link.errors->transmit, link.errors->receive));
+  }
+  return line;
+}
+
+std::string traffic_text(const fleet::Traffic& traffic) {
+  const auto load = traffic.load_permille();
+  if (!load) {
+    return say<texts::doctor_no_traffic>();
+  }
+  return say<texts::doctor_traffic>(traffic.frames(), whole_seconds(*traffic.duration()),
+                                    *load / 10, *load % 10);
+}
+
+/// "11: 32, 12: 32"
+std::string senders_text(const fleet::Traffic& traffic) {
+  std::string line;
+  const auto us = std::chrono::duration_cast<std::chrono::microseconds>(
+                      traffic.duration().value_or(Duration::zero()))
+                      .count();
+  for (const auto& [id, sender] : traffic.senders()) {
+    if (us > 0 && id.is_unicast()) {
+      join(line, fmt::format("{}: {}", id.value(),
+                             sender.frames * 1000000 / static_cast<std::uint64_t>(us)));
+    }
+  }
+  return line;
+}
+
+std::string nodes_text(const fleet::Findings& findings) {
+  const auto servos = std::ranges::count_if(
+      findings.nodes, [](const fleet::Finding& node) { return node.servo.is_servo; });
+  return say<texts::doctor_found>(servos,
+                                  static_cast<std::ptrdiff_t>(findings.nodes.size()) - servos);
+}
+
+std::string row(const std::string& what, const std::string& said) {
+  constexpr std::size_t column = 16;
+  const std::size_t width = display_width(what);
+  return what + std::string(width < column ? column - width : 1, ' ') + said + '\n';
+}
+
+Tone tone(bla::Level level) {
+  return level == bla::Level::failure ? Tone::bad : Tone::warning;
+}
+
+} // namespace
+
+void write_json(JsonWriter& json, const Examination& examination) {
+  json.key("nodes");
+  json.begin_array();
+  for (const fleet::Finding& node :
+       examination.nodes ? examination.nodes->nodes : std::vector<fleet::Finding>()) {
+    json.begin_object();
+    write_head(json, node.servo);
+    json.end_object();
+  }
+  json.end_array();
+  json.key("findings");
+  json.begin_array();
+  for (const Diagnosis& diagnosis : examination.diagnoses) {
+    json.begin_object();
+    json.member("code", diagnosis.code);
+    json.member("level", name(diagnosis.level));
+    json.key("node_id");
+    diagnosis.node ? json.value(diagnosis.node->value()) : json.value(nullptr);
+    json.member("text", diagnosis.text);
+    json.member("fix", diagnosis.fix);
+    json.end_object();
+  }
+  json.end_array();
+}
+
+std::string text(const Examination& examination, const Page& page) {
+  std::string out = row(say<texts::doctor_interface>(),
+                        examination.link ? link_text(*examination.link) : examination.interface);
+  if (examination.nodes) {
+    out += row(say<texts::doctor_bus>(), traffic_text(examination.traffic));
+    if (const auto senders = senders_text(examination.traffic); !senders.empty()) {
+      out += row("", say<texts::doctor_senders>(senders));
+    }
+    out += row(say<texts::doctor_nodes>(), nodes_text(*examination.nodes));
+  }
+  for (const Diagnosis& diagnosis : examination.diagnoses) {
+    out += page.paint(tone(diagnosis.level), level_word(diagnosis.level)) + "  " + diagnosis.text +
+           '\n';
+    if (!diagnosis.fix.empty()) {
+      out += page.fit_hint("    " + say<texts::doctor_fix>(diagnosis.fix)) + '\n';
+    }
+  }
+  if (examination.diagnoses.empty() && examination.nodes) {
+    out += page.paint(Tone::good, say<texts::doctor_nothing>());
+  }
+  return out;
+}
+
+} // namespace blactl::cli

@@ -1,0 +1,148 @@
+#include "catch.hpp"
+#include "run.hpp"
+#include "scene.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+using namespace blactl::test;
+
+namespace {
+
+Scene numbered_servos() {
+  return Scene()
+      .servo("BLA21-12U-AB", 11, {{"servo_id", 1}})
+      .servo("BLA21-12U-AB", 12, {{"servo_id", 2}});
+}
+
+std::vector<std::string> found(const Result& result) {
+  std::vector<std::string> all;
+  for (const auto& finding : json(result.out)["findings"]) {
+    all.push_back(finding["code"]);
+  }
+  return all;
+}
+
+using Codes = std::vector<std::string>;
+
+std::string content(const std::filesystem::path& path) {
+  std::ifstream stream(path);
+  std::ostringstream all;
+  all << stream.rdbuf();
+  return all.str();
+}
+
+} // namespace
+
+TEST_CASE("doctor finds nothing on a bus that is well, and says what it looked at") {
+  const Result result = numbered_servos().run({"doctor"});
+  INFO(result.out << result.err);
+  CHECK(result.status == 0);
+  CHECK(contains(result.out, "2 servos, 0 other nodes"));
+  CHECK(contains(result.out, "% busy"));
+  CHECK(contains(result.out, "nothing is wrong, as far as it was heard"));
+}
+
+TEST_CASE("doctor's document has the nodes' heads and the findings with the keys of the contract") {
+  Scene scene = numbered_servos();
+  scene.servo("BLA21-12U-AB", 13, {{"servo_id", 2}, {"firmware_version", 1300}});
+  const Result result = scene.run({"doctor", "-j"});
+  CHECK(result.status == 8);
+  const auto document = ordered_json(result.out);
+  CHECK(document["nodes"].size() == 3);
+  CHECK(keys(document["nodes"][0]) ==
+        std::vector<std::string>{"node_id", "unique_id", "model", "serial_number", "servo_id",
+                                 "firmware_version", "hardware_version"});
+  REQUIRE(found(result) == Codes{"duplicate_servo_id", "firmware_defect"});
+  CHECK(keys(document["findings"][1]) ==
+        std::vector<std::string>{"code", "level", "node_id", "text", "fix"});
+  CHECK(document["findings"][1]["level"] == "notice");
+  CHECK(document["findings"][1]["node_id"] == 13);
+}
+
+TEST_CASE("doctor names conflicts, the worst first, and who has no node ID") {
+  Scene scene = numbered_servos();
+  scene.servo("BLA21-12U-AB", 12, {{"serial_number", 9}, {"servo_id", 3}});
+  scene.servo("BLA21-12U-AB", 0, {{"serial_number", 10}, {"servo_id", 4}});
+  const Result result = scene.run({"doctor", "-j"});
+  CHECK(result.status == 8);
+  const auto all = found(result);
+  REQUIRE(all.size() >= 2);
+  CHECK(all.front() == "duplicate_node_id");
+  CHECK(all.back() == "no_node_id");
+}
+
+TEST_CASE("doctor tells that nothing is heard, and that nobody acknowledges") {
+  const Bench bench;
+  const std::string empty =
+      bench.file("empty.json", R"({"schema": "blactl-scenario/1", "clock": "virtual"})");
+  const Result alone = bench.run({"-i", "sim:" + empty, "doctor", "-j"});
+  INFO(alone.out << alone.err);
+  CHECK(alone.status == 8);
+  CHECK_FALSE(found(alone).empty());
+}
+
+TEST_CASE("doctor sees who commands a servo that is not there") {
+  Scene scene = numbered_servos();
+  scene.foreign(100,
+                {{"kind", "autopilot"},
+                 {"commands", {{"servo_ids", {1, 5}}, {"type", 0}, {"value", 0.1}, {"rate", 20}}}});
+  const Result result = scene.run({"doctor", "-j"});
+  CHECK(result.status == 8);
+  CHECK(found(result) == Codes{"no_such_servo"});
+}
+
+TEST_CASE("doctor judges what this user may keep") {
+  const Bench bench;
+  const std::string file = bench.file("no_folder", "a file where a folder is needed");
+  const Result result = bench.run({"-i", "sim:" + numbered_servos().write(bench), "doctor", "-j"},
+                                  {.env = {{"BLACTL_STATE_DIR", file}}});
+  CHECK(result.status == 8);
+  CHECK(found(result) == Codes{"permission"});
+}
+
+TEST_CASE("an interface that cannot be opened is an error beside the findings") {
+  const Result result = run({"-i", "slcan:/nonexistent", "doctor", "-j"});
+  CHECK(result.status == 3);
+  CHECK(json(result.out)["findings"].is_array());
+  CHECK(json(result.out)["errors"].size() == 1);
+}
+
+TEST_CASE("--report is one file that a person reads and replay: answers from") {
+  const Bench bench;
+  const std::string scenario = numbered_servos().write(bench);
+  const std::string file = (bench.folder() / "report.txt").string();
+  const Result result = bench.run({"-i", "sim:" + scenario, "doctor", "--report", file});
+  INFO(result.err);
+  CHECK(result.status == 0);
+  CHECK(contains(result.err, "report written to"));
+  const std::string text = content(file);
+  CHECK(text.starts_with("# report of blactl "));
+  for (const char* part : {"# == faults", "# == parameters", "# == allocation table",
+                           "# node 11  BLA21-12U-AB", "0x38  angle_limit_cw"}) {
+    INFO(part);
+    CHECK(contains(text, part));
+  }
+  const Result held = bench.run({"-i", "replay:" + file, "get", "0x38", "-n", "11,12", "-j"});
+  CHECK(held.status == 0);
+  CHECK_FALSE(contains(held.err, "lines")); // its comments are no bad lines
+  CHECK(json(held.out)["nodes"][1]["params"][0]["raw"] == 1799);
+  const Result again = bench.run({"-i", "replay:" + file, "doctor"});
+  CHECK(again.status == 0);
+  CHECK(contains(again.out, "nothing is wrong"));
+}
+
+TEST_CASE("--report that cannot be written is refused before anything is asked") {
+  const Bench bench;
+  const std::string scenario = numbered_servos().write(bench);
+  CHECK(bench.run({"-i", "sim:" + scenario, "doctor", "--report", "/nonexistent/r"}).status == 1);
+  CHECK(bench.run({"-i", "sim:" + scenario, "doctor", "--report", "-"}).status == 2);
+  const Result both =
+      bench.run({"-i", "sim:" + scenario, "--record", (bench.folder() / "a").string(), "doctor",
+                 "--report", (bench.folder() / "b").string()});
+  CHECK(both.status == 2);
+  CHECK(codes(both) == std::vector<std::string>{"usage"});
+}
