@@ -165,8 +165,7 @@ Result<Session::Happened> Session::take(const can::Event& event) {
     node_.sent(sent->frame, sent->at);
   } else if (const auto* fault = std::get_if<can::BusFault>(&event)) {
     if (fault->kind == can::FaultKind::bus_off && !playback_) {
-      return end({Code::bus_off, say<texts::bus_is_off>(interface()),
-                  say<texts::bus_is_off_hint>(interface(), interface())});
+      return end({Code::bus_off, say<texts::bus_is_off>(interface()), loop_.bus().bus_off_hint()});
     }
   } else if (const auto* overflow = std::get_if<can::Overflow>(&event)) {
     lost_ = overflow->lost;
