@@ -89,6 +89,12 @@ std::vector<std::string_view> things(const AllocOptions& options) {
 }
 
 Report execute(const AllocOptions& options, Context& context) {
+  if (context.shared().nodes) {
+    Report report;
+    report.fail({Code::usage, say<texts::alloc_no_nodes>(), say<texts::alloc_no_nodes_hint>(),
+                 std::nullopt});
+    return report;
+  }
   if (const auto given = things(options); given.size() > 1) {
     Report report;
     report.fail({Code::usage, say<texts::alloc_one_thing>(given[0], given[1]),
