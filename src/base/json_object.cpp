@@ -61,7 +61,8 @@ std::optional<std::string> as_word(const Value& value, Faults& faults,
                                    std::initializer_list<std::string_view> words) {
   auto text = as_string(value, faults);
   if (text && std::ranges::find(words, *text) == words.end()) {
-    faults.add(value, say<texts::json_no_such_word>(*text, join(words)));
+    faults.add(value, words.size() == 1 ? say<texts::json_other_word>(*text, *words.begin())
+                                        : say<texts::json_no_such_word>(*text, join(words)));
     return std::nullopt;
   }
   return text;
@@ -168,7 +169,9 @@ const Value* Object::optional_any(std::string_view key) {
   if (value_ == nullptr) {
     return nullptr;
   }
-  known_.emplace_back(key);
+  if (std::ranges::find(known_, key) == known_.end()) {
+    known_.emplace_back(key);
+  }
   const auto found = std::ranges::find(value_->items, key, &Value::key);
   if (found == value_->items.end()) {
     return nullptr;

@@ -2,6 +2,7 @@
 
 #include "blactl/base/json_reader.hpp"
 
+#include "blactl/base/system_error.hpp"
 #include "blactl/base/text.hpp"
 #include "blactl/base/texts.hpp"
 
@@ -10,7 +11,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <iterator>
 #include <memory>
 
@@ -222,7 +222,7 @@ Result<std::string> read_all(std::FILE& stream, const std::string& name) {
     const std::size_t count = std::fread(block.data(), 1, block.size(), &stream);
     if (std::ferror(&stream) != 0) {
       return fail(Code::bad_file,
-                  say<texts::file_unreadable>(printable(name), std::strerror(errno)),
+                  say<texts::file_unreadable>(printable(name), system_reason(errno)),
                   say<texts::file_hint>());
     }
     text.append(block, 0, count);
@@ -262,7 +262,7 @@ Result<Document> parse_file(const std::filesystem::path& path) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::fopen(name.c_str(), "rb"),
                                                                std::fclose);
   if (!stream) {
-    return fail(Code::bad_file, say<texts::file_unreadable>(printable(name), std::strerror(errno)),
+    return fail(Code::bad_file, say<texts::file_unreadable>(printable(name), system_reason(errno)),
                 say<texts::file_hint>());
   }
   auto text = read_all(*stream, name);

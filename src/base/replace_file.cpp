@@ -1,5 +1,6 @@
 #include "blactl/base/replace_file.hpp"
 
+#include "blactl/base/system_error.hpp"
 #include "blactl/base/texts.hpp"
 
 #include <fcntl.h>
@@ -9,7 +10,6 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <memory>
 
 namespace blactl {
@@ -34,7 +34,7 @@ bool set_usual_rights(int descriptor) {
 }
 
 std::unexpected<Error> failure(const std::string& path, int error) {
-  return fail(Code::io, say<texts::file_unwritable>(printable(path), std::strerror(error)),
+  return fail(Code::io, say<texts::file_unwritable>(printable(path), system_reason(error)),
               say<texts::file_unwritable_hint>());
 }
 

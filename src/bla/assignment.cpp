@@ -53,6 +53,22 @@ bool is_other_unit(const Assignment& assignment, std::int64_t pwm_mode) {
   return assignment.value.pwm_mode.value_or(pwm_mode) != pwm_mode;
 }
 
+/// The number that was typed in the unit of `pwm_mode`, if it can be (the register's would be ten
+/// times off), or as it was typed with the mode of its unit.
+std::string ways_to_agree(const Parameter& mode, const Assignment& assignment,
+                          std::int64_t pwm_mode) {
+  const Parameter& range = *assignment.parameter;
+  const std::int64_t raw = pwm_mode == pwm_angle_mode ? assignment.value.raw * range.steps_per_unit
+                                                      : assignment.value.raw / range.steps_per_unit;
+  const auto wanted = assignment.value.pwm_mode;
+  const std::string other =
+      fmt::format("{}={} {}={}", mode.name, input_text(mode, *wanted), range.name,
+                  input_text(range, assignment.value.raw, wanted));
+  return check_range(range, raw) ? say<texts::pwm_either_unit>(
+                                       range.name + '=' + input_text(range, raw, pwm_mode), other)
+                                 : say<texts::value_type>(other);
+}
+
 } // namespace
 
 Result<void> never_sent(const Parameter& parameter, std::int64_t raw) {
@@ -79,14 +95,11 @@ Result<void> check_pwm_unit(const Profiles& profiles, const Assignment& assignme
   }
   const Parameter& range = *assignment.parameter;
   const Parameter& mode = *profiles.find(address::pwm_mode);
-  // The example keeps the number that was typed; the register's would be ten times off.
-  const std::int64_t raw = pwm_mode == pwm_angle_mode ? assignment.value.raw * range.steps_per_unit
-                                                      : assignment.value.raw / range.steps_per_unit;
   return fail(Code::usage,
               say<texts::pwm_unit_against_mode>(printable(assignment.text),
                                                 mode.name + '=' + input_text(mode, pwm_mode),
                                                 unit_text(range, pwm_mode)),
-              say<texts::assignment_example>(range.name + '=' + input_text(range, raw, pwm_mode)));
+              ways_to_agree(mode, assignment, pwm_mode));
 }
 
 Result<void> check_pwm_unit_of_servo(const Profiles& profiles, const Assignment& assignment,
@@ -96,14 +109,11 @@ Result<void> check_pwm_unit_of_servo(const Profiles& profiles, const Assignment&
   }
   const Parameter& range = *assignment.parameter;
   const Parameter& mode = *profiles.find(address::pwm_mode);
-  const std::int64_t wanted = *assignment.value.pwm_mode;
   return fail(Code::usage,
               say<texts::pwm_unit_against_servo>(printable(assignment.text),
                                                  mode.name + '=' + input_text(mode, pwm_mode),
                                                  unit_text(range, pwm_mode)),
-              say<texts::pwm_other_mode>(
-                  unit_text(range, wanted), mode.name + '=' + input_text(mode, wanted),
-                  range.name + '=' + input_text(range, assignment.value.raw, wanted)));
+              ways_to_agree(mode, assignment, pwm_mode));
 }
 
 Result<void> allowed_by_some_model(const Profiles& profiles, const Parameter& parameter,

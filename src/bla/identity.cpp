@@ -212,6 +212,16 @@ Result<void> Identity::check_pwm_input() const {
                                     : Result<void>();
 }
 
+Result<void> Identity::check_pwm_input(const Parameter& parameter) const {
+  if (parameter.group != Group::pwm || candidates_.empty() ||
+      std::ranges::any_of(candidates_, &Profile::pwm)) {
+    return {};
+  }
+  return fail(Code::unsupported,
+              say<texts::no_pwm_parameter>(model(), parameter.name, parameter.address.name()),
+              say<texts::no_pwm_input_hint>(model()));
+}
+
 Result<void> Identity::check_model(const Parameter& parameter) const {
   if (candidates_.empty()) {
     return fail(Code::no_profile,
@@ -237,10 +247,8 @@ Result<void> Identity::check_model(const Parameter& parameter) const {
 
 Result<void> Identity::check_support(const Parameter& parameter) const {
   const std::string address = parameter.address.name();
-  // All candidates agree on a range here, so the first speaks for all.
-  if (parameter.group == Group::pwm && !candidates_.front()->pwm) {
-    return fail(Code::unsupported, say<texts::no_pwm_parameter>(model(), parameter.name, address),
-                say<texts::no_pwm_input_hint>(model()));
+  if (auto has_input = check_pwm_input(parameter); !has_input) {
+    return has_input;
   }
   if (!parameter.min_firmware) {
     return {};

@@ -1,6 +1,7 @@
 // Profiles::load(): which files there are, and how those of a directory join the built-in ones.
 
 #include "blactl/base/json_reader.hpp"
+#include "blactl/base/system_error.hpp"
 #include "blactl/bla/profile.hpp"
 #include "blactl/bla/value.hpp"
 
@@ -69,9 +70,10 @@ Result<std::vector<std::filesystem::path>> list(const std::filesystem::path& dir
     entries.increment(error);
   }
   if (error) {
-    return fail(Code::bad_file,
-                say<texts::profile_directory>(printable(directory.string()), error.message()),
-                say<texts::profile_directory_hint>());
+    return fail(
+        Code::bad_file,
+        say<texts::profile_directory>(printable(directory.string()), system_reason(error.value())),
+        say<texts::profile_directory_hint>());
   }
   std::ranges::sort(paths);
   return paths;

@@ -36,7 +36,7 @@ inline constexpr Text value_has_no_unit{"{}: this parameter has no unit",
 inline constexpr Text value_too_fine{"{}: the register counts in steps of {}",
                                      "{}: レジスタの分解能は {} です"};
 inline constexpr Text value_unknown_word{"{}: unknown word, this parameter takes {}",
-                                         "{}: 使える語は {} です"};
+                                         "{}: 不明な語です。使える語は {} です"};
 inline constexpr Text value_no_choice{"{}: there is no such setting, this parameter takes {}",
                                       "{}: そのような設定はありません。使える値は {} です"};
 inline constexpr Text value_beyond_64_bits{"{}: larger than any register",
@@ -71,7 +71,8 @@ inline constexpr Text pwm_endpoints_fall_hint{
 inline constexpr Text pwm_asymmetric{
     "--endpoints: the output is symmetric: give its two ends, for example -90deg and 90deg",
     "--endpoints: 出力範囲は正負対称です。両端を -90deg と 90deg のように指定して下さい"};
-inline constexpr Text pwm_same_line{"these two points as asked: {}", "指定の 2 点を通る設定: {}"};
+inline constexpr Text pwm_same_line{"through both points, for pulses from {} to {} us: {}",
+                                    "指定の 2 点を通る設定 (パルス幅 {}～{} us): {}"};
 inline constexpr Text pwm_half_neutral{
     "--endpoints: the middle between the pulses is no whole microsecond",
     "--endpoints: パルス幅の中央が整数 (us) になりません"};
@@ -84,7 +85,7 @@ inline constexpr Text assigned_twice_hint{"name each parameter once",
                                           "パラメータは 1 回だけ指定して下さい"};
 inline constexpr Text pwm_unit_against_servo{"{}: this servo has {}, the unit is {}",
                                              "{}: このサーボは {} のため、単位は {} です"};
-inline constexpr Text pwm_other_mode{"for {}: {} {}", "{} で指定する場合: {} {}"};
+inline constexpr Text pwm_either_unit{"type {}, or {}", "{} または {} と入力して下さい"};
 inline constexpr Text pwm_unit_against_mode{"{}: with {} the unit is {}",
                                             "{}: {} では単位は {} です"};
 inline constexpr Text is_read_only{"{} ({}) can only be read", "{} ({}) は読出し専用です"};

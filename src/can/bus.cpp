@@ -1,5 +1,7 @@
 #include "blactl/can/bus.hpp"
 
+#include "can/texts.hpp"
+
 #include <chrono>
 
 namespace blactl::can {
@@ -11,6 +13,10 @@ Time Bus::now() const {
 
 WallTime Bus::wall() const {
   return std::chrono::time_point_cast<Duration>(std::chrono::system_clock::now());
+}
+
+std::string Bus::bus_off_hint() const {
+  return say<texts::bus_off_hint>();
 }
 
 } // namespace blactl::can

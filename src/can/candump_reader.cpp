@@ -1,5 +1,6 @@
 #include "blactl/can/candump_reader.hpp"
 
+#include "blactl/base/system_error.hpp"
 #include "blactl/can/replay_texts.hpp"
 
 #include <fcntl.h>
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <utility>
 
 namespace blactl::can {
@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t block_size = 64 << 10;
 
 Error unreadable(const std::string& name, int error) {
-  return {Code::bad_file, say<texts::log_unreadable>(name, std::strerror(error)),
+  return {Code::bad_file, say<texts::log_unreadable>(name, system_reason(error)),
           say<texts::log_unreadable_hint>()};
 }
 

@@ -1,10 +1,11 @@
 #include "blactl/can/mcast.hpp"
 
+#include "blactl/base/system_error.hpp"
+
 #include "can/ip_link.hpp"
 #include "can/mcast_datagram.hpp"
 #include "can/mcast_texts.hpp"
 #include "can/socket_batch.hpp"
-#include "can/system_error.hpp"
 #include "can/texts.hpp"
 
 #include <arpa/inet.h>
@@ -158,14 +159,14 @@ Error Mcast::broken(int error) const {
     return *link;
   }
   if (error == EPERM || error == EACCES) {
-    return {Code::permission, say<texts::mcast_not_permitted>(name_, reason(error)),
+    return {Code::permission, say<texts::mcast_not_permitted>(name_, system_reason(error)),
             say<texts::mcast_not_permitted_hint>(port)};
   }
   if (error == EADDRINUSE) {
     return {Code::interface, say<texts::mcast_port_taken>(name_, port),
             say<texts::mcast_port_taken_hint>(port)};
   }
-  return {Code::interface, say<texts::mcast_failed>(name_, reason(error))};
+  return {Code::interface, say<texts::mcast_failed>(name_, system_reason(error))};
 }
 
 Result<bool> Mcast::send(const Frame& frame) {

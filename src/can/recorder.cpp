@@ -1,5 +1,6 @@
 #include "blactl/can/recorder.hpp"
 
+#include "blactl/base/system_error.hpp"
 #include "blactl/can/candump.hpp"
 #include "blactl/can/replay_texts.hpp"
 
@@ -8,7 +9,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <tuple>
 #include <utility>
 
@@ -42,7 +42,7 @@ Result<std::unique_ptr<Recorder>> Recorder::open(std::unique_ptr<Bus> bus,
   const int descriptor =
       ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOCTTY, file_mode);
   if (descriptor < 0) {
-    return fail(Code::io, say<texts::record_unopened>(printable(path), std::strerror(errno)),
+    return fail(Code::io, say<texts::record_unopened>(printable(path), system_reason(errno)),
                 say<texts::record_unopened_hint>());
   }
   return std::unique_ptr<Recorder>(new Recorder(std::move(bus), descriptor, path));
@@ -103,7 +103,7 @@ void Recorder::record(const Frame& frame, WallTime at) {
 
 /// A disk that is full may have taken a part of the line, which would read as another frame.
 void Recorder::stop(int error) {
-  error_ = Error{Code::io, say<texts::record_failed>(printable(path_), std::strerror(error)),
+  error_ = Error{Code::io, say<texts::record_failed>(printable(path_), system_reason(error)),
                  say<texts::record_failed_hint>()};
   std::ignore = ftruncate(descriptor_, complete_); // a pipe cannot, and has no file to keep right
 }

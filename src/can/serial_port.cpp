@@ -1,10 +1,10 @@
 #include "blactl/can/serial_port.hpp"
 
+#include "blactl/base/system_error.hpp"
 #include "blactl/can/serial_adapters.hpp"
 
 #include "can/device_holder.hpp"
 #include "can/slcan_texts.hpp"
-#include "can/system_error.hpp"
 
 #include <fcntl.h>
 #include <grp.h>
@@ -97,7 +97,7 @@ std::unexpected<Error> cannot_open(const std::filesystem::path& device, int erro
   case EBUSY: return busy(device);
   default:
     return fail(Code::interface,
-                say<texts::port_failed>(printable(device.string()), reason(error)));
+                say<texts::port_failed>(printable(device.string()), system_reason(error)));
   }
 }
 
@@ -168,8 +168,8 @@ Result<void> SerialPort::configure(unsigned baud) {
   const auto rate = std::ranges::find(rates, baud, &Rate::baud);
   if (rate == rates.end() || cfsetspeed(&mode, rate->code) != 0 ||
       tcsetattr(descriptor_, TCSANOW, &mode) != 0 || tcflush(descriptor_, TCIOFLUSH) != 0) {
-    return fail(Code::interface,
-                say<texts::port_rate_failed>(printable(device_.string()), baud, reason(errno)));
+    return fail(Code::interface, say<texts::port_rate_failed>(printable(device_.string()), baud,
+                                                              system_reason(errno)));
   }
   return {};
 }
@@ -179,7 +179,7 @@ std::unexpected<Error> SerialPort::gone(int error) const {
   if (error == 0 || error == EIO || error == ENXIO || error == ENODEV) {
     return fail(Code::interface, say<texts::adapter_gone>(name), say<texts::adapter_gone_hint>());
   }
-  return fail(Code::interface, say<texts::port_failed>(name, reason(error)),
+  return fail(Code::interface, say<texts::port_failed>(name, system_reason(error)),
               say<texts::adapter_gone_hint>());
 }
 

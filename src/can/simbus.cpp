@@ -1,8 +1,7 @@
 #include "blactl/can/simbus.hpp"
 
+#include "blactl/base/system_error.hpp"
 #include "blactl/can/simbus_texts.hpp"
-
-#include "can/system_error.hpp"
 
 #include <poll.h>
 #include <sys/socket.h>
@@ -13,7 +12,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
-#include <cstring>
 
 namespace blactl::can {
 
@@ -32,7 +30,8 @@ bool is_usable(const char* folder) {
 }
 
 std::unexpected<Error> absent(const std::filesystem::path& path, int error) {
-  return fail(Code::interface, say<texts::simbus_absent>(printable(path.string()), reason(error)),
+  return fail(Code::interface,
+              say<texts::simbus_absent>(printable(path.string()), system_reason(error)),
               say<texts::simbus_absent_hint>());
 }
 
@@ -223,6 +222,10 @@ std::optional<BusEvent> SimBus::event(const Message& message) {
     return Overflow{message.count};
   default: return std::nullopt;
   }
+}
+
+std::string SimBus::bus_off_hint() const {
+  return say<texts::simbus_off_hint>();
 }
 
 Result<void> SimBus::filter(std::span<const Filter> filters) {

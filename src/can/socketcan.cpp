@@ -1,10 +1,10 @@
 #include "blactl/can/socketcan.hpp"
 
+#include "blactl/base/system_error.hpp"
 #include "blactl/can/link.hpp"
 
 #include "can/kernel_frame.hpp"
 #include "can/socket_batch.hpp"
-#include "can/system_error.hpp"
 #include "can/texts.hpp"
 
 #include <linux/can/raw.h>
@@ -27,10 +27,10 @@ std::unexpected<Error> cannot_open_interface(std::string_view interface, int err
                 say<texts::kernel_without_can_hint>());
   }
   if (error == EPERM || error == EACCES) {
-    return fail(Code::permission, say<texts::can_not_permitted>(name, reason(error)),
+    return fail(Code::permission, say<texts::can_not_permitted>(name, system_reason(error)),
                 say<texts::can_not_permitted_hint>());
   }
-  return fail(Code::interface, say<texts::interface_failed>(name, reason(error)));
+  return fail(Code::interface, say<texts::interface_failed>(name, system_reason(error)));
 }
 
 std::vector<Link> links_or_none() {
@@ -107,7 +107,7 @@ Error SocketCan::broken(int error) const {
   const std::string name = printable(name_);
   const bool down = error == ENETDOWN;
   if (!down && error != ENODEV && error != ENXIO) {
-    return {Code::interface, say<texts::interface_failed>(name, reason(error))};
+    return {Code::interface, say<texts::interface_failed>(name, system_reason(error))};
   }
   // An interface that goes away goes down first: the kernel's word is not the last one.
   const auto all = links_or_none();
@@ -179,6 +179,10 @@ void SocketCan::take(const can_frame& frame, bool is_own, const Arrivals::Arriva
   } else {
     ready_.emplace_back(Received{from_kernel(frame), arrival.at, arrival.wall});
   }
+}
+
+std::string SocketCan::bus_off_hint() const {
+  return say<texts::bus_off_of_kernel_hint>(name_);
 }
 
 Result<void> SocketCan::filter(std::span<const Filter> filters) {

@@ -33,6 +33,12 @@ inline constexpr Text interface_gone{"interface {} is gone",
 inline constexpr Text interface_gone_hint{
     "check the adapter and its cable, then list the interfaces with `ip -br link show`",
     "アダプターとケーブルを確認し、`ip -br link show` でインターフェースを確認して下さい"};
+inline constexpr Text bus_off_hint{
+    "check wiring, termination and bit rate, then run the command again",
+    "配線、終端抵抗、ビットレートを確認後、もう一度実行して下さい"};
+inline constexpr Text bus_off_of_kernel_hint{
+    "check wiring and bit rate, then: sudo ip link set {0} down; sudo ip link set {0} up",
+    "配線とビットレートを確認後: sudo ip link set {0} down; sudo ip link set {0} up"};
 inline constexpr Text interface_failed{"interface {} failed: {}",
                                        "インターフェース {} でエラーが発生しました: {}"};
 inline constexpr Text bring_up_hint{"bring it up with `{}`", "`{}` で起動して下さい"};

@@ -255,6 +255,9 @@ void Parser::check_combinations() {
   if (shared.record && command != nullptr && !command->traits.session) {
     refuse(say<texts::nothing_to_record>(command->name), see_help());
   }
+  if (shared.nodes && command != nullptr && !command->traits.session) {
+    refuse(say<texts::no_nodes>(command->name), see_help());
+  }
   if (command == nullptr) {
     refuse(say<texts::no_command>(), say<texts::see_help>());
   }
@@ -314,8 +317,32 @@ const Command* peek_command(std::span<const std::string> arguments) {
   return at < arguments.size() ? find_command(arguments[at]) : nullptr;
 }
 
+namespace {
+
+/// The last value of an option, of a command line that may be wrong elsewhere; empty: none.
+std::optional<std::string_view> peek_value(Arguments arguments, std::string_view option) {
+  std::optional<std::string_view> last;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    const std::string_view argument = arguments[i];
+    if (argument == option && i + 1 < arguments.size()) {
+      last = arguments[++i];
+    } else if (argument.starts_with(option) && argument.substr(option.size()).starts_with('=')) {
+      last = argument.substr(option.size() + 1);
+    }
+  }
+  return last;
+}
+
+Colour peek_colour(Arguments arguments) {
+  const auto when = peek_value(arguments, "--color");
+  return when == "never" ? Colour::never : when == "always" ? Colour::always : Colour::automatic;
+}
+
+} // namespace
+
 Shared peek(std::span<const std::string> arguments) {
   Shared shared;
+  shared.output.colour = peek_colour(arguments);
   const auto is_json = [](const std::string& argument) {
     return argument == "--json" || short_flags(argument).find('j') != std::string_view::npos;
   };
@@ -326,20 +353,8 @@ Shared peek(std::span<const std::string> arguments) {
 }
 
 Language peek_language(std::span<const std::string> arguments) {
-  const auto named = [](std::string_view name) {
-    return name == "ja" ? Language::japanese : Language::english;
-  };
-  std::optional<Language> last;
-  for (std::size_t i = 0; i < arguments.size(); ++i) {
-    constexpr std::string_view option = "--lang=";
-    if (arguments[i] == "--lang" && i + 1 < arguments.size()) {
-      last = named(arguments[++i]);
-    } else if (arguments[i].starts_with(option)) {
-      last = named(std::string_view(arguments[i]).substr(option.size()));
-    }
-  }
-  if (last) {
-    return *last;
+  if (const auto named = peek_value(arguments, "--lang")) {
+    return *named == "ja" ? Language::japanese : Language::english;
   }
   for (const char* name : {"LC_ALL", "LC_MESSAGES", "LANG"}) {
     if (const auto locale = environment(name)) {

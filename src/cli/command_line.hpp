@@ -22,7 +22,7 @@ struct Invocation {
 };
 
 /// What can be told before anything is parsed: every failure of a command line with --json prints
-/// a document.
+/// a document, and is coloured as --color says.
 [[nodiscard]] Shared peek(std::span<const std::string> arguments);
 /// The command that is meant; null: unknown.
 [[nodiscard]] const Command* peek_command(std::span<const std::string> arguments);

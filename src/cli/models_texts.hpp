@@ -28,6 +28,9 @@ inline constexpr Text models_since{"firmware {} or later", "ファームウェ�
 inline constexpr Text models_vendor_label{"manufacturer's program: {}",
                                           "メーカー製ツールの表示: {}"};
 inline constexpr Text models_section{"specification: section {}", "仕様書: {}"};
+inline constexpr Text models_no_title{
+    "  (titles: in a wider terminal, or one by `blactl models PARAM`)\n",
+    "  (名称は表示幅を広げるか、`blactl models PARAM` で確認できます)\n"};
 inline constexpr Text models_all{"all models", "全機種"};
 inline constexpr Text models_same{"What they have in common:", "共通のパラメータ:"};
 inline constexpr Text models_differ{"Where they differ (default, range, models):",
@@ -43,6 +46,8 @@ inline constexpr Text models_group_of_one{"a parameter or a group, not both",
 inline constexpr Text models_group_of_one_hint{
     "type one of them, for example: blactl models --group {}",
     "どちらか一方を指定して下さい。例: blactl models --group {}"};
+inline constexpr Text models_read_only{"can only be read", "読出し専用"};
+inline constexpr Text models_write_only{"an operation, cannot be read", "操作 (読出し不可)"};
 inline constexpr Text models_saved{"stored in ROM by save", "save で ROM に保存されます"};
 inline constexpr Text models_not_saved{"not stored in ROM", "ROM には保存されません"};
 

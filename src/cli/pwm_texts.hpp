@@ -9,6 +9,9 @@ inline constexpr Text pwm_one_way{
     "one of three ways: --endpoints, --preset, or --neutral, --range, --output, --mode",
     "--endpoints、--preset、または --neutral / --range / --output / --mode "
     "のいずれか一つの方法で指定して下さい"};
+inline constexpr Text pwm_one_way_hint{"for example --preset 1, or --range 700us --output 70deg",
+                                       "例: --preset 1、または --range 700us --output 70deg"};
+inline constexpr Text pwm_drawn{"the drawing is in {}", "変換特性の図を {} に書き込みました"};
 inline constexpr Text pwm_mode_needs_output{
     "--mode {} without --output: the output range counts in the unit of the mode",
     "--mode {} には --output も必要です (出力範囲の単位が動作モードで変わるため)"};
@@ -29,7 +32,7 @@ inline constexpr Text pwm_svg_one_servo{"--svg draws one servo, not {}",
 inline constexpr Text pwm_svg_to_stdout{"--svg needs a file: standard output is for data",
                                         "--svg にはファイルを指定して下さい "
                                         "(標準出力はデータ用です)"};
-inline constexpr Text pwm_svg_hint{"choose it: -n", "-n で 1 台選んで下さい"};
+inline constexpr Text pwm_svg_hint{"choose one with -n", "-n で 1 台選んで下さい"};
 inline constexpr Text pwm_unknown{"the PWM mapping is not known", "PWM の設定を取得できません"};
 inline constexpr Text pwm_pulses{"  pulses   {} us +-{} us: {} to {} us\n",
                                  "  パルス幅  {} us ±{} us: {} ～ {} us\n"};
@@ -55,6 +58,10 @@ inline constexpr Text pwm_cut_above{"  limit    above {} us it stays at {}\n",
                                     "  制限      {} us を超えると {} にとどまります\n"};
 inline constexpr Text pwm_beyond{"  beyond   a pulse out of this range counts as no pulse\n",
                                  "  範囲外    パルス無しと同じ扱いになります\n"};
+inline constexpr Text pwm_legend{"{} within the limits   {} what the limits cut off",
+                                 "{} 制限内の指令値   {} 制限により無効な部分"};
+inline constexpr Text pwm_drawing_legend{"blue: within the limits; red, dashed: without limits",
+                                         "青: 制限内の指令値、赤の破線: 制限がない場合"};
 inline constexpr Text pwm_missed{"none: counts as no pulse", "無し (パルス無しと同じ)"};
 inline constexpr Text pwm_after_dry_run{"\n  after (--dry-run: nothing was written)\n",
                                         "\n  変更後 (--dry-run のため書き込んでいません)\n"};

@@ -63,6 +63,8 @@ inline constexpr Text record_needs_file{"--record needs a file: standard output 
                                         "(標準出力はデータ用です)"};
 inline constexpr Text nothing_to_record{"{} has no session that could be recorded",
                                         "{} には記録できるセッションがありません"};
+inline constexpr Text no_nodes{"{} asks no servo: it takes no --node",
+                               "{} はサーボに問い合わせないため、--node は指定できません"};
 inline constexpr Text records_itself{"--record {}: that is the log being read",
                                      "--record {}: 読込み中のログと同じファイルです"};
 inline constexpr Text lines_passed_over{
@@ -166,7 +168,7 @@ inline constexpr Text adapter_said_much{"from the adapter: {}… ({} bytes)",
                                         "アダプターから: {}… ({} バイト)"};
 
 // scan
-inline constexpr Text expected_more{"{} servos found, {} expected",
+inline constexpr Text expected_more{"servos found: {}, expected: {}",
                                     "サーボ {} 台を検出しました (期待 {} 台)"};
 inline constexpr Text expected_more_hint{
     "is every servo powered and connected? listen longer with --listen SEC",
@@ -252,8 +254,8 @@ inline constexpr Text came_since{
     "node {} has come to the bus since the servos were looked for: nothing was written",
     "サーボの検索後にノード {} がバスに加わったため、書込みを行っていません"};
 inline constexpr Text units_wait_for_id{
-    "{} unit(s) without a node ID are left out (to give them one: blactl alloc --once)",
-    "ノード ID のないユニット {} 台は対象外です (割当て: blactl alloc --once)"};
+    "left out because they have no node ID: {} (to give them one: `blactl alloc --once`)",
+    "ノード ID のないユニット {} 台は対象外です (割当て: `blactl alloc --once`)"};
 inline constexpr Text would_save{
     "then SAVE: all of RAM goes to ROM, and the servo restarts",
     "続いて SAVE により RAM の全設定を ROM に保存し、サーボを再起動します"};
@@ -275,7 +277,8 @@ inline constexpr Text faults_hidden{"not shown: {} below {}", "{} 件は{}レベ
 inline constexpr Text unknown_bit_action{
     "Ask the manufacturer, with the firmware version and the number of the bit.",
     "ファームウェアバージョンとビット番号を添えてメーカーに問い合わせて下さい。"};
-inline constexpr Text fault_now{"now: {}", "{}"};
+inline constexpr Text fault_now{"now: {}", "現在値: {}"};
+inline constexpr Text fault_settings{"settings: {}", "設定値: {}"};
 inline constexpr Text fault_latched{
     "It tells why the servo last reset or restarted itself, not its state now.",
     "サーボが自ら初期化/再起動した原因で、現在の異常ではありません。"};
@@ -287,7 +290,7 @@ inline constexpr Text answers_again{"node {} answers again", "ノード {} の�
 inline constexpr Text fault_other_servo{
     "node {} is another servo now: what follows is about that one",
     "ノード {} は別のサーボに替わりました。以下はそのサーボの情報です"};
-inline constexpr Text more_lines{"… {} more lines", "… 他 {} 行"};
+inline constexpr Text more_lines{"… more lines: {}", "… 他 {} 行"};
 
 // what becomes of servos
 inline constexpr Text saving{"RAM to ROM:", "ROM への保存:"};
@@ -298,12 +301,12 @@ inline constexpr Text finishing{
 inline constexpr Text servo_done{"done", "完了"};
 inline constexpr Text servo_back{"done: back as node {} after {} s",
                                  "完了: ノード {} として {} 秒で復帰"};
-inline constexpr Text values_read_again{", {} values read again", "、{} 項目を再読出し"};
+inline constexpr Text values_read_again{", values read again: {}", "、{} 項目を再読出し"};
 inline constexpr Text back_but_failed{"failed (back as node {})", "失敗 (ノード {} として復帰)"};
 inline constexpr Text servo_failed{"failed", "失敗"};
 inline constexpr Text wait_there{"operational", "動作中"};
 inline constexpr Text wait_not_ready{"not operational", "未動作"};
-inline constexpr Text progress_change{"{} of {} servos done, {} s{}{}", "{}/{} 台完了、{} 秒{}{}"};
+inline constexpr Text progress_change{"servos done: {} of {}, {} s{}{}", "{}/{} 台完了、{} 秒{}{}"};
 inline constexpr Text progress_at_work{"; at work: {}", "、処理中: {}"};
 inline constexpr Text progress_away{"; to come back: {}", "、復帰待ち: {}"};
 inline constexpr Text progress_wait{"waiting, {} of {} s; there: {}",

@@ -130,17 +130,30 @@ std::vector<const Parameter*> RegisterChoice::registers_of(const Servo& servo) c
   return wanted;
 }
 
+namespace {
+
+/// Why a servo has no such register: no newer firmware gives a model a PWM input.
+Error lacks(const Parameter& parameter, const Servo& servo) {
+  const std::uint8_t id = servo.id.value();
+  if (auto has_input = servo.identity.check_pwm_input(parameter); !has_input) {
+    return {has_input.error().code, say<texts::about_node>(id, has_input.error().message),
+            has_input.error().hint, id};
+  }
+  const auto firmware = servo.identity.readings().firmware_version.value_or(0);
+  const std::string message = say<texts::firmware_lacks>(
+      parameter.name, bla::firmware_text(parameter.min_firmware.value_or(0)),
+      bla::firmware_text(firmware));
+  return {Code::unsupported, say<texts::about_node>(id, message),
+          say<texts::firmware_lacks_hint>(id), id};
+}
+
+} // namespace
+
 std::vector<Error> RegisterChoice::refusals(const Servo& servo) const {
   std::vector<Error> errors;
-  const std::uint8_t id = servo.id.value();
-  const auto firmware = servo.identity.readings().firmware_version.value_or(0);
   for (const Parameter* parameter : named_) {
     if (servo.is_servo && of_servo(*parameter, servo) == nullptr) {
-      const std::string message = say<texts::firmware_lacks>(
-          parameter->name, bla::firmware_text(parameter->min_firmware.value_or(0)),
-          bla::firmware_text(firmware));
-      errors.push_back({Code::unsupported, say<texts::about_node>(id, message),
-                        say<texts::firmware_lacks_hint>(id), id});
+      errors.push_back(lacks(*parameter, servo));
     }
   }
   return errors;

@@ -171,8 +171,7 @@ Result<Session::Happened> Session::take(const can::Event& event) {
       traffic_->hear(*fault);
     }
     if (fault->kind == can::FaultKind::bus_off && !playback_) {
-      return end({Code::bus_off, say<texts::bus_is_off>(interface()),
-                  say<texts::bus_is_off_hint>(interface(), interface())});
+      return end({Code::bus_off, say<texts::bus_is_off>(interface()), loop_.bus().bus_off_hint()});
     }
   } else if (const auto* overflow = std::get_if<can::Overflow>(&event)) {
     lost_ = overflow->lost;

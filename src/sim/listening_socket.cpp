@@ -1,5 +1,6 @@
 #include "sim/listening_socket.hpp"
 
+#include "blactl/base/system_error.hpp"
 #include "blactl/can/simbus.hpp"
 #include "blactl/can/simbus_texts.hpp"
 
@@ -17,15 +18,10 @@
 #include <cerrno>
 #include <charconv>
 #include <string>
-#include <system_error>
 #include <tuple>
 
 namespace blactl::sim {
 namespace {
-
-std::string reason(int error) {
-  return std::generic_category().message(error);
-}
 
 /// The lock file says whose it is, for the next one that wants it. A full disk keeps that out.
 void sign(int lock) {
@@ -72,7 +68,7 @@ ListeningSocket::~ListeningSocket() {
 
 std::unexpected<Error> ListeningSocket::failure(int error) const {
   return fail(Code::interface,
-              say<texts::sim_cannot_serve>(printable(path_.string()), reason(error)));
+              say<texts::sim_cannot_serve>(printable(path_.string()), system_reason(error)));
 }
 
 /// The default folder may lie in /tmp, where anybody could have made it first.
@@ -82,7 +78,8 @@ Result<void> ListeningSocket::prepare_folder() {
     return {};
   }
   if (mkdir(folder.c_str(), S_IRWXU) != 0 && errno != EEXIST) {
-    return fail(Code::interface, say<texts::sim_folder>(printable(folder.string()), reason(errno)),
+    return fail(Code::interface,
+                say<texts::sim_folder>(printable(folder.string()), system_reason(errno)),
                 say<texts::sim_folder_hint>());
   }
   if (path_ == can::default_socket_path() && !can::is_own_folder(folder)) {

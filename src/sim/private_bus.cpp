@@ -1,5 +1,7 @@
 #include "blactl/sim/private_bus.hpp"
 
+#include "blactl/can/simbus_texts.hpp"
+
 #include "sim/filter.hpp"
 
 #include <algorithm>
@@ -95,6 +97,10 @@ Result<bool> PrivateBus::send(const can::Frame& frame) {
 std::optional<can::BusEvent> PrivateBus::receive() {
   simulator_.advance_to(now());
   return inbox_->pop();
+}
+
+std::string PrivateBus::bus_off_hint() const {
+  return say<texts::simbus_off_hint>();
 }
 
 Result<void> PrivateBus::filter(std::span<const can::Filter> filters) {

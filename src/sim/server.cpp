@@ -1,5 +1,7 @@
 #include "blactl/sim/server.hpp"
 
+#include "blactl/base/system_error.hpp"
+
 #include "sim/listening_socket.hpp"
 #include "sim/server_client.hpp"
 #include "sim/texts.hpp"
@@ -12,7 +14,6 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -140,7 +141,7 @@ Result<std::unique_ptr<Server>> Server::open(const std::filesystem::path& socket
   }
   auto state = std::make_unique<State>(scenario, sink, *std::move(listening));
   if (state->epoll < 0 || !state->watch(state->listening->descriptor())) {
-    const std::string reason = std::generic_category().message(errno);
+    const std::string reason = system_reason(errno);
     return fail(Code::interface, say<texts::sim_cannot_serve>(printable(socket.string()), reason));
   }
   return std::unique_ptr<Server>(new Server(std::move(state)));

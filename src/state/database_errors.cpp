@@ -1,9 +1,10 @@
 #include "state/database_errors.hpp"
 
+#include "blactl/base/system_error.hpp"
+
 #include "state/texts.hpp"
 
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <utility>
 
@@ -68,8 +69,8 @@ Error of_system(const std::string& path, int number) {
   case EMFILE:
   case ENFILE:
   case ENOMEM:
-  case ENOSPC: return io(path, std::strerror(number));
-  default: return denied(path, std::strerror(number));
+  case ENOSPC: return io(path, system_reason(number));
+  default: return denied(path, system_reason(number));
   }
 }
 

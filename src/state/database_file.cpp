@@ -1,5 +1,7 @@
 #include "state/database_file.hpp"
 
+#include "blactl/base/system_error.hpp"
+
 #include "state/database_errors.hpp"
 
 #include <fmt/format.h>
@@ -11,7 +13,6 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <span>
 #include <string_view>
@@ -129,7 +130,7 @@ Result<void> write_ahead(const Database& database) {
   }
   return *row && statement.text(0) == "wal"
              ? Result<void>()
-             : std::unexpected(errors::io(database.path(), std::strerror(ENOTSUP)));
+             : std::unexpected(errors::io(database.path(), system_reason(ENOTSUP)));
 }
 
 /// With synchronous = FULL what was committed survives a power cut.

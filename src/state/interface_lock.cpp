@@ -1,8 +1,9 @@
 #include "blactl/state/interface_lock.hpp"
 
+#include "blactl/base/system_error.hpp"
+
 #include "state/texts.hpp"
 
-#include <cstring>
 #include <utility>
 
 namespace blactl::state {
@@ -19,7 +20,7 @@ Result<InterfaceLock> InterfaceLock::acquire(const LockPlace& place, Right right
   const LockRefusal& refusal = locked.error();
   if (refusal.error != 0) {
     return fail(Code::busy,
-                say<texts::lock_failed>(printable(refusal.path), std::strerror(refusal.error)),
+                say<texts::lock_failed>(printable(refusal.path), system_reason(refusal.error)),
                 say<texts::lock_failed_hint>(printable(refusal.path)));
   }
   const std::string interface = printable(place.interface);

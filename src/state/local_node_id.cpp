@@ -1,12 +1,13 @@
 #include "blactl/state/local_node_id.hpp"
 
+#include "blactl/base/system_error.hpp"
+
 #include "state/texts.hpp"
 
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <random>
 #include <tuple>
 #include <utility>
@@ -26,7 +27,7 @@ using Table = std::array<TransferIds::Slot, TransferIds::slots>;
 std::string text(const LockRefusal& refusal, NodeId id) {
   if (refusal.error != 0) {
     return say<texts::node_id_lock_failed>(id.value(), printable(refusal.path),
-                                           std::strerror(refusal.error));
+                                           system_reason(refusal.error));
   }
   return refusal.pid ? say<texts::node_id_held_by>(id.value(), *refusal.pid)
                      : say<texts::node_id_held>(id.value());

@@ -1,8 +1,8 @@
 #include "state/sqlite.hpp"
 
-#include "state/database_errors.hpp"
+#include "blactl/base/system_error.hpp"
 
-#include <cstring>
+#include "state/database_errors.hpp"
 
 namespace blactl::state {
 namespace {
@@ -14,7 +14,7 @@ std::string reason_of(sqlite3* handle, int result) {
   const int primary = result & 0xFF;
   const int error = handle != nullptr ? sqlite3_system_errno(handle) : 0;
   const bool is_of_system = primary == SQLITE_IOERR || primary == SQLITE_CANTOPEN;
-  return is_of_system && error != 0 ? std::strerror(error) : sqlite3_errstr(result);
+  return is_of_system && error != 0 ? system_reason(error) : sqlite3_errstr(result);
 }
 
 } // namespace

@@ -139,6 +139,23 @@ TEST_CASE("what is assigned by hand is given; what is forgotten is free") {
   CHECK(codes(gone) == std::vector<std::string>{"not_found"});
 }
 
+TEST_CASE("alloc does not take servos by their node ID, which they do not have") {
+  const Result result = run({"alloc", "--list", "-n", "11"});
+  CHECK(result.status == 2);
+  CHECK(contains(result.err, "alloc takes no --node\n  name units by their unique ID"));
+}
+
+TEST_CASE("faults of a file are told one a line, indented") {
+  const Bench bench;
+  const std::string file =
+      bench.file("bad.json", "{\"schema\": \"blactl-allocations/2\",\n\"entries\": 1}");
+  const Result result = bench.run({"alloc", "--import", file});
+  CHECK(result.status == 2);
+  CHECK(contains(result.err, "must be \"blactl-allocations/1\", not \"blactl-allocations/2\"\n"
+                             "    " +
+                                 file + ":2: /entries: must be an array"));
+}
+
 TEST_CASE("a table goes to another machine as a file, whole or not at all") {
   const Bench bench;
   const std::string file =
@@ -148,7 +165,7 @@ TEST_CASE("a table goes to another machine as a file, whole or not at all") {
   const Result imported = bench.run({"alloc", "--import", file});
   INFO(imported.err);
   CHECK(imported.status == 0);
-  CHECK(contains(imported.out, "2 entries taken over"));
+  CHECK(contains(imported.out, "entries taken over from "));
   const std::string out = (bench.folder() / "out.json").string();
   CHECK(bench.run({"alloc", "--export", out}).status == 0);
   const Result printed = bench.run({"alloc", "--export", "-"});

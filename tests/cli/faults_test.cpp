@@ -51,6 +51,24 @@ TEST_CASE("faults shows the worst servo first, and what to do") {
   CHECK(result.out.ends_with("  no faults\n"));
 }
 
+TEST_CASE("what is set is not told as what is measured") {
+  const nlohmann::json scenario{
+      {"schema", "blactl-scenario/1"},
+      {"clock", "virtual"},
+      {"servos", {{{"model", "BLA21-12U-AB"}, {"node_id", 11}, {"serial_number", 7}}}},
+      {"events", {{{"at", "100ms"}, {"servo", 7}, {"world", {{"pulse", "2220us"}}}}}}};
+  const Bench bench;
+  const std::string interface = "sim:" + bench.file("s.json", scenario.dump());
+  const Result pwm = bench.run({"-i", interface, "faults"});
+  CHECK(contains(pwm.out, "pwm_long]"));
+  CHECK(contains(pwm.out, "settings: pwm_neutral 1520 us, pwm_range 700 us\n"));
+  CHECK_FALSE(contains(pwm.out, "now:"));
+  const Result japanese = bench.run({"-i", interface, "faults", "--lang", "ja"});
+  CHECK(contains(japanese.out, "設定値: pwm_neutral 1520 us"));
+  CHECK(contains(hot_servo().run({"faults", "--lang", "ja"}).out,
+                 "現在値: current_temperature 25 degC"));
+}
+
 TEST_CASE("from which level faults are found is said by --level; by default from warnings on") {
   const auto status = [](const Arguments& arguments) { return hot_servo().run(arguments).status; };
   CHECK(status({"faults", "-n", "11"}) == 0); // a notice only

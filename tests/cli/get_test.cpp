@@ -430,6 +430,16 @@ TEST_CASE("Ctrl-C: a servo that was not read completely is not shown, and is an 
   }));
 }
 
+TEST_CASE("no firmware gives a model a PWM input") {
+  const Result result = Scene()
+                            .servo("BLA21-12U-A0", 11, {{"firmware_version", 1010}})
+                            .run({"get", "-n", "11", "0x34"});
+  CHECK(result.status == 2);
+  CHECK(contains(result.err,
+                 "node 11: BLA21-12U-A0 has no PWM input, and so no pwm_neutral (0x34)\n"));
+  CHECK_FALSE(contains(result.err, "needs firmware"));
+}
+
 TEST_CASE("get puts date and version together, and tells fault registers in words") {
   const Scene scene = Scene().servo(
       "BLA21-12U-AB", 11,
@@ -442,7 +452,7 @@ TEST_CASE("get puts date and version together, and tells fault registers in word
   CHECK(contains(result.out, "  0x52  firmware_version        1400  (1.400)\n"));
   CHECK(contains(result.out, "  0x1A  fault_warning           1024\n"
                              "        bit 10: Voltage upper limit\n"));
-  CHECK(contains(result.out, "        bit 9: Any bit 8-15 of 0x1A is 1 "));
+  CHECK(contains(result.out, "        bit 9: 0x1A has a warning about software (bits 8-15)\n"));
   const auto lines = [&](unsigned short columns) {
     return scene
         .run({"get", "-n", "11", "0x36", "--lang", "ja"},

@@ -58,6 +58,18 @@ bool machine_has_can() {
 
 } // namespace
 
+TEST_CASE("a bus-off is told with what ends it on this kind of interface") {
+  const Bench bench;
+  const std::string scenario =
+      bench.file("s.json", R"({"schema":"blactl-scenario/1","clock":"virtual","servos":[],)"
+                           R"("events":[{"at":"100ms","clients":"bus_off"}]})");
+  const Result result = bench.run({"-i", "sim:" + scenario, "scan"});
+  CHECK(result.status == 3);
+  CHECK(codes(result) == std::vector<std::string>{"bus_off"});
+  CHECK(contains(result.err, "`clients bus_off`; run the command again"));
+  CHECK_FALSE(contains(result.err, "ip link"));
+}
+
 TEST_CASE("a command line that is not understood is refused with the way on") {
   const std::vector<Refusal> refusals{
       {{}, "usage", "no command given", "see blactl --help"},
@@ -85,6 +97,7 @@ TEST_CASE("a command line that is not understood is refused with the way on") {
        "-i bus.log: the kind",
        "did you mean -i replay:bus.log?"},
       {{"get", "-n", ""}, "usage", "--node: the value is empty", "see blactl --help"},
+      {{"models", "-n", "12"}, "usage", "models asks no servo: it takes no --node", "see"},
       {{"-i", "", "scan"}, "usage", "--interface: the value is empty", "see blactl --help"},
       {{"scan", "--listen", "nan"},
        "usage",
@@ -235,7 +248,7 @@ TEST_CASE("what every model would refuse opens no interface") {
       {{"set", "pwm_output_range=70deg", "pwm_mode=speed"},
        "usage",
        "the unit is rpm",
-       "for example pwm_output_range=70rpm"},
+       "type pwm_output_range=70rpm, or pwm_mode=angle pwm_output_range=70.0deg"},
       {{"get", "--group", "motor"},
        "usage",
        "there is no group 'motor'",

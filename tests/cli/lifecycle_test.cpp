@@ -197,7 +197,7 @@ TEST_CASE("on a terminal one line shows who is awaited, and nothing is left of i
   const Arguments save{"save", "-n", "all", "-y"};
   const Result shown = scene.run(save, {.terminal = true, .columns = 60});
   CHECK(shown.status == 0);
-  CHECK(contains(shown.err, "1 of 2 servos done, 3 s; to come back: 12"));
+  CHECK(contains(shown.err, "servos done: 1 of 2, 3 s; to come back: 12"));
   CHECK(shown.err.ends_with("\r\x1b[K"));
   CHECK_FALSE(contains(scene.run(save).err, "servos done"));
   CHECK_FALSE(contains(scene.run({"save", "-n", "all", "-y", "-q"}, {.terminal = true}).err,

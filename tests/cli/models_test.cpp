@@ -126,7 +126,9 @@ TEST_CASE("models MODEL tells of a fault register what its bits mean and what to
   CHECK(contains(run({"models", "all", "0x19"}).out, "[pwm_missing], models with a PWM input"));
   CHECK(contains(run({"models", "all", "0x1B"}).out, "bit 9: Watchdog [watchdog]"));
   CHECK(contains(run({"models", "all", "0x18"}).out,
-                 "bit 25: Warning level info.\n      Any bit 24-31 of 0x1A is 1"));
+                 "  bit 25: 0x1A has a warning about something else (bits 24-31)\n"
+                 "  bit 26: 0x1B has a failure about something else (bits 24-31)\n"
+                 "  `blactl faults` tells which.\n"));
   CHECK(contains(run({"models", "BLA21", "0x1A", "--lang", "ja"}).out, "制限温度上限"));
 }
 

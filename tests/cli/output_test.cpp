@@ -86,6 +86,25 @@ TEST_CASE("colour is for terminals, and as --color and NO_COLOR say") {
   CHECK_FALSE(is_coloured({"--color", "never"}, {.terminal = true}));
 }
 
+TEST_CASE("a command line that is not understood is coloured as it says") {
+  const auto is_coloured = [](const Arguments& arguments, const Options& options) {
+    const Result result = run(arguments, options);
+    CHECK(result.status == 2);
+    return contains(result.err, std::string(1, escape));
+  };
+  CHECK(is_coloured({"get", "--frob"}, {.terminal = true}));
+  CHECK_FALSE(is_coloured({"get", "--frob"}, {.env = {{"NO_COLOR", "1"}}, .terminal = true}));
+  CHECK_FALSE(is_coloured({"get", "--frob", "--color", "never"}, {.terminal = true}));
+  CHECK_FALSE(is_coloured({"gte", "--color=never"}, {.terminal = true}));
+  CHECK(is_coloured({"--color", "always", "get", "--frob"}, {}));
+}
+
+TEST_CASE("why the system refuses is told in Japanese too") {
+  const Result result = run({"-i", "replay:/nowhere/bus.log", "scan", "--lang", "ja"});
+  CHECK(contains(result.err, "/nowhere/bus.log"));
+  CHECK(contains(result.err, "ファイルまたはディレクトリがありません"));
+}
+
 TEST_CASE("output that cannot be written is a failure") {
   const Bench bench;
   for (const Arguments& command : {Arguments{"scan"},

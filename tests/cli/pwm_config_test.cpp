@@ -125,11 +125,19 @@ TEST_CASE("what contradicts itself or cannot be held is refused before any frame
 
   const Case cases[]{
       {{"--preset", "1", "--output", "70deg"}, "one of three ways"},
+      {{"--preset", "1", "--output", "70deg"},
+       "\n  for example --preset 1, or --range 700us --output 70deg\n"},
       {{"--preset", "5"}, "between 1 and 4"},
       {{"--mode", "speed"}, "--mode speed without --output"},
-      {{"--mode", "fast", "--output", "70deg"}, "angle"},
+      {{"--mode", "fast"},
+       "--mode fast: unknown word, this parameter takes angle (0) or speed (1)\n"},
+      {{"--mode", "fast", "--output", "70deg"},
+       "--mode fast: unknown word, this parameter takes angle (0) or speed (1)\n"},
       {{"--mode", "speed", "--output", "70deg"},
-       "--output 70deg: with --mode speed the unit is rpm\n  for example --output 70rpm\n"},
+       "--output 70deg: with --mode speed the unit is rpm\n"
+       "  type --output 70rpm, or --mode angle --output 70.0deg\n"},
+      {{"--mode", "angle", "--output", "400rpm"},
+       "the unit is deg\n  type --mode speed --output 400rpm\n"}, // 400 deg there is not
       {{"--output", "400deg"},
        "--output 400.0deg: outside of the range 0.0deg to 360.0deg\n"
        "  models with a PWM input take 0.0deg to 360.0deg\n"},
@@ -143,10 +151,18 @@ TEST_CASE("what contradicts itself or cannot be held is refused before any frame
       {{"--endpoints", "1000us:0deg,2000us:90deg"},
        "--neutral 1000us --range 1000us --output 90.0deg"},
       {{"--endpoints", "1us:-70deg,3us:70deg"},
-       "--endpoints, neutral 2us: outside of the range 100us to 10000us\n"},
+       "--endpoints, neutral 2us: outside of the range 100us to 10000us\n"
+       "  the nearest that is possible: --endpoints 90us:-70.0deg,110us:70.0deg\n"},
+      {{"--endpoints", "500us:-70.05deg,1500us:70.05deg"},
+       "--endpoints, -70.05deg: the register counts in steps of 0.1deg\n"
+       "  type -70.0deg or -70.1deg\n"},
+      {{"--endpoints", "500us:-400deg,1500us:300deg"},
+       "--endpoints, -400.0deg: outside of the range -360.0deg to 360.0deg\n"},
+      {{"--endpoints", "9223372036854775807us:-70deg,9223372036854775806us:70deg"},
+       "--endpoints, 9223372036854775807us: outside of the range 0us to 20000us\n"},
       {{"--output", "70rpm"},
        "node 11: --output 70rpm: this servo has --mode angle, the unit is deg\n"
-       "  for rpm: --mode speed --output 70rpm\n"},
+       "  type --output 70.0deg, or --mode speed --output 70rpm\n"},
       {{"--save"}, "nothing to change"},
   };
   for (const Case& each : cases) {
@@ -181,6 +197,34 @@ TEST_CASE("limits that cut the mapping off are told, and so are commands that PW
   CHECK(json(speed.out)["nodes"][0]["warnings"][0]["code"] == "pwm_needs_switch");
 }
 
+TEST_CASE("the plot draws what the servo does, and tells its signs") {
+  const auto plot = [](const nlohmann::json& ram) {
+    return Scene()
+        .servo("BLA21-12U-AB", 11, {{"ram", ram}})
+        .run({"pwm-config"}, {.env = {{"LC_ALL", "C"}}})
+        .out;
+  };
+  const auto row_of = [](const std::string& text, const std::string& label) {
+    const auto begin = text.find("  " + label + ' ', text.find("\n\n"));
+    return text.substr(begin, text.find('\n', begin) - begin);
+  };
+  const std::string whole = plot({{"pwm_neutral", "1520us"}});
+  CHECK(contains(row_of(whole, "70.0 deg"), "*"));
+  CHECK_FALSE(contains(whole, "within the limits"));
+  SECTION("the end that a limit cuts off is not reached, however near it is") {
+    const std::string cut = plot({{"angle_limit_cw", "66deg"}});
+    CHECK_FALSE(contains(row_of(cut, "70.0 deg"), "*"));
+    CHECK(contains(row_of(cut, "70.0 deg"), "."));
+    CHECK(contains(cut, "* within the limits   . what the limits cut off\n"));
+  }
+  SECTION("no pulse is shorter than 0") {
+    const std::string early = plot({{"pwm_neutral", "500us"}, {"angle_limit_ccw", "-60deg"}});
+    CHECK_FALSE(contains(row_of(early, "-70.0 deg"), "*"));
+    CHECK_FALSE(contains(early, "-100 us"));
+    CHECK_FALSE(contains(early, "it stays at")); // 0 us is -50 deg
+  }
+}
+
 TEST_CASE("the plot is drawn with what the terminal can show") {
   const auto plot = [](const char* locale) {
     return three_servos().run({"pwm-config", "-n", "11"}, {.env = {{"LC_ALL", locale}}}).out;
@@ -196,6 +240,8 @@ TEST_CASE("--svg draws one servo, as a whole or not at all") {
   const std::string file = (bench.folder() / "map.svg").string();
   const Result drawn = three_servos().run(bench, {"pwm-config", "-n", "11", "--svg", file});
   CHECK(drawn.status == 0);
+  CHECK(drawn.err == "blactl: the drawing is in " + file + '\n');
+  CHECK(three_servos().run(bench, {"pwm-config", "-q", "-n", "11", "--svg", file}).err.empty());
   const std::string svg = content(file);
   CHECK(svg.starts_with("<?xml"));
   CHECK(svg.ends_with("</svg>\n"));

@@ -210,7 +210,7 @@ TEST_CASE("scan fails with 4 where there is nobody, or fewer servos than expecte
   const Result few = three_servos().foreign(40).run({"scan", "--expect", "4"});
   CHECK(few.status == 4);
   CHECK(codes(few) == std::vector<std::string>{"not_found"});
-  CHECK(contains(few.err, "3 servos found, 4 expected\n  is every servo powered"));
+  CHECK(contains(few.err, "servos found: 3, expected: 4\n  is every servo powered"));
   CHECK(contains(few.out, "BLA34-28U-AB"));
 }
 

@@ -168,7 +168,7 @@ TEST_CASE("who comes while others are looked for is not left out silently") {
   CHECK(all.status == 1);
   CHECK(codes(all) == std::vector<std::string>{"state"});
   CHECK(contains(all.err, "node 12 has come to the bus"));
-  CHECK(contains(all.err, "1 unit(s) without a node ID"));
+  CHECK(contains(all.err, "they have no node ID: 1"));
   CHECK(set("11").status == 0);
 }
 
@@ -243,7 +243,8 @@ TEST_CASE("the unit of the PWM output range must be that of the PWM mode") {
   CHECK(changes(set({"pwm_mode=speed", "pwm_output_range=60rpm"}))[1]["after"] == 60);
   CHECK(changes(set({"pwm_output_range=600raw"}))[0]["after"] == 600);
   const Result wrong = set({"pwm_output_range=60rpm"});
-  check_error(wrong, 2, "usage", "\n  for rpm: pwm_mode=speed pwm_output_range=60rpm\n");
+  check_error(wrong, 2, "usage",
+              "\n  type pwm_output_range=60.0deg, or pwm_mode=speed pwm_output_range=60rpm\n");
   CHECK(contains(wrong.err, "node 11: pwm_output_range=60rpm: this servo has pwm_mode="));
 }
 

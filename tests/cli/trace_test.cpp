@@ -648,7 +648,7 @@ TEST_CASE("--stats adds up who sends what, and what it costs the bus") {
   const Result text = bench.run({"trace", "--stats", file});
   CHECK(contains(text.out, "INTERFACE  NODE  KIND"));
   CHECK(contains(text.out, "uavcan.protocol.NodeStatus"));
-  CHECK(contains(text.out, "can0: 12 frames in 1.0 s, "));
+  CHECK(contains(text.out, "can0: frames: 12 in 1.0 s, "));
 }
 
 TEST_CASE("what trace says to people is said in Japanese too") {

@@ -33,6 +33,8 @@ inline constexpr Text json_below{"{} is less than {}", "{} は下限 {} より�
 inline constexpr Text json_above{"{} is more than {}", "{} は上限 {} より大きい値です"};
 inline constexpr Text json_no_such_word{"\"{}\" is none of: {}",
                                         "\"{}\" は次のいずれでもありません: {}"};
+inline constexpr Text json_other_word{"must be \"{1}\", not \"{0}\"",
+                                      "\"{1}\" でなければなりません (\"{0}\" になっています)"};
 inline constexpr Text json_more_faults{"… and {} more", "… 他に {} 件"};
 inline constexpr Text json_hint{"correct the file and try again",
                                 "ファイルを修正してもう一度実行して下さい"};

@@ -65,6 +65,10 @@ class Identity {
   /// Errors: unsupported (firmware, no PWM input).
   [[nodiscard]] Result<void> check_pwm_input() const;
 
+  /// Whether this model takes a register of the group pwm, as far as it is known; of others nothing
+  /// is said. Errors: unsupported.
+  [[nodiscard]] Result<void> check_pwm_input(const Parameter& parameter) const;
+
   /// Whether `raw` may be sent to `address` of this servo: never on a guess of the model, never
   /// what firmware or model lack, never outside of the range.
   /// Errors: no_profile (unknown model; or candidates disagree about this register),

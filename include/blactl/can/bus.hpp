@@ -113,6 +113,9 @@ class Bus {
   /// Code interface: the transport itself fails. not_found: that may be, or the bus is silent.
   [[nodiscard]] virtual std::optional<Error> silence() const { return std::nullopt; }
 
+  /// What ends a bus-off of this transport, for people.
+  [[nodiscard]] virtual std::string bus_off_hint() const;
+
   /// Becomes readable when receive() has something; -1: nothing to poll.
   [[nodiscard]] virtual int descriptor() const = 0;
 

@@ -56,6 +56,8 @@ class Recorder final : public Bus {
 
   [[nodiscard]] std::optional<Error> silence() const override { return bus_->silence(); }
 
+  [[nodiscard]] std::string bus_off_hint() const override { return bus_->bus_off_hint(); }
+
   [[nodiscard]] int descriptor() const override { return bus_->descriptor(); }
 
   [[nodiscard]] bool wants_to_write() const override { return bus_->wants_to_write(); }

@@ -44,6 +44,8 @@ class SimBus final : public Bus {
 
   [[nodiscard]] bool echoes() const override { return true; }
 
+  [[nodiscard]] std::string bus_off_hint() const override;
+
   [[nodiscard]] int descriptor() const override { return socket_; }
 
   [[nodiscard]] Time now() const override;

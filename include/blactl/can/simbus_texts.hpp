@@ -11,6 +11,9 @@ inline constexpr Text simbus_absent_hint{"start `blactl sim` in another terminal
                                          "別の端末で `blactl sim` を実行して下さい"};
 inline constexpr Text simbus_gone{"the simulator of {} has ended",
                                   "{} のシミュレータが終了しました"};
+inline constexpr Text simbus_off_hint{
+    "it is simulated, by the event or the order `clients bus_off`; run the command again",
+    "シミュレーション (イベントまたは指示 `clients bus_off`) です。もう一度実行して下さい"};
 inline constexpr Text simbus_version{"the simulator of {} is of another version of blactl",
                                      "{} のシミュレータは別のバージョンの blactl です"};
 inline constexpr Text simbus_version_hint{

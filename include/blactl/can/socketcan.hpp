@@ -37,6 +37,8 @@ class SocketCan final : public Bus {
 
   [[nodiscard]] bool echoes() const override { return true; }
 
+  [[nodiscard]] std::string bus_off_hint() const override;
+
   [[nodiscard]] int descriptor() const override { return descriptor_; }
 
  private:

@@ -44,16 +44,12 @@ inline constexpr Text nobody_acknowledges_hint{
 };
 inline constexpr Text bus_is_off{"{}: the controller is bus-off",
                                  "{}: コントローラがバスオフ状態です"};
-inline constexpr Text bus_is_off_hint{
-    "check wiring and bit rate, then: sudo ip link set {} down; sudo ip link set {} up",
-    "配線とビットレートを確認後: sudo ip link set {} down; sudo ip link set {} up",
-};
 inline constexpr Text interrupted{"ended by {}", "{} により中断されました"};
 inline constexpr Text unreadable_frames{
-    "{} messages that were no frames of classic CAN were passed over (CAN FD, or damaged)",
+    "messages passed over that were no frames of classic CAN (CAN FD, or damaged): {}",
     "Classic CAN フレームではないメッセージ {} 件を無視しました (CAN FD または破損)"};
 inline constexpr Text frames_lost{
-    "{} frames were lost because they came faster than they could be read",
+    "frames lost because they came faster than they could be read: {}",
     "読出しが間に合わず {} フレームを失いました",
 };
 
@@ -382,7 +378,7 @@ inline constexpr Text one_id_for_several{
 };
 inline constexpr Text one_id_for_several_hint{"give each its own: -n {}",
                                               "一台ずつ設定して下さい: -n {}"};
-inline constexpr Text not_written{"{} frames of a write may still be in the queue of {}: "
+inline constexpr Text not_written{"the queue of {1} may still hold frames of a write ({0}): "
                                   "what they change is not known",
                                   "書込みの {} フレームが {} の送信キューに残っている可能性があり、"
                                   "変更結果は不明です"};

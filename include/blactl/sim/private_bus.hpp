@@ -30,6 +30,8 @@ class PrivateBus final : public can::Bus {
 
   [[nodiscard]] bool echoes() const override { return true; }
 
+  [[nodiscard]] std::string bus_off_hint() const override;
+
   [[nodiscard]] int descriptor() const override { return -1; }
 
   [[nodiscard]] Time now() const override;

@@ -38,13 +38,13 @@ inline constexpr Text alloc_not_in_table{"{} is not in the allocation table",
                                          "{} は割当て表にありません"};
 inline constexpr Text alloc_not_in_table_hint{"see what is: blactl alloc --list",
                                               "一覧: blactl alloc --list"};
-inline constexpr Text alloc_exported{"{} entries written to {}\n", "{} 件を {} に書き込みました\n"};
-inline constexpr Text alloc_imported{"{} entries taken over from {}\n",
+inline constexpr Text alloc_exported{"entries written to {1}: {0}\n",
+                                     "{} 件を {} に書き込みました\n"};
+inline constexpr Text alloc_imported{"entries taken over from {1}: {0}\n",
                                      "{1} から {0} 件を取り込みました\n"};
 
-inline constexpr Text alloc_started{
-    "node IDs {} to {} are given to units that ask; {} of them are free",
-    "ノード ID {}～{} の割当てを開始しました (空き {} 個)"};
+inline constexpr Text alloc_started{"node IDs {} to {} are given to units that ask; free: {}",
+                                    "ノード ID {}～{} の割当てを開始しました (空き {} 個)"};
 inline constexpr Text alloc_few_left{
     "node IDs that are still free: {}. Forget servos that are gone: `blactl alloc --forget UID`",
     "空きノード ID は残り {} 個です。使わなくなったサーボは `blactl alloc --forget UID` "
@@ -96,7 +96,7 @@ inline constexpr Text alloc_expected_more{"units with a node ID: {}, expected: {
 inline constexpr Text alloc_expected_more_hint{
     "is every servo powered and connected? one with a node ID of its own does not ask",
     "電源と配線を確認して下さい。静的ノード ID を持つサーボは要求しません"};
-inline constexpr Text alloc_unfinished{"{} unit(s) asked on for {} s, and never to the end",
+inline constexpr Text alloc_unfinished{"units that asked on for {1} s, and never to the end: {0}",
                                        "{} 台が {} 秒間要求を続けましたが、完了しません"};
 inline constexpr Text alloc_unfinished_hint{
     "frames get lost, or it is no unit of DroneCAN: blactl trace --type Allocation",

@@ -73,8 +73,8 @@ constexpr Option option_table[]{
      .value = "N",
      .kind = Kind::whole,
      .whole = {1, bla::pwm_presets},
-     .help = {"all four by an example of the specification: 1: +-70 deg (default of BLA21), "
-              "2: +-140 deg, 3: 500 to 1500 us, 4: +-150 rpm",
+     .help = {"all four by an example of the specification: 1=+-70deg (default of BLA21), "
+              "2=+-140deg, 3=500us to 1500us, 4=+-150rpm",
               "仕様書の例で一括指定: 1=±70deg (BLA21 の初期値)、2=±140deg、3=500～1500us、"
               "4=±150rpm"},
      .store = into<&PwmOptions::preset>},
@@ -87,7 +87,7 @@ constexpr Option option_table[]{
     {.name = "--save",
      .kind = Kind::flag,
      .help = {"then RAM to ROM: restarts the servo, and reads again",
-              "続けて RAM を ROM に保存 (サーボは再起動し、その後再読出し)"},
+              "続けて RAM を ROM に保存 (サーボの再起動後に再読出し)"},
      .store = into<&PwmOptions::save>},
     {.name = "--dry-run",
      .kind = Kind::flag,
@@ -101,33 +101,6 @@ constexpr Option option_table[]{
 
 Error usage(std::string message, std::string hint = {}) {
   return {Code::usage, std::move(message), std::move(hint), std::nullopt};
-}
-
-/// What the options say against each other. Every fault.
-std::vector<Error> contradictions(const PwmOptions& options) {
-  std::vector<Error> faults;
-  const int ways = static_cast<int>(options.has_parts()) +
-                   static_cast<int>(!options.endpoints.empty()) +
-                   static_cast<int>(options.preset.has_value());
-  if (ways > 1) {
-    faults.push_back(usage(say<texts::pwm_one_way>()));
-  }
-  if (!options.mode.empty() && options.output.empty()) {
-    faults.push_back(usage(say<texts::pwm_mode_needs_output>(printable(options.mode)),
-                           say<texts::pwm_mode_hint>()));
-  }
-  if (options.output.find_first_of(",:") != std::string::npos) {
-    faults.push_back(usage(say<texts::pwm_output_symmetric>(printable(options.output)),
-                           say<texts::pwm_output_hint>()));
-  }
-  if (options.svg == "-") {
-    faults.push_back(usage(say<texts::pwm_svg_to_stdout>()));
-  }
-  if (!options.changes() && (options.save || options.dry_run)) {
-    faults.push_back(usage(say<texts::pwm_nothing_to_change>(options.save ? "--save" : "--dry-run"),
-                           say<texts::pwm_nothing_hint>()));
-  }
-  return faults;
 }
 
 /// What the mapping is made of, as it is assigned and as the options call it.
@@ -159,6 +132,44 @@ void tell_by_options(Error& error, const PwmOptions& options) {
   }
 }
 
+/// --mode without --output, or with a word that it does not know.
+std::optional<Error> refuse_mode(const PwmOptions& options, const bla::Profiles& profiles) {
+  if (options.mode.empty() || !options.output.empty()) {
+    return std::nullopt; // the assignment is checked
+  }
+  const auto mode = bla::parse_assignment(profiles, "pwm_mode=" + options.mode);
+  return mode ? usage(say<texts::pwm_mode_needs_output>(printable(options.mode)),
+                      say<texts::pwm_mode_hint>())
+              : mode.error();
+}
+
+/// What the options say against each other. Every fault.
+std::vector<Error> contradictions(const PwmOptions& options, const bla::Profiles& profiles) {
+  std::vector<Error> faults;
+  const int ways = static_cast<int>(options.has_parts()) +
+                   static_cast<int>(!options.endpoints.empty()) +
+                   static_cast<int>(options.preset.has_value());
+  if (ways > 1) {
+    faults.push_back(usage(say<texts::pwm_one_way>(), say<texts::pwm_one_way_hint>()));
+  }
+  if (auto refused = refuse_mode(options, profiles)) {
+    tell_by_options(*refused, options);
+    faults.push_back(std::move(*refused));
+  }
+  if (options.output.find_first_of(",:") != std::string::npos) {
+    faults.push_back(usage(say<texts::pwm_output_symmetric>(printable(options.output)),
+                           say<texts::pwm_output_hint>()));
+  }
+  if (options.svg == "-") {
+    faults.push_back(usage(say<texts::pwm_svg_to_stdout>()));
+  }
+  if (!options.changes() && (options.save || options.dry_run)) {
+    faults.push_back(usage(say<texts::pwm_nothing_to_change>(options.save ? "--save" : "--dry-run"),
+                           say<texts::pwm_nothing_hint>()));
+  }
+  return faults;
+}
+
 /// The values of 0x34-0x37 that are asked for.
 Result<std::vector<std::string>> wanted_values(const PwmOptions& options,
                                                const bla::Profiles& profiles) {
@@ -188,7 +199,7 @@ std::optional<Error> refuse_several(const PwmOptions& options, std::size_t servo
 
 /// The mapping of the one servo into the file that was named.
 void draw(const std::string& path, const std::pair<fleet::Servo, bla::Values>& one,
-          Report& report) {
+          const Reporter& reporter, Report& report) {
   const auto& [servo, values] = one;
   const auto mapping = bla::pwm_mapping(values);
   if (!mapping) {
@@ -199,7 +210,9 @@ void draw(const std::string& path, const std::pair<fleet::Servo, bla::Values>& o
   title.erase(title.find_last_not_of('\n') + 1);
   if (auto written = replace_file(path, pwm_svg(*mapping, title)); !written) {
     report.fail(written.error());
+    return;
   }
+  reporter.note(say<texts::pwm_drawn>(printable(path)));
 }
 
 /// Errors: unsupported, for a servo without a PWM input.
@@ -237,7 +250,7 @@ Report show(const PwmOptions& options, Context& context) {
     }
   }
   if (!options.svg.empty() && !servos->empty()) {
-    draw(options.svg, servos->front(), report);
+    draw(options.svg, servos->front(), context.reporter(), report);
   }
   report.count_targets();
   report.json = [servos](JsonWriter& json) {
@@ -330,7 +343,7 @@ Report change(const PwmOptions& options, const bla::Profiles& profiles, Context&
     std::ranges::for_each(target.errors, [&](Error& error) { tell_by_options(error, options); });
   }
   if (!options.svg.empty() && !drawn->empty()) {
-    draw(options.svg, drawn->front(), report);
+    draw(options.svg, drawn->front(), context.reporter(), report);
   }
   return report;
 }
@@ -342,7 +355,7 @@ Report execute(const PwmOptions& options, Context& context) {
     report.fail(profiles.error());
     return report;
   }
-  report.errors = contradictions(options);
+  report.errors = contradictions(options, **profiles);
   if (!report.errors.empty()) {
     return report;
   }

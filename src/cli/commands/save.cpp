@@ -27,7 +27,7 @@ constinit const Command commands::save{
     .name = "save",
     .traits = {.writes = true, .session = true},
     .help = {"RAM to ROM: restarts the servo, and reads again",
-             "RAM を ROM に保存 (サーボは再起動し、その後再読出し)"},
+             "RAM を ROM に保存 (サーボの再起動後に再読出し)"},
     .options = option_table,
     .action = action<execute>,
 };

@@ -19,7 +19,7 @@ constexpr Option option_table[]{
     {.name = "--save",
      .kind = Kind::flag,
      .help = {"then RAM to ROM: restarts the servo, and reads again",
-              "続けて RAM を ROM に保存 (サーボは再起動し、その後再読出し)"},
+              "続けて RAM を ROM に保存 (サーボの再起動後に再読出し)"},
      .store = into<&SetOptions::save>},
     {.name = "--dry-run",
      .kind = Kind::flag,

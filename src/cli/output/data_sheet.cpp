@@ -176,8 +176,10 @@ Table table_of(const std::vector<Row>& rows, std::size_t columns) {
 std::string parameters_text(const std::vector<Row>& rows, const Page& page) {
   constexpr std::string_view indent = "  ";
   const Table whole = table_of(rows, rows.front().size());
-  const bool is_whole = whole.fits(indent, page) || language() == Language::japanese;
-  return (is_whole ? whole : table_of(rows, rows.front().size() - 1)).text(indent, page);
+  if (whole.fits(indent, page) || language() == Language::japanese) {
+    return whole.text(indent, page);
+  }
+  return table_of(rows, rows.front().size() - 1).text(indent, page) + say<texts::models_no_title>();
 }
 
 Row parameter_header() {
@@ -218,10 +220,10 @@ Row variant_row(const Variant& one, const bla::Profiles& profiles) {
 }
 
 /// Defaults and ranges, and who has them, without a header.
-std::string variants_text(std::span<const Variant> variants, const bla::Profiles& profiles,
+std::string variants_text(const std::vector<Variant>& variants, const bla::Profiles& profiles,
                           const Page& page) {
-  Table table(variant_row(variants.front(), profiles));
-  for (const Variant& one : variants.subspan(1)) {
+  Table table;
+  for (const Variant& one : variants) {
     table.add(variant_row(one, profiles));
   }
   return table.text("        ", page);
@@ -254,11 +256,13 @@ std::string side_by_side(const Sheet& sheet, const bla::Profiles& profiles, cons
 
 /// "RW: stored in ROM by save"; what can only be read or written is no setting to be kept.
 std::string access_text(const Parameter& general) {
-  const std::string access(bla::name(general.access));
-  return general.access != bla::Access::read_write
-             ? access
-             : access + ": " +
-                   (general.saved ? say<texts::models_saved>() : say<texts::models_not_saved>());
+  const std::string access = std::string(bla::name(general.access)) + ": ";
+  switch (general.access) {
+  case bla::Access::read: return access + say<texts::models_read_only>();
+  case bla::Access::write: return access + say<texts::models_write_only>();
+  case bla::Access::read_write: break;
+  }
+  return access + (general.saved ? say<texts::models_saved>() : say<texts::models_not_saved>());
 }
 
 /// Parts of a date are words.
@@ -309,6 +313,15 @@ std::string description(const Parameter& general) {
   return out;
 }
 
+/// The bits of 0x18, which have one title and one way on in common.
+std::string summary_text(std::span<const bla::FaultBit> bits) {
+  std::string out;
+  for (const bla::FaultBit& bit : bits) {
+    out += fmt::format("  bit {}: {}\n", bit.bit, choose(bit.condition_en, bit.condition_ja));
+  }
+  return out + fmt::format("  {}\n", choose(bits.front().action_en, bits.front().action_ja));
+}
+
 /// The bits of a register: what they are called, when they are set, what to do.
 std::string bits_text(std::span<const bla::FaultBit> bits, bla::Address address) {
   std::string out;
@@ -317,7 +330,7 @@ std::string bits_text(std::span<const bla::FaultBit> bits, bla::Address address)
       continue;
     }
     out += "  " + fmt::format("bit {}: {}", bit.bit, choose(bit.text_en, bit.text_ja));
-    out += bit.code.empty() ? "" : fmt::format(" [{}]", bit.code);
+    out += fmt::format(" [{}]", bit.code);
     out += bit.latched ? ", " + say<texts::models_bit_latched>() : std::string();
     out += bit.pwm_only ? ", " + say<texts::models_bit_pwm_only>() : std::string();
     out += fmt::format("\n      {}\n      {}\n", choose(bit.condition_en, bit.condition_ja),
@@ -326,7 +339,8 @@ std::string bits_text(std::span<const bla::FaultBit> bits, bla::Address address)
   return out;
 }
 
-/// Of what takes a word to carry it out, its description tells all.
+/// Of what takes a word to carry it out, its description tells all. What can only be read may have
+/// neither default nor range.
 std::string ranges_text(const Parameter& general, const Sheet& sheet, const bla::Profiles& profiles,
                         const Page& page) {
   if (general.access == bla::Access::write) {
@@ -334,10 +348,13 @@ std::string ranges_text(const Parameter& general, const Sheet& sheet, const bla:
   }
   Table table(
       {say<texts::column_default>(), say<texts::column_range>(), say<texts::column_models>()});
-  for (const Variant& one : variants_of(general.address, sheet.models)) {
+  const auto variants = variants_of(general.address, sheet.models);
+  for (const Variant& one : variants) {
     table.add(variant_row(one, profiles));
   }
-  return '\n' + table.text("  ", page);
+  const bool tells = std::ranges::any_of(
+      variants, [](const Variant& one) { return !one.initial.empty() || !one.range.empty(); });
+  return tells ? '\n' + table.text("  ", page) : std::string();
 }
 
 std::string kind_text(bla::CheckKind kind) {
@@ -374,8 +391,10 @@ std::string see_text(const Parameter& general, const bla::Profiles& profiles) {
 /// One register: what it is, its bits, its range by model, what to mind.
 std::string parameter_text(const Parameter& general, const Sheet& sheet,
                            const bla::Profiles& profiles, const Page& page) {
-  const std::string bits = bits_text(profiles.summary_bits(), general.address) +
-                           bits_text(profiles.fault_bits(), general.address);
+  const auto summary = profiles.summary_bits();
+  const bool sums_up = !summary.empty() && summary.front().reg == general.address;
+  const std::string bits =
+      sums_up ? summary_text(summary) : bits_text(profiles.fault_bits(), general.address);
   // Bits are the same for all models.
   return description(general) +
          (bits.empty() ? ranges_text(general, sheet, profiles, page) : '\n' + bits) +

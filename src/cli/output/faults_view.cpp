@@ -62,6 +62,13 @@ std::string values_text(const FaultState& servo, const Fault& fault) {
   return out;
 }
 
+/// Whether one of the values is measured; PWM pulses are not, only what they should be is known.
+bool has_measured(const FaultState& servo, const Fault& fault) {
+  return std::ranges::any_of(servo.values_of(fault), [](const fleet::Reading& reading) {
+    return !reading.parameter->writable();
+  });
+}
+
 std::string fault_text(const FaultState& servo, const Fault& fault, const Page& page) {
   std::string out = "  " + fault_line(fault, page) + '\n';
   const auto line = [&](const std::string& text) {
@@ -69,7 +76,8 @@ std::string fault_text(const FaultState& servo, const Fault& fault, const Page& 
   };
   line(condition(fault));
   if (const auto values = values_text(servo, fault); !values.empty()) {
-    line(say<texts::fault_now>(values));
+    line(has_measured(servo, fault) ? say<texts::fault_now>(values)
+                                    : say<texts::fault_settings>(values));
   }
   line(is_latched(fault) ? say<texts::fault_latched>() : std::string());
   line(action_text(fault));

@@ -71,11 +71,22 @@ bool may_break(std::string_view before, std::string_view after) {
   return is_one_of(pauses, before) || (is_hiragana(before) && !is_hiragana(after));
 }
 
-std::vector<Unit> units_of(std::string_view text) {
+/// What `text` begins with: a command in backquotes that is no longer than a line, else one
+/// character.
+std::string_view first_piece(std::string_view text, std::size_t longest) {
+  const std::size_t end = text.starts_with('`') ? text.find('`', 1) : std::string_view::npos;
+  if (end != std::string_view::npos && display_width(text.substr(0, end + 1)) <= longest) {
+    return text.substr(0, end + 1);
+  }
+  return text.substr(0, std::max<std::size_t>(utf8_length(text), 1));
+}
+
+/// `longest`: the longest piece that fits on a line.
+std::vector<Unit> units_of(std::string_view text, std::size_t longest) {
   std::vector<Unit> units;
   std::string_view before = " ";
   while (!text.empty()) {
-    const std::string_view character = text.substr(0, std::max<std::size_t>(utf8_length(text), 1));
+    const std::string_view character = first_piece(text, longest);
     text.remove_prefix(character.size());
     if (character != " ") {
       if (before == " " || may_break(before, character)) {
@@ -118,7 +129,7 @@ std::size_t display_width(std::string_view text) {
 std::string wrap(std::string_view text, std::size_t width, std::size_t indent, std::size_t column) {
   std::string out;
   bool line_is_empty = true;
-  for (const Unit& unit : units_of(text)) {
+  for (const Unit& unit : units_of(text, width > indent ? width - indent : 0)) {
     const std::size_t gap = unit.spaced && !line_is_empty ? 1 : 0;
     const std::size_t needed = gap + display_width(unit.text);
     if (!line_is_empty && column + needed > width) {
@@ -173,7 +184,10 @@ std::string Page::fit(std::string_view text) const {
 }
 
 std::string Page::fit_hint(std::string_view hint) const {
-  const std::size_t command = hint.rfind(": blactl ");
+  std::size_t command = std::string_view::npos;
+  for (const std::string_view beginning : {": blactl ", ": sudo ", ": --"}) {
+    command = command == std::string_view::npos ? hint.rfind(beginning) : command;
+  }
   if (display_width(hint) <= width || command == std::string_view::npos) {
     return fit(hint);
   }

@@ -7,6 +7,7 @@
 #include "cli/output/table.hpp"
 #include "cli/texts.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -82,12 +83,15 @@ Table table(const ServoValues& servo, const bla::Profiles& profiles, bool with_d
 }
 
 /// Where a page is too narrow for both, names are worth more than defaults; what differs from its
-/// default is shown beside it.
+/// default is shown beside it. What can only be read has none.
 std::string table_text(const ServoValues& servo, const bla::Profiles& profiles, bool changed_only,
                        const Page& page) {
   constexpr std::string_view indent = "  ";
   const Table whole = table(servo, profiles, true);
-  const bool is_whole = changed_only || !shows_names() || whole.fits(indent, page);
+  const bool any_default = std::ranges::any_of(servo.shown, [](const Reading& reading) {
+    return reading.parameter->writable() && reading.parameter->default_raw;
+  });
+  const bool is_whole = any_default && (changed_only || !shows_names() || whole.fits(indent, page));
   return (is_whole ? whole : table(servo, profiles, false)).text(indent, page);
 }
 

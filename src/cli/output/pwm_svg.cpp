@@ -1,6 +1,7 @@
 #include "blactl/base/text.hpp"
 
 #include "cli/output/pwm_view.hpp"
+#include "cli/pwm_texts.hpp"
 
 #include <fmt/format.h>
 
@@ -75,7 +76,8 @@ void Drawing::axes() {
 
 /// What the servo is told, and thicker what the limits leave of it.
 void Drawing::curve() {
-  line(x(mapping_.shortest_us()), y(-mapping_.output_raw), x(mapping_.longest_us()),
+  const std::int64_t first = mapping_.points_us().front();
+  line(x(first), y(mapping_.command(first).value_or(0)), x(mapping_.longest_us()),
        y(mapping_.output_raw), "stroke=\"#c00\" stroke-width=\"1\" stroke-dasharray=\"4 3\"");
   std::string path;
   for (const std::int64_t pulse : mapping_.points_us()) {
@@ -110,6 +112,9 @@ std::string Drawing::text(std::string_view title) {
   axes();
   curve();
   points();
+  if (!mapping_.cut_off_us().empty()) {
+    label(left, top - 14, "start", say<texts::pwm_drawing_legend>());
+  }
   return std::move(out_) + "</svg>\n";
 }
 

@@ -90,6 +90,8 @@ class Plot {
   };
 
   static constexpr std::size_t rows = 11, columns = 57; // odd: neutral is in the middle
+  static constexpr std::int64_t half_rows = rows / 2;
+  static constexpr std::size_t label = 12;
 
   [[nodiscard]] std::int64_t pulse_at(std::size_t column) const {
     const auto half = static_cast<std::int64_t>(columns / 2);
@@ -97,42 +99,79 @@ class Plot {
            (static_cast<std::int64_t>(column) - half) * mapping_.range_us / half;
   }
 
-  [[nodiscard]] std::size_t row_of(std::int64_t command) const {
-    const auto half = static_cast<std::int64_t>(rows / 2);
+  /// How many rows above that of neutral.
+  [[nodiscard]] std::int64_t height_of(std::int64_t command) const {
     const std::int64_t most = std::max<std::int64_t>(mapping_.output_raw, 1);
-    const std::int64_t twice = 2 * command * half;
-    const std::int64_t up = (twice + (twice < 0 ? -most : most)) / (2 * most); // rounded
-    return static_cast<std::size_t>(half - up);
+    const std::int64_t twice = 2 * command * half_rows;
+    return (twice + (twice < 0 ? -most : most)) / (2 * most); // rounded
   }
+
+  /// The outermost rows are labelled with the ends of the range, which what is cut off never is.
+  [[nodiscard]] std::int64_t height_of_limited(std::int64_t command) const {
+    return std::clamp(height_of(command), mapping_.cut_off_below_us() ? 1 - half_rows : -half_rows,
+                      mapping_.cut_off_above_us() ? half_rows - 1 : half_rows);
+  }
+
+  [[nodiscard]] std::string& cell(std::int64_t height, std::size_t column) {
+    return cells_[static_cast<std::size_t>(half_rows - height)][column];
+  }
+
+  void draw_axes();
+  void draw_curve();
+  [[nodiscard]] std::string scale(std::size_t row) const;
+  [[nodiscard]] std::string legend() const;
 
   const PwmMapping& mapping_;
   Signs signs_;
   std::vector<std::vector<std::string>> cells_;
 };
 
-std::string Plot::text() {
+void Plot::draw_axes() {
   for (std::size_t column = 0; column < columns; ++column) {
-    cells_[rows / 2][column] = signs_.horizontal;
+    cell(0, column) = signs_.horizontal;
   }
   for (auto& row : cells_) {
     row[columns / 2] = signs_.vertical;
   }
-  cells_[rows / 2][columns / 2] = signs_.cross;
+  cell(0, columns / 2) = signs_.cross;
+}
+
+void Plot::draw_curve() {
   for (std::size_t column = 0; column < columns; ++column) {
     const std::int64_t pulse = pulse_at(column);
-    const std::int64_t given = mapping_.command(pulse).value_or(0);
-    const std::int64_t limited = mapping_.limited_command(pulse).value_or(0);
-    cells_[row_of(given)][column] = signs_.cut;
-    cells_[row_of(limited)][column] = signs_.curve;
+    const auto given = mapping_.command(pulse);
+    if (pulse < 0 || !given) {
+      continue; // there is no such pulse
+    }
+    const std::int64_t limited = *mapping_.limited_command(pulse);
+    if (limited != *given) {
+      cell(height_of(*given), column) = signs_.cut;
+    }
+    cell(height_of_limited(limited), column) = signs_.curve;
   }
-  constexpr std::size_t label = 12;
+}
+
+std::string Plot::scale(std::size_t row) const {
+  return row == 0          ? pwm_command_text(mapping_, mapping_.output_raw)
+         : row == rows / 2 ? pwm_command_text(mapping_, 0)
+         : row == rows - 1 ? pwm_command_text(mapping_, -mapping_.output_raw)
+                           : std::string();
+}
+
+/// Where nothing is cut off, there is but one sign.
+std::string Plot::legend() const {
+  return mapping_.cut_off_us().empty()
+             ? std::string()
+             : fmt::format("  {:>{}} {}\n", "", label,
+                           say<texts::pwm_legend>(signs_.curve, signs_.cut));
+}
+
+std::string Plot::text() {
+  draw_axes();
+  draw_curve();
   std::string out;
   for (std::size_t row = 0; row < rows; ++row) {
-    const std::string scale = row == 0          ? pwm_command_text(mapping_, mapping_.output_raw)
-                              : row == rows / 2 ? pwm_command_text(mapping_, 0)
-                              : row == rows - 1 ? pwm_command_text(mapping_, -mapping_.output_raw)
-                                                : std::string();
-    out += fmt::format("  {:>{}} ", scale, label);
+    out += fmt::format("  {:>{}} ", scale(row), label);
     for (const std::string& cell : cells_[row]) {
       out += cell;
     }
@@ -143,7 +182,7 @@ std::string Plot::text() {
   const auto neutral = std::to_string(mapping_.neutral_us);
   out += fmt::format("  {:>{}} {:<{}}{:^{}}{:>{}} us\n", "", label, shortest, (columns - 9) / 2,
                      neutral, 9, mapping_.longest_us(), (columns - 9) / 2);
-  return out;
+  return out + legend();
 }
 
 } // namespace
@@ -222,10 +261,13 @@ std::string pwm_text(const bla::Values& values, const Page& page) {
 }
 
 std::string pwm_summary(const PwmMapping& mapping) {
-  return fmt::format("{} us {}, {} us {}, {} us {}", mapping.shortest_us(),
-                     pwm_command_text(mapping, -mapping.output_raw), mapping.neutral_us,
-                     pwm_command_text(mapping, 0), mapping.longest_us(),
-                     pwm_command_text(mapping, mapping.output_raw));
+  std::string out;
+  for (const std::int64_t pulse :
+       {first_pulse(mapping), mapping.neutral_us, mapping.longest_us()}) {
+    out += fmt::format("{}{} us {}", out.empty() ? "" : ", ", pulse,
+                       pwm_command_text(mapping, mapping.command(pulse).value_or(0)));
+  }
+  return out;
 }
 
 } // namespace blactl::cli

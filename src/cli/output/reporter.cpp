@@ -1,5 +1,7 @@
 #include "cli/output/reporter.hpp"
 
+#include "blactl/base/system_error.hpp"
+
 #include "cli/texts.hpp"
 
 #include <poll.h>
@@ -9,7 +11,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
-#include <cstring>
 #include <utility>
 
 namespace blactl::cli {
@@ -26,7 +27,7 @@ Result<bool> write_all(int descriptor, std::string_view text) {
       if (errno == EPIPE) {
         return false;
       }
-      return fail(Code::io, say<texts::stdout_failed>(std::strerror(errno)),
+      return fail(Code::io, say<texts::stdout_failed>(system_reason(errno)),
                   say<texts::stdout_failed_hint>());
     }
     text.remove_prefix(static_cast<std::size_t>(written));
@@ -135,10 +136,24 @@ void Reporter::detail(std::string_view text) const {
   }
 }
 
+namespace {
+
+/// The faults of a file stand a line each: those behind the first are indented.
+std::string message_of(const Error& error) {
+  std::string out;
+  for (const char c : error.message) {
+    out += c;
+    out += c == '\n' && error.code == Code::bad_file ? "    " : "";
+  }
+  return out;
+}
+
+} // namespace
+
 void Reporter::error(const Error& error) const {
   const Page page = this->page(STDERR_FILENO);
   const std::string code = page.paint(Tone::bad, fmt::format("[{}]", name(error.code)));
-  std::string text = page.fit(fmt::format("blactl: {} {}\n", code, error.message));
+  std::string text = page.fit(fmt::format("blactl: {} {}\n", code, message_of(error)));
   if (!error.hint.empty()) {
     text += page.fit_hint("  " + error.hint) + '\n';
   }

@@ -11,7 +11,7 @@ constexpr std::size_t deeper = 4; ///< how far a further line of a row is indent
 } // namespace
 
 std::vector<std::size_t> Table::widths() const {
-  std::vector<std::size_t> widths(rows_.front().size());
+  std::vector<std::size_t> widths(rows_.empty() ? 0 : rows_.front().size());
   for (const Row& row : rows_) {
     for (std::size_t i = 0; i < row.size(); ++i) {
       widths[i] = std::max(widths[i], display_width(row[i]));
@@ -47,6 +47,9 @@ std::string Table::text(std::string_view indent, const Page& page) const {
   for (std::size_t number = 0; number < rows_.size(); ++number) {
     const Row& row = rows_[number];
     for (const Line& line : lines) {
+      if (has_header_ && number == 0 && line.first > 0 && line.end - line.first == 1) {
+        continue;
+      }
       std::string text(indent.size() + (line.first > 0 ? deeper : 0), ' ');
       for (std::size_t i = line.first; i < line.end; ++i) {
         text += row[i];

@@ -13,10 +13,14 @@ namespace blactl::cli {
 
 /// A header and rows of the same number of cells; columns are as wide as their widest cell. The
 /// columns that do not fit beside the others stand below them, in further lines of each row that
-/// are indented: nothing is cut, and nothing is left out.
+/// are indented: nothing is cut, and nothing is left out but the header of a column that has such
+/// lines for itself.
 class Table {
  public:
-  explicit Table(std::vector<std::string> header) : rows_{std::move(header)} {}
+  explicit Table(std::vector<std::string> header) : has_header_(true), rows_{std::move(header)} {}
+
+  /// Without a header.
+  Table() = default;
 
   void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
 
@@ -41,7 +45,8 @@ class Table {
   [[nodiscard]] static std::vector<Line> layout(const std::vector<std::size_t>& widths,
                                                 std::size_t indent, std::size_t page_width);
 
-  std::vector<Row> rows_;
+  bool has_header_ = false;
+  std::vector<Row> rows_;                                 ///< the header among them
   std::map<std::size_t, std::vector<std::string>> below_; ///< by row
 };
 

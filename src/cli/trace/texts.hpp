@@ -14,7 +14,7 @@ inline constexpr Text trace_takes_node_ids{"-n {}: trace takes node IDs only",
 inline constexpr Text trace_takes_node_ids_hint{"which servo has which ID: blactl scan",
                                                 "どのサーボがどの ID かを調べるには: blactl scan"};
 inline constexpr Text log_has_many_interfaces{
-    "{} frames were not decoded: the log names more than {} interfaces",
+    "frames not decoded: {} (the log names more than {} interfaces)",
     "{} フレームをデコードしていません (ログのインターフェース数が {} を超えています)"};
 inline constexpr Text trace_crc{"the CRC is wrong", "CRC が一致しません"};
 inline constexpr Text trace_toggle{"a frame before this one was lost",
@@ -41,7 +41,7 @@ inline constexpr Text column_frames{"FRAMES", "フレーム数"};
 inline constexpr Text column_bytes{"BYTES", "バイト数"};
 inline constexpr Text column_errors{"ERRORS", "エラー数"};
 inline constexpr Text column_load{"LOAD %", "負荷 %"};
-inline constexpr Text trace_load{"{}: {} frames in {} s, {} % of 1 Mbit/s\n",
+inline constexpr Text trace_load{"{}: frames: {} in {} s, {} % of 1 Mbit/s\n",
                                  "{}: {} フレーム / {} 秒、バス負荷 {} % (1 Mbit/s)\n"};
 
 } // namespace blactl::texts

@@ -130,8 +130,10 @@ TEST_CASE("0x36 must fit the 0x37 beside it, in either order") {
   CHECK(check_pwm_unit(built_in(), *alone, 0).error().message ==
         "pwm_output_range=150rpm: with pwm_mode=angle the unit is deg");
   CHECK(check_pwm_unit(built_in(), *alone, 0).error().hint ==
-        "for example pwm_output_range=150.0deg"); // not what the register would make of it
-  CHECK(wrong.error()[0].hint == "for example pwm_output_range=70rpm");
+        "type pwm_output_range=150.0deg, " // not what the register would make of it
+        "or pwm_mode=speed pwm_output_range=150rpm");
+  CHECK(wrong.error()[0].hint ==
+        "type pwm_output_range=70rpm, or pwm_mode=angle pwm_output_range=70.0deg");
 }
 
 TEST_CASE("every fault is told, in the order typed") {

@@ -208,7 +208,7 @@ TEST_CASE("faults of a series file have line, place and reason") {
     CHECK(has_line(message, line));
   };
   fault("blactl-profile/1", "blactl-profile/2",
-        "x.json:2: /schema: \"blactl-profile/2\" is none of: blactl-profile/1");
+        "x.json:2: /schema: must be \"blactl-profile/1\", not \"blactl-profile/2\"");
   fault("\"family\": \"BLA\",", "", "x.json:1: /: \"family\" is missing");
   fault("\"BLA50\"", "\"bla-50\"",
         "x.json:4: /series: \"bla-50\" is no part of a model name; letters A-Z and digits are");

@@ -84,6 +84,7 @@ TEST_CASE("limits cut commands off, at pulses that are told") {
   CHECK(mapping.limited_command(1000) == -350);
   CHECK(PwmMapping{1520, 700, 700, 0, 700, -700}.cut_off_us().empty());
   CHECK(PwmMapping{1520, 700, 0, 0, 0, 0}.cut_off_us().empty());
+  CHECK(PwmMapping{500, 700, 700, 0, 700, -600}.cut_off_us().empty()); // at -100 us
 }
 
 TEST_CASE("the pulses worth telling are in order, and each is told once") {
@@ -107,6 +108,13 @@ TEST_CASE("a mapping goes through two points, in either order") {
 TEST_CASE("two points that no mapping goes through are refused with the nearest that one does") {
   CHECK(refused("500us:-70deg,1501us:70deg").ends_with("500us:-70.0deg,1502us:70.0deg"));
   CHECK(refused("500us:-60deg,1500us:70deg").ends_with("500us:-70.0deg,1500us:70.0deg"));
+  // What the registers cannot hold is not offered.
+  CHECK(refused("100us:-70deg,101us:70deg").ends_with("--endpoints 91us:-70.0deg,111us:70.0deg"));
+  CHECK(refused("9000us:-70deg,12000us:80deg").ends_with("8500us:-80.0deg,11500us:80.0deg"));
+  CHECK(refused("10us:0deg,20us:360deg").ends_with("90us:-360.0deg,110us:360.0deg"));
+  CHECK(refused("500us:-70deg,1250us:80deg") ==
+        "through both points, for pulses from 450 to 1250 us: "
+        "--neutral 850us --range 400us --output 80.0deg");
   CHECK(refused("500us:70deg,1500us:-70deg").find("reverse=on") != std::string::npos);
   for (const char* text :
        {"", "500us", "500us:-70deg", "500us:-70,1500us:70", "500us:-70raw,1500us:70raw",

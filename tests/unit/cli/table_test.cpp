@@ -56,11 +56,16 @@ TEST_CASE("columns that do not fit the page stand below, indented") {
   table.add({"1", "BLA21-12U-AB", "0123456789"});
   table.add({"2", "BLA34", ""});
   const Page narrow{.width = 24};
-  CHECK(table.text("", narrow) == "NODE  MODEL\n"
-                                  "    UNIQUE ID\n"
+  CHECK(table.text("", narrow) == "NODE  MODEL\n" // one column below tells itself
                                   "1     BLA21-12U-AB\n"
                                   "    0123456789\n"
                                   "2     BLA34\n");
+  Table wide({"NODE", "MODEL", "UNIQUE ID", "STATE"});
+  wide.add({"1", "BLA21-12U-AB", "0123456789", "ok"});
+  CHECK(wide.text("", narrow) == "NODE  MODEL\n"
+                                 "    UNIQUE ID   STATE\n"
+                                 "1     BLA21-12U-AB\n"
+                                 "    0123456789  ok\n");
   CHECK(table.text("", {.width = 30}) == table.text());
   CHECK(table.text("  ", {.width = 31}) != table.text("  "));
 }
@@ -81,6 +86,26 @@ TEST_CASE("a line that is longer than the page is broken at words") {
   CHECK(page.fit("  one two three four five\nshort  line\n") ==
         "  one two three four\n      five\nshort  line\n");
   CHECK(Page().fit("any  line") == "any  line");
+}
+
+TEST_CASE("a command in backquotes stays on one line if one can hold it") {
+  const Page page{.width = 30};
+  CHECK(page.fit("which of them have one: `blactl models`\n") ==
+        "which of them have one:\n    `blactl models`\n");
+  CHECK(page.fit("この機種の値: `blactl models all` で確認\n") ==
+        "この機種の値:\n    `blactl models all` で確認\n");
+  CHECK(page.fit("x `blactl models BLA21-12U-AB pwm_neutral` y\n") ==
+        "x `blactl models BLA21-12U-AB\n    pwm_neutral` y\n");
+  CHECK(page.fit("an odd ` is no quotation of anything\n") ==
+        "an odd ` is no quotation of\n    anything\n");
+}
+
+TEST_CASE("what is to be typed stands in a line of its own where a hint is long") {
+  const Page page{.width = 34};
+  CHECK(page.fit_hint("  the nearest that is possible: --endpoints 1us:2deg") ==
+        "  the nearest that is possible:\n      --endpoints 1us:2deg");
+  CHECK(page.fit_hint("  check the cable, then: sudo ip link set can0 down") ==
+        "  check the cable, then:\n      sudo ip link set can0 down");
 }
 
 TEST_CASE("a line below a row begins at the second column, and widens none") {
