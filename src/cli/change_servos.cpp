@@ -46,7 +46,6 @@ class Run {
   bool check();
   bool confirm();
   [[nodiscard]] std::vector<ChangeResult> planned() const;
-  [[nodiscard]] Result<state::AllocationStore> open_allocations();
   [[nodiscard]] std::vector<ChangeResult> carry_out();
   void conclude(std::vector<ChangeResult> results);
   void tell_nothing_was_sent();
@@ -197,28 +196,26 @@ std::vector<ChangeResult> Run::planned() const {
   return results;
 }
 
-Result<state::AllocationStore> Run::open_allocations() {
-  auto table = context_.allocations(state::AllocationStore::Access::write);
-  if (!table) { // no reason to leave a servo without its node ID
-    context_.reporter().note(say<texts::ids_not_kept>(table.error().message));
-  }
-  return table;
-}
-
 std::vector<ChangeResult> Run::carry_out() {
   if (request_.wanted.restart == fleet::RestartKind::save) {
     context_.reporter().note(say<texts::do_not_cut_supply>());
   }
-  const fleet::Manner manner{.identification = context_.identification(),
-                             .stagger = request_.times.stagger,
-                             .come_back = request_.times.wait,
-                             // A servo that finds its ROM unreadable asks as well.
-                             .may_allocate = request_.wanted.restart && context_.may_allocate(),
-                             .allocations = [this] { return open_allocations(); },
-                             .progress =
-                                 [this](const fleet::Progress& progress) {
-                                   context_.reporter().progress(text(progress));
-                                 }};
+  const fleet::Manner manner{
+      .identification = context_.identification(),
+      .stagger = request_.times.stagger,
+      .come_back = request_.times.wait,
+      // A servo that finds its ROM unreadable asks as well.
+      .may_allocate = request_.wanted.restart && context_.may_allocate(),
+      .allocations = [this] { return context_.allocations(state::AllocationStore::Access::write); },
+      // No reason to leave a servo without its node ID.
+      .not_kept =
+          [this](const Error& error) {
+            context_.reporter().note(say<texts::ids_not_kept>(error.message));
+          },
+      .progress =
+          [this](const fleet::Progress& progress) {
+            context_.reporter().progress(text(progress));
+          }};
   auto carried_out = fleet::carry_out(context_.session(), context_.known(), plans_, manner);
   if (carried_out.broken) {
     (void)broken(*carried_out.broken);

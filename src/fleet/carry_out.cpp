@@ -31,7 +31,7 @@ constexpr Duration leaving_time = 20ms;
 class FormerIds final : public dronecan::AllocationTable {
  public:
   FormerIds(Session& session, std::span<const Plan> plans, const Manner& manner)
-      : session_(session), open_(manner.allocations) {
+      : session_(session), open_(manner.allocations), not_kept_(manner.not_kept) {
     for (const Plan& plan : plans) {
       if (const Servo& servo = plan.before.servo; servo.unique_id) {
         ids_.emplace(*servo.unique_id, servo.id);
@@ -65,17 +65,31 @@ class FormerIds final : public dronecan::AllocationTable {
       table_ = open_();
       open_ = {};
     }
-    if (!table_ || !*table_) {
+    if (!table_) {
+      return std::nullopt;
+    }
+    if (!*table_) {
+      tell(table_->error());
       return std::nullopt;
     }
     const state::AllocationChoice choice{.preferred = former,
                                          .taken = session_.roster().ids_in_use(unique_id)};
     const auto id = (*table_)->assign(unique_id, choice, session_.wall());
+    if (!id) {
+      tell(id.error());
+    }
     return id ? std::optional(*id) : std::nullopt;
+  }
+
+  void tell(const Error& error) {
+    if (const auto not_kept = std::exchange(not_kept_, {})) {
+      not_kept(error);
+    }
   }
 
   Session& session_;
   std::function<Result<state::AllocationStore>()> open_; ///< empty: it was tried
+  std::function<void(const Error&)> not_kept_;           ///< empty: it was told
   std::optional<Result<state::AllocationStore>> table_;
   std::map<UniqueId, NodeId> ids_; ///< that they had
 };

@@ -4,6 +4,11 @@
 
 #include "state/database_errors.hpp"
 
+#include <unistd.h>
+
+#include <cerrno>
+#include <filesystem>
+
 namespace blactl::state {
 namespace {
 
@@ -15,6 +20,13 @@ std::string reason_of(sqlite3* handle, int result) {
   const int error = handle != nullptr ? sqlite3_system_errno(handle) : 0;
   const bool is_of_system = primary == SQLITE_IOERR || primary == SQLITE_CANTOPEN;
   return is_of_system && error != 0 ? system_reason(error) : sqlite3_errstr(result);
+}
+
+/// When SQLite cannot make a log it looks whether there is one: then the system names the missing
+/// file, and not what is in the way.
+int reason_not_opened(const std::string& path, int error) {
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  return error == ENOENT && access(folder.c_str(), W_OK) != 0 ? errno : error;
 }
 
 } // namespace
@@ -97,7 +109,8 @@ Error Database::failure(int result) const {
   case SQLITE_CANTOPEN:
     return result == SQLITE_CANTOPEN_SYMLINK
                ? errors::link(told_as_)
-               : errors::of_system(told_as_, sqlite3_system_errno(handle()));
+               : errors::of_system(told_as_,
+                                   reason_not_opened(path(), sqlite3_system_errno(handle())));
   default: leave_as_it_is(true); return errors::damaged(told_as_, reason);
   }
 }

@@ -10,76 +10,21 @@ end the allocator runs undisturbed and every servo has its ID.
 """
 
 import argparse
-import json
 import os
 import random
-import subprocess
 import sys
 import tempfile
-import threading
 import time
 
 import bench
-
-INTERFACE = "sim:"
-
-
-def scenario(servos, seed):
-    return {"schema": "blactl-scenario/1", "clock": "virtual", "seed": seed,
-            "servos": [{"model": "BLA21-12U-AB", "node_id": 0, "serial_number": number + 1}
-                       for number in range(servos)],
-            "wire": {"loss": 0.02}}
-
-
-class Wire:
-    """The node IDs that allocators gave, as a listener of its own hears them."""
-
-    def __init__(self, blactl, folder):
-        self.given = []
-        self.process = bench.start(blactl, folder, INTERFACE,
-                                   ["--json", "trace", "--type", "Allocation"])
-        self._reader = threading.Thread(target=self._read, daemon=True)
-        self._reader.start()
-
-    def _read(self):
-        for line in self.process.stdout:
-            event = json.loads(line)
-            fields = event.get("fields") or {}
-            if event.get("source") and fields.get("node_id"):
-                self.given.append((fields["unique_id"], fields["node_id"]))
-
-    def end(self):
-        self.process.terminate()
-        self.process.wait(timeout=bench.PATIENCE_S)
-        self._reader.join(timeout=bench.PATIENCE_S)
-        self.process.stdout.close()
-        self.process.stderr.close()
-
-
-def table(blactl, folder):
-    """What `alloc --list` says; a table that cannot be read is a fault."""
-    listed = subprocess.run([blactl, "-i", INTERFACE, "--json", "alloc", "--list"], text=True,
-                            env=bench.environment(folder), capture_output=True, check=False,
-                            timeout=bench.PATIENCE_S)
-    if listed.returncode != 0:
-        raise AssertionError(f"the table cannot be read: {listed.stderr}")
-    entries = json.loads(listed.stdout)["entries"]
-    return {entry["unique_id"]: entry["node_id"] for entry in entries}
-
-
-def compare(known, now, given):
-    """`known`: the table before; `given`: what went over the wire since the begin."""
-    for unit, node_id in known.items():
-        assert now.get(unit) == node_id, f"{unit} had {node_id}, now {now.get(unit)}"
-    for unit, node_id in given:
-        assert now.get(unit) == node_id, f"{unit} was told {node_id}, the table: {now.get(unit)}"
-    assert len(set(now.values())) == len(now), f"an ID is two units': {now}"
+from dynamic import INTERFACE, Wire, compare, scenario, table
 
 
 def run(blactl, folder, kills, servos, chance):
     """One life of the servos: kills, then an allocator to the end. How many were killed, how many
     of them after an ID had gone over the wire and before the end, and how many IDs went."""
-    simulator = bench.Simulator(blactl, folder, scenario(servos, chance.randrange(1 << 30)))
+    simulator = bench.Simulator(blactl, folder, scenario(
+        servos, chance.randrange(1 << 30), wire={"loss": 0.02}))
     wire = Wire(blactl, folder)
     known, killed, between = table(blactl, folder), 0, 0
     try:

@@ -90,6 +90,14 @@ class Outcome:
         self.command, self.status, self.out, self.err = command, status, out, err
         self.record = heard
 
+    @property
+    def document(self):
+        """The one that it printed, or the last line of a stream."""
+        try:
+            return json.loads(self.out)
+        except ValueError:
+            return json.loads((self.out.splitlines() or [""])[-1])
+
     def __str__(self):
         return f"$ {self.command}\nexit status {self.status}\n{brief(self.out)}\n{self.err}"
 

@@ -21,6 +21,7 @@ import subprocess
 import sys
 import tempfile
 
+import alloc_story
 import bench
 import scenario
 import story
@@ -81,11 +82,14 @@ class Campaign:
             try:
                 before = begun(world.dump()[1])
                 power_on = min(state["time"] for state in before.values())
+                given = {}
                 for index, commands in enumerate(episode.steps):
                     told = bench.run_at_once(self.blactl, folder, world, commands, options)
                     events, after = world.dump()
+                    step = truth.Step(before, events, after, episode.scenario, power_on, given)
+                    given = step.given
                     if check:
-                        check(told, truth.Step(before, events, after, episode.scenario, power_on))
+                        check(told, step)
                         self.check_use(told, episode.must_succeed(index))
                     outcomes += told
                     if any(outcome.status != 0 for outcome in told):
@@ -102,7 +106,8 @@ class Campaign:
             if self.verbose:
                 print(outcome)
             try:
-                story.check(outcome, step, self.defaults, len(outcomes) == 1)
+                judge = alloc_story if alloc_story.is_meant(outcome) else story
+                judge.check(outcome, step, self.defaults, len(outcomes) == 1)
             except FAULTS as fault:
                 self.differ(fault, outcome)
 
@@ -117,7 +122,7 @@ class Campaign:
     def compare(with_json, with_text):
         """The same episode again as text: the same frames, so the same end."""
         for told, said in zip(with_json, with_text):
-            document = json.loads(told.out)
+            document = told.document
             codes = re.findall(r"^blactl: \[(\w+)\]", said.err, re.MULTILINE)
             if told.status != said.status or codes != [e["code"] for e in document["errors"]]:
                 raise story.Lie(f"JSON and text differ:\n{told}{said}")

@@ -77,6 +77,27 @@ class Episode:
             self._stumble_once(chance)
         elif kind < 0.35:
             self._let_alone()
+        self._let_ask(random.Random(f"alloc {seed}"))
+
+    def _let_ask(self, chance):
+        """Some servos have no node ID, and get one. It is drawn apart: the other episodes, and the
+        rest of these, stay what they were before there was `alloc`."""
+        self.asking = []
+        if chance.random() < 0.75:
+            return
+        if chance.random() < 0.4:
+            self._let_alone()
+        self.asking = chance.sample(self.serials, chance.randint(1, len(self.serials)))
+        for servo in self.scenario["servos"]:
+            if servo["serial_number"] in self.asking:
+                servo["node_id"] = 0
+        once, listing = Command(["alloc", "--once"]), Command(["alloc", "--list"])
+        killed = once._replace(killed_after_s=chance.uniform(0.005, 0.05))
+        beside = chance.choice([[], [], [], [once], [listing], [killed]])
+        self.steps = [[once] + beside, *self.steps[:3]]
+        again = chance.randint(1, len(self.steps))
+        self.steps[again:again] = [[once]]
+        self.steps.append([listing])
 
     def _let_alone(self):
         """Nothing goes wrong."""
@@ -96,7 +117,15 @@ class Episode:
                 "faults" in servo or "sending" in servo for servo in self.scenario["servos"]):
             return False
         return all(len(step) == 1 and not step[0].may_change_ids() for step in self.steps[:index]
-                   ) and len(self.steps[index]) == 1 and self.steps[index][0].is_right()
+                   ) and len(self.steps[index]) == 1 and self._is_right(self.steps[index][0], index)
+
+    def _is_right(self, command, index):
+        """Servos that had to ask first are not where they were drawn."""
+        verb, *_ = command.words
+        is_numbered = verb != "alloc" and command.words[2].isdigit()
+        has_given = index > 0 and self.steps[0][0].words[0] == "alloc"
+        return command.is_right() and (
+            not self.asking or verb == "alloc" or (has_given and not is_numbered))
 
     def _stumble_once(self, chance):
         """One restart by itself between two requests of one command, and nothing else: among so

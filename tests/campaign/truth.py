@@ -7,11 +7,13 @@ SETTLED_S = 3.0  # after this a servo that has started has sent its first NodeSt
 
 class Step:
     """One step of an episode. `before`, `after`: the state of every servo by its serial number;
-    `events`: what happened to them between; `scenario`: what was to go wrong after `power_on`."""
+    `events`: what happened to them between; `scenario`: what was to go wrong after `power_on`;
+    `given`: the node IDs that servos were given before, and then those of this step, too."""
 
-    def __init__(self, before, events, after, scenario, power_on):
+    def __init__(self, before, events, after, scenario, power_on, given):
         self.before, self.after = before, after
         self._events, self._scenario, self._power_on = events, scenario, power_on
+        self.given_before, self.given = given, {**given, **dict(self.allocated())}
 
     def restarts(self, serial):
         """The times."""
@@ -28,6 +30,23 @@ class Step:
 
     def saved_addresses(self, serial):
         return self.after[serial]["rom"].keys()
+
+    # Node IDs that servos get.
+
+    def allocated(self):
+        """The serial numbers and the IDs that they got, in the order of time."""
+        return [(line["serial_number"], line["node_id"]) for line in self._events
+                if line["event"] == "allocated"]
+
+    def has_other_allocator(self):
+        return any(node.get("allocates") for node in self._scenario.get("foreign", []))
+
+    def is_unhindered(self, serial):
+        """Whether nothing was to go wrong that concerns a servo."""
+        servo = next(servo for servo in self._scenario["servos"]
+                     if servo["serial_number"] == serial)
+        return not (self._scenario.get("wire") or self._scenario.get("events") or
+                    "faults" in servo or "sending" in servo or self._scenario.get("foreign"))
 
     # What a client can know.
 

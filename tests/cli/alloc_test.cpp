@@ -139,12 +139,6 @@ TEST_CASE("what is assigned by hand is given; what is forgotten is free") {
   CHECK(codes(gone) == std::vector<std::string>{"not_found"});
 }
 
-TEST_CASE("alloc does not take servos by their node ID, which they do not have") {
-  const Result result = run({"alloc", "--list", "-n", "11"});
-  CHECK(result.status == 2);
-  CHECK(contains(result.err, "alloc takes no --node\n  name units by their unique ID"));
-}
-
 TEST_CASE("faults of a file are told one a line, indented") {
   const Bench bench;
   const std::string file =

@@ -49,6 +49,9 @@ class RealEpisode(scenario.Episode):
         self.steps = [[command._replace(killed_after_s=None) for command in step]
                       for step in self.steps[:MOST_STEPS]]
 
+    def _let_ask(self, chance):
+        pass  # to see that nobody asks takes long in real time
+
     def must_succeed(self, _):
         return False  # a busy machine is in the way of real time
 

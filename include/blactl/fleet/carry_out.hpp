@@ -29,9 +29,10 @@ struct Manner {
   std::optional<Duration> come_back{}; ///< empty: 5 s, and 2 s for each that will ask for an ID
   /// Nobody else of this machine allocates on the interface: this process may.
   bool may_allocate = false;
-  /// Opens the allocation table, when a servo asks for an ID. Where it cannot be opened, or this is
+  /// Opens the allocation table, when a servo asks for an ID. Where it cannot be used, or this is
   /// empty, each gets the ID that it had, and that is not kept.
   std::function<Result<state::AllocationStore>()> allocations{};
+  std::function<void(const Error&)> not_kept{};    ///< told once, why; may be empty
   std::function<void(const Progress&)> progress{}; ///< called once a second; may be empty
 };
 

@@ -80,6 +80,10 @@ fleet::Manner MakeStatic::manner() {
   return {.identification = context_.identification(),
           .may_allocate = context_.may_allocate(),
           .allocations = [this] { return context_.allocations(AllocationStore::Access::write); },
+          .not_kept =
+              [this](const Error& error) {
+                context_.reporter().note(say<texts::ids_not_kept>(error.message));
+              },
           .progress =
               [this](const fleet::Progress& progress) {
                 context_.reporter().progress(cli::text(progress));

@@ -203,7 +203,7 @@ void Serve::conclude() {
       report_.fail_target({Code::not_back,
                            say<texts::alloc_not_up>(unit.node_id.value(), hex(unique_id)),
                            say<texts::alloc_not_up_hint>(), unit.node_id.value()});
-    } else {
+    } else if (unit.node_id.is_unicast()) { // else it has got none, and nothing stands against it
       report_.targets.emplace_back();
     }
   }

@@ -266,6 +266,31 @@ TEST_CASE("where the allocation table cannot be opened, a servo gets the ID that
   CHECK(asked == 1);
 }
 
+TEST_CASE("an ID that the allocation table does not take is told of once, whenever that shows") {
+  const state::test::Folder folder;
+  const std::string path = folder.path.string();
+  using Access = state::AllocationStore::Access;
+  const Scene scene(servos({servo(11), servo(12)}));
+  write(scene, 11, "static_node_id=0");
+  write(scene, 12, "static_node_id=0");
+  Manner manner = allocating;
+  std::vector<Code> told;
+  manner.not_kept = [&](const Error& error) { told.push_back(error.code); };
+  SECTION("it cannot be opened") {
+    manner.allocations = []() -> Result<state::AllocationStore> {
+      return fail(Code::permission, "no table");
+    };
+  }
+  SECTION("it cannot be written, as on a disk that is full since") {
+    REQUIRE(state::AllocationStore::open(path, Access::write));
+    manner.allocations = [&] { return state::AllocationStore::open(path, Access::read); };
+  }
+  const auto carried_out = change(scene, save, {11, 12}, manner);
+  CHECK(carried_out.servos[0].returned == NodeId(11));
+  CHECK(carried_out.servos[1].returned == NodeId(12));
+  CHECK(told == std::vector{Code::permission});
+}
+
 TEST_CASE("where somebody else allocates, or may, this process does not") {
   const Scene scene(servos({servo(11)}));
   write(scene, 11, "static_node_id=0");
