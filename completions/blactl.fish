@@ -236,6 +236,7 @@ complete -c blactl -n __blactl_needs_command -a wait -d 'until the servos are th
 complete -c blactl -n __blactl_needs_command -a faults -d 'what is wrong with servos, and what to do'
 complete -c blactl -n __blactl_needs_command -a pwm-config -d 'how PWM pulses become commands: show, plot, change'
 complete -c blactl -n __blactl_needs_command -a trace -d 'every DroneCAN transfer decoded, live or from a candump log; sends nothing'
+complete -c blactl -n __blactl_needs_command -a characterize -d 'measures on one servo what the specification leaves open, and restores it'
 complete -c blactl -n __blactl_needs_command -a models -d 'what the profiles know, without any servo'
 complete -c blactl -n __blactl_needs_command -a sim -d 'simulated servos: serves the sim: bus, or joins a real interface with -i'
 complete -c blactl -s i -l interface -r -f -a '(__blactl_interface)' -d 'can0, slcan:DEV, mcast:N, sim:, sim:SCENARIO.json, replay:FILE (default: the only CAN interface that is up)'
@@ -317,6 +318,8 @@ complete -c blactl -n '__blactl_in trace' -l count -r -f -d 'end after so many t
 complete -c blactl -n '__blactl_in trace' -l stats -d 'instead of the transfers, who sends what how often, and the load of the bus'
 complete -c blactl -n '__blactl_in trace' -l absolute -d 'the time of day instead of seconds since the first frame'
 complete -c blactl -n '__blactl_argument trace 1' -F
+
+complete -c blactl -n '__blactl_argument characterize 1' -F
 
 complete -c blactl -n '__blactl_in models' -l group -r -f -a 'command status operation fault config control pwm limit option product production' -d 'the parameters of one group only'
 complete -c blactl -n '__blactl_argument models 1' -f -a '(__blactl_models; __blactl_parameters)'

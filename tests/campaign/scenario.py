@@ -46,6 +46,10 @@ class Command(typing.NamedTuple):
         """After it a target may be known by another ID, or by none."""
         return self.words[0] == "erase" or any("static_node_id" in word for word in self.words)
 
+    def is_about_one(self):
+        """It takes just one servo, and is told to take all."""
+        return self.words[:3] == ["characterize", "-n", "all"]
+
     def is_right(self):
         """No servo has a reason to refuse it."""
         # IDs may be another servo's already, and one ID is not given to several.
@@ -96,7 +100,8 @@ class Episode:
                 "faults" in servo or "sending" in servo for servo in self.scenario["servos"]):
             return False
         return all(len(step) == 1 and not step[0].may_change_ids() for step in self.steps[:index]
-                   ) and len(self.steps[index]) == 1 and self.steps[index][0].is_right()
+                   ) and len(self.steps[index]) == 1 and self.steps[index][0].is_right() and not (
+                       self.steps[index][0].is_about_one() and len(self.ids) > 1)
 
     def _stumble_once(self, chance):
         """One restart by itself between two requests of one command, and nothing else: among so
@@ -212,6 +217,8 @@ class Episode:
         target = chance.choice(["all", str(chance.choice(self.ids)),
                                 f"serial:{chance.choice(self.serials)}"])
         verb = chance.choice(["set", "set", "set", "save", "save", "erase", "restart", "get"])
+        if chance.random() < 0.06:
+            verb = "characterize"
         command = [verb, "-n", target]
         if verb == "get":
             return command + ["--all"]
