@@ -24,7 +24,7 @@ std::string read_file(const std::filesystem::path& path) {
 Scene one_servo(const nlohmann::json& behaviour = nlohmann::json::object(),
                 const nlohmann::json& more = {}) {
   nlohmann::json members = more.is_null() ? nlohmann::json::object() : more;
-  members["behaviour"] = behaviour;
+  members["behaviour"] = behaviour.is_null() ? nlohmann::json::object() : behaviour;
   return Scene().servo("BLA21-12U-AB", 11, members);
 }
 

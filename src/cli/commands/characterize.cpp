@@ -117,9 +117,9 @@ bool Characterize::choose(fleet::Selection selection) {
 }
 
 bool Characterize::read() {
-  auto snapshots = fleet::take_snapshots(
-      context_.session(), context_.known(), std::span(&id_, 1), context_.identification(),
-      fleet::registers_to_characterize, fleet::ReadJob::Proof::run);
+  auto snapshots =
+      fleet::take_snapshots(context_.session(), context_.known(), std::span(&id_, 1),
+                            context_.identification(), fleet::registers_to_characterize);
   if (snapshots.broken) {
     return broken(*snapshots.broken);
   }

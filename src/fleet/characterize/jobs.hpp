@@ -43,6 +43,21 @@ class Question final : public dronecan::Job {
   Reply reply_;
 };
 
+/// Another job, which goes on after a first signal.
+class Stubborn final : public dronecan::Job {
+ public:
+  explicit Stubborn(dronecan::Job& job) : job_(job) {}
+
+  [[nodiscard]] dronecan::Step next(const dronecan::Outcome& outcome) override {
+    return job_.next(outcome);
+  }
+
+  [[nodiscard]] bool must_finish() const override { return true; }
+
+ private:
+  dronecan::Job& job_;
+};
+
 /// Reads registers of a servo as soon as it is there; it needs no more than one try each.
 class EarlyReads final : public dronecan::Job {
  public:

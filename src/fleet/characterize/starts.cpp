@@ -3,6 +3,7 @@
 #include "blactl/fleet/texts.hpp"
 
 #include "fleet/characterize/findings.hpp"
+#include "fleet/characterize/soft_start.hpp"
 #include "fleet/characterize/test_bench.hpp"
 #include "fleet/characterize/texts.hpp"
 
@@ -25,14 +26,6 @@ using namespace std::chrono_literals;
 /// How near to 0 deg a shaft may be, and to a command, to count as there (4.14: about 1 deg).
 constexpr std::int64_t near_decideg = 20;
 
-/// What the soft start puts in the place of registers (4.14).
-constexpr std::array<std::pair<Address, std::int64_t>, 5> soft_start_limits{
-    {{at::speed_torque_control, 1},
-     {at::speed_limit_cw, 30},
-     {at::speed_limit_ccw, -30},
-     {at::torque_limit_cw, 30},
-     {at::torque_limit_ccw, -30}}};
-
 /// In the order in which they are read: the angle last, as it was when all else was read.
 std::vector<Address> at_once() {
   std::vector<Address> all{at::torque_output, at::soft_start, at::command_angle};
@@ -51,10 +44,6 @@ std::string milliseconds(Duration time) {
 std::optional<Duration> silence_of(const Start& start) {
   return start.first ? std::optional(*start.first - start.answered.value_or(start.asked))
                      : std::nullopt;
-}
-
-bool starts_softly(const Values& seen) {
-  return bla::find(seen, at::torque_output) == 0 && bla::find(seen, at::soft_start) == 1;
 }
 
 /// What 0x00 says of a servo that was turned on in place.

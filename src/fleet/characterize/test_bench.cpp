@@ -6,6 +6,7 @@
 #include "blactl/fleet/texts.hpp"
 
 #include "fleet/characterize/jobs.hpp"
+#include "fleet/characterize/soft_start.hpp"
 #include "fleet/characterize/texts.hpp"
 
 #include <signal.h>
@@ -30,15 +31,8 @@ using namespace std::chrono_literals;
 
 constexpr std::int64_t output_on = 0, output_off = 1; // 4.13
 
-/// How long a start may take, with the allocation of a node ID and the longest ROM write.
-constexpr Duration longest_start = 15s;
-
 /// NodeStatus comes once a second (2.2).
 constexpr Duration longest_until_status = 1200ms;
-
-/// What the soft start changes for a while (4.14).
-constexpr std::array of_soft_start{at::speed_torque_control, at::speed_limit_cw,
-                                   at::speed_limit_ccw, at::torque_limit_cw, at::torque_limit_ccw};
 
 } // namespace
 
@@ -46,7 +40,7 @@ TestBench::TestBench(Session& session, const bla::Profiles& profiles, const Snap
                      const BenchManner& manner)
     : session_(session), profiles_(profiles), manner_(manner), servo_(before.servo),
       ear_(before.servo.unique_id.value_or(dronecan::UniqueId{})), before_(before.values()) {
-  for (const Address address : of_soft_start) {
+  for (const auto& [address, limit] : soft_start_limits) {
     if (const auto raw = bla::find(before_, address)) {
       hidden_[address] = *raw;
       before_.erase(address);

@@ -15,6 +15,9 @@
 
 namespace blactl::fleet {
 
+/// How long a start may take, with the allocation of a node ID and the longest ROM write.
+inline constexpr Duration longest_start = std::chrono::seconds(15);
+
 /// What came of one question, kept.
 struct Reply {
   dronecan::Outcome::Kind kind = dronecan::Outcome::Kind::start;
@@ -124,6 +127,8 @@ class TestBench {
   [[nodiscard]] Result<void> give_back();
   [[nodiscard]] Result<void> give_back_settings(const bla::Values& now);
   [[nodiscard]] Result<void> give_back_command();
+  [[nodiscard]] Result<void> give_back_start();
+  [[nodiscard]] bool was_never_commanded() const;
   [[nodiscard]] std::optional<bla::Address> commanded() const;
   [[nodiscard]] bool is_of_another(std::int64_t node_id) const;
   [[nodiscard]] bool is_as_before(const bla::Values& now) const;

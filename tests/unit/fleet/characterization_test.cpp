@@ -146,8 +146,7 @@ class Rig {
   /// What it holds, as the command looks at it before its question.
   [[nodiscard]] Snapshot look(std::uint8_t id = 11) const {
     const std::vector ids{NodeId(id)};
-    auto snapshots = take_snapshots(*session, profiles(), ids, {}, registers_to_characterize,
-                                    ReadJob::Proof::run);
+    auto snapshots = take_snapshots(*session, profiles(), ids, {}, registers_to_characterize);
     REQUIRE_FALSE(snapshots.broken);
     INFO((snapshots.servos[0].first_error() ? snapshots.servos[0].first_error()->message : ""));
     REQUIRE_FALSE(snapshots.servos[0].first_error());
@@ -199,14 +198,15 @@ void check_done(const Characterization& measured) {
 struct Case {
   std::string setting, value; ///< of "behaviour"
   std::string servo = "";     ///< further members
+  std::string scene = "";     ///< of the scenario
 };
 
 /// Of each setting that a bench can measure all values; times apart.
 const std::vector<Case>& cases() {
-  const std::string held_away = R"(, "ram": {"current_angle": "120deg"})";
   const std::string in_place = R"(, "rom": {"soft_start": "off", "torque_output": "off"}, "ram":
       {"current_angle": "45deg"})";
-  const std::string slow = R"(, "rom": {"soft_start": "on"}, "ram": {"current_angle": "120deg"})";
+  const std::string held_away = R"(, "events": [{"at": "3s", "servo": 240900001,
+      "world": {"hand": "120deg"}}])";
   const std::string old = R"(, "model": "BLA21-12U-A0", "firmware_version": 1010)";
   static const std::vector<Case> all{
       {"out_of_range", "refuse"},
@@ -243,8 +243,8 @@ const std::vector<Case>& cases() {
       {"speed_control_before_1100", "false", old},
       {"inclusive_limits", "true"},
       {"inclusive_limits", "false"},
-      {"soft_start_shows", "true", slow},
-      {"soft_start_shows", "false", slow},
+      {"soft_start_shows", "true", "", held_away},
+      {"soft_start_shows", "false", "", held_away},
   };
   return all;
 }
@@ -302,7 +302,8 @@ TEST_CASE("each setting is found as it is simulated") {
     const bool is_dynamic = wanted.servo.find("node_id") != std::string::npos;
     const std::uint8_t id = is_dynamic ? dynamic_id : 11;
     const Rig rig(fmt::format(R"("behaviour": {{"{}": {}}}{})", wanted.setting,
-                              literal(wanted.value), wanted.servo));
+                              literal(wanted.value), wanted.servo),
+                  wanted.scene);
     const Memory before = rig.memory();
     const auto measured = rig.measure(id);
     check_done(measured);
