@@ -4,6 +4,7 @@
 #include "blactl/dronecan/service.hpp"
 #include "blactl/dronecan/types.hpp"
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <vector>
@@ -30,8 +31,8 @@ class Ear final : public dronecan::Service {
 
   void advance(Time /*now*/) override {}
 
-  /// The servo `id` is told to go: what comes from now on is of that start.
-  void expect(dronecan::NodeId id, Time now);
+  /// The servo `id` is told to go: what comes once `is_sent` holds is of that start.
+  void expect(dronecan::NodeId id, std::function<bool()> is_sent);
 
   /// The servo that is expected is back under the node ID that it had.
   [[nodiscard]] bool is_back() const { return start_of(id_).first.has_value(); }
@@ -46,17 +47,22 @@ class Ear final : public dronecan::Service {
   struct Sender {
     std::map<std::uint16_t, dronecan::TransferId> last_ids{}; ///< by data type
     std::optional<std::uint32_t> uptime_s{};                  ///< told last
+    Time status_at{};                                         ///< of `status`
     std::optional<dronecan::ActuatorStatus> status{};
     std::optional<Time> first{}, first_status{}; ///< of the start that is expected
     std::optional<dronecan::Mode> first_mode{};
   };
 
+  [[nodiscard]] bool is_expected() const { return is_sent_ && is_sent_(); }
+
+  [[nodiscard]] static bool has_started(Sender& sender, const dronecan::Transfer& transfer);
+  void begin_start();
   void hear_message(const dronecan::Transfer& transfer);
   void hear_request(const dronecan::Transfer& transfer);
 
   dronecan::UniqueId unique_id_;
   dronecan::NodeId id_{};
-  std::optional<Time> expected_; ///< since when a start is
+  std::function<bool()> is_sent_; ///< empty: no start is expected
   std::optional<Time> answered_, requested_;
   std::map<dronecan::NodeId, Sender> senders_;
 };

@@ -171,6 +171,7 @@ Result<Values> TestBench::rest() {
   if (!values) {
     return values;
   }
+  is_starting_softly_ = false;
   (*values)[at::torque_output] = *output;
   for (const auto& [address, raw] : std::exchange(hidden_, {})) {
     before_[address] = (*values)[address];
@@ -229,15 +230,16 @@ Result<void> TestBench::set(Address address, std::int64_t raw) {
   if (!held) {
     return std::unexpected(held.error());
   }
+  return *held == raw ? Result<void>() : std::unexpected(not_taken(address, raw, *held));
+}
+
+Error TestBench::not_taken(Address address, std::int64_t raw, std::int64_t held) const {
   const bla::Parameter& parameter = *servo_.identity.parameter(address);
   const std::uint8_t id = servo_.id.value();
-  return *held == raw
-             ? Result<void>()
-             : std::unexpected(Error{Code::refused,
-                                     say<texts::bench_set_refused>(id, parameter.name,
-                                                                   bla::display(parameter, raw),
-                                                                   bla::display(parameter, *held)),
-                                     say<texts::not_taken_hint>(id), id});
+  return {Code::refused,
+          say<texts::bench_set_refused>(id, parameter.name, bla::display(parameter, raw),
+                                        bla::display(parameter, held)),
+          say<texts::not_taken_hint>(id), id};
 }
 
 Result<Reply> TestBench::write_timeout_time(std::int64_t raw) {
@@ -295,29 +297,32 @@ Result<void> TestBench::recognise(dronecan::NodeId id) {
   return {};
 }
 
-Result<Start> TestBench::restart(RestartKind kind, std::vector<Address> at_once) {
+std::optional<Error> TestBench::refuse_restart(RestartKind kind) const {
   if (auto why = forbidden()) {
-    return std::unexpected(std::move(*why));
+    return why;
   }
-  if (const auto writer = roster().writer_to(servo_.id, servo_.since);
-      writer && kind == RestartKind::save) { // what it wrote is not what ROM holds
+  const auto writer = roster().writer_to(servo_.id, servo_.since);
+  if (kind == RestartKind::save && writer) { // what it wrote is not what ROM holds
     const std::uint8_t id = servo_.id.value();
-    return std::unexpected(Error{Code::state, say<texts::other_writer>(id, writer->value()),
-                                 say<texts::other_writer_hint>(), id});
+    return Error{Code::state, say<texts::other_writer>(id, writer->value()),
+                 say<texts::other_writer_hint>(), id};
   }
-  has_changed_ = true;
-  touched_.clear();
-  known_.clear();
-  at_once_.clear();
-  ear_.expect(servo_.id, session_.now());
+  return std::nullopt;
+}
+
+/// Where it is back; meanwhile it is asked for these registers.
+Result<dronecan::NodeId> TestBench::leave_and_return(RestartKind kind,
+                                                     const std::vector<Address>& at_once) {
   const Patience& patience = manner_.identification.patience;
-  RestartJob job(roster(), servo_,
-                 {.kind = kind, .come_back = longest_start, .patience = patience});
+  restart_.emplace(
+      roster(), servo_,
+      RestartJob::Options{.kind = kind, .come_back = longest_start, .patience = patience});
+  ear_.expect(servo_.id, [this] { return restart_->is_sent(); });
   EarlyReads early(
       servo_.id, servo_.identity.registers(at_once), [this] { return ear_.is_back(); },
       patience.timeout);
   session_.start(early);
-  auto ran = run(job);
+  auto ran = run(*restart_);
   if (ran && ear_.is_back()) {
     ran = run(early);
   } else {
@@ -327,23 +332,35 @@ Result<Start> TestBench::restart(RestartKind kind, std::vector<Address> at_once)
   if (!ran) {
     return std::unexpected(ran.error());
   }
-  if (job.error()) {
-    return std::unexpected(*job.error());
+  if (restart_->error()) {
+    return std::unexpected(*restart_->error());
   }
-  const dronecan::NodeId id = *job.returned();
+  return *restart_->returned();
+}
+
+Result<Start> TestBench::restart(RestartKind kind, const std::vector<Address>& at_once) {
+  if (auto why = refuse_restart(kind)) {
+    return std::unexpected(std::move(*why));
+  }
+  has_changed_ = true;
+  touched_.clear();
+  known_.clear();
+  const auto id = leave_and_return(kind, at_once);
+  if (!id) {
+    return std::unexpected(id.error());
+  }
   // A servo is back with the first answer already; how it says so by itself is to be heard, too.
   const auto heard = session_.live_until(session_.now() + longest_until_status, [&] {
-    return ear_.start_of(id).first_status.has_value();
+    return ear_.start_of(*id).first_status.has_value();
   });
   if (!heard) {
     return std::unexpected(heard.error());
   }
-  if (auto known = recognise(id); !known) {
+  if (auto known = recognise(*id); !known) {
     return std::unexpected(known.error());
   }
   Start start = ear_.start_of(servo_.id);
-  start.asked = job.sent_at();
-  had_to_ask_ = start.requested.has_value();
+  start.asked = restart_->sent_at();
   return start;
 }
 

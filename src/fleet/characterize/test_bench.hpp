@@ -102,13 +102,14 @@ class TestBench {
 
   /// Restarts or saves, waits until it is back and recognises it. As soon as it is back it is asked
   /// for these registers.
-  [[nodiscard]] Result<Start> restart(RestartKind kind, std::vector<bla::Address> at_once = {});
+  [[nodiscard]] Result<Start> restart(RestartKind kind,
+                                      const std::vector<bla::Address>& at_once = {});
+
+  /// What rest() has read just after a start.
+  void learn_rom(const bla::Values& rom) { rom_ = rom; }
 
   /// Those registers, as far as they were answered.
   [[nodiscard]] const bla::Values& at_once() const { return at_once_; }
-
-  /// The allocation of a node ID was needed for its last start.
-  [[nodiscard]] bool had_to_ask() const { return had_to_ask_; }
 
   // The end.
 
@@ -121,6 +122,9 @@ class TestBench {
  private:
   [[nodiscard]] Result<void> run(dronecan::Job& job);
   [[nodiscard]] std::optional<Error> forbidden() const;
+  [[nodiscard]] std::optional<Error> refuse_restart(RestartKind kind) const;
+  [[nodiscard]] Result<dronecan::NodeId> leave_and_return(RestartKind kind,
+                                                          const std::vector<bla::Address>& at_once);
   [[nodiscard]] Result<bla::Values> read_all();
   [[nodiscard]] Result<void> recognise(dronecan::NodeId id);
   [[nodiscard]] Result<void> find_servo();
@@ -128,6 +132,10 @@ class TestBench {
   [[nodiscard]] Result<void> give_back_settings(const bla::Values& now);
   [[nodiscard]] Result<void> give_back_command();
   [[nodiscard]] Result<void> give_back_start();
+  [[nodiscard]] Result<void> give_back_after_start();
+  [[nodiscard]] Result<void> give_back_angle();
+  [[nodiscard]] bool hides(bla::Address address, std::int64_t told) const;
+  [[nodiscard]] Error not_taken(bla::Address address, std::int64_t raw, std::int64_t held) const;
   [[nodiscard]] bool was_never_commanded() const;
   [[nodiscard]] std::optional<bla::Address> commanded() const;
   [[nodiscard]] bool is_of_another(std::int64_t node_id) const;
@@ -140,13 +148,15 @@ class TestBench {
   Servo servo_;
   Ear ear_;
   bla::Values before_;             ///< what it shall hold in the end
+  bla::Values rom_;                ///< what ROM holds, once it is known
   bla::Values hidden_;             ///< of it what a soft start may have hidden
   bla::Values known_;              ///< what was read last
   std::set<bla::Address> touched_; ///< since settle()
   bla::Values at_once_;
-  bool had_to_ask_ = false;
+  std::optional<RestartJob> restart_; ///< the last one: the ear goes by it
   bool has_changed_ = false;
   bool puts_back_ = false;
+  bool is_starting_softly_ = false; ///< as far as is known, since it was put back
 };
 
 } // namespace blactl::fleet

@@ -100,6 +100,9 @@ inline constexpr Text bench_at_zero{"the shaft stood at 0 deg, where both look a
                                     "出力軸が 0° 付近のため区別できません"};
 inline constexpr Text bench_no_soft_start{"it does not start softly (0x20, 0x21)",
                                           "ソフトスタートしない設定です (0x20、0x21)"};
+inline constexpr Text bench_soft_start_cut{
+    "a timeout (0x26, 0x27) or a fault ends its soft start at once",
+    "通信タイムアウト (0x26、0x27) または異常により、ソフトスタートがすぐに終了します"};
 inline constexpr Text bench_limits_alike{"its own limits are those of the soft start",
                                          "設定値がソフトスタートの制限と同じです"};
 inline constexpr Text bench_asks_for_id{"it asks for a node ID first, at a random moment",

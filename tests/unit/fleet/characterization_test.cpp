@@ -17,6 +17,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <map>
+#include <random>
 #include <set>
 #include <string>
 #include <utility>
@@ -96,6 +97,16 @@ std::string text(const Memory& memory) {
     out += fmt::format("rom {}={} ", address.name(), raw);
   }
   return out;
+}
+
+/// Where 0x00 rules it makes no difference whether 0x01 and 0x02 are 0 or not active.
+Memory without_idle_commands(Memory memory) {
+  for (const bla::Address address : {bla::address::command_speed, bla::address::command_torque}) {
+    std::int64_t& raw = memory.ram[address];
+    const bool rules = memory.ram.at(bla::address::command_angle) == bla::not_active;
+    raw = !rules && raw == bla::not_active ? 0 : raw;
+  }
+  return memory;
 }
 
 /// One servo, BLA21-12U-AB at 11 unless `members` says otherwise, that has run for some time.
@@ -334,6 +345,81 @@ TEST_CASE("nothing is found that is not so") {
       }
       CHECK(text(rig.memory()) == text(before));
     }
+  }
+}
+
+TEST_CASE("whatever a servo is like and holds, nothing wrong is found and nothing stays changed") {
+  const char* all = std::getenv("BLACTL_EVERY_FRAME");
+  const int servos = all != nullptr ? 2000 : 60;
+  std::mt19937 chance(20261123);
+  const auto one_of = [&](const auto& all) {
+    return all[std::uniform_int_distribution<std::size_t>(0, all.size() - 1)(chance)];
+  };
+  const std::vector<std::string> models{"BLA15-06U-A0", "BLA21-06U-AB", "BLA21-12U-A0",
+                                        "BLA21-28U-AB", "BLA34-12U-AB", "BLA34-28U-AB"};
+  const std::vector<std::pair<std::string, std::vector<std::string>>> memory{
+      {"angle_limit_cw", {"0deg", "45.5deg", "179.9deg", "400deg"}},
+      {"angle_limit_ccw", {"0deg", "-10deg", "-180deg"}},
+      {"torque_output", {"on", "off", "brake"}},
+      {"soft_start", {"on", "off"}},
+      {"reverse", {"on", "off"}},
+      {"timeout_action", {"hold", "off", "brake"}},
+      {"timeout_time", {"1ms", "800ms", "60000ms"}},
+      {"speed_torque_control", {"on", "off"}},
+      {"speed_limit_cw", {"0rpm", "30rpm", "70rpm"}},
+      {"torque_limit_cw", {"0%", "30%", "100%"}},
+      {"origin", {"0deg", "-12.3deg"}},
+      {"extended_angle", {"on", "off"}}};
+  const auto schema = behaviour_schema();
+  std::map<std::string, int> found;
+  for (int i = 0; i < servos; ++i) {
+    std::map<std::string, std::string> behaviour;
+    for (const auto& [key, property] : schema.items()) {
+      // Half a second an answer is no bench.
+      behaviour[key] = key == "answer_delay" ? "2ms" : one_of(values_of(property));
+    }
+    const auto some = [&] {
+      std::string out;
+      for (const auto& [name, values] : memory) {
+        if (one_of(std::vector{true, false})) {
+          out += fmt::format(R"({}"{}": "{}")", out.empty() ? "" : ", ", name, one_of(values));
+        }
+      }
+      return out;
+    };
+    std::string is_like;
+    for (const auto& [key, value] : behaviour) {
+      is_like += fmt::format(R"({}"{}": {})", is_like.empty() ? "" : ", ", key, literal(value));
+    }
+    const std::string members = fmt::format(
+        R"("model": "{}", "behaviour": {{{}}}, "rom": {{{}}}, "ram": {{{}}}, "servo_id": {})",
+        one_of(models), is_like, some(), some(), i % 3);
+    const std::string scene = one_of(std::vector<std::string>{
+        "", R"(, "events": [{"at": "2s", "servo": 240900001, "world": {"hand": "-75deg"}}])",
+        R"(, "events": [{"at": "2s", "servo": 240900001, "world": {"hand": "30deg"}},
+            {"at": "3s", "servo": 240900001, "world": {"hand": "free"}}])"});
+    INFO(members << scene);
+    const Rig rig(members, scene);
+    const Memory before = rig.memory();
+    const auto measured = rig.measure();
+    check_done(measured);
+    CHECK(text(without_idle_commands(rig.memory())) == text(without_idle_commands(before)));
+    for (const Fact& fact : measured.facts) {
+      const std::string& value = behaviour.at(std::string(fact.setting));
+      INFO(fact.setting << " " << words(fact.value));
+      if (fact.value && value.ends_with("ms")) {
+        const double tolerance = fact.setting == "answer_delay" ? 0.1 : 3;
+        CHECK(std::abs(milliseconds(words(fact.value)) - milliseconds(value)) <= tolerance);
+      } else if (fact.value) {
+        CHECK(words(fact.value) == value);
+      }
+      found[std::string(fact.setting)] += fact.value ? 1 : 0;
+    }
+  }
+  for (const auto* often : {"out_of_range", "keeps_disabled_command", "array_command_shows",
+                            "notices_warn", "inclusive_limits", "rom_write_time"}) {
+    INFO(often << " " << found[often]);
+    CHECK(found[often] > servos / 3);
   }
 }
 
