@@ -221,16 +221,19 @@ bool TestBench::hides(Address address, std::int64_t told) const {
   return is_starting_softly_ && is_soft_start_limit(address, told);
 }
 
-/// Of a servo that starts in place, and stands elsewhere by now: what 0x00 says alone proves
-/// nothing.
+/// Of a servo that starts in place, and stood elsewhere then. What 0x00 says after a start proves
+/// nothing before a command: the output as it is.
 Result<void> TestBench::give_back_angle() {
-  const auto raw = held(at::command_angle);
-  const auto told = read(at::command_angle);
-  const auto angle = told ? read(at::current_angle) : told;
-  if (!angle) {
-    return std::unexpected(angle.error());
+  const auto output = held(at::torque_output);
+  if (auto told = output ? set(at::torque_output, *output) : Result<void>(); !told) {
+    return told;
   }
-  return !raw || (*told == *raw && *angle == *raw) ? Result<void>() : set(at::command_angle, *raw);
+  const auto raw = held(at::command_angle);
+  const auto now = read(at::command_angle);
+  if (!now) {
+    return std::unexpected(now.error());
+  }
+  return !raw || *now == *raw ? Result<void>() : set(at::command_angle, *raw);
 }
 
 Result<void> TestBench::give_back_command() {

@@ -348,16 +348,57 @@ TEST_CASE("nothing is found that is not so") {
   }
 }
 
-TEST_CASE("whatever a servo is like and holds, nothing wrong is found and nothing stays changed") {
-  const char* all = std::getenv("BLACTL_EVERY_FRAME");
-  const int servos = all != nullptr ? 2000 : 60;
-  std::mt19937 chance(20261123);
-  const auto one_of = [&](const auto& all) {
-    return all[std::uniform_int_distribution<std::size_t>(0, all.size() - 1)(chance)];
-  };
-  const std::vector<std::string> models{"BLA15-06U-A0", "BLA21-06U-AB", "BLA21-12U-A0",
-                                        "BLA21-28U-AB", "BLA34-12U-AB", "BLA34-28U-AB"};
-  const std::vector<std::pair<std::string, std::vector<std::string>>> memory{
+namespace {
+
+/// One by chance: every setting, what RAM and ROM hold, a hand on its shaft.
+struct RandomServo {
+  std::map<std::string, std::string> behaviour;
+  std::string members, scene;
+};
+
+class RandomServos {
+ public:
+  explicit RandomServos(unsigned seed) : chance_(seed) {}
+
+  RandomServo next() {
+    RandomServo servo;
+    std::string is_like;
+    for (const auto& [key, property] : schema_.items()) {
+      // Half a second an answer is no bench.
+      const std::string value = key == "answer_delay" ? "2ms" : one_of(values_of(property));
+      servo.behaviour[key] = value;
+      is_like += fmt::format(R"({}"{}": {})", is_like.empty() ? "" : ", ", key, literal(value));
+    }
+    const std::string model = one_of(models_), rom = some_memory(), ram = some_memory();
+    servo.members = fmt::format(
+        R"("model": "{}", "behaviour": {{{}}}, "rom": {{{}}}, "ram": {{{}}}, "servo_id": {})",
+        model, is_like, rom, ram, number(3));
+    servo.scene = one_of(scenes_);
+    return servo;
+  }
+
+  std::size_t number(std::size_t below) {
+    return std::uniform_int_distribution<std::size_t>(0, below - 1)(chance_);
+  }
+
+ private:
+  std::string one_of(const std::vector<std::string>& all) { return all[number(all.size())]; }
+
+  std::string some_memory() {
+    std::string out;
+    for (const auto& [name, values] : memory_) {
+      if (number(2) == 0) {
+        out += fmt::format(R"({}"{}": "{}")", out.empty() ? "" : ", ", name, one_of(values));
+      }
+    }
+    return out;
+  }
+
+  std::mt19937 chance_;
+  nlohmann::json schema_ = behaviour_schema();
+  std::vector<std::string> models_{"BLA15-06U-A0", "BLA21-06U-AB", "BLA21-12U-A0",
+                                   "BLA21-28U-AB", "BLA34-12U-AB", "BLA34-28U-AB"};
+  std::vector<std::pair<std::string, std::vector<std::string>>> memory_{
       {"angle_limit_cw", {"0deg", "45.5deg", "179.9deg", "400deg"}},
       {"angle_limit_ccw", {"0deg", "-10deg", "-180deg"}},
       {"torque_output", {"on", "off", "brake"}},
@@ -370,42 +411,37 @@ TEST_CASE("whatever a servo is like and holds, nothing wrong is found and nothin
       {"torque_limit_cw", {"0%", "30%", "100%"}},
       {"origin", {"0deg", "-12.3deg"}},
       {"extended_angle", {"on", "off"}}};
-  const auto schema = behaviour_schema();
-  std::map<std::string, int> found;
+  std::vector<std::string> scenes_{
+      "", R"(, "events": [{"at": "2s", "servo": 240900001, "world": {"hand": "-75deg"}}])",
+      R"(, "events": [{"at": "2s", "servo": 240900001, "world": {"hand": "30deg"}},
+          {"at": "3s", "servo": 240900001, "world": {"hand": "free"}}])"};
+};
+
+/// With BLACTL_LONG_TESTS set, for nights.
+int this_many(int usual, int at_night) {
+  return std::getenv("BLACTL_LONG_TESTS") != nullptr ? at_night : usual;
+}
+
+void check_same(const Rig& rig, const Memory& before) {
+  CHECK(text(without_idle_commands(rig.memory())) == text(without_idle_commands(before)));
+}
+
+} // namespace
+
+TEST_CASE("whatever a servo is like and holds, nothing wrong is found and nothing stays changed") {
+  const int servos = this_many(60, 2000);
+  RandomServos chance(20261123);
+  std::map<std::string_view, int> found;
   for (int i = 0; i < servos; ++i) {
-    std::map<std::string, std::string> behaviour;
-    for (const auto& [key, property] : schema.items()) {
-      // Half a second an answer is no bench.
-      behaviour[key] = key == "answer_delay" ? "2ms" : one_of(values_of(property));
-    }
-    const auto some = [&] {
-      std::string out;
-      for (const auto& [name, values] : memory) {
-        if (one_of(std::vector{true, false})) {
-          out += fmt::format(R"({}"{}": "{}")", out.empty() ? "" : ", ", name, one_of(values));
-        }
-      }
-      return out;
-    };
-    std::string is_like;
-    for (const auto& [key, value] : behaviour) {
-      is_like += fmt::format(R"({}"{}": {})", is_like.empty() ? "" : ", ", key, literal(value));
-    }
-    const std::string members = fmt::format(
-        R"("model": "{}", "behaviour": {{{}}}, "rom": {{{}}}, "ram": {{{}}}, "servo_id": {})",
-        one_of(models), is_like, some(), some(), i % 3);
-    const std::string scene = one_of(std::vector<std::string>{
-        "", R"(, "events": [{"at": "2s", "servo": 240900001, "world": {"hand": "-75deg"}}])",
-        R"(, "events": [{"at": "2s", "servo": 240900001, "world": {"hand": "30deg"}},
-            {"at": "3s", "servo": 240900001, "world": {"hand": "free"}}])"});
-    INFO(members << scene);
-    const Rig rig(members, scene);
+    const RandomServo servo = chance.next();
+    INFO(servo.members << servo.scene);
+    const Rig rig(servo.members, servo.scene);
     const Memory before = rig.memory();
     const auto measured = rig.measure();
     check_done(measured);
-    CHECK(text(without_idle_commands(rig.memory())) == text(without_idle_commands(before)));
+    check_same(rig, before);
     for (const Fact& fact : measured.facts) {
-      const std::string& value = behaviour.at(std::string(fact.setting));
+      const std::string& value = servo.behaviour.at(std::string(fact.setting));
       INFO(fact.setting << " " << words(fact.value));
       if (fact.value && value.ends_with("ms")) {
         const double tolerance = fact.setting == "answer_delay" ? 0.1 : 3;
@@ -413,7 +449,7 @@ TEST_CASE("whatever a servo is like and holds, nothing wrong is found and nothin
       } else if (fact.value) {
         CHECK(words(fact.value) == value);
       }
-      found[std::string(fact.setting)] += fact.value ? 1 : 0;
+      found[fact.setting] += fact.value ? 1 : 0;
     }
   }
   for (const auto* often : {"out_of_range", "keeps_disabled_command", "array_command_shows",
@@ -421,6 +457,28 @@ TEST_CASE("whatever a servo is like and holds, nothing wrong is found and nothin
     INFO(often << " " << found[often]);
     CHECK(found[often] > servos / 3);
   }
+}
+
+TEST_CASE("whatever a servo is like and holds, a Ctrl-C at any moment leaves it so") {
+  constexpr std::size_t most_frames = 900; // beyond the end of most
+  RandomServos chance(20261124);
+  int interrupted = 0;
+  const int servos = this_many(60, 2000);
+  for (int i = 0; i < servos; ++i) {
+    const RandomServo servo = chance.next();
+    const auto at = static_cast<int>(chance.number(most_frames));
+    INFO(servo.members << servo.scene << " at " << at);
+    const Rig rig(servo.members, servo.scene);
+    const Memory before = rig.memory();
+    const Snapshot looked = rig.look();
+    rig.bus->at = rig.bus->sent + at;
+    const auto measured = characterize(*rig.session, profiles(), looked, {});
+    INFO((measured.not_put_back ? measured.not_put_back->message : ""));
+    CHECK_FALSE(measured.not_put_back);
+    check_same(rig, before);
+    interrupted += measured.error ? 1 : 0;
+  }
+  CHECK(interrupted > servos / 3);
 }
 
 TEST_CASE("times are found as they are simulated") {
@@ -502,8 +560,7 @@ TEST_CASE("a Ctrl-C at any moment leaves the servo as it was") {
   }();
   CHECK(frames > 200);
   // By frames of ours: no other moment is another to the servo.
-  const char* all = std::getenv("BLACTL_EVERY_FRAME");
-  const int step = all != nullptr ? 1 : 5;
+  const int step = this_many(5, 1);
   for (int at = 1; at <= frames; at += step) {
     const Rig rig(members);
     const Memory before = rig.memory();
