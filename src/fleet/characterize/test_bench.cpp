@@ -22,8 +22,6 @@ namespace blactl::fleet {
 namespace at = bla::address;
 using bla::Address;
 using bla::Values;
-using dronecan::GetNodeInfo;
-using dronecan::GetSet;
 
 namespace {
 

@@ -45,7 +45,6 @@ inline constexpr Text bench_question_angle{
     "  - in the end it is commanded {} again, and goes there at its full speed\n",
     "  - 最後に指令角度 {} を再設定するため、出力軸が全速で動く可能性があります\n"};
 
-inline constexpr Text bench_stage_listening{"listening", "受信中"};
 inline constexpr Text bench_stage_answers{"measuring how it answers", "応答を測定中"};
 inline constexpr Text bench_stage_settings{"measuring with the output off", "出力 OFF で測定中"};
 inline constexpr Text bench_stage_starts{"measuring how it starts", "起動を測定中"};
