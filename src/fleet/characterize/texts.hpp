@@ -40,7 +40,7 @@ inline constexpr Text bench_question{
     "  - 出力が数回 OFF になります。負荷や障害物を取り除いて下さい\n"
     "  - {} 回再起動し、ROM の内容をそのまま 1 回保存します。電源を切らないで下さい\n"
     "  - 起動のたびにトルクが ON になり、出力軸が 0° へ低速で動く可能性があります\n"
-    "  - timeout_time に範囲外の値を 1 回書き込み、元に戻します\n"};
+    "  - timeout_time に範囲外の値を 1 回だけ書き込んだ後、元に戻します\n"};
 inline constexpr Text bench_question_angle{
     "  - in the end it is commanded {} again, and goes there at its full speed\n",
     "  - 最後に指令角度 {} を再設定するため、出力軸が全速で動く可能性があります\n"};
