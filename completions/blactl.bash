@@ -66,7 +66,7 @@ _blactl_offer_nodes() {
   fi
 }
 
-_blactl_commands='scan alloc get set save erase restart wait faults pwm-config trace models sim'
+_blactl_commands='scan alloc get set save erase restart wait faults pwm-config trace doctor characterize models sim'
 _blactl_models='BLA15-06U-A0 BLA15-12U-A0 BLA21-06U-A0 BLA21-06U-AB BLA21-12U-A0 BLA21-12U-AB BLA21-28U-A0 BLA21-28U-AB BLA34-12U-AB BLA34-28U-AB'
 _blactl_parameters='command_angle command_speed command_torque current_angle current_speed current_torque current_temperature current_voltage fault_summary fault_notice fault_warning fault_failure torque_output soft_start smoothing reverse extended_angle speed_torque_control timeout_action timeout_time overcurrent_limit angle_p_gain angle_d_gain angle_dead_band angle_boost speed_p_gain speed_i_gain speed_dead_band speed_i_limit pwm_neutral pwm_range pwm_output_range pwm_mode angle_limit_cw angle_limit_ccw speed_limit_cw speed_limit_ccw torque_limit_cw torque_limit_ccw temperature_limit_high temperature_limit_low voltage_limit_high voltage_limit_low origin servo_id static_node_id model_number serial_number firmware_version hardware_version production_year production_month production_day production_hour production_minute'
 _blactl_settable='command_angle= command_speed= command_torque= torque_output= soft_start= smoothing= reverse= extended_angle= speed_torque_control= timeout_action= timeout_time= overcurrent_limit= angle_p_gain= angle_d_gain= angle_dead_band= angle_boost= speed_p_gain= speed_i_gain= speed_dead_band= speed_i_limit= pwm_neutral= pwm_range= pwm_output_range= pwm_mode= angle_limit_cw= angle_limit_ccw= speed_limit_cw= speed_limit_ccw= torque_limit_cw= torque_limit_ccw= temperature_limit_high= temperature_limit_low= voltage_limit_high= voltage_limit_low= origin= servo_id= static_node_id= bootloader='
@@ -119,6 +119,7 @@ _blactl_option() {
     trace:--kind) kind='words' value_words='message request response' ;;
     trace:--duration) kind='seconds' ;;
     trace:--count) kind='whole' ;;
+    doctor:--report) kind='file' ;;
     models:--group) kind='group' value_words='command status operation fault config control pwm limit option product production' ;;
     sim:--facts) kind='file' ;;
     sim:--seed) kind='whole' ;;
@@ -132,6 +133,7 @@ _blactl_argument() {
     get:*) kind='parameter' ;;
     set:*) kind='assignment' ;;
     trace:0) kind='file' ;;
+    characterize:0) kind='file' ;;
     models:0) kind='model_or_parameter' ;;
     models:1) kind='parameter' ;;
     sim:0) kind='file' ;;
@@ -152,6 +154,7 @@ _blactl_options() {
     faults) echo '--level --watch' ;;
     pwm-config) echo '--neutral --range --output --mode --endpoints --preset --svg --save --dry-run --wait --stagger' ;;
     trace) echo '--type --kind --duration --count --stats --absolute' ;;
+    doctor) echo '--report' ;;
     models) echo '--group' ;;
     sim) echo '--facts --seed --clock' ;;
   esac

@@ -8,7 +8,7 @@ function __blactl_words
     for word in $words[2..]
         if test $value = yes
             set value no
-        else if string match -qr -- '^(--(assign|clock|color|count|duration|endpoints|expect|export|facts|forget|group|id|import|interface|kind|lang|level|listen|local-node-id|mode|neutral|node|output|preset|profile|profile-dir|range|record|retries|seed|stagger|svg|timeout|type|wait)|-[jqvyhV]*[in])$' $word
+        else if string match -qr -- '^(--(assign|clock|color|count|duration|endpoints|expect|export|facts|forget|group|id|import|interface|kind|lang|level|listen|local-node-id|mode|neutral|node|output|preset|profile|profile-dir|range|record|report|retries|seed|stagger|svg|timeout|type|wait)|-[jqvyhV]*[in])$' $word
             set value yes
         else if not string match -q -- '-*' $word
             echo $word
@@ -236,6 +236,8 @@ complete -c blactl -n __blactl_needs_command -a wait -d 'until the servos are th
 complete -c blactl -n __blactl_needs_command -a faults -d 'what is wrong with servos, and what to do'
 complete -c blactl -n __blactl_needs_command -a pwm-config -d 'how PWM pulses become commands: show, plot, change'
 complete -c blactl -n __blactl_needs_command -a trace -d 'every DroneCAN transfer decoded, live or from a candump log; sends nothing'
+complete -c blactl -n __blactl_needs_command -a doctor -d 'what is wrong with interface, bus and nodes, and what mends it'
+complete -c blactl -n __blactl_needs_command -a characterize -d 'measures on one servo what the specification leaves open, and restores it'
 complete -c blactl -n __blactl_needs_command -a models -d 'what the profiles know, without any servo'
 complete -c blactl -n __blactl_needs_command -a sim -d 'simulated servos: serves the sim: bus, or joins a real interface with -i'
 complete -c blactl -s i -l interface -r -f -a '(__blactl_interface)' -d 'can0, slcan:DEV, mcast:N, sim:, sim:SCENARIO.json, replay:FILE (default: the only CAN interface that is up)'
@@ -319,6 +321,10 @@ complete -c blactl -n '__blactl_in trace' -l count -r -f -d 'end after so many t
 complete -c blactl -n '__blactl_in trace' -l stats -d 'instead of the transfers, who sends what how often, and the load of the bus'
 complete -c blactl -n '__blactl_in trace' -l absolute -d 'the time of day instead of seconds since the first frame'
 complete -c blactl -n '__blactl_argument trace 1' -F
+
+complete -c blactl -n '__blactl_in doctor' -l report -r -F -d 'write all of it to one file for the support'
+
+complete -c blactl -n '__blactl_argument characterize 1' -F
 
 complete -c blactl -n '__blactl_in models' -l group -r -f -a 'command status operation fault config control pwm limit option product production' -d 'the parameters of one group only'
 complete -c blactl -n '__blactl_argument models 1' -f -a '(__blactl_models; __blactl_parameters)'

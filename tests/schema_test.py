@@ -118,6 +118,8 @@ GOOD_SCENARIOS = [
     ([*SERVO, "firmware_version"], 1010),
     ([*BEHAVIOUR, "out_of_range"], "fail"),
     ([*BEHAVIOUR, "first_node_status"], 1000000),
+    ([*BEHAVIOUR, "answer_delay"], "10s"),
+    ([*BEHAVIOUR, "boot_time"], "0ms"),
     ([*SERVO, "faults", "restart_after_answer"], [{"to": "restart", "number": 4294967295}]),
     ([*SERVO, "faults", "restart_after_answer"], []),
 ]

@@ -15,7 +15,7 @@ namespace blactl::cli {
 namespace commands {
 
 extern const Command scan, alloc, get, set, save, erase, restart, wait, faults, pwm_config, trace,
-    doctor, models, sim;
+    doctor, characterize, models, sim;
 
 } // namespace commands
 

@@ -2,6 +2,7 @@
 
 #include "blactl/dronecan/allocator.hpp"
 #include "blactl/fleet/discovery.hpp"
+#include "blactl/fleet/former_ids.hpp"
 #include "blactl/fleet/texts.hpp"
 #include "blactl/fleet/ticker.hpp"
 
@@ -10,7 +11,6 @@
 #include <functional>
 #include <list>
 #include <map>
-#include <ranges>
 #include <span>
 #include <utility>
 
@@ -27,72 +27,16 @@ constexpr Duration start_up_time = 5s;
 constexpr Duration allocation_time = 2s; // one servo after the other, about 1 s each
 constexpr Duration leaving_time = 20ms;
 
-/// The IDs of the servos that restart: each gets its own again, and nobody else gets any.
-class FormerIds final : public dronecan::AllocationTable {
- public:
-  FormerIds(Session& session, std::span<const Plan> plans, const Manner& manner)
-      : session_(session), open_(manner.allocations), not_kept_(manner.not_kept) {
-    for (const Plan& plan : plans) {
-      if (const Servo& servo = plan.before.servo; servo.unique_id) {
-        ids_.emplace(*servo.unique_id, servo.id);
-      }
+/// The IDs of the servos that are changed.
+std::map<UniqueId, NodeId> ids_of(std::span<const Plan> plans) {
+  std::map<UniqueId, NodeId> ids;
+  for (const Plan& plan : plans) {
+    if (const Servo& servo = plan.before.servo; servo.unique_id) {
+      ids.emplace(*servo.unique_id, servo.id);
     }
   }
-
-  [[nodiscard]] bool serves(dronecan::Bytes prefix) const override {
-    return std::ranges::any_of(ids_ | std::views::keys, [&](const UniqueId& unique_id) {
-      return std::ranges::equal(std::span(unique_id).first(prefix.size()), prefix);
-    });
-  }
-
-  [[nodiscard]] std::optional<NodeId> assign(const UniqueId& unique_id,
-                                             NodeId /*preferred*/) override {
-    const auto former = ids_.find(unique_id);
-    if (former == ids_.end()) {
-      return std::nullopt;
-    }
-    const NodeId id = from_table(unique_id, former->second).value_or(former->second);
-    // Somebody else may have taken the ID in the meantime, and not have said yet who it is.
-    const Member* now = session_.roster().find(id);
-    const bool is_taken = now != nullptr && !now->is_unit(unique_id);
-    return is_taken ? std::nullopt : std::optional(id);
-  }
-
- private:
-  /// Empty: the table cannot be used, and the servo gets the ID that it had.
-  [[nodiscard]] std::optional<NodeId> from_table(const UniqueId& unique_id, NodeId former) {
-    if (!table_ && open_) {
-      table_ = open_();
-      open_ = {};
-    }
-    if (!table_) {
-      return std::nullopt;
-    }
-    if (!*table_) {
-      tell(table_->error());
-      return std::nullopt;
-    }
-    const state::AllocationChoice choice{.preferred = former,
-                                         .taken = session_.roster().ids_in_use(unique_id)};
-    const auto id = (*table_)->assign(unique_id, choice, session_.wall());
-    if (!id) {
-      tell(id.error());
-    }
-    return id ? std::optional(*id) : std::nullopt;
-  }
-
-  void tell(const Error& error) {
-    if (const auto not_kept = std::exchange(not_kept_, {})) {
-      not_kept(error);
-    }
-  }
-
-  Session& session_;
-  std::function<Result<state::AllocationStore>()> open_; ///< empty: it was tried
-  std::function<void(const Error&)> not_kept_;           ///< empty: it was told
-  std::optional<Result<state::AllocationStore>> table_;
-  std::map<UniqueId, NodeId> ids_; ///< that they had
-};
+  return ids;
+}
 
 /// Whether this servo will have to ask for a node ID when it starts, as far as is known.
 bool will_ask_for_id(const Plan& plan) {
@@ -142,7 +86,7 @@ Progress progress_of(const std::list<ChangeJob>& jobs, Duration elapsed) {
 
 CarriedOut carry_out(Session& session, const bla::Profiles& profiles, std::span<const Plan> plans,
                      const Manner& manner) {
-  FormerIds table(session, plans, manner);
+  FormerIds table(session, ids_of(plans), manner.allocations, manner.not_kept);
   dronecan::Allocator allocator(session.node(), table);
   if (manner.may_allocate && session.roster().allocators().empty()) {
     session.attach(allocator);

@@ -204,11 +204,11 @@ Result<Session::Happened> Session::take_signal(int number) {
   const bool first = std::exchange(signal_, number) == 0;
   if (first) {
     node_.stop(loop_.now());
+    give_up_at_ = loop_.now() + grace_;
   }
   if (!first || node_.jobs() == 0) {
     return end(interrupted());
   }
-  give_up_at_ = loop_.now() + grace;
   if (stopping_) {
     stopping_();
   }

@@ -12,6 +12,8 @@ namespace {
 
 constexpr std::chrono::seconds longest_rom_write(10);
 constexpr std::chrono::seconds longest_until_first_status(1);
+constexpr std::chrono::seconds longest_usual_delay(10);
+constexpr std::chrono::seconds longest_boot(10);
 
 /// Reads keys into members; what is left out stays as it is.
 class Reader {
@@ -108,6 +110,11 @@ void read_behaviour(json::Object object, Behaviour& into, json::Faults& faults) 
       read_duration(object, "rom_write_time", into.rom_write_time, longest_rom_write, faults);
   into.first_node_status = read_duration(object, "first_node_status", into.first_node_status,
                                          longest_until_first_status, faults);
+  into.answer_delay =
+      read_duration(object, "answer_delay", into.answer_delay, longest_usual_delay, faults);
+  const bool has_boot_time = object.has("boot_time");
+  const Duration boot_time = read_duration(object, "boot_time", {}, longest_boot, faults);
+  into.boot_time = has_boot_time ? std::optional(boot_time) : into.boot_time;
   read_commands(reader, into);
   read_motion(reader, into);
   object.finish();

@@ -11,6 +11,20 @@ namespace {
 
 constexpr std::string_view facts_schema = "blactl-facts/1";
 
+/// Which servo it was: for people, but no mistyped key passes.
+void read_about(json::Object object) {
+  if (!object.exists()) {
+    return;
+  }
+  for (const auto* key : {"model", "name", "software", "hardware", "time", "tool_version"}) {
+    (void)object.optional_string(key);
+  }
+  for (const auto* key : {"serial_number", "firmware_version", "hardware_version"}) {
+    (void)object.optional_integer(key);
+  }
+  object.finish();
+}
+
 Result<Behaviour> from_document(Result<json::Document> document) {
   if (!document) {
     return std::unexpected(document.error());
@@ -21,6 +35,7 @@ Result<Behaviour> from_document(Result<json::Document> document) {
   (void)root.word("schema", {facts_schema});
   Behaviour behaviour;
   read_behaviour(root.object("behaviour"), behaviour, faults);
+  read_about(root.optional_object("about"));
   root.finish();
   if (const auto fine = faults.result(); !fine) {
     return std::unexpected(fine.error());

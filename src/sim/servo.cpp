@@ -64,7 +64,7 @@ void Servo::handle(const dronecan::Transfer& transfer) {
   }
   serve(transfer);
   if (counter_.restarts_after(*kind)) {
-    departure_ = {.at = now_ + setup_.answer_delay, .kind = Departure::Kind::fault};
+    departure_ = {.at = now_ + setup_.behaviour.answer_delay, .kind = Departure::Kind::fault};
   }
 }
 
@@ -237,7 +237,7 @@ void Servo::answer(const dronecan::Transfer& request, const dronecan::DataType& 
   }
   if (!setup_.faults.mute && answers_.size() < max_answers) {
     answers_.push_back(
-        {now_ + setup_.answer_delay, endpoint_.response(request, type, payload.bytes())});
+        {now_ + setup_.behaviour.answer_delay, endpoint_.response(request, type, payload.bytes())});
   }
 }
 

@@ -37,7 +37,8 @@ Servo::Servo(const ServoSetup& setup, std::uint64_t seed, Time power_on)
 }
 
 Duration Servo::boot_time() {
-  return random_.between(min_boot_time, max_boot_time);
+  const Duration usual = random_.between(min_boot_time, max_boot_time);
+  return setup_.behaviour.boot_time.value_or(usual);
 }
 
 void Servo::receive(const can::Frame& frame, Time at) {
@@ -133,7 +134,7 @@ void Servo::obey(Order order, bool answered) {
     tell(ServoEvent::Kind::erase);
     return;
   }
-  departure_ = {.at = answered ? now_ + setup_.answer_delay : now_,
+  departure_ = {.at = answered ? now_ + setup_.behaviour.answer_delay : now_,
                 .kind = order == Order::save ? Departure::Kind::save : Departure::Kind::restart};
 }
 

@@ -62,12 +62,12 @@ ServoSetup ServoReader::read(const json::Value& value, std::size_t index) {
       read_unique_id(object, static_cast<std::uint64_t>(servo.serial_number), faults_);
   servo.name = read_node_name(
       object, default_name(servo.profile != nullptr ? servo.profile->series : ""), faults_);
-  servo.answer_delay =
-      read_duration(object, "answer_delay", servo.answer_delay, longest_answer_delay, faults_);
   servo.rom = registers(object.optional_object("rom"), Memory::rom, servo);
   servo.ram = registers(object.optional_object("ram"), Memory::ram, servo);
   servo.behaviour = usual_;
   read_behaviour(object.optional_object("behaviour"), servo.behaviour, faults_);
+  servo.behaviour.answer_delay = read_duration(object, "answer_delay", servo.behaviour.answer_delay,
+                                               longest_answer_delay, faults_);
   read_servo_faults(object.optional_object("faults"), servo.faults, faults_);
   read_sending(object.optional_object("sending"), servo.sending, faults_);
   object.finish();

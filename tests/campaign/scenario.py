@@ -46,6 +46,10 @@ class Command(typing.NamedTuple):
         """After it a target may be known by another ID, or by none."""
         return self.words[0] == "erase" or any("static_node_id" in word for word in self.words)
 
+    def is_about_one(self):
+        """It takes just one servo, and is told to take all."""
+        return self.words[:3] == ["characterize", "-n", "all"]
+
     def is_right(self):
         """No servo has a reason to refuse it."""
         # IDs may be another servo's already, and one ID is not given to several.
@@ -124,7 +128,7 @@ class Episode:
         verb, *_ = command.words
         is_numbered = verb != "alloc" and command.words[2].isdigit()
         has_given = index > 0 and self.steps[0][0].words[0] == "alloc"
-        return command.is_right() and (
+        return command.is_right() and not (command.is_about_one() and len(self.ids) > 1) and (
             not self.asking or verb == "alloc" or (has_given and not is_numbered))
 
     def _stumble_once(self, chance):
@@ -241,6 +245,8 @@ class Episode:
         target = chance.choice(["all", str(chance.choice(self.ids)),
                                 f"serial:{chance.choice(self.serials)}"])
         verb = chance.choice(["set", "set", "set", "save", "save", "erase", "restart", "get"])
+        if chance.random() < 0.06:
+            verb = "characterize"
         command = [verb, "-n", target]
         if verb == "get":
             return command + ["--all"]

@@ -58,6 +58,11 @@ def check_identity(node, step):
     require(node["unique_id"] in (None, step.after[serial]["unique_id"]), "a wrong unique ID")
 
 
+def may_save(outcome):
+    """characterize saves what ROM holds already."""
+    return saves(outcome) or outcome.command.words[0] == "characterize"
+
+
 def saves(outcome):
     return "--save" in outcome.command.words or outcome.command.words[0] == "save"
 
@@ -125,7 +130,7 @@ def check_others(outcome, step):
 
 
 def check_rom_writes(outcome, step):
-    most = 1 if saves(outcome) else 0
+    most = 1 if may_save(outcome) else 0
     for serial in step.after:
         count = step.rom_writes(serial)
         require(count <= most, f"{serial}: {count} ROM writes")
@@ -164,6 +169,8 @@ def check_node(told, defaults):
             check_same_memories(told)
     elif told.done and told.verb == "save":
         check_saved(told)
+    elif told.verb == "characterize":
+        check_as_before(told)
     after = told.node.get("node_id_after")
     if told.done and after is not None and told.ram_is_due():
         require(after == told.after["node_id"], f"{told.serial} is at {told.after['node_id']}")
@@ -204,6 +211,18 @@ def check_erased(told, defaults):
             told.require_held("ram", address, due)
             if saved:
                 told.require_held("rom", address, due)
+
+
+def check_as_before(told):
+    """Nothing stays changed, or it is said."""
+    is_said = ("not put back" in told.outcome.err or "is not known" in told.outcome.err)
+    if truth.has_lost_rom(told.after) or not told.ram_is_due() or (is_said and not told.done):
+        return
+    if not (told.done or told.outcome.record.changes()):
+        return
+    for address in told.step.saved_addresses(told.serial):
+        told.require_held("rom", address, told.before["rom"][address])
+        told.require_held("ram", address, told.before["ram"][address])
 
 
 def check_saved(told):

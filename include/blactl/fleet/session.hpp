@@ -78,7 +78,7 @@ class Session {
   void count(Traffic* traffic) { traffic_ = traffic; }
 
   /// Called when a first signal came while jobs run that must not be left half done: they have
-  /// `grace` to end. A second signal ends all at once.
+  /// some grace to end. A second signal ends all at once.
   void on_stopping(std::function<void()> hook) { stopping_ = std::move(hook); }
 
   /// Called for every question that goes out or stays without an answer; see dronecan::Node::Hooks.
@@ -94,7 +94,11 @@ class Session {
 
   void on_new_id(IdHook hook) { new_id_ = std::move(hook); }
 
-  static constexpr Duration grace = std::chrono::seconds(3);
+  static constexpr Duration usual_grace = std::chrono::seconds(3);
+
+  /// Another grace, for a command that puts back what it changed: until that is over the session
+  /// lives on after a first signal, whatever that has ended.
+  void set_grace(Duration grace) { grace_ = grace; }
 
   /// Lives until the bus is open: what is asked from then on, and how long is listened, has nothing
   /// to do with how long an adapter took. A node ID of our own that is no tool's is listened for
@@ -168,6 +172,7 @@ class Session {
   RequestHook asked_, unanswered_;
   IdHook new_id_;
   int signal_ = 0;
+  Duration grace_ = usual_grace;
   Time give_up_at_ = never; ///< after a signal: when running jobs are left half done
   std::uint64_t lost_ = 0;
   Time opened_{};

@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 
 namespace blactl::sim {
 
@@ -82,6 +83,11 @@ struct Behaviour {
   bool soft_start_resumes = false;    ///< cut by a timeout it goes on with the next command
 
   Duration rom_write_time = std::chrono::milliseconds(50); ///< "about 0.05 s" (4.11); up to 10 s
+  /// From a request to its answer; up to 10 s. A servo of a scenario has a key of its own for it.
+  Duration answer_delay = std::chrono::microseconds(500);
+  /// From power or restart to the first frame; up to 10 s. Empty: 50 to 150 ms, each time a little
+  /// different.
+  std::optional<Duration> boot_time;
 };
 
 } // namespace blactl::sim

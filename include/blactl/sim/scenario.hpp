@@ -95,7 +95,6 @@ struct ServoSetup {
   std::int64_t servo_id = 0;      ///< 0x45 in ROM
   std::int64_t model_number = 0, firmware_version = 0, hardware_version = 0;
   std::string name; ///< of GetNodeInfo; unproven what real servos say
-  Duration answer_delay = std::chrono::microseconds(500);
   // Both of other registers than those above.
   std::vector<std::pair<bla::Address, std::int64_t>> rom; ///< instead of the factory's values
   std::vector<std::pair<bla::Address, std::int64_t>> ram; ///< over ROM, once at power-on

@@ -94,7 +94,7 @@ TEST_CASE("a scenario says all there is to say") {
   CHECK(servo.unique_id[10] == 0xAA);
   CHECK(servo.serial_number == 240900558);
   CHECK(servo.hardware_version == 12051);
-  CHECK(servo.answer_delay == 500us);
+  CHECK(servo.behaviour.answer_delay == 500us);
   CHECK(servo.ram[0] == std::pair(bla::address::angle_limit_cw, std::int64_t{900}));
   CHECK(servo.ram[1].second == -450);
   CHECK(servo.ram[2].second == 2);
@@ -181,7 +181,7 @@ TEST_CASE("left out, everything about a servo but its model has a likely value")
   const ServoSetup servo = testing::servo_setup(R"("model": "BLA15-06U-A0")");
   CHECK(servo.node_id == 0);
   CHECK(servo.servo_id == 0);
-  CHECK(servo.answer_delay == 500us);
+  CHECK(servo.behaviour.answer_delay == 500us);
   CHECK(servo.model_number == 62);
   CHECK(servo.unique_id != dronecan::UniqueId{});
   CHECK(servo.name == "jp.co.futaba.bla15");
@@ -202,7 +202,7 @@ TEST_CASE("an answer delay is a time in any unit, or a number of microseconds") 
   const auto delay = [](const char* value) {
     return testing::servo_setup(
                fmt::format(R"("model": "BLA21-12U-AB", "answer_delay": {})", value))
-        .answer_delay;
+        .behaviour.answer_delay;
   };
   CHECK(delay("\"2ms\"") == 2ms);
   CHECK(delay("\"1.5s\"") == 1500ms);

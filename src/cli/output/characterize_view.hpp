@@ -1,0 +1,22 @@
+#pragma once
+// What was measured on a servo, as tables and as JSON.
+
+#include "blactl/base/json_writer.hpp"
+#include "blactl/fleet/characterization.hpp"
+
+#include "cli/output/page.hpp"
+
+#include <optional>
+#include <string>
+
+namespace blactl::cli {
+
+/// What is measured, seen, and not measured, each as a table.
+[[nodiscard]] std::string characterize_text(const fleet::Characterization& measured,
+                                            const Page& page);
+
+/// "nodes": the one servo. `file`: what the facts were written to; empty: to none.
+void write_characterization(JsonWriter& json, const fleet::Characterization& measured,
+                            const std::optional<std::string>& file, bool is_done);
+
+} // namespace blactl::cli

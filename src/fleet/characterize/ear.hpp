@@ -1,0 +1,70 @@
+#pragma once
+// Hears when a servo falls silent and when it is back.
+
+#include "blactl/dronecan/service.hpp"
+#include "blactl/dronecan/types.hpp"
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <vector>
+
+namespace blactl::fleet {
+
+/// When a servo went, and what it sent first when it was back.
+struct Start {
+  Time asked{};                               ///< the request to restart or to save went out
+  std::optional<Time> answered{};             ///< it was answered
+  std::optional<Time> requested{};            ///< it asked for a node ID for the first time
+  std::optional<Time> first{};                ///< the first frame under a node ID
+  std::optional<Time> first_status{};         ///< the first NodeStatus
+  std::optional<dronecan::Mode> first_mode{}; ///< that this told
+};
+
+class Ear final : public dronecan::Service {
+ public:
+  explicit Ear(const dronecan::UniqueId& unique_id) : unique_id_(unique_id) {}
+
+  void receive(const dronecan::Transfer& transfer) override;
+
+  [[nodiscard]] Time next_deadline() const override { return never; }
+
+  void advance(Time /*now*/) override {}
+
+  /// The servo `id` is told to go: what comes once `is_sent` holds is of that start.
+  void expect(dronecan::NodeId id, std::function<bool()> is_sent);
+
+  /// The servo that is expected is back under the node ID that it had.
+  [[nodiscard]] bool is_back() const { return start_of(id_).first.has_value(); }
+
+  /// The start that was expected, of the servo that is back as `id`.
+  [[nodiscard]] Start start_of(dronecan::NodeId id) const;
+
+  /// The newest actuator.Status of a node; empty: none was heard.
+  [[nodiscard]] std::optional<dronecan::ActuatorStatus> status_of(dronecan::NodeId id) const;
+
+ private:
+  struct Sender {
+    std::map<std::uint16_t, dronecan::TransferId> last_ids{}; ///< by data type
+    std::optional<std::uint32_t> uptime_s{};                  ///< told last
+    Time status_at{};                                         ///< of `status`
+    std::optional<dronecan::ActuatorStatus> status{};
+    std::optional<Time> first{}, first_status{}; ///< of the start that is expected
+    std::optional<dronecan::Mode> first_mode{};
+  };
+
+  [[nodiscard]] bool is_expected() const { return is_sent_ && is_sent_(); }
+
+  [[nodiscard]] static bool has_started(Sender& sender, const dronecan::Transfer& transfer);
+  void begin_start();
+  void hear_message(const dronecan::Transfer& transfer);
+  void hear_request(const dronecan::Transfer& transfer);
+
+  dronecan::UniqueId unique_id_;
+  dronecan::NodeId id_{};
+  std::function<bool()> is_sent_; ///< empty: no start is expected
+  std::optional<Time> answered_, requested_;
+  std::map<dronecan::NodeId, Sender> senders_;
+};
+
+} // namespace blactl::fleet

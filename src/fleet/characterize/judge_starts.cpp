@@ -1,0 +1,223 @@
+#include "fleet/characterize/judge_starts.hpp"
+
+#include "fleet/characterize/soft_start.hpp"
+#include "fleet/characterize/texts.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <span>
+#include <utility>
+
+namespace blactl::fleet {
+
+namespace at = bla::address;
+using bla::Address;
+using bla::Values;
+
+namespace {
+
+using namespace std::chrono_literals;
+
+/// How near to 0 deg a shaft may be, and to a command, to count as there (4.14: about 1 deg).
+constexpr std::int64_t near_decideg = 20;
+
+std::string milliseconds(Duration time) {
+  return std::to_string(std::chrono::round<std::chrono::milliseconds>(time).count()) + "ms";
+}
+
+/// From the answer on, or the question where there was none.
+std::optional<Duration> silence_of(const Start& start) {
+  return start.first ? std::optional(*start.first - start.answered.value_or(start.asked))
+                     : std::nullopt;
+}
+
+/// What 0x00 says of a servo that was turned on in place.
+void judge_start_angle(const Values& seen, Notes& notes) {
+  const auto angle = bla::find(seen, at::current_angle);
+  const auto command = bla::find(seen, at::command_angle);
+  if (!angle || !command) {
+    notes.leave("start_angle", say<texts::bench_start_unheard>());
+  } else if (starts_softly(seen)) {
+    notes.leave("start_angle", say<texts::bench_started_softly>());
+  } else if (std::abs(*angle) <= near_decideg) {
+    notes.leave("start_angle", say<texts::bench_at_zero>());
+  } else if (*command == 0) {
+    notes.found("start_angle", "zero");
+  } else if (std::abs(*command - *angle) <= near_decideg) {
+    notes.found("start_angle", "present");
+  } else {
+    notes.leave("start_angle", say<texts::bench_read_value>(*command));
+  }
+}
+
+/// What else ends a soft start (4.14): a timeout that turns the output off, and whatever stops the
+/// motor.
+bool was_cut(const Values& seen, const Values& rom) {
+  constexpr std::int64_t goes_on = 0;      // of 0x26
+  constexpr std::int64_t long_after = 500; // ms; it was asked at once
+  const bool times_out = bla::find(rom, at::timeout_action) != goes_on &&
+                         bla::find(rom, at::timeout_time).value_or(0) < long_after;
+  return times_out || bla::find(seen, at::fault_warning) != 0 ||
+         bla::find(seen, at::fault_failure) != 0;
+}
+
+/// What the registers say that the soft start changes, while it goes on. `rom`: what they hold.
+void judge_soft_start(const Values& seen, const Values& rom, Notes& notes) {
+  const auto angle = bla::find(seen, at::current_angle);
+  if (!angle || seen.size() < asked_at_once().size() - 1) {
+    notes.leave("soft_start_shows", say<texts::bench_start_unheard>());
+    return;
+  }
+  if (!starts_softly(seen)) {
+    notes.leave("soft_start_shows", say<texts::bench_no_soft_start>());
+    return;
+  }
+  if (was_cut(seen, rom)) {
+    notes.leave("soft_start_shows", say<texts::bench_soft_start_cut>());
+    return;
+  }
+  if (std::abs(*angle) <= near_decideg) { // it is over
+    notes.leave("soft_start_shows", say<texts::bench_at_zero>());
+    return;
+  }
+  bool shows = true, hides = true, differs = false;
+  for (const auto& [address, limit] : soft_start_limits) {
+    const auto told = bla::find(seen, address), held = bla::find(rom, address);
+    shows = shows && told == limit;
+    hides = hides && told == held;
+    differs = differs || held != limit;
+  }
+  if (differs && shows != hides) {
+    notes.found("soft_start_shows", shows);
+  } else {
+    notes.leave("soft_start_shows", say<texts::bench_limits_alike>());
+  }
+}
+
+/// The middle one: one start in which something was not heard counts for nothing.
+std::optional<Duration> middle(std::vector<Duration> times) {
+  std::ranges::sort(times);
+  return times.empty() ? std::nullopt : std::optional(times[times.size() / 2]);
+}
+
+std::optional<Duration> until_first_status(std::span<const Start> starts) {
+  std::vector<Duration> times;
+  for (const Start& start : starts) {
+    if (start.first && start.first_status) {
+      times.push_back(*start.first_status - *start.first);
+    }
+  }
+  return middle(times);
+}
+
+void judge_first_status(std::optional<Duration> time, Notes& notes) {
+  if (time && *time <= 1s) {
+    notes.found("first_node_status", milliseconds(*time));
+  } else {
+    notes.leave("first_node_status", say<texts::bench_start_unheard>());
+  }
+}
+
+/// The first frame of a start may look like the next one of the time before. Its NodeStatus does
+/// not, and comes as long after as that of other starts.
+void correct(Start& start, std::optional<Duration> until_status) {
+  if (start.first && start.first_status && until_status) {
+    start.first = std::min(*start.first, *start.first_status - *until_status);
+  }
+}
+
+void judge_allocation(const Start& last, Notes& notes) {
+  if (!last.requested) {
+    notes.leave("assignment_shows", say<texts::bench_static_id>());
+    return;
+  }
+  const Time gone = last.answered.value_or(last.asked);
+  notes.observe(say<texts::bench_seen_request>(), milliseconds(*last.requested - gone));
+  if (last.first) {
+    notes.observe(say<texts::bench_seen_allocation>(), milliseconds(*last.first - gone));
+  }
+  if (last.first_mode) {
+    notes.found("assignment_shows", *last.first_mode == dronecan::Mode::initialization);
+  } else {
+    notes.leave("assignment_shows", say<texts::bench_start_unheard>());
+  }
+}
+
+/// The middle one of the starts; empty: a servo that asks for a node ID first does not show it.
+std::optional<Duration> judge_boot(std::span<const Start> starts, Notes& notes) {
+  std::vector<Duration> times;
+  std::string all;
+  for (const Start& start : starts) {
+    const auto silence = silence_of(start);
+    if (start.requested || !silence) {
+      notes.leave("boot_time", start.requested ? say<texts::bench_asks_for_id>()
+                                               : say<texts::bench_start_unheard>());
+      return std::nullopt;
+    }
+    times.push_back(*silence);
+    all += (all.empty() ? "" : ", ") + milliseconds(*silence);
+  }
+  notes.observe(say<texts::bench_seen_starts>(), all);
+  const auto usual = middle(times);
+  notes.found("boot_time", milliseconds(*usual));
+  return usual;
+}
+
+void judge_save(const Start& save, std::optional<Duration> boot, Notes& notes) {
+  if (save.answered) {
+    notes.found("answers_save_first", true);
+  } else if (notes.has_lost_answers()) {
+    notes.leave("answers_save_first", say<texts::bench_answers_lost>());
+  } else {
+    notes.found("answers_save_first", false);
+  }
+  const auto silence = silence_of(save);
+  if (silence) {
+    notes.observe(say<texts::bench_seen_save>(), milliseconds(*silence));
+  }
+  if (boot && silence) {
+    notes.found("rom_write_time", milliseconds(std::max(Duration{}, *silence - *boot)));
+  } else {
+    notes.leave("rom_write_time", save.requested ? say<texts::bench_asks_for_id>()
+                                                 : say<texts::bench_start_unheard>());
+  }
+}
+
+} // namespace
+
+std::vector<Address> asked_at_once() {
+  std::vector<Address> all{at::torque_output, at::soft_start, at::command_angle, at::fault_warning,
+                           at::fault_failure};
+  for (const auto& [address, raw] : soft_start_limits) {
+    all.push_back(address);
+  }
+  all.push_back(at::current_angle);
+  return all;
+}
+
+void judge_starts(StartsSeen seen, Notes& notes) {
+  std::vector<Start> all = seen.restarts;
+  if (seen.save) {
+    all.push_back(*seen.save);
+  }
+  const auto until_status = until_first_status(all);
+  judge_first_status(until_status, notes);
+  judge_allocation(all.back(), notes);
+  judge_start_angle(seen.at_once, notes);
+  judge_soft_start(seen.at_once, seen.rom, notes);
+  for (Start& start : seen.restarts) {
+    correct(start, until_status);
+  }
+  const auto boot = judge_boot(seen.restarts, notes);
+  if (seen.save) {
+    correct(*seen.save, until_status);
+    judge_save(*seen.save, boot, notes);
+  } else if (!seen.is_rom_readable) {
+    for (const auto* setting : {"answers_save_first", "rom_write_time"}) {
+      notes.leave(setting, say<texts::bench_rom_unreadable>());
+    }
+  }
+}
+
+} // namespace blactl::fleet

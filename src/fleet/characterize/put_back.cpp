@@ -1,0 +1,285 @@
+// How a servo gets back what it held, whatever was going on when that became necessary.
+
+#include "blactl/dronecan/types.hpp"
+#include "blactl/fleet/guard.hpp"
+#include "blactl/fleet/texts.hpp"
+
+#include "fleet/characterize/jobs.hpp"
+#include "fleet/characterize/soft_start.hpp"
+#include "fleet/characterize/test_bench.hpp"
+#include "fleet/characterize/texts.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+namespace blactl::fleet {
+
+namespace at = bla::address;
+using bla::Address;
+using bla::Values;
+using dronecan::GetNodeInfo;
+
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Between two looks for a servo that is away.
+constexpr Duration look_period = 200ms;
+
+} // namespace
+
+Result<void> TestBench::put_back() {
+  puts_back_ = true;
+  if (!has_changed_) {
+    return {};
+  }
+  tell(texts::bench_stage_put_back);
+  if (auto given = give_back(); !given) {
+    return std::unexpected(not_put_back(given.error()));
+  }
+  return {};
+}
+
+Result<void> TestBench::give_back() {
+  if (auto found = find_servo(); !found) {
+    return found;
+  }
+  auto now = read_all();
+  if (!now) {
+    return std::unexpected(now.error());
+  }
+  if (is_as_before(*now)) {
+    return {};
+  }
+  // With the output off nothing moves before all is as it was; and no soft start hides anything.
+  now = rest();
+  if (!now) {
+    return std::unexpected(now.error());
+  }
+  if (auto given = give_back_settings(*now); !given) {
+    return given;
+  }
+  if (const auto output = held(at::torque_output)) {
+    if (auto set_output = set(at::torque_output, *output); !set_output) {
+      return set_output;
+    }
+  }
+  // That the output came on has changed it.
+  if (auto given = was_never_commanded() ? give_back_start() : give_back_command(); !given) {
+    return given;
+  }
+  const auto end = read_all();
+  if (!end) {
+    return std::unexpected(end.error());
+  }
+  Values expected = before_;
+  std::erase_if(expected,
+                [&](const auto& entry) { return hides(entry.first, end->at(entry.first)); });
+  const auto difference = differs_from(*end, expected);
+  return difference ? Result<void>(std::unexpected(*difference)) : Result<void>();
+}
+
+/// The servo may be away, or under another node ID.
+Result<void> TestBench::find_servo() {
+  const Time deadline = session_.now() + put_back_time;
+  const dronecan::UniqueId unit = servo_.unique_id.value_or(dronecan::UniqueId{});
+  for (;;) {
+    for (const auto& [id, member] : roster().members()) {
+      if (member.is_unit(unit)) {
+        servo_.id = id;
+      }
+    }
+    const auto reply = ask(fleet::ask(servo_.id, GetNodeInfo::type, GetNodeInfo::Request{}.encode(),
+                                      {manner_.identification.patience.timeout, 0}));
+    if (!reply) {
+      return std::unexpected(reply.error());
+    }
+    const auto info =
+        reply->answered() ? GetNodeInfo::Response::decode(reply->payload) : std::nullopt;
+    if (info && info->unique_id == unit) {
+      servo_.boot = roster().member(servo_.id).boots;
+      servo_.since = reply->asked;
+      return {};
+    }
+    if (session_.now() >= deadline) {
+      const std::uint8_t id = servo_.id.value();
+      return std::unexpected(
+          Error{Code::not_back, say<texts::node_gone>(id), say<texts::no_answer_hint>(), id});
+    }
+    if (auto waited = pause(look_period); !waited) {
+      return waited;
+    }
+  }
+}
+
+/// All but the output, and the command: that before 0x25 goes off, which ends speeds and torques.
+Result<void> TestBench::give_back_settings(const Values& now) {
+  const auto differs = [&](Address address, std::int64_t raw) {
+    return bla::is_setting(address) && address != at::torque_output &&
+           bla::find(now, address) != raw;
+  };
+  for (const auto& [address, raw] : before_) {
+    if (!differs(address, raw) || address == at::speed_torque_control) {
+      continue;
+    }
+    const bool is_taken = address == at::static_node_id && raw != 0 && is_of_another(raw);
+    if (is_taken) {
+      return fail(Code::duplicate_node_id, say<texts::bench_id_in_use>(raw));
+    }
+    if (auto given = set(address, raw); !given) {
+      return given;
+    }
+  }
+  if (auto given = was_never_commanded() ? Result<void>() : give_back_command(); !given) {
+    return given;
+  }
+  const auto speed_control = held(at::speed_torque_control);
+  return speed_control && bla::find(known_, at::speed_torque_control) != speed_control
+             ? set(at::speed_torque_control, *speed_control)
+             : Result<void>();
+}
+
+bool TestBench::is_of_another(std::int64_t node_id) const {
+  const dronecan::NodeId id(static_cast<std::uint8_t>(node_id));
+  return id == roster().local() || (id != servo_.id && roster().heard(id));
+}
+
+/// The register of 0x00-0x02 that ruled before.
+std::optional<Address> TestBench::commanded() const {
+  for (const Address address : bla::command_registers) {
+    if (const auto raw = held(address); raw && *raw != bla::not_active) {
+      return address;
+    }
+  }
+  return std::nullopt;
+}
+
+/// As a start leaves it: whoever commands one of 0x00-0x02 makes the others not active.
+bool TestBench::was_never_commanded() const {
+  return std::ranges::none_of(bla::command_registers, [&](Address address) {
+    return held(address).value_or(bla::not_active) == bla::not_active;
+  });
+}
+
+/// Only a start gives that back; and it brings the shaft slowly to where it goes.
+Result<void> TestBench::give_back_start() {
+  for (const Address address : bla::command_registers) {
+    if (const auto now = read(address); !now) {
+      return std::unexpected(now.error());
+    }
+  }
+  if (std::ranges::all_of(bla::command_registers, [&](Address address) {
+        return bla::find(known_, address) == held(address);
+      })) {
+    return {};
+  }
+  RestartJob job(roster(), servo_,
+                 {.kind = RestartKind::restart,
+                  .come_back = longest_start,
+                  .patience = manner_.identification.patience});
+  Stubborn stubborn(job);
+  if (auto ran = run(stubborn); !ran) {
+    return ran;
+  }
+  if (job.error()) {
+    return std::unexpected(*job.error());
+  }
+  if (auto found = find_servo(); !found) {
+    return found;
+  }
+  return give_back_after_start();
+}
+
+/// What was in RAM only, and where it stood.
+Result<void> TestBench::give_back_after_start() {
+  const auto now = read_all();
+  if (!now) {
+    return std::unexpected(now.error());
+  }
+  is_starting_softly_ = starts_softly(*now);
+  for (const auto& [address, raw] : before_) {
+    const std::int64_t told = now->at(address);
+    const bool is_hidden = hides(address, told);
+    const bool is_held = is_hidden ? bla::find(rom_, address) == raw : told == raw;
+    if (!bla::is_setting(address) || is_held) {
+      continue;
+    }
+    const auto held = write(address, raw);
+    if (!held) {
+      return std::unexpected(held.error());
+    }
+    if (*held != raw && !hides(address, *held)) {
+      return std::unexpected(not_taken(address, raw, *held));
+    }
+  }
+  return is_starting_softly_ ? Result<void>() : give_back_angle();
+}
+
+/// Whether a read tells what the soft start does, which is not what the register holds.
+bool TestBench::hides(Address address, std::int64_t told) const {
+  return is_starting_softly_ && is_soft_start_limit(address, told);
+}
+
+/// Of a servo that starts in place, and stood elsewhere then. What 0x00 says after a start proves
+/// nothing before a command: the output as it is.
+Result<void> TestBench::give_back_angle() {
+  const auto output = held(at::torque_output);
+  if (auto told = output ? set(at::torque_output, *output) : Result<void>(); !told) {
+    return told;
+  }
+  const auto raw = held(at::command_angle);
+  const auto now = read(at::command_angle);
+  if (!now) {
+    return std::unexpected(now.error());
+  }
+  return !raw || *now == *raw ? Result<void>() : set(at::command_angle, *raw);
+}
+
+Result<void> TestBench::give_back_command() {
+  const auto address = commanded();
+  if (!address) {
+    return {};
+  }
+  const auto now = read(*address);
+  if (!now) {
+    return std::unexpected(now.error());
+  }
+  if (*now == *held(*address)) {
+    return {};
+  }
+  const bool needs_switch =
+      *address != at::command_angle && bla::find(known_, at::speed_torque_control) == 0;
+  if (auto on = needs_switch ? set(at::speed_torque_control, 1) : Result<void>(); !on) {
+    return on;
+  }
+  return set(*address, *held(*address));
+}
+
+bool TestBench::is_as_before(const Values& now) const {
+  return hidden_.empty() && std::ranges::all_of(before_, [&](const auto& entry) {
+           return bla::find(now, entry.first) == entry.second;
+         });
+}
+
+/// What differs, as far as is known, and what to type to put it back.
+Error TestBench::not_put_back(const Error& reason) const {
+  const std::uint8_t id = servo_.id.value();
+  std::string names, assignments;
+  for (const auto& [address, raw] : before_) {
+    const bla::Parameter* parameter = servo_.identity.parameter(address);
+    if (parameter == nullptr || raw == bla::not_active || bla::find(known_, address) == raw) {
+      continue;
+    }
+    names += (names.empty() ? "" : ", ") + parameter->name;
+    assignments +=
+        (assignments.empty() ? "" : " ") + parameter->name + "=" + std::to_string(raw) + "raw";
+  }
+  if (names.empty()) {
+    return {reason.code, say<texts::bench_not_proven>(id, reason.message), reason.hint, id};
+  }
+  return {reason.code, say<texts::bench_not_put_back>(id, names, reason.message),
+          say<texts::bench_put_back_hint>(id, assignments), id};
+}
+
+} // namespace blactl::fleet

@@ -1,0 +1,309 @@
+// What is measured by writes to RAM while the output is off: nothing moves, and each setting gets
+// back its value after its measurement.
+
+#include "blactl/dronecan/types.hpp"
+#include "blactl/fleet/texts.hpp"
+
+#include "fleet/characterize/findings.hpp"
+#include "fleet/characterize/test_bench.hpp"
+#include "fleet/characterize/texts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+
+namespace blactl::fleet {
+
+namespace at = bla::address;
+using bla::Address;
+using dronecan::GetNodeInfo;
+using dronecan::GetSet;
+
+namespace {
+
+/// An angle that every servo is allowed (0x38 is not below it, 0x39 not above).
+constexpr std::int64_t zero_angle = 0;
+
+/// The bit that the profiles know by this code.
+std::int64_t bit_of(const TestBench& bench, std::string_view code) {
+  const auto bits = bench.profiles().fault_bits();
+  const auto found = std::ranges::find(bits, code, &bla::FaultBit::code);
+  return found != bits.end() ? std::int64_t{1} << found->bit : 0;
+}
+
+/// What the answer to a write out of range shows.
+void conclude_out_of_range(Notes& notes, const Reply& reply, std::int64_t before,
+                           std::int64_t limit, std::int64_t after) {
+  const auto answer = reply.answered() ? GetSet::Response::decode(reply.payload) : std::nullopt;
+  const auto* value = answer ? std::get_if<std::int64_t>(&answer->value) : nullptr;
+  if (after == limit && (!answer || (value != nullptr && *value == limit))) {
+    notes.found("out_of_range", "clamp");
+  } else if (answer && value == nullptr && after == before) {
+    notes.found("out_of_range", "fail");
+    notes.found("failure_with_name", !answer->name.empty());
+  } else if (value != nullptr && *value == before && after == before) {
+    notes.found("out_of_range", "refuse");
+  } else {
+    const std::string told = value != nullptr ? std::to_string(*value)
+                             : answer         ? std::string("-")
+                                              : say<texts::bench_no_answer>();
+    notes.leave("out_of_range", say<texts::bench_odd_answer>(told, after));
+  }
+}
+
+/// Once, and with 0x27 alone; upwards, where a value that is taken after all does the least.
+Result<void> measure_out_of_range(TestBench& bench, Notes& notes) {
+  const bla::Parameter& parameter = *bench.servo().identity.parameter(at::timeout_time);
+  const std::int64_t lowest = *parameter.min, highest = *parameter.max;
+  const auto before = bench.read(at::timeout_time);
+  if (!before) {
+    return std::unexpected(before.error());
+  }
+  const bool upwards = *before != highest;
+  const auto reply = bench.write_timeout_time(upwards ? highest + 1 : lowest - 1);
+  if (!reply) {
+    return std::unexpected(reply.error());
+  }
+  const auto after = bench.read(at::timeout_time);
+  if (!after) {
+    return std::unexpected(after.error());
+  }
+  conclude_out_of_range(notes, *reply, *before, upwards ? highest : lowest, *after);
+  return {};
+}
+
+/// 0x01 while 0x25 is off, or is not there: a standstill is what it is commanded.
+Result<void> measure_disabled_command(TestBench& bench, Notes& notes) {
+  const bool has_switch = bench.held(at::speed_torque_control).has_value();
+  auto set = bench.set(at::command_angle, zero_angle);
+  if (set && has_switch) {
+    set = bench.set(at::speed_torque_control, 0);
+  }
+  if (!set) {
+    return set;
+  }
+  const auto held = bench.write(at::command_speed, 0);
+  if (!held) {
+    return std::unexpected(held.error());
+  }
+  const bool ignores = *held == bla::not_active;
+  if (has_switch) {
+    notes.found("ignores_disabled_commands", ignores);
+    notes.leave("speed_control_before_1100", say<texts::bench_has_switch>());
+  } else if (ignores) {
+    notes.found("ignores_disabled_commands", true);
+    notes.found("speed_control_before_1100", false);
+  } else {
+    notes.leave("ignores_disabled_commands", say<texts::bench_takes_disabled>());
+    notes.leave("speed_control_before_1100", say<texts::bench_takes_disabled>());
+  }
+  return bench.set(at::command_angle, zero_angle);
+}
+
+/// A speed that 0x25 takes away; with the output off nothing turns.
+Result<void> measure_kept_command(TestBench& bench, Notes& notes) {
+  constexpr std::int64_t some_rpm = 10;
+  if (!bench.held(at::speed_torque_control)) {
+    notes.leave("keeps_disabled_command", say<texts::bench_no_switch>());
+    return {};
+  }
+  if (auto on = bench.set(at::speed_torque_control, 1); !on) {
+    return on;
+  }
+  const auto held = bench.write(at::command_speed, some_rpm);
+  if (!held) {
+    return std::unexpected(held.error());
+  }
+  if (*held != some_rpm) {
+    notes.leave("keeps_disabled_command", say<texts::bench_command_not_taken>(*held));
+    return bench.set(at::command_angle, zero_angle);
+  }
+  if (auto off = bench.set(at::speed_torque_control, 0); !off) {
+    return off;
+  }
+  const auto after = bench.read(at::command_speed);
+  if (!after) {
+    return std::unexpected(after.error());
+  }
+  if (*after == some_rpm || *after == 0) {
+    notes.found("keeps_disabled_command", *after == some_rpm);
+  } else {
+    notes.leave("keeps_disabled_command", say<texts::bench_read_value>(*after));
+  }
+  return bench.set(at::command_angle, zero_angle);
+}
+
+/// Whether the notices that stand now, and nothing worse, change the health.
+Result<void> look_at_health(TestBench& bench, Notes& notes) {
+  constexpr Duration until_shown = std::chrono::milliseconds(50);
+  if (auto waited = bench.pause(until_shown); !waited) {
+    return waited;
+  }
+  std::array<std::int64_t, 3> faults{};
+  const std::array registers{at::fault_notice, at::fault_warning, at::fault_failure};
+  for (std::size_t i = 0; i < registers.size(); ++i) {
+    const auto raw = bench.read(registers.at(i));
+    if (!raw) {
+      return std::unexpected(raw.error());
+    }
+    faults.at(i) = *raw;
+  }
+  const auto& [notices, warnings, failures] = faults;
+  if (notices == 0 || warnings != 0 || failures != 0) {
+    return {};
+  }
+  const auto reply = bench.ask(
+      ask(bench.servo().id, GetNodeInfo::type, GetNodeInfo::Request{}.encode(), Patience{}));
+  if (!reply) {
+    return std::unexpected(reply.error());
+  }
+  const auto info =
+      reply->answered() ? GetNodeInfo::Response::decode(reply->payload) : std::nullopt;
+  if (info && info->status.health <= dronecan::Health::warning) {
+    notes.found("notices_warn", info->status.health == dronecan::Health::warning);
+  }
+  return {};
+}
+
+/// The limit 0 of a shaft that stands still: at it, and not beyond.
+Result<void> measure_limits(TestBench& bench, Notes& notes) {
+  const std::int64_t bit = bit_of(bench, "speed_limit_cw");
+  const auto speed = bench.read(at::current_speed);
+  const auto before = speed ? bench.read(at::fault_notice) : speed;
+  if (!before) {
+    return std::unexpected(before.error());
+  }
+  if (*speed != 0) {
+    notes.leave("inclusive_limits", say<texts::bench_shaft_turns>());
+    return {};
+  }
+  if ((*before & bit) != 0 && bench.held(at::speed_limit_cw) != 0) {
+    notes.leave("inclusive_limits", say<texts::bench_notice_before>());
+    return {};
+  }
+  if (auto set = bench.set(at::speed_limit_cw, 0); !set) {
+    return set;
+  }
+  constexpr Duration until_shown = std::chrono::milliseconds(50);
+  if (auto waited = bench.pause(until_shown); !waited) {
+    return waited;
+  }
+  const auto after = bench.read(at::fault_notice);
+  if (!after) {
+    return std::unexpected(after.error());
+  }
+  notes.found("inclusive_limits", (*after & bit) != 0);
+  return look_at_health(bench, notes);
+}
+
+/// An angle beyond limits of 0 deg: what 0x00 holds, and what notice that is.
+Result<void> measure_limited_angle(TestBench& bench, Notes& notes) {
+  constexpr std::int64_t beyond = 10;
+  for (const Address limit : {at::angle_limit_cw, at::angle_limit_ccw}) {
+    if (auto set = bench.set(limit, 0); !set) {
+      return set;
+    }
+  }
+  const auto held = bench.write(at::command_angle, beyond);
+  if (!held) {
+    return std::unexpected(held.error());
+  }
+  if (*held == beyond || *held == 0) {
+    notes.found("keeps_limited_angle", *held == beyond);
+  } else {
+    notes.leave("keeps_limited_angle", say<texts::bench_read_value>(*held));
+  }
+  if (auto looked = look_at_health(bench, notes); !looked) {
+    return looked;
+  }
+  if (!notes.value("notices_warn")) {
+    notes.leave("notices_warn", say<texts::bench_no_notice>());
+  }
+  return bench.set(at::command_angle, zero_angle);
+}
+
+/// Whether others on the bus would hear a command to this servo, too.
+bool is_alone_with_servo_id(const TestBench& bench, std::int64_t servo_id) {
+  return std::ranges::none_of(bench.roster().members(), [&](const auto& entry) {
+    const auto& [id, member] = entry;
+    return id != bench.servo().id && member.actuator_id == servo_id;
+  });
+}
+
+/// An angle other than the one that is commanded, inside the limits.
+std::optional<std::int64_t> free_angle(const TestBench& bench) {
+  constexpr std::int64_t step = 10;
+  const std::int64_t cw = bench.held(at::angle_limit_cw).value_or(0);
+  const std::int64_t ccw = bench.held(at::angle_limit_ccw).value_or(0);
+  return cw >= step ? std::optional(step) : ccw <= -step ? std::optional(-step) : std::nullopt;
+}
+
+/// A command that no register shows: whether it was taken tells the notice that it is beyond.
+Result<bool> is_command_noticed(TestBench& bench, std::int64_t angle) {
+  const Address limit = angle > 0 ? at::angle_limit_cw : at::angle_limit_ccw;
+  const std::int64_t bit = bit_of(bench, angle > 0 ? "angle_limit_cw" : "angle_limit_ccw");
+  auto set = bench.set(at::command_angle, zero_angle);
+  if (set) {
+    set = bench.set(limit, angle / 2);
+  }
+  const auto before = set ? bench.read(at::fault_notice) : std::unexpected(set.error());
+  if (!before) {
+    return std::unexpected(before.error());
+  }
+  if (auto sent = bench.command_angle(angle); !sent) {
+    return std::unexpected(sent.error());
+  }
+  const auto after = bench.read(at::fault_notice);
+  if (!after) {
+    return std::unexpected(after.error());
+  }
+  return (*before & bit) == 0 && (*after & bit) != 0;
+}
+
+Result<void> measure_array_command(TestBench& bench, Notes& notes) {
+  constexpr int most_tries = 3; // nobody repeats a message
+  const std::int64_t servo_id = bench.held(at::servo_id).value_or(0);
+  const auto angle = free_angle(bench);
+  if (!angle || !is_alone_with_servo_id(bench, servo_id)) {
+    notes.leave("array_command_shows", angle ? say<texts::bench_servo_id_shared>(servo_id)
+                                             : say<texts::bench_no_free_angle>());
+    return {};
+  }
+  if (auto set = bench.set(at::command_angle, zero_angle); !set) {
+    return set;
+  }
+  for (int tries = 0; tries < most_tries; ++tries) {
+    if (auto sent = bench.command_angle(*angle); !sent) {
+      return sent;
+    }
+    const auto held = bench.read(at::command_angle);
+    if (!held) {
+      return std::unexpected(held.error());
+    }
+    if (*held == *angle) {
+      notes.found("array_command_shows", true);
+      return bench.set(at::command_angle, zero_angle);
+    }
+  }
+  const auto noticed = is_command_noticed(bench, *angle);
+  if (!noticed) {
+    return std::unexpected(noticed.error());
+  }
+  if (*noticed) {
+    notes.found("array_command_shows", false);
+  } else {
+    notes.leave("array_command_shows", say<texts::bench_command_unseen>());
+  }
+  return bench.set(at::command_angle, zero_angle);
+}
+
+} // namespace
+
+std::span<const Measurement> measurements_at_rest() {
+  static constexpr std::array<Measurement, 6> all{measure_out_of_range,  measure_disabled_command,
+                                                  measure_kept_command,  measure_limits,
+                                                  measure_limited_angle, measure_array_command};
+  return all;
+}
+
+} // namespace blactl::fleet

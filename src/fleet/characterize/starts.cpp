@@ -1,0 +1,124 @@
+// How a servo restarts and saves. Each start leaves it as ROM has it.
+
+#include "blactl/fleet/texts.hpp"
+
+#include "fleet/characterize/findings.hpp"
+#include "fleet/characterize/judge_starts.hpp"
+#include "fleet/characterize/test_bench.hpp"
+#include "fleet/characterize/texts.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace blactl::fleet {
+
+namespace at = bla::address;
+using bla::Address;
+using bla::Values;
+
+namespace {
+
+/// 0x11 alone, and just before it is restarted: a servo that takes the question for an order does
+/// what it would do anyway.
+Result<void> read_write_only(TestBench& bench, Notes& notes) {
+  const std::uint32_t boots = bench.roster().member(bench.servo().id).boots;
+  const auto reply = bench.read_once(at::reboot);
+  if (!reply) {
+    return std::unexpected(reply.error());
+  }
+  const auto answer =
+      reply->answered() ? dronecan::GetSet::Response::decode(reply->payload) : std::nullopt;
+  const auto* value = answer ? std::get_if<std::int64_t>(&answer->value) : nullptr;
+  if (bench.roster().member(bench.servo().id).boots != boots) {
+    notes.leave("write_only_reads", say<texts::bench_restarted_by_read>());
+  } else if (!answer) {
+    notes.leave("write_only_reads", say<texts::bench_no_answer>());
+  } else if (value == nullptr) {
+    notes.found("write_only_reads", "fail");
+  } else if (*value == 0) {
+    notes.found("write_only_reads", "zero");
+  } else {
+    notes.leave("write_only_reads", say<texts::bench_read_value>(*value));
+  }
+  return {};
+}
+
+/// It has just started, and nothing was written since but the output, which is given back: RAM is
+/// what ROM is, and to save it changes nothing.
+Result<Start> save_what_rom_holds(TestBench& bench, const Values& rom) {
+  if (auto output = bench.set(at::torque_output, *bla::find(rom, at::torque_output)); !output) {
+    return std::unexpected(output.error());
+  }
+  auto save = bench.restart(RestartKind::save);
+  if (!save) {
+    return save;
+  }
+  const auto after = bench.rest();
+  if (!after) {
+    return std::unexpected(after.error());
+  }
+  if (auto difference = bench.differs_from(*after, rom)) {
+    return std::unexpected(std::move(*difference));
+  }
+  return save;
+}
+
+Result<bool> is_rom_readable(TestBench& bench) {
+  if (rom_state(bench.servo().identity) == nullptr) {
+    return true;
+  }
+  const auto bits = bench.profiles().fault_bits();
+  const auto corrupt = std::ranges::find(bits, "rom_corrupt", &bla::FaultBit::code);
+  const auto warnings = bench.read(at::fault_warning);
+  if (!warnings) {
+    return std::unexpected(warnings.error());
+  }
+  return corrupt == bits.end() || (*warnings >> corrupt->bit & 1) == 0;
+}
+
+Result<StartsSeen> see_starts(TestBench& bench) {
+  StartsSeen seen;
+  for (int i = 0; i < restarts_measured; ++i) {
+    auto start =
+        bench.restart(RestartKind::restart, i == 0 ? asked_at_once() : std::vector<Address>());
+    if (!start) {
+      return std::unexpected(start.error());
+    }
+    seen.restarts.push_back(*start);
+    seen.at_once = i == 0 ? bench.at_once() : std::move(seen.at_once);
+  }
+  auto rom = bench.rest();
+  const auto readable = rom ? is_rom_readable(bench) : std::unexpected(rom.error());
+  if (!readable) {
+    return std::unexpected(readable.error());
+  }
+  bench.learn_rom(*rom);
+  seen.rom = std::move(*rom);
+  seen.is_rom_readable = *readable;
+  if (*readable) {
+    bench.tell(texts::bench_stage_save);
+    auto save = save_what_rom_holds(bench, seen.rom);
+    if (!save) {
+      return std::unexpected(save.error());
+    }
+    seen.save = *save;
+  }
+  return seen;
+}
+
+} // namespace
+
+Result<void> measure_starts(TestBench& bench, Notes& notes) {
+  bench.tell(texts::bench_stage_starts);
+  if (auto read = read_write_only(bench, notes); !read) {
+    return read;
+  }
+  auto seen = see_starts(bench);
+  if (!seen) {
+    return std::unexpected(seen.error());
+  }
+  judge_starts(std::move(*seen), notes);
+  return {};
+}
+
+} // namespace blactl::fleet

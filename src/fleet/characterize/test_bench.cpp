@@ -1,0 +1,365 @@
+#include "fleet/characterize/test_bench.hpp"
+
+#include "blactl/bla/value.hpp"
+#include "blactl/dronecan/types.hpp"
+#include "blactl/fleet/guard.hpp"
+#include "blactl/fleet/texts.hpp"
+
+#include "fleet/characterize/jobs.hpp"
+#include "fleet/characterize/soft_start.hpp"
+#include "fleet/characterize/texts.hpp"
+
+#include <signal.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <string_view>
+#include <utility>
+
+namespace blactl::fleet {
+
+namespace at = bla::address;
+using bla::Address;
+using bla::Values;
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::int64_t output_on = 0, output_off = 1; // 4.13
+
+/// NodeStatus comes once a second (2.2).
+constexpr Duration longest_until_status = 1200ms;
+
+} // namespace
+
+TestBench::TestBench(Session& session, const bla::Profiles& profiles, const Snapshot& before,
+                     const BenchManner& manner)
+    : session_(session), profiles_(profiles), manner_(manner), servo_(before.servo),
+      ear_(before.servo.unique_id.value_or(dronecan::UniqueId{})), before_(before.values()) {
+  for (const auto& [address, limit] : soft_start_limits) {
+    if (const auto raw = bla::find(before_, address)) {
+      hidden_[address] = *raw;
+      before_.erase(address);
+    }
+  }
+  session_.attach(ear_);
+}
+
+TestBench::~TestBench() {
+  session_.detach(ear_);
+}
+
+void TestBench::tell(const Text& stage) const {
+  if (manner_.progress) {
+    manner_.progress(std::string(choose(stage.en, stage.ja)));
+  }
+}
+
+/// Lives until the job has ended. A first signal ends what may be ended, and all that is measured.
+Result<void> TestBench::run(dronecan::Job& job) {
+  if (!session_.node().is_running(job)) {
+    session_.start(job);
+  }
+  const auto lived = session_.live_until(never, [&] { return !session_.node().is_running(job); });
+  if (!lived) {
+    return std::unexpected(lived.error());
+  }
+  if (session_.signal() != 0 && !puts_back_) {
+    return fail(Code::interrupted,
+                say<texts::interrupted>(session_.signal() == SIGTERM ? "SIGTERM" : "SIGINT"));
+  }
+  return {};
+}
+
+Result<Reply> TestBench::ask(const dronecan::Request& request) {
+  Question question(request, puts_back_);
+  if (auto ran = run(question); !ran) {
+    return std::unexpected(ran.error());
+  }
+  return question.reply();
+}
+
+Result<void> TestBench::pause(Duration time) {
+  return session_.live_until(session_.now() + time);
+}
+
+Result<Reply> TestBench::read_once(Address address) {
+  return ask(read_register(servo_.id, address, {manner_.identification.patience.timeout, 0}));
+}
+
+Result<std::int64_t> TestBench::read(Address address) {
+  const bla::Parameter* parameter = servo_.identity.parameter(address);
+  const auto reply = ask(read_register(servo_.id, address, manner_.identification.patience));
+  if (!reply) {
+    return std::unexpected(reply.error());
+  }
+  const dronecan::Outcome outcome{reply->kind, reply->payload, reply->at, reply->asked};
+  auto raw = register_value(outcome, servo_.id, address,
+                            parameter != nullptr ? parameter->width : bla::Width{});
+  if (raw) {
+    known_[address] = *raw;
+  }
+  return raw;
+}
+
+Result<Values> TestBench::read_all() {
+  Values values;
+  auto registers = servo_.identity.configuration();
+  std::ranges::copy(servo_.identity.registers(bla::command_registers),
+                    std::back_inserter(registers));
+  for (const bla::Parameter* parameter : registers) {
+    const auto raw = read(parameter->address);
+    if (!raw) {
+      return std::unexpected(raw.error());
+    }
+    values[parameter->address] = *raw;
+  }
+  return values;
+}
+
+Result<void> TestBench::prove_run() {
+  RunProof proof(roster(), servo_, servo_.since, manner_.identification.patience);
+  if (auto ran = run(proof); !ran) {
+    return ran;
+  }
+  const std::uint8_t id = servo_.id.value();
+  if (proof.error()) {
+    return std::unexpected(*proof.error());
+  }
+  return proof.verdict() == RunProof::Verdict::ran_on
+             ? Result<void>()
+             : std::unexpected(Error{Code::state, say<texts::bench_restarted>(id),
+                                     say<texts::bench_restarted_hint>(), id});
+}
+
+/// What must never be written to, looked at before every change. What was changed is put back also
+/// while somebody drives the servo.
+std::optional<Error> TestBench::forbidden() const {
+  const std::uint8_t id = servo_.id.value();
+  if (roster().is_doubled(servo_.id)) {
+    return doubled(roster(), servo_.id);
+  }
+  if (const auto by = roster().armed_by()) {
+    return Error{Code::armed, say<texts::armed>(by->value()), say<texts::armed_hint>(), id};
+  }
+  if (roster().member(servo_.id).boots != servo_.boot) {
+    return Error{Code::state, say<texts::bench_restarted>(id), say<texts::bench_restarted_hint>(),
+                 id};
+  }
+  const auto driver = roster().driver_of(servo_, session_.now());
+  if (driver && !manner_.while_driven && !puts_back_) {
+    return Error{Code::driven, say<texts::driven>(driver->value(), id), say<texts::driven_hint>(),
+                 id};
+  }
+  return std::nullopt;
+}
+
+Result<Values> TestBench::rest() {
+  const auto output = read(at::torque_output);
+  if (!output) {
+    return std::unexpected(output.error());
+  }
+  // Written also where it is off: a command ends a soft start, and shows what 0x00 really holds.
+  if (auto off = set(at::torque_output, *output == output_on ? output_off : *output); !off) {
+    return std::unexpected(off.error());
+  }
+  auto values = read_all();
+  if (!values) {
+    return values;
+  }
+  is_starting_softly_ = false;
+  (*values)[at::torque_output] = *output;
+  for (const auto& [address, raw] : std::exchange(hidden_, {})) {
+    before_[address] = (*values)[address];
+  }
+  return values;
+}
+
+void TestBench::learn_commands(const Values& now) {
+  for (const Address address : bla::command_registers) {
+    const auto raw = bla::find(now, address);
+    const bool moves = address != at::command_angle && raw != 0 && raw != bla::not_active;
+    if (raw && !moves) {
+      before_[address] = *raw;
+    } else { // it stays at rest
+      before_.erase(address);
+    }
+  }
+}
+
+std::optional<Error> TestBench::differs_from(const Values& now, const Values& expected) const {
+  const std::uint8_t id = servo_.id.value();
+  for (const auto& [address, raw] : expected) {
+    const auto found = bla::find(now, address);
+    const bla::Parameter* parameter = servo_.identity.parameter(address);
+    if (bla::is_setting(address) && parameter != nullptr && found != raw) {
+      return Error{Code::state,
+                   say<texts::bench_changed>(id, parameter->name,
+                                             found ? bla::display(*parameter, *found) : "?",
+                                             bla::display(*parameter, raw)),
+                   say<texts::run_again_hint>(), id};
+    }
+  }
+  return std::nullopt;
+}
+
+Result<std::int64_t> TestBench::write(Address address, std::int64_t raw) {
+  if (auto why = forbidden()) {
+    return std::unexpected(std::move(*why));
+  }
+  if (auto allowed = servo_.identity.may_write(address, raw); !allowed) {
+    return std::unexpected(allowed.error());
+  }
+  has_changed_ = true;
+  if (bla::is_setting(address) && address != at::torque_output) {
+    touched_.insert(address);
+  }
+  const auto reply = ask(write_register(servo_.id, address, raw, manner_.identification.patience));
+  if (!reply) {
+    return std::unexpected(reply.error());
+  }
+  return read(address); // that tells what is true, whatever the answer says
+}
+
+Result<void> TestBench::set(Address address, std::int64_t raw) {
+  const auto held = write(address, raw);
+  if (!held) {
+    return std::unexpected(held.error());
+  }
+  return *held == raw ? Result<void>() : std::unexpected(not_taken(address, raw, *held));
+}
+
+Error TestBench::not_taken(Address address, std::int64_t raw, std::int64_t held) const {
+  const bla::Parameter& parameter = *servo_.identity.parameter(address);
+  const std::uint8_t id = servo_.id.value();
+  return {Code::refused,
+          say<texts::bench_set_refused>(id, parameter.name, bla::display(parameter, raw),
+                                        bla::display(parameter, held)),
+          say<texts::not_taken_hint>(id), id};
+}
+
+Result<Reply> TestBench::write_timeout_time(std::int64_t raw) {
+  if (auto why = forbidden()) {
+    return std::unexpected(std::move(*why));
+  }
+  has_changed_ = true;
+  touched_.insert(at::timeout_time);
+  return ask(write_register(servo_.id, at::timeout_time, raw,
+                            {manner_.identification.patience.timeout, 0}));
+}
+
+Result<void> TestBench::command_angle(std::int64_t decideg) {
+  constexpr std::uint8_t position = 1; // table 2-21
+  constexpr float decideg_per_unit = 1000;
+  constexpr Duration until_taken = 50ms;
+  if (auto why = forbidden()) {
+    return std::unexpected(std::move(*why));
+  }
+  has_changed_ = true;
+  const dronecan::ArrayCommand command{
+      {{.actuator_id = static_cast<std::uint8_t>(held(at::servo_id).value_or(0)),
+        .command_type = position,
+        .value = static_cast<float>(decideg) / decideg_per_unit}}};
+  session_.node().broadcast(dronecan::ArrayCommand::type, dronecan::priority_medium,
+                            command.encode());
+  return pause(until_taken);
+}
+
+Result<void> TestBench::settle() {
+  for (const Address address : std::exchange(touched_, {})) {
+    const auto raw = held(address);
+    if (auto given = raw ? set(address, *raw) : Result<void>(); !given) {
+      return given;
+    }
+  }
+  touched_.clear(); // by setting them
+  return {};
+}
+
+Result<void> TestBench::recognise(dronecan::NodeId id) {
+  IdentifyJob identify(session_.records(), id, profiles_, manner_.identification);
+  if (auto ran = run(identify); !ran) {
+    return ran;
+  }
+  if (identify.identification().error()) {
+    return std::unexpected(*identify.identification().error());
+  }
+  const Servo& found = identify.identification().servo();
+  if (found.unique_id != servo_.unique_id) {
+    return std::unexpected(Error{Code::state, say<texts::another_servo>(id.value()),
+                                 say<texts::run_again_hint>(), id.value()});
+  }
+  servo_ = found;
+  return {};
+}
+
+std::optional<Error> TestBench::refuse_restart(RestartKind kind) const {
+  if (auto why = forbidden()) {
+    return why;
+  }
+  const auto writer = roster().writer_to(servo_.id, servo_.since);
+  if (kind == RestartKind::save && writer) { // what it wrote is not what ROM holds
+    const std::uint8_t id = servo_.id.value();
+    return Error{Code::state, say<texts::other_writer>(id, writer->value()),
+                 say<texts::other_writer_hint>(), id};
+  }
+  return std::nullopt;
+}
+
+/// Where it is back; meanwhile it is asked for these registers.
+Result<dronecan::NodeId> TestBench::leave_and_return(RestartKind kind,
+                                                     const std::vector<Address>& at_once) {
+  const Patience& patience = manner_.identification.patience;
+  restart_.emplace(
+      roster(), servo_,
+      RestartJob::Options{.kind = kind, .come_back = longest_start, .patience = patience});
+  ear_.expect(servo_.id, [this] { return restart_->is_sent(); });
+  EarlyReads early(
+      servo_.id, servo_.identity.registers(at_once), [this] { return ear_.is_back(); },
+      patience.timeout);
+  session_.start(early);
+  auto ran = run(*restart_);
+  if (ran && ear_.is_back()) {
+    ran = run(early);
+  } else {
+    session_.cancel(early);
+  }
+  at_once_ = early.values();
+  if (!ran) {
+    return std::unexpected(ran.error());
+  }
+  if (restart_->error()) {
+    return std::unexpected(*restart_->error());
+  }
+  return *restart_->returned();
+}
+
+Result<Start> TestBench::restart(RestartKind kind, const std::vector<Address>& at_once) {
+  if (auto why = refuse_restart(kind)) {
+    return std::unexpected(std::move(*why));
+  }
+  has_changed_ = true;
+  touched_.clear();
+  known_.clear();
+  const auto id = leave_and_return(kind, at_once);
+  if (!id) {
+    return std::unexpected(id.error());
+  }
+  // A servo is back with the first answer already; how it says so by itself is to be heard, too.
+  const auto heard = session_.live_until(session_.now() + longest_until_status, [&] {
+    return ear_.start_of(*id).first_status.has_value();
+  });
+  if (!heard) {
+    return std::unexpected(heard.error());
+  }
+  if (auto known = recognise(*id); !known) {
+    return std::unexpected(known.error());
+  }
+  Start start = ear_.start_of(servo_.id);
+  start.asked = restart_->sent_at();
+  return start;
+}
+
+} // namespace blactl::fleet

@@ -1,0 +1,129 @@
+#pragma once
+// The catalogue of what is measured on a servo.
+
+#include "blactl/base/text.hpp"
+
+namespace blactl::texts {
+
+inline constexpr Text bench_restarted{"node {}: it restarted by itself while it was measured",
+                                      "ノード {}: 測定中にサーボが再起動しました"};
+inline constexpr Text bench_restarted_hint{"look at its supply, then run it again",
+                                           "電源を確認してからもう一度実行して下さい"};
+inline constexpr Text bench_changed{
+    "node {}: {} is {}, not {} as a moment ago: somebody else changes it, or it restarted",
+    "ノード {}: {} が先ほどと異なります ({}、直前は {})。他の機器が変更したか、再起動しています"};
+inline constexpr Text bench_set_refused{"node {}: {} did not take {}, it holds {}",
+                                        "ノード {}: {} に {} を設定できません (現在値 {})"};
+inline constexpr Text bench_moves{
+    "node {}: it is commanded {}: a restart would stop it, and nothing could give that back",
+    "ノード {}: {} が指令されています。再起動で停止し、元の状態には戻せません"};
+inline constexpr Text bench_moves_hint{"bring it to rest first: blactl restart -n {}",
+                                       "先に停止して下さい: blactl restart -n {}"};
+inline constexpr Text bench_not_put_back{"node {}: not put back: {} ({})",
+                                         "ノード {}: 元に戻せませんでした: {} ({})"};
+inline constexpr Text bench_not_proven{
+    "node {}: whether everything is as it was is not known ({})",
+    "ノード {}: 元の状態に戻ったことを確認できませんでした ({})"};
+inline constexpr Text bench_put_back_hint{"to put it back: blactl set -n {} {}",
+                                          "元に戻すには: blactl set -n {} {}"};
+inline constexpr Text bench_id_in_use{"node ID {} is in use by another unit",
+                                      "ノード ID {} は他の機器が使用中です"};
+
+inline constexpr Text bench_question{
+    "node {}: measures this servo and leaves nothing changed:\n"
+    "  - its output drops several times: nothing may hang on it, nothing may be in its way\n"
+    "  - it is restarted {} times, and saves once what its ROM holds already: do not cut the "
+    "supply\n"
+    "  - after each start torque may come on, and the shaft may run slowly to 0 deg\n"
+    "  - timeout_time is written once out of range, and put back\n",
+    "ノード {}: サーボの挙動を測定し、終了時にすべて元に戻します:\n"
+    "  - 出力が数回 OFF になります。負荷や障害物を取り除いて下さい\n"
+    "  - {} 回再起動し、ROM の内容をそのまま 1 回保存します。電源を切らないで下さい\n"
+    "  - 起動のたびにトルクが ON になり、出力軸が 0° へ低速で動く可能性があります\n"
+    "  - timeout_time に範囲外の値を 1 回だけ書き込んだ後、元に戻します\n"};
+inline constexpr Text bench_question_angle{
+    "  - in the end it is commanded {} again, and goes there at its full speed\n",
+    "  - 最後に指令角度 {} を再設定するため、出力軸が全速で動く可能性があります\n"};
+
+inline constexpr Text bench_stage_answers{"measuring how it answers", "応答を測定中"};
+inline constexpr Text bench_stage_settings{"measuring with the output off", "出力 OFF で測定中"};
+inline constexpr Text bench_stage_starts{"measuring how it starts", "起動を測定中"};
+inline constexpr Text bench_stage_save{"measuring how it saves", "保存を測定中"};
+inline constexpr Text bench_stage_put_back{"putting back what was changed", "元に戻しています"};
+
+// Why something is not measured, where that shows on the bench only.
+
+inline constexpr Text bench_no_answer{"it did not answer", "応答がありませんでした"};
+inline constexpr Text bench_answers_lost{
+    "no answer came; but answers to other questions were lost as well",
+    "応答がありませんでしたが、他の質問でも応答が失われています"};
+inline constexpr Text bench_odd_answer{"it answered {}, and holds {}",
+                                       "応答は {}、その後の値は {} でした"};
+inline constexpr Text bench_reads_differ{"reserved addresses answer differently: {}",
+                                         "予約アドレスごとに応答が異なります: {}"};
+inline constexpr Text bench_read_value{"it answered {}", "応答は {} でした"};
+inline constexpr Text bench_nothing_gated{"this firmware lacks none of the model's registers",
+                                          "このファームウェアには全レジスタがあります"};
+inline constexpr Text bench_no_failure{"no failure was seen", "失敗応答がありませんでした"};
+inline constexpr Text bench_no_status{"it sent no actuator.Status",
+                                      "actuator.Status を受信できませんでした"};
+inline constexpr Text bench_status_fields{"force {}, speed {}, power rating {}",
+                                          "force {}、speed {}、power rating {}"};
+inline constexpr Text bench_has_switch{"only a firmware without 0x25 tells",
+                                       "0x25 の無いファームウェアでのみ測定できます"};
+inline constexpr Text bench_takes_disabled{
+    "this firmware has no 0x25, and takes 0x01: it acts as if 0x25 were on, or takes what it then "
+    "ignores",
+    "0x25 の無いファームウェアで 0x01 が有効でした。0x25 ON "
+    "相当の動作か、値を保持するだけかを区別できません"};
+inline constexpr Text bench_no_switch{"this firmware has no 0x25",
+                                      "このファームウェアには 0x25 がありません"};
+inline constexpr Text bench_command_not_taken{"0x01 did not take the command: it holds {}",
+                                              "0x01 に指令を設定できません (現在値 {})"};
+inline constexpr Text bench_shaft_turns{"the shaft is turning", "出力軸が回転しています"};
+inline constexpr Text bench_notice_before{"the bit was set already", "既に該当ビットが 1 でした"};
+inline constexpr Text bench_no_notice{"no notice could be brought about, or other faults stand",
+                                      "通知を発生させられないか、他の異常があります"};
+inline constexpr Text bench_servo_id_shared{
+    "ArrayCommand to servo ID {} would reach others as well",
+    "サーボ ID {} への ArrayCommand は他のサーボにも届きます"};
+inline constexpr Text bench_command_unseen{
+    "it does not show whether ArrayCommand was taken with the output off",
+    "出力 OFF で ArrayCommand が受け付けられたか判別できません"};
+inline constexpr Text bench_no_free_angle{"the angle limits leave no room",
+                                          "動作角度制限が狭すぎます"};
+inline constexpr Text bench_restarted_by_read{"it restarted", "再起動しました"};
+inline constexpr Text bench_started_softly{"it starts softly (0x21)",
+                                           "ソフトスタート (0x21) で起動します"};
+inline constexpr Text bench_at_zero{"the shaft stood at 0 deg, where both look alike",
+                                    "出力軸が 0° 付近のため区別できません"};
+inline constexpr Text bench_no_soft_start{"it does not start softly (0x20, 0x21)",
+                                          "ソフトスタートしない設定です (0x20、0x21)"};
+inline constexpr Text bench_soft_start_cut{
+    "a timeout (0x26, 0x27) or a fault ends its soft start at once",
+    "通信タイムアウト (0x26、0x27) または異常により、ソフトスタートがすぐに終了します"};
+inline constexpr Text bench_limits_alike{"its own limits are those of the soft start",
+                                         "設定値がソフトスタートの制限と同じです"};
+inline constexpr Text bench_asks_for_id{"it asks for a node ID first, at a random moment",
+                                        "先にノード ID を要求し、その時刻は不定です"};
+inline constexpr Text bench_static_id{"only a servo without a static node ID tells",
+                                      "ノード ID が動的割当てのサーボでのみ測定できます"};
+inline constexpr Text bench_rom_unreadable{"its ROM cannot be read: nothing is saved over it",
+                                           "ROM を読み込めないサーボのため、保存しません"};
+inline constexpr Text bench_start_unheard{"its first frames were not heard",
+                                          "最初のフレームを受信できませんでした"};
+
+// What is seen beside the settings.
+
+inline constexpr Text bench_seen_name{"name of the node", "ノード名"};
+inline constexpr Text bench_seen_software{"software version", "ソフトウェアバージョン"};
+inline constexpr Text bench_seen_hardware{"hardware version", "ハードウェアバージョン"};
+inline constexpr Text bench_seen_answers{"answers after", "応答時間"};
+inline constexpr Text bench_seen_starts{"silent in a restart", "再起動時の無通信時間"};
+inline constexpr Text bench_seen_save{"silent in a save", "保存時の無通信時間"};
+inline constexpr Text bench_seen_allocation{"from a restart to its node ID",
+                                            "再起動からノード ID 取得まで"};
+inline constexpr Text bench_seen_request{"from a restart to its first request for a node ID",
+                                         "再起動から最初のノード ID 要求まで"};
+
+} // namespace blactl::texts
