@@ -23,8 +23,8 @@ constexpr Option option_table[]{
      .kind = Kind::file,
      .help = {"write all of it to one file for the support: findings, parameters, faults, node IDs "
               "given, and 10 s of traffic; -i replay:FILE answers from it",
-              "サポート用に、診断結果・パラメータ・障害・割当て表・10 秒間の通信を 1 つのファイルに"
-              "保存 (-i replay:FILE で参照可能)"},
+              "診断結果、パラメータ、障害、割当て表、10 秒間の通信をサポート用ファイルに保存 "
+              "(-i replay:FILE で参照可能)"},
      .store = into<&DoctorOptions::report>},
 };
 
@@ -63,7 +63,7 @@ constinit const Command commands::doctor{
     .name = "doctor",
     .traits = {.session = true, .recordings = true},
     .help = {"what is wrong with interface, bus and nodes, and what mends it",
-             "インタフェース・バス・ノードの問題と対処"},
+             "インターフェース、バス、ノードの問題と対処"},
     .options = option_table,
     .action = action<execute>,
 };

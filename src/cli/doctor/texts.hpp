@@ -5,7 +5,7 @@
 
 namespace blactl::texts {
 
-inline constexpr Text doctor_interface{"interface", "インタフェース"};
+inline constexpr Text doctor_interface{"interface", "インターフェース"};
 inline constexpr Text doctor_bus{"bus", "バス"};
 inline constexpr Text doctor_nodes{"nodes", "ノード"};
 inline constexpr Text doctor_up{"up", "動作中"};
@@ -33,7 +33,7 @@ inline constexpr Text doctor_report_and_record{
 inline constexpr Text doctor_report_and_record_hint{"leave one of them out",
                                                     "どちらか一方を指定して下さい"};
 inline constexpr Text doctor_report_head{"report of blactl {}, {}, interface {}",
-                                         "blactl {} 診断結果、{}、インタフェース {}"};
+                                         "blactl {} 診断結果、{}、インターフェース {}"};
 inline constexpr Text doctor_report_faults{"faults", "障害・警告・通知"};
 inline constexpr Text doctor_report_parameters{"parameters", "パラメータ"};
 inline constexpr Text doctor_report_allocations{"allocation table", "割当て表"};
