@@ -135,6 +135,14 @@ std::vector<std::string> warnings(const Member& member) {
   return out;
 }
 
+Time heard_until(const Session& session) {
+  Time last{};
+  for (const auto& [id, member] : session.roster().members()) {
+    last = std::max(last, member.last_heard);
+  }
+  return session.is_recording() ? last : session.now();
+}
+
 Findings gather(const Roster& roster, const Targets& targets, const bla::Profiles& profiles,
                 Time now, const std::set<NodeId>& gone) {
   Findings findings{&roster, {}, {}};

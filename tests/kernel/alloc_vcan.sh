@@ -67,7 +67,7 @@ same "$before" "$(echo "$out" | units)"
 note "another allocator comes, and then two servos that ask: we are silent, and end with 9"
 "$blactl" alloc -j >"$TMPDIR/alloc.out" 2>"$TMPDIR/alloc.err" &
 allocator=$!
-wait_for 20 grep -q 'are free' "$TMPDIR/alloc.err"
+wait_for 60 grep -q 'are free' "$TMPDIR/alloc.err"
 sim other '"servos":[],"foreign":[{"kind":"autopilot","node_id":100,"allocates":true}]'
 sleep 3 # to it only those that it has heard have an ID
 sim second "\"servos\":[$(servos 21 22)]"
@@ -76,7 +76,7 @@ wait "$allocator"
 grep -q '\[other_allocator\].*node 100' "$TMPDIR/alloc.err" || fail "it does not name the other"
 ! grep -qE '"event":"(assigned|kept)"' "$TMPDIR/alloc.out" ||
   fail "it has given an ID beside the other: $(cat "$TMPDIR/alloc.out")"
-wait_for 20 has_allocated 2 second
+wait_for 60 has_allocated 2 second
 run "$blactl" scan --expect 22 -j
 after=$(echo "$out" | units | grep -v '100$') # the other allocator itself
 expect_own_ids 22 "$after"

@@ -3,6 +3,7 @@
 
 #include "blactl/base/error.hpp"
 #include "blactl/fleet/roster.hpp"
+#include "blactl/fleet/session.hpp"
 #include "blactl/fleet/target.hpp"
 
 #include <optional>
@@ -35,6 +36,9 @@ struct Findings {
   std::vector<Finding> nodes; ///< those that -n names; all without it
   std::vector<Conflict> conflicts;
 };
+
+/// Until when the bus was heard: now, or the last frame of a recording.
+[[nodiscard]] Time heard_until(const Session& session);
 
 /// What is there at `now`. `roster` outlives the findings. `gone`: those who did not answer when
 /// they were asked last.

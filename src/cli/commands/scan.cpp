@@ -94,15 +94,6 @@ void judge(const ScanOptions& options, const Findings& findings,
   }
 }
 
-/// Until when the bus was heard: the end of a recording is not now.
-Time end_of(const fleet::Session& session) {
-  Time last{};
-  for (const auto& [id, member] : session.roster().members()) {
-    last = std::max(last, member.last_heard);
-  }
-  return session.is_recording() ? last : session.now();
-}
-
 Report execute(const ScanOptions& options, Context& context) {
   Report report{.interface = printable(context.shared().interface)};
   const auto profiles = context.profiles();
@@ -129,9 +120,9 @@ Report execute(const ScanOptions& options, Context& context) {
         context.session().roster().members().size()));
   });
   const auto found = discovery.find_all(options.listen);
-  const auto findings =
-      std::make_shared<Findings>(fleet::gather(context.session().roster(), *targets, **profiles,
-                                               end_of(context.session()), discovery.gone()));
+  const auto findings = std::make_shared<Findings>(
+      fleet::gather(context.session().roster(), *targets, **profiles,
+                    fleet::heard_until(context.session()), discovery.gone()));
   take_failures(discovery, *findings, report);
   if (const auto ambiguous = targets->ambiguity(context.session().roster(), **profiles);
       found && ambiguous) {

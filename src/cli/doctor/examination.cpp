@@ -76,15 +76,6 @@ std::vector<fleet::Snapshot> read_limits(Context& context, const fleet::Findings
       .servos;
 }
 
-/// Until when the bus was heard: the end of a recording is not now.
-Time end_of(const fleet::Session& session) {
-  Time last{};
-  for (const auto& [id, member] : session.roster().members()) {
-    last = std::max(last, member.last_heard);
-  }
-  return session.is_recording() ? last : session.now();
-}
-
 void examine_bus(Duration time, Context& context, Examination& examination, Report& report) {
   fleet::Session& session = context.session();
   session.count(&examination.traffic);
@@ -98,8 +89,8 @@ void examine_bus(Duration time, Context& context, Examination& examination, Repo
     context.reporter().progress(say<texts::doctor_listens>(whole_seconds(time)));
   });
   auto found = discovery.find_all(time);
-  auto findings =
-      fleet::gather(session.roster(), *targets, context.known(), end_of(session), discovery.gone());
+  auto findings = fleet::gather(session.roster(), *targets, context.known(),
+                                fleet::heard_until(session), discovery.gone());
   const auto limits = found ? read_limits(context, findings) : std::vector<fleet::Snapshot>();
   if (!found) {
     if (auto diagnosis = fleet::diagnose_end(found.error())) {
