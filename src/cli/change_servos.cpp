@@ -1,14 +1,13 @@
 #include "cli/change_servos.hpp"
 
 #include "blactl/fleet/carry_out.hpp"
-#include "blactl/fleet/discovery.hpp"
 #include "blactl/fleet/guard.hpp"
 #include "blactl/fleet/survey.hpp"
 #include "blactl/fleet/texts.hpp"
 
-#include "cli/confirm.hpp"
 #include "cli/output/progress_view.hpp"
 #include "cli/texts.hpp"
+#include "cli/writing_run.hpp"
 
 #include <algorithm>
 #include <memory>
@@ -22,17 +21,16 @@ using fleet::ChangeResult;
 using fleet::Plan;
 
 /// One run. Each step may end it, with errors in the report.
-class Run {
+class Run : WritingRun {
  public:
   Run(const ChangeRequest& request, Context& context, Report& report)
-      : request_(request), context_(context), report_(report) {}
+      : WritingRun(context, report), request_(request) {}
 
   void all() {
-    if (select() && plan() && hear() && choose_again() && survey() && check() && confirm() &&
-        check()) {
+    if (select() && plan() && hear() && survey() && check() && confirm() && check()) {
       conclude(request_.dry_run ? planned() : carry_out());
     } else if (report_.signal != 0) {
-      tell_nothing_was_sent();
+      hint_interruption(say<texts::nothing_written_hint>());
     }
     report_.count_targets(std::max(named_, report_.targets.size()));
   }
@@ -40,31 +38,14 @@ class Run {
  private:
   bool select();
   bool plan();
-  bool hear();
-  bool choose_again();
   bool survey();
   bool check();
   bool confirm();
   [[nodiscard]] std::vector<ChangeResult> planned() const;
   [[nodiscard]] std::vector<ChangeResult> carry_out();
   void conclude(std::vector<ChangeResult> results);
-  void tell_nothing_was_sent();
-
-  bool stop(Error error) {
-    report_.fail(std::move(error));
-    return false;
-  }
-
-  bool broken(const Error& error) {
-    context_.broken(error, report_);
-    return false;
-  }
 
   const ChangeRequest& request_;
-  Context& context_;
-  Report& report_;
-  bool has_searched_ = false; ///< the bus, for the servos that are meant
-  Time chosen_at_{};
   std::vector<dronecan::NodeId> servos_;
   std::size_t named_ = 0; ///< targets, those included that are not there
   std::vector<Plan> plans_;
@@ -75,25 +56,17 @@ bool Run::select() {
   if (!targets) {
     return stop(targets.error());
   }
-  if (auto session = context_.open_for_writing(request_.command); !session) {
-    return stop(session.error());
+  if (!open(request_.command)) {
+    return false;
   }
-  report_.interface = context_.session().interface();
-  fleet::Discovery discovery(context_.session(), context_.known(), context_.identification());
-  auto selection = discovery.select_for_writing(*targets);
+  auto selection = choose(*targets, context_.identification());
   if (!selection) {
-    return selection.error().code == Code::usage ? stop(selection.error())
-                                                 : broken(selection.error());
-  }
-  for (const std::string& note : selection->notes) {
-    context_.reporter().note(note);
+    return false;
   }
   for (Error& error : selection->errors) {
     report_.fail_target(std::move(error));
   }
   servos_ = std::move(selection->ids);
-  has_searched_ = targets->need_search();
-  chosen_at_ = context_.session().now();
   named_ = servos_.size() + report_.targets.size();
   if (auto refused = fleet::refuse_together(request_.wanted, servos_)) {
     return stop(std::move(*refused));
@@ -126,31 +99,6 @@ bool Run::plan() {
   return report_.targets.empty();
 }
 
-bool Run::hear() {
-  // Also where nothing will be written: what was read may be of two units on one ID.
-  const auto heard = fleet::hear_bus(context_.session());
-  return heard || (heard.error().code == Code::state ? stop(heard.error()) : broken(heard.error()));
-}
-
-/// A servo that came since they were chosen may be one of those that are meant. One without a node
-/// ID is none of them, and that is said.
-bool Run::choose_again() {
-  if (!has_searched_) {
-    return true;
-  }
-  const fleet::Roster& roster = context_.session().roster();
-  for (const auto& [id, member] : roster.members()) {
-    if (member.first_heard > chosen_at_ && member.sends_actuator_status()) {
-      report_.fail({Code::state, say<texts::came_since>(id.value()), say<texts::run_again_hint>(),
-                    id.value()});
-    }
-  }
-  if (!roster.pending().empty()) {
-    context_.reporter().note(say<texts::units_wait_for_id>(roster.pending().size()));
-  }
-  return report_.errors.empty();
-}
-
 /// Who has the IDs that are given.
 bool Run::survey() {
   const auto survey =
@@ -181,13 +129,8 @@ bool Run::check() {
 }
 
 bool Run::confirm() {
-  const std::string question = request_.dry_run ? std::string() : fleet::question(plans_);
-  if (question.empty()) {
-    return true;
-  }
-  const auto agreed = blactl::cli::confirm(question, context_);
-  return agreed || (agreed.error().code == Code::not_confirmed ? stop(agreed.error())
-                                                               : broken(agreed.error()));
+  tell_others();
+  return WritingRun::confirm(request_.dry_run ? std::string() : fleet::question(plans_));
 }
 
 std::vector<ChangeResult> Run::planned() const {
@@ -246,14 +189,6 @@ void Run::conclude(std::vector<ChangeResult> results) {
   report_.text = [kept, request = request_](const Page& page) {
     return request.text ? request.text(*kept, page) : text(request.view, *kept, page);
   };
-}
-
-void Run::tell_nothing_was_sent() {
-  for (Error& error : report_.errors) {
-    if (error.code == Code::interrupted) {
-      error.hint = say<texts::nothing_written_hint>();
-    }
-  }
 }
 
 } // namespace

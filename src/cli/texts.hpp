@@ -204,11 +204,6 @@ inline constexpr Text more_may_wait{
     "more servos may wait than were heard: they ask at random times (--listen 10 hears longer)",
     "受信できていない割当て待ちのサーボがあるかもしれません。要求の間隔は不定です "
     "(--listen 10 でより長く受信)"};
-inline constexpr Text allocates{"node {} allocates node IDs",
-                                "ノード {} がノード ID を割り当てています"};
-inline constexpr Text commands_servos{"node {} commands servos",
-                                      "ノード {} がサーボに動作指令しています"};
-inline constexpr Text says_armed{"node {} says armed", "ノード {} は ARM 状態です"};
 inline constexpr Text column_node{"NODE", "ノード"};
 inline constexpr Text column_model{"MODEL", "機種"};
 inline constexpr Text column_serial{"SERIAL", "製造番号"};

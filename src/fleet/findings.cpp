@@ -135,6 +135,39 @@ std::vector<std::string> warnings(const Member& member) {
   return out;
 }
 
+std::vector<NodeId> commanders(const Roster& roster) {
+  std::vector<NodeId> out;
+  for (const auto& [id, commander] : roster.commanders()) {
+    out.push_back(id);
+  }
+  return out;
+}
+
+std::vector<std::string> others(const Roster& roster) {
+  std::vector<std::string> out;
+  for (const NodeId id : roster.allocators()) {
+    out.push_back(say<texts::allocates>(id.value()));
+  }
+  for (const NodeId id : commanders(roster)) {
+    out.push_back(say<texts::commands_servos>(id.value()));
+  }
+  if (const auto by = roster.armed_by()) {
+    out.push_back(say<texts::says_armed>(by->value()));
+  }
+  return out;
+}
+
+std::vector<std::string> notes_before_writing(const Roster& roster) {
+  std::vector<std::string> out = others(roster);
+  std::vector<Conflict> shared;
+  const auto servo_id = [](const Member& member) {
+    return member.servo_id.value_or(0) != 0 ? member.servo_id : std::nullopt;
+  };
+  find_shared<texts::doubled_servo_id>(roster, Code::duplicate_servo_id, servo_id, shared);
+  std::ranges::transform(shared, std::back_inserter(out), &Conflict::text);
+  return out;
+}
+
 Time heard_until(const Session& session) {
   Time last{};
   for (const auto& [id, member] : session.roster().members()) {

@@ -46,6 +46,16 @@ struct Findings {
                               const bla::Profiles& profiles, Time now,
                               const std::set<dronecan::NodeId>& gone = {});
 
+/// Who else acts on this bus: allocates, commands, says armed.
+[[nodiscard]] std::vector<std::string> others(const Roster& roster);
+
+/// What a command that writes tells of, where it forbids nothing: the others, and servos that obey
+/// one servo ID other than 0 (fresh servos all have that).
+[[nodiscard]] std::vector<std::string> notes_before_writing(const Roster& roster);
+
+/// The nodes that move servos.
+[[nodiscard]] std::vector<dronecan::NodeId> commanders(const Roster& roster);
+
 /// What a technician should know of one node.
 [[nodiscard]] std::vector<std::string> warnings(const Member& member);
 

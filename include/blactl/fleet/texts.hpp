@@ -447,5 +447,10 @@ inline constexpr Text or_a_group{" (all of a group: --group {})", " (グルー�
 inline constexpr Text known_groups{"the groups are {}", "グループ: {}"};
 
 inline constexpr Text another_unit{"another unit", "別のユニット"};
+inline constexpr Text allocates{"node {} allocates node IDs",
+                                "ノード {} がノード ID を割り当てています"};
+inline constexpr Text commands_servos{"node {} commands servos",
+                                      "ノード {} がサーボに動作指令しています"};
+inline constexpr Text says_armed{"node {} says armed", "ノード {} は ARM 状態です"};
 
 } // namespace blactl::texts

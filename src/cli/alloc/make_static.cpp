@@ -7,9 +7,9 @@
 
 #include "cli/alloc/texts.hpp"
 #include "cli/alloc/view.hpp"
-#include "cli/confirm.hpp"
 #include "cli/output/progress_view.hpp"
 #include "cli/texts.hpp"
+#include "cli/writing_run.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -25,14 +25,14 @@ using fleet::StaticIds;
 using state::AllocationStore;
 
 /// One run. Each step may end it, with errors in the report.
-class MakeStatic {
+class MakeStatic : WritingRun {
  public:
   MakeStatic(const AllocOptions& options, Context& context, AllocationStore& table, Report& report)
-      : options_(options), context_(context), table_(table), report_(report) {}
+      : WritingRun(context, report), options_(options), table_(table) {}
 
   void run(std::vector<StaticIds::Wish> wishes) {
     wishes_ = std::move(wishes);
-    if (!open()) {
+    if (!open("alloc --static")) {
       return;
     }
     StaticIds ids(context_.session(), context_.known(), table_, manner());
@@ -42,7 +42,6 @@ class MakeStatic {
   }
 
  private:
-  bool open();
   bool find(StaticIds& ids);
   bool wish_for(const StaticIds& ids, std::span<const NodeId> nodes);
   bool prepare(StaticIds& ids);
@@ -51,10 +50,7 @@ class MakeStatic {
   void conclude(const StaticId& unit);
   [[nodiscard]] fleet::Manner manner();
 
-  bool stop(Error error) {
-    report_.fail(std::move(error));
-    return false;
-  }
+  using WritingRun::stop;
 
   /// What ends a session ends the command; anything else is a refusal.
   bool stop(const std::vector<Error>& errors) {
@@ -64,15 +60,8 @@ class MakeStatic {
     return errors.empty();
   }
 
-  bool broken(const Error& error) {
-    context_.broken(error, report_);
-    return false;
-  }
-
   const AllocOptions& options_;
-  Context& context_;
   AllocationStore& table_;
-  Report& report_;
   std::vector<StaticIds::Wish> wishes_;
 };
 
@@ -90,14 +79,6 @@ fleet::Manner MakeStatic::manner() {
               }};
 }
 
-bool MakeStatic::open() {
-  if (auto session = context_.open_for_writing("alloc --static"); !session) {
-    return stop(session.error());
-  }
-  report_.interface = context_.session().interface();
-  return true;
-}
-
 /// The servos that are meant, and everybody else: whoever has an ID may stand in the way.
 bool MakeStatic::find(StaticIds& ids) {
   const auto targets = context_.targets();
@@ -106,27 +87,20 @@ bool MakeStatic::find(StaticIds& ids) {
   }
   auto identification = context_.identification();
   identification.static_node_id = true;
-  fleet::Discovery discovery(context_.session(), context_.known(), identification);
   std::vector<NodeId> nodes;
   if (options_.assign.empty()) {
-    auto selection = discovery.select_for_writing(*targets);
-    if (!selection) {
-      return selection.error().code == Code::usage ? stop(selection.error())
-                                                   : broken(selection.error());
-    }
-    for (const std::string& note : selection->notes) {
-      context_.reporter().note(note);
-    }
-    if (!stop(selection->errors)) {
+    auto selection = choose(*targets, identification);
+    if (!selection || !stop(selection->errors)) {
       return false;
     }
     nodes = std::move(selection->ids);
   }
+  fleet::Discovery discovery(context_.session(), context_.known(), identification);
   if (const auto found = discovery.find_all(fleet::bus_watch_time); !found) {
     return broken(found.error());
   }
-  if (const auto heard = fleet::hear_bus(context_.session()); !heard) {
-    return heard.error().code == Code::state ? stop(heard.error()) : broken(heard.error());
+  if (!hear()) {
+    return false;
   }
   if (options_.assign.empty() && !wish_for(ids, nodes)) {
     return false;
@@ -164,13 +138,8 @@ bool MakeStatic::prepare(StaticIds& ids) {
 }
 
 bool MakeStatic::confirm(const StaticIds& ids) {
-  const std::string question = ids.question();
-  if (question.empty()) {
-    return true;
-  }
-  const auto agreed = blactl::cli::confirm(question, context_);
-  return agreed || (agreed.error().code == Code::not_confirmed ? stop(agreed.error())
-                                                               : broken(agreed.error()));
+  tell_others();
+  return WritingRun::confirm(ids.question());
 }
 
 void MakeStatic::carry_out(StaticIds& ids) {

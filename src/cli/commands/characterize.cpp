@@ -3,14 +3,13 @@
 #include "blactl/base/replace_file.hpp"
 #include "blactl/fleet/carry_out.hpp"
 #include "blactl/fleet/characterization.hpp"
-#include "blactl/fleet/discovery.hpp"
 #include "blactl/fleet/texts.hpp"
 
 #include "cli/characterize_texts.hpp"
 #include "cli/commands.hpp"
-#include "cli/confirm.hpp"
 #include "cli/output/characterize_view.hpp"
 #include "cli/texts.hpp"
+#include "cli/writing_run.hpp"
 
 #include <algorithm>
 #include <memory>
@@ -32,10 +31,10 @@ constexpr Option argument_table[]{
 };
 
 /// One run. Each step may end it, with errors in the report.
-class Characterize {
+class Characterize : WritingRun {
  public:
   Characterize(const CharacterizeOptions& options, Context& context, Report& report)
-      : options_(options), context_(context), report_(report) {}
+      : WritingRun(context, report), options_(options) {}
 
   void all() {
     if (select() && read() && hear() && check() && confirm() && check()) {
@@ -48,31 +47,14 @@ class Characterize {
 
  private:
   bool select();
-  bool choose(fleet::Selection selection);
   bool read();
-  bool hear();
   bool check();
   bool confirm();
   void measure();
   void conclude(fleet::Characterization measured);
   [[nodiscard]] std::optional<Error> write(const fleet::Characterization& measured) const;
-  void hint_interruption(const std::string& hint);
-
-  bool stop(Error error) {
-    report_.fail(std::move(error));
-    return false;
-  }
-
-  bool broken(const Error& error) {
-    context_.broken(error, report_);
-    return false;
-  }
 
   const CharacterizeOptions& options_;
-  Context& context_;
-  Report& report_;
-  bool has_searched_ = false; ///< the bus, for the servo that is meant
-  Time chosen_at_{};
   dronecan::NodeId id_{};
   fleet::Snapshot before_;
 };
@@ -82,37 +64,26 @@ bool Characterize::select() {
   if (!targets) {
     return stop(targets.error());
   }
-  if (auto session = context_.open_for_writing("characterize"); !session) {
-    return stop(session.error());
+  if (!open("characterize")) {
+    return false;
   }
-  report_.interface = context_.session().interface();
-  fleet::Discovery discovery(context_.session(), context_.known(), context_.identification());
-  auto selection = discovery.select_for_writing(*targets);
+  auto selection = choose(*targets, context_.identification());
   if (!selection) {
-    return selection.error().code == Code::usage ? stop(selection.error())
-                                                 : broken(selection.error());
+    return false;
   }
-  has_searched_ = targets->need_search();
-  chosen_at_ = context_.session().now();
-  return choose(std::move(*selection));
-}
-
-bool Characterize::choose(fleet::Selection selection) {
-  for (const std::string& note : selection.notes) {
-    context_.reporter().note(note);
-  }
-  for (Error& error : selection.errors) {
+  for (Error& error : selection->errors) {
     report_.fail_target(std::move(error));
   }
   if (!report_.targets.empty()) {
     return false;
   }
-  if (selection.ids.size() != 1) {
-    const auto first = selection.ids.empty() ? dronecan::NodeId{} : selection.ids.front();
-    return stop({Code::usage, say<texts::characterize_one_servo>(selection.ids.size()),
+  const auto& ids = selection->ids;
+  if (ids.size() != 1) {
+    const auto first = ids.empty() ? dronecan::NodeId{} : ids.front();
+    return stop({Code::usage, say<texts::characterize_one_servo>(ids.size()),
                  say<texts::characterize_one_servo_hint>(first.value()), std::nullopt});
   }
-  id_ = selection.ids.front();
+  id_ = ids.front();
   return true;
 }
 
@@ -131,20 +102,6 @@ bool Characterize::read() {
   return true;
 }
 
-/// A servo that came since it was chosen may be the one that is meant.
-bool Characterize::hear() {
-  if (const auto heard = fleet::hear_bus(context_.session()); !heard) {
-    return heard.error().code == Code::state ? stop(heard.error()) : broken(heard.error());
-  }
-  for (const auto& [id, member] : context_.session().roster().members()) {
-    if (has_searched_ && member.first_heard > chosen_at_ && member.sends_actuator_status()) {
-      report_.fail({Code::state, say<texts::came_since>(id.value()), say<texts::run_again_hint>(),
-                    id.value()});
-    }
-  }
-  return report_.errors.empty();
-}
-
 /// What forbids it; once more after the question, which may take its time.
 bool Characterize::check() {
   if (auto refused = fleet::refuse_to_characterize(context_.session(), before_,
@@ -155,9 +112,8 @@ bool Characterize::check() {
 }
 
 bool Characterize::confirm() {
-  const auto agreed = blactl::cli::confirm(fleet::question_to_characterize(before_), context_);
-  return agreed || (agreed.error().code == Code::not_confirmed ? stop(agreed.error())
-                                                               : broken(agreed.error()));
+  tell_others();
+  return WritingRun::confirm(fleet::question_to_characterize(before_));
 }
 
 void Characterize::measure() {
@@ -228,14 +184,6 @@ std::optional<Error> Characterize::write(const fleet::Characterization& measured
   const auto written = replace_file(
       options_.file, fleet::facts_file(measured, context_.session().wall(), BLACTL_VERSION));
   return written ? std::nullopt : std::optional(written.error());
-}
-
-void Characterize::hint_interruption(const std::string& hint) {
-  for (Error& error : report_.errors) {
-    if (error.code == Code::interrupted) {
-      error.hint = hint;
-    }
-  }
 }
 
 Report execute(const CharacterizeOptions& options, Context& context) {

@@ -70,14 +70,6 @@ void write_node(JsonWriter& json, const Finding& node) {
   json.end_object();
 }
 
-std::vector<NodeId> commanders(const Roster& roster) {
-  std::vector<NodeId> out;
-  for (const auto& [id, commander] : roster.commanders()) {
-    out.push_back(id);
-  }
-  return out;
-}
-
 /// "operational ok", each word in the colour of what it tells.
 std::string state_text(const dronecan::NodeStatus& now, const Page& page) {
   using dronecan::Health;
@@ -145,7 +137,7 @@ void write_json(JsonWriter& json, const Findings& findings) {
   }
   json.end_array();
   write_ids(json, "allocators", {roster.allocators().begin(), roster.allocators().end()});
-  write_ids(json, "commanders", commanders(roster));
+  write_ids(json, "commanders", fleet::commanders(roster));
 }
 
 std::string csv(const Findings& findings) {
@@ -208,14 +200,8 @@ std::string text(const Findings& findings, const Page& page) {
   if (!roster.pending().empty()) {
     line(say<texts::more_may_wait>());
   }
-  for (const NodeId id : roster.allocators()) {
-    line(say<texts::allocates>(id.value()));
-  }
-  for (const NodeId id : commanders(roster)) {
-    line(say<texts::commands_servos>(id.value()));
-  }
-  if (const auto by = roster.armed_by()) {
-    line(say<texts::says_armed>(by->value()));
+  for (const std::string& other : fleet::others(roster)) {
+    line(other);
   }
   return out;
 }

@@ -152,6 +152,24 @@ TEST_CASE(
   CHECK(findings.conflicts.size() == 1);
 }
 
+TEST_CASE("another allocator and servos of one servo ID other than 0 are notes for who writes") {
+  Bus bus;
+  bus.servo(11, 4);
+  bus.servo(12, 4);
+  bus.servo(13, 0);
+  bus.servo(14, 0);
+  const dronecan::Allocation part{.node_id = 21, .size = 6, .unique_id = {1}};
+  const auto payload = part.encode();
+  bus.roster.receive({.header = {.kind = dronecan::Kind::message,
+                                 .data_type_id = dronecan::Allocation::type.id,
+                                 .source = NodeId(40)},
+                      .payload = payload.bytes(),
+                      .at = bus.now});
+  CHECK(notes_before_writing(bus.roster) ==
+        std::vector<std::string>{"node 40 allocates node IDs",
+                                 "nodes 11, 12 have the same servo ID 4"});
+}
+
 TEST_CASE("a node that has gone silent is offline") {
   Bus bus;
   bus.servo(11, 1);

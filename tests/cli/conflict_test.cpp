@@ -1,0 +1,111 @@
+// Who else is on the bus: what `scan` says of it in time, and whom nothing is written to.
+
+#include "catch.hpp"
+#include "scene.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace blactl::test;
+
+namespace {
+
+/// Two units on node ID 11 among others. What one of them has that the other has not is `more`.
+Scene twins(const nlohmann::json& more) {
+  return three_servos().servo("BLA21-12U-AB", 11, more);
+}
+
+/// What a recording holds: one object a transfer.
+std::vector<nlohmann::json> transfers(const Bench& bench, const std::string& log) {
+  auto lines = json_lines(bench.run({"trace", log, "--json"}).out);
+  std::erase_if(lines, [](const nlohmann::json& line) { return !line.contains("type"); });
+  return lines;
+}
+
+/// Whether the transfer changes its destination.
+bool is_write(const nlohmann::json& transfer) {
+  if (transfer.value("kind", "") != "request") {
+    return false;
+  }
+  const std::string type = transfer["type"];
+  return type == "uavcan.protocol.param.ExecuteOpcode" || type == "uavcan.protocol.RestartNode" ||
+         (type == "uavcan.protocol.param.GetSet" && !transfer["fields"]["value"].contains("empty"));
+}
+
+/// How many transfers of a run change the node.
+std::ptrdiff_t writes_to(const Bench& bench, const std::string& log, int node) {
+  return std::ranges::count_if(transfers(bench, log), [node](const nlohmann::json& transfer) {
+    return is_write(transfer) && transfer["destination"] == node;
+  });
+}
+
+} // namespace
+
+TEST_CASE("two units with one node ID are named within three seconds") {
+  const nlohmann::json differences[] = {{{"servo_id", 4}},
+                                        {{"servo_id", 1}, {"serial_number", 77}},
+                                        {{"faults", {{"no_actuator_status", true}}}}};
+  for (const auto& difference : differences) {
+    INFO(difference.dump());
+    const Bench bench;
+    const std::string log = (bench.folder() / "scan.log").string();
+    const Result result = twins(difference).run(bench, {"scan", "--json", "--record", log});
+    CHECK(result.status == 9);
+    CHECK(json(result.out)["conflicts"][0]["node_ids"] == nlohmann::json{11});
+    const auto heard = transfers(bench, log);
+    REQUIRE(heard.size() > 20);
+    CHECK(heard.back()["time"].get<double>() - heard.front()["time"].get<double>() <= 3.0);
+  }
+}
+
+TEST_CASE("no command writes to a node ID that two units have, and each refuses with its name") {
+  const Bench bench;
+  const std::string log = (bench.folder() / "bus.log").string();
+  const std::vector<Arguments> commands{{"set", "smoothing=off"},
+                                        {"set", "smoothing=off", "--save"},
+                                        {"set", "smoothing=off", "--while-driven"},
+                                        {"save"},
+                                        {"erase"},
+                                        {"erase", "--keep-ids"},
+                                        {"restart"},
+                                        {"pwm-config", "--neutral", "1600"},
+                                        {"characterize"},
+                                        {"alloc", "--static"}};
+  for (Arguments command : commands) {
+    command.insert(command.end(), {"-n", "11", "-y", "--record", log});
+    INFO(command.front() << " " << command[1]);
+    const Result result = twins({{"servo_id", 4}}).run(bench, command);
+    CHECK(result.status == 9);
+    CHECK(codes(result) == std::vector<std::string>{"duplicate_node_id"});
+    CHECK(contains(result.err, "two units use node ID 11"));
+    CHECK(writes_to(bench, log, 11) == 0);
+    command[command.size() - 4] = "all"; // some refuse others of them too
+    CHECK(twins({{"servo_id", 4}}).run(bench, command).status != 0);
+    CHECK(writes_to(bench, log, 11) == 0);
+  }
+  REQUIRE(twins({{"servo_id", 4}})
+              .run(bench, {"set", "-n", "12", "smoothing=off", "--record", log})
+              .status == 0);
+  CHECK(writes_to(bench, log, 12) == 1); // such a transfer is seen where there is one
+}
+
+TEST_CASE("who else acts on the bus is a note where it forbids nothing") {
+  const Scene scene =
+      Scene()
+          .servo("BLA21-12U-AB", 11, {{"servo_id", 4}})
+          .servo("BLA21-12U-AB", 12, {{"servo_id", 4}})
+          .servo("BLA21-12U-AB", 13)
+          .servo("BLA21-12U-AB", 14)
+          .foreign(40, {{"kind", "autopilot"}, {"commands", {{"servo_ids", {9}}, {"type", 1}}}});
+  const Result result = scene.run({"set", "-n", "all", "smoothing=off"});
+  CHECK(result.status == 0);
+  for (const char* note :
+       {"node 40 commands servos\n", "nodes 11, 12 have the same servo ID 4\n"}) {
+    INFO(note << " in " << result.err);
+    CHECK(contains(result.err, note));
+  }
+  CHECK_FALSE(contains(result.err, "servo ID 0"));
+  CHECK(scene.run({"save", "-n", "13", "-y"}).status == 0);
+}
