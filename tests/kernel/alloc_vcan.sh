@@ -67,7 +67,7 @@ same "$before" "$(echo "$out" | units)"
 note "another allocator comes, and then two servos that ask: we are silent, and end with 9"
 "$blactl" alloc -j >"$TMPDIR/alloc.out" 2>"$TMPDIR/alloc.err" &
 allocator=$!
-wait_for 60 grep -q 'are free' "$TMPDIR/alloc.err"
+wait_for 20 grep -q 'free: ' "$TMPDIR/alloc.err"
 sim other '"servos":[],"foreign":[{"kind":"autopilot","node_id":100,"allocates":true}]'
 sleep 3 # to it only those that it has heard have an ID
 sim second "\"servos\":[$(servos 21 22)]"
