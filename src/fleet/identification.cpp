@@ -96,7 +96,7 @@ void Identification::take_node_info(const Outcome& outcome) {
   }
   info_ = std::move(response);
   if (info_) {
-    roster_.learn(servo_.id, *info_);
+    roster_.learn(servo_.id, *info_, outcome.at);
     servo_.unique_id = info_->unique_id;
     servo_.name = info_->name;
     servo_.since = outcome.asked; // it may have started after an earlier question, which got lost
@@ -201,7 +201,7 @@ dronecan::Step UnitJob::next(const Outcome& outcome) {
   const auto info =
       outcome.answered() ? GetNodeInfo::Response::decode(outcome.payload) : std::nullopt;
   if (info) {
-    roster_.learn(id_, *info);
+    roster_.learn(id_, *info, outcome.at);
   }
   return std::nullopt;
 }

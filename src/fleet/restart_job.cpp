@@ -197,16 +197,21 @@ Step RestartJob::judge_life(const Outcome& outcome) {
 
 /// It was old enough when the request was sent: only without a restart it is older than that.
 bool RestartJob::runs_on(const GetNodeInfo::Response& info, Time now) const {
-  return !has_started_anew() && has_run_since(sent_at_, info.status.uptime_s, now);
+  return has_run_since(sent_at_, info.status.uptime_s, now);
+}
+
+/// Whether a start that an uptime tells comes after the request. The servo had run for two seconds
+/// then, so what its uptime tells of an earlier start lies a second before the request at least.
+bool RestartJob::is_after_request(Time started) const {
+  constexpr Duration between = 500ms;
+  return started > sent_at_ - between;
 }
 
 /// An earlier restart may show late, since uptimes are whole seconds: only one after the request
-/// counts. The servo had run for two seconds then, so what its uptime tells of an earlier start
-/// lies a second before the request at least.
+/// counts.
 bool RestartJob::has_started_anew() const {
-  constexpr Duration between = 500ms;
   const auto started = roster_.started(id_);
-  return roster_.member(id_).boots != boot_ && (!started || *started > sent_at_ - between);
+  return roster_.member(id_).boots != boot_ && (!started || is_after_request(*started));
 }
 
 Step RestartJob::wait_for_return(Time now) {
@@ -265,14 +270,16 @@ bool RestartJob::is_another_at(dronecan::NodeId id) const {
   return member->is_another_unit(unique_id_) || is_too_old;
 }
 
-/// Where the servo is after its restart; empty: not yet.
+/// Where the servo is after its restart; empty: not yet. It says so itself: a start that was heard
+/// on its ID may be that of another unit.
 std::optional<dronecan::NodeId> RestartJob::find_returned(bool must_operate) const {
   for (const auto& [id, member] : roster_.members()) {
     // Where it was before earlier restarts it is heard no more.
     const bool is_restarted =
         id != id_ ? member.last_heard > sent_at_ : has_restarted_ || has_started_anew();
     const bool is_operational = member.status && member.status->mode == dronecan::Mode::operational;
-    if (is_restarted && member.is_unit(unique_id_) && (is_operational || !must_operate)) {
+    const bool is_back = member.is_unit(unique_id_) && is_after_request(member.info_start);
+    if (is_restarted && is_back && (is_operational || !must_operate)) {
       return id;
     }
   }

@@ -101,13 +101,14 @@ void Roster::announce(const Member& member) {
   }
 }
 
-void Roster::learn(NodeId id, const dronecan::GetNodeInfo::Response& info) {
+void Roster::learn(NodeId id, const dronecan::GetNodeInfo::Response& info, Time at) {
   Member& member = known(id);
   if (member.info && member.info_boot == member.boots && member.info->unique_id != info.unique_id) {
     mark_doubled(id, member.info->unique_id, info.unique_id);
   }
   member.info = info;
   member.info_boot = member.boots;
+  member.info_start = at - std::chrono::seconds(info.status.uptime_s);
   if (!member.is_known()) {
     member.identified = member.is_servo = false;
     member.identity = {};
@@ -223,8 +224,10 @@ void Roster::receive(const Transfer& transfer) {
       sender.status_at = transfer.at;
       if (is_news(header.source, info->status.uptime_s, transfer.at)) {
         watch_uptime(sender, info->status.uptime_s, transfer.at);
+      } else if (is_of_before(header.source, info->status.uptime_s, transfer.at)) {
+        doubled_.insert(header.source);
       }
-      learn(header.source, *info);
+      learn(header.source, *info, transfer.at);
     }
   }
   if (header.kind != Kind::message) {
@@ -268,6 +271,14 @@ bool Roster::is_news(NodeId source, std::uint32_t uptime_s, Time at) const {
   const Pulse& pulse = pulses_[source.value()];
   const std::optional<Time>& known = pulse.boots[pulse.last_boot];
   return !known || at - std::chrono::seconds(uptime_s) - *known > answer_tolerance;
+}
+
+/// Whether the uptime of an answer tells of an older start than the last one that was heard: who
+/// answers did not start then. However late it comes, its start looks later and not earlier.
+bool Roster::is_of_before(NodeId source, std::uint32_t uptime_s, Time at) const {
+  const Pulse& pulse = pulses_[source.value()];
+  const std::optional<Time>& known = pulse.boots[pulse.last_boot];
+  return known && *known - (at - std::chrono::seconds(uptime_s)) > answer_tolerance;
 }
 
 void Roster::watch_uptime(Member& sender, std::uint32_t uptime_s, Time at) {

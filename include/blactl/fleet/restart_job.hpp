@@ -103,6 +103,7 @@ class RestartJob final : public dronecan::Job {
 
   [[nodiscard]] dronecan::Step conclude();
   [[nodiscard]] dronecan::Step give_up(Error error);
+  [[nodiscard]] bool is_after_request(Time started) const;
   [[nodiscard]] bool has_started_anew() const;
   [[nodiscard]] bool lives_on() const;
   [[nodiscard]] Error not_carried_out() const;

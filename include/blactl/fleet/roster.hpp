@@ -30,6 +30,7 @@ struct Member {
   /// What Roster::learn() was told.
   std::optional<dronecan::GetNodeInfo::Response> info{};
   std::uint32_t info_boot = 0; ///< `boots` when `info` came
+  Time info_start{};           ///< when the unit started, by the uptime that came with it
   bool is_servo = false;       ///< it answered register 0x50
   bla::Identity identity{};
   std::optional<std::int64_t> servo_id{}, static_node_id{};
@@ -123,7 +124,7 @@ class Roster {
   void receive(const dronecan::Transfer& transfer);
 
   /// The unit behind `id` answered GetNodeInfo: whatever was known may have been another's.
-  void learn(dronecan::NodeId id, const dronecan::GetNodeInfo::Response& info);
+  void learn(dronecan::NodeId id, const dronecan::GetNodeInfo::Response& info, Time at);
 
   /// What a node said of itself; `servo.boot` is that of its GetNodeInfo, which may be over.
   void learn(const Servo& servo, const std::optional<dronecan::GetNodeInfo::Response>& info);
@@ -211,6 +212,7 @@ class Roster {
   void on_command(const dronecan::Transfer& transfer);
   void on_write(const dronecan::Transfer& transfer);
   [[nodiscard]] bool is_news(dronecan::NodeId source, std::uint32_t uptime_s, Time at) const;
+  [[nodiscard]] bool is_of_before(dronecan::NodeId source, std::uint32_t uptime_s, Time at) const;
   void watch_uptime(Member& member, std::uint32_t uptime_s, Time at);
   [[nodiscard]] bool has_restarted(Member& member, std::uint32_t uptime_s, Time at);
   Commander& commander(dronecan::NodeId source);

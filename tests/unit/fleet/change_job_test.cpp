@@ -225,7 +225,7 @@ class Bench {
     restart_silently();
     known_.now += start_time;
     known_.hear_uptime(info().status.uptime_s);
-    known_.roster.learn(NodeId(11), info());
+    known_.roster.learn(NodeId(11), info(), known_.now);
     REQUIRE(step_.pause()->ready());
     ask({Outcome::Kind::woken, {}, {}});
   }

@@ -109,14 +109,20 @@ class Bench {
   void recognize(std::uint8_t source, std::uint8_t unit, Time started,
                  Mode mode = Mode::operational) {
     hear_status(source, started, mode);
-    roster.learn(NodeId(source), node_info(unit, started, mode));
+    roster.learn(NodeId(source), node_info(unit, started, mode), now);
   }
 
   /// Servo 11 restarted, was asked (UnitJob) and answers; no NodeStatus has come yet.
   void recognize_by_answer(Time started, Mode mode) {
     const auto info = node_info(1, started, mode);
     hear(service(dronecan::Kind::response, GetNodeInfo::type, 11, 127, info.encode(), id()));
-    roster.learn(NodeId(11), info);
+    roster.learn(NodeId(11), info, now);
+  }
+
+  /// Asked by somebody else, servo 11 answers, whenever it started.
+  void hear_info(Time started) {
+    hear(service(dronecan::Kind::response, GetNodeInfo::type, 11, 127,
+                 node_info(1, started, Mode::operational).encode(), id()));
   }
 
   void hear(const std::vector<can::Frame>& frames) {
@@ -713,6 +719,31 @@ TEST_CASE("where a servo will be after a mere restart is not certain: others may
   bench.now += 300ms;
   bench.hear_status(20, bench.now - 5000s);
   CHECK_FALSE(bench.wakes());
+}
+
+TEST_CASE("a start that somebody else tells on its ID is not that of the servo") {
+  Bench bench(GENERATE(RestartKind::save, RestartKind::restart));
+  bench.send();
+  bench.answer_ok();
+  bench.now += 30ms;
+  bench.hear_status(11, bench.now); // a unit that was just switched on
+  bench.hear_info(bench.boot);      // the servo has not gone
+  CHECK(bench.wake() == "nothing");
+  CHECK(bench.error() == Code::duplicate_node_id);
+  CHECK(bench.job.returned() == std::nullopt);
+}
+
+TEST_CASE("a servo that answers for the last time before it goes is not back") {
+  Bench bench;
+  bench.send();
+  bench.answer_ok();
+  bench.hear_status(11, bench.now - 200ms); // its age tells no two starts apart
+  bench.hear_info(bench.now - 2s);
+  CHECK_FALSE(bench.wakes());
+  bench.now += 900ms;
+  bench.recognize(11, 1, bench.now);
+  CHECK(bench.wake() == "nothing");
+  CHECK(bench.job.returned() == NodeId(11));
 }
 
 TEST_CASE("a servo on whose ID another unit shows is not said to be back") {

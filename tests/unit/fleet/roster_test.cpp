@@ -577,7 +577,7 @@ TEST_CASE("what a node said before its restart is not taken for what it is now")
   CHECK_FALSE(ear.roster.member(NodeId(10)).is_known());
   CHECK_FALSE(ear.roster.member(NodeId(10)).is_unit({1}));
   CHECK(ear.roster.member(NodeId(10)).servo().servo_id == 3); // the last that was heard of it
-  ear.roster.learn(NodeId(10), GetNodeInfo::Response{.unique_id = {2}});
+  ear.roster.learn(NodeId(10), GetNodeInfo::Response{.unique_id = {2}}, ear.now);
   CHECK(ear.roster.member(NodeId(10)).is_unit({2}));
   CHECK_FALSE(ear.roster.member(NodeId(10)).is_servo);
   CHECK_FALSE(ear.roster.member(NodeId(10)).servo_id);

@@ -166,7 +166,7 @@ TEST_CASE("the beginning of a unique ID must mean one unit") {
   for (const std::uint8_t id : {std::uint8_t{11}, std::uint8_t{12}}) {
     Member member = servo(id);
     member.info->unique_id[15] = id;
-    roster.learn(NodeId(id), *member.info);
+    roster.learn(NodeId(id), *member.info, Time{});
     roster.learn(member.servo(), member.info);
   }
   const auto ambiguity = [&](std::string_view list) {
