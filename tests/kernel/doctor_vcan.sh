@@ -18,20 +18,46 @@ while_reported() {
   wait "$reporter" 2>/dev/null
 }
 
-note "down: it says so; --fix raises it"
+# at_terminal KEYS COMMAND: answers the question that the command asks; sets $status and $out.
+at_terminal() {
+  local terminal
+  rm -f "$TMPDIR/keys" "$TMPDIR/terminal"
+  mkfifo "$TMPDIR/keys"
+  script -qfec "$2" "$TMPDIR/terminal" <"$TMPDIR/keys" >/dev/null 2>&1 &
+  terminal=$!
+  exec 9>"$TMPDIR/keys"
+  wait_for 20 grep -q 'Go on' "$TMPDIR/terminal"
+  printf '%s' "$1" >&9
+  command_line=$2
+  wait "$terminal"
+  status=$?
+  out=$(cat "$TMPDIR/terminal")
+  exec 9>&-
+}
+
+note "down: it says so, with the command; Ctrl-C and no leave it down"
 ip link set vcan0 down
 run "$blactl" doctor -j
 expect_status 3
 expect_codes findings interface_down
 expect_out 'sudo ip link set vcan0 up'
-echo '{"schema":"blactl-scenario/1","servos":[{"model":"BLA21-12U-AB","node_id":11,"servo_id":1}]}' \
-  >"$TMPDIR/scenario.json"
-run "$blactl" doctor --fix -y -j
+at_terminal $'\003' "$blactl doctor --fix"
+expect_status 130
+expect_out 'vcan0 is down'
+expect_out 'as does: sudo ip link set vcan0 up'
+at_terminal $'n\n' "$blactl doctor --fix"
+expect_status 3
+expect_out '[not_confirmed]'
+
+note "yes raises it; nobody is on the bus but ourselves, and that is told"
+at_terminal $'y\n' "$blactl doctor --fix -j"
 expect_status 8
 expect_codes fixed interface_down
 expect_codes findings silent
 
 note "with a servo nothing is wrong, and there is nothing to mend"
+echo '{"schema":"blactl-scenario/1","servos":[{"model":"BLA21-12U-AB","node_id":11,"servo_id":1}]}' \
+  >"$TMPDIR/scenario.json"
 "$blactl" sim -i vcan0 --json "$TMPDIR/scenario.json" >"$TMPDIR/sim.out" 2>&1 &
 wait_for 20 grep -q '"ready"' "$TMPDIR/sim.out"
 run "$blactl" doctor --fix -j
