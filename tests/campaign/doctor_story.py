@@ -1,5 +1,6 @@
 """Whether what `blactl doctor` has found is there, and what is there it has found."""
 
+import record
 import story
 from story import require
 
@@ -78,5 +79,7 @@ def check_conflicts(outcome, document, step):
 
 def check_unhindered(document):
     require(not document["errors"], "nothing was in its way")
-    others = {finding["code"] for finding in document["findings"]} - OF_SERVOS
+    # The command before may leave a last frame behind, and is not heard any more.
+    others = {finding["code"] for finding in document["findings"]
+              if finding["node_id"] not in record.OWN_IDS} - OF_SERVOS
     require(not others, f"nothing was wrong, told was {others}")
