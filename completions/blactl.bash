@@ -154,7 +154,7 @@ _blactl_options() {
     faults) echo '--level --watch' ;;
     pwm-config) echo '--neutral --range --output --mode --endpoints --preset --svg --save --dry-run --wait --stagger' ;;
     trace) echo '--type --kind --duration --count --stats --absolute' ;;
-    doctor) echo '--report' ;;
+    doctor) echo '--fix --report' ;;
     models) echo '--group' ;;
     sim) echo '--facts --seed --clock' ;;
   esac

@@ -322,6 +322,7 @@ complete -c blactl -n '__blactl_in trace' -l stats -d 'instead of the transfers,
 complete -c blactl -n '__blactl_in trace' -l absolute -d 'the time of day instead of seconds since the first frame'
 complete -c blactl -n '__blactl_argument trace 1' -F
 
+complete -c blactl -n '__blactl_in doctor' -l fix -d 'set up and raise the CAN interface, where something of it is wrong, after a question'
 complete -c blactl -n '__blactl_in doctor' -l report -r -F -d 'write all of it to one file for the support'
 
 complete -c blactl -n '__blactl_argument characterize 1' -F

@@ -1,22 +1,15 @@
 #include "blactl/can/link.hpp"
 
+#include "can/rtnl.hpp"
 #include "can/texts.hpp"
 
-#include <netlink/cache.h>
-#include <netlink/netlink.h>
-#include <netlink/route/link.h>
 #include <netlink/route/link/can.h>
 
 #include <net/if.h>
 #include <net/if_arp.h>
 
-#include <memory>
-
 namespace blactl::can {
 namespace {
-
-using Socket = std::unique_ptr<nl_sock, decltype(&nl_socket_free)>;
-using Cache = std::unique_ptr<nl_cache, decltype(&nl_cache_free)>;
 
 Link read(rtnl_link* raw) {
   Link link;
@@ -57,7 +50,7 @@ static_assert(static_cast<int>(LinkState::bus_off) == CAN_STATE_BUS_OFF &&
 } // namespace
 
 Result<std::vector<Link>> links() {
-  const Socket socket(nl_socket_alloc(), &nl_socket_free);
+  const NlSocket socket(nl_socket_alloc(), &nl_socket_free);
   nl_cache* raw_cache = nullptr;
   int error = socket ? nl_connect(socket.get(), NETLINK_ROUTE) : -NLE_NOMEM;
   if (error == 0) {
@@ -66,7 +59,7 @@ Result<std::vector<Link>> links() {
   if (error < 0) {
     return fail(Code::interface, say<texts::links_unreadable>(nl_geterror(error)));
   }
-  const Cache cache(raw_cache, &nl_cache_free);
+  const NlCache cache(raw_cache, &nl_cache_free);
   std::vector<Link> found;
   for (auto* object = nl_cache_get_first(raw_cache); object != nullptr;
        object = nl_cache_get_next(object)) {
@@ -106,11 +99,6 @@ std::string describe(std::span<const Link> links) {
     list += link.is_up ? say<texts::link_is_up>(name) : say<texts::link_is_down>(name);
   }
   return say<texts::can_interfaces_here>(list);
-}
-
-std::string up_command(const Link& link) {
-  const std::string command = "sudo ip link set " + printable(link.name) + " up";
-  return link.kind == "can" ? command + " type can bitrate 1000000 sample-point 0.875" : command;
 }
 
 } // namespace blactl::can

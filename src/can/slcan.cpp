@@ -42,11 +42,12 @@ constexpr int most_reads = 16;
 Slcan::Slcan(std::unique_ptr<SerialPort> port, std::filesystem::path device, std::string name,
              const SlcanOptions& options)
     : port_(std::move(port)), device_(std::move(device)), name_(std::move(name)), options_(options),
-      dialogue_(std::make_unique<SlcanDialogue>(options.opening, options.await_answers)),
+      dialogue_(std::make_unique<SlcanDialogue>(options.opening, options.await_answers,
+                                                options.inquires)),
       evidence_(std::make_unique<SlcanEvidence>()) {}
 
-Result<std::unique_ptr<Bus>> Slcan::open(const std::filesystem::path& device, std::string name,
-                                         const SlcanOptions& options) {
+Result<std::unique_ptr<Slcan>> Slcan::open(const std::filesystem::path& device, std::string name,
+                                           const SlcanOptions& options) {
   auto port = SerialPort::open(device, options.baud);
   if (!port) {
     return std::unexpected(std::move(port.error()));
@@ -177,9 +178,45 @@ void Slcan::take(const SlcanLine& line, Time at) {
     break;
   case SlcanLine::Kind::done: acknowledged(true, at); break;
   case SlcanLine::Kind::refused: acknowledged(false, at); break;
+  case SlcanLine::Kind::told: told(line.told, at); break;
   case SlcanLine::Kind::loopback:
   case SlcanLine::Kind::other: break;
   }
+}
+
+void Slcan::told(const std::string& answer, Time at) {
+  switch (answer.front()) {
+  case 'V': answers_.version = answer.substr(1); break;
+  case 'N': answers_.serial_number = answer.substr(1); break;
+  default:
+    answers_.status = static_cast<std::uint8_t>(std::stoul(answer.substr(1), nullptr, 16));
+    break;
+  }
+  if (!open_) {
+    dialogue_->told(answer, at);
+    converse();
+  } else if (late_answers_ > 0 && at < late_answers_until_) {
+    --late_answers_;
+  }
+}
+
+bool Slcan::ask_status() {
+  if (!open_ || gone_ || !outgoing_.empty() || !dialogue_->adapter_answers()) {
+    return false;
+  }
+  const std::string command = "F\r";
+  if (options_.trace) {
+    options_.trace(SlcanTalk::to_adapter, command);
+  }
+  outgoing_ += command;
+  ++late_answers_; // one that does not know it refuses it
+  late_answers_until_ = now() + late_answer_time;
+  flush();
+  return true;
+}
+
+ForeignSpeech Slcan::speech() const {
+  return evidence_->speech();
 }
 
 /// Goes on with the opening dialogue.
@@ -266,6 +303,15 @@ Error Slcan::refuses() const {
 
 Error Slcan::speaks_no_slcan() const {
   const std::string device = printable(device_.string());
+  switch (evidence_->speech()) {
+  case ForeignSpeech::mavlink:
+    return {Code::interface, say<texts::port_speaks_mavlink>(device),
+            say<texts::port_speaks_mavlink_hint>(), std::nullopt};
+  case ForeignSpeech::text:
+    return {Code::interface, say<texts::port_speaks_text>(device),
+            say<texts::adapter_speaks_no_slcan_hint>(device), std::nullopt};
+  case ForeignSpeech::none: break;
+  }
   return {Code::interface, say<texts::adapter_speaks_no_slcan>(device, options_.baud),
           say<texts::adapter_speaks_no_slcan_hint>(device), std::nullopt};
 }

@@ -9,9 +9,11 @@ namespace {
 
 // An empty line ends what a program before us left unfinished. C, because an open channel refuses
 // another bit rate. S8 is 1 Mbit/s.
+constexpr std::string_view ask_version = "V\r", ask_serial_number = "N\r";
 constexpr std::string_view set_rate = "S8\r";
 constexpr std::string_view open_channel = "O\r";
-constexpr std::array<std::string_view, 4> full{"\r", "C\r", set_rate, open_channel};
+constexpr std::array<std::string_view, 6> full{
+    "\r", "C\r", ask_version, ask_serial_number, set_rate, open_channel};
 constexpr std::array<std::string_view, 1> plain{open_channel};
 
 /// Longer than a USB converter holds bytes back (FTDI: 16 ms) and an autopilot needs for a turn.
@@ -24,11 +26,11 @@ constexpr std::size_t most_silences = 2;
 
 } // namespace
 
-SlcanDialogue::SlcanDialogue(SlcanOpening opening, bool await_answers)
+SlcanDialogue::SlcanDialogue(SlcanOpening opening, bool await_answers, bool inquires)
     : commands_(opening == SlcanOpening::plain ? std::span<const std::string_view>(plain)
                                                : std::span<const std::string_view>(full)),
       // The vendor's program waits for none, and whether its adapter sends any is unknown.
-      await_answers_(await_answers && opening != SlcanOpening::plain) {}
+      await_answers_(await_answers && opening != SlcanOpening::plain), inquires_(inquires) {}
 
 void SlcanDialogue::begin(Time now) {
   send_next(now);
@@ -39,11 +41,27 @@ void SlcanDialogue::send_next(Time now) {
   deadline_ = never;
   while (next_ < commands_.size() && !waiting_) {
     const std::string_view command = commands_[next_++];
+    if (is_left_out(command)) {
+      continue;
+    }
+    ++sent_;
     out_ += command;
     if (await_answers_) {
       waiting_ = true;
       deadline_ = now + (command == "\r" ? empty_line_time : answer_time);
     }
+  }
+}
+
+/// One that has answered nothing yet would be asked in vain, and perhaps misled.
+bool SlcanDialogue::is_left_out(std::string_view command) const {
+  const bool is_inquiry = command == ask_version || command == ask_serial_number;
+  return is_inquiry && (!inquires_ || !await_answers_ || answers_ == 0);
+}
+
+void SlcanDialogue::told(std::string_view answer, Time now) {
+  if (waiting_ && commands_[next_ - 1].front() == answer.front()) {
+    answered(true, now);
   }
 }
 

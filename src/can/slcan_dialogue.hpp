@@ -18,12 +18,17 @@ namespace blactl::can {
 ///   dialogue.answered(…) and dialogue.advance(now) until is_done()
 class SlcanDialogue {
  public:
-  SlcanDialogue(SlcanOpening opening, bool await_answers);
+  /// `inquires`: before it is opened, an adapter that answers is asked for its version and serial
+  /// number.
+  SlcanDialogue(SlcanOpening opening, bool await_answers, bool inquires);
 
   void begin(Time now);
 
   /// The adapter has answered: CR, or BEL.
   void answered(bool accepted, Time now);
+
+  /// The adapter has told something of itself: "V1013".
+  void told(std::string_view answer, Time now);
 
   /// Does what is due.
   void advance(Time now);
@@ -42,7 +47,7 @@ class SlcanDialogue {
   [[nodiscard]] bool waited_in_vain() const { return silences_ > 0 && answers_ == 0; }
 
   /// Commands without an answer, which may still come.
-  [[nodiscard]] std::size_t unanswered() const { return next_ - answers_; }
+  [[nodiscard]] std::size_t unanswered() const { return sent_ - answers_; }
 
   /// The adapter refused the bit rate.
   [[nodiscard]] bool rate_refused() const { return rate_refused_; }
@@ -55,11 +60,14 @@ class SlcanDialogue {
 
  private:
   void send_next(Time now);
+  [[nodiscard]] bool is_left_out(std::string_view command) const;
 
   std::span<const std::string_view> commands_;
   bool await_answers_;
+  bool inquires_;
   bool waiting_ = false;
   std::size_t next_ = 0; ///< the first command that was not sent
+  std::size_t sent_ = 0;
   std::size_t answers_ = 0;
   std::size_t silences_ = 0;
   bool rate_refused_ = false;

@@ -9,6 +9,9 @@ constexpr std::size_t line_without_meaning = 16;
 /// By chance some bytes of a wrong baud rate are an empty line; a few of those prove nothing.
 constexpr std::size_t garbage_for_a_line = 8;
 
+/// The first line may have lost its beginning.
+constexpr std::size_t least_text_lines = 2;
+
 /// Enough garbage in a dialogue without any answer, and enough in a channel that should be open.
 constexpr std::size_t least_in_dialogue = 4;
 constexpr std::size_t least_afterwards = 64;
@@ -21,7 +24,9 @@ bool is_of_a_line(char byte) {
 
 void SlcanEvidence::heard(char byte) {
   ++bytes_;
+  mavlink_.take(static_cast<std::uint8_t>(byte));
   if (!is_of_a_line(byte)) {
+    ++strange_bytes_;
     ++garbage_;
     any_garbage_ = true;
   }
@@ -29,12 +34,13 @@ void SlcanEvidence::heard(char byte) {
 
 void SlcanEvidence::understood(const SlcanLine& line) {
   if (line.kind == SlcanLine::Kind::other) {
+    ++strange_lines_;
     garbage_ += line_without_meaning;
     any_garbage_ = true;
     return;
   }
-  if (line.kind == SlcanLine::Kind::refused) {
-    return; // one byte, which is in any garbage
+  if (line.kind == SlcanLine::Kind::refused || line.kind == SlcanLine::Kind::told) {
+    return; // one byte, which is in any garbage; a word, which is in any text
   }
   ++understood_;
   ++lines_;
@@ -53,6 +59,15 @@ void SlcanEvidence::dialogue_ended(bool answered) {
 
 bool SlcanEvidence::mostly_garbage(std::size_t least) const {
   return garbage_ >= least && garbage_ > garbage_for_a_line * lines_;
+}
+
+ForeignSpeech SlcanEvidence::speech() const {
+  if (mavlink_.has_heard()) {
+    return ForeignSpeech::mavlink;
+  }
+  const bool is_text =
+      strange_lines_ >= least_text_lines && strange_lines_ > understood_ && strange_bytes_ == 0;
+  return is_text ? ForeignSpeech::text : ForeignSpeech::none;
 }
 
 bool SlcanEvidence::is_no_slcan() const {

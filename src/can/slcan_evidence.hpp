@@ -2,7 +2,10 @@
 // What speaks against an adapter: whether what it says is slcan at all, and whether it takes
 // frames.
 
+#include "blactl/can/slcan_adapter.hpp"
 #include "blactl/can/slcan_line.hpp"
+
+#include "can/mavlink_watch.hpp"
 
 #include <cstddef>
 
@@ -27,6 +30,9 @@ class SlcanEvidence {
   /// What came was garbage, and not one line of it could be understood.
   [[nodiscard]] bool only_garbage() const { return any_garbage_ && understood_ == 0; }
 
+  /// What it is instead.
+  [[nodiscard]] ForeignSpeech speech() const;
+
   /// Not one byte came.
   [[nodiscard]] bool is_mute() const { return bytes_ == 0; }
 
@@ -38,7 +44,10 @@ class SlcanEvidence {
  private:
   [[nodiscard]] bool mostly_garbage(std::size_t least) const;
 
+  MavlinkWatch mavlink_;
   std::size_t bytes_ = 0;
+  std::size_t strange_bytes_ = 0; ///< that no line can hold
+  std::size_t strange_lines_ = 0; ///< without meaning
   std::size_t understood_ = 0;
   std::size_t accepted_ = 0;
   std::size_t refused_ = 0;

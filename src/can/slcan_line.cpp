@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <iterator>
 
@@ -60,16 +61,34 @@ std::optional<SlcanLine> parse_frame(std::string_view line) {
     frame.data[i] = static_cast<std::uint8_t>(*byte);
   }
   const auto kind = trailer(line.substr(2 * carried));
-  return kind ? std::optional(SlcanLine{*kind, frame}) : std::nullopt;
+  return kind ? std::optional(SlcanLine{.kind = *kind, .frame = frame}) : std::nullopt;
+}
+
+/// "V1010", "N1234", "F00"; no word of a text, which would have more than letters and digits, or
+/// stand among others.
+bool is_told(std::string_view line) {
+  constexpr std::size_t status_digits = 2;
+  const std::string_view answer = line.substr(1);
+  if (line[0] == 'F') {
+    return answer.size() == status_digits && hex(answer);
+  }
+  return (line[0] == 'V' || line[0] == 'N') && !answer.empty() &&
+         std::ranges::all_of(answer, [](char byte) {
+           return (byte >= '0' && byte <= '9') || (byte >= 'A' && byte <= 'Z') ||
+                  (byte >= 'a' && byte <= 'z') || byte == '.' || byte == '-' || byte == '_';
+         });
 }
 
 SlcanLine parse(std::string_view line) {
   if (line.empty() || line == "Z" || line == "z") {
-    return {SlcanLine::Kind::done};
+    return {.kind = SlcanLine::Kind::done};
   }
   constexpr std::string_view frames = "TtRr";
   if (frames.find(line[0]) != std::string_view::npos) {
     return parse_frame(line).value_or(SlcanLine{});
+  }
+  if (is_told(line)) {
+    return {.kind = SlcanLine::Kind::told, .told = std::string(line)};
   }
   return {};
 }
@@ -97,7 +116,7 @@ std::optional<SlcanLine> SlcanParser::take(char byte) {
   if (byte == bell) {
     size_ = 0;
     spoilt_ = false;
-    return SlcanLine{SlcanLine::Kind::refused};
+    return SlcanLine{.kind = SlcanLine::Kind::refused};
   }
   if (byte == '\n' && size_ == 0 && !spoilt_) {
     return std::nullopt; // of CR LF

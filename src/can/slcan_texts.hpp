@@ -73,6 +73,17 @@ inline constexpr Text adapter_speaks_no_slcan{
 inline constexpr Text adapter_speaks_no_slcan_hint{
     "is it a CAN adapter? if it has another baud rate: `-i \"slcan:{}?baud=115200\"`",
     "CAN アダプターか確認して下さい。ボーレートが異なる場合: `-i \"slcan:{}?baud=115200\"`"};
+inline constexpr Text port_speaks_mavlink{
+    "{} speaks MAVLink: it is the telemetry port of an autopilot, and no CAN adapter",
+    "{} は MAVLink を送信しています。オートパイロットのテレメトリポートで、CAN アダプターでは"
+    "ありません"};
+inline constexpr Text port_speaks_mavlink_hint{
+    "take another port: `ls -l /dev/serial/by-id`; ArduPilot gives one to slcan by CAN_SLCAN_CPORT "
+    "and CAN_SLCAN_SERNUM",
+    "別のポートを指定して下さい: `ls -l /dev/serial/by-id`。ArduPilot では CAN_SLCAN_CPORT と "
+    "CAN_SLCAN_SERNUM で slcan 用のポートを設定できます"};
+inline constexpr Text port_speaks_text{"{} speaks text that is no slcan",
+                                       "{} は slcan ではないテキストを送信しています"};
 inline constexpr Text adapter_is_mute{"not one byte came from the adapter at {}",
                                       "{} のアダプターから 1 バイトも受信していません"};
 inline constexpr Text adapter_is_mute_hint{

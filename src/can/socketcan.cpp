@@ -2,6 +2,7 @@
 
 #include "blactl/base/system_error.hpp"
 #include "blactl/can/link.hpp"
+#include "blactl/can/link_setup.hpp"
 
 #include "can/kernel_frame.hpp"
 #include "can/socket_batch.hpp"

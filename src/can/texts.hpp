@@ -52,5 +52,15 @@ inline constexpr Text link_is_up{"{} (up)", "{}(動作中)"};
 inline constexpr Text link_is_down{"{} (down)", "{}(停止中)"};
 inline constexpr Text links_unreadable{"the network interfaces cannot be listed: {}",
                                        "ネットワークインターフェースの一覧を取得できません: {}"};
+inline constexpr Text link_setup_not_permitted{
+    "setting up {} is not permitted: that takes root (CAP_NET_ADMIN)",
+    "{} を設定する権限がありません。root 権限 (CAP_NET_ADMIN) が必要です"};
+inline constexpr Text link_setup_not_permitted_hint{"somebody who may, types: {}",
+                                                    "権限のあるユーザーで実行: {}"};
+inline constexpr Text link_setup_failed{"{} does not take the settings: {}",
+                                        "{} を設定できません: {}"};
+inline constexpr Text link_setup_failed_hint{
+    "try it by hand: {}; the kernel may say more: sudo dmesg | tail",
+    "手動で試して下さい: {}。カーネルのログに詳細があることもあります: sudo dmesg | tail"};
 
 } // namespace blactl::texts

@@ -31,7 +31,7 @@ Result<void> confirm(std::string_view question, Context& context) {
   }
   tcflush(STDIN_FILENO, TCIFLUSH); // what was typed before the question is no answer to it
   context.reporter().ask(std::string(question) + say<texts::question_yes_no>());
-  if (auto ready = context.session().wait_for_input(STDIN_FILENO); !ready) {
+  if (auto ready = context.wait_for_input(STDIN_FILENO); !ready) {
     context.reporter().ask("\n"); // the question's line will get no answer
     return std::unexpected(ready.error());
   }

@@ -7,7 +7,7 @@
 
 namespace blactl::cli {
 
-/// Asks `question` unless --yes was given; the bus goes on being heard meanwhile.
+/// Asks `question` unless --yes was given; the bus, if it is open, goes on being heard meanwhile.
 /// Errors: not_confirmed (no terminal, or any answer but yes), and those of the session.
 [[nodiscard]] Result<void> confirm(std::string_view question, Context& context);
 

@@ -7,6 +7,8 @@
 #include "cli/interface/bus_factory.hpp"
 #include "cli/texts.hpp"
 
+#include <signal.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <set>
@@ -116,7 +118,7 @@ Result<fleet::Session*> Context::open(fleet::Session::Hearing hearing) {
     return std::unexpected(assumed.error());
   }
   assumed_ = *assumed;
-  auto bus = open_bus(shared_.interface, *profiles_, reporter_);
+  auto bus = open_bus(shared_.interface, *profiles_, reporter_, inquires_);
   if (!bus) {
     return std::unexpected(bus.error());
   }
@@ -126,6 +128,7 @@ Result<fleet::Session*> Context::open(fleet::Session::Hearing hearing) {
     return std::unexpected(local.error());
   }
   log_ = bus->log;
+  adapter_ = bus->adapter;
   auto recording = recorded(std::move(bus->bus));
   if (!recording) {
     return std::unexpected(recording.error());
@@ -152,6 +155,25 @@ Result<fleet::Session*> Context::open(fleet::Session::Hearing hearing) {
     reporter_.note(session_->opening_note());
   }
   return session_.get();
+}
+
+Result<void> Context::wait_for_input(int descriptor) {
+  if (session_) {
+    return session_->wait_for_input(descriptor);
+  }
+  can::Loop loop(nullptr);
+  loop.watch(descriptor);
+  for (;;) {
+    const can::Event event = loop.next(never);
+    if (std::holds_alternative<can::Ready>(event)) {
+      return {};
+    }
+    if (const auto* signal = std::get_if<can::Signal>(&event);
+        signal != nullptr && signal->number != SIGWINCH) {
+      signal_ = signal->number;
+      return std::unexpected(fleet::interrupted_by(signal_));
+    }
+  }
 }
 
 Result<fleet::Session*> Context::open_for_writing(std::string_view command) {

@@ -4,6 +4,7 @@
 #include "blactl/bla/profile.hpp"
 #include "blactl/can/recorder.hpp"
 #include "blactl/can/replay.hpp"
+#include "blactl/can/slcan.hpp"
 #include "blactl/fleet/identification.hpp"
 #include "blactl/fleet/session.hpp"
 #include "blactl/fleet/target.hpp"
@@ -67,13 +68,23 @@ class Context {
 
   [[nodiscard]] fleet::Session& session() { return *session_; }
 
-  /// The signal that ended the session, also while it was opened; 0: none.
-  [[nodiscard]] int signal() const { return session_ ? session_->signal() : 0; }
+  /// The signal that ended the session, also while it was opened, or a question before; 0: none.
+  [[nodiscard]] int signal() const { return session_ ? session_->signal() : signal_; }
+
+  /// Lives until `descriptor` (where a person answers a question) can be read, with a session or
+  /// before there is one. Errors: interrupted, and those of the session.
+  [[nodiscard]] Result<void> wait_for_input(int descriptor);
 
   [[nodiscard]] fleet::Identification::Options identification() const;
 
   /// Every frame of the session goes to this file, as with --record. To be called before open().
   void record_to(std::string file) { record_ = std::move(file); }
+
+  /// An adapter is asked what it is while it is opened. To be called before open().
+  void inquire() { inquires_ = true; }
+
+  /// The adapter behind the session; null: none, or no session.
+  [[nodiscard]] can::Slcan* adapter() const { return session_ ? adapter_ : nullptr; }
 
   /// The bus, or with --record a recorder around it. The file is made last: what stops the command
   /// before leaves one that is there as it was. Errors: usage, io.
@@ -108,7 +119,10 @@ class Context {
   state::LockPlace place_; ///< of the interface
   std::optional<state::InterfaceLock> writing_, allocating_;
   RequestDetails requests_{reporter_};
+  int signal_ = 0; ///< that came before there was a session
   std::unique_ptr<fleet::Session> session_;
+  bool inquires_ = false;
+  can::Slcan* adapter_ = nullptr;           ///< the session's bus, with -i slcan:
   const can::ReplayBus* log_ = nullptr;     ///< the session's bus, with -i replay:
   const can::Recorder* recorder_ = nullptr; ///< around the session's bus, with --record
 };

@@ -1,4 +1,4 @@
-// The interface, and what was heard on it.
+// What was heard on the bus.
 
 #include "blactl/fleet/diagnosis.hpp"
 #include "blactl/fleet/diagnosis_texts.hpp"
@@ -11,65 +11,8 @@ namespace {
 
 using bla::Level;
 
-constexpr std::uint32_t servo_bit_rate = 1000000;
-
-/// In thousandths: what clocks of common controllers come to when 87.5 % is asked for.
-constexpr std::uint32_t least_sample_point = 850, most_sample_point = 900;
-
-/// What kernels give an interface that nobody has set up.
-constexpr std::uint32_t usual_queue = 10;
-
 /// Above it, what is due waits noticeably.
 constexpr std::uint64_t busy_permille = 700, full_permille = 900;
-
-std::string set_up_again(const can::Link& link) {
-  return "sudo ip link set " + printable(link.name) + " down; " + can::up_command(link);
-}
-
-Diagnoses diagnose_state(const can::Link& link) {
-  const std::string name = printable(link.name);
-  const auto errors = link.errors.value_or(can::ErrorCounters{0, 0});
-  switch (link.state.value_or(can::LinkState::error_active)) {
-  case can::LinkState::bus_off:
-    return {{.code = "bus_off",
-             .level = Level::failure,
-             .text = say<texts::link_bus_off>(name),
-             .fix = set_up_again(link)}};
-  case can::LinkState::error_passive:
-    return {{.code = "error_passive",
-             .level = Level::warning,
-             .text = say<texts::link_error_passive>(name, errors.transmit, errors.receive),
-             .fix = say<texts::look_at_wiring>()}};
-  case can::LinkState::error_warning:
-    return {{.code = "error_warning",
-             .level = Level::warning,
-             .text = say<texts::link_error_warning>(name, errors.transmit, errors.receive),
-             .fix = say<texts::look_at_wiring>()}};
-  case can::LinkState::error_active:
-  case can::LinkState::stopped:
-  case can::LinkState::sleeping: break;
-  }
-  return {};
-}
-
-Diagnoses diagnose_timing(const can::Link& link) {
-  Diagnoses found;
-  const std::string name = printable(link.name);
-  if (link.bit_rate && *link.bit_rate != servo_bit_rate) {
-    found.push_back({.code = "bit_rate",
-                     .level = Level::failure,
-                     .text = say<texts::link_bit_rate>(name, *link.bit_rate),
-                     .fix = set_up_again(link)});
-  }
-  if (const auto point = link.sample_point;
-      point && (*point < least_sample_point || *point > most_sample_point)) {
-    found.push_back({.code = "sample_point",
-                     .level = Level::warning,
-                     .text = say<texts::link_sample_point>(name, *point / 10, *point % 10),
-                     .fix = set_up_again(link)});
-  }
-  return found;
-}
 
 struct Complaint {
   can::FaultKind kind;
@@ -105,36 +48,9 @@ Diagnosis silent_bus(const std::optional<Error>& silence) {
 
 } // namespace
 
-Diagnoses diagnose_link(const can::Link& link) {
-  const std::string name = printable(link.name);
-  if (!link.is_up) {
-    return {{.code = "interface_down",
-             .level = Level::failure,
-             .text = say<texts::link_down>(name),
-             .fix = can::up_command(link)}};
-  }
-  Diagnoses found = diagnose_timing(link);
-  for (Diagnosis& state : diagnose_state(link)) {
-    found.push_back(std::move(state));
-  }
-  if (link.restart_after && link.restart_after->count() == 0) {
-    found.push_back({.code = "no_restart",
-                     .level = Level::notice,
-                     .text = say<texts::link_no_restart>(name),
-                     .fix = set_up_again(link) + " restart-ms 100"});
-  }
-  if (link.queue_length < usual_queue) {
-    found.push_back({.code = "short_queue",
-                     .level = Level::notice,
-                     .text = say<texts::link_short_queue>(name, link.queue_length),
-                     .fix = "sudo ip link set " + name + " txqueuelen 100"});
-  }
-  return found;
-}
-
 Diagnoses diagnose_traffic(const Traffic& traffic, const std::optional<Error>& silence) {
   Diagnoses found;
-  if (traffic.frames() == 0) {
+  if (!traffic.has_others()) {
     found.push_back(silent_bus(silence));
   }
   if (traffic.standard_frames() > 0) {

@@ -151,7 +151,7 @@ Result<Session::Happened> Session::step(Time deadline) {
                 say<texts::nobody_acknowledges_hint>()});
   }
   if (give_up_at_ <= now) {
-    return end(interrupted());
+    return end(interrupted_by(signal_));
   }
   advance(now);
   return now >= deadline ? Happened::deadline : Happened::something;
@@ -164,7 +164,7 @@ Result<Session::Happened> Session::take(const can::Event& event) {
   if (const auto* sent = std::get_if<can::Sent>(&event)) {
     node_.sent(sent->frame, sent->at);
     if (traffic_ != nullptr) {
-      traffic_->hear(sent->frame, sent->at);
+      traffic_->hear_own(sent->frame, sent->at);
     }
   } else if (const auto* fault = std::get_if<can::BusFault>(&event)) {
     if (traffic_ != nullptr) {
@@ -192,8 +192,8 @@ Result<Session::Happened> Session::take(const can::Event& event) {
   return Happened::something;
 }
 
-Error Session::interrupted() const {
-  return {Code::interrupted, say<texts::interrupted>(signal_ == SIGTERM ? "SIGTERM" : "SIGINT")};
+Error interrupted_by(int signal) {
+  return {Code::interrupted, say<texts::interrupted>(signal == SIGTERM ? "SIGTERM" : "SIGINT")};
 }
 
 /// The first signal ends what may be ended, the second one everything.
@@ -207,7 +207,7 @@ Result<Session::Happened> Session::take_signal(int number) {
     give_up_at_ = loop_.now() + grace_;
   }
   if (!first || node_.jobs() == 0) {
-    return end(interrupted());
+    return end(interrupted_by(signal_));
   }
   if (stopping_) {
     stopping_();
@@ -362,7 +362,7 @@ Result<void> Session::run_while(const std::function<bool()>& busy) {
     }
   }
   if (signal_ != 0) { // the jobs that had to be finished are
-    return end(interrupted());
+    return end(interrupted_by(signal_));
   }
   return {};
 }

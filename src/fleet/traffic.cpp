@@ -31,6 +31,11 @@ void Traffic::hear(const can::Frame& frame, Time at) {
                          : 0U;
 }
 
+void Traffic::hear_own(const can::Frame& frame, Time at) {
+  hear(frame, at);
+  ++own_frames_;
+}
+
 void Traffic::hear(const can::BusFault& fault) {
   ++faults_[fault.kind];
 }

@@ -1,5 +1,6 @@
-"""Seeded random runs of every command that writes, against everything that can go wrong; afterwards
-the memory of the simulated servos, the exit status, JSON and text must tell the same story.
+"""Seeded random runs of every command that writes, and of doctor, against everything that can go
+wrong; afterwards the memory of the simulated servos, the exit status, JSON and text must tell the
+same story.
 
   campaign.py BLACTL [--runs N] [--seed S] [--verbose]
   campaign.py BLACTL --frozen [FILE...]
@@ -23,6 +24,7 @@ import tempfile
 
 import alloc_story
 import bench
+import doctor_story
 import scenario
 import story
 import truth
@@ -43,6 +45,10 @@ def defaults_of(blactl):
         defaults[one["model"]] = {p["address"]: p["default"] for p in one["parameters"]
                                   if p["saved"] and p["default"] is not None}
     return defaults
+
+
+def judge_of(outcome):
+    return next((judge for judge in (alloc_story, doctor_story) if judge.is_meant(outcome)), story)
 
 
 def codes_of(outcome):
@@ -106,8 +112,7 @@ class Campaign:
             if self.verbose:
                 print(outcome)
             try:
-                judge = alloc_story if alloc_story.is_meant(outcome) else story
-                judge.check(outcome, step, self.defaults, len(outcomes) == 1)
+                judge_of(outcome).check(outcome, step, self.defaults, len(outcomes) == 1)
             except FAULTS as fault:
                 self.differ(fault, outcome)
 

@@ -82,6 +82,7 @@ class Episode:
         elif kind < 0.35:
             self._let_alone()
         self._let_ask(random.Random(f"alloc {seed}"))
+        self._let_diagnose(random.Random(f"doctor {seed}"))
 
     def _let_ask(self, chance):
         """Some servos have no node ID, and get one. It is drawn apart: the other episodes, and the
@@ -102,6 +103,16 @@ class Episode:
         again = chance.randint(1, len(self.steps))
         self.steps[again:again] = [[once]]
         self.steps.append([listing])
+
+    def _let_diagnose(self, chance):
+        """A look at it all, between other commands or beside one; drawn apart, too."""
+        doctor = Command(["doctor"])
+        kind = chance.random()
+        at = chance.randint(1, len(self.steps))
+        if kind < 0.3:
+            self.steps[at:at] = [[doctor]]
+        elif kind < 0.35:
+            self.steps[at - 1] = [*self.steps[at - 1], doctor]
 
     def _let_alone(self):
         """Nothing goes wrong."""
@@ -126,6 +137,8 @@ class Episode:
     def _is_right(self, command, index):
         """Servos that had to ask first are not where they were drawn."""
         verb, *_ = command.words
+        if verb == "doctor":
+            return False  # what it finds is judged apart
         is_numbered = verb != "alloc" and command.words[2].isdigit()
         has_given = index > 0 and self.steps[0][0].words[0] == "alloc"
         return command.is_right() and not (command.is_about_one() and len(self.ids) > 1) and (

@@ -90,7 +90,7 @@ def check_refusal(outcome, step):
 
 def is_meant(outcome, serial, step):
     """Whether the command's -n takes in a servo."""
-    if outcome.command.words[0] == "alloc":
+    if outcome.command.words[0] in ("alloc", "doctor"):
         return False
     _, _, target, *_ = outcome.command.words
     if target == "all":

@@ -28,6 +28,16 @@ class Step:
         ids = {line["node_id"] for line in self._events if line["serial_number"] == serial}
         return (ids | {self.before[serial]["node_id"], self.after[serial]["node_id"]}) - {0}
 
+    def had_no_node_id(self, serial):
+        return (0 in (self.before[serial]["node_id"], self.after[serial]["node_id"])
+                or any(serial == other for other, _ in self.allocated()) or self.restarts(serial))
+
+    def holders(self, node_id):
+        """How many nodes had it at some moment, those that are no servos too."""
+        others = [node.get("node_id") for node in self._scenario.get("foreign", [])]
+        servos = sum(node_id in self.node_ids(serial) for serial in self.after)
+        return servos + others.count(node_id)
+
     def saved_addresses(self, serial):
         return self.after[serial]["rom"].keys()
 

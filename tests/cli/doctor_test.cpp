@@ -111,6 +111,14 @@ TEST_CASE("an interface that cannot be opened is an error beside the findings") 
   CHECK(json(result.out)["errors"].size() == 1);
 }
 
+TEST_CASE("doctor --fix leaves alone what is no interface of this machine, and says so") {
+  const Result result = numbered_servos().run({"doctor", "--fix", "-j"});
+  INFO(result.out << result.err);
+  CHECK(result.status == 0);
+  CHECK(contains(result.err, "nothing was changed"));
+  CHECK(json(result.out)["fixed"].empty());
+}
+
 TEST_CASE("--report is one file that a person reads and replay: answers from") {
   const Bench bench;
   const std::string scenario = numbered_servos().write(bench);

@@ -146,7 +146,9 @@ TEST_CASE(
        "?open=plain"},
       {can::test::wrong_baud(), 3, "interface", "baud is no slcan", "?baud=115200"},
       {can::test::garbled(), 3, "interface", "baud is no slcan", "?baud=115200"},
-      {can::test::satellite_receiver(), 3, "interface", "baud is no slcan", "is it a CAN adapter?"},
+      {can::test::satellite_receiver(), 3, "interface", "speaks text that is no slcan",
+       "is it a CAN adapter?"},
+      {can::test::telemetry(), 3, "interface", "speaks MAVLink", "CAN_SLCAN_CPORT"},
       {can::test::closed(), 3, "interface", "refuses to open its CAN channel", "?open=plain"},
       {can::test::listening(), 3, "interface", "refuses to send", "does anybody acknowledge"},
       {can::test::lawicel(), 4, "not_found", "", "is the supply on, and the bit rate"},
@@ -166,6 +168,51 @@ TEST_CASE(
       CHECK(contains(result.err, message));
       CHECK(contains(result.err, hint));
     }
+  }
+}
+
+TEST_CASE("slcan: doctor tells what an adapter says of itself, and what it has counted") {
+  const Bench bench;
+  Dialect dialect = can::test::lawicel();
+  dialect.to_status = "F24\r";
+  const SlcanAdapter adapter(dialect, one_servo());
+  const Result doctor = bench.run(patient(interface(adapter), {"doctor", "-j"}));
+  INFO(doctor.out << doctor.err);
+  CHECK(doctor.status == 8);
+  const auto document = json(doctor.out);
+  CHECK(document["adapter"]["version"] == "1013");
+  CHECK(document["adapter"]["serial_number"] == "A123");
+  CHECK(document["adapter"]["status"] == 0x24);
+  REQUIRE(document["findings"].size() == 2);
+  CHECK(document["findings"][0]["code"] == "error_passive");
+  CHECK(document["findings"][1]["code"] == "error_warning");
+}
+
+TEST_CASE("slcan: doctor names the adapter; one that tells nothing lacks nothing") {
+  const Bench bench;
+  const SlcanAdapter known(can::test::ardupilot(), one_servo());
+  const Result told = bench.run(patient(interface(known), {"doctor"}));
+  INFO(told.out << told.err);
+  CHECK(told.status == 0);
+  CHECK(contains(told.out, interface(known) + ", version 1010, serial number 0123"));
+  CHECK(contains(told.out, ", status 00"));
+  const SlcanAdapter silent(can::test::canable(), one_servo());
+  const Result nothing = bench.run(patient(interface(silent), {"doctor"}));
+  INFO(nothing.out << nothing.err);
+  CHECK(nothing.status == 0);
+  CHECK(contains(nothing.out, interface(silent) + "\n"));
+}
+
+TEST_CASE("slcan: doctor hears MAVLink and text, beside the error that nothing can be opened") {
+  const Bench bench;
+  for (const auto& [dialect, code] : {std::pair(can::test::telemetry(), "mavlink"),
+                                      std::pair(can::test::satellite_receiver(), "no_slcan")}) {
+    const SlcanAdapter adapter(dialect);
+    const Result doctor = bench.run({"-i", interface(adapter), "doctor", "-j"});
+    INFO(doctor.out << doctor.err);
+    CHECK(doctor.status == 3);
+    REQUIRE(json(doctor.out)["findings"].size() == 1);
+    CHECK(json(doctor.out)["findings"][0]["code"] == code);
   }
 }
 

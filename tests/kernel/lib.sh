@@ -100,3 +100,16 @@ expect_frames() {
   count=$(frames_with "$2")
   [ "$count" -eq "$1" ] || fail "expected $1 frames with ID $2, the witness saw $count"
 }
+
+# codes LIST: those of "findings" or "fixed" in the document of the last run, in its order.
+codes() {
+  echo "$out" | awk -v list="\"$1\": [" -F '"' '
+    index($0, list) { inside = 1 }
+    inside && $2 == "code" { printf "%s%s", between, $4; between = " " }
+    /\]/ { inside = 0 }'
+}
+
+# expect_codes LIST CODE...: just these.
+expect_codes() {
+  [ "$(codes "$1")" = "${*:2}" ] || fail "expected in $1: ${*:2}; got $(codes "$1")"
+}

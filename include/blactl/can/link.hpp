@@ -53,8 +53,4 @@ struct Link {
 /// For a person: "CAN interfaces of this machine: can0 (up), vcan0 (down)".
 [[nodiscard]] std::string describe(std::span<const Link> links);
 
-/// The command that brings the interface up: a controller with the bit timing that Futaba
-/// prescribes (1 Mbit/s, sample point 87.5 %), anything else as it is.
-[[nodiscard]] std::string up_command(const Link& link);
-
 } // namespace blactl::can

@@ -3,6 +3,7 @@
 // ArduPilot.
 
 #include "blactl/can/bus.hpp"
+#include "blactl/can/slcan_adapter.hpp"
 #include "blactl/can/slcan_line.hpp"
 
 #include <cstdint>
@@ -44,6 +45,8 @@ struct SlcanOptions {
   /// the adapter answers nothing, as the vendor's program waits inside a transfer; else none.
   /// unproven: whether the starter kit's adapter needs it.
   std::optional<Duration> gap{};
+  /// Before it is opened, an adapter that answers is asked for its version and serial number.
+  bool inquires = false;
   /// Called with what is sent to the adapter and what it says while it is opened. May be empty.
   std::function<void(SlcanTalk, std::string_view bytes)> trace{};
 };
@@ -57,7 +60,7 @@ class Slcan final : public Bus {
  public:
   /// Opens the port and begins the opening dialogue, which goes on in receive(); how it ends is an
   /// event. `name`: as a person names it. Errors: interface, permission (see SerialPort).
-  [[nodiscard]] static Result<std::unique_ptr<Bus>>
+  [[nodiscard]] static Result<std::unique_ptr<Slcan>>
   open(const std::filesystem::path& device, std::string name, const SlcanOptions& options);
 
   /// Closes the CAN channel, as far as that takes no waiting.
@@ -81,6 +84,16 @@ class Slcan final : public Bus {
   /// An adapter that refuses to open or to send, that says what is no slcan, or nothing at all.
   [[nodiscard]] std::optional<Error> silence() const override;
 
+  /// What it has told of itself so far.
+  [[nodiscard]] const SlcanAnswers& answers() const { return answers_; }
+
+  /// What was heard on the port instead of slcan.
+  [[nodiscard]] ForeignSpeech speech() const;
+
+  /// Asks for the status, which an adapter knows while it is open: one that answers, and that is at
+  /// rest. False: it is not asked.
+  [[nodiscard]] bool ask_status();
+
   [[nodiscard]] int descriptor() const override;
 
   [[nodiscard]] bool wants_to_write() const override { return !outgoing_.empty(); }
@@ -95,6 +108,7 @@ class Slcan final : public Bus {
   void read_port();
   void trace_answer(std::string_view bytes, Time at);
   void take(const SlcanLine& line, Time at);
+  void told(const std::string& answer, Time at);
   void converse();
   void opened();
   void acknowledged(bool accepted, Time at);
@@ -113,6 +127,7 @@ class Slcan final : public Bus {
   SlcanParser parser_;
   std::deque<BusEvent> ready_;
   std::string outgoing_; ///< what the port did not take yet: a frame, or commands
+  SlcanAnswers answers_;
   bool open_ = false;
   bool gone_ = false;
   Time next_send_{};           ///< when the gap after the last frame ends

@@ -3,7 +3,7 @@
 //
 //   T 1401552A 8 D2040000000700C0 [4 hex digits of time] [L] CR      extended data frame
 //   t 123 2 1122 CR    R 1401552A 8 CR    r 123 0 CR                 standard, remote
-//   CR, Z CR, z CR: done    BEL: refused    F00, V1010, N1234: answers to commands never sent here
+//   CR, Z CR, z CR: done    BEL: refused    F00, V1010, N1234: what it tells of itself
 //
 // Sources: Lawicel CAN232 manual 1.4; pydronecan driver/slcan.py; ArduPilot AP_CANManager/
 // AP_SLCANIface.cpp (always with a time); Zubax Babel (L: the adapter's own frame).
@@ -28,11 +28,13 @@ struct SlcanLine {
     loopback, ///< a frame of ours, as it was sent
     done,     ///< a command or a frame was taken
     refused,
-    other, ///< anything else, and what was damaged: FD frames, versions, MAVLink
+    told,  ///< an answer to F, V or N
+    other, ///< anything else, and what was damaged: FD frames, MAVLink
   };
 
   Kind kind = Kind::other;
   Frame frame{};
+  std::string told{}; ///< the letter of the command, and the answer: "V1010"
 };
 
 /// Cuts what an adapter sends into lines, byte by byte, in bounded memory.
@@ -46,8 +48,8 @@ class SlcanParser {
   [[nodiscard]] std::optional<SlcanLine> take(char byte);
 
  private:
-  /// T, 8 digits, DLC, 16 digits, 4 of the time, L.
-  static constexpr std::size_t longest = 1 + 8 + 1 + 16 + 4 + 1;
+  /// N and 16 bytes as digits; T, 8 digits, DLC, 16 digits, 4 of the time, L are less.
+  static constexpr std::size_t longest = 1 + 32;
 
   [[nodiscard]] SlcanLine finish();
 

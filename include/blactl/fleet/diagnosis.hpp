@@ -3,6 +3,8 @@
 
 #include "blactl/bla/profile.hpp"
 #include "blactl/can/link.hpp"
+#include "blactl/can/link_setup.hpp"
+#include "blactl/can/slcan_adapter.hpp"
 #include "blactl/dronecan/ids.hpp"
 #include "blactl/fleet/findings.hpp"
 #include "blactl/fleet/roster.hpp"
@@ -29,6 +31,17 @@ using Diagnoses = std::vector<Diagnosis>;
 /// How the kernel has set the controller up: BLA servos talk at 1 Mbit/s with the sample point at
 /// 87.5 % (Futaba 2.1); what an interface that is no controller lacks is not missed.
 [[nodiscard]] Diagnoses diagnose_link(const can::Link& link);
+
+/// The part of it that mending() mends.
+[[nodiscard]] Diagnoses diagnose_setup(const can::Link& link);
+
+/// What is to be done to an interface so that diagnose_setup() has nothing left: a controller is
+/// set up, anything else is raised.
+[[nodiscard]] can::LinkSetup mending(const can::Link& link);
+
+/// What an slcan adapter says of itself, and what speaks on its port instead of slcan.
+[[nodiscard]] Diagnoses diagnose_adapter(const can::SlcanAnswers& answers,
+                                         can::ForeignSpeech speech);
 
 /// What was heard: nothing, much, other than DroneCAN, error frames. `silence`: what the transport
 /// knows of why nothing was heard.

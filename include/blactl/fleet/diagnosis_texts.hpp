@@ -49,6 +49,16 @@ inline constexpr Text fault_transmit_timeout{"frames that could not be sent", "�
 inline constexpr Text fault_receive_overflow{"frames lost on receiving", "受信オーバーフロー"};
 inline constexpr Text fault_protocol{"damaged frames", "プロトコルエラー"};
 
+inline constexpr Text adapter_faults{"the adapter has reported {}",
+                                     "アダプターが {} を報告しました"};
+inline constexpr Text port_mavlink{
+    "I hear MAVLink on this port: it is no CAN adapter",
+    "このポートで MAVLink を受信しました。CAN アダプターではありません"};
+inline constexpr Text port_text{"I hear text on this port that is no slcan",
+                                "このポートで slcan ではないテキストを受信しました"};
+inline constexpr Text port_foreign_fix{"take another port: ls -l /dev/serial/by-id",
+                                       "別のポートを指定して下さい: ls -l /dev/serial/by-id"};
+
 inline constexpr Text node_bad_health{"node {} says that its health is {}",
                                       "ノード {} の health は {} です"};
 inline constexpr Text node_bad_health_fix{"see why: blactl faults -n {}",

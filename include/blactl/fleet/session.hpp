@@ -19,6 +19,9 @@
 
 namespace blactl::fleet {
 
+/// What a process says that one of these signals ends.
+[[nodiscard]] Error interrupted_by(int signal);
+
 class Session {
  public:
   /// What of the bus this session wants to hear; a kernel filter keeps the rest away.
@@ -152,7 +155,6 @@ class Session {
   [[nodiscard]] Result<Happened> take(const can::Event& event);
   [[nodiscard]] Result<Happened> take_frame(const can::Received& received);
   [[nodiscard]] Result<Happened> take_signal(int number);
-  [[nodiscard]] Error interrupted() const;
   [[nodiscard]] Time next_deadline() const;
   void advance(Time now);
   [[nodiscard]] std::unexpected<Error> end(Error error);

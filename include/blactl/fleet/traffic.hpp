@@ -20,11 +20,18 @@ class Traffic {
     std::uint64_t statuses = 0; ///< NodeStatus, which each node sends once a second
   };
 
-  /// A frame of whomever.
+  /// A frame of another node.
   void hear(const can::Frame& frame, Time at);
+
+  /// The echo of a frame of ours.
+  void hear_own(const can::Frame& frame, Time at);
+
   void hear(const can::BusFault& fault);
 
   [[nodiscard]] std::uint64_t frames() const { return frames_; }
+
+  /// Somebody else was heard.
+  [[nodiscard]] bool has_others() const { return frames_ > own_frames_; }
 
   /// With 11-bit identifiers: DroneCAN has none.
   [[nodiscard]] std::uint64_t standard_frames() const { return standard_frames_; }
@@ -41,7 +48,7 @@ class Traffic {
   [[nodiscard]] const std::map<can::FaultKind, std::uint64_t>& faults() const { return faults_; }
 
  private:
-  std::uint64_t frames_ = 0, bits_ = 0, standard_frames_ = 0;
+  std::uint64_t frames_ = 0, own_frames_ = 0, bits_ = 0, standard_frames_ = 0;
   std::optional<Time> first_;
   Time last_{};
   std::map<dronecan::NodeId, Sender> senders_;

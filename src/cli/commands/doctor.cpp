@@ -2,6 +2,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/doctor/examination.hpp"
+#include "cli/doctor/mend_interface.hpp"
 #include "cli/doctor/report_file.hpp"
 #include "cli/doctor/texts.hpp"
 #include "cli/doctor/view.hpp"
@@ -14,10 +15,17 @@ namespace blactl::cli {
 namespace {
 
 struct DoctorOptions {
+  bool fix = false;
   std::string report{};
 };
 
 constexpr Option option_table[]{
+    {.name = "--fix",
+     .kind = Kind::flag,
+     .help =
+         {"set up and raise the CAN interface, where something of it is wrong, after a question",
+          "問題があれば CAN インターフェースを設定、起動 (事前に確認)"},
+     .store = into<&DoctorOptions::fix>},
     {.name = "--report",
      .value = "FILE",
      .kind = Kind::file,
@@ -45,6 +53,12 @@ Report execute(const DoctorOptions& options, Context& context) {
     return report;
   }
   const auto examination = std::make_shared<Examination>();
+  if (options.fix) {
+    mend_interface(context, *examination, report);
+    if (context.signal() != 0) {
+      return report;
+    }
+  }
   examine(writes ? report_time : look_time, context, *examination, report);
   if (writes && examination->nodes) {
     write_report(options.report, *examination, context, report);

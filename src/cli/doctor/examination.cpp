@@ -6,7 +6,7 @@
 #include "blactl/state/state_folder.hpp"
 
 #include "cli/doctor/texts.hpp"
-#include "cli/interface/bus_factory.hpp"
+#include "cli/interface/meant_link.hpp"
 #include "cli/output/progress_view.hpp"
 
 #include <algorithm>
@@ -29,25 +29,6 @@ Diagnosis as_diagnosis(const Error& error, Level level) {
           .level = level,
           .text = error.message,
           .fix = error.hint};
-}
-
-/// The network interface behind -i, or the only one that could be meant.
-std::optional<can::Link> find_link(const std::string& interface) {
-  const auto name = parse_interface(interface);
-  const bool is_link = interface.empty() || (name && name->kind == InterfaceKind::socketcan);
-  const auto links = is_link ? can::links() : Result<std::vector<can::Link>>();
-  if (!links) {
-    return std::nullopt;
-  }
-  for (const can::Link& link : *links) {
-    const bool is_meant = interface.empty()
-                              ? links->size() == 1 || can::only_one_up(*links) == &link
-                              : link.name == name->rest;
-    if (is_meant) {
-      return link;
-    }
-  }
-  return std::nullopt;
 }
 
 /// What must be kept on this machine can be.
@@ -76,6 +57,18 @@ std::vector<fleet::Snapshot> read_limits(Context& context, const fleet::Findings
       .servos;
 }
 
+/// An adapter knows its status while it is open. It is asked last: what others do is heard by then.
+Result<void> ask_status(Context& context) {
+  constexpr Duration answer_time = std::chrono::milliseconds(250);
+  can::Slcan* adapter = context.adapter();
+  if (adapter == nullptr || !adapter->ask_status()) {
+    return {};
+  }
+  const auto told = [adapter] { return adapter->answers().status.has_value(); };
+  const auto lived = context.session().live_until(context.session().now() + answer_time, told);
+  return lived ? Result<void>() : std::unexpected(lived.error());
+}
+
 void examine_bus(Duration time, Context& context, Examination& examination, Report& report) {
   fleet::Session& session = context.session();
   session.count(&examination.traffic);
@@ -100,6 +93,9 @@ void examine_bus(Duration time, Context& context, Examination& examination, Repo
     }
   } else {
     add(fleet::diagnose_traffic(examination.traffic, session.silence()), examination);
+    if (const auto asked = ask_status(context); !asked) {
+      context.broken(asked.error(), report);
+    }
   }
   add(fleet::diagnose_nodes(findings, examination.traffic, limits), examination);
   examination.nodes = std::move(findings);
@@ -110,6 +106,7 @@ void examine_bus(Duration time, Context& context, Examination& examination, Repo
 
 void examine(Duration time, Context& context, Examination& examination, Report& report) {
   examination.interface = printable(context.shared().interface);
+  context.inquire();
   const auto opened = context.open(fleet::Session::Hearing::all);
   if (opened) {
     report.interface = examination.interface = context.session().interface();
@@ -117,8 +114,12 @@ void examine(Duration time, Context& context, Examination& examination, Report& 
   } else {
     report.fail(opened.error());
   }
+  if (const can::Slcan* adapter = context.adapter()) {
+    examination.adapter = adapter->answers();
+    add(fleet::diagnose_adapter(adapter->answers(), adapter->speech()), examination);
+  }
   // Now, when the controller has had its time to count errors.
-  examination.link = find_link(context.shared().interface);
+  examination.link = meant_link(context.shared().interface);
   if (examination.link) {
     add(fleet::diagnose_link(*examination.link), examination);
   }

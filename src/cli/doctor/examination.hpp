@@ -17,11 +17,13 @@ namespace blactl::cli {
 
 /// All that was found. It outlives neither the context nor its session.
 struct Examination {
-  std::string interface{};         ///< as it was named
-  std::optional<can::Link> link{}; ///< of a network interface
+  std::string interface{};                    ///< as it was named
+  std::optional<can::Link> link{};            ///< of a network interface
+  std::optional<can::SlcanAnswers> adapter{}; ///< of an adapter at a serial port
   fleet::Traffic traffic{};
   std::optional<fleet::Findings> nodes{}; ///< empty: the bus was not opened
-  fleet::Diagnoses diagnoses{};           ///< the worst first
+  fleet::Diagnoses fixed{};               ///< what --fix has mended
+  fleet::Diagnoses diagnoses{};           ///< what is wrong now, the worst first
 };
 
 /// Looks at everything for `time`. What kept it from looking is in the report; what the bus itself

@@ -15,6 +15,9 @@ inline constexpr Text doctor_bit_timing{"{} bit/s, sample point {}.{} %",
 inline constexpr Text doctor_restart_after{"restart-ms {}", "restart-ms {}"};
 inline constexpr Text doctor_queue{"queue {} frames", "送信キュー {} フレーム"};
 inline constexpr Text doctor_errors{"errors {} sending, {} receiving", "エラー 送信 {}、受信 {}"};
+inline constexpr Text doctor_adapter_version{"version {}", "バージョン {}"};
+inline constexpr Text doctor_adapter_serial_number{"serial number {}", "シリアル番号 {}"};
+inline constexpr Text doctor_adapter_status{"status {}", "ステータス {}"};
 inline constexpr Text doctor_traffic{"{} frames in {} s, {}.{} % busy",
                                      "{} フレーム / {} 秒、負荷 {}.{} %"};
 inline constexpr Text doctor_no_traffic{"no frames", "フレームなし"};
@@ -23,6 +26,15 @@ inline constexpr Text doctor_found{"{} servos, {} other nodes", "サーボ {} �
 inline constexpr Text doctor_nothing{"nothing is wrong, as far as it was heard\n",
                                      "受信した範囲で問題は見つかりませんでした\n"};
 inline constexpr Text doctor_fix{"fix: {}", "対処: {}"};
+inline constexpr Text doctor_fixed{"fixed", "修正済み"};
+inline constexpr Text doctor_fix_question{"{} is to be set up:\n", "{} を設定します:\n"};
+inline constexpr Text doctor_fix_as{"as does: {}\n", "次のコマンドに相当: {}\n"};
+inline constexpr Text doctor_fix_interrupts{
+    "it goes down for a moment: other programs that use {} may end\n",
+    "一時的に停止するため、{} を使用中の他のプログラムが終了することがあります\n"};
+inline constexpr Text doctor_fix_nowhere{
+    "--fix sets up CAN interfaces of this machine only; {} is none, and nothing was changed",
+    "--fix の対象はこのマシンの CAN インターフェースのみです。{} には何も設定していません"};
 inline constexpr Text doctor_written{
     "report written to {}: it can be read, and answers -i replay:{}",
     "{} に診断結果を保存しました (-i replay:{} でも参照できます)"};

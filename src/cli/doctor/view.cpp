@@ -34,6 +34,22 @@ std::string link_text(const can::Link& link) {
   return line;
 }
 
+std::string interface_text(const Examination& examination) {
+  std::string line =
+      examination.link ? link_text(*examination.link) : std::string(examination.interface);
+  const can::SlcanAnswers said = examination.adapter.value_or(can::SlcanAnswers());
+  if (!said.version.empty()) {
+    join(line, say<texts::doctor_adapter_version>(printable(said.version)));
+  }
+  if (!said.serial_number.empty()) {
+    join(line, say<texts::doctor_adapter_serial_number>(printable(said.serial_number)));
+  }
+  if (said.status) {
+    join(line, say<texts::doctor_adapter_status>(fmt::format("{:02X}", *said.status)));
+  }
+  return line;
+}
+
 std::string traffic_text(const fleet::Traffic& traffic) {
   const auto load = traffic.load_permille();
   if (!load) {
@@ -87,6 +103,24 @@ void write_json(JsonWriter& json, const Examination& examination) {
     json.end_object();
   }
   json.end_array();
+  if (examination.adapter) {
+    json.key("adapter");
+    json.begin_object();
+    json.member("version", examination.adapter->version);
+    json.member("serial_number", examination.adapter->serial_number);
+    json.key("status");
+    examination.adapter->status ? json.value(*examination.adapter->status) : json.value(nullptr);
+    json.end_object();
+  }
+  json.key("fixed");
+  json.begin_array();
+  for (const Diagnosis& diagnosis : examination.fixed) {
+    json.begin_object();
+    json.member("code", diagnosis.code);
+    json.member("text", diagnosis.text);
+    json.end_object();
+  }
+  json.end_array();
   json.key("findings");
   json.begin_array();
   for (const Diagnosis& diagnosis : examination.diagnoses) {
@@ -103,14 +137,16 @@ void write_json(JsonWriter& json, const Examination& examination) {
 }
 
 std::string text(const Examination& examination, const Page& page) {
-  std::string out = row(say<texts::doctor_interface>(),
-                        examination.link ? link_text(*examination.link) : examination.interface);
+  std::string out = row(say<texts::doctor_interface>(), interface_text(examination));
   if (examination.nodes) {
     out += row(say<texts::doctor_bus>(), traffic_text(examination.traffic));
     if (const auto senders = senders_text(examination.traffic); !senders.empty()) {
       out += row("", say<texts::doctor_senders>(senders));
     }
     out += row(say<texts::doctor_nodes>(), nodes_text(*examination.nodes));
+  }
+  for (const Diagnosis& diagnosis : examination.fixed) {
+    out += page.paint(Tone::good, say<texts::doctor_fixed>()) + "  " + diagnosis.text + '\n';
   }
   for (const Diagnosis& diagnosis : examination.diagnoses) {
     out += page.paint(tone(diagnosis.level), level_word(diagnosis.level)) + "  " + diagnosis.text +

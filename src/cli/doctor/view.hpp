@@ -10,10 +10,10 @@
 
 namespace blactl::cli {
 
-/// "nodes" and "findings".
+/// "nodes", "fixed", "findings", and "adapter" where there is one.
 void write_json(JsonWriter& json, const Examination& examination);
 
-/// What was looked at, a line each, then what is wrong and what mends it.
+/// What was looked at, a line each, then what was mended, what is wrong, and what mends that.
 [[nodiscard]] std::string text(const Examination& examination, const Page& page);
 
 } // namespace blactl::cli

@@ -1,6 +1,7 @@
 #include "cli/interface/bus_factory.hpp"
 
 #include "blactl/can/link.hpp"
+#include "blactl/can/link_setup.hpp"
 #include "blactl/can/mcast.hpp"
 #include "blactl/can/replay_texts.hpp"
 #include "blactl/can/serial_adapters.hpp"
@@ -62,23 +63,13 @@ Result<std::string> the_only_interface() {
                                 : say<texts::no_interface_hint>()));
 }
 
-/// Where lock files of a network interface lie. Its name means another interface in every network
-/// namespace, but all of them may share the folder. No process knows which namespace is that of the
-/// machine without being root, so each is named.
-state::LockPlace in_this_network(std::string interface) {
-  struct stat status{};
-  const bool known = stat("/proc/self/ns/net", &status) == 0;
-  return {.interface = std::move(interface),
-          .network = known ? fmt::format("@{}", status.st_ino) : std::string()};
-}
-
 Result<OpenBus> open_socketcan(const std::string& name) {
   auto bus = can::SocketCan::open(name);
   if (!bus) {
     return std::unexpected(bus.error());
   }
   // Not as it was typed: an interface may have further names.
-  auto place = in_this_network(std::string((*bus)->name()));
+  auto place = lock_place(std::string((*bus)->name()));
   return OpenBus{.bus = std::move(*bus), .place = std::move(place)};
 }
 
@@ -88,7 +79,7 @@ Result<OpenBus> open_mcast(const InterfaceName& name, const Reporter& reporter) 
   if (!bus) {
     return std::unexpected(bus.error());
   }
-  auto place = in_this_network(std::string((*bus)->name()));
+  auto place = lock_place(std::string((*bus)->name()));
   if (name.rest.empty()) {
     reporter.note(say<texts::mcast_chosen>(place.interface));
   }
@@ -107,11 +98,12 @@ void tell(const Reporter& reporter, can::SlcanTalk talk, std::string_view bytes)
   }
 }
 
-Result<OpenBus> open_slcan(std::string_view rest, const Reporter& reporter) {
+Result<OpenBus> open_slcan(std::string_view rest, const Reporter& reporter, bool inquires) {
   auto name = parse_slcan(rest);
   if (!name) {
     return std::unexpected(name.error());
   }
+  name->options.inquires = inquires;
   name->options.trace = [&reporter](can::SlcanTalk talk, std::string_view bytes) {
     tell(reporter, talk, bytes);
   };
@@ -123,8 +115,10 @@ Result<OpenBus> open_slcan(std::string_view rest, const Reporter& reporter) {
   // Links by product or by place lead to one device.
   std::error_code error;
   const auto canonical = std::filesystem::canonical(name->device, error);
+  can::Slcan* adapter = bus->get();
   return OpenBus{.bus = std::move(*bus),
-                 .place = {.interface = "slcan:" + (error ? device : canonical.string())}};
+                 .place = {.interface = "slcan:" + (error ? device : canonical.string())},
+                 .adapter = adapter};
 }
 
 Result<OpenBus> open_private(std::string_view text, const Result<sim::Scenario>& scenario,
@@ -221,6 +215,16 @@ std::string with_kind(std::string_view text) {
 
 } // namespace
 
+/// Its name means another interface in every network namespace, but all of them may share the
+/// folder. No process knows which namespace is that of the machine without being root, so each is
+/// named.
+state::LockPlace lock_place(std::string link) {
+  struct stat status{};
+  const bool known = stat("/proc/self/ns/net", &status) == 0;
+  return {.interface = std::move(link),
+          .network = known ? fmt::format("@{}", status.st_ino) : std::string()};
+}
+
 Result<InterfaceName> parse_interface(std::string_view text) {
   const auto colon = text.find(':');
   const std::string_view scheme = text.substr(0, colon);
@@ -286,7 +290,7 @@ std::string silence_hint(std::string_view text, std::string_view name) {
 }
 
 Result<OpenBus> open_bus(std::string_view text, const bla::Profiles& profiles,
-                         const Reporter& reporter) {
+                         const Reporter& reporter, bool inquires) {
   if (text.empty()) {
     const auto name = the_only_interface();
     if (name) {
@@ -300,7 +304,7 @@ Result<OpenBus> open_bus(std::string_view text, const bla::Profiles& profiles,
   }
   switch (name->kind) {
   case InterfaceKind::mcast: return open_mcast(*name, reporter);
-  case InterfaceKind::slcan: return open_slcan(name->rest, reporter);
+  case InterfaceKind::slcan: return open_slcan(name->rest, reporter, inquires);
   case InterfaceKind::simulator: return open_simulator(text, name->rest, profiles, reporter);
   case InterfaceKind::scenario:
     return open_private(text, sim::read_scenario(name->rest, profiles), reporter);

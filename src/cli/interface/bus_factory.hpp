@@ -5,6 +5,7 @@
 #include "blactl/bla/profile.hpp"
 #include "blactl/can/bus.hpp"
 #include "blactl/can/replay.hpp"
+#include "blactl/can/slcan.hpp"
 #include "blactl/state/lock_file.hpp"
 
 #include "cli/output/reporter.hpp"
@@ -22,6 +23,7 @@ struct OpenBus {
   std::unique_ptr<can::Bus> bus;
   state::LockPlace place{}; ///< of its lock files: those of a simulated bus lie beside its socket
   const can::ReplayBus* log = nullptr; ///< the bus, if it is one
+  can::Slcan* adapter = nullptr;       ///< the same
 };
 
 /// What kind of interface a name means.
@@ -46,10 +48,13 @@ struct InterfaceName {
 /// the open bus. Empty: what is said of servos on any CAN bus fits.
 [[nodiscard]] std::string silence_hint(std::string_view text, std::string_view name);
 
+/// Where lock files of a network interface lie.
+[[nodiscard]] state::LockPlace lock_place(std::string link);
+
 /// The interface that `text` names; empty: the only CAN interface that is up.
 /// Errors: interface with the list of what is there, permission, bad_file (scenario), usage.
-/// `profiles` and `reporter` outlive the bus.
+/// `profiles` and `reporter` outlive the bus. `inquires`: an adapter is asked what it is.
 [[nodiscard]] Result<OpenBus> open_bus(std::string_view text, const bla::Profiles& profiles,
-                                       const Reporter& reporter);
+                                       const Reporter& reporter, bool inquires = false);
 
 } // namespace blactl::cli

@@ -9,8 +9,6 @@
 #include "fleet/characterize/soft_start.hpp"
 #include "fleet/characterize/texts.hpp"
 
-#include <signal.h>
-
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -67,8 +65,7 @@ Result<void> TestBench::run(dronecan::Job& job) {
     return std::unexpected(lived.error());
   }
   if (session_.signal() != 0 && !puts_back_) {
-    return fail(Code::interrupted,
-                say<texts::interrupted>(session_.signal() == SIGTERM ? "SIGTERM" : "SIGINT"));
+    return std::unexpected(interrupted_by(session_.signal()));
   }
   return {};
 }

@@ -35,11 +35,6 @@ TEST_CASE("interfaces are listed for a person, foreign names made harmless") {
   CHECK(describe({}).starts_with("this machine has no CAN interface"));
 }
 
-TEST_CASE("a controller is brought up with the bit timing of the servos, the others as they are") {
-  CHECK(up_command(can1) == "sudo ip link set can1 up type can bitrate 1000000 sample-point 0.875");
-  CHECK(up_command(vcan0) == "sudo ip link set vcan0 up");
-}
-
 TEST_CASE("the interfaces of this machine can be listed, and only CAN is among them") {
   const auto found = links();
   REQUIRE(found.has_value());

@@ -38,14 +38,21 @@ struct Dialect {
   std::string to_rate = "\r";
   std::string to_open = "\r";
   std::string to_frame = "Z\r";
-  bool needs_rate = false; ///< opens at another bit rate without S8: nothing is heard then
+  std::string to_version = "\a";
+  std::string to_serial_number = "\a";
+  std::string to_status = "\a"; ///< while it is open
+  bool needs_rate = false;      ///< opens at another bit rate without S8: nothing is heard then
   bool lower_case = false;
   std::string trailer = {}; ///< behind the data of every frame
 };
 
 /// As Lawicel documents it; zubax is alike.
 inline Dialect lawicel() {
-  return {.to_close = "\a", .needs_rate = true};
+  return {.to_close = "\a",
+          .to_version = "V1013\r",
+          .to_serial_number = "NA123\r",
+          .to_status = "F00\r",
+          .needs_rate = true};
 }
 
 /// Old firmware of CANable: answers nothing at all.
@@ -61,7 +68,11 @@ inline Dialect canable() {
 
 /// A flight controller: takes everything, gives each frame a time, does not answer an empty line.
 inline Dialect ardupilot() {
-  return {.to_empty = "", .trailer = "EA61"};
+  return {.to_empty = "",
+          .to_version = "V1010\r",
+          .to_serial_number = "N0123456789ABCDEF0123456789ABCDEF\r",
+          .to_status = "F00\r",
+          .trailer = "EA61"};
 }
 
 /// unproven: what the starter kit's adapter answers. Here it knows O, C and T, and answers nothing.
@@ -114,6 +125,18 @@ inline Dialect satellite_receiver() {
   Dialect dialect = starter_kit();
   for (int i = 0; i < 20; ++i) {
     dialect.greeting += "$GPGGA,123519,4807.038,N,01131.000,E,1,08,0.9,545.4,M,46.9,M,,*47\r\n";
+  }
+  return dialect;
+}
+
+/// The telemetry port of an autopilot: heartbeats, begun in the middle of one.
+inline Dialect telemetry() {
+  const std::string heartbeat("\xFD\x09\0\0\x2A\x01\x01\0\0\0\0\0\0\0\x02\x03\x51\x03\x03\x12\x34",
+                              21);
+  Dialect dialect = starter_kit();
+  dialect.greeting = heartbeat.substr(7);
+  for (int i = 0; i < 10; ++i) {
+    dialect.greeting += heartbeat;
   }
   return dialect;
 }
@@ -232,6 +255,12 @@ class SlcanAdapter {
     } else if (line == "O") {
       open_ = dialect_.to_open != "\a";
       out_ += dialect_.to_open;
+    } else if (line == "V") {
+      out_ += dialect_.to_version;
+    } else if (line == "N") {
+      out_ += dialect_.to_serial_number;
+    } else if (line == "F" && open_) {
+      out_ += dialect_.to_status;
     } else if (line[0] == 'T') {
       out_ += dialect_.to_frame;
       transmit(line);

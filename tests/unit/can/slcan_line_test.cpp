@@ -96,9 +96,11 @@ TEST_CASE("every frame survives being written and read") {
   }
 }
 
-TEST_CASE("answers are told apart: done, refused, anything else") {
+TEST_CASE("answers are told apart: done, refused, told, anything else") {
   CHECK(kinds("\rZ\rz\r\a") == std::vector{Kind::done, Kind::done, Kind::done, Kind::refused});
-  CHECK(kinds("F00\rV1010\rN1234\rO\r") == std::vector(4, Kind::other));
+  CHECK(kinds("F00\rV1010\rN0123456789ABCDEF0123456789ABCDEF\rV1.0-beta\r") ==
+        std::vector(4, Kind::told));
+  CHECK(kinds("O\rF\rF0\rF0G\rV\rN\rN 1\rN,1\r") == std::vector(8, Kind::other));
   CHECK(kinds("\r\n\r\n") == std::vector(2, Kind::done)); // the line feeds answer nothing
 }
 

@@ -78,6 +78,10 @@ struct Rig {
 
 const Lines full{"", "C", "S8", "O"};
 
+Slcan& adapter_of(Rig& rig) {
+  return dynamic_cast<Slcan&>(rig.loop.bus());
+}
+
 } // namespace
 
 TEST_CASE("slcan: every dialect is opened, sent to and heard") {
@@ -114,6 +118,61 @@ TEST_CASE("slcan: ack=none does not wait either") {
   Rig rig(test::canable(), {.await_answers = false});
   CHECK(rig.loop.bus().is_open());
   CHECK(rig.lines(4) == full);
+}
+
+TEST_CASE("slcan: an adapter that answers is asked what it is, before it is opened") {
+  for (const Dialect& dialect : {test::lawicel(), test::fixed_rate()}) {
+    Rig rig(dialect, {.inquires = true});
+    std::ignore = rig.expect<Opened>();
+    CHECK(rig.lines(6) == Lines{"", "C", "V", "N", "S8", "O"});
+    const bool tells = dialect.to_version != "\a";
+    CHECK(adapter_of(rig).answers().version == (tells ? "1013" : ""));
+    CHECK(adapter_of(rig).answers().serial_number == (tells ? "A123" : ""));
+    rig.adapter.say("T1001557F107\r");
+    CHECK(rig.expect<Received>().frame == frame(7));
+  }
+}
+
+TEST_CASE("slcan: an adapter that answers nothing is not asked, nor one that is opened plainly") {
+  Rig mute(test::canable(), {.inquires = true});
+  std::ignore = mute.expect<Opened>();
+  CHECK(mute.lines(4) == full);
+  CHECK_FALSE(adapter_of(mute).ask_status());
+  Rig plain(test::lawicel(), {.opening = SlcanOpening::plain, .inquires = true});
+  CHECK(plain.lines(1) == Lines{"O"});
+}
+
+TEST_CASE("slcan: the status is asked for while it is open; a refusal refuses no frame") {
+  Dialect passive = test::lawicel();
+  passive.to_status = "F20\r";
+  for (const Dialect& dialect : {passive, test::fixed_rate()}) {
+    Rig rig(dialect);
+    CHECK_FALSE(adapter_of(rig).ask_status()); // not open yet
+    std::ignore = rig.expect<Opened>();
+    CHECK(adapter_of(rig).ask_status());
+    rig.loop.send(frame(1));
+    std::ignore = rig.expect<Sent>();
+    CHECK(rig.count<BusFault>(300ms) == 0);
+    const auto status = adapter_of(rig).answers().status;
+    CHECK(status == (dialect.to_status == "\a" ? std::nullopt : std::optional(std::uint8_t{0x20})));
+  }
+}
+
+TEST_CASE("slcan: MAVLink and text are heard as such, another baud rate as nothing known") {
+  const std::vector<std::pair<Dialect, ForeignSpeech>> cases{
+      {test::telemetry(), ForeignSpeech::mavlink},
+      {test::satellite_receiver(), ForeignSpeech::text},
+      {test::wrong_baud(), ForeignSpeech::none}};
+  for (const auto& [dialect, speech] : cases) {
+    Rig rig(dialect);
+    const auto gone = rig.expect<Gone>();
+    CHECK(adapter_of(rig).speech() == speech);
+    CHECK((gone.error.message.find("MAVLink") != std::string::npos) ==
+          (speech == ForeignSpeech::mavlink));
+  }
+  Rig slcan(test::lawicel());
+  std::ignore = slcan.expect<Opened>();
+  CHECK(adapter_of(slcan).speech() == ForeignSpeech::none);
 }
 
 TEST_CASE("slcan: frames wait until the channel is open, and leave then") {

@@ -125,6 +125,43 @@ TEST_CASE("what mends the bit timing is the command with the right one") {
   CHECK(diagnose_link(link).front().level == Level::failure);
 }
 
+TEST_CASE("an interface is mended by what it needs, and no more") {
+  const auto needs = [](auto change) {
+    can::Link link = good_link();
+    change(link);
+    return can::command(mending(link));
+  };
+  CHECK(mending(good_link()).is_empty());
+  const std::string down = "sudo ip link set can0 down; sudo ip link set can0 up";
+  const std::string timing = " type can bitrate 1000000 sample-point 0.875";
+  CHECK(needs([](can::Link& link) { link.bit_rate = 500000; }) == down + timing);
+  CHECK(needs([](can::Link& link) { link.sample_point = 750; }) == down + timing);
+  CHECK(needs([](can::Link& link) { link.restart_after = 0ms; }) ==
+        down + " type can restart-ms 100");
+  CHECK(needs([](can::Link& link) { link.state = can::LinkState::bus_off; }) == down);
+  CHECK(needs([](can::Link& link) { link.queue_length = 3; }) ==
+        "sudo ip link set can0 txqueuelen 100");
+  CHECK(needs([](can::Link& link) { link.is_up = false; }) == "sudo ip link set can0 up");
+  CHECK(needs([](can::Link& link) {
+          link.is_up = false;
+          link.bit_rate.reset();
+        }) == "sudo ip link set can0 up" + timing);
+  CHECK(can::command(mending({.name = "vcan0", .kind = "vcan", .queue_length = 1000})) ==
+        "sudo ip link set vcan0 up");
+  // Nothing mends a cable.
+  CHECK(needs([](can::Link& link) { link.state = can::LinkState::error_passive; }) ==
+        "sudo ip link set can0");
+}
+
+TEST_CASE("the status of an adapter is told by what it means, and foreign speech by its name") {
+  CHECK(diagnose_adapter({.status = std::uint8_t{0x40}}, can::ForeignSpeech::none).empty());
+  CHECK(codes(diagnose_adapter({.status = std::uint8_t{0xAF}}, can::ForeignSpeech::none)) ==
+        Codes{"error_passive", "error_warning", "error_frames", "receive_overflow",
+              "transmit_timeout"});
+  CHECK(codes(diagnose_adapter({}, can::ForeignSpeech::mavlink)) == Codes{"mavlink"});
+  CHECK(codes(diagnose_adapter({}, can::ForeignSpeech::text)) == Codes{"no_slcan"});
+}
+
 TEST_CASE("traffic counts bits by sender, and load by time") {
   Traffic traffic;
   CHECK_FALSE(traffic.load_permille());
@@ -143,6 +180,9 @@ TEST_CASE("traffic counts bits by sender, and load by time") {
 
 TEST_CASE("a silent bus, foreign frames, a full bus and error frames are told apart") {
   CHECK(codes(diagnose_traffic({}, std::nullopt)) == Codes{"silent"});
+  Traffic alone;
+  alone.hear_own(message(NodeStatus::type, 127, NodeStatus{}.encode()).front(), Time(1s));
+  CHECK(codes(diagnose_traffic(alone, std::nullopt)) == Codes{"silent"});
   const Error reason{Code::not_found, "I hear MAVLink", "another port", std::nullopt};
   CHECK(diagnose_traffic({}, reason).front().text == "I hear MAVLink");
   Traffic foreign;
