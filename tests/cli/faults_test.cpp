@@ -66,7 +66,7 @@ TEST_CASE("what is set is not told as what is measured") {
   const Result japanese = bench.run({"-i", interface, "faults", "--lang", "ja"});
   CHECK(contains(japanese.out, "設定値: pwm_neutral 1520 us"));
   CHECK(contains(hot_servo().run({"faults", "--lang", "ja"}).out,
-                 "現在値: current_temperature 25 degC"));
+                 "現在の値: current_temperature 25 degC"));
 }
 
 TEST_CASE("from which level faults are found is said by --level; by default from warnings on") {
