@@ -18,7 +18,7 @@ inline constexpr Text not_recorded{"node {}: not in the recording: {}",
 inline constexpr Text not_recorded_hint{
     "only what was asked is recorded, and counts until a restart or a change; for all of it: "
     "blactl get --all --record FILE",
-    "記録されるのは読み出した値のみで、再起動や設定変更の後は無効です。すべて記録するには: "
+    "記録されるのは要求した値のみで、再起動や設定変更の後は無効です。すべて記録するには: "
     "blactl get --all --record FILE"};
 inline constexpr Text identity_not_recorded{
     "node {} is in the recording, but not what it is",
