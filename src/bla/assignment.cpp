@@ -16,12 +16,9 @@ Result<void> check_operation(const Parameter& parameter) {
   if (parameter.group != Group::operation) {
     return {};
   }
-  const std::string_view command = parameter.address == address::initialize ? "erase"
-                                   : parameter.address == address::reboot   ? "restart"
-                                                                            : "save";
   return fail(Code::unsupported,
               say<texts::operation_refused>(parameter.name, parameter.address.name()),
-              say<texts::operation_hint>(command));
+              say<texts::operation_hint>(operation_command(parameter.address)));
 }
 
 Result<void> check_access(const Parameter& parameter) {
@@ -70,6 +67,12 @@ std::string ways_to_agree(const Parameter& mode, const Assignment& assignment,
 }
 
 } // namespace
+
+std::string_view operation_command(Address operation) {
+  return operation == address::initialize ? "erase"
+         : operation == address::reboot   ? "restart"
+                                          : "save";
+}
 
 Result<void> never_sent(const Parameter& parameter, std::int64_t raw) {
   if (auto allowed = check_access(parameter); !allowed) {

@@ -171,7 +171,7 @@ constexpr CrossCheck table[]{
      ranges_of_motion,
      angle_limits,
      meets_no_motion,
-     {"the range is 0: nothing moves", "範囲が 0 のため動作しません"}},
+     {"the range of motion is 0: nothing moves", "動作範囲が 0 のため動作しません"}},
     {"pwm_below_zero",
      CheckKind::warning,
      pulse_range,

@@ -97,6 +97,7 @@ struct Traits {
   bool tables = false;     ///< takes --csv
   bool session = false;    ///< talks on an interface, so --record has something to write
   bool recordings = false; ///< answers from -i replay:FILE too
+  bool offline = false;    ///< needs no bus at all: what is said of one is of no account
 };
 
 /// What a command does with its options, whose type only its own file knows.

@@ -250,7 +250,7 @@ void Parser::check_combinations() {
   const Command* command = result_.command;
   check_formats();
   if (shared.csv && command != nullptr && !command->traits.tables) {
-    refuse(say<texts::no_csv>(command->name), say<texts::see_help>());
+    refuse(say<texts::no_csv>(command->name), say<texts::no_csv_hint>());
   }
   if (shared.record && command != nullptr && !command->traits.session) {
     refuse(say<texts::nothing_to_record>(command->name), see_help());

@@ -105,6 +105,9 @@ std::vector<std::string> remarks(const Traits& traits) {
   if (traits.recordings) {
     texts.push_back(say<texts::help_recordings>());
   }
+  if (traits.offline) {
+    texts.push_back(say<texts::help_no_bus>());
+  }
   texts.push_back(say<texts::help_see_shared>());
   return texts;
 }

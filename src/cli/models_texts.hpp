@@ -22,8 +22,9 @@ inline constexpr Text models_unit_month{"unit month", "単位 月"};
 inline constexpr Text models_unit_day{"unit day", "単位 日"};
 inline constexpr Text models_unit_hour{"unit hour", "単位 時"};
 inline constexpr Text models_unit_minute{"unit minute", "単位 分"};
-inline constexpr Text models_bit_latched{"stays until the next start", "次回起動時まで保持"};
-inline constexpr Text models_bit_pwm_only{"models with a PWM input only", "PWM 入力対応機種のみ"};
+inline constexpr Text models_bit_latched{", stays until the next start", "、次回起動時まで保持"};
+inline constexpr Text models_bit_pwm_only{", models with a PWM input only",
+                                          "、PWM 入力対応機種のみ"};
 inline constexpr Text models_since{"firmware {} or later", "ファームウェア {} 以降"};
 inline constexpr Text models_vendor_label{"manufacturer's program: {}",
                                           "メーカー製ツールの表示: {}"};
@@ -35,7 +36,7 @@ inline constexpr Text models_all{"all models", "全機種"};
 inline constexpr Text models_same{"What they have in common:", "共通のパラメータ:"};
 inline constexpr Text models_differ{"Where they differ (default, range, models):",
                                     "機種により異なるパラメータ (初期値、範囲、機種):"};
-inline constexpr Text models_checks{"When it is changed, each only where it applies:",
+inline constexpr Text models_checks{"When it is changed, where this applies:",
                                     "変更時 (該当する場合のみ):"};
 inline constexpr Text models_refusal{"refused", "拒否"};
 inline constexpr Text models_question{"asked first", "確認"};
@@ -46,6 +47,11 @@ inline constexpr Text models_group_of_one{"a parameter or a group, not both",
 inline constexpr Text models_group_of_one_hint{
     "type one of them, for example: blactl models --group {}",
     "どちらか一方を指定して下さい。例: blactl models --group {}"};
+inline constexpr Text models_one{"one model only, or all: {} is another one",
+                                 "指定できる機種は 1 つ、または all です: {}"};
+inline constexpr Text models_one_hint{
+    "side by side: `blactl models all`, or their beginning: `blactl models BLA21`",
+    "機種の比較: `blactl models all`、または先頭部分を指定: `blactl models BLA21`"};
 inline constexpr Text models_read_only{"can only be read", "読出し専用"};
 inline constexpr Text models_write_only{"an operation, cannot be read", "操作 (読出し不可)"};
 inline constexpr Text models_saved{"stored in ROM by save", "save で ROM に保存されます"};

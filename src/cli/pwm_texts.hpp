@@ -6,7 +6,7 @@
 namespace blactl::texts {
 
 inline constexpr Text pwm_one_way{
-    "one of three ways: --endpoints, --preset, or --neutral, --range, --output, --mode",
+    "choose one of three ways: --endpoints, --preset, or --neutral, --range, --output, --mode",
     "--endpoints、--preset、または --neutral / --range / --output / --mode "
     "のいずれか一つの方法で指定して下さい"};
 inline constexpr Text pwm_one_way_hint{"for example --preset 1, or --range 700us --output 70deg",
@@ -32,6 +32,7 @@ inline constexpr Text pwm_svg_one_servo{"--svg draws one servo, not {}",
 inline constexpr Text pwm_svg_to_stdout{"--svg needs a file: standard output is for data",
                                         "--svg にはファイルを指定して下さい "
                                         "(標準出力はデータ用です)"};
+inline constexpr Text pwm_svg_file_hint{"for example --svg mapping.svg", "例: --svg mapping.svg"};
 inline constexpr Text pwm_svg_hint{"choose one with -n", "-n で 1 台選んで下さい"};
 inline constexpr Text pwm_unknown{"the PWM mapping is not known", "PWM の設定を取得できません"};
 inline constexpr Text pwm_pulses{"  pulses   {} us +-{} us: {} to {} us\n",

@@ -45,6 +45,9 @@ inline constexpr Text help_writes{"Without -n there must be just one servo on th
                                   "-n を省略できるのは、バス上のサーボが 1 台だけの場合です。"};
 inline constexpr Text help_recordings{"Also answers from a recording: -i replay:FILE.",
                                       "記録からも読出しできます: -i replay:FILE"};
+inline constexpr Text help_no_bus{
+    "It uses no bus: options about the bus, such as -i and --timeout, do nothing here.",
+    "バスは使用しません。-i や --timeout などバスに関するオプションは無視されます。"};
 inline constexpr Text help_see_shared{"Options of all commands: see blactl --help.",
                                       "共通オプションは blactl --help を参照して下さい。"};
 
@@ -58,6 +61,7 @@ inline constexpr Text bad_word{"{} {}: not one of {}", "{} {}: {} のいずれ�
 inline constexpr Text json_and_csv{"--json and --csv exclude each other",
                                    "--json と --csv は同時に指定できません"};
 inline constexpr Text no_csv{"{} has no CSV output", "{} は CSV 出力に対応していません"};
+inline constexpr Text no_csv_hint{"use --json instead", "代わりに --json を使って下さい"};
 inline constexpr Text record_needs_file{"--record needs a file: standard output is for data",
                                         "--record にはファイルを指定して下さい "
                                         "(標準出力はデータ用です)"};
@@ -221,14 +225,14 @@ inline constexpr Text head_line{"node {}  {}  serial {}  servo ID {}  firmware {
                                 "ノード {}  {}  製造番号 {}  サーボ ID {}  ファームウェア {}\n"};
 inline constexpr Text unknown_value{"?", "?"};
 inline constexpr Text unknown_word{"unknown", "不明"};
-inline constexpr Text nothing_readable{"  nothing of this can be read\n",
+inline constexpr Text nothing_readable{"  nothing here can be read\n",
                                        "  読み出せるパラメータはありません\n"};
-inline constexpr Text nothing_changed{"  nothing of this differs from its default\n",
+inline constexpr Text nothing_changed{"  nothing differs from its default\n",
                                       "  初期値と異なるパラメータはありません\n"};
 inline constexpr Text nothing_read_changed{
     "  nothing that could be read differs from its default\n",
     "  読み出せた中に初期値と異なるパラメータはありません\n"};
-inline constexpr Text nothing_with_default{"  nothing of this has a default\n",
+inline constexpr Text nothing_with_default{"  nothing here has a default\n",
                                            "  対象に初期値のあるパラメータはありません\n"};
 inline constexpr Text column_parameter{"PARAMETER", "パラメータ"};
 inline constexpr Text column_value{"VALUE", "値"};
@@ -272,7 +276,7 @@ inline constexpr Text faults_hidden{"not shown: {} below {}", "{} 件は{}レベ
 inline constexpr Text unknown_bit_action{
     "Ask the manufacturer, with the firmware version and the number of the bit.",
     "ファームウェアバージョンとビット番号を添えてメーカーに問い合わせて下さい。"};
-inline constexpr Text fault_now{"now: {}", "現在値: {}"};
+inline constexpr Text fault_now{"now: {}", "現在の値: {}"};
 inline constexpr Text fault_settings{"settings: {}", "設定値: {}"};
 inline constexpr Text fault_latched{
     "It tells why the servo last reset or restarted itself, not its state now.",

@@ -45,9 +45,21 @@ Error nothing_matches(const Roster& roster, const Selector& selector) {
           say<texts::node_not_found_hint>(), std::nullopt};
 }
 
-Error no_servo() {
-  return {Code::not_found, say<texts::no_servo_found>(), say<texts::no_servo_found_hint>(),
-          std::nullopt};
+/// A node that sends no actuator.Status may be a servo all the same.
+Error no_servo(const Roster& roster) {
+  std::string ids, first;
+  for (const auto& [id, member] : roster.members()) {
+    if (roster.heard(id)) {
+      ids += (ids.empty() ? "" : ", ") + std::to_string(id.value());
+      first = first.empty() ? ids : first;
+    }
+  }
+  if (ids.empty()) {
+    return {Code::not_found, say<texts::no_servo_found>(), say<texts::no_servo_found_hint>(),
+            std::nullopt};
+  }
+  return {Code::not_found, say<texts::no_node_is_servo>(ids),
+          say<texts::no_node_is_servo_hint>(first), std::nullopt};
 }
 
 /// Why a node that was heard is not ready.
@@ -191,7 +203,7 @@ Result<Selection> Discovery::select(const Targets& targets, Duration listen) {
   }
   selection.ids.assign(chosen.begin(), chosen.end());
   if (chosen.empty() && selection.errors.empty()) {
-    selection.errors.push_back(no_servo());
+    selection.errors.push_back(no_servo(session_.roster()));
   }
   return selection;
 }
@@ -387,7 +399,7 @@ std::vector<Error> Discovery::missing(const Targets& targets, Duration wait) con
     }
   }
   if (members.empty() && errors.empty()) {
-    errors.push_back(no_servo());
+    errors.push_back(no_servo(session_.roster()));
   }
   return errors;
 }

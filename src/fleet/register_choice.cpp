@@ -2,6 +2,7 @@
 
 #include "blactl/base/nearest.hpp"
 #include "blactl/base/texts.hpp"
+#include "blactl/bla/assignment.hpp"
 #include "blactl/bla/value.hpp"
 #include "blactl/fleet/texts.hpp"
 
@@ -44,7 +45,7 @@ Result<const Parameter*> find_readable(const bla::Profiles& profiles, std::strin
   }
   if (parameter && !(*parameter)->readable()) {
     return fail(Code::unsupported, say<texts::write_only>((*parameter)->name),
-                say<texts::write_only_hint>());
+                say<texts::write_only_hint>(bla::operation_command((*parameter)->address)));
   }
   if (!parameter && parameter.error().code == Code::unknown_parameter) {
     if (const auto groups = similar_groups(name); !groups.empty()) {

@@ -66,7 +66,7 @@ TEST_CASE("what is set is not told as what is measured") {
   const Result japanese = bench.run({"-i", interface, "faults", "--lang", "ja"});
   CHECK(contains(japanese.out, "設定値: pwm_neutral 1520 us"));
   CHECK(contains(hot_servo().run({"faults", "--lang", "ja"}).out,
-                 "現在値: current_temperature 25 degC"));
+                 "現在の値: current_temperature 25 degC"));
 }
 
 TEST_CASE("from which level faults are found is said by --level; by default from warnings on") {
@@ -142,6 +142,31 @@ TEST_CASE("faults --watch tells what is there, what comes and what goes, a line 
   CHECK(events == std::vector<std::string>{"present temperature_high", "went temperature_high",
                                            "came temperature_high"});
   CHECK(json_lines(watched.out).back()["exit_status"] == 130);
+}
+
+TEST_CASE("a servo that falls silent does not hold up the watch of the others") {
+  const Bench bench;
+  const auto servo = [](int id) {
+    return nlohmann::json{{"model", "BLA15-06U-A0"}, {"node_id", id}, {"serial_number", id}};
+  };
+  const auto heat = [](const char* at, const char* to) {
+    return nlohmann::json{{"at", at}, {"servo", 11}, {"world", {{"temperature", to}}}};
+  };
+  const nlohmann::json off{{"at", "4s"}, {"servo", 12}, {"happens", "power_off"}};
+  const nlohmann::json scenario{
+      {"schema", "blactl-scenario/1"},
+      {"clock", "virtual"},
+      {"servos", {servo(11), servo(12)}},
+      {"events", {off, heat("4500ms", "85degC"), heat("6500ms", "25degC")}}};
+  const std::string interface = "sim:" + bench.file("s.json", scenario.dump());
+  Background watch(bench, {"-i", interface, "faults", "--watch", "-j"}, {}, "went");
+  const auto lines = json_lines(watch.stop(SIGINT).out);
+  REQUIRE(lines.size() >= 2);
+  CHECK(lines[0]["event"] == "came");
+  CHECK(lines[1]["event"] == "went");
+  const double lasted = lines[1]["time"].get<double>() - lines[0]["time"].get<double>();
+  CHECK(lasted > 1.4); // 2 s, and each may be told half a second late
+  CHECK(lasted < 2.7);
 }
 
 TEST_CASE("what a servo tells first, after a silence, was there before") {

@@ -153,7 +153,7 @@ TEST_CASE("get --group reads every group of the contract") {
   CHECK(addresses(get(scene, {"-n", "11", "--group", "product", "--group", "pwm"})).size() == 8);
   const Result none = scene.run({"get", "-n", "11", "--group", "operation"});
   CHECK(none.status == 0);
-  CHECK(contains(none.out, "  nothing of this can be read\n"));
+  CHECK(contains(none.out, "  nothing here can be read\n"));
   CHECK_FALSE(contains(none.out, "default"));
 }
 
@@ -163,7 +163,7 @@ TEST_CASE("get --changed shows only what differs from the model's default") {
   CHECK(addresses(get(scene, {"--changed"})) == std::vector<std::string>{"0x38", "0x46"});
   CHECK(addresses(get(scene, {"--changed", "--group", "pwm"})).empty());
   const Result none = scene.run({"get", "--changed", "--group", "pwm"});
-  CHECK(contains(none.out, "  nothing of this differs from its default\n"));
+  CHECK(contains(none.out, "  nothing differs from its default\n"));
 }
 
 TEST_CASE("get --changed claims no default of what could not be read, or has none") {
@@ -175,7 +175,7 @@ TEST_CASE("get --changed claims no default of what could not be read, or has non
   CHECK_FALSE(contains(none.out, "default"));
   const Result measured = old.run({"get", "--changed", "serial_number", "current_voltage"});
   CHECK(measured.status == 0);
-  CHECK(contains(measured.out, "  nothing of this has a default\n"));
+  CHECK(contains(measured.out, "  nothing here has a default\n"));
 }
 
 TEST_CASE("every form of -n finds its servos, in ascending order") {
@@ -237,6 +237,23 @@ TEST_CASE("get of a mute servo is a timeout that says how to ask more patiently"
   CHECK(scene.run({"get", "servo_id"}).status == 6);
 }
 
+TEST_CASE("get of an operation says which command carries it out") {
+  const Result result = three_servos().run({"get", "initialize", "0x11", "write_rom"});
+  CHECK(result.status == 2);
+  CHECK(contains(result.err, "initialize can only be written\n  it is an operation, not a value; "
+                             "to carry it out: blactl erase\n"));
+  CHECK(contains(result.err, "to carry it out: blactl restart\n"));
+  CHECK(contains(result.err, "to carry it out: blactl save\n"));
+}
+
+TEST_CASE("servos that are shown together have the same columns, however narrow the page") {
+  const Options terminal{.terminal = true, .terminal_stdout = true, .columns = 80};
+  const Arguments pwm{"get", "-n", "11,13", "--group", "pwm", "--lang", "ja"};
+  const Result result = three_servos().run(pwm, terminal); // for 13 it is too narrow
+  CHECK_FALSE(contains(result.out, "初期値"));
+  CHECK(contains(three_servos().run(pwm).out, "初期値"));
+}
+
 TEST_CASE("get asks again when an answer is lost") {
   const Scene scene = Scene().servo("BLA21-12U-AB", 11, {{"faults", {{"lose_responses", 1}}}});
   CHECK(scene.run({"get", "-n", "11", "servo_id"}).status == 0);
@@ -249,8 +266,12 @@ TEST_CASE("get finds nobody by a value, or where there is no servo") {
   CHECK(contains(value.err, "[not_found] no servo on the bus matches serial:1"));
   const Result none = Scene().foreign(40).run({"get"});
   CHECK(none.status == 4);
-  CHECK(contains(none.err, "[not_found] no BLA servo is on the bus\n  a servo without a node ID "
-                           "shows in: blactl scan"));
+  CHECK(contains(none.err, "[not_found] nodes on the bus: 40; none is known to be a BLA servo\n"
+                           "  name one by its ID, for example -n 40, or see what they are: "
+                           "blactl scan\n"));
+  const Result nobody = Scene().run({"get"});
+  CHECK(nobody.status == 4);
+  CHECK(contains(nobody.err, "[not_found] no BLA servo is on the bus\n"));
   const Result gps = Scene().foreign(40, {{"serves_get_set", true}}).run({"get", "-n", "40"});
   CHECK(gps.status == 4);
   CHECK(contains(gps.err, "[not_found] node 40 (org.example.node) is not a BLA servo"));

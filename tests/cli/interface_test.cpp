@@ -160,7 +160,8 @@ TEST_CASE("--csv is refused where there is no table, and beside --json") {
     arguments.emplace_back("--csv");
     const Result result = run(arguments);
     CHECK(result.status == 2);
-    CHECK(contains(result.err, "[usage] " + command.front() + " has no CSV output\n  see"));
+    CHECK(contains(result.err,
+                   "[usage] " + command.front() + " has no CSV output\n  use --json instead"));
   }
   const Result both = run({"get", "--csv", "-j"});
   CHECK(both.status == 2);

@@ -215,7 +215,7 @@ TEST_CASE("models PARAM is the data sheet of a parameter, over all models") {
 TEST_CASE("a parameter's sheet tells what a change meets, and what it works together with") {
   const Result sheet = run({"models", "pwm_mode"});
   CHECK(contains(sheet.out, "  speed (1): "));
-  CHECK(contains(sheet.out, "\nWhen it is changed, each only where it applies:\n  asked first: "));
+  CHECK(contains(sheet.out, "\nWhen it is changed, where this applies:\n  asked first: "));
   CHECK(contains(sheet.out, "  warning: "));
   CHECK(contains(sheet.out, "\nSee also: 0x36 pwm_output_range, 0x25 speed_torque_control\n"));
   CHECK(contains(run({"models", "command_speed"}).out, "  refused: "));
@@ -230,6 +230,34 @@ TEST_CASE("models all puts the models side by side") {
   CHECK(all.out.find("angle_limit_cw") < differ);
   CHECK(all.out.find("overcurrent_limit") > differ);
   CHECK(contains(run({"models", "BLA34"}).out, "BLA34\nWhat they have in common:\n"));
+}
+
+TEST_CASE("models says that it takes one model, and how several are put side by side") {
+  const Result two = run({"models", "BLA21", "BLA34"});
+  CHECK(two.status == 2);
+  CHECK(contains(two.err, "[usage] one model only, or all: BLA34 is another one\n"
+                          "  side by side: `blactl models all`"));
+}
+
+TEST_CASE("models has no bus, and says that options about one do nothing") {
+  CHECK(run({"models", "-i", "can9", "--retries", "3"}).out == run({"models"}).out);
+  CHECK(contains(run({"models", "--help"}).out, "It uses no bus: options about the bus"));
+  CHECK_FALSE(contains(run({"get", "--help"}).out, "It uses no bus"));
+}
+
+TEST_CASE("who made the servo has one name, and notes of a bit are set off as the language does") {
+  const Result english = run({"models", "0x1A"});
+  CHECK(contains(english.out, "ask the manufacturer."));
+  CHECK_FALSE(contains(english.out, "vendor"));
+  CHECK(contains(english.out, "[rom_corrupt], stays until the next start\n"));
+  CHECK(contains(run({"models", "0x1A", "--lang", "ja"}).out, "[rom_corrupt]、次回起動時まで"));
+}
+
+TEST_CASE("an address and its name are not divided between two lines") {
+  const Options terminal{.terminal = true, .terminal_stdout = true, .columns = 80};
+  const Result sheet = run({"models", "speed_torque_control"}, terminal);
+  CHECK(contains(sheet.out, "0x3A speed_limit_cw"));
+  CHECK(contains(sheet.out, "0x3D torque_limit_ccw"));
 }
 
 TEST_CASE("models --group shows the parameters of a group") {

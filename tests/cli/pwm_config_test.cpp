@@ -236,6 +236,9 @@ TEST_CASE("the plot is drawn with what the terminal can show") {
 }
 
 TEST_CASE("--svg draws one servo, as a whole or not at all") {
+  CHECK(contains(three_servos().run({"pwm-config", "-n", "11", "--svg", "-"}).err,
+                 "--svg needs a file: standard output is for data\n  for example --svg "
+                 "mapping.svg\n"));
   const Bench bench;
   const std::string file = (bench.folder() / "map.svg").string();
   const Result drawn = three_servos().run(bench, {"pwm-config", "-n", "11", "--svg", file});

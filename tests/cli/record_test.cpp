@@ -148,8 +148,9 @@ TEST_CASE("what a recording lacks is one error for each servo, and what it has i
   CHECK(got.status == 4);
   CHECK(codes(got) == std::vector<std::string>{"not_recorded"});
   CHECK(contains(got.err, "node 11: not in the recording: command_angle, "));
-  CHECK(contains(got.err, " more\n  what a servo says counts until it restarts or is changed; "
-                          "record all of it: blactl get --all --record FILE\n"));
+  CHECK(contains(
+      got.err, " more\n  only what was asked is recorded, and counts until a restart or a change; "
+               "for all of it: blactl get --all --record FILE\n"));
   CHECK(got.err.size() < 500);
   CHECK(contains(got.out, "serial_number     240900001"));
 

@@ -278,7 +278,7 @@ TEST_CASE("set without -n means the one servo there is") {
   check_error(three_servos().run({"set", "servo_id=9"}), 2, "usage",
               "several servos are on the bus: 11, 12, 13\n  say which: -n 11");
   check_error(Scene().foreign(40).run({"set", "servo_id=3"}), 4, "not_found",
-              "no BLA servo is on the bus");
+              "nodes on the bus: 40; none is known to be a BLA servo");
   check_error(three_servos().run({"set", "-n", "55", "servo_id=3"}), 4, "not_found",
               "node 55 is not on the bus\n  see who is there: blactl scan");
   check_error(three_servos().run({"set", "-n", "model:BLA21-28U", "servo_id=3"}), 4, "not_found",

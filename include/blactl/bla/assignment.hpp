@@ -58,6 +58,9 @@ parse_assignments(const Profiles& profiles, std::span<const std::string> texts);
 /// Errors: unsupported (0x49), read_only, out_of_range (0x46 = 126 or 127).
 [[nodiscard]] Result<void> never_sent(const Parameter& parameter, std::int64_t raw);
 
+/// The command that carries out one of 0x10-0x12.
+[[nodiscard]] std::string_view operation_command(Address operation);
+
 /// Why values within the range are refused by never_sent(), for a reference; empty: none are.
 [[nodiscard]] std::string remark(const Parameter& parameter);
 

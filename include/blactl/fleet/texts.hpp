@@ -16,9 +16,9 @@ inline constexpr Text cancelled{"node {}: {} was not finished", "ノード {}: {
 inline constexpr Text not_recorded{"node {}: not in the recording: {}",
                                    "ノード {}: 記録にありません: {}"};
 inline constexpr Text not_recorded_hint{
-    "what a servo says counts until it restarts or is changed; record all of it: blactl get --all "
-    "--record FILE",
-    "サーボの応答は再起動や設定変更までの分だけが有効です。すべて記録するには: "
+    "only what was asked is recorded, and counts until a restart or a change; for all of it: "
+    "blactl get --all --record FILE",
+    "記録されるのは要求した値のみで、再起動や設定変更の後は無効です。すべて記録するには: "
     "blactl get --all --record FILE"};
 inline constexpr Text identity_not_recorded{
     "node {} is in the recording, but not what it is",
@@ -66,6 +66,12 @@ inline constexpr Text no_servo_found_hint{
     "a servo without a node ID shows in: blactl scan",
     "ノード ID の無いサーボは blactl scan で確認できます",
 };
+inline constexpr Text no_node_is_servo{
+    "nodes on the bus: {}; none is known to be a BLA servo",
+    "バス上のノード ({}) に BLA サーボと判別できるものがありません"};
+inline constexpr Text no_node_is_servo_hint{
+    "name one by its ID, for example -n {}, or see what they are: blactl scan",
+    "-n {} のように ID を指定するか、ノードの種類を確認して下さい: blactl scan"};
 inline constexpr Text nothing_matches{"no servo on the bus matches {}",
                                       "{} に該当するサーボはバス上にありません"};
 inline constexpr Text target_waits_for_id{
@@ -239,7 +245,7 @@ inline constexpr Text doubled_meanwhile_hint{
     "を変更し、両方の設定を確認して下さい",
 };
 inline constexpr Text doubled_target_hint{"connect one of them alone and give it another ID",
-                                          "一台ずつ接続して別の ID を設定して下さい"};
+                                          "1 台ずつ接続して別の ID を設定して下さい"};
 inline constexpr Text armed{"node {} says that the vehicle is armed: nothing is written",
                             "ノード {} が ARM 状態を通知しているため書き込みません"};
 inline constexpr Text armed_hint{"disarm it first", "先に DISARM して下さい"};
@@ -377,7 +383,7 @@ inline constexpr Text one_id_for_several{
     "{} 台のサーボに同じ固定ノード ID を設定すると再起動後に重複します",
 };
 inline constexpr Text one_id_for_several_hint{"give each its own: -n {}",
-                                              "一台ずつ設定して下さい: -n {}"};
+                                              "1 台ずつ設定して下さい: -n {}"};
 inline constexpr Text not_written{"the queue of {1} may still hold frames of a write ({0}): "
                                   "what they change is not known",
                                   "書込みの {} フレームが {} の送信キューに残っている可能性があり、"
@@ -436,7 +442,8 @@ inline constexpr Text bootloader_unread{"bootloader (0x49) is neither read nor w
 inline constexpr Text bootloader_unread_hint{"the specification forbids it (section 4.39)",
                                              "仕様書 4.39 により書込み禁止です"};
 inline constexpr Text write_only{"{} can only be written", "{} は書込み専用です"};
-inline constexpr Text write_only_hint{"it is an operation, not a value", "値ではなく操作です"};
+inline constexpr Text write_only_hint{"it is an operation, not a value; to carry it out: blactl {}",
+                                      "値ではなく操作です。実行するには: blactl {}"};
 inline constexpr Text firmware_lacks{"{} needs firmware {} or later, this servo has {}",
                                      "{} にはファームウェア {} 以降が必要です (現在 {})"};
 inline constexpr Text firmware_lacks_hint{"read what it has: blactl get -n {}",

@@ -22,7 +22,7 @@ struct ModelsOptions {
 
 constexpr Option option_table[]{
     {.name = "--group",
-     .value = "GROUP",
+     .value = "G",
      .kind = Kind::group,
      .help =
          {"the parameters of one group only: command, status, operation, fault, config, "
@@ -92,7 +92,10 @@ Sheet choose(const ModelsOptions& options, const bla::Profiles& profiles, Report
       report.fail(unknown_model(model, profiles));
     }
   }
-  if (!parameter.empty()) {
+  if (!model.empty() && !models_of(parameter, profiles).empty()) {
+    report.fail(
+        {Code::usage, say<texts::models_one>(printable(parameter)), say<texts::models_one_hint>()});
+  } else if (!parameter.empty()) {
     const auto found = profiles.find(parameter);
     found ? void(sheet.parameter = *found) : report.fail(found.error());
   }
@@ -129,7 +132,7 @@ Report execute(const ModelsOptions& options, Context& context) {
 
 constinit const Command commands::models{
     .name = "models",
-    .traits = {},
+    .traits = {.offline = true},
     .help = {"what the profiles know, without any servo", "プロファイルの内容を表示 (サーボ不要)"},
     .options = option_table,
     .arguments = argument_table,

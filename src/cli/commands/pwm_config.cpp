@@ -161,7 +161,7 @@ std::vector<Error> contradictions(const PwmOptions& options, const bla::Profiles
                            say<texts::pwm_output_hint>()));
   }
   if (options.svg == "-") {
-    faults.push_back(usage(say<texts::pwm_svg_to_stdout>()));
+    faults.push_back(usage(say<texts::pwm_svg_to_stdout>(), say<texts::pwm_svg_file_hint>()));
   }
   if (!options.changes() && (options.save || options.dry_run)) {
     faults.push_back(usage(say<texts::pwm_nothing_to_change>(options.save ? "--save" : "--dry-run"),

@@ -3,7 +3,7 @@
 #include "blactl/base/replace_file.hpp"
 #include "blactl/base/rfc3339.hpp"
 #include "blactl/fleet/carry_out.hpp"
-#include "blactl/fleet/fault_state.hpp"
+#include "blactl/fleet/fault_job.hpp"
 #include "blactl/fleet/register_choice.hpp"
 
 #include "cli/alloc/book.hpp"

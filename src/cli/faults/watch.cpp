@@ -1,6 +1,6 @@
 #include "cli/faults/watch.hpp"
 
-#include "blactl/fleet/fault_state.hpp"
+#include "blactl/fleet/fault_watch.hpp"
 
 #include "cli/output/faults_view.hpp"
 #include "cli/output/node_head.hpp"
@@ -49,22 +49,21 @@ std::string word(Happened happened) {
 
 class Watch {
  public:
-  Watch(std::span<const NodeId> ids, bla::Level shown, Context& context, Report& report)
-      : ids_(ids), shown_(shown), context_(context), report_(report) {}
+  Watch(bla::Level shown, Context& context, Report& report)
+      : shown_(shown), context_(context), report_(report) {}
 
-  void run();
+  /// Takes what was seen. False ends the watch.
+  [[nodiscard]] bool take(std::vector<FaultState> seen);
 
   [[nodiscard]] const std::map<NodeId, FaultState>& last() const { return last_; }
 
  private:
-  [[nodiscard]] bool look();
   [[nodiscard]] bool take(FaultState now);
   [[nodiscard]] bool tell(Happened happened, const FaultState& servo, const Fault& fault);
   [[nodiscard]] bool redraw();
   [[nodiscard]] bool check(const Result<bool>& printed);
   void tell_silence(const FaultState& now);
 
-  std::span<const NodeId> ids_;
   bla::Level shown_;
   Context& context_;
   Report& report_;
@@ -167,37 +166,29 @@ bool Watch::redraw() {
   return check(context_.reporter().show(text(servos, shown_, context_.reporter().page())));
 }
 
-/// Reads all of them once. False ends the watch.
-bool Watch::look() {
-  auto read =
-      fleet::read_faults(context_.session(), context_.known(), ids_, context_.identification());
-  if (read.broken) {
-    context_.broken(*read.broken, report_);
-    return false;
-  }
+bool Watch::take(std::vector<FaultState> seen) {
   bool goes_on = true;
-  for (FaultState& servo : read.servos) {
+  for (FaultState& servo : seen) {
     goes_on = goes_on && take(std::move(servo));
   }
   return goes_on && redraw();
-}
-
-void Watch::run() {
-  while (look() && !context_.session().is_recording()) {
-    const auto lived = context_.session().live_until(context_.session().now() + interval);
-    if (!lived) {
-      context_.broken(lived.error(), report_);
-      return;
-    }
-  }
 }
 
 } // namespace
 
 void watch_faults(std::span<const NodeId> servos, bla::Level shown, bla::Level counted,
                   Context& context, Report& report) {
-  Watch watch(servos, shown, context, report);
-  watch.run();
+  fleet::Session& session = context.session();
+  fleet::FaultWatch looks(session, context.known(), servos, context.identification(), interval);
+  Watch watch(shown, context, report);
+  for (bool goes_on = true; goes_on;) {
+    auto seen = looks.next();
+    if (!seen) {
+      context.broken(seen.error(), report);
+      break;
+    }
+    goes_on = watch.take(std::move(*seen)) && !session.is_recording();
+  }
   for (const auto& [id, servo] : watch.last()) {
     report.targets.push_back(
         {.errors = servo.errors, .has_found = servo.worst() >= std::optional(counted)});

@@ -331,8 +331,8 @@ std::string bits_text(std::span<const bla::FaultBit> bits, bla::Address address)
     }
     out += "  " + fmt::format("bit {}: {}", bit.bit, choose(bit.text_en, bit.text_ja));
     out += fmt::format(" [{}]", bit.code);
-    out += bit.latched ? ", " + say<texts::models_bit_latched>() : std::string();
-    out += bit.pwm_only ? ", " + say<texts::models_bit_pwm_only>() : std::string();
+    out += bit.latched ? say<texts::models_bit_latched>() : std::string();
+    out += bit.pwm_only ? say<texts::models_bit_pwm_only>() : std::string();
     out += fmt::format("\n      {}\n      {}\n", choose(bit.condition_en, bit.condition_ja),
                        choose(bit.action_en, bit.action_ja));
   }

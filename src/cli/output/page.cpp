@@ -71,6 +71,12 @@ bool may_break(std::string_view before, std::string_view after) {
   return is_one_of(pauses, before) || (is_hiragana(before) && !is_hiragana(after));
 }
 
+/// "0x38", with what stands before it in brackets: the name that follows stays with it.
+bool is_address(std::string_view unit) {
+  unit.remove_prefix(unit.starts_with('(') ? 1 : 0);
+  return unit.size() == 4 && unit.starts_with("0x");
+}
+
 /// What `text` begins with: a command in backquotes that is no longer than a line, else one
 /// character.
 std::string_view first_piece(std::string_view text, std::size_t longest) {
@@ -88,6 +94,11 @@ std::vector<Unit> units_of(std::string_view text, std::size_t longest) {
   while (!text.empty()) {
     const std::string_view character = first_piece(text, longest);
     text.remove_prefix(character.size());
+    const bool is_name = !text.empty() && text.front() >= 'a' && text.front() <= 'z';
+    if (character == " " && is_name && !units.empty() && is_address(units.back().text)) {
+      units.back().text += character;
+      continue;
+    }
     if (character != " ") {
       if (before == " " || may_break(before, character)) {
         units.push_back({{}, before == " " && !units.empty()});

@@ -82,17 +82,21 @@ Table table(const ServoValues& servo, const bla::Profiles& profiles, bool with_d
   return table;
 }
 
-/// Where a page is too narrow for both, names are worth more than defaults; what differs from its
-/// default is shown beside it. What can only be read has none.
-std::string table_text(const ServoValues& servo, const bla::Profiles& profiles, bool changed_only,
-                       const Page& page) {
-  constexpr std::string_view indent = "  ";
-  const Table whole = table(servo, profiles, true);
-  const bool any_default = std::ranges::any_of(servo.shown, [](const Reading& reading) {
+constexpr std::string_view indent = "  ";
+
+bool has_default(const ServoValues& servo) {
+  return std::ranges::any_of(servo.shown, [](const Reading& reading) {
     return reading.parameter->writable() && reading.parameter->default_raw;
   });
-  const bool is_whole = any_default && (changed_only || !shows_names() || whole.fits(indent, page));
-  return (is_whole ? whole : table(servo, profiles, false)).text(indent, page);
+}
+
+/// Where a page is too narrow for both, names are worth more than defaults; what differs from its
+/// default is shown beside it. Servos that are shown together have the same columns.
+bool has_room_for_defaults(std::span<const ServoValues> servos, const bla::Profiles& profiles,
+                           const Page& page) {
+  return std::ranges::all_of(servos, [&](const ServoValues& servo) {
+    return !has_default(servo) || table(servo, profiles, true).fits(indent, page);
+  });
 }
 
 } // namespace
@@ -156,6 +160,8 @@ std::string without_values(const ServoValues& servo, bool changed_only) {
 
 std::string text(std::span<const ServoValues> servos, const bla::Profiles& profiles,
                  bool changed_only, const Page& page) {
+  const bool with_defaults =
+      changed_only || !shows_names() || has_room_for_defaults(servos, profiles, page);
   std::string out;
   for (const ServoValues& servo : servos) {
     out += out.empty() ? "" : "\n";
@@ -164,7 +170,7 @@ std::string text(std::span<const ServoValues> servos, const bla::Profiles& profi
       out += without_values(servo, changed_only);
       continue;
     }
-    out += table_text(servo, profiles, changed_only, page);
+    out += table(servo, profiles, with_defaults && has_default(servo)).text(indent, page);
   }
   return out;
 }

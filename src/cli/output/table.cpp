@@ -6,7 +6,13 @@ namespace blactl::cli {
 namespace {
 
 constexpr std::size_t gap = 2;
-constexpr std::size_t deeper = 4; ///< how far a further line of a row is indented
+
+/// How far a further line of a row is indented: below the second column, where the first is as
+/// narrow as an address.
+std::size_t deeper(const std::vector<std::size_t>& widths) {
+  constexpr std::size_t usual = 4, most = 6;
+  return widths.front() + gap <= most ? widths.front() + gap : usual;
+}
 
 } // namespace
 
@@ -28,7 +34,7 @@ std::vector<Table::Line> Table::layout(const std::vector<std::size_t>& widths, s
     const bool begins = lines.back().first == i;
     if (!begins && used + widths[i] > page_width) {
       lines.push_back({i, i});
-      used = indent + deeper;
+      used = indent + deeper(widths);
     }
     used += widths[i] + gap;
     lines.back().end = i + 1;
@@ -50,7 +56,7 @@ std::string Table::text(std::string_view indent, const Page& page) const {
       if (has_header_ && number == 0 && line.first > 0 && line.end - line.first == 1) {
         continue;
       }
-      std::string text(indent.size() + (line.first > 0 ? deeper : 0), ' ');
+      std::string text(indent.size() + (line.first > 0 ? deeper(all_widths) : 0), ' ');
       for (std::size_t i = line.first; i < line.end; ++i) {
         text += row[i];
         text.append(all_widths[i] - display_width(row[i]) + gap, ' ');

@@ -51,21 +51,24 @@ TEST_CASE("comma-separated values are quoted where they must be (RFC 4180)") {
   CHECK(csv_line({}) == "\n");
 }
 
-TEST_CASE("columns that do not fit the page stand below, indented") {
+TEST_CASE("columns that do not fit the page stand below the second one, or indented") {
   Table table({"NODE", "MODEL", "UNIQUE ID"});
   table.add({"1", "BLA21-12U-AB", "0123456789"});
   table.add({"2", "BLA34", ""});
   const Page narrow{.width = 24};
   CHECK(table.text("", narrow) == "NODE  MODEL\n" // one column below tells itself
                                   "1     BLA21-12U-AB\n"
-                                  "    0123456789\n"
+                                  "      0123456789\n"
                                   "2     BLA34\n");
   Table wide({"NODE", "MODEL", "UNIQUE ID", "STATE"});
   wide.add({"1", "BLA21-12U-AB", "0123456789", "ok"});
   CHECK(wide.text("", narrow) == "NODE  MODEL\n"
-                                 "    UNIQUE ID   STATE\n"
+                                 "      UNIQUE ID   STATE\n"
                                  "1     BLA21-12U-AB\n"
-                                 "    0123456789  ok\n");
+                                 "      0123456789  ok\n");
+  Table broad({"MODEL NAME", "UNIQUE ID"});
+  broad.add({"BLA21-12U-AB", "0123456789abcdef"});
+  CHECK(broad.text("", narrow) == "MODEL NAME\nBLA21-12U-AB\n    0123456789abcdef\n");
   CHECK(table.text("", {.width = 30}) == table.text());
   CHECK(table.text("  ", {.width = 31}) != table.text("  "));
 }
@@ -98,6 +101,13 @@ TEST_CASE("a command in backquotes stays on one line if one can hold it") {
         "x `blactl models BLA21-12U-AB\n    pwm_neutral` y\n");
   CHECK(page.fit("an odd ` is no quotation of anything\n") ==
         "an odd ` is no quotation of\n    anything\n");
+}
+
+TEST_CASE("an address stays on one line with the name behind it") {
+  const Page page{.width = 20};
+  CHECK(page.fit("see also 0x38 angle_limit_cw\n") == "see also\n    0x38 angle_limit_cw\n");
+  CHECK(page.fit("between 0x38 angle and (0x39 b) c\n") ==
+        "between 0x38 angle\n    and (0x39 b) c\n");
 }
 
 TEST_CASE("what is to be typed stands in a line of its own where a hint is long") {

@@ -1,4 +1,4 @@
-#include "blactl/fleet/fault_state.hpp"
+#include "blactl/fleet/fault_job.hpp"
 #include "blactl/fleet/playback.hpp"
 #include "blactl/fleet/read_job.hpp"
 

@@ -1,4 +1,4 @@
-#include "blactl/fleet/fault_state.hpp"
+#include "blactl/fleet/fault_job.hpp"
 
 #include "support.hpp"
 

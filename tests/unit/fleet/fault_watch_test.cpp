@@ -1,0 +1,55 @@
+#include "blactl/fleet/fault_watch.hpp"
+
+#include "support.hpp"
+
+#include <array>
+
+using namespace blactl;
+using namespace blactl::fleet;
+using namespace blactl::fleet::test;
+
+namespace {
+
+constexpr std::array both{NodeId(11), NodeId(12)};
+
+/// 11 and 12; the second one never answers.
+Scene scene_with_a_mute_servo() {
+  return Scene(R"("servos": [{"model": "BLA15-06U-A0", "node_id": 11},
+                             {"model": "BLA15-06U-A0", "node_id": 12, "faults": {"mute": true}}])");
+}
+
+} // namespace
+
+TEST_CASE("a servo that does not answer holds up no look at another") {
+  const Scene scene = scene_with_a_mute_servo();
+  scene.grow_old();
+  FaultWatch watch(*scene.session, profiles(), both, {}, 500ms);
+  const Time begin = scene.session->now();
+  for (int looks = 0; looks < 2; ++looks) { // 12 is asked for 1.5 s
+    const auto seen = watch.next();
+    REQUIRE(seen);
+    REQUIRE(seen->size() == 1);
+    CHECK(seen->front().snapshot.servo.id == NodeId(11));
+    CHECK(seen->front().errors.empty());
+  }
+  CHECK(scene.session->now() - begin >= 500ms);
+  CHECK(scene.session->now() - begin < 1s);
+  bool told = false;
+  while (!told && scene.session->now() - begin < 5s) {
+    const auto seen = watch.next();
+    REQUIRE(seen);
+    told = seen->front().snapshot.servo.id == NodeId(12);
+    CHECK(seen->front().errors.empty() == !told);
+  }
+  CHECK(told);
+}
+
+TEST_CASE("a watch that ends leaves no look behind") {
+  const Scene scene = scene_with_a_mute_servo();
+  {
+    FaultWatch watch(*scene.session, profiles(), both, {}, 500ms);
+    REQUIRE(watch.next());
+    CHECK(scene.session->node().jobs() == 1);
+  }
+  CHECK(scene.session->node().jobs() == 0);
+}
