@@ -137,7 +137,8 @@ void Medium::begin(const can::Frame& frame, std::vector<PortId> senders,
   for (const PortId rival : rivals) {
     const Port& port = ports_.at(rival);
     if (port.error_count < error_passive) {
-      const std::size_t noticed = own.first_difference(can::FrameBits(port.queue.front().frame)) + 1;
+      const std::size_t noticed =
+          own.first_difference(can::FrameBits(port.queue.front().frame)) + 1;
       length = std::min(length, noticed + error_frame_bits);
       destroyed = true;
     }
