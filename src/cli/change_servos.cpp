@@ -160,6 +160,7 @@ std::vector<ChangeResult> Run::carry_out() {
             context_.reporter().progress(text(progress));
           }};
   auto carried_out = fleet::carry_out(context_.session(), context_.known(), plans_, manner);
+  tell_newcomers();
   if (carried_out.broken) {
     (void)broken(*carried_out.broken);
   }

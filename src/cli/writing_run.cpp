@@ -69,10 +69,21 @@ bool WritingRun::hear() {
   return report_.errors.empty();
 }
 
-void WritingRun::tell_others() const {
-  for (const std::string& other : fleet::notes_before_writing(context_.session().roster())) {
-    context_.reporter().note(other);
+void WritingRun::tell(const std::vector<std::string>& notes) {
+  for (const std::string& note : notes) {
+    if (told_.insert(note).second) {
+      context_.reporter().note(note);
+    }
   }
+}
+
+void WritingRun::tell_others() {
+  tell(fleet::notes_before_writing(context_.session().roster()));
+}
+
+/// Servos may have moved: who shares a servo ID is not looked at.
+void WritingRun::tell_newcomers() {
+  tell(fleet::others(context_.session().roster()));
 }
 
 bool WritingRun::confirm(const std::string& question) {

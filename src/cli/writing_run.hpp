@@ -7,8 +7,10 @@
 #include "cli/output/report.hpp"
 
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace blactl::cli {
 
@@ -30,7 +32,10 @@ class WritingRun {
   [[nodiscard]] bool hear();
 
   /// Says who else acts on this bus, where that forbids nothing.
-  void tell_others() const;
+  void tell_others();
+
+  /// The same of those who came while it wrote.
+  void tell_newcomers();
 
   /// An empty question is none.
   [[nodiscard]] bool confirm(const std::string& question);
@@ -50,8 +55,11 @@ class WritingRun {
   Report& report_;
 
  private:
+  void tell(const std::vector<std::string>& notes);
+
   bool has_searched_ = false; ///< the bus, for the servos that are meant
   Time chosen_at_{};
+  std::set<std::string> told_; ///< who else acts
 };
 
 } // namespace blactl::cli

@@ -1,6 +1,7 @@
 #include "blactl/fleet/allocation_service.hpp"
 
 #include "blactl/base/hex.hpp"
+#include "blactl/fleet/guard.hpp"
 #include "blactl/fleet/node_id_texts.hpp"
 #include "blactl/fleet/texts.hpp"
 
@@ -22,6 +23,13 @@ constexpr std::size_t most_units = 256;
 
 /// A unit without a node ID asks again after 0.6 s to 1 s; one request may be lost.
 constexpr Duration request_period = std::chrono::seconds(2);
+
+/// One that was given its ID so often and asks again does not take it: that so many answers were
+/// lost one after the other is not likely.
+constexpr unsigned most_vain_answers = 5;
+
+/// How much of a unique ID the first part of a request tells (1.Allocation.uavcan).
+constexpr std::size_t first_part_size = 6;
 
 bool begins_with(const UniqueId& unique_id, Bytes prefix) {
   return std::ranges::equal(Bytes(unique_id).first(prefix.size()), prefix);
@@ -69,7 +77,7 @@ void AllocationService::receive(const dronecan::Transfer& transfer) {
 }
 
 void AllocationService::hear_first_part(Bytes prefix, Time at) {
-  if (!is_refused(prefix)) {
+  if (!is_left_out(prefix)) {
     last_request_ = at;
   }
   UniqueIdPrefix known(prefix.begin(), prefix.end());
@@ -90,11 +98,29 @@ std::size_t AllocationService::asking() const {
   }));
 }
 
-/// Who is refused asks on for ever.
-bool AllocationService::is_refused(Bytes prefix) const {
+/// Who is refused asks on for ever, and so does who does not take its ID.
+bool AllocationService::is_left_out(Bytes prefix) const {
   return std::ranges::any_of(units_, [&](const auto& entry) {
-    return entry.second.refused && begins_with(entry.first, prefix);
+    const AllocatedUnit& unit = entry.second;
+    return (unit.refused || (unit.is_deaf && !is_there(unit))) && begins_with(entry.first, prefix);
   });
+}
+
+void AllocationService::advance(Time now) {
+  allocator_.advance(now);
+  watch_for_twins();
+}
+
+/// A unit with the same ID may join at any time.
+void AllocationService::watch_for_twins() {
+  for (const NodeId id : session_.roster().doubled()) {
+    for (auto& [unique_id, unit] : units_) {
+      if (unit.node_id == id && !unit.refused) {
+        unit.is_shared = true;
+        refuse(unit, Event::conflict, shared(unit));
+      }
+    }
+  }
 }
 
 bool AllocationService::serves(Bytes prefix) const {
@@ -126,16 +152,48 @@ std::optional<NodeId> AllocationService::assign(const UniqueId& unique_id, NodeI
   if (unit == nullptr || end()) {
     return std::nullopt;
   }
-  unit->asked_at = session_.now();
-  if (!unit->refused) {
-    hook_(Event::request, *unit);
-  }
+  note_request(*unit);
   const auto entry = store_.find(unique_id);
   if (!entry) {
     failure_ = entry.error();
     return std::nullopt;
   }
   return *entry ? keep(*unit, (*entry)->node_id) : give(*unit, preferred);
+}
+
+void AllocationService::note_request(AllocatedUnit& unit) {
+  unit.given = is_there(unit) ? 0 : unit.given;
+  const bool was_deaf = std::exchange(unit.is_deaf, unit.given >= most_vain_answers);
+  unit.asked_at = session_.now();
+  if (unit.is_deaf && !was_deaf) {
+    hook_(Event::deaf, unit);
+  } else if (!unit.refused && !unit.is_deaf) {
+    hook_(Event::request, unit);
+  }
+}
+
+Error AllocationService::shared(const AllocatedUnit& unit) const {
+  Error error = doubled(session_.roster(), unit.node_id);
+  if (session_.roster().units(unit.node_id).empty()) {
+    error.message = say<texts::allocated_id_doubled>(unit.node_id.value(), hex(unit.unique_id));
+  }
+  return error;
+}
+
+std::optional<Error> AllocationService::refusal(const AllocatedUnit& unit) const {
+  return unit.is_shared ? shared(unit) : unit.refused;
+}
+
+Error AllocationService::absence(const AllocatedUnit& unit) const {
+  const std::uint8_t id = unit.node_id.value();
+  if (unit.given == 0) { // nobody knows who else is there
+    return in_use(unit);
+  }
+  return unit.given == 1
+             ? Error{Code::not_back, say<texts::allocated_not_up>(id, hex(unit.unique_id)),
+                     say<texts::allocated_not_up_hint>(), id}
+             : Error{Code::not_back, say<texts::allocated_not_taken>(id, hex(unit.unique_id)),
+                     say<texts::allocated_not_taken_hint>(), id};
 }
 
 Error AllocationService::in_use(const AllocatedUnit& unit) const {
@@ -157,10 +215,18 @@ std::optional<NodeId> AllocationService::keep(AllocatedUnit& unit, NodeId id) {
   switch (holder(id, unit.unique_id)) {
   case Holder::unknown: return std::nullopt; // it asks again, and then more is known
   case Holder::other: refuse(unit, Event::conflict, in_use(unit)); return std::nullopt;
+  case Holder::twin:
+    refuse(unit, Event::conflict,
+           {Code::duplicate_node_id, say<texts::same_unique_id>(id.value(), hex(unit.unique_id)),
+            say<texts::same_unique_id_hint>(), id.value()});
+    return std::nullopt;
   case Holder::nobody: break;
   }
   unit.refused.reset();
-  hook_(Event::kept, unit);
+  ++unit.given;
+  if (!unit.is_deaf) {
+    hook_(Event::kept, unit);
+  }
   return id;
 }
 
@@ -178,6 +244,7 @@ std::optional<NodeId> AllocationService::give(AllocatedUnit& unit, NodeId prefer
     unit.node_id = *id;
     unit.is_new = true;
     unit.refused.reset();
+    ++unit.given;
     hook_(Event::assigned, unit);
     return *id;
   }
@@ -212,7 +279,7 @@ AllocationService::Holder AllocationService::holder(NodeId id, const UniqueId& u
     return Holder::other;
   }
   if (member.info && member.info->unique_id == unique_id) {
-    return Holder::nobody;
+    return is_heard_while_asking(member, unique_id) ? Holder::twin : Holder::nobody;
   }
   const bool is_gone = session_.now() - member.last_heard >= offline_time;
   const bool comes_back = member.static_node_id == id.value();
@@ -220,6 +287,14 @@ AllocationService::Holder AllocationService::holder(NodeId id, const UniqueId& u
     return Holder::nobody;
   }
   return member.info ? Holder::other : Holder::unknown;
+}
+
+/// A unit that asks has no node ID, so what is heard under its own since it began is another's.
+bool AllocationService::is_heard_while_asking(const Member& member,
+                                              const UniqueId& unique_id) const {
+  const auto part =
+      first_parts_.find(UniqueIdPrefix(unique_id.begin(), unique_id.begin() + first_part_size));
+  return part != first_parts_.end() && member.last_heard > part->second;
 }
 
 bool AllocationService::is_there(const AllocatedUnit& unit) const {

@@ -1,5 +1,6 @@
 #include "blactl/fleet/carry_out.hpp"
 
+#include "blactl/base/hex.hpp"
 #include "blactl/dronecan/allocator.hpp"
 #include "blactl/fleet/discovery.hpp"
 #include "blactl/fleet/former_ids.hpp"
@@ -82,6 +83,21 @@ Progress progress_of(const std::list<ChangeJob>& jobs, Duration elapsed) {
   return progress;
 }
 
+/// What to do for a servo that is not back because it asks for a node ID: of this its own job only
+/// knows that nobody gave it one.
+void explain_waiting(const Plan& plan, const FormerIds& table, ChangeResult& result) {
+  const auto& unique_id = plan.before.servo.unique_id;
+  if (!unique_id || !result.error || result.error->hint != say<texts::waits_for_id_hint>()) {
+    return;
+  }
+  const auto saved = bla::find(plan.expected, bla::address::static_node_id).value_or(0);
+  if (auto hint = table.hint(*unique_id)) {
+    result.error->hint = std::move(*hint);
+  } else if (plan.restart == RestartKind::save && saved != 0) {
+    result.error->hint = say<texts::static_id_lost_hint>(saved, hex(*unique_id));
+  }
+}
+
 } // namespace
 
 CarriedOut carry_out(Session& session, const bla::Profiles& profiles, std::span<const Plan> plans,
@@ -116,6 +132,7 @@ CarriedOut carry_out(Session& session, const bla::Profiles& profiles, std::span<
   for (ChangeJob& job : jobs) {
     job.look_back();
     carried_out.servos.push_back(job.result());
+    explain_waiting(plans[carried_out.servos.size() - 1], table, carried_out.servos.back());
   }
   carried_out.broken = ran ? check_sent(session) : std::optional(ran.error());
   return carried_out;

@@ -244,7 +244,6 @@ Result<void> Discovery::find_all(Duration listen) {
   return look_for_twins(servos);
 }
 
-/// Asks once more who they are: a second unit on an ID answers too, somewhat later.
 Result<void> Discovery::look_for_twins(const std::vector<const Member*>& members) {
   std::list<DoubleCheckJob> checks;
   std::vector<dronecan::Job*> group;

@@ -1,5 +1,8 @@
 #include "blactl/fleet/former_ids.hpp"
 
+#include "blactl/base/hex.hpp"
+#include "blactl/fleet/texts.hpp"
+
 #include <algorithm>
 #include <ranges>
 #include <span>
@@ -25,7 +28,30 @@ std::optional<NodeId> FormerIds::assign(const UniqueId& unique_id, NodeId /*pref
   // Somebody else may have taken the ID in the meantime, and not have said yet who it is.
   const Member* now = session_.roster().find(id);
   const bool is_taken = now != nullptr && !now->is_unit(unique_id);
+  Asked& asked = asked_[unique_id];
+  asked.id = id;
+  asked.given += is_taken ? 0U : 1U;
   return is_taken ? std::nullopt : std::optional(id);
+}
+
+std::optional<std::string> FormerIds::hint(const UniqueId& unique_id) const {
+  const auto asked = asked_.find(unique_id);
+  if (asked == asked_.end()) {
+    return std::nullopt;
+  }
+  const auto [id, given] = asked->second;
+  if (given > 1) {
+    return say<texts::former_id_not_taken_hint>(id.value());
+  }
+  const Member* there = session_.roster().find(id);
+  const bool is_used = there != nullptr && !there->is_unit(unique_id) &&
+                       session_.now() - there->last_heard < offline_time;
+  if (given > 0 || !is_used) {
+    return std::nullopt;
+  }
+  return say<texts::former_id_in_use_hint>(
+      id.value(), there->info ? "uid:" + hex(there->info->unique_id) : say<texts::another_unit>(),
+      hex(unique_id));
 }
 
 /// Empty: the table cannot be used, and the servo gets the ID that it had.

@@ -248,11 +248,16 @@ Result<Session::Happened> Session::take_frame(const can::Received& received) {
   return Happened::something;
 }
 
-/// Another node has our ID.
+/// Another node has our ID. The next one may be that of a node that was heard before.
 Result<void> Session::give_way() {
-  if (auto other = local_->give_way(interface()); !other) {
-    return other;
-  }
+  const auto is_taken = [this](NodeId id) {
+    return roster_.heard(id) && loop_.now() - roster_.member(id).last_heard < offline_time;
+  };
+  do {
+    if (auto other = local_->give_way(interface()); !other) {
+      return other;
+    }
+  } while (is_taken(local_->id()));
   if (new_id_) {
     new_id_(*local_);
   }

@@ -84,7 +84,47 @@ Result<void> StaticIds::let_in(std::span<const Wish> wishes) {
     return std::ranges::all_of(missing,
                                [this](const Wish& wish) { return is_there(wish.unique_id); });
   });
-  return lived ? session_.run() : std::unexpected(lived.error());
+  if (!lived) {
+    return std::unexpected(lived.error());
+  }
+  for (const auto& [unique_id, unit] : service.units()) {
+    if (unit.node_id.is_unicast() && !is_there(unique_id)) {
+      not_let_in_.emplace(unique_id, service.refusal(unit).value_or(service.absence(unit)));
+    }
+  }
+  return session_.run();
+}
+
+/// Why a unit is not among those whose node ID is known.
+Error StaticIds::absence(const UniqueId& unique_id) const {
+  const Roster& roster = session_.roster();
+  for (const NodeId id : roster.doubled()) {
+    const auto units = roster.units(id); // where none told who it is, it may be one of those
+    if (units.empty() || units.contains(unique_id)) {
+      return doubled(roster, id);
+    }
+  }
+  if (const auto known = not_let_in_.find(unique_id); known != not_let_in_.end()) {
+    return known->second;
+  }
+  const std::string named = "uid:" + hex(unique_id);
+  return roster.is_pending(unique_id)
+             ? Error{Code::not_found, say<texts::target_waits_for_id>(named),
+                     say<texts::target_waits_for_id_hint>(), std::nullopt}
+             : Error{Code::not_found, say<texts::nothing_matches>(named),
+                     say<texts::node_not_found_hint>(), std::nullopt};
+}
+
+/// Puts what is known of the units that are not there in the place of "not found".
+void StaticIds::explain_absences(std::span<const IdHolder> units,
+                                 std::vector<Error>& errors) const {
+  auto error = errors.begin();
+  for (const Wish& wish : wishes_) {
+    if (std::ranges::find(units, wish.unique_id, &IdHolder::unique_id) == units.end()) {
+      error = std::ranges::find(error, errors.end(), Code::not_found, &Error::code);
+      *error++ = absence(wish.unique_id);
+    }
+  }
 }
 
 /// Everybody who told its unique ID. A unit holds its ID, and what it would get by its 0x46; one
@@ -141,6 +181,7 @@ std::expected<void, std::vector<Error>> StaticIds::prepare(std::span<const Wish>
   const std::vector<IdHolder> units = holders();
   auto rounds = plan_id_moves(units, wishes_, *taken);
   if (!rounds) {
+    explain_absences(units, rounds.error());
     return std::unexpected(std::move(rounds.error()));
   }
   rounds_ = std::move(*rounds);

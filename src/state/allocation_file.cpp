@@ -24,10 +24,14 @@ Wish read_entry(const json::Value& value, const std::vector<Wish>& before, json:
   json::Object object(value, faults);
   const auto unique_id = from_hex<std::tuple_size_v<UniqueId>>(object.string("unique_id"));
   const auto node_id = object.integer("node_id", first_dynamic_id.value(), last_dynamic_id.value());
-  (void)object.optional_string("time");
+  const json::Value* time = object.optional_any("time");
   object.finish();
   const Wish wish{unique_id.value_or(UniqueId{}), NodeId(static_cast<std::uint8_t>(node_id))};
-  if (object.exists() && object.has("unique_id") && !unique_id) {
+  const auto written = time != nullptr ? json::as_string(*time, faults) : std::nullopt;
+  if (written && !is_rfc3339(*written)) {
+    faults.add(*time, say<texts::no_time>());
+  }
+  if (object.exists() && object.has("unique_id") && wish.unique_id == UniqueId{}) {
     faults.add(value, say<texts::no_unique_id>());
   }
   if (unique_id && std::ranges::find(before, *unique_id, &Wish::unique_id) != before.end()) {

@@ -111,8 +111,10 @@ inline constexpr Text node_id_not_dynamic_hint{
     "1 to 125 can; 126 and 127 are for tools",
     "1～125 を指定して下さい。126 と 127 はツール用です"};
 
-inline constexpr Text no_unique_id{"not a unique ID: 32 hexadecimal digits",
-                                   "固有 ID ではありません (16 進数 32 桁)"};
+inline constexpr Text no_unique_id{"not a unique ID: 32 hexadecimal digits, not all of them 0",
+                                   "固有 ID ではありません (16 進数 32 桁、すべて 0 は不可)"};
+inline constexpr Text no_time{"not a time of RFC 3339, such as 2026-11-21T08:15:00Z",
+                              "RFC 3339 形式の日時ではありません (例: 2026-11-21T08:15:00Z)"};
 inline constexpr Text unit_twice{"this unique ID stands here before",
                                  "この固有 ID は重複しています"};
 inline constexpr Text node_id_twice{"this node ID stands here before",

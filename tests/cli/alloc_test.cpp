@@ -155,7 +155,8 @@ TEST_CASE("a table goes to another machine as a file, whole or not at all") {
   const std::string file =
       bench.file("table.json", R"({"schema": "blactl-allocations/1", "entries": [
         {"unique_id": "00112233445566778899aabbccddeeff", "node_id": 21},
-        {"unique_id": "10112233445566778899AABBCCDDEEFF", "node_id": 22, "time": "x"}]})");
+        {"unique_id": "10112233445566778899AABBCCDDEEFF", "node_id": 22,
+         "time": "2026-11-21t09:15:00.5+01:00"}]})");
   const Result imported = bench.run({"alloc", "--import", file});
   INFO(imported.err);
   CHECK(imported.status == 0);
@@ -187,6 +188,16 @@ TEST_CASE("a table goes to another machine as a file, whole or not at all") {
     }
     CHECK(json(bench.run({"alloc", "--list", "-j"}).out)["entries"].size() == 2);
   }
+  SECTION("a time that is none, and a unique ID that no unit has, are faults") {
+    const std::string bad =
+        bench.file("bad.json", R"({"schema": "blactl-allocations/1", "entries": [
+          {"unique_id": "20112233445566778899aabbccddeeff", "node_id": 30, "time": "yesterday"},
+          {"unique_id": "00000000000000000000000000000000", "node_id": 31}]})");
+    const Result refused = bench.run({"alloc", "--import", bad});
+    CHECK(refused.status == 2);
+    CHECK(contains(refused.err, "/entries/0/time:"));
+    CHECK(contains(refused.err, "/entries/1:"));
+  }
   SECTION("an ID that another unit has is a conflict, and nothing is taken over") {
     const std::string taken =
         bench.file("taken.json", R"({"schema": "blactl-allocations/1", "entries": [
@@ -207,6 +218,54 @@ TEST_CASE("another allocator is named, nothing is given, and it ends with 9") {
   CHECK(codes(result) == std::vector<std::string>{"other_allocator"});
   CHECK(contains(result.err, "node 100 (org.example.autopilot) allocates node IDs as well"));
   CHECK(events(result).empty());
+}
+
+TEST_CASE("a unit that joins under an ID that was just given is a conflict, with both unique IDs") {
+  for (const char* at : {"4s", "5s", "6s"}) {
+    INFO(at);
+    const Result result =
+        Scene()
+            .servo("BLA21-12U-AB", 0, {{"serial_number", 1}, {"unique_id", uid(1)}})
+            .servo("BLA21-12U-AB", 125, {{"serial_number", 2}, {"unique_id", uid(2)}})
+            .joins(2, at)
+            .run({"alloc", "--once", "-j"});
+    INFO(result.out << result.err);
+    CHECK(result.status == 9);
+    CHECK(codes(result) == std::vector<std::string>{"duplicate_node_id"});
+    CHECK(contains(result.err, uid(1)));
+    CHECK(contains(result.err, uid(2)));
+    CHECK(events(result) == std::vector<std::string>{"request", "assigned", "conflict"});
+  }
+}
+
+TEST_CASE("alloc tells of such a conflict once, and goes on for the others") {
+  const Result result = Scene()
+                            .servo("BLA21-12U-AB", 0, {{"serial_number", 1}})
+                            .servo("BLA21-12U-AB", 125, {{"serial_number", 2}})
+                            .servo("BLA21-12U-AB", 0, {{"serial_number", 3}})
+                            .servo("BLA21-12U-AB", 0, {{"serial_number", 4}})
+                            .joins(2, "8s")
+                            .joins(3, "14s")
+                            .joins(4, "14s")
+                            .run({"alloc", "--count", "2", "-j"});
+  INFO(result.out << result.err);
+  CHECK(result.status == 6); // one of three has a node ID that is not its own
+  CHECK(codes(result) == std::vector<std::string>{"duplicate_node_id"});
+  CHECK(events(result) == std::vector<std::string>{"request", "assigned", "conflict", "request",
+                                                   "assigned", "request", "assigned"});
+}
+
+TEST_CASE("an allocator that is heard only while a servo restarts is told of, too") {
+  Scene scene;
+  scene.servo("BLA21-12U-AB", 0, {{"serial_number", 1}});
+  scene.foreign(100, {{"kind", "autopilot"}, {"allocates", true}});
+  const Bench bench;
+  const Background sim(bench, {"sim", scene.write(bench)});
+  REQUIRE(bench.run({"-i", "sim:", "wait", "-n", "serial:1"}).status == 0);
+  const Result result = bench.run({"-i", "sim:", "restart", "-n", "serial:1", "-y"});
+  INFO(result.out << result.err);
+  CHECK(result.status == 0);
+  CHECK(contains(result.err, "node 100 allocates node IDs"));
 }
 
 TEST_CASE("two allocators of this machine on one bus do not run at once") {
@@ -266,7 +325,8 @@ namespace {
 Scene named_servos() {
   Scene scene;
   for (int i = 1; i <= 3; ++i) {
-    scene.servo("BLA21-12U-AB", 10 + i, {{"serial_number", i}, {"unique_id", uid(i)}});
+    scene.servo("BLA21-12U-AB", 10 + i,
+                {{"serial_number", i}, {"unique_id", uid(i)}, {"servo_id", i}});
   }
   return scene;
 }
@@ -305,6 +365,7 @@ TEST_CASE("alloc --static lets servos exchange and rotate their IDs by way of a 
   CHECK(swapped.status == 0);
   CHECK(made_static(swapped) == Made{{"02", 11}, {"01", 12}});
   CHECK(contains(swapped.err, "node 11 makes way for the others"));
+  CHECK_FALSE(contains(swapped.err, "the same servo ID")); // of who has moved meanwhile
   const Result rotated =
       named_servos().run({"alloc", "--static", "--assign", uid(1) + "=12", "--assign",
                           uid(2) + "=13", "--assign", uid(3) + "=11", "-y", "-j"});
@@ -399,4 +460,19 @@ TEST_CASE("alloc --static is refused while another node drives a servo, or says 
   armed.foreign(100, {{"kind", "autopilot"}, {"armed", true}});
   CHECK(codes(armed.run({"alloc", "--static", "-n", "11", "-y"})) ==
         std::vector<std::string>{"armed"});
+}
+
+TEST_CASE("alloc --static writes to neither of two units on one ID, whichever it is asked for") {
+  for (const int unit : {1, 2}) {
+    const Result result =
+        Scene()
+            .servo("BLA21-12U-AB", 11, {{"serial_number", 1}, {"unique_id", uid(1)}})
+            .servo("BLA21-12U-AB", 11, {{"serial_number", 2}, {"unique_id", uid(2)}})
+            .run({"alloc", "--static", "--assign", uid(unit) + "=20", "-y"});
+    INFO(result.err);
+    CHECK(result.status == 9);
+    CHECK(codes(result) == std::vector<std::string>{"duplicate_node_id"});
+    CHECK(contains(result.err, uid(1)));
+    CHECK(contains(result.err, uid(2)));
+  }
 }

@@ -19,6 +19,12 @@ Scene& Scene::foreign(int node_id, const nlohmann::json& more) {
   return *this;
 }
 
+Scene& Scene::joins(int serial_number, std::string_view at) {
+  document_["events"].push_back({{"servo", serial_number}, {"happens", "power_off"}});
+  document_["events"].push_back({{"at", at}, {"servo", serial_number}, {"happens", "power_on"}});
+  return *this;
+}
+
 std::string Scene::write(const Bench& bench) const {
   return bench.file("scene.json", document_.dump(2));
 }

@@ -24,6 +24,9 @@ class Scene {
   Scene& servo(std::string_view model, int node_id, const nlohmann::json& more = {});
   Scene& foreign(int node_id, const nlohmann::json& more = {});
 
+  /// The servo with this serial number has no power until then.
+  Scene& joins(int serial_number, std::string_view at);
+
   /// Writes the scenario file and gives its path.
   [[nodiscard]] std::string write(const Bench& bench) const;
 
@@ -36,7 +39,8 @@ class Scene {
   nlohmann::json document_ = {{"schema", "blactl-scenario/1"},
                               {"clock", "virtual"},
                               {"servos", nlohmann::json::array()},
-                              {"foreign", nlohmann::json::array()}};
+                              {"foreign", nlohmann::json::array()},
+                              {"events", nlohmann::json::array()}};
 };
 
 /// 11: a BLA21 with PWM input, 12: a BLA15 without, 13: a BLA34.

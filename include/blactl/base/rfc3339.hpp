@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <string>
+#include <string_view>
 
 namespace blactl {
 
@@ -21,5 +22,8 @@ namespace blactl {
                      static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()),
                      clock.hours().count(), clock.minutes().count(), clock.seconds().count());
 }
+
+/// Whether the text is a date-time of RFC 3339, section 5.6, in whichever zone.
+[[nodiscard]] bool is_rfc3339(std::string_view text);
 
 } // namespace blactl

@@ -21,6 +21,9 @@ struct AllocatedUnit {
   bool is_new = false;            ///< it was not in the table before
   Time asked_at{};                ///< the last time
   std::optional<Error> refused{}; ///< why it was given none: duplicate_node_id, table_full
+  bool is_shared = false;         ///< refused, too: it has got its ID, and so has another unit
+  unsigned given = 0;             ///< how often in a row, without being heard under it
+  bool is_deaf = false;           ///< it was given its ID again and again, and asks on
 };
 
 /// As long as it lives, units that ask for a node ID get one: what stands in the table, else one
@@ -35,7 +38,8 @@ class AllocationService final : private dronecan::Service, private dronecan::All
     assigned, ///< it is new in the table, and the answer goes out
     kept,     ///< it was in the table, and the answer goes out
     conflict, ///< the ID that it has in the table is another unit's on the bus
-    full      ///< no ID of the range is free
+    full,     ///< no ID of the range is free
+    deaf      ///< it does not take the ID that it is given; it goes on being given, untold
   };
 
   using Hook = std::function<void(Event, const AllocatedUnit&)>;
@@ -46,7 +50,7 @@ class AllocationService final : private dronecan::Service, private dronecan::All
   };
 
   /// `session` and `store` outlive this. `range`: where new IDs are taken from. `hook` is called
-  /// for everything that happens; a refusal that lasts happens once.
+  /// for everything that happens; what lasts, as a refusal does, happens once.
   AllocationService(Session& session, state::AllocationStore& store, Range range, Hook hook);
   ~AllocationService() override;
   AllocationService(const AllocationService&) = delete;
@@ -67,7 +71,15 @@ class AllocationService final : private dronecan::Service, private dronecan::All
   /// It was heard under the ID that it was given, and said that it is this unit.
   [[nodiscard]] bool is_there(const AllocatedUnit& unit) const;
 
-  /// When a unit asked last that is not refused; the begin of this service, if none did.
+  /// Why it has no ID of its own: as `refused`, with what is known now. Empty: nothing is against
+  /// it.
+  [[nodiscard]] std::optional<Error> refusal(const AllocatedUnit& unit) const;
+
+  /// Why a unit that is not refused is not there. It has an ID in the table.
+  [[nodiscard]] Error absence(const AllocatedUnit& unit) const;
+
+  /// When a unit asked last that may still get somewhere, so none that is refused or deaf; the
+  /// begin of this service, if none did.
   [[nodiscard]] Time last_request() const { return last_request_; }
 
   /// How many units ask now: they did of late, and have not been heard under an ID since. Units
@@ -78,13 +90,13 @@ class AllocationService final : private dronecan::Service, private dronecan::All
   [[nodiscard]] Result<std::size_t> free_ids() const;
 
  private:
-  enum class Holder : std::uint8_t { nobody, unknown, other };
+  enum class Holder : std::uint8_t { nobody, unknown, other, twin };
 
   void receive(const dronecan::Transfer& transfer) override;
 
   [[nodiscard]] Time next_deadline() const override { return allocator_.next_deadline(); }
 
-  void advance(Time now) override { allocator_.advance(now); }
+  void advance(Time now) override;
 
   [[nodiscard]] bool serves(dronecan::Bytes prefix) const override;
   [[nodiscard]] std::optional<dronecan::NodeId> assign(const dronecan::UniqueId& unique_id,
@@ -95,9 +107,14 @@ class AllocationService final : private dronecan::Service, private dronecan::All
                                                      dronecan::NodeId preferred);
   void refuse(AllocatedUnit& unit, Event event, Error error);
   [[nodiscard]] Error in_use(const AllocatedUnit& unit) const;
+  [[nodiscard]] Error shared(const AllocatedUnit& unit) const;
+  void watch_for_twins();
+  void note_request(AllocatedUnit& unit);
   [[nodiscard]] AllocatedUnit* known(const dronecan::UniqueId& unique_id);
   [[nodiscard]] Holder holder(dronecan::NodeId id, const dronecan::UniqueId& unique_id) const;
-  [[nodiscard]] bool is_refused(dronecan::Bytes prefix) const;
+  [[nodiscard]] bool is_heard_while_asking(const Member& member,
+                                           const dronecan::UniqueId& unique_id) const;
+  [[nodiscard]] bool is_left_out(dronecan::Bytes prefix) const;
   void hear_first_part(dronecan::Bytes prefix, Time at);
 
   Session& session_;

@@ -62,6 +62,10 @@ class Discovery final : private Roster::Listener {
   /// ones; asks those found for their unique ID twice.
   [[nodiscard]] Result<void> find_all(Duration listen);
 
+  /// Asks these nodes once more who they are: a second unit on an ID answers too, somewhat later.
+  /// Errors: those that end a session.
+  [[nodiscard]] Result<void> look_for_twins(const std::vector<const Member*>& members);
+
   /// Lives until those that are meant are identified and operational, `wait` at most.
   [[nodiscard]] Arrivals wait_for(const Targets& targets, Duration wait);
 
@@ -95,7 +99,6 @@ class Discovery final : private Roster::Listener {
   [[nodiscard]] bool is_ready(const Member& member) const;
   [[nodiscard]] bool all_there(const Targets& targets) const;
   [[nodiscard]] Result<bool> wait_until_there(const Targets& targets, Time deadline);
-  [[nodiscard]] Result<void> look_for_twins(const std::vector<const Member*>& members);
   [[nodiscard]] std::vector<Error> missing(const Targets& targets, Duration wait) const;
 
   Session& session_;

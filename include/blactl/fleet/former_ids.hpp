@@ -8,6 +8,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <string>
 #include <utility>
 
 namespace blactl::fleet {
@@ -32,7 +33,17 @@ class FormerIds final : public dronecan::AllocationTable {
   [[nodiscard]] std::optional<dronecan::NodeId> assign(const dronecan::UniqueId& unique_id,
                                                        dronecan::NodeId preferred) override;
 
+  /// What to do for a unit that asks on although it was given an ID, or because somebody uses the
+  /// one that it would get. Empty: it is neither.
+  [[nodiscard]] std::optional<std::string> hint(const dronecan::UniqueId& unique_id) const;
+
  private:
+  /// What became of the requests of a unit.
+  struct Asked {
+    dronecan::NodeId id{}; ///< that it was given, or would have been
+    unsigned given = 0;    ///< how often
+  };
+
   [[nodiscard]] std::optional<dronecan::NodeId> from_table(const dronecan::UniqueId& unique_id,
                                                            dronecan::NodeId former);
 
@@ -43,6 +54,7 @@ class FormerIds final : public dronecan::AllocationTable {
   NotKept not_kept_; ///< empty: it was told
   std::optional<Result<state::AllocationStore>> table_;
   std::map<dronecan::UniqueId, dronecan::NodeId> ids_; ///< that they had
+  std::map<dronecan::UniqueId, Asked> asked_;
 };
 
 } // namespace blactl::fleet

@@ -17,6 +17,30 @@ inline constexpr Text allocated_id_in_use_hint{
     "give one of them another ID: blactl alloc --assign {}=ID",
     "いずれかに別の ID を指定して下さい: blactl alloc --assign {}=ID"};
 
+inline constexpr Text allocated_id_doubled{
+    "two units use node ID {}, which was given to uid:{}",
+    "ノード ID {} (割当て先 uid:{}) を 2 台が使用しています"};
+inline constexpr Text same_unique_id{"node {} and a unit that asks for a node ID have the same "
+                                     "unique ID: {}",
+                                     "ノード {} と割当て要求中の機器の固有 ID が同一です: {}"};
+inline constexpr Text same_unique_id_hint{
+    "no two units may have the same: disconnect one of them",
+    "固有 ID の重複は許されません。どちらか一方を取り外して下さい"};
+inline constexpr Text allocated_not_up{
+    "node ID {} was given to uid:{}, which does not answer on it",
+    "ノード ID {} を uid:{} に割り当てましたが、応答がありません"};
+inline constexpr Text allocated_not_up_hint{
+    "see whether it is there: blactl scan; then run it again",
+    "接続を確認 (blactl scan) してから再実行して下さい"};
+inline constexpr Text allocated_not_taken{
+    "node ID {} was given to uid:{} again and again: it does not take it, and asks on",
+    "ノード ID {} を uid:{} に繰り返し割り当てましたが、反映されず要求が続いています"};
+inline constexpr Text allocated_not_taken_hint{
+    "power it off and on; if it still asks, frames get lost or it is faulty: blactl trace --type "
+    "Allocation",
+    "電源を入れ直して下さい。改善しない場合は、フレームの欠落または故障の可能性があります: "
+    "blactl trace --type Allocation"};
+
 inline constexpr Text two_ids_for_unit{"uid:{} is given two static node IDs, {} and {}",
                                        "uid:{} に固定ノード ID {} と {} が指定されています"};
 inline constexpr Text one_id_for_two_units{

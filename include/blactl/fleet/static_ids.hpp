@@ -74,6 +74,8 @@ class StaticIds {
   using Plans = std::expected<std::vector<Plan>, std::vector<Error>>;
 
   [[nodiscard]] bool is_there(const dronecan::UniqueId& unique_id) const;
+  [[nodiscard]] Error absence(const dronecan::UniqueId& unique_id) const;
+  void explain_absences(std::span<const IdHolder> units, std::vector<Error>& errors) const;
   [[nodiscard]] std::vector<IdHolder> holders() const;
   [[nodiscard]] Result<state::NodeIds> promised() const;
   [[nodiscard]] Plans plans(std::span<const IdMove> moves);
@@ -89,6 +91,7 @@ class StaticIds {
   state::AllocationStore& table_;
   Manner manner_;
   bool while_driven_ = false;
+  std::map<dronecan::UniqueId, Error> not_let_in_; ///< why they have no ID though they asked
   std::vector<Wish> wishes_;
   IdRounds rounds_;
   std::vector<Plan> judged_; ///< each unit from where it is to what is wished

@@ -326,11 +326,28 @@ inline constexpr Text not_back_hint{
     "blactl wait -n uid:{} を実行して下さい",
 };
 inline constexpr Text waits_for_id_hint{
-    "it asks for a node ID and nobody gives it one: is another allocator stopped? then power it "
-    "off "
-    "and on",
-    "ノード ID の割当てを要求していますが、割り当てるノードがありません。"
-    "割当て元を確認し、電源を入れ直して下さい",
+    "it asks for a node ID and nobody gives it one: start the allocator of this bus again, or "
+    "type: blactl alloc --once",
+    "ノード ID の割当てを要求していますが、割り当てるノードがありません。割当て元を再開するか、"
+    "blactl alloc --once を実行して下さい",
+};
+inline constexpr Text former_id_in_use_hint{
+    "it asks for a node ID, and its node ID {} is used by {} now; give it another: "
+    "blactl alloc --once --assign {}=ID",
+    "ノード ID の割当てを要求していますが、元のノード ID {} は {} が使用中です。別の ID を指定: "
+    "blactl alloc --once --assign {}=ID",
+};
+inline constexpr Text former_id_not_taken_hint{
+    "it asks for a node ID, and node ID {} was given to it again and again, which it does not "
+    "take: power it off and on, then: blactl alloc --once",
+    "ノード ID の割当てを要求しています。ノード ID {} を繰り返し割り当てましたが反映されません。"
+    "電源を入れ直してから blactl alloc --once を実行して下さい",
+};
+inline constexpr Text static_id_lost_hint{
+    "it asks for a node ID, so its ROM does not hold static node ID {}, which was saved; give it "
+    "one: blactl alloc --once; then see what its ROM holds: blactl get -n uid:{}",
+    "ノード ID の割当てを要求しているため、保存した固定ノード ID {} は ROM にありません。"
+    "blactl alloc --once で割り当ててから ROM の内容を確認: blactl get -n uid:{}",
 };
 inline constexpr Text unchanged_no_more{
     "node {} restarted: {} may have another value now",

@@ -153,6 +153,7 @@ void MakeStatic::carry_out(StaticIds& ids) {
       report_.fail(printed.error());
     }
   });
+  tell_newcomers();
   (void)stop(errors);
   std::uint64_t done = 0;
   for (const StaticId& unit : ids.units()) {

@@ -62,7 +62,8 @@ class Serve {
   [[nodiscard]] bool is_over() const;
   [[nodiscard]] bool is_quiet() const;
   [[nodiscard]] bool is_stuck() const;
-  void wait();
+  [[nodiscard]] bool wait();
+  [[nodiscard]] bool look_for_twins(fleet::Discovery& discovery);
   void tell_quiet();
   void conclude();
 
@@ -87,7 +88,8 @@ void Serve::check(const Result<bool>& printed) {
 void Serve::tell(Event event, const AllocatedUnit& unit) {
   assigned_ += event == Event::assigned ? 1 : 0;
   kept_ += event == Event::kept ? 1 : 0;
-  progress_at_ = event == Event::request ? progress_at_ : session().now();
+  const bool is_progress = event != Event::request && event != Event::deaf;
+  progress_at_ = is_progress ? session().now() : progress_at_;
   const Reporter& reporter = context_.reporter();
   const UnixTime time(session().wall());
   if (reporter.format() == Format::json) {
@@ -124,8 +126,8 @@ std::size_t Serve::there() const {
 bool Serve::is_coming_up() const {
   return std::ranges::any_of(service_.units(), [this](const auto& entry) {
     const AllocatedUnit& unit = entry.second;
-    return unit.node_id.is_unicast() && !unit.refused && !service_.is_there(unit) &&
-           session().now() - unit.asked_at < come_up_time;
+    return unit.node_id.is_unicast() && !unit.refused && !unit.is_deaf &&
+           !service_.is_there(unit) && session().now() - unit.asked_at < come_up_time;
   });
 }
 
@@ -144,7 +146,8 @@ bool Serve::is_over() const {
          (options_.once && (is_quiet() || is_stuck()));
 }
 
-void Serve::wait() {
+/// Whether the session lives on.
+bool Serve::wait() {
   constexpr Duration interval = std::chrono::milliseconds(250); // of a person's patience
   const fleet::Ticker ticker(session(), interval, [this] { redraw(); });
   while (!is_over()) {
@@ -153,9 +156,25 @@ void Serve::wait() {
         session().live_until(session().now() + interval, [this] { return is_over(); });
     if (!lived) {
       context_.broken(lived.error(), report_);
-      return;
+      return false;
     }
   }
+  return true;
+}
+
+/// A unit that joined under an ID that was given answers too. Whether the session lives on.
+bool Serve::look_for_twins(fleet::Discovery& discovery) {
+  std::vector<const fleet::Member*> members;
+  for (const AllocatedUnit& unit : service_.units() | std::views::values) {
+    if (service_.is_there(unit)) {
+      members.push_back(session().roster().find(unit.node_id));
+    }
+  }
+  const auto looked = discovery.look_for_twins(members);
+  if (!looked) {
+    context_.broken(looked.error(), report_);
+  }
+  return looked.has_value();
 }
 
 void Serve::run() {
@@ -170,7 +189,9 @@ void Serve::run() {
     context_.reporter().note(
         say<texts::alloc_started>(range_.first.value(), range_.last.value(), *free));
   }
-  wait();
+  while (wait() && look_for_twins(discovery) && !is_over()) {
+    // Somebody asked meanwhile, or is one of two.
+  }
   redraw();
   conclude();
 }
@@ -185,7 +206,7 @@ void Serve::tell_quiet() {
   } else if (is_quiet()) {
     const bool refuses =
         std::ranges::any_of(service_.units() | std::views::values,
-                            [](const AllocatedUnit& unit) { return unit.refused.has_value(); });
+                            [](const AllocatedUnit& unit) { return unit.refused || unit.is_deaf; });
     const auto silence = seconds(service_.last_request());
     context_.reporter().note(refuses ? say<texts::alloc_quiet_others>(silence)
                                      : say<texts::alloc_quiet>(silence));
@@ -196,13 +217,11 @@ void Serve::conclude() {
   if (auto end = service_.end()) {
     report_.fail(std::move(*end));
   }
-  for (const auto& [unique_id, unit] : service_.units()) {
-    if (unit.refused) {
-      report_.fail_target(*unit.refused);
+  for (const AllocatedUnit& unit : service_.units() | std::views::values) {
+    if (auto refusal = service_.refusal(unit)) {
+      report_.fail_target(std::move(*refusal));
     } else if (unit.node_id.is_unicast() && !service_.is_there(unit)) {
-      report_.fail_target({Code::not_back,
-                           say<texts::alloc_not_up>(unit.node_id.value(), hex(unique_id)),
-                           say<texts::alloc_not_up_hint>(), unit.node_id.value()});
+      report_.fail_target(service_.absence(unit));
     } else if (unit.node_id.is_unicast()) { // else it has got none, and nothing stands against it
       report_.targets.emplace_back();
     }

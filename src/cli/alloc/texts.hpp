@@ -54,7 +54,7 @@ inline constexpr Text alloc_quiet{
     "{} 秒間、割当て要求がありませんでした (ノード ID 未割当てのサーボは 1 "
     "秒以内の間隔で要求します)"};
 inline constexpr Text alloc_quiet_others{
-    "no other unit has asked for {} s; those that were refused go on asking",
+    "no other unit has asked for {} s; those that get no node ID go on asking",
     "割当て不可の機器を除き、{} 秒間、割当て要求がありませんでした"};
 inline constexpr Text alloc_not_kept{
     "a private simulation: this allocation table ends with the command",
@@ -86,11 +86,10 @@ inline constexpr Text alloc_several_for_id_hint{
 inline constexpr Text alloc_state_there{"there", "接続中"};
 inline constexpr Text alloc_state_given{"given, no answer yet", "割当て済み (応答待ち)"};
 inline constexpr Text alloc_state_refused{"refused", "割当て不可"};
+inline constexpr Text alloc_state_shared{"used by two units", "ID 重複"};
+inline constexpr Text alloc_event_deaf{"asks on: it does not take node ID {}",
+                                       "ノード ID {} が反映されず、要求が継続"};
 inline constexpr Text alloc_asking{"asking for a node ID: {}\n", "割当て要求中: {} 台\n"};
-inline constexpr Text alloc_not_up{"node ID {} was given to uid:{}, which does not answer on it",
-                                   "ノード ID {} を uid:{} に割り当てましたが、応答がありません"};
-inline constexpr Text alloc_not_up_hint{"see whether it is there: blactl scan; then run it again",
-                                        "接続を確認 (blactl scan) してから再実行して下さい"};
 inline constexpr Text alloc_expected_more{"units with a node ID: {}, expected: {}",
                                           "ノード ID を取得したユニットは {} 台です ({} 台の予定)"};
 inline constexpr Text alloc_expected_more_hint{

@@ -21,15 +21,17 @@ using Event = AllocationService::Event;
 
 namespace {
 
+/// Of the contract; empty: it has none.
 std::string_view name(Event event) {
   switch (event) {
   case Event::request: return "request";
   case Event::assigned: return "assigned";
   case Event::kept: return "kept";
   case Event::conflict: return "conflict";
-  case Event::full: break;
+  case Event::full: return "full";
+  case Event::deaf: break;
   }
-  return "full";
+  return {};
 }
 
 std::string words(Event event, const AllocatedUnit& unit) {
@@ -37,6 +39,7 @@ std::string words(Event event, const AllocatedUnit& unit) {
   case Event::request: return say<texts::alloc_event_request>();
   case Event::assigned: return say<texts::alloc_event_assigned>(unit.node_id.value());
   case Event::kept: return say<texts::alloc_event_kept>(unit.node_id.value());
+  case Event::deaf: return say<texts::alloc_event_deaf>(unit.node_id.value());
   case Event::conflict:
   case Event::full: break;
   }
@@ -63,6 +66,9 @@ std::string text_line(UnixTime time, const dronecan::UniqueId& unique_id, std::s
 }
 
 std::string state(const AllocationService& service, const AllocatedUnit& unit, const Page& page) {
+  if (unit.is_shared) {
+    return page.paint(Tone::bad, say<texts::alloc_state_shared>());
+  }
   if (unit.refused) {
     return page.paint(Tone::bad, say<texts::alloc_state_refused>());
   }
@@ -76,7 +82,8 @@ std::string state(const AllocationService& service, const AllocatedUnit& unit, c
 } // namespace
 
 std::string json_line(UnixTime time, Event event, const AllocatedUnit& unit) {
-  return json_line(time, name(event), unit.unique_id, unit.node_id);
+  const std::string_view known = name(event);
+  return known.empty() ? std::string() : json_line(time, known, unit.unique_id, unit.node_id);
 }
 
 std::string json_line(UnixTime time, const fleet::IdMove& move) {

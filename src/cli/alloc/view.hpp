@@ -12,7 +12,7 @@
 
 namespace blactl::cli {
 
-/// The object of the contract, section 5, with its line end.
+/// The object of the contract, section 5, with its line end; empty: that is no event of it.
 [[nodiscard]] std::string json_line(UnixTime time, fleet::AllocationService::Event event,
                                     const fleet::AllocatedUnit& unit);
 

@@ -1,8 +1,8 @@
 #include "cli/trace/stats.hpp"
 
+#include "blactl/can/frame_bits.hpp"
 #include "blactl/dronecan/fields.hpp"
 #include "blactl/dronecan/standard_types.hpp"
-#include "blactl/can/frame_bits.hpp"
 
 #include "cli/output/table.hpp"
 #include "cli/texts.hpp"

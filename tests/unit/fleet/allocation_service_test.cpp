@@ -2,6 +2,7 @@
 #include "blactl/fleet/discovery.hpp"
 
 #include "support.hpp"
+#include "unit/can/fake_bus.hpp"
 
 #include <algorithm>
 #include <array>
@@ -163,4 +164,101 @@ TEST_CASE("beside another allocator nobody is served") {
   CHECK(end->code == Code::other_allocator);
   CHECK(end->node_id == 100);
   CHECK(bench.store.entries()->empty());
+}
+
+namespace {
+
+/// An allocator on a bus that the test writes. The unit has a one and zeros for its unique ID.
+struct Rig {
+  Rig() {
+    auto opened = Session::open(std::make_unique<can::test::FakeBus>(wire),
+                                state::LocalNodeId::unshared({}), Session::Hearing::all);
+    REQUIRE(opened);
+    session = std::move(*opened);
+    service.emplace(*session, store, AllocationService::Range{},
+                    [this](Event event, const AllocatedUnit&) { events.push_back(event); });
+    service->bus_is_known();
+  }
+
+  void hear(const std::vector<can::Frame>& frames, Duration later) {
+    for (const auto& frame : frames) {
+      wire.hear(frame, later);
+    }
+  }
+
+  /// It asks, and needs a second for it.
+  void ask() {
+    for (std::uint8_t part = 0; part < 3; ++part) {
+      dronecan::Allocation request{.first_part_of_unique_id = part == 0,
+                                   .size = static_cast<std::uint8_t>(part < 2 ? 6 : 4),
+                                   .unique_id = {}};
+      request.unique_id[0] = part == 0 ? 1 : 0;
+      hear(message(dronecan::Allocation::type, 0, request.encode(), part), 100ms + part * 200ms);
+    }
+    live(1s);
+  }
+
+  /// It says that it is on node ID 125.
+  void come_up() {
+    hear(message(dronecan::NodeStatus::type, 125, dronecan::NodeStatus{}.encode()), 1ms);
+    live(2ms);
+    session->records().learn(NodeId(125), {.unique_id = {1}});
+  }
+
+  void live(Duration time) const { REQUIRE(session->live_until(wire.now + time)); }
+
+  [[nodiscard]] const AllocatedUnit& unit() const { return service->units().begin()->second; }
+
+  [[nodiscard]] std::ptrdiff_t count(Event event) const {
+    return std::ranges::count(events, event);
+  }
+
+  can::test::Wire wire;
+  std::unique_ptr<Session> session;
+  AllocationStore store = memory();
+  std::vector<Event> events;
+  std::optional<AllocationService> service;
+};
+
+} // namespace
+
+TEST_CASE("a unit that never takes its ID is told of once, and keeps nobody waiting") {
+  Rig rig;
+  for (int i = 0; i < 12; ++i) {
+    rig.ask();
+  }
+  CHECK(rig.count(Event::request) == 5);
+  CHECK(rig.count(Event::assigned) == 1);
+  CHECK(rig.count(Event::kept) == 4);
+  CHECK(rig.count(Event::deaf) == 1);
+  CHECK(rig.session->now() - rig.service->last_request() > 5s);
+  CHECK(rig.service->absence(rig.unit()).code == Code::not_back);
+  CHECK(rig.unit().given == 12); // it goes on being given
+  rig.come_up();
+  rig.ask(); // after a restart
+  CHECK_FALSE(rig.unit().is_deaf);
+  CHECK(rig.events.back() == Event::kept);
+}
+
+TEST_CASE("a unit that asks while its ID is heard has a twin, and does not get it") {
+  Rig rig;
+  rig.ask();
+  rig.come_up();
+  REQUIRE(rig.service->is_there(rig.unit()));
+  rig.hear(message(dronecan::NodeStatus::type, 125, dronecan::NodeStatus{}.encode(), 1), 400ms);
+  rig.ask();
+  CHECK(rig.events ==
+        std::vector{Event::request, Event::assigned, Event::request, Event::conflict});
+  const auto refusal = rig.service->refusal(rig.unit());
+  REQUIRE(refusal);
+  CHECK(refusal->code == Code::duplicate_node_id);
+  CHECK(refusal->message.find("the same unique ID") != std::string::npos);
+}
+
+TEST_CASE("a unit that restarts and asks again has no twin") {
+  Rig rig;
+  rig.ask();
+  rig.come_up();
+  rig.ask();
+  CHECK(rig.events.back() == Event::kept);
 }

@@ -323,6 +323,9 @@ TEST_CASE("an ID that another servo has taken is not given", "[requirement-41]")
   write(scene, 12, "static_node_id=11"); // and is faster
   const auto carried_out = change(scene, save, {11, 12}, allocating);
   CHECK(error_of(carried_out.servos[0]) == Code::not_back);
+  const std::string& hint = carried_out.servos[0].error->hint;
+  CHECK(hint.find("node ID 11 is used by uid:") != std::string::npos);
+  CHECK(hint.find("blactl alloc --once --assign") != std::string::npos);
   CHECK(carried_out.servos[1].returned == NodeId(11));
   CHECK(carried_out.servos[1].is_done());
 }
@@ -587,6 +590,18 @@ TEST_CASE("an ID under which somebody unknown has appeared is not given", "[requ
   CHECK(result.servos[0].returned == std::nullopt);
   CHECK(result.servos[0].duration == 7s); // its static ID is not known: perhaps it asks
   CHECK(rig.given().empty());
+}
+
+TEST_CASE("a servo that does not take the ID that it is given is said to be one") {
+  Rig rig;
+  rig.confirm_restart();
+  rig.ask_for_id(1s);
+  rig.ask_for_id(2500ms);
+  rig.ask_for_id(4s);
+  const auto result = rig.restart_servo();
+  CHECK(error_of(result.servos[0]) == Code::not_back);
+  CHECK(rig.given() == std::vector<int>{11, 11, 11});
+  CHECK(result.servos[0].error->hint.find("node ID 11 was given to it again") != std::string::npos);
 }
 
 TEST_CASE("another allocator that is heard during the restart does the work") {

@@ -272,6 +272,22 @@ TEST_CASE("a session whose IDs are both another's ends") {
   CHECK(lived.error().hint.find("--local-node-id") != std::string::npos);
 }
 
+TEST_CASE("an ID that another node is heard to have is not taken in place of our own") {
+  Rig rig;
+  rig.hear(message(dronecan::NodeStatus::type, 126, {}), 10ms);
+  rig.hear(message(dronecan::NodeStatus::type, 127, {}), 20ms);
+  const auto lived = rig.session->live_until(rig.wire.now + 30ms);
+  REQUIRE_FALSE(lived);
+  CHECK(lived.error().code == Code::no_local_node_id);
+  SECTION("unless it is gone") {
+    Rig later;
+    later.hear(message(dronecan::NodeStatus::type, 126, {}), 10ms);
+    later.hear(message(dronecan::NodeStatus::type, 127, {}), 10s);
+    CHECK(later.session->live_until(later.wire.now + 11s));
+    CHECK(later.session->node().id() == NodeId(126));
+  }
+}
+
 TEST_CASE("any frame with our ID is another node's, a service too; one without an ID is not") {
   Rig rig;
   rig.hear(message(dronecan::Allocation::type, 0,

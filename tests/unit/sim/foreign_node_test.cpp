@@ -1,6 +1,6 @@
+#include "blactl/can/frame_bits.hpp"
 #include "blactl/dronecan/standard_types.hpp"
 #include "blactl/sim/foreign_node.hpp"
-#include "blactl/can/frame_bits.hpp"
 #include "blactl/sim/servo.hpp"
 #include "blactl/sim/simulator.hpp"
 
