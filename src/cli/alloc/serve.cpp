@@ -162,11 +162,12 @@ bool Serve::wait() {
   return true;
 }
 
-/// A unit that joined under an ID that was given answers too. Whether the session lives on.
+/// A unit that joined under an ID that was given answers too, and says who it is. Whether the
+/// session lives on.
 bool Serve::look_for_twins(fleet::Discovery& discovery) {
   std::vector<const fleet::Member*> members;
   for (const AllocatedUnit& unit : service_.units() | std::views::values) {
-    if (service_.is_there(unit)) {
+    if (service_.is_there(unit) || unit.is_shared) {
       members.push_back(session().roster().find(unit.node_id));
     }
   }
