@@ -138,12 +138,12 @@ std::vector<IdHolder> StaticIds::holders() const {
     }
     const auto& unique_id = member.info->unique_id;
     const bool moves = std::ranges::find(wishes_, unique_id, &Wish::unique_id) != wishes_.end();
-    IdHolder unit{unique_id, id, moves ? std::nullopt : member.static_node_id};
+    const IdHolder unit{unique_id, id, moves ? std::nullopt : member.static_node_id};
     const auto same = std::ranges::find(units, unique_id, &IdHolder::unique_id);
     if (same == units.end()) {
-      units.push_back(std::move(unit));
+      units.push_back(unit);
     } else if (session_.roster().member(same->id).last_heard < member.last_heard) {
-      *same = std::move(unit); // it has moved since
+      *same = unit; // it has moved since
     }
   }
   return units;
