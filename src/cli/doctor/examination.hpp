@@ -22,6 +22,7 @@ struct Examination {
   fleet::Traffic traffic{};
   std::optional<fleet::Findings> nodes{}; ///< empty: the bus was not opened
   fleet::Diagnoses diagnoses{};           ///< the worst first
+  bool is_whole = false;                  ///< nothing kept it from looking
 };
 
 /// Looks at everything for `time`. What kept it from looking is in the report; what the bus itself
