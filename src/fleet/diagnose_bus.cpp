@@ -53,6 +53,12 @@ Diagnoses diagnose_traffic(const Traffic& traffic, const std::optional<Error>& s
   if (!traffic.has_others()) {
     found.push_back(silent_bus(silence));
   }
+  if (traffic.runs_backwards()) {
+    found.push_back({.code = "time_backwards",
+                     .level = Level::warning,
+                     .text = say<texts::log_runs_backwards>(),
+                     .fix = say<texts::log_runs_backwards_fix>()});
+  }
   if (traffic.standard_frames() > 0) {
     found.push_back({.code = "standard_frames",
                      .level = Level::warning,

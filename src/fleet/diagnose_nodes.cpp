@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <map>
+#include <ranges>
 #include <set>
 #include <utility>
 
@@ -29,6 +31,15 @@ constexpr std::uint8_t type_unitless = 0, type_pwm = 4;
 /// What +-1 in UNITLESS means (errata C10), in tenths of a degree; +180 is not reached.
 constexpr std::int64_t unitless_cw = 1799, unitless_ccw = -1800;
 
+/// "11, 12"
+std::string joined_ids(const auto& nodes) {
+  std::string ids;
+  for (const NodeId id : nodes) {
+    ids += (ids.empty() ? "" : ", ") + std::to_string(id.value());
+  }
+  return ids;
+}
+
 class NodeExamination {
  public:
   NodeExamination(const Findings& findings, const Traffic& traffic)
@@ -39,6 +50,8 @@ class NodeExamination {
     for (const Finding& node : findings_.nodes) {
       node_alone(node);
     }
+    serial_numbers();
+    answers();
     allocation();
     for (const auto& [id, commander] : findings_.roster->commanders()) {
       commands(commander);
@@ -84,10 +97,25 @@ class NodeExamination {
           say<texts::node_bad_health>(id, dronecan::name(node.status->health)),
           say<texts::node_bad_health_fix>(id));
     }
+    mode(node);
     life(node.servo.id);
     if (node.servo.is_servo) {
       servo(node.servo);
     }
+  }
+
+  void mode(const Finding& node) {
+    const auto mode = node.status ? node.status->mode : dronecan::Mode::operational;
+    if (mode == dronecan::Mode::operational) {
+      return;
+    }
+    const std::uint8_t id = node.servo.id.value();
+    const auto word = dronecan::name(mode); // empty: one that DroneCAN does not know
+    add("mode", Level::warning, node.servo.id,
+        say<texts::node_in_mode>(id, word.empty() ? std::to_string(std::to_underlying(mode))
+                                                  : std::string(word)),
+        node.servo.is_servo ? say<texts::servo_in_mode_fix>(id, id)
+                            : say<texts::node_in_mode_fix>(id));
   }
 
   void life(NodeId node) {
@@ -124,6 +152,49 @@ class NodeExamination {
     }
   }
 
+  /// Of servos that are here; one that moved to another ID meanwhile is one.
+  void serial_numbers() {
+    std::map<std::int64_t, std::map<std::optional<dronecan::UniqueId>, NodeId>> holders;
+    for (const Finding& node : findings_.nodes) {
+      const auto& number = node.servo.identity.readings().serial_number;
+      if (node.servo.is_servo && !node.is_offline && number) {
+        holders[*number].emplace(node.servo.unique_id, node.servo.id);
+      }
+    }
+    for (const auto& [number, units] : holders) {
+      if (units.size() > 1) {
+        add("duplicate_serial_number", Level::warning, std::nullopt,
+            say<texts::shared_serial_number>(joined_ids(std::views::values(units)), number),
+            say<texts::shared_serial_number_fix>());
+      }
+    }
+  }
+
+  /// Of servos that are here and answer: whoever restarted, or answers nothing, is told of as that;
+  /// a node that is no servo need not answer what only servos have.
+  void answers() {
+    Traffic::Questions all;
+    std::vector<NodeId> nodes;
+    for (const Finding& node : findings_.nodes) {
+      const Traffic::Questions questions = traffic_.questions_to(node.servo.id);
+      const bool ran_on = !node.is_offline && findings_.roster->member(node.servo.id).boots == 0 &&
+                          !findings_.roster->is_doubled(node.servo.id);
+      if (!node.servo.is_servo || !ran_on) {
+        continue;
+      }
+      all.asked += questions.asked;
+      all.unanswered += questions.unanswered;
+      if (questions.unanswered > 0) {
+        nodes.push_back(node.servo.id);
+      }
+    }
+    if (all.unanswered > 0) {
+      add("lost_answers", Level::warning, std::nullopt,
+          say<texts::answers_lost>(all.unanswered, all.asked, joined_ids(nodes)),
+          say<texts::answers_lost_fix>());
+    }
+  }
+
   void allocation() {
     const Roster& roster = *findings_.roster;
     if (!roster.pending().empty()) {
@@ -132,17 +203,16 @@ class NodeExamination {
           say<texts::units_ask_for_id_fix>());
     }
     if (roster.allocators().size() > 1) {
-      std::string ids;
-      for (const NodeId id : roster.allocators()) {
-        ids += (ids.empty() ? "" : ", ") + std::to_string(id.value());
-      }
-      add("several_allocators", Level::failure, std::nullopt, say<texts::several_allocators>(ids),
+      add("several_allocators", Level::failure, std::nullopt,
+          say<texts::several_allocators>(joined_ids(roster.allocators())),
           say<texts::several_allocators_fix>());
     }
   }
 
   void commands(const Commander& commander) {
     const std::uint8_t by = commander.source.value();
+    add("commander", Level::notice, commander.source, say<texts::somebody_commands>(by),
+        say<texts::somebody_commands_fix>());
     for (const auto& [servo_id, command] : commander.servo_ids) {
       if (servo_id != every_servo && !is_somebody(servo_id)) {
         add("no_such_servo", Level::warning, commander.source,
@@ -195,6 +265,29 @@ class NodeExamination {
 std::vector<const bla::Parameter*> registers_to_diagnose(const Servo& servo) {
   return servo.identity.registers(
       std::array{bla::address::angle_limit_cw, bla::address::angle_limit_ccw});
+}
+
+Diagnoses diagnose_identifications(const Findings& findings,
+                                   const std::vector<std::optional<Error>>& ends) {
+  Diagnoses found;
+  std::set<NodeId> told;
+  for (const auto& error : ends) {
+    const auto node =
+        error && error->node_id ? std::optional(NodeId(*error->node_id)) : std::nullopt;
+    const auto is_here = [&](const Finding& each) {
+      return each.servo.id == node && !each.is_offline;
+    };
+    if (!node || std::ranges::none_of(findings.nodes, is_here) || // told of as that, or not meant
+        error->code == Code::not_recorded || findings.roster->is_doubled(*node) ||
+        findings.roster->member(*node).is_known()) {
+      continue;
+    }
+    if (told.insert(*node).second) {
+      found.push_back(
+          {std::string(name(error->code)), Level::failure, node, error->message, error->hint});
+    }
+  }
+  return found;
 }
 
 Diagnoses diagnose_nodes(const Findings& findings, const Traffic& traffic,

@@ -26,6 +26,14 @@ std::string list(const std::vector<NodeId>& nodes) {
   return out;
 }
 
+/// All but one need another.
+std::string servo_id_hint(const std::vector<NodeId>& sharers) {
+  const std::vector<NodeId> others(sharers.begin() + 1, sharers.end());
+  const std::uint8_t first = others.front().value();
+  return others.size() == 1 ? say<texts::doubled_servo_id_hint>(first)
+                            : say<texts::shared_servo_id_hint>(list(others), first);
+}
+
 /// Servos that share the number that `key` gives.
 template <const Text& text>
 void find_shared(const Roster& roster, Code code,
@@ -41,9 +49,8 @@ void find_shared(const Roster& roster, Code code,
   for (auto& [number, nodes] : holders) {
     if (nodes.size() > 1) {
       std::string said = say<text>(list(nodes), number);
-      std::string hint = code == Code::duplicate_servo_id
-                             ? say<texts::doubled_servo_id_hint>(nodes.back().value())
-                             : say<texts::doubled_target_hint>();
+      std::string hint = code == Code::duplicate_servo_id ? servo_id_hint(nodes)
+                                                          : say<texts::doubled_target_hint>();
       conflicts.push_back({code, std::move(nodes), std::move(said), std::move(hint)});
     }
   }
@@ -73,16 +80,17 @@ Finding finding(const Member& member, Time now, bool is_gone) {
                 .info = member.info,
                 .status = status(member),
                 .is_foreign = member.identified && !member.is_servo && member.info,
-                .is_offline = is_gone || now - member.last_heard >= offline_time,
                 .warnings = warnings(member)};
-  if (now - member.last_heard >= offline_time) {
-    const auto silence = std::chrono::duration_cast<std::chrono::seconds>(now - member.last_heard);
-    found.warnings.push_back(say<texts::warn_offline>(silence.count()));
+  const Duration silence = now - member.last_heard;
+  found.is_offline = silence >= offline_time || (is_gone && silence >= servo_silence);
+  if (silence >= offline_time) {
+    const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(silence);
+    found.warnings.push_back(say<texts::warn_offline>(seconds.count()));
   } else if (is_gone) {
-    found.warnings.push_back(say<texts::warn_gone>());
+    found.warnings.push_back(found.is_offline ? say<texts::warn_gone>()
+                                              : say<texts::warn_unanswered>());
   }
-  // A mute one may send its NodeStatus all the same.
-  if (found.is_offline && found.status && now - member.last_heard >= servo_silence) {
+  if (found.is_offline && found.status) {
     found.status->mode = dronecan::Mode::offline;
   }
   return found;

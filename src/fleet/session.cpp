@@ -88,12 +88,18 @@ Session::Session(std::unique_ptr<can::Bus> bus, std::optional<state::LocalNodeId
              .withdraw = [this](auto frames) { loop_.withdraw(frames); },
              .asked =
                  [this](const dronecan::Request& request, int tries) {
+                   if (traffic_ != nullptr && request.retries > 0) { // no look whether it lives
+                     traffic_->ask(request.server);
+                   }
                    if (asked_) {
                      asked_(request, tries);
                    }
                  },
              .unanswered =
                  [this](const dronecan::Request& request, int tries) {
+                   if (traffic_ != nullptr && request.retries > 0) {
+                     traffic_->miss_answer(request.server);
+                   }
                    if (unanswered_) {
                      unanswered_(request, tries);
                    }
@@ -241,6 +247,9 @@ Result<Session::Happened> Session::take_frame(const can::Received& received) {
   }
   if (traffic_ != nullptr) {
     traffic_->hear(received.frame, received.at);
+    if (playback_) {
+      traffic_->stamp(received.wall);
+    }
   }
   roster_.hear(received.frame, received.at);
   node_.receive(received.frame, received.at);

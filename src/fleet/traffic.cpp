@@ -4,6 +4,7 @@
 #include "blactl/dronecan/transfer.hpp"
 #include "blactl/dronecan/types.hpp"
 
+#include <algorithm>
 #include <chrono>
 
 namespace blactl::fleet {
@@ -36,12 +37,19 @@ void Traffic::hear_own(const can::Frame& frame, Time at) {
   ++own_frames_;
 }
 
+void Traffic::stamp(WallTime wall) {
+  constexpr Duration disorder = std::chrono::seconds(1); // of logs of several interfaces
+  runs_backwards_ = runs_backwards_ || wall + disorder < newest_;
+  newest_ = std::max(newest_, wall);
+}
+
 void Traffic::hear(const can::BusFault& fault) {
   ++faults_[fault.kind];
 }
 
 std::optional<Duration> Traffic::duration() const {
-  return first_ && last_ > *first_ ? std::optional(last_ - *first_) : std::nullopt;
+  return first_ && last_ > *first_ && !runs_backwards_ ? std::optional(last_ - *first_)
+                                                       : std::nullopt;
 }
 
 std::optional<std::uint64_t> Traffic::load_permille() const {

@@ -92,7 +92,88 @@ TEST_CASE("doctor sees who commands a servo that is not there") {
                  {"commands", {{"servo_ids", {1, 5}}, {"type", 0}, {"value", 0.1}, {"rate", 20}}}});
   const Result result = scene.run({"doctor", "-j"});
   CHECK(result.status == 8);
-  CHECK(found(result) == Codes{"no_such_servo"});
+  CHECK(found(result) == Codes{"no_such_servo", "commander"});
+  CHECK(json(result.out)["findings"][1]["level"] == "notice");
+}
+
+TEST_CASE("doctor does not say that nothing is wrong when something kept it from looking") {
+  const Bench bench;
+  const std::string log = bench.file("no.log", "{}\n");
+  const Result bad = bench.run({"-i", "replay:" + log, "doctor"});
+  INFO(bad.out << bad.err);
+  CHECK(bad.status == 2);
+  CHECK_FALSE(contains(bad.out, "nothing is wrong"));
+  // Two others have the IDs of tools.
+  const Result shared = numbered_servos().foreign(126).foreign(127).run({"doctor"});
+  INFO(shared.out << shared.err);
+  CHECK(shared.status == 9);
+  CHECK_FALSE(contains(shared.out, "nothing is wrong"));
+}
+
+TEST_CASE("doctor finds a servo that answers nothing, as scan does") {
+  Scene scene = numbered_servos();
+  scene.servo("BLA21-12U-AB", 13, {{"servo_id", 3}, {"faults", {{"mute", true}}}});
+  CHECK(scene.run({"scan"}).status == 6);
+  const Result result = scene.run({"doctor", "-j"});
+  INFO(result.out << result.err);
+  CHECK(result.status == 8);
+  REQUIRE(found(result) == Codes{"timeout"});
+  CHECK(json(result.out)["findings"][0]["node_id"] == 13);
+  CHECK(json(result.out)["findings"][0]["level"] == "failure");
+}
+
+TEST_CASE("doctor hears nobody on a bus of its own frames only") {
+  const Bench bench;
+  const std::string empty =
+      bench.file("empty.json", R"({"schema": "blactl-scenario/1", "clock": "virtual"})");
+  const Result result = bench.run({"-i", "sim:" + empty, "doctor", "-j"});
+  CHECK(result.status == 8);
+  REQUIRE_FALSE(found(result).empty());
+}
+
+TEST_CASE("lost answers are a finding of their own, and nobody is away who is heard") {
+  Scene scene = numbered_servos();
+  scene.servo("BLA21-12U-AB", 13, {{"servo_id", 3}, {"faults", {{"lose_responses", 2}}}});
+  const Result result = scene.run({"doctor", "-j"});
+  INFO(result.out << result.err);
+  CHECK(result.status == 8);
+  REQUIRE(found(result) == Codes{"lost_answers"});
+  const std::string text = json(result.out)["findings"][0]["text"];
+  CHECK(contains(text, "2 of "));
+  CHECK(contains(text, "13"));
+}
+
+TEST_CASE("two servos with one serial number are told, and a servo ID is given to stay") {
+  Scene scene = numbered_servos();
+  scene.servo("BLA21-12U-AB", 13, {{"servo_id", 2}, {"serial_number", 7}});
+  scene.servo("BLA21-12U-AB", 14, {{"servo_id", 2}, {"serial_number", 8}});
+  const auto servo_ids = json(scene.run({"doctor", "-j"}).out)["findings"];
+  REQUIRE(servo_ids.size() == 1);
+  CHECK(servo_ids[0]["code"] == "duplicate_servo_id");
+  CHECK(servo_ids[0]["fix"] ==
+        "nodes 13, 14 each need another ID: blactl set -n 13 servo_id=ID --save");
+}
+
+TEST_CASE("in a log the ID of a tool is called that") {
+  const Bench bench;
+  const std::string log = (bench.folder() / "bus.log").string();
+  CHECK(numbered_servos().run(bench, {"--record", log, "scan"}).status == 0);
+  const Result result = bench.run({"-i", "replay:" + log, "doctor"});
+  INFO(result.out << result.err);
+  CHECK(contains(result.out, "2 servos, 0 other nodes, tools (by their ID): 127"));
+}
+
+TEST_CASE("of a log whose time runs backwards it is said, and no load that is none") {
+  const Bench bench;
+  std::string lines;
+  for (int second = 9; second > 0; --second) {
+    lines += "(170000000" + std::to_string(second) + ".000000) can0 1001550B#010000000000C0\n";
+  }
+  const Result result = bench.run({"-i", "replay:" + bench.file("back.log", lines), "doctor"});
+  INFO(result.out << result.err);
+  CHECK(result.status == 8);
+  CHECK(contains(result.out, "run backwards"));
+  CHECK_FALSE(contains(result.out, "% busy"));
 }
 
 TEST_CASE("doctor judges what this user may keep") {

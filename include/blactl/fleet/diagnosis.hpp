@@ -52,6 +52,11 @@ using Diagnoses = std::vector<Diagnosis>;
 [[nodiscard]] Diagnoses diagnose_nodes(const Findings& findings, const Traffic& traffic,
                                        std::span<const Snapshot> limits);
 
+/// The nodes that could not be identified. `ends`: how each identification ended; what a recording
+/// lacks is no finding.
+[[nodiscard]] Diagnoses diagnose_identifications(const Findings& findings,
+                                                 const std::vector<std::optional<Error>>& ends);
+
 /// What diagnose_nodes() wants to know of a servo that somebody commands.
 [[nodiscard]] std::vector<const bla::Parameter*> registers_to_diagnose(const Servo& servo);
 

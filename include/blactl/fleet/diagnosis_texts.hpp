@@ -31,6 +31,12 @@ inline constexpr Text bus_silent{"nothing was heard", "何も受信しません�
 inline constexpr Text bus_silent_fix{
     "look at the supply of the servos, CAN-H and CAN-L, the termination, the bit rate",
     "サーボの電源、CAN-H / CAN-L の配線、終端抵抗、ビットレートを確認して下さい"};
+inline constexpr Text log_runs_backwards{
+    "the times of the log run backwards: they tell neither durations nor the load of the bus",
+    "ログの時刻が逆行しています。経過時間とバス負荷は求められません"};
+inline constexpr Text log_runs_backwards_fix{
+    "take a log of one recording, as it was written: blactl --record FILE",
+    "1 回の記録をそのまま使用して下さい: blactl --record FILE"};
 inline constexpr Text bus_standard_frames{
     "frames with 11-bit identifiers: {}; something here does not speak DroneCAN",
     "11 ビット ID のフレーム: {} 個。DroneCAN 以外の機器が接続されています"};
@@ -67,6 +73,27 @@ inline constexpr Text node_offline{"node {} was heard, and is not any more",
                                    "ノード {} からの受信が途絶えました"};
 inline constexpr Text node_offline_fix{"look at its supply and its cable: blactl wait -n {}",
                                        "電源と配線を確認して下さい: blactl wait -n {}"};
+inline constexpr Text node_in_mode{"node {} says that its mode is {}",
+                                   "ノード {} の mode は {} です"};
+inline constexpr Text node_in_mode_fix{"wait until it is operational: blactl wait -n {}",
+                                       "operational になるまで待機: blactl wait -n {}"};
+inline constexpr Text servo_in_mode_fix{
+    "wait until it is operational: blactl wait -n {}; or restart it: blactl restart -n {}",
+    "operational になるまで待機: blactl wait -n {}、または再起動: blactl restart -n {}"};
+inline constexpr Text answers_lost{
+    "{} of {} requests to nodes {} were not answered: frames are lost, or the nodes are too slow",
+    "{1} 回の問合せのうち {0} 回に応答がありません (ノード {2})。"
+    "フレームの消失または応答の遅れが考えられます"};
+inline constexpr Text answers_lost_fix{
+    "look at the cable, the termination, the bit rate of every node and how busy the bus is; "
+    "see which requests: blactl scan -v",
+    "配線、終端抵抗、各ノードのビットレート、バス負荷を確認して下さい。該当の問合せ: blactl scan "
+    "-v"};
+inline constexpr Text shared_serial_number{"nodes {} have the same serial number {}",
+                                           "ノード {} のシリアル番号が {} で重複しています"};
+inline constexpr Text shared_serial_number_fix{
+    "compare it with their labels; choose a servo by -n NODE or uid:UID",
+    "銘板と照合して下さい。対象は -n ノード ID または uid: で指定できます"};
 inline constexpr Text node_mute_status{
     "node {} sends no NodeStatus: others take it for lost after 3 s",
     "ノード {} は NodeStatus を送信していません。他ノードには 3 秒で切断と見なされます"};
@@ -107,6 +134,11 @@ inline constexpr Text says_vehicle_armed{"node {} says that the vehicle is armed
                                          "ノード {} が armed を送信しています"};
 inline constexpr Text says_vehicle_armed_fix{"disarm before anything is written",
                                              "書込みの前に disarm して下さい"};
+inline constexpr Text somebody_commands{"node {} commands servos",
+                                        "ノード {} がサーボに動作指令しています"};
+inline constexpr Text somebody_commands_fix{
+    "if it shall not move them, or before anything is written: stop it",
+    "意図しない場合、または書込みの前に停止して下さい"};
 inline constexpr Text commanded_nobody{"node {} commands servo ID {}, which no servo here has",
                                        "ノード {} はサーボ ID {} に指令していますが、該当なしです"};
 inline constexpr Text commanded_nobody_fix{"give a servo this ID: blactl set -n NODE servo_id={} "

@@ -27,7 +27,7 @@ struct Finding {
   std::optional<dronecan::GetNodeInfo::Response> info{};
   std::optional<dronecan::NodeStatus> status{}; ///< the newest
   bool is_foreign = false;                      ///< it said that it is no BLA servo
-  bool is_offline = false;                      ///< it was heard or answered, and does not any more
+  bool is_offline = false; ///< it was heard, and is not any more, or does not answer either
   std::vector<std::string> warnings{};
 };
 

@@ -185,6 +185,8 @@ inline constexpr Text not_read_completely{
 inline constexpr Text not_there_yet{"node {} was not there yet when the wait ended",
                                     "ノード {} は待機終了時点で動作していません"};
 inline constexpr Text warn_gone{"does not answer any more", "応答しなくなりました"};
+inline constexpr Text warn_unanswered{"did not answer when it was asked last",
+                                      "直前の問合せに応答がありませんでした"};
 inline constexpr Text warn_offline{"has not been heard for {} s", "{} 秒間受信していません"};
 inline constexpr Text id_given_is_taken{
     "node {} would get node ID {}, which another unit has (uid:{})",
@@ -412,8 +414,11 @@ inline constexpr Text question_change{"  node {}: {} {} -> {}\n", "  ノード {
 inline constexpr Text question_reason{"    ({})\n", "    ({})\n"};
 inline constexpr Text unknown_before{"?", "?"};
 inline constexpr Text doubled_servo_id_hint{
-    "give one of them another: blactl set -n {} servo_id=ID",
-    "一方に別の ID を設定して下さい: blactl set -n {} servo_id=ID"};
+    "give one of them another: blactl set -n {} servo_id=ID --save",
+    "一方に別の ID を設定して下さい: blactl set -n {} servo_id=ID --save"};
+inline constexpr Text shared_servo_id_hint{
+    "nodes {} each need another ID: blactl set -n {} servo_id=ID --save",
+    "ノード {} にそれぞれ別の ID を設定して下さい: blactl set -n {} servo_id=ID --save"};
 inline constexpr Text warn_stall{
     "firmware {} may stall at low speed; 1.400 mends it",
     "ファームウェア {} は低速動作時にストールすることがあります (1.400 で修正)",

@@ -1,5 +1,6 @@
 #pragma once
-// What crosses a bus, counted: how busy it is, who sends how much, what controllers complain about.
+// What crosses a bus, counted: how busy it is, who sends how much, what controllers complain about,
+// what of our requests is answered.
 
 #include "blactl/base/time.hpp"
 #include "blactl/can/bus.hpp"
@@ -33,10 +34,32 @@ class Traffic {
   /// Somebody else was heard.
   [[nodiscard]] bool has_others() const { return frames_ > own_frames_; }
 
+  /// A request of ours to this node went out.
+  void ask(dronecan::NodeId server) { ++questions_[server].asked; }
+
+  /// It was not answered in time.
+  void miss_answer(dronecan::NodeId server) { ++questions_[server].unanswered; }
+
+  /// Each try counts.
+  struct Questions {
+    std::uint64_t asked = 0, unanswered = 0;
+  };
+
+  [[nodiscard]] Questions questions_to(dronecan::NodeId server) const {
+    const auto found = questions_.find(server);
+    return found != questions_.end() ? found->second : Questions{};
+  }
+
+  /// What a log says of when its next frame was; its bus clock never goes back.
+  void stamp(WallTime wall);
+
+  /// The stamps did: they tell no duration.
+  [[nodiscard]] bool runs_backwards() const { return runs_backwards_; }
+
   /// With 11-bit identifiers: DroneCAN has none.
   [[nodiscard]] std::uint64_t standard_frames() const { return standard_frames_; }
 
-  /// From the first frame to the last; empty: there were not two.
+  /// From the first frame to the last; empty: there were not two, or its stamps run backwards.
   [[nodiscard]] std::optional<Duration> duration() const;
 
   /// How much of a bus of 1 Mbit/s was in use, in thousandths; empty: no duration.
@@ -51,8 +74,11 @@ class Traffic {
   std::uint64_t frames_ = 0, own_frames_ = 0, bits_ = 0, standard_frames_ = 0;
   std::optional<Time> first_;
   Time last_{};
+  WallTime newest_{};
+  bool runs_backwards_ = false;
   std::map<dronecan::NodeId, Sender> senders_;
   std::map<can::FaultKind, std::uint64_t> faults_;
+  std::map<dronecan::NodeId, Questions> questions_;
 };
 
 } // namespace blactl::fleet

@@ -97,6 +97,7 @@ void examine_bus(Duration time, Context& context, Examination& examination, Repo
       context.broken(asked.error(), report);
     }
   }
+  add(fleet::diagnose_identifications(findings, discovery.identifications()), examination);
   add(fleet::diagnose_nodes(findings, examination.traffic, limits), examination);
   examination.nodes = std::move(findings);
   session.count(nullptr);
@@ -125,6 +126,7 @@ void examine(Duration time, Context& context, Examination& examination, Report& 
   }
   examine_state(context, examination);
   std::ranges::stable_sort(examination.diagnoses, std::greater(), &Diagnosis::level);
+  examination.is_whole = report.errors.empty();
 }
 
 } // namespace blactl::cli

@@ -24,6 +24,7 @@ struct Examination {
   std::optional<fleet::Findings> nodes{}; ///< empty: the bus was not opened
   fleet::Diagnoses fixed{};               ///< what --fix has mended
   fleet::Diagnoses diagnoses{};           ///< what is wrong now, the worst first
+  bool is_whole = false;                  ///< nothing kept it from looking
 };
 
 /// Looks at everything for `time`. What kept it from looking is in the report; what the bus itself

@@ -1,5 +1,7 @@
 #include "cli/doctor/view.hpp"
 
+#include "blactl/state/local_node_id.hpp"
+
 #include "cli/doctor/texts.hpp"
 #include "cli/output/faults_view.hpp"
 #include "cli/output/node_head.hpp"
@@ -53,7 +55,8 @@ std::string interface_text(const Examination& examination) {
 std::string traffic_text(const fleet::Traffic& traffic) {
   const auto load = traffic.load_permille();
   if (!load) {
-    return say<texts::doctor_no_traffic>();
+    return traffic.frames() == 0 ? say<texts::doctor_no_traffic>()
+                                 : say<texts::doctor_frames>(traffic.frames());
   }
   return say<texts::doctor_traffic>(traffic.frames(), whole_seconds(*traffic.duration()),
                                     *load / 10, *load % 10);
@@ -75,10 +78,21 @@ std::string senders_text(const fleet::Traffic& traffic) {
 }
 
 std::string nodes_text(const fleet::Findings& findings) {
-  const auto servos = std::ranges::count_if(
-      findings.nodes, [](const fleet::Finding& node) { return node.servo.is_servo; });
-  return say<texts::doctor_found>(servos,
-                                  static_cast<std::ptrdiff_t>(findings.nodes.size()) - servos);
+  std::size_t servos = 0, others = 0;
+  std::string tools;
+  for (const fleet::Finding& node : findings.nodes) {
+    const bool is_tool = !node.servo.is_servo && state::is_tool_id(node.servo.id);
+    servos += node.servo.is_servo ? 1U : 0U;
+    others += !node.servo.is_servo && !is_tool ? 1U : 0U;
+    if (is_tool) {
+      join(tools, std::to_string(node.servo.id.value()));
+    }
+  }
+  std::string line = say<texts::doctor_found>(servos, others);
+  if (!tools.empty()) {
+    join(line, say<texts::doctor_tools>(tools));
+  }
+  return line;
 }
 
 std::string row(const std::string& what, const std::string& said) {
@@ -155,7 +169,7 @@ std::string text(const Examination& examination, const Page& page) {
       out += page.fit_hint("    " + say<texts::doctor_fix>(diagnosis.fix)) + '\n';
     }
   }
-  if (examination.diagnoses.empty() && examination.nodes) {
+  if (examination.diagnoses.empty() && examination.is_whole) {
     out += page.paint(Tone::good, say<texts::doctor_nothing>());
   }
   return out;

@@ -164,7 +164,22 @@ std::optional<Duration> judge_boot(std::span<const Start> starts, Notes& notes) 
   return usual;
 }
 
+/// A save is silent for longer than a restart. One that was not answered, and is not, may never
+/// have come: the servo restarted by itself when it was asked.
+bool is_proven(const Start& save, std::optional<Duration> boot) {
+  constexpr Duration shortest_write = 20ms; // starts are less alike than to the millisecond
+  const auto silence = silence_of(save);
+  return save.answered || (boot && silence && *silence >= *boot + shortest_write);
+}
+
 void judge_save(const Start& save, std::optional<Duration> boot, Notes& notes) {
+  if (!is_proven(save, boot)) {
+    for (const auto* setting : {"answers_save_first", "rom_write_time"}) {
+      notes.leave(setting, save.requested ? say<texts::bench_asks_for_id>()
+                                          : say<texts::bench_save_unproven>());
+    }
+    return;
+  }
   if (save.answered) {
     notes.found("answers_save_first", true);
   } else if (notes.has_lost_answers()) {

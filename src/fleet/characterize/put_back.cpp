@@ -1,5 +1,6 @@
 // How a servo gets back what it held, whatever was going on when that became necessary.
 
+#include "blactl/bla/value.hpp"
 #include "blactl/dronecan/types.hpp"
 #include "blactl/fleet/guard.hpp"
 #include "blactl/fleet/texts.hpp"
@@ -57,27 +58,88 @@ Result<void> TestBench::give_back() {
   if (!now) {
     return std::unexpected(now.error());
   }
-  if (auto given = give_back_settings(*now); !given) {
-    return given;
-  }
-  if (const auto output = held(at::torque_output)) {
-    if (auto set_output = set(at::torque_output, *output); !set_output) {
-      return set_output;
-    }
-  }
-  // That the output came on has changed it.
-  if (auto given = was_never_commanded() ? give_back_start() : give_back_command(); !given) {
+  if (auto given = give_back_all(*now); !given) {
     return given;
   }
   const auto end = read_all();
-  if (!end) {
-    return std::unexpected(end.error());
+  return end ? prove_given(*end) : std::unexpected(end.error());
+}
+
+/// In this order nothing moves. What it does not take stays as it is, and shows in the end.
+Result<void> TestBench::give_back_all(const Values& now) {
+  if (auto given = give_back_standstill(); !given) {
+    return given;
   }
+  if (auto given = give_back_settings(now); !given) {
+    return given;
+  }
+  if (auto given = give_back_output(); !given) {
+    return given;
+  }
+  // That the output came on has changed it.
+  return was_never_commanded() ? give_back_start() : give_back_command();
+}
+
+Result<void> TestBench::prove_given(const Values& now) const {
   Values expected = before_;
   std::erase_if(expected,
-                [&](const auto& entry) { return hides(entry.first, end->at(entry.first)); });
-  const auto difference = differs_from(*end, expected);
-  return difference ? Result<void>(std::unexpected(*difference)) : Result<void>();
+                [&](const auto& entry) { return hides(entry.first, now.at(entry.first)); });
+  if (auto difference = differs_from(now, expected)) {
+    return std::unexpected(refused_.value_or(*difference));
+  }
+  if (const bla::Parameter* moving = motion()) {
+    return fail(Code::state, say<texts::bench_still_commanded>(
+                                 moving->name, bla::display(*moving, now.at(moving->address))));
+  }
+  return {};
+}
+
+/// The register of 0x01 and 0x02 that moves the shaft, where it may; it was at rest before.
+const bla::Parameter* TestBench::motion() const {
+  for (const Address address : {at::command_speed, at::command_torque}) {
+    if (const auto raw = bla::find(known_, address).value_or(0);
+        raw != 0 && raw != bla::not_active) {
+      return servo_.identity.parameter(address);
+    }
+  }
+  return nullptr;
+}
+
+/// While the output is off nothing turns; a start need not take a command away.
+Result<void> TestBench::give_back_standstill() {
+  const bla::Parameter* moving = motion();
+  const auto still = moving != nullptr ? write(moving->address, 0) : Result<std::int64_t>(0);
+  return still ? Result<void>() : std::unexpected(still.error());
+}
+
+Result<void> TestBench::give_back_output() {
+  constexpr std::int64_t on = 0; // 4.13
+  const auto output = held(at::torque_output);
+  const bla::Parameter* moving = motion();
+  const bool turns = moving != nullptr && bla::find(known_, at::speed_torque_control) != 0;
+  if (turns && output == on) {
+    return fail(Code::state,
+                say<texts::bench_would_turn>(
+                    moving->name, bla::display(*moving, *bla::find(known_, moving->address))));
+  }
+  return output ? try_set(at::torque_output, *output) : Result<void>();
+}
+
+/// Goes on where it does not take the value.
+Result<void> TestBench::try_set(Address address, std::int64_t raw) {
+  auto given = set(address, raw);
+  if (given || (given.error().code != Code::refused && given.error().code != Code::out_of_range)) {
+    return given;
+  }
+  note_refusal(given.error());
+  return {};
+}
+
+/// The first one is told.
+void TestBench::note_refusal(Error error) {
+  if (!refused_) {
+    refused_ = std::move(error);
+  }
 }
 
 /// The servo may be away, or under another node ID.
@@ -125,9 +187,8 @@ Result<void> TestBench::give_back_settings(const Values& now) {
     }
     const bool is_taken = address == at::static_node_id && raw != 0 && is_of_another(raw);
     if (is_taken) {
-      return fail(Code::duplicate_node_id, say<texts::bench_id_in_use>(raw));
-    }
-    if (auto given = set(address, raw); !given) {
+      note_refusal({Code::duplicate_node_id, say<texts::bench_id_in_use>(raw)});
+    } else if (auto given = try_set(address, raw); !given) {
       return given;
     }
   }
@@ -136,7 +197,7 @@ Result<void> TestBench::give_back_settings(const Values& now) {
   }
   const auto speed_control = held(at::speed_torque_control);
   return speed_control && bla::find(known_, at::speed_torque_control) != speed_control
-             ? set(at::speed_torque_control, *speed_control)
+             ? try_set(at::speed_torque_control, *speed_control)
              : Result<void>();
 }
 
@@ -162,16 +223,18 @@ bool TestBench::was_never_commanded() const {
   });
 }
 
-/// Only a start gives that back; and it brings the shaft slowly to where it goes.
+/// Only a start gives that back, and what a register does not take but ROM holds; it brings the
+/// shaft slowly to where it goes.
 Result<void> TestBench::give_back_start() {
   for (const Address address : bla::command_registers) {
     if (const auto now = read(address); !now) {
       return std::unexpected(now.error());
     }
   }
-  if (std::ranges::all_of(bla::command_registers, [&](Address address) {
-        return bla::find(known_, address) == held(address);
-      })) {
+  const bool is_as_started = std::ranges::all_of(bla::command_registers, [&](Address address) {
+    return bla::find(known_, address) == held(address);
+  });
+  if (is_as_started && !refused_) {
     return {};
   }
   RestartJob job(roster(), servo_,
@@ -198,6 +261,7 @@ Result<void> TestBench::give_back_after_start() {
     return std::unexpected(now.error());
   }
   is_starting_softly_ = starts_softly(*now);
+  refused_.reset();
   for (const auto& [address, raw] : before_) {
     const std::int64_t told = now->at(address);
     const bool is_hidden = hides(address, told);
@@ -210,7 +274,7 @@ Result<void> TestBench::give_back_after_start() {
       return std::unexpected(held.error());
     }
     if (*held != raw && !hides(address, *held)) {
-      return std::unexpected(not_taken(address, raw, *held));
+      note_refusal(not_taken(address, raw, *held));
     }
   }
   return is_starting_softly_ ? Result<void>() : give_back_angle();
@@ -224,8 +288,7 @@ bool TestBench::hides(Address address, std::int64_t told) const {
 /// Of a servo that starts in place, and stood elsewhere then. What 0x00 says after a start proves
 /// nothing before a command: the output as it is.
 Result<void> TestBench::give_back_angle() {
-  const auto output = held(at::torque_output);
-  if (auto told = output ? set(at::torque_output, *output) : Result<void>(); !told) {
+  if (auto told = give_back_output(); !told) {
     return told;
   }
   const auto raw = held(at::command_angle);
@@ -233,7 +296,7 @@ Result<void> TestBench::give_back_angle() {
   if (!now) {
     return std::unexpected(now.error());
   }
-  return !raw || *now == *raw ? Result<void>() : set(at::command_angle, *raw);
+  return !raw || *now == *raw ? Result<void>() : try_set(at::command_angle, *raw);
 }
 
 Result<void> TestBench::give_back_command() {
@@ -250,10 +313,10 @@ Result<void> TestBench::give_back_command() {
   }
   const bool needs_switch =
       *address != at::command_angle && bla::find(known_, at::speed_torque_control) == 0;
-  if (auto on = needs_switch ? set(at::speed_torque_control, 1) : Result<void>(); !on) {
+  if (auto on = needs_switch ? try_set(at::speed_torque_control, 1) : Result<void>(); !on) {
     return on;
   }
-  return set(*address, *held(*address));
+  return try_set(*address, *held(*address));
 }
 
 bool TestBench::is_as_before(const Values& now) const {
@@ -262,24 +325,50 @@ bool TestBench::is_as_before(const Values& now) const {
          });
 }
 
+/// As far as is known. Of a speed or torque it makes no difference whether it is 0 or not active.
+bool TestBench::is_put_back(Address address, std::int64_t raw) const {
+  const bla::Parameter* moving = motion();
+  if (address == at::command_speed || address == at::command_torque) {
+    return moving == nullptr || moving->address != address;
+  }
+  return raw == bla::not_active || bla::find(known_, address) == raw;
+}
+
+/// What to type. Commands are no part of it: they would exclude each other, or move the shaft.
+std::string TestBench::put_back_hint(const std::vector<const bla::Parameter*>& left) const {
+  const std::uint8_t id = servo_.id.value();
+  std::string assignments;
+  for (const bla::Parameter* parameter : left) {
+    if (bla::is_setting(parameter->address)) {
+      assignments += (assignments.empty() ? "" : " ") + parameter->name + "=" +
+                     std::to_string(*held(parameter->address)) + "raw";
+    }
+  }
+  if (!assignments.empty() && motion() == nullptr) {
+    return say<texts::bench_put_back_hint>(id, assignments);
+  }
+  return assignments.empty() && !was_never_commanded() && commanded() == at::command_angle
+             ? say<texts::bench_angle_hint>(id, *held(at::command_angle))
+             : say<texts::bench_restart_hint>(id);
+}
+
 /// What differs, as far as is known, and what to type to put it back.
 Error TestBench::not_put_back(const Error& reason) const {
   const std::uint8_t id = servo_.id.value();
-  std::string names, assignments;
+  std::vector<const bla::Parameter*> left;
+  std::string names;
   for (const auto& [address, raw] : before_) {
     const bla::Parameter* parameter = servo_.identity.parameter(address);
-    if (parameter == nullptr || raw == bla::not_active || bla::find(known_, address) == raw) {
-      continue;
+    if (parameter != nullptr && !is_put_back(address, raw)) {
+      names += (names.empty() ? "" : ", ") + parameter->name;
+      left.push_back(parameter);
     }
-    names += (names.empty() ? "" : ", ") + parameter->name;
-    assignments +=
-        (assignments.empty() ? "" : " ") + parameter->name + "=" + std::to_string(raw) + "raw";
   }
   if (names.empty()) {
     return {reason.code, say<texts::bench_not_proven>(id, reason.message), reason.hint, id};
   }
   return {reason.code, say<texts::bench_not_put_back>(id, names, reason.message),
-          say<texts::bench_put_back_hint>(id, assignments), id};
+          put_back_hint(left), id};
 }
 
 } // namespace blactl::fleet

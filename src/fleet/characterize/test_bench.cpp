@@ -121,14 +121,16 @@ Result<void> TestBench::prove_run() {
   if (auto ran = run(proof); !ran) {
     return ran;
   }
-  const std::uint8_t id = servo_.id.value();
   if (proof.error()) {
     return std::unexpected(*proof.error());
   }
-  return proof.verdict() == RunProof::Verdict::ran_on
-             ? Result<void>()
-             : std::unexpected(Error{Code::state, say<texts::bench_restarted>(id),
-                                     say<texts::bench_restarted_hint>(), id});
+  return proof.verdict() == RunProof::Verdict::ran_on ? Result<void>()
+                                                      : std::unexpected(restarted_by_itself());
+}
+
+Error TestBench::restarted_by_itself() const {
+  const std::uint8_t id = servo_.id.value();
+  return {Code::state, say<texts::bench_restarted>(id), say<texts::bench_restarted_hint>(), id};
 }
 
 /// What must never be written to, looked at before every change. What was changed is put back also
@@ -142,8 +144,7 @@ std::optional<Error> TestBench::forbidden() const {
     return Error{Code::armed, say<texts::armed>(by->value()), say<texts::armed_hint>(), id};
   }
   if (roster().member(servo_.id).boots != servo_.boot) {
-    return Error{Code::state, say<texts::bench_restarted>(id), say<texts::bench_restarted_hint>(),
-                 id};
+    return restarted_by_itself();
   }
   const auto driver = roster().driver_of(servo_, session_.now());
   if (driver && !manner_.while_driven && !puts_back_) {
@@ -329,6 +330,9 @@ Result<dronecan::NodeId> TestBench::leave_and_return(RestartKind kind,
   }
   if (restart_->error()) {
     return std::unexpected(*restart_->error());
+  }
+  if (restart_->is_unproven()) { // nothing was sent
+    return std::unexpected(restarted_by_itself());
   }
   return *restart_->returned();
 }

@@ -116,12 +116,13 @@ class TestBench {
   [[nodiscard]] bool has_changed() const { return has_changed_; }
 
   /// The servo holds again what it held, and does what it was commanded. Errors also: what it could
-  /// not be given back.
+  /// not be given back; what one setting does not take keeps it from no other.
   [[nodiscard]] Result<void> put_back();
 
  private:
   [[nodiscard]] Result<void> run(dronecan::Job& job);
   [[nodiscard]] std::optional<Error> forbidden() const;
+  [[nodiscard]] Error restarted_by_itself() const;
   [[nodiscard]] std::optional<Error> refuse_restart(RestartKind kind) const;
   [[nodiscard]] Result<dronecan::NodeId> leave_and_return(RestartKind kind,
                                                           const std::vector<bla::Address>& at_once);
@@ -129,7 +130,10 @@ class TestBench {
   [[nodiscard]] Result<void> recognise(dronecan::NodeId id);
   [[nodiscard]] Result<void> find_servo();
   [[nodiscard]] Result<void> give_back();
+  [[nodiscard]] Result<void> give_back_all(const bla::Values& now);
+  [[nodiscard]] Result<void> give_back_standstill();
   [[nodiscard]] Result<void> give_back_settings(const bla::Values& now);
+  [[nodiscard]] Result<void> give_back_output();
   [[nodiscard]] Result<void> give_back_command();
   [[nodiscard]] Result<void> give_back_start();
   [[nodiscard]] Result<void> give_back_after_start();
@@ -140,6 +144,12 @@ class TestBench {
   [[nodiscard]] std::optional<bla::Address> commanded() const;
   [[nodiscard]] bool is_of_another(std::int64_t node_id) const;
   [[nodiscard]] bool is_as_before(const bla::Values& now) const;
+  [[nodiscard]] Result<void> try_set(bla::Address address, std::int64_t raw);
+  void note_refusal(Error error);
+  [[nodiscard]] Result<void> prove_given(const bla::Values& now) const;
+  [[nodiscard]] const bla::Parameter* motion() const;
+  [[nodiscard]] bool is_put_back(bla::Address address, std::int64_t raw) const;
+  [[nodiscard]] std::string put_back_hint(const std::vector<const bla::Parameter*>& left) const;
   [[nodiscard]] Error not_put_back(const Error& reason) const;
 
   Session& session_;
@@ -157,6 +167,7 @@ class TestBench {
   bool has_changed_ = false;
   bool puts_back_ = false;
   bool is_starting_softly_ = false; ///< as far as is known, since it was put back
+  std::optional<Error> refused_;    ///< what it did not take first, while it was put back
 };
 
 } // namespace blactl::fleet

@@ -26,6 +26,16 @@ inline constexpr Text bench_not_proven{
     "ノード {}: 元の状態に戻ったことを確認できませんでした ({})"};
 inline constexpr Text bench_put_back_hint{"to put it back: blactl set -n {} {}",
                                           "元に戻すには: blactl set -n {} {}"};
+inline constexpr Text bench_restart_hint{
+    "to put it back: blactl restart -n {} (what was in its RAM only is lost)",
+    "元に戻すには: blactl restart -n {} (RAM のみの変更は失われます)"};
+inline constexpr Text bench_angle_hint{
+    "to command it again, which moves it: blactl set -n {} command_angle={}raw",
+    "再度指令するには (出力軸が動きます): blactl set -n {} command_angle={}raw"};
+inline constexpr Text bench_still_commanded{"{} is {}, and was not before",
+                                            "{} が測定前と異なり {} です"};
+inline constexpr Text bench_would_turn{"with its output on it would turn: {} is {}",
+                                       "出力を ON にすると回転します: {} が {} です"};
 inline constexpr Text bench_id_in_use{"node ID {} is in use by another unit",
                                       "ノード ID {} は他の機器が使用中です"};
 
@@ -110,6 +120,10 @@ inline constexpr Text bench_static_id{"only a servo without a static node ID tel
                                       "ノード ID が動的割当てのサーボでのみ測定できます"};
 inline constexpr Text bench_rom_unreadable{"its ROM cannot be read: nothing is saved over it",
                                            "ROM を読み込めないサーボのため、保存しません"};
+inline constexpr Text bench_save_unproven{
+    "no answer came, and it was silent no longer than in a restart: it may have restarted by "
+    "itself",
+    "応答がなく、無通信時間も再起動時と変わりません。自ら再起動した可能性があります"};
 inline constexpr Text bench_start_unheard{"its first frames were not heard",
                                           "最初のフレームを受信できませんでした"};
 

@@ -30,6 +30,22 @@ using namespace blactl::fleet::test;
 
 namespace {
 
+/// Writes to one register that never reach the servo: it holds what it held.
+struct Deafness {
+  std::string name;            ///< "0x38"
+  int first = 0, last = 1'000; ///< the writes that it misses; the first is 1
+  int written = 0;
+
+  /// The last frame of such a write, which its name ends; what is only read fits into one frame.
+  [[nodiscard]] bool misses(const can::Frame& frame) {
+    const std::size_t size = frame.size;
+    const bool is_end = size == 3 && (frame.data[2] & 0xC0U) == 0x40U;
+    const bool is_one = is_end && !name.empty() && frame.data[0] == std::uint8_t(name[2]) &&
+                        frame.data[1] == std::uint8_t(name[3]);
+    return is_one && ++written >= first && written <= last;
+  }
+};
+
 /// Passes frames on; the n-th of them, and perhaps a later one, brings a Ctrl-C.
 class Interrupted final : public can::Bus {
  public:
@@ -38,7 +54,12 @@ class Interrupted final : public can::Bus {
   [[nodiscard]] std::string_view name() const override { return bus_->name(); }
 
   [[nodiscard]] Result<bool> send(const can::Frame& frame) override {
-    auto taken = bus_->send(frame);
+    can::Frame passed = frame;
+    if (deafness.misses(frame)) {
+      passed.data[1] = 0; // which its CRC tells
+      spoilt = frame;
+    }
+    auto taken = bus_->send(passed);
     if (taken && *taken && (++sent == at || sent == again)) {
       raise(SIGINT);
       signalled = bus_->now();
@@ -46,7 +67,14 @@ class Interrupted final : public can::Bus {
     return taken;
   }
 
-  [[nodiscard]] std::optional<can::BusEvent> receive() override { return bus_->receive(); }
+  [[nodiscard]] std::optional<can::BusEvent> receive() override {
+    auto event = bus_->receive();
+    auto* echo = event ? std::get_if<can::Sent>(&*event) : nullptr;
+    if (echo != nullptr && spoilt && echo->frame.id == spoilt->id && echo->frame.size == 3) {
+      echo->frame = *std::exchange(spoilt, std::nullopt);
+    }
+    return event;
+  }
 
   [[nodiscard]] Result<void> filter(std::span<const can::Filter> filters) override {
     return bus_->filter(filters);
@@ -66,6 +94,8 @@ class Interrupted final : public can::Bus {
 
   int sent = 0, at = -1, again = -1;
   Time signalled{};
+  Deafness deafness;
+  std::optional<can::Frame> spoilt; ///< as it was, until its echo
 
  private:
   std::unique_ptr<sim::PrivateBus> bus_;
@@ -602,6 +632,7 @@ TEST_CASE("whenever it restarts by itself it gets back what it held, or that is 
     const Snapshot looked = rig.look();
     const auto measured = characterize(*rig.session, profiles(), looked, {});
     CHECK(rig.memory().rom == before.rom);
+    CHECK(words(fact(measured, "answers_save_first").value) != "false"); // it does
     if (measured.is_done()) {
       ++done;
       CHECK(text(rig.memory()) == text(before));
@@ -614,4 +645,89 @@ TEST_CASE("whenever it restarts by itself it gets back what it held, or that is 
   }
   CHECK(done > 0);
   CHECK(failed > 0);
+}
+
+TEST_CASE("a servo that restarts by itself before SAVE is not said to have saved without a word") {
+  int told = 0;
+  for (int number = 1; number <= 40; ++number) {
+    INFO("after GetNodeInfo " << number);
+    const Rig rig(fmt::format(
+        R"("faults": {{"restart_after_answer": [{{"to": "node_info", "number": {}}}]}})", number));
+    const Snapshot looked = rig.look();
+    const auto measured = characterize(*rig.session, profiles(), looked, {});
+    const Fact& found = fact(measured, "answers_save_first");
+    CHECK(words(found.value) != "false"); // it answers first
+    CHECK_FALSE(measured.not_put_back);
+    told += measured.error || found.reason.find("restarted") != std::string::npos ? 1 : 0;
+  }
+  CHECK(told > 0);
+}
+
+TEST_CASE("a setting that is not given back keeps no other from it, and only it is named") {
+  const Rig rig(R"("ram": {"angle_limit_cw": "90deg", "angle_limit_ccw": "-80deg",
+      "torque_output": "on", "timeout_time": "1500ms"})");
+  const Memory before = rig.memory();
+  const Snapshot looked = rig.look();
+  rig.bus->deafness = {.name = "0x38", .first = 2};
+  const auto measured = characterize(*rig.session, profiles(), looked, {});
+  REQUIRE(measured.error);
+  REQUIRE(measured.not_put_back);
+  INFO(measured.not_put_back->message << " / " << measured.not_put_back->hint);
+  CHECK(measured.not_put_back->message.find("not put back: angle_limit_cw (") != std::string::npos);
+  CHECK(measured.not_put_back->hint == "to put it back: blactl set -n 11 angle_limit_cw=900raw");
+  Memory after = rig.memory();
+  after.ram[bla::address::angle_limit_cw] = 900;
+  CHECK(text(without_idle_commands(after)) == text(without_idle_commands(before)));
+}
+
+TEST_CASE("what ROM gives back when it restarts is put back, although a write was not taken") {
+  const Rig rig(R"("rom": {"angle_limit_cw": "90deg"})");
+  const Memory before = rig.memory();
+  const Snapshot looked = rig.look();
+  rig.bus->deafness = {.name = "0x38", .first = 2};
+  const auto measured = characterize(*rig.session, profiles(), looked, {});
+  CHECK(measured.error);
+  INFO((measured.not_put_back ? measured.not_put_back->message : ""));
+  CHECK_FALSE(measured.not_put_back);
+  check_same(rig, before);
+}
+
+TEST_CASE("what to type to put it back names no command to move") {
+  for (int at = 60; at <= 420; at += 12) {
+    const Rig rig;
+    const Snapshot looked = rig.look();
+    rig.bus->at = rig.bus->sent + at;
+    rig.bus->again = rig.bus->at + 1;
+    const auto measured = characterize(*rig.session, profiles(), looked, {});
+    const std::string hint = measured.not_put_back ? measured.not_put_back->hint : "";
+    INFO("at " << at << ": " << hint);
+    CHECK(hint.find("command_") == std::string::npos);
+    CHECK(hint.find("555") == std::string::npos);
+  }
+}
+
+TEST_CASE("the output stays off where it would turn the shaft, and a restart is what to type") {
+  int kept_off = 0;
+  for (int at = 60; at <= 240; at += 2) {
+    const Rig rig(R"("ram": {"speed_torque_control": "on"})");
+    const Snapshot looked = rig.look();
+    rig.bus->deafness = {.name = "0x01", .first = 3}; // it keeps the speed that it was commanded
+    rig.bus->at = rig.bus->sent + at;
+    const auto measured = characterize(*rig.session, profiles(), looked, {});
+    const auto ram = rig.memory().ram;
+    const std::int64_t speed = ram.at(bla::address::command_speed);
+    const bool turns = speed != 0 && speed != bla::not_active &&
+                       ram.at(bla::address::speed_torque_control) == 1 &&
+                       ram.at(bla::address::torque_output) == 0;
+    INFO("at " << at);
+    CHECK_FALSE(turns);
+    if (measured.not_put_back && speed == 10) {
+      ++kept_off;
+      CHECK(measured.not_put_back->message.find("it would turn: command_speed") !=
+            std::string::npos);
+      CHECK(measured.not_put_back->hint ==
+            "to put it back: blactl restart -n 11 (what was in its RAM only is lost)");
+    }
+  }
+  CHECK(kept_off > 0);
 }

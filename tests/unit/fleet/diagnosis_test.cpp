@@ -68,6 +68,7 @@ struct Bus {
     }
     now = begin;
     Servo servo = bla21(id);
+    servo.identity = bla::Identity(profiles(), {61, 240900500 + id, 1400, 12050});
     servo.servo_id = servo_id;
     servo.static_node_id = static_node_id;
     roster.learn(servo, GetNodeInfo::Response{.unique_id = {id}});
@@ -178,6 +179,21 @@ TEST_CASE("traffic counts bits by sender, and load by time") {
   CHECK(diagnose_traffic(traffic, std::nullopt).empty());
 }
 
+TEST_CASE("stamps that run backwards tell no duration, whatever the order of a few frames") {
+  const auto frame = message(NodeStatus::type, 11, NodeStatus{}.encode()).front();
+  Traffic traffic;
+  traffic.hear(frame, Time(3s));
+  traffic.hear(frame, Time(5s));
+  for (const auto at : {3s, 5s, 4s}) {
+    traffic.stamp(WallTime(at));
+  }
+  CHECK(traffic.duration() == Duration(2s));
+  CHECK(diagnose_traffic(traffic, std::nullopt).empty());
+  traffic.stamp(WallTime(3s));
+  CHECK_FALSE(traffic.load_permille());
+  CHECK(codes(diagnose_traffic(traffic, std::nullopt)) == Codes{"time_backwards"});
+}
+
 TEST_CASE("a silent bus, foreign frames, a full bus and error frames are told apart") {
   CHECK(codes(diagnose_traffic({}, std::nullopt)) == Codes{"silent"});
   Traffic alone;
@@ -242,6 +258,40 @@ TEST_CASE("each thing that is wrong with a node is named") {
     bus.now -= 3s;
     CHECK(codes(bus.diagnoses()) == Codes{"restarted"});
   }
+  SECTION("a mode in which it does nothing") {
+    bus.servo(11, 1, 11);
+    for (const auto mode : {dronecan::Mode::initialization, dronecan::Mode::maintenance,
+                            dronecan::Mode::software_update, dronecan::Mode::offline}) {
+      bus.now += 3s;
+      bus.hear(11, {.uptime_s = 103, .mode = mode});
+      bus.now -= 3s;
+      CHECK(codes(bus.diagnoses()) == Codes{"mode"});
+    }
+  }
+  SECTION("answers that never came, where others did") {
+    bus.servo(11, 1, 11);
+    bus.servo(12, 2, 12);
+    for (int i = 0; i < 40; ++i) {
+      bus.traffic.ask(NodeId(11));
+      bus.traffic.ask(NodeId(12));
+    }
+    CHECK(bus.diagnoses().empty());
+    bus.traffic.miss_answer(NodeId(12));
+    bus.traffic.ask(NodeId(30)); // no servo: it need not answer
+    bus.traffic.miss_answer(NodeId(30));
+    CHECK(codes(bus.diagnoses()) == Codes{"lost_answers"});
+    CHECK(bus.diagnoses().front().text.starts_with("1 of 80 requests to nodes 12 "));
+  }
+  SECTION("a serial number that two have") {
+    bus.servo(11, 1, 11);
+    bus.servo(12, 2, 12);
+    for (const std::uint8_t id : {std::uint8_t{11}, std::uint8_t{12}}) {
+      Servo servo = bus.roster.member(NodeId(id)).servo();
+      servo.identity = bla::Identity(profiles(), {61, 240900558, 1400, 12050});
+      bus.roster.learn(servo, GetNodeInfo::Response{.unique_id = {id}});
+    }
+    CHECK(codes(bus.diagnoses()) == Codes{"duplicate_serial_number"});
+  }
   SECTION("one servo ID for two") {
     bus.servo(11, 1, 11);
     bus.servo(12, 1, 12);
@@ -265,11 +315,12 @@ TEST_CASE("commands to nobody, and of a type that BLA servos do not take") {
   Bus bus;
   bus.servo(11, 1, 11);
   bus.command(10, 1, 0);
-  CHECK(bus.diagnoses().empty());
+  CHECK(codes(bus.diagnoses()) == Codes{"commander"});
+  CHECK(bus.diagnoses().front().level == Level::notice);
   bus.command(10, 2, 0);
-  CHECK(codes(bus.diagnoses()) == Codes{"no_such_servo"});
+  CHECK(codes(bus.diagnoses()) == Codes{"commander", "no_such_servo"});
   bus.command(10, 2, 4);
-  CHECK(codes(bus.diagnoses()) == Codes{"no_such_servo", "pwm_command"});
+  CHECK(codes(bus.diagnoses()) == Codes{"commander", "no_such_servo", "pwm_command"});
 }
 
 TEST_CASE("limits narrower than what UNITLESS reaches are a notice, where it is commanded") {
@@ -284,8 +335,8 @@ TEST_CASE("limits narrower than what UNITLESS reaches are a notice, where it is 
   };
   CHECK(bus.diagnoses(limits(900, -900)).empty()); // nobody commands
   bus.command(10, 1, 0);
-  CHECK(codes(bus.diagnoses(limits(900, -900))) == Codes{"unitless_range"});
-  CHECK(bus.diagnoses(limits(1799, -1800)).empty());
+  CHECK(codes(bus.diagnoses(limits(900, -900))) == Codes{"commander", "unitless_range"});
+  CHECK(codes(bus.diagnoses(limits(1799, -1800))) == Codes{"commander"});
   bus.command(10, 1, 1);
-  CHECK(bus.diagnoses(limits(900, -900)).empty());
+  CHECK(codes(bus.diagnoses(limits(900, -900))) == Codes{"commander"});
 }

@@ -185,6 +185,21 @@ TEST_CASE("a node that has gone silent is offline") {
   CHECK_FALSE(nodes[1].is_offline);
 }
 
+TEST_CASE("who does not answer and is heard is not away") {
+  Bus bus;
+  bus.servo(11, 1);
+  const auto look = [&bus] {
+    return gather(bus.roster, Targets{}, profiles(), bus.now, {NodeId(11)}).nodes[0];
+  };
+  bus.now += 299ms;
+  CHECK_FALSE(look().is_offline);
+  CHECK(look().status->mode == dronecan::Mode::operational);
+  CHECK(says(look().warnings, "did not answer"));
+  bus.now += 1ms;
+  CHECK(look().is_offline);
+  CHECK(says(look().warnings, "does not answer any more"));
+}
+
 TEST_CASE("a node is foreign only if it said so itself") {
   Bus bus;
   bus.hear(30); // nobody asked it
