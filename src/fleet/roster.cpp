@@ -163,6 +163,21 @@ void Roster::hear(const can::Frame& frame, Time at) {
     heard.first_heard = at;
     announce(heard);
   }
+  if (header->kind == Kind::message && header->data_type_id == dronecan::NodeStatus::type.id) {
+    hear_status(heard, frame, at);
+  }
+}
+
+/// NodeStatus is one frame. One with the transfer ID of the last is dropped as its repetition
+/// before it comes to receive(); but it may be of another unit, whose uptime tells.
+void Roster::hear_status(Member& sender, const can::Frame& frame, Time at) {
+  const std::size_t size = frame.size - 1U;
+  const dronecan::TransferId id = frame.data[size] % dronecan::transfer_id_modulus;
+  const bool is_repeated = std::exchange(pulses_[sender.id.value()].last_status_id, id) == id;
+  const auto status = dronecan::NodeStatus::decode(dronecan::Bytes(frame.data.data(), size));
+  if (is_repeated && status) {
+    watch_uptime(sender, status->uptime_s, at);
+  }
 }
 
 /// Nobody acknowledges a servo that is alone on the bus: when somebody joins, its waiting frames

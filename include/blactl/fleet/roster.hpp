@@ -199,6 +199,7 @@ class Roster {
     unsigned count = 0;
     unsigned leaps = 0; ///< transfer IDs that did not follow the one before
     dronecan::TransferId last_transfer_id = 0;
+    std::optional<dronecan::TransferId> last_status_id{}; ///< of NodeStatus
     std::array<std::optional<Time>, 2> boots{}; ///< when the unit(s) behind the ID started
     std::size_t last_boot = 0;
     std::uint32_t last_uptime_s = 0;
@@ -207,6 +208,7 @@ class Roster {
   [[nodiscard]] Member& known(dronecan::NodeId id);
   void announce(const Member& member);
   void count_status(dronecan::NodeId source, dronecan::TransferId transfer_id, Time at);
+  void hear_status(Member& sender, const can::Frame& frame, Time at);
   void on_status(const dronecan::Transfer& transfer);
   void on_allocation(const dronecan::Transfer& transfer);
   void on_command(const dronecan::Transfer& transfer);

@@ -38,6 +38,11 @@ class Ear {
     hear(message(NodeStatus::type, source, NodeStatus{.uptime_s = uptime_s}.encode(), next()));
   }
 
+  /// With this transfer ID.
+  void status(std::uint8_t source, std::uint32_t uptime_s, dronecan::TransferId id) {
+    hear(message(NodeStatus::type, source, NodeStatus{.uptime_s = uptime_s}.encode(), id));
+  }
+
   void actuator(std::uint8_t source, std::uint8_t servo_id = 0) {
     actuator_of(actuators_, source, servo_id);
   }
@@ -334,6 +339,21 @@ TEST_CASE("an uptime that is cut to seconds here and there is no restart") {
   }
   CHECK(ear.roster.find(NodeId(10))->boots == 0);
   CHECK_FALSE(ear.roster.is_doubled(NodeId(10)));
+}
+
+TEST_CASE(
+    "two units whose transfer IDs are in step are two, and a repeated frame is no second unit") {
+  Ear ear;
+  const bool is_two = GENERATE(true, false);
+  for (std::uint32_t second = 0; second < 3; ++second) {
+    const auto id = static_cast<dronecan::TransferId>(second);
+    ear.status(10, 100 + second, id);
+    ear.now += 200ms;
+    ear.status(10, (is_two ? 130 : 100) + second, id);
+    ear.now += 800ms;
+  }
+  CHECK(ear.roster.is_doubled(NodeId(10)) == is_two);
+  CHECK((ear.roster.member(NodeId(10)).boots == 0) == !is_two);
 }
 
 TEST_CASE("the uptime of GetNodeInfo counts: a restart before the first NodeStatus shows") {
