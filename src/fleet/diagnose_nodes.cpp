@@ -60,7 +60,7 @@ class NodeExamination {
       unitless(servo);
     }
     if (const auto by = findings_.roster->armed_by()) {
-      add("armed", Level::notice, *by, say<texts::says_vehicle_armed>(by->value()),
+      add("armed", Level::notice, by, say<texts::says_vehicle_armed>(by->value()),
           say<texts::says_vehicle_armed_fix>());
     }
     return std::move(found_);
