@@ -5,8 +5,8 @@ import story
 from story import require
 
 # What is no fault of anybody where nothing goes wrong: what servos hold, or lack by themselves.
-OF_SERVOS = {"duplicate_node_id", "duplicate_servo_id", "firmware_defect", "health", "no_node_id",
-             "static_node_id"}
+OF_SERVOS = {"commander", "duplicate_node_id", "duplicate_serial_number", "duplicate_servo_id",
+             "firmware_defect", "health", "no_node_id", "static_node_id"}
 SERVO_ID = "0x45"
 
 
