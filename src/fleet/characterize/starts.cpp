@@ -85,7 +85,9 @@ Result<StartsSeen> see_starts(TestBench& bench) {
       return std::unexpected(start.error());
     }
     seen.restarts.push_back(*start);
-    seen.at_once = i == 0 ? bench.at_once() : std::move(seen.at_once);
+    if (i == 0) {
+      seen.at_once = bench.at_once();
+    }
   }
   auto rom = bench.rest();
   const auto readable = rom ? is_rom_readable(bench) : std::unexpected(rom.error());
