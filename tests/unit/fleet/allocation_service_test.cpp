@@ -202,7 +202,7 @@ struct Rig {
   void come_up() {
     hear(message(dronecan::NodeStatus::type, 125, dronecan::NodeStatus{}.encode()), 1ms);
     live(2ms);
-    session->records().learn(NodeId(125), {.unique_id = {1}});
+    session->records().learn(NodeId(125), {.unique_id = {1}}, wire.now);
   }
 
   void live(Duration time) const { REQUIRE(session->live_until(wire.now + time)); }

@@ -204,7 +204,8 @@ TEST_CASE("a node is foreign only if it said so itself") {
   Bus bus;
   bus.hear(30); // nobody asked it
   bus.hear(31);
-  bus.roster.learn(NodeId(31), GetNodeInfo::Response{.name = "org.example.gps"}); // not decided
+  bus.roster.learn(NodeId(31), GetNodeInfo::Response{.name = "org.example.gps"},
+                   bus.now); // not decided
   bus.hear(32);
   bus.roster.learn({.id = NodeId(32)}, GetNodeInfo::Response{.name = "org.example.gps"});
   const auto nodes = bus.findings().nodes;
