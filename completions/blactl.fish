@@ -8,7 +8,7 @@ function __blactl_words
     for word in $words[2..]
         if test $value = yes
             set value no
-        else if string match -qr -- '^(--(assign|clock|color|count|duration|endpoints|expect|export|facts|forget|group|id|import|interface|kind|lang|level|listen|local-node-id|mode|neutral|node|output|preset|profile|profile-dir|range|record|report|retries|seed|stagger|svg|timeout|type|wait)|-[jqvyhV]*[in])$' $word
+        else if string match -qr -- '^(--(assign|clock|color|count|duration|endpoints|entry|events|expect|export|facts|forget|group|id|import|interface|kind|lang|level|listen|local-node-id|mode|neutral|node|output|preset|profile|profile-dir|range|record|report|retries|seed|stagger|svg|timeout|type|wait)|-[jqvyhV]*[in])$' $word
             set value yes
         else if not string match -q -- '-*' $word
             echo $word
@@ -62,12 +62,14 @@ function __blactl_interface
     switch (__blactl_token)
         case 'replay:*'
             __blactl_files replay:
+        case 'file:*'
+            __blactl_files file:
         case 'sim:*'
             __blactl_files sim:
         case '*'
             __blactl_can_interfaces /sys/class/net
             __blactl_serial_adapters /dev/serial/by-id
-            printf '%s\n' mcast:0 sim: replay:
+            printf '%s\n' mcast:0 sim: replay: file:
     end
 end
 
@@ -235,12 +237,16 @@ complete -c blactl -n __blactl_needs_command -a restart -d 'restart: RAM from RO
 complete -c blactl -n __blactl_needs_command -a wait -d 'until the servos are there and operational'
 complete -c blactl -n __blactl_needs_command -a faults -d 'what is wrong with servos, and what to do'
 complete -c blactl -n __blactl_needs_command -a pwm-config -d 'how PWM pulses become commands: show, plot, change'
+complete -c blactl -n __blactl_needs_command -a export -d 'the configuration of servos as a file for apply'
+complete -c blactl -n __blactl_needs_command -a diff -d 'servos against a fleet file, or file against file'
+complete -c blactl -n __blactl_needs_command -a apply -d 'bring servos to a fleet file, proven after a restart'
+complete -c blactl -n __blactl_needs_command -a undo -d 'back to what servos held before the last change'
 complete -c blactl -n __blactl_needs_command -a trace -d 'every DroneCAN transfer decoded, live or from a candump log; sends nothing'
 complete -c blactl -n __blactl_needs_command -a doctor -d 'what is wrong with interface, bus and nodes, and what mends it'
 complete -c blactl -n __blactl_needs_command -a characterize -d 'measures on one servo what the specification leaves open, and restores it'
 complete -c blactl -n __blactl_needs_command -a models -d 'what the profiles know, without any servo'
 complete -c blactl -n __blactl_needs_command -a sim -d 'simulated servos: serves the sim: bus, or joins a real interface with -i'
-complete -c blactl -s i -l interface -r -f -a '(__blactl_interface)' -d 'can0, slcan:DEV, mcast:N, sim:, sim:SCENARIO.json, replay:FILE (default: the only CAN interface that is up)'
+complete -c blactl -s i -l interface -r -f -a '(__blactl_interface)' -d 'can0, slcan:DEV, mcast:N, sim:, sim:SCENARIO.json, replay:FILE, file:FLEET.json (default: the only CAN interface that is up)'
 complete -c blactl -s n -l node -r -f -a '(__blactl_nodes)' -d 'servos'
 complete -c blactl -s j -l json -d 'output as one JSON document; streams'
 complete -c blactl -l csv -d 'output as CSV (scan, get)'
@@ -313,6 +319,30 @@ complete -c blactl -n '__blactl_in pwm-config' -l save -d 'then RAM to ROM'
 complete -c blactl -n '__blactl_in pwm-config' -l dry-run -d 'change nothing, show the mapping before and after; exit status 8 when something would change'
 complete -c blactl -n '__blactl_in pwm-config' -l wait -r -f -d 'how long a servo may take to come back (default 5, and 2 for each that asks for a node ID)'
 complete -c blactl -n '__blactl_in pwm-config' -l stagger -r -f -d 'pause between two servos (default 0)'
+
+complete -c blactl -n '__blactl_in export' -l recipe -d 'of one servo, for others of its model'
+complete -c blactl -n '__blactl_in export' -l params -d 'of one servo, as the parameter file that the DroneCAN GUI Tool and Mission Planner load'
+complete -c blactl -n '__blactl_argument export 1' -F
+
+complete -c blactl -n '__blactl_in diff' -F
+
+complete -c blactl -n '__blactl_in apply' -l dry-run -d 'change nothing; exit status 8 when something would be done'
+complete -c blactl -n '__blactl_in apply' -l plan -d 'FILE is what `apply --dry-run --json` printed'
+complete -c blactl -n '__blactl_in apply' -l entry -r -f -d 'give this entry to the servo behind -n, whatever it matches'
+complete -c blactl -n '__blactl_in apply' -l no-save -d 'RAM only'
+complete -c blactl -n '__blactl_in apply' -l trust-ram -d 'where RAM is as wished, do not restart to see what ROM holds'
+complete -c blactl -n '__blactl_in apply' -l fail-fast -d 'once one servo has failed, no other is saved any more'
+complete -c blactl -n '__blactl_in apply' -l events -r -F -d 'write a line of JSON to FILE for each servo and stage'
+complete -c blactl -n '__blactl_in apply' -l no-snapshot -d 'go on where it cannot be recorded what servos hold, for `undo`'
+complete -c blactl -n '__blactl_in apply' -l wait -r -f -d 'how long a servo may take to come back (default 5, and 2 for each that asks for a node ID)'
+complete -c blactl -n '__blactl_in apply' -l stagger -r -f -d 'pause between two servos (default 0)'
+complete -c blactl -n '__blactl_argument apply 1' -F
+
+complete -c blactl -n '__blactl_in undo' -l list -d 'show the changes that are recorded, without a bus'
+complete -c blactl -n '__blactl_in undo' -l dry-run -d 'change nothing; exit status 8 when something would be done'
+complete -c blactl -n '__blactl_in undo' -l no-save -d 'RAM only, also where the change was saved'
+complete -c blactl -n '__blactl_in undo' -l wait -r -f -d 'how long a servo may take to come back (default 5, and 2 for each that asks for a node ID)'
+complete -c blactl -n '__blactl_in undo' -l stagger -r -f -d 'pause between two servos (default 0)'
 
 complete -c blactl -n '__blactl_in trace' -l type -r -f -d 'only these data types'
 complete -c blactl -n '__blactl_in trace' -l kind -r -f -a '(__blactl_list message request response)' -d 'only these kinds'

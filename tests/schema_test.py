@@ -275,6 +275,24 @@ def check_profiles(directory, faults):
     return f"{len(profiles)} profiles valid, {len(BAD)} bad ones refused"
 
 
+GOOD_FLEETS = [
+    (["common"], None), (["servos"], []), ([*SERVO, "about"], None), ([*SERVO, "set"], None),
+    ([*SERVO, "set", "angle_limit_cw"], "900raw"), ([*SERVO, "set", "0x39"], -450),
+    ([*SERVO, "name"], "links"),
+]
+BAD_FLEETS = [
+    (["schema"], "blactl-fleet/2"), (["servos"], None), (["servos"], {}), (["extra"], 1),
+    (["common"], []), ([*SERVO, "name"], None), ([*SERVO, "name"], ""), ([*SERVO, "name"], 5),
+    ([*SERVO, "match"], None), ([*SERVO, "match"], {}), ([*SERVO, "match", "serial_number"], "1"),
+    ([*SERVO, "match", "serial_number"], -1), ([*SERVO, "match", "node_id"], 0),
+    ([*SERVO, "match", "node_id"], 128), ([*SERVO, "match", "servo_id"], 256),
+    ([*SERVO, "match", "unique_id"], "12"), ([*SERVO, "match", "colour"], "red"),
+    ([*SERVO, "set"], []), ([*SERVO, "set", "smoothing"], True), ([*SERVO, "set", "0x60"], 1),
+    ([*SERVO, "about", "firmware_version"], "1.400"), ([*SERVO, "about", "weight"], 1),
+    ([*SERVO, "extra"], 1),
+]
+
+
 def read(blactl, folder, document, *arguments):
     """What the binary says of a document: "" if it takes it. No simulator runs for that: a log,
     which takes no frames, is refused after the file was read."""
@@ -292,6 +310,47 @@ def read_allocations(blactl, folder, document, *arguments):
     if any(error["code"] != "bad_file" for error in errors):
         raise RuntimeError(f"unexpected: {errors}")
     return "".join(error["message"] for error in errors)
+
+
+def read_fleet(blactl, folder, document):
+    """The same of a fleet file, which is compared with an empty one."""
+    empty = pathlib.Path(folder) / "empty.json"
+    empty.write_text('{"schema": "blactl-fleet/1", "servos": []}', encoding="utf-8")
+    errors = errors_of([blactl, "--json", "diff", str(empty)], folder, document)
+    if any(error["code"] != "bad_file" for error in errors):
+        raise RuntimeError(f"unexpected: {errors}")
+    return "".join(error["message"] for error in errors)
+
+
+def exported(blactl, folder):
+    """What `export` writes of one servo of each model, one file for all and one for each."""
+    models = json.loads(subprocess.run([blactl, "models", "--json"], capture_output=True, text=True,
+                                       check=True).stdout)["models"]
+    servos = [{"model": model["model"], "node_id": index, "servo_id": index}
+              for index, model in enumerate(models, 1)]
+    scenario = pathlib.Path(folder) / "scenario.json"
+    scenario.write_text(json.dumps({"schema": "blactl-scenario/1", "clock": "virtual",
+                                    "servos": servos}), encoding="utf-8")
+    documents = {}
+    for node in ["all", *range(1, len(models) + 1)]:
+        done = subprocess.run([blactl, "-i", f"sim:{scenario}", "export", "-n", str(node)],
+                              capture_output=True, text=True, timeout=60, check=True,
+                              env={**os.environ, "XDG_RUNTIME_DIR": str(folder),
+                                   "BLACTL_STATE_DIR": str(folder)})
+        documents[f"export -n {node}"] = json.loads(done.stdout)
+    if sorted(servo["about"]["model"] for servo in documents["export -n all"]["servos"]) != sorted(
+            model["model"] for model in models):
+        raise RuntimeError("export -n all leaves models out")
+    return documents
+
+
+def check_exported(source, blactl, faults):
+    """The strict schema and the reader take what export writes."""
+    validator = validator_of(source / "schemas", "fleet.schema.json")
+    with tempfile.TemporaryDirectory() as folder:
+        documents = [(name, document, True) for name, document in exported(blactl, folder).items()]
+    return check_read_files("exported files", validator, documents,
+                            lambda folder, document: read_fleet(blactl, folder, document), faults)
 
 
 def errors_of(words, folder, document):
@@ -335,7 +394,8 @@ def main(source, blactl):
             ("scenarios", "scenario", FULL, GOOD_SCENARIOS, BAD_SCENARIOS, read, []),
             ("facts", "facts", "bench.json", GOOD_FACTS, BAD_FACTS, read, ["--facts"]),
             ("allocations", "allocations", "table.json", GOOD_ALLOCATIONS, BAD_ALLOCATIONS,
-             read_allocations, ["--import"])):
+             read_allocations, ["--import"]),
+            ("fleets", "fleet", "wing.json", GOOD_FLEETS, BAD_FLEETS, read_fleet, [])):
         examples = {path.name: load(path) for path in sorted((data / kind).glob("*.json"))}
 
         def read_with(folder, document, reader=reader, arguments=arguments):
@@ -343,6 +403,7 @@ def main(source, blactl):
 
         said.append(check_read_files(kind, validator_of(source / "schemas", f"{schema}.schema.json"),
                                      documents_of(examples, full, good, bad), read_with, faults))
+    said.append(check_exported(source, blactl, faults))
     for fault in faults:
         print(fault, file=sys.stderr)
     print("; ".join(said) if not faults else "failed")

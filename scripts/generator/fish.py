@@ -67,12 +67,14 @@ function __blactl_interface
     switch (__blactl_token)
         case 'replay:*'
             __blactl_files replay:
+        case 'file:*'
+            __blactl_files file:
         case 'sim:*'
             __blactl_files sim:
         case '*'
             __blactl_can_interfaces /sys/class/net
             __blactl_serial_adapters /dev/serial/by-id
-            printf '%s\\n' mcast:0 sim: replay:
+            printf '%s\\n' mcast:0 sim: replay: file:
     end
 end
 

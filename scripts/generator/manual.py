@@ -1,4 +1,4 @@
-"""man/blactl.1: hand-written, but for the lists of options between its markers."""
+"""The pages of the manual: hand-written, but for the lists between their markers."""
 
 import re
 import shutil
@@ -7,6 +7,8 @@ import subprocess
 BEGIN = "; {}: made by scripts/generate, do not edit"
 OPTIONS = "options of "
 END = "; end of the options"
+SETTINGS = "settings"
+END_OF_SETTINGS = "; end of the settings"
 
 
 def _escaped(text):
@@ -37,7 +39,15 @@ def _cross_check(check):
     return f"_{_escaped(check.code)}_ ({check.kind})\n\t{parameters}: {_escaped(check.reason)}.\n"
 
 
+def _setting(parameter):
+    unit = f" ({_escaped(parameter.unit)})" if parameter.unit else ""
+    words = f": {', '.join(parameter.words)}" if parameter.words else ""
+    return f"*{_escaped(parameter.name)}*, *{parameter.address}*\n\t{_sentence(parameter.help + unit + words)}\n"
+
+
 def _section(table, name):
+    if name == SETTINGS:
+        return "\n".join(_setting(parameter) for parameter in table.settings())
     if name == "cross-checks":
         return "\n".join(_cross_check(check) for check in table.cross_checks)
     if name == "all commands":
@@ -51,7 +61,7 @@ def _section(table, name):
 
 
 def fill(source, table):
-    """The manual with the options of today; every command must have its place."""
+    """A page with the lists of today."""
     lines = []
     named = set()
     inside = False
@@ -63,15 +73,17 @@ def fill(source, table):
             named.add(name)
             lines += [line, *_section(table, name).splitlines()]
             inside = True
-        elif line == END:
+        elif line in (END, END_OF_SETTINGS):
             inside = False
         if not inside:
             lines.append(line)
-    missing = {"all commands", "cross-checks", *(command.name for command in table.commands)} - named
-    if missing:
-        raise SystemExit(f"man/blactl.1.scd has no place for {sorted(missing)}")
     lines[0] = re.sub(r'"blactl [^"]*"', f'"blactl {table.version}"', lines[0])
-    return "\n".join(lines) + "\n"
+    return "\n".join(lines) + "\n", named
+
+
+def places(table):
+    """What must have its place in some page."""
+    return {"all commands", "cross-checks", SETTINGS, *(each.name for each in table.commands)}
 
 
 def render(source):

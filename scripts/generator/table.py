@@ -45,11 +45,18 @@ class CrossCheck:
 
 @dataclasses.dataclass(frozen=True)
 class Parameter:
+    address: str
     name: str
     help: str
+    unit: str
     readable: bool
     settable: bool
     words: tuple[str, ...]
+
+    @property
+    def is_setting(self):
+        """What a fleet file holds."""
+        return 0x20 <= int(self.address, 16) <= 0x46
 
 
 def _option(entry):
@@ -64,7 +71,7 @@ def _options(entries):
 def _parameter(entry):
     # The opcodes are written by erase, restart and save, never by set.
     settable = "W" in entry["access"] and entry["group"] != "operation"
-    return Parameter(entry["name"], entry["name_en"], "R" in entry["access"], settable,
+    return Parameter(entry["address"], entry["name"], entry["name_en"], entry["unit"], "R" in entry["access"], settable,
                      tuple(choice["word"] for choice in entry["enumeration"]))
 
 
@@ -95,6 +102,9 @@ class Table:
 
     def settable(self):
         return [parameter for parameter in self.parameters if parameter.settable]
+
+    def settings(self):
+        return [parameter for parameter in self.parameters if parameter.is_setting]
 
     def with_words(self):
         return [parameter for parameter in self.settable() if parameter.words]

@@ -26,12 +26,12 @@ _blactl_serial_adapters() {{
 }}
 
 _blactl_interface() {{
-  if compset -P 'replay:' || compset -P 'sim:'; then
+  if compset -P 'replay:' || compset -P 'file:' || compset -P 'sim:'; then
     _files
   else
     compadd -- $(_blactl_can_interfaces /sys/class/net) \
       $(_blactl_serial_adapters /dev/serial/by-id) mcast:0
-    compadd -S '' -- sim: replay:
+    compadd -S '' -- sim: replay: file:
   fi
 }}
 

@@ -2,15 +2,13 @@
 
 #include "blactl/base/json_reader.hpp"
 
-#include "blactl/base/system_error.hpp"
+#include "blactl/base/read_file.hpp"
 #include "blactl/base/text.hpp"
 #include "blactl/base/texts.hpp"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
 #include <iterator>
 #include <memory>
 
@@ -215,26 +213,6 @@ class Builder {
   bool broken_ = false;
 };
 
-Result<std::string> read_all(std::FILE& stream, const std::string& name) {
-  std::string text;
-  std::string block(1U << 16U, '\0');
-  while (std::feof(&stream) == 0) {
-    const std::size_t count = std::fread(block.data(), 1, block.size(), &stream);
-    if (std::ferror(&stream) != 0) {
-      return fail(Code::bad_file,
-                  say<texts::file_unreadable>(printable(name), system_reason(errno)),
-                  say<texts::file_hint>());
-    }
-    text.append(block, 0, count);
-    if (text.size() > max_file_bytes) {
-      return fail(Code::bad_file,
-                  say<texts::file_too_large>(printable(name), max_file_bytes >> 20U),
-                  say<texts::file_hint>());
-    }
-  }
-  return text;
-}
-
 } // namespace
 
 Result<Document> parse(std::string_view text, std::string file) {
@@ -254,19 +232,8 @@ Result<Document> parse(std::string_view text, std::string file) {
 }
 
 Result<Document> parse_file(const std::filesystem::path& path) {
-  const std::string name = path.string();
-  if (name == "-") {
-    auto text = read_all(*stdin, name);
-    return text ? parse(*text, name) : std::unexpected(text.error());
-  }
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::fopen(name.c_str(), "rb"),
-                                                               std::fclose);
-  if (!stream) {
-    return fail(Code::bad_file, say<texts::file_unreadable>(printable(name), system_reason(errno)),
-                say<texts::file_hint>());
-  }
-  auto text = read_all(*stream, name);
-  return text ? parse(*text, name) : std::unexpected(text.error());
+  const auto text = read_file(path, max_file_bytes);
+  return text ? parse(*text, path.string()) : std::unexpected(text.error());
 }
 
 } // namespace blactl::json

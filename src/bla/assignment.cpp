@@ -150,6 +150,21 @@ Result<void> allowed_by_some_model(const Profiles& profiles, const Parameter& pa
   return outside;
 }
 
+Result<void> allowed_by_model(const Profile& model, const Assignment& assignment) {
+  const Parameter* own = model.find(assignment.parameter->address);
+  if (own == nullptr || (own->group == Group::pwm && !model.pwm)) {
+    const Parameter& parameter = *assignment.parameter;
+    return fail(Code::unsupported,
+                say<texts::no_pwm_parameter>(model.model, parameter.name, parameter.address.name()),
+                say<texts::no_pwm_input_hint>(model.model));
+  }
+  auto within = check_range(*own, assignment.value.raw, assignment.value.pwm_mode);
+  if (!within) {
+    within.error().message = model.model + ": " + within.error().message;
+  }
+  return within;
+}
+
 namespace {
 
 /// Each command makes the others inactive (4.1-4.3).

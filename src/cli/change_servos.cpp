@@ -3,9 +3,7 @@
 #include "blactl/fleet/carry_out.hpp"
 #include "blactl/fleet/guard.hpp"
 #include "blactl/fleet/survey.hpp"
-#include "blactl/fleet/texts.hpp"
 
-#include "cli/output/progress_view.hpp"
 #include "cli/texts.hpp"
 #include "cli/writing_run.hpp"
 
@@ -56,7 +54,7 @@ bool Run::select() {
   if (!targets) {
     return stop(targets.error());
   }
-  if (!open(request_.command)) {
+  if (!open(request_.command, request_.dry_run ? Recording::none : Recording::if_possible)) {
     return false;
   }
   auto selection = choose(*targets, context_.identification());
@@ -143,22 +141,8 @@ std::vector<ChangeResult> Run::carry_out() {
   if (request_.wanted.restart == fleet::RestartKind::save) {
     context_.reporter().note(say<texts::do_not_cut_supply>());
   }
-  const fleet::Manner manner{
-      .identification = context_.identification(),
-      .stagger = request_.times.stagger,
-      .come_back = request_.times.wait,
-      // A servo that finds its ROM unreadable asks as well.
-      .may_allocate = request_.wanted.restart && context_.may_allocate(),
-      .allocations = [this] { return context_.allocations(state::AllocationStore::Access::write); },
-      // No reason to leave a servo without its node ID.
-      .not_kept =
-          [this](const Error& error) {
-            context_.reporter().note(say<texts::ids_not_kept>(error.message));
-          },
-      .progress =
-          [this](const fleet::Progress& progress) {
-            context_.reporter().progress(text(progress));
-          }};
+  // A servo that finds its ROM unreadable asks for a node ID as well.
+  const auto manner = this->manner(request_.times, request_.wanted.restart.has_value());
   auto carried_out = fleet::carry_out(context_.session(), context_.known(), plans_, manner);
   tell_newcomers();
   if (carried_out.broken) {

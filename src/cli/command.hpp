@@ -92,12 +92,14 @@ struct Option {
 };
 
 struct Traits {
-  bool writes = false;     ///< changes servos; without -n there must be just one
-  bool streams = false;    ///< prints one object a line while it runs
-  bool tables = false;     ///< takes --csv
-  bool session = false;    ///< talks on an interface, so --record has something to write
-  bool recordings = false; ///< answers from -i replay:FILE too
-  bool offline = false;    ///< needs no bus at all: what is said of one is of no account
+  bool writes = false;       ///< changes servos; without -n there must be just one
+  bool from_file = false;    ///< its file says which servos those are
+  bool from_history = false; ///< without -n it is about those that the last command changed
+  bool streams = false;      ///< prints one object a line while it runs
+  bool tables = false;       ///< takes --csv
+  bool session = false;      ///< talks on an interface, so --record has something to write
+  bool recordings = false;   ///< answers from -i replay:FILE too
+  bool offline = false;      ///< needs no bus at all: what is said of one is of no account
 };
 
 /// What a command does with its options, whose type only its own file knows.

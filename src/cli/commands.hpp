@@ -14,8 +14,9 @@ namespace blactl::cli {
 
 namespace commands {
 
-extern const Command scan, alloc, get, set, save, erase, restart, wait, faults, pwm_config, trace,
-    doctor, characterize, models, sim;
+extern const Command scan, alloc, get, set, save, erase, restart, wait, faults, pwm_config,
+    export_servos, // "export" alone is a word of C++
+    diff, apply, undo, trace, doctor, characterize, models, sim;
 
 } // namespace commands
 

@@ -151,10 +151,42 @@ Result<fleet::Session*> Context::open(fleet::Session::Hearing hearing) {
   if (auto ready = session_->wait_until_open(); !ready) {
     return std::unexpected(ready.error());
   }
+  if (auto recalled = bus->fleet ? recall(*bus->fleet) : Result<void>(); !recalled) {
+    return std::unexpected(recalled.error());
+  }
   if (!session_->opening_note().empty()) {
     reporter_.note(session_->opening_note());
   }
   return session_.get();
+}
+
+/// The session answers from what the file says.
+Result<void> Context::recall(const fleet::FleetFile& fleet) {
+  const auto recording = fleet::recording_of(fleet, *profiles_, assumed_);
+  if (!recording) {
+    return std::unexpected(recording.error());
+  }
+  const auto join = [](std::string& list, const std::string& item) {
+    list += (list.empty() ? "" : ", ") + item;
+  };
+  std::string of_many, without_id;
+  for (const fleet::FleetEntry* entry : recording->of_many) {
+    join(of_many, printable(entry->name));
+  }
+  auto entry = recording->without_id.begin();
+  for (const fleet::RecordedServo& servo : recording->servos) {
+    session_->recall(servo);
+    if (!servo.servo.id_is_known) {
+      join(without_id, fmt::format("{} ({})", printable((*entry++)->name), servo.servo.id.value()));
+    }
+  }
+  if (!of_many.empty()) {
+    reporter_.note(say<texts::file_entries_of_many>(of_many));
+  }
+  if (!without_id.empty()) {
+    reporter_.note(say<texts::file_without_node_ids>(without_id));
+  }
+  return {};
 }
 
 Result<void> Context::wait_for_input(int descriptor) {
@@ -223,22 +255,50 @@ Result<void> Context::lock_allocation() {
   return {};
 }
 
-Result<state::AllocationStore> Context::allocations(state::AllocationStore::Access access) const {
-  using state::AllocationStore;
-  const auto interface = parse_interface(shared_.interface);
-  if (interface && interface->kind == InterfaceKind::scenario) {
-    return AllocationStore::unshared();
+namespace {
+
+/// What is known of the servos behind `interface`: those of a private simulation end with it.
+template <class Store> Result<Store> open_store(std::string_view interface, state::Access access) {
+  const auto name = parse_interface(interface);
+  if (name && name->kind == InterfaceKind::scenario) {
+    return Store::unshared();
   }
   std::string folder = state::state_folder();
-  if (!folder.empty() && interface && interface->kind == InterfaceKind::simulator) {
+  if (!folder.empty() && name && name->kind == InterfaceKind::simulator) {
     folder += "/simulated";
   }
-  return AllocationStore::open(folder, access);
+  return Store::open(folder, access);
+}
+
+} // namespace
+
+Result<state::AllocationStore> Context::allocations(state::Access access) const {
+  return open_store<state::AllocationStore>(shared_.interface, access);
+}
+
+Result<state::SnapshotStore> Context::snapshots(state::Access access) const {
+  return open_store<state::SnapshotStore>(shared_.interface, access);
+}
+
+Result<fleet::History> Context::history(std::string_view command, state::Access access) const {
+  auto snapshots = open_store<state::SnapshotStore>(shared_.interface, access);
+  if (!snapshots) {
+    return std::unexpected(std::move(snapshots.error()));
+  }
+  auto proofs = open_store<state::ProofStore>(shared_.interface, access);
+  if (!proofs) {
+    return std::unexpected(std::move(proofs.error()));
+  }
+  return fleet::History(std::string(command), std::move(*snapshots), std::move(*proofs));
 }
 
 Result<std::unique_ptr<can::Bus>> Context::recorded(std::unique_ptr<can::Bus> bus) {
   if (!record_) {
     return bus;
+  }
+  if (is_fleet_file()) {
+    return fail(Code::usage, say<texts::file_without_frames>(printable(shared_.interface)),
+                say<texts::file_without_frames_hint>());
   }
   const auto name = parse_interface(shared_.interface);
   if (log_ != nullptr && name) {
@@ -290,6 +350,31 @@ void drop(Report& report, const auto& is_meant) {
 }
 
 } // namespace
+
+bool Context::is_fleet_file() const {
+  const auto name = parse_interface(shared_.interface);
+  return name && name->kind == InterfaceKind::file;
+}
+
+void Context::explain_file(Report& report) const {
+  if (!session_ || !is_fleet_file()) {
+    return;
+  }
+  const auto explain = [&](Error& error) {
+    if (error.code == Code::not_recorded) {
+      error.hint = say<texts::file_not_recorded_hint>();
+    }
+    const fleet::Member* node =
+        error.node_id ? session_->roster().find(dronecan::NodeId(*error.node_id)) : nullptr;
+    if (node != nullptr && !node->id_is_known) {
+      error.node_id = std::nullopt;
+    }
+  };
+  std::ranges::for_each(report.errors, explain);
+  for (Target& target : report.targets) {
+    std::ranges::for_each(target.errors, explain);
+  }
+}
 
 void Context::explain_silence(Report& report) const {
   if (!session_ || session_->heard_anything() || signal() != 0) {

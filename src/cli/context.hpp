@@ -5,11 +5,13 @@
 #include "blactl/can/recorder.hpp"
 #include "blactl/can/replay.hpp"
 #include "blactl/can/slcan.hpp"
+#include "blactl/fleet/history.hpp"
 #include "blactl/fleet/identification.hpp"
 #include "blactl/fleet/session.hpp"
 #include "blactl/fleet/target.hpp"
 #include "blactl/state/allocation_store.hpp"
 #include "blactl/state/interface_lock.hpp"
+#include "blactl/state/snapshot_store.hpp"
 
 #include "cli/options.hpp"
 #include "cli/output/report.hpp"
@@ -63,8 +65,15 @@ class Context {
   /// The allocation table for the interface: that of this user; simulated servos, which would fill
   /// it, have one of their own, and those of a private simulation one in memory. Errors: as
   /// AllocationStore::open().
-  [[nodiscard]] Result<state::AllocationStore>
-  allocations(state::AllocationStore::Access access) const;
+  [[nodiscard]] Result<state::AllocationStore> allocations(state::Access access) const;
+
+  /// The record of what `command` changes, kept where the allocation table is. What to do where
+  /// there is none is for the caller to judge. Errors: as SnapshotStore::open().
+  [[nodiscard]] Result<fleet::History> history(std::string_view command,
+                                               state::Access access) const;
+
+  /// The changes that were recorded. Errors: as SnapshotStore::open().
+  [[nodiscard]] Result<state::SnapshotStore> snapshots(state::Access access) const;
 
   [[nodiscard]] fleet::Session& session() { return *session_; }
 
@@ -83,6 +92,9 @@ class Context {
   /// An adapter is asked what it is while it is opened. To be called before open().
   void inquire() { inquires_ = true; }
 
+  /// Behind -i is a fleet file: it tells of servos, and of no bus.
+  [[nodiscard]] bool is_fleet_file() const;
+
   /// The adapter behind the session; null: none, or no session.
   [[nodiscard]] can::Slcan* adapter() const { return session_ ? adapter_ : nullptr; }
 
@@ -97,6 +109,10 @@ class Context {
   /// recording that ended early is a failure of the command.
   void tell_losses(Report& report) const;
 
+  /// On a fleet file: what it does not tell has another reason than on a log, and a node ID that
+  /// only stands for a servo here is told to nobody as one.
+  void explain_file(Report& report) const;
+
   /// Where nothing at all was heard: says what of the interface may be the reason.
   void explain_silence(Report& report) const;
 
@@ -108,6 +124,7 @@ class Context {
   [[nodiscard]] Result<std::optional<state::LocalNodeId>> take_node_id(bool listens);
   [[nodiscard]] state::LocalNodeId::Candidates own_ids() const;
   [[nodiscard]] Result<void> lock_allocation();
+  [[nodiscard]] Result<void> recall(const fleet::FleetFile& fleet);
   void tell(const state::LocalNodeId& local) const;
   void tell_lock(const std::string& path) const;
 

@@ -99,7 +99,11 @@ std::string program_help(std::size_t width) {
 
 std::vector<std::string> remarks(const Traits& traits) {
   std::vector<std::string> texts;
-  if (traits.writes) {
+  if (traits.from_file) {
+    texts.push_back(say<texts::help_from_file>());
+  } else if (traits.from_history) {
+    texts.push_back(say<texts::help_from_history>());
+  } else if (traits.writes) {
     texts.push_back(say<texts::help_writes>());
   }
   if (traits.recordings) {

@@ -19,9 +19,9 @@ constexpr Option shared[]{
      .letter = 'i',
      .value = "IFACE",
      .kind = Kind::interface,
-     .help = {"can0, slcan:DEV, mcast:N, sim:, sim:SCENARIO.json, replay:FILE (default: the only "
-              "CAN interface that is up)",
-              "can0、slcan:DEV、mcast:N、sim:、sim:SCENARIO.json、replay:FILE "
+     .help = {"can0, slcan:DEV, mcast:N, sim:, sim:SCENARIO.json, replay:FILE, file:FLEET.json "
+              "(default: the only CAN interface that is up)",
+              "can0、slcan:DEV、mcast:N、sim:、sim:SCENARIO.json、replay:FILE、file:FLEET.json "
               "(省略時: 起動している唯一の CAN インターフェース)"},
      .store = into<&Shared::interface>},
     {.name = "--node",

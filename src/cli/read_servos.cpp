@@ -1,7 +1,6 @@
 #include "cli/read_servos.hpp"
 
 #include "blactl/fleet/discovery.hpp"
-#include "blactl/fleet/texts.hpp"
 
 #include "cli/interface/bus_factory.hpp"
 #include "cli/texts.hpp"
@@ -18,24 +17,30 @@ bool must_be_silent(const Context& context) {
 
 } // namespace
 
-std::optional<std::vector<dronecan::NodeId>> select_for_reading(std::string_view command,
-                                                                Context& context, Report& report) {
-  const auto stop = [&](Error error) {
-    report.fail(std::move(error));
-    return std::nullopt;
-  };
+bool open_for_reading(std::string_view command, Context& context, Report& report) {
   if (must_be_silent(context)) {
-    return stop({Code::usage, say<texts::listen_only_refused>(command),
+    report.fail({Code::usage, say<texts::listen_only_refused>(command),
                  say<texts::listen_only_hint>(), std::nullopt});
-  }
-  const auto targets = context.targets();
-  if (!targets) {
-    return stop(targets.error());
+    return false;
   }
   if (auto session = context.open(fleet::Session::Hearing::answers); !session) {
-    return stop(session.error());
+    report.fail(session.error());
+    return false;
   }
   report.interface = context.session().interface();
+  return true;
+}
+
+std::optional<std::vector<dronecan::NodeId>> select_for_reading(std::string_view command,
+                                                                Context& context, Report& report) {
+  const auto targets = context.targets();
+  if (!targets) {
+    report.fail(targets.error());
+    return std::nullopt;
+  }
+  if (!open_for_reading(command, context, report)) {
+    return std::nullopt;
+  }
   fleet::Discovery discovery(context.session(), context.known(), context.identification());
   auto selection = discovery.select(*targets, fleet::servo_search_time);
   if (!selection) {

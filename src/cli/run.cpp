@@ -53,6 +53,7 @@ int carry_out(const Invocation& invocation, const Reporter& reporter) {
     report.signal = context.signal();
   }
   context.explain_silence(report);
+  context.explain_file(report);
   context.tell_losses(report);
   return reporter.finish(report);
 }

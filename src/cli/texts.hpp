@@ -43,8 +43,13 @@ inline constexpr Text help_exit_status{
     "5=サーボが拒否、6=サーボごとに異なる結果、7=同意なし、8=検出あり、9=競合。"};
 inline constexpr Text help_writes{"Without -n there must be just one servo on the bus.",
                                   "-n を省略できるのは、バス上のサーボが 1 台だけの場合です。"};
-inline constexpr Text help_recordings{"Also answers from a recording: -i replay:FILE.",
-                                      "記録からも読出しできます: -i replay:FILE"};
+inline constexpr Text help_from_history{"Without -n: the servos that the last command changed.",
+                                        "-n 省略時の対象は、直前のコマンドで変更したサーボです。"};
+inline constexpr Text help_from_file{"FILE says which servos are meant; -n narrows it down.",
+                                     "対象サーボは FILE で決まります。-n で絞り込めます。"};
+inline constexpr Text help_recordings{
+    "Also answers from a recording, -i replay:FILE, and from a fleet file, -i file:FLEET.json.",
+    "記録 (-i replay:FILE)、フリートファイル (-i file:FLEET.json) からも読出しできます。"};
 inline constexpr Text help_no_bus{
     "It uses no bus: options about the bus, such as -i and --timeout, do nothing here.",
     "バスは使用しません。-i や --timeout などバスに関するオプションは無視されます。"};
@@ -88,8 +93,10 @@ inline constexpr Text interface_meant{"-i {}: the kind of interface is missing",
                                       "-i {}: インターフェースの種類がありません"};
 inline constexpr Text interface_meant_hint{"did you mean -i {}?", "もしかして: -i {}"};
 inline constexpr Text bad_interface_hint{
-    "for example -i can0, -i slcan:/dev/ttyUSB0, -i mcast:0, -i sim:SCENARIO.json, -i replay:FILE",
-    "例: -i can0, -i slcan:/dev/ttyUSB0, -i mcast:0, -i sim:SCENARIO.json, -i replay:FILE",
+    "for example -i can0, -i slcan:/dev/ttyUSB0, -i mcast:0, -i sim:SCENARIO.json, "
+    "-i replay:FILE, -i file:FLEET.json",
+    "例: -i can0, -i slcan:/dev/ttyUSB0, -i mcast:0, -i sim:SCENARIO.json, -i replay:FILE, "
+    "-i file:FLEET.json",
 };
 inline constexpr Text slcan_bad_name{"-i slcan:{}: {}", "-i slcan:{}: {}"};
 inline constexpr Text slcan_no_device{"the device is missing", "デバイスの指定がありません"};
@@ -202,6 +209,26 @@ inline constexpr Text silent_scenario_hint{
 inline constexpr Text silent_log_hint{
     "{0} holds nothing that a DroneCAN node said: is it the right log? blactl trace {0}",
     "{0} には DroneCAN ノードの送信がありません。正しいログか確認して下さい: blactl trace {0}"};
+inline constexpr Text silent_file_hint{"{} holds no entry of one servo: blactl export writes them",
+                                       "{} にサーボ 1 台の項目がありません。作成するには: "
+                                       "blactl export"};
+inline constexpr Text file_entries_of_many{
+    "entries that mean every servo of a model, and none in particular, are passed over: {}",
+    "機種全体の設定で特定のサーボを指さない項目を無視しました: {}"};
+inline constexpr Text file_without_node_ids{
+    "entries that do not tell a node ID, and the number that messages call them by: {}",
+    "ノード ID の無い項目 (括弧内はメッセージで使う番号): {}"};
+inline constexpr Text file_not_recorded_hint{
+    "a fleet file tells of settings, and of who a servo is; the rest only the servo itself does: "
+    "-i can0",
+    "フリートファイルには設定と機種などの情報しかありません。他の値はサーボから読み出して下さい: "
+    "-i can0"};
+inline constexpr Text file_without_frames{"{}: a fleet file holds no frames",
+                                          "{}: フリートファイルにフレームはありません"};
+inline constexpr Text file_without_frames_hint{
+    "--record and --report need frames: give a log, or the interface that the servos are on",
+    "--record と --report にはフレームが必要です。ログか、サーボを接続した"
+    "インターフェースを指定して下さい"};
 inline constexpr Text waits_for_id{"waits for a node ID: unique ID {}…",
                                    "ノード ID 割当て待ち: 固有 ID {}…"};
 inline constexpr Text more_may_wait{

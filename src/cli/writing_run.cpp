@@ -4,11 +4,19 @@
 #include "blactl/fleet/texts.hpp"
 
 #include "cli/confirm.hpp"
+#include "cli/interface/bus_factory.hpp"
+#include "cli/output/progress_view.hpp"
 #include "cli/texts.hpp"
+#include "cli/undo_texts.hpp"
 
 #include <utility>
 
 namespace blactl::cli {
+
+Error cannot_be_recorded(const Error& reason) {
+  return {Code::state, say<texts::state_not_written>(reason.message),
+          say<texts::state_not_written_hint>(), std::nullopt};
+}
 
 bool WritingRun::stop(Error error) {
   report_.fail(std::move(error));
@@ -24,12 +32,42 @@ bool WritingRun::fail(const Error& error, Code refusal) {
   return error.code == refusal ? stop(error) : broken(error);
 }
 
-bool WritingRun::open(std::string_view command) {
+bool WritingRun::open(std::string_view command, Recording recording) {
+  recording_ = recording;
+  if (!open_record(command)) {
+    return false;
+  }
   if (const auto session = context_.open_for_writing(command); !session) {
     return stop(session.error());
   }
   report_.interface = context_.session().interface();
   return true;
+}
+
+/// Before the bus: a disk may take longer than the kernel keeps frames. What will be refused there
+/// is not worth a file.
+bool WritingRun::open_record(std::string_view command) {
+  if (recording_ == Recording::none || context_.shared().listen_only ||
+      takes_no_frames(context_.shared().interface)) {
+    return true;
+  }
+  const bool writes = recording_ != Recording::looked_up;
+  auto history = context_.history(command, writes ? state::Access::write : state::Access::read);
+  if (history) {
+    history_ = std::move(*history);
+    return true;
+  }
+  auto refused = writes ? go_unrecorded(history.error()) : std::nullopt;
+  return refused ? stop(std::move(*refused)) : true;
+}
+
+/// Why nothing must be changed then; empty: it may.
+std::optional<Error> WritingRun::go_unrecorded(const Error& reason) {
+  if (recording_ == Recording::required) {
+    return cannot_be_recorded(reason);
+  }
+  tell({say<texts::change_not_recorded>(reason.message)});
+  return std::nullopt;
 }
 
 std::optional<fleet::Selection>
@@ -44,9 +82,15 @@ WritingRun::choose(const fleet::Targets& targets,
   for (const std::string& note : selection->notes) {
     context_.reporter().note(note);
   }
-  has_searched_ = targets.need_search();
-  chosen_at_ = context_.session().now();
+  if (targets.need_search()) {
+    searched();
+  }
   return std::move(*selection);
+}
+
+void WritingRun::searched() {
+  has_searched_ = true;
+  chosen_at_ = context_.session().now();
 }
 
 bool WritingRun::hear() {
@@ -84,6 +128,26 @@ void WritingRun::tell_others() {
 /// Servos may have moved: who shares a servo ID is not looked at.
 void WritingRun::tell_newcomers() {
   tell(fleet::others(context_.session().roster()));
+}
+
+fleet::Manner WritingRun::manner(const RestartTimes& times, bool restarts) {
+  return {
+      .identification = context_.identification(),
+      .stagger = times.stagger,
+      .come_back = times.wait,
+      .may_allocate = restarts && context_.may_allocate(),
+      .allocations = [this] { return context_.allocations(state::AllocationStore::Access::write); },
+      // No reason to leave a servo without its node ID.
+      .not_kept =
+          [this](const Error& error) {
+            context_.reporter().note(say<texts::ids_not_kept>(error.message));
+          },
+      .progress =
+          [this](const fleet::Progress& progress) { context_.reporter().progress(text(progress)); },
+      .history = recording_ == Recording::looked_up ? nullptr : history(),
+      .not_recorded = [this](const Error& reason) { return go_unrecorded(reason); },
+      .end_not_recorded =
+          [this](const Error& error) { tell({say<texts::end_not_recorded>(error.message)}); }};
 }
 
 bool WritingRun::confirm(const std::string& question) {

@@ -1,11 +1,15 @@
 #pragma once
 // What every command that writes to servos does before it writes.
 
+#include "blactl/fleet/carry_out.hpp"
 #include "blactl/fleet/discovery.hpp"
+#include "blactl/fleet/history.hpp"
 
 #include "cli/context.hpp"
+#include "cli/options.hpp"
 #include "cli/output/report.hpp"
 
+#include <cstdint>
 #include <optional>
 #include <set>
 #include <string>
@@ -14,17 +18,31 @@
 
 namespace blactl::cli {
 
+/// Whether what servos held, and what their ROM was proven to hold, is recorded.
+enum class Recording : std::uint8_t {
+  none,
+  looked_up,   ///< what was recorded before is read, and nothing is added
+  if_possible, ///< else that is said, and nothing else comes of it
+  required     ///< else nothing is changed
+};
+
+/// Why nothing is changed where that is required.
+[[nodiscard]] Error cannot_be_recorded(const Error& reason);
+
 /// One run of such a command. Each step may end it: then it is false or empty, and the report says
 /// why.
 class WritingRun {
  protected:
   WritingRun(Context& context, Report& report) : context_(context), report_(report) {}
 
-  [[nodiscard]] bool open(std::string_view command);
+  [[nodiscard]] bool open(std::string_view command, Recording recording = Recording::none);
 
   /// The servos that are meant; those that are named and not there are its errors.
   [[nodiscard]] std::optional<fleet::Selection>
   choose(const fleet::Targets& targets, const fleet::Identification::Options& identification);
+
+  /// The bus was searched: who comes from now on was not chosen.
+  void searched();
 
   /// Hears the bus long enough to know who else acts on it. A servo that came since they were
   /// chosen may be one of those that are meant; one without a node ID is none of them, and that is
@@ -36,6 +54,13 @@ class WritingRun {
 
   /// The same of those who came while it wrote.
   void tell_newcomers();
+
+  /// How servos are changed, and recorded as open() was told. Where they restart this process
+  /// allocates node IDs, if it may.
+  [[nodiscard]] fleet::Manner manner(const RestartTimes& times = {}, bool restarts = true);
+
+  /// What was recorded before; null: nothing is known.
+  [[nodiscard]] fleet::History* history() { return history_ ? &*history_ : nullptr; }
 
   /// An empty question is none.
   [[nodiscard]] bool confirm(const std::string& question);
@@ -56,7 +81,11 @@ class WritingRun {
 
  private:
   void tell(const std::vector<std::string>& notes);
+  [[nodiscard]] bool open_record(std::string_view command);
+  [[nodiscard]] std::optional<Error> go_unrecorded(const Error& reason);
 
+  Recording recording_ = Recording::none;
+  std::optional<fleet::History> history_;
   bool has_searched_ = false; ///< the bus, for the servos that are meant
   Time chosen_at_{};
   std::set<std::string> told_; ///< who else acts

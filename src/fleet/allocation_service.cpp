@@ -1,9 +1,9 @@
 #include "blactl/fleet/allocation_service.hpp"
 
 #include "blactl/base/hex.hpp"
+#include "blactl/fleet/conflict_texts.hpp"
 #include "blactl/fleet/guard.hpp"
 #include "blactl/fleet/node_id_texts.hpp"
-#include "blactl/fleet/texts.hpp"
 
 #include <algorithm>
 #include <chrono>

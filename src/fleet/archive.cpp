@@ -120,6 +120,13 @@ void Archive::keep(Answer& slot, const Transfer& transfer, Moment asked) {
   slot.asked = asked;
 }
 
+void Archive::recall(dronecan::NodeId node, bla::Address address, std::int64_t raw) {
+  const auto payload = GetSet::Response{.value = raw, .name = address.name()}.encode();
+  Answer& slot = servers_[node].registers[address];
+  slot.payload.assign(payload.bytes().begin(), payload.bytes().end());
+  slot.boots = boots(node);
+}
+
 /// How often the node has restarted so far.
 std::uint32_t Archive::boots(dronecan::NodeId node) const {
   const Member* member = roster_.find(node);

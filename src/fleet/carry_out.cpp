@@ -4,12 +4,14 @@
 #include "blactl/dronecan/allocator.hpp"
 #include "blactl/fleet/discovery.hpp"
 #include "blactl/fleet/former_ids.hpp"
+#include "blactl/fleet/restart_texts.hpp"
 #include "blactl/fleet/texts.hpp"
 #include "blactl/fleet/ticker.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <functional>
+#include <iterator>
 #include <list>
 #include <map>
 #include <span>
@@ -98,10 +100,28 @@ void explain_waiting(const Plan& plan, const FormerIds& table, ChangeResult& res
   }
 }
 
-} // namespace
+/// Why nothing must be changed, once this was recorded or not. Then it hears what came meanwhile:
+/// the kernel keeps little, and a disk may take its time.
+std::optional<Error> judge(const Result<void>& recorded, Session& session, const Manner& manner) {
+  if (!recorded && manner.not_recorded) {
+    if (auto refused = manner.not_recorded(recorded.error())) {
+      return refused;
+    }
+  }
+  const auto heard = session.live_until(session.now());
+  return heard ? std::nullopt : std::optional(heard.error());
+}
 
-CarriedOut carry_out(Session& session, const bla::Profiles& profiles, std::span<const Plan> plans,
-                     const Manner& manner) {
+/// Nothing was changed.
+CarriedOut not_begun(std::span<const Plan> plans, Error reason) {
+  CarriedOut none;
+  none.broken = std::move(reason);
+  std::ranges::transform(plans, std::back_inserter(none.servos), as_planned);
+  return none;
+}
+
+CarriedOut change(Session& session, const bla::Profiles& profiles, std::span<const Plan> plans,
+                  const Manner& manner) {
   FormerIds table(session, ids_of(plans), manner.allocations, manner.not_kept);
   dronecan::Allocator allocator(session.node(), table);
   if (manner.may_allocate && session.roster().allocators().empty()) {
@@ -111,10 +131,11 @@ CarriedOut carry_out(Session& session, const bla::Profiles& profiles, std::span<
   if (std::ranges::any_of(plans, [](const Plan& plan) { return plan.restart.has_value(); })) {
     recogniser.recognise();
   }
-  RestartPace pace{.distance = manner.stagger};
+  RestartPace pace{.distance = manner.stagger, .stops_at_failure = manner.stops_at_failure};
   ChangeJob::Options options{.identification = manner.identification,
                              .come_back = manner.come_back.value_or(come_back_time(plans)),
-                             .pace = &pace};
+                             .pace = &pace,
+                             .entered = manner.entered};
   std::list<ChangeJob> jobs;
   std::vector<dronecan::Job*> group;
   for (const Plan& plan : plans) {
@@ -135,6 +156,35 @@ CarriedOut carry_out(Session& session, const bla::Profiles& profiles, std::span<
     explain_waiting(plans[carried_out.servos.size() - 1], table, carried_out.servos.back());
   }
   carried_out.broken = ran ? check_sent(session) : std::optional(ran.error());
+  return carried_out;
+}
+
+} // namespace
+
+std::optional<Error> record(Session& session, std::span<const Plan> plans, const Manner& manner) {
+  if (manner.history == nullptr || session.is_recording()) {
+    return std::nullopt;
+  }
+  auto refused = judge(manner.history->drop_proofs(plans), session, manner);
+  return refused ? refused : judge(manner.history->keep(plans, session.wall()), session, manner);
+}
+
+void record_end(Session& session, std::span<const ChangeResult> results, const Manner& manner) {
+  if (manner.history == nullptr || session.is_recording()) {
+    return;
+  }
+  const auto concluded = manner.history->conclude(results, session);
+  if (!concluded && manner.end_not_recorded) {
+    manner.end_not_recorded(concluded.error());
+  }
+}
+
+CarriedOut carry_out(Session& session, const bla::Profiles& profiles, std::span<const Plan> plans,
+                     const Manner& manner) {
+  auto refused = record(session, plans, manner);
+  auto carried_out =
+      refused ? not_begun(plans, std::move(*refused)) : change(session, profiles, plans, manner);
+  record_end(session, carried_out.servos, manner);
   return carried_out;
 }
 

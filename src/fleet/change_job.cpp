@@ -1,5 +1,6 @@
 #include "blactl/fleet/change_job.hpp"
 
+#include "blactl/fleet/restart_texts.hpp"
 #include "blactl/fleet/texts.hpp"
 
 #include <algorithm>
@@ -29,9 +30,21 @@ bla::Values expected_after_erase(const Plan& plan) {
 
 } // namespace
 
+std::string_view name(ChangeStage stage) {
+  switch (stage) {
+  case ChangeStage::erase: return "erase";
+  case ChangeStage::write: return "write";
+  case ChangeStage::save: return "save";
+  case ChangeStage::restart: return "restart";
+  case ChangeStage::read: return "read";
+  case ChangeStage::end: return "end";
+  }
+  return {};
+}
+
 ChangeJob::ChangeJob(Roster& roster, const bla::Profiles& profiles, const Plan& plan,
                      Options options)
-    : roster_(roster), profiles_(profiles), plan_(plan), options_(options),
+    : roster_(roster), profiles_(profiles), plan_(plan), options_(std::move(options)),
       servo_(plan.before.servo), result_(as_planned(plan)) {
   result_.was_begun = true;
 }
@@ -50,6 +63,44 @@ Step ChangeJob::next(const Outcome& outcome) {
 
 bool ChangeJob::must_finish() const {
   return stage_ == Stage::read_back || (stage_ == Stage::restart && restart_->must_finish());
+}
+
+std::optional<ChangeStage> ChangeJob::told_as(Stage stage) const {
+  switch (stage) {
+  case Stage::erase: return ChangeStage::erase;
+  case Stage::write: return ChangeStage::write;
+  case Stage::restart:
+    return plan_.restart == RestartKind::save ? ChangeStage::save : ChangeStage::restart;
+  case Stage::read_erased:
+  case Stage::look:
+  case Stage::read_back:
+  case Stage::read_shown: return ChangeStage::read;
+  case Stage::end: return ChangeStage::end;
+  case Stage::begin: break;
+  }
+  return std::nullopt;
+}
+
+bool ChangeJob::is_stopped(Stage next) const {
+  const bool changes = next == Stage::erase || next == Stage::write || next == Stage::restart;
+  return changes && options_.pace != nullptr && options_.pace->is_stopped();
+}
+
+/// Another servo has failed.
+void ChangeJob::stop() {
+  const std::uint8_t id = servo_.id.value();
+  result_.was_begun = erase_ || write_;
+  result_.is_verified = false;
+  if (result_.was_begun) {
+    result_.error =
+        Error{Code::state, say<texts::stopped_by_another>(id), say<texts::run_again_hint>(), id};
+  }
+}
+
+void ChangeJob::tell_failure() const {
+  if (options_.pace != nullptr && !result_.is_done()) {
+    options_.pace->has_failed = true;
+  }
 }
 
 ChangeJob::Stage ChangeJob::first_stage() const {
@@ -81,18 +132,31 @@ std::unique_ptr<RestartJob> ChangeJob::restart() const {
   return std::make_unique<RestartJob>(roster_, servo_, options);
 }
 
+/// After a save everything is read.
+std::unique_ptr<WriteJob> ChangeJob::write() const {
+  const bool is_read_later = plan_.restart == RestartKind::save;
+  return std::make_unique<WriteJob>(
+      roster_, servo_, plan_.changes, options_.identification.patience,
+      is_read_later ? WriteJob::Echo::suffices : WriteJob::Echo::is_checked);
+}
+
 /// Begins a stage; one that has nothing to ask is over at once.
 Step ChangeJob::enter(Stage stage, Time now) {
   for (;; stage = conclude_stage(false)) {
+    if (is_stopped(stage)) {
+      stop();
+      stage = Stage::end;
+    }
     stage_ = stage;
+    if (const auto told = told_as(stage); told && options_.entered) {
+      options_.entered(servo_, *told);
+    }
     const Patience patience = options_.identification.patience;
     switch (stage) {
     case Stage::erase:
       job_ = (erase_ = std::make_unique<EraseJob>(roster_, servo_, patience)).get();
       break;
-    case Stage::write:
-      job_ = (write_ = std::make_unique<WriteJob>(roster_, servo_, plan_.changes, patience)).get();
-      break;
+    case Stage::write: job_ = (write_ = write()).get(); break;
     case Stage::restart:
       result_.was_restarted = true;
       job_ = (restart_ = restart()).get();
@@ -102,7 +166,7 @@ Step ChangeJob::enter(Stage stage, Time now) {
     case Stage::read_back: job_ = (read_ = read_configuration()).get(); break;
     case Stage::read_shown: job_ = (read_ = read_shown()).get(); break;
     case Stage::begin:
-    case Stage::end: return std::nullopt;
+    case Stage::end: tell_failure(); return std::nullopt;
     }
     if (Step step = job_->next({Outcome::Kind::start, {}, now}); !step.is_end()) {
       return step;
@@ -204,6 +268,7 @@ ChangeJob::Stage ChangeJob::conclude_restart() {
     result_.error = Error{Code::state, say<texts::restarts_while_read>(id),
                           say<texts::restarts_again_hint>(), id};
   }
+  result_.may_have_saved = *plan_.restart == RestartKind::save && restart_->may_have_happened();
   result_.duration = restart_->duration();
   result_.returned = result_.node_id_after = restart_->returned();
   if (!restart_->is_sent() || restart_->has_run_on()) {
@@ -213,7 +278,8 @@ ChangeJob::Stage ChangeJob::conclude_restart() {
   if (result_.error && restart_->is_sent() && !restart_->has_run_on()) {
     doubt_changes();
   }
-  const bool reads = *plan_.restart == RestartKind::save && !result_.error && result_.returned;
+  const bool looks = *plan_.restart == RestartKind::save || plan_.proves_rom;
+  const bool reads = looks && !result_.error && result_.returned;
   return reads ? Stage::read_back : Stage::end;
 }
 
@@ -256,11 +322,27 @@ ChangeJob::Stage ChangeJob::conclude_read_back() {
     result_.error = Error{Code::state, say<texts::written_by_other>(id, writer->value()),
                           say<texts::other_writer_hint>(), id};
   }
-  result_.saved = result_.is_verified = !result_.error;
+  result_.is_verified = !result_.error;
+  result_.saved = result_.is_verified && *plan_.restart == RestartKind::save;
   if (result_.error) {
     tell_saved(now);
+    return Stage::end;
   }
-  return result_.error ? Stage::end : to_show();
+  result_.rom = rom_reading(now);
+  return to_show();
+}
+
+/// `now` ends with an uptime of the servo. Empty: it has started anew since.
+std::optional<RomReading> ChangeJob::rom_reading(const Snapshot& now) const {
+  const Member member = roster_.member(now.servo.id);
+  if (!member.is_unit(*servo_.unique_id)) {
+    return std::nullopt;
+  }
+  RomReading rom{.values = now.values(),
+                 .started = member.info_start,
+                 .uptime = std::chrono::seconds(member.info->status.uptime_s)};
+  std::erase_if(rom.values, [](const auto& held) { return !bla::is_setting(held.first); });
+  return rom;
 }
 
 /// Nothing rests on it: what cannot be read is not shown.

@@ -3,7 +3,9 @@
 
 #include "blactl/base/hex.hpp"
 #include "blactl/fleet/change_job.hpp"
+#include "blactl/fleet/conflict_texts.hpp"
 #include "blactl/fleet/guard.hpp"
+#include "blactl/fleet/restart_texts.hpp"
 #include "blactl/fleet/texts.hpp"
 
 #include <algorithm>
@@ -34,10 +36,11 @@ void ChangeJob::blame_other_writer() {
   }
 }
 
-/// A second unit that shows when something has been sent may have taken it, too.
+/// What has been sent. A second unit that shows then may have taken it, too.
 void ChangeJob::tell_reach() {
-  const bool has_sent = (erase_ && erase_->is_sent()) || (write_ && write_->has_written()) ||
-                        (restart_ && restart_->is_sent());
+  const bool has_sent = result_.was_sent = (erase_ && erase_->is_sent()) ||
+                                           (write_ && write_->has_written()) ||
+                                           (restart_ && restart_->is_sent());
   const auto tell = [&](std::optional<Error>& error) {
     if (has_sent && error && error->code == Code::duplicate_node_id) {
       error->hint = say<texts::doubled_meanwhile_hint>();
@@ -132,7 +135,7 @@ void ChangeJob::explain_interruption(Stage at) {
     result_.error =
         Error{Code::interrupted, std::move(message), say<texts::what_it_holds_hint>(uid), id};
   };
-  if (at == Stage::read_back) {
+  if (at == Stage::read_back && plan_.restart == RestartKind::save) {
     interrupted(say<texts::saved_not_verified>(id));
   } else if ((at == Stage::erase && erase_->is_sent()) || at == Stage::read_erased) {
     interrupted(say<texts::erased_not_verified>(id));

@@ -87,8 +87,10 @@ class NodeExamination {
       return; // what is known of it may be the other's
     }
     if (node.is_offline) {
-      add("offline", Level::warning, node.servo.id, say<texts::node_offline>(id),
-          say<texts::node_offline_fix>(id));
+      if (!is_tool(node)) {
+        add("offline", Level::warning, node.servo.id, say<texts::node_offline>(id),
+            say<texts::node_offline_fix>(id));
+      }
       return;
     }
     if (node.status && node.status->health != dronecan::Health::ok) {

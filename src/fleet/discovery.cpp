@@ -3,6 +3,8 @@
 #include "blactl/base/hex.hpp"
 #include "blactl/fleet/guard.hpp"
 #include "blactl/fleet/read_job.hpp"
+#include "blactl/fleet/restart_texts.hpp"
+#include "blactl/fleet/target_texts.hpp"
 #include "blactl/fleet/texts.hpp"
 
 #include <fmt/format.h>
@@ -182,7 +184,15 @@ Result<Selection> Discovery::select(const Targets& targets, Duration listen) {
   if (auto ambiguous = targets.ambiguity(session_.roster(), profiles_)) {
     return std::unexpected(std::move(*ambiguous));
   }
-  std::set<NodeId> chosen(targets.ids.begin(), targets.ids.end());
+  std::set<NodeId> chosen;
+  for (const NodeId id : targets.ids) {
+    if (session_.roster().member(id).id_is_known) {
+      chosen.insert(id);
+    } else { // nobody has this ID: it stands for a servo whose ID is not known
+      selection.errors.push_back({Code::not_recorded, say<texts::node_not_recorded>(id.value()),
+                                  say<texts::not_recorded_hint>(), id.value()});
+    }
+  }
   for (const auto& [id, member] : session_.roster().members()) {
     if (member.is_known() && !member.is_servo && member.sends_actuator_status()) {
       selection.notes.push_back(
@@ -245,6 +255,9 @@ Result<void> Discovery::find_all(Duration listen) {
 }
 
 Result<void> Discovery::look_for_twins(const std::vector<const Member*>& members) {
+  if (session_.is_recording()) { // it would only repeat itself
+    return {};
+  }
   std::list<DoubleCheckJob> checks;
   std::vector<dronecan::Job*> group;
   group.reserve(members.size());

@@ -1,6 +1,7 @@
 #include "blactl/fleet/erase_job.hpp"
 
 #include "blactl/fleet/guard.hpp"
+#include "blactl/fleet/restart_texts.hpp"
 #include "blactl/fleet/texts.hpp"
 
 namespace blactl::fleet {

@@ -1,8 +1,10 @@
 #include "blactl/fleet/findings.hpp"
 
 #include "blactl/bla/defect.hpp"
+#include "blactl/fleet/conflict_texts.hpp"
 #include "blactl/fleet/guard.hpp"
 #include "blactl/fleet/texts.hpp"
+#include "blactl/state/local_node_id.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -17,21 +19,12 @@ using dronecan::NodeId;
 
 namespace {
 
-std::string list(const std::vector<NodeId>& nodes) {
-  std::string out;
-  for (const NodeId id : nodes) {
-    out += out.empty() ? "" : ", ";
-    out += std::to_string(id.value());
-  }
-  return out;
-}
-
 /// All but one need another.
 std::string servo_id_hint(const std::vector<NodeId>& sharers) {
   const std::vector<NodeId> others(sharers.begin() + 1, sharers.end());
   const std::uint8_t first = others.front().value();
   return others.size() == 1 ? say<texts::doubled_servo_id_hint>(first)
-                            : say<texts::shared_servo_id_hint>(list(others), first);
+                            : say<texts::shared_servo_id_hint>(id_list(others), first);
 }
 
 /// Servos that share the number that `key` gives.
@@ -48,7 +41,7 @@ void find_shared(const Roster& roster, Code code,
   }
   for (auto& [number, nodes] : holders) {
     if (nodes.size() > 1) {
-      std::string said = say<text>(list(nodes), number);
+      std::string said = say<text>(id_list(nodes), number);
       std::string hint = code == Code::duplicate_servo_id ? servo_id_hint(nodes)
                                                           : say<texts::doubled_target_hint>();
       conflicts.push_back({code, std::move(nodes), std::move(said), std::move(hint)});
@@ -137,10 +130,15 @@ std::vector<std::string> warnings(const Member& member) {
   if (bla::may_stall(identity)) {
     out.push_back(say<texts::warn_stall>(bla::firmware_text(*readings.firmware_version)));
   }
-  if (member.static_node_id.value_or(0) != 0 && *member.static_node_id != member.id.value()) {
+  if (member.id_is_known && member.static_node_id.value_or(0) != 0 &&
+      *member.static_node_id != member.id.value()) {
     out.push_back(say<texts::warn_static_id_differs>(*member.static_node_id));
   }
   return out;
+}
+
+bool is_tool(const Finding& node) {
+  return !node.servo.is_servo && state::is_tool_id(node.servo.id);
 }
 
 std::vector<NodeId> commanders(const Roster& roster) {

@@ -1,7 +1,8 @@
 #include "blactl/fleet/former_ids.hpp"
 
 #include "blactl/base/hex.hpp"
-#include "blactl/fleet/texts.hpp"
+#include "blactl/fleet/conflict_texts.hpp"
+#include "blactl/fleet/restart_texts.hpp"
 
 #include <algorithm>
 #include <ranges>

@@ -1,6 +1,8 @@
 #include "blactl/fleet/guard.hpp"
 
 #include "blactl/base/hex.hpp"
+#include "blactl/fleet/conflict_texts.hpp"
+#include "blactl/fleet/target_texts.hpp"
 #include "blactl/fleet/texts.hpp"
 
 #include <string>
@@ -21,7 +23,7 @@ Error doubled(const Roster& roster, dronecan::NodeId id) {
 
 Error silent(const Roster& roster, dronecan::NodeId node) {
   const std::uint8_t id = node.value();
-  return roster.heard(node)
+  return roster.heard(node) && roster.member(node).id_is_known
              ? Error{Code::timeout, say<texts::node_mute>(id), say<texts::no_answer_hint>(), id}
              : Error{Code::not_found, say<texts::node_not_found>(id),
                      say<texts::node_not_found_hint>(), id};

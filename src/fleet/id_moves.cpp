@@ -2,7 +2,7 @@
 
 #include "blactl/base/hex.hpp"
 #include "blactl/fleet/node_id_texts.hpp"
-#include "blactl/fleet/texts.hpp"
+#include "blactl/fleet/target_texts.hpp"
 
 #include <algorithm>
 #include <set>

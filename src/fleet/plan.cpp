@@ -3,6 +3,8 @@
 #include "blactl/bla/cross_check.hpp"
 #include "blactl/bla/effect.hpp"
 #include "blactl/bla/value.hpp"
+#include "blactl/fleet/conflict_texts.hpp"
+#include "blactl/fleet/restart_texts.hpp"
 #include "blactl/fleet/texts.hpp"
 
 #include <algorithm>
@@ -331,6 +333,7 @@ Result<Plan> make_plan(const Wanted& wanted, Snapshot before, const bla::Profile
             .erase = wanted.erase,
             .keep_ids = wanted.keep_ids,
             .restart = wanted.restart,
+            .proves_rom = wanted.proves_rom,
             .shown = wanted.also_read};
   if (wanted.erase) {
     auto defaults = plan.before.servo.identity.factory_defaults();

@@ -1,6 +1,8 @@
 #include "blactl/fleet/read_job.hpp"
 
 #include "blactl/fleet/guard.hpp"
+#include "blactl/fleet/restart_texts.hpp"
+#include "blactl/fleet/target_texts.hpp"
 #include "blactl/fleet/texts.hpp"
 
 #include <algorithm>

@@ -18,12 +18,6 @@ auto is_at(bla::Address address) {
   return [=](const Parameter* parameter) { return parameter->address == address; };
 }
 
-/// The register as this servo has it; null: it has none.
-const Parameter* of_servo(const Parameter& parameter, const Servo& servo) {
-  const Parameter* own = servo.identity.parameter(parameter.address);
-  return own != nullptr && servo.identity.has(*own) ? own : nullptr;
-}
-
 std::vector<std::string_view> group_names() {
   std::vector<std::string_view> names;
   for (const bla::Group group : bla::all_groups()) {
@@ -56,6 +50,25 @@ Result<const Parameter*> find_readable(const bla::Profiles& profiles, std::strin
 }
 
 } // namespace
+
+const Parameter* own_register(const Parameter& parameter, const Servo& servo) {
+  const Parameter* own = servo.identity.parameter(parameter.address);
+  return own != nullptr && servo.identity.has(*own) ? own : nullptr;
+}
+
+Error lacking(const Parameter& parameter, const Servo& servo) {
+  const std::uint8_t id = servo.id.value();
+  if (auto has_input = servo.identity.check_pwm_input(parameter); !has_input) {
+    return {has_input.error().code, say<texts::about_node>(id, has_input.error().message),
+            has_input.error().hint, id};
+  }
+  const auto firmware = servo.identity.readings().firmware_version.value_or(0);
+  const std::string message = say<texts::firmware_lacks>(
+      parameter.name, bla::firmware_text(parameter.min_firmware.value_or(0)),
+      bla::firmware_text(firmware));
+  return {Code::unsupported, say<texts::about_node>(id, message),
+          say<texts::firmware_lacks_hint>(id), id};
+}
 
 Result<bla::Group> parse_group(std::string_view word) {
   if (const auto group = bla::find_group(word)) {
@@ -113,10 +126,10 @@ std::vector<const Parameter*> RegisterChoice::registers_of(const Servo& servo) c
     }
   };
   for (const Parameter* parameter : named_) {
-    add(of_servo(*parameter, servo));
+    add(own_register(*parameter, servo));
   }
   for (const Parameter& parameter : profiles_->registers()) {
-    const Parameter* own = of_servo(parameter, servo);
+    const Parameter* own = own_register(parameter, servo);
     if ((is_everything() || groups_.contains(parameter.group)) && own != nullptr &&
         own->readable()) {
       add(own);
@@ -131,30 +144,11 @@ std::vector<const Parameter*> RegisterChoice::registers_of(const Servo& servo) c
   return wanted;
 }
 
-namespace {
-
-/// Why a servo has no such register: no newer firmware gives a model a PWM input.
-Error lacks(const Parameter& parameter, const Servo& servo) {
-  const std::uint8_t id = servo.id.value();
-  if (auto has_input = servo.identity.check_pwm_input(parameter); !has_input) {
-    return {has_input.error().code, say<texts::about_node>(id, has_input.error().message),
-            has_input.error().hint, id};
-  }
-  const auto firmware = servo.identity.readings().firmware_version.value_or(0);
-  const std::string message = say<texts::firmware_lacks>(
-      parameter.name, bla::firmware_text(parameter.min_firmware.value_or(0)),
-      bla::firmware_text(firmware));
-  return {Code::unsupported, say<texts::about_node>(id, message),
-          say<texts::firmware_lacks_hint>(id), id};
-}
-
-} // namespace
-
 std::vector<Error> RegisterChoice::refusals(const Servo& servo) const {
   std::vector<Error> errors;
   for (const Parameter* parameter : named_) {
-    if (servo.is_servo && of_servo(*parameter, servo) == nullptr) {
-      errors.push_back(lacks(*parameter, servo));
+    if (servo.is_servo && own_register(*parameter, servo) == nullptr) {
+      errors.push_back(lacking(*parameter, servo));
     }
   }
   return errors;

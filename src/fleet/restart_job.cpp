@@ -2,6 +2,7 @@
 
 #include "blactl/base/hex.hpp"
 #include "blactl/fleet/guard.hpp"
+#include "blactl/fleet/restart_texts.hpp"
 #include "blactl/fleet/texts.hpp"
 
 #include <algorithm>
@@ -107,6 +108,10 @@ Step RestartJob::check_unit(const Outcome& outcome) {
   if (options_.pace != nullptr && outcome.at < options_.pace->next) {
     at_ = At::start;
     return dronecan::Pause{.until = options_.pace->next};
+  }
+  if (options_.pace != nullptr && options_.pace->is_stopped()) {
+    return give_up(
+        {Code::state, say<texts::stopped_by_another>(id), say<texts::run_again_hint>(), id});
   }
   return request(outcome.at);
 }
@@ -254,8 +259,9 @@ std::optional<dronecan::NodeId> RestartJob::doubled_id() const {
   return is_shared ? expected : std::nullopt;
 }
 
-/// Somebody is heard where the servo will be who has another unique ID, or has run for longer than
-/// the servo can, which was told to restart. Of a mere restart it is not certain where it will be.
+/// Somebody is heard where the servo will be who has told another unique ID since, or has run for
+/// longer than the servo can, which was told to restart: who was there before may have moved away.
+/// Of a mere restart it is not certain where it will be.
 bool RestartJob::is_another_at(dronecan::NodeId id) const {
   constexpr Duration tolerance = 1s; // uptime counts whole seconds
   const Member* member = id != id_ ? roster_.find(id) : nullptr;
@@ -267,7 +273,7 @@ bool RestartJob::is_another_at(dronecan::NodeId id) const {
   const bool is_too_old = member->status && member->status_at > sent_at_ &&
                           std::chrono::seconds(member->status->uptime_s) >
                               member->status_at - first_sent_at_ + tolerance;
-  return member->is_another_unit(unique_id_) || is_too_old;
+  return (member->is_another_unit(unique_id_) && member->info_at > sent_at_) || is_too_old;
 }
 
 /// Where the servo is after its restart; empty: not yet. It says so itself: a start that was heard

@@ -12,24 +12,8 @@ using dronecan::Transfer;
 
 namespace {
 
-/// A BLA servo sends actuator.Status every 100 ms (table 2-2). More than fourteen in a second are
-/// two servos: one servo cannot send them even if every delay falls the worst way.
-constexpr Duration status_window = std::chrono::seconds(1);
-constexpr unsigned most_statuses_of_one = 14;
-
-/// Uptime counts whole seconds and its message may be late: two start times less than this apart
-/// are one.
-constexpr Duration boot_tolerance = std::chrono::milliseconds(1500);
-
-/// The same for an answer, which may be as late as it is waited for. RestartJob lets servos grow
-/// older than this before it restarts them.
-constexpr Duration answer_tolerance = std::chrono::seconds(2);
-
+constexpr std::uint16_t last_address = 0xFF;
 constexpr std::uint8_t tail_start_of_transfer = 0x80;
-
-/// ERASE writes all of them; a name that is none of ours may be any.
-constexpr std::optional<bla::Address> every_register{};
-constexpr std::uint16_t last_index = 0xFF;
 
 /// Bound for what anybody on the bus can make us remember.
 constexpr std::size_t most_pending = 256;
@@ -40,7 +24,7 @@ std::set<std::string> names_of_settled() {
   namespace at = bla::address;
   std::set<std::string> names{at::model_number.name(), at::serial_number.name(),
                               at::firmware_version.name(), at::hardware_version.name()};
-  for (unsigned value = 0; value <= last_index; ++value) {
+  for (unsigned value = 0; value <= last_address; ++value) {
     if (const bla::Address address(static_cast<std::uint8_t>(value)); bla::is_setting(address)) {
       names.insert(address.name());
     }
@@ -52,14 +36,15 @@ std::set<std::string> names_of_settled() {
 
 Servo Member::servo() const {
   return {.id = id,
-          .unique_id = info ? std::optional(info->unique_id) : std::nullopt,
+          .unique_id = unique_id(),
           .boot = identified_boot,
           .since = since,
           .name = info ? info->name : std::string(),
           .is_servo = is_servo,
           .identity = identity,
           .servo_id = servo_id,
-          .static_node_id = static_node_id};
+          .static_node_id = static_node_id,
+          .id_is_known = id_is_known};
 }
 
 Roster::Roster(NodeId local)
@@ -108,6 +93,7 @@ void Roster::learn(NodeId id, const dronecan::GetNodeInfo::Response& info, Time 
   }
   member.info = info;
   member.info_boot = member.boots;
+  member.info_at = at;
   member.info_start = at - std::chrono::seconds(info.status.uptime_s);
   if (!member.is_known()) {
     member.identified = member.is_servo = false;
@@ -126,6 +112,14 @@ void Roster::learn(const Servo& servo, const std::optional<dronecan::GetNodeInfo
   member.servo_id = servo.servo_id;
   member.static_node_id = servo.static_node_id;
   member.identified = true;
+}
+
+void Roster::recall(const Servo& servo) {
+  learn(servo, std::nullopt);
+  Member& member = known(servo.id);
+  member.told_unique_id = servo.unique_id;
+  member.id_is_known = servo.id_is_known;
+  heard_[servo.id.value()] = true;
 }
 
 void Roster::learn_run(const Servo& servo) {
@@ -157,7 +151,7 @@ void Roster::hear(const can::Frame& frame, Time at) {
   const std::uint8_t tail = frame.data[frame.size - 1U];
   if (header->kind == Kind::message && header->data_type_id == dronecan::ActuatorStatus::type.id &&
       (tail & tail_start_of_transfer) != 0) {
-    count_status(header->source, tail % dronecan::transfer_id_modulus, at);
+    watches_[header->source.value()].count_status(tail % dronecan::transfer_id_modulus, at);
   }
   if (!std::exchange(heard_[header->source.value()], true)) {
     heard.first_heard = at;
@@ -168,33 +162,13 @@ void Roster::hear(const can::Frame& frame, Time at) {
   }
 }
 
-/// NodeStatus is one frame. One with the transfer ID of the last is dropped as its repetition
-/// before it comes to receive(); but it may be of another unit, whose uptime tells.
+/// NodeStatus is one frame.
 void Roster::hear_status(Member& sender, const can::Frame& frame, Time at) {
   const std::size_t size = frame.size - 1U;
-  const dronecan::TransferId id = frame.data[size] % dronecan::transfer_id_modulus;
-  const bool is_repeated = std::exchange(pulses_[sender.id.value()].last_status_id, id) == id;
   const auto status = dronecan::NodeStatus::decode(dronecan::Bytes(frame.data.data(), size));
-  if (is_repeated && status) {
-    watch_uptime(sender, status->uptime_s, at);
-  }
-}
-
-/// Nobody acknowledges a servo that is alone on the bus: when somebody joins, its waiting frames
-/// come all at once. But one unit numbers its transfers one by one; where the numbers of two units
-/// mix, at least every second one does not follow the one before.
-void Roster::count_status(NodeId source, dronecan::TransferId transfer_id, Time at) {
-  Pulse& pulse = pulses_[source.value()];
-  if (!pulse.window_start || at - *pulse.window_start > status_window) {
-    pulse.window_start = at;
-    pulse.count = pulse.leaps = 0;
-  }
-  const unsigned next = (pulse.last_transfer_id + 1U) % dronecan::transfer_id_modulus;
-  pulse.leaps += transfer_id != next ? 1U : 0U;
-  pulse.last_transfer_id = transfer_id;
-  ++pulse.count;
-  if (pulse.count > most_statuses_of_one && pulse.leaps * 4 > pulse.count) {
-    too_fast_.insert(source);
+  if (status) {
+    const dronecan::TransferId id = frame.data[size] % dronecan::transfer_id_modulus;
+    take(watches_[sender.id.value()].hear_repetition(id, status->uptime_s, at), sender);
   }
 }
 
@@ -202,7 +176,7 @@ void Roster::count_status(NodeId source, dronecan::TransferId transfer_id, Time 
 bool Roster::is_too_fast(NodeId id) const {
   const Member* sender = find(id);
   const bool is_foreign = sender != nullptr && sender->identified && !sender->is_servo;
-  return too_fast_.contains(id) && !is_foreign;
+  return watches_[id.value()].is_too_fast() && !is_foreign;
 }
 
 bool Roster::is_doubled(NodeId id) const {
@@ -211,8 +185,11 @@ bool Roster::is_doubled(NodeId id) const {
 
 std::set<NodeId> Roster::doubled() const {
   std::set<NodeId> all = doubled_;
-  std::ranges::copy_if(too_fast_, std::inserter(all, all.end()),
-                       [this](NodeId id) { return is_too_fast(id); });
+  for (const auto& [id, member] : members_) {
+    if (is_too_fast(id)) {
+      all.insert(id);
+    }
+  }
   return all;
 }
 
@@ -221,15 +198,7 @@ void Roster::receive(const Transfer& transfer) {
   if (header.source == local_ && local_.is_unicast()) {
     return;
   }
-  if (header.kind == Kind::request && header.data_type_id == dronecan::GetSet::type.id) {
-    on_write(transfer);
-  }
-  if (header.kind == Kind::request && header.data_type_id == dronecan::ExecuteOpcode::type.id) {
-    const auto request = dronecan::ExecuteOpcode::Request::decode(transfer.payload);
-    if (request && request->opcode == dronecan::ExecuteOpcode::erase) {
-      writes_[header.destination][every_register] = {header.source, transfer.at};
-    }
-  }
+  commands_.receive(transfer);
   if (header.kind == Kind::response && header.data_type_id == dronecan::GetNodeInfo::type.id) {
     // Its uptime counts as well as that of NodeStatus: a restart before the first of these shows.
     if (const auto info = dronecan::GetNodeInfo::Response::decode(transfer.payload);
@@ -237,11 +206,7 @@ void Roster::receive(const Transfer& transfer) {
       Member& sender = known(header.source);
       sender.status = info->status;
       sender.status_at = transfer.at;
-      if (is_news(header.source, info->status.uptime_s, transfer.at)) {
-        watch_uptime(sender, info->status.uptime_s, transfer.at);
-      } else if (is_of_before(header.source, info->status.uptime_s, transfer.at)) {
-        doubled_.insert(header.source);
-      }
+      take(watches_[header.source.value()].hear_answer(info->status.uptime_s, transfer.at), sender);
       learn(header.source, *info, transfer.at);
     }
   }
@@ -251,18 +216,10 @@ void Roster::receive(const Transfer& transfer) {
   switch (header.data_type_id) {
   case dronecan::NodeStatus::type.id: on_status(transfer); break;
   case dronecan::Allocation::type.id: on_allocation(transfer); break;
-  case dronecan::ArrayCommand::type.id: on_command(transfer); break;
   case dronecan::ActuatorStatus::type.id:
     if (const auto status = dronecan::ActuatorStatus::decode(transfer.payload);
         status && header.source.is_unicast()) {
       known(header.source).actuator_id = status->actuator_id;
-    }
-    break;
-  case dronecan::ArmingStatus::type.id:
-    if (const auto arming = dronecan::ArmingStatus::decode(transfer.payload)) {
-      // Each speaks for itself: one that is disarmed does not disarm another.
-      arming->status == dronecan::ArmingStatus::disarmed ? armed_.erase(header.source)
-                                                         : armed_.insert(header.source).second;
     }
     break;
   default: break;
@@ -277,58 +234,18 @@ void Roster::on_status(const Transfer& transfer) {
   Member& sender = known(transfer.header.source);
   sender.status = *status;
   sender.status_at = transfer.at;
-  watch_uptime(sender, status->uptime_s, transfer.at);
+  take(watches_[sender.id.value()].hear_uptime(status->uptime_s, transfer.at), sender);
 }
 
-/// Whether the uptime of an answer tells of another start than is known. An answer may have been
-/// under way for long: its uptime is older than it looks.
-bool Roster::is_news(NodeId source, std::uint32_t uptime_s, Time at) const {
-  const Pulse& pulse = pulses_[source.value()];
-  const std::optional<Time>& known = pulse.boots[pulse.last_boot];
-  return !known || at - std::chrono::seconds(uptime_s) - *known > answer_tolerance;
-}
-
-/// Whether the uptime of an answer tells of an older start than the last one that was heard: who
-/// answers did not start then. However late it comes, its start looks later and not earlier.
-bool Roster::is_of_before(NodeId source, std::uint32_t uptime_s, Time at) const {
-  const Pulse& pulse = pulses_[source.value()];
-  const std::optional<Time>& known = pulse.boots[pulse.last_boot];
-  return known && *known - (at - std::chrono::seconds(uptime_s)) > answer_tolerance;
-}
-
-void Roster::watch_uptime(Member& sender, std::uint32_t uptime_s, Time at) {
-  if (has_restarted(sender, uptime_s, at)) {
+/// What an uptime has told of a node.
+void Roster::take(UnitWatch::Start start, Member& sender) {
+  if (start == UnitWatch::Start::twin) {
+    doubled_.insert(sender.id);
+  } else if (start == UnitWatch::Start::anew) {
     ++sender.boots;
     answers_.forget(sender.id);
     announce(sender);
   }
-}
-
-/// Every uptime tells when its unit started. A new start is a restart; coming back to the old one
-/// means that two units send under one ID. A unit that restarts at once shows by its uptime alone,
-/// which never goes back.
-bool Roster::has_restarted(Member& sender, std::uint32_t uptime_s, Time at) {
-  Pulse& pulse = pulses_[sender.id.value()];
-  const Time boot = at - std::chrono::seconds(uptime_s);
-  const std::uint32_t before = std::exchange(pulse.last_uptime_s, uptime_s);
-  // A servo that restarts right after its start has two that are close to each other.
-  const auto distance = [&](const std::optional<Time>& known) {
-    return known ? std::chrono::abs(*known - boot) : Duration::max();
-  };
-  const auto it = std::ranges::min_element(pulse.boots, {}, distance);
-  if (distance(*it) < boot_tolerance) {
-    const auto index = static_cast<std::size_t>(it - pulse.boots.begin());
-    *it = boot; // clocks drift
-    if (index != std::exchange(pulse.last_boot, index)) {
-      doubled_.insert(sender.id);
-      return false;
-    }
-    return uptime_s < before;
-  }
-  const bool first = !pulse.boots[pulse.last_boot];
-  pulse.last_boot = first ? pulse.last_boot : 1 - pulse.last_boot;
-  pulse.boots[pulse.last_boot] = boot;
-  return !first;
 }
 
 void Roster::on_allocation(const Transfer& transfer) {
@@ -375,87 +292,14 @@ bool Roster::is_pending(const dronecan::UniqueId& unique_id) const {
   });
 }
 
-Commander& Roster::commander(NodeId source) {
-  Commander& known = commanders_[source];
-  known.source = source;
-  return known;
-}
-
-void Roster::on_command(const Transfer& transfer) {
-  const auto command = dronecan::ArrayCommand::decode(transfer.payload);
-  if (!command) {
-    return;
-  }
-  for (const auto& entry : command->commands) {
-    commander(transfer.header.source).servo_ids[entry.actuator_id] = {transfer.at,
-                                                                      entry.command_type};
-  }
-}
-
-void Roster::on_write(const Transfer& transfer) {
-  const auto request = dronecan::GetSet::Request::decode(transfer.payload);
-  if (!request || std::holds_alternative<dronecan::GetSet::Empty>(request->value)) {
-    return;
-  }
-  // A name wins over an index, which is the address.
-  const auto is_at = [&](bla::Address address) {
-    return request->name.empty() ? request->index == address.value()
-                                 : request->name == address.name();
-  };
-  namespace at = bla::address;
-  const auto& [source, server] = std::pair(transfer.header.source, transfer.header.destination);
-  if (is_at(at::command_angle) || is_at(at::command_speed) || is_at(at::command_torque)) {
-    commander(source).nodes[server] = transfer.at;
-  } else {
-    const auto reg = request->name.empty() ? std::optional(bla::Address(static_cast<std::uint8_t>(
-                                                 std::min(request->index, last_index))))
-                                           : bla::find_address(request->name);
-    writes_[server][reg] = {source, transfer.at};
-  }
-}
-
-std::optional<Time> Roster::started(NodeId id) const {
-  const Pulse& pulse = pulses_[id.value()];
-  return pulse.boots[pulse.last_boot];
-}
-
-std::optional<NodeId> Roster::writer_to(NodeId id, Time since,
-                                        std::optional<bla::Address> reg) const {
-  const auto it = writes_.find(id);
-  if (it == writes_.end()) {
-    return std::nullopt;
-  }
-  for (const auto& [written, write] : it->second) {
-    if (write.at > since && (!reg || !written || *written == *reg)) {
-      return write.source;
-    }
-  }
-  return std::nullopt;
-}
-
 std::optional<NodeId> Roster::driver_of(const Servo& servo, Time now) const {
   return commander_of(servo, now - driving_time);
 }
 
 std::optional<NodeId> Roster::commander_of(const Servo& servo, Time since) const {
   const Member* member = find(servo.id);
-  const auto recent = [&](Time at) { return at >= since; };
-  for (const auto& [source, commander] : commanders_) {
-    const auto by_node = commander.nodes.find(servo.id);
-    if (by_node != commander.nodes.end() && recent(by_node->second)) {
-      return source;
-    }
-    for (const auto& [servo_id, command] : commander.servo_ids) {
-      constexpr std::uint8_t every_servo = 255;
-      // Register and actuator.Status may differ: which of them it obeys is not known.
-      const bool meant = servo_id == every_servo || servo.servo_id == servo_id ||
-                         (member != nullptr && member->actuator_id == servo_id);
-      if (meant && recent(command.at)) {
-        return source;
-      }
-    }
-  }
-  return std::nullopt;
+  return commands_.commander_of(servo, member != nullptr ? member->actuator_id : std::nullopt,
+                                since);
 }
 
 } // namespace blactl::fleet

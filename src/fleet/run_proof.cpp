@@ -1,6 +1,7 @@
 #include "blactl/fleet/run_proof.hpp"
 
 #include "blactl/fleet/guard.hpp"
+#include "blactl/fleet/restart_texts.hpp"
 #include "blactl/fleet/texts.hpp"
 
 #include <utility>
@@ -14,14 +15,18 @@ using dronecan::Step;
 namespace {
 
 /// Uptimes that may come too late to tell anything.
-constexpr int most_uptimes = 5;
+constexpr int most_uptimes = 8;
 
 } // namespace
 
 RunProof::RunProof(const Roster& roster, const Servo& servo, std::optional<Time> since,
                    Patience patience)
-    : roster_(roster), id_(servo.id), unique_id_(servo.unique_id), boot_(servo.boot), since_(since),
-      patience_(patience) {}
+    : roster_(roster), id_(servo.id), unique_id_(servo.unique_id), boot_(servo.boot),
+      patience_(patience) {
+  if (since) {
+    check_.emplace(*since);
+  }
+}
 
 Step RunProof::next(const Outcome& outcome) {
   switch (at_) {
@@ -57,11 +62,10 @@ Step RunProof::judge(const Outcome& outcome) {
 }
 
 Step RunProof::judge_uptime(std::uint32_t uptime_s, const Outcome& outcome) {
-  if (!since_ || has_run_since(*since_, uptime_s, outcome.at)) {
+  if (!check_) {
     return hear_twin(outcome.at);
   }
-  const UptimeCheck check(*since_);
-  switch (check.judge(uptime_s, outcome.asked, outcome.at)) {
+  switch (check_->judge(uptime_s, outcome.asked, outcome.at)) {
   case UptimeCheck::Verdict::ran_on: return hear_twin(outcome.at);
   case UptimeCheck::Verdict::restarted: return conclude(Verdict::restarted);
   case UptimeCheck::Verdict::unclear: break;
@@ -70,7 +74,7 @@ Step RunProof::judge_uptime(std::uint32_t uptime_s, const Outcome& outcome) {
     return conclude(Verdict::too_late);
   }
   at_ = At::later;
-  return dronecan::Pause{.until = check.next(outcome.at, outcome.at - outcome.asked),
+  return dronecan::Pause{.until = check_->next(outcome.at),
                          .ready = [this] { return roster_.is_doubled(id_) || has_another_boot(); }};
 }
 

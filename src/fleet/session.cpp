@@ -299,6 +299,14 @@ Result<void> Session::wait_until_open() {
   return {};
 }
 
+void Session::recall(const RecordedServo& recorded) {
+  roster_.recall(recorded.servo);
+  for (const auto& [address, raw] : recorded.values) {
+    playback_->recall(recorded.servo.id, address, raw);
+  }
+  heard_anything_ = true;
+}
+
 void Session::start(dronecan::Job& job) {
   if (playback_) {
     playback_->start(job);

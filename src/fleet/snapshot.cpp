@@ -2,6 +2,7 @@
 
 #include "blactl/bla/fault_bits.hpp"
 #include "blactl/bla/value.hpp"
+#include "blactl/fleet/restart_texts.hpp"
 #include "blactl/fleet/texts.hpp"
 
 #include <string>

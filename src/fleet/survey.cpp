@@ -2,7 +2,7 @@
 
 #include "blactl/base/hex.hpp"
 #include "blactl/fleet/carry_out.hpp"
-#include "blactl/fleet/texts.hpp"
+#include "blactl/fleet/conflict_texts.hpp"
 
 #include <algorithm>
 #include <list>
@@ -117,8 +117,17 @@ std::optional<Error> conflict(const Survey& survey, std::span<const Plan> plans,
                    say<texts::id_given_will_be_taken>(id, node_id->value(), other.id.value()),
                    say<texts::node_id_in_use_hint>(), id};
     }
-    const auto servo_id = plan.given_servo_id();
-    if (servo_id && after(plans, other, at::servo_id, other.servo_id) == servo_id) {
+  }
+  return servo_id_conflict(survey, plans, plan);
+}
+
+std::optional<Error> servo_id_conflict(const Survey& survey, std::span<const Plan> plans,
+                                       const Plan& plan) {
+  const std::uint8_t id = plan.before.servo.id.value();
+  const auto servo_id = plan.given_servo_id();
+  for (const Survey::Neighbour& other : survey.servos) {
+    const bool is_another = servo_id && other.id != plan.before.servo.id;
+    if (is_another && after(plans, other, at::servo_id, other.servo_id) == servo_id) {
       return Error{Code::duplicate_servo_id,
                    say<texts::servo_id_given_is_taken>(id, *servo_id, other.id.value()),
                    say<texts::servo_id_taken_hint>(), id};

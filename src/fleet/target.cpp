@@ -2,7 +2,7 @@
 
 #include "blactl/base/hex.hpp"
 #include "blactl/bla/profile.hpp"
-#include "blactl/fleet/texts.hpp"
+#include "blactl/fleet/target_texts.hpp"
 
 #include <fmt/core.h>
 
@@ -118,7 +118,10 @@ bool Selector::matches(const Member& servo, const bla::Profiles& profiles) const
     return false;
   }
   switch (key) {
-  case Key::unique_id: return servo.info && hex(servo.info->unique_id).starts_with(value);
+  case Key::unique_id: {
+    const auto unique_id = servo.unique_id();
+    return unique_id && hex(*unique_id).starts_with(value);
+  }
   case Key::serial_number: return servo.identity.readings().serial_number == number;
   case Key::servo_id: return servo.servo_id == number;
   case Key::model: {
@@ -134,7 +137,8 @@ bool Targets::mean(const Member& member, const bla::Profiles& profiles) const {
   if (all || !given) {
     return member.is_known() && member.is_servo;
   }
-  return std::ranges::find(ids, member.id) != ids.end() ||
+  const bool is_named = std::ranges::find(ids, member.id) != ids.end();
+  return (is_named && member.id_is_known) ||
          std::ranges::any_of(selectors, [&](const Selector& selector) {
            return selector.matches(member, profiles);
          });
@@ -145,7 +149,7 @@ std::optional<Error> Targets::ambiguity(const Roster& roster, const bla::Profile
     std::map<dronecan::UniqueId, dronecan::NodeId> meant;
     for (const auto& [id, member] : roster.members()) {
       if (selector.key == Selector::Key::unique_id && selector.matches(member, profiles)) {
-        meant.try_emplace(member.info->unique_id, id);
+        meant.try_emplace(*member.unique_id(), id);
       }
     }
     if (meant.size() > 1) {

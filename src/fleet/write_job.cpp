@@ -2,6 +2,8 @@
 
 #include "blactl/bla/value.hpp"
 #include "blactl/fleet/guard.hpp"
+#include "blactl/fleet/restart_texts.hpp"
+#include "blactl/fleet/target_texts.hpp"
 #include "blactl/fleet/texts.hpp"
 
 #include <algorithm>
@@ -26,9 +28,9 @@ bool is_held(const Change& change) {
 } // namespace
 
 WriteJob::WriteJob(const Roster& roster, Servo servo, std::vector<Change> changes,
-                   Patience patience)
-    : roster_(roster), servo_(std::move(servo)), changes_(std::move(changes)), patience_(patience) {
-}
+                   Patience patience, Echo echo)
+    : roster_(roster), servo_(std::move(servo)), changes_(std::move(changes)), patience_(patience),
+      echo_(echo) {}
 
 Step WriteJob::next(const Outcome& outcome) {
   switch (at_) {
@@ -91,10 +93,25 @@ Step WriteJob::after_write(const Outcome& outcome) {
   if (!outcome.answered() && outcome.kind != Outcome::Kind::timed_out) {
     return give_up(current_, no_answer(outcome, servo_.id, changes_[current_].parameter->name));
   }
+  Change& change = changes_[current_];
+  const bla::Parameter& parameter = *change.parameter;
+  const auto echo = register_value(outcome, servo_.id, parameter.address, parameter.width);
+  if (echo_ == Echo::suffices && echo == change.requested) {
+    return wrote(outcome.at);
+  }
   // Whatever the answer says, or if it was lost: the register itself tells what is true.
   is_lost_ = !outcome.answered();
   at_ = At::read;
-  return read_register(servo_.id, changes_[current_].parameter->address, patience_);
+  return read_register(servo_.id, parameter.address, patience_);
+}
+
+/// The register holds what was requested.
+Step WriteJob::wrote(Time now) {
+  Change& change = changes_[current_];
+  change.after = change.requested;
+  change.status = ChangeStatus::written;
+  ++current_;
+  return go_on(now);
 }
 
 Step WriteJob::after_read(const Outcome& outcome) {
@@ -110,12 +127,10 @@ Step WriteJob::after_read(const Outcome& outcome) {
     ++current_;
     return go_on(outcome.at);
   }
-  change.after = *raw;
-  if (*change.after == change.requested) {
-    change.status = ChangeStatus::written;
-    ++current_;
-    return go_on(outcome.at);
+  if (*raw == change.requested) {
+    return wrote(outcome.at);
   }
+  change.after = *raw;
   // A restart between the write and this answer looks the same.
   is_doubtful_ = true;
   return prove(outcome.at);

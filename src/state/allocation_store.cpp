@@ -2,19 +2,14 @@
 
 #include "blactl/base/hex.hpp"
 
-#include "state/database_errors.hpp"
 #include "state/database_file.hpp"
 #include "state/sqlite.hpp"
+#include "state/state_file.hpp"
 #include "state/texts.hpp"
 
-#include <sys/stat.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <cstdint>
-#include <filesystem>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
 namespace blactl::state {
@@ -23,8 +18,6 @@ using dronecan::NodeId;
 using dronecan::UniqueId;
 
 namespace {
-
-namespace fs = std::filesystem;
 
 /// Both IDs stand in the table and in its index, so the check of the whole file finds it if one has
 /// changed. `at`: microseconds since 1970, UTC.
@@ -35,7 +28,10 @@ const DatabaseFormat& allocations_format() {
       .schema = "CREATE TABLE allocations ("
                 "node_id INTEGER PRIMARY KEY CHECK (node_id BETWEEN 1 AND 125), "
                 "unique_id BLOB NOT NULL UNIQUE CHECK (length(unique_id) = 16), "
-                "at INTEGER NOT NULL) STRICT"};
+                "at INTEGER NOT NULL) STRICT",
+      .file = "allocations.db",
+      .what = texts::allocation_table,
+      .way_back = texts::allocation_table_back};
   return format;
 }
 
@@ -194,58 +190,9 @@ Result<void> put_all(const Database& database, std::span<const AllocationStore::
   return {};
 }
 
-/// The folder without symbolic links: SQLite, which is told to follow none, would refuse the file
-/// for a link anywhere in its path, and /home may be one.
-std::string path_in(const std::string& folder) {
-  std::error_code error;
-  const fs::path real = fs::weakly_canonical(fs::absolute(folder), error);
-  return ((error ? fs::path(folder) : real) / "allocations.db").string();
-}
-
-/// The folder of the file, private if it is new.
-Result<void> make_folder(const std::string& path) {
-  const fs::path folder = fs::path(path).parent_path();
-  std::error_code ignored; // what matters is whether the folder itself can be made
-  fs::create_directories(folder.parent_path(), ignored);
-  if (mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST) {
-    return std::unexpected(errors::of_system(path, errno));
-  }
-  return {};
-}
-
-/// Whether the file is there. Errors: something else is.
-Result<bool> is_there(const std::string& path) {
-  struct stat info{};
-  if (lstat(path.c_str(), &info) != 0) {
-    return errno == ENOENT ? Result<bool>(false) : std::unexpected(errors::of_system(path, errno));
-  }
-  if (S_ISLNK(info.st_mode)) {
-    return std::unexpected(errors::link(path));
-  }
-  return S_ISREG(info.st_mode) ? Result<bool>(true) : std::unexpected(errors::foreign(path));
-}
-
-/// Makes the file if it is not there and `writable`; whether it is there then.
-Result<bool> provide(const std::string& path, bool writable) {
-  if (writable) {
-    if (auto made = make_folder(path); !made) {
-      return std::unexpected(made.error());
-    }
-  }
-  const auto there = is_there(path);
-  if (!there || *there || !writable) {
-    return there;
-  }
-  if (auto made = make_database(path, allocations_format()); !made) {
-    return std::unexpected(made.error());
-  }
-  return is_there(path);
-}
-
 } // namespace
 
-AllocationStore::AllocationStore(std::string path, std::unique_ptr<Database> database)
-    : path_(std::move(path)), database_(std::move(database)) {}
+AllocationStore::AllocationStore(std::unique_ptr<StateFile> file) : file_(std::move(file)) {}
 
 AllocationStore::AllocationStore(AllocationStore&&) noexcept = default;
 AllocationStore& AllocationStore::operator=(AllocationStore&&) noexcept = default;
@@ -253,40 +200,32 @@ AllocationStore::~AllocationStore() = default;
 
 Result<AllocationStore> AllocationStore::open(const std::string& folder, Access access,
                                               std::chrono::milliseconds patience) {
-  if (folder.empty()) {
-    return fail(Code::state, say<texts::no_state_folder>(), say<texts::no_state_folder_hint>());
+  auto file = StateFile::open(folder, allocations_format(), access, patience);
+  if (!file) {
+    return std::unexpected(file.error());
   }
-  std::string path = path_in(folder);
-  const bool writable = access == Access::write;
-  const auto there = provide(path, writable);
-  if (!there) {
-    return std::unexpected(there.error());
-  }
-  if (!*there) {
-    return AllocationStore(std::move(path), nullptr);
-  }
-  auto database = open_database(path, allocations_format(), writable, patience);
-  if (!database) {
-    return std::unexpected(database.error());
-  }
-  return AllocationStore(std::move(path), std::make_unique<Database>(std::move(*database)));
+  return AllocationStore(std::make_unique<StateFile>(std::move(*file)));
 }
 
 Result<AllocationStore> AllocationStore::unshared() {
-  auto database = make_temporary_database(allocations_format());
-  if (!database) {
-    return std::unexpected(database.error());
+  auto file = StateFile::unshared(allocations_format());
+  if (!file) {
+    return std::unexpected(file.error());
   }
-  return AllocationStore({}, std::make_unique<Database>(std::move(*database)));
+  return AllocationStore(std::make_unique<StateFile>(std::move(*file)));
+}
+
+const std::string& AllocationStore::path() const {
+  return file_->path();
 }
 
 Result<std::vector<AllocationEntry>> AllocationStore::entries() const {
   std::vector<AllocationEntry> all;
-  if (!database_) {
+  const Database* database = file_->database();
+  if (database == nullptr) {
     return all;
   }
-  Statement statement(*database_,
-                      "SELECT node_id, unique_id, at FROM allocations ORDER BY node_id");
+  Statement statement(*database, "SELECT node_id, unique_id, at FROM allocations ORDER BY node_id");
   for (;;) {
     const auto row = statement.step();
     if (!row) {
@@ -300,19 +239,19 @@ Result<std::vector<AllocationEntry>> AllocationStore::entries() const {
 }
 
 Result<std::optional<AllocationEntry>> AllocationStore::find(const UniqueId& unique_id) const {
-  return database_ ? entry_with(*database_, unique_id) : std::nullopt;
+  const Database* database = file_->database();
+  return database != nullptr ? entry_with(*database, unique_id) : std::nullopt;
 }
 
 Result<std::optional<AllocationEntry>> AllocationStore::find(NodeId node_id) const {
-  return database_ ? entry_with(*database_, node_id) : std::nullopt;
+  const Database* database = file_->database();
+  return database != nullptr ? entry_with(*database, node_id) : std::nullopt;
 }
 
 Result<NodeId> AllocationStore::assign(const UniqueId& unique_id, const AllocationChoice& choice,
                                        WallTime now) {
-  if (auto writable = check_writable(); !writable) {
-    return std::unexpected(writable.error());
-  }
-  return database_->transact([&] { return known_or_new(*database_, unique_id, choice, now); });
+  return file_->transact(
+      [&](const Database& database) { return known_or_new(database, unique_id, choice, now); });
 }
 
 Result<void> AllocationStore::put(std::span<const Wish> wishes, WallTime now) {
@@ -322,30 +261,16 @@ Result<void> AllocationStore::put(std::span<const Wish> wishes, WallTime now) {
                   say<texts::node_id_not_dynamic_hint>());
     }
   }
-  if (auto writable = check_writable(); !writable) {
-    return writable;
-  }
-  return database_->transact([&] { return put_all(*database_, wishes, now); });
+  return file_->transact([&](const Database& database) { return put_all(database, wishes, now); });
 }
 
 Result<bool> AllocationStore::forget(const UniqueId& unique_id) {
-  if (auto writable = check_writable(); !writable) {
-    return std::unexpected(writable.error());
-  }
-  return database_->transact([&]() -> Result<bool> {
-    if (auto dropped = drop(*database_, unique_id); !dropped) {
+  return file_->transact([&](const Database& database) -> Result<bool> {
+    if (auto dropped = drop(database, unique_id); !dropped) {
       return std::unexpected(dropped.error());
     }
-    return sqlite3_changes(database_->handle()) > 0;
+    return sqlite3_changes(database.handle()) > 0;
   });
-}
-
-/// A file that was opened for reading is for SQLite to refuse.
-Result<void> AllocationStore::check_writable() const {
-  if (!database_) {
-    return std::unexpected(errors::denied(path_, sqlite3_errstr(SQLITE_READONLY)));
-  }
-  return {};
 }
 
 } // namespace blactl::state

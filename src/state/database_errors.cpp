@@ -11,57 +11,69 @@
 namespace blactl::state::errors {
 namespace {
 
-std::string folder_of(const std::string& path) {
-  return printable(std::filesystem::path(path).parent_path().string());
+std::string folder_of(const DatabaseName& file) {
+  return printable(std::filesystem::path(file.path).parent_path().string());
 }
 
-Error bad_file(const std::string& path, std::string message) {
-  return {Code::bad_file, std::move(message), say<texts::table_unusable_hint>(printable(path))};
+std::string_view what(const DatabaseName& file) {
+  return choose(file.what.en, file.what.ja);
+}
+
+std::string_view way_back(const DatabaseName& file) {
+  return choose(file.way_back.en, file.way_back.ja);
+}
+
+Error bad_file(const DatabaseName& file, std::string message) {
+  return {Code::bad_file, std::move(message),
+          say<texts::table_unusable_hint>(printable(file.path), way_back(file))};
 }
 
 } // namespace
 
-Error foreign(const std::string& path) {
-  return bad_file(path, say<texts::table_foreign>(printable(path)));
+Error foreign(const DatabaseName& file) {
+  return bad_file(file, say<texts::table_foreign>(printable(file.path), what(file)));
 }
 
-Error link(const std::string& path) {
-  return bad_file(path, say<texts::table_is_link>(printable(path)));
+Error link(const DatabaseName& file) {
+  return bad_file(file, say<texts::table_is_link>(printable(file.path)));
 }
 
-Error left_over(const std::string& path, const std::string& log) {
-  return bad_file(path, say<texts::table_left_over>(printable(log)));
+Error left_over(const DatabaseName& file, const std::string& log) {
+  return bad_file(file, say<texts::table_left_over>(printable(log), what(file)));
 }
 
-Error damaged(const std::string& path, std::string_view reason) {
-  return bad_file(path, say<texts::table_damaged>(printable(path), printable(reason)));
+Error damaged(const DatabaseName& file, std::string_view reason) {
+  return bad_file(file,
+                  say<texts::table_damaged>(printable(file.path), what(file), printable(reason)));
 }
 
-Error newer(const std::string& path, std::int64_t version, std::int64_t known) {
-  return {Code::bad_file, say<texts::table_newer>(printable(path), version, known),
-          say<texts::table_newer_hint>(printable(path))};
+Error newer(const DatabaseName& file, std::int64_t version, std::int64_t known) {
+  return {Code::bad_file, say<texts::table_newer>(printable(file.path), what(file), version, known),
+          say<texts::table_newer_hint>(printable(file.path), way_back(file))};
 }
 
-Error moved_away(const std::string& path) {
-  return {Code::io, say<texts::table_moved>(printable(path)), say<texts::table_moved_hint>()};
+Error moved_away(const DatabaseName& file) {
+  return {Code::io, say<texts::table_moved>(printable(file.path), what(file)),
+          say<texts::table_moved_hint>()};
 }
 
-Error busy(const std::string& path) {
-  return {Code::busy, say<texts::table_busy>(printable(path)),
-          say<texts::table_busy_hint>(printable(path))};
+Error busy(const DatabaseName& file) {
+  return {Code::busy, say<texts::table_busy>(printable(file.path), what(file)),
+          say<texts::table_busy_hint>(printable(file.path))};
 }
 
-Error denied(const std::string& path, std::string_view reason) {
-  return {Code::permission, say<texts::table_denied>(printable(path), printable(reason)),
-          say<texts::table_denied_hint>(folder_of(path))};
+Error denied(const DatabaseName& file, std::string_view reason) {
+  return {Code::permission,
+          say<texts::table_denied>(printable(file.path), what(file), printable(reason)),
+          say<texts::table_denied_hint>(folder_of(file))};
 }
 
-Error io(const std::string& path, std::string_view reason) {
-  return {Code::io, say<texts::table_io>(printable(path), printable(reason)),
-          say<texts::table_io_hint>(folder_of(path))};
+Error io(const DatabaseName& file, std::string_view reason) {
+  return {Code::io, say<texts::table_io>(printable(file.path), what(file), printable(reason)),
+          say<texts::table_io_hint>(folder_of(file))};
 }
 
-Error of_system(const std::string& path, int number) {
+Error of_system(const DatabaseName& file, int number) {
   switch (number) {
   case EDQUOT:
   case EFBIG:
@@ -69,8 +81,8 @@ Error of_system(const std::string& path, int number) {
   case EMFILE:
   case ENFILE:
   case ENOMEM:
-  case ENOSPC: return io(path, system_reason(number));
-  default: return denied(path, system_reason(number));
+  case ENOSPC: return io(file, system_reason(number));
+  default: return denied(file, system_reason(number));
   }
 }
 

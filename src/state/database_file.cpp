@@ -54,16 +54,20 @@ bool is_known_to_sqlite(const Database::Header& header) {
   return header[write_version] <= 2 && header[read_version] <= 2;
 }
 
+DatabaseName name_of(const std::string& path, const DatabaseFormat& format) {
+  return {path, format.what, format.way_back};
+}
+
 Result<void> check_header(const Database& database, const DatabaseFormat& format) {
   const auto header = database.header();
   if (!header) {
     return std::unexpected(header.error());
   }
   if (!is_ours(*header, format)) {
-    return std::unexpected(errors::foreign(database.path()));
+    return std::unexpected(errors::foreign(database.name()));
   }
   if (!is_known_to_sqlite(*header)) {
-    return std::unexpected(errors::damaged(database.path(), sqlite3_errstr(SQLITE_NOTADB)));
+    return std::unexpected(errors::damaged(database.name(), sqlite3_errstr(SQLITE_NOTADB)));
   }
   return {};
 }
@@ -76,11 +80,11 @@ Result<void> check_version(const Database& database, const DatabaseFormat& forma
   }
   const std::int64_t version = *row ? statement.integer(0) : 0;
   if (version > format.version) {
-    return std::unexpected(errors::newer(database.path(), version, format.version));
+    return std::unexpected(errors::newer(database.name(), version, format.version));
   }
   if (version < 1) {
     return std::unexpected(
-        errors::damaged(database.path(), fmt::format("user_version {}", version)));
+        errors::damaged(database.name(), fmt::format("user_version {}", version)));
   }
   return {};
 }
@@ -94,11 +98,11 @@ Result<void> expect_one(const Database& database, std::string_view sql, std::str
       return std::unexpected(row.error());
     }
     if (*row && (count > 0 || statement.text(0) != expected)) {
-      return std::unexpected(errors::damaged(database.path(), statement.text(0)));
+      return std::unexpected(errors::damaged(database.name(), statement.text(0)));
     }
     if (!*row) {
       return count == 1 ? Result<void>()
-                        : std::unexpected(errors::damaged(database.path(), "no such table"));
+                        : std::unexpected(errors::damaged(database.name(), "no such table"));
     }
   }
 }
@@ -130,7 +134,7 @@ Result<void> write_ahead(const Database& database) {
   }
   return *row && statement.text(0) == "wal"
              ? Result<void>()
-             : std::unexpected(errors::io(database.path(), system_reason(ENOTSUP)));
+             : std::unexpected(errors::io(database.name(), system_reason(ENOTSUP)));
 }
 
 /// With synchronous = FULL what was committed survives a power cut.
@@ -148,7 +152,7 @@ Result<void> set_up(const Database& database, bool writable) {
 }
 
 /// SQLite makes the folder of a new file durable with its journal; this name it got since.
-Result<void> sync_folder_of(const std::string& path) {
+Result<void> sync_folder_of(const std::string& path, const DatabaseFormat& format) {
   const std::string folder = std::filesystem::path(path).parent_path().string();
   const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   const bool synced = descriptor >= 0 && fsync(descriptor) == 0;
@@ -156,11 +160,11 @@ Result<void> sync_folder_of(const std::string& path) {
   if (descriptor >= 0) {
     close(descriptor);
   }
-  return synced ? Result<void>() : std::unexpected(errors::of_system(path, error));
+  return synced ? Result<void>() : std::unexpected(errors::of_system(name_of(path, format), error));
 }
 
 Result<void> fill(const std::string& draft, const std::string& path, const DatabaseFormat& format) {
-  const auto database = Database::open(draft, path, std::chrono::milliseconds(0));
+  const auto database = Database::open(draft, name_of(path, format), std::chrono::milliseconds(0));
   if (!database) {
     return std::unexpected(database.error());
   }
@@ -176,11 +180,11 @@ Result<void> fill(const std::string& draft, const std::string& path, const Datab
 }
 
 /// A log without its database would be taken for that of a new one, and be played back into it.
-Result<void> check_for_logs_of(const std::string& path) {
+Result<void> check_for_logs_of(const std::string& path, const DatabaseFormat& format) {
   for (const std::string_view suffix : suffixes) {
     const std::string log = beside(path, suffix);
     if (suffix != "-shm" && has_content(log) && !has_content(path)) {
-      return std::unexpected(errors::left_over(path, log));
+      return std::unexpected(errors::left_over(name_of(path, format), log));
     }
   }
   return {};
@@ -190,7 +194,7 @@ Result<void> check_for_logs_of(const std::string& path) {
 
 Result<Database> open_database(const std::string& path, const DatabaseFormat& format, bool writable,
                                std::chrono::milliseconds patience) {
-  auto database = Database::open(path, path, patience);
+  auto database = Database::open(path, name_of(path, format), patience);
   if (!database) {
     return database;
   }
@@ -208,30 +212,31 @@ Result<Database> open_database(const std::string& path, const DatabaseFormat& fo
 }
 
 Result<void> make_database(const std::string& path, const DatabaseFormat& format) {
-  if (auto clear = check_for_logs_of(path); !clear) {
+  if (auto clear = check_for_logs_of(path, format); !clear) {
     return clear;
   }
   std::string draft = path + ".XXXXXX";
   const int descriptor = mkostemp(draft.data(), O_CLOEXEC); // 0600
   if (descriptor < 0) {
-    return std::unexpected(errors::of_system(path, errno));
+    return std::unexpected(errors::of_system(name_of(path, format), errno));
   }
   close(descriptor);
   auto made = fill(draft, path, format);
   // Unlike rename() this cannot replace what another process has made meanwhile.
   if (made && link(draft.c_str(), path.c_str()) != 0 && errno != EEXIST) {
-    made = std::unexpected(errors::of_system(path, errno));
+    made = std::unexpected(errors::of_system(name_of(path, format), errno));
   }
   unlink(draft.c_str());
   for (const std::string_view suffix : suffixes) {
     unlink(beside(draft, suffix).c_str());
   }
-  return made ? sync_folder_of(path) : made;
+  return made ? sync_folder_of(path, format) : made;
 }
 
 Result<Database> make_temporary_database(const DatabaseFormat& format) {
   constexpr const char* in_memory = ":memory:";
-  auto database = Database::open(in_memory, in_memory, std::chrono::milliseconds(0));
+  auto database =
+      Database::open(in_memory, name_of(in_memory, format), std::chrono::milliseconds(0));
   if (!database) {
     return database;
   }

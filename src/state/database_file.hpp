@@ -16,6 +16,8 @@ struct DatabaseFormat {
   std::int32_t application_id; ///< tells our file from that of another program; not 0
   std::int32_t version;        ///< of the schema, from 1
   std::string schema;          ///< the one statement that makes it, as SQLite keeps it
+  std::string file;            ///< its name in the state folder
+  Text what, way_back;         ///< as DatabaseName
 };
 
 /// Opens a file that is there, to be written or read only. It is checked first: a file that is not

@@ -2,8 +2,6 @@
 
 #include "blactl/base/system_error.hpp"
 
-#include "state/database_errors.hpp"
-
 #include <unistd.h>
 
 #include <cerrno>
@@ -31,7 +29,7 @@ int reason_not_opened(const std::string& path, int error) {
 
 } // namespace
 
-Result<Database> Database::open(const std::string& path, std::string told_as,
+Result<Database> Database::open(const std::string& path, DatabaseName told_as,
                                 std::chrono::milliseconds patience) {
   constexpr int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_NOFOLLOW | SQLITE_OPEN_NOMUTEX |
                         SQLITE_OPEN_PRIVATECACHE | SQLITE_OPEN_EXRESCODE;
@@ -109,8 +107,8 @@ Error Database::failure(int result) const {
   case SQLITE_CANTOPEN:
     return result == SQLITE_CANTOPEN_SYMLINK
                ? errors::link(told_as_)
-               : errors::of_system(told_as_,
-                                   reason_not_opened(path(), sqlite3_system_errno(handle())));
+               : errors::of_system(
+                     told_as_, reason_not_opened(told_as_.path, sqlite3_system_errno(handle())));
   default: leave_as_it_is(true); return errors::damaged(told_as_, reason);
   }
 }
@@ -131,6 +129,16 @@ Statement& Statement::bind(std::int64_t value) {
 
 Statement& Statement::bind(std::span<const std::uint8_t> value) {
   note(sqlite3_bind_blob64(statement_, ++bound_, value.data(), value.size(), nullptr));
+  return *this;
+}
+
+Statement& Statement::bind(std::string_view value) {
+  note(sqlite3_bind_text64(statement_, ++bound_, value.data(), value.size(), nullptr, SQLITE_UTF8));
+  return *this;
+}
+
+Statement& Statement::bind(std::nullopt_t /*null*/) {
+  note(sqlite3_bind_null(statement_, ++bound_));
   return *this;
 }
 

@@ -3,12 +3,15 @@
 
 #include "blactl/base/error.hpp"
 
+#include "state/database_errors.hpp"
+
 #include <sqlite3.h>
 
 #include <array>
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -24,8 +27,8 @@ class Database {
   using Header = std::array<std::uint8_t, 100>;
 
   /// Reads and changes nothing of the file yet; a symbolic link is refused. `path` is absolute and
-  /// no folder of it is a link. `told_as`: the path that errors name.
-  [[nodiscard]] static Result<Database> open(const std::string& path, std::string told_as,
+  /// no folder of it is a link. `told_as`: the file that errors name.
+  [[nodiscard]] static Result<Database> open(const std::string& path, DatabaseName told_as,
                                              std::chrono::milliseconds patience);
 
   /// As it lies in the file, filled up with zeros. SQLite reads it: a descriptor of our own would
@@ -60,7 +63,7 @@ class Database {
   /// What a result code of SQLite means for a person.
   [[nodiscard]] Error failure(int result) const;
 
-  [[nodiscard]] const std::string& path() const { return told_as_; }
+  [[nodiscard]] const DatabaseName& name() const { return told_as_; }
 
   [[nodiscard]] sqlite3* handle() const { return handle_.get(); }
 
@@ -69,13 +72,13 @@ class Database {
     void operator()(sqlite3* handle) const { sqlite3_close(handle); }
   };
 
-  Database(sqlite3* handle, std::string told_as) : handle_(handle), told_as_(std::move(told_as)) {}
+  Database(sqlite3* handle, DatabaseName told_as) : handle_(handle), told_as_(std::move(told_as)) {}
 
   [[nodiscard]] Result<void> begin() const;
   void roll_back_if_open() const;
 
   std::unique_ptr<sqlite3, Closer> handle_;
-  std::string told_as_;
+  DatabaseName told_as_;
 };
 
 /// One statement. What fails before its first step is told by that.
@@ -87,9 +90,11 @@ class Statement {
   Statement& operator=(const Statement&) = delete;
   ~Statement();
 
-  /// Sets the next parameter. Bytes must live as long as the statement.
+  /// Sets the next parameter. Bytes and text must live as long as the statement.
   Statement& bind(std::int64_t value);
   Statement& bind(std::span<const std::uint8_t> value);
+  Statement& bind(std::string_view value);
+  Statement& bind(std::nullopt_t null);
 
   /// True: it stands on the next row; false: there is none left.
   [[nodiscard]] Result<bool> step();

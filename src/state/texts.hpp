@@ -50,45 +50,49 @@ inline constexpr Text state_folder_closed{
     "{} に書き込めません。ノード ID の割当てを保存できません"};
 inline constexpr Text no_state_folder_hint{"set BLACTL_STATE_DIR to a folder of your own",
                                            "BLACTL_STATE_DIR に自分のフォルダを設定して下さい"};
-inline constexpr Text table_foreign{"{} is no allocation table of blactl",
-                                    "{} は blactl の割当て表ではありません"};
+inline constexpr Text table_foreign{"{0} is no {1} of blactl", "{0} は blactl の{1}ではありません"};
 inline constexpr Text table_is_link{"{} is a symbolic link, which is not followed",
                                     "{} はシンボリックリンクのため使用できません"};
-inline constexpr Text table_left_over{"{} is left over from another allocation table",
-                                      "{} は別の割当て表の残りです"};
-inline constexpr Text table_damaged{"the allocation table {} is damaged ({})",
-                                    "割当て表 {} が壊れています ({})"};
+inline constexpr Text table_left_over{"{0} is left over from another {1}",
+                                      "{0} は別の{1}の残りです"};
+inline constexpr Text table_damaged{"the {1} {0} is damaged ({2})", "{1} {0} が壊れています ({2})"};
 inline constexpr Text table_unusable_hint{
-    "it was left as it is; move it away with `mv {0}* FOLDER`, then bring in what you exported "
-    "with "
-    "`blactl alloc --import FILE`",
-    "ファイルは変更していません。`mv {0}* フォルダ` で移動し、エクスポートした表があれば "
-    "`blactl alloc --import ファイル` で取り込んで下さい"};
+    "it was left as it is; move it away with `mv {0}* FOLDER`, then {1}",
+    "ファイルは変更していません。`mv {0}* フォルダ` で移動して下さい。{1}"};
 inline constexpr Text table_newer{
-    "the allocation table {} has version {}; this blactl knows version {} at most",
-    "割当て表 {} のバージョンは {} です。この blactl はバージョン {} までに対応しています"};
+    "the {1} {0} has version {2}; this blactl knows version {3} at most",
+    "{1} {0} のバージョンは {2} です。この blactl はバージョン {3} までに対応しています"};
 inline constexpr Text table_newer_hint{
-    "update blactl; or move the file away with `mv {0}* FOLDER`, then bring in what you exported "
-    "with `blactl alloc --import FILE`",
-    "blactl を更新して下さい。または `mv {0}* フォルダ` でファイルを移動し、エクスポートした表を "
-    "`blactl alloc --import ファイル` で取り込んで下さい"};
-inline constexpr Text table_moved{
-    "the allocation table {} was moved away or removed while it was in use",
-    "割当て表 {} が使用中に移動または削除されました"};
+    "update blactl; or move the file away with `mv {0}* FOLDER`, then {1}",
+    "blactl を更新するか、`mv {0}* フォルダ` でファイルを移動して下さい。{1}"};
+inline constexpr Text allocation_table{"allocation table", "割当て表"};
+inline constexpr Text allocation_table_back{
+    "bring in what you exported with `blactl alloc --import FILE`",
+    "エクスポートした表は `blactl alloc --import ファイル` で取り込めます"};
+inline constexpr Text rom_record{"record of what ROM holds", "ROM 照合記録"};
+inline constexpr Text rom_record_back{
+    "a new one is begun: `blactl apply` restarts servos once to see what their ROM holds",
+    "記録は新しく作成されます (ROM の内容は次回の `blactl apply` が再起動して確認します)"};
+inline constexpr Text change_history{"change history", "変更履歴"};
+inline constexpr Text change_history_back{
+    "a new one is begun; what is in this one `blactl undo` does not know any more",
+    "履歴は新しく作成されます (これまでの変更は `blactl undo` で戻せなくなります)"};
+inline constexpr Text table_moved{"the {1} {0} was moved away or removed while it was in use",
+                                  "{1} {0} が使用中に移動または削除されました"};
 inline constexpr Text table_moved_hint{"nothing was changed; run the command again",
                                        "何も変更していません。コマンドをもう一度実行して下さい"};
-inline constexpr Text table_busy{"another process is writing to the allocation table {}",
-                                 "別のプロセスが割当て表 {} に書込み中です"};
+inline constexpr Text table_busy{"another process is writing to the {1} {0}",
+                                 "別のプロセスが{1} {0} に書込み中です"};
 inline constexpr Text table_busy_hint{
     "wait until it ends and try again; `fuser {0}` shows which one it is",
     "その終了を待って、もう一度実行して下さい。プロセスは `fuser {0}` で確認できます"};
-inline constexpr Text table_denied{"the allocation table {} cannot be used ({})",
-                                   "割当て表 {} を使用できません ({})"};
+inline constexpr Text table_denied{"the {1} {0} cannot be used ({2})",
+                                   "{1} {0} を使用できません ({2})"};
 inline constexpr Text table_denied_hint{
     "check the permissions with `ls -la {0}`, or set BLACTL_STATE_DIR to a folder of your own",
     "`ls -la {0}` でアクセス権を確認するか、BLACTL_STATE_DIR に自分のフォルダを設定して下さい"};
-inline constexpr Text table_io{"the allocation table {} cannot be read or written ({})",
-                               "割当て表 {} を読み書きできません ({})"};
+inline constexpr Text table_io{"the {1} {0} cannot be read or written ({2})",
+                               "{1} {0} を読み書きできません ({2})"};
 inline constexpr Text table_io_hint{
     "nothing was changed; check the disk and its free space with `df {0}`",
     "何も変更していません。`df {0}` でディスクとその空き容量を確認して下さい"};

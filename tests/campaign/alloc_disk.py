@@ -59,11 +59,12 @@ class Disk:
         subprocess.run(["umount", self.path], check=True)
 
     def contents(self):
-        """Of the table and what is beside it. An empty log, and the index of none, mean nothing."""
+        """Of the table and its log. An empty log, and the index of none, mean nothing."""
         found = {}
         for name in os.listdir(self.path):
             path = os.path.join(self.path, name)
-            if path != self._filler and not name.endswith("-shm") and os.path.getsize(path) > 0:
+            is_table = name.startswith("allocations.db") and not name.endswith("-shm")
+            if is_table and os.path.getsize(path) > 0:
                 with open(path, "rb") as file:
                     found[name] = file.read()
         return found

@@ -121,9 +121,10 @@ def environment(folder):
 
 
 def start(blactl, folder, interface, words):
-    return subprocess.Popen([blactl, "-i", interface, *words], text=True, env=environment(folder),
-                            stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                            stderr=subprocess.PIPE)
+    """Files that the words name are in the folder."""
+    return subprocess.Popen([os.path.abspath(blactl), "-i", interface, *words], text=True,
+                            env=environment(folder), cwd=folder, stdin=subprocess.DEVNULL,
+                            stdout=subprocess.PIPE, stderr=subprocess.PIPE)
 
 
 def run_at_once(blactl, folder, world, commands, options):
@@ -133,6 +134,10 @@ def run_at_once(blactl, folder, world, commands, options):
     for log in logs:
         if os.path.exists(log):
             os.remove(log)
+    for command in commands:
+        if command.fleet:
+            with open(os.path.join(folder, command.words[1]), "w", encoding="utf-8") as file:
+                json.dump(command.fleet, file)
     running = [start(blactl, folder, world.interface,
                      [*options, *command.words, "--record", log])
                for command, log in zip(commands, logs)]

@@ -1,12 +1,11 @@
 """Whether what `blactl doctor` has found is there, and what is there it has found."""
 
-import record
 import story
 from story import require
 
 # What is no fault of anybody where nothing goes wrong: what servos hold, or lack by themselves.
-OF_SERVOS = {"commander", "duplicate_node_id", "duplicate_serial_number", "duplicate_servo_id",
-             "firmware_defect", "health", "no_node_id", "static_node_id"}
+OF_SERVOS = {"duplicate_node_id", "duplicate_servo_id", "firmware_defect", "health", "no_node_id",
+             "static_node_id"}
 SERVO_ID = "0x45"
 
 
@@ -58,6 +57,10 @@ def check_finding(finding, step):
     elif code == "restarted":
         require(any(node_id in step.node_ids(serial) and step.restarts(serial)
                     for serial in step.after), f"node {node_id} did not restart")
+    elif code == "commander":
+        require(node_id in step.commanders(), f"node {node_id} commands nobody")
+    elif code == "duplicate_serial_number":
+        require(False, "each serial number is one servo's")
     elif code == "no_node_id":
         require(any(step.had_no_node_id(serial) for serial in step.after), "all have a node ID")
 
@@ -69,17 +72,17 @@ def shares_servo_id(step):
 
 
 def check_conflicts(outcome, document, step):
-    """Every node ID that two servos shared for long enough is told."""
+    """Every node ID that two servos shared for long enough is told, of those that were heard."""
     told = {finding["node_id"] for finding in document["findings"]
             if finding["code"] == "duplicate_node_id"}
     for serial, state in step.after.items():
-        if step.is_doubled(serial, outcome.record):
-            require(state["node_id"] in told, f"{state['node_id']} is two servos', and not told")
+        node_id = state["node_id"]
+        was_heard = outcome.record.times_of({node_id})
+        if was_heard and step.is_doubled(serial, outcome.record):
+            require(node_id in told, f"{node_id} is two servos', and not told")
 
 
 def check_unhindered(document):
     require(not document["errors"], "nothing was in its way")
-    # The command before may leave a last frame behind, and is not heard any more.
-    others = {finding["code"] for finding in document["findings"]
-              if finding["node_id"] not in record.OWN_IDS} - OF_SERVOS
+    others = {finding["code"] for finding in document["findings"]} - OF_SERVOS
     require(not others, f"nothing was wrong, told was {others}")

@@ -38,13 +38,24 @@ FOREIGN = [
 class Command(typing.NamedTuple):
     words: list
     killed_after_s: float | None = None  # of real time: the one thing that a seed does not repeat
+    fleet: dict | None = None  # the file that words[1] names
 
     def __str__(self):
         return "blactl " + " ".join(self.words)
 
+    def entries(self):
+        """Of its fleet file."""
+        return self.fleet["servos"] if self.fleet else []
+
+    def target(self):
+        """Whom -n names."""
+        return self.words[self.words.index("-n") + 1] if "-n" in self.words else "all"
+
     def may_change_ids(self):
         """After it a target may be known by another ID, or by none."""
-        return self.words[0] == "erase" or any("static_node_id" in word for word in self.words)
+        return self.words[0] in ("erase", "undo") or any(
+            "static_node_id" in word for word in self.words) or any(
+            "static_node_id" in entry["set"] for entry in self.entries())
 
     def is_about_one(self):
         """It takes just one servo, and is told to take all."""
@@ -53,6 +64,9 @@ class Command(typing.NamedTuple):
     def is_right(self):
         """No servo has a reason to refuse it."""
         # IDs may be another servo's already, and one ID is not given to several.
+        if self.fleet:  # each ID is the servo's own, or nobody's, or it is given up by another
+            is_plain = not {"--dry-run", "-n"} & {*self.words}
+            return is_plain and not ("--no-save" in self.words and self.may_change_ids())
         wrong = ("static_node_id", "servo_id", "voltage_limit_high")
         return not any(word.startswith(wrong) for word in self.words)
 
@@ -83,6 +97,8 @@ class Episode:
             self._let_alone()
         self._let_ask(random.Random(f"alloc {seed}"))
         self._let_diagnose(random.Random(f"doctor {seed}"))
+        self._let_apply(random.Random(f"apply {seed}"))
+        self._let_undo(random.Random(f"undo {seed}"))
 
     def _let_ask(self, chance):
         """Some servos have no node ID, and get one. It is drawn apart: the other episodes, and the
@@ -114,6 +130,59 @@ class Episode:
         elif kind < 0.35:
             self.steps[at - 1] = [*self.steps[at - 1], doctor]
 
+    def _let_apply(self, chance):
+        """A fleet file, and the same once more; drawn apart, too."""
+        if chance.random() < 0.6:
+            return
+        if chance.random() < 0.3:
+            self._let_alone()
+        fleet = self._fleet(chance)
+        first = self._apply(chance, fleet)
+        again = Command(["apply", "fleet.json", "-y"], fleet=fleet)
+        beside = [Command(self._command(chance))] if chance.random() < 0.05 else []
+        at = chance.randint(0, len(self.steps))
+        self.steps[at:] = [[first] + beside, [again], *self.steps[at:at + 1]]
+
+    def _let_undo(self, chance):
+        """Back, and sometimes forth again; drawn apart, too."""
+        if chance.random() < 0.6:
+            return
+        at = chance.randint(1, len(self.steps))
+        words = ["undo", "-y"] + chance.choice([[], [], ["-n", "all"], ["--no-save"], [
+            "-n", f"serial:{chance.choice(self.serials)}"]])
+        self.steps[at:at] = [[Command(words)]] * chance.choice([1, 1, 2])
+
+    def _fleet(self, chance):
+        """Entries for some servos, the IDs of each its own, or those of another of them."""
+        serials = chance.sample(self.serials, chance.randint(1, len(self.serials)))
+        places = [self.ids[self.serials.index(serial)] for serial in serials]
+        places = chance.choice([[], [], places[1:] + places[:1], [64 + i for i in range(9)]])
+        free = [name for name in SETTINGS
+                if name not in ("servo_id", "static_node_id", "voltage_limit_high")]
+        entries = []
+        for index, serial in enumerate(serials):
+            names = chance.sample(free, chance.randint(1, len(free)))
+            wished = {name: chance.choice(SETTINGS[name]) for name in names}
+            if places:
+                wished["static_node_id"] = places[index]
+            if chance.random() < 0.3:
+                wished["servo_id"] = 111 + index
+            entries.append({"name": f"servo {index}", "match": {"serial_number": serial},
+                            "set": wished})
+        return {"schema": "blactl-fleet/1", "servos": entries}
+
+    def _apply(self, chance, fleet):
+        words = ["apply", "fleet.json", "-y"]
+        for option, probability in (("--no-save", 0.15), ("--trust-ram", 0.15),
+                                    ("--fail-fast", 0.15), ("--dry-run", 0.1)):
+            if chance.random() < probability:
+                words.append(option)
+        if chance.random() < 0.1:
+            words += ["-n", f"serial:{chance.choice(self.serials)}"]
+        if chance.random() < 0.1:
+            words += ["--stagger", "0.5"]
+        return Command(words, fleet=fleet)
+
     def _let_alone(self):
         """Nothing goes wrong."""
         self.scenario.update(wire={}, events=[])
@@ -137,9 +206,11 @@ class Episode:
     def _is_right(self, command, index):
         """Servos that had to ask first are not where they were drawn."""
         verb, *_ = command.words
-        if verb == "doctor":
-            return False  # what it finds is judged apart
-        is_numbered = verb != "alloc" and command.words[2].isdigit()
+        if verb in ("doctor", "undo"):
+            return False  # what it finds is judged apart; there may be nothing to undo
+        if verb == "apply" and self.asking:
+            return False  # one that waits for an ID of its own may need more than one run
+        is_numbered = verb != "alloc" and command.target().isdigit()
         has_given = index > 0 and self.steps[0][0].words[0] == "alloc"
         return command.is_right() and not (command.is_about_one() and len(self.ids) > 1) and (
             not self.asking or verb == "alloc" or (has_given and not is_numbered))

@@ -14,6 +14,8 @@ class Step:
         self.before, self.after = before, after
         self._events, self._scenario, self._power_on = events, scenario, power_on
         self.given_before, self.given = given, {**given, **dict(self.allocated())}
+        for serial in self.made_static():
+            self.given.pop(serial, None)  # the table has that one
 
     def restarts(self, serial):
         """The times."""
@@ -48,8 +50,17 @@ class Step:
         return [(line["serial_number"], line["node_id"]) for line in self._events
                 if line["event"] == "allocated"]
 
+    def made_static(self):
+        """Whose ROM got a node ID."""
+        return [serial for serial, state in self.after.items()
+                if state["rom"]["0x46"] not in (0, self.before[serial]["rom"]["0x46"])]
+
     def has_other_allocator(self):
         return any(node.get("allocates") for node in self._scenario.get("foreign", []))
+
+    def commanders(self):
+        """The nodes that command servos all the time."""
+        return {node["node_id"] for node in self._scenario.get("foreign", []) if "commands" in node}
 
     def is_unhindered(self, serial):
         """Whether nothing was to go wrong that concerns a servo."""

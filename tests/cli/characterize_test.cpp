@@ -5,9 +5,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <set>
 #include <string>
 #include <vector>
@@ -15,11 +12,6 @@
 using namespace blactl::test;
 
 namespace {
-
-std::string read_file(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 Scene one_servo(const nlohmann::json& behaviour = nlohmann::json::object(),
                 const nlohmann::json& more = {}) {
@@ -103,7 +95,7 @@ TEST_CASE("characterize writes facts that sim loads, and that make a servo just 
                                  "measurements"});
   CHECK(document["nodes"][0]["file"] == path);
   CHECK(document["nodes"][0]["status"] == "done");
-  const auto facts = json(read_file(path));
+  const auto facts = json(content(path));
   for (const auto& [key, value] : behaviour.items()) {
     INFO(key << " " << facts["behaviour"][key]);
     if (value.is_string() && value.get<std::string>().ends_with("ms")) {
@@ -122,7 +114,7 @@ TEST_CASE("characterize writes facts that sim loads, and that make a servo just 
   const Background sim(bench,
                        {"sim", Scene().servo("BLA21-12U-AB", 11).write(bench), "--facts", path});
   REQUIRE(bench.run({"-i", "sim:", "characterize", again, "-n", "11", "-y"}).status == 0);
-  auto copied = json(read_file(again))["behaviour"];
+  auto copied = json(content(again))["behaviour"];
   for (const auto& [key, value] : facts["behaviour"].items()) {
     INFO(key);
     if (!value.is_string() || !value.get<std::string>().ends_with("s")) {
@@ -181,7 +173,7 @@ TEST_CASE("characterize asks, and without a terminal the answer is no") {
   CHECK(contains(result.err, "restarted 3 times"));
   CHECK(contains(result.err, "out of range"));
   CHECK(writes(bench, log).empty());
-  CHECK(read_file(path) == "as it was");
+  CHECK(content(path) == "as it was");
 }
 
 TEST_CASE("the question says what happens, to whom it may concern") {

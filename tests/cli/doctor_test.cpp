@@ -2,8 +2,6 @@
 #include "run.hpp"
 #include "scene.hpp"
 
-#include <filesystem>
-#include <fstream>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -27,13 +25,6 @@ std::vector<std::string> found(const Result& result) {
 }
 
 using Codes = std::vector<std::string>;
-
-std::string content(const std::filesystem::path& path) {
-  std::ifstream stream(path);
-  std::ostringstream all;
-  all << stream.rdbuf();
-  return all.str();
-}
 
 } // namespace
 

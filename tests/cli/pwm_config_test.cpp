@@ -4,7 +4,6 @@
 #include "scene.hpp"
 
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -12,13 +11,6 @@
 using namespace blactl::test;
 
 namespace {
-
-std::string content(const std::string& path) {
-  std::ifstream file(path);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 const std::vector<std::string> mapping_keys{
     "neutral_us",   "range_us", "output_range_raw",  "mode",       "unit",  "pulse_min_us",

@@ -8,7 +8,6 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <set>
 #include <sstream>
 #include <string>
@@ -20,11 +19,6 @@ using namespace blactl::test;
 using blactl::can::Frame;
 
 namespace {
-
-std::string read(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 /// The frames of a log, of which every line must be complete.
 std::vector<Frame> frames(const std::string& log) {
@@ -108,7 +102,7 @@ TEST_CASE("get finds its servos in a recording by every form of -n, and reads st
     CHECK(json(got.out)["nodes"].size() == (std::string_view(list) == "11-13" ? 3 : 1));
   }
   const Result piped =
-      bench.run({"-i", "replay:-", "get", "-n", "12", "servo_id"}, {.stdin_text = read(log)});
+      bench.run({"-i", "replay:-", "get", "-n", "12", "servo_id"}, {.stdin_text = content(log)});
   CHECK(piped.status == 0);
   CHECK(contains(piped.out, "servo_id   2"));
   CHECK(bench.run({"-i", "replay:" + log, "get", "-n", "12", "servo_id", "--listen-only"}).status ==
@@ -168,7 +162,7 @@ TEST_CASE("what was erased after it was read is not told from a recording") {
   const std::string log = record(bench, {"get", "-n", "11", "angle_limit_cw"});
   const Arguments get{"-i", "replay:" + log, "get", "-n", "11", "angle_limit_cw", "-j"};
   CHECK(bench.run(get).status == 0);
-  const std::string text = read(log);
+  const std::string text = content(log);
   const std::size_t last = text.rfind('(');
   std::ofstream(log, std::ios::app) << text.substr(last, text.find("sim", last) - last)
                                     << "sim 1E0A8BE4#01000000000000C0\n"; // ERASE by node 100
@@ -254,16 +248,16 @@ TEST_CASE("what is killed while it records leaves complete lines up to its end")
       std::this_thread::sleep_for(10ms);
     }
   };
-  wait_until([&] { return std::ranges::count(read(log), '\n') > 100; });
+  wait_until([&] { return std::ranges::count(content(log), '\n') > 100; });
   const std::size_t heard = witness.hear().size();
   const Frame last = witness.hear()[heard - 1];
   blactl::can::LineBuffer buffer;
   const std::string line(blactl::can::format_line(last, {}, "sim", buffer));
-  wait_until([&] { return contains(read(log), std::string_view(line).substr(19)); });
+  wait_until([&] { return contains(content(log), std::string_view(line).substr(19)); });
   recording.kill();
 
   // The log is a piece of what the witness heard, without a gap, that reaches `last` at least.
-  const auto recorded = frames(read(log));
+  const auto recorded = frames(content(log));
   const auto& all = witness.hear();
   const auto piece = std::ranges::search(all, recorded);
   REQUIRE_FALSE(piece.empty());
@@ -289,9 +283,9 @@ TEST_CASE("a recording replaces the file, but only once the bus is open") {
   const Bench bench;
   const std::string file = bench.file("bus.log", "precious\n");
   CHECK(bench.run({"-i", "nosuchcan0", "scan", "--record", file}).status == 3);
-  CHECK(read(file) == "precious\n");
+  CHECK(content(file) == "precious\n");
   record(bench, {"get", "-n", "11", "servo_id"});
-  CHECK_FALSE(contains(read(file), "precious"));
+  CHECK_FALSE(contains(content(file), "precious"));
   const auto mode = std::filesystem::status(file).permissions();
   CHECK((mode & std::filesystem::perms::others_write) == std::filesystem::perms::none);
 }
@@ -299,7 +293,7 @@ TEST_CASE("a recording replaces the file, but only once the bus is open") {
 TEST_CASE("a recording of a recording is a copy, and never of itself") {
   const Bench bench;
   const std::string log = record(bench, {"get", "-n", "11", "servo_id"});
-  const std::string before = read(log);
+  const std::string before = content(log);
   const std::string copy = bench.folder() / "copy.log";
   CHECK(bench.run({"-i", "replay:" + log, "scan", "--record", copy}).status == 0);
   const auto without_names = [](std::string text) {
@@ -310,11 +304,11 @@ TEST_CASE("a recording of a recording is a copy, and never of itself") {
     }
     return text;
   };
-  CHECK(without_names(read(copy)) == without_names(before));
+  CHECK(without_names(content(copy)) == without_names(before));
   const Result itself = bench.run({"-i", "replay:" + log, "scan", "--record", log});
   CHECK(itself.status == 2);
   CHECK(contains(itself.err, "that is the log being read"));
-  CHECK(read(log) == before);
+  CHECK(content(log) == before);
 }
 
 TEST_CASE("a recording too short for an actuator.Status shows the servo without -n all the same") {
@@ -323,7 +317,7 @@ TEST_CASE("a recording too short for an actuator.Status shows the servo without 
   const Scene scene = Scene().servo("BLA15-06U-A0", 12);
   REQUIRE(scene.run(bench, {"get", "-n", "12", "servo_id", "--record", log}).status == 0);
   std::string rest;
-  std::istringstream lines(read(log));
+  std::istringstream lines(content(log));
   for (std::string line; std::getline(lines, line);) {
     rest += contains(line, "03F30C#") ? "" : line + '\n'; // the actuator.Status of 12
   }

@@ -24,6 +24,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr int large_pipe = 1 << 20; // what any user may have
+
 [[noreturn]] void fail(const std::string& what) {
   throw std::system_error(errno, std::generic_category(), what);
 }
@@ -201,6 +203,21 @@ class Background::Process {
     }
   }
 
+  std::string ask(std::string_view line, std::string_view until) {
+    typed_ += std::string(line) + '\n';
+    std::size_t end = 0; // behind the line that tells the end
+    const auto answered = [&] {
+      const auto at = out_.text.find(until, asked_);
+      end = at == std::string::npos ? 0 : out_.text.find('\n', at) + 1;
+      return end > 0;
+    };
+    if (!pump(options_.timeout, [&] { return answered() || finished(); }) || end == 0) {
+      give_up("did not show '" + std::string(until) + "'");
+    }
+    const std::size_t begin = std::exchange(asked_, end);
+    return out_.text.substr(begin, end - begin);
+  }
+
   Result wait() {
     if (!pump(options_.timeout, [&] { return finished(); })) {
       give_up("did not end");
@@ -231,6 +248,9 @@ class Background::Process {
     Line out = !options_.stdout_file.empty() ? file(options_.stdout_file)
                : options_.terminal_stdout    ? terminal(options_.columns)
                                              : pipe_from_child();
+    if (options_.asks && fcntl(out.ours.get(), F_SETPIPE_SZ, large_pipe) < 0) {
+      fail("F_SETPIPE_SZ");
+    }
 
     const auto argv = pointers(words);
     const auto envp = pointers(variables);
@@ -341,7 +361,8 @@ class Background::Process {
         in_.close();
       }
     }
-    if (typed_.empty() && answered_ == options_.answers.size() && !options_.terminal) {
+    if (typed_.empty() && answered_ == options_.answers.size() && !options_.terminal &&
+        !options_.asks) {
       in_.close();
     }
   }
@@ -376,7 +397,8 @@ class Background::Process {
   std::string shown_; // both outputs in the order they came
   std::string typed_; // not yet written
   std::size_t answered_ = 0;
-  std::size_t seen_ = 0; // output that no answer waits for any more
+  std::size_t seen_ = 0;  // output that no answer waits for any more
+  std::size_t asked_ = 0; // stdout that belongs to earlier questions
 };
 
 Bench::Bench() {
@@ -427,6 +449,10 @@ pid_t Background::pid() const {
 
 void Background::expect(std::string_view text) {
   process_->expect(text);
+}
+
+std::string Background::ask(std::string_view line, std::string_view until) {
+  return process_->ask(line, until);
 }
 
 Result Background::wait() {

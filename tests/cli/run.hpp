@@ -46,6 +46,9 @@ struct Options {
   /// What comes in on stdin at once. The end of input follows it, but never on a terminal.
   std::string stdin_text = {};
   std::vector<Answer> answers = {};
+  /// The end of input does not follow: ask() comes. All that the child says to one question fits
+  /// into its pipe.
+  bool asks = false;
   /// Variables of the child; std::nullopt removes one.
   std::map<std::string, std::optional<std::string>> env = {};
   /// A child that still runs then is killed, and the test fails.
@@ -100,6 +103,10 @@ class Background {
 
   /// Waits until the output shows `text`, for at most the timeout of the options.
   void expect(std::string_view text);
+
+  /// Types a line; what came on stdout since the last question, up to the line with `until`. Needs
+  /// Options::asks.
+  [[nodiscard]] std::string ask(std::string_view line, std::string_view until);
 
   /// Waits for the end of the command.
   Result wait();

@@ -1,7 +1,11 @@
 #include "scene.hpp"
 
+#include "catch.hpp"
+
 #include <algorithm>
 #include <cstdint>
+#include <fstream>
+#include <iterator>
 
 namespace blactl::test {
 
@@ -21,7 +25,11 @@ Scene& Scene::foreign(int node_id, const nlohmann::json& more) {
 
 Scene& Scene::joins(int serial_number, std::string_view at) {
   document_["events"].push_back({{"servo", serial_number}, {"happens", "power_off"}});
-  document_["events"].push_back({{"at", at}, {"servo", serial_number}, {"happens", "power_on"}});
+  return event(serial_number, "power_on", at);
+}
+
+Scene& Scene::event(int serial_number, std::string_view happens, std::string_view at) {
+  document_["events"].push_back({{"at", at}, {"servo", serial_number}, {"happens", happens}});
   return *this;
 }
 
@@ -46,6 +54,11 @@ Scene three_servos() {
       .servo("BLA34-28U-AB", 13, {{"servo_id", 3}});
 }
 
+std::string content(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
 bool contains(std::string_view text, std::string_view part) {
   return text.find(part) != std::string_view::npos;
 }
@@ -59,6 +72,14 @@ std::vector<std::string> codes(const Result& result) {
     found.push_back(result.err.substr(from, result.err.find(']', from) - from));
   }
   return found;
+}
+
+void check_error(const Result& result, int status, const std::string& code,
+                 std::string_view message) {
+  INFO(result.err);
+  CHECK(result.status == status);
+  CHECK(codes(result) == std::vector{code});
+  CHECK(contains(result.err, message));
 }
 
 std::vector<std::string> keys(const nlohmann::ordered_json& object) {

@@ -12,6 +12,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,6 +27,9 @@ class Scene {
 
   /// The servo with this serial number has no power until then.
   Scene& joins(int serial_number, std::string_view at);
+
+  /// To the servo with this serial number, after this time.
+  Scene& event(int serial_number, std::string_view happens, std::string_view at);
 
   /// Writes the scenario file and gives its path.
   [[nodiscard]] std::string write(const Bench& bench) const;
@@ -48,8 +52,15 @@ class Scene {
 
 [[nodiscard]] bool contains(std::string_view text, std::string_view part);
 
+/// All of a file.
+[[nodiscard]] std::string content(const std::filesystem::path& path);
+
 /// The words in brackets of "blactl: [timeout] …" on stderr.
 [[nodiscard]] std::vector<std::string> codes(const Result& result);
+
+/// That a command failed for one reason, and what it says of it on stderr.
+void check_error(const Result& result, int status, const std::string& code,
+                 std::string_view message);
 
 /// The members of an object in the order of the document.
 [[nodiscard]] std::vector<std::string> keys(const nlohmann::ordered_json& object);

@@ -29,14 +29,6 @@ Scene with_firmware(int version) {
   return Scene().servo("BLA21-12U-AB", 11, {{"firmware_version", version}});
 }
 
-void check_error(const Result& result, int status, const std::string& code,
-                 const std::string& message) {
-  INFO(result.err);
-  CHECK(result.status == status);
-  CHECK(codes(result) == std::vector{code});
-  CHECK(contains(result.err, message));
-}
-
 } // namespace
 
 TEST_CASE("set has exactly the keys of the contract, in their order") {

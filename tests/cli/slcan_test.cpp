@@ -13,6 +13,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -29,18 +31,22 @@ namespace sim = blactl::sim;
 
 namespace {
 
-/// Servo 11, a BLA21, on the clock of the machine.
-std::unique_ptr<can::Bus> one_servo() {
+/// On the clock of the machine.
+std::unique_ptr<can::Bus> servos_of(std::string_view text) {
   static const auto profiles = bla::Profiles::load(std::nullopt);
-  const auto scenario = sim::parse_scenario(R"({
-    "schema": "blactl-scenario/1", "clock": "real",
-    "servos": [{"model": "BLA21-12U-AB", "node_id": 11}]
-  })",
-                                            "slcan_test", profiles.value());
+  const auto scenario = sim::parse_scenario(text, "slcan_test", profiles.value());
   if (!scenario) {
     throw std::runtime_error(scenario.error().message);
   }
   return std::make_unique<sim::PrivateBus>("slcan_test", *scenario);
+}
+
+/// Servo 11, a BLA21.
+std::unique_ptr<can::Bus> one_servo() {
+  return servos_of(R"({
+    "schema": "blactl-scenario/1", "clock": "real",
+    "servos": [{"model": "BLA21-12U-AB", "node_id": 11}]
+  })");
 }
 
 std::string interface(const SlcanAdapter& adapter, const std::string& options = {}) {
@@ -57,6 +63,34 @@ Arguments patient(const std::string& interface, Arguments command) {
 
 bool is_frame(const std::string& line) {
   return line.starts_with('T');
+}
+
+std::string data_file(const std::string& name) {
+  std::ifstream in(BLACTL_TEST_DATA "/" + name);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// How one job of eight servos ends, and what ROM of each holds.
+std::vector<std::string> end_of_job(const Bench& bench, const std::string& interface) {
+  const auto run = [&](Arguments command) {
+    return bench.run(patient(interface, std::move(command)), {.timeout = 120s});
+  };
+  const Result applied = run({"apply", BLACTL_TEST_DATA "/fleets/eight.json", "-y", "-j"});
+  INFO(applied.err);
+  CHECK(applied.status == 0);
+  std::vector<std::string> ends;
+  const auto document = json(applied.out);
+  for (const auto& node : document["nodes"]) {
+    for (const auto* key : {"name", "status", "saved", "verified_after_restart", "node_id_after"}) {
+      ends.push_back(key + node[key].dump());
+    }
+  }
+  CHECK(run({"restart", "-n", "all", "-y"}).status == 0); // RAM is what ROM holds
+  const auto held = json(run({"export"}).out);
+  for (const auto& servo : held["servos"]) {
+    ends.push_back(servo["match"].dump() + servo["set"].dump());
+  }
+  return ends;
 }
 
 } // namespace
@@ -91,6 +125,16 @@ TEST_CASE("slcan: parameters are read and written through every kind of adapter"
       return is_frame(line) && line.size() < 12; // not one in pieces
     }));
   }
+}
+
+TEST_CASE("slcan: one job of eight servos ends as on the simulated bus") {
+  const Bench bench;
+  SlcanAdapter adapter(can::test::canable(), servos_of(data_file("scenarios/eight.json")));
+  const auto ends = end_of_job(bench, interface(adapter));
+  const Background sim(bench,
+                       {"sim", "--clock", "virtual", BLACTL_TEST_DATA "/scenarios/eight.json"});
+  CHECK(ends.size() == 8 * (5 + 1));
+  CHECK(ends == end_of_job(bench, "sim:"));
 }
 
 TEST_CASE("slcan: servos are found however long the adapter took to open") {

@@ -38,9 +38,10 @@ OFFERS = [
     ("blactl models BLA21-12U-AB angle_l", ["angle_limit_cw", "angle_limit_ccw"], ["BLA34"]),
     ("blactl get -n model:BLA34", ["BLA34-12U-AB", "BLA34-28U-AB"], ["BLA15"]),
     ("blactl get -n ", ["all", "serial:", "model:"], ["angle_limit_cw"]),
-    ("blactl -i ", ["sim:", "mcast:0", "replay:"], ["eth0", "scan"]),
+    ("blactl -i ", ["sim:", "mcast:0", "replay:", "file:"], ["eth0", "scan"]),
     ("blactl trace b", ["bus.log", "bench.json"], ["stats"]),
     ("blactl trace -i replay:b", ["bus.log", "bench.json"], ["stats"]),
+    ("blactl get -i file:b", ["bus.log", "bench.json"], ["stats"]),
 ]
 
 # What is typed, and what the command then gets after one Tab.

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The manual renders without a warning and names every command and option.
+"""The pages render without a warning, and blactl(1) names every command and option.
 
 Usage: manual_test.py SOURCE_DIRECTORY BLACTL. Exit status 77, with a word about it, where this
 machine has no man.
@@ -17,6 +17,18 @@ SECTIONS = ["NAME", "SYNOPSIS", "DESCRIPTION", "OPTIONS", "COMMANDS", "VALUES", 
             "ENVIRONMENT", "FILES", "SEE ALSO"]
 
 
+def rendered(page, environment):
+    """Its lines, and what is wrong with it."""
+    done = subprocess.run(["man", "--warnings", "-P", "cat", page], stdout=subprocess.PIPE,
+                          stderr=subprocess.PIPE, text=True, env=environment, check=False)
+    faults = []
+    if done.returncode != 0 or done.stderr:
+        faults.append(f"man: exit status {done.returncode}, {done.stderr}")
+    lines = done.stdout.splitlines()
+    faults += [f"wider than 80 columns: {line}" for line in lines if len(line) > 80]
+    return lines, faults
+
+
 def main():
     source, binary = pathlib.Path(sys.argv[1]).resolve(), sys.argv[2]
     if shutil.which("man") is None:
@@ -24,15 +36,10 @@ def main():
         return SKIPPED
     environment = {"PATH": os.environ["PATH"], "LC_ALL": "C.UTF-8", "MANWIDTH": "80",
                    "MAN_KEEP_FORMATTING": ""}
-    done = subprocess.run(["man", "--warnings", "-P", "cat", source / "man/blactl.1"],
-                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                          env=environment, check=False)
-    page = done.stdout
-    faults = []
-    if done.returncode != 0 or done.stderr:
-        faults.append(f"man: exit status {done.returncode}, {done.stderr}")
-    lines = page.splitlines()
+    lines, faults = rendered(source / "man/blactl.1", environment)
+    page = "\n".join(lines)
     faults += [f"no section {name}" for name in SECTIONS if name not in lines]
+    faults += rendered(source / "man/blactl-fleet.5", environment)[1]
     cli = json.loads(subprocess.run([binary, "--dump-cli"], stdout=subprocess.PIPE,
                                     check=True).stdout)
     for command in cli["commands"]:
@@ -49,7 +56,6 @@ def main():
         faults += [f"{command['name']}: no {option['name']}" for option in command["options"]
                    if option["name"] not in section]
     faults += [f"no {option['name']}" for option in cli["options"] if option["name"] not in page]
-    faults += [f"wider than 80 columns: {line}" for line in lines if len(line) > 80]
     for fault in faults:
         print(f"FAILED: {fault}")
     return 1 if faults else 0

@@ -20,11 +20,8 @@
 set -u
 PATH=$PATH:/usr/sbin:/sbin
 
-# die STATUS TEXT
-die() {
-  echo "qemu.sh: $2" >&2
-  exit "$1"
-}
+# shellcheck source=tests/kernel/machine.sh
+. "$(dirname "$0")/machine.sh"
 
 [ $# -ge 1 ] || die 125 "usage: qemu.sh PROGRAM [ARGUMENTS]"
 program=$(command -v -- "$1") || die 125 "there is no program $1"
@@ -36,19 +33,8 @@ done
 root=${BLACTL_QEMU_KERNEL:-}
 kernel=$(echo "$root"/boot/vmlinuz-*)
 [[ -n $root && -r $kernel ]] ||
-  die 77 "BLACTL_QEMU_KERNEL: no kernel in '$root'; scripts/check unpacks one"
+  die 77 "BLACTL_QEMU_KERNEL: no kernel in '$root'; scripts/check --long unpacks one"
 version=${kernel##*/vmlinuz-}
-
-scratch=$(mktemp -d) || die 125 "no scratch folder"
-machine=
-# shellcheck disable=SC2317 # called by the trap
-cleanup() {
-  [ -z "$machine" ] || kill "$machine" 2>/dev/null
-  rm -rf -- "$scratch"
-}
-trap cleanup EXIT
-trap 'exit 130' INT
-trap 'exit 143' TERM HUP
 
 # A small root file system that loads the modules and mounts the host's files.
 initrd=$scratch/initrd
@@ -113,17 +99,5 @@ timeout -k 5 "${BLACTL_QEMU_TIMEOUT:-120}" qemu-system-x86_64 -accel tcg -m 512 
   -object can-bus,id=cb0 -device kvaser_pci,canbus=cb0 -device kvaser_pci,canbus=cb0 \
   </dev/null >"$scratch/console.log" 2>&1 &
 machine=$!
-wait "$machine"
-ended=$?
-machine=
-
-[ ! -f "$scratch/share/log" ] || cat "$scratch/share/log"
-if [ -s "$scratch/share/status" ]; then
-  exit "$(cat "$scratch/share/status")"
-fi
-if [ $ended -eq 124 ] || [ $ended -eq 137 ]; then
-  echo "qemu.sh: ended after ${BLACTL_QEMU_TIMEOUT:-120} s: $program" >&2
-  exit 124
-fi
-cat "$scratch/console.log" >&2 2>/dev/null
-die 125 "QEMU did not run $program (see above; status $ended)"
+finish "QEMU" "${BLACTL_QEMU_TIMEOUT:-120}" "$program" "$scratch/share" \
+  "$scratch/console.log"

@@ -24,11 +24,8 @@
 set -u
 PATH=$PATH:/usr/sbin:/sbin
 
-# die STATUS TEXT
-die() {
-  echo "uml.sh: $2" >&2
-  exit "$1"
-}
+# shellcheck source=tests/kernel/machine.sh
+. "$(dirname "$0")/machine.sh"
 
 [ $# -ge 1 ] || die 125 "usage: uml.sh PROGRAM [ARGUMENTS]"
 program=$(command -v -- "$1") || die 125 "there is no program $1"
@@ -61,17 +58,6 @@ if wants_preload; then
     die 125 "BLACTL_UML_XSTATE does not name the library to preload: '${BLACTL_UML_XSTATE:-}'"
   linux=(env LD_PRELOAD="$(realpath -- "$BLACTL_UML_XSTATE")${LD_PRELOAD:+:$LD_PRELOAD}" linux.uml)
 fi
-
-scratch=$(mktemp -d) || die 125 "no scratch folder"
-machine=
-# shellcheck disable=SC2317 # called by the trap
-cleanup() {
-  [ -z "$machine" ] || kill "$machine" 2>/dev/null
-  rm -rf -- "$scratch"
-}
-trap cleanup EXIT
-trap 'exit 130' INT
-trap 'exit 143' TERM HUP
 
 export -p >"$scratch/environment"
 power_off='echo o >/proc/sysrq-trigger; sleep 60' # takes a moment, and init must not end before
@@ -114,17 +100,5 @@ timeout -k 5 "${BLACTL_UML_TIMEOUT:-120}" "${linux[@]}" mem="${BLACTL_UML_MEMORY
   uml_dir="$scratch/" rootfstype=hostfs rootflags=/ rw init="$scratch/init" \
   con=null con0=fd:0,fd:1 quiet </dev/null >"$scratch/console.log" 2>&1 &
 machine=$!
-wait "$machine"
-ended=$?
-machine=
-
-[ ! -f "$scratch/log" ] || cat "$scratch/log"
-if [ -s "$scratch/status" ]; then
-  exit "$(cat "$scratch/status")"
-fi
-if [ $ended -eq 124 ] || [ $ended -eq 137 ]; then
-  echo "uml.sh: ended after ${BLACTL_UML_TIMEOUT:-120} s: $program" >&2
-  exit 124
-fi
-cat "$scratch/console.log" "$scratch/boot.log" >&2 2>/dev/null
-die 125 "User-Mode Linux did not run $program (see above; status $ended)"
+finish "User-Mode Linux" "${BLACTL_UML_TIMEOUT:-120}" "$program" "$scratch" \
+  "$scratch/console.log" "$scratch/boot.log"

@@ -4,9 +4,9 @@
 #
 #   tests/net/namespace.sh PROGRAM [ARGUMENTS]
 #
-# Only the interface lo is there, and up. /run is empty: lock files are the program's own. Whatever
-# it leaves running ends with it. BLACTL_NET_OF_ITS_OWN tells it that it may do with this network
-# what it likes.
+# Only the interface lo is there, and up. /run is empty: lock files and the state folder are the
+# program's own. Whatever it leaves running ends with it. BLACTL_NET_OF_ITS_OWN tells it that it may
+# do with this network what it likes.
 #
 # Exit status 77: neither root nor other users can make namespaces here; the test did not run.
 
@@ -35,5 +35,5 @@ exec "${own[@]}" bash -c '
   # LeakSanitizer reads /proc of its own PID namespace. A container may forbid to mount it.
   mount -t proc proc /proc 2>/dev/null || export ASAN_OPTIONS=${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0
   unset XDG_RUNTIME_DIR
-  export BLACTL_NET_OF_ITS_OWN=yes
+  export BLACTL_NET_OF_ITS_OWN=yes BLACTL_STATE_DIR=/run/state
   "$@"' namespace.sh "$@"

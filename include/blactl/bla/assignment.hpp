@@ -54,6 +54,10 @@ parse_assignments(const Profiles& profiles, std::span<const std::string> texts);
                                                  const Parameter& parameter,
                                                  const TypedValue& value);
 
+/// Whether this model takes the value. Errors: unsupported (no PWM input, no such register),
+/// out_of_range, naming the model and its range.
+[[nodiscard]] Result<void> allowed_by_model(const Profile& model, const Assignment& assignment);
+
 /// What is true for every servo whatever its model: what may never be sent to the register.
 /// Errors: unsupported (0x49), read_only, out_of_range (0x46 = 126 or 127).
 [[nodiscard]] Result<void> never_sent(const Parameter& parameter, std::int64_t raw);

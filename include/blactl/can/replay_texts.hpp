@@ -14,6 +14,8 @@ inline constexpr Text log_without_frames{"{} holds no frame in candump's format"
 inline constexpr Text standard_input{"standard input", "標準入力"};
 inline constexpr Text log_takes_no_frames{"{} is a log: nothing can be sent to it",
                                           "{} はログのため送信できません"};
+inline constexpr Text file_takes_no_frames{"{} is a file: nothing can be sent to it",
+                                           "{} はファイルのため送信できません"};
 inline constexpr Text log_takes_no_frames_hint{
     "give the interface that the servos are on: -i can0",
     "サーボを接続したインターフェースを指定して下さい: -i can0"};

@@ -28,6 +28,9 @@ class Archive {
 
   void receive(const dronecan::Transfer& transfer);
 
+  /// What a file says that a register holds counts as an answer.
+  void recall(dronecan::NodeId node, bla::Address address, std::int64_t raw);
+
   /// `answered` with the last answer, or `not_recorded`. The payload is valid until the next
   /// transfer.
   [[nodiscard]] dronecan::Outcome answer(const dronecan::Request& request) const;

@@ -2,6 +2,7 @@
 // Carries the plans of several servos out, each by a job of its own, all at once.
 
 #include "blactl/fleet/change_job.hpp"
+#include "blactl/fleet/history.hpp"
 #include "blactl/fleet/session.hpp"
 #include "blactl/state/allocation_store.hpp"
 
@@ -27,6 +28,7 @@ struct Manner {
   Identification::Options identification{};
   Duration stagger{};                  ///< between the requests to restart
   std::optional<Duration> come_back{}; ///< empty: 5 s, and 2 s for each that will ask for an ID
+  bool stops_at_failure = false;       ///< one that fails stops all that are not saved yet
   /// Nobody else of this machine allocates on the interface: this process may.
   bool may_allocate = false;
   /// Opens the allocation table, when a servo asks for an ID. Where it cannot be used, or this is
@@ -34,6 +36,13 @@ struct Manner {
   std::function<Result<state::AllocationStore>()> allocations{};
   std::function<void(const Error&)> not_kept{};    ///< told once, why; may be empty
   std::function<void(const Progress&)> progress{}; ///< called once a second; may be empty
+  StageHook entered{};                             ///< called for each servo; may be empty
+  History* history = nullptr;                      ///< records it; null: nothing is kept
+  /// Told why it cannot be recorded; gives why nothing is changed then. Empty: all is, all the
+  /// same.
+  std::function<std::optional<Error>(const Error&)> not_recorded{};
+  /// Told why it is not recorded how that ended; may be empty.
+  std::function<void(const Error&)> end_not_recorded{};
 };
 
 struct CarriedOut {
@@ -42,8 +51,17 @@ struct CarriedOut {
   std::optional<Error> broken{};
 };
 
+/// Records what the servos hold that are going to be changed, for carry_out() in several rounds:
+/// whatever the disk does then, it is recorded of all. Why nothing must be changed; empty: it may.
+[[nodiscard]] std::optional<Error> record(Session& session, std::span<const Plan> plans,
+                                          const Manner& manner);
+
+/// Records how carry_out() ended; what nothing was sent of is forgotten.
+void record_end(Session& session, std::span<const ChangeResult> results, const Manner& manner);
+
 /// A servo that asks for a node ID gets that of the allocation table; one that is not in there the
 /// one it had, or a free one if that is another's in the table. Unless another allocator is heard.
+/// What is recorded is on the disk before the first request.
 [[nodiscard]] CarriedOut carry_out(Session& session, const bla::Profiles& profiles,
                                    std::span<const Plan> plans, const Manner& manner);
 

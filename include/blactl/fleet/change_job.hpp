@@ -10,10 +10,19 @@
 #include "blactl/fleet/write_job.hpp"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <string_view>
 
 namespace blactl::fleet {
+
+/// What is being done to a servo, for those who watch.
+enum class ChangeStage : std::uint8_t { erase, write, save, restart, read, end };
+[[nodiscard]] std::string_view name(ChangeStage stage);
+
+/// Told when a stage begins; the servo as it was recognised last.
+using StageHook = std::function<void(const Servo& servo, ChangeStage stage)>;
 
 /// Erases and reads back, writes, restarts, recognises the servo and reads it once more: each stage
 /// is a job of its own, and begins only if everything before it went well. Where nothing proves
@@ -26,6 +35,7 @@ class ChangeJob final : public dronecan::Job {
     Time start{};                ///< of the restart: not before
     Duration come_back{};        ///< how long a restart may take
     RestartPace* pace = nullptr; ///< outlives the job; null: nobody else is waited for
+    StageHook entered{};         ///< may be empty
   };
 
   /// `roster`, `profiles` and `plan` outlive the job.
@@ -62,6 +72,10 @@ class ChangeJob final : public dronecan::Job {
     end,
   };
 
+  [[nodiscard]] bool is_stopped(Stage next) const;
+  void stop();
+  void tell_failure() const;
+  [[nodiscard]] std::optional<ChangeStage> told_as(Stage stage) const;
   [[nodiscard]] Stage first_stage() const;
   [[nodiscard]] dronecan::Step enter(Stage stage, Time now);
   [[nodiscard]] Stage conclude_stage(bool cancelled);
@@ -72,6 +86,7 @@ class ChangeJob final : public dronecan::Job {
   [[nodiscard]] Stage conclude_look();
   [[nodiscard]] Stage conclude_read_back();
   void conclude_read_shown();
+  [[nodiscard]] std::optional<RomReading> rom_reading(const Snapshot& now) const;
   [[nodiscard]] Time known_since() const;
   [[nodiscard]] std::optional<dronecan::NodeId> other_writer() const;
   void explain_interruption(Stage at);
@@ -81,6 +96,7 @@ class ChangeJob final : public dronecan::Job {
   [[nodiscard]] std::optional<Error> check_commands(const Snapshot& now) const;
   void doubt_changes();
   void tell_saved(const Snapshot& now);
+  [[nodiscard]] std::unique_ptr<WriteJob> write() const;
   [[nodiscard]] std::unique_ptr<RestartJob> restart() const;
   [[nodiscard]] Stage after_erase() const;
   [[nodiscard]] Stage after_write() const;

@@ -56,6 +56,9 @@ struct Findings {
 /// The nodes that move servos.
 [[nodiscard]] std::vector<dronecan::NodeId> commanders(const Roster& roster);
 
+/// It has an ID of tools, and is no servo: it comes and goes as people work.
+[[nodiscard]] bool is_tool(const Finding& node);
+
 /// What a technician should know of one node.
 [[nodiscard]] std::vector<std::string> warnings(const Member& member);
 

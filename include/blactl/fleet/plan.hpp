@@ -24,6 +24,7 @@ struct Wanted {
   bool erase = false;
   bool keep_ids = false; ///< 0x45 and 0x46 outlive the erasing
   std::optional<RestartKind> restart{};
+  bool proves_rom = false; ///< after a mere restart the configuration is read: what ROM holds
   std::vector<bla::Address> also_read{}; ///< what is to be shown beside the changes
 
   /// Changed are whole servos, not single registers.
@@ -43,6 +44,7 @@ struct Plan {
   bool keep_ids = false;
   std::vector<Change> changes{};
   std::optional<RestartKind> restart{};
+  bool proves_rom = false;           ///< as Wanted
   std::vector<bla::Address> shown{}; ///< as Wanted::also_read
   /// The configuration afterwards; empty where nobody can know or asks: a mere restart brings what
   /// ROM holds.

@@ -16,6 +16,11 @@ class Playback {
   /// Every transfer of the recording, after the roster.
   void receive(const dronecan::Transfer& transfer) { archive_.receive(transfer); }
 
+  /// See Archive::recall().
+  void recall(dronecan::NodeId node, bla::Address address, std::int64_t raw) {
+    archive_.recall(node, address, raw);
+  }
+
   /// Begins a job: at once when all has been heard, else then. Jobs and hooks may call it.
   void start(dronecan::Job& job);
 

@@ -17,6 +17,13 @@ namespace blactl::fleet {
 /// The group of this name (contract, section 7). Errors: usage, with the nearest or all names.
 [[nodiscard]] Result<bla::Group> parse_group(std::string_view word);
 
+/// The register as this servo has it; null: it has none.
+[[nodiscard]] const bla::Parameter* own_register(const bla::Parameter& parameter,
+                                                 const Servo& servo);
+
+/// Why a servo has no such register. Errors: unsupported (firmware, no PWM input).
+[[nodiscard]] Error lacking(const bla::Parameter& parameter, const Servo& servo);
+
 /// Single registers, groups of them, or all that can be read.
 class RegisterChoice {
  public:

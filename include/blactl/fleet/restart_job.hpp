@@ -15,11 +15,16 @@ namespace blactl::fleet {
 /// What restarts a servo: SAVE (opcode 0: RAM to ROM, section 4.11) or RestartNode (4.10).
 enum class RestartKind : std::uint8_t { save, restart };
 
-/// The distance between the requests to several servos: their jobs share it.
+/// What the jobs of several servos share: the distance between their requests, and whether one has
+/// failed.
 struct RestartPace {
   Duration distance{};
   Time next{};                          ///< when the next first request may go out
   std::set<dronecan::NodeId> leaving{}; ///< who was told to restart, and may go to another ID
+  bool stops_at_failure = false; ///< after one has failed nothing is sent that changes another
+  bool has_failed = false;
+
+  [[nodiscard]] bool is_stopped() const { return stops_at_failure && has_failed; }
 };
 
 /// The request goes out once. Without an answer the uptime tells whether it was carried out, and
@@ -66,6 +71,12 @@ class RestartJob final : public dronecan::Job {
 
   /// It ended with a proof that the servo ran on: RAM holds what it held.
   [[nodiscard]] bool has_run_on() const { return has_run_on_; }
+
+  /// A request has left, or still may, and the servo neither refused it nor ran on in silence. One
+  /// that confirms it and runs on may have carried out a part of it.
+  [[nodiscard]] bool may_have_happened() const {
+    return is_sent_ && (is_confirmed_ || !has_run_on_ || !has_left_);
+  }
 
   /// From the first request until it was back or given up.
   [[nodiscard]] Duration duration() const {

@@ -5,7 +5,9 @@
 #include "blactl/dronecan/answer_watch.hpp"
 #include "blactl/dronecan/transfer.hpp"
 #include "blactl/dronecan/types.hpp"
+#include "blactl/fleet/command_watch.hpp"
 #include "blactl/fleet/servo.hpp"
+#include "blactl/fleet/unit_watch.hpp"
 #include "blactl/state/allocation_store.hpp"
 
 #include <array>
@@ -29,16 +31,23 @@ struct Member {
 
   /// What Roster::learn() was told.
   std::optional<dronecan::GetNodeInfo::Response> info{};
-  std::uint32_t info_boot = 0; ///< `boots` when `info` came
-  Time info_start{};           ///< when the unit started, by the uptime that came with it
-  bool is_servo = false;       ///< it answered register 0x50
+  std::optional<dronecan::UniqueId> told_unique_id{}; ///< by a file, in place of `info`
+  std::uint32_t info_boot = 0;                        ///< `boots` when `info` came
+  Time info_at{};                                     ///< when `info` came
+  Time info_start{};     ///< when the unit started, by the uptime that came with it
+  bool is_servo = false; ///< it answered register 0x50
   bla::Identity identity{};
   std::optional<std::int64_t> servo_id{}, static_node_id{};
+  bool id_is_known = true;           ///< Servo::id_is_known
   bool identified = false;           ///< learn() was told all
   std::uint32_t identified_boot = 0; ///< `boots` when it did
   Time since{};                      ///< Servo::since
 
   [[nodiscard]] bool sends_actuator_status() const { return actuator_id.has_value(); }
+
+  [[nodiscard]] std::optional<dronecan::UniqueId> unique_id() const {
+    return info ? std::optional(info->unique_id) : told_unique_id;
+  }
 
   /// Identified, and not restarted since.
   [[nodiscard]] bool is_known() const { return identified && identified_boot == boots; }
@@ -59,19 +68,6 @@ struct Member {
 
 /// An unsettled allocation request: the part of the unique ID that was heard.
 using UniqueIdPrefix = std::vector<std::uint8_t>;
-
-/// Another node that moves servos: ArrayCommand, or writes to 0x00-0x02.
-struct Commander {
-  /// The last command to one servo ID.
-  struct Command {
-    Time at{};
-    std::uint8_t type = 0; ///< ArrayCommand::Command::command_type
-  };
-
-  dronecan::NodeId source;
-  std::map<std::uint8_t, Command> servo_ids; ///< by ArrayCommand; 255: every servo
-  std::map<dronecan::NodeId, Time> nodes;    ///< by GetSet
-};
 
 /// A node sends NodeStatus once a second at least; one that was not heard for so long is offline
 /// (uavcan/protocol/341.NodeStatus).
@@ -129,6 +125,9 @@ class Roster {
   /// What a node said of itself; `servo.boot` is that of its GetNodeInfo, which may be over.
   void learn(const Servo& servo, const std::optional<dronecan::GetNodeInfo::Response>& info);
 
+  /// What a file says of a servo counts as if it had been heard.
+  void recall(const Servo& servo);
+
   /// The servo of this node was recognised after a restart, as `servo` says: what it said of
   /// itself before holds on.
   void learn_run(const Servo& servo);
@@ -169,22 +168,22 @@ class Roster {
   [[nodiscard]] const std::set<dronecan::NodeId>& allocators() const { return allocators_; }
 
   [[nodiscard]] const std::map<dronecan::NodeId, Commander>& commanders() const {
-    return commanders_;
+    return commands_.commanders();
   }
 
   /// A node whose last ArmingStatus says that the vehicle is armed.
-  [[nodiscard]] std::optional<dronecan::NodeId> armed_by() const {
-    return armed_.empty() ? std::nullopt : std::optional(*armed_.begin());
-  }
+  [[nodiscard]] std::optional<dronecan::NodeId> armed_by() const { return commands_.armed_by(); }
 
   /// When the unit of this node started at the latest, by its last uptime; empty: it told none.
-  [[nodiscard]] std::optional<Time> started(dronecan::NodeId id) const;
+  [[nodiscard]] std::optional<Time> started(dronecan::NodeId id) const {
+    return watches_[id.value()].started();
+  }
 
-  /// Another node that changed a setting of this one after `since`, as far as heard. Commands to
-  /// move (0x00-0x02) change none.
-  /// With `reg` of this register, or of all at once.
+  /// As CommandWatch::writer_to().
   [[nodiscard]] std::optional<dronecan::NodeId>
-  writer_to(dronecan::NodeId id, Time since, std::optional<bla::Address> reg = std::nullopt) const;
+  writer_to(dronecan::NodeId id, Time since, std::optional<bla::Address> reg = std::nullopt) const {
+    return commands_.writer_to(id, since, reg);
+  }
 
   /// Another node that commanded this servo to move after `since`, as far as heard.
   [[nodiscard]] std::optional<dronecan::NodeId> commander_of(const Servo& servo, Time since) const;
@@ -193,54 +192,25 @@ class Roster {
   [[nodiscard]] std::optional<dronecan::NodeId> driver_of(const Servo& servo, Time now) const;
 
  private:
-  /// Two counters of uptime on one ID, and the rate of actuator.Status.
-  struct Pulse {
-    std::optional<Time> window_start{};
-    unsigned count = 0;
-    unsigned leaps = 0; ///< transfer IDs that did not follow the one before
-    dronecan::TransferId last_transfer_id = 0;
-    std::optional<dronecan::TransferId> last_status_id{}; ///< of NodeStatus
-    std::array<std::optional<Time>, 2> boots{}; ///< when the unit(s) behind the ID started
-    std::size_t last_boot = 0;
-    std::uint32_t last_uptime_s = 0;
-  };
-
   [[nodiscard]] Member& known(dronecan::NodeId id);
   void announce(const Member& member);
-  void count_status(dronecan::NodeId source, dronecan::TransferId transfer_id, Time at);
   void hear_status(Member& sender, const can::Frame& frame, Time at);
   void on_status(const dronecan::Transfer& transfer);
   void on_allocation(const dronecan::Transfer& transfer);
-  void on_command(const dronecan::Transfer& transfer);
-  void on_write(const dronecan::Transfer& transfer);
-  [[nodiscard]] bool is_news(dronecan::NodeId source, std::uint32_t uptime_s, Time at) const;
-  [[nodiscard]] bool is_of_before(dronecan::NodeId source, std::uint32_t uptime_s, Time at) const;
-  void watch_uptime(Member& member, std::uint32_t uptime_s, Time at);
-  [[nodiscard]] bool has_restarted(Member& member, std::uint32_t uptime_s, Time at);
-  Commander& commander(dronecan::NodeId source);
+  void take(UnitWatch::Start start, Member& sender);
   [[nodiscard]] bool is_too_fast(dronecan::NodeId id) const;
 
   dronecan::NodeId local_;
   std::vector<Listener*> listeners_;
   std::map<dronecan::NodeId, Member> members_;
   std::array<bool, 128> heard_{};
-  std::array<Pulse, 128> pulses_{};
+  std::array<UnitWatch, 128> watches_{};
+  CommandWatch commands_;
   dronecan::AnswerWatch answers_;
   std::set<dronecan::NodeId> doubled_;
   std::map<dronecan::NodeId, std::set<dronecan::UniqueId>> units_; ///< of doubled IDs
-  std::set<dronecan::NodeId> too_fast_; ///< sent actuator.Status like two servos
   std::set<UniqueIdPrefix> pending_;
   std::set<dronecan::NodeId> allocators_;
-  std::map<dronecan::NodeId, Commander> commanders_;
-  std::set<dronecan::NodeId> armed_;
-
-  struct Write {
-    dronecan::NodeId source{};
-    Time at{};
-  };
-
-  /// The last ones to settings, by server and register; empty: to all of them.
-  std::map<dronecan::NodeId, std::map<std::optional<bla::Address>, Write>> writes_;
 };
 
 } // namespace blactl::fleet

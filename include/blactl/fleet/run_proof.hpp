@@ -11,8 +11,8 @@
 namespace blactl::fleet {
 
 /// Asks GetNodeInfo for the unique ID and the uptime. Where the uptime does not tell, as that of a
-/// servo which has only just started, it is asked for again at a moment when it does: a whole
-/// number of seconds later. In the end a second unit on the ID has time to show.
+/// servo which has only just started, it is asked for again at moments when it may. In the end a
+/// second unit on the ID has time to show.
 class RunProof final : public dronecan::Job {
  public:
   enum class Verdict : std::uint8_t {
@@ -53,7 +53,7 @@ class RunProof final : public dronecan::Job {
   dronecan::NodeId id_;
   std::optional<dronecan::UniqueId> unique_id_;
   std::uint32_t boot_;
-  std::optional<Time> since_;
+  std::optional<UptimeCheck> check_; ///< empty: it need not have run on
   Patience patience_;
   At at_ = At::begin;
   int uptimes_ = 0; ///< that told nothing

@@ -5,6 +5,7 @@
 #include "blactl/can/loop.hpp"
 #include "blactl/dronecan/node.hpp"
 #include "blactl/dronecan/service.hpp"
+#include "blactl/fleet/fleet_recording.hpp"
 #include "blactl/fleet/playback.hpp"
 #include "blactl/fleet/roster.hpp"
 #include "blactl/fleet/traffic.hpp"
@@ -61,6 +62,9 @@ class Session {
 
   /// False: nothing is sent, without a node ID of our own.
   [[nodiscard]] bool may_ask() const { return node_.id().is_unicast() || playback_.has_value(); }
+
+  /// What a file says of a servo counts as if it had been heard. Only on a recording.
+  void recall(const RecordedServo& recorded);
 
   /// On a recording nobody is asked: the job is answered from it, as soon as all of it was heard.
   void start(dronecan::Job& job);

@@ -36,4 +36,8 @@ struct Survey {
 [[nodiscard]] std::optional<Error> conflict(const Survey& survey, std::span<const Plan> plans,
                                             const Plan& plan);
 
+/// The same of the servo ID alone.
+[[nodiscard]] std::optional<Error> servo_id_conflict(const Survey& survey,
+                                                     std::span<const Plan> plans, const Plan& plan);
+
 } // namespace blactl::fleet

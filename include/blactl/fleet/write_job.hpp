@@ -1,5 +1,5 @@
 #pragma once
-// Writes registers of one identified servo and proves each by its answer and by reading it again.
+// Writes registers of one identified servo and proves each by its answer, or by reading it again.
 
 #include "blactl/dronecan/node.hpp"
 #include "blactl/fleet/change.hpp"
@@ -16,14 +16,22 @@ namespace blactl::fleet {
 
 /// Sends the planned changes in order, once the servo has said that it is still the one that is
 /// meant; those that hold the value already are `unchanged` before.
-/// An answer may show a clamped or refused value (requirement 73), so the register is read again
-/// after each write. In the end, and before a refusal is believed, the servo must prove that it ran
-/// on, also where all values were held already: they were read some time ago. What was written
-/// before a restart is written again: it was in RAM only.
+/// An answer may show a clamped or refused value (requirement 73): then, and where nobody reads the
+/// whole servo after it, the register is read again after the write. In the end, and before a
+/// refusal is believed, the servo must prove that it ran on, also where all values were held
+/// already: they were read some time ago. What was written before a restart is written again: it
+/// was in RAM only.
 class WriteJob final : public dronecan::Job {
  public:
+  /// What proves a write whose answer shows the requested value.
+  enum class Echo : std::uint8_t {
+    is_checked, ///< the register, read again
+    suffices,   ///< that answer: everything is read after the restart that follows
+  };
+
   /// `roster` outlives the job.
-  WriteJob(const Roster& roster, Servo servo, std::vector<Change> changes, Patience patience);
+  WriteJob(const Roster& roster, Servo servo, std::vector<Change> changes, Patience patience,
+           Echo echo = Echo::is_checked);
 
   [[nodiscard]] dronecan::Step next(const dronecan::Outcome& outcome) override;
 
@@ -44,6 +52,7 @@ class WriteJob final : public dronecan::Job {
   [[nodiscard]] dronecan::Step prove(Time now);
   [[nodiscard]] dronecan::Step judge_proof(const dronecan::Outcome& outcome);
   [[nodiscard]] dronecan::Step after_write(const dronecan::Outcome& outcome);
+  [[nodiscard]] dronecan::Step wrote(Time now);
   [[nodiscard]] dronecan::Step after_read(const dronecan::Outcome& outcome);
   [[nodiscard]] dronecan::Step write_again(Time now);
   [[nodiscard]] bool doubt_unchanged();
@@ -58,6 +67,7 @@ class WriteJob final : public dronecan::Job {
   Servo servo_;
   std::vector<Change> changes_;
   Patience patience_;
+  Echo echo_;
   At at_ = At::begin;
   std::size_t current_ = 0; ///< the change that is being made or looked at
   bool has_written_ = false;

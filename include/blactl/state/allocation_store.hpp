@@ -5,6 +5,7 @@
 #include "blactl/base/error.hpp"
 #include "blactl/base/time.hpp"
 #include "blactl/dronecan/ids.hpp"
+#include "blactl/state/access.hpp"
 
 #include <bitset>
 #include <chrono>
@@ -17,7 +18,7 @@
 
 namespace blactl::state {
 
-class Database;
+class StateFile;
 
 /// A set of node IDs: bit 11 is node ID 11.
 using NodeIds = std::bitset<dronecan::NodeId::max + 1>;
@@ -55,13 +56,7 @@ struct AllocationChoice {
 /// our patience). A store is used by one thread and must not be carried through a fork().
 class AllocationStore {
  public:
-  enum class Access : std::uint8_t {
-    read, ///< makes no file: where there is none, the table is empty
-    write ///< makes the folder (0700) and the file (0600) if they are not there
-  };
-
-  /// How long a function waits for other processes before it says busy.
-  static constexpr std::chrono::milliseconds usual_patience{3000};
+  using Access = state::Access;
 
   /// `folder`: what state_folder() said. Errors beside those of all: state: it is empty.
   [[nodiscard]] static Result<AllocationStore>
@@ -108,14 +103,12 @@ class AllocationStore {
   [[nodiscard]] Result<bool> forget(const dronecan::UniqueId& unique_id);
 
   /// The path of its file, also while it is not there; empty: it never is.
-  [[nodiscard]] const std::string& path() const { return path_; }
+  [[nodiscard]] const std::string& path() const;
 
  private:
-  AllocationStore(std::string path, std::unique_ptr<Database> database);
-  [[nodiscard]] Result<void> check_writable() const;
+  explicit AllocationStore(std::unique_ptr<StateFile> file);
 
-  std::string path_;
-  std::unique_ptr<Database> database_; ///< empty: there was no file to read
+  std::unique_ptr<StateFile> file_;
 };
 
 } // namespace blactl::state

@@ -7,7 +7,6 @@
 
 #include "cli/alloc/texts.hpp"
 #include "cli/alloc/view.hpp"
-#include "cli/output/progress_view.hpp"
 #include "cli/texts.hpp"
 #include "cli/writing_run.hpp"
 
@@ -20,8 +19,8 @@ namespace blactl::cli {
 namespace {
 
 using dronecan::NodeId;
-using fleet::StaticId;
 using fleet::StaticIds;
+using fleet::UnitChange;
 using state::AllocationStore;
 
 /// One run. Each step may end it, with errors in the report.
@@ -32,10 +31,13 @@ class MakeStatic : WritingRun {
 
   void run(std::vector<StaticIds::Wish> wishes) {
     wishes_ = std::move(wishes);
-    if (!open("alloc --static")) {
+    if (!open("alloc --static", Recording::if_possible)) {
       return;
     }
-    StaticIds ids(context_.session(), context_.known(), table_, manner());
+    StaticIds ids(context_.session(), context_.known(), table_,
+                  {.manner = manner(),
+                   .while_driven = context_.shared().while_driven,
+                   .stops_at_failure = true});
     if (find(ids) && prepare(ids) && confirm(ids)) {
       carry_out(ids);
     }
@@ -45,10 +47,9 @@ class MakeStatic : WritingRun {
   bool find(StaticIds& ids);
   bool wish_for(const StaticIds& ids, std::span<const NodeId> nodes);
   bool prepare(StaticIds& ids);
-  bool confirm(const StaticIds& ids);
+  bool confirm(StaticIds& ids);
   void carry_out(StaticIds& ids);
-  void conclude(const StaticId& unit);
-  [[nodiscard]] fleet::Manner manner();
+  void conclude(const UnitChange& unit);
 
   using WritingRun::stop;
 
@@ -64,20 +65,6 @@ class MakeStatic : WritingRun {
   AllocationStore& table_;
   std::vector<StaticIds::Wish> wishes_;
 };
-
-fleet::Manner MakeStatic::manner() {
-  return {.identification = context_.identification(),
-          .may_allocate = context_.may_allocate(),
-          .allocations = [this] { return context_.allocations(AllocationStore::Access::write); },
-          .not_kept =
-              [this](const Error& error) {
-                context_.reporter().note(say<texts::ids_not_kept>(error.message));
-              },
-          .progress =
-              [this](const fleet::Progress& progress) {
-                context_.reporter().progress(cli::text(progress));
-              }};
-}
 
 /// The servos that are meant, and everybody else: whoever has an ID may stand in the way.
 bool MakeStatic::find(StaticIds& ids) {
@@ -128,24 +115,24 @@ bool MakeStatic::wish_for(const StaticIds& ids, std::span<const NodeId> nodes) {
 }
 
 bool MakeStatic::prepare(StaticIds& ids) {
-  if (const auto ready = ids.prepare(wishes_, context_.shared().while_driven); !ready) {
-    return stop(ready.error());
+  if (!stop(ids.prepare(wishes_))) {
+    return false;
   }
-  for (const fleet::IdMove& move : ids.temporary()) {
+  for (const fleet::IdMove& move : ids.change().temporary()) {
     context_.reporter().note(say<texts::alloc_will_make_way>(move.from.value(), move.to.value()));
   }
   return true;
 }
 
-bool MakeStatic::confirm(const StaticIds& ids) {
+bool MakeStatic::confirm(StaticIds& ids) {
   tell_others();
-  return WritingRun::confirm(ids.question());
+  return WritingRun::confirm(ids.change().question());
 }
 
 void MakeStatic::carry_out(StaticIds& ids) {
   const Reporter& reporter = context_.reporter();
   reporter.note(say<texts::do_not_cut_supply>());
-  const auto errors = ids.carry_out([&](const fleet::IdMove& move) {
+  const auto errors = ids.change().carry_out([&](const fleet::IdMove& move) {
     const UnixTime time(context_.session().wall());
     const auto printed = reporter.stream(reporter.format() == Format::json ? json_line(time, move)
                                                                            : text_line(time, move));
@@ -156,7 +143,7 @@ void MakeStatic::carry_out(StaticIds& ids) {
   tell_newcomers();
   (void)stop(errors);
   std::uint64_t done = 0;
-  for (const StaticId& unit : ids.units()) {
+  for (const UnitChange& unit : ids.change().units()) {
     conclude(unit);
     done += unit.is_done ? 1U : 0U;
   }
@@ -164,7 +151,7 @@ void MakeStatic::carry_out(StaticIds& ids) {
 }
 
 /// Servos whose turn did not come are as they were, and that is said.
-void MakeStatic::conclude(const StaticId& unit) {
+void MakeStatic::conclude(const UnitChange& unit) {
   std::vector<Error> errors = unit.last ? unit.last->errors() : std::vector<Error>();
   if (!unit.is_done && errors.empty()) {
     errors.push_back({Code::state,

@@ -3,7 +3,6 @@
 #include "blactl/base/replace_file.hpp"
 #include "blactl/fleet/carry_out.hpp"
 #include "blactl/fleet/characterization.hpp"
-#include "blactl/fleet/texts.hpp"
 
 #include "cli/characterize_texts.hpp"
 #include "cli/commands.hpp"

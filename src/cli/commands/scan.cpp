@@ -2,7 +2,7 @@
 
 #include "blactl/fleet/discovery.hpp"
 #include "blactl/fleet/findings.hpp"
-#include "blactl/fleet/texts.hpp"
+#include "blactl/fleet/target_texts.hpp"
 #include "blactl/fleet/ticker.hpp"
 
 #include "cli/commands.hpp"

@@ -351,6 +351,11 @@ Report execute(const TraceOptions& options, Context& context) {
   report.is_stream = true;
   const auto path = log_path(options, context.shared().interface);
   report.interface = path ? "replay:" + printable(*path) : printable(context.shared().interface);
+  if (options.file.empty() && context.is_fleet_file()) {
+    report.fail({Code::not_recorded, say<texts::file_without_frames>(report.interface),
+                 say<texts::log_unreadable_hint>(), std::nullopt});
+    return report;
+  }
   auto filter = TraceFilter::make(options.filter, context.shared().nodes);
   if (!filter) {
     report.errors = std::move(filter.error());

@@ -92,12 +92,20 @@ void examine_bus(Duration time, Context& context, Examination& examination, Repo
       context.broken(found.error(), report);
     }
   } else {
-    add(fleet::diagnose_traffic(examination.traffic, session.silence()), examination);
+    if (!context.is_fleet_file()) {
+      add(fleet::diagnose_traffic(examination.traffic, session.silence()), examination);
+    }
     if (const auto asked = ask_status(context); !asked) {
       context.broken(asked.error(), report);
     }
   }
-  add(fleet::diagnose_identifications(findings, discovery.identifications()), examination);
+  auto ends = discovery.identifications();
+  if (!found) { // what the end cut short is no fault of the node
+    std::erase_if(ends, [](const std::optional<Error>& error) {
+      return error && error->code == Code::interrupted;
+    });
+  }
+  add(fleet::diagnose_identifications(findings, ends), examination);
   add(fleet::diagnose_nodes(findings, examination.traffic, limits), examination);
   examination.nodes = std::move(findings);
   session.count(nullptr);

@@ -1,7 +1,5 @@
 #include "cli/doctor/view.hpp"
 
-#include "blactl/state/local_node_id.hpp"
-
 #include "cli/doctor/texts.hpp"
 #include "cli/output/faults_view.hpp"
 #include "cli/output/node_head.hpp"
@@ -81,7 +79,7 @@ std::string nodes_text(const fleet::Findings& findings) {
   std::size_t servos = 0, others = 0;
   std::string tools;
   for (const fleet::Finding& node : findings.nodes) {
-    const bool is_tool = !node.servo.is_servo && state::is_tool_id(node.servo.id);
+    const bool is_tool = fleet::is_tool(node);
     servos += node.servo.is_servo ? 1U : 0U;
     others += !node.servo.is_servo && !is_tool ? 1U : 0U;
     if (is_tool) {

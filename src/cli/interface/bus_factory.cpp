@@ -5,6 +5,7 @@
 #include "blactl/can/mcast.hpp"
 #include "blactl/can/replay_texts.hpp"
 #include "blactl/can/serial_adapters.hpp"
+#include "blactl/can/silent_recording.hpp"
 #include "blactl/can/simbus.hpp"
 #include "blactl/can/slcan.hpp"
 #include "blactl/can/socketcan.hpp"
@@ -163,6 +164,16 @@ Result<OpenBus> open_log(std::string_view text, const std::string& path) {
   return OpenBus{.bus = std::move(*log), .log = replay};
 }
 
+Result<OpenBus> open_fleet_file(std::string_view text, const std::string& path,
+                                const bla::Profiles& profiles) {
+  auto fleet = fleet::read_fleet_file(path, profiles);
+  if (!fleet) {
+    return std::unexpected(fleet.error());
+  }
+  return OpenBus{.bus = std::make_unique<can::SilentRecording>(printable(text)),
+                 .fleet = std::move(*fleet)};
+}
+
 /// What stands behind "mcast:": "0?if=lo". The number alone is enough, and so is nothing: bus 0.
 std::optional<InterfaceName> parse_mcast(std::string_view text) {
   constexpr std::string_view key = "if=";
@@ -196,6 +207,9 @@ std::string with_kind(std::string_view text) {
   }
   if (text == "replay") {
     return "replay:FILE";
+  }
+  if (text == "file") {
+    return "file:FLEET.json";
   }
   if (text == "slcan") {
     const auto adapters = can::serial_adapters();
@@ -257,8 +271,8 @@ Result<InterfaceName> parse_interface(std::string_view text) {
                 : fail(Code::usage, say<texts::bad_mcast>(printable(text)),
                        say<texts::bad_mcast_hint>());
   }
-  if (scheme == "replay" && colon + 1 < text.size()) {
-    return InterfaceName{.kind = InterfaceKind::replay,
+  if ((scheme == "replay" || scheme == "file") && colon + 1 < text.size()) {
+    return InterfaceName{.kind = scheme == "file" ? InterfaceKind::file : InterfaceKind::replay,
                          .rest = std::string(text.substr(colon + 1))};
   }
   return fail(Code::usage, say<texts::bad_interface>(printable(text)),
@@ -267,10 +281,15 @@ Result<InterfaceName> parse_interface(std::string_view text) {
 
 std::optional<Error> takes_no_frames(std::string_view text) {
   const auto name = parse_interface(text);
-  if (!name || name->kind != InterfaceKind::replay) {
+  const bool is_log = name && name->kind == InterfaceKind::replay;
+  const bool is_fleet_file = name && name->kind == InterfaceKind::file;
+  if (!is_log && !is_fleet_file) {
     return std::nullopt;
   }
-  return Error{Code::usage, say<texts::log_takes_no_frames>(printable(text)),
+  const std::string typed = printable(text);
+  return Error{Code::usage,
+               is_log ? say<texts::log_takes_no_frames>(typed)
+                      : say<texts::file_takes_no_frames>(typed),
                say<texts::log_takes_no_frames_hint>(), std::nullopt};
 }
 
@@ -284,6 +303,7 @@ std::string silence_hint(std::string_view text, std::string_view name) {
                                    : say<texts::silent_simulator_hint>(name);
   case InterfaceKind::scenario: return say<texts::silent_scenario_hint>(printable(interface->rest));
   case InterfaceKind::replay: return say<texts::silent_log_hint>(printable(interface->rest));
+  case InterfaceKind::file: return say<texts::silent_file_hint>(printable(interface->rest));
   case InterfaceKind::socketcan: break;
   }
   return {};
@@ -309,6 +329,7 @@ Result<OpenBus> open_bus(std::string_view text, const bla::Profiles& profiles,
   case InterfaceKind::scenario:
     return open_private(text, sim::read_scenario(name->rest, profiles), reporter);
   case InterfaceKind::replay: return open_log(text, name->rest);
+  case InterfaceKind::file: return open_fleet_file(text, name->rest, profiles);
   case InterfaceKind::socketcan: break;
   }
   return open_socketcan(name->rest);

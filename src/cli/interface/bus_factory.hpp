@@ -6,6 +6,7 @@
 #include "blactl/can/bus.hpp"
 #include "blactl/can/replay.hpp"
 #include "blactl/can/slcan.hpp"
+#include "blactl/fleet/fleet_file.hpp"
 #include "blactl/state/lock_file.hpp"
 
 #include "cli/output/reporter.hpp"
@@ -24,24 +25,34 @@ struct OpenBus {
   state::LockPlace place{}; ///< of its lock files: those of a simulated bus lie beside its socket
   const can::ReplayBus* log = nullptr; ///< the bus, if it is one
   can::Slcan* adapter = nullptr;       ///< the same
+  /// What a session is told in its place, where it is no bus at all.
+  std::optional<fleet::FleetFile> fleet{};
 };
 
 /// What kind of interface a name means.
-enum class InterfaceKind : unsigned char { socketcan, slcan, mcast, simulator, scenario, replay };
+enum class InterfaceKind : unsigned char {
+  socketcan,
+  slcan,
+  mcast,
+  simulator,
+  scenario,
+  replay,
+  file,
+};
 
 struct InterfaceName {
   InterfaceKind kind = InterfaceKind::socketcan;
-  std::string rest; ///< interface name, device with options, socket path, scenario file or log;
-                    ///< empty: the default
+  std::string rest; ///< interface name, device with options, socket path, scenario file, log or
+                    ///< fleet file; empty: the default
   std::uint8_t bus_number = 0; ///< of a multicast bus
 };
 
 /// `can0`, `socketcan:can0`, `slcan:DEV[?…]`, `mcast:N`, `mcast:N?if=IFACE`, `sim:`, `sim:SOCKET`,
-/// `sim:SCENARIO.json`, `replay:FILE`. Errors: usage.
+/// `sim:SCENARIO.json`, `replay:FILE`, `file:FILE`. Errors: usage.
 [[nodiscard]] Result<InterfaceName> parse_interface(std::string_view text);
 
-/// Why nothing can be sent to what stands behind -i, a log; empty: it can, as far as its name
-/// tells.
+/// Why nothing can be sent to what stands behind -i, a log or a fleet file; empty: it can, as far
+/// as its name tells.
 [[nodiscard]] std::optional<Error> takes_no_frames(std::string_view text);
 
 /// What to look at where nothing was heard, by the kind of interface that `text` names; `name`: of
@@ -52,8 +63,8 @@ struct InterfaceName {
 [[nodiscard]] state::LockPlace lock_place(std::string link);
 
 /// The interface that `text` names; empty: the only CAN interface that is up.
-/// Errors: interface with the list of what is there, permission, bad_file (scenario), usage.
-/// `profiles` and `reporter` outlive the bus. `inquires`: an adapter is asked what it is.
+/// Errors: interface with the list of what is there, permission, bad_file (scenario, fleet file),
+/// usage. `profiles` and `reporter` outlive the bus. `inquires`: an adapter is asked what it is.
 [[nodiscard]] Result<OpenBus> open_bus(std::string_view text, const bla::Profiles& profiles,
                                        const Reporter& reporter, bool inquires = false);
 

@@ -19,6 +19,10 @@ std::optional<std::string> model(const fleet::Servo& servo) {
   return name.empty() ? std::nullopt : std::optional(name);
 }
 
+bool has_node_id(const fleet::Servo& servo) {
+  return servo.id.is_unicast() && servo.id_is_known;
+}
+
 std::string unknown() {
   return say<texts::unknown_word>();
 }
@@ -31,7 +35,7 @@ std::string or_text(const std::optional<std::int64_t>& number, std::string_view 
 
 void write_head(JsonWriter& json, const fleet::Servo& servo) {
   const bla::Readings& readings = servo.identity.readings();
-  json.member("node_id", servo.id.value());
+  json.member("node_id", has_node_id(servo) ? std::optional(servo.id.value()) : std::nullopt);
   json.member("unique_id", unique_id(servo));
   json.member("model", model(servo));
   json.member("serial_number", readings.serial_number);
@@ -47,7 +51,7 @@ std::vector<std::string> head_columns() {
 
 std::vector<std::string> head_cells(const fleet::Servo& servo) {
   const bla::Readings& readings = servo.identity.readings();
-  return {std::to_string(servo.id.value()),
+  return {has_node_id(servo) ? std::to_string(servo.id.value()) : "",
           unique_id(servo).value_or(""),
           model(servo).value_or(""),
           or_text(readings.serial_number, ""),
@@ -63,8 +67,9 @@ std::string version_text(std::int64_t raw) {
 std::string head_line(const fleet::Servo& servo) {
   const bla::Readings& readings = servo.identity.readings();
   return say<texts::head_line>(
-      servo.id.value(), model(servo).value_or(unknown()),
-      or_text(readings.serial_number, unknown()), or_text(servo.servo_id, unknown()),
+      has_node_id(servo) ? std::to_string(servo.id.value()) : unknown(),
+      model(servo).value_or(unknown()), or_text(readings.serial_number, unknown()),
+      or_text(servo.servo_id, unknown()),
       readings.firmware_version ? version_text(*readings.firmware_version) : unknown());
 }
 

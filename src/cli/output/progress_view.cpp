@@ -12,11 +12,8 @@ namespace {
 /// "11, 12, 13", and no more than one line takes.
 std::string list(std::span<const dronecan::NodeId> ids) {
   constexpr std::size_t most = 10;
-  std::string out;
-  for (const dronecan::NodeId id : ids.first(std::min(ids.size(), most))) {
-    out += (out.empty() ? "" : ", ") + std::to_string(id.value());
-  }
-  return ids.size() > most ? out + " …" : out;
+  const std::string shown = fleet::id_list(ids.first(std::min(ids.size(), most)));
+  return ids.size() > most ? shown + " …" : shown;
 }
 
 } // namespace

@@ -16,11 +16,11 @@ using fleet::Change;
 using fleet::ChangeResult;
 using fleet::ChangeStatus;
 
-namespace {
-
-std::string seconds(Duration duration) {
+std::string seconds_text(Duration duration) {
   return fmt::format("{:.3f}", std::chrono::duration<double>(duration).count());
 }
+
+namespace {
 
 void write_change(JsonWriter& json, const Change& change) {
   json.begin_object();
@@ -38,16 +38,18 @@ void write_servo(JsonWriter& json, const ChangeResult& result) {
   json.key("node_id_after");
   result.node_id_after ? json.value(result.node_id_after->value()) : json.value(nullptr);
   json.key("duration_s");
-  json.number(seconds(result.duration));
+  json.number(seconds_text(result.duration));
 }
 
-void write_warnings(JsonWriter& json, const ChangeResult& result) {
-  if (result.warnings.empty()) {
+} // namespace
+
+void write_warnings(JsonWriter& json, std::span<const fleet::Warning> warnings) {
+  if (warnings.empty()) {
     return;
   }
   json.key("warnings");
   json.begin_array();
-  for (const fleet::Warning& warning : result.warnings) {
+  for (const fleet::Warning& warning : warnings) {
     json.begin_object();
     json.member("code", warning.code);
     json.member("text", warning.text);
@@ -55,6 +57,8 @@ void write_warnings(JsonWriter& json, const ChangeResult& result) {
   }
   json.end_array();
 }
+
+namespace {
 
 std::string status_text(ChangeStatus status, bool was_begun, const Page& page) {
   switch (status) {
@@ -74,7 +78,7 @@ std::string end_text(const ChangeResult& result) {
                            : say<texts::servo_failed>();
   }
   return result.returned
-             ? say<texts::servo_back>(result.returned->value(), seconds(result.duration))
+             ? say<texts::servo_back>(result.returned->value(), seconds_text(result.duration))
              : say<texts::servo_done>();
 }
 
@@ -94,18 +98,23 @@ bool is_in_ram_only(const Change& change) {
 
 } // namespace
 
-void write_changes(JsonWriter& json, const ChangeResult& result) {
+void write_changes(JsonWriter& json, std::span<const Change> changes) {
   json.key("changes");
   json.begin_array();
-  for (const Change& change : result.changes) {
+  for (const Change& change : changes) {
     write_change(json, change);
   }
   json.end_array();
-  json.member("saved", result.saved);
-  write_warnings(json, result);
 }
 
-std::string changes_text(const ChangeResult& result, const Page& page) {
+void write_changes(JsonWriter& json, const ChangeResult& result) {
+  write_changes(json, result.changes);
+  json.member("saved", result.saved);
+  write_warnings(json, result.warnings);
+}
+
+std::string changes_table(std::span<const Change> changes, const TableStyle& style,
+                          const Page& page) {
   // In Japanese the specification's name stands beside the one that is typed.
   const bool shows_names = language() == Language::japanese;
   std::vector<std::string> header{"", say<texts::column_parameter>(), say<texts::column_before>(),
@@ -114,26 +123,34 @@ std::string changes_text(const ChangeResult& result, const Page& page) {
     header.push_back(say<texts::column_meaning>());
   }
   Table table(std::move(header));
-  for (const Change& change : result.changes) {
+  for (const Change& change : changes) {
     const bla::Parameter& parameter = *change.parameter;
     const auto shown = [&](const std::optional<std::int64_t>& raw,
                            const std::optional<std::int64_t>& mode) {
       return raw ? bla::register_text(parameter, *raw, mode) : say<texts::unknown_value>();
     };
-    const bool is_shown = change.is_planned() && !result.was_begun;
+    const bool is_shown = change.is_planned() && !style.was_begun;
     const auto after = is_shown ? std::optional(change.requested) : change.after;
     std::vector<std::string> row{parameter.address.name(),
                                  parameter.name,
-                                 shown(change.before, result.mode_before),
+                                 shown(change.before, style.mode_before),
                                  "->",
-                                 shown(after, result.mode_after),
-                                 status_text(change.status, result.was_begun, page)};
+                                 shown(after, style.mode_after),
+                                 status_text(change.status, style.was_begun, page)};
     if (shows_names) {
       row.push_back(parameter.name_ja);
     }
     table.add(std::move(row));
   }
-  std::string out = head_line(result.servo) + table.text("  ", page);
+  return table.text("  ", page);
+}
+
+std::string changes_text(const ChangeResult& result, const Page& page) {
+  std::string out = head_line(result.servo) + changes_table(result.changes,
+                                                            {.mode_before = result.mode_before,
+                                                             .mode_after = result.mode_after,
+                                                             .was_begun = result.was_begun},
+                                                            page);
   for (const fleet::Warning& warning : result.warnings) {
     out += "  ! " + warning.text + '\n';
   }
@@ -173,7 +190,7 @@ void write_json(JsonWriter& json, ResultView view, std::span<const ChangeResult>
       write_changes(json, result);
     } else {
       write_servo(json, result);
-      write_warnings(json, result);
+      write_warnings(json, result.warnings);
     }
     json.end_object();
   }

@@ -2,10 +2,13 @@
 // How the changes of servos ended, as JSON and text.
 
 #include "blactl/base/json_writer.hpp"
+#include "blactl/base/time.hpp"
 #include "blactl/fleet/result.hpp"
 
 #include "cli/output/page.hpp"
 
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -13,6 +16,24 @@ namespace blactl::cli {
 
 /// What a command tells of each servo: its single registers (`set`), or the servo as a whole.
 enum class ResultView : unsigned char { changes, servos };
+
+/// "0.525"
+[[nodiscard]] std::string seconds_text(Duration duration);
+
+/// `changes` alone.
+void write_changes(JsonWriter& json, std::span<const fleet::Change> changes);
+
+/// `warnings`, where there are any.
+void write_warnings(JsonWriter& json, std::span<const fleet::Warning> warnings);
+
+/// How a table of changes is to be read.
+struct TableStyle {
+  std::optional<std::int64_t> mode_before{}, mode_after{}; ///< 0x37: the unit of 0x36
+  bool was_begun = false;                                  ///< else it is a plan that is shown
+};
+
+[[nodiscard]] std::string changes_table(std::span<const fleet::Change> changes,
+                                        const TableStyle& style, const Page& page);
 
 /// `changes`, `saved` and `warnings` of one servo.
 void write_changes(JsonWriter& json, const fleet::ChangeResult& result);

@@ -97,7 +97,7 @@ std::vector<std::string> row(const Finding& node, const Page& page) {
   const fleet::Servo& servo = node.servo;
   const auto& readings = servo.identity.readings();
   const bool dynamic = servo.is_servo && servo.static_node_id == 0;
-  return {std::to_string(servo.id.value()),
+  return {servo.id_is_known ? std::to_string(servo.id.value()) : "-",
           model_text(node),
           or_text(readings.serial_number, "-"),
           servo.is_servo ? or_text(servo.servo_id, "-") : "-",

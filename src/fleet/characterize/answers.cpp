@@ -1,7 +1,5 @@
 // What a servo answers and sends by itself: nothing is changed.
 
-#include "blactl/fleet/texts.hpp"
-
 #include "fleet/characterize/findings.hpp"
 #include "fleet/characterize/test_bench.hpp"
 #include "fleet/characterize/texts.hpp"

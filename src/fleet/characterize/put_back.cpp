@@ -3,6 +3,7 @@
 #include "blactl/bla/value.hpp"
 #include "blactl/dronecan/types.hpp"
 #include "blactl/fleet/guard.hpp"
+#include "blactl/fleet/target_texts.hpp"
 #include "blactl/fleet/texts.hpp"
 
 #include "fleet/characterize/jobs.hpp"

@@ -2,7 +2,6 @@
 // back its value after its measurement.
 
 #include "blactl/dronecan/types.hpp"
-#include "blactl/fleet/texts.hpp"
 
 #include "fleet/characterize/findings.hpp"
 #include "fleet/characterize/test_bench.hpp"

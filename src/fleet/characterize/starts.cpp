@@ -1,7 +1,5 @@
 // How a servo restarts and saves. Each start leaves it as ROM has it.
 
-#include "blactl/fleet/texts.hpp"
-
 #include "fleet/characterize/findings.hpp"
 #include "fleet/characterize/judge_starts.hpp"
 #include "fleet/characterize/test_bench.hpp"

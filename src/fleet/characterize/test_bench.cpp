@@ -2,7 +2,9 @@
 
 #include "blactl/bla/value.hpp"
 #include "blactl/dronecan/types.hpp"
+#include "blactl/fleet/conflict_texts.hpp"
 #include "blactl/fleet/guard.hpp"
+#include "blactl/fleet/restart_texts.hpp"
 #include "blactl/fleet/texts.hpp"
 
 #include "fleet/characterize/jobs.hpp"

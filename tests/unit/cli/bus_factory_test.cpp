@@ -32,6 +32,7 @@ std::string kind(std::string_view text) {
   case InterfaceKind::simulator: return "simulator " + name->rest;
   case InterfaceKind::scenario: return "scenario " + name->rest;
   case InterfaceKind::replay: return "replay " + name->rest;
+  case InterfaceKind::file: return "file " + name->rest;
   }
   return {};
 }
@@ -54,6 +55,9 @@ TEST_CASE("what stands behind -i") {
   CHECK(kind("replay:-") == "replay -");
   CHECK(kind("replay:a:b.json") == "replay a:b.json");
   CHECK(kind("replay:") == "usage");
+  CHECK(kind("file:fleet.json") == "file fleet.json");
+  CHECK(kind("file:-") == "file -");
+  CHECK(kind("file:") == "usage");
   CHECK(kind("foo:bar") == "usage");
   CHECK(kind(":") == "usage");
   CHECK(kind("CAN:can0") == "usage");
@@ -125,8 +129,10 @@ TEST_CASE("processes that reach one simulator by different paths share their nod
   std::filesystem::remove_all(folder);
 }
 
-TEST_CASE("a log is an interface to which nothing can be sent") {
+TEST_CASE("a log and a fleet file are interfaces to which nothing can be sent") {
   CHECK(takes_no_frames("replay:bus.log")->code == Code::usage);
+  CHECK(takes_no_frames("file:fleet.json")->code == Code::usage);
+  CHECK(open("file:/no/such/fleet.json").error().code == Code::bad_file);
   CHECK_FALSE(takes_no_frames("can0"));
   CHECK_FALSE(takes_no_frames("sim:"));
   CHECK_FALSE(takes_no_frames("foo:bar")); // another error, of parse_interface()

@@ -268,6 +268,13 @@ TEST_CASE("each thing that is wrong with a node is named") {
       CHECK(codes(bus.diagnoses()) == Codes{"mode"});
     }
   }
+  SECTION("a servo that has gone silent, but no tool, which comes and goes") {
+    bus.servo(11, 1, 11);
+    bus.hear(126);
+    bus.now += 3s;
+    CHECK(codes(bus.diagnoses()) == Codes{"offline"});
+    CHECK(bus.diagnoses().front().node == NodeId(11));
+  }
   SECTION("answers that never came, where others did") {
     bus.servo(11, 1, 11);
     bus.servo(12, 2, 12);

@@ -2,8 +2,10 @@
 
 #include "catch.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <random>
 #include <vector>
 
 using namespace blactl;
@@ -69,16 +71,50 @@ TEST_CASE("an uptime asked a whole number of seconds later tells whether a unit 
   }));
   const Time since{1'000'000s};
   CAPTURE(row.uptime_s, row.asked.count(), row.told.count());
-  CHECK(UptimeCheck(since).judge(row.uptime_s, since + row.asked, since + row.told) == row.verdict);
+  UptimeCheck check(since);
+  CHECK(check.judge(row.uptime_s, since + row.asked, since + row.told) == row.verdict);
 }
 
 TEST_CASE("an uptime is asked for so that it is told at the next whole second") {
   const Time since{1'000'000s};
-  const UptimeCheck check(since);
-  CHECK(check.next(since, 1ms) == since + 1s);
-  CHECK(check.next(since + 999ms, 1ms) == since + 1s);
-  CHECK(check.next(since + 1s, 1ms) == since + 2s);
-  CHECK(check.next(since + 2500ms, 10ms) == since + 3s);
-  CHECK(check.next(since + 30ms, 30ms) == since + 980ms);
-  CHECK(check.next(since + 985ms, 30ms) == since + 1980ms);
+  const auto next = [&](Duration asked, Duration told) {
+    UptimeCheck check(since);
+    REQUIRE(check.judge(0, since + asked, since + told) == UptimeCheck::Verdict::unclear);
+    return check.next(since + told) - since;
+  };
+  CHECK(next(0ms, 1ms) == 1s);
+  CHECK(next(988ms, 998ms) == 1s);
+  CHECK(next(990ms, 1000ms) == 2s);
+  CHECK(next(0ms, 30ms) == 490ms); // between 20 ms for the answer and 1 s
+  CHECK(next(600ms, 630ms) == 790ms);
+  CHECK(next(970ms, 990ms) == 1980ms); // it started 20 ms before at the earliest
+}
+
+TEST_CASE("where answers take their time, uptimes still tell who ran on, and nobody wrongly") {
+  using Verdict = UptimeCheck::Verdict;
+  // When the unit started, against `since`; a restart takes 20 ms.
+  const Duration start =
+      GENERATE(-1900ms, -999ms, -700ms, -400ms, -200ms, 20ms, 60ms, 400ms, 990ms);
+  const unsigned seed = GENERATE(range(1U, 200U));
+  CAPTURE(start.count(), seed);
+
+  std::minstd_rand random(seed);
+  const auto up_to = [&](Duration most) {
+    return Duration(std::uniform_int_distribution<Duration::rep>(0, most.count())(random));
+  };
+  const Time since{1'000'000s};
+  UptimeCheck check(since);
+  Time asked = since + std::max<Duration>(start, 0ms) + up_to(900ms);
+  Verdict verdict = Verdict::unclear;
+  for (int uptimes = 0; uptimes < 8 && verdict == Verdict::unclear; ++uptimes) {
+    asked += up_to(20ms); // this process sleeps longer than it wishes to
+    const Time sampled = asked + up_to(60ms);
+    const Time told = sampled + up_to(60ms);
+    const auto uptime = std::chrono::floor<std::chrono::seconds>(sampled - since - start);
+    verdict = check.judge(static_cast<std::uint32_t>(uptime.count()), asked, told);
+    asked = check.next(told);
+    REQUIRE(asked > told);
+  }
+  CHECK(verdict != (start > 0s ? Verdict::ran_on : Verdict::restarted));
+  CHECK((start > 0s || verdict == Verdict::ran_on));
 }

@@ -2,13 +2,13 @@
 #include "blactl/state/allocation_store.hpp"
 
 #include "catch.hpp"
+#include "database_files.hpp"
 #include "processes.hpp"
 
 #include <fmt/format.h>
 
 #include <fcntl.h>
 #include <sqlite3.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -20,7 +20,6 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <iterator>
 #include <map>
 #include <memory>
 #include <optional>
@@ -118,33 +117,6 @@ AllocationChoice range(int first, int last) {
 
 AllocationChoice preferring(int id, NodeIds taken = {}) {
   return {.preferred = NodeId(static_cast<std::uint8_t>(id)), .taken = taken};
-}
-
-std::string bytes_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-void write_bytes(const fs::path& path, const std::string& bytes) {
-  fs::create_directories(path.parent_path());
-  std::ofstream(path, std::ios::binary | std::ios::trunc) << bytes;
-}
-
-std::set<std::string> names_in(const fs::path& folder) {
-  std::set<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    names.insert(entry.path().filename().string());
-  }
-  return names;
-}
-
-/// What another program does to the file.
-void run_sql(const fs::path& path, const std::string& sql) {
-  sqlite3* handle = nullptr;
-  REQUIRE(sqlite3_open(path.c_str(), &handle) == SQLITE_OK);
-  INFO(sql);
-  REQUIRE(sqlite3_exec(handle, sql.c_str(), nullptr, nullptr, nullptr) == SQLITE_OK);
-  sqlite3_close(handle);
 }
 
 std::string mode_of(const fs::path& path) {
@@ -250,30 +222,6 @@ void leave_in_log(const Folder& folder, int number) {
   const auto report = child.next();
   REQUIRE(report);
   REQUIRE(report->node_id != 0);
-}
-
-/// From here on files of this process cannot grow beyond this: only a child may call it.
-void limit_files_to(rlim_t size) {
-  signal(SIGXFSZ, SIG_IGN); // NOLINT: the macro casts
-  const rlimit limit{size, size};
-  setrlimit(RLIMIT_FSIZE, &limit);
-}
-
-/// The number of an error in what a Child says; 0: none.
-template <class T> int said(const Result<T>& result) {
-  return result ? 0 : std::to_underlying(result.error().code) + 1;
-}
-
-int as_said(Code code) {
-  return std::to_underlying(code) + 1;
-}
-
-/// Root may write everywhere; this user may not.
-void become_nobody() {
-  constexpr uid_t nobody = 65534;
-  if (geteuid() == 0 && setresuid(nobody, nobody, nobody) != 0) {
-    _exit(1);
-  }
 }
 
 } // namespace

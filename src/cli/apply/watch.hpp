@@ -1,0 +1,50 @@
+#pragma once
+// What happens to servos while apply is at work: for people in a list on the terminal, for machines
+// in a file.
+
+#include "blactl/fleet/apply.hpp"
+#include "blactl/fleet/change_job.hpp"
+
+#include "cli/apply/event_file.hpp"
+#include "cli/context.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace blactl::cli {
+
+class ApplyWatch {
+ public:
+  /// Both outlive this. `events` may be null.
+  ApplyWatch(Context& context, EventFile* events) : context_(context), events_(events) {}
+
+  /// What is planned for each.
+  void begin(std::span<const fleet::GoalResult> planned);
+
+  void enter(const fleet::Servo& servo, fleet::ChangeStage stage);
+
+  /// What came of each, in the order of begin(); takes the list away.
+  void end(std::span<const fleet::GoalResult> results);
+
+ private:
+  struct Line {
+    fleet::Servo servo;
+    std::string name;
+    std::optional<fleet::ChangeStage> stage{}; ///< empty: it was not its turn yet
+    bool has_work = false;
+  };
+
+  void tell(const fleet::Servo& servo, std::string_view stage, std::string_view status);
+  void draw();
+  void show(const std::string& list);
+
+  Context& context_;
+  EventFile* events_;
+  std::vector<Line> lines_;
+  bool has_reader_ = true;
+};
+
+} // namespace blactl::cli

@@ -1,0 +1,243 @@
+// blactl apply: brings servos to a fleet file, proven after a restart.
+
+#include "blactl/fleet/fleet_diff.hpp"
+#include "blactl/fleet/fleet_file.hpp"
+#include "blactl/fleet/fleet_match.hpp"
+#include "blactl/fleet/saved_plan.hpp"
+
+#include "cli/apply/run.hpp"
+#include "cli/apply/texts.hpp"
+#include "cli/commands.hpp"
+#include "cli/settings_files.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+namespace blactl::cli {
+namespace {
+
+struct ApplyOptions {
+  std::string file{};
+  std::string entry{}; ///< empty: all of the file
+  bool dry_run = false;
+  bool is_plan = false;
+  bool no_save = false;
+  bool trust_ram = false;
+  bool fail_fast = false;
+  std::string events{};
+  bool no_snapshot = false;
+  RestartTimes times{};
+};
+
+constexpr Option option_table[]{
+    {.name = "--dry-run",
+     .kind = Kind::flag,
+     .help = {"change nothing; exit status 8 when something would be done",
+              "変更しない (処理の予定がある場合は終了ステータス 8)"},
+     .store = into<&ApplyOptions::dry_run>},
+    {.name = "--plan",
+     .kind = Kind::flag,
+     .help = {"FILE is what `apply --dry-run --json` printed: do just that, and only where nothing "
+              "has changed since",
+              "FILE は `apply --dry-run --json` の出力。作成時から変化がない場合のみ実行"},
+     .store = into<&ApplyOptions::is_plan>},
+    {.name = "--entry",
+     .value = "NAME",
+     .kind = Kind::text,
+     .help = {"give this entry to the servo behind -n, whatever it matches: for a broken servo's "
+              "successor",
+              "この項目を、照合条件によらず -n のサーボに設定 (故障したサーボの交換用)"},
+     .store = into<&ApplyOptions::entry>},
+    {.name = "--no-save",
+     .kind = Kind::flag,
+     .help = {"RAM only", "RAM のみ変更"},
+     .store = into<&ApplyOptions::no_save>},
+    {.name = "--trust-ram",
+     .kind = Kind::flag,
+     .help = {"where RAM is as wished, do not restart to see what ROM holds",
+              "RAM が一致していれば、ROM 確認のための再起動をしない"},
+     .store = into<&ApplyOptions::trust_ram>},
+    {.name = "--fail-fast",
+     .kind = Kind::flag,
+     .help = {"once one servo has failed, no other is saved any more",
+              "1 台失敗した時点で、以後の書込みと保存を中止"},
+     .store = into<&ApplyOptions::fail_fast>},
+    {.name = "--events",
+     .value = "FILE",
+     .kind = Kind::file,
+     .help = {"write a line of JSON to FILE for each servo and stage",
+              "サーボの各段階を 1 行ずつ JSON で FILE に出力"},
+     .store = into<&ApplyOptions::events>},
+    {.name = "--no-snapshot",
+     .kind = Kind::flag,
+     .help = {"go on where it cannot be recorded what servos hold, for `undo`",
+              "変更履歴を記録できない場合も続行 (`undo` では戻せません)"},
+     .store = into<&ApplyOptions::no_snapshot>},
+    restart_wait<&ApplyOptions::times>,
+    restart_stagger<&ApplyOptions::times>,
+};
+
+constexpr Option argument_table[]{
+    {.name = "FILE",
+     .kind = Kind::file,
+     .required = true,
+     .help = {"a fleet file or, for one servo, a parameter file. `-`: stdin",
+              "フリートファイル、またはパラメータファイル (1 台)。`-` で標準入力"},
+     .store = into<&ApplyOptions::file>},
+};
+
+fleet::Goal goal(const fleet::FleetEntry& entry, dronecan::NodeId id, bool saves) {
+  return {.id = id, .name = entry.name, .set = entry.set, .saves = saves};
+}
+
+/// Whether what an entry wishes is to be saved.
+using Saves = std::function<bool(const fleet::FleetEntry& entry)>;
+
+/// The servos that the entries mean.
+Goals match(const fleet::FleetFile& file, const Saves& saves, const Whom& whom,
+            const bla::Profiles& profiles) {
+  const auto matched = fleet::match(file, whom.roster, whom.targets, profiles);
+  Goals goals{.others = fleet::unpaired(matched, whom.roster, profiles), .errors = matched.errors};
+  for (const fleet::FleetMatch::Pair& pair : matched.pairs) {
+    goals.goals.push_back(goal(*pair.entry, pair.id, saves(*pair.entry)));
+  }
+  for (const fleet::FleetEntry* entry : matched.missing) {
+    goals.errors.push_back({Code::not_found,
+                            say<texts::apply_missing>(entry->name, fleet::text(entry->match)),
+                            say<texts::apply_missing_hint>(), std::nullopt});
+  }
+  goals.may_wait = !matched.missing.empty();
+  if (goals.goals.empty() && goals.errors.empty()) {
+    goals.errors.push_back({Code::not_found, say<texts::apply_nobody>(printable(file.file)),
+                            say<texts::apply_nobody_hint>(printable(file.file)), std::nullopt});
+  }
+  return goals;
+}
+
+/// One entry for the servo that is meant.
+Goals give(const fleet::FleetEntry& entry, const ApplyOptions& options, const Whom& whom) {
+  if (whom.selected.size() != 1) {
+    return {.errors = {{Code::usage, say<texts::apply_entry_one>(whom.selected.size()),
+                        say<texts::apply_entry_one_hint>(), std::nullopt}}};
+  }
+  return {.goals = {goal(entry, whom.selected.front(), !options.no_save)}};
+}
+
+/// The entry that --entry names.
+Result<const fleet::FleetEntry*> find_entry(const fleet::FleetFile& file, const std::string& name) {
+  const auto found = std::ranges::find(file.servos, name, &fleet::FleetEntry::name);
+  if (found != file.servos.end()) {
+    return &*found;
+  }
+  std::string names;
+  for (const fleet::FleetEntry& entry : file.servos) {
+    names += (names.empty() ? "" : ", ") + printable(entry.name);
+  }
+  return fail(Code::usage, say<texts::apply_no_entry>(printable(file.file), printable(name)),
+              say<texts::apply_no_entry_hint>(names));
+}
+
+/// A plan says all of this itself.
+std::optional<Error> refuse_beside_plan(const ApplyOptions& options) {
+  const std::pair<bool, std::string_view> all[]{{!options.entry.empty(), "--entry"},
+                                                {options.no_save, "--no-save"},
+                                                {options.trust_ram, "--trust-ram"}};
+  for (const auto& [is_given, option] : all) {
+    if (is_given) {
+      return Error{Code::usage, say<texts::apply_beside_plan>(option),
+                   say<texts::apply_beside_plan_hint>(), std::nullopt};
+    }
+  }
+  return std::nullopt;
+}
+
+Report carry_out_plan(const ApplyOptions& options, ApplyRequest request, Context& context) {
+  Report report{.interface = printable(context.shared().interface)};
+  if (auto refused = refuse_beside_plan(options)) {
+    report.fail(std::move(*refused));
+    return report;
+  }
+  const auto plan = fleet::read_saved_plan(options.file, context.known());
+  if (!plan) {
+    report.fail(plan.error());
+    return report;
+  }
+  const auto saves = [&](const fleet::FleetEntry& entry) { return plan->step(entry).saves; };
+  request.find = [&](const Whom& whom) { return match(plan->fleet, saves, whom, context.known()); };
+  request.refuse = [&](std::span<const fleet::GoalResult> results) {
+    return fleet::stale(*plan, results);
+  };
+  request.trusts_ram = plan->trusts_ram;
+  return apply_goals(request, context);
+}
+
+Report apply_file(const ApplyOptions& options, ApplyRequest request, Context& context) {
+  Report report{.interface = printable(context.shared().interface)};
+  const auto file = read_settings(options.file, context, report);
+  if (!file) {
+    return report;
+  }
+  const auto saves = [&](const fleet::FleetEntry&) { return !options.no_save; };
+  request.find = [&](const Whom& whom) { return match(*file, saves, whom, context.known()); };
+  request.trusts_ram = options.trust_ram;
+  if (!options.entry.empty()) {
+    const auto entry = find_entry(*file, options.entry);
+    if (!entry) {
+      report.fail(entry.error());
+      return report;
+    }
+    request.find = [&options, entry = *entry](const Whom& whom) {
+      return give(*entry, options, whom);
+    };
+    request.needs_targets = true;
+  }
+  return apply_goals(request, context);
+}
+
+/// What is read must not be written over.
+bool overwrites_its_file(const ApplyOptions& options) {
+  std::error_code none;
+  return std::filesystem::equivalent(options.events, options.file, none);
+}
+
+Report execute(const ApplyOptions& options, Context& context) {
+  if (overwrites_its_file(options)) {
+    Report report{.interface = printable(context.shared().interface)};
+    report.fail({Code::usage, say<texts::events_over_file>(printable(options.events)),
+                 say<texts::events_unopened_hint>(), std::nullopt});
+    return report;
+  }
+  if (const auto profiles = context.profiles(); !profiles) {
+    Report report{.interface = printable(context.shared().interface)};
+    report.fail(profiles.error());
+    return report;
+  }
+  const ApplyRequest request{.command = "apply",
+                             .times = options.times,
+                             .dry_run = options.dry_run,
+                             .fails_fast = options.fail_fast,
+                             .events = options.events,
+                             .recording = options.no_snapshot ? Recording::if_possible
+                                                              : Recording::required};
+  return options.is_plan ? carry_out_plan(options, request, context)
+                         : apply_file(options, request, context);
+}
+
+} // namespace
+
+constinit const Command commands::apply{
+    .name = "apply",
+    .traits = {.writes = true, .from_file = true, .session = true},
+    .help = {"bring servos to a fleet file, proven after a restart",
+             "フリートファイルの内容をサーボに設定 (再起動後に確認)"},
+    .options = option_table,
+    .arguments = argument_table,
+    .action = action<execute>,
+};
+
+} // namespace blactl::cli

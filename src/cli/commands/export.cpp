@@ -1,0 +1,174 @@
+// blactl export: the configuration of servos as a file that apply takes.
+
+#include "blactl/base/replace_file.hpp"
+#include "blactl/fleet/carry_out.hpp"
+#include "blactl/fleet/fleet_file.hpp"
+#include "blactl/fleet/guard.hpp"
+#include "blactl/fleet/params_file.hpp"
+
+#include "cli/commands.hpp"
+#include "cli/fleet_texts.hpp"
+#include "cli/read_servos.hpp"
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace blactl::cli {
+namespace {
+
+struct ExportOptions {
+  std::string file{}; ///< empty or "-": stdout
+  bool recipe = false;
+  bool params = false;
+
+  [[nodiscard]] bool to_stdout() const { return file.empty() || file == "-"; }
+};
+
+constexpr Option option_table[]{
+    {.name = "--recipe",
+     .kind = Kind::flag,
+     .help = {"of one servo, for others of its model: without servo_id and static_node_id",
+              "1 台の設定を同じ機種用のレシピにする (servo_id と static_node_id を除く)"},
+     .store = into<&ExportOptions::recipe>},
+    {.name = "--params",
+     .kind = Kind::flag,
+     .help =
+         {"of one servo, as the parameter file that the DroneCAN GUI Tool and Mission Planner load",
+          "1 台の設定を DroneCAN GUI Tool、Mission Planner 用のパラメータファイルにする"},
+     .store = into<&ExportOptions::params>},
+};
+
+constexpr Option argument_table[]{
+    {.name = "FILE",
+     .kind = Kind::file,
+     .help = {"where to; it is replaced only when everything was read (default `-`: stdout)",
+              "出力先。すべて読み出せた場合のみ置き換える (省略時 `-`: 標準出力)"},
+     .store = into<&ExportOptions::file>},
+};
+
+/// The option that makes a file of one servo; empty: none.
+std::string_view form_of_one(const ExportOptions& options) {
+  return options.recipe ? "--recipe" : options.params ? "--params" : "";
+}
+
+std::string content(const ExportOptions& options, std::span<const fleet::Snapshot> servos,
+                    std::optional<WallTime> time) {
+  const fleet::FleetFileStyle style{time, BLACTL_VERSION};
+  return options.recipe   ? fleet::recipe_file(servos.front())
+         : options.params ? fleet::params_file(servos.front(), style)
+                          : fleet::fleet_file(servos, style);
+}
+
+/// What can be said before a frame is sent.
+std::optional<Error> refuse(const ExportOptions& options, const Context& context) {
+  if (options.recipe && options.params) {
+    return Error{Code::usage, say<texts::export_one_form>(), say<texts::export_one_form_hint>(),
+                 std::nullopt};
+  }
+  if (options.to_stdout()) {
+    return context.reporter().format() == Format::json
+               ? std::optional(Error{Code::usage, say<texts::export_json_needs_file>(),
+                                     say<texts::export_json_needs_file_hint>(), std::nullopt})
+               : std::nullopt;
+  }
+  const auto replaceable = check_replaceable(options.file);
+  return replaceable ? std::nullopt : std::optional(replaceable.error());
+}
+
+/// What went wrong with single servos goes to the report.
+std::vector<fleet::Snapshot> read(std::span<const dronecan::NodeId> servos, Context& context,
+                                  Report& report) {
+  auto read = fleet::take_snapshots(context.session(), context.known(), servos,
+                                    context.identification(), fleet::registers_to_export);
+  if (read.broken) {
+    context.broken(*read.broken, report);
+  }
+  const fleet::Roster& roster = context.session().roster();
+  for (const fleet::Snapshot& snapshot : read.servos) {
+    const bool doubled = roster.is_doubled(snapshot.servo.id);
+    report.targets.push_back({.errors = doubled
+                                            ? std::vector{fleet::doubled(roster, snapshot.servo.id)}
+                                            : snapshot.errors()});
+  }
+  return std::move(read.servos);
+}
+
+/// Shows the content, or puts it into the file.
+void conclude(const ExportOptions& options, std::string content, Report& report) {
+  const bool was_read = report.all_errors().empty();
+  if (!options.to_stdout() && was_read) {
+    if (auto written = replace_file(options.file, content); !written) {
+      report.fail(written.error());
+    }
+  }
+  const bool is_done = report.all_errors().empty();
+  report.json = [file = options.file, is_done](JsonWriter& json) {
+    json.member("file", file);
+    json.member("status", is_done ? "done" : "failed");
+  };
+  if (!is_done) {
+    return;
+  }
+  report.text = [options, content = std::make_shared<std::string>(std::move(content)),
+                 servos = report.targets.size()](const Page&) {
+    return options.to_stdout() ? *content
+                               : say<texts::export_written>(printable(options.file), servos);
+  };
+}
+
+Report execute(const ExportOptions& options, Context& context) {
+  Report report{.interface = printable(context.shared().interface)};
+  if (const auto profiles = context.profiles(); !profiles) {
+    report.fail(profiles.error());
+    return report;
+  }
+  if (auto refused = refuse(options, context)) {
+    report.fail(std::move(*refused));
+    return report;
+  }
+  const auto nodes = select_for_reading("export", context, report);
+  if (!nodes) {
+    return report;
+  }
+  if (const std::string_view form = form_of_one(options); !form.empty() && nodes->size() > 1) {
+    report.fail({Code::usage, say<texts::export_of_one>(form, nodes->size()),
+                 say<texts::export_of_one_hint>(form, nodes->front().value()), std::nullopt});
+    return report;
+  }
+  const auto servos = read(*nodes, context, report);
+  report.count_targets();
+  if (servos.empty()) {
+    return report;
+  }
+  // When a fleet file was read from servos is not known of each of its values.
+  const auto time =
+      context.is_fleet_file() ? std::nullopt : std::optional(context.session().wall());
+  const std::string text = content(options, servos, time);
+  if (const auto fine = fleet::parse_fleet_file(text, options.file, context.known());
+      !fine && !options.recipe && !options.params) {
+    context.reporter().note(say<texts::export_has_faults>(fine.error().message));
+  }
+  conclude(options, text, report);
+  if (!report.all_errors().empty() && !options.to_stdout()) {
+    context.reporter().note(say<texts::export_not_written>(printable(options.file)));
+  }
+  return report;
+}
+
+} // namespace
+
+constinit const Command commands::export_servos{
+    .name = "export",
+    .traits = {.session = true, .recordings = true},
+    .help = {"the configuration of servos as a file for apply",
+             "サーボの設定を apply 用のファイルに出力"},
+    .options = option_table,
+    .arguments = argument_table,
+    .action = action<execute>,
+};
+
+} // namespace blactl::cli

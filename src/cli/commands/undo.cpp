@@ -1,0 +1,222 @@
+// blactl undo: back to what servos held before they were changed.
+
+#include "blactl/fleet/undo.hpp"
+
+#include "blactl/base/hex.hpp"
+#include "blactl/base/rfc3339.hpp"
+#include "blactl/state/snapshot_store.hpp"
+
+#include "cli/apply/run.hpp"
+#include "cli/apply/texts.hpp"
+#include "cli/commands.hpp"
+#include "cli/output/snapshots_view.hpp"
+#include "cli/undo_texts.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <set>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace blactl::cli {
+namespace {
+
+using state::SnapshotEntry;
+using state::SnapshotStore;
+
+struct UndoOptions {
+  bool list = false;
+  bool dry_run = false;
+  bool no_save = false;
+  RestartTimes times{};
+};
+
+constexpr Option option_table[]{
+    {.name = "--list",
+     .kind = Kind::flag,
+     .help = {"show the changes that are recorded, without a bus", "変更履歴を表示 (バス不要)"},
+     .store = into<&UndoOptions::list>},
+    {.name = "--dry-run",
+     .kind = Kind::flag,
+     .help = {"change nothing; exit status 8 when something would be done",
+              "変更しない (処理の予定がある場合は終了ステータス 8)"},
+     .store = into<&UndoOptions::dry_run>},
+    {.name = "--no-save",
+     .kind = Kind::flag,
+     .help = {"RAM only, also where the change was saved",
+              "RAM のみ変更 (変更が保存されていた場合も)"},
+     .store = into<&UndoOptions::no_save>},
+    restart_wait<&UndoOptions::times>,
+    restart_stagger<&UndoOptions::times>,
+};
+
+/// One run of the command: which changes it takes back.
+class Undo {
+ public:
+  Undo(const UndoOptions& options, const SnapshotStore& store, Context& context)
+      : options_(options), store_(store), context_(context) {}
+
+  [[nodiscard]] Goals find(const Whom& whom) {
+    Goals goals;
+    if (whom.targets.given) {
+      std::ranges::for_each(whom.selected, [&](dronecan::NodeId id) { of_node(id, whom, goals); });
+    } else {
+      of_last_run(whom, goals);
+    }
+    return goals;
+  }
+
+  /// A change that there was nothing to take back of never was, or is no more: it must not stand in
+  /// front of the one before it.
+  void forget_what_never_was(std::span<const fleet::GoalResult> results);
+
+ private:
+  void of_last_run(const Whom& whom, Goals& goals);
+  void of_node(dronecan::NodeId id, const Whom& whom, Goals& goals);
+  void take_back(const SnapshotEntry& entry, dronecan::NodeId id, Goals& goals);
+
+  const UndoOptions& options_;
+  const SnapshotStore& store_;
+  Context& context_;
+  std::set<std::string> told_;
+  std::map<dronecan::UniqueId, std::int64_t> numbers_{}; ///< of the changes that are taken back
+};
+
+/// Without -n: all servos that the last command changed, wherever they are now.
+void Undo::of_last_run(const Whom& whom, Goals& goals) {
+  const auto entries = store_.last_run();
+  if (!entries) {
+    goals.errors.push_back(entries.error());
+    return;
+  }
+  for (const SnapshotEntry& entry : *entries) {
+    const auto& members = whom.roster.members();
+    const auto there = std::ranges::find_if(
+        members, [&](const auto& each) { return each.second.is_unit(entry.unique_id); });
+    if (there != members.end()) {
+      take_back(entry, there->first, goals);
+      continue;
+    }
+    goals.may_wait = true;
+    goals.errors.push_back(
+        {Code::not_found, say<texts::undo_missing>(hex(entry.unique_id), printable(entry.command)),
+         say<texts::apply_missing_hint>(), std::nullopt});
+  }
+}
+
+void Undo::of_node(dronecan::NodeId id, const Whom& whom, Goals& goals) {
+  const auto unique_id = whom.roster.member(id).servo().unique_id;
+  const auto entry = unique_id ? store_.last(*unique_id) : Result<std::optional<SnapshotEntry>>();
+  if (!entry) {
+    goals.errors.push_back(entry.error());
+  } else if (*entry) {
+    take_back(**entry, id, goals);
+  } else {
+    goals.errors.push_back({Code::not_found, say<texts::undo_nothing_of_node>(id.value()),
+                            say<texts::undo_see_list_hint>(), id.value()});
+  }
+}
+
+void Undo::take_back(const SnapshotEntry& entry, dronecan::NodeId id, Goals& goals) {
+  const auto is_unit = [&](const auto& each) { return each.second.is_unit(entry.unique_id); };
+  if (std::ranges::count_if(context_.session().roster().members(), is_unit) > 1) {
+    goals.errors.push_back({Code::usage, say<texts::undo_unit_twice>(hex(entry.unique_id)),
+                            say<texts::undo_unit_twice_hint>(), id.value()});
+    return;
+  }
+  auto wanted = fleet::to_undo(entry, context_.known());
+  if (!wanted) {
+    wanted.error().node_id = id.value();
+    goals.errors.push_back(std::move(wanted.error()));
+    return;
+  }
+  std::string note = say<texts::undo_takes_back>(printable(entry.command), rfc3339(entry.at));
+  if (told_.insert(note).second) {
+    context_.reporter().note(note);
+  }
+  numbers_[entry.unique_id] = entry.number;
+  goals.goals.push_back({.id = id,
+                         .set = std::move(wanted->assignments),
+                         .saves = wanted->restart.has_value() && !options_.no_save});
+}
+
+void Undo::forget_what_never_was(std::span<const fleet::GoalResult> results) {
+  std::vector<state::Settlement> settlements;
+  for (const fleet::GoalResult& result : results) {
+    const auto number =
+        result.servo.unique_id ? numbers_.find(*result.servo.unique_id) : numbers_.end();
+    const bool is_as_it_was = result.is_done && !result.saved && !result.has_differences();
+    if (number != numbers_.end() && is_as_it_was && !options_.no_save) {
+      settlements.push_back({number->second, state::ChangeEnd::never_begun});
+    }
+  }
+  if (settlements.empty()) {
+    return;
+  }
+  if (auto store = context_.snapshots(state::Access::write)) {
+    // Else it is found once more the next time.
+    [[maybe_unused]] const auto settled = store->settle(settlements);
+  }
+}
+
+Report list(const SnapshotStore& store) {
+  Report report;
+  auto entries = store.entries();
+  if (!entries) {
+    report.fail(std::move(entries.error()));
+    return report;
+  }
+  const auto kept = std::make_shared<std::vector<SnapshotEntry>>(std::move(*entries));
+  report.counts = {{"snapshots", kept->size()}};
+  report.json = [kept](JsonWriter& json) { write_snapshots(json, *kept); };
+  report.text = [kept](const Page& page) { return text(*kept, page); };
+  return report;
+}
+
+Report failure(Error error) {
+  Report report;
+  report.fail(std::move(error));
+  return report;
+}
+
+Report execute(const UndoOptions& options, Context& context) {
+  const auto store = context.snapshots(state::Access::read);
+  if (!store) {
+    return failure(store.error());
+  }
+  if (options.list) {
+    return options.dry_run || options.no_save || context.shared().nodes
+               ? failure({Code::usage, say<texts::undo_list_alone>(),
+                          say<texts::undo_list_alone_hint>(), std::nullopt})
+               : list(*store);
+  }
+  const auto last = store->last_run();
+  if (!last || last->empty()) {
+    return failure(last ? Error{Code::not_found, say<texts::undo_nothing_at_all>(),
+                                say<texts::undo_nothing_at_all_hint>(), std::nullopt}
+                        : last.error());
+  }
+  Undo undo(options, *store, context);
+  return apply_goals({.command = "undo",
+                      .find = [&](const Whom& whom) { return undo.find(whom); },
+                      .ended = [&](auto results) { undo.forget_what_never_was(results); },
+                      .times = options.times,
+                      .dry_run = options.dry_run},
+                     context);
+}
+
+} // namespace
+
+constinit const Command commands::undo{
+    .name = "undo",
+    .traits = {.writes = true, .from_history = true, .session = true},
+    .help = {"back to what servos held before the last change", "直前の変更を元に戻す"},
+    .options = option_table,
+    .action = action<execute>,
+};
+
+} // namespace blactl::cli

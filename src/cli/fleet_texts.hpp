@@ -1,0 +1,57 @@
+#pragma once
+// The catalogue of the commands about fleet files.
+
+#include "blactl/base/text.hpp"
+
+namespace blactl::texts {
+
+inline constexpr Text export_json_needs_file{
+    "--json tells what became of FILE: both would stand on stdout",
+    "--json は FILE の書込み結果を出力します (どちらも標準出力になります)"};
+inline constexpr Text export_json_needs_file_hint{
+    "give a file: blactl export fleet.json --json; or leave --json out",
+    "ファイルを指定するか (blactl export fleet.json --json)、--json を外して下さい"};
+inline constexpr Text export_of_one{"{} makes a file of one servo, not of {}",
+                                    "{} の対象は 1 台のサーボです ({} 台指定)"};
+inline constexpr Text export_of_one_hint{"name it: blactl export {} -n {}",
+                                         "対象を指定: blactl export {} -n {}"};
+inline constexpr Text export_one_form{"--recipe and --params are two forms of one file",
+                                      "--recipe と --params は同時に指定できません"};
+inline constexpr Text export_one_form_hint{"leave one of them out", "いずれか一方を外して下さい"};
+inline constexpr Text export_has_faults{"apply would refuse what was exported: {}",
+                                        "出力した内容は apply では受け付けられません: {}"};
+inline constexpr Text export_written{"{} written: {} servos\n", "{} に {} 台分を書き込みました\n"};
+inline constexpr Text export_not_written{"{} is as it was: not everything was read",
+                                         "{} は変更していません (読み出せない項目があります)"};
+inline constexpr Text fleet_entry_at{"{}  node {}", "{}  ノード {}"};
+inline constexpr Text fleet_different{"{} of {} settings differ", "{1} 項目中 {0} 項目が相違"};
+inline constexpr Text fleet_unchanged{"as in the file ({} settings)", "ファイルと一致 ({} 項目)"};
+inline constexpr Text fleet_missing{"not there", "見つかりません"};
+inline constexpr Text fleet_extra{"in no entry of the file", "ファイルに項目がありません"};
+inline constexpr Text fleet_skipped{"left out (-n)", "対象外 (-n)"};
+inline constexpr Text fleet_not_compared{"not compared", "比較できません"};
+inline constexpr Text fleet_says_nothing{"-", "-"};
+inline constexpr Text fleet_column_servo{"SERVO", "サーボ"};
+inline constexpr Text fleet_column_file{"FILE", "ファイル"};
+inline constexpr Text fleet_two_stdin{"only one of the two files can be stdin",
+                                      "標準入力にできるファイルは 1 つだけです"};
+inline constexpr Text fleet_two_stdin_hint{"give one of them by name",
+                                           "一方をファイル名で指定して下さい"};
+inline constexpr Text fleet_many_files{"diff compares one file with servos, or two files: not {}",
+                                       "diff の比較対象は 1 つのファイルとサーボ、または 2 つの"
+                                       "ファイルです ({} 個指定)"};
+inline constexpr Text fleet_many_files_hint{
+    "blactl diff fleet.json, or blactl diff old.json new.json",
+    "例: blactl diff fleet.json、blactl diff old.json new.json"};
+
+inline constexpr Text params_passed_over{
+    "{}: passed over, as they are no settings (0x20 to 0x46): {}",
+    "{}: 設定 (0x20 から 0x46 まで) ではないため無視しました: {}"};
+inline constexpr Text params_one_entry{
+    "a parameter file is of one servo, {} is not",
+    "パラメータファイルは 1 台分ですが、{} は 1 台分ではありません"};
+inline constexpr Text params_one_entry_hint{
+    "compare it with the servo itself: blactl diff FILE -n ID",
+    "サーボと直接比較して下さい: blactl diff FILE -n ID"};
+
+} // namespace blactl::texts

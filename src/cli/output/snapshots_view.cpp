@@ -1,0 +1,41 @@
+#include "cli/output/snapshots_view.hpp"
+
+#include "blactl/base/hex.hpp"
+#include "blactl/base/rfc3339.hpp"
+#include "blactl/base/text.hpp"
+
+#include "cli/output/table.hpp"
+#include "cli/undo_texts.hpp"
+
+namespace blactl::cli {
+
+void write_snapshots(JsonWriter& json, std::span<const state::SnapshotEntry> entries) {
+  json.key("snapshots");
+  json.begin_array();
+  for (const state::SnapshotEntry& entry : entries) {
+    json.begin_object();
+    json.member("time", rfc3339(entry.at));
+    json.member("unique_id", hex(entry.unique_id));
+    json.member("command", printable(entry.command));
+    json.member("changed_count", entry.held.size());
+    json.end_object();
+  }
+  json.end_array();
+}
+
+std::string text(std::span<const state::SnapshotEntry> entries, const Page& page) {
+  if (entries.empty()) {
+    return say<texts::undo_nothing_recorded>();
+  }
+  Table table({say<texts::undo_column_time>(), say<texts::undo_column_unit>(),
+               say<texts::undo_column_command>(), say<texts::undo_column_count>(),
+               say<texts::undo_column_saved>()});
+  for (const state::SnapshotEntry& entry : entries) {
+    table.add({rfc3339(entry.at), hex(entry.unique_id), printable(entry.command),
+               std::to_string(entry.held.size()),
+               entry.saved ? say<texts::undo_in_rom>() : say<texts::undo_in_ram>()});
+  }
+  return table.text("", page);
+}
+
+} // namespace blactl::cli

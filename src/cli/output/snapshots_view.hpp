@@ -1,0 +1,20 @@
+#pragma once
+// What `blactl undo --list` shows: the changes that are recorded.
+
+#include "blactl/base/json_writer.hpp"
+#include "blactl/state/snapshot_store.hpp"
+
+#include "cli/output/page.hpp"
+
+#include <span>
+#include <string>
+
+namespace blactl::cli {
+
+/// The member "snapshots" of the document (contract, section 5), in the order given.
+void write_snapshots(JsonWriter& json, std::span<const state::SnapshotEntry> entries);
+
+/// The same for people.
+[[nodiscard]] std::string text(std::span<const state::SnapshotEntry> entries, const Page& page);
+
+} // namespace blactl::cli

@@ -1,0 +1,143 @@
+#include "blactl/state/proof_store.hpp"
+
+#include "state/database_errors.hpp"
+#include "state/database_file.hpp"
+#include "state/register_bytes.hpp"
+#include "state/sqlite.hpp"
+#include "state/state_file.hpp"
+#include "state/texts.hpp"
+
+#include <cstdint>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace blactl::state {
+
+using dronecan::UniqueId;
+
+namespace {
+
+/// A whole row stands in the index once more, so the check of the file finds it if anything of it
+/// has changed. `started`: microseconds since 1970, UTC, before that where the clock was not set;
+/// in bounds that holds() can calculate with. `uptime`: seconds, as NodeStatus has them.
+const DatabaseFormat& proofs_format() {
+  static const DatabaseFormat format{
+      .application_id = 0x626C6170, // "blap"
+      .version = 1,
+      .schema = "CREATE TABLE proofs ("
+                "unique_id BLOB PRIMARY KEY NOT NULL CHECK (length(unique_id) = 16), "
+                "rom BLOB NOT NULL, "
+                "started INTEGER NOT NULL CHECK (started BETWEEN "
+                "-253402300799999999 AND 253402300799999999), "
+                "uptime INTEGER NOT NULL CHECK (uptime BETWEEN 0 AND 4294967295), "
+                "UNIQUE (unique_id, rom, started, uptime)) STRICT",
+      .file = "proofs.db",
+      .what = texts::rom_record,
+      .way_back = texts::rom_record_back};
+  return format;
+}
+
+Result<void> put_one(const Database& database, const RomProof& proof) {
+  const std::vector<std::uint8_t> rom = bytes_of(proof.rom);
+  return Statement(database, "INSERT OR REPLACE INTO proofs (unique_id, rom, started, uptime) "
+                             "VALUES (?, ?, ?, ?)")
+      .bind(proof.unique_id)
+      .bind(rom)
+      .bind(proof.started.time_since_epoch().count())
+      .bind(proof.uptime.count())
+      .run();
+}
+
+Result<void> drop_one(const Database& database, const UniqueId& unique_id) {
+  return Statement(database, "DELETE FROM proofs WHERE unique_id = ?").bind(unique_id).run();
+}
+
+/// Of a row of rom, started, uptime.
+Result<RomProof> proof_of(const UniqueId& unique_id, const Statement& row,
+                          const Database& database) {
+  auto rom = registers_of(row.bytes(0));
+  if (!rom) {
+    return std::unexpected(errors::damaged(database.name(), "rom"));
+  }
+  return RomProof{.unique_id = unique_id,
+                  .rom = std::move(*rom),
+                  .started = WallTime(Duration(row.integer(1))),
+                  .uptime = std::chrono::seconds(row.integer(2))};
+}
+
+} // namespace
+
+bool holds(const RomProof& proof, std::chrono::seconds uptime, WallTime now) {
+  return uptime >= proof.uptime &&
+         std::chrono::abs(now - uptime - proof.started) <= uptime_tolerance;
+}
+
+RomProof renewed(RomProof proof, std::chrono::seconds uptime, WallTime now) {
+  proof.started = now - uptime;
+  proof.uptime = uptime;
+  return proof;
+}
+
+ProofStore::ProofStore(std::unique_ptr<StateFile> file) : file_(std::move(file)) {}
+
+ProofStore::ProofStore(ProofStore&&) noexcept = default;
+ProofStore& ProofStore::operator=(ProofStore&&) noexcept = default;
+ProofStore::~ProofStore() = default;
+
+Result<ProofStore> ProofStore::open(const std::string& folder, Access access,
+                                    std::chrono::milliseconds patience) {
+  auto file = StateFile::open(folder, proofs_format(), access, patience);
+  if (!file) {
+    return std::unexpected(file.error());
+  }
+  return ProofStore(std::make_unique<StateFile>(std::move(*file)));
+}
+
+Result<ProofStore> ProofStore::unshared() {
+  auto file = StateFile::unshared(proofs_format());
+  if (!file) {
+    return std::unexpected(file.error());
+  }
+  return ProofStore(std::make_unique<StateFile>(std::move(*file)));
+}
+
+Result<void> ProofStore::put(std::span<const RomProof> proofs) {
+  return file_->transact([&](const Database& database) -> Result<void> {
+    for (const RomProof& proof : proofs) {
+      if (auto put = put_one(database, proof); !put) {
+        return put;
+      }
+    }
+    return {};
+  });
+}
+
+Result<std::optional<RomProof>> ProofStore::find(const UniqueId& unique_id) const {
+  const Database* database = file_->database();
+  if (database == nullptr) {
+    return std::nullopt;
+  }
+  Statement statement(*database, "SELECT rom, started, uptime FROM proofs WHERE unique_id = ?");
+  const auto row = statement.bind(unique_id).step();
+  if (!row) {
+    return std::unexpected(row.error());
+  }
+  if (!*row) {
+    return std::nullopt;
+  }
+  return proof_of(unique_id, statement, *database);
+}
+
+Result<void> ProofStore::drop(std::span<const UniqueId> units) {
+  return file_->transact([&](const Database& database) -> Result<void> {
+    for (const UniqueId& unique_id : units) {
+      if (auto dropped = drop_one(database, unique_id); !dropped) {
+        return dropped;
+      }
+    }
+    return {};
+  });
+}
+
+} // namespace blactl::state

@@ -1,0 +1,241 @@
+#include "blactl/state/snapshot_store.hpp"
+
+#include "state/database_errors.hpp"
+#include "state/database_file.hpp"
+#include "state/register_bytes.hpp"
+#include "state/sqlite.hpp"
+#include "state/state_file.hpp"
+#include "state/texts.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace blactl::state {
+
+using dronecan::UniqueId;
+
+namespace {
+
+/// Changes are ordered by number, not by time: clocks are set back. A whole row stands in the index
+/// once more, so the check of the file finds it if anything of it has changed. `at`: microseconds
+/// since 1970, UTC, up to the year 9999.
+const DatabaseFormat& snapshots_format() {
+  static const DatabaseFormat format{
+      .application_id = 0x626C6173, // "blas"
+      .version = 1,
+      .schema = "CREATE TABLE snapshots ("
+                "number INTEGER PRIMARY KEY, "
+                "run INTEGER NOT NULL, "
+                "at INTEGER NOT NULL CHECK (at BETWEEN 0 AND 253402300799999999), "
+                "command TEXT NOT NULL, "
+                "unique_id BLOB NOT NULL CHECK (length(unique_id) = 16), "
+                "held BLOB NOT NULL, "
+                "saved INTEGER NOT NULL CHECK (saved IN (0, 1)), "
+                "UNIQUE (unique_id, number, run, at, command, held, saved)) STRICT",
+      .file = "snapshots.db",
+      .what = texts::change_history,
+      .way_back = texts::change_history_back};
+  return format;
+}
+
+/// Of a row of number, at, command, unique_id, held, saved, run.
+Result<SnapshotEntry> entry_of(const Statement& row, const Database& database) {
+  auto held = registers_of(row.bytes(4));
+  if (!held) {
+    return std::unexpected(errors::damaged(database.name(), "held"));
+  }
+  SnapshotEntry entry{.number = row.integer(0),
+                      .run = row.integer(6),
+                      .at = WallTime(Duration(row.integer(1))),
+                      .command = std::string(row.text(2)),
+                      .held = std::move(*held),
+                      .saved = row.integer(5) != 0};
+  const auto bytes = row.bytes(3);
+  std::copy_n(bytes.begin(), std::min(bytes.size(), entry.unique_id.size()),
+              entry.unique_id.begin());
+  return entry;
+}
+
+/// Every row of a statement.
+Result<std::vector<SnapshotEntry>> all_of(Statement& statement, const Database& database) {
+  std::vector<SnapshotEntry> all;
+  for (;;) {
+    const auto row = statement.step();
+    if (!row) {
+      return std::unexpected(row.error());
+    }
+    if (!*row) {
+      return all;
+    }
+    auto entry = entry_of(statement, database);
+    if (!entry) {
+      return std::unexpected(entry.error());
+    }
+    all.push_back(std::move(*entry));
+  }
+}
+
+/// Higher than all that are there: what SQLite gives the next new row, too.
+Result<std::int64_t> next_number(const Database& database) {
+  Statement statement(database, "SELECT ifnull(max(number), 0) + 1 FROM snapshots");
+  const auto row = statement.step();
+  return row ? Result<std::int64_t>(statement.integer(0)) : std::unexpected(row.error());
+}
+
+/// Gives its number.
+Result<std::int64_t> keep_one(const Database& database, const SnapshotEntry& entry,
+                              std::int64_t new_run) {
+  const std::vector<std::uint8_t> held = bytes_of(entry.held);
+  Statement statement(database, "INSERT OR REPLACE INTO snapshots "
+                                "(number, run, at, command, unique_id, held, saved) "
+                                "VALUES (?, ?, ?, ?, ?, ?, ?)");
+  entry.number == 0 ? statement.bind(std::nullopt) : statement.bind(entry.number);
+  auto kept = statement.bind(entry.run == 0 ? new_run : entry.run)
+                  .bind(entry.at.time_since_epoch().count())
+                  .bind(entry.command)
+                  .bind(entry.unique_id)
+                  .bind(held)
+                  .bind(std::int64_t{entry.saved})
+                  .run();
+  if (!kept) {
+    return std::unexpected(kept.error());
+  }
+  return sqlite3_last_insert_rowid(database.handle());
+}
+
+Result<void> drop_surplus(const Database& database, const UniqueId& unique_id) {
+  return Statement(database, "DELETE FROM snapshots WHERE unique_id = ?1 AND number NOT IN "
+                             "(SELECT number FROM snapshots WHERE unique_id = ?1 "
+                             "ORDER BY number DESC LIMIT ?)")
+      .bind(unique_id)
+      .bind(std::int64_t{most_snapshots})
+      .run();
+}
+
+/// But for the last one of each servo.
+Result<void> drop_old(const Database& database, WallTime now) {
+  return Statement(database, "DELETE FROM snapshots WHERE at < ? AND number < "
+                             "(SELECT max(number) FROM snapshots AS newer "
+                             "WHERE newer.unique_id = snapshots.unique_id)")
+      .bind((now - oldest_snapshot).time_since_epoch().count())
+      .run();
+}
+
+/// In the transaction of keep().
+Result<std::vector<std::int64_t>> keep_all(const Database& database,
+                                           std::span<const SnapshotEntry> entries, WallTime now) {
+  const auto new_run = next_number(database);
+  if (!new_run) {
+    return std::unexpected(new_run.error());
+  }
+  std::vector<std::int64_t> numbers;
+  for (const SnapshotEntry& entry : entries) {
+    const auto number = keep_one(database, entry, *new_run);
+    if (!number) {
+      return std::unexpected(number.error());
+    }
+    numbers.push_back(*number);
+    if (auto dropped = drop_surplus(database, entry.unique_id); !dropped) {
+      return std::unexpected(dropped.error());
+    }
+  }
+  if (auto dropped = drop_old(database, now); !dropped) {
+    return std::unexpected(dropped.error());
+  }
+  return numbers;
+}
+
+Result<void> settle_one(const Database& database, const Settlement& settlement) {
+  if (settlement.end == ChangeEnd::never_begun) {
+    return Statement(database, "DELETE FROM snapshots WHERE number = ?")
+        .bind(settlement.number)
+        .run();
+  }
+  return Statement(database, "UPDATE snapshots SET saved = ? WHERE number = ?")
+      .bind(std::int64_t{settlement.end == ChangeEnd::saved})
+      .bind(settlement.number)
+      .run();
+}
+
+} // namespace
+
+SnapshotStore::SnapshotStore(std::unique_ptr<StateFile> file) : file_(std::move(file)) {}
+
+SnapshotStore::SnapshotStore(SnapshotStore&&) noexcept = default;
+SnapshotStore& SnapshotStore::operator=(SnapshotStore&&) noexcept = default;
+SnapshotStore::~SnapshotStore() = default;
+
+Result<SnapshotStore> SnapshotStore::open(const std::string& folder, Access access,
+                                          std::chrono::milliseconds patience) {
+  auto file = StateFile::open(folder, snapshots_format(), access, patience);
+  if (!file) {
+    return std::unexpected(file.error());
+  }
+  return SnapshotStore(std::make_unique<StateFile>(std::move(*file)));
+}
+
+Result<SnapshotStore> SnapshotStore::unshared() {
+  auto file = StateFile::unshared(snapshots_format());
+  if (!file) {
+    return std::unexpected(file.error());
+  }
+  return SnapshotStore(std::make_unique<StateFile>(std::move(*file)));
+}
+
+Result<std::vector<std::int64_t>> SnapshotStore::keep(std::span<const SnapshotEntry> entries,
+                                                      WallTime now) {
+  return file_->transact(
+      [&](const Database& database) { return keep_all(database, entries, now); });
+}
+
+Result<void> SnapshotStore::settle(std::span<const Settlement> settlements) {
+  return file_->transact([&](const Database& database) -> Result<void> {
+    for (const Settlement& settlement : settlements) {
+      if (auto settled = settle_one(database, settlement); !settled) {
+        return settled;
+      }
+    }
+    return {};
+  });
+}
+
+Result<std::optional<SnapshotEntry>> SnapshotStore::last(const UniqueId& unique_id) const {
+  const Database* database = file_->database();
+  if (database == nullptr) {
+    return std::nullopt;
+  }
+  Statement statement(*database, "SELECT number, at, command, unique_id, held, saved, run "
+                                 "FROM snapshots WHERE unique_id = ? "
+                                 "ORDER BY number DESC LIMIT 1");
+  statement.bind(unique_id);
+  auto found = all_of(statement, *database);
+  if (!found) {
+    return std::unexpected(found.error());
+  }
+  return found->empty() ? std::nullopt : std::optional(std::move(found->front()));
+}
+
+Result<std::vector<SnapshotEntry>> SnapshotStore::last_run() const {
+  const Database* database = file_->database();
+  if (database == nullptr) {
+    return std::vector<SnapshotEntry>();
+  }
+  Statement statement(*database, "SELECT number, at, command, unique_id, held, saved, run "
+                                 "FROM snapshots WHERE run = "
+                                 "(SELECT run FROM snapshots ORDER BY number DESC LIMIT 1) "
+                                 "ORDER BY number");
+  return all_of(statement, *database);
+}
+
+Result<std::vector<SnapshotEntry>> SnapshotStore::entries() const {
+  const Database* database = file_->database();
+  if (database == nullptr) {
+    return std::vector<SnapshotEntry>();
+  }
+  Statement statement(*database, "SELECT number, at, command, unique_id, held, saved, run "
+                                 "FROM snapshots ORDER BY number DESC");
+  return all_of(statement, *database);
+}
+
+} // namespace blactl::state

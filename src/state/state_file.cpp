@@ -1,0 +1,101 @@
+#include "state/state_file.hpp"
+
+#include "state/database_errors.hpp"
+#include "state/texts.hpp"
+
+#include <sys/stat.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <system_error>
+
+namespace blactl::state {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The folder without symbolic links: SQLite, which is told to follow none, would refuse the file
+/// for a link anywhere in its path, and /home may be one.
+std::string path_in(const std::string& folder, const std::string& file) {
+  std::error_code error;
+  const fs::path real = fs::weakly_canonical(fs::absolute(folder), error);
+  return ((error ? fs::path(folder) : real) / file).string();
+}
+
+/// The folder of the file, private if it is new.
+Result<void> make_folder(const DatabaseName& file) {
+  const fs::path folder = fs::path(file.path).parent_path();
+  std::error_code ignored; // what matters is whether the folder itself can be made
+  fs::create_directories(folder.parent_path(), ignored);
+  if (mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST) {
+    return std::unexpected(errors::of_system(file, errno));
+  }
+  return {};
+}
+
+/// Whether the file is there. Errors: something else is.
+Result<bool> is_there(const DatabaseName& file) {
+  struct stat info{};
+  if (lstat(file.path.c_str(), &info) != 0) {
+    return errno == ENOENT ? Result<bool>(false) : std::unexpected(errors::of_system(file, errno));
+  }
+  if (S_ISLNK(info.st_mode)) {
+    return std::unexpected(errors::link(file));
+  }
+  return S_ISREG(info.st_mode) ? Result<bool>(true) : std::unexpected(errors::foreign(file));
+}
+
+/// Makes the file if it is not there and `access` is to write; whether it is there then.
+Result<bool> provide(const DatabaseName& file, const DatabaseFormat& format, Access access) {
+  const bool writes = access == Access::write;
+  if (writes) {
+    if (auto made = make_folder(file); !made) {
+      return std::unexpected(made.error());
+    }
+  }
+  const auto there = is_there(file);
+  if (!there || *there || !writes) {
+    return there;
+  }
+  if (auto made = make_database(file.path, format); !made) {
+    return std::unexpected(made.error());
+  }
+  return is_there(file);
+}
+
+} // namespace
+
+Result<StateFile> StateFile::open(const std::string& folder, const DatabaseFormat& format,
+                                  Access access, std::chrono::milliseconds patience) {
+  if (folder.empty()) {
+    return fail(Code::state, say<texts::no_state_folder>(), say<texts::no_state_folder_hint>());
+  }
+  std::string path = path_in(folder, format.file);
+  const auto there = provide({path, format.what, format.way_back}, format, access);
+  if (!there) {
+    return std::unexpected(there.error());
+  }
+  if (!*there) {
+    return StateFile(std::move(path), format, std::nullopt);
+  }
+  auto database = open_database(path, format, access == Access::write, patience);
+  if (!database) {
+    return std::unexpected(database.error());
+  }
+  return StateFile(std::move(path), format, std::move(*database));
+}
+
+Result<StateFile> StateFile::unshared(const DatabaseFormat& format) {
+  auto database = make_temporary_database(format);
+  if (!database) {
+    return std::unexpected(database.error());
+  }
+  return StateFile({}, format, std::move(*database));
+}
+
+/// A file that was opened for reading is for SQLite to refuse.
+Error StateFile::not_writable() const {
+  return errors::denied({path_, format_->what, format_->way_back}, sqlite3_errstr(SQLITE_READONLY));
+}
+
+} // namespace blactl::state

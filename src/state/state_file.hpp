@@ -1,0 +1,56 @@
+#pragma once
+// One database file in the state folder, from where it lies to its transactions.
+
+#include "blactl/base/error.hpp"
+#include "blactl/state/access.hpp"
+
+#include "state/database_file.hpp"
+#include "state/sqlite.hpp"
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+namespace blactl::state {
+
+class StateFile {
+ public:
+  /// `folder`: what state_folder() said. `format` lives for ever. Errors beside those of Database:
+  /// state (the folder is empty).
+  [[nodiscard]] static Result<StateFile> open(const std::string& folder,
+                                              const DatabaseFormat& format, Access access,
+                                              std::chrono::milliseconds patience);
+
+  /// For a bus that no other process can reach: a database that ends with this object.
+  [[nodiscard]] static Result<StateFile> unshared(const DatabaseFormat& format);
+
+  /// Null: there was no file to read.
+  [[nodiscard]] const Database* database() const { return database_ ? &*database_ : nullptr; }
+
+  /// As Database::transact(). Errors beside those of `work`: permission (it was opened for
+  /// reading).
+  template <class Work>
+  [[nodiscard]] std::invoke_result_t<Work, const Database&> transact(Work work) const {
+    if (!database_) {
+      return std::unexpected(not_writable());
+    }
+    return database_->transact([&] { return work(*database_); });
+  }
+
+  /// The path of the file, also while it is not there; empty: it never is.
+  [[nodiscard]] const std::string& path() const { return path_; }
+
+ private:
+  StateFile(std::string path, const DatabaseFormat& format, std::optional<Database> database)
+      : path_(std::move(path)), format_(&format), database_(std::move(database)) {}
+
+  [[nodiscard]] Error not_writable() const;
+
+  std::string path_;
+  const DatabaseFormat* format_;
+  std::optional<Database> database_;
+};
+
+} // namespace blactl::state

@@ -1,0 +1,183 @@
+// export and diff: servos as files, and files against servos.
+
+#include "catch.hpp"
+#include "scene.hpp"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+using namespace blactl::test;
+
+namespace {
+
+/// Three servos and the file that export makes of them.
+struct Exported {
+  Exported() {
+    const Result result = three_servos().run(bench, {"export", path});
+    REQUIRE(result.status == 0);
+    CHECK(result.out == path + " written: 3 servos\n");
+  }
+
+  /// The file with one setting of one entry changed; null: left out.
+  [[nodiscard]] std::string changed(std::size_t entry, const std::string& name,
+                                    const nlohmann::ordered_json& value) const {
+    auto document = ordered_json(content(path));
+    auto& set = document["servos"][entry]["set"];
+    value.is_null() ? void(set.erase(name)) : void(set[name] = value);
+    return bench.file("changed.json", document.dump(2));
+  }
+
+  Bench bench;
+  std::string path = (bench.folder() / "fleet.json").string();
+};
+
+} // namespace
+
+TEST_CASE("export writes every setting of every servo, and reads well") {
+  const Exported exported;
+  const auto document = ordered_json(content(exported.path));
+  CHECK(keys(document) == std::vector<std::string>{"schema", "servos"});
+  REQUIRE(document["servos"].size() == 3);
+  const auto& first = document["servos"][0];
+  CHECK(keys(first) == std::vector<std::string>{"name", "match", "set", "about"});
+  CHECK(first["match"]["unique_id"].get<std::string>().size() == 32);
+  CHECK(first["match"]["serial_number"].is_number_integer());
+  CHECK(first["set"]["angle_limit_cw"] == "179.9deg");
+  CHECK(first["set"]["timeout_action"] == "off");
+  CHECK(first["set"]["angle_p_gain"].is_number_integer());
+  CHECK(first["set"]["static_node_id"] == 11);
+  CHECK(first["about"]["firmware_version"] == 1400);
+  CHECK_FALSE(first["set"].contains("command_angle"));
+  CHECK(content(exported.path).starts_with("{\n  \"schema\": \"blactl-fleet/1\",\n"));
+}
+
+TEST_CASE("what was exported is what the servos hold") {
+  const Exported exported;
+  const Result same = three_servos().run({"diff", exported.path});
+  CHECK(same.status == 0);
+  CHECK(contains(same.out, "as in the file (3"));
+  const Result piped = three_servos().run({"export"});
+  REQUIRE(piped.status == 0);
+  CHECK(three_servos().run({"diff", "-"}, {.stdin_text = piped.out}).status == 0);
+}
+
+TEST_CASE("diff tells each register that differs, and counts the others") {
+  const Exported exported;
+  const std::string file = exported.changed(0, "angle_limit_cw", "45.0deg");
+  const Result result = three_servos().run({"diff", file});
+  CHECK(result.status == 8);
+  CHECK(contains(result.out, "1 of "));
+  CHECK(contains(result.out, "angle_limit_cw"));
+  CHECK(contains(result.out, "450  (45.0 deg)"));
+  CHECK_FALSE(contains(result.out, "angle_limit_ccw"));
+  const auto document = json(three_servos().run({"diff", file, "--json"}).out);
+  CHECK(document["counts"]["differences"] == 1);
+  const auto& node = document["nodes"][0];
+  CHECK(node["status"] == "different");
+  CHECK(document["nodes"][1]["status"] == "unchanged");
+  for (const auto& change : node["changes"]) {
+    const bool differs = change["name"] == "angle_limit_cw";
+    CHECK(change["status"] == (differs ? "planned" : "unchanged"));
+    CHECK((change["before"] == change["requested"]) != differs);
+  }
+}
+
+TEST_CASE("a servo that is not there, and one that is in no entry, are differences") {
+  const Exported exported;
+  const std::string uid = "77000000000000000000000000000000";
+  Scene two = Scene().servo("BLA21-12U-AB", 11, {{"servo_id", 1}});
+  const Result result =
+      two.servo("BLA21-12U-AB", 40, {{"servo_id", 9}, {"serial_number", 77}, {"unique_id", uid}})
+          .run({"diff", exported.path, "--json"});
+  CHECK(result.status == 8);
+  const auto nodes = json(result.out)["nodes"];
+  std::vector<std::string> statuses;
+  for (const auto& node : nodes) {
+    statuses.push_back(node["status"]);
+  }
+  CHECK(std::ranges::count(statuses, "missing") == 2);
+  CHECK(std::ranges::count(statuses, "extra") == 1);
+}
+
+TEST_CASE("with -n only those servos are compared") {
+  const Exported exported;
+  const std::string file = exported.changed(0, "angle_limit_cw", "45.0deg");
+  const Result others = three_servos().run({"diff", "-n", "12,13", file});
+  CHECK(others.status == 0);
+  CHECK(contains(others.out, "left out (-n)"));
+  CHECK(three_servos().run({"diff", "-n", "11", file}).status == 8);
+  check_error(three_servos().run({"diff", "-n", "55", file}), 4, "not_found", "55");
+}
+
+TEST_CASE("two files are compared without a bus, also registers that one of them lacks") {
+  const Exported exported;
+  CHECK(exported.bench.run({"diff", exported.path, exported.path}).status == 0);
+  const std::string other = exported.changed(1, "smoothing", nullptr);
+  const Result result = exported.bench.run({"diff", exported.path, other, "--json"});
+  CHECK(result.status == 8);
+  const auto document = json(result.out);
+  CHECK(document["counts"]["differences"] == 1);
+  CHECK(document["nodes"][1]["status"] == "different");
+  const Result text = exported.bench.run({"diff", exported.path, other});
+  CHECK(contains(text.out, "smoothing"));
+}
+
+TEST_CASE("a fleet file with faults is refused whole, with all of them, and nothing is sent") {
+  const Exported exported;
+  auto document = ordered_json(content(exported.path));
+  document["servos"][0]["set"]["angle_limit_cw"] = 90;
+  document["servos"][1]["colour"] = "red";
+  const std::string file = exported.bench.file("bad.json", document.dump(2));
+  const Result result = exported.bench.run({"-i", "nosuchcan0", "diff", file});
+  CHECK(result.status == 2);
+  CHECK(codes(result) == std::vector<std::string>{"bad_file"});
+  CHECK(contains(result.err, "/servos/0/set/angle_limit_cw: "));
+  CHECK(contains(result.err, "/servos/1/colour: "));
+  check_error(exported.bench.run({"diff", "-", "-"}), 2, "usage", "stdin");
+  check_error(exported.bench.run({"diff", file, file, file}), 2, "usage", "not 3");
+}
+
+TEST_CASE("a fleet file with twenty faults: twenty places are named, and nothing is sent") {
+  const std::string file = BLACTL_TEST_DATA "/faulty/fleet.json";
+  for (const auto* command : {"apply", "diff"}) {
+    const Result result = run({"-i", "nosuchcan0", command, file});
+    CHECK(result.status == 2);
+    for (int entry = 0; entry < 20; ++entry) {
+      const int line = entry + 3;
+      INFO(line);
+      CHECK(contains(result.err,
+                     file + ":" + std::to_string(line) + ": /servos/" + std::to_string(entry)));
+    }
+    const std::string start = file + ":";
+    std::size_t places = 0;
+    for (auto at = result.err.find(start); at != std::string::npos;
+         at = result.err.find(start, at + 1)) {
+      ++places;
+    }
+    CHECK(places == 20);
+  }
+}
+
+TEST_CASE("export leaves the file as it was where not everything was read") {
+  const Exported exported;
+  const std::string before = content(exported.path);
+  const Scene mute = three_servos().servo("BLA21-12U-AB", 14, {{"faults", {{"drop_every", 1}}}});
+  const Result result = mute.run(exported.bench, {"export", exported.path, "-n", "11,14"});
+  CHECK(result.status != 0);
+  CHECK(content(exported.path) == before);
+  check_error(three_servos().run({"export", "/nonexistent/x.json"}), 1, "io", "/nonexistent");
+  check_error(three_servos().run({"export", "--json"}), 2, "usage", "--json tells");
+}
+
+TEST_CASE("a recipe is of one servo and has no IDs") {
+  const Result result = three_servos().run({"export", "--recipe", "-n", "11"});
+  REQUIRE(result.status == 0);
+  const auto recipe = ordered_json(result.out);
+  CHECK(keys(recipe) == std::vector<std::string>{"schema", "name", "model", "firmware_min", "set"});
+  CHECK(recipe["model"] == "BLA21-12U-AB");
+  CHECK_FALSE(recipe["set"].contains("servo_id"));
+  CHECK_FALSE(recipe["set"].contains("static_node_id"));
+  check_error(three_servos().run({"export", "--recipe"}), 2, "usage",
+              "--recipe makes a file of one servo, not of 3");
+}

@@ -1,0 +1,215 @@
+// undo: servos go back to what they held before they were changed.
+
+#include "catch.hpp"
+#include "fleet.hpp"
+#include "scene.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+using namespace blactl::test;
+
+namespace {
+
+Result undo(const Fleet& fleet, const Arguments& more = {}, const Options& options = {}) {
+  Arguments arguments{"undo", "-y", "--json"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return fleet.run(arguments, options);
+}
+
+void set(const Fleet& fleet, const Arguments& more) {
+  Arguments arguments{"set", "-y"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  const Result result = fleet.run(arguments);
+  INFO(result.err);
+  REQUIRE(result.status == 0);
+}
+
+} // namespace
+
+TEST_CASE("undo goes back in RAM, and in ROM only where that was changed; twice is as before") {
+  Fleet fleet(three_servos());
+  const bool saves = GENERATE(false, true);
+  set(fleet, saves ? Arguments{"-n", "11", "angle_limit_cw=45deg", "--save"}
+                   : Arguments{"-n", "11", "angle_limit_cw=45deg"});
+  const Result undone = undo(fleet);
+  INFO(undone.err);
+  CHECK(undone.status == 0);
+  const auto node = json(undone.out)["nodes"][0];
+  CHECK(node["status"] == "changed");
+  CHECK(node["saved"] == saves);
+  CHECK(node["changes"][0]["after"] == 1799);
+  CHECK(contains(undone.err, "takes back what `set` changed at 20"));
+  CHECK(fleet.ram("11", "angle_limit_cw") == 1799);
+  REQUIRE(undo(fleet).status == 0);
+  CHECK(fleet.ram("11", "angle_limit_cw") == 450);
+  CHECK(fleet.rom("11", "angle_limit_cw") == (saves ? 450 : 1799));
+  CHECK(fleet.rom_writes() == (saves ? 3 : 0));
+}
+
+TEST_CASE(
+    "without -n undo is about the servos of the last command, with it about the last of each") {
+  Fleet fleet(three_servos());
+  set(fleet, {"-n", "11", "smoothing=off"});
+  set(fleet, {"-n", "12,13", "smoothing=off"});
+  const bool names = GENERATE(false, true);
+  const Result undone = names ? undo(fleet, {"-n", "11,13"}) : undo(fleet);
+  INFO(undone.err);
+  CHECK(undone.status == 0);
+  CHECK(fleet.ram("11", "smoothing") == (names ? 1 : 0));
+  CHECK(fleet.ram("12", "smoothing") == (names ? 0 : 1));
+  CHECK(fleet.ram("13", "smoothing") == 1);
+}
+
+TEST_CASE("every command that changes servos can be taken back") {
+  Fleet fleet(three_servos());
+  const Document before = fleet.exported();
+  const auto [arguments, saves] =
+      GENERATE(std::pair(Arguments{"erase", "-n", "11", "--keep-ids"}, 0),
+               std::pair(Arguments{"erase", "-n", "11", "--keep-ids", "--save"}, 2),
+               std::pair(Arguments{"erase", "-n", "12", "--keep-ids"}, 0), // it has no PWM input
+               std::pair(Arguments{"pwm-config", "-n", "11", "--neutral", "1500us"}, 0),
+               std::pair(Arguments{"alloc", "--static", "-n", "11", "--id", "30"}, 2));
+  set(fleet, {"-n", "11", "servo_id=9", "angle_limit_cw=45deg", "pwm_neutral=1490us"});
+  const Document changed = fleet.exported();
+  Arguments all = arguments;
+  all.emplace_back("-y");
+  REQUIRE(fleet.run(all).status == 0);
+  const Result undone = undo(fleet);
+  INFO(undone.err);
+  CHECK(undone.status == 0);
+  CHECK(fleet.run({"diff", fleet.file(changed)}).status == 0);
+  CHECK(fleet.rom_writes() == saves);
+}
+
+TEST_CASE("node IDs that were exchanged are exchanged back in one undo") {
+  Fleet fleet(three_servos());
+  const Document before = fleet.exported();
+  Document document = before;
+  for (const auto* id : {"static_node_id", "servo_id"}) {
+    std::swap(document["servos"][0]["set"][id], document["servos"][1]["set"][id]);
+  }
+  REQUIRE(fleet.apply(document).status == 0);
+  const Result undone = undo(fleet);
+  INFO(undone.err);
+  CHECK(undone.status == 0);
+  CHECK(fleet.run({"diff", fleet.file(before)}).status == 0);
+  REQUIRE(undo(fleet).status == 0);
+  CHECK(fleet.run({"diff", fleet.file(document)}).status == 0);
+}
+
+TEST_CASE("undo --dry-run and --no-save do no more than they say") {
+  Fleet fleet(three_servos());
+  set(fleet, {"-n", "11", "smoothing=off", "--save"});
+  CHECK(undo(fleet, {"--dry-run"}).status == 8);
+  CHECK(fleet.ram("11", "smoothing") == 0);
+  const Result undone = undo(fleet, {"--no-save"});
+  CHECK(undone.status == 0);
+  CHECK(json(undone.out)["nodes"][0]["saved"] == false);
+  CHECK(fleet.ram("11", "smoothing") == 1);
+  CHECK(fleet.rom("11", "smoothing") == 0);
+  CHECK(fleet.rom_writes() == 1);
+}
+
+TEST_CASE("undo --list shows what is recorded, the newest first, without a bus") {
+  Fleet fleet(three_servos());
+  CHECK(fleet.run({"undo", "--list"}).out == "no change is recorded\n");
+  set(fleet, {"-n", "11,12", "smoothing=off"});
+  REQUIRE(undo(fleet, {"-n", "12"}).status == 0);
+  const auto snapshots = json(fleet.run({"undo", "--list", "--json"}).out)["snapshots"];
+  REQUIRE(snapshots.size() == 3);
+  CHECK(snapshots[0]["command"] == "undo");
+  CHECK(snapshots[1]["command"] == "set");
+  CHECK(snapshots[0]["changed_count"] == 1);
+  CHECK(keys(ordered_json(snapshots[0].dump())).size() == 4);
+  check_error(fleet.run({"undo", "--list", "-n", "11"}), 2, "usage", "--list goes with neither");
+}
+
+TEST_CASE("a change of which nothing is left does not stand in front of the one before it") {
+  Fleet fleet(three_servos());
+  set(fleet, {"-n", "11", "smoothing=off"});
+  set(fleet, {"-n", "11", "angle_limit_cw=45deg"});
+  set(fleet, {"-n", "11", "angle_limit_cw=179.9deg"});
+  REQUIRE(undo(fleet).status == 0);
+  CHECK(fleet.ram("11", "angle_limit_cw") == 450);
+  REQUIRE(fleet.run({"restart", "-n", "11", "-y"}).status == 0); // all of it is gone
+  set(fleet, {"-n", "11", "smoothing=off", "angle_limit_cw=45deg"});
+  REQUIRE(fleet.run({"restart", "-n", "11", "-y"}).status == 0);
+  const Result nothing = undo(fleet);
+  CHECK(statuses(nothing) == std::vector<std::string>{"unchanged"});
+  const auto snapshots = json(fleet.run({"undo", "--list", "--json"}).out)["snapshots"];
+  CHECK(snapshots.size() == 4);
+  CHECK(snapshots[0]["command"] == "undo");
+}
+
+TEST_CASE("where nothing is recorded, or a servo is missing, undo writes nothing") {
+  Fleet fleet(three_servos().servo("BLA21-12U-AB", 20, {{"faults", {{"return_delay", "600s"}}}}));
+  check_error(undo(fleet), 4, "not_found", "no change of a servo is recorded");
+  set(fleet, {"-n", "11", "smoothing=off"});
+  check_error(undo(fleet, {"-n", "12"}), 4, "not_found", "no change of node 12 is recorded");
+  set(fleet, {"-n", "12,20", "smoothing=off"});
+  REQUIRE(fleet.run({"restart", "-n", "20", "-y"}).status == 4);
+  check_error(undo(fleet), 4, "not_found", "which `set` changed, is not on the bus");
+  CHECK(fleet.ram("12", "smoothing") == 0);
+  CHECK(undo(fleet, {"-n", "12"}).status == 0);
+  CHECK(fleet.ram("12", "smoothing") == 1);
+}
+
+TEST_CASE("one servo that fails stops itself only, and can be undone again") {
+  Fleet fleet(three_servos().servo("BLA21-12U-AB", 20,
+                                   {{"servo_id", 4}, {"faults", {{"refuse_opcodes", true}}}}));
+  set(fleet, {"-n", "11", "smoothing=off", "--save"});
+  set(fleet, {"-n", "20", "smoothing=off"});
+  const Result undone = undo(fleet, {"-n", "11,20"});
+  INFO(undone.err);
+  CHECK(undone.status == 0);
+  REQUIRE(fleet.run({"set", "-n", "11,20", "-y", "smoothing=off", "--save"}).status == 6);
+  const Result failed = undo(fleet);
+  INFO(failed.err);
+  CHECK(failed.status == 0); // where ROM was not changed it is not saved either
+  CHECK(statuses(failed) == std::vector<std::string>{"changed", "changed"});
+  CHECK(fleet.ram("20", "smoothing") == 1);
+}
+
+TEST_CASE("a state folder that cannot be written is a note for undo; a damaged history an error") {
+  Fleet fleet(three_servos());
+  set(fleet, {"-n", "11", "smoothing=off"});
+  const auto folder = fleet.bench().folder() / "state/blactl/simulated";
+  const bool is_damaged = GENERATE(false, true);
+  std::ofstream(folder / (is_damaged ? "snapshots.db" : "proofs.db"), std::ios::trunc)
+      << "no database";
+  const Result undone = undo(fleet);
+  INFO(undone.err);
+  CHECK(undone.status == (is_damaged ? 2 : 0));
+  CHECK(contains(undone.err, is_damaged ? "no change history of blactl" : "not recorded"));
+  CHECK(fleet.ram("11", "smoothing") == (is_damaged ? 0 : 1));
+}
+
+TEST_CASE("undo after a save puts ROM back, too: what was set before it has become lasting") {
+  const Fleet fleet(three_servos());
+  REQUIRE(fleet.apply(fleet.exported()).status == 0);
+  REQUIRE(fleet.run({"set", "-n", "11", "angle_limit_cw=70.0deg"}).status == 0);
+  SECTION("by apply") {
+    Document document = fleet.exported();
+    const Result saved = fleet.apply(document);
+    CHECK(statuses(saved) == std::vector<std::string>{"changed", "unchanged", "unchanged"});
+  }
+  SECTION("by save") {
+    REQUIRE(fleet.run({"save", "-n", "11", "-y"}).status == 0);
+  }
+  const Result undone = fleet.run({"undo", "-n", "11", "-y"});
+  INFO(undone.err);
+  CHECK(undone.status == 0);
+  CHECK(fleet.ram("11", "angle_limit_cw") == 1799);
+  CHECK(fleet.rom("11", "angle_limit_cw") == 1799);
+}
+
+TEST_CASE("undo of a unit that there is twice is refused") {
+  const nlohmann::json same = {{"unique_id", "00112233445566778899aabbccddeeff"}};
+  Fleet fleet(Scene().servo("BLA21-12U-AB", 11, same).servo("BLA21-12U-AB", 12, same));
+  REQUIRE(fleet.run({"set", "-n", "12", "smoothing=off", "--save", "-y"}).status == 0);
+  check_error(fleet.run({"undo", "-y"}), 2, "usage", "two nodes have the unique ID");
+  CHECK(fleet.rom_writes() == 1);
+}

@@ -1,0 +1,61 @@
+#include "blactl/base/json_writer.hpp"
+#include "blactl/base/text.hpp"
+
+#include "catch.hpp"
+#include "cli/output/page.hpp"
+#include "cli/output/snapshots_view.hpp"
+
+#include <array>
+#include <chrono>
+#include <string>
+
+using namespace blactl;
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr WallTime morning{std::chrono::sys_days{std::chrono::year{2026} / 11 / 22} + 8h + 15min};
+
+std::array<state::SnapshotEntry, 2> changes() {
+  return {state::SnapshotEntry{.number = 8,
+                               .at = morning + 1500ms,
+                               .command = "alloc --static",
+                               .unique_id = {0xC3},
+                               .held = {{0x46, 0}},
+                               .saved = true},
+          state::SnapshotEntry{.number = 7,
+                               .at = morning,
+                               .command = "set\x1b[31m",
+                               .unique_id = {0xC4},
+                               .held = {{0x38, 1}, {0x39, 2}},
+                               .saved = false}};
+}
+
+} // namespace
+
+TEST_CASE("recorded changes are told in the keys of the contract") {
+  std::string out;
+  JsonWriter json(out);
+  json.begin_object();
+  cli::write_snapshots(json, changes());
+  json.end_object();
+  CHECK(out == R"({"snapshots":[{"time":"2026-11-22T08:15:01Z",)"
+               R"("unique_id":"c3000000000000000000000000000000",)"
+               R"("command":"alloc --static","changed_count":1},)"
+               R"({"time":"2026-11-22T08:15:00Z",)"
+               R"("unique_id":"c4000000000000000000000000000000",)"
+               R"("command":"set\\x1b[31m","changed_count":2}]})");
+}
+
+TEST_CASE("people see when, what, how much, and whether ROM was changed") {
+  CHECK(cli::text(changes(), cli::Page()) ==
+        "TIME                  UNIQUE ID                         COMMAND         SETTINGS  "
+        "CHANGED IN\n"
+        "2026-11-22T08:15:01Z  c3000000000000000000000000000000  alloc --static  1         "
+        "RAM and ROM\n"
+        "2026-11-22T08:15:00Z  c4000000000000000000000000000000  set\\x1b[31m     2         RAM\n");
+  CHECK(cli::text({}, cli::Page()) == "no change is recorded\n");
+  set_language(Language::japanese);
+  CHECK(cli::text({}, cli::Page()) == "変更履歴は空です\n");
+  set_language(Language::english);
+}

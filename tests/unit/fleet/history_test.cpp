@@ -1,0 +1,374 @@
+// What is recorded of changes that are carried out on simulated servos.
+
+#include "blactl/fleet/carry_out.hpp"
+#include "blactl/fleet/history.hpp"
+#include "blactl/fleet/undo.hpp"
+
+#include "support.hpp"
+#include "unit/state/processes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace blactl;
+using namespace blactl::fleet;
+using namespace blactl::fleet::test;
+using state::Access;
+using state::ProofStore;
+using state::SnapshotEntry;
+using state::SnapshotStore;
+namespace at = bla::address;
+
+namespace {
+
+std::string servos(std::string_view more = "") {
+  return fmt::format(R"("servos": [{{"model": "BLA21-12U-AB", "node_id": 11{}}},
+                                   {{"model": "BLA21-12U-AB", "node_id": 12}}])",
+                     more);
+}
+
+/// The stores of a test, as the next process finds them.
+class Kept {
+ public:
+  [[nodiscard]] History history(std::string command = "set") const {
+    auto snapshots = SnapshotStore::open(folder(), Access::write);
+    auto proofs = ProofStore::open(folder(), Access::write);
+    REQUIRE(snapshots);
+    REQUIRE(proofs);
+    return {std::move(command), std::move(*snapshots), std::move(*proofs)};
+  }
+
+  [[nodiscard]] std::vector<SnapshotEntry> entries() const {
+    return SnapshotStore::open(folder(), Access::read)->entries().value();
+  }
+
+  [[nodiscard]] std::optional<state::RomProof> proof(const Scene& scene, std::uint8_t id) const {
+    const auto info = scene.member(id).info;
+    REQUIRE(info);
+    return ProofStore::open(folder(), Access::read)->find(info->unique_id).value();
+  }
+
+  [[nodiscard]] std::string folder() const { return (folder_.path / "state").string(); }
+
+ private:
+  state::test::Folder folder_;
+};
+
+Wanted set(const char* assignment, bool saves = false) {
+  return {.assignments = assignments({assignment}),
+          .restart = saves ? std::optional(RestartKind::save) : std::nullopt};
+}
+
+const Wanted save{.restart = RestartKind::save};
+const Wanted restart{.restart = RestartKind::restart};
+
+std::vector<Plan> plans_for(const Scene& scene, const Wanted& wanted,
+                            const std::vector<std::uint8_t>& ids) {
+  std::vector<Plan> plans;
+  for (const std::uint8_t id : ids) {
+    auto plan = make_plan(
+        wanted, scene.read(id, [&](const Servo& servo) { return registers_needed(wanted, servo); }),
+        profiles());
+    INFO((plan ? "" : plan.error().message));
+    REQUIRE(plan);
+    plans.push_back(std::move(*plan));
+  }
+  return plans;
+}
+
+CarriedOut change(const Scene& scene, const Wanted& wanted, History& history,
+                  const std::vector<std::uint8_t>& ids = {11}) {
+  return carry_out(*scene.session, profiles(), plans_for(scene, wanted, ids),
+                   {.history = &history});
+}
+
+/// One command on one servo, recorded by itself.
+ChangeResult change(const Scene& scene, const Wanted& wanted, const Kept& kept,
+                    std::string command = "set") {
+  History history = kept.history(std::move(command));
+  return change(scene, wanted, history).servos.front();
+}
+
+std::int64_t read(const Scene& scene, std::uint8_t id, const char* name) {
+  return scene.read(id, registers({name})).raw(parameter(name).address).value();
+}
+
+/// As apply will ask.
+bool holds_now(const Scene& scene, const state::RomProof& proof, std::uint8_t id) {
+  scene.live(1100ms);
+  const Member member = scene.member(id);
+  const auto now = scene.session->wall() - (scene.session->now() - member.status_at);
+  return holds(proof, std::chrono::seconds(member.status->uptime_s), now);
+}
+
+} // namespace
+
+TEST_CASE(
+    "what a plan replaces are settings that it is going to write, and all that ERASE resets") {
+  const Plan plan = plan_for(
+      {.assignments = assignments({"angle_limit_cw=90deg", "reverse=off", "command_angle=0deg"})},
+      {{at::angle_limit_cw, 1799}, {at::reverse, 0}});
+  CHECK(replaced_by(plan) == bla::Values{{at::angle_limit_cw, 1799}});
+  const Plan erase = plan_for({.erase = true, .keep_ids = true}, {{at::servo_id, 7}});
+  CHECK(replaced_by(erase).size() == bla21().identity.configuration().size());
+  CHECK(replaced_by(erase).at(at::servo_id) == 7);
+  CHECK(replaced_by(plan_for(save)).empty());
+}
+
+TEST_CASE("a change in RAM is recorded with what it replaces, and proves nothing") {
+  const Kept kept;
+  const Scene scene(servos());
+  const auto result = change(scene, set("angle_limit_cw=90deg"), kept);
+  REQUIRE(result.is_done());
+  const auto entries = kept.entries();
+  REQUIRE(entries.size() == 1);
+  CHECK(entries[0].command == "set");
+  CHECK(entries[0].unique_id == result.servo.unique_id);
+  CHECK(entries[0].held == state::Registers{{0x38, 1799}});
+  CHECK_FALSE(entries[0].saved);
+  CHECK_FALSE(kept.proof(scene, 11));
+}
+
+TEST_CASE("a saved change is recorded as such, and proves all of ROM") {
+  const Kept kept;
+  const Scene scene(servos());
+  REQUIRE(change(scene, set("angle_limit_cw=90deg", true), kept).saved);
+  CHECK(kept.entries().at(0).saved);
+  const auto proof = kept.proof(scene, 11);
+  REQUIRE(proof);
+  CHECK(proof->rom.at(0x38) == 900);
+  CHECK(proof->rom.size() == bla21().identity.configuration().size());
+  CHECK(proof->rom.begin()->first == 0x20);
+  CHECK(holds_now(scene, *proof, 11));
+  scene.live(1h);
+  CHECK(holds_now(scene, *proof, 11));
+}
+
+TEST_CASE("a proof outlives a change in RAM, and ends with the next start") {
+  const Kept kept;
+  const Scene scene(servos());
+  REQUIRE(change(scene, save, kept, "save").saved);
+  CHECK(kept.entries().empty()); // it replaces nothing
+  REQUIRE(change(scene, set("angle_limit_cw=90deg"), kept).is_done());
+  const auto proof = kept.proof(scene, 11);
+  REQUIRE(proof);
+  CHECK(proof->rom.at(0x38) == 1799);
+  CHECK(holds_now(scene, *proof, 11));
+  scene.live(3s);
+  History history = kept.history("restart");
+  const auto plans = plans_for(scene, restart, {11});
+  SECTION("that is not recorded") {
+    REQUIRE(carry_out(*scene.session, profiles(), plans, {}).servos[0].is_done());
+    CHECK_FALSE(holds_now(scene, *proof, 11));
+  }
+  SECTION("that is recorded") {
+    const auto restarted =
+        carry_out(*scene.session, profiles(), plans, {.history = &history}).servos[0];
+    REQUIRE(restarted.is_done());
+    CHECK_FALSE(kept.proof(scene, 11));
+    CHECK(kept.entries().size() == 1);
+  }
+}
+
+TEST_CASE("erasing is recorded whole, with IDs that are kept too") {
+  const Kept kept;
+  const bool keeps = GENERATE(false, true);
+  const Scene scene(servos(R"(, "servo_id": 5)"));
+  REQUIRE(change(scene, {.erase = true, .keep_ids = keeps}, kept, "erase").is_done());
+  const auto entries = kept.entries();
+  REQUIRE(entries.size() == 1);
+  CHECK(entries[0].command == "erase");
+  CHECK(entries[0].held.size() == bla21().identity.configuration().size());
+  CHECK(entries[0].held.at(0x45) == 5);
+  CHECK(entries[0].held.at(0x46) == 11);
+}
+
+TEST_CASE("a command alone is no change that could be taken back") {
+  const Kept kept;
+  const Scene scene(servos());
+  REQUIRE(change(scene, set("command_angle=1deg"), kept).is_done());
+  CHECK(kept.entries().empty());
+}
+
+TEST_CASE("whether ROM was written is told by what was sent") {
+  const auto [fault, saved] =
+      GENERATE(std::pair(R"("refuse_opcodes": true)", false), // it runs on, and says so
+               std::pair(R"("ignore_opcodes": 9)", false),    // its uptime says so
+               std::pair(R"("never_returns": true)", true), std::pair(R"("stays": true)", true),
+               std::pair(R"("lose_opcode_answers": 1)", true));
+  INFO(fault);
+  const Kept kept;
+  const Scene scene(servos(fmt::format(R"(, "faults": {{{}}})", fault)));
+  (void)change(scene, set("angle_limit_cw=90deg", true), kept);
+  REQUIRE(kept.entries().size() == 1);
+  CHECK(kept.entries()[0].saved == saved);
+}
+
+TEST_CASE("a servo to which nothing was sent keeps its last change") {
+  const Kept kept;
+  const Scene scene(servos());
+  REQUIRE(change(scene, set("angle_limit_cw=90deg"), kept).is_done());
+  const auto before = kept.entries();
+  History history = kept.history();
+  auto plans = plans_for(scene, set("angle_limit_cw=80deg"), {11, 12});
+  plans[0].before.servo.unique_id->front() ^= 1; // another unit is there now
+  const auto results = carry_out(*scene.session, profiles(), plans, {.history = &history}).servos;
+  CHECK_FALSE(results[0].is_done());
+  CHECK(results[1].is_done());
+  const auto after = kept.entries();
+  REQUIRE(after.size() == 2);
+  CHECK(after[0].unique_id == results[1].servo.unique_id);
+  CHECK(after[1] == before[0]);
+}
+
+TEST_CASE("in several rounds of one command the record tells what the first has found") {
+  const Kept kept;
+  const Scene scene(servos());
+  History history = kept.history("alloc --static");
+  REQUIRE(change(scene, set("static_node_id=21", true), history).servos[0].is_done());
+  const auto servo = scene.member(21).servo();
+  scene.live(3s);
+  REQUIRE(change(scene, set("static_node_id=22"), history, {21}).servos[0].is_done());
+  REQUIRE(change(scene, set("servo_id=3"), history, {21}).servos[0].is_done());
+  const auto entries = kept.entries();
+  REQUIRE(entries.size() == 1);
+  CHECK(entries[0].held == state::Registers{{0x45, 0}, {0x46, 11}});
+  CHECK(entries[0].saved);
+}
+
+TEST_CASE("what was recorded before the first round needs no disk in the others") {
+  const Kept kept;
+  const Scene scene(servos());
+  History history = kept.history("apply");
+  const auto plans = plans_for(scene, set("angle_limit_cw=90deg", true), {11, 12});
+  std::vector<Error> told;
+  const Manner manner{.history = &history, .not_recorded = [&](const Error& error) {
+                        told.push_back(error);
+                        return std::optional(error);
+                      }};
+  REQUIRE_FALSE(record(*scene.session, plans, manner));
+  CHECK(kept.entries().size() == 2);
+  std::filesystem::rename(kept.folder(), kept.folder() + ".away");
+  const std::vector<Plan> first{plans[0]};
+  CHECK(carry_out(*scene.session, profiles(), first, manner).servos[0].is_done());
+  CHECK(told.empty());
+}
+
+TEST_CASE("a servo whose turn never came has no change") {
+  const Kept kept;
+  const Scene scene(servos());
+  History history = kept.history("apply");
+  const auto plans = plans_for(scene, set("angle_limit_cw=90deg"), {11, 12});
+  const Manner manner{.history = &history};
+  REQUIRE_FALSE(record(*scene.session, plans, manner));
+  const std::vector<Plan> first{plans[0]};
+  REQUIRE(carry_out(*scene.session, profiles(), first, manner).servos[0].is_done());
+  record_end(*scene.session, std::vector{as_planned(plans[0]), as_planned(plans[1])}, manner);
+  REQUIRE(kept.entries().size() == 1);
+  CHECK(kept.entries()[0].unique_id == plans[0].before.servo.unique_id);
+}
+
+TEST_CASE("ROM is proven as long as the servo runs on, however slowly its clock drifts") {
+  const Kept kept;
+  const Scene scene(servos());
+  History history = kept.history("save");
+  REQUIRE(change(scene, save, history).servos[0].saved);
+  const auto rom_of = [&] {
+    scene.live(1100ms);
+    const auto before = scene.read(11, registers({"angle_limit_cw"}));
+    return history.proven_rom(before.servo, *scene.session);
+  };
+  REQUIRE(rom_of());
+  CHECK(rom_of()->at(at::angle_limit_cw) == 1799);
+  const auto first = kept.proof(scene, 11);
+  CHECK(kept.proof(scene, 11) == first);
+  scene.live(2h);
+  REQUIRE(rom_of());
+  CHECK(kept.proof(scene, 11)->uptime >= 2h);
+  REQUIRE(carry_out(*scene.session, profiles(), plans_for(scene, restart, {11}), {})
+              .servos[0]
+              .is_done());
+  CHECK_FALSE(rom_of());
+}
+
+TEST_CASE("recording takes no frame: the same ones are on the bus") {
+  const bool saves = GENERATE(false, true);
+  const auto frames = [&](bool records) {
+    const Kept kept;
+    const Scene scene(servos());
+    History history = kept.history();
+    const auto plans = plans_for(scene, set("angle_limit_cw=90deg", saves), {11, 12});
+    REQUIRE(carry_out(*scene.session, profiles(), plans, {.history = records ? &history : nullptr})
+                .servos[1]
+                .is_done());
+    CHECK(kept.entries().size() == (records ? 2 : 0));
+    return scene.sent.size();
+  };
+  CHECK(frames(true) == frames(false));
+}
+
+TEST_CASE("what cannot be recorded is told, and the caller decides") {
+  const Kept kept;
+  const Scene scene(servos());
+  const bool goes_on = GENERATE(false, true);
+  History history = kept.history();
+  std::filesystem::rename(kept.folder(), kept.folder() + ".away");
+  std::vector<Error> told;
+  const auto plans = plans_for(scene, set("angle_limit_cw=90deg", true), {11});
+  const std::size_t sent = scene.sent.size();
+  const auto carried_out = carry_out(*scene.session, profiles(), plans,
+                                     {.history = &history, .not_recorded = [&](const Error& error) {
+                                        told.push_back(error);
+                                        return goes_on ? std::nullopt : std::optional(error);
+                                      }});
+  REQUIRE_FALSE(told.empty());
+  CHECK(told.front().code == Code::io);
+  CHECK(carried_out.servos.at(0).is_done() == goes_on);
+  CHECK(carried_out.broken.has_value() != goes_on);
+  CHECK((scene.sent.size() > sent) == goes_on);
+}
+
+TEST_CASE("what took a change back puts it there again the second time") {
+  const Kept kept;
+  const Scene scene(servos());
+  const bool saves = GENERATE(false, true);
+  REQUIRE(change(scene, set("angle_limit_cw=90deg", saves), kept).is_done());
+  for (const std::int64_t expected : {1799, 900, 1799}) {
+    scene.live(3s);
+    const auto wanted = to_undo(kept.entries().front(), profiles());
+    REQUIRE(wanted);
+    CHECK(wanted->restart.has_value() == saves);
+    CHECK_FALSE(wanted->erase);
+    REQUIRE(change(scene, *wanted, kept, "undo").is_done());
+    CHECK(read(scene, 11, "angle_limit_cw") == expected);
+  }
+  CHECK(kept.entries().size() == 4);
+}
+
+TEST_CASE("what was erased comes back") {
+  const Kept kept;
+  const Scene scene(servos(R"(, "servo_id": 5)"));
+  REQUIRE(change(scene, set("torque_output=brake"), kept).is_done());
+  REQUIRE(change(scene, {.erase = true}, kept, "erase").is_done());
+  REQUIRE(read(scene, 11, "servo_id") == 0);
+  const auto wanted = to_undo(kept.entries().front(), profiles());
+  REQUIRE(wanted);
+  REQUIRE(change(scene, *wanted, kept, "undo").is_done());
+  CHECK(read(scene, 11, "servo_id") == 5);
+  CHECK(read(scene, 11, "torque_output") == 2);
+  CHECK(read(scene, 11, "static_node_id") == 11);
+}
+
+TEST_CASE("a file that was tampered with moves nothing") {
+  for (const int address : {0x00, 0x02, 0x10, 0x12, 0x1F, 0x47, 0x49, 0x51, 0xFF}) {
+    const auto refused = to_undo({.held = {{static_cast<std::uint8_t>(address), 1}}}, profiles());
+    REQUIRE_FALSE(refused);
+    CHECK(refused.error().code == Code::bad_file);
+  }
+  CHECK(to_undo({.held = {{0x3C, 999}}}, profiles()).error().code == Code::out_of_range);
+  CHECK(to_undo({.held = {{0x46, 127}}}, profiles()).error().code == Code::out_of_range);
+}

@@ -1,0 +1,332 @@
+#include "blactl/state/snapshot_store.hpp"
+
+#include "catch.hpp"
+#include "database_files.hpp"
+#include "processes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace blactl;
+using namespace blactl::state;
+using namespace blactl::state::test;
+using namespace std::chrono_literals;
+using dronecan::UniqueId;
+
+namespace {
+
+constexpr WallTime noon{std::chrono::sys_days{std::chrono::year{2026} / 11 / 22} + 12h};
+
+UniqueId unit(int number) {
+  UniqueId id{};
+  id.fill(0xA5);
+  id[0] = static_cast<std::uint8_t>(number);
+  return id;
+}
+
+SnapshotEntry entry(int number, std::int64_t value = 900, WallTime at = noon) {
+  return {.at = at,
+          .command = "set",
+          .unique_id = unit(number),
+          .held = {{0x38, value}, {0x39, -1799}},
+          .saved = true};
+}
+
+std::filesystem::path file_of(const Folder& folder) {
+  return folder.path / "state" / "snapshots.db";
+}
+
+Result<SnapshotStore> try_open(const Folder& folder, Access access = Access::write) {
+  return SnapshotStore::open((folder.path / "state").string(), access, 10s);
+}
+
+SnapshotStore opened(const Folder& folder, Access access = Access::write) {
+  auto store = try_open(folder, access);
+  if (!store) {
+    FAIL(store.error().message);
+  }
+  return std::move(*store);
+}
+
+/// Keeps one and gives it as it is in the store.
+SnapshotEntry kept(SnapshotStore& store, SnapshotEntry one, WallTime now = noon) {
+  const auto numbers = store.keep(std::array{one}, now);
+  INFO((numbers ? "" : numbers.error().message));
+  REQUIRE(numbers);
+  REQUIRE(numbers->size() == 1);
+  one.number = numbers->front();
+  one.run = one.run == 0 ? one.number : one.run;
+  return one;
+}
+
+std::vector<SnapshotEntry> all(const SnapshotStore& store) {
+  auto entries = store.entries();
+  INFO((entries ? "" : entries.error().message));
+  REQUIRE(entries);
+  return *entries;
+}
+
+std::size_t count_of(const SnapshotStore& store, int number) {
+  return static_cast<std::size_t>(
+      std::ranges::count(all(store), unit(number), &SnapshotEntry::unique_id));
+}
+
+} // namespace
+
+TEST_CASE("what is kept is there for the next process, the newest first") {
+  const Folder folder;
+  std::vector<SnapshotEntry> expected;
+  {
+    auto store = opened(folder);
+    CHECK(all(store).empty());
+    expected = {kept(store, entry(1)), kept(store, entry(2, -5)), kept(store, entry(1, 7))};
+    std::ranges::reverse(expected);
+  }
+  const auto store = opened(folder, Access::read);
+  CHECK(all(store) == expected);
+  CHECK(store.last(unit(1)) == expected[0]);
+  CHECK(store.last(unit(2)) == expected[1]);
+  CHECK(store.last(unit(3)).value() == std::nullopt);
+  CHECK(bytes_of(file_of(folder)).substr(68, 4) == "blas");
+  CHECK(std::filesystem::status(file_of(folder)).permissions() == std::filesystem::perms(0600));
+}
+
+TEST_CASE("the last change is the one that was kept last, whatever the clock says") {
+  auto store = SnapshotStore::unshared().value();
+  kept(store, entry(1, 1, noon));
+  const auto later = kept(store, entry(1, 2, noon - 24h), noon - 24h);
+  CHECK(store.last(unit(1)) == later);
+  CHECK(all(store).front() == later);
+}
+
+TEST_CASE("what became of a change is settled afterwards; one that was not begun goes") {
+  auto store = SnapshotStore::unshared().value();
+  const auto before = kept(store, entry(1, 1));
+  const auto numbers = store.keep(std::array{entry(1, 2), entry(2), entry(3)}, noon).value();
+  REQUIRE(store.settle(std::array{Settlement{numbers[0], ChangeEnd::never_begun},
+                                  Settlement{numbers[1], ChangeEnd::not_saved},
+                                  Settlement{numbers[2], ChangeEnd::saved}}));
+  CHECK(store.last(unit(1)) == before);
+  CHECK_FALSE(store.last(unit(2)).value()->saved);
+  CHECK(store.last(unit(3)).value()->saved);
+}
+
+TEST_CASE("the last command is all that it changed, in however many rounds") {
+  auto store = SnapshotStore::unshared().value();
+  CHECK(store.last_run().value().empty());
+  kept(store, entry(1));
+  const auto numbers = store.keep(std::array{entry(1, 2), entry(2)}, noon).value();
+  auto later = entry(3);
+  later.run = numbers.front();
+  kept(store, later);
+  const auto run = store.last_run().value();
+  REQUIRE(run.size() == 3);
+  CHECK(run[0].unique_id == unit(1));
+  CHECK(run[0].held.at(0x38) == 2);
+  CHECK(run[2].unique_id == unit(3));
+  REQUIRE(store.settle(std::array{Settlement{run[0].number, ChangeEnd::never_begun},
+                                  Settlement{run[1].number, ChangeEnd::never_begun},
+                                  Settlement{run[2].number, ChangeEnd::never_begun}}));
+  CHECK(store.last_run().value().size() == 1);
+}
+
+TEST_CASE("an entry that goes on is put in its place, not beside it") {
+  auto store = SnapshotStore::unshared().value();
+  auto first = kept(store, entry(1));
+  const auto other = kept(store, entry(2));
+  first.held[0x46] = 0;
+  CHECK(kept(store, first) == first);
+  CHECK(all(store) == std::vector{other, first});
+}
+
+TEST_CASE("of one servo a hundred changes are kept, and all of the others") {
+  auto store = SnapshotStore::unshared().value();
+  kept(store, entry(2));
+  for (int i = 0; i < 105; ++i) {
+    kept(store, entry(1, i));
+  }
+  kept(store, entry(3));
+  CHECK(count_of(store, 1) == most_snapshots);
+  CHECK(count_of(store, 2) == 1);
+  CHECK(count_of(store, 3) == 1);
+  CHECK(store.last(unit(1)).value()->held.at(0x38) == 104);
+}
+
+TEST_CASE("after a year a change goes, unless it is the last one of its servo") {
+  auto store = SnapshotStore::unshared().value();
+  kept(store, entry(1, 1, noon));
+  kept(store, entry(1, 2, noon + 24h), noon + 24h);
+  kept(store, entry(2, 3, noon));
+  const WallTime year_later = noon + oldest_snapshot + 1s;
+  kept(store, entry(3, 4, year_later), year_later);
+  CHECK(count_of(store, 1) == 1);
+  CHECK(store.last(unit(1)).value()->held.at(0x38) == 2);
+  CHECK(store.last(unit(2)).value()->held.at(0x38) == 3);
+  const WallTime long_after = noon + 10 * oldest_snapshot;
+  kept(store, entry(3, 5, long_after), long_after);
+  CHECK(store.last(unit(1)).value()->held.at(0x38) == 2);
+  CHECK(store.last(unit(2)).value()->held.at(0x38) == 3);
+  CHECK(count_of(store, 3) == 1);
+}
+
+TEST_CASE("a command is kept as it is, whatever is in it") {
+  auto store = SnapshotStore::unshared().value();
+  SnapshotEntry odd = entry(1);
+  odd.command = "alloc --static'; DROP TABLE snapshots; --";
+  CHECK(kept(store, odd) == all(store).front());
+}
+
+TEST_CASE("reading a history makes no file and changes nothing") {
+  const Folder folder;
+  if (GENERATE(false, true)) {
+    auto store = opened(folder);
+    kept(store, entry(1));
+  }
+  const bool was_there = std::filesystem::exists(folder.path / "state");
+  auto store = opened(folder, Access::read);
+  const auto before = all(store);
+  CHECK(store.keep(std::array{entry(1, 7)}, noon).error().code == Code::permission);
+  CHECK(store.settle(std::array{Settlement{1, ChangeEnd::saved}}).error().code == Code::permission);
+  CHECK(all(store) == before);
+  CHECK(std::filesystem::exists(folder.path / "state") == was_there);
+}
+
+TEST_CASE("a file that is no history of ours is refused by its name, and stays as it is") {
+  const Folder folder;
+  const auto [content, message] = GENERATE(
+      std::pair("what is this", "no change history of blactl"),
+      std::pair("PRAGMA user_version = 2", "has version 2; this blactl knows version 1"),
+      std::pair("UPDATE snapshots SET held = x'38'", "is damaged"),
+      std::pair("PRAGMA ignore_check_constraints = 1; UPDATE snapshots SET saved = 2",
+                "is damaged"),
+      std::pair("PRAGMA ignore_check_constraints = 1; UPDATE snapshots SET at = -1", "is damaged"),
+      std::pair("PRAGMA ignore_check_constraints = 1; UPDATE snapshots SET unique_id = x'00'",
+                "is damaged"));
+  {
+    auto store = opened(folder);
+    kept(store, entry(1));
+  }
+  content == std::string("what is this") ? write_bytes(file_of(folder), content)
+                                         : run_sql(file_of(folder), content);
+  const std::string before = bytes_of(file_of(folder));
+  const auto store = try_open(folder, GENERATE(Access::read, Access::write));
+  const auto result = store ? store->entries() : std::unexpected(store.error());
+  REQUIRE_FALSE(result);
+  CHECK(result.error().code == Code::bad_file);
+  INFO(result.error().message);
+  CHECK(result.error().message.find(message) != std::string::npos);
+  CHECK(result.error().hint.find("mv " + file_of(folder).string()) != std::string::npos);
+  CHECK(bytes_of(file_of(folder)) == before);
+}
+
+TEST_CASE("a changed bit anywhere in a row is found out") {
+  const Folder folder;
+  {
+    auto store = opened(folder);
+    kept(store, entry(1));
+  }
+  const std::string good = bytes_of(file_of(folder));
+  const std::string part =
+      GENERATE(std::string("set"), std::string("\xA5\xA5\xA5"), std::string("\x03\x84", 2));
+  std::string bad = good;
+  bad[good.find(part)] ^= 1;
+  write_bytes(file_of(folder), bad);
+  const auto store = try_open(folder);
+  REQUIRE_FALSE(store);
+  CHECK(store.error().code == Code::bad_file);
+}
+
+TEST_CASE("on a full disk all of one command is kept or nothing, and nothing that was there goes") {
+  const Folder folder;
+  const rlim_t limit = GENERATE(0U, 1000U, 8000U, 20000U, 60000U);
+  {
+    auto store = opened(folder);
+    for (int i = 1; i <= 20; ++i) {
+      kept(store, entry(i));
+    }
+  }
+  int told = 0;
+  {
+    const Child child([&] {
+      auto store = try_open(folder);
+      limit_files_to(limit);
+      int commands = 0;
+      while (store && commands < 1000) {
+        const auto numbers = store->keep(std::array{entry(101), entry(102), entry(103)}, noon);
+        if (!numbers) {
+          return numbers.error().code == Code::io ? commands : -1;
+        }
+        ++commands;
+      }
+      return -2;
+    });
+    told = child.said;
+  }
+  REQUIRE(told >= 0);
+  const auto store = opened(folder);
+  for (int i = 1; i <= 20; ++i) {
+    CHECK(count_of(store, i) == 1);
+  }
+  const auto expected = std::min(static_cast<std::size_t>(told), most_snapshots);
+  for (const int number : {101, 102, 103}) {
+    CHECK(count_of(store, number) == expected);
+  }
+}
+
+TEST_CASE("two processes keep their changes side by side, each with a number of its own") {
+  const Folder folder;
+  constexpr int commands = 30;
+  const auto work = [&](int number) {
+    auto store = try_open(folder);
+    for (int i = 0; store && i < commands; ++i) {
+      if (const auto numbers = store->keep(std::array{entry(number, i)}, noon); !numbers) {
+        return said(numbers);
+      }
+    }
+    return store ? 0 : said(store);
+  };
+  std::array<int, 2> ready{};
+  REQUIRE(pipe(ready.data()) == 0);
+  for (const int number : {1, 2}) {
+    const pid_t pid = fork();
+    if (pid == 0) {
+      const int result = work(number);
+      (void)!write(ready[1], &result, sizeof result);
+      _exit(0);
+    }
+    REQUIRE(pid > 0);
+  }
+  for (int i = 0; i < 2; ++i) {
+    int result = -1;
+    REQUIRE(read(ready[0], &result, sizeof result) == sizeof result);
+    CHECK(result == 0);
+    waitpid(-1, nullptr, 0);
+  }
+  const auto store = opened(folder);
+  std::set<std::int64_t> numbers;
+  for (const SnapshotEntry& each : all(store)) {
+    numbers.insert(each.number);
+  }
+  CHECK(numbers.size() == 2 * commands);
+  CHECK(store.last(unit(1)).value()->held.at(0x38) == commands - 1);
+}
+
+TEST_CASE("what a process told that was killed is there, as it was planned") {
+  const Folder folder;
+  Child child([&] {
+    auto store = try_open(folder);
+    return store ? said(store->keep(std::array{entry(1)}, noon)) : -1;
+  });
+  REQUIRE(child.said == 0);
+  child.end();
+  CHECK(opened(folder).last(unit(1)).value()->saved);
+}
