@@ -2,11 +2,10 @@
 # once (BLACTL_UNITY). A header is then read once for several files, which is most of the work.
 #
 # Files of one folder come together only with each other, so names that are local to a file must be
-# unique in its folder: scripts/tidy tells which are not. by_themselves.txt names the exceptions.
+# unique in its folder: scripts/tidy tells which are not.
 
 # More files a unit cost fewer headers, but leave a processor without work at the end.
 set(BLACTL_UNITY_BYTES 50000 CACHE STRING "Source in a unit, about")
-file(STRINGS ${CMAKE_CURRENT_LIST_DIR}/by_themselves.txt BLACTL_NOT_IN_UNITY REGEX "^[^#]")
 
 function(blactl_unity target)
   if(NOT BLACTL_UNITY)
@@ -21,7 +20,7 @@ function(blactl_unity target)
     cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} OUTPUT_VARIABLE path)
     file(RELATIVE_PATH name ${PROJECT_SOURCE_DIR} ${path})
     cmake_path(GET name PARENT_PATH folder)
-    if(NOT name MATCHES "^(src|tests)/" OR folder IN_LIST BLACTL_NOT_IN_UNITY)
+    if(NOT name MATCHES "^(src|tests)/")
       continue() # what is generated is by itself too
     endif()
     file(SIZE ${path} length)

@@ -3,11 +3,11 @@
 //
 //     struct WaitOptions { Duration wait = std::chrono::seconds(10); };
 //
-//     constexpr Option option_table[]{{.name = "--wait", .value = "SEC", .kind = Kind::seconds, …,
+//     constexpr Option wait_options[]{{.name = "--wait", .value = "SEC", .kind = Kind::seconds, …,
 //                                 .store = into<&WaitOptions::wait>}};
 //
-//     constinit const Command commands::wait{.name = "wait", …, .options = option_table,
-//                                            .action = action<execute>};
+//     constinit const Command commands::wait{.name = "wait", …, .options = wait_options,
+//                                            .action = action<WaitOptions, execute>};
 
 #include "blactl/base/text.hpp"
 #include "blactl/base/time.hpp"
@@ -171,12 +171,6 @@ template <class To> void assign(To& to, const Value& value) {
   }
 }
 
-template <class Function> struct ActionOf;
-
-template <class Options> struct ActionOf<Report (*)(const Options&, Context&)> {
-  using Type = Options;
-};
-
 } // namespace detail
 
 /// Stores a value in a member of an options struct, or in a member of that: into<&Set::times,
@@ -189,14 +183,11 @@ inline constexpr Store into{
     },
     detail::takes<typename detail::Last<decltype(first), decltype(further)...>::Value>()};
 
-/// The action of a function `Report function(const Options&, Context&)`.
-template <auto function>
+/// The action of a function; each command calls its own `execute`.
+template <class Options, Report (*function)(const Options&, Context&)>
 inline constexpr Action action{
-    []() -> std::shared_ptr<void> {
-      return std::make_shared<typename detail::ActionOf<decltype(function)>::Type>();
-    },
+    []() -> std::shared_ptr<void> { return std::make_shared<Options>(); },
     [](const void* options, Context& context) {
-      using Options = typename detail::ActionOf<decltype(function)>::Type;
       return function(*static_cast<const Options*>(options), context);
     }};
 

@@ -128,8 +128,8 @@ class ParamsReader {
 
 bool is_fleet_file(std::string_view text, const std::filesystem::path& file) {
   const std::size_t first = without_mark(text).find_first_not_of(" \t\r\n");
-  return file.extension() == ".json" || first == std::string_view::npos ||
-         without_mark(text)[first] == '{';
+  return file.extension() == ".json" ||
+         (first != std::string_view::npos && without_mark(text)[first] == '{');
 }
 
 } // namespace

@@ -94,7 +94,8 @@ class Campaign:
                 for index, commands in enumerate(episode.steps):
                     told = bench.run_at_once(self.blactl, folder, world, commands, options)
                     events, after = world.dump()
-                    step = truth.Step(before, events, after, episode.scenario, power_on, given)
+                    step = truth.Step(commands, before, events, after, episode.scenario, power_on,
+                                      given)
                     given = step.given
                     if check:
                         check(told, step)

@@ -67,7 +67,7 @@ def check_finding(finding, step):
 
 def shares_servo_id(step):
     """Whether two servos can have had the same one."""
-    held = [{moment[SERVO_ID] for moment in step.moments(serial)} - {0} for serial in step.after]
+    held = [{moment[SERVO_ID] for moment in step.moments(serial)} for serial in step.after]
     return any(one & other for i, one in enumerate(held) for other in held[:i])
 
 

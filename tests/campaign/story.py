@@ -224,9 +224,11 @@ def check_as_before(told):
         return
     if not (told.done or told.outcome.record.changes()):
         return
+    found = told.step.ram_at_first_contact(told.serial, told.outcome.record)
+    require(found, f"{told.serial}: its ROM could not be read")
     for address in told.step.saved_addresses(told.serial):
         told.require_held("rom", address, told.before["rom"][address])
-        told.require_held("ram", address, told.before["ram"][address])
+        told.require_held("ram", address, found[address])
 
 
 def check_saved(told):

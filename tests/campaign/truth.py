@@ -2,15 +2,17 @@
 
 # Between a frame in a servo's time and in a client's; less than the shortest start takes.
 TOLERANCE_S = 0.03
+OWN_NODE_IDS = {125, 126, 127}
 SETTLED_S = 3.0  # after this a servo that has started has sent its first NodeStatus, and some more
 
 
 class Step:
-    """One step of an episode. `before`, `after`: the state of every servo by its serial number;
+    """One step of an episode: `commands` at once. `before`, `after`: the state of every servo by its serial number;
     `events`: what happened to them between; `scenario`: what was to go wrong after `power_on`;
     `given`: the node IDs that servos were given before, and then those of this step, too."""
 
-    def __init__(self, before, events, after, scenario, power_on, given):
+    def __init__(self, commands, before, events, after, scenario, power_on, given):
+        self._commands = commands
         self.before, self.after = before, after
         self._events, self._scenario, self._power_on = events, scenario, power_on
         self.given_before, self.given = given, {**given, **dict(self.allocated())}
@@ -59,8 +61,11 @@ class Step:
         return any(node.get("allocates") for node in self._scenario.get("foreign", []))
 
     def commanders(self):
-        """The nodes that command servos all the time."""
-        return {node["node_id"] for node in self._scenario.get("foreign", []) if "commands" in node}
+        """The nodes that command servos."""
+        ours = OWN_NODE_IDS if any(command.words[0] == "characterize"
+                                   for command in self._commands) else set()
+        return ours | {node["node_id"] for node in self._scenario.get("foreign", [])
+                       if "commands" in node}
 
     def is_unhindered(self, serial):
         """Whether nothing was to go wrong that concerns a servo."""

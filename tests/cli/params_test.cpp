@@ -47,6 +47,14 @@ TEST_CASE("what export --params wrote is what the servo holds") {
   CHECK(same.err.empty());
 }
 
+TEST_CASE("an empty file holds no setting") {
+  for (const char* text : {"", "\n\n", "# saved by hand\n"}) {
+    CAPTURE(text);
+    check_error(one_servo().run({"diff", "-"}, {.stdin_text = text}), 2, "bad_file",
+                "no setting of a BLA servo");
+  }
+}
+
 TEST_CASE("diff compares the one servo with what either tool has saved") {
   for (const char* name : {"gui_tool.parm", "mission_planner.param"}) {
     CAPTURE(name);

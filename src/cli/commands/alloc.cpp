@@ -16,7 +16,7 @@
 namespace blactl::cli {
 namespace {
 
-constexpr Option option_table[]{
+constexpr Option alloc_options[]{
     {.name = "--once",
      .kind = Kind::flag,
      .help = {"end when nobody asks any more", "割当て要求がなくなったら終了"},
@@ -85,7 +85,9 @@ constexpr Option option_table[]{
 };
 
 /// What the command does; options that share none of them do not go together.
-enum Does : std::uint8_t { serve = 1, fix = 2, list = 4, forget = 8, write = 16, read = 32 };
+struct Does {
+  enum : std::uint8_t { serve = 1, fix = 2, list = 4, forget = 8, write = 16, read = 32 };
+};
 
 struct Given {
   bool is_given;
@@ -94,17 +96,17 @@ struct Given {
 };
 
 std::vector<Given> given(const AllocOptions& options, const Shared& shared) {
-  std::vector<Given> all{{options.makes_static, "--static", fix},
-                         {options.id.has_value(), "--id", fix},
-                         {shared.nodes.has_value(), "--node", fix},
-                         {options.once, "--once", serve},
-                         {options.count.has_value(), "--count", serve},
-                         {!options.range.empty(), "--range", serve},
-                         {!options.assign.empty(), "--assign", serve | fix},
-                         {options.list, "--list", list},
-                         {!options.forget.empty(), "--forget", forget},
-                         {!options.export_to.empty(), "--export", write},
-                         {!options.import_from.empty(), "--import", read}};
+  std::vector<Given> all{{options.makes_static, "--static", Does::fix},
+                         {options.id.has_value(), "--id", Does::fix},
+                         {shared.nodes.has_value(), "--node", Does::fix},
+                         {options.once, "--once", Does::serve},
+                         {options.count.has_value(), "--count", Does::serve},
+                         {!options.range.empty(), "--range", Does::serve},
+                         {!options.assign.empty(), "--assign", Does::serve | Does::fix},
+                         {options.list, "--list", Does::list},
+                         {!options.forget.empty(), "--forget", Does::forget},
+                         {!options.export_to.empty(), "--export", Does::write},
+                         {!options.import_from.empty(), "--import", Does::read}};
   std::erase_if(all, [](const Given& each) { return !each.is_given; });
   return all;
 }
@@ -118,7 +120,7 @@ std::optional<Error> refuse_together(const AllocOptions& options, const Shared& 
                      say<texts::alloc_one_thing_hint>(), std::nullopt};
       }
     }
-    if (one.does == fix && !options.makes_static) {
+    if (one.does == Does::fix && !options.makes_static) {
       return Error{Code::usage, say<texts::alloc_only_static>(one.option),
                    say<texts::alloc_only_static_hint>(), std::nullopt};
     }
@@ -163,8 +165,8 @@ constinit const Command commands::alloc{
     .traits = {.session = true},
     .help = {"give node IDs to servos that ask for one",
              "ノード ID を要求するサーボにノード ID を割り当てる"},
-    .options = option_table,
-    .action = action<execute>,
+    .options = alloc_options,
+    .action = action<AllocOptions, execute>,
 };
 
 } // namespace blactl::cli

@@ -34,7 +34,7 @@ struct ApplyOptions {
   RestartTimes times{};
 };
 
-constexpr Option option_table[]{
+constexpr Option apply_options[]{
     {.name = "--dry-run",
      .kind = Kind::flag,
      .help = {"change nothing; exit status 8 when something would be done",
@@ -82,7 +82,7 @@ constexpr Option option_table[]{
     restart_stagger<&ApplyOptions::times>,
 };
 
-constexpr Option argument_table[]{
+constexpr Option apply_arguments[]{
     {.name = "FILE",
      .kind = Kind::file,
      .required = true,
@@ -235,9 +235,9 @@ constinit const Command commands::apply{
     .traits = {.writes = true, .from_file = true, .session = true},
     .help = {"bring servos to a fleet file, proven after a restart",
              "フリートファイルの内容をサーボに設定 (再起動後に確認)"},
-    .options = option_table,
-    .arguments = argument_table,
-    .action = action<execute>,
+    .options = apply_options,
+    .arguments = apply_arguments,
+    .action = action<ApplyOptions, execute>,
 };
 
 } // namespace blactl::cli

@@ -21,7 +21,7 @@ struct CharacterizeOptions {
   std::string file{}; ///< empty: none is written
 };
 
-constexpr Option argument_table[]{
+constexpr Option characterize_arguments[]{
     {.name = "FILE",
      .kind = Kind::file,
      .help = {"where the facts go that `sim --facts` loads; `-`: stdout (default: a table only)",
@@ -207,8 +207,8 @@ constinit const Command commands::characterize{
     .traits = {.writes = true, .session = true},
     .help = {"measures on one servo what the specification leaves open, and restores it",
              "仕様書で不明な挙動を 1 台で測定し、元の状態に戻す"},
-    .arguments = argument_table,
-    .action = action<execute>,
+    .arguments = characterize_arguments,
+    .action = action<CharacterizeOptions, execute>,
 };
 
 } // namespace blactl::cli

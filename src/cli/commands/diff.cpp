@@ -22,7 +22,7 @@ struct DiffOptions {
   std::vector<std::string> files{};
 };
 
-constexpr Option argument_table[]{
+constexpr Option diff_arguments[]{
     {.name = "FILE",
      .kind = Kind::file,
      .repeat = Repeat::list,
@@ -152,8 +152,8 @@ constinit const Command commands::diff{
     .traits = {.session = true, .recordings = true},
     .help = {"servos against a fleet file, or file against file",
              "サーボとフリートファイル、またはファイル同士の比較"},
-    .arguments = argument_table,
-    .action = action<execute>,
+    .arguments = diff_arguments,
+    .action = action<DiffOptions, execute>,
 };
 
 } // namespace blactl::cli

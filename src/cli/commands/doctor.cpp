@@ -19,7 +19,7 @@ struct DoctorOptions {
   std::string report{};
 };
 
-constexpr Option option_table[]{
+constexpr Option doctor_options[]{
     {.name = "--fix",
      .kind = Kind::flag,
      .help =
@@ -78,8 +78,8 @@ constinit const Command commands::doctor{
     .traits = {.session = true, .recordings = true},
     .help = {"what is wrong with interface, bus and nodes, and what mends it",
              "インターフェース、バス、ノードの問題と対処"},
-    .options = option_table,
-    .action = action<execute>,
+    .options = doctor_options,
+    .action = action<DoctorOptions, execute>,
 };
 
 } // namespace blactl::cli

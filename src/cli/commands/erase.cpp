@@ -12,7 +12,7 @@ struct EraseOptions {
   RestartTimes times{};
 };
 
-constexpr Option option_table[]{
+constexpr Option erase_options[]{
     {.name = "--save",
      .kind = Kind::flag,
      .help = {"then RAM to ROM", "続けて RAM を ROM に保存"},
@@ -40,8 +40,8 @@ constinit const Command commands::erase{
     .traits = {.writes = true, .session = true},
     .help = {"RAM to factory defaults, IDs included (ROM only with --save)",
              "RAM を ID も含めて初期値に戻す (ROM は --save 指定時のみ)"},
-    .options = option_table,
-    .action = action<execute>,
+    .options = erase_options,
+    .action = action<EraseOptions, execute>,
 };
 
 } // namespace blactl::cli

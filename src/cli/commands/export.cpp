@@ -28,7 +28,7 @@ struct ExportOptions {
   [[nodiscard]] bool to_stdout() const { return file.empty() || file == "-"; }
 };
 
-constexpr Option option_table[]{
+constexpr Option export_options[]{
     {.name = "--recipe",
      .kind = Kind::flag,
      .help = {"of one servo, for others of its model: without servo_id and static_node_id",
@@ -42,7 +42,7 @@ constexpr Option option_table[]{
      .store = into<&ExportOptions::params>},
 };
 
-constexpr Option argument_table[]{
+constexpr Option export_arguments[]{
     {.name = "FILE",
      .kind = Kind::file,
      .help = {"where to; it is replaced only when everything was read (default `-`: stdout)",
@@ -166,9 +166,9 @@ constinit const Command commands::export_servos{
     .traits = {.session = true, .recordings = true},
     .help = {"the configuration of servos as a file for apply",
              "サーボの設定を apply 用のファイルに出力"},
-    .options = option_table,
-    .arguments = argument_table,
-    .action = action<execute>,
+    .options = export_options,
+    .arguments = export_arguments,
+    .action = action<ExportOptions, execute>,
 };
 
 } // namespace blactl::cli

@@ -25,7 +25,7 @@ struct FaultsOptions {
 
 constexpr std::array<std::string_view, 3> levels{"notice", "warning", "failure"}; // as bla::Level
 
-constexpr Option option_table[]{
+constexpr Option faults_options[]{
     {.name = "--level",
      .value = "L",
      .kind = Kind::word,
@@ -90,8 +90,8 @@ constinit const Command commands::faults{
     .name = "faults",
     .traits = {.session = true, .recordings = true},
     .help = {"what is wrong with servos, and what to do", "障害・警告・通知の内容と対処"},
-    .options = option_table,
-    .action = action<execute>,
+    .options = faults_options,
+    .action = action<FaultsOptions, execute>,
 };
 
 } // namespace blactl::cli

@@ -23,7 +23,7 @@ struct GetOptions {
   bool changed = false;
 };
 
-constexpr Option option_table[]{
+constexpr Option get_options[]{
     {.name = "--group",
      .value = "G",
      .kind = Kind::group,
@@ -43,7 +43,7 @@ constexpr Option option_table[]{
      .store = into<&GetOptions::changed>},
 };
 
-constexpr Option argument_table[]{
+constexpr Option get_arguments[]{
     {.name = "PARAM",
      .kind = Kind::parameter,
      .repeat = Repeat::list,
@@ -144,9 +144,9 @@ constinit const Command commands::get{
     .name = "get",
     .traits = {.tables = true, .session = true, .recordings = true},
     .help = {"read parameters", "パラメータの読出し"},
-    .options = option_table,
-    .arguments = argument_table,
-    .action = action<execute>,
+    .options = get_options,
+    .arguments = get_arguments,
+    .action = action<GetOptions, execute>,
 };
 
 } // namespace blactl::cli

@@ -20,7 +20,7 @@ struct ModelsOptions {
   std::string group{};
 };
 
-constexpr Option option_table[]{
+constexpr Option models_options[]{
     {.name = "--group",
      .value = "G",
      .kind = Kind::group,
@@ -32,7 +32,7 @@ constexpr Option option_table[]{
      .store = into<&ModelsOptions::group>},
 };
 
-constexpr Option argument_table[]{
+constexpr Option models_arguments[]{
     {.name = "MODEL",
      .kind = Kind::model_or_parameter,
      .help = {"a model or its beginning: BLA21-12U; all: every model side by side; or a PARAM",
@@ -134,9 +134,9 @@ constinit const Command commands::models{
     .name = "models",
     .traits = {.offline = true},
     .help = {"what the profiles know, without any servo", "プロファイルの内容を表示 (サーボ不要)"},
-    .options = option_table,
-    .arguments = argument_table,
-    .action = action<execute>,
+    .options = models_options,
+    .arguments = models_arguments,
+    .action = action<ModelsOptions, execute>,
 };
 
 } // namespace blactl::cli

@@ -39,7 +39,7 @@ struct PwmOptions {
   }
 };
 
-constexpr Option option_table[]{
+constexpr Option pwm_config_options[]{
     {.name = "--neutral",
      .value = "US",
      .kind = Kind::text,
@@ -374,8 +374,8 @@ constinit const Command commands::pwm_config{
     .traits = {.session = true, .recordings = true},
     .help = {"how PWM pulses become commands: show, plot, change",
              "PWM 入力と指令値の対応を表示・変更"},
-    .options = option_table,
-    .action = action<execute>,
+    .options = pwm_config_options,
+    .action = action<PwmOptions, execute>,
 };
 
 } // namespace blactl::cli

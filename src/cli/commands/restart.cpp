@@ -10,7 +10,7 @@ struct RestartOptions {
   RestartTimes times{};
 };
 
-constexpr Option option_table[]{
+constexpr Option restart_options[]{
     restart_wait<&RestartOptions::times>,
     restart_stagger<&RestartOptions::times>,
 };
@@ -28,8 +28,8 @@ constinit const Command commands::restart{
     .name = "restart",
     .traits = {.writes = true, .session = true},
     .help = {"restart: RAM from ROM", "再起動 (RAM は ROM の内容に戻る)"},
-    .options = option_table,
-    .action = action<execute>,
+    .options = restart_options,
+    .action = action<RestartOptions, execute>,
 };
 
 } // namespace blactl::cli

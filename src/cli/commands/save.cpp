@@ -10,7 +10,7 @@ struct SaveOptions {
   RestartTimes times{};
 };
 
-constexpr Option option_table[]{
+constexpr Option save_options[]{
     restart_wait<&SaveOptions::times>,
     restart_stagger<&SaveOptions::times>,
 };
@@ -28,8 +28,8 @@ constinit const Command commands::save{
     .traits = {.writes = true, .session = true},
     .help = {"RAM to ROM: restarts the servo, and reads again",
              "RAM を ROM に保存 (サーボの再起動後に再読出し)"},
-    .options = option_table,
-    .action = action<execute>,
+    .options = save_options,
+    .action = action<SaveOptions, execute>,
 };
 
 } // namespace blactl::cli

@@ -22,7 +22,7 @@ struct ScanOptions {
   std::optional<std::uint64_t> expect{};
 };
 
-constexpr Option option_table[]{
+constexpr Option scan_options[]{
     {.name = "--listen",
      .value = "SEC",
      .kind = Kind::seconds,
@@ -147,8 +147,8 @@ constinit const Command commands::scan{
     .name = "scan",
     .traits = {.tables = true, .session = true, .recordings = true},
     .help = {"find every node and identify BLA servos", "全ノードを検索し、BLA サーボを識別"},
-    .options = option_table,
-    .action = action<execute>,
+    .options = scan_options,
+    .action = action<ScanOptions, execute>,
 };
 
 } // namespace blactl::cli

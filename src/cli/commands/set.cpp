@@ -15,7 +15,7 @@ struct SetOptions {
   RestartTimes times{};
 };
 
-constexpr Option option_table[]{
+constexpr Option set_options[]{
     {.name = "--save",
      .kind = Kind::flag,
      .help = {"then RAM to ROM: restarts the servo, and reads again",
@@ -30,7 +30,7 @@ constexpr Option option_table[]{
     restart_stagger<&SetOptions::times>,
 };
 
-constexpr Option argument_table[]{
+constexpr Option set_arguments[]{
     {.name = "PARAM=VALUE",
      .kind = Kind::assignment,
      .repeat = Repeat::list,
@@ -69,9 +69,9 @@ constinit const Command commands::set{
     .traits = {.writes = true, .session = true},
     .help = {"check against the servo's model, write, read back",
              "機種の仕様と照合してから書込み、読み出して確認"},
-    .options = option_table,
-    .arguments = argument_table,
-    .action = action<execute>,
+    .options = set_options,
+    .arguments = set_arguments,
+    .action = action<SetOptions, execute>,
 };
 
 } // namespace blactl::cli

@@ -30,7 +30,7 @@ struct SimOptions {
 
 constexpr std::array<std::string_view, 2> clocks{"real", "virtual"}; // in the order of sim::Clock
 
-constexpr Option option_table[]{
+constexpr Option sim_options[]{
     {.name = "--facts",
      .value = "FILE",
      .kind = Kind::file,
@@ -51,7 +51,7 @@ constexpr Option option_table[]{
      .store = into<&SimOptions::clock>},
 };
 
-constexpr Option argument_table[]{
+constexpr Option sim_arguments[]{
     {.name = "SCENARIO",
      .kind = Kind::file,
      .help = {"scenario file (default: three servos)", "シナリオファイル (省略時: サーボ 3 台)"},
@@ -276,9 +276,9 @@ constinit const Command commands::sim{
     .traits = {.streams = true},
     .help = {"simulated servos: serves the sim: bus, or joins a real interface with -i",
              "模擬サーボ: sim: バスを提供、または -i で実際のバスに参加"},
-    .options = option_table,
-    .arguments = argument_table,
-    .action = action<execute>,
+    .options = sim_options,
+    .arguments = sim_arguments,
+    .action = action<SimOptions, execute>,
 };
 
 } // namespace blactl::cli

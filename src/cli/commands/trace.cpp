@@ -37,7 +37,7 @@ struct TraceOptions {
 
 constexpr std::array<std::string_view, 3> kinds{"message", "request", "response"};
 
-constexpr Option option_table[]{
+constexpr Option trace_options[]{
     {.name = "--type",
      .value = "T",
      .kind = Kind::text,
@@ -77,7 +77,7 @@ constexpr Option option_table[]{
      .store = into<&TraceOptions::absolute>},
 };
 
-constexpr Option argument_table[]{
+constexpr Option trace_arguments[]{
     {.name = "FILE",
      .kind = Kind::file,
      .help = {"a log of candump -l, or - (default: the interface)",
@@ -381,9 +381,9 @@ constinit const Command commands::trace{
     .traits = {.streams = true, .session = true, .recordings = true},
     .help = {"every DroneCAN transfer decoded, live or from a candump log; sends nothing",
              "全 DroneCAN 転送をデコードして表示 (バスまたは candump ログ。送信なし)"},
-    .options = option_table,
-    .arguments = argument_table,
-    .action = action<execute>,
+    .options = trace_options,
+    .arguments = trace_arguments,
+    .action = action<TraceOptions, execute>,
 };
 
 } // namespace blactl::cli

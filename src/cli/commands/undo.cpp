@@ -35,7 +35,7 @@ struct UndoOptions {
   RestartTimes times{};
 };
 
-constexpr Option option_table[]{
+constexpr Option undo_options[]{
     {.name = "--list",
      .kind = Kind::flag,
      .help = {"show the changes that are recorded, without a bus", "変更履歴を表示 (バス不要)"},
@@ -215,8 +215,8 @@ constinit const Command commands::undo{
     .name = "undo",
     .traits = {.writes = true, .from_history = true, .session = true},
     .help = {"back to what servos held before the last change", "直前の変更を元に戻す"},
-    .options = option_table,
-    .action = action<execute>,
+    .options = undo_options,
+    .action = action<UndoOptions, execute>,
 };
 
 } // namespace blactl::cli

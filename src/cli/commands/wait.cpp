@@ -22,7 +22,7 @@ struct WaitOptions {
   Duration wait = std::chrono::seconds(10);
 };
 
-constexpr Option option_table[]{
+constexpr Option wait_options[]{
     {.name = "--wait",
      .value = "SEC",
      .kind = Kind::seconds,
@@ -120,8 +120,8 @@ constinit const Command commands::wait{
     .traits = {.session = true},
     .help = {"until the servos are there and operational",
              "サーボがバス上で動作状態になるまで待つ"},
-    .options = option_table,
-    .action = action<execute>,
+    .options = wait_options,
+    .action = action<WaitOptions, execute>,
 };
 
 } // namespace blactl::cli

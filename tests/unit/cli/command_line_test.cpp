@@ -132,7 +132,7 @@ constinit const Command sample_command{.name = "sample",
                                        .help = {"", ""},
                                        .options = option_table,
                                        .arguments = argument_table,
-                                       .action = action<nothing>};
+                                       .action = action<Sample, nothing>};
 
 /// What `sample` gets from these arguments.
 std::expected<Sample, std::vector<Error>> sample(Arguments arguments) {
