@@ -273,19 +273,11 @@ Result<void> Discovery::look_for_twins(const std::vector<const Member*>& members
   return session_.live_until(session_.now() + RunProof::twin_time);
 }
 
-/// The unit was heard under another ID since it was heard under this one.
-bool Discovery::has_moved(const Member& member) const {
-  return member.info && std::ranges::any_of(session_.roster().members(), [&](const auto& entry) {
-           const Member& other = entry.second;
-           return other.id != member.id && other.is_unit(member.info->unique_id) &&
-                  other.first_heard > member.last_heard;
-         });
-}
-
 std::vector<const Member*> Discovery::meant(const Targets& targets) const {
   std::vector<const Member*> members;
   for (const auto& [id, member] : session_.roster().members()) {
-    if (targets.mean(member, profiles_) && session_.roster().heard(id) && !has_moved(member)) {
+    if (targets.mean(member, profiles_) && session_.roster().heard(id) &&
+        !session_.roster().has_moved(member)) {
       members.push_back(&member);
     }
   }

@@ -34,7 +34,7 @@ void find_shared(const Roster& roster, Code code,
                  std::vector<Conflict>& conflicts) {
   std::map<std::int64_t, std::vector<NodeId>> holders;
   for (const auto& [id, member] : roster.members()) {
-    const bool is_one = member.is_servo && !roster.is_doubled(id);
+    const bool is_one = member.is_servo && !roster.is_doubled(id) && !roster.has_moved(member);
     if (const auto number = is_one ? key(member) : std::nullopt) {
       holders[*number].push_back(id);
     }
@@ -186,7 +186,8 @@ Findings gather(const Roster& roster, const Targets& targets, const bla::Profile
                 Time now, const std::set<NodeId>& gone) {
   Findings findings{&roster, {}, {}};
   for (const auto& [id, member] : roster.members()) {
-    if (!roster.heard(id) || (targets.given && !targets.mean(member, profiles))) {
+    if (!roster.heard(id) || roster.has_moved(member) ||
+        (targets.given && !targets.mean(member, profiles))) {
       continue;
     }
     if (roster.is_doubled(id)) {

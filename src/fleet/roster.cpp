@@ -132,6 +132,14 @@ void Roster::learn_static_node_id(NodeId id, std::optional<std::int64_t> static_
   known(id).static_node_id = static_node_id;
 }
 
+bool Roster::has_moved(const Member& member) const {
+  return member.info && std::ranges::any_of(members_, [&](const auto& entry) {
+           const Member& other = entry.second;
+           return other.id != member.id && other.is_unit(member.info->unique_id) &&
+                  other.info_at > member.last_heard;
+         });
+}
+
 const Member* Roster::find(NodeId id) const {
   const auto it = members_.find(id);
   return it != members_.end() ? &it->second : nullptr;

@@ -147,6 +147,9 @@ class Roster {
 
   [[nodiscard]] const std::map<dronecan::NodeId, Member>& members() const { return members_; }
 
+  /// Since this member was heard last, its unit said under another ID who it is.
+  [[nodiscard]] bool has_moved(const Member& member) const;
+
   [[nodiscard]] bool heard(dronecan::NodeId id) const { return heard_[id.value()]; }
 
   /// Two units use this ID, as far as heard.

@@ -105,6 +105,27 @@ TEST_CASE("a conflict is told even if -n names only one of the two") {
   CHECK(bus.findings("11").conflicts.size() == 1);
 }
 
+TEST_CASE("a servo that has another node ID now is one servo") {
+  Bus bus;
+  const auto servo_as = [&bus](std::uint8_t id) {
+    const GetNodeInfo::Response info{.unique_id = {7}};
+    Servo servo = bla21(id);
+    servo.servo_id = 3;
+    bus.hear(id);
+    bus.roster.learn(NodeId(id), info, bus.now);
+    bus.roster.learn(servo, info);
+    bus.now += 100ms;
+  };
+  servo_as(34);
+  servo_as(61);
+  CHECK(ids(bus.findings()) == std::vector{61});
+  CHECK(bus.findings().conflicts.empty());
+  // It goes on under its old ID: two units claim to be this one.
+  bus.hear(34);
+  CHECK(ids(bus.findings()) == std::vector{34, 61});
+  CHECK(bus.findings().conflicts.size() == 1);
+}
+
 TEST_CASE("two servos with one static node ID will collide after a restart") {
   Bus bus;
   bus.servo(11, 1, 20);
