@@ -7,12 +7,12 @@ namespace blactl::texts {
 
 inline constexpr Text export_json_needs_file{
     "--json tells what became of FILE: both would stand on stdout",
-    "--json は FILE の書込み結果を出力します (どちらも標準出力になります)"};
+    "--json の結果とエクスポート内容がどちらも標準出力になるため、実行できません"};
 inline constexpr Text export_json_needs_file_hint{
     "give a file: blactl export fleet.json --json; or leave --json out",
     "ファイルを指定するか (blactl export fleet.json --json)、--json を外して下さい"};
 inline constexpr Text export_of_one{"{} makes a file of one servo, not of {}",
-                                    "{} の対象は 1 台のサーボです ({} 台指定)"};
+                                    "{} の対象は 1 台だけです (現在の対象: {} 台)"};
 inline constexpr Text export_of_one_hint{"name it: blactl export {} -n {}",
                                          "対象を指定: blactl export {} -n {}"};
 inline constexpr Text export_one_form{"--recipe and --params are two forms of one file",
@@ -22,14 +22,14 @@ inline constexpr Text export_has_faults{"apply would refuse what was exported: {
                                         "出力した内容は apply では受け付けられません: {}"};
 inline constexpr Text export_written{"{} written: {} servos\n", "{} に {} 台分を書き込みました\n"};
 inline constexpr Text export_not_written{"{} is as it was: not everything was read",
-                                         "{} は変更していません (読み出せない項目があります)"};
+                                         "{} は変更していません (読み出せなかった項目があるため)"};
 inline constexpr Text fleet_entry_at{"{}  node {}", "{}  ノード {}"};
 inline constexpr Text fleet_different{"{} of {} settings differ", "{1} 項目中 {0} 項目が相違"};
 inline constexpr Text fleet_unchanged{"as in the file ({} settings)", "ファイルと一致 ({} 項目)"};
 inline constexpr Text fleet_missing{"not there", "見つかりません"};
-inline constexpr Text fleet_extra{"in no entry of the file", "ファイルに項目がありません"};
+inline constexpr Text fleet_extra{"in no entry of the file", "このサーボはファイルにありません"};
 inline constexpr Text fleet_skipped{"left out (-n)", "対象外 (-n)"};
-inline constexpr Text fleet_not_compared{"not compared", "比較できません"};
+inline constexpr Text fleet_not_compared{"not compared", "未比較"};
 inline constexpr Text fleet_says_nothing{"-", "-"};
 inline constexpr Text fleet_column_servo{"SERVO", "サーボ"};
 inline constexpr Text fleet_column_file{"FILE", "ファイル"};

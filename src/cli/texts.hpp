@@ -210,14 +210,14 @@ inline constexpr Text silent_log_hint{
     "{0} holds nothing that a DroneCAN node said: is it the right log? blactl trace {0}",
     "{0} には DroneCAN ノードの送信がありません。正しいログか確認して下さい: blactl trace {0}"};
 inline constexpr Text silent_file_hint{"{} holds no entry of one servo: blactl export writes them",
-                                       "{} にサーボ 1 台の項目がありません。作成するには: "
+                                       "{} にサーボ 1 台のエントリがありません。作成するには: "
                                        "blactl export"};
 inline constexpr Text file_entries_of_many{
     "entries that mean every servo of a model, and none in particular, are passed over: {}",
-    "機種全体の設定で特定のサーボを指さない項目を無視しました: {}"};
+    "機種全体の設定で特定のサーボを指さないエントリを無視しました: {}"};
 inline constexpr Text file_without_node_ids{
     "entries that do not tell a node ID, and the number that messages call them by: {}",
-    "ノード ID の無い項目 (括弧内はメッセージで使う番号): {}"};
+    "ノード ID の無いエントリ (括弧内はメッセージで使う番号): {}"};
 inline constexpr Text file_not_recorded_hint{
     "a fleet file tells of settings, and of who a servo is; the rest only the servo itself does: "
     "-i can0",

@@ -37,7 +37,7 @@ inline constexpr Text undo_nothing_at_all{"no change of a servo is recorded",
                                           "サーボの変更履歴がありません"};
 inline constexpr Text undo_nothing_at_all_hint{
     "each user has a record of their own, and -i sim: has one, too",
-    "変更履歴はユーザーごと、また -i sim: では別に保存されます"};
+    "変更履歴はユーザーごとに保存されます (-i sim: の履歴は別です)"};
 inline constexpr Text undo_list_alone{"--list goes with neither -n nor --dry-run nor --no-save",
                                       "--list は -n、--dry-run、--no-save と同時に指定できません"};
 inline constexpr Text undo_list_alone_hint{"it lists all changes: blactl undo --list",
@@ -48,7 +48,7 @@ inline constexpr Text undo_column_time{"TIME", "日時"};
 inline constexpr Text undo_column_unit{"UNIQUE ID", "固有 ID"};
 inline constexpr Text undo_column_command{"COMMAND", "コマンド"};
 inline constexpr Text undo_column_count{"SETTINGS", "項目数"};
-inline constexpr Text undo_column_saved{"CHANGED IN", "変更先"};
+inline constexpr Text undo_column_saved{"CHANGED IN", "書込み先"};
 inline constexpr Text undo_in_ram{"RAM", "RAM"};
 inline constexpr Text undo_in_rom{"RAM and ROM", "RAM と ROM"};
 

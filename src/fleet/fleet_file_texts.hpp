@@ -23,31 +23,31 @@ inline constexpr Text fleet_empty_match{
 inline constexpr Text fleet_no_name{"\"name\" must not be empty", "\"name\" が空です"};
 inline constexpr Text fleet_id_of_many{
     "{} for all servos of a model: match one servo by unique_id or serial_number",
-    "{} が同じ機種のすべてのサーボに与えられます。unique_id か serial_number で 1 台を"
+    "{} が同じ機種のすべてのサーボで同じ値になります。unique_id か serial_number で 1 台を"
     "指定して下さい"};
 inline constexpr Text fleet_not_found_again{
     "this changes the {} that the entry finds its servo by: a second run would hit another one "
     "or none; match by unique_id or serial_number",
-    "この項目がサーボの照合に使う {} を変更します。2 回目の実行では別のサーボに一致するか、"
+    "このエントリがサーボの照合に使う {} を変更します。2 回目の実行では別のサーボに一致するか、"
     "一致しなくなります。unique_id か serial_number で照合して下さい"};
 inline constexpr Text fleet_name_twice{"this name is also in line {}",
                                        "この名前は {} 行目にもあります"};
 inline constexpr Text fleet_servo_twice{"the entry in line {} means the same servo",
-                                        "{} 行目の項目も同じサーボを指しています"};
+                                        "{} 行目のエントリも同じサーボを指しています"};
 inline constexpr Text fleet_id_twice{"{} {} is also given by the entry in line {}",
-                                     "{} {} は {} 行目の項目にもあります"};
+                                     "{} {} は {} 行目のエントリにもあります"};
 inline constexpr Text fleet_entry_means_several{
     "the entry \"{}\" means several servos: nodes {}",
-    "項目 \"{}\" が複数のサーボに一致します: ノード {}"};
+    "エントリ \"{}\" が複数のサーボに一致します: ノード {}"};
 inline constexpr Text fleet_entry_means_several_hint{
     "match by unique_id, which no other servo has: blactl scan shows it",
     "固有 ID (unique_id) で照合して下さい (確認: blactl scan)"};
 inline constexpr Text fleet_servo_meant_twice{
     "node {} is meant by two entries: \"{}\" and \"{}\"",
-    "ノード {} が 2 つの項目に一致します: \"{}\" と \"{}\""};
+    "ノード {} が 2 つのエントリに一致します: \"{}\" と \"{}\""};
 inline constexpr Text fleet_passing_id{
     "the entry \"{0}\" finds node {1} by a node ID that the servo has only for now",
-    "項目 \"{0}\" はノード {1} を一時的なノード ID で照合しています"};
+    "エントリ \"{0}\" はノード {1} を一時的なノード ID で照合しています"};
 inline constexpr Text fleet_passing_id_hint{
     "match by unique_id or serial_number, or make the ID static: blactl alloc --static",
     "unique_id か serial_number で照合するか、ID を固定して下さい: blactl alloc --static"};

@@ -23,7 +23,7 @@ inline constexpr Text json_duplicate{"this key occurs twice; it is also in line 
 inline constexpr Text json_integer_too_big{"{} does not fit in 64 bits",
                                            "{} は 64 bit に収まりません"};
 inline constexpr Text json_wrong_kind{"must be {}, not {}",
-                                      "{} でなければなりません ({} になっています)"};
+                                      "{}でなければなりません ({}になっています)"};
 inline constexpr Text json_missing{"\"{}\" is missing", "\"{}\" がありません"};
 inline constexpr Text json_unknown{"this key is not known; known here: {}",
                                    "不明なキーです。ここで使えるキー: {}"};
@@ -39,8 +39,9 @@ inline constexpr Text json_more_faults{"… and {} more", "… 他に {} 件"};
 inline constexpr Text json_hint{"correct the file and try again",
                                 "ファイルを修正してもう一度実行して下さい"};
 
-inline constexpr Text kind_null{"null", "null"};
-inline constexpr Text kind_boolean{"true or false", "true または false"};
+// In Japanese each ends in a Japanese character: no blank follows it in the sentence.
+inline constexpr Text kind_null{"null", "null 値"};
+inline constexpr Text kind_boolean{"true or false", "true または false の値"};
 inline constexpr Text kind_integer{"an integer", "整数"};
 inline constexpr Text kind_number{"a number", "数値"};
 inline constexpr Text kind_string{"a string", "文字列"};

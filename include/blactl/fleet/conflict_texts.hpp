@@ -6,7 +6,7 @@
 namespace blactl::texts {
 
 inline constexpr Text doubled_static_id{"nodes {} have the same static node ID {}",
-                                        "ノード {} の UAVCAN ノード ID 設定が {} で重複しています"};
+                                        "ノード {} の固定ノード ID が {} で重複しています"};
 inline constexpr Text doubled_servo_id{"nodes {} have the same servo ID {}",
                                        "ノード {} のサーボ ID が {} で重複しています"};
 inline constexpr Text doubled_target{"two units use node ID {}",
@@ -19,7 +19,7 @@ inline constexpr Text id_given_is_taken{
 };
 inline constexpr Text id_given_will_be_taken{
     "node {} would get node ID {}, which node {} has, or gets once it is saved and restarts",
-    "ノード {} に設定されるノード ID {} は、ノード {} の (または保存・再起動後の) ID と重複します",
+    "ノード {} に設定されるノード ID {} は、ノード {} の現在または保存・再起動後の ID と重複します",
 };
 inline constexpr Text servo_id_given_is_taken{
     "node {} would have servo ID {}, which node {} has",
@@ -29,7 +29,7 @@ inline constexpr Text servo_id_taken_hint{"see who has which: blactl get -n all 
                                           "各サーボの ID を確認: blactl get -n all servo_id"};
 inline constexpr Text servo_id_for_several{
     "one servo ID for {} servos: a command for one would move all of them",
-    "{} 台に同じサーボ ID を設定すると、一つの指令で全てが動きます",
+    "{} 台に同じサーボ ID を設定すると、一つの指令ですべてが動きます",
 };
 inline constexpr Text doubled_meanwhile_hint{
     "one of them, or both, may have taken what was sent: connect one of them alone, give it "
@@ -39,7 +39,7 @@ inline constexpr Text doubled_meanwhile_hint{
     "を変更し、両方の設定を確認して下さい",
 };
 inline constexpr Text doubled_target_hint{"connect one of them alone and give it another ID",
-                                          "1 台ずつ接続して別の ID を設定して下さい"};
+                                          "1 台だけ接続して別の ID を設定して下さい"};
 inline constexpr Text armed{"node {} says that the vehicle is armed: nothing is written",
                             "ノード {} が ARM 状態を通知しているため書き込みません"};
 inline constexpr Text armed_hint{"disarm it first", "先に DISARM して下さい"};
@@ -53,7 +53,7 @@ inline constexpr Text node_id_is_ours_hint{
 inline constexpr Text node_id_in_use_hint{"see which IDs are taken: blactl scan",
                                           "使用中の ID を確認: blactl scan"};
 inline constexpr Text node_id_is_ours{"static_node_id={} is the node ID of this process",
-                                      "static_node_id={} はこのプロセスのノード ID です"};
+                                      "static_node_id={} は blactl の自ノード ID と重複します"};
 inline constexpr Text one_id_for_several{
     "one static node ID for {} servos: they would collide after a restart",
     "{} 台のサーボに同じ固定ノード ID を設定すると再起動後に重複します",
@@ -66,11 +66,11 @@ inline constexpr Text doubled_servo_id_hint{
 inline constexpr Text shared_servo_id_hint{
     "nodes {} each need another ID: blactl set -n {} servo_id=ID --save",
     "ノード {} にそれぞれ別の ID を設定して下さい: blactl set -n {} servo_id=ID --save"};
-inline constexpr Text another_unit{"another unit", "別のユニット"};
+inline constexpr Text another_unit{"another unit", "別の機器"};
 inline constexpr Text allocates{"node {} allocates node IDs",
                                 "ノード {} がノード ID を割り当てています"};
 inline constexpr Text commands_servos{"node {} commands servos",
-                                      "ノード {} がサーボに動作指令しています"};
+                                      "ノード {} がサーボに動作指令を送信しています"};
 inline constexpr Text says_armed{"node {} says armed", "ノード {} は ARM 状態です"};
 
 } // namespace blactl::texts

@@ -63,7 +63,8 @@ inline constexpr Text id_given_is_kept_hint{
     "使用中の ID を確認: blactl scan; blactl alloc --list"};
 inline constexpr Text id_given_is_held{
     "node {} would get node ID {}, which node {} (uid:{}) has or gets with its next restart",
-    "ノード {} に設定されるノード ID {} は、ノード {} (uid:{}) の (再起動後の) ID と重複します"};
+    "ノード {} に設定されるノード ID {} は、ノード {} (uid:{}) の現在または再起動後の ID "
+    "と重複します"};
 inline constexpr Text id_given_is_held_hint{
     "give that unit another ID at the same time: in the file, or with alloc --assign {}=ID",
     "その機器にも同時に別の ID を指定して下さい (ファイル内、または alloc --assign {}=ID)"};

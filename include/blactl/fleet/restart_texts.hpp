@@ -42,11 +42,11 @@ inline constexpr Text changed_before_save{
 };
 inline constexpr Text saved_not_verified{
     "node {} was sent SAVE and is back, but its values were not read again",
-    "ノード {} は SAVE 後に復帰しましたが、値を再確認していません",
+    "ノード {} は SAVE 後に復帰しましたが、値を再読出ししていません",
 };
 inline constexpr Text erased_not_verified{
     "node {}: ERASE was sent, and its values were not read again: what its RAM holds is not known",
-    "ノード {}: ERASE を送信しましたが、値を再確認していません。RAM の内容は不明です",
+    "ノード {}: ERASE を送信しましたが、値を再読出ししていません。RAM の内容は不明です",
 };
 inline constexpr Text erased_not_saved{
     "node {}: its RAM holds factory defaults, its ROM was not written: a SAVE would keep them",
@@ -113,7 +113,7 @@ inline constexpr Text back_not_operational{
     "ノード {} は再起動後に応答していますが、まだ動作状態ではありません"};
 inline constexpr Text heard_not_answering{
     "node {} is heard, but does not answer any more: whether it carried out {} is not known",
-    "ノード {} は受信できていますが応答しません。{} が実行されたかどうかは不明です"};
+    "ノード {} の送信は受信していますが、要求に応答しません。{} が実行されたかどうかは不明です"};
 inline constexpr Text restarted_not_back{"node {} confirmed the restart and did not come back",
                                          "ノード {} は再起動に応答後、復帰しません"};
 inline constexpr Text unconfirmed_not_back{
@@ -130,7 +130,7 @@ inline constexpr Text not_back_hint{
 inline constexpr Text waits_for_id_hint{
     "it asks for a node ID and nobody gives it one: start the allocator of this bus again, or "
     "type: blactl alloc --once",
-    "ノード ID の割当てを要求していますが、割り当てるノードがありません。割当て元を再開するか、"
+    "ノード ID の割当てを要求していますが、応じるアロケータがありません。アロケータを再開するか、"
     "blactl alloc --once を実行して下さい",
 };
 inline constexpr Text former_id_in_use_hint{
@@ -166,7 +166,7 @@ inline constexpr Text question_restart_hard{
 inline constexpr Text question_erase{
     "node {}: everything to factory defaults, servo_id {} -> 0, static_node_id {} -> 0; "
     "commands become 0 deg\n",
-    "ノード {}: 全ての設定を初期値に戻します。servo_id {} -> 0, static_node_id {} -> 0。"
+    "ノード {}: すべての設定を初期値に戻します。servo_id {} -> 0, static_node_id {} -> 0。"
     "指令値は 0° になります\n",
 };
 inline constexpr Text question_erase_keep{

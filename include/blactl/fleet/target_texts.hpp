@@ -50,18 +50,18 @@ inline constexpr Text bad_target_id{"-n {}: node IDs are 1 to 127",
 inline constexpr Text bad_target_id_hint{"see who is there: blactl scan",
                                          "接続中のノードを確認: blactl scan"};
 inline constexpr Text bad_target_range{"-n {}: the range goes downwards",
-                                       "-n {}: 範囲の前後が逆です"};
+                                       "-n {}: 範囲の大小が逆です"};
 inline constexpr Text bad_target_range_hint{"type -n {}-{}", "-n {}-{} と入力して下さい"};
 inline constexpr Text ambiguous_target{"-n {}: several servos have a unique ID that begins so: {}",
-                                       "-n {}: 固有 ID が該当するサーボが複数あります: {}"};
+                                       "-n {}: 固有 ID の先頭が一致するサーボが複数あります: {}"};
 inline constexpr Text ambiguous_target_hint{"type more of its digits",
-                                            "固有 ID の桁を増やして下さい"};
+                                            "固有 ID をより多くの桁で指定して下さい"};
 inline constexpr Text several_servos{"several servos are on the bus: {}",
                                      "バス上に複数のサーボがあります: {}"};
 inline constexpr Text several_servos_hint{"say which: -n {}", "-n {} のように指定して下さい"};
 inline constexpr Text wait_not_operational{"node {} was heard but not operational after {} s",
                                            "ノード {} は {} 秒待っても動作状態になりません"};
 inline constexpr Text wait_not_heard{"node {} was not heard within {} s",
-                                     "ノード {} は {} 秒以内に見つかりません"};
+                                     "ノード {} は {} 秒以内に見つかりませんでした"};
 
 } // namespace blactl::texts

@@ -7,19 +7,19 @@ namespace blactl::texts {
 
 inline constexpr Text apply_will_make_way{
     "node {} makes way for others: it is saved twice, node ID {} comes in between",
-    "ノード {} は ID 入替えのため一時的にノード ID {} に移動します (保存は 2 回)"};
+    "ノード {} は ID 入替えのため一時的にノード ID {} を使用します (保存は 2 回)"};
 inline constexpr Text apply_missing{"no servo for '{}': {}", "'{}' のサーボがありません: {}"};
 inline constexpr Text apply_missing_hint{
     "connect it, or name those that are meant with -n: nothing was written",
-    "接続するか、-n で対象を指定して下さい (何も書き込んでいません)"};
+    "接続するか、-n で対象を絞り込んで下さい (何も書き込んでいません)"};
 inline constexpr Text apply_nobody{"no entry of {} means any of these servos",
-                                   "{} に該当するサーボの項目がありません"};
+                                   "{} に対象のサーボと一致するエントリがありません"};
 inline constexpr Text apply_nobody_hint{"what the file says of these servos: blactl diff {}",
-                                        "比較: blactl diff {}"};
-inline constexpr Text apply_no_entry{"{} has no entry '{}'", "{} に項目 '{}' はありません"};
-inline constexpr Text apply_no_entry_hint{"its entries: {}", "項目: {}"};
+                                        "ファイルとサーボの比較: blactl diff {}"};
+inline constexpr Text apply_no_entry{"{} has no entry '{}'", "{} にエントリ '{}' はありません"};
+inline constexpr Text apply_no_entry_hint{"its entries: {}", "エントリ: {}"};
 inline constexpr Text apply_entry_one{"--entry is for one servo, not for {}",
-                                      "--entry の対象は 1 台だけです ({} 台指定)"};
+                                      "--entry の対象は 1 台だけです (現在の対象: {} 台)"};
 inline constexpr Text apply_entry_one_hint{"name one of them with -n",
                                            "-n で 1 台を指定して下さい"};
 inline constexpr Text apply_beside_plan{"{} has no meaning beside --plan",
@@ -33,7 +33,8 @@ inline constexpr Text apply_skipped{"left as it was", "未処理"};
 inline constexpr Text apply_changed{
     "{} of {} settings changed, saved, read again after the restart",
     "{1} 項目中 {0} 項目を変更 (保存・再起動後に再読出し)"};
-inline constexpr Text apply_saved{"saved: ROM held something else", "保存: ROM の値が相違"};
+inline constexpr Text apply_saved{"saved: ROM held something else",
+                                  "保存のみ実行 (ROM の値が異なっていたため)"};
 inline constexpr Text apply_changed_ram{"{} of {} settings changed, in RAM only",
                                         "{1} 項目中 {0} 項目を変更 (RAM のみ)"};
 inline constexpr Text apply_unchanged_proven{"unchanged, ROM too", "変更なし (ROM も確認済み)"};
@@ -41,14 +42,14 @@ inline constexpr Text apply_unchanged{"unchanged, as far as RAM tells", "変更�
 inline constexpr Text apply_failed{"failed", "失敗"};
 inline constexpr Text apply_back{", back as node {} after {} s", "、ノード {} として {} 秒で復帰"};
 inline constexpr Text apply_would_write_save{"would change {} of {} settings, then save",
-                                             "{1} 項目中 {0} 項目を変更し保存予定"};
+                                             "{1} 項目中 {0} 項目を変更・保存予定"};
 inline constexpr Text apply_would_write{"would change {} of {} settings, in RAM only",
                                         "{1} 項目中 {0} 項目を変更予定 (RAM のみ)"};
 inline constexpr Text apply_would_save{"would only save: RAM holds it, ROM does not",
-                                       "保存のみ予定 (RAM は一致、ROM は相違)"};
+                                       "保存のみの予定 (RAM は一致、ROM は相違)"};
 inline constexpr Text apply_would_prove{
     "would restart to see what ROM holds: RAM holds all {} settings",
-    "ROM 確認のため再起動予定 (RAM は {} 項目とも一致)"};
+    "ROM 確認のため再起動予定 (RAM は全 {} 項目一致)"};
 inline constexpr Text apply_would_ask{"It would ask before:\n{}\n",
                                       "実行前に確認を求めます:\n{}\n"};
 inline constexpr Text apply_counts{"{} servos: {} changed, {} unchanged, {} failed, {} left out\n",
@@ -56,17 +57,18 @@ inline constexpr Text apply_counts{"{} servos: {} changed, {} unchanged, {} fail
 inline constexpr Text apply_plan_counts{"{} servos: {} would be changed, {} unchanged\n",
                                         "{} 台: 変更予定 {}、変更なし {}\n"};
 inline constexpr Text stage_waits{"waits for its turn", "待機中"};
-inline constexpr Text stage_erase{"erases", "消去中"};
+inline constexpr Text stage_erase{"erases", "初期化中"};
 inline constexpr Text stage_write{"is written", "書込み中"};
 inline constexpr Text stage_save{"saves and restarts", "保存・再起動中"};
 inline constexpr Text stage_restart{"restarts", "再起動中"};
 inline constexpr Text stage_read{"is read again", "再読出し中"};
-inline constexpr Text stage_end{"done", "終了"};
+inline constexpr Text stage_end{"done", "完了"};
 inline constexpr Text events_no_stdout{
     "stdout carries what came of all: events need a file",
     "標準出力は結果に使用するため、イベントにはファイルが必要です"};
-inline constexpr Text events_over_file{"the events would be written over {}, which is applied",
-                                       "設定対象のファイル {} にイベントを上書きできません"};
+inline constexpr Text events_over_file{
+    "the events would be written over {}, which is applied",
+    "{} は適用するファイル (FILE) のため、イベントの出力先にできません"};
 inline constexpr Text events_unopened{"cannot write events to {}: {}",
                                       "{} にイベントを書き込めません: {}"};
 inline constexpr Text events_unopened_hint{

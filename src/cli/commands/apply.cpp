@@ -51,7 +51,7 @@ constexpr Option apply_options[]{
      .kind = Kind::text,
      .help = {"give this entry to the servo behind -n, whatever it matches: for a broken servo's "
               "successor",
-              "この項目を、照合条件によらず -n のサーボに設定 (故障したサーボの交換用)"},
+              "エントリ NAME を、照合条件によらず -n のサーボに設定 (故障品から交換したサーボ用)"},
      .store = into<&ApplyOptions::entry>},
     {.name = "--no-save",
      .kind = Kind::flag,
@@ -87,7 +87,7 @@ constexpr Option apply_arguments[]{
      .kind = Kind::file,
      .required = true,
      .help = {"a fleet file or, for one servo, a parameter file. `-`: stdin",
-              "フリートファイル、またはパラメータファイル (1 台)。`-` で標準入力"},
+              "フリートファイル、または 1 台分のパラメータファイル。`-` で標準入力"},
      .store = into<&ApplyOptions::file>},
 };
 

@@ -30,7 +30,7 @@ constexpr Option diff_arguments[]{
      .help =
          {"what servos are compared with, a fleet file or, for one servo, a parameter file; two: "
           "with each other. `-`: stdin",
-          "サーボと比較するフリートファイル、またはパラメータファイル (1 台)。"
+          "サーボと比較するフリートファイル、または 1 台分のパラメータファイル。"
           "2 つの場合はファイル同士を比較。`-` で標準入力"},
      .store = into<&DiffOptions::files>},
 };

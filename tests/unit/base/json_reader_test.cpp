@@ -1,4 +1,5 @@
 #include "blactl/base/json_reader.hpp"
+#include "blactl/base/text.hpp"
 
 #include "catch.hpp"
 
@@ -263,6 +264,20 @@ TEST_CASE("every fault of a file is collected, in the order of its lines") {
         "f.json:9: /array: must be an array, not an object\n"
         "f.json:10: /object: must be an object, not an array\n"
         "f.json:11: /items/0: must be a string, not an integer");
+}
+
+TEST_CASE("a value of the wrong kind is told in Japanese without blanks between the words") {
+  json::Document document = parsed("{\"integer\": \"1\",\n\"boolean\": null,\n\"string\": true}");
+  json::Object root(document.root(), document.faults());
+  set_language(Language::japanese);
+  static_cast<void>(root.integer("integer"));
+  static_cast<void>(root.boolean("boolean"));
+  static_cast<void>(root.string("string"));
+  set_language(Language::english);
+  CHECK(message(document) ==
+        "f.json:1: /integer: 整数でなければなりません (文字列になっています)\n"
+        "f.json:2: /boolean: true または false の値でなければなりません (null 値になっています)\n"
+        "f.json:3: /string: 文字列でなければなりません (true または false の値になっています)");
 }
 
 TEST_CASE("objects whose keys are data give their members") {
