@@ -150,6 +150,13 @@ fleet::Manner WritingRun::manner(const RestartTimes& times, bool restarts) {
           [this](const Error& error) { tell({say<texts::end_not_recorded>(error.message)}); }};
 }
 
+void WritingRun::end_record(std::span<const dronecan::UniqueId> units) {
+  const auto ended = history() != nullptr ? history()->end(units) : Result<void>();
+  if (!ended) {
+    tell({say<texts::end_not_recorded>(ended.error().message)});
+  }
+}
+
 bool WritingRun::confirm(const std::string& question) {
   if (question.empty()) {
     return true;

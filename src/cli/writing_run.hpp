@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -61,6 +62,9 @@ class WritingRun {
 
   /// What was recorded before; null: nothing is known.
   [[nodiscard]] fleet::History* history() { return history_ ? &*history_ : nullptr; }
+
+  /// What is recorded of these units has ended, see fleet::History::end().
+  void end_record(std::span<const dronecan::UniqueId> units);
 
   /// An empty question is none.
   [[nodiscard]] bool confirm(const std::string& question);

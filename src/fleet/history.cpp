@@ -23,6 +23,11 @@ state::Registers stored(const bla::Values& values) {
   return registers;
 }
 
+/// What these do not end they do when they are typed again.
+bool is_repeated_as_a_whole(std::string_view command) {
+  return command == "apply" || command == "undo" || command == "alloc --static";
+}
+
 /// Of a unit whose configuration was read after its restart.
 state::RomProof proof_of(const UniqueId& unique_id, const RomReading& rom, const Session& session) {
   return {.unique_id = unique_id,
@@ -68,7 +73,31 @@ Result<void> History::drop_proofs(std::span<const Plan> plans) {
   return dropped;
 }
 
+/// Where an earlier try of this command ended half way.
+Result<void> History::resume(const UniqueId& unique_id) {
+  if (!is_repeated_as_a_whole(command_) || kept_.contains(unique_id)) {
+    return {};
+  }
+  auto last = snapshots_.last(unique_id);
+  if (!last) {
+    return std::unexpected(last.error());
+  }
+  if (*last && !(*last)->ended && (*last)->command == command_) {
+    run_ = std::max(run_, (*last)->run);
+    kept_[unique_id] = {.entry = std::move(**last), .was_changed = true};
+    kept_[unique_id].was_saved = kept_[unique_id].entry.saved;
+  }
+  return {};
+}
+
 Result<void> History::keep(std::span<const Plan> plans, WallTime now) {
+  for (const Plan& plan : plans) {
+    const auto& unique_id = plan.before.servo.unique_id;
+    auto resumed = unique_id ? resume(*unique_id) : Result<void>();
+    if (!resumed) {
+      return resumed;
+    }
+  }
   std::vector<state::SnapshotEntry> entries;
   for (const Plan& plan : plans) {
     const auto& unique_id = plan.before.servo.unique_id;
@@ -85,8 +114,11 @@ Result<void> History::keep(std::span<const Plan> plans, WallTime now) {
     const std::size_t size = entry.held.size();
     entry.held.merge(held); // what an earlier round has replaced stays
     const bool saves = entry.saved || plan.restart == RestartKind::save;
-    if (entry.number == 0 || entry.held.size() != size || entry.saved != saves) {
+    const std::int64_t run = run_ != 0 ? run_ : entry.run;
+    if (entry.number == 0 || entry.held.size() != size || entry.saved != saves ||
+        entry.run != run) {
       entry.saved = saves;
+      entry.run = run;
       entries.push_back(std::move(entry));
     }
   }
@@ -104,6 +136,11 @@ Result<void> History::keep(std::span<const Plan> plans, WallTime now) {
     kept_[entries[i].unique_id].entry = std::move(entries[i]);
   }
   return {};
+}
+
+Result<void> History::end(std::span<const UniqueId> units) {
+  return is_repeated_as_a_whole(command_) && !units.empty() ? snapshots_.end(units, command_)
+                                                            : Result<void>();
 }
 
 Result<void> History::conclude(std::span<const ChangeResult> results, const Session& session) {
@@ -160,8 +197,21 @@ Result<std::optional<state::Settlement>> History::made_lasting(const ChangeResul
              : std::nullopt;
 }
 
+/// Of an undo that has begun elsewhere: what it did not begin is not done yet, either.
+bool History::is_half_undone() const {
+  return command_ == "undo" &&
+         std::ranges::any_of(kept_, [](const auto& each) { return each.second.was_changed; });
+}
+
 /// What came as it was planned stands in the store already.
 Result<void> History::settle(std::span<const ChangeResult> results) {
+  for (const ChangeResult& result : results) {
+    const auto known = result.servo.unique_id ? kept_.find(*result.servo.unique_id) : kept_.end();
+    if (known != kept_.end()) {
+      known->second.was_changed = known->second.was_changed || result.was_sent;
+      known->second.was_saved = known->second.was_saved || result.may_have_saved;
+    }
+  }
   std::vector<state::Settlement> settlements;
   for (const ChangeResult& result : results) {
     const auto known = result.servo.unique_id ? kept_.find(*result.servo.unique_id) : kept_.end();
@@ -174,9 +224,7 @@ Result<void> History::settle(std::span<const ChangeResult> results) {
       continue;
     }
     Kept& kept = known->second;
-    kept.was_changed = kept.was_changed || result.was_sent;
-    kept.was_saved = kept.was_saved || result.may_have_saved;
-    if (!kept.was_changed) {
+    if (!kept.was_changed && !is_half_undone()) {
       settlements.push_back({kept.entry.number, ChangeEnd::never_begun});
       kept_.erase(known);
       run_ = kept_.empty() ? 0 : run_;

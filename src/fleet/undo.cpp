@@ -2,6 +2,8 @@
 
 #include "blactl/fleet/texts.hpp"
 
+#include <algorithm>
+#include <functional>
 #include <string>
 #include <utility>
 
@@ -22,6 +24,58 @@ Result<Wanted> to_undo(const state::SnapshotEntry& entry, const bla::Profiles& p
     wanted.assignments.push_back(std::move(*assignment));
   }
   return wanted;
+}
+
+namespace {
+
+bool is_unfinished_undo(const state::SnapshotEntry& entry) {
+  return entry.command == "undo" && !entry.ended;
+}
+
+/// What is to be taken back instead of this entry, where that is an undo which did not end.
+Result<std::optional<Undoing>> meant_by(const state::SnapshotStore& store,
+                                        state::SnapshotEntry entry) {
+  if (!is_unfinished_undo(entry)) {
+    return Undoing{.entry = std::move(entry)};
+  }
+  auto before = store.before(entry);
+  if (!before) {
+    return std::unexpected(std::move(before.error()));
+  }
+  return *before ? std::optional(Undoing{.entry = std::move(**before), .goes_on = true})
+                 : std::nullopt;
+}
+
+} // namespace
+
+Result<std::optional<Undoing>> last_change(const state::SnapshotStore& store,
+                                           const dronecan::UniqueId& unique_id) {
+  auto last = store.last(unique_id);
+  if (!last) {
+    return std::unexpected(std::move(last.error()));
+  }
+  return *last ? meant_by(store, std::move(**last)) : std::optional<Undoing>();
+}
+
+Result<std::vector<Undoing>> last_changes(const state::SnapshotStore& store) {
+  auto entries = store.last_run();
+  if (!entries) {
+    return std::unexpected(std::move(entries.error()));
+  }
+  if (std::ranges::any_of(*entries, is_unfinished_undo)) {
+    std::erase_if(*entries, std::not_fn(is_unfinished_undo));
+  }
+  std::vector<Undoing> changes;
+  for (state::SnapshotEntry& entry : *entries) {
+    auto change = meant_by(store, std::move(entry));
+    if (!change) {
+      return std::unexpected(std::move(change.error()));
+    }
+    if (*change) {
+      changes.push_back(std::move(**change));
+    }
+  }
+  return changes;
 }
 
 } // namespace blactl::fleet

@@ -32,14 +32,20 @@ const DatabaseFormat& snapshots_format() {
                 "unique_id BLOB NOT NULL CHECK (length(unique_id) = 16), "
                 "held BLOB NOT NULL, "
                 "saved INTEGER NOT NULL CHECK (saved IN (0, 1)), "
-                "UNIQUE (unique_id, number, run, at, command, held, saved)) STRICT",
+                "ended INTEGER NOT NULL CHECK (ended IN (0, 1)), "
+                "UNIQUE (unique_id, number, run, at, command, held, saved, ended)) STRICT",
       .file = "snapshots.db",
       .what = texts::change_history,
       .way_back = texts::change_history_back};
   return format;
 }
 
-/// Of a row of number, at, command, unique_id, held, saved, run.
+/// A query of what entry_of() reads.
+std::string select(std::string_view rest) {
+  return "SELECT number, at, command, unique_id, held, saved, run, ended FROM snapshots " +
+         std::string(rest);
+}
+
 Result<SnapshotEntry> entry_of(const Statement& row, const Database& database) {
   auto held = registers_of(row.bytes(4));
   if (!held) {
@@ -50,7 +56,8 @@ Result<SnapshotEntry> entry_of(const Statement& row, const Database& database) {
                       .at = WallTime(Duration(row.integer(1))),
                       .command = std::string(row.text(2)),
                       .held = std::move(*held),
-                      .saved = row.integer(5) != 0};
+                      .saved = row.integer(5) != 0,
+                      .ended = row.integer(7) != 0};
   const auto bytes = row.bytes(3);
   std::copy_n(bytes.begin(), std::min(bytes.size(), entry.unique_id.size()),
               entry.unique_id.begin());
@@ -76,6 +83,14 @@ Result<std::vector<SnapshotEntry>> all_of(Statement& statement, const Database& 
   }
 }
 
+Result<std::optional<SnapshotEntry>> first_of(Statement& statement, const Database& database) {
+  auto found = all_of(statement, database);
+  if (!found) {
+    return std::unexpected(found.error());
+  }
+  return found->empty() ? std::nullopt : std::optional(std::move(found->front()));
+}
+
 /// Higher than all that are there: what SQLite gives the next new row, too.
 Result<std::int64_t> next_number(const Database& database) {
   Statement statement(database, "SELECT ifnull(max(number), 0) + 1 FROM snapshots");
@@ -88,8 +103,8 @@ Result<std::int64_t> keep_one(const Database& database, const SnapshotEntry& ent
                               std::int64_t new_run) {
   const std::vector<std::uint8_t> held = bytes_of(entry.held);
   Statement statement(database, "INSERT OR REPLACE INTO snapshots "
-                                "(number, run, at, command, unique_id, held, saved) "
-                                "VALUES (?, ?, ?, ?, ?, ?, ?)");
+                                "(number, run, at, command, unique_id, held, saved, ended) "
+                                "VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
   entry.number == 0 ? statement.bind(std::nullopt) : statement.bind(entry.number);
   auto kept = statement.bind(entry.run == 0 ? new_run : entry.run)
                   .bind(entry.at.time_since_epoch().count())
@@ -97,6 +112,7 @@ Result<std::int64_t> keep_one(const Database& database, const SnapshotEntry& ent
                   .bind(entry.unique_id)
                   .bind(held)
                   .bind(std::int64_t{entry.saved})
+                  .bind(std::int64_t{entry.ended})
                   .run();
   if (!kept) {
     return std::unexpected(kept.error());
@@ -200,20 +216,42 @@ Result<void> SnapshotStore::settle(std::span<const Settlement> settlements) {
   });
 }
 
+Result<void> SnapshotStore::end(std::span<const UniqueId> units, std::string_view command) {
+  return file_->transact([&](const Database& database) -> Result<void> {
+    for (const UniqueId& unit : units) {
+      auto ended = Statement(database, "UPDATE snapshots SET ended = 1 WHERE command = ?2 AND "
+                                       "number = (SELECT max(number) FROM snapshots "
+                                       "WHERE unique_id = ?1)")
+                       .bind(unit)
+                       .bind(command)
+                       .run();
+      if (!ended) {
+        return ended;
+      }
+    }
+    return {};
+  });
+}
+
 Result<std::optional<SnapshotEntry>> SnapshotStore::last(const UniqueId& unique_id) const {
   const Database* database = file_->database();
   if (database == nullptr) {
     return std::nullopt;
   }
-  Statement statement(*database, "SELECT number, at, command, unique_id, held, saved, run "
-                                 "FROM snapshots WHERE unique_id = ? "
-                                 "ORDER BY number DESC LIMIT 1");
+  Statement statement(*database, select("WHERE unique_id = ? ORDER BY number DESC LIMIT 1"));
   statement.bind(unique_id);
-  auto found = all_of(statement, *database);
-  if (!found) {
-    return std::unexpected(found.error());
+  return first_of(statement, *database);
+}
+
+Result<std::optional<SnapshotEntry>> SnapshotStore::before(const SnapshotEntry& entry) const {
+  const Database* database = file_->database();
+  if (database == nullptr) {
+    return std::nullopt;
   }
-  return found->empty() ? std::nullopt : std::optional(std::move(found->front()));
+  Statement statement(*database,
+                      select("WHERE unique_id = ? AND number < ? ORDER BY number DESC LIMIT 1"));
+  statement.bind(entry.unique_id).bind(entry.number);
+  return first_of(statement, *database);
 }
 
 Result<std::vector<SnapshotEntry>> SnapshotStore::last_run() const {
@@ -221,10 +259,9 @@ Result<std::vector<SnapshotEntry>> SnapshotStore::last_run() const {
   if (database == nullptr) {
     return std::vector<SnapshotEntry>();
   }
-  Statement statement(*database, "SELECT number, at, command, unique_id, held, saved, run "
-                                 "FROM snapshots WHERE run = "
-                                 "(SELECT run FROM snapshots ORDER BY number DESC LIMIT 1) "
-                                 "ORDER BY number");
+  Statement statement(*database, select("WHERE run = "
+                                        "(SELECT run FROM snapshots ORDER BY number DESC LIMIT 1) "
+                                        "ORDER BY number"));
   return all_of(statement, *database);
 }
 
@@ -233,8 +270,7 @@ Result<std::vector<SnapshotEntry>> SnapshotStore::entries() const {
   if (database == nullptr) {
     return std::vector<SnapshotEntry>();
   }
-  Statement statement(*database, "SELECT number, at, command, unique_id, held, saved, run "
-                                 "FROM snapshots ORDER BY number DESC");
+  Statement statement(*database, select("ORDER BY number DESC"));
   return all_of(statement, *database);
 }
 

@@ -35,13 +35,19 @@ class History {
   [[nodiscard]] Result<void> drop_proofs(std::span<const Plan> plans);
 
   /// Before the first request of a round: what the servos hold that are changed in it. Of one that
-  /// an earlier round has changed the record goes on: it tells what that one has found.
+  /// an earlier round has changed the record goes on: it tells what that one has found. So it does
+  /// where apply, undo or alloc --static were killed or failed, and the same command comes again: what the
+  /// first try has found is what undo goes back to.
   [[nodiscard]] Result<void> keep(std::span<const Plan> plans, WallTime now);
 
   /// After a round: what became of each servo, and the proofs of those whose configuration was
   /// read, complete and as expected, after a restart.
   [[nodiscard]] Result<void> conclude(std::span<const ChangeResult> results,
                                       const Session& session);
+
+  /// At the end of a command that is repeated as a whole where it failed (see keep()): these units
+  /// are as it was to make them.
+  [[nodiscard]] Result<void> end(std::span<const dronecan::UniqueId> units);
 
   /// What the ROM of this servo holds, if that was proven and it has run on since; else empty, also
   /// where what was recorded cannot be read.
@@ -51,6 +57,8 @@ class History {
   [[nodiscard]] Result<std::optional<state::Settlement>>
   made_lasting(const ChangeResult& result) const;
   [[nodiscard]] Result<void> settle(std::span<const ChangeResult> results);
+  [[nodiscard]] Result<void> resume(const dronecan::UniqueId& unique_id);
+  [[nodiscard]] bool is_half_undone() const;
 
   /// The entry of one servo, and what is certain of it.
   struct Kept {

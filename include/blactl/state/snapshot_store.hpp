@@ -14,6 +14,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace blactl::state {
@@ -29,6 +30,7 @@ struct SnapshotEntry {
   dronecan::UniqueId unique_id{};
   Registers held{};   ///< what the change replaces
   bool saved = false; ///< the change was saved to ROM; until it is settled, whether it will be
+  bool ended = false; ///< all that its command was to do was done; else it may be half of that
 
   friend bool operator==(const SnapshotEntry&, const SnapshotEntry&) = default;
 };
@@ -83,9 +85,16 @@ class SnapshotStore {
   /// Says of all of these entries what became of them, or of none.
   [[nodiscard]] Result<void> settle(std::span<const Settlement> settlements);
 
+  /// The last changes of these units have ended, if they were made by this command.
+  [[nodiscard]] Result<void> end(std::span<const dronecan::UniqueId> units,
+                                 std::string_view command);
+
   /// The last change of this unit; empty: none is known.
   [[nodiscard]] Result<std::optional<SnapshotEntry>>
   last(const dronecan::UniqueId& unique_id) const;
+
+  /// The change of the same unit before this one; empty: none is known.
+  [[nodiscard]] Result<std::optional<SnapshotEntry>> before(const SnapshotEntry& entry) const;
 
   /// The changes that the last command made; empty: none is known.
   [[nodiscard]] Result<std::vector<SnapshotEntry>> last_run() const;

@@ -142,12 +142,15 @@ void MakeStatic::carry_out(StaticIds& ids) {
   });
   tell_newcomers();
   (void)stop(errors);
-  std::uint64_t done = 0;
+  std::vector<dronecan::UniqueId> done;
   for (const UnitChange& unit : ids.change().units()) {
     conclude(unit);
-    done += unit.is_done ? 1U : 0U;
+    if (unit.is_done) {
+      done.push_back(unit.unique_id);
+    }
   }
-  report_.counts = {{"made_static", done}};
+  end_record(done);
+  report_.counts = {{"made_static", done.size()}};
 }
 
 /// Servos whose turn did not come are as they were, and that is said.

@@ -26,6 +26,16 @@ bool may_save(const GoalResult& result) {
   return result.goal.saves && result.need != fleet::Need::nothing;
 }
 
+std::vector<dronecan::UniqueId> units_done(std::span<const GoalResult> results) {
+  std::vector<dronecan::UniqueId> units;
+  for (const GoalResult& result : results) {
+    if (result.is_done && result.servo.unique_id) {
+      units.push_back(*result.servo.unique_id);
+    }
+  }
+  return units;
+}
+
 /// One run. Each step may end it, with errors in the report.
 class Run : WritingRun {
  public:
@@ -92,6 +102,7 @@ void Run::all() {
     }
     (void)stop_at(apply.carry_out());
     watch_.end(apply.results());
+    end_record(units_done(apply.results()));
     if (request_.ended) {
       request_.ended(apply.results());
     }
@@ -130,9 +141,10 @@ bool Run::find() {
   return stop_at(goals_.errors);
 }
 
-/// Servos that wait for a node ID may be those that are missing.
+/// Servos that wait for a node ID may be those that are missing. A plan gives none.
 bool Run::may_let_in() {
-  return !context_.session().roster().pending().empty() && context_.may_allocate();
+  return !request_.dry_run && !context_.session().roster().pending().empty() &&
+         context_.may_allocate();
 }
 
 /// What is wished of those that are known by now.

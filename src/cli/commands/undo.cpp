@@ -77,7 +77,7 @@ class Undo {
  private:
   void of_last_run(const Whom& whom, Goals& goals);
   void of_node(dronecan::NodeId id, const Whom& whom, Goals& goals);
-  void take_back(const SnapshotEntry& entry, dronecan::NodeId id, Goals& goals);
+  void take_back(const fleet::Undoing& change, dronecan::NodeId id, Goals& goals);
 
   const UndoOptions& options_;
   const SnapshotStore& store_;
@@ -88,17 +88,18 @@ class Undo {
 
 /// Without -n: all servos that the last command changed, wherever they are now.
 void Undo::of_last_run(const Whom& whom, Goals& goals) {
-  const auto entries = store_.last_run();
-  if (!entries) {
-    goals.errors.push_back(entries.error());
+  const auto changes = fleet::last_changes(store_);
+  if (!changes) {
+    goals.errors.push_back(changes.error());
     return;
   }
-  for (const SnapshotEntry& entry : *entries) {
+  for (const fleet::Undoing& change : *changes) {
+    const SnapshotEntry& entry = change.entry;
     const auto& members = whom.roster.members();
     const auto there = std::ranges::find_if(
         members, [&](const auto& each) { return each.second.is_unit(entry.unique_id); });
     if (there != members.end()) {
-      take_back(entry, there->first, goals);
+      take_back(change, there->first, goals);
       continue;
     }
     goals.may_wait = true;
@@ -110,18 +111,20 @@ void Undo::of_last_run(const Whom& whom, Goals& goals) {
 
 void Undo::of_node(dronecan::NodeId id, const Whom& whom, Goals& goals) {
   const auto unique_id = whom.roster.member(id).servo().unique_id;
-  const auto entry = unique_id ? store_.last(*unique_id) : Result<std::optional<SnapshotEntry>>();
-  if (!entry) {
-    goals.errors.push_back(entry.error());
-  } else if (*entry) {
-    take_back(**entry, id, goals);
+  const auto change =
+      unique_id ? fleet::last_change(store_, *unique_id) : Result<std::optional<fleet::Undoing>>();
+  if (!change) {
+    goals.errors.push_back(change.error());
+  } else if (*change) {
+    take_back(**change, id, goals);
   } else {
     goals.errors.push_back({Code::not_found, say<texts::undo_nothing_of_node>(id.value()),
                             say<texts::undo_see_list_hint>(), id.value()});
   }
 }
 
-void Undo::take_back(const SnapshotEntry& entry, dronecan::NodeId id, Goals& goals) {
+void Undo::take_back(const fleet::Undoing& change, dronecan::NodeId id, Goals& goals) {
+  const SnapshotEntry& entry = change.entry;
   const auto is_unit = [&](const auto& each) { return each.second.is_unit(entry.unique_id); };
   if (std::ranges::count_if(context_.session().roster().members(), is_unit) > 1) {
     goals.errors.push_back({Code::usage, say<texts::undo_unit_twice>(hex(entry.unique_id)),
@@ -138,7 +141,9 @@ void Undo::take_back(const SnapshotEntry& entry, dronecan::NodeId id, Goals& goa
   if (told_.insert(note).second) {
     context_.reporter().note(note);
   }
-  numbers_[entry.unique_id] = entry.number;
+  if (!change.goes_on) {
+    numbers_[entry.unique_id] = entry.number;
+  }
   goals.goals.push_back({.id = id,
                          .set = std::move(wanted->assignments),
                          .saves = wanted->restart.has_value() && !options_.no_save});

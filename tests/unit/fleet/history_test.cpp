@@ -86,11 +86,25 @@ CarriedOut change(const Scene& scene, const Wanted& wanted, History& history,
                    {.history = &history});
 }
 
+void end(History& history, const std::optional<dronecan::UniqueId>& unit) {
+  const std::vector<dronecan::UniqueId> units{unit.value()};
+  REQUIRE(history.end(units));
+}
+
 /// One command on one servo, recorded by itself.
 ChangeResult change(const Scene& scene, const Wanted& wanted, const Kept& kept,
                     std::string command = "set") {
   History history = kept.history(std::move(command));
-  return change(scene, wanted, history).servos.front();
+  const ChangeResult result = change(scene, wanted, history).servos.front();
+  end(history, result.servo.unique_id);
+  return result;
+}
+
+/// A command that was killed before it could say that it has ended.
+void killed(const Scene& scene, const Wanted& wanted, const Kept& kept, std::string command,
+            const std::vector<std::uint8_t>& ids = {11}) {
+  History history = kept.history(std::move(command));
+  REQUIRE(change(scene, wanted, history, ids).servos.front().is_done());
 }
 
 std::int64_t read(const Scene& scene, std::uint8_t id, const char* name) {
@@ -347,6 +361,61 @@ TEST_CASE("what took a change back puts it there again the second time") {
     CHECK(read(scene, 11, "angle_limit_cw") == expected);
   }
   CHECK(kept.entries().size() == 4);
+}
+
+TEST_CASE("an apply that did not end and comes again is one change") {
+  const Kept kept;
+  const Scene scene(servos());
+  REQUIRE(change(scene, set("servo_id=3"), kept, "apply").is_done());
+  killed(scene, set("angle_limit_cw=90deg"), kept, "apply", {11, 12});
+  History again = kept.history("apply");
+  REQUIRE(change(scene, set("reverse=on"), again).servos[0].is_done());
+  auto entries = kept.entries();
+  REQUIRE(entries.size() == 3);
+  CHECK(entries[1].held == state::Registers{{0x23, 0}, {0x38, 1799}});
+  CHECK(entries[1].run == entries[0].run); // undo takes both servos back
+  CHECK_FALSE(entries[1].ended);
+  // Another command, and one after the end, are changes of their own.
+  end(again, entries[1].unique_id);
+  REQUIRE(change(scene, set("smoothing=off"), kept, "apply").is_done());
+  REQUIRE(change(scene, set("soft_start=off"), kept).is_done());
+  CHECK(kept.entries().size() == 5);
+}
+
+TEST_CASE("an undo that did not end goes on when it is typed again, and then is one change") {
+  const Kept kept;
+  const Scene scene(servos());
+  const auto changes = [&kept] {
+    return last_changes(*SnapshotStore::open(kept.folder(), Access::read)).value();
+  };
+  {
+    History both = kept.history("set");
+    REQUIRE(change(scene, set("angle_limit_cw=90deg"), both, {11, 12}).servos[1].is_done());
+  }
+  REQUIRE(changes().size() == 2);
+  // It comes to the first servo alone.
+  History undo = kept.history("undo");
+  const auto wanted = to_undo(changes()[0].entry, profiles());
+  const auto plans = plans_for(scene, *wanted, {11, 12});
+  REQUIRE_FALSE(record(*scene.session, plans, {.history = &undo}));
+  const std::vector<Plan> first{plans[0]};
+  REQUIRE(carry_out(*scene.session, profiles(), first, {.history = &undo}).servos[0].is_done());
+  end(undo, plans[0].before.servo.unique_id);
+  REQUIRE(changes().size() == 1);
+  const Undoing left = changes()[0];
+  CHECK(left.goes_on);
+  CHECK(left.entry.command == "set");
+  CHECK(left.entry.unique_id == *plans[1].before.servo.unique_id);
+  // The rest of it.
+  History again = kept.history("undo");
+  REQUIRE(change(scene, *to_undo(left.entry, profiles()), again, {12}).servos[0].is_done());
+  end(again, left.entry.unique_id);
+  REQUIRE(changes().size() == 2);
+  for (const Undoing& change : changes()) {
+    CHECK(change.entry.command == "undo");
+    CHECK(change.entry.held == state::Registers{{0x38, 900}});
+    CHECK_FALSE(change.goes_on);
+  }
 }
 
 TEST_CASE("what was erased comes back") {
