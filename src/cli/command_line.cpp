@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -118,6 +119,7 @@ class Parser {
   void understand_given();
   void check_formats();
   void check_combinations();
+  void check_recording();
   void complete();
 
   void refuse(std::string message, std::string hint) {
@@ -255,11 +257,29 @@ void Parser::check_combinations() {
   if (shared.record && command != nullptr && !command->traits.session) {
     refuse(say<texts::nothing_to_record>(command->name), see_help());
   }
+  if (shared.record) {
+    check_recording();
+  }
   if (shared.nodes && command != nullptr && !command->traits.session) {
     refuse(say<texts::no_nodes>(command->name), see_help());
   }
   if (command == nullptr) {
     refuse(say<texts::no_command>(), say<texts::see_help>());
+  }
+}
+
+/// What another option reads or writes must not be written over.
+void Parser::check_recording() {
+  for (const auto& [option, given, options, see_help] : declared_) {
+    const bool is_other_file = option->kind == Kind::file && option->name != "--record";
+    for (const std::string& file : is_other_file ? given->results() : std::vector<std::string>()) {
+      std::error_code none;
+      if (file == result_.shared.record ||
+          std::filesystem::equivalent(file, *result_.shared.record, none)) {
+        refuse(say<texts::records_over_file>(printable(file), option->name),
+               say<texts::records_over_file_hint>());
+      }
+    }
   }
 }
 

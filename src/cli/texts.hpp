@@ -74,6 +74,10 @@ inline constexpr Text nothing_to_record{"{} has no session that could be recorde
                                         "{} には記録できるセッションがありません"};
 inline constexpr Text no_nodes{"{} asks no servo: it takes no --node",
                                "{} はサーボに問い合わせないため、--node は指定できません"};
+inline constexpr Text records_over_file{"--record {}: that is the file of {}",
+                                        "--record {}: {} に指定したファイルと同じです"};
+inline constexpr Text records_over_file_hint{"type another file for --record",
+                                             "--record には別のファイルを指定して下さい"};
 inline constexpr Text records_itself{"--record {}: that is the log being read",
                                      "--record {}: 読込み中のログと同じファイルです"};
 inline constexpr Text lines_passed_over{

@@ -30,6 +30,17 @@ bool holds(const bla::Values& values, const Goal& goal) {
   });
 }
 
+/// What the goal needs, and whether the servo could read its ROM.
+Result<std::vector<const bla::Parameter*>> registers_to_read(const Wanted& wish,
+                                                             const Servo& servo) {
+  auto needed = registers_needed(wish, servo);
+  const bla::Parameter* state = wish.restart ? rom_state(servo.identity) : nullptr;
+  if (needed && state != nullptr) {
+    needed->push_back(state);
+  }
+  return needed;
+}
+
 /// A servo that started with this static node ID would be on it: it stands in RAM only.
 bool shows_other_rom(const Goal& goal, const Snapshot& held) {
   return std::ranges::any_of(goal.set, [&](const Assignment& wish) {
@@ -156,7 +167,7 @@ Result<Apply::Snapshots> Apply::read(std::span<const std::size_t> goals) {
   }
   auto read = take_snapshots(
       session_, profiles_, nodes, options_.change.manner.identification,
-      [&](const Servo& servo) { return registers_needed(all.at(servo.id), servo); }, proof);
+      [&](const Servo& servo) { return registers_to_read(all.at(servo.id), servo); }, proof);
   if (read.broken) {
     return std::unexpected(*read.broken);
   }
@@ -167,6 +178,9 @@ Need Apply::need(const Goal& goal, const Snapshot& held,
                  const std::optional<bla::Values>& rom) const {
   if (!holds(held.values(), goal)) {
     return Need::write;
+  }
+  if (goal.saves && check_rom(held)) { // it holds initial values for want of its ROM
+    return Need::save;
   }
   if (rom) {
     return holds(*rom, goal) ? Need::nothing : Need::save;

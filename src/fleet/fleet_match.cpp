@@ -27,6 +27,18 @@ bool is_found_by_passing_id(const Match& match, const Servo& servo) {
   return match.node_id && !has_more && servo.static_node_id.value_or(0) != servo.id.value();
 }
 
+/// An entry of one unit means it also when it holds already what the entry sets.
+bool means(const FleetEntry& entry, const Servo& servo, const bla::Profiles& profiles) {
+  Match match = entry.match;
+  if (match.unique_id || match.serial_number) {
+    const auto servo_id = entry.wish(bla::address::servo_id);
+    const auto node_id = entry.wish(bla::address::static_node_id);
+    match.servo_id = servo_id && servo_id == servo.servo_id ? servo_id : match.servo_id;
+    match.node_id = node_id && node_id == servo.id.value() ? std::nullopt : match.node_id;
+  }
+  return match.means(servo, profiles);
+}
+
 /// What -n takes for this servo.
 std::string selector_of(const Member& member) {
   if (member.id_is_known) {
@@ -55,7 +67,7 @@ class Matching {
       add(entry);
     }
     for (const auto& [id, member] : roster_.members()) {
-      if (is_one_servo(id, member) && !taken_.contains(id) && is_wanted(member)) {
+      if (may_be_servo(id, member) && !taken_.contains(id) && is_wanted(member)) {
         match_.extra.push_back(id);
       }
     }
@@ -69,7 +81,8 @@ class Matching {
   void give_to_the_one(const FleetFile& file) {
     std::vector<NodeId> there;
     for (const auto& [id, member] : roster_.members()) {
-      if (is_one_servo(id, member) && is_wanted(member)) {
+      // One that does not say who it is may be the one that is meant.
+      if ((narrows() ? is_one_servo(id, member) : may_be_servo(id, member)) && is_wanted(member)) {
         there.push_back(id);
       }
     }
@@ -91,7 +104,7 @@ class Matching {
   void add(const FleetEntry& entry) {
     std::vector<NodeId> meant;
     for (const auto& [id, member] : roster_.members()) {
-      if (is_one_servo(id, member) && entry.match.means(member.servo(), profiles_)) {
+      if (is_one_servo(id, member) && means(entry, member.servo(), profiles_)) {
         meant.push_back(id);
       }
     }
@@ -164,6 +177,12 @@ class Matching {
 
   [[nodiscard]] bool is_one_servo(NodeId id, const Member& member) const {
     return member.is_known() && member.is_servo && !roster_.is_doubled(id);
+  }
+
+  /// The same, or it does not say what it is, but sends what only servos send.
+  [[nodiscard]] bool may_be_servo(NodeId id, const Member& member) const {
+    return is_one_servo(id, member) || (!member.is_known() && member.sends_actuator_status() &&
+                                        !roster_.is_doubled(id) && !roster_.has_moved(member));
   }
 
   /// Whether there may be servos that -n does not mean.

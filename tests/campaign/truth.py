@@ -53,9 +53,10 @@ class Step:
                 if line["event"] == "allocated"]
 
     def made_static(self):
-        """Whose ROM got a node ID."""
+        """Whose ROM got a node ID, or was to get it: the table promises it before that is saved."""
         return [serial for serial, state in self.after.items()
-                if state["rom"]["0x46"] not in (0, self.before[serial]["rom"]["0x46"])]
+                if any(state[memory]["0x46"] not in (0, self.before[serial]["rom"]["0x46"])
+                       for memory in ("rom", "ram"))]
 
     def has_other_allocator(self):
         return any(node.get("allocates") for node in self._scenario.get("foreign", []))

@@ -479,6 +479,66 @@ TEST_CASE("events are not written over the file that is applied") {
   CHECK(content(file) == before);
 }
 
+TEST_CASE("--record is not written over a file that the command reads or writes") {
+  const Fleet fleet(three_servos());
+  const std::string file = fleet.file(fleet.exported());
+  const std::string before = content(file);
+  for (const Arguments& command :
+       {Arguments{"apply", file, "-y"}, Arguments{"diff", file},
+        Arguments{"apply", "--plan", file, "-y"}, Arguments{"export", file}}) {
+    Arguments words = command;
+    words.insert(words.end(), {"--record", file});
+    check_error(fleet.run(words), 2, "usage", "that is the file of");
+    CHECK(content(file) == before);
+  }
+}
+
+TEST_CASE("a plan gives no node IDs") {
+  const Fleet fleet(Scene().servo("BLA21-12U-AB", 0, {{"serial_number", 7}}));
+  const Document document = {
+      {"schema", "blactl-fleet/1"},
+      {"servos",
+       {{{"name", "new"}, {"match", {{"serial_number", 7}}}, {"set", {{"smoothing", "off"}}}}}}};
+  CHECK(codes(fleet.apply(document, {"--dry-run"})) == Words{"not_found"});
+  CHECK(json(fleet.run({"alloc", "--list", "--json"}).out)["entries"].empty());
+  CHECK(fleet.apply(document).status == 0);
+}
+
+TEST_CASE("an entry of one unit means it also when it holds what the entry sets") {
+  const Fleet fleet(Scene().servo("BLA21-12U-AB", 11, {{"serial_number", 7}, {"servo_id", 1}}));
+  const Document document = {{"schema", "blactl-fleet/1"},
+                             {"servos",
+                              {{{"name", "left"},
+                                {"match", {{"serial_number", 7}, {"servo_id", 1}, {"node_id", 11}}},
+                                {"set", {{"servo_id", 3}, {"static_node_id", 21}}}}}}};
+  CHECK(statuses(fleet.apply(document)) == Words{"changed"});
+  CHECK(statuses(fleet.apply(document)) == Words{"unchanged"});
+}
+
+TEST_CASE("a servo that does not say who it is may be the one that a parameter file is for") {
+  const Fleet fleet(three_servos().servo("BLA21-12U-AB", 20, {{"faults", {{"mute", true}}}}));
+  check_error(fleet.run({"apply", fleet.params("0x22 0\n"), "-y"}), 2, "usage", "11, 12, 13, 20");
+  const std::string file = fleet.file(Fleet(three_servos()).exported());
+  CHECK(statuses(fleet.run({"diff", file, "--json"})).back() == "extra");
+}
+
+TEST_CASE(
+    "a ROM that cannot be read is written, also where the servo's initial values are wished") {
+  const Fleet fleet(Scene().servo(
+      "BLA21-12U-AB", 11, {{"serial_number", 7}, {"faults", {{"power_loss_in_save", "10ms"}}}}));
+  REQUIRE(fleet.run({"save", "-n", "11", "-y"}).status != 0);
+  const Document document = {
+      {"schema", "blactl-fleet/1"},
+      {"servos",
+       {{{"name", "left"}, {"match", {{"serial_number", 7}}}, {"set", {{"smoothing", "on"}}}}}}};
+  const Result healed = fleet.apply(document);
+  INFO(healed.err);
+  CHECK(healed.status == 0);
+  CHECK(json(healed.out)["nodes"][0]["saved"] == true);
+  CHECK(fleet.run({"faults", "-n", "11"}).status == 0);
+  CHECK(statuses(fleet.apply(document)) == Words{"unchanged"});
+}
+
 TEST_CASE("a unit that shares its node ID is not missing") {
   const nlohmann::json one = {{"unique_id", "00112233445566778899aabbccddee01"}};
   const nlohmann::json other = {{"unique_id", "00112233445566778899aabbccddee02"}};

@@ -65,9 +65,10 @@ inline constexpr Text id_given_is_held{
     "node {} would get node ID {}, which node {} (uid:{}) has or gets with its next restart",
     "ノード {} に設定されるノード ID {} は、ノード {} (uid:{}) の現在または再起動後の ID "
     "と重複します"};
-inline constexpr Text id_given_is_held_hint{
-    "give that unit another ID at the same time: in the file, or with alloc --assign {}=ID",
-    "その機器にも同時に別の ID を指定して下さい (ファイル内、または alloc --assign {}=ID)"};
+inline constexpr Text id_given_is_held_hint{"give that unit another ID at the same time: in the "
+                                            "file, or with alloc --static --assign {}=ID",
+                                            "その機器にも同時に別の ID を指定して下さい "
+                                            "(ファイル内、または alloc --static --assign {}=ID)"};
 inline constexpr Text no_temporary_id{
     "no node ID from 1 to 125 is free: units that exchange theirs need one for a moment",
     "ノード ID 1～125 に空きがありません。ID の入替えには一時的に空きが 1 つ必要です"};

@@ -9,6 +9,7 @@
 #include "cli/output/fleet_view.hpp"
 #include "cli/read_servos.hpp"
 #include "cli/settings_files.hpp"
+#include "cli/texts.hpp"
 
 #include <algorithm>
 #include <memory>
@@ -65,6 +66,9 @@ bool look_around(Context& context, Report& report) {
   if (const auto found = discovery.find_all(fleet::bus_watch_time); !found) {
     context.broken(found.error(), report);
     return false;
+  }
+  if (const auto waiting = context.session().roster().pending().size(); waiting > 0) {
+    context.reporter().note(say<texts::units_wait_for_id>(waiting));
   }
   return true;
 }

@@ -9,6 +9,7 @@
 #include "cli/commands.hpp"
 #include "cli/fleet_texts.hpp"
 #include "cli/read_servos.hpp"
+#include "cli/texts.hpp"
 
 #include <memory>
 #include <optional>
@@ -140,6 +141,9 @@ Report execute(const ExportOptions& options, Context& context) {
     return report;
   }
   const auto servos = read(*nodes, context, report);
+  if (const auto waiting = context.session().roster().pending().size(); waiting > 0) {
+    context.reporter().note(say<texts::units_wait_for_id>(waiting));
+  }
   report.count_targets();
   if (servos.empty()) {
     return report;
