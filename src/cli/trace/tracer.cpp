@@ -85,7 +85,7 @@ void Tracer::receive(const Heard& heard) {
   }
   network->to_wall = heard.wall.time_since_epoch() - heard.at.time_since_epoch();
   const auto header = heard.frame.extended ? dronecan::decode_id(heard.frame.id) : std::nullopt;
-  output_.frame({network->interface, heard.wall}, heard.frame, header && filter_.passes(*header));
+  output_.frame(heard, header && filter_.passes(*header));
   network->receiver->receive(heard.frame, heard.at);
   if (heard.at >= network->sweep) {
     network->receiver->expire(heard.at);
