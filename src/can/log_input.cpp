@@ -64,7 +64,8 @@ bool LogInput::knows_format() {
     }
   }
   if (!std::exchange(knows_format_, true) && head_size_ == head_.size() && may_be_packed()) {
-    packed_.emplace().buffer.resize(packed_size);
+    packed_ = std::make_unique<Packed>();
+    packed_->buffer.resize(packed_size);
     packed_->gunzip.take(head_);
   }
   return true;

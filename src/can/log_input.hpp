@@ -7,7 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -65,7 +65,7 @@ class LogInput {
   bool ended_ = false;
   Fault fault_ = Fault::none;
   int error_number_ = 0;
-  std::optional<Packed> packed_; ///< empty: plain
+  std::unique_ptr<Packed> packed_; ///< null: plain
 };
 
 } // namespace blactl::can

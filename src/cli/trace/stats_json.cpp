@@ -11,7 +11,6 @@
 namespace blactl::cli {
 namespace {
 
-using fleet::BusStatistics;
 using fleet::TransferStream;
 
 void member_number(JsonWriter& json, const char* name, std::optional<double> number) {
