@@ -17,7 +17,7 @@
 namespace blactl::cli {
 
 /// Interfaces are kept apart; there are at most Tracer::most_interfaces, so that all of it takes
-/// some 20 MB at the worst.
+/// some 25 MB at the worst.
 class TraceStats final : public TraceOutput {
  public:
   /// Whatever the filter says: the load is that of all frames.
