@@ -12,7 +12,7 @@ using dronecan::transfer_id_modulus;
 /// How far transfers may be from their usual time: by one, or by a quarter of a long gap. Wide
 /// enough for senders that are not exact; a restart looks like a loss only if its ID happens to
 /// fit.
-constexpr double tolerance = 0.25;
+constexpr double gap_tolerance = 0.25;
 
 /// Of the usual period, what each further one counts.
 constexpr double weight = 0.25;
@@ -57,7 +57,7 @@ bool LostTransfers::explains(unsigned steps, double elapsed_us) const {
     return false;
   }
   const double off_us = std::abs(elapsed_us - *usual_us_ * steps);
-  return off_us <= std::max(*usual_us_, elapsed_us * tolerance);
+  return off_us <= std::max(*usual_us_, elapsed_us * gap_tolerance);
 }
 
 } // namespace blactl::fleet

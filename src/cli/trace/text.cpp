@@ -23,7 +23,6 @@ namespace {
 using dronecan::Bytes;
 using dronecan::FieldsResult;
 using dronecan::GetSet;
-using dronecan::Kind;
 
 /// `uptime_sec=1234 health=ok … software_version={major=1 minor=4}`.
 class TextFields final : public dronecan::FieldSink {
@@ -144,7 +143,7 @@ std::optional<std::string> register_text(const bla::Profiles& profiles, const st
 
 std::optional<std::string> register_text(const bla::Profiles& profiles,
                                          const dronecan::Transfer& transfer) {
-  if (transfer.header.kind == Kind::request) {
+  if (transfer.header.kind == dronecan::Kind::request) {
     const auto request = GetSet::Request::decode(transfer.payload);
     return request ? register_text(profiles, request->name, request->value, ":=", "?")
                    : std::nullopt;
@@ -162,7 +161,7 @@ std::string TextTrace::time_text(WallTime at) const {
 }
 
 void TextTrace::begin_line(const Occasion& occasion, const dronecan::Header& header) {
-  const bool service = header.kind != Kind::message;
+  const bool service = header.kind != dronecan::Kind::message;
   fmt::format_to(std::back_inserter(out_), "{}  {}  {:>3} > {:<3}  {:<22}  ",
                  time_text(occasion.at), printable(occasion.interface), header.source.value(),
                  service ? fmt::to_string(header.destination.value()) : "*",
@@ -199,7 +198,7 @@ bool TextTrace::transfer(const Occasion& occasion, const dronecan::Transfer& tra
 /// Registers of BLA servos are shown by name and in their unit.
 bool TextTrace::write_register(const dronecan::Transfer& transfer) {
   const auto& header = transfer.header;
-  const auto text = header.kind != Kind::message && header.data_type_id == GetSet::type.id
+  const auto text = header.kind != dronecan::Kind::message && header.data_type_id == GetSet::type.id
                         ? register_text(profiles_, transfer)
                         : std::nullopt;
   out_ += text.value_or("");

@@ -9,7 +9,6 @@
 namespace blactl::cli {
 namespace {
 
-using dronecan::Kind;
 using dronecan::Receiver;
 
 /// Senders times types that are reassembled at a time; 4 MiB of address space.
@@ -21,7 +20,7 @@ constexpr Duration sweep_interval = std::chrono::seconds(1);
 /// Just beyond the time that a transfer may take.
 constexpr Duration expiry = Receiver::transfer_timeout + Duration(1);
 
-std::optional<std::uint64_t> signature_of(Kind kind, std::uint16_t data_type_id) {
+std::optional<std::uint64_t> signature_of(dronecan::Kind kind, std::uint16_t data_type_id) {
   const auto* type = dronecan::find_standard_type(kind, data_type_id);
   return type != nullptr ? std::optional(type->signature) : std::nullopt;
 }
