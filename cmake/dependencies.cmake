@@ -15,6 +15,8 @@ find_package(CLI11 2.1 QUIET)
 blactl_require(CLI11_FOUND libcli11-dev)
 find_package(nlohmann_json 3.11 QUIET)
 blactl_require(nlohmann_json_FOUND nlohmann-json3-dev)
+find_package(ZLIB QUIET) # logs that gzip has packed
+blactl_require(ZLIB_FOUND zlib1g-dev)
 find_package(PkgConfig QUIET)
 blactl_require(PkgConfig_FOUND pkg-config)
 if(PkgConfig_FOUND)

@@ -348,7 +348,7 @@ complete -c blactl -n '__blactl_in trace' -l type -r -f -d 'only these data type
 complete -c blactl -n '__blactl_in trace' -l kind -r -f -a '(__blactl_list message request response)' -d 'only these kinds'
 complete -c blactl -n '__blactl_in trace' -l duration -r -f -d 'how long to listen; of a log its first seconds'
 complete -c blactl -n '__blactl_in trace' -l count -r -f -d 'end after so many transfers'
-complete -c blactl -n '__blactl_in trace' -l stats -d 'instead of the transfers, who sends what how often, and the load of the bus'
+complete -c blactl -n '__blactl_in trace' -l stats -d 'instead of the transfers'
 complete -c blactl -n '__blactl_in trace' -l absolute -d 'the time of day instead of seconds since the first frame'
 complete -c blactl -n '__blactl_argument trace 1' -F
 

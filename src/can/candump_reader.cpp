@@ -3,13 +3,15 @@
 #include "blactl/base/system_error.hpp"
 #include "blactl/can/replay_texts.hpp"
 
+#include "can/log_input.hpp"
+
 #include <fcntl.h>
-#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <span>
 #include <utility>
 
 namespace blactl::can {
@@ -19,9 +21,28 @@ namespace {
 /// their text) has some 300.
 constexpr std::size_t block_size = 64 << 10;
 
+/// Lines that say nothing, and pieces of a line that has no end: what one call of next() passes
+/// over takes some tens of milliseconds. A few KiB of gzip may hold gigabytes.
+constexpr std::size_t most_passed_over = 1024;
+
 Error unreadable(const std::string& name, int error) {
   return {Code::bad_file, say<texts::log_unreadable>(name, system_reason(error)),
           say<texts::log_unreadable_hint>()};
+}
+
+/// After so many lines.
+std::optional<Error> fault_of(const LogInput& input, const std::string& name, std::uint64_t lines) {
+  switch (input.fault()) {
+  case LogInput::Fault::unreadable: return unreadable(name, input.error_number());
+  case LogInput::Fault::cut_off:
+    return Error{Code::bad_file, say<texts::log_cut_off>(name, lines),
+                 say<texts::log_damaged_hint>()};
+  case LogInput::Fault::damaged:
+    return Error{Code::bad_file, say<texts::log_damaged>(name, lines),
+                 say<texts::log_damaged_hint>()};
+  case LogInput::Fault::none: break;
+  }
+  return std::nullopt;
 }
 
 } // namespace
@@ -34,7 +55,7 @@ Result<std::unique_ptr<CandumpReader>> CandumpReader::open(const std::string& pa
   if (descriptor < 0) {
     return std::unexpected(unreadable(name, errno));
   }
-  std::unique_ptr<CandumpReader> reader(new CandumpReader(descriptor, name));
+  auto input = std::make_unique<LogInput>(descriptor);
   struct stat status{};
   if (fstat(descriptor, &status) != 0) {
     return std::unexpected(unreadable(name, errno));
@@ -42,29 +63,33 @@ Result<std::unique_ptr<CandumpReader>> CandumpReader::open(const std::string& pa
   if (S_ISDIR(status.st_mode)) {
     return std::unexpected(unreadable(name, EISDIR));
   }
-  return reader;
+  return std::unique_ptr<CandumpReader>(new CandumpReader(std::move(input), name));
 }
 
-CandumpReader::CandumpReader(int descriptor, std::string name)
-    : descriptor_(descriptor), name_(std::move(name)), buffer_(block_size) {}
+CandumpReader::CandumpReader(std::unique_ptr<LogInput> input, std::string name)
+    : input_(std::move(input)), name_(std::move(name)), buffer_(block_size) {}
 
-CandumpReader::~CandumpReader() {
-  close(descriptor_);
+CandumpReader::~CandumpReader() = default;
+
+int CandumpReader::descriptor() const {
+  return input_->descriptor();
 }
 
 std::optional<LogLine> CandumpReader::next() {
+  passed_over_ = 0;
+  has_paused_ = false;
   while (const auto text = take_line()) {
     ++line_number_;
-    if (std::exchange(in_long_line_, false)) {
+    const bool is_long = std::exchange(in_long_line_, false);
+    if (!is_long) {
+      if (auto line = parse_line(*text)) {
+        return line;
+      }
+    }
+    if (is_long || !text->starts_with('#')) { // a comment
       count_bad();
-      continue;
     }
-    if (auto line = parse_line(*text)) {
-      return line;
-    }
-    if (!text->starts_with('#')) { // a comment
-      count_bad();
-    }
+    ++passed_over_;
   }
   return std::nullopt;
 }
@@ -75,9 +100,9 @@ void CandumpReader::count_bad() {
   }
 }
 
-/// The next line without its end; the last one of a file may have none.
+/// The next line without its end.
 std::optional<std::string_view> CandumpReader::take_line() {
-  for (;;) {
+  while (!ended_) {
     const std::string_view unread(buffer_.data() + begin_, end_ - begin_);
     const auto size = unread.find('\n', searched_);
     if (size != std::string_view::npos) {
@@ -86,16 +111,29 @@ std::optional<std::string_view> CandumpReader::take_line() {
       return unread.substr(0, size);
     }
     searched_ = unread.size();
-    if (!ended_ && read_more()) {
-      continue;
+    if (input_->ended()) {
+      return take_last_line();
     }
-    if (!ended_ || (unread.empty() && !in_long_line_)) {
+    if (passed_over_ >= most_passed_over) {
+      has_paused_ = true;
       return std::nullopt;
     }
-    begin_ = end_;
-    searched_ = 0;
-    return unread;
+    if (!read_more()) {
+      return std::nullopt;
+    }
   }
+  return std::nullopt;
+}
+
+/// What the file ends with; its last line may have no end.
+std::optional<std::string_view> CandumpReader::take_last_line() {
+  const std::string_view rest(buffer_.data() + begin_, end_ - begin_);
+  error_ = fault_of(*input_, name_, line_number_);
+  begin_ = end_;
+  searched_ = 0;
+  // Half a line may look like a whole one.
+  ended_ = error_ || (rest.empty() && !in_long_line_);
+  return ended_ ? std::nullopt : std::optional(rest);
 }
 
 /// Whether something changed: bytes came, or the file ended.
@@ -106,23 +144,11 @@ bool CandumpReader::read_more() {
   if (end_ == buffer_.size()) {
     in_long_line_ = true;
     end_ = searched_ = 0;
+    ++passed_over_;
   }
-  // Whoever gave us a pipe may read from it too: its mode is not ours to change, so it is asked
-  // whether it has something.
-  pollfd readable{descriptor_, POLLIN, 0};
-  if (poll(&readable, 1, 0) <= 0) {
-    return false;
-  }
-  const auto size = read(descriptor_, buffer_.data() + end_, buffer_.size() - end_);
-  if (size < 0 && (errno == EINTR || errno == EAGAIN)) {
-    return false;
-  }
-  if (size < 0) {
-    error_ = unreadable(name_, errno);
-  }
-  ended_ = size <= 0;
-  end_ += static_cast<std::size_t>(std::max<ssize_t>(size, 0));
-  return true;
+  const auto size = input_->read(std::span(buffer_).subspan(end_));
+  end_ += size;
+  return size > 0 || input_->ended();
 }
 
 } // namespace blactl::can

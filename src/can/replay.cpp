@@ -8,6 +8,12 @@
 #include <utility>
 
 namespace blactl::can {
+namespace {
+
+/// Lines of no frame that are looked at until somebody may end it.
+constexpr std::size_t most_at_once = 4096;
+
+} // namespace
 
 Result<std::unique_ptr<ReplayBus>> ReplayBus::open(const std::string& path, std::string name) {
   auto reader = CandumpReader::open(path);
@@ -29,7 +35,8 @@ Result<void> ReplayBus::filter(std::span<const Filter>) {
 }
 
 std::optional<BusEvent> ReplayBus::receive() {
-  for (;;) {
+  passed_over_ = 0;
+  while (passed_over_ < most_at_once) {
     if (!faults_.empty()) {
       const BusFault fault = faults_.front();
       faults_.pop_front();
@@ -47,11 +54,17 @@ std::optional<BusEvent> ReplayBus::receive() {
     if (line->kind == LogLine::Kind::error) {
       take_error_frame(*line);
     }
+    ++passed_over_;
   }
   if (!reader_->ended() || std::exchange(told_end_, true)) {
     return std::nullopt;
   }
   return end();
+}
+
+Time ReplayBus::idle_until(Time deadline) {
+  const bool has_more = reader_->has_paused() || passed_over_ == most_at_once;
+  return has_more ? now() : deadline;
 }
 
 void ReplayBus::take_error_frame(const LogLine& line) {
@@ -67,7 +80,7 @@ void ReplayBus::take_error_frame(const LogLine& line) {
 
 BusEvent ReplayBus::end() const {
   if (const auto& error = reader_->error()) {
-    return Gone{{Code::interface, error->message, error->hint, std::nullopt}};
+    return Gone{*error};
   }
   if (!has_frames_) {
     return Gone{{Code::bad_file, say<texts::log_without_frames>(reader_->name()),

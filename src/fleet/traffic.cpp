@@ -11,10 +11,8 @@ namespace blactl::fleet {
 
 void Traffic::hear(const can::Frame& frame, Time at) {
   const auto bits = can::frame_length(frame) + can::intermission_bits;
-  first_ = first_.value_or(at);
-  last_ = at;
+  load_.hear(bits, at);
   ++frames_;
-  bits_ += bits;
   if (!frame.extended) {
     ++standard_frames_;
     return;
@@ -48,18 +46,11 @@ void Traffic::hear(const can::BusFault& fault) {
 }
 
 std::optional<Duration> Traffic::duration() const {
-  return first_ && last_ > *first_ && !runs_backwards_ ? std::optional(last_ - *first_)
-                                                       : std::nullopt;
+  return runs_backwards_ ? std::nullopt : load_.duration();
 }
 
 std::optional<std::uint64_t> Traffic::load_permille() const {
-  const auto time = duration();
-  if (!time) {
-    return std::nullopt;
-  }
-  // At 1 Mbit/s a bit takes 1 us.
-  const auto us = std::chrono::duration_cast<std::chrono::microseconds>(*time).count();
-  return us > 0 ? std::optional(bits_ * 1000 / static_cast<std::uint64_t>(us)) : std::nullopt;
+  return runs_backwards_ ? std::nullopt : load_.mean_permille();
 }
 
 } // namespace blactl::fleet

@@ -27,7 +27,8 @@ TEST_CASE("apply brings every servo to the file: RAM, ROM, and diff agrees") {
   INFO(applied.err);
   CHECK(applied.status == 0);
   CHECK(statuses(applied) == Words{"changed", "changed", "changed"});
-  for (const auto& node : json(applied.out)["nodes"]) {
+  const auto said = json(applied.out);
+  for (const auto& node : said["nodes"]) {
     CHECK(node["saved"] == true);
     CHECK(node["verified_after_restart"] == true);
     CHECK(node["node_id_after"] == node["node_id"]);
@@ -371,7 +372,8 @@ TEST_CASE("a second apply writes nothing and restarts nothing") {
   INFO(again.err);
   CHECK(again.status == 0);
   CHECK(statuses(again) == Words{"unchanged", "unchanged", "unchanged"});
-  for (const auto& node : json(again.out)["nodes"]) {
+  const auto said = json(again.out);
+  for (const auto& node : said["nodes"]) {
     CHECK(node["verified_after_restart"] == true);
     CHECK(node["duration_s"] == 0);
   }

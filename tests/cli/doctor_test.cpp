@@ -18,7 +18,8 @@ Scene numbered_servos() {
 
 std::vector<std::string> found(const Result& result) {
   std::vector<std::string> all;
-  for (const auto& finding : json(result.out)["findings"]) {
+  const auto document = json(result.out); // lives as long as the loop needs it
+  for (const auto& finding : document["findings"]) {
     all.push_back(finding["code"]);
   }
   return all;

@@ -99,7 +99,8 @@ class Fleet {
 
 inline std::vector<std::string> statuses(const Result& result) {
   std::vector<std::string> all;
-  for (const auto& node : json(result.out)["nodes"]) {
+  const auto document = json(result.out);
+  for (const auto& node : document["nodes"]) {
     all.push_back(node["status"]);
   }
   return all;

@@ -2,6 +2,7 @@
 #include "blactl/dronecan/types.hpp"
 
 #include "catch.hpp"
+#include "gzip.hpp"
 #include "scene.hpp"
 #include "tap.hpp"
 
@@ -611,44 +612,44 @@ TEST_CASE("a trace that cannot be written fails once") {
   }
 }
 
-TEST_CASE("--stats adds up who sends what, and what it costs the bus") {
-  const Bench bench;
-  // One second: a NodeStatus (143 bits with the intermission) each 100 ms from 42, one error
-  // from 43.
-  std::string log;
-  for (int i = 0; i <= 10; ++i) {
-    log += status_line(i, fmt::format("14365090{:.6f}", 10 + 0.1 * i));
-  }
-  log += "(1436509011.000000) can0 1403F32B#00BD1160\n";
-  const std::string file = bench.file("x.log", log);
-  const Result result = bench.run({"trace", "--stats", "-j", file});
-  REQUIRE(json_lines(result.out).size() == 1);
-  const auto end = json(result.out);
-  REQUIRE(end["stats"].size() == 2);
-  const auto& row = end["stats"][0];
-  CHECK(row["source"] == 42);
-  CHECK(row["type"] == "uavcan.protocol.NodeStatus");
-  CHECK(row["kind"] == "message");
-  CHECK(row["transfers"] == 11);
-  CHECK(row["transfers_per_s"] == 11.0);
-  CHECK(row["frames"] == 11);
-  CHECK(row["bytes"] == 77);
-  CHECK(row["errors"] == 0);
-  CHECK(end["stats"][1]["source"] == 43);
-  CHECK(end["stats"][1]["errors"] == 1);
-  CHECK(end["buses"][0]["interface"] == "can0");
-  CHECK(end["buses"][0]["frames"] == 12);
-  CHECK(end["buses"][0]["duration_s"] == 1.0);
-  const auto load = end["buses"][0]["load_pct"].get<double>();
-  CHECK(load > 0.14);
-  CHECK(load < 0.19);
-  CHECK(end["counts"]["transfers"] == 11);
-  CHECK(end["counts"]["errors"] == 1);
+namespace {
 
-  const Result text = bench.run({"trace", "--stats", file});
-  CHECK(contains(text.out, "INTERFACE  NODE  KIND"));
-  CHECK(contains(text.out, "uavcan.protocol.NodeStatus"));
-  CHECK(contains(text.out, "can0: frames: 12 in 1.0 s, "));
+std::string three_statuses() {
+  return status_line(0, "1.000000") + status_line(1, "2.000000") + status_line(2, "3.000000");
+}
+
+} // namespace
+
+TEST_CASE("a log that gzip has packed is traced like any other, from a file and a pipe") {
+  const Bench bench;
+  const std::string log = three_statuses();
+  const std::string packed = gzipped(log);
+  const Result plain = bench.run({"trace", bench.file("x.log", log)});
+  const std::string file = bench.file("x.bin", packed); // the name says nothing
+  CHECK(bench.run({"trace", file}).out == plain.out);
+  CHECK(bench.run({"-i", "replay:" + file, "trace"}).out == plain.out);
+  CHECK(bench.run({"trace", "-"}, {.stdin_text = packed}).out == plain.out);
+  const Result scanned = bench.run({"-i", "replay:" + file, "scan"});
+  CHECK(scanned.out == bench.run({"-i", "replay:" + bench.file("y.log", log), "scan"}).out);
+}
+
+TEST_CASE("a packed log that is cut off shows what it holds, and is a bad file") {
+  const Bench bench;
+  const std::string packed = gzipped(three_statuses());
+  const std::string file = bench.file("x.log.gz", packed.substr(0, packed.size() - 6));
+  const Result result = bench.run({"trace", file});
+  CHECK(result.status == 2);
+  CHECK(std::ranges::count(result.out, '\n') == 3);
+  CHECK(codes(result) == Names{"bad_file"});
+  CHECK(contains(result.err, "x.log.gz is cut off: its gzip data ends too early; lines read "
+                             "before: 3"));
+  const auto stats = json(bench.run({"trace", "--stats", "-j", file}).out);
+  CHECK(stats["types"][0]["count"] == 3);
+  CHECK(stats["errors"][0]["code"] == "bad_file");
+  CHECK(contains(bench.run({"trace", file, "--lang", "ja"}).err, "途中で切れています"));
+  const Result scanned = bench.run({"-i", "replay:" + file, "scan"});
+  CHECK(scanned.status == 2);
+  CHECK(codes(scanned) == Names{"bad_file"});
 }
 
 TEST_CASE("what trace says to people is said in Japanese too") {
@@ -656,7 +657,7 @@ TEST_CASE("what trace says to people is said in Japanese too") {
   const std::string log = bench.file("x.log", "x\n(1.000000) can0 1403F32A#00BD1160\n");
   const Result text = bench.run({"trace", log, "--lang", "ja"});
   CHECK(contains(text.out, "missing_start: 先頭のフレームを受信していません"));
-  CHECK(contains(bench.run({"trace", log, "--stats", "--lang", "ja"}).out, "インターフェース"));
+  CHECK(contains(bench.run({"trace", log, "--stats", "--lang", "ja"}).out, "ジッタ"));
   CHECK(contains(bench.run({"trace", "--type", "x", "--lang", "ja"}).err,
                  "データ型 'x' はありません"));
   CHECK(contains(bench.run({"trace", "-n", "all", "--lang", "ja"}).err, "ノード ID のみ"));
@@ -683,11 +684,4 @@ TEST_CASE("types that end alike are told apart, and every fault of the arguments
   CHECK(faults.status == 2);
   CHECK(codes(faults) == std::vector<std::string>{"usage", "usage", "usage", "usage"});
   CHECK(contains(faults.err, "did you mean NodeStatus?"));
-}
-
-TEST_CASE("trace --stats fits a terminal of 80 columns") {
-  const Result result = three_servos().run({"trace", "--stats", "--duration", "1.2"},
-                                           {.terminal_stdout = true, .columns = 80});
-  CHECK(result.status == 0);
-  CHECK(longest_line(result.out) <= 80);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Reads a candump log line by line, from a file or a pipe of any length.
+// Reads a candump log line by line, from a file or a pipe of any length, plain or packed by gzip.
 
 #include "blactl/base/error.hpp"
 #include "blactl/can/candump.hpp"
@@ -14,8 +14,10 @@
 
 namespace blactl::can {
 
-/// One buffer is all the memory it takes. Lines that begin with # are comments; others that are not
-/// candump's are passed over and counted.
+class LogInput;
+
+/// One buffer is all the memory it takes, and some more where a log is unpacked. Lines that begin
+/// with # are comments; others that are not candump's are passed over and counted.
 class CandumpReader {
  public:
   /// `path`: a file, or `-` for standard input. Errors: bad_file.
@@ -26,17 +28,21 @@ class CandumpReader {
   CandumpReader& operator=(const CandumpReader&) = delete;
 
   /// The next line of a frame (also those of CAN FD and remarks, as LogLine::Kind::other). Its
-  /// strings are valid until the next call. Empty: see ended(). Never waits: a pipe may have
-  /// nothing yet.
+  /// strings are valid until the next call. Empty: see ended() and has_paused(). Never waits: a
+  /// pipe may have nothing yet.
   [[nodiscard]] std::optional<LogLine> next();
 
   /// Nothing more comes; error() tells if there should have been more.
-  [[nodiscard]] bool ended() const { return ended_ && begin_ == end_; }
+  [[nodiscard]] bool ended() const { return ended_; }
+
+  /// next() gave nothing though there is more: it passes over so much at a time and no more, so
+  /// that somebody can end it.
+  [[nodiscard]] bool has_paused() const { return has_paused_; }
 
   [[nodiscard]] const std::optional<Error>& error() const { return error_; }
 
   /// Can be read when more may have come.
-  [[nodiscard]] int descriptor() const { return descriptor_; }
+  [[nodiscard]] int descriptor() const;
 
   /// As a person names it: the path, or "standard input".
   [[nodiscard]] const std::string& name() const { return name_; }
@@ -50,19 +56,22 @@ class CandumpReader {
   [[nodiscard]] std::uint64_t first_bad_line() const { return first_bad_line_; }
 
  private:
-  CandumpReader(int descriptor, std::string name);
+  CandumpReader(std::unique_ptr<LogInput> input, std::string name);
 
   [[nodiscard]] std::optional<std::string_view> take_line();
+  [[nodiscard]] std::optional<std::string_view> take_last_line();
   [[nodiscard]] bool read_more();
   void count_bad();
 
-  int descriptor_;
+  std::unique_ptr<LogInput> input_;
   std::string name_;
   std::vector<char> buffer_;
   std::size_t begin_ = 0, end_ = 0; ///< what was read and not given yet
   std::size_t searched_ = 0;        ///< how far behind begin_ there is no line end
-  bool ended_ = false;              ///< the file is
-  bool in_long_line_ = false;       ///< its beginning had no room and is gone
+  bool ended_ = false;
+  bool in_long_line_ = false; ///< its beginning had no room and is gone
+  bool has_paused_ = false;
+  std::size_t passed_over_ = 0; ///< lines and pieces of lines, by the next() that runs
   std::optional<Error> error_;
   std::uint64_t line_number_ = 0;
   std::uint64_t bad_lines_ = 0;

@@ -5,6 +5,7 @@
 #include "blactl/can/candump_reader.hpp"
 #include "blactl/can/log_clock.hpp"
 
+#include <cstddef>
 #include <deque>
 #include <memory>
 #include <optional>
@@ -27,9 +28,11 @@ class ReplayBus final : public Bus {
   /// Errors: usage, always.
   [[nodiscard]] Result<bool> send(const Frame& frame) override;
 
-  /// A log without a frame ends as Gone (bad_file), and so does one that cannot be read further
-  /// (interface).
+  /// A log without a frame ends as Gone (bad_file), and so does one that cannot be read further.
   [[nodiscard]] std::optional<BusEvent> receive() override;
+
+  /// Now, if receive() has passed over so much that somebody shall get the chance to end it.
+  [[nodiscard]] Time idle_until(Time deadline) override;
 
   /// Lets everything through.
   [[nodiscard]] Result<void> filter(std::span<const Filter> filters) override;
@@ -60,6 +63,7 @@ class ReplayBus final : public Bus {
   std::deque<BusFault> faults_; ///< one error frame may tell several
   bool has_frames_ = false;
   bool told_end_ = false;
+  std::size_t passed_over_ = 0; ///< lines, by the receive() that ran last
 };
 
 } // namespace blactl::can

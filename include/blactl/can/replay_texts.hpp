@@ -9,6 +9,15 @@ inline constexpr Text log_unreadable{"cannot read {}: {}", "{} を読み込め�
 inline constexpr Text log_unreadable_hint{
     "give a log of candump -l, or of blactl --record: -i replay:FILE",
     "candump -l または blactl --record のログを指定して下さい: -i replay:FILE"};
+inline constexpr Text log_cut_off{
+    "{} is cut off: its gzip data ends too early; lines read before: {}",
+    "{} は途中で切れています (gzip データが不完全)。読込み済み: {} 行"};
+inline constexpr Text log_damaged{
+    "{} is damaged: its gzip data is not valid; lines read before: {}",
+    "{} は破損しています (gzip データが不正)。読込み済み: {} 行"};
+inline constexpr Text log_damaged_hint{
+    "what stands before that was used; gzip -t tests a copy, and the original log has the rest",
+    "そこまでの内容は使用しました。gzip -t でファイルを確認し、元のログを使用して下さい"};
 inline constexpr Text log_without_frames{"{} holds no frame in candump's format",
                                          "{} には candump 形式のフレームがありません"};
 inline constexpr Text standard_input{"standard input", "標準入力"};

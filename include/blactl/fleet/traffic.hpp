@@ -5,6 +5,7 @@
 #include "blactl/base/time.hpp"
 #include "blactl/can/bus.hpp"
 #include "blactl/dronecan/ids.hpp"
+#include "blactl/fleet/bus_load.hpp"
 
 #include <cstdint>
 #include <map>
@@ -71,9 +72,8 @@ class Traffic {
   [[nodiscard]] const std::map<can::FaultKind, std::uint64_t>& faults() const { return faults_; }
 
  private:
-  std::uint64_t frames_ = 0, own_frames_ = 0, bits_ = 0, standard_frames_ = 0;
-  std::optional<Time> first_;
-  Time last_{};
+  std::uint64_t frames_ = 0, own_frames_ = 0, standard_frames_ = 0;
+  BusLoad load_;
   WallTime newest_{};
   bool runs_backwards_ = false;
   std::map<dronecan::NodeId, Sender> senders_;

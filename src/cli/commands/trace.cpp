@@ -1,21 +1,17 @@
 // blactl trace: every DroneCAN transfer decoded, live or from a candump log.
 
 #include "blactl/can/candump_reader.hpp"
-#include "blactl/can/log_clock.hpp"
-#include "blactl/can/loop.hpp"
 #include "blactl/can/replay_texts.hpp"
 #include "blactl/fleet/texts.hpp"
 
 #include "cli/commands.hpp"
 #include "cli/interface/bus_factory.hpp"
 #include "cli/texts.hpp"
+#include "cli/trace/run.hpp"
 #include "cli/trace/stats.hpp"
 #include "cli/trace/texts.hpp"
 #include "cli/trace/tracer.hpp"
 
-#include <signal.h>
-
-#include <algorithm>
 #include <array>
 #include <limits>
 #include <memory>
@@ -67,8 +63,9 @@ constexpr Option trace_options[]{
      .store = into<&TraceOptions::count>},
     {.name = "--stats",
      .kind = Kind::flag,
-     .help = {"instead of the transfers, who sends what how often, and the load of the bus",
-              "個々の転送の代わりに、送信元ごとの頻度とバス負荷を表示"},
+     .help =
+         {"instead of the transfers: who sends what how often, what is lost, the load of the bus",
+          "個々の転送の代わりに、送信元ごとの頻度・周期・欠落とバス負荷を表示"},
      .store = into<&TraceOptions::stats>},
     {.name = "--absolute",
      .kind = Kind::flag,
@@ -80,167 +77,10 @@ constexpr Option trace_options[]{
 constexpr Option trace_arguments[]{
     {.name = "FILE",
      .kind = Kind::file,
-     .help = {"a log of candump -l, or - (default: the interface)",
-              "candump -l のログ、または - (省略時: インターフェース)"},
+     .help = {"a log of candump -l, plain or .gz, or - (default: the interface)",
+              "candump -l のログ (.gz 可)、または - (省略時: インターフェース)"},
      .store = into<&TraceOptions::file>},
 };
-
-/// What is kept until it is written to stdout at once, where nobody waits for a line.
-constexpr std::size_t block_size = 64 << 10;
-
-/// How many lines of a log pass until somebody looks for Ctrl-C.
-constexpr std::uint64_t lines_between_looks = 4096;
-
-/// One run of the command: where frames come from, and what ends it.
-class Trace {
- public:
-  Trace(const TraceOptions& options, const Context& context, Tracer& tracer, std::string& out,
-        Report& report)
-      : options_(options), context_(context), tracer_(tracer), out_(out), report_(report) {}
-
-  void live(std::unique_ptr<can::Bus> bus);
-  void log(can::CandumpReader& reader);
-
-  [[nodiscard]] std::uint64_t lost() const { return lost_; }
-
-  [[nodiscard]] std::uint64_t unreadable() const { return unreadable_; }
-
- private:
-  /// What comes after the lines that were there.
-  enum class Next : unsigned char { go_on, wait, stop };
-
-  [[nodiscard]] bool handle(const can::Event& event, std::string_view interface, Time end);
-  [[nodiscard]] bool take(const can::LogLine& line, const can::LogClock& clock);
-  [[nodiscard]] Next take_lines(can::CandumpReader& reader, can::LogClock& clock);
-  [[nodiscard]] bool flush();
-
-  const TraceOptions& options_;
-  const Context& context_;
-  Tracer& tracer_;
-  std::string& out_;
-  Report& report_;
-  std::uint64_t lost_ = 0;
-  std::uint64_t unreadable_ = 0;
-  bool has_frames_ = false; ///< the log
-  WallTime begin_{};        ///< of the log
-};
-
-/// Writes what is there; false ends the trace.
-bool Trace::flush() {
-  if (out_.empty()) {
-    return true;
-  }
-  const auto written = context_.reporter().stream(out_);
-  out_.clear();
-  if (!written) {
-    report_.fail(written.error());
-  }
-  return written.value_or(false);
-}
-
-/// False ends the trace.
-bool Trace::handle(const can::Event& event, std::string_view interface, Time end) {
-  if (const auto* received = std::get_if<can::Received>(&event)) {
-    if (received->at > end) {
-      return false;
-    }
-    tracer_.receive({received->frame, received->at, received->wall, interface});
-    return !tracer_.full();
-  }
-  if (const auto* overflow = std::get_if<can::Overflow>(&event)) {
-    lost_ = overflow->lost;
-  } else if (const auto* signal = std::get_if<can::Signal>(&event)) {
-    if (signal->number != SIGWINCH) {
-      report_.signal = signal->number;
-      return false;
-    }
-  } else if (const auto* gone = std::get_if<can::Gone>(&event)) {
-    report_.fail(gone->error);
-    return false;
-  }
-  return !std::holds_alternative<can::Ended>(event);
-}
-
-void Trace::live(std::unique_ptr<can::Bus> bus) {
-  can::Loop loop(std::move(bus));
-  report_.interface = loop.bus().name();
-  const Time end = options_.duration ? loop.now() + *options_.duration : never;
-  bool goes_on = true;
-  while (goes_on && loop.now() < end) {
-    goes_on = handle(loop.next(std::min(end, tracer_.next_expiry())), report_.interface, end);
-    if (goes_on && tracer_.next_expiry() <= loop.now()) {
-      tracer_.expire(loop.now());
-    }
-    goes_on = flush() && goes_on;
-  }
-  unreadable_ = loop.bus().unreadable();
-  context_.check_recording(report_);
-}
-
-/// False ends the trace.
-bool Trace::take(const can::LogLine& line, const can::LogClock& clock) {
-  if (line.kind == can::LogLine::Kind::other) {
-    return true;
-  }
-  const WallTime at = clock.wall();
-  begin_ = has_frames_ ? begin_ : at;
-  has_frames_ = true;
-  if (options_.duration && at - begin_ > *options_.duration) {
-    return false;
-  }
-  if (line.kind == can::LogLine::Kind::frame) {
-    // The log's own times, to the microsecond: its clock is the wall clock.
-    tracer_.receive({line.frame, Time(at.time_since_epoch()), at, line.interface});
-  }
-  return !tracer_.full();
-}
-
-/// Takes the lines that are there, and does not wait.
-Trace::Next Trace::take_lines(can::CandumpReader& reader, can::LogClock& clock) {
-  for (std::uint64_t i = 0; i < lines_between_looks; ++i) {
-    const auto line = reader.next();
-    if (!line) {
-      // A pipe has nothing for now: whoever looks shall see what came so far.
-      return flush() ? Next::wait : Next::stop;
-    }
-    clock.pass(*line);
-    if (!take(*line, clock) || (out_.size() >= block_size && !flush())) {
-      return Next::stop;
-    }
-  }
-  return Next::go_on;
-}
-
-void Trace::log(can::CandumpReader& reader) {
-  can::Loop loop(nullptr);
-  loop.watch(reader.descriptor());
-  can::LogClock clock;
-  while (!reader.ended()) {
-    const Next next = take_lines(reader, clock);
-    if (next == Next::stop) {
-      (void)flush();
-      return;
-    }
-    if (reader.ended()) {
-      break;
-    }
-    const can::Event event = loop.next(next == Next::wait ? never : Time::min());
-    if (const auto* signal = std::get_if<can::Signal>(&event);
-        signal != nullptr && signal->number != SIGWINCH) {
-      report_.signal = signal->number;
-      (void)flush();
-      return;
-    }
-  }
-  tracer_.expire(never);
-  (void)flush();
-  if (const auto& error = reader.error()) {
-    report_.fail(*error);
-  } else if (!has_frames_) {
-    report_.fail({Code::bad_file, say<texts::log_without_frames>(reader.name()),
-                  say<texts::log_unreadable_hint>(), std::nullopt});
-  }
-}
 
 /// The log that is meant; empty: none, an interface is.
 std::optional<std::string> log_path(const TraceOptions& options, const std::string& interface) {
@@ -277,13 +117,13 @@ void count(const Tracer& tracer, std::uint64_t lost, std::uint64_t bad_lines, Re
 }
 
 /// What the user should know of what is not there.
-void tell_losses(const Tracer& tracer, const Trace& trace, const can::CandumpReader* log,
+void tell_losses(const Tracer& tracer, const TraceRun& run, const can::CandumpReader* log,
                  const Reporter& reporter) {
-  if (trace.lost() > 0) {
-    reporter.note(say<texts::frames_lost>(trace.lost()));
+  if (run.lost() > 0) {
+    reporter.note(say<texts::frames_lost>(run.lost()));
   }
-  if (trace.unreadable() > 0) {
-    reporter.note(say<texts::unreadable_frames>(trace.unreadable()));
+  if (run.unreadable() > 0) {
+    reporter.note(say<texts::unreadable_frames>(run.unreadable()));
   }
   if (log != nullptr && log->bad_lines() > 0) {
     reporter.note(
@@ -322,8 +162,8 @@ Result<Source> open_source(const TraceOptions& options, const bla::Profiles* pro
 }
 
 /// `profiles`: null for a log as JSON.
-void run(const TraceOptions& options, TraceFilter filter, const bla::Profiles* profiles,
-         Context& context, Report& report) {
+void run_trace(const TraceOptions& options, TraceFilter filter, const bla::Profiles* profiles,
+               Context& context, Report& report) {
   auto source = open_source(options, profiles, context);
   if (!source) {
     return report.fail(source.error());
@@ -335,11 +175,12 @@ void run(const TraceOptions& options, TraceFilter filter, const bla::Profiles* p
   TraceOutput& output = lines ? *lines : *stats;
   Tracer tracer(std::move(filter), output,
                 options.count.value_or(std::numeric_limits<std::uint64_t>::max()));
-  Trace trace(options, context, tracer, out, report);
-  log != nullptr ? trace.log(*source->log) : trace.live(std::move(source->bus));
+  StatsScreen screen(options.stats ? stats.get() : nullptr, context.reporter());
+  TraceRun run(options.duration, context, tracer, screen, out, report);
+  log != nullptr ? run.log(*source->log) : run.live(std::move(source->bus));
 
-  count(tracer, trace.lost(), log != nullptr ? log->bad_lines() : 0, report);
-  tell_losses(tracer, trace, log, context.reporter());
+  count(tracer, run.lost(), log != nullptr ? log->bad_lines() : 0, report);
+  tell_losses(tracer, run, log, context.reporter());
   if (options.stats) {
     report.json = [stats](JsonWriter& json) { stats->write(json); };
     report.text = [stats](const Page& page) { return stats->text(page); };
@@ -370,7 +211,7 @@ Report execute(const TraceOptions& options, Context& context) {
     }
     profiles = *loaded;
   }
-  run(options, std::move(*filter), profiles, context, report);
+  run_trace(options, std::move(*filter), profiles, context, report);
   return report;
 }
 

@@ -18,7 +18,6 @@ namespace blactl::cli {
 namespace {
 
 using dronecan::DataType;
-using dronecan::Kind;
 
 std::vector<std::string_view> words_of(std::string_view list) {
   std::vector<std::string_view> words;
@@ -120,7 +119,7 @@ void TraceFilter::take_nodes(const std::string& list, std::vector<Error>& faults
 }
 
 bool TraceFilter::passes(const dronecan::Header& header) const {
-  const bool service = header.kind != Kind::message;
+  const bool service = header.kind != dronecan::Kind::message;
   const auto is_it = [&](const Type& type) {
     return type.id == header.data_type_id && type.service.value_or(service) == service;
   };

@@ -12,7 +12,6 @@ namespace {
 
 using dronecan::Bytes;
 using dronecan::FieldsResult;
-using dronecan::Kind;
 
 class JsonFields final : public dronecan::FieldSink {
  public:
@@ -59,7 +58,8 @@ void begin_line(JsonWriter& json, const Occasion& occasion) {
 
 void write_destination(JsonWriter& json, const dronecan::Header& header) {
   json.key("destination");
-  header.kind == Kind::message ? json.value(nullptr) : json.value(header.destination.value());
+  header.kind == dronecan::Kind::message ? json.value(nullptr)
+                                         : json.value(header.destination.value());
 }
 
 } // namespace

@@ -6,7 +6,7 @@
 namespace blactl::cli {
 
 std::string_view name(TraceError error) {
-  constexpr std::array<std::string_view, 7> words{
+  constexpr std::array<std::string_view, trace_errors> words{
       "crc", "toggle", "missing_start", "transfer_id", "truncated", "timeout", "short"};
   return words[std::to_underlying(error)];
 }

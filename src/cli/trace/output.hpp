@@ -7,6 +7,7 @@
 #include "blactl/can/frame.hpp"
 #include "blactl/dronecan/transfer.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -25,11 +26,21 @@ enum class TraceError : std::uint8_t {
   too_short, ///< complete, but shorter than its type: "short"
 };
 
+inline constexpr std::size_t trace_errors = 7;
+
 /// The word of the contract: "crc", …, "short".
 [[nodiscard]] std::string_view name(TraceError error);
 
 /// message, request, response.
 [[nodiscard]] std::string_view name(dronecan::Kind kind);
+
+/// A frame, and where and when it was heard.
+struct Heard {
+  const can::Frame& frame;
+  Time at; ///< may be any clock that agrees with `wall` but for a constant
+  WallTime wall;
+  std::string_view interface; ///< foreign
+};
 
 /// Where and when something was heard.
 struct Occasion {
@@ -46,7 +57,7 @@ class TraceOutput {
   TraceOutput& operator=(const TraceOutput&) = delete;
 
   /// Every frame, before what comes of it. `wanted`: it is DroneCAN and passes the filter.
-  virtual void frame(const Occasion& occasion, const can::Frame& frame, bool wanted) = 0;
+  virtual void frame(const Heard& heard, bool wanted) = 0;
   /// Whether the transfer was shown: false if its payload is too short for its type.
   [[nodiscard]] virtual bool transfer(const Occasion& occasion,
                                       const dronecan::Transfer& transfer) = 0;
@@ -62,7 +73,7 @@ class JsonTrace final : public TraceOutput {
   /// `out` outlives the view.
   explicit JsonTrace(std::string& out) : out_(out) {}
 
-  void frame(const Occasion&, const can::Frame&, bool) override {}
+  void frame(const Heard&, bool) override {}
 
   bool transfer(const Occasion& occasion, const dronecan::Transfer& transfer) override;
   void broken(const Occasion& occasion, TraceError error, std::uint32_t can_id) override;
@@ -82,9 +93,7 @@ class TextTrace final : public TraceOutput {
   TextTrace(std::string& out, const bla::Profiles& profiles, Clock clock)
       : out_(out), profiles_(profiles), clock_(clock) {}
 
-  void frame(const Occasion& occasion, const can::Frame&, bool) override {
-    first_ = first_.value_or(occasion.at);
-  }
+  void frame(const Heard& heard, bool) override { first_ = first_.value_or(heard.wall); }
 
   bool transfer(const Occasion& occasion, const dronecan::Transfer& transfer) override;
   void broken(const Occasion& occasion, TraceError error, std::uint32_t can_id) override;

@@ -1,60 +1,58 @@
 #pragma once
-// A trace added up: who sends what how often, and what it costs the bus (--stats).
+// A trace added up: who sends what how often, what is lost, and what it costs the bus (--stats).
 
 #include "blactl/base/json_writer.hpp"
-#include "blactl/dronecan/ids.hpp"
+#include "blactl/fleet/bus_statistics.hpp"
 
 #include "cli/output/page.hpp"
 #include "cli/trace/output.hpp"
 
+#include <array>
 #include <cstdint>
-#include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace blactl::cli {
 
+/// Interfaces are kept apart; there are at most Tracer::most_interfaces, so that all of it takes
+/// some 25 MB at the worst.
 class TraceStats final : public TraceOutput {
  public:
-  /// Rows beyond these are added up in one: senders, types and interfaces are foreign, memory is
-  /// bounded.
-  static constexpr std::size_t most_rows = 4096;
+  /// Whatever the filter says: the load is that of all frames.
+  struct Bus {
+    std::string name;
+    fleet::BusStatistics statistics{};
+  };
 
-  void frame(const Occasion& occasion, const can::Frame& frame, bool wanted) override;
+  void frame(const Heard& heard, bool wanted) override;
   bool transfer(const Occasion& occasion, const dronecan::Transfer& transfer) override;
   void broken(const Occasion& occasion, TraceError error, std::uint32_t can_id) override;
 
+  /// Nothing more was heard until `now`, of the clock of the frames.
+  void pass(Time now);
+
   /// Tables for people.
   [[nodiscard]] std::string text(const Page& page) const;
-  /// The members "stats" and "buses".
+  /// The members of the document.
   void write(JsonWriter& json) const;
 
  private:
-  struct Row {
-    std::size_t bus = 0; ///< place in buses_
-    dronecan::Kind kind{};
-    std::uint16_t data_type_id = 0;
-    std::uint8_t source = 0;
-    bool is_rest = false; ///< of all for which there was no row
-    std::uint64_t frames = 0, bits = 0, transfers = 0, bytes = 0, errors = 0;
-  };
-
-  /// All that was heard on one interface, whatever the filter says.
-  struct Bus {
-    std::string name;
-    WallTime first{}, last{};
-    std::uint64_t frames = 0, bits = 0;
-
-    [[nodiscard]] Duration duration() const { return last - first; }
-  };
-
-  [[nodiscard]] std::size_t bus_of(std::string_view name);
-  [[nodiscard]] std::vector<std::string> cells(const Row& row) const;
-  [[nodiscard]] Row& row_of(std::string_view interface, const dronecan::Header& header);
+  [[nodiscard]] fleet::BusStatistics& statistics_of(std::string_view interface);
+  [[nodiscard]] std::string errors_text() const;
+  void write_errors(JsonWriter& json) const;
 
   std::vector<Bus> buses_;
-  std::map<std::uint64_t, Row> rows_; ///< in the order of the table
+  std::size_t last_ = 0; ///< place in buses_ of the one that was looked for last
+  std::array<std::uint64_t, trace_errors> errors_{};
 };
+
+/// Empty: the bus was heard for too short a time, or its times run backwards.
+[[nodiscard]] std::optional<double> per_second(std::uint64_t count,
+                                               const fleet::BusStatistics& bus);
+
+/// "12.30"; empty without a number.
+[[nodiscard]] std::string fixed(std::optional<double> number, int decimals);
 
 } // namespace blactl::cli

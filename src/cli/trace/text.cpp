@@ -7,13 +7,13 @@
 
 #include "cli/trace/output.hpp"
 #include "cli/trace/texts.hpp"
+#include "cli/trace/time.hpp"
 #include "cli/trace/type_name.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdint>
-#include <ctime>
 #include <iterator>
 #include <optional>
 
@@ -23,7 +23,6 @@ namespace {
 using dronecan::Bytes;
 using dronecan::FieldsResult;
 using dronecan::GetSet;
-using dronecan::Kind;
 
 /// `uptime_sec=1234 health=ok … software_version={major=1 minor=4}`.
 class TextFields final : public dronecan::FieldSink {
@@ -93,38 +92,12 @@ class TextFields final : public dronecan::FieldSink {
 
 constexpr std::int64_t million = 1'000'000;
 
-/// "2015-07-09 14:30:52.249713", in the time zone of this process.
-std::string wall_text(WallTime at) {
-  const std::int64_t micros = std::max<std::int64_t>(at.time_since_epoch().count(), 0);
-  const auto seconds = static_cast<std::time_t>(micros / million);
-  std::tm parts{};
-  if (localtime_r(&seconds, &parts) == nullptr) {
-    return {}; // a year that no int holds
-  }
-  return fmt::format("{:04}-{:02}-{:02} {:02}:{:02}:{:02}.{:06}", parts.tm_year + 1900,
-                     parts.tm_mon + 1, parts.tm_mday, parts.tm_hour, parts.tm_min, parts.tm_sec,
-                     micros % million);
-}
-
 /// "    0.000000": the times of a log may also go back.
 std::string relative_text(Duration since) {
   const std::int64_t micros = since.count();
   const std::int64_t size = micros < 0 ? -micros : micros;
   return fmt::format("{:>5}.{:06}", fmt::format("{}{}", micros < 0 ? "-" : "", size / million),
                      size % million);
-}
-
-/// "NodeStatus", "esc.Status"; "20001" where nobody knows the type.
-std::string type_text(const dronecan::Header& header) {
-  const auto* type = dronecan::find_standard_type(header.kind, header.data_type_id);
-  std::string name =
-      type != nullptr ? std::string(short_name(*type)) : fmt::to_string(header.data_type_id);
-  switch (header.kind) {
-  case Kind::request: return name + ".Request";
-  case Kind::response: return name + ".Response";
-  case Kind::message: break;
-  }
-  return name;
 }
 
 std::string explanation(TraceError error) {
@@ -170,7 +143,7 @@ std::optional<std::string> register_text(const bla::Profiles& profiles, const st
 
 std::optional<std::string> register_text(const bla::Profiles& profiles,
                                          const dronecan::Transfer& transfer) {
-  if (transfer.header.kind == Kind::request) {
+  if (transfer.header.kind == dronecan::Kind::request) {
     const auto request = GetSet::Request::decode(transfer.payload);
     return request ? register_text(profiles, request->name, request->value, ":=", "?")
                    : std::nullopt;
@@ -188,10 +161,11 @@ std::string TextTrace::time_text(WallTime at) const {
 }
 
 void TextTrace::begin_line(const Occasion& occasion, const dronecan::Header& header) {
-  const bool service = header.kind != Kind::message;
+  const bool service = header.kind != dronecan::Kind::message;
   fmt::format_to(std::back_inserter(out_), "{}  {}  {:>3} > {:<3}  {:<22}  ",
                  time_text(occasion.at), printable(occasion.interface), header.source.value(),
-                 service ? fmt::to_string(header.destination.value()) : "*", type_text(header));
+                 service ? fmt::to_string(header.destination.value()) : "*",
+                 type_text(header.kind, header.data_type_id));
 }
 
 bool TextTrace::transfer(const Occasion& occasion, const dronecan::Transfer& transfer) {
@@ -224,7 +198,7 @@ bool TextTrace::transfer(const Occasion& occasion, const dronecan::Transfer& tra
 /// Registers of BLA servos are shown by name and in their unit.
 bool TextTrace::write_register(const dronecan::Transfer& transfer) {
   const auto& header = transfer.header;
-  const auto text = header.kind != Kind::message && header.data_type_id == GetSet::type.id
+  const auto text = header.kind != dronecan::Kind::message && header.data_type_id == GetSet::type.id
                         ? register_text(profiles_, transfer)
                         : std::nullopt;
   out_ += text.value_or("");

@@ -32,16 +32,25 @@ inline constexpr Text trace_short{"the payload is too short for its type",
                                   "ペイロードがデータ型より短くなっています"};
 inline constexpr Text trace_no_value{"has no value", "値なし"};
 inline constexpr Text trace_crc_unchecked{"(CRC not checked)", "(CRC 未確認)"};
-inline constexpr Text column_interface{"INTERFACE", "インターフェース"};
-inline constexpr Text column_kind{"KIND", "種別"};
 inline constexpr Text column_type{"TYPE", "データ型"};
-inline constexpr Text column_transfers{"TRANSFERS", "転送数"};
-inline constexpr Text column_per_second{"PER SECOND", "毎秒"};
-inline constexpr Text column_frames{"FRAMES", "フレーム数"};
-inline constexpr Text column_bytes{"BYTES", "バイト数"};
+inline constexpr Text column_transfers{"COUNT", "転送数"};
+inline constexpr Text column_per_second{"PER S", "毎秒"};
+inline constexpr Text column_period_ms{"MEAN ms", "周期 ms"};
+inline constexpr Text column_range_ms{"MIN-MAX ms", "範囲 ms"};
+inline constexpr Text column_jitter{"JITTER", "ジッタ"};
+inline constexpr Text column_lost{"LOST", "欠落"};
 inline constexpr Text column_errors{"ERRORS", "エラー数"};
 inline constexpr Text column_load{"LOAD %", "負荷 %"};
-inline constexpr Text trace_load{"{}: frames: {} in {} s, {} % of 1 Mbit/s\n",
-                                 "{}: {} フレーム / {} 秒、バス負荷 {} % (1 Mbit/s)\n"};
+inline constexpr Text trace_load{
+    "{}: frames: {} in {} s, load {}, busiest second {}, last second {}\n",
+    "{}: {} フレーム / {} 秒、バス負荷 {}、最大 (1 秒間) {}、直近 1 秒 {}\n"};
+inline constexpr Text trace_no_frames{"no frames\n", "フレームなし\n"};
+inline constexpr Text trace_span{"from {} to {}\n", "{} から {} まで\n"};
+inline constexpr Text trace_errors_by_kind{"errors: {}\n", "エラー: {}\n"};
+inline constexpr Text trace_jumps{
+    "+: the transfer IDs also jumped in a way that tells no number: a restart, a longer silence, "
+    "or "
+    "two senders with one node ID\n",
+    "+: 数を判定できない転送 ID の飛びもあります (再起動、長い中断、ノード ID の重複)\n"};
 
 } // namespace blactl::texts

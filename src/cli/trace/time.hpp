@@ -1,5 +1,5 @@
 #pragma once
-// Times of streams: Unix seconds with six decimals.
+// Times of a trace: Unix seconds with six decimals for programs, the time of day for people.
 
 #include "blactl/base/time.hpp"
 
@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 namespace blactl::cli {
@@ -34,5 +35,8 @@ class UnixTime {
   std::array<char, 32> text_{};
   std::size_t size_ = 0;
 };
+
+/// "2015-07-09 14:30:52.249713", in the time zone of this process. Times before 1970 are 1970.
+[[nodiscard]] std::string wall_text(WallTime at);
 
 } // namespace blactl::cli

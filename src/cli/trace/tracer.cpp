@@ -9,7 +9,6 @@
 namespace blactl::cli {
 namespace {
 
-using dronecan::Kind;
 using dronecan::Receiver;
 
 /// Senders times types that are reassembled at a time; 4 MiB of address space.
@@ -21,7 +20,7 @@ constexpr Duration sweep_interval = std::chrono::seconds(1);
 /// Just beyond the time that a transfer may take.
 constexpr Duration expiry = Receiver::transfer_timeout + Duration(1);
 
-std::optional<std::uint64_t> signature_of(Kind kind, std::uint16_t data_type_id) {
+std::optional<std::uint64_t> signature_of(dronecan::Kind kind, std::uint16_t data_type_id) {
   const auto* type = dronecan::find_standard_type(kind, data_type_id);
   return type != nullptr ? std::optional(type->signature) : std::nullopt;
 }
@@ -85,7 +84,7 @@ void Tracer::receive(const Heard& heard) {
   }
   network->to_wall = heard.wall.time_since_epoch() - heard.at.time_since_epoch();
   const auto header = heard.frame.extended ? dronecan::decode_id(heard.frame.id) : std::nullopt;
-  output_.frame({network->interface, heard.wall}, heard.frame, header && filter_.passes(*header));
+  output_.frame(heard, header && filter_.passes(*header));
   network->receiver->receive(heard.frame, heard.at);
   if (heard.at >= network->sweep) {
     network->receiver->expire(heard.at);

@@ -14,14 +14,6 @@
 
 namespace blactl::cli {
 
-/// A frame, and where and when it was heard.
-struct Heard {
-  const can::Frame& frame;
-  Time at; ///< may be any clock that agrees with `wall` but for a constant
-  WallTime wall;
-  std::string_view interface; ///< foreign
-};
-
 /// A state machine without I/O: frames come from a bus or a log, what they mean goes to a view.
 class Tracer {
  public:

@@ -38,4 +38,16 @@ std::string_view short_name(const dronecan::DataType& type) {
   return name;
 }
 
+std::string type_text(dronecan::Kind kind, std::uint16_t data_type_id) {
+  const auto* type = dronecan::find_standard_type(kind, data_type_id);
+  std::string name =
+      type != nullptr ? std::string(short_name(*type)) : std::to_string(data_type_id);
+  switch (kind) {
+  case dronecan::Kind::request: return name + ".Request";
+  case dronecan::Kind::response: return name + ".Response";
+  case dronecan::Kind::message: break;
+  }
+  return name;
+}
+
 } // namespace blactl::cli

@@ -3,6 +3,8 @@
 
 #include "blactl/dronecan/standard_types.hpp"
 
+#include <cstdint>
+#include <string>
 #include <string_view>
 
 namespace blactl::cli {
@@ -10,6 +12,9 @@ namespace blactl::cli {
 /// The end of the type's name, as short as it tells the type from all others: "NodeStatus",
 /// "actuator.Status", "esc.Status".
 [[nodiscard]] std::string_view short_name(const dronecan::DataType& type);
+
+/// "NodeStatus", "GetSet.Request"; "20001" where nobody knows the type.
+[[nodiscard]] std::string type_text(dronecan::Kind kind, std::uint16_t data_type_id);
 
 /// Whether `typed` is the whole name or its last parts, in letters of either case:
 /// "uavcan.protocol.param.GetSet", "param.getset", "GetSet".

@@ -2,6 +2,7 @@
 
 #include "allocations.hpp"
 #include "catch.hpp"
+#include "gzip.hpp"
 #include "scratch_file.hpp"
 
 #include <unistd.h>
@@ -17,6 +18,7 @@ using namespace blactl;
 using namespace blactl::can;
 using blactl::can::test::ScratchFile;
 using blactl::test::allocations;
+using blactl::test::gzipped;
 
 namespace {
 
@@ -163,6 +165,107 @@ TEST_CASE("a pipe that has nothing yet is not waited for") {
   input.end();
   CHECK_FALSE(reader->next());
   CHECK(reader->ended());
+}
+
+TEST_CASE("a log that gzip has packed is read like any other, whatever its name") {
+  const ScratchFile file(gzipped(std::string(first) + "dear diary\n" + std::string(second)));
+  const auto reader = open(file.path());
+  CHECK(ids(*reader) == Ids{1, 2});
+  CHECK(reader->ended());
+  CHECK_FALSE(reader->error());
+  CHECK(reader->bad_lines() == 1);
+  CHECK(reader->line_number() == 3);
+}
+
+TEST_CASE("what several runs of gzip wrote one after the other is one log") {
+  const std::string half(second.substr(0, 20)), rest(second.substr(20));
+  const ScratchFile file(gzipped(std::string(first) + half) + gzipped("") + gzipped(rest));
+  const auto reader = open(file.path());
+  CHECK(ids(*reader) == Ids{1, 2});
+  CHECK_FALSE(reader->error());
+}
+
+TEST_CASE("wherever a packed log is cut off, whole lines are read and the rest is an error") {
+  const std::string packed = gzipped(std::string(first) + std::string(second));
+  for (std::size_t size = 2; size < packed.size(); ++size) {
+    INFO(size);
+    const ScratchFile file(std::string_view(packed).substr(0, size));
+    const auto reader = open(file.path());
+    const Ids found = ids(*reader);
+    CHECK((found.empty() || found == Ids{1} || found == Ids{1, 2}));
+    CHECK(reader->ended());
+    REQUIRE(reader->error());
+    CHECK(reader->error()->code == Code::bad_file);
+    CHECK(reader->error()->message == file.path() +
+                                          " is cut off: its gzip data ends too early; "
+                                          "lines read before: " +
+                                          std::to_string(found.size()));
+    CHECK(reader->bad_lines() == 0); // half a line is none
+  }
+}
+
+TEST_CASE("one byte of the magic number alone is a plain file with a bad line") {
+  const ScratchFile file("\x1f");
+  const auto reader = open(file.path());
+  CHECK(ids(*reader).empty());
+  CHECK_FALSE(reader->error());
+  CHECK(reader->bad_lines() == 1);
+}
+
+TEST_CASE("a packed log that is damaged is an error, and so is what does not belong to it") {
+  std::string bad_sum = gzipped(first);
+  bad_sum[bad_sum.size() - 5] ^= 1;
+  const std::string packed = gzipped(first);
+  for (const auto& bytes : {bad_sum, packed + "(1436509052.249714) can0 00000002#22\n",
+                            std::string("\x1f\x8b no gzip at all"), packed + packed.substr(1)}) {
+    const ScratchFile file(bytes);
+    const auto reader = open(file.path());
+    (void)ids(*reader);
+    REQUIRE(reader->error());
+    CHECK(reader->error()->code == Code::bad_file);
+    CHECK(reader->error()->message.starts_with(file.path() + " is damaged"));
+    CHECK_FALSE(reader->next());
+  }
+}
+
+TEST_CASE("a packed log comes through a pipe byte by byte") {
+  StdinPipe input;
+  const auto reader = open("-");
+  const std::string packed = gzipped(std::string(first) + std::string(second));
+  Ids found;
+  for (const char byte : packed) {
+    input.type({&byte, 1});
+    CHECK_FALSE(reader->ended());
+    for (const std::uint32_t id : ids(*reader)) {
+      found.push_back(id);
+    }
+  }
+  CHECK(found == Ids{1, 2});
+  input.end();
+  CHECK_FALSE(reader->next());
+  CHECK(reader->ended());
+  CHECK_FALSE(reader->error());
+}
+
+TEST_CASE("a small file that holds a huge line takes no memory, and next() comes back from it") {
+  std::string packed;
+  const std::string piece = gzipped(std::string(10'000'000, 'x'));
+  for (int i = 0; i < 20; ++i) {
+    packed += piece;
+  }
+  const ScratchFile file(packed + gzipped("\n" + std::string(second)));
+  const auto reader = open(file.path());
+  (void)reader->next(); // what unpacks is made
+  const std::size_t before = allocations();
+  std::size_t pauses = 0;
+  while (!reader->next() && !reader->ended()) {
+    CHECK(reader->has_paused());
+    ++pauses;
+  }
+  CHECK(allocations() == before);
+  CHECK(pauses >= 1);
+  CHECK_FALSE(reader->ended()); // it was the frame behind the line
+  CHECK(reader->bad_lines() == 1);
 }
 
 TEST_CASE("a million lines are read without one allocation") {

@@ -2,10 +2,12 @@
 #include "blactl/can/replay.hpp"
 
 #include "catch.hpp"
+#include "gzip.hpp"
 #include "scratch_file.hpp"
 
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -94,4 +96,30 @@ TEST_CASE("a log that cannot be opened is an interface that cannot be opened") {
   const auto bus = ReplayBus::open("/nonexistent/log", "replay:/nonexistent/log");
   REQUIRE_FALSE(bus);
   CHECK(bus.error().code == Code::interface);
+}
+
+TEST_CASE("a packed log that is cut off gives its frames, and then a bad file") {
+  const std::string packed = blactl::test::gzipped(two_interfaces);
+  const ScratchFile file(packed.substr(0, packed.size() - 8)); // all but checksum and size
+  const auto bus = open(file);
+  std::vector<std::size_t> kinds;
+  std::optional<BusEvent> event;
+  while ((event = bus->receive()) && !std::holds_alternative<Gone>(*event)) {
+    kinds.push_back(event->index());
+  }
+  CHECK(kinds.size() == 3);
+  REQUIRE(event);
+  const Error& error = std::get<Gone>(*event).error;
+  CHECK(error.code == Code::bad_file);
+  CHECK(error.message.find(file.path()) != std::string::npos);
+}
+
+TEST_CASE("a loop passes over what is no frame, however much of it there is") {
+  std::string text;
+  for (int i = 0; i < 20'000; ++i) {
+    text += "(1436509053.000000) vcan0 123##4112233\n";
+  }
+  const ScratchFile file(text + std::string(two_interfaces));
+  Loop loop(open(file));
+  CHECK(std::holds_alternative<Received>(loop.next(never)));
 }

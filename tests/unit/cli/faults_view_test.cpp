@@ -1,6 +1,10 @@
+#include "blactl/base/text.hpp"
+
 #include "catch.hpp"
 #include "cli/output/faults_view.hpp"
 #include "unit/bla/built_in.hpp"
+
+#include <fmt/format.h>
 
 #include <string>
 #include <string_view>

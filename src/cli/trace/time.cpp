@@ -1,0 +1,22 @@
+#include "cli/trace/time.hpp"
+
+#include <fmt/format.h>
+
+#include <ctime>
+
+namespace blactl::cli {
+
+std::string wall_text(WallTime at) {
+  constexpr std::int64_t micros_a_second = 1'000'000;
+  const std::int64_t micros = std::max<std::int64_t>(at.time_since_epoch().count(), 0);
+  const auto seconds = static_cast<std::time_t>(micros / micros_a_second);
+  std::tm parts{};
+  if (localtime_r(&seconds, &parts) == nullptr) {
+    return {}; // a year that no int holds
+  }
+  return fmt::format("{:04}-{:02}-{:02} {:02}:{:02}:{:02}.{:06}", parts.tm_year + 1900,
+                     parts.tm_mon + 1, parts.tm_mday, parts.tm_hour, parts.tm_min, parts.tm_sec,
+                     micros % micros_a_second);
+}
+
+} // namespace blactl::cli
