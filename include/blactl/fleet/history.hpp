@@ -36,8 +36,8 @@ class History {
 
   /// Before the first request of a round: what the servos hold that are changed in it. Of one that
   /// an earlier round has changed the record goes on: it tells what that one has found. So it does
-  /// where apply, undo or alloc --static were killed or failed, and the same command comes again: what the
-  /// first try has found is what undo goes back to.
+  /// where apply, undo or alloc --static were killed or failed, and the same command comes again:
+  /// what the first try has found is what undo goes back to.
   [[nodiscard]] Result<void> keep(std::span<const Plan> plans, WallTime now);
 
   /// After a round: what became of each servo, and the proofs of those whose configuration was
