@@ -8,7 +8,7 @@ function __blactl_words
     for word in $words[2..]
         if test $value = yes
             set value no
-        else if string match -qr -- '^(--(assign|clock|color|count|duration|endpoints|entry|events|expect|export|facts|forget|group|id|import|interface|kind|lang|level|listen|local-node-id|mode|neutral|node|output|preset|profile|profile-dir|range|record|report|retries|seed|stagger|svg|timeout|type|wait)|-[jqvyhV]*[in])$' $word
+        else if string match -qr -- '^(--(assign|clock|color|count|duration|endpoints|entry|events|expect|export|facts|fields|forget|group|id|import|interface|kind|lang|level|listen|local-node-id|mode|neutral|node|output|preset|profile|profile-dir|range|rate|record|report|retries|seed|stagger|svg|timeout|type|wait)|-[jqvyhV]*[in])$' $word
             set value yes
         else if not string match -q -- '-*' $word
             echo $word
@@ -241,6 +241,7 @@ complete -c blactl -n __blactl_needs_command -a export -d 'the configuration of 
 complete -c blactl -n __blactl_needs_command -a diff -d 'servos against a fleet file, or file against file'
 complete -c blactl -n __blactl_needs_command -a apply -d 'bring servos to a fleet file, proven after a restart'
 complete -c blactl -n __blactl_needs_command -a undo -d 'back to what servos held before the last change'
+complete -c blactl -n __blactl_needs_command -a monitor -d 'live values of servos: a table, graphs, or a stream'
 complete -c blactl -n __blactl_needs_command -a trace -d 'every DroneCAN transfer decoded, live or from a candump log; sends nothing'
 complete -c blactl -n __blactl_needs_command -a doctor -d 'what is wrong with interface, bus and nodes, and what mends it'
 complete -c blactl -n __blactl_needs_command -a characterize -d 'measures on one servo what the specification leaves open, and restores it'
@@ -343,6 +344,11 @@ complete -c blactl -n '__blactl_in undo' -l dry-run -d 'change nothing; exit sta
 complete -c blactl -n '__blactl_in undo' -l no-save -d 'RAM only, also where the change was saved'
 complete -c blactl -n '__blactl_in undo' -l wait -r -f -d 'how long a servo may take to come back (default 5, and 2 for each that asks for a node ID)'
 complete -c blactl -n '__blactl_in undo' -l stagger -r -f -d 'pause between two servos (default 0)'
+
+complete -c blactl -n '__blactl_in monitor' -l rate -r -f -d 'samples of each servo a second (default 2)'
+complete -c blactl -n '__blactl_in monitor' -l fields -r -f -a '(__blactl_list time angle_deg speed_rpm torque_pct temperature_c voltage_v mode health fault_summary stale)' -d 'only these; what is not shown is not asked for'
+complete -c blactl -n '__blactl_in monitor' -l duration -r -f -d 'end after this time'
+complete -c blactl -n '__blactl_in monitor' -l count -r -f -d 'end after so many samples'
 
 complete -c blactl -n '__blactl_in trace' -l type -r -f -d 'only these data types'
 complete -c blactl -n '__blactl_in trace' -l kind -r -f -a '(__blactl_list message request response)' -d 'only these kinds'

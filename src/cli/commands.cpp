@@ -28,10 +28,10 @@ std::string_view name(Kind kind) {
 
 std::span<const Command* const> all_commands() {
   using namespace commands;
-  static constexpr std::array<const Command*, 19> all{
-      &scan,  &alloc,  &get,          &set,           &save, &erase, &restart,
-      &wait,  &faults, &pwm_config,   &export_servos, &diff, &apply, &undo,
-      &trace, &doctor, &characterize, &models,        &sim};
+  static constexpr std::array<const Command*, 20> all{
+      &scan,    &alloc,  &get,        &set,           &save,   &erase, &restart,
+      &wait,    &faults, &pwm_config, &export_servos, &diff,   &apply, &undo,
+      &monitor, &trace,  &doctor,     &characterize,  &models, &sim};
   return all;
 }
 

@@ -131,7 +131,7 @@ std::unexpected<Error> Session::end(Error error) {
 
 /// When a frame of ours will have waited too long for its echo.
 Time Session::acknowledge_deadline() const {
-  const auto since = loop_.unacknowledged_since();
+  const auto since = waits_alone_ ? std::nullopt : loop_.unacknowledged_since();
   return since ? *since + acknowledge_time : never;
 }
 
@@ -188,8 +188,11 @@ Result<Session::Happened> Session::take(const can::Event& event) {
     return end(gone->error);
   } else if (const auto* caught = std::get_if<can::Signal>(&event)) {
     return take_signal(caught->number);
-  } else if (std::holds_alternative<can::Ready>(event)) {
-    return Happened::input;
+  } else if (const auto* ready = std::get_if<can::Ready>(&event)) {
+    if (!input_hook_ || ready->descriptor != input_) {
+      return Happened::input;
+    }
+    input_hook_();
   } else if (playback_ && std::holds_alternative<can::Ended>(event)) {
     playback_->finish();
   } else {
@@ -205,6 +208,9 @@ Error interrupted_by(int signal) {
 /// The first signal ends what may be ended, the second one everything.
 Result<Session::Happened> Session::take_signal(int number) {
   if (number == SIGWINCH) {
+    if (resized_) {
+      resized_();
+    }
     return Happened::something;
   }
   const bool first = std::exchange(signal_, number) == 0;
@@ -387,6 +393,17 @@ Result<void> Session::run_while(const std::function<bool()>& busy) {
     return end(interrupted_by(signal_));
   }
   return {};
+}
+
+void Session::on_input(int descriptor, std::function<void()> hook) {
+  if (input_hook_) {
+    loop_.unwatch(input_);
+  }
+  input_ = descriptor;
+  input_hook_ = std::move(hook);
+  if (input_hook_) {
+    loop_.watch(input_);
+  }
 }
 
 Result<void> Session::wait_for_input(int descriptor) {

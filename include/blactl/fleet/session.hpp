@@ -84,6 +84,9 @@ class Session {
   /// Counts all frames from now on, ours too; null: no more. It must live as long as it counts.
   void count(Traffic* traffic) { traffic_ = traffic; }
 
+  /// For a command that waits for servos: a bus on which nobody acknowledges is no error.
+  void wait_alone() { waits_alone_ = true; }
+
   /// Called when a first signal came while jobs run that must not be left half done: they have
   /// some grace to end. A second signal ends all at once.
   void on_stopping(std::function<void()> hook) { stopping_ = std::move(hook); }
@@ -124,6 +127,13 @@ class Session {
 
   /// Lives until no job is left.
   [[nodiscard]] Result<void> run();
+
+  /// Calls `hook` whenever `descriptor` can be read, for as long as the session lives; empty: not
+  /// any more.
+  void on_input(int descriptor, std::function<void()> hook);
+
+  /// Called when the terminal has another size.
+  void on_resize(std::function<void()> hook) { resized_ = std::move(hook); }
 
   /// Lives until `descriptor` (where a person answers a question) can be read.
   [[nodiscard]] Result<void> wait_for_input(int descriptor);
@@ -174,9 +184,12 @@ class Session {
   dronecan::Node node_;
   std::vector<dronecan::Service*> services_;
   Traffic* traffic_ = nullptr;
-  std::function<void()> stopping_;
+  std::function<void()> stopping_, resized_;
+  int input_ = -1; ///< of on_input()
+  std::function<void()> input_hook_;
   RequestHook asked_, unanswered_;
   IdHook new_id_;
+  bool waits_alone_ = false;
   int signal_ = 0;
   Duration grace_ = usual_grace;
   Time give_up_at_ = never; ///< after a signal: when running jobs are left half done

@@ -107,6 +107,10 @@ std::string Reporter::clear_list() const {
 }
 
 void Reporter::print(std::string_view text) const {
+  if (held_ != nullptr) {
+    *held_ += text;
+    return;
+  }
   clear_progress();
   // On one terminal the text would be written into the list.
   const bool is_in_the_way = !list_.empty() && isatty(STDERR_FILENO) != 0;

@@ -45,6 +45,13 @@ class Reporter {
   /// whatever takes its place. Not with --quiet.
   void progress(std::string_view text) const;
 
+  /// From now on notes and errors go here instead of stderr, while a screen covers the terminal;
+  /// null: to stderr again.
+  void hold(std::string* held) const { held_ = held; }
+
+  /// What was held, on stderr.
+  void repeat(std::string_view held) const { print(held); }
+
   /// A question on stderr, answered on stdin by the caller.
   void ask(std::string_view question) const;
 
@@ -79,8 +86,9 @@ class Reporter {
   [[nodiscard]] std::string clear_list() const;
 
   Options options_;
-  mutable bool has_progress_ = false; ///< it stands in the last line of the terminal
-  mutable std::string list_;          ///< the last lines of the terminal behind stdout
+  mutable bool has_progress_ = false;   ///< it stands in the last line of the terminal
+  mutable std::string list_;            ///< the last lines of the terminal behind stdout
+  mutable std::string* held_ = nullptr; ///< see hold()
 };
 
 /// The document of the contract, section 5.

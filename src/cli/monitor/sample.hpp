@@ -1,0 +1,58 @@
+#pragma once
+// One servo at one moment as data: the keys of the contract (section 5, monitor).
+
+#include "blactl/base/time.hpp"
+#include "blactl/fleet/monitor.hpp"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace blactl::cli {
+
+/// In the order of the keys.
+enum class SampleField : std::uint8_t {
+  time,
+  angle,
+  speed,
+  torque,
+  temperature,
+  voltage,
+  mode,
+  health,
+  faults,
+  stale,
+};
+
+inline constexpr std::array<std::string_view, 10> sample_keys{
+    "time",      "angle_deg", "speed_rpm", "torque_pct",    "temperature_c",
+    "voltage_v", "mode",      "health",    "fault_summary", "stale"};
+
+using SampleFields = std::vector<SampleField>;
+
+/// All of them.
+[[nodiscard]] SampleFields all_sample_fields();
+
+/// What must be asked of servos to fill these.
+[[nodiscard]] std::vector<fleet::LiveField> live_fields_of(const SampleFields& fields);
+
+/// One line of the stream.
+[[nodiscard]] std::string json_sample(WallTime time, const fleet::LiveServo& servo,
+                                      const SampleFields& fields);
+
+/// Comma-separated values: the header, and one line.
+[[nodiscard]] std::string csv_header(const SampleFields& fields);
+[[nodiscard]] std::string csv_sample(WallTime time, const fleet::LiveServo& servo,
+                                     const SampleFields& fields);
+
+/// Columns for people, each as wide as its widest value is: the header, and one line.
+[[nodiscard]] std::string text_header(const SampleFields& fields);
+[[nodiscard]] std::string text_sample(WallTime time, const fleet::LiveServo& servo,
+                                      const SampleFields& fields);
+
+/// The number of a field in its unit: "-12.3"; empty: not known.
+[[nodiscard]] std::string live_text(const fleet::LiveServo& servo, fleet::LiveField field);
+
+} // namespace blactl::cli

@@ -1,0 +1,61 @@
+#pragma once
+// What monitor says on its screen.
+
+#include "blactl/base/text.hpp"
+
+namespace blactl::texts {
+
+inline constexpr Text monitor_title{"blactl monitor  {}  servos: {}",
+                                    "blactl monitor  {}  サーボ: {} 台"};
+inline constexpr Text monitor_paused{"paused", "一時停止中"};
+inline constexpr Text monitor_sorted{"by {}", "{}順"};
+inline constexpr Text monitor_waiting{"no servo was heard yet", "サーボをまだ受信していません"};
+inline constexpr Text monitor_rows{"{}-{} of {}", "{}～{} / {}"};
+inline constexpr Text monitor_keys{"q quit   Enter graphs   s sort   p pause   ? help",
+                                   "q 終了   Enter グラフ   s 並べ替え   p 一時停止   ? ヘルプ"};
+inline constexpr Text monitor_keys_one{"q quit   Esc table   p pause   ? help",
+                                       "q 終了   Esc 一覧   p 一時停止   ? ヘルプ"};
+
+inline constexpr Text monitor_angle{"ANGLE", "舵角"};
+inline constexpr Text monitor_speed{"SPEED", "速度"};
+inline constexpr Text monitor_torque{"TORQUE", "トルク"};
+inline constexpr Text monitor_temperature{"TEMP", "温度"};
+inline constexpr Text monitor_voltage{"VOLTAGE", "電圧"};
+inline constexpr Text monitor_age{"AGE", "経過"};
+
+inline constexpr Text state_gone{"not heard for {} s", "{} 秒間受信なし"};
+inline constexpr Text state_doubled{"two units use this ID", "ID 重複 (2 台)"};
+inline constexpr Text state_restarts{"restarts: {}", "再起動: {} 回"};
+inline constexpr Text state_former{"was node {}", "旧ノード {}"};
+inline constexpr Text state_new{"new", "新規"};
+inline constexpr Text state_more{"+{}", "他 {}"};
+inline constexpr Text state_unknown_fault{"{} bit {}", "{} ビット {}"};
+
+inline constexpr Text sort_node{"node ID", "ノード ID"};
+inline constexpr Text sort_state{"state", "状態"};
+inline constexpr Text sort_angle{"angle", "舵角"};
+inline constexpr Text sort_temperature{"temperature", "温度"};
+inline constexpr Text sort_voltage{"voltage", "電圧"};
+
+inline constexpr Text monitor_help{
+    "q, Ctrl-C      end\n"
+    "Up, Down, k, j choose a servo; PgUp, PgDn, Home, End go further\n"
+    "Enter          graphs of the chosen servo: the last 60 s\n"
+    "Esc, Backspace back to the table\n"
+    "s              sort by node ID, state, angle, temperature, voltage\n"
+    "p, Space       pause: what is shown stays, servos are still heard\n"
+    "?              this help",
+    "q、Ctrl-C      終了\n"
+    "↑、↓、k、j     サーボを選択 (PgUp、PgDn、Home、End で移動)\n"
+    "Enter          選択したサーボのグラフ (直近 60 秒)\n"
+    "Esc、Backspace 一覧に戻る\n"
+    "s              並べ替え (ノード ID、状態、舵角、温度、電圧)\n"
+    "p、スペース    一時停止 (表示を保持、受信は継続)\n"
+    "?              このヘルプ"};
+
+inline constexpr Text graph_range{"last {} s   now {}   min {}   max {}",
+                                  "直近 {} 秒   現在 {}   最小 {}   最大 {}"};
+inline constexpr Text graph_empty{"nothing was heard of it yet", "まだ受信していません"};
+inline constexpr Text monitor_other_screen{"{}: lines instead", "{}。行形式で表示します"};
+
+} // namespace blactl::texts

@@ -1,0 +1,57 @@
+#pragma once
+// The screen of monitor: table, graphs, help, and the keys that lead from one to the other.
+
+#include "cli/monitor/graph.hpp"
+#include "cli/monitor/table.hpp"
+#include "cli/output/reporter.hpp"
+#include "cli/output/screen.hpp"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace blactl::cli {
+
+class MonitorView {
+ public:
+  /// `reporter` outlives this: its notes are told below the table, and once more when the screen is
+  /// gone. `opened`: what the screen is about, as it stands at the top.
+  MonitorView(std::unique_ptr<Screen> screen, const Reporter& reporter, std::string opened,
+              Time begin);
+  ~MonitorView();
+  MonitorView(const MonitorView&) = delete;
+  MonitorView& operator=(const MonitorView&) = delete;
+
+  /// How the servos are now.
+  void take(std::vector<fleet::LiveServo> servos, Time now);
+
+  /// Takes the keys that were typed; false: it shall end.
+  [[nodiscard]] bool take_keys(Time now);
+
+  void draw(Time now);
+
+  /// Whose graphs are shown; empty: nobody's.
+  [[nodiscard]] std::optional<dronecan::NodeId> shown() const;
+
+ private:
+  enum class Page : std::uint8_t { table, graphs, help };
+
+  [[nodiscard]] bool press(Key key);
+  [[nodiscard]] ScreenLine title(Time now) const;
+  [[nodiscard]] ScreenLine footer() const;
+  [[nodiscard]] std::vector<ScreenLine> body(std::size_t height, Time now);
+
+  std::unique_ptr<Screen> screen_;
+  const Reporter& reporter_;
+  std::string opened_;
+  Time begin_;
+  MonitorTable table_;
+  MonitorHistory history_;
+  Page page_ = Page::table;
+  std::optional<Time> paused_{}; ///< since when
+  std::string held_;             ///< notes
+};
+
+} // namespace blactl::cli

@@ -1,0 +1,179 @@
+// blactl monitor as a stream: what a pipe gets, and what it costs the bus.
+
+#include "catch.hpp"
+#include "scene.hpp"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+using namespace blactl::test;
+
+namespace {
+
+using Lines = std::vector<nlohmann::ordered_json>;
+
+Lines lines_of(const Result& result) {
+  Lines lines;
+  std::size_t at = 0;
+  while (at < result.out.size()) {
+    const std::size_t end = result.out.find('\n', at);
+    lines.push_back(nlohmann::ordered_json::parse(result.out.substr(at, end - at)));
+    at = end + 1;
+  }
+  return lines;
+}
+
+/// The samples of one servo: the last line is none.
+Lines samples_of(const Lines& lines, int node_id) {
+  Lines out;
+  for (const auto& line : lines) {
+    if (line.contains("node_id") && line["node_id"] == node_id) {
+      out.push_back(line);
+    }
+  }
+  return out;
+}
+
+std::size_t count(const std::string& text, std::string_view part) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+    ++found;
+  }
+  return found;
+}
+
+} // namespace
+
+TEST_CASE("a pipe gets a line a sample, with the keys of the contract") {
+  const Result result = three_servos().run({"monitor", "--json", "--count", "4"});
+  INFO(result.err);
+  CHECK(result.status == 0);
+  CHECK(result.err.empty());
+  const Lines lines = lines_of(result);
+  REQUIRE(lines.size() == 13);
+  const Lines samples = samples_of(lines, 12);
+  REQUIRE(samples.size() == 4);
+  CHECK(keys(samples.back()) ==
+        std::vector<std::string>{"time", "node_id", "unique_id", "model", "serial_number",
+                                 "servo_id", "firmware_version", "hardware_version", "angle_deg",
+                                 "speed_rpm", "torque_pct", "temperature_c", "voltage_v", "mode",
+                                 "health", "fault_summary", "stale"});
+  CHECK(samples.back()["model"] == "BLA15-06U-A0");
+  CHECK(samples.back()["angle_deg"] == 0.0);
+  CHECK(samples.back()["speed_rpm"] == 0);
+  CHECK(samples.back()["fault_summary"] == 0);
+  CHECK(samples.back()["mode"] == "operational");
+  CHECK(samples.back()["stale"] == false);
+  CHECK(samples[1]["time"].get<double>() - samples[0]["time"].get<double>() == Approx(0.5));
+  CHECK(lines.back()["exit_status"] == 0);
+  CHECK(lines.back()["counts"]["nodes"] == 3);
+  CHECK(lines.back()["counts"]["samples"] == 4);
+}
+
+TEST_CASE("as text and as CSV the same stands below a header") {
+  const Result csv = three_servos().run({"monitor", "--csv", "--count", "3", "-n", "11"});
+  CHECK(csv.out.starts_with("time,node_id,unique_id,model,serial_number,servo_id,firmware_version,"
+                            "hardware_version,angle_deg,"));
+  CHECK(count(csv.out, "\n") == 4);
+  CHECK(contains(csv.out, ",operational,ok,"));
+  const Result text = three_servos().run(
+      {"monitor", "--count", "3", "-n", "11", "--fields", "voltage_v,angle_deg"});
+  CHECK(contains(text.out, "node_id    angle_deg  voltage_v"));
+  CHECK_FALSE(contains(text.out, "speed_rpm"));
+  CHECK(count(text.out, "\n") == 4);
+}
+
+TEST_CASE("what is not shown is not asked for") {
+  const Bench bench;
+  const std::string log = (bench.folder() / "bus.log").string();
+  REQUIRE(three_servos()
+              .run(bench, {"monitor", "--fields", "angle_deg", "--duration", "5", "--rate", "10",
+                           "--record", log})
+              .status == 0);
+  const Result trace = bench.run({"trace", log, "--type", "GetSet", "--kind", "request"});
+  CHECK(contains(trace.out, "0x50"));
+  CHECK_FALSE(contains(trace.out, "0x08"));
+  CHECK_FALSE(contains(trace.out, "0x09"));
+  CHECK_FALSE(contains(trace.out, "0x0C"));
+}
+
+TEST_CASE("questions take no more than their share of the bus") {
+  Scene scene;
+  for (int id = 1; id <= 40; ++id) {
+    scene.servo("BLA21-12U-AB", id);
+  }
+  const Bench bench;
+  const std::string log = (bench.folder() / "bus.log").string();
+  REQUIRE(
+      scene.run(bench, {"monitor", "--rate", "20", "--duration", "10", "--record", log}).status ==
+      0);
+  const Result trace = bench.run({"trace", log, "--type", "GetSet", "--kind", "request"});
+  const std::size_t reads = count(trace.out, "\n");
+  CHECK(reads > 1500);
+  CHECK(reads < 1876 + 40 * 10); // 533 bits each: 10 % of 10 s; and the identification
+}
+
+TEST_CASE("--listen-only sends nothing and shows what servos send by themselves") {
+  const Bench bench;
+  const std::string log = (bench.folder() / "bus.log").string();
+  const Result result = three_servos().run(
+      bench, {"--listen-only", "monitor", "--json", "--count", "3", "--record", log});
+  CHECK(result.status == 0);
+  const Lines samples = samples_of(lines_of(result), 11);
+  REQUIRE(samples.size() == 3);
+  CHECK(samples.back()["angle_deg"] == 0.0);
+  CHECK(samples.back()["voltage_v"] == nullptr);
+  CHECK(samples.back()["model"] == nullptr);
+  CHECK(samples.back()["health"] == "ok");
+  CHECK(bench.run({"trace", log, "--kind", "request"}).out.empty());
+}
+
+TEST_CASE("a recording tells the same as the bus did") {
+  const Bench bench;
+  const std::string log = (bench.folder() / "bus.log").string();
+  REQUIRE(
+      three_servos().run(bench, {"monitor", "--json", "--duration", "5", "--record", log}).status ==
+      0);
+  const Result result = bench.run({"-i", "replay:" + log, "monitor", "--json"});
+  INFO(result.err);
+  CHECK(result.status == 0);
+  const Lines samples = samples_of(lines_of(result), 13);
+  REQUIRE(samples.size() >= 9);
+  CHECK(samples.back()["model"] == "BLA34-28U-AB");
+  CHECK(samples.back()["voltage_v"] == 28.0);
+  CHECK(samples.back()["stale"] == false);
+}
+
+TEST_CASE("a servo that loses its supply is stale, then offline, and comes back as itself") {
+  const Scene scene = Scene()
+                          .servo("BLA21-12U-AB", 11, {{"serial_number", 7}})
+                          .event(7, "power_off", "3s")
+                          .event(7, "power_on", "8s");
+  const Result result = scene.run({"monitor", "--json", "--duration", "12"});
+  INFO(result.err);
+  const Lines samples = samples_of(lines_of(result), 11);
+  const auto mode_at = [&](std::size_t half_seconds) { return samples.at(half_seconds)["mode"]; };
+  CHECK(mode_at(4) == "operational");
+  CHECK(mode_at(14) == "offline");
+  CHECK(samples.at(14)["stale"] == true);
+  CHECK(samples.back()["mode"] == "operational");
+  CHECK(samples.back()["stale"] == false);
+}
+
+TEST_CASE("of two servos under one node ID nothing is told but that") {
+  const Result result = Scene()
+                            .servo("BLA21-12U-AB", 11, {{"serial_number", 1}})
+                            .servo("BLA21-12U-AB", 11, {{"serial_number", 2}})
+                            .run({"monitor", "--json", "--duration", "5"});
+  CHECK(result.status == 9);
+  const Lines samples = samples_of(lines_of(result), 11);
+  CHECK(samples.back()["angle_deg"] == nullptr);
+  CHECK(codes(result) == std::vector<std::string>{"duplicate_node_id"});
+}
+
+TEST_CASE("monitor waits on an empty bus") {
+  const Result result = Scene().run({"monitor", "--json", "--duration", "5"});
+  CHECK(result.status == 0);
+  CHECK(lines_of(result).size() == 1);
+}

@@ -1,0 +1,157 @@
+"""blactl monitor on terminals of tmux: what a person sees.
+
+  monitor_test.py BLACTL
+"""
+
+import os
+import shutil
+import signal
+import sys
+import time
+
+from terminal import Terminal, fleet
+
+
+def require(truth, what, lines=()):
+    if not truth:
+        raise AssertionError(what + "\n" + "\n".join(lines))
+
+
+def rows_of(lines):
+    """The lines of servos."""
+    return [line for line in lines if " BLA21-12U-AB" in line]
+
+
+def sizes(blactl):
+    for width, height in ((80, 24), (200, 50)):
+        for count in (1, 12, 120):
+            with Terminal(blactl, fleet(count), width, height) as terminal:
+                terminal.run("monitor")
+                shown = min(count, height - 3)
+                lines = terminal.wait_for(
+                    lambda lines, shown=shown: len(rows_of(lines)) == shown,
+                    f"{width}x{height}, {count} servos: not {shown} rows")
+                require(f"servos: {count}" in lines[0], "the title", lines)
+                require("degC" in lines[1] and "STATE" in lines[1], "the header", lines)
+                require("q quit" in lines[-1], "the keys", lines)
+                require((f"of {count}" in lines[0]) == (count > shown), "which rows", lines)
+                require(all(len(line) <= width for line in lines), "too wide", lines)
+                terminal.type("q")
+                terminal.shows_no_more("STATE")
+
+
+def keys(blactl):
+    with Terminal(blactl, fleet(40), 80, 24) as terminal:
+        terminal.run("monitor")
+        terminal.wait_for(lambda lines: len(rows_of(lines)) == 21, "no full table")
+        terminal.type("End")
+        terminal.wait_for(lambda lines: lines[-2].split()[:1] == ["40"], "End does not go there")
+        terminal.type("Home", "?")
+        terminal.shows("this help")
+        terminal.type("Escape")
+        terminal.type("s")
+        terminal.shows("by state")
+        terminal.type("p")
+        terminal.shows("paused")
+        terminal.type("p")
+        terminal.shows_no_more("paused")
+        terminal.type("Enter")
+        lines = terminal.shows("last 60 s")
+        require("NODE 1 " in lines[0], "graphs of another servo", lines)
+        terminal.type("Escape")
+        terminal.shows("STATE")
+
+
+def resizing(blactl):
+    with Terminal(blactl, fleet(12), 80, 24) as terminal:
+        terminal.run("monitor")
+        terminal.wait_for(lambda lines: len(rows_of(lines)) == 12, "no table")
+        terminal.tmux("resize-window", "-x", "60", "-y", "10")
+        lines = terminal.wait_for(lambda lines: len(rows_of(lines)) == 7, "not 7 rows")
+        require("q quit" in lines[-1], "the keys", lines)
+        terminal.tmux("resize-window", "-x", "120", "-y", "30")
+        terminal.wait_for(lambda lines: len(rows_of(lines)) == 12, "not 12 rows again")
+
+
+def what_happens(blactl):
+    events = [{"at": "5s", "servo": 1, "happens": "power_off"},
+              {"at": "11s", "servo": 1, "happens": "power_on"}]
+    with Terminal(blactl, fleet(2), 100, 24, events) as terminal:
+        terminal.run("monitor")
+        terminal.wait_for(lambda lines: len(rows_of(lines)) == 2, "no table")
+        terminal.shows("not heard for")
+        terminal.shows_no_more("not heard for")
+        terminal.shows("restarts: 1")
+
+
+def ends(blactl):
+    for end in ("TERM", "INT", "quit"):
+        with Terminal(blactl, fleet(1), 80, 24) as terminal:
+            terminal.type("stty -a | cksum", "Enter")
+            before = terminal.wait_for(lambda lines: any(line[:1].isdigit() for line in lines),
+                                       "no checksum")
+            checksum = next(line for line in before if line[:1].isdigit())
+            terminal.run("monitor")
+            terminal.shows("STATE")
+            if end == "quit":
+                terminal.type("q")
+            else:
+                for pid in terminal.processes():
+                    os.kill(pid, getattr(signal, f"SIG{end}"))
+            terminal.shows_no_more("STATE")
+            terminal.type("clear; stty -a | cksum", "Enter")
+            terminal.shows(checksum)
+
+
+def stopping(blactl):
+    with Terminal(blactl, fleet(1), 80, 24) as terminal:
+        terminal.type("set -m", "Enter")
+        terminal.run("monitor")
+        terminal.shows("STATE")
+        terminal.type("C-z")
+        terminal.shows_no_more("STATE")
+        terminal.type("echo still $((1 + 1))", "Enter")
+        terminal.shows("still 2")
+        terminal.type("fg", "Enter")
+        terminal.shows("STATE")
+        terminal.type("q")
+        terminal.shows_no_more("STATE")
+
+
+def closed_terminal(blactl):
+    with Terminal(blactl, fleet(1), 80, 24) as terminal:
+        terminal.run("monitor")
+        terminal.shows("STATE")
+        processes = terminal.processes()
+        require(processes, "no process")
+        terminal.tmux("kill-session")
+        end = time.monotonic() + 10
+        while time.monotonic() < end and any(os.path.exists(f"/proc/{pid}") for pid in processes):
+            time.sleep(0.1)
+        require(not any(os.path.exists(f"/proc/{pid}") for pid in processes), "a process is left")
+
+
+def other_terminals(blactl):
+    with Terminal(blactl, fleet(1), 100, 24) as terminal:
+        terminal.type("TERM=dumb ")
+        terminal.run("monitor", "--count", "2")
+        terminal.shows("needs that: lines instead")
+        terminal.shows("angle_deg")
+
+
+def main():
+    if not shutil.which("tmux"):
+        print("skipped: tmux is missing")
+        return 77
+    blactl = sys.argv[1]
+    for test in (sizes, keys, resizing, what_happens, ends, stopping, closed_terminal,
+                 other_terminals):
+        test(blactl)
+        print(f"{test.__name__}: ok", flush=True)
+    return 0
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    sys.exit(main())

@@ -1,0 +1,82 @@
+"""A terminal of tmux in which blactl runs, on a simulated bus of its own."""
+
+import json
+import os
+import subprocess
+import tempfile
+import time
+
+PATIENCE_S = 20
+
+
+class Terminal:
+    """A shell in a terminal of this size. Use as a context: in the end nothing is left of it."""
+
+    def __init__(self, blactl, servos, width, height, events=()):
+        self.blactl = os.path.abspath(blactl)
+        self.folder = tempfile.TemporaryDirectory(prefix="blactl-screen-")
+        self.socket = os.path.join(self.folder.name, "tmux")
+        scenario = {"schema": "blactl-scenario/1", "clock": "real", "servos": servos,
+                    "events": list(events)}
+        path = os.path.join(self.folder.name, "scene.json")
+        with open(path, "w", encoding="utf-8") as file:
+            json.dump(scenario, file)
+        self.environment = {**os.environ, "XDG_RUNTIME_DIR": self.folder.name,
+                            "XDG_STATE_HOME": self.folder.name, "LANG": "C.UTF-8", "LC_ALL": "",
+                            "PS1": "$ "}
+        self.simulator = subprocess.Popen([self.blactl, "sim", path, "--json"],
+                                          stdout=subprocess.PIPE, env=self.environment, text=True)
+        self.simulator.stdout.readline()  # ready
+        self.tmux("-f", "/dev/null", "new-session", "-d", "-x", str(width), "-y", str(height),
+                  "sh")
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        subprocess.run(["tmux", "-S", self.socket, "kill-server"], capture_output=True, check=False)
+        self.simulator.terminate()
+        self.simulator.wait(PATIENCE_S)
+        self.folder.cleanup()
+
+    def tmux(self, *arguments):
+        return subprocess.run(["tmux", "-S", self.socket, *arguments], capture_output=True,
+                              text=True, check=True, env=self.environment).stdout
+
+    def type(self, *keys):
+        self.tmux("send-keys", *keys)
+
+    def run(self, *words):
+        """Types a command of blactl."""
+        self.type(" ".join([self.blactl, "-i", "sim:", *words]), "Enter")
+
+    def lines(self):
+        return self.tmux("capture-pane", "-p").split("\n")[:-1]
+
+    def wait_for(self, holds, what):
+        """The first screen for which `holds`."""
+        end = time.monotonic() + PATIENCE_S
+        while time.monotonic() < end:
+            lines = self.lines()
+            if holds(lines):
+                return lines
+            time.sleep(0.1)
+        raise AssertionError(f"{what}, but the screen is\n" + "\n".join(self.lines()))
+
+    def shows(self, text):
+        return self.wait_for(lambda lines: any(text in line for line in lines), f"not shown: {text}")
+
+    def shows_no_more(self, text):
+        return self.wait_for(lambda lines: not any(text in line for line in lines),
+                             f"still shown: {text}")
+
+    def processes(self):
+        """The process IDs of blactl in the terminal."""
+        pane = self.tmux("display-message", "-p", "#{pane_pid}").strip()
+        found = subprocess.run(["pgrep", "-P", pane], capture_output=True, text=True, check=False)
+        return [int(pid) for pid in found.stdout.split()]
+
+
+def fleet(count):
+    return [{"model": "BLA21-12U-AB", "node_id": 1 + i, "serial_number": 1 + i}
+            for i in range(count)]
