@@ -37,10 +37,12 @@ class Step:
                 or any(serial == other for other, _ in self.allocated()) or self.restarts(serial))
 
     def holders(self, node_id):
-        """How many nodes had it at some moment, those that are no servos too."""
+        """How many nodes had it at some moment, those that are no servos too. Beside each other
+        commands of ours may take an ID whose owner they have not heard yet."""
         others = [node.get("node_id") for node in self._scenario.get("foreign", [])]
         servos = sum(node_id in self.node_ids(serial) for serial in self.after)
-        return servos + others.count(node_id)
+        ours = len(self._commands) > 1 and node_id in OWN_NODE_IDS
+        return servos + others.count(node_id) + ours
 
     def saved_addresses(self, serial):
         return self.after[serial]["rom"].keys()
@@ -81,7 +83,13 @@ class Step:
         """Whether it restarted when nothing of it was heard any more that could tell: of that no
         client knows, and what it had said before was true."""
         last = max(heard.times_of(self.node_ids(serial)), default=0.0)
-        return any(time > last - TOLERANCE_S for time in self.restarts(serial))
+        slack = TOLERANCE_S + self._lateness(serial)  # an answer from before it may come after it
+        return any(time > last - slack for time in self.restarts(serial))
+
+    def _lateness(self, serial):
+        sending = next(servo.get("sending", {}) for servo in self._scenario["servos"]
+                       if servo["serial_number"] == serial)
+        return seconds(sending.get("late_by", "0s")) if sending.get("late_answers") else 0.0
 
     def ram_at_first_contact(self, serial, heard):
         """What was in RAM when the command first heard of the servo; None: initial values."""
