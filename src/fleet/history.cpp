@@ -84,8 +84,8 @@ Result<void> History::resume(const UniqueId& unique_id) {
   }
   if (*last && !(*last)->ended && (*last)->command == command_) {
     run_ = std::max(run_, (*last)->run);
-    kept_[unique_id] = {.entry = std::move(**last), .was_changed = true};
-    kept_[unique_id].was_saved = kept_[unique_id].entry.saved;
+    const bool was_saved = (*last)->saved;
+    kept_[unique_id] = {.entry = std::move(**last), .was_changed = true, .was_saved = was_saved};
   }
   return {};
 }

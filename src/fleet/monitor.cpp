@@ -43,6 +43,14 @@ constexpr bool is_fast(LiveField field) {
 /// What the question about a register and its answer take of a bus of 1 Mbit/s.
 constexpr Duration read_time = std::chrono::microseconds(533);
 
+template <class Told> bla::Values values_of(const Told& told) {
+  bla::Values values;
+  for (const auto& [address, value] : told) {
+    values[address] = value.raw;
+  }
+  return values;
+}
+
 /// Without an actuator.Status for so long the angle is asked for.
 constexpr Duration status_silence = std::chrono::seconds(1);
 
@@ -90,6 +98,7 @@ void Monitor::advance(Time now) {
   const bool is_first = due_ == Time::min(); // of a recording: nothing was heard before
   const bool is_late = is_first || now >= due_ + options_.period;
   due_ = (is_late ? now : due_) + options_.period;
+  plan_rounds();
   if (!is_first && options_.sample) {
     options_.sample(now);
   }
@@ -148,8 +157,24 @@ void Monitor::take_register(Watched& node, const Transfer& transfer) {
   const auto address = response ? bla::find_address(response->name) : std::nullopt;
   const bla::Parameter* parameter = address ? profiles_.find(*address) : nullptr;
   const auto* raw = parameter != nullptr ? std::get_if<std::int64_t>(&response->value) : nullptr;
-  if (raw != nullptr && parameter->width.holds(*raw)) {
+  if (raw == nullptr) {
+    return;
+  }
+  if (parameter->width.holds(*raw)) {
     node.values[*address] = {parameter->width.narrow(*raw), transfer.at};
+  }
+  if (*address == bla::address::fault_summary) {
+    forget_past_faults(node);
+  }
+}
+
+/// A register of which 0x18 shows no bit is not asked for any more: what it held is over.
+void Monitor::forget_past_faults(Watched& node) {
+  const bla::Values values = values_of(node.values);
+  for (const Address reg : bla::fault_registers) {
+    if (!bla::is_summed_up(values, reg)) {
+      node.values.erase(reg);
+    }
   }
 }
 
@@ -182,23 +207,29 @@ void Monitor::attend(NodeId id) {
 
 /// All together take no more than their share of the bus.
 void Monitor::plan_rounds() {
-  const auto servos =
-      std::ranges::count_if(nodes_, [](const auto& entry) { return entry.second.poll != nullptr; });
-  const auto reads = static_cast<std::int64_t>(plan_.often.size()) + (plan_.seldom.empty() ? 0 : 1);
-  plan_.round =
-      std::max<Duration>(options_.period, servos * reads * read_time * 100 / share_percent);
+  std::int64_t reads = 0;
+  for (const auto& [id, node] : nodes_) {
+    if (node.poll) {
+      const bool reads_seldom = !plan_.seldom.empty() || limits_of_ == id;
+      reads += static_cast<std::int64_t>(plan_.often.size()) + (reads_seldom ? 1 : 0) +
+               (needs_angle(node) ? 1 : 0);
+    }
+  }
+  plan_.round = std::max<Duration>(options_.period, reads * read_time * 100 / share_percent);
+}
+
+/// It does not tell its angle by itself, or not exactly.
+bool Monitor::needs_angle(const Watched& node) const {
+  const bool is_silent = !node.status_at || session_.now() - *node.status_at > status_silence;
+  return (is_silent || node.is_far) && std::ranges::count(options_.fields, LiveField::angle) > 0;
 }
 
 PollPlan Monitor::further(NodeId id, const Watched& node) const {
   PollPlan more;
-  const bool is_silent = !node.status_at || session_.now() - *node.status_at > status_silence;
-  if (is_silent || node.is_far) {
+  if (needs_angle(node)) {
     more.often.push_back(bla::address::current_angle);
   }
-  bla::Values values;
-  for (const auto& [address, value] : node.values) {
-    values[address] = value.raw;
-  }
+  const bla::Values values = values_of(node.values);
   if (std::ranges::count(plan_.seldom, bla::address::fault_summary) > 0) {
     for (const Address reg : bla::fault_registers) {
       if (bla::is_summed_up(values, reg)) {
@@ -256,10 +287,7 @@ LiveServo Monitor::live(const Member& member, const Watched& node, Time now) con
   if (out.is_doubled) {
     return out;
   }
-  bla::Values values;
-  for (const auto& [address, value] : node.values) {
-    values[address] = value.raw;
-  }
+  const bla::Values values = values_of(node.values);
   out.faults = bla::faults(values, profiles_);
   for (std::size_t field = 0; field < live_fields; ++field) {
     const auto it = node.values.find(places[field]);
@@ -275,7 +303,7 @@ LiveServo Monitor::live(const Member& member, const Watched& node, Time now) con
   return out;
 }
 
-/// Its turn came twice since.
+/// Two of its turns are over, and nothing came.
 bool Monitor::is_stale(const LiveServo& servo, Time now) const {
   const auto turns = static_cast<std::int64_t>(std::max<std::size_t>(plan_.seldom.size(), 1));
   return std::ranges::any_of(options_.fields, [&](LiveField field) {

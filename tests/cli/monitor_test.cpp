@@ -145,6 +145,33 @@ TEST_CASE("a recording tells the same as the bus did") {
   CHECK(samples.back()["stale"] == false);
 }
 
+TEST_CASE("--duration and --count end a recording, too") {
+  const Bench bench;
+  const std::string log = (bench.folder() / "bus.log").string();
+  REQUIRE(three_servos().run(bench, {"monitor", "--duration", "5", "--record", log}).status == 0);
+  const auto samples = [&](const char* option, const char* value) {
+    const Result result = bench.run({"-i", "replay:" + log, "monitor", "--json", option, value});
+    return samples_of(lines_of(result), 11).size();
+  };
+  CHECK(samples("--duration", "2") == 4);
+  CHECK(samples("--count", "3") == 3);
+}
+
+TEST_CASE("angles are not asked for where they are not shown") {
+  const Bench bench;
+  const std::string log = (bench.folder() / "bus.log").string();
+  const Scene scene =
+      Scene().servo("BLA21-12U-AB", 11, {{"faults", {{"no_actuator_status", true}}}});
+  for (const char* field : {"voltage_v", "angle_deg"}) {
+    REQUIRE(scene
+                .run(bench,
+                     {"monitor", "-n", "11", "--fields", field, "--duration", "5", "--record", log})
+                .status == 0);
+    const Result trace = bench.run({"trace", log, "--type", "GetSet", "--kind", "request"});
+    CHECK(contains(trace.out, "0x08") == (std::string_view(field) == "angle_deg"));
+  }
+}
+
 TEST_CASE("a servo that loses its supply is stale, then offline, and comes back as itself") {
   const Scene scene = Scene()
                           .servo("BLA21-12U-AB", 11, {{"serial_number", 7}})

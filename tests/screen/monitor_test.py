@@ -17,6 +17,9 @@ def require(truth, what, lines=()):
         raise AssertionError(what + "\n" + "\n".join(lines))
 
 
+LOW_VOLTAGE = "Voltage lower limit"
+
+
 def rows_of(lines):
     """The lines of servos."""
     return [line for line in lines if " BLA21-12U-AB" in line]
@@ -75,13 +78,17 @@ def resizing(blactl):
 
 def what_happens(blactl):
     events = [{"at": "5s", "servo": 1, "happens": "power_off"},
-              {"at": "11s", "servo": 1, "happens": "power_on"}]
+              {"at": "11s", "servo": 1, "happens": "power_on"},
+              {"at": "13s", "servo": 2, "world": {"voltage": "3.5V"}},
+              {"at": "20s", "servo": 2, "world": {"voltage": "12V"}}]
     with Terminal(blactl, fleet(2), 100, 24, events) as terminal:
         terminal.run("monitor")
         terminal.wait_for(lambda lines: len(rows_of(lines)) == 2, "no table")
         terminal.shows("not heard for")
         terminal.shows_no_more("not heard for")
         terminal.shows("restarts: 1")
+        terminal.shows(LOW_VOLTAGE)
+        terminal.shows_no_more(LOW_VOLTAGE)
 
 
 def ends(blactl):

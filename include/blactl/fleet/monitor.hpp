@@ -111,8 +111,10 @@ class Monitor final : private dronecan::Service {
 
   void take_angle(Watched& node, const dronecan::Transfer& transfer);
   void take_register(Watched& node, const dronecan::Transfer& transfer);
+  void forget_past_faults(Watched& node);
   void attend(dronecan::NodeId id);
   void plan_rounds();
+  [[nodiscard]] bool needs_angle(const Watched& node) const;
   [[nodiscard]] PollPlan further(dronecan::NodeId id, const Watched& node) const;
   [[nodiscard]] bool is_meant(const Member& member) const;
   [[nodiscard]] Servo servo(const Member& member, const Watched& node) const;

@@ -80,6 +80,7 @@ class MonitorRun {
 
  private:
   void open_screen();
+  [[nodiscard]] bool is_past_duration(Time now);
   void sample(Time now);
   void stream(const std::vector<fleet::LiveServo>& servos);
   void check(const Result<bool>& printed);
@@ -91,7 +92,8 @@ class MonitorRun {
   SampleFields fields_;
   std::unique_ptr<MonitorView> view_; ///< null: lines
   fleet::Monitor monitor_;
-  std::uint64_t samples_ = 0, lines_ = 0;
+  std::optional<Time> begin_; ///< of a recording, whose time is its own
+  std::uint64_t samples_ = 0;
   bool has_header_ = false;
   bool is_over_ = false;
 };
@@ -105,8 +107,8 @@ MonitorRun::MonitorRun(const MonitorOptions& options, fleet::Targets targets, Co
                 .period = options.period(),
                 .sample = [this](Time now) { sample(now); }}) {}
 
-/// Where the terminal cannot be drawn on, lines are told. So they are of a recording, which is over
-/// at once.
+/// Without a screen it prints lines: where the terminal cannot be drawn on, and for a recording,
+/// which is over at once.
 void MonitorRun::open_screen() {
   const Reporter& reporter = context_.reporter();
   if (reporter.format() != Format::text || !reporter.has_screen() ||
@@ -152,12 +154,21 @@ void MonitorRun::stream(const std::vector<fleet::LiveServo>& servos) {
     case Format::text: out += text_sample(wall, servo, fields_); break;
     }
   }
-  lines_ += servos.size();
   check(reporter.stream(out));
 }
 
+/// A session on a recording hears all of it, whatever the time.
+bool MonitorRun::is_past_duration(Time now) {
+  if (!context_.session().is_recording() || !options_.duration) {
+    return false;
+  }
+  begin_ = begin_.value_or(now - options_.period());
+  return now - *begin_ > *options_.duration;
+}
+
 void MonitorRun::sample(Time now) {
-  if (is_over_) {
+  if (is_over_ || is_past_duration(now)) {
+    is_over_ = true;
     return;
   }
   auto servos = monitor_.servos(now);

@@ -125,8 +125,8 @@ ScreenLine header() {
 }
 
 ScreenLine row(const LiveServo& servo, Time now, Time begin, bool is_chosen) {
-  const bool is_silent = now - servo.last_heard > silence;
-  const Look look = is_chosen ? Look::chosen : is_silent ? Look::dim : Look::plain;
+  const bool is_old = servo.is_stale || now - servo.last_heard > silence;
+  const Look look = is_chosen ? Look::chosen : is_old ? Look::dim : Look::plain;
   std::string line = right(std::to_string(servo.servo.id.value()), node_width) + "  " +
                      left(servo.servo.identity.model(), model_width);
   for (const Measured& each : measured) {
