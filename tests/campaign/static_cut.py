@@ -9,15 +9,13 @@ run called static is in the ROM of that servo; no two are ever left on one ID; t
 ends with 0, and every servo is where it was wished, in its ROM too.
 """
 
-import argparse
 import json
-import os
-import random
 import sys
 import tempfile
 import time
 
 import bench
+import seeded
 
 INTERFACE = "sim:"
 STATIC = "0x46"
@@ -128,23 +126,7 @@ def run(blactl, task):
 
 
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("blactl")
-    parser.add_argument("--runs", type=int, default=500)
-    parser.add_argument("--seed", type=int, default=1)
-    given = parser.parse_args()
-    blactl = os.path.abspath(given.blactl)
-    cut, faults = 0, 0
-    for number in range(given.runs):
-        seed = given.seed + number
-        task = Task(random.Random(seed))
-        try:
-            cut += run(blactl, task)
-        except AssertionError as fault:
-            faults += 1
-            print(f"seed {seed}: {task}\n  {fault}")
-    print(f"{given.runs} runs, {cut} of them cut off in the middle: {faults} faults")
-    return 1 if faults or not cut else 0
+    return seeded.play(Task, run)
 
 
 if __name__ == "__main__":

@@ -7,15 +7,14 @@ After each kill `undo` ends with 0, and RAM and ROM of every servo are as they w
 ID too; or it says that nothing is recorded, and then nothing was changed.
 """
 
-import argparse
 import json
 import os
-import random
 import sys
 import tempfile
 
 import bench
 import between
+import seeded
 import static_cut
 
 INTERFACE = "sim:"
@@ -109,23 +108,7 @@ def run(blactl, task):
 
 
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("blactl")
-    parser.add_argument("--runs", type=int, default=500)
-    parser.add_argument("--seed", type=int, default=1)
-    given = parser.parse_args()
-    blactl = os.path.abspath(given.blactl)
-    cut, faults = 0, 0
-    for number in range(given.runs):
-        seed = given.seed + number
-        task = Task(random.Random(seed))
-        try:
-            cut += run(blactl, task)
-        except AssertionError as fault:
-            faults += 1
-            print(f"seed {seed}: {task}\n  {fault}", flush=True)
-    print(f"{given.runs} runs, {cut} of them killed in the middle: {faults} faults")
-    return 1 if faults or not cut else 0
+    return seeded.play(Task, run)
 
 
 if __name__ == "__main__":

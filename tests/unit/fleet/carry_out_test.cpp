@@ -48,21 +48,6 @@ Wanted set(const char* assignment, bool saves = false) {
           .restart = saves ? std::optional(RestartKind::save) : std::nullopt};
 }
 
-/// The plans for these servos, from what they hold now.
-std::vector<Plan> plans_for(const Scene& scene, const Wanted& wanted,
-                            const std::vector<std::uint8_t>& ids) {
-  std::vector<Plan> plans;
-  for (const std::uint8_t id : ids) {
-    auto plan = make_plan(
-        wanted, scene.read(id, [&](const Servo& servo) { return registers_needed(wanted, servo); }),
-        profiles());
-    INFO((plan ? "" : plan.error().message));
-    REQUIRE(plan);
-    plans.push_back(std::move(*plan));
-  }
-  return plans;
-}
-
 CarriedOut change(const Scene& scene, const Wanted& wanted, const std::vector<std::uint8_t>& ids,
                   const Manner& manner = {}) {
   const auto plans = plans_for(scene, wanted, ids);

@@ -66,20 +66,6 @@ Wanted set(const char* assignment, bool saves = false) {
 const Wanted save{.restart = RestartKind::save};
 const Wanted restart{.restart = RestartKind::restart};
 
-std::vector<Plan> plans_for(const Scene& scene, const Wanted& wanted,
-                            const std::vector<std::uint8_t>& ids) {
-  std::vector<Plan> plans;
-  for (const std::uint8_t id : ids) {
-    auto plan = make_plan(
-        wanted, scene.read(id, [&](const Servo& servo) { return registers_needed(wanted, servo); }),
-        profiles());
-    INFO((plan ? "" : plan.error().message));
-    REQUIRE(plan);
-    plans.push_back(std::move(*plan));
-  }
-  return plans;
-}
-
 CarriedOut change(const Scene& scene, const Wanted& wanted, History& history,
                   const std::vector<std::uint8_t>& ids = {11}) {
   return carry_out(*scene.session, profiles(), plans_for(scene, wanted, ids),

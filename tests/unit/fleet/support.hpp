@@ -248,6 +248,21 @@ inline Plan plan_for(const Wanted& wanted, const bla::Values& held = {},
   return *plan;
 }
 
+/// The plans for these servos, from what they hold now.
+inline std::vector<Plan> plans_for(const Scene& scene, const Wanted& wanted,
+                                   const std::vector<std::uint8_t>& ids) {
+  std::vector<Plan> plans;
+  for (const std::uint8_t id : ids) {
+    auto plan = make_plan(
+        wanted, scene.read(id, [&](const Servo& servo) { return registers_needed(wanted, servo); }),
+        profiles());
+    INFO((plan ? "" : plan.error().message));
+    REQUIRE(plan);
+    plans.push_back(std::move(*plan));
+  }
+  return plans;
+}
+
 /// A roster without a bus that has identified servo 11, and hears of its restarts.
 class Acquaintance {
  public:
