@@ -2,6 +2,7 @@
 
 #include "blactl/bla/value.hpp"
 #include "blactl/dronecan/types.hpp"
+#include "blactl/fleet/array_command.hpp"
 #include "blactl/fleet/conflict_texts.hpp"
 #include "blactl/fleet/guard.hpp"
 #include "blactl/fleet/restart_texts.hpp"
@@ -251,19 +252,14 @@ Result<Reply> TestBench::write_timeout_time(std::int64_t raw) {
 }
 
 Result<void> TestBench::command_angle(std::int64_t decideg) {
-  constexpr std::uint8_t position = 1; // table 2-21
-  constexpr float decideg_per_unit = 1000;
   constexpr Duration until_taken = 50ms;
   if (auto why = forbidden()) {
     return std::unexpected(std::move(*why));
   }
   has_changed_ = true;
-  const dronecan::ArrayCommand command{
-      {{.actuator_id = static_cast<std::uint8_t>(held(at::servo_id).value_or(0)),
-        .command_type = position,
-        .value = static_cast<float>(decideg) / decideg_per_unit}}};
+  const auto servo_id = static_cast<std::uint8_t>(held(at::servo_id).value_or(0));
   session_.node().broadcast(dronecan::ArrayCommand::type, dronecan::priority_medium,
-                            command.encode());
+                            array_command(servo_id, at::command_angle, decideg).encode());
   return pause(until_taken);
 }
 
