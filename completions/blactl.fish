@@ -242,6 +242,7 @@ complete -c blactl -n __blactl_needs_command -a diff -d 'servos against a fleet 
 complete -c blactl -n __blactl_needs_command -a apply -d 'bring servos to a fleet file, proven after a restart'
 complete -c blactl -n __blactl_needs_command -a undo -d 'back to what servos held before the last change'
 complete -c blactl -n __blactl_needs_command -a monitor -d 'live values of servos: a table, graphs, or a stream'
+complete -c blactl -n __blactl_needs_command -a command -d 'moves one servo for a bounded time, and shows how it follows'
 complete -c blactl -n __blactl_needs_command -a trace -d 'every DroneCAN transfer decoded, live or from a candump log; sends nothing'
 complete -c blactl -n __blactl_needs_command -a doctor -d 'what is wrong with interface, bus and nodes, and what mends it'
 complete -c blactl -n __blactl_needs_command -a characterize -d 'measures on one servo what the specification leaves open, and restores it'
@@ -349,6 +350,12 @@ complete -c blactl -n '__blactl_in monitor' -l rate -r -f -d 'samples of each se
 complete -c blactl -n '__blactl_in monitor' -l fields -r -f -a '(__blactl_list time angle_deg speed_rpm torque_pct temperature_c voltage_v mode health fault_summary stale)' -d 'only these; what is not shown is not asked for'
 complete -c blactl -n '__blactl_in monitor' -l duration -r -f -d 'end after this time'
 complete -c blactl -n '__blactl_in monitor' -l count -r -f -d 'end after so many samples'
+
+complete -c blactl -n '__blactl_in command' -l duration -r -f -d 'for how long it is commanded (default 2)'
+complete -c blactl -n '__blactl_in command' -l wiggle -d 'to and fro by 5 deg, to show which servo it is'
+complete -c blactl -n '__blactl_in command' -l array -d 'by ArrayCommand to its servo ID, as an autopilot does; only where no other servo has that ID'
+complete -c blactl -n '__blactl_in command' -l svg -r -F -d 'draws command, angle, speed, torque and limits into FILE, for a browser or a printer'
+complete -c blactl -n '__blactl_argument command 1' -f -a 'angle= speed= torque='
 
 complete -c blactl -n '__blactl_in trace' -l type -r -f -d 'only these data types'
 complete -c blactl -n '__blactl_in trace' -l kind -r -f -a '(__blactl_list message request response)' -d 'only these kinds'

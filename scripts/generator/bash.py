@@ -80,6 +80,10 @@ _blactl_offer_value() {
   case $1 in
     word | group) _blactl_offer "$2" ;;
     words) _blactl_offer_list "$2" ;;
+    beginning)
+      _blactl_offer "$2"
+      compopt -o nospace 2>/dev/null
+      ;;
     parameter) _blactl_offer "$_blactl_parameters" ;;
     assignment) _blactl_offer_assignment ;;
     model) _blactl_offer "$_blactl_models" ;;

@@ -110,6 +110,7 @@ def _values(option):
     offers = {
         "word": _quoted(words),
         "words": _quoted(f"(__blactl_list {words})"),
+        "beginning": _quoted(words),
         "group": _quoted(words),
         "parameter": "'(__blactl_parameters)'",
         "assignment": "'(__blactl_assignments)'",

@@ -67,6 +67,7 @@ def _action(option):
     actions = {
         "word": f"({' '.join(option.words)})",
         "words": f"_blactl_word_list {' '.join(option.words)}",
+        "beginning": f"compadd -S '' -- {' '.join(option.words)}",
         "group": f"({' '.join(option.words)})",
         "parameter": "_blactl_parameter",
         "assignment": "_blactl_assignment",

@@ -45,7 +45,8 @@ enum class Kind : std::uint8_t {
   interface,
   file,
   folder,
-  words, ///< of Option::words, comma-separated
+  words,     ///< of Option::words, comma-separated
+  beginning, ///< one of Option::words begins it
 };
 
 /// The name of a kind, for the readers of --dump-cli: "parameter".
@@ -84,7 +85,7 @@ struct Option {
   Repeat repeat = Repeat::last;
   bool required = false;
   bool hidden = false;                       ///< from people; still accepted
-  std::span<const std::string_view> words{}; ///< of Kind::word and Kind::words
+  std::span<const std::string_view> words{}; ///< of Kind::word, words and beginning
   Range<Duration> seconds{};                 ///< of Kind::seconds
   Range<std::uint64_t> whole{};              ///< of Kind::whole
   Text help;

@@ -22,16 +22,17 @@ std::string_view name(Kind kind) {
   case Kind::file: return "file";
   case Kind::folder: return "folder";
   case Kind::words: return "words";
+  case Kind::beginning: return "beginning";
   }
   return {};
 }
 
 std::span<const Command* const> all_commands() {
   using namespace commands;
-  static constexpr std::array<const Command*, 20> all{
-      &scan,    &alloc,  &get,        &set,           &save,   &erase, &restart,
-      &wait,    &faults, &pwm_config, &export_servos, &diff,   &apply, &undo,
-      &monitor, &trace,  &doctor,     &characterize,  &models, &sim};
+  static constexpr std::array<const Command*, 21> all{
+      &scan,    &alloc,   &get,        &set,           &save,         &erase,  &restart,
+      &wait,    &faults,  &pwm_config, &export_servos, &diff,         &apply,  &undo,
+      &monitor, &command, &trace,      &doctor,        &characterize, &models, &sim};
   return all;
 }
 

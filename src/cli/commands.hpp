@@ -16,7 +16,7 @@ namespace commands {
 
 extern const Command scan, alloc, get, set, save, erase, restart, wait, faults, pwm_config,
     export_servos, // "export" alone is a word of C++
-    diff, apply, undo, monitor, trace, doctor, characterize, models, sim;
+    diff, apply, undo, monitor, command, trace, doctor, characterize, models, sim;
 
 } // namespace commands
 

@@ -1,0 +1,55 @@
+#pragma once
+// What a servo did while it was commanded, and whether that is what it was told.
+
+#include "blactl/fleet/command_plan.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace blactl::fleet {
+
+/// What a servo was told, and did, at one moment. Register numbers; empty: it did not answer.
+struct CommandSample {
+  Time at{};               ///< in the middle between the question about the angle and its answer
+  Duration after{};        ///< the first command
+  std::int64_t target = 0; ///< of CommandPlan::parameter
+  std::optional<std::int64_t> angle{}, speed{}, torque{}; ///< 0x08-0x0A, one after the other
+};
+
+/// How it ended.
+struct CommandResult {
+  std::vector<CommandSample> samples{};
+  std::size_t commands = 0;           ///< that went out, the end apart
+  Time began{};                       ///< when the first one did
+  Time ended{};                       ///< when the end was commanded
+  std::optional<std::int64_t> held{}; ///< an angle that it was told to hold instead of the target
+  bool is_cut = false;                ///< brought to its end before its time
+  bool is_shown = false;              ///< the register held what was commanded
+  std::optional<Error> error{};       ///< why it was not carried out as planned
+  std::optional<Error> not_ended{};   ///< why its end is not proven
+
+  [[nodiscard]] bool has_commanded() const { return commands > 0; }
+};
+
+/// The shaft is where it was commanded to be, as far as was read last. unproven: from when on an
+/// angle counts as reached: 1 deg, or its dead band and half a degree.
+[[nodiscard]] bool has_arrived(const CommandPlan& plan, const CommandResult& result);
+
+/// What the shaft did is not what it was told; empty: it did, as far as that can be told. Errors:
+/// mismatch: an angle was not reached, nothing turned, or nothing shows that an ArrayCommand was
+/// taken.
+[[nodiscard]] std::optional<Error> judge_motion(const CommandPlan& plan,
+                                                const CommandResult& result);
+
+/// How a shaft came to an angle.
+struct StepResponse {
+  std::optional<Duration> settled{};  ///< after the first command; from then on it was there
+  std::int64_t overshoot_decideg = 0; ///< beyond the target
+};
+
+/// Of a command of one angle.
+[[nodiscard]] StepResponse step_response(const CommandPlan& plan, const CommandResult& result);
+
+} // namespace blactl::fleet

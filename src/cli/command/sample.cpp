@@ -1,0 +1,135 @@
+#include "cli/command/sample.hpp"
+
+#include "blactl/base/json_writer.hpp"
+#include "blactl/bla/value.hpp"
+
+#include "cli/command/texts.hpp"
+#include "cli/output/node_head.hpp"
+#include "cli/output/table.hpp"
+#include "cli/trace/time.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace blactl::cli {
+namespace {
+
+using fleet::CommandPlan;
+using fleet::CommandSample;
+using Raw = std::optional<std::int64_t>;
+
+constexpr std::array<std::string_view, 3> motion_keys{"angle_deg", "speed_rpm", "torque_pct"};
+
+/// The numbers of a sample in their units, in the order of the keys; empty: not answered.
+std::array<std::string, 3> numbers(const CommandPlan& plan, const CommandSample& sample) {
+  std::array<std::string, 3> out;
+  const std::array<Raw, 3> raws{sample.angle, sample.speed, sample.torque};
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (raws.at(i)) {
+      out.at(i) = bla::value_text(*plan.readings.at(i).parameter, *raws.at(i));
+    }
+  }
+  return out;
+}
+
+/// What was read that is farthest from 0.
+std::string most(const CommandPlan& plan, const fleet::CommandResult& result, std::size_t reading,
+                 Raw CommandSample::* member) {
+  std::int64_t found = 0;
+  for (const CommandSample& sample : result.samples) {
+    const std::int64_t raw = (sample.*member).value_or(0);
+    found = std::abs(raw) > std::abs(found) ? raw : found;
+  }
+  return bla::display(*plan.readings.at(reading).parameter, found);
+}
+
+std::string place(const CommandPlan& plan, const fleet::CommandResult& result) {
+  for (auto sample = result.samples.rbegin(); sample != result.samples.rend(); ++sample) {
+    if (sample->angle) {
+      return bla::display(*plan.readings.front().parameter, *sample->angle);
+    }
+  }
+  return "?";
+}
+
+} // namespace
+
+std::string json_motion(WallTime time, const CommandPlan& plan, const CommandSample& sample) {
+  std::string line;
+  JsonWriter json(line);
+  json.begin_object();
+  json.key("time");
+  json.number(UnixTime(time).text());
+  write_head(json, plan.servo());
+  const auto values = numbers(plan, sample);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    json.key(motion_keys.at(i));
+    values.at(i).empty() ? json.value(nullptr) : json.number(values.at(i));
+  }
+  json.member(plan.parameter->name, sample.target);
+  json.end_object();
+  return line + '\n';
+}
+
+std::string csv_motion_header(const CommandPlan& plan) {
+  std::vector<std::string> columns{"time"};
+  for (std::string& column : head_columns()) {
+    columns.push_back(std::move(column));
+  }
+  columns.insert(columns.end(), motion_keys.begin(), motion_keys.end());
+  columns.push_back(plan.parameter->name);
+  return csv_line(columns);
+}
+
+std::string csv_motion(WallTime time, const CommandPlan& plan, const CommandSample& sample) {
+  std::vector<std::string> cells{std::string(UnixTime(time).text())};
+  for (std::string& text : head_cells(plan.servo())) {
+    cells.push_back(std::move(text));
+  }
+  for (std::string& text : numbers(plan, sample)) {
+    cells.push_back(std::move(text));
+  }
+  cells.push_back(std::to_string(sample.target));
+  return csv_line(cells);
+}
+
+std::string text_motion_header(const CommandPlan& plan) {
+  return fmt::format("{:>8}  {:>14}  {:>11}  {:>9}  {:>10}\n", "time_s", plan.parameter->name,
+                     motion_keys[0], motion_keys[1], motion_keys[2]);
+}
+
+std::string text_motion(const CommandPlan& plan, const CommandSample& sample) {
+  auto values = numbers(plan, sample);
+  for (std::string& value : values) {
+    value = value.empty() ? "-" : value;
+  }
+  return fmt::format("{:>8.3f}  {:>14}  {:>11}  {:>9}  {:>10}\n",
+                     std::chrono::duration<double>(sample.after).count(),
+                     bla::display(*plan.parameter, sample.target), values[0], values[1], values[2]);
+}
+
+std::string motion_summary(const CommandPlan& plan, const fleet::CommandResult& result) {
+  const std::uint8_t id = plan.servo().id.value();
+  const std::string where = place(plan, result);
+  std::string text =
+      plan.is_angle() ? say<texts::motion_held>(id, where) : say<texts::motion_stopped>(id, where);
+  const auto response = fleet::step_response(plan, result);
+  if (plan.is_angle() && !plan.wiggles() && response.settled) {
+    text +=
+        "; " + say<texts::motion_settled>(
+                   fmt::format("{:.2f}", std::chrono::duration<double>(*response.settled).count()),
+                   bla::display(*plan.parameter, response.overshoot_decideg));
+  }
+  text += "; " + say<texts::motion_extremes>(most(plan, result, 1, &CommandSample::speed),
+                                             most(plan, result, 2, &CommandSample::torque));
+  return text + "; " + fleet::after_commands(plan);
+}
+
+} // namespace blactl::cli

@@ -1,0 +1,29 @@
+#pragma once
+// What a servo did while it was commanded, as data: the keys of the contract (section 5, command).
+
+#include "blactl/base/time.hpp"
+#include "blactl/fleet/command_result.hpp"
+
+#include <string>
+
+namespace blactl::cli {
+
+/// One line of the stream; the raw target is named after its register.
+[[nodiscard]] std::string json_motion(WallTime time, const fleet::CommandPlan& plan,
+                                      const fleet::CommandSample& sample);
+
+/// Comma-separated values: the header, and one line.
+[[nodiscard]] std::string csv_motion_header(const fleet::CommandPlan& plan);
+[[nodiscard]] std::string csv_motion(WallTime time, const fleet::CommandPlan& plan,
+                                     const fleet::CommandSample& sample);
+
+/// Columns for people, with the time since the first command: the header, and one line.
+[[nodiscard]] std::string text_motion_header(const fleet::CommandPlan& plan);
+[[nodiscard]] std::string text_motion(const fleet::CommandPlan& plan,
+                                      const fleet::CommandSample& sample);
+
+/// How it ended, in a line: where the shaft is, how it came there, and what the servo does next.
+[[nodiscard]] std::string motion_summary(const fleet::CommandPlan& plan,
+                                         const fleet::CommandResult& result);
+
+} // namespace blactl::cli

@@ -1,0 +1,14 @@
+#pragma once
+// A command to a shaft as a drawing: what it was told, and what it did.
+
+#include "blactl/fleet/command_result.hpp"
+
+#include <string>
+
+namespace blactl::cli {
+
+/// Angle, speed and torque over time, one below the other, with the command and the limits.
+[[nodiscard]] std::string motion_svg(const fleet::CommandPlan& plan,
+                                     const fleet::CommandResult& result);
+
+} // namespace blactl::cli

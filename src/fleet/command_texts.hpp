@@ -1,0 +1,119 @@
+#pragma once
+// The catalogue of commands to the shaft of a servo.
+
+#include "blactl/base/text.hpp"
+
+namespace blactl::texts {
+
+// Why it is not commanded.
+
+inline constexpr Text motion_output_off{
+    "node {}: torque_output (0x20) is {}: the shaft follows no command",
+    "ノード {}: torque_output (0x20) が {} のため、指令に従って動作しません"};
+inline constexpr Text motion_beyond_limits{
+    "node {}: {} is beyond its limits {} ({}) and {} ({}): it would stop there",
+    "ノード {}: {} は制限 {} ({}) ～ {} ({}) の範囲外です。制限値で停止します"};
+inline constexpr Text motion_beyond_limits_hint{
+    "command less, or see the limits: blactl get -n {} --group limit",
+    "指令を小さくするか、制限を確認して下さい: blactl get -n {} --group limit"};
+inline constexpr Text motion_no_room{
+    "node {}: at {} its limits {} and {} leave no room to wiggle",
+    "ノード {}: 現在角度 {} では、制限 {} ～ {} の内側で往復動作できません"};
+inline constexpr Text motion_timeout_short{
+    "node {}: timeout_time (0x27) is {}: commands cannot follow one another twice as fast over a "
+    "bus",
+    "ノード {}: timeout_time (0x27) が {} のため、その半分以下の周期で指令を送信できません"};
+inline constexpr Text motion_not_exact{
+    "ArrayCommand cannot tell {}: it carries half-precision numbers, the nearest is {}",
+    "ArrayCommand では {} を正確に送信できません (半精度浮動小数点、最も近い値は {})"};
+inline constexpr Text motion_not_exact_hint{"leave --array out, or command {}",
+                                            "--array を外すか、{} を指令して下さい"};
+inline constexpr Text motion_servo_id_shared{
+    "nodes {} and {} both have servo ID {}: an ArrayCommand would move both",
+    "ノード {} と {} のサーボ ID が同じ ({}) です。ArrayCommand で両方が動作します"};
+inline constexpr Text motion_servo_id_unknown{
+    "node {} did not tell its servo ID: it may be {}, too",
+    "ノード {} のサーボ ID を確認できません。{} と重複している可能性があります"};
+inline constexpr Text motion_servo_id_pending{
+    "a unit waits for a node ID: its servo ID is not known, and may be {}, too",
+    "ノード ID 割当て待ちの機器があります。サーボ ID が {} と重複している可能性があります"};
+inline constexpr Text motion_servo_id_hint{
+    "leave --array out: 0x00-0x02 of the node reach just this servo",
+    "--array を外して下さい。ノードの 0x00～0x02 であれば対象のサーボだけが動作します"};
+inline constexpr Text motion_changed{
+    "node {}: {} is {}, not {} as a moment ago: nothing was commanded",
+    "ノード {}: {} が先ほどと異なるため ({}、直前は {})、指令していません"};
+
+// The question.
+
+inline constexpr Text motion_question_angle{
+    "This moves the shaft of node {}: from {} to {}. After {} s it is held there; {}.\n",
+    "ノード {} の出力軸を {} から {} に動かします。{} 秒後はその角度を保持します。{}。\n"};
+inline constexpr Text motion_question_speed{
+    "This turns the shaft of node {} at {} for {} s, from {} on. Then it is stopped; {}.\n",
+    "ノード {} の出力軸を {} で {} 秒間回転させます (現在角度 {})。その後停止します。{}。\n"};
+inline constexpr Text motion_question_torque{
+    "This pushes the shaft of node {} with {} for {} s, from {} on. Then it is stopped; {}.\n",
+    "ノード {} の出力軸に {} のトルクを {} 秒間加えます (現在角度 {})。その後停止します。{}。\n"};
+inline constexpr Text motion_question_wiggle{
+    "This moves the shaft of node {} to and fro by {} for {} s, around {}. Then it is held there; "
+    "{}.\n",
+    "ノード {} の出力軸を ±{} の範囲で {} 秒間往復させます (中心 {})。その後その角度を保持します。"
+    "{}。\n"};
+inline constexpr Text motion_question_pwm{
+    "A PWM signal is present: it commands the servo again after that.\n",
+    "PWM 信号が入力されているため、その後は PWM の指令に従います。\n"};
+inline constexpr Text motion_question_fault{"Present: {}. The motor may be off.\n",
+                                            "発生中: {}。モータが停止している可能性があります。\n"};
+
+inline constexpr Text motion_then_hold{"{} after the last command nothing changes (hold)",
+                                       "最後の指令から {} 経過後も状態を維持します (hold)"};
+inline constexpr Text motion_then_off{
+    "{} after the last command the output goes off (off): it lets go of the load",
+    "最後の指令から {} 経過すると出力が OFF になり、負荷を保持しません (off)"};
+inline constexpr Text motion_then_brake{"{} after the last command the output brakes (brake)",
+                                        "最後の指令から {} 経過するとブレーキになります (brake)"};
+
+// How it ended.
+
+inline constexpr Text motion_silent{"node {}: it does not answer any more while it is commanded",
+                                    "ノード {}: 動作中に応答しなくなりました"};
+inline constexpr Text motion_restarted{"node {}: it restarted while it was commanded",
+                                       "ノード {}: 動作中に再起動しました"};
+inline constexpr Text motion_restarted_hint{
+    "look at its supply; how often it has restarted: blactl monitor -n {}",
+    "電源を確認して下さい。再起動の監視: blactl monitor -n {}"};
+inline constexpr Text motion_not_repeated{
+    "node {}: no command went out for {} ms: the servo's own timeout has acted meanwhile",
+    "ノード {}: {} ms の間指令を送信できず、サーボの通信タイムアウトが動作しました"};
+inline constexpr Text motion_not_repeated_hint{
+    "this computer or its bus is too busy: end other programs, then run the command again",
+    "PC またはバスの負荷が高すぎます。他のプログラムを終了してから再度実行して下さい"};
+inline constexpr Text motion_not_taken{"node {}: {} does not take {}: it holds {}",
+                                       "ノード {}: {} に {} を指令できません (現在値 {})"};
+inline constexpr Text motion_not_ended{
+    "node {}: whether it was brought to its end is not known ({})",
+    "ノード {}: 終了の指令が反映されたか確認できません ({})"};
+inline constexpr Text motion_not_ended_hint{"{}; to stop it: blactl set -n {} torque_output=off",
+                                            "{}。停止するには: blactl set -n {} torque_output=off"};
+inline constexpr Text motion_newcomer{
+    "node {} appeared while servo ID {} was commanded by ArrayCommand: it may have moved as well",
+    "ArrayCommand でサーボ ID {1} に指令中、ノード {0} "
+    "が現れました。同時に動作した可能性があります"};
+inline constexpr Text motion_not_reached{"node {}: it was to be at {}, and is at {}",
+                                         "ノード {}: 指令 {} に対し、現在角度は {} です"};
+inline constexpr Text motion_not_turned{"node {}: it was commanded {}, and did not turn",
+                                        "ノード {}: {} を指令しましたが、回転しませんでした"};
+inline constexpr Text motion_not_wiggled{"node {}: it was commanded to and fro, and did not move",
+                                         "ノード {}: 往復動作を指令しましたが、動きませんでした"};
+inline constexpr Text motion_array_ignored{
+    "node {}: {} was sent by ArrayCommand, and nothing shows that it took it",
+    "ノード {}: ArrayCommand で {} を送信しましたが、反映を確認できません"};
+inline constexpr Text motion_still_turns{
+    "node {}: it was told to stop, and still turns at {}",
+    "ノード {}: 停止を指令しましたが、まだ {} で回転しています"};
+inline constexpr Text motion_why_hint{
+    "too little time, a load, or a fault? blactl faults -n {}",
+    "時間不足、過負荷、または異常の可能性があります: blactl faults -n {}"};
+
+} // namespace blactl::texts

@@ -1,0 +1,301 @@
+// A simulated servo that is commanded: what it is told, how often, and how that ends.
+
+#include "blactl/fleet/command_job.hpp"
+#include "blactl/fleet/command_run.hpp"
+#include "blactl/fleet/write_job.hpp"
+
+#include "support.hpp"
+#include "unit/sim/motion_rig.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <functional>
+#include <string>
+#include <vector>
+
+using namespace blactl;
+using namespace blactl::fleet;
+using namespace blactl::fleet::test;
+
+namespace at = bla::address;
+
+namespace {
+
+constexpr const char* free_servo =
+    R"({"model": "BLA21-12U-AB", "node_id": 11, "serial_number": 1,
+        "rom": {"soft_start": "off", "speed_torque_control": "on"}})";
+
+std::string servos(const std::string& events = "") {
+  return std::string(R"("servos": [)") + free_servo + "]" +
+         (events.empty() ? "" : ", \"events\": [" + events + "]");
+}
+
+/// One command from the plan to its end.
+struct CommandBench {
+  explicit CommandBench(const std::string& members = servos()) : scene(members) {
+    scene.grow_old();
+  }
+
+  CommandPlan planned(const char* motion, Duration duration = 2s) {
+    CommandWanted wanted{.duration = duration};
+    if (motion != nullptr) {
+      wanted.target = assignments({motion}).front();
+    }
+    auto plan = plan_command(
+        wanted,
+        scene.read(11, [&](const Servo& servo) { return registers_to_command(wanted, servo); }),
+        profiles());
+    INFO((plan ? "" : plan.error().message));
+    REQUIRE(plan);
+    return *plan;
+  }
+
+  Commanded run(const CommandPlan& plan,
+                const std::function<bool(const CommandSample&)>& sampled = {}) {
+    scene.sent.clear();
+    return command(*scene.session, plan, {.sampled = sampled});
+  }
+
+  /// What the servo holds now.
+  [[nodiscard]] std::int64_t read(const char* name) const {
+    const Snapshot snapshot = scene.read(11, registers({name}));
+    const auto raw = snapshot.raw(parameter(name).address);
+    REQUIRE(raw);
+    return *raw;
+  }
+
+  /// A message of node 40.
+  void hear(const dronecan::DataType& type, const dronecan::Payload& payload) const {
+    scene.roster().receive(
+        {.header = {.kind = dronecan::Kind::message, .data_type_id = type.id, .source = NodeId(40)},
+         .payload = payload.bytes(),
+         .at = scene.session->now()});
+  }
+
+  /// How many writes to this register went out.
+  [[nodiscard]] std::size_t writes() const {
+    return static_cast<std::size_t>(std::ranges::count_if(scene.sent, [](const can::Frame& frame) {
+      const auto header = dronecan::decode_id(frame.id);
+      // A read is one frame, a write three: the middle one is neither the first nor the last.
+      const unsigned place = frame.data[frame.size - 1U] >> 6U;
+      return header && header->data_type_id == GetSet::type.id && place == 0;
+    }));
+  }
+
+  Scene scene;
+};
+
+} // namespace
+
+TEST_CASE("an angle is commanded, reached and held") {
+  CommandBench bench;
+  const CommandPlan plan = bench.planned("command_angle=45deg");
+  const Commanded ended = bench.run(plan);
+  CHECK_FALSE(ended.broken);
+  CHECK_FALSE(ended.result.error);
+  CHECK_FALSE(ended.result.not_ended);
+  CHECK_FALSE(ended.result.held);
+  CHECK_FALSE(judge_motion(plan, ended.result));
+  CHECK(ended.result.commands == bench.writes());
+  CHECK(ended.result.commands >= 20); // every 100 ms
+  CHECK(ended.result.samples.size() >= 190);
+  CHECK(bench.read("command_angle") == 450);
+  const StepResponse response = step_response(plan, ended.result);
+  REQUIRE(response.settled);
+  CHECK(*response.settled < 500ms);
+  CHECK(response.overshoot_decideg <= 10);
+}
+
+TEST_CASE("a speed and a torque end with 0, and the shaft stands") {
+  for (const char* motion : {"command_speed=-60rpm", "command_torque=20%"}) {
+    CommandBench bench;
+    const CommandPlan plan = bench.planned(motion, 500ms);
+    const Commanded ended = bench.run(plan);
+    CHECK_FALSE(ended.result.error);
+    CHECK_FALSE(ended.result.not_ended);
+    CHECK_FALSE(judge_motion(plan, ended.result));
+    CHECK(bench.writes() == ended.result.commands + 1); // and the 0
+    CHECK(bench.read(plan.parameter->name.c_str()) == 0);
+    CHECK(bench.read("current_speed") == 0);
+    CHECK(std::abs(*ended.result.samples.back().speed) <= 1);
+  }
+}
+
+TEST_CASE("what was sampled is the trajectory of the servo, to the resolution of its registers") {
+  CommandBench bench;
+  const CommandPlan plan = bench.planned("command_angle=120deg", 1s);
+  const Commanded ended = bench.run(plan);
+  REQUIRE(ended.result.samples.size() > 90);
+  // The same motor without a bus. A write is on the bus for 0.4 ms, a question for 0.13 ms.
+  constexpr Duration write_time = 400us, margin = 500us;
+  constexpr Duration start = 10s;
+  sim::testing::MotionRig rig(R"("model": "BLA21-12U-AB",
+      "rom": {"soft_start": "off", "speed_torque_control": "on", "timeout_action": "hold"})");
+  rig.run(start);
+  std::vector<std::int64_t> angles; // one every 100 us
+  constexpr Duration grid = 100us;
+  bool is_commanded = false;
+  for (Duration now{}; now < 1200ms; now += grid) {
+    if (!is_commanded && now >= write_time) {
+      is_commanded = true;
+      rig.write(at::command_angle, 1200);
+    }
+    angles.push_back(rig.angle());
+    rig.run(grid);
+  }
+  std::size_t moving = 0;
+  for (const CommandSample& sample : ended.result.samples) {
+    REQUIRE(sample.angle);
+    const auto first = std::max<std::int64_t>((sample.after - margin) / grid, 0);
+    const auto last = std::min<std::int64_t>((sample.after + margin) / grid + 1,
+                                             static_cast<std::int64_t>(angles.size()) - 1);
+    const auto [least, most] =
+        std::minmax_element(angles.begin() + first, angles.begin() + last + 1);
+    INFO(sample.after.count() << " us: " << *sample.angle << ", " << *least << " to " << *most);
+    CHECK(*sample.angle >= *least - 1);
+    CHECK(*sample.angle <= *most + 1);
+    moving += *sample.angle > 10 && *sample.angle < 1150 ? 1U : 0U;
+  }
+  CHECK(moving >= 10); // on the way, not only at its ends
+}
+
+TEST_CASE("no command waits longer than half of the servo's timeout, whatever is not answered") {
+  // Answers are 30 ms late: reads block the way of commands.
+  const std::string slow = R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11,
+      "behaviour": {"answer_delay": "30ms"},
+      "rom": {"soft_start": "off", "timeout_time": "200ms"}}])";
+  CommandBench bench(slow);
+  const CommandPlan plan = bench.planned("command_angle=45deg", 1s);
+  const Commanded ended = bench.run(plan);
+  CHECK_FALSE(ended.result.error);
+  CHECK(ended.result.commands >= 1000 / 80); // 0.4 of 200 ms
+}
+
+TEST_CASE("a servo that was unplugged, or restarted, is no success") {
+  for (const char* back : {"", R"(, {"at": "12s", "servo": 1, "happens": "power_on"})"}) {
+    CommandBench bench(
+        servos(std::string(R"({"at": "11s", "servo": 1, "happens": "power_off"})") + back));
+    const CommandPlan plan = bench.planned("command_speed=30rpm", 10s);
+    const Commanded ended = bench.run(plan);
+    CHECK(ended.result.has_commanded());
+    REQUIRE(ended.result.error);
+    REQUIRE(ended.result.not_ended);
+    CHECK(ended.result.error->code == Code::timeout);
+    CHECK(ended.result.samples.back().after < 4s);
+  }
+}
+
+TEST_CASE("a restart that nobody saw is found out in the end") {
+  CommandBench bench(servos(R"({"at": "11s", "servo": 1, "happens": "power_off"},
+                               {"at": "11.1s", "servo": 1, "happens": "power_on"})"));
+  const CommandPlan plan = bench.planned("command_angle=0deg", 1500ms);
+  const Commanded ended = bench.run(plan);
+  REQUIRE(ended.result.has_commanded());
+  const auto& error = ended.result.error ? ended.result.error : ended.result.not_ended;
+  REQUIRE(error);
+  CHECK((error->code == Code::state || error->code == Code::timeout));
+}
+
+TEST_CASE("when the vehicle is armed nothing more is written") {
+  CommandBench bench;
+  const CommandPlan plan = bench.planned("command_speed=30rpm");
+  std::size_t writes = 0;
+  const Commanded ended = bench.run(plan, [&](const CommandSample& sample) {
+    if (sample.after > 500ms && writes == 0) {
+      writes = bench.writes();
+      bench.hear(dronecan::ArmingStatus::type, dronecan::ArmingStatus{255}.encode());
+    }
+    return true;
+  });
+  REQUIRE(ended.result.error);
+  CHECK(ended.result.error->code == Code::armed);
+  REQUIRE(ended.result.not_ended);
+  CHECK(bench.writes() == writes);
+  CHECK(bench.read("command_speed") == 30); // its own timeout lets go of it
+}
+
+TEST_CASE("when an autopilot begins to command it, it is left to that") {
+  CommandBench bench;
+  const CommandPlan plan = bench.planned("command_speed=30rpm");
+  std::size_t writes = 0;
+  const Commanded ended = bench.run(plan, [&](const CommandSample& sample) {
+    if (sample.after > 500ms && writes == 0) {
+      writes = bench.writes();
+      bench.hear(dronecan::ArrayCommand::type,
+                 dronecan::ArrayCommand{{{.actuator_id = 0, .command_type = 1}}}.encode());
+    }
+    return true;
+  });
+  REQUIRE(ended.result.error);
+  CHECK(ended.result.error->code == Code::driven);
+  CHECK(bench.writes() == writes);
+}
+
+TEST_CASE("a setting that changed since the question is not commanded upon") {
+  CommandBench bench;
+  const CommandPlan plan = bench.planned("command_angle=45deg");
+  const auto change =
+      plans_for(bench.scene, {.assignments = assignments({"angle_limit_cw=20deg"})}, {11});
+  WriteJob write(bench.scene.roster(), change.front().before.servo, change.front().changes, {});
+  bench.scene.run(write);
+  const Commanded ended = bench.run(plan);
+  REQUIRE(ended.result.error);
+  CHECK(ended.result.error->code == Code::state);
+  CHECK_FALSE(ended.result.has_commanded());
+  CHECK(bench.writes() == 0);
+}
+
+TEST_CASE("where the reader has left, it comes to its end, and holds where it is") {
+  CommandBench bench;
+  const CommandPlan plan = bench.planned("command_angle=170deg");
+  const Commanded ended =
+      bench.run(plan, [](const CommandSample& sample) { return sample.after < 60ms; });
+  CHECK_FALSE(ended.result.error);
+  CHECK_FALSE(ended.result.not_ended);
+  CHECK(ended.result.is_cut);
+  CHECK_FALSE(judge_motion(plan, ended.result));
+  REQUIRE(ended.result.held);
+  CHECK(*ended.result.held < 1700);
+  CHECK(*ended.result.held > 0);
+  CHECK(bench.read("command_angle") == *ended.result.held);
+}
+
+TEST_CASE("a shaft that does not do what it is told is no success") {
+  struct Case {
+    const char* motion;
+    const char* says;
+  };
+
+  for (const Case& each :
+       {Case{"command_angle=45deg", "was to be at 45.0 deg"},
+        Case{"command_speed=60rpm", "did not turn"}, Case{nullptr, "did not move"}}) {
+    CommandBench bench(servos(R"({"at": "1s", "servo": 1, "world": {"stuck": "on"}})"));
+    const CommandPlan plan = bench.planned(each.motion);
+    const Commanded ended = bench.run(plan);
+    CHECK_FALSE(ended.result.not_ended);
+    const auto differs = judge_motion(plan, ended.result);
+    REQUIRE(differs);
+    CHECK(differs->code == Code::mismatch);
+    CHECK(differs->message.find(each.says) != std::string::npos);
+  }
+}
+
+TEST_CASE("ArrayCommand only where nobody else may obey it") {
+  const auto refused = [](const std::string& members) {
+    CommandBench bench(members);
+    CommandPlan plan = bench.planned("command_angle=45deg");
+    return refuse_servo_id(*bench.scene.session, profiles(), plan, {});
+  };
+  const auto two = [](int servo_id, const std::string& more = "") {
+    return std::string(R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11, "servo_id": 3},
+        {"model": "BLA21-12U-AB", "node_id": 12, "servo_id": )") +
+           std::to_string(servo_id) + more + "}]";
+  };
+  CHECK_FALSE(refused(two(4)));
+  CHECK(refused(two(3))->code == Code::duplicate_servo_id);
+  CHECK(refused(two(4, R"(, "faults": {"mute": true})"))->code == Code::duplicate_servo_id);
+  const std::string waiting = R"("servos": [
+      {"model": "BLA21-12U-AB", "node_id": 11, "servo_id": 3},
+      {"model": "BLA21-12U-AB", "node_id": 0, "servo_id": 4}])";
+  CHECK(refused(waiting)->code == Code::duplicate_servo_id);
+}
