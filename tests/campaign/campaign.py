@@ -25,7 +25,9 @@ import tempfile
 import alloc_story
 import apply_story
 import bench
+import command_story
 import doctor_story
+import monitor_story
 import scenario
 import story
 import truth
@@ -49,7 +51,7 @@ def defaults_of(blactl):
 
 
 def judge_of(outcome):
-    judges = (alloc_story, apply_story, doctor_story)
+    judges = (alloc_story, apply_story, command_story, doctor_story, monitor_story)
     return next((judge for judge in judges if judge.is_meant(outcome)), story)
 
 

@@ -99,6 +99,7 @@ class Episode:
         self._let_diagnose(random.Random(f"doctor {seed}"))
         self._let_apply(random.Random(f"apply {seed}"))
         self._let_undo(random.Random(f"undo {seed}"))
+        self._let_move(random.Random(f"move {seed}"))
 
     def _let_ask(self, chance):
         """Some servos have no node ID, and get one. It is drawn apart: the other episodes, and the
@@ -151,6 +152,38 @@ class Episode:
         words = ["undo", "-y"] + chance.choice([[], [], ["-n", "all"], ["--no-save"], [
             "-n", f"serial:{chance.choice(self.serials)}"]])
         self.steps[at:at] = [[Command(words)]] * chance.choice([1, 1, 2])
+
+    def _let_move(self, chance):
+        """Shafts are commanded and watched; drawn apart, too."""
+        if chance.random() < 0.6:
+            return
+        if chance.random() < 0.3:
+            self._let_alone()
+        for servo in self.scenario["servos"]:
+            if chance.random() < 0.7:
+                servo.setdefault("rom", {}).update(
+                    speed_torque_control="on", timeout_time=chance.choice([1000, 1000, 200, 60]))
+        for _ in range(chance.choice([1, 1, 2])):
+            at = chance.randint(0, len(self.steps))
+            beside = [Command(self._command(chance))] if chance.random() < 0.1 else []
+            self.steps[at:at] = [[Command(self._motion(chance))] + beside]
+        if chance.random() < 0.5:
+            at = chance.randint(0, len(self.steps))
+            target = chance.choice(["all", f"serial:{chance.choice(self.serials)}"])
+            watch = Command(["monitor", "-n", target, "--duration", chance.choice(["1", "6"])])
+            self.steps[at:at] = [[watch]]
+
+    def _motion(self, chance):
+        target = chance.choice([str(chance.choice(self.ids)),
+                                f"serial:{chance.choice(self.serials)}"])
+        words = ["command", chance.choice(["angle=30deg", "angle=-5.5deg", "angle=60deg",
+                                           "speed=45rpm", "speed=-20rpm", "torque=30%",
+                                           "--wiggle"]), "-n", target, "-y"]
+        if chance.random() < 0.2:
+            words += ["--duration", chance.choice(["0.05", "0.5", "5"])]
+        if chance.random() < 0.15:
+            words.append("--array")
+        return words
 
     def _fleet(self, chance):
         """Entries for some servos, the IDs of each its own, or those of another of them."""
@@ -206,8 +239,8 @@ class Episode:
     def _is_right(self, command, index):
         """Servos that had to ask first are not where they were drawn."""
         verb, *_ = command.words
-        if verb in ("doctor", "undo"):
-            return False  # what it finds is judged apart; there may be nothing to undo
+        if verb in ("doctor", "undo", "command"):
+            return False  # judged apart: there may be nothing to undo, or no room to move
         if verb == "apply" and self.asking:
             return False  # one that waits for an ID of its own may need more than one run
         is_numbered = verb != "alloc" and command.target().isdigit()

@@ -65,7 +65,7 @@ class Step:
 
     def commanders(self):
         """The nodes that command servos."""
-        ours = OWN_NODE_IDS if any(command.words[0] == "characterize"
+        ours = OWN_NODE_IDS if any(command.words[0] in ("characterize", "command")
                                    for command in self._commands) else set()
         return ours | {node["node_id"] for node in self._scenario.get("foreign", [])
                        if "commands" in node}
