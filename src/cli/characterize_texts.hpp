@@ -5,10 +5,6 @@
 
 namespace blactl::texts {
 
-inline constexpr Text characterize_one_servo{"characterize measures one servo, not {}",
-                                             "characterize の対象は 1 台だけです ({} 台指定)"};
-inline constexpr Text characterize_one_servo_hint{"name it: blactl characterize -n {}",
-                                                  "対象を指定: blactl characterize -n {}"};
 inline constexpr Text characterize_column_setting{"SETTING", "項目"};
 inline constexpr Text characterize_column_value{"VALUE", "値"};
 inline constexpr Text characterize_column_what{"WHAT IT SAYS", "意味"};

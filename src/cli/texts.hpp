@@ -83,6 +83,10 @@ inline constexpr Text records_itself{"--record {}: that is the log being read",
 inline constexpr Text lines_passed_over{
     "{}: lines passed over because they are no frames: {}, the first is line {}",
     "{}: フレームではない {} 行を無視しました (最初は {} 行目)"};
+inline constexpr Text only_one_servo{"{} takes one servo, not {}",
+                                     "{} の対象は 1 台だけです ({} 台指定)"};
+inline constexpr Text only_one_servo_hint{"name it: blactl {} -n {}",
+                                          "対象を指定: blactl {} -n {}"};
 inline constexpr Text listen_only_refused{
     "{} must send, which --listen-only forbids",
     "{} は送信が必要なため --listen-only では実行できません",

@@ -88,6 +88,29 @@ WritingRun::choose(const fleet::Targets& targets,
   return std::move(*selection);
 }
 
+std::optional<dronecan::NodeId> WritingRun::open_for_one(std::string_view command) {
+  const auto targets = context_.targets();
+  if (!targets) {
+    stop(targets.error());
+    return std::nullopt;
+  }
+  auto selection = open(command) ? choose(*targets, context_.identification()) : std::nullopt;
+  if (!selection) {
+    return std::nullopt;
+  }
+  for (Error& error : selection->errors) {
+    report_.fail_target(std::move(error));
+  }
+  const auto& ids = selection->ids;
+  if (report_.targets.empty() && ids.size() != 1) {
+    const auto first = ids.empty() ? dronecan::NodeId{} : ids.front();
+    stop({Code::usage, say<texts::only_one_servo>(command, ids.size()),
+          say<texts::only_one_servo_hint>(command, first.value()), std::nullopt});
+  }
+  const bool is_one = report_.targets.empty() && ids.size() == 1;
+  return is_one ? std::optional(ids.front()) : std::nullopt;
+}
+
 void WritingRun::searched() {
   has_searched_ = true;
   chosen_at_ = context_.session().now();

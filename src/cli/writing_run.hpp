@@ -42,6 +42,9 @@ class WritingRun {
   [[nodiscard]] std::optional<fleet::Selection>
   choose(const fleet::Targets& targets, const fleet::Identification::Options& identification);
 
+  /// Opens, and chooses the one servo that is meant. Errors also: usage, where several are.
+  [[nodiscard]] std::optional<dronecan::NodeId> open_for_one(std::string_view command);
+
   /// The bus was searched: who comes from now on was not chosen.
   void searched();
 

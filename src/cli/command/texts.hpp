@@ -14,10 +14,6 @@ inline constexpr Text motion_both{"{} and --wiggle cannot both be done",
 inline constexpr Text motion_no_command{
     "{} is no command: only angle, speed or torque is commanded",
     "{} は指令できません。指令できるのは angle、speed、torque です"};
-inline constexpr Text motion_one_servo{"command moves one servo, and {} are meant",
-                                       "command の対象は 1 台のみです (対象: {} 台)"};
-inline constexpr Text motion_one_servo_hint{"name one, for example: -n {}",
-                                            "1 台を指定して下さい (例: -n {})"};
 inline constexpr Text motion_svg_to_stdout{"--svg: the drawing goes to a file only",
                                            "--svg の出力先はファイルのみです"};
 inline constexpr Text motion_svg_hint{"for example --svg step.svg", "例: --svg step.svg"};

@@ -59,31 +59,9 @@ class Characterize : WritingRun {
 };
 
 bool Characterize::select() {
-  const auto targets = context_.targets();
-  if (!targets) {
-    return stop(targets.error());
-  }
-  if (!open("characterize")) {
-    return false;
-  }
-  auto selection = choose(*targets, context_.identification());
-  if (!selection) {
-    return false;
-  }
-  for (Error& error : selection->errors) {
-    report_.fail_target(std::move(error));
-  }
-  if (!report_.targets.empty()) {
-    return false;
-  }
-  const auto& ids = selection->ids;
-  if (ids.size() != 1) {
-    const auto first = ids.empty() ? dronecan::NodeId{} : ids.front();
-    return stop({Code::usage, say<texts::characterize_one_servo>(ids.size()),
-                 say<texts::characterize_one_servo_hint>(first.value()), std::nullopt});
-  }
-  id_ = ids.front();
-  return true;
+  const auto one = open_for_one("characterize");
+  id_ = one.value_or(dronecan::NodeId{});
+  return one.has_value();
 }
 
 bool Characterize::read() {

@@ -1,0 +1,163 @@
+#include "cli/command/run.hpp"
+
+#include "blactl/base/replace_file.hpp"
+#include "blactl/fleet/guard.hpp"
+
+#include "cli/command/sample.hpp"
+#include "cli/command/svg.hpp"
+#include "cli/command/texts.hpp"
+#include "cli/texts.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <span>
+#include <utility>
+
+namespace blactl::cli {
+
+MotionRun::MotionRun(fleet::CommandWanted wanted, std::string svg, Context& context, Report& report)
+    : WritingRun(context, report), wanted_(std::move(wanted)), svg_(std::move(svg)) {}
+
+void MotionRun::all() {
+  const auto may_move = [this] { return prove_servo_id() && check(); };
+  if (select() && plan() && hear() && may_move() && confirm() && may_move()) {
+    move();
+  } else if (report_.signal != 0) {
+    hint_interruption(say<texts::nothing_written_hint>());
+  }
+  report_.count_targets(std::max<std::size_t>(1, report_.targets.size()));
+  report_.counts.emplace_back("samples", samples_);
+}
+
+bool MotionRun::select() {
+  const auto one = open_for_one("command");
+  id_ = one.value_or(dronecan::NodeId{});
+  return one.has_value();
+}
+
+bool MotionRun::plan() {
+  auto snapshots = fleet::take_snapshots(
+      context_.session(), context_.known(), std::span(&id_, 1), context_.identification(),
+      [this](const fleet::Servo& servo) { return fleet::registers_to_command(wanted_, servo); });
+  if (snapshots.broken) {
+    return broken(*snapshots.broken);
+  }
+  const fleet::Roster& roster = context_.session().roster();
+  auto plan = fleet::plan_command(wanted_, std::move(snapshots.servos.front()), context_.known());
+  if (!plan) { // two that answer at once answer nothing
+    report_.fail_target(roster.is_doubled(id_) ? fleet::doubled(roster, id_)
+                                               : std::move(plan.error()));
+    return false;
+  }
+  plan_ = std::move(*plan);
+  return true;
+}
+
+/// Of each other servo, once more after the question: another one may have come.
+bool MotionRun::prove_servo_id() {
+  auto refused = wanted_.by_servo_id ? fleet::refuse_servo_id(context_.session(), context_.known(),
+                                                              *plan_, context_.identification())
+                                     : std::nullopt;
+  return !refused || fail(*refused, Code::duplicate_servo_id);
+}
+
+/// What the others on the bus forbid; once more after the question, which may take its time.
+bool MotionRun::check() {
+  if (auto refused = fleet::forbidden(context_.session().roster(), context_.session().now(),
+                                      plan_->plan, context_.shared().while_driven)) {
+    report_.fail_target(std::move(*refused));
+  }
+  return report_.targets.empty();
+}
+
+bool MotionRun::confirm() {
+  tell_others();
+  for (const fleet::Warning& warning : plan_->plan.warnings) {
+    context_.reporter().note(warning.text);
+  }
+  return WritingRun::confirm(fleet::question_to_command(*plan_));
+}
+
+/// False: the reader has left, or cannot be written to.
+bool MotionRun::show(const fleet::CommandSample& sample) {
+  constexpr Duration text_period = std::chrono::milliseconds(100); // what a person can read
+  const Reporter& reporter = context_.reporter();
+  const bool is_first = samples_++ == 0;
+  std::string out;
+  const fleet::Session& session = context_.session();
+  const WallTime wall = session.wall() - (context_.session().now() - sample.at);
+  switch (reporter.format()) {
+  case Format::json: out = json_motion(wall, *plan_, sample); break;
+  case Format::csv:
+    out = (is_first ? csv_motion_header(*plan_) : "") + csv_motion(wall, *plan_, sample);
+    break;
+  case Format::text:
+    if (!is_first && sample.at < shown_at_ + text_period) {
+      return true;
+    }
+    shown_at_ = sample.at;
+    out = (is_first ? text_motion_header(*plan_) : "") + text_motion(*plan_, sample);
+    break;
+  }
+  const auto printed = reporter.stream(out);
+  if (!printed) {
+    report_.fail(printed.error());
+  }
+  return printed.value_or(false);
+}
+
+void MotionRun::move() {
+  conclude(fleet::command(
+      context_.session(), *plan_,
+      {.patience = context_.identification().patience,
+       .while_driven = context_.shared().while_driven,
+       .sampled =
+           [this, reads = true](const fleet::CommandSample& sample) mutable {
+             reads = reads && show(sample);
+             return reads;
+           },
+       .ending = [this] { context_.reporter().note(say<texts::motion_ending>()); }}));
+}
+
+void MotionRun::conclude(const fleet::Commanded& commanded) {
+  const fleet::CommandResult& result = commanded.result;
+  const bool is_ended = result.has_commanded() && !result.not_ended;
+  if (commanded.broken) {
+    (void)broken(*commanded.broken);
+    hint_interruption(is_ended ? say<texts::motion_interrupted_hint>(fleet::after_commands(*plan_))
+                               : say<texts::nothing_written_hint>());
+  }
+  Target target;
+  const bool is_interruption = result.error && result.error->code == Code::interrupted;
+  if (result.error && !is_interruption) {
+    target.errors.push_back(*result.error);
+  }
+  if (result.not_ended) {
+    target.errors.push_back(*result.not_ended);
+  }
+  auto differs = !result.error && !result.not_ended && result.has_commanded()
+                     ? fleet::judge_motion(*plan_, result)
+                     : std::nullopt;
+  if (differs) {
+    target.errors.push_back(std::move(*differs));
+  }
+  report_.targets.push_back(std::move(target));
+  report_.counts.emplace_back("commands", result.commands);
+  if (is_ended) {
+    context_.reporter().note(motion_summary(*plan_, result));
+  }
+  draw(result);
+}
+
+void MotionRun::draw(const fleet::CommandResult& result) {
+  if (svg_.empty() || result.samples.empty()) {
+    return;
+  }
+  const auto written = replace_file(svg_, motion_svg(*plan_, result));
+  if (!written) {
+    return report_.fail(written.error());
+  }
+  context_.reporter().note(say<texts::motion_drawn>(printable(svg_)));
+}
+
+} // namespace blactl::cli
