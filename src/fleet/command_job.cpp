@@ -30,7 +30,7 @@ namespace {
 constexpr Duration sample_period = 10ms;
 
 /// A servo that leaves so many questions in a row unanswered is not there any more.
-constexpr int most_unanswered = 3;
+constexpr int most_silent = 3;
 
 /// How long a shaft may take to stand, and what it may show then (both unproven).
 constexpr Duration longest_stop = 1s;
@@ -194,7 +194,7 @@ Step CommandJob::judge_shown(const Outcome& outcome) {
   if (has_answered(outcome)) {
     result_.is_shown = result_.is_shown || value(outcome, plan_.parameter->address) == target_;
   }
-  return unanswered_ < most_unanswered ? go_on() : fail(silent_since());
+  return unanswered_ < most_silent ? go_on() : fail(silent_since());
 }
 
 /// One question, answered or given up in time for the next command.
@@ -220,7 +220,7 @@ Step CommandJob::judge_echo(const Outcome& outcome) {
     return fail(no_answer(outcome, plan_.servo().id, plan_.parameter->name));
   }
   if (!has_answered(outcome)) {
-    return unanswered_ < most_unanswered ? go_on() : fail(silent_since());
+    return unanswered_ < most_silent ? go_on() : fail(silent_since());
   }
   const auto echo = value(outcome, plan_.parameter->address);
   if (echo != target_) {
@@ -273,7 +273,7 @@ Step CommandJob::take_sample(const Outcome& outcome) {
       now_ = options_.now();
     }
   }
-  if (unanswered_ >= most_unanswered && !is_ending_) {
+  if (unanswered_ >= most_silent && !is_ending_) {
     return fail(silent_since());
   }
   return is_ending_ ? end_sample() : go_on();
@@ -342,7 +342,7 @@ Step CommandJob::judge_end(const Outcome& outcome) {
 
 /// It is watched until it is where it shall stay.
 Step CommandJob::end_sample() {
-  if (unanswered_ >= most_unanswered) {
+  if (unanswered_ >= most_silent) {
     return give_up(silent_since());
   }
   const bool is_whole = reading_ == 0 && sample_.angle && sample_.speed;
