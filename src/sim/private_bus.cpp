@@ -2,6 +2,7 @@
 
 #include "blactl/can/simbus_texts.hpp"
 
+#include "sim/backlog.hpp"
 #include "sim/filter.hpp"
 
 #include <algorithm>
@@ -14,8 +15,6 @@ using namespace std::chrono_literals;
 
 namespace {
 
-/// Frames that a CAN socket holds by default before it drops some.
-constexpr std::size_t inbox_capacity = 278;
 constexpr std::size_t own_queue_capacity = 10;
 
 /// Virtual time passes in steps, so that the loop sees signals even on a bus of which the filter
@@ -57,7 +56,7 @@ class PrivateBus::Inbox final : public Medium::Listener {
 
  private:
   void push(can::BusEvent event) {
-    if (events_.size() < inbox_capacity) {
+    if (events_.size() < backlog_capacity) {
       events_.push_back(std::move(event));
     } else {
       ++lost_;
