@@ -30,11 +30,13 @@ class PrivateBus::Inbox final : public Medium::Listener {
 
   void heard(const can::Frame& frame, Time at) override {
     if (passes(filters, frame)) {
-      push(can::Received{frame, at, wall(at)});
+      push(can::Received{frame, at, bus_.wall_at(at)});
     }
   }
 
-  void sent(const can::Frame& frame, Time at) override { push(can::Sent{frame, at, wall(at)}); }
+  void sent(const can::Frame& frame, Time at) override {
+    push(can::Sent{frame, at, bus_.wall_at(at)});
+  }
 
   void bus_off(Time at) override { push(can::BusFault{can::FaultKind::bus_off, at}); }
 
@@ -63,8 +65,6 @@ class PrivateBus::Inbox final : public Medium::Listener {
       overflow_ = true;
     }
   }
-
-  [[nodiscard]] WallTime wall(Time at) const { return bus_.wall() - (bus_.now() - at); }
 
   const PrivateBus& bus_;
   std::deque<can::BusEvent> events_;
