@@ -11,6 +11,20 @@ Time Bus::now() const {
       std::chrono::duration_cast<Duration>(std::chrono::steady_clock::now().time_since_epoch()));
 }
 
+/// Both clocks are read at one moment: a process that is not run in between reads them again, else
+/// a log would go back in time.
+WallTime Bus::wall_at(Time at) const {
+  constexpr Duration one_moment = std::chrono::microseconds(20);
+  constexpr int most_tries = 10;
+  for (int i = 1;; ++i) {
+    const Time before = now();
+    const WallTime read = wall();
+    if (now() - before <= one_moment || i == most_tries) {
+      return read - (before - at);
+    }
+  }
+}
+
 WallTime Bus::wall() const {
   return std::chrono::time_point_cast<Duration>(std::chrono::system_clock::now());
 }

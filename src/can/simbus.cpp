@@ -249,10 +249,6 @@ WallTime SimBus::wall() const {
   return virtual_clock_ ? wall_epoch_ + now_.time_since_epoch() : Bus::wall();
 }
 
-WallTime SimBus::wall_at(Time at) const {
-  return wall() - (now() - at);
-}
-
 /// On the virtual clock only the simulator can end the waiting, by what it sends.
 Time SimBus::idle_until(Time deadline) {
   if (!virtual_clock_ || gone_) {

@@ -275,8 +275,9 @@ LiveServo Monitor::live(const Member& member, const Watched& node, Time now) con
                 .is_gone = now - member.last_heard >= offline_time,
                 .is_doubled = session_.roster().is_doubled(member.id)};
   for (const auto& [id, other] : session_.roster().members()) {
-    if (id != member.id && session_.roster().has_moved(other) && other.unique_id() &&
-        other.unique_id() == out.servo.unique_id) {
+    // In this order: whether it has moved is asked of all others.
+    if (id != member.id && other.unique_id() && other.unique_id() == out.servo.unique_id &&
+        session_.roster().has_moved(other)) {
       out.former_id = id;
     }
   }

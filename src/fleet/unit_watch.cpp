@@ -40,9 +40,14 @@ void UnitWatch::count_status(dronecan::TransferId transfer_id, Time at) {
 /// Every uptime tells when its unit started. A new start is a restart; coming back to the old one
 /// means that two units send under one ID. A unit that restarts at once shows by its uptime alone,
 /// which never goes back.
+///
+/// What waited for a bus that was full makes a start look later. The unit then comes back to its
+/// old start and its uptime has never gone back, as it does each time a younger unit follows an
+/// older.
 UnitWatch::Start UnitWatch::hear_uptime(std::uint32_t uptime_s, Time at) {
   const Time start = at - std::chrono::seconds(uptime_s);
   const std::uint32_t before = std::exchange(last_uptime_s_, uptime_s);
+  may_be_late_ = may_be_late_ && uptime_s >= before;
   // A servo that restarts right after its start has two that are close to each other.
   const auto distance = [&](const std::optional<Time>& known) {
     return known ? std::chrono::abs(*known - start) : Duration::max();
@@ -52,11 +57,13 @@ UnitWatch::Start UnitWatch::hear_uptime(std::uint32_t uptime_s, Time at) {
     const auto index = static_cast<std::size_t>(it - starts_.begin());
     *it = start; // clocks drift
     if (index != std::exchange(last_start_, index)) {
-      return Start::twin;
+      starts_[1 - index] = may_be_late_ ? std::nullopt : starts_[1 - index];
+      return std::exchange(may_be_late_, false) ? Start::known : Start::twin;
     }
     return uptime_s < before ? Start::anew : Start::known;
   }
   const bool is_first = !starts_[last_start_];
+  may_be_late_ = !is_first && uptime_s >= before && start > *starts_[last_start_];
   last_start_ = is_first ? last_start_ : 1 - last_start_;
   starts_[last_start_] = start;
   return is_first ? Start::known : Start::anew;

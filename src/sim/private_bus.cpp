@@ -2,6 +2,7 @@
 
 #include "blactl/can/simbus_texts.hpp"
 
+#include "sim/backlog.hpp"
 #include "sim/filter.hpp"
 
 #include <algorithm>
@@ -14,8 +15,6 @@ using namespace std::chrono_literals;
 
 namespace {
 
-/// Frames that a CAN socket holds by default before it drops some.
-constexpr std::size_t inbox_capacity = 278;
 constexpr std::size_t own_queue_capacity = 10;
 
 /// Virtual time passes in steps, so that the loop sees signals even on a bus of which the filter
@@ -31,11 +30,13 @@ class PrivateBus::Inbox final : public Medium::Listener {
 
   void heard(const can::Frame& frame, Time at) override {
     if (passes(filters, frame)) {
-      push(can::Received{frame, at, wall(at)});
+      push(can::Received{frame, at, bus_.wall_at(at)});
     }
   }
 
-  void sent(const can::Frame& frame, Time at) override { push(can::Sent{frame, at, wall(at)}); }
+  void sent(const can::Frame& frame, Time at) override {
+    push(can::Sent{frame, at, bus_.wall_at(at)});
+  }
 
   void bus_off(Time at) override { push(can::BusFault{can::FaultKind::bus_off, at}); }
 
@@ -57,15 +58,13 @@ class PrivateBus::Inbox final : public Medium::Listener {
 
  private:
   void push(can::BusEvent event) {
-    if (events_.size() < inbox_capacity) {
+    if (events_.size() < backlog_capacity) {
       events_.push_back(std::move(event));
     } else {
       ++lost_;
       overflow_ = true;
     }
   }
-
-  [[nodiscard]] WallTime wall(Time at) const { return bus_.wall() - (bus_.now() - at); }
 
   const PrivateBus& bus_;
   std::deque<can::BusEvent> events_;

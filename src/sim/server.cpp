@@ -14,6 +14,8 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <cstdint>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -24,6 +26,10 @@ constexpr std::size_t max_clients = 64;
 
 /// Events of the virtual clock in one call of service(): new clients are not kept waiting.
 constexpr int max_steps = 1000;
+
+/// Bus time that passes in one call of service() on the real clock: where more has gone by, because
+/// this process did not run or the machine is too slow, clients and signals are not kept waiting.
+constexpr Duration longest_slice = std::chrono::milliseconds(20);
 
 Time monotonic_now() {
   return Time(
@@ -47,7 +53,9 @@ struct Server::State {
     }
   }
 
-  bool watch(int descriptor) const;
+  [[nodiscard]] bool watch(int descriptor) const;
+  void watch_for_room();
+  void serve(int descriptor, std::uint32_t events);
   void accept_clients();
   void remove_gone();
   void pass_time();
@@ -57,9 +65,11 @@ struct Server::State {
   std::unique_ptr<ListeningSocket> listening;
   Simulator simulator;
   std::vector<std::unique_ptr<ServerClient>> clients;
+  std::set<int> full; ///< descriptors of clients that are watched for room in their sockets
   int epoll;
   std::size_t held_for = 0; ///< virtual clock: clients without which no time passes
-  bool more = false;        ///< virtual clock: time could pass further at once
+  Duration behind{};        ///< real clock: what of the time that is over has not passed yet
+  bool more = false;        ///< time could pass further at once
 };
 
 bool Server::State::watch(int descriptor) const {
@@ -67,6 +77,36 @@ bool Server::State::watch(int descriptor) const {
   event.events = EPOLLIN;
   event.data.fd = descriptor;
   return epoll_ctl(epoll, EPOLL_CTL_ADD, descriptor, &event) == 0;
+}
+
+/// Whose socket is full is looked at again when it has room.
+void Server::State::watch_for_room() {
+  for (const auto& client : clients) {
+    const int socket = client->descriptor();
+    if (client->has_backlog() == full.contains(socket)) {
+      continue;
+    }
+    epoll_event event{};
+    event.events = EPOLLIN | (client->has_backlog() ? EPOLLOUT : 0U);
+    event.data.fd = socket;
+    if (epoll_ctl(epoll, EPOLL_CTL_MOD, socket, &event) == 0) {
+      client->has_backlog() ? (void)full.insert(socket) : (void)full.erase(socket);
+    }
+  }
+}
+
+void Server::State::serve(int descriptor, std::uint32_t events) {
+  const auto client = std::ranges::find(clients, descriptor, &ServerClient::descriptor);
+  if (client == clients.end()) {
+    accept_clients();
+    return;
+  }
+  if ((events & EPOLLOUT) != 0) {
+    (*client)->flush();
+  }
+  if ((events & ~std::uint32_t{EPOLLOUT}) != 0) {
+    (*client)->serve();
+  }
 }
 
 void Server::State::accept_clients() {
@@ -85,12 +125,20 @@ void Server::State::accept_clients() {
 }
 
 void Server::State::remove_gone() {
+  for (const auto& client : clients) {
+    if (client->gone()) {
+      full.erase(client->descriptor()); // another one may get this number
+    }
+  }
   std::erase_if(clients, [](const auto& client) { return client->gone(); });
 }
 
 void Server::State::pass_time() {
   if (clock == Clock::real) {
-    simulator.advance_to(monotonic_now());
+    const Time now = monotonic_now();
+    simulator.advance_to(std::min(now, simulator.now() + longest_slice));
+    behind = now - simulator.now();
+    more = behind > Duration::zero();
     return;
   }
   int steps = 0;
@@ -156,24 +204,24 @@ void Server::service() {
   std::array<epoll_event, max_clients + 1> events{};
   const int count = epoll_wait(state_->epoll, events.data(), static_cast<int>(events.size()), 0);
   for (int i = 0; i < count; ++i) {
-    const int ready = events[static_cast<std::size_t>(i)].data.fd;
-    const auto client = std::ranges::find(state_->clients, ready, &ServerClient::descriptor);
-    if (client != state_->clients.end()) {
-      (*client)->serve();
-    } else {
-      state_->accept_clients();
-    }
+    const epoll_event& event = events[static_cast<std::size_t>(i)];
+    state_->serve(event.data.fd, event.events);
   }
   state_->remove_gone();
   state_->pass_time();
   state_->remove_gone();
+  state_->watch_for_room();
 }
 
 Time Server::next_deadline(Time now) const {
-  if (state_->clock == Clock::real) {
-    return state_->simulator.next_event();
+  if (state_->more) {
+    return now;
   }
-  return state_->more ? now : never;
+  return state_->clock == Clock::real ? state_->simulator.next_event() : never;
+}
+
+Duration Server::behind() const {
+  return state_->behind;
 }
 
 void Server::hold(std::size_t clients) {

@@ -1,5 +1,6 @@
 #include "sim/server_client.hpp"
 
+#include "sim/backlog.hpp"
 #include "sim/filter.hpp"
 
 #include <sys/socket.h>
@@ -118,27 +119,44 @@ void ServerClient::bus_off(Time at) {
         .at = microseconds(at)});
 }
 
-/// What the socket does not take is lost, and counted.
+/// What there is no room for is lost, and counted.
 void ServerClient::post(const Message& message) {
   if (gone_) {
     return;
   }
   if (lost_ != reported_lost_) {
-    if (!deliver({.kind = Kind::overflow, .count = lost_})) {
+    if (!keep({.kind = Kind::overflow, .count = lost_})) {
       ++lost_;
       return;
     }
     reported_lost_ = lost_;
   }
-  if (!deliver(message)) {
+  if (!keep(message)) {
     ++lost_;
   }
 }
 
-/// False: the socket is full.
+/// Nothing overtakes what waits. False: too much of it.
+bool ServerClient::keep(const Message& message) {
+  if (backlog_.size() >= backlog_capacity) {
+    return false;
+  }
+  if (!backlog_.empty() || !deliver(message)) {
+    backlog_.push_back(message);
+  }
+  ++posted_;
+  return true;
+}
+
+void ServerClient::flush() {
+  while (!gone_ && !backlog_.empty() && deliver(backlog_.front())) {
+    backlog_.pop_front();
+  }
+}
+
+/// False: the socket is full, or its other end is gone.
 bool ServerClient::deliver(const Message& message) {
   if (::send(socket_, &message, sizeof message, MSG_NOSIGNAL | MSG_DONTWAIT) == sizeof message) {
-    ++posted_;
     return true;
   }
   gone_ = errno != EAGAIN && errno != ENOBUFS && errno != EINTR;

@@ -6,6 +6,7 @@
 #include "blactl/sim/simulator.hpp"
 
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <vector>
 
@@ -23,6 +24,12 @@ class ServerClient final : public Medium::Listener {
 
   /// Reads what the client has sent, a bounded part of it at a time.
   void serve();
+
+  /// Something waits because the socket is full: flush() when there is room again.
+  [[nodiscard]] bool has_backlog() const { return !backlog_.empty(); }
+
+  /// Hands over what waits, as far as the socket takes it.
+  void flush();
 
   /// The connection has ended, or must end.
   [[nodiscard]] bool gone() const { return gone_; }
@@ -43,6 +50,7 @@ class ServerClient final : public Medium::Listener {
   void handle(const can::sim_wire::Message& message);
   void greet(const can::sim_wire::Message& hello);
   void post(const can::sim_wire::Message& message);
+  [[nodiscard]] bool keep(const can::sim_wire::Message& message);
   [[nodiscard]] bool deliver(const can::sim_wire::Message& message);
 
   int socket_;
@@ -50,7 +58,8 @@ class ServerClient final : public Medium::Listener {
   Clock clock_;
   std::optional<Medium::PortId> port_; ///< from the greeting on
   std::vector<can::Filter> filters_;
-  std::uint64_t posted_ = 0; ///< messages that are in its socket
+  std::deque<can::sim_wire::Message> backlog_; ///< what its socket did not take yet
+  std::uint64_t posted_ = 0;                   ///< messages that are in its socket or wait for it
   std::uint64_t lost_ = 0, reported_lost_ = 0;
   std::uint64_t waits_after_ = 0; ///< messages it had read when it said `wait`; 0: it has not
   Time deadline_ = never;

@@ -130,6 +130,9 @@ class Bus {
   [[nodiscard]] virtual Time now() const;
   [[nodiscard]] virtual WallTime wall() const;
 
+  /// The wall time of a moment of the bus clock, near now().
+  [[nodiscard]] WallTime wall_at(Time at) const;
+
   /// The loop has nothing to do before `deadline`. Returns when it shall look again at the latest:
   /// a real bus has no wish of its own; on a virtual clock this call lets time pass.
   [[nodiscard]] virtual Time idle_until(Time deadline) { return deadline; }

@@ -62,7 +62,6 @@ class SimBus final : public Bus {
   [[nodiscard]] Result<void> greet();
   [[nodiscard]] Result<void> post(const sim_wire::Message& message);
   [[nodiscard]] std::optional<BusEvent> event(const sim_wire::Message& message);
-  [[nodiscard]] WallTime wall_at(Time at) const;
   [[nodiscard]] Error gone() const;
 
   int socket_;

@@ -53,6 +53,7 @@ class UnitWatch {
   std::array<std::optional<Time>, 2> starts_{};
   std::size_t last_start_ = 0;
   std::uint32_t last_uptime_s_ = 0;
+  bool may_be_late_ = false; ///< the last new start: the uptime has not gone back for it, nor since
 };
 
 } // namespace blactl::fleet

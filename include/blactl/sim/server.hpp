@@ -18,8 +18,8 @@ namespace blactl::sim {
 ///   loop.watch(server.descriptor());
 ///   for (;;) { … loop.next(server.next_deadline(loop.now())); server.service(); }
 ///
-/// A client that dies, sends garbage or does not read hurts nobody: it is disconnected, or loses
-/// frames and is told how many.
+/// A client that dies, sends garbage or does not read hurts nobody: it is disconnected, or gets its
+/// frames later. Beyond 2.5 s of a full bus it loses frames, and is told how many.
 class Server {
  public:
   /// Creates the folder of the socket if it is missing (0700), takes the place of a simulator that
@@ -41,6 +41,10 @@ class Server {
   /// When service() must be called although the descriptor is not readable. `now`: of the
   /// monotonic clock, whatever the clock of the bus.
   [[nodiscard]] Time next_deadline(Time now) const;
+
+  /// How far the bus was behind the monotonic clock after the last service(); 0 on the virtual
+  /// clock. Grows without end where the machine is too slow for what is on the bus.
+  [[nodiscard]] Duration behind() const;
 
   [[nodiscard]] Simulator& simulator();
 

@@ -135,6 +135,16 @@ void obey(LineInput& input, const can::Event& event, const Context& context, Per
   }
 }
 
+/// Tells once that the bus runs late: what clients then see of times is no fault of servos.
+void tell_if_behind(const sim::Server& server, bool& told, const Context& context) {
+  constexpr Duration worth_telling = std::chrono::seconds(1);
+  if (!told && server.behind() >= worth_telling) {
+    told = true;
+    context.reporter().note(say<texts::sim_behind>(
+        std::chrono::duration_cast<std::chrono::seconds>(server.behind()).count()));
+  }
+}
+
 /// Serves the simulated bus on a socket until a signal comes.
 void serve(const std::string& socket, const sim::Scenario& scenario, const Context& context,
            Report& report) {
@@ -174,12 +184,13 @@ void serve(const std::string& socket, const sim::Scenario& scenario, const Conte
         dump(simulator.servos(), &simulator.medium().counters(), simulator.now(), events);
       },
   };
-  for (;;) {
+  for (bool told_behind = false;;) {
     const can::Event event = loop.next((*server)->next_deadline(loop.now()));
     if (ends(event, events, report)) {
       break;
     }
     (*server)->service();
+    tell_if_behind(**server, told_behind, context);
     obey(input, event, context, perform);
   }
   events.tell_losses(report);

@@ -29,6 +29,9 @@ inline constexpr Text sim_needs_virtual_clock{"only with --clock virtual: {}",
                                               "--clock virtual でのみ使えます: {}"};
 inline constexpr Text sim_order_impossible{"not on a real interface: {}",
                                            "実際のバスでは使えません: {}"};
+inline constexpr Text sim_behind{
+    "the simulated bus is {} s late: this machine is too slow for it, or did not run the simulator",
+    "模擬バスが {} 秒遅れています。処理が追いつかないか、シミュレータが停止していました"};
 inline constexpr Text sim_events_dropped{
     "events that nobody read in time and that are not printed: {}",
     "読み取られなかったため出力していないイベント: {}"};

@@ -65,16 +65,26 @@ void TraceRun::live(std::unique_ptr<can::Bus> bus) {
   report_.interface = loop.bus().name();
   const Time end = duration_ ? loop.now() + *duration_ : never;
   screen_.begin(loop.now());
+  // While frames wait to be read the bus is not known up to now: what seems late is among them.
+  Time known_until = loop.now();
   bool goes_on = true;
-  while (goes_on && loop.now() < end) {
+  while (goes_on) {
     const Time deadline = std::min({end, tracer_.next_expiry(), screen_.due()});
-    goes_on = handle(loop.next(deadline), report_.interface, end);
+    const can::Event event = loop.next(deadline);
     const Time now = loop.now();
-    if (goes_on && tracer_.next_expiry() <= now) {
-      tracer_.expire(now);
+    // What came before the end is read, however late this process comes to it.
+    const bool has_read_all = std::holds_alternative<can::DeadlineReached>(event);
+    goes_on = handle(event, report_.interface, end) && !(has_read_all && now >= end);
+    if (const auto* received = std::get_if<can::Received>(&event)) {
+      known_until = received->at;
+    } else if (!std::holds_alternative<can::Overflow>(event)) {
+      known_until = now;
     }
-    if (screen_.due() <= now || !goes_on || now >= end) {
-      screen_.pass(std::min(now, end));
+    if (goes_on && tracer_.next_expiry() <= known_until) {
+      tracer_.expire(known_until);
+    }
+    if (screen_.due() <= now || !goes_on) {
+      screen_.pass(std::min(known_until, end));
     }
     goes_on = flush() && check(screen_.advance(now)) && goes_on;
   }

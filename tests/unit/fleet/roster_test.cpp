@@ -264,6 +264,41 @@ TEST_CASE("an actuator of another make may send its status as fast as it likes")
   CHECK(ear.roster.doubled() == std::set{NodeId(10)});
 }
 
+TEST_CASE("a node whose status waited for a bus that was full is no second node") {
+  const auto waited = GENERATE(1600ms, 2500ms, 3400ms, 8700ms);
+  Ear ear;
+  const Time begin = ear.now;
+  std::uint32_t uptime = 0;
+  const auto rest_until = [&](Time end) {
+    for (; begin + uptime * 1s < end; ++uptime) {
+      ear.now = std::max(ear.now, begin + uptime * 1s);
+      ear.status(10, uptime);
+    }
+  };
+  rest_until(begin + 5s);
+  ear.now = begin + 5s + waited; // nothing got through, and now all of it does
+  while (begin + uptime * 1s <= ear.now) {
+    ear.status(10, uptime++);
+    ear.now += 1ms;
+  }
+  rest_until(begin + 30s);
+  CHECK_FALSE(ear.roster.is_doubled(NodeId(10)));
+}
+
+TEST_CASE("two nodes with one ID show even where the first was silent for a while") {
+  Ear ear;
+  ear.status(10, 20);
+  ear.now += 30s;
+  ear.status(10, 40); // another one, or the first after a restart
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    ear.now += 500ms;
+    ear.status(10, 51 + i);
+    ear.now += 500ms;
+    ear.status(10, 41 + i);
+  }
+  CHECK(ear.roster.is_doubled(NodeId(10)));
+}
+
 TEST_CASE("two nodes with one ID show by uptimes that interleave") {
   Ear ear;
   ear.status(10, 100);
