@@ -186,7 +186,7 @@ bool Monitor::is_meant(const Member& member) const {
   return targets_.mean(member, profiles_) || std::ranges::count(targets_.ids, member.id) > 0;
 }
 
-/// A servo is asked as soon as it is heard. Selectors tell only of those that were identified.
+/// A servo is asked as soon as it is heard: whether a selector means it is told by its answers.
 void Monitor::attend(NodeId id) {
   const Member* member = session_.roster().find(id);
   const bool is_named = std::ranges::count(targets_.ids, id) > 0;
@@ -209,7 +209,7 @@ void Monitor::attend(NodeId id) {
 void Monitor::plan_rounds() {
   std::int64_t reads = 0;
   for (const auto& [id, node] : nodes_) {
-    if (node.poll) {
+    if (node.poll && node.poll->polls()) {
       const bool reads_seldom = !plan_.seldom.empty() || limits_of_ == id;
       reads += static_cast<std::int64_t>(plan_.often.size()) + (reads_seldom ? 1 : 0) +
                (needs_angle(node) ? 1 : 0);
@@ -224,7 +224,10 @@ bool Monitor::needs_angle(const Watched& node) const {
   return (is_silent || node.is_far) && std::ranges::count(options_.fields, LiveField::angle) > 0;
 }
 
-PollPlan Monitor::further(NodeId id, const Watched& node) const {
+std::optional<PollPlan> Monitor::further(NodeId id, const Watched& node) const {
+  if (!is_meant(session_.roster().member(id))) {
+    return std::nullopt;
+  }
   PollPlan more;
   if (needs_angle(node)) {
     more.often.push_back(bla::address::current_angle);

@@ -4,6 +4,7 @@
 #include "scene.hpp"
 
 #include <algorithm>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -112,6 +113,51 @@ TEST_CASE("questions take no more than their share of the bus") {
   const std::size_t reads = count(trace.out, "\n");
   CHECK(reads > 1500);
   CHECK(reads < 1876 + 40 * 10); // 533 bits each: 10 % of 10 s; and the identification
+}
+
+TEST_CASE("a servo that turns out not to be meant is not asked any more") {
+  const Bench bench;
+  const std::string log = (bench.folder() / "bus.log").string();
+  const Scene scene = Scene()
+                          .servo("BLA21-12U-AB", 11, {{"serial_number", 1}})
+                          .servo("BLA15-06U-A0", 12, {{"serial_number", 2}})
+                          .servo("BLA21-12U-AB", 13, {{"serial_number", 3}});
+  const auto servos_asked = [&](const char* targets) {
+    const Result result =
+        scene.run(bench, {"monitor", "--json", "-n", targets, "--duration", "5", "--record", log});
+    INFO(result.err);
+    CHECK(result.status == 0);
+    std::map<int, std::size_t> asked;
+    for (const auto& line : json_lines(bench.run({"trace", log, "--json"}).out)) {
+      if (line.value("kind", "") == "request" && line["destination"].is_number()) {
+        ++asked[line["destination"].get<int>()];
+      }
+    }
+    for (const auto& [id, count] : asked) {
+      INFO("node " << id << ": " << count);
+      CHECK((count <= 6) == samples_of(lines_of(result), id).empty()); // 6 identify it
+    }
+    return asked.size();
+  };
+  CHECK(servos_asked("model:BLA21") == 3);
+  CHECK(servos_asked("serial:2") == 3);
+  CHECK(servos_asked("13") == 1);
+  CHECK(servos_asked("13,serial:2") == 3);
+}
+
+TEST_CASE("who is not meant is looked at again when it restarts") {
+  const Scene scene = Scene()
+                          .servo("BLA21-12U-AB", 11, {{"serial_number", 1}})
+                          .servo("BLA15-06U-A0", 12, {{"serial_number", 2}})
+                          .event(2, "power_off", "3s")
+                          .servo("BLA15-06U-A0", 12, {{"serial_number", 3}})
+                          .joins(3, "4s");
+  const Result result = scene.run({"monitor", "--json", "-n", "serial:3", "--duration", "10"});
+  const Lines lines = lines_of(result);
+  CHECK(samples_of(lines, 11).empty());
+  REQUIRE_FALSE(samples_of(lines, 12).empty());
+  CHECK(samples_of(lines, 12).front()["serial_number"] == 3);
+  CHECK(samples_of(lines, 12).back()["voltage_v"] == 7.4);
 }
 
 TEST_CASE("--listen-only sends nothing and shows what servos send by themselves") {

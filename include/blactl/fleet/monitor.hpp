@@ -115,7 +115,7 @@ class Monitor final : private dronecan::Service {
   void attend(dronecan::NodeId id);
   void plan_rounds();
   [[nodiscard]] bool needs_angle(const Watched& node) const;
-  [[nodiscard]] PollPlan further(dronecan::NodeId id, const Watched& node) const;
+  [[nodiscard]] std::optional<PollPlan> further(dronecan::NodeId id, const Watched& node) const;
   [[nodiscard]] bool is_meant(const Member& member) const;
   [[nodiscard]] Servo servo(const Member& member, const Watched& node) const;
   [[nodiscard]] LiveServo live(const Member& member, const Watched& node, Time now) const;
