@@ -17,6 +17,12 @@ namespace {
 constexpr std::size_t probe_window = 1;
 constexpr std::size_t window = 3;
 
+/// As nohup has it.
+bool is_ignored(int number) {
+  struct sigaction action{};
+  return sigaction(number, nullptr, &action) == 0 && action.sa_handler == SIG_IGN; // NOLINT
+}
+
 int open_signals() {
   struct sigaction ignore{};
   ignore.sa_handler = SIG_IGN; // NOLINT: the macro casts
@@ -25,6 +31,9 @@ int open_signals() {
   sigemptyset(&set);
   for (const int number : {SIGINT, SIGTERM, SIGWINCH}) {
     sigaddset(&set, number);
+  }
+  if (!is_ignored(SIGHUP)) {
+    sigaddset(&set, SIGHUP);
   }
   sigprocmask(SIG_BLOCK, &set, nullptr);
   return signalfd(-1, &set, SFD_NONBLOCK | SFD_CLOEXEC);

@@ -202,15 +202,22 @@ Result<Session::Happened> Session::take(const can::Event& event) {
 }
 
 Error interrupted_by(int signal) {
-  return {Code::interrupted, say<texts::interrupted>(signal == SIGTERM ? "SIGTERM" : "SIGINT")};
+  const std::string_view name = signal == SIGTERM  ? "SIGTERM"
+                                : signal == SIGHUP ? "SIGHUP"
+                                                   : "SIGINT";
+  return {Code::interrupted, say<texts::interrupted>(name)};
 }
 
-/// The first signal ends what may be ended, the second one everything.
+/// The first signal ends what may be ended, the second one everything. A terminal that is gone is
+/// told by the kernel and by the shell: nobody has become impatient.
 Result<Session::Happened> Session::take_signal(int number) {
   if (number == SIGWINCH) {
     if (resized_) {
       resized_();
     }
+    return Happened::something;
+  }
+  if (number == SIGHUP && signal_ != 0) {
     return Happened::something;
   }
   const bool first = std::exchange(signal_, number) == 0;

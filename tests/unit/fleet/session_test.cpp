@@ -225,7 +225,7 @@ TEST_CASE("a signal ends the jobs of a group and those beside it") {
 }
 
 TEST_CASE("a signal ends the session, and what is asked is cancelled") {
-  const int number = GENERATE(SIGINT, SIGTERM);
+  const int number = GENERATE(SIGINT, SIGTERM, SIGHUP);
   Scene scene(R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11}])");
   Ask job(100);
   scene.session->start(job);
@@ -238,6 +238,18 @@ TEST_CASE("a signal ends the session, and what is asked is cancelled") {
   CHECK(job.outcomes.back() == cancelled);
   CHECK(scene.session->node().jobs() == 0);
   CHECK(scene.sent.size() == sent);
+}
+
+TEST_CASE("that a terminal is gone is told twice where a shell tells it too, and is one signal") {
+  const int first = GENERATE(SIGHUP, SIGTERM);
+  Rig rig;
+  rig.session->set_grace(10s);
+  REQUIRE(raise(first) == 0);
+  CHECK_FALSE(rig.session->live_until(never));
+  REQUIRE(raise(SIGHUP) == 0);
+  CHECK(rig.session->live_until(rig.wire.now + 1s));
+  REQUIRE(raise(SIGINT) == 0);
+  CHECK_FALSE(rig.session->live_until(rig.wire.now + 1s));
 }
 
 TEST_CASE("a window that changes its size ends nothing") {
