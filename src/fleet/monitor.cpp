@@ -120,6 +120,7 @@ void Monitor::receive(const Transfer& transfer) {
   if (std::exchange(node.boot, member->boots) != member->boots) {
     node.values.clear(); // of the run before, or of another unit
     node.status_at.reset();
+    node.turns.forget();
   }
   if (header.kind == Kind::message && header.data_type_id == ActuatorStatus::type.id) {
     take_angle(node, transfer);
@@ -147,8 +148,13 @@ void Monitor::take_angle(Watched& node, const Transfer& transfer) {
   const bool is_better_known =
       node.is_far && known != node.values.end() && transfer.at - known->second.at < exact_for;
   if (!is_better_known) {
-    node.values[bla::address::current_angle] = {tenths, transfer.at};
+    tell_angle(node, tenths, transfer.at);
   }
+}
+
+void Monitor::tell_angle(Watched& node, std::int64_t decideg, Time at) {
+  node.values[bla::address::current_angle] = {decideg, at};
+  node.turns.take(decideg, at);
 }
 
 /// Whoever asked.
@@ -161,7 +167,12 @@ void Monitor::take_register(Watched& node, const Transfer& transfer) {
     return;
   }
   if (parameter->width.holds(*raw)) {
-    node.values[*address] = {parameter->width.narrow(*raw), transfer.at};
+    const std::int64_t value = parameter->width.narrow(*raw);
+    if (*address == bla::address::current_angle) {
+      tell_angle(node, value, transfer.at);
+    } else {
+      node.values[*address] = {value, transfer.at};
+    }
   }
   if (*address == bla::address::fault_summary) {
     forget_past_faults(node);
@@ -303,6 +314,7 @@ LiveServo Monitor::live(const Member& member, const Watched& node, Time now) con
                          bla::find(values, limits[field].high)};
   }
   out.is_stale = is_stale(out, now);
+  out.has_turned = node.turns.has_turned(now);
   return out;
 }
 
