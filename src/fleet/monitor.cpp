@@ -314,7 +314,7 @@ LiveServo Monitor::live(const Member& member, const Watched& node, Time now) con
                          bla::find(values, limits[field].high)};
   }
   out.is_stale = is_stale(out, now);
-  out.has_turned = node.turns.has_turned(now);
+  out.has_turned = options_.watches_turns && node.turns.has_turned(now);
   return out;
 }
 

@@ -76,6 +76,17 @@ GivenBack TorqueRelease::give_back(bool while_driven, History* history) {
   if (!was_interrupted && session_.signal() != 0) { // which has ended it half way
     try_to_give_back(while_driven);
   }
+  return conclude(history);
+}
+
+GivenBack TorqueRelease::give_up() {
+  for (Held* held : pending()) {
+    held->error = interrupted_by(session_.signal());
+  }
+  return conclude(nullptr);
+}
+
+GivenBack TorqueRelease::conclude(History* history) const {
   GivenBack given;
   std::vector<dronecan::UniqueId> as_before;
   for (const Held& held : held_) {

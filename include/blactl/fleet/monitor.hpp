@@ -51,7 +51,7 @@ struct LiveServo {
   bool is_gone = false;                        ///< not heard for offline_time
   bool is_doubled = false; ///< two units send under its ID: nothing is told of either
   bool is_stale = false;   ///< something of it is older than it should be
-  bool has_turned = false; ///< its shaft was turned a moment ago, see TurnWatch
+  bool has_turned = false; ///< where that is watched: its shaft was turned, see TurnWatch
 
   [[nodiscard]] const std::optional<LiveValue>& value(LiveField field) const {
     return values[static_cast<std::size_t>(field)];
@@ -75,6 +75,7 @@ class Monitor final : private dronecan::Service {
     Identification::Options identification;
     std::vector<LiveField> fields;                    ///< to ask for
     Duration period = std::chrono::milliseconds(500); ///< of a sample
+    bool watches_turns = false;                       ///< LiveServo::has_turned
     /// Called once every period; on a recording by its own time, and at its end.
     std::function<void(Time now)> sample{};
   };

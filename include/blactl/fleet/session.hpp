@@ -106,6 +106,9 @@ class Session {
 
   static constexpr Duration usual_grace = std::chrono::seconds(3);
 
+  /// Of a command that puts back what it changed (contract, section 2).
+  static constexpr Duration put_back_grace = std::chrono::seconds(10);
+
   /// Another grace, for a command that puts back what it changed: until that is over the session
   /// lives on after a first signal, whatever that has ended.
   void set_grace(Duration grace) { grace_ = grace; }

@@ -48,6 +48,9 @@ class TorqueRelease {
   /// second one does.
   [[nodiscard]] GivenBack give_back(bool while_driven, History* history);
 
+  /// In place of that, where nothing may be sent any more: what is to be said.
+  [[nodiscard]] GivenBack give_up();
+
  private:
   enum class State : std::uint8_t { let_go, given, left };
 
@@ -60,6 +63,7 @@ class TorqueRelease {
   };
 
   void try_to_give_back(bool while_driven);
+  [[nodiscard]] GivenBack conclude(History* history) const;
   [[nodiscard]] std::optional<Plan> judge(Snapshot now, Held& held, bool while_driven) const;
   [[nodiscard]] Wanted wanted_back(const Held& held) const;
   [[nodiscard]] std::vector<Held*> pending();

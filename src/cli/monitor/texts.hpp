@@ -27,9 +27,37 @@ inline constexpr Text state_gone{"not heard for {} s", "{} 秒間受信なし"};
 inline constexpr Text state_doubled{"two units use this ID", "ID 重複 (2 台)"};
 inline constexpr Text state_restarts{"restarts: {}", "再起動: {} 回"};
 inline constexpr Text state_former{"was node {}", "旧ノード {}"};
+inline constexpr Text state_turned{"<< TURNED", "<< 回転検出"};
 inline constexpr Text state_new{"new", "新規"};
 inline constexpr Text state_more{"+{}", "他 {}"};
 inline constexpr Text state_unknown_fault{"{} bit {}", "{} ビット {}"};
+
+inline constexpr Text monitor_identifies{"torque off: turn a horn by hand",
+                                         "トルク OFF: ホーンを手で回して下さい"};
+inline constexpr Text moved_unwatched{"whether a servo moved is watched with --identify only",
+                                      "moved は --identify 指定時のみ使用できます"};
+inline constexpr Text moved_unwatched_hint{
+    "add --identify, or leave moved out of --fields",
+    "--identify を付けるか、--fields から moved を外して下さい"};
+
+inline constexpr Text identify_question{
+    "They have no torque until the command ends, then it comes back.\n",
+    "コマンド終了までトルクが OFF になり、終了時に元へ戻ります。\n"};
+inline constexpr Text identify_begun{
+    "torque is off at {} servos ({}): turn a horn by hand",
+    "サーボ {} 台 ({}) のトルクを OFF にしました。ホーンを手で回して下さい"};
+inline constexpr Text identify_nothing{"no servo had torque: nothing was changed",
+                                       "トルク ON のサーボがないため、何も変更していません"};
+inline constexpr Text identify_back{"Torque comes back at {} servos ({}): hands off.",
+                                    "サーボ {} 台 ({}) のトルクが元に戻ります。手を離して下さい。"};
+inline constexpr Text identify_enter{" Enter: ", " Enter で続行: "};
+inline constexpr Text identify_in_time{" 10 s at most (Ctrl-C again: not at all)",
+                                       " 最大 10 秒 (もう一度 Ctrl-C で中止)"};
+inline constexpr Text identify_done{"{} servos have the torque that they had before ({})",
+                                    "サーボ {} 台のトルクを元に戻しました ({})"};
+inline constexpr Text identify_done_hint{"their torque is as it was", "トルクは元に戻しました"};
+inline constexpr Text identify_not_done_hint{"see below whose torque was not put back",
+                                             "トルクを元に戻せなかったサーボは次の通りです"};
 
 inline constexpr Text sort_node{"node ID", "ノード ID"};
 inline constexpr Text sort_state{"state", "状態"};

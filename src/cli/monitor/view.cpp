@@ -95,6 +95,9 @@ ScreenLine MonitorView::title(Time now) const {
   if (!table_.shown().empty()) {
     line.push_back({"  " + table_.shown()});
   }
+  if (!told_.empty()) {
+    line.push_back({"  " + told_, Look::warning});
+  }
   if (paused_) {
     line.push_back({"  " + say<texts::monitor_paused>(), Look::warning});
   }

@@ -1,0 +1,151 @@
+#include "cli/monitor/run.hpp"
+
+#include "blactl/fleet/guard.hpp"
+
+#include "cli/monitor/texts.hpp"
+#include "cli/texts.hpp"
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <utility>
+
+namespace blactl::cli {
+
+MonitorRun::MonitorRun(MonitorManner manner, fleet::Targets targets, Context& context,
+                       Report& report)
+    : manner_(std::move(manner)), context_(context), report_(report),
+      monitor_(context.session(), context.known(), std::move(targets), options()) {}
+
+/// Whether a shaft turns only its angle tells.
+fleet::Monitor::Options MonitorRun::options() {
+  fleet::Monitor::Options options{.identification = context_.identification(),
+                                  .fields = live_fields_of(manner_.fields),
+                                  .period = manner_.period,
+                                  .watches_turns = manner_.identifies,
+                                  .sample = [this](Time now) { sample(now); }};
+  if (manner_.identifies && std::ranges::count(options.fields, fleet::LiveField::angle) == 0) {
+    options.fields.push_back(fleet::LiveField::angle);
+  }
+  return options;
+}
+
+/// Without a screen it prints lines: where the terminal cannot be drawn on, and for a recording,
+/// which is over at once.
+void MonitorRun::open_screen() {
+  const Reporter& reporter = context_.reporter();
+  if (reporter.format() != Format::text || !reporter.has_screen() ||
+      context_.session().is_recording()) {
+    return;
+  }
+  auto screen = Screen::open(reporter.page().colour);
+  if (!screen) {
+    return reporter.note(say<texts::monitor_other_screen>(screen.error().message));
+  }
+  fleet::Session& session = context_.session();
+  view_ =
+      std::make_unique<MonitorView>(std::move(*screen), reporter, report_.interface, session.now());
+  if (manner_.identifies) {
+    view_->tell(say<texts::monitor_identifies>());
+  }
+  if (Screen::input() >= 0) {
+    session.on_input(Screen::input(), [this] { take_keys(); });
+  }
+  session.on_resize([this] { view_->draw(context_.session().now()); });
+  view_->draw(session.now());
+}
+
+void MonitorRun::take_keys() {
+  was_quit_ = was_quit_ || !view_->take_keys(context_.session().now());
+  is_over_ = is_over_ || was_quit_;
+  monitor_.watch_limits(view_->shown());
+}
+
+/// A reader that has left ends the run.
+void MonitorRun::check(const Result<bool>& printed) {
+  if (!printed) {
+    report_.fail(printed.error());
+  }
+  is_over_ = is_over_ || !printed.value_or(false);
+}
+
+void MonitorRun::stream(const std::vector<fleet::LiveServo>& servos) {
+  const Reporter& reporter = context_.reporter();
+  const WallTime wall = context_.session().wall();
+  std::string out;
+  if (!std::exchange(has_header_, true) && reporter.format() != Format::json) {
+    out =
+        reporter.format() == Format::csv ? csv_header(manner_.fields) : text_header(manner_.fields);
+  }
+  for (const fleet::LiveServo& servo : servos) {
+    switch (reporter.format()) {
+    case Format::json: out += json_sample(wall, servo, manner_.fields); break;
+    case Format::csv: out += csv_sample(wall, servo, manner_.fields); break;
+    case Format::text: out += text_sample(wall, servo, manner_.fields); break;
+    }
+  }
+  check(reporter.stream(out));
+}
+
+/// A session on a recording hears all of it, whatever the time.
+bool MonitorRun::is_past_duration(Time now) {
+  if (!context_.session().is_recording() || !manner_.duration) {
+    return false;
+  }
+  begin_ = begin_.value_or(now - manner_.period);
+  return now - *begin_ > *manner_.duration;
+}
+
+void MonitorRun::sample(Time now) {
+  if (is_over_ || is_past_duration(now)) {
+    is_over_ = true;
+    return;
+  }
+  auto servos = monitor_.servos(now);
+  if (view_) {
+    view_->take(std::move(servos), now);
+  } else {
+    stream(servos);
+  }
+  is_over_ = is_over_ || ++samples_ == manner_.count;
+}
+
+void MonitorRun::run() {
+  fleet::Session& session = context_.session();
+  session.wait_alone();
+  open_screen();
+  const Time end = manner_.duration ? session.now() + *manner_.duration : never;
+  const auto lived = session.live_until(end, [this] { return is_over_; });
+  if (session.is_recording() && lived) {
+    sample(session.now()); // what came after the last one
+  }
+  is_over_ = true;
+  session.on_input(-1, {});
+  session.on_resize({});
+  view_.reset();
+  if (!lived) {
+    context_.broken(lived.error(), report_);
+  }
+}
+
+/// What of the servos is a failure of the command.
+void MonitorRun::conclude(std::span<const Error> errors) {
+  const fleet::Session& session = context_.session();
+  std::map<std::optional<std::uint8_t>, Target> targets;
+  for (const fleet::LiveServo& servo : monitor_.servos(session.now())) {
+    Target& target = targets[servo.servo.id.value()];
+    if (servo.is_doubled) {
+      target.errors.push_back(fleet::doubled(session.roster(), servo.servo.id));
+    }
+  }
+  for (const Error& error : errors) {
+    targets[error.node_id].errors.push_back(error);
+  }
+  for (auto& [id, target] : targets) {
+    report_.targets.push_back(std::move(target));
+  }
+  report_.count_targets();
+  report_.counts.emplace_back("samples", samples_);
+}
+
+} // namespace blactl::cli
