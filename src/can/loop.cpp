@@ -47,11 +47,11 @@ timespec until(Time now, Time deadline) {
 }
 
 /// After these, frames of ours that are on their way may never be echoed: the echoes were among
-/// what the kernel dropped, or the controller has forgotten the frames. They hold no place any
-/// more.
+/// what the kernel dropped, the controller has forgotten the frames, or it is gone with them. They
+/// hold no place any more.
 bool loses_echoes(const BusEvent& event) {
   const auto* fault = std::get_if<BusFault>(&event);
-  return std::holds_alternative<Overflow>(event) ||
+  return std::holds_alternative<Overflow>(event) || std::holds_alternative<Away>(event) ||
          (fault != nullptr && fault->kind == FaultKind::bus_off);
 }
 

@@ -186,6 +186,10 @@ Result<Session::Happened> Session::take(const can::Event& event) {
     opening_note_ = opened->note;
   } else if (const auto* gone = std::get_if<can::Gone>(&event)) {
     return end(gone->error);
+  } else if (const auto* away = std::get_if<can::Away>(&event)) {
+    take_presence(away->error);
+  } else if (std::holds_alternative<can::Back>(event)) {
+    take_presence(std::nullopt);
   } else if (const auto* caught = std::get_if<can::Signal>(&event)) {
     return take_signal(caught->number);
   } else if (const auto* ready = std::get_if<can::Ready>(&event)) {
@@ -199,6 +203,15 @@ Result<Session::Happened> Session::take(const can::Event& event) {
     return Happened::deadline;
   }
   return Happened::something;
+}
+
+/// What was on its way when the interface went is taken as sent: its answer does not come.
+void Session::take_presence(std::optional<Error> away) {
+  away_ = std::move(away);
+  node_.echoes_lost(loop_.now());
+  if (away_hook_) {
+    away_hook_();
+  }
 }
 
 Error interrupted_by(int signal) {

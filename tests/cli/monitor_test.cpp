@@ -3,8 +3,12 @@
 #include "catch.hpp"
 #include "scene.hpp"
 
+#include <signal.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -243,6 +247,47 @@ TEST_CASE("of two servos under one node ID nothing is told but that") {
   const Lines samples = samples_of(lines_of(result), 11);
   CHECK(samples.back()["angle_deg"] == nullptr);
   CHECK(codes(result) == std::vector<std::string>{"duplicate_node_id"});
+}
+
+TEST_CASE("an interface that goes away is waited for, and servos go on where they are back") {
+  const Bench bench;
+  const std::string log = (bench.folder() / "bus.log").string();
+  std::optional<Background> sim(std::in_place, bench, Arguments{"sim"});
+  Background monitor(bench, {"-i", "sim:", "monitor", "--json", "--rate", "10", "--record", log},
+                     {}, "\"voltage_v\":12.0");
+  CHECK(sim->stop().status == 143);
+  monitor.expect("waiting for it");
+  monitor.expect("\"stale\":true");
+  monitor.expect("\"mode\":\"offline\"");
+  sim.emplace(bench, Arguments{"sim"});
+  monitor.expect("is back");
+  const std::size_t so_far = content(log).size();
+  CHECK(bench.run({"-i", "sim:", "wait"}).status == 0);
+  for (int i = 0; i < 1000 && content(log).size() < so_far + 10'000; ++i) {
+    usleep(10'000);
+  }
+  const Result ended = monitor.stop(SIGINT);
+  INFO(ended.err);
+  CHECK(ended.status == 130);
+  CHECK(codes(ended) == std::vector<std::string>{"interrupted"});
+  CHECK(lines_of(ended).size() > 10);
+  const Lines samples = samples_of(lines_of(ended), 11);
+  CHECK(samples.back()["mode"] == "operational");
+  CHECK(samples.back()["voltage_v"] == 12.0);
+}
+
+TEST_CASE("an interface that is away in the end is an error, as one that was never there") {
+  const Bench bench;
+  std::optional<Background> sim(std::in_place, bench, Arguments{"sim", "--json"});
+  const std::string socket = (bench.folder() / "blactl" / "sim").string();
+  Background monitor(bench, {"-i", "sim:", "monitor", "--json", "--duration", "3"}, {},
+                     "\"node_id\"");
+  (void)sim->stop();
+  const Result ended = monitor.wait();
+  CHECK(ended.status == 3);
+  CHECK(codes(ended) == std::vector<std::string>{"interface"});
+  CHECK(lines_of(ended).back()["exit_status"] == 3);
+  check_error(bench.run({"-i", "sim:" + socket, "monitor"}), 3, "interface", "");
 }
 
 TEST_CASE("monitor waits on an empty bus") {

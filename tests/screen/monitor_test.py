@@ -92,6 +92,24 @@ def what_happens(blactl):
         terminal.shows_no_more(LOW_VOLTAGE)
 
 
+def coming_back(blactl):
+    with Terminal(blactl, fleet(3), 100, 24) as terminal:
+        terminal.run("monitor")
+        terminal.wait_for(lambda lines: len(rows_of(lines)) == 3, "no table")
+        terminal.stop_simulator()
+        terminal.shows("interface gone: waiting")
+        terminal.shows("not heard for 4 s")
+        terminal.start_simulator()
+        terminal.shows_no_more("interface gone")
+        lines = terminal.shows_no_more("not heard for")
+        require(len(rows_of(lines)) == 3, "other rows", lines)
+        terminal.stop_simulator()
+        terminal.shows("interface gone: waiting")
+        terminal.type("q")
+        terminal.shows("[interface]")
+        terminal.start_simulator()
+
+
 def identifying(blactl):
     events = [{"at": "8s", "servo": 40, "world": {"hand": "30deg"}},
               {"at": "10s", "servo": 2, "world": {"hand": "-30deg"}}]
@@ -178,7 +196,7 @@ def main():
         print("skipped: tmux is missing")
         return 77
     blactl = sys.argv[1]
-    for test in (sizes, keys, resizing, what_happens, identifying, ends, stopping, closed_terminal,
+    for test in (sizes, keys, resizing, what_happens, coming_back, identifying, ends, stopping, closed_terminal,
                  other_terminals):
         test(blactl)
         print(f"{test.__name__}: ok", flush=True)

@@ -24,8 +24,8 @@ struct Ready {
 /// The deadline given to next() has come.
 struct DeadlineReached {};
 
-using Event = std::variant<Received, Sent, BusFault, Overflow, Gone, Opened, Ended, Signal, Ready,
-                           DeadlineReached>;
+using Event = std::variant<Received, Sent, BusFault, Overflow, Gone, Away, Back, Opened, Ended,
+                           Signal, Ready, DeadlineReached>;
 
 /// One thread, one loop: everything above it is a state machine without I/O.
 ///

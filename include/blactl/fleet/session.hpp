@@ -113,6 +113,12 @@ class Session {
   /// lives on after a first signal, whatever that has ended.
   void set_grace(Duration grace) { grace_ = grace; }
 
+  /// Called when the interface goes away and is waited for, and when it is back; see away().
+  void on_away(std::function<void()> hook) { away_hook_ = std::move(hook); }
+
+  /// Why the interface is away; empty: it is not.
+  [[nodiscard]] const std::optional<Error>& away() const { return away_; }
+
   /// Lives until the bus is open: what is asked from then on, and how long is listened, has nothing
   /// to do with how long an adapter took. A node ID of our own that is no tool's is listened for
   /// before it is used.
@@ -170,6 +176,7 @@ class Session {
   enum class Happened : std::uint8_t { something, deadline, input };
   [[nodiscard]] Result<Happened> step(Time deadline);
   [[nodiscard]] Result<Happened> take(const can::Event& event);
+  void take_presence(std::optional<Error> away);
   [[nodiscard]] Result<Happened> take_frame(const can::Received& received);
   [[nodiscard]] Result<Happened> take_signal(int number);
   [[nodiscard]] Time next_deadline() const;
@@ -190,6 +197,8 @@ class Session {
   std::function<void()> stopping_, resized_;
   int input_ = -1; ///< of on_input()
   std::function<void()> input_hook_;
+  std::function<void()> away_hook_;
+  std::optional<Error> away_;
   RequestHook asked_, unanswered_;
   IdHook new_id_;
   bool waits_alone_ = false;

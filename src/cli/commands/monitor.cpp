@@ -130,6 +130,7 @@ Report execute(const MonitorOptions& options, Context& context) {
                              .duration = options.duration,
                              .count = options.count,
                              .identifies = options.identify};
+  context.wait_for_return();
   if (options.identify) {
     identify(manner, *targets, context, report);
   } else if (open(context, report)) {

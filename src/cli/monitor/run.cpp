@@ -45,13 +45,29 @@ void MonitorRun::open_screen() {
   fleet::Session& session = context_.session();
   view_ =
       std::make_unique<MonitorView>(std::move(*screen), reporter, report_.interface, session.now());
-  if (manner_.identifies) {
-    view_->tell(say<texts::monitor_identifies>());
-  }
   if (Screen::input() >= 0) {
     session.on_input(Screen::input(), [this] { take_keys(); });
   }
   session.on_resize([this] { view_->draw(context_.session().now()); });
+  tell_presence();
+}
+
+/// Whether the interface is there.
+void MonitorRun::tell_presence() {
+  fleet::Session& session = context_.session();
+  const auto& away = session.away();
+  if (!view_) {
+    return context_.reporter().note(away ? say<texts::monitor_away>(away->message)
+                                         : say<texts::monitor_back>(report_.interface));
+  }
+  ScreenLine state;
+  if (away) {
+    state.push_back({"  " + say<texts::monitor_gone>(), Look::bad});
+  }
+  if (manner_.identifies) {
+    state.push_back({"  " + say<texts::monitor_identifies>(), Look::warning});
+  }
+  view_->tell(std::move(state));
   view_->draw(session.now());
 }
 
@@ -113,6 +129,7 @@ void MonitorRun::sample(Time now) {
 void MonitorRun::run() {
   fleet::Session& session = context_.session();
   session.wait_alone();
+  session.on_away([this] { tell_presence(); });
   open_screen();
   const Time end = manner_.duration ? session.now() + *manner_.duration : never;
   const auto lived = session.live_until(end, [this] { return is_over_; });
@@ -120,6 +137,7 @@ void MonitorRun::run() {
     sample(session.now()); // what came after the last one
   }
   is_over_ = true;
+  session.on_away({});
   session.on_input(-1, {});
   session.on_resize({});
   view_.reset();

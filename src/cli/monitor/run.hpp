@@ -43,6 +43,7 @@ class MonitorRun {
   [[nodiscard]] fleet::Monitor::Options options();
   void open_screen();
   void take_keys();
+  void tell_presence();
   [[nodiscard]] bool is_past_duration(Time now);
   void sample(Time now);
   void stream(const std::vector<fleet::LiveServo>& servos);

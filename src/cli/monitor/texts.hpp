@@ -32,6 +32,9 @@ inline constexpr Text state_new{"new", "新規"};
 inline constexpr Text state_more{"+{}", "他 {}"};
 inline constexpr Text state_unknown_fault{"{} bit {}", "{} ビット {}"};
 
+inline constexpr Text monitor_gone{"interface gone: waiting", "インターフェース切断: 復帰待ち"};
+inline constexpr Text monitor_away{"{}: waiting for it", "{}。復帰を待っています"};
+inline constexpr Text monitor_back{"{} is back", "{} が復帰しました"};
 inline constexpr Text monitor_identifies{"torque off: turn a horn by hand",
                                          "トルク OFF: ホーンを手で回して下さい"};
 inline constexpr Text moved_unwatched{"whether a servo moved is watched with --identify only",

@@ -95,9 +95,7 @@ ScreenLine MonitorView::title(Time now) const {
   if (!table_.shown().empty()) {
     line.push_back({"  " + table_.shown()});
   }
-  if (!told_.empty()) {
-    line.push_back({"  " + told_, Look::warning});
-  }
+  line.insert(line.end(), told_.begin(), told_.end());
   if (paused_) {
     line.push_back({"  " + say<texts::monitor_paused>(), Look::warning});
   }

@@ -33,7 +33,7 @@ class MonitorView {
   void draw(Time now);
 
   /// What stands in the title from now on; empty: nothing.
-  void tell(std::string state) { told_ = std::move(state); }
+  void tell(ScreenLine state) { told_ = std::move(state); }
 
   /// Whose graphs are shown; empty: nobody's.
   [[nodiscard]] std::optional<dronecan::NodeId> shown() const;
@@ -55,7 +55,7 @@ class MonitorView {
   Page page_ = Page::table;
   std::optional<Time> paused_{}; ///< since when
   std::string held_;             ///< notes
-  std::string told_;             ///< see tell()
+  ScreenLine told_;              ///< see tell()
 };
 
 } // namespace blactl::cli

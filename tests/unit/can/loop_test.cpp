@@ -247,6 +247,18 @@ TEST_CASE("a controller that went bus-off has forgotten the frames it had") {
   CHECK(rig.wire.sent.size() == 7);
 }
 
+TEST_CASE("an interface that is away has forgotten the frames it had, and comes back") {
+  Rig rig;
+  rig.wire.echo = Wire::Echo::by_hand;
+  rig.send(1, 3);
+  CHECK(rig.loop.unacknowledged_since());
+  rig.wire.happen(Away{{Code::interface, "unplugged"}});
+  CHECK(std::holds_alternative<Away>(rig.loop.next(never)));
+  rig.wire.happen(Back{});
+  CHECK(std::holds_alternative<Back>(rig.loop.next(never)));
+  CHECK(rig.wire.sent.size() >= 2);
+}
+
 TEST_CASE("faults, overflows and frames come as they are, in order") {
   Rig rig;
   rig.wire.happen(BusFault{FaultKind::error_passive, rig.wire.now});

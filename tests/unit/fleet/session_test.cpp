@@ -401,6 +401,20 @@ TEST_CASE("a bus that goes away ends the session with its error, and is asked no
   CHECK(job.outcomes.back() == cancelled);
 }
 
+TEST_CASE("an interface that is waited for ends nothing, and who wants to know is told") {
+  Rig rig;
+  std::vector<bool> told;
+  rig.session->on_away([&] { told.push_back(rig.session->away().has_value()); });
+  rig.wire.happen(can::Away{{Code::interface, "unplugged"}}, 10ms);
+  rig.wire.happen(can::Back{}, 5s);
+  CHECK(rig.session->live_until(rig.wire.now + 1s));
+  REQUIRE(rig.session->away());
+  CHECK(rig.session->away()->message == "unplugged");
+  CHECK(rig.session->live_until(rig.wire.now + 6s));
+  CHECK_FALSE(rig.session->away());
+  CHECK(told == std::vector<bool>{true, false});
+}
+
 TEST_CASE("bus-off ends the session, other faults do not") {
   Rig rig;
   rig.wire.happen(can::BusFault{can::FaultKind::error_passive, rig.wire.now});
