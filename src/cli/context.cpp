@@ -133,6 +133,11 @@ Result<fleet::Session*> Context::open(fleet::Session::Hearing hearing) {
     adapter_ = nullptr; // the next one is another
     bus->bus = std::make_unique<can::ReturningBus>(std::move(bus->bus), std::move(bus->reopen));
   }
+  if (plays_at_pace_ && log_ != nullptr) {
+    auto paced = std::make_unique<can::PacedReplay>(std::move(bus->bus));
+    pace_ = paced.get();
+    bus->bus = std::move(paced);
+  }
   auto recording = recorded(std::move(bus->bus));
   if (!recording) {
     return std::unexpected(recording.error());

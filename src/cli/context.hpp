@@ -2,6 +2,7 @@
 // What every command on a bus needs: the profiles, a session, and the servos it is about.
 
 #include "blactl/bla/profile.hpp"
+#include "blactl/can/paced_replay.hpp"
 #include "blactl/can/recorder.hpp"
 #include "blactl/can/replay.hpp"
 #include "blactl/can/slcan.hpp"
@@ -96,6 +97,12 @@ class Context {
   /// called before open().
   void wait_for_return() { waits_for_return_ = true; }
 
+  /// A log is played at its own pace. To be called before open().
+  void play_at_pace() { plays_at_pace_ = true; }
+
+  /// The log behind the session, where it is played so; null: it is none.
+  [[nodiscard]] can::PacedReplay* pace() const { return session_ ? pace_ : nullptr; }
+
   /// Behind -i is a fleet file: it tells of servos, and of no bus.
   [[nodiscard]] bool is_fleet_file() const;
 
@@ -144,8 +151,10 @@ class Context {
   std::unique_ptr<fleet::Session> session_;
   bool inquires_ = false;
   bool waits_for_return_ = false;
+  bool plays_at_pace_ = false;
   can::Slcan* adapter_ = nullptr;           ///< the session's bus, with -i slcan:
   const can::ReplayBus* log_ = nullptr;     ///< the session's bus, with -i replay:
+  can::PacedReplay* pace_ = nullptr;        ///< around it, with play_at_pace()
   const can::Recorder* recorder_ = nullptr; ///< around the session's bus, with --record
 };
 

@@ -352,7 +352,7 @@ Result<void> Session::play() {
 }
 
 Result<void> Session::live_until(Time deadline) {
-  if (playback_) {
+  if (plays_at_once()) {
     return play();
   }
   for (;;) {
@@ -367,7 +367,7 @@ Result<void> Session::live_until(Time deadline) {
 }
 
 Result<bool> Session::live_until(Time deadline, const std::function<bool()>& done) {
-  if (playback_) {
+  if (plays_at_once()) {
     const auto played = play();
     return played ? Result<bool>(done()) : std::unexpected(played.error());
   }

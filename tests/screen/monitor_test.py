@@ -132,6 +132,34 @@ def identifying(blactl):
         terminal.wait_for(lambda lines: "2" in lines, "torque is not on")
 
 
+def playing(blactl):
+    with Terminal(blactl, fleet(2), 120, 24) as terminal:
+        log = os.path.join(terminal.folder.name, "bus.log")
+        terminal.run("monitor", "--duration", "8", "--record", log)
+        terminal.wait_for(lambda lines: len(rows_of(lines)) == 2, "no table")
+        terminal.shows_no_more("STATE")
+        begin = time.monotonic()
+        terminal.type(f"{terminal.blactl} -i replay:{log} monitor", "Enter")
+        terminal.shows("log: 2 s")
+        require(time.monotonic() - begin > 1, "too fast")
+        terminal.type("p")
+        lines = terminal.shows("paused")
+        time.sleep(1.5)
+        require(terminal.lines() == lines, "it goes on", terminal.lines())
+        terminal.type("p", "+")
+        terminal.shows("2 times faster")
+        terminal.type("-", "-")
+        terminal.shows("2 times slower")
+        terminal.type("+", "+", "+")
+        terminal.shows("4 times faster")
+        lines = terminal.shows("end of the log")
+        require(len(rows_of(lines)) == 2 and "12.0" in rows_of(lines)[0], "the last values", lines)
+        terminal.type("Enter")
+        terminal.shows("last 60 s")
+        terminal.type("q")
+        terminal.shows_no_more("last 60 s")
+
+
 def ends(blactl):
     for end in ("TERM", "INT", "quit"):
         with Terminal(blactl, fleet(1), 80, 24) as terminal:
@@ -196,7 +224,7 @@ def main():
         print("skipped: tmux is missing")
         return 77
     blactl = sys.argv[1]
-    for test in (sizes, keys, resizing, what_happens, coming_back, identifying, ends, stopping, closed_terminal,
+    for test in (sizes, keys, resizing, what_happens, coming_back, identifying, playing, ends, stopping, closed_terminal,
                  other_terminals):
         test(blactl)
         print(f"{test.__name__}: ok", flush=True)

@@ -134,6 +134,9 @@ class Bus {
   /// What comes has happened long ago: nobody can be asked, and no frame is taken. Ends with Ended.
   [[nodiscard]] virtual bool is_recording() const { return false; }
 
+  /// What was recorded comes when its time has come, by now(); else all of it at once.
+  [[nodiscard]] virtual bool is_paced() const { return false; }
+
   /// The bus clock. Real interfaces: CLOCK_MONOTONIC.
   [[nodiscard]] virtual Time now() const;
   [[nodiscard]] virtual WallTime wall() const;

@@ -60,6 +60,9 @@ class Session {
   /// The bus is a log: what is asked is answered from it.
   [[nodiscard]] bool is_recording() const { return playback_.has_value(); }
 
+  /// It is, and all of it was heard.
+  [[nodiscard]] bool has_played() const { return playback_ && playback_->finished(); }
+
   /// False: nothing is sent, without a node ID of our own.
   [[nodiscard]] bool may_ask() const { return node_.id().is_unicast() || playback_.has_value(); }
 
@@ -124,7 +127,8 @@ class Session {
   /// before it is used.
   [[nodiscard]] Result<void> wait_until_open();
 
-  /// Lives until `deadline`; on a recording, until all of it was heard, whatever the deadline.
+  /// Lives until `deadline`; on a recording that does not come at its own pace, until all of it was
+  /// heard, whatever the deadline.
   /// Errors of this, run() and wait_until_open(): interrupted, interface, bus_off, no_acknowledge,
   /// duplicate_node_id, no_local_node_id (others have our IDs); of a recording: bad_file. They end
   /// the session: every job is cancelled.
@@ -183,6 +187,9 @@ class Session {
   void advance(Time now);
   [[nodiscard]] std::unexpected<Error> end(Error error);
   [[nodiscard]] Time acknowledge_deadline() const;
+
+  [[nodiscard]] bool plays_at_once() const { return playback_ && !loop_.bus().is_paced(); }
+
   [[nodiscard]] Result<void> play();
   [[nodiscard]] Result<void> run_while(const std::function<bool()>& busy);
 

@@ -131,6 +131,10 @@ Report execute(const MonitorOptions& options, Context& context) {
                              .count = options.count,
                              .identifies = options.identify};
   context.wait_for_return();
+  const Reporter& reporter = context.reporter();
+  if (reporter.format() == Format::text && reporter.has_screen()) {
+    context.play_at_pace();
+  }
   if (options.identify) {
     identify(manner, *targets, context, report);
   } else if (open(context, report)) {

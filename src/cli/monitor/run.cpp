@@ -6,6 +6,7 @@
 #include "cli/texts.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <map>
 #include <string>
 #include <utility>
@@ -30,12 +31,12 @@ fleet::Monitor::Options MonitorRun::options() {
   return options;
 }
 
-/// Without a screen it prints lines: where the terminal cannot be drawn on, and for a recording,
-/// which is over at once.
+/// Without a screen it prints lines: where the terminal cannot be drawn on, and for a recording
+/// that is over at once.
 void MonitorRun::open_screen() {
   const Reporter& reporter = context_.reporter();
   if (reporter.format() != Format::text || !reporter.has_screen() ||
-      context_.session().is_recording()) {
+      (context_.session().is_recording() && context_.pace() == nullptr)) {
     return;
   }
   auto screen = Screen::open(reporter.page().colour);
@@ -48,20 +49,47 @@ void MonitorRun::open_screen() {
   if (Screen::input() >= 0) {
     session.on_input(Screen::input(), [this] { take_keys(); });
   }
+  if (context_.pace() != nullptr) {
+    view_->on_other_keys([this](Key key) { take_other_key(key); }, say<texts::monitor_keys_log>());
+  }
   session.on_resize([this] { view_->draw(context_.session().now()); });
-  tell_presence();
+  tell_state();
 }
 
 /// Whether the interface is there.
 void MonitorRun::tell_presence() {
-  fleet::Session& session = context_.session();
-  const auto& away = session.away();
-  if (!view_) {
-    return context_.reporter().note(away ? say<texts::monitor_away>(away->message)
-                                         : say<texts::monitor_back>(report_.interface));
+  if (view_) {
+    return tell_state();
   }
+  const auto& away = context_.session().away();
+  context_.reporter().note(away ? say<texts::monitor_away>(away->message)
+                                : say<texts::monitor_back>(report_.interface));
+}
+
+/// How far a log is.
+std::string MonitorRun::playing() const {
+  const auto seconds =
+      std::chrono::duration_cast<std::chrono::seconds>(context_.session().now().time_since_epoch());
+  const int doublings = context_.pace()->doublings();
+  std::string text = say<texts::monitor_played>(seconds.count());
+  if (context_.session().has_played()) {
+    text = say<texts::monitor_played_out>();
+  } else if (doublings > 0) {
+    text += ", " + say<texts::monitor_played_faster>(1 << doublings);
+  } else if (doublings < 0) {
+    text += ", " + say<texts::monitor_played_slower>(1 << -doublings);
+  }
+  return text;
+}
+
+/// What goes on, in the title of the screen.
+void MonitorRun::tell_state() {
+  const fleet::Session& session = context_.session();
   ScreenLine state;
-  if (away) {
+  if (context_.pace() != nullptr) {
+    state.push_back({"  " + playing()});
+  }
+  if (session.away()) {
     state.push_back({"  " + say<texts::monitor_gone>(), Look::bad});
   }
   if (manner_.identifies) {
@@ -75,6 +103,27 @@ void MonitorRun::take_keys() {
   was_quit_ = was_quit_ || !view_->take_keys(context_.session().now());
   is_over_ = is_over_ || was_quit_;
   monitor_.watch_limits(view_->shown());
+  if (can::PacedReplay* pace = context_.pace()) {
+    pace->pause(view_->is_paused());
+  }
+}
+
+void MonitorRun::take_other_key(Key key) {
+  if (key == U'+' || key == U'>') {
+    context_.pace()->go_faster();
+  } else if (key == U'-' || key == U'<') {
+    context_.pace()->go_slower();
+  }
+  tell_state();
+}
+
+/// What a log showed last stays until somebody has seen it.
+bool MonitorRun::shall_end() {
+  const bool has_played = context_.session().has_played();
+  if (has_played && view_ && !std::exchange(told_end_, true)) {
+    tell_state();
+  }
+  return is_over_ || (has_played && (!view_ || Screen::input() < 0));
 }
 
 /// A reader that has left ends the run.
@@ -119,6 +168,9 @@ void MonitorRun::sample(Time now) {
   }
   auto servos = monitor_.servos(now);
   if (view_) {
+    if (context_.pace() != nullptr) {
+      tell_state();
+    }
     view_->take(std::move(servos), now);
   } else {
     stream(servos);
@@ -132,7 +184,7 @@ void MonitorRun::run() {
   session.on_away([this] { tell_presence(); });
   open_screen();
   const Time end = manner_.duration ? session.now() + *manner_.duration : never;
-  const auto lived = session.live_until(end, [this] { return is_over_; });
+  const auto lived = session.live_until(end, [this] { return shall_end(); });
   if (session.is_recording() && lived) {
     sample(session.now()); // what came after the last one
   }

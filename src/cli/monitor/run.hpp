@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace blactl::cli {
@@ -43,7 +44,11 @@ class MonitorRun {
   [[nodiscard]] fleet::Monitor::Options options();
   void open_screen();
   void take_keys();
+  void take_other_key(Key key);
   void tell_presence();
+  void tell_state();
+  [[nodiscard]] std::string playing() const;
+  [[nodiscard]] bool shall_end();
   [[nodiscard]] bool is_past_duration(Time now);
   void sample(Time now);
   void stream(const std::vector<fleet::LiveServo>& servos);
@@ -59,6 +64,7 @@ class MonitorRun {
   bool has_header_ = false;
   bool is_over_ = false;
   bool was_quit_ = false;
+  bool told_end_ = false; ///< of a log
 };
 
 } // namespace blactl::cli

@@ -13,6 +13,9 @@ inline constexpr Text monitor_waiting{"no servo was heard yet", "サーボをま
 inline constexpr Text monitor_rows{"{}-{} of {}", "{}～{} / {}"};
 inline constexpr Text monitor_keys{"q quit   Enter graphs   s sort   p pause   ? help",
                                    "q 終了   Enter グラフ   s 並べ替え   p 一時停止   ? ヘルプ"};
+inline constexpr Text monitor_keys_log{
+    "q quit   Enter graphs   s sort   p pause   + - faster, slower   ? help",
+    "q 終了   Enter グラフ   s 並べ替え   p 一時停止   + - 再生速度   ? ヘルプ"};
 inline constexpr Text monitor_keys_one{"q quit   Esc table   p pause   ? help",
                                        "q 終了   Esc 一覧   p 一時停止   ? ヘルプ"};
 
@@ -32,6 +35,10 @@ inline constexpr Text state_new{"new", "新規"};
 inline constexpr Text state_more{"+{}", "他 {}"};
 inline constexpr Text state_unknown_fault{"{} bit {}", "{} ビット {}"};
 
+inline constexpr Text monitor_played{"log: {} s", "ログ: {} 秒"};
+inline constexpr Text monitor_played_faster{"{} times faster", "{} 倍速"};
+inline constexpr Text monitor_played_slower{"{} times slower", "1/{} 倍速"};
+inline constexpr Text monitor_played_out{"end of the log", "ログの終わり"};
 inline constexpr Text monitor_gone{"interface gone: waiting", "インターフェース切断: 復帰待ち"};
 inline constexpr Text monitor_away{"{}: waiting for it", "{}。復帰を待っています"};
 inline constexpr Text monitor_back{"{} is back", "{} が復帰しました"};
@@ -74,14 +81,16 @@ inline constexpr Text monitor_help{
     "Enter          graphs of the chosen servo: the last 60 s\n"
     "Esc, Backspace back to the table\n"
     "s              sort by node ID, state, angle, temperature, voltage\n"
-    "p, Space       pause: what is shown stays, servos are still heard\n"
+    "p, Space       pause: what is shown stays, servos are still heard; a log stops\n"
+    "+, -           a log is played faster, slower\n"
     "?              this help",
     "q、Ctrl-C      終了\n"
     "↑、↓、k、j     サーボを選択 (PgUp、PgDn、Home、End で移動)\n"
     "Enter          選択したサーボのグラフ (直近 60 秒)\n"
     "Esc、Backspace 一覧に戻る\n"
     "s              並べ替え (ノード ID、状態、舵角、温度、電圧)\n"
-    "p、スペース    一時停止 (表示を保持、受信は継続)\n"
+    "p、スペース    一時停止 (表示を保持、受信は継続。ログは再生停止)\n"
+    "+、-           ログの再生速度を変更\n"
     "?              このヘルプ"};
 
 inline constexpr Text graph_range{"last {} s   now {}   min {}   max {}",
