@@ -119,23 +119,22 @@ void Identify::end(bool may_ask) {
 bool Identify::warn(bool may_ask) {
   fleet::Session& session = context_.session();
   const Reporter& reporter = context_.reporter();
-  const auto is_second = [&session, before = session.signal()] { return before != 0; };
+  const bool was_interrupted = session.signal() != 0;
   const auto loose = release_->servos();
   const std::string text = say<texts::identify_back>(loose.size(), short_list(loose));
-  if (may_ask && session.signal() == 0 && Reporter::has_terminal() && !context_.shared().yes) {
+  if (may_ask && !was_interrupted && Reporter::has_terminal() && !context_.shared().yes) {
     const auto read = wait_for_enter(text + say<texts::identify_enter>(), context_);
     if (!read) {
       (void)broken(read.error());
     }
     return true;
   }
-  reporter.ask("blactl: " + text + (session.signal() != 0 ? say<texts::identify_in_time>() : "") +
-               '\n');
+  reporter.ask("blactl: " + text + (was_interrupted ? say<texts::identify_in_time>() : "") + '\n');
   const auto lived = session.live_until(session.now() + warning_time);
   if (!lived && report_.errors.empty()) {
     (void)broken(lived.error());
   }
-  return lived || lived.error().code != Code::interrupted || !is_second();
+  return lived || lived.error().code != Code::interrupted || !was_interrupted;
 }
 
 void Identify::conclude(fleet::GivenBack given) {
