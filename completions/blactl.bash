@@ -123,7 +123,7 @@ _blactl_option() {
     undo:--wait) kind='seconds' ;;
     undo:--stagger) kind='seconds' ;;
     monitor:--rate) kind='seconds' ;;
-    monitor:--fields) kind='words' value_words='time angle_deg speed_rpm torque_pct temperature_c voltage_v mode health fault_summary stale' ;;
+    monitor:--fields) kind='words' value_words='time angle_deg speed_rpm torque_pct temperature_c voltage_v mode health fault_summary stale moved' ;;
     monitor:--duration) kind='seconds' ;;
     monitor:--count) kind='whole' ;;
     command:--duration) kind='seconds' ;;
@@ -173,7 +173,7 @@ _blactl_options() {
     export) echo '--recipe --params' ;;
     apply) echo '--dry-run --plan --entry --no-save --trust-ram --fail-fast --events --no-snapshot --wait --stagger' ;;
     undo) echo '--list --dry-run --no-save --wait --stagger' ;;
-    monitor) echo '--rate --fields --duration --count' ;;
+    monitor) echo '--rate --fields --duration --count --identify' ;;
     command) echo '--duration --wiggle --array --svg' ;;
     trace) echo '--type --kind --duration --count --stats --absolute' ;;
     doctor) echo '--fix --report' ;;

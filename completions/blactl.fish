@@ -347,9 +347,10 @@ complete -c blactl -n '__blactl_in undo' -l wait -r -f -d 'how long a servo may 
 complete -c blactl -n '__blactl_in undo' -l stagger -r -f -d 'pause between two servos (default 0)'
 
 complete -c blactl -n '__blactl_in monitor' -l rate -r -f -d 'samples of each servo a second (default 2)'
-complete -c blactl -n '__blactl_in monitor' -l fields -r -f -a '(__blactl_list time angle_deg speed_rpm torque_pct temperature_c voltage_v mode health fault_summary stale)' -d 'only these; what is not shown is not asked for'
+complete -c blactl -n '__blactl_in monitor' -l fields -r -f -a '(__blactl_list time angle_deg speed_rpm torque_pct temperature_c voltage_v mode health fault_summary stale moved)' -d 'only these; what is not shown is not asked for'
 complete -c blactl -n '__blactl_in monitor' -l duration -r -f -d 'end after this time'
 complete -c blactl -n '__blactl_in monitor' -l count -r -f -d 'end after so many samples'
+complete -c blactl -n '__blactl_in monitor' -l identify -d 'takes torque off, after a yes'
 
 complete -c blactl -n '__blactl_in command' -l duration -r -f -d 'for how long it is commanded (default 2)'
 complete -c blactl -n '__blactl_in command' -l wiggle -d 'to and fro by 5 deg, to show which servo it is'

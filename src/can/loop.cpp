@@ -17,6 +17,12 @@ namespace {
 constexpr std::size_t probe_window = 1;
 constexpr std::size_t window = 3;
 
+/// As nohup has it.
+bool is_ignored(int number) {
+  struct sigaction action{};
+  return sigaction(number, nullptr, &action) == 0 && action.sa_handler == SIG_IGN; // NOLINT
+}
+
 int open_signals() {
   struct sigaction ignore{};
   ignore.sa_handler = SIG_IGN; // NOLINT: the macro casts
@@ -25,6 +31,9 @@ int open_signals() {
   sigemptyset(&set);
   for (const int number : {SIGINT, SIGTERM, SIGWINCH}) {
     sigaddset(&set, number);
+  }
+  if (!is_ignored(SIGHUP)) {
+    sigaddset(&set, SIGHUP);
   }
   sigprocmask(SIG_BLOCK, &set, nullptr);
   return signalfd(-1, &set, SFD_NONBLOCK | SFD_CLOEXEC);
@@ -38,11 +47,11 @@ timespec until(Time now, Time deadline) {
 }
 
 /// After these, frames of ours that are on their way may never be echoed: the echoes were among
-/// what the kernel dropped, or the controller has forgotten the frames. They hold no place any
-/// more.
+/// what the kernel dropped, the controller has forgotten the frames, or it is gone with them. They
+/// hold no place any more.
 bool loses_echoes(const BusEvent& event) {
   const auto* fault = std::get_if<BusFault>(&event);
-  return std::holds_alternative<Overflow>(event) ||
+  return std::holds_alternative<Overflow>(event) || std::holds_alternative<Away>(event) ||
          (fault != nullptr && fault->kind == FaultKind::bus_off);
 }
 

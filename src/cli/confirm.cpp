@@ -19,6 +19,17 @@ std::string read_line() {
   return line.substr(0, line.find_first_of("\r\n"));
 }
 
+/// What was typed before the question is no answer to it.
+Result<std::string> answer_to(const std::string& question, Context& context) {
+  tcflush(STDIN_FILENO, TCIFLUSH);
+  context.reporter().ask(question);
+  if (auto ready = context.wait_for_input(STDIN_FILENO); !ready) {
+    context.reporter().ask("\n"); // the question's line will get no answer
+    return std::unexpected(ready.error());
+  }
+  return read_line();
+}
+
 } // namespace
 
 Result<void> confirm(std::string_view question, Context& context) {
@@ -29,19 +40,21 @@ Result<void> confirm(std::string_view question, Context& context) {
     return fail(Code::not_confirmed, std::string(question) + say<texts::not_confirmed>(),
                 say<texts::not_confirmed_hint>());
   }
-  tcflush(STDIN_FILENO, TCIFLUSH); // what was typed before the question is no answer to it
-  context.reporter().ask(std::string(question) + say<texts::question_yes_no>());
-  if (auto ready = context.wait_for_input(STDIN_FILENO); !ready) {
-    context.reporter().ask("\n"); // the question's line will get no answer
-    return std::unexpected(ready.error());
+  const auto answer = answer_to(std::string(question) + say<texts::question_yes_no>(), context);
+  if (!answer) {
+    return std::unexpected(answer.error());
   }
-  const std::string answer = read_line();
   for (const std::string_view yes : {"y", "Y", "yes", "Yes", "YES"}) {
-    if (answer == yes) {
+    if (*answer == yes) {
       return {};
     }
   }
   return fail(Code::not_confirmed, say<texts::not_confirmed>()); // who said no needs no advice
+}
+
+Result<void> wait_for_enter(std::string_view text, Context& context) {
+  const auto answer = answer_to(std::string(text), context);
+  return answer ? Result<void>() : std::unexpected(answer.error());
 }
 
 } // namespace blactl::cli

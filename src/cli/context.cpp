@@ -129,6 +129,15 @@ Result<fleet::Session*> Context::open(fleet::Session::Hearing hearing) {
   }
   log_ = bus->log;
   adapter_ = bus->adapter;
+  if (waits_for_return_ && bus->reopen) {
+    adapter_ = nullptr; // the next one is another
+    bus->bus = std::make_unique<can::ReturningBus>(std::move(bus->bus), std::move(bus->reopen));
+  }
+  if (plays_at_pace_ && log_ != nullptr) {
+    auto paced = std::make_unique<can::PacedReplay>(std::move(bus->bus));
+    pace_ = paced.get();
+    bus->bus = std::move(paced);
+  }
   auto recording = recorded(std::move(bus->bus));
   if (!recording) {
     return std::unexpected(recording.error());
@@ -324,6 +333,9 @@ fleet::Identification::Options Context::identification() const {
 void Context::tell_losses(Report& report) const {
   if (!session_) {
     return;
+  }
+  if (session_->away()) {
+    report.fail(*session_->away());
   }
   if (session_->lost_frames() > 0) {
     reporter_.note(say<texts::frames_lost>(session_->lost_frames()));

@@ -2,6 +2,7 @@
 // What every command on a bus needs: the profiles, a session, and the servos it is about.
 
 #include "blactl/bla/profile.hpp"
+#include "blactl/can/paced_replay.hpp"
 #include "blactl/can/recorder.hpp"
 #include "blactl/can/replay.hpp"
 #include "blactl/can/slcan.hpp"
@@ -92,6 +93,16 @@ class Context {
   /// An adapter is asked what it is while it is opened. To be called before open().
   void inquire() { inquires_ = true; }
 
+  /// An interface that goes away while the session lives is waited for (Session::away()). To be
+  /// called before open().
+  void wait_for_return() { waits_for_return_ = true; }
+
+  /// A log is played at its own pace. To be called before open().
+  void play_at_pace() { plays_at_pace_ = true; }
+
+  /// The log behind the session, where it is played so; null: it is none.
+  [[nodiscard]] can::PacedReplay* pace() const { return session_ ? pace_ : nullptr; }
+
   /// Behind -i is a fleet file: it tells of servos, and of no bus.
   [[nodiscard]] bool is_fleet_file() const;
 
@@ -106,7 +117,7 @@ class Context {
   void check_recording(Report& report) const;
 
   /// Says so if frames were dropped on the way to this process, or lines of a log passed over. A
-  /// recording that ended early is a failure of the command.
+  /// recording that ended early is a failure of the command, and so is an interface that is away.
   void tell_losses(Report& report) const;
 
   /// On a fleet file: what it does not tell has another reason than on a log, and a node ID that
@@ -139,8 +150,11 @@ class Context {
   int signal_ = 0; ///< that came before there was a session
   std::unique_ptr<fleet::Session> session_;
   bool inquires_ = false;
+  bool waits_for_return_ = false;
+  bool plays_at_pace_ = false;
   can::Slcan* adapter_ = nullptr;           ///< the session's bus, with -i slcan:
   const can::ReplayBus* log_ = nullptr;     ///< the session's bus, with -i replay:
+  can::PacedReplay* pace_ = nullptr;        ///< around it, with play_at_pace()
   const can::Recorder* recorder_ = nullptr; ///< around the session's bus, with --record
 };
 

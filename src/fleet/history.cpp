@@ -143,6 +143,17 @@ Result<void> History::end(std::span<const UniqueId> units) {
                                                             : Result<void>();
 }
 
+Result<void> History::take_back(std::span<const UniqueId> units) {
+  std::vector<state::Settlement> settlements;
+  for (const UniqueId& unit : units) {
+    if (const auto known = kept_.find(unit); known != kept_.end()) {
+      settlements.push_back({known->second.entry.number, ChangeEnd::never_begun});
+      kept_.erase(known);
+    }
+  }
+  return settlements.empty() ? Result<void>() : snapshots_.settle(settlements);
+}
+
 Result<void> History::conclude(std::span<const ChangeResult> results, const Session& session) {
   auto settled = settle(results);
   std::vector<state::RomProof> proofs;

@@ -120,6 +120,7 @@ void Monitor::receive(const Transfer& transfer) {
   if (std::exchange(node.boot, member->boots) != member->boots) {
     node.values.clear(); // of the run before, or of another unit
     node.status_at.reset();
+    node.turns.forget();
   }
   if (header.kind == Kind::message && header.data_type_id == ActuatorStatus::type.id) {
     take_angle(node, transfer);
@@ -147,8 +148,13 @@ void Monitor::take_angle(Watched& node, const Transfer& transfer) {
   const bool is_better_known =
       node.is_far && known != node.values.end() && transfer.at - known->second.at < exact_for;
   if (!is_better_known) {
-    node.values[bla::address::current_angle] = {tenths, transfer.at};
+    tell_angle(node, tenths, transfer.at);
   }
+}
+
+void Monitor::tell_angle(Watched& node, std::int64_t decideg, Time at) {
+  node.values[bla::address::current_angle] = {decideg, at};
+  node.turns.take(decideg, at);
 }
 
 /// Whoever asked.
@@ -161,7 +167,12 @@ void Monitor::take_register(Watched& node, const Transfer& transfer) {
     return;
   }
   if (parameter->width.holds(*raw)) {
-    node.values[*address] = {parameter->width.narrow(*raw), transfer.at};
+    const std::int64_t value = parameter->width.narrow(*raw);
+    if (*address == bla::address::current_angle) {
+      tell_angle(node, value, transfer.at);
+    } else {
+      node.values[*address] = {value, transfer.at};
+    }
   }
   if (*address == bla::address::fault_summary) {
     forget_past_faults(node);
@@ -186,7 +197,7 @@ bool Monitor::is_meant(const Member& member) const {
   return targets_.mean(member, profiles_) || std::ranges::count(targets_.ids, member.id) > 0;
 }
 
-/// A servo is asked as soon as it is heard. Selectors tell only of those that were identified.
+/// A servo is asked as soon as it is heard: whether a selector means it is told by its answers.
 void Monitor::attend(NodeId id) {
   const Member* member = session_.roster().find(id);
   const bool is_named = std::ranges::count(targets_.ids, id) > 0;
@@ -209,7 +220,7 @@ void Monitor::attend(NodeId id) {
 void Monitor::plan_rounds() {
   std::int64_t reads = 0;
   for (const auto& [id, node] : nodes_) {
-    if (node.poll) {
+    if (node.poll && node.poll->polls()) {
       const bool reads_seldom = !plan_.seldom.empty() || limits_of_ == id;
       reads += static_cast<std::int64_t>(plan_.often.size()) + (reads_seldom ? 1 : 0) +
                (needs_angle(node) ? 1 : 0);
@@ -224,7 +235,10 @@ bool Monitor::needs_angle(const Watched& node) const {
   return (is_silent || node.is_far) && std::ranges::count(options_.fields, LiveField::angle) > 0;
 }
 
-PollPlan Monitor::further(NodeId id, const Watched& node) const {
+std::optional<PollPlan> Monitor::further(NodeId id, const Watched& node) const {
+  if (!is_meant(session_.roster().member(id))) {
+    return std::nullopt;
+  }
   PollPlan more;
   if (needs_angle(node)) {
     more.often.push_back(bla::address::current_angle);
@@ -301,6 +315,7 @@ LiveServo Monitor::live(const Member& member, const Watched& node, Time now) con
                          bla::find(values, limits[field].high)};
   }
   out.is_stale = is_stale(out, now);
+  out.has_turned = options_.watches_turns && node.turns.has_turned(now);
   return out;
 }
 

@@ -46,10 +46,10 @@ Step PollJob::identify(const Outcome& outcome) {
   }
   if (!identification_->done()) {
     const bool is_other = identification_->error()->code == Code::not_found;
-    return is_other ? Step(std::nullopt) : rest(outcome.at + identification_pause);
+    return is_other ? end() : rest(outcome.at + identification_pause);
   }
   if (!identification_->servo().is_servo) {
-    return std::nullopt;
+    return end();
   }
   servo_ = identification_->servo();
   return begin_round(outcome.at);
@@ -66,11 +66,15 @@ Step PollJob::begin_round(Time now) {
     return identify({Outcome::Kind::start, {}, now});
   }
   round_began_ = now;
-  PollPlan further = further_();
+  const auto further = further_();
+  polls_ = further.has_value();
+  if (!further) {
+    return wait_for_restart();
+  }
   std::vector<bla::Address> wanted = plan_.often;
-  wanted.insert(wanted.end(), further.often.begin(), further.often.end());
+  wanted.insert(wanted.end(), further->often.begin(), further->often.end());
   std::vector<bla::Address> seldom = plan_.seldom;
-  seldom.insert(seldom.end(), further.seldom.begin(), further.seldom.end());
+  seldom.insert(seldom.end(), further->seldom.begin(), further->seldom.end());
   if (!seldom.empty()) {
     wanted.push_back(seldom[turn_++ % seldom.size()]);
   }
@@ -108,6 +112,16 @@ Step PollJob::wait_for_sign(Time now) {
   return dronecan::Pause{.until = now + offline_time, .ready = [this, now] {
                            return roster_.member(id_).last_heard > now && !roster_.is_doubled(id_);
                          }};
+}
+
+Step PollJob::wait_for_restart() {
+  at_ = At::rest;
+  return dronecan::Pause{.ready = [this] { return has_restarted(); }};
+}
+
+Step PollJob::end() {
+  polls_ = false;
+  return std::nullopt;
 }
 
 } // namespace blactl::fleet

@@ -186,6 +186,10 @@ Result<Session::Happened> Session::take(const can::Event& event) {
     opening_note_ = opened->note;
   } else if (const auto* gone = std::get_if<can::Gone>(&event)) {
     return end(gone->error);
+  } else if (const auto* away = std::get_if<can::Away>(&event)) {
+    take_presence(away->error);
+  } else if (std::holds_alternative<can::Back>(event)) {
+    take_presence(std::nullopt);
   } else if (const auto* caught = std::get_if<can::Signal>(&event)) {
     return take_signal(caught->number);
   } else if (const auto* ready = std::get_if<can::Ready>(&event)) {
@@ -201,16 +205,32 @@ Result<Session::Happened> Session::take(const can::Event& event) {
   return Happened::something;
 }
 
-Error interrupted_by(int signal) {
-  return {Code::interrupted, say<texts::interrupted>(signal == SIGTERM ? "SIGTERM" : "SIGINT")};
+/// What was on its way when the interface went is taken as sent: its answer does not come.
+void Session::take_presence(std::optional<Error> away) {
+  away_ = std::move(away);
+  node_.echoes_lost(loop_.now());
+  if (away_hook_) {
+    away_hook_();
+  }
 }
 
-/// The first signal ends what may be ended, the second one everything.
+Error interrupted_by(int signal) {
+  const std::string_view name = signal == SIGTERM  ? "SIGTERM"
+                                : signal == SIGHUP ? "SIGHUP"
+                                                   : "SIGINT";
+  return {Code::interrupted, say<texts::interrupted>(name)};
+}
+
+/// The first signal ends what may be ended, the second one everything. A terminal that is gone is
+/// told by the kernel and by the shell: nobody has become impatient.
 Result<Session::Happened> Session::take_signal(int number) {
   if (number == SIGWINCH) {
     if (resized_) {
       resized_();
     }
+    return Happened::something;
+  }
+  if (number == SIGHUP && signal_ != 0) {
     return Happened::something;
   }
   const bool first = std::exchange(signal_, number) == 0;
@@ -332,7 +352,7 @@ Result<void> Session::play() {
 }
 
 Result<void> Session::live_until(Time deadline) {
-  if (playback_) {
+  if (plays_at_once()) {
     return play();
   }
   for (;;) {
@@ -347,7 +367,7 @@ Result<void> Session::live_until(Time deadline) {
 }
 
 Result<bool> Session::live_until(Time deadline, const std::function<bool()>& done) {
-  if (playback_) {
+  if (plays_at_once()) {
     const auto played = play();
     return played ? Result<bool>(done()) : std::unexpected(played.error());
   }

@@ -3,7 +3,12 @@
 #include "catch.hpp"
 #include "scene.hpp"
 
+#include <signal.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -114,6 +119,51 @@ TEST_CASE("questions take no more than their share of the bus") {
   CHECK(reads < 1876 + 40 * 10); // 533 bits each: 10 % of 10 s; and the identification
 }
 
+TEST_CASE("a servo that turns out not to be meant is not asked any more") {
+  const Bench bench;
+  const std::string log = (bench.folder() / "bus.log").string();
+  const Scene scene = Scene()
+                          .servo("BLA21-12U-AB", 11, {{"serial_number", 1}})
+                          .servo("BLA15-06U-A0", 12, {{"serial_number", 2}})
+                          .servo("BLA21-12U-AB", 13, {{"serial_number", 3}});
+  const auto servos_asked = [&](const char* targets) {
+    const Result result =
+        scene.run(bench, {"monitor", "--json", "-n", targets, "--duration", "5", "--record", log});
+    INFO(result.err);
+    CHECK(result.status == 0);
+    std::map<int, std::size_t> asked;
+    for (const auto& line : json_lines(bench.run({"trace", log, "--json"}).out)) {
+      if (line.value("kind", "") == "request" && line["destination"].is_number()) {
+        ++asked[line["destination"].get<int>()];
+      }
+    }
+    for (const auto& [id, count] : asked) {
+      INFO("node " << id << ": " << count);
+      CHECK((count <= 6) == samples_of(lines_of(result), id).empty()); // 6 identify it
+    }
+    return asked.size();
+  };
+  CHECK(servos_asked("model:BLA21") == 3);
+  CHECK(servos_asked("serial:2") == 3);
+  CHECK(servos_asked("13") == 1);
+  CHECK(servos_asked("13,serial:2") == 3);
+}
+
+TEST_CASE("who is not meant is looked at again when it restarts") {
+  const Scene scene = Scene()
+                          .servo("BLA21-12U-AB", 11, {{"serial_number", 1}})
+                          .servo("BLA15-06U-A0", 12, {{"serial_number", 2}})
+                          .event(2, "power_off", "3s")
+                          .servo("BLA15-06U-A0", 12, {{"serial_number", 3}})
+                          .joins(3, "4s");
+  const Result result = scene.run({"monitor", "--json", "-n", "serial:3", "--duration", "10"});
+  const Lines lines = lines_of(result);
+  CHECK(samples_of(lines, 11).empty());
+  REQUIRE_FALSE(samples_of(lines, 12).empty());
+  CHECK(samples_of(lines, 12).front()["serial_number"] == 3);
+  CHECK(samples_of(lines, 12).back()["voltage_v"] == 7.4);
+}
+
 TEST_CASE("--listen-only sends nothing and shows what servos send by themselves") {
   const Bench bench;
   const std::string log = (bench.folder() / "bus.log").string();
@@ -197,6 +247,47 @@ TEST_CASE("of two servos under one node ID nothing is told but that") {
   const Lines samples = samples_of(lines_of(result), 11);
   CHECK(samples.back()["angle_deg"] == nullptr);
   CHECK(codes(result) == std::vector<std::string>{"duplicate_node_id"});
+}
+
+TEST_CASE("an interface that goes away is waited for, and servos go on where they are back") {
+  const Bench bench;
+  const std::string log = (bench.folder() / "bus.log").string();
+  std::optional<Background> sim(std::in_place, bench, Arguments{"sim"});
+  Background monitor(bench, {"-i", "sim:", "monitor", "--json", "--rate", "10", "--record", log},
+                     {}, "\"voltage_v\":12.0");
+  CHECK(sim->stop().status == 143);
+  monitor.expect("waiting for it");
+  monitor.expect("\"stale\":true");
+  monitor.expect("\"mode\":\"offline\"");
+  sim.emplace(bench, Arguments{"sim"});
+  monitor.expect("is back");
+  const std::size_t so_far = content(log).size();
+  CHECK(bench.run({"-i", "sim:", "wait"}).status == 0);
+  for (int i = 0; i < 1000 && content(log).size() < so_far + 10'000; ++i) {
+    usleep(10'000);
+  }
+  const Result ended = monitor.stop(SIGINT);
+  INFO(ended.err);
+  CHECK(ended.status == 130);
+  CHECK(codes(ended) == std::vector<std::string>{"interrupted"});
+  CHECK(lines_of(ended).size() > 10);
+  const Lines samples = samples_of(lines_of(ended), 11);
+  CHECK(samples.back()["mode"] == "operational");
+  CHECK(samples.back()["voltage_v"] == 12.0);
+}
+
+TEST_CASE("an interface that is away in the end is an error, as one that was never there") {
+  const Bench bench;
+  std::optional<Background> sim(std::in_place, bench, Arguments{"sim", "--json"});
+  const std::string socket = (bench.folder() / "blactl" / "sim").string();
+  Background monitor(bench, {"-i", "sim:", "monitor", "--json", "--duration", "3"}, {},
+                     "\"node_id\"");
+  (void)sim->stop();
+  const Result ended = monitor.wait();
+  CHECK(ended.status == 3);
+  CHECK(codes(ended) == std::vector<std::string>{"interface"});
+  CHECK(lines_of(ended).back()["exit_status"] == 3);
+  check_error(bench.run({"-i", "sim:" + socket, "monitor"}), 3, "interface", "");
 }
 
 TEST_CASE("monitor waits on an empty bus") {

@@ -31,6 +31,9 @@ class Scene {
   /// To the servo with this serial number, after this time.
   Scene& event(int serial_number, std::string_view happens, std::string_view at);
 
+  /// What is around the servo with this serial number changes after this time: "hand" to "30deg".
+  Scene& world(int serial_number, const nlohmann::json& changes, std::string_view at);
+
   /// Writes the scenario file and gives its path.
   [[nodiscard]] std::string write(const Bench& bench) const;
 

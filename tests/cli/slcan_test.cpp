@@ -295,6 +295,33 @@ TEST_CASE("slcan: an adapter pulled out in the middle of a command ends it, exit
   CHECK(contains(result.err, "\n  plug it in again"));
 }
 
+TEST_CASE("slcan: monitor waits for an adapter that was pulled out, and opens it again") {
+  const Bench bench;
+  const auto port = bench.folder() / "adapter";
+  const auto plug_in = [&](Dialect dialect) {
+    auto adapter = std::make_unique<SlcanAdapter>(std::move(dialect), one_servo());
+    std::filesystem::remove(port);
+    std::filesystem::create_symlink(adapter->path(), port);
+    return adapter;
+  };
+  auto adapter = plug_in(can::test::lawicel());
+  Background monitor(bench, {"-i", "slcan:" + port.string(), "monitor", "--json", "--rate", "10"},
+                     {}, "\"voltage_v\":12.0");
+  adapter->unplug();
+  monitor.expect("waiting for it");
+  monitor.expect("\"mode\":\"offline\"");
+  adapter = plug_in({.to_open = "\a"}); // it says no
+  adapter->wait_for([](const auto& lines) { return lines.size() > 3; });
+  adapter->unplug();
+  adapter = plug_in(can::test::lawicel());
+  monitor.expect("is back");
+  adapter->wait_for([](const auto& lines) { return std::ranges::count_if(lines, is_frame) > 30; });
+  const Result ended = monitor.stop(SIGTERM);
+  INFO(ended.err);
+  CHECK(ended.status == 143);
+  CHECK(codes(ended) == std::vector<std::string>{"interrupted"});
+}
+
 TEST_CASE("slcan: a signal while the adapter is opened ends the command as at any time") {
   const Bench bench;
   for (const int signal : {SIGINT, SIGTERM}) {

@@ -216,6 +216,35 @@ wait "$simulator"
 [ $? -eq 3 ] || fail "the simulator did not end with 3"
 ip link set vcan0 up
 
+note "an interface that goes down, or away, is waited for by those who watch"
+sim
+"$blactl" -i vcan0 monitor --json --rate 5 >"$TMPDIR/monitor.out" 2>"$TMPDIR/monitor.err" &
+monitor=$!
+for absence in down away; do
+  : >"$TMPDIR/monitor.err"
+  wait_for 20 grep -q '"voltage_v":12.0' "$TMPDIR/monitor.out"
+  if [ $absence = down ]; then
+    ip link set vcan0 down
+  else
+    ip link del vcan0
+  fi
+  wait "$simulator"
+  wait_for 10 grep -q 'waiting for it' "$TMPDIR/monitor.err"
+  wait_for 10 grep -q '"stale":true' "$TMPDIR/monitor.out"
+  if [ $absence = away ]; then
+    ip link add vcan0 type vcan
+  fi
+  ip link set vcan0 up
+  wait_for 10 grep -q 'vcan0 is back' "$TMPDIR/monitor.err"
+  : >"$TMPDIR/monitor.out"
+  sim
+done
+wait_for 20 grep -q '"voltage_v":12.0' "$TMPDIR/monitor.out"
+kill -INT "$monitor"
+wait "$monitor"
+[ $? -eq 130 ] || fail "the monitor did not end with 130"
+sim_end
+
 note "frames that nobody acknowledges"
 tc qdisc add dev vcan0 root netem delay 5000ms limit 10
 run "$blactl" get -n 11

@@ -6,6 +6,7 @@
 import os
 import shutil
 import signal
+import subprocess
 import sys
 import time
 
@@ -91,6 +92,74 @@ def what_happens(blactl):
         terminal.shows_no_more(LOW_VOLTAGE)
 
 
+def coming_back(blactl):
+    with Terminal(blactl, fleet(3), 100, 24) as terminal:
+        terminal.run("monitor")
+        terminal.wait_for(lambda lines: len(rows_of(lines)) == 3, "no table")
+        terminal.stop_simulator()
+        terminal.shows("interface gone: waiting")
+        terminal.shows("not heard for 4 s")
+        terminal.start_simulator()
+        terminal.shows_no_more("interface gone")
+        lines = terminal.shows_no_more("not heard for")
+        require(len(rows_of(lines)) == 3, "other rows", lines)
+        terminal.stop_simulator()
+        terminal.shows("interface gone: waiting")
+        terminal.type("q")
+        terminal.shows("[interface]")
+        terminal.start_simulator()
+
+
+def identifying(blactl):
+    events = [{"at": "8s", "servo": 40, "world": {"hand": "30deg"}},
+              {"at": "10s", "servo": 2, "world": {"hand": "-30deg"}}]
+    with Terminal(blactl, fleet(40), 100, 24, events) as terminal:
+        terminal.run("monitor", "--identify")
+        terminal.shows("Go on? [y/N]")
+        terminal.type("y", "Enter")
+        terminal.shows("torque off: turn a horn by hand")
+        lines = terminal.shows("<< TURNED")  # which is beyond the screen, until it turns
+        require(any(line.split()[:1] == ["40"] and "TURNED" in line for line in lines),
+                "another row", lines)
+        terminal.wait_for(
+            lambda lines: any(line.split()[:1] == ["2"] and "TURNED" in line for line in lines),
+            "the second one")
+        terminal.type("q")
+        terminal.shows("hands off. Enter:")
+        terminal.type("Enter")
+        terminal.shows("have the torque that they had before")
+        terminal.run("get", "torque_output", "-n", "1,40", "--csv", "|", "grep", "-c", ",on,")
+        terminal.wait_for(lambda lines: "2" in lines, "torque is not on")
+
+
+def playing(blactl):
+    with Terminal(blactl, fleet(2), 120, 24) as terminal:
+        log = os.path.join(terminal.folder.name, "bus.log")
+        terminal.run("monitor", "--duration", "8", "--record", log)
+        terminal.wait_for(lambda lines: len(rows_of(lines)) == 2, "no table")
+        terminal.shows_no_more("STATE")
+        begin = time.monotonic()
+        terminal.type(f"{terminal.blactl} -i replay:{log} monitor", "Enter")
+        terminal.shows("log: 2 s")
+        require(time.monotonic() - begin > 1, "too fast")
+        terminal.type("p")
+        lines = terminal.shows("paused")
+        time.sleep(1.5)
+        require(terminal.lines() == lines, "it goes on", terminal.lines())
+        terminal.type("p", "+")
+        terminal.shows("2 times faster")
+        terminal.type("-", "-")
+        terminal.shows("2 times slower")
+        terminal.type("+", "+", "+")
+        terminal.shows("4 times faster")
+        lines = terminal.shows("end of the log")
+        require(len(rows_of(lines)) == 2 and "12.0" in rows_of(lines)[0], "the last values", lines)
+        terminal.type("Enter")
+        terminal.shows("last 60 s")
+        terminal.type("q")
+        terminal.shows_no_more("last 60 s")
+
+
 def ends(blactl):
     for end in ("TERM", "INT", "quit"):
         with Terminal(blactl, fleet(1), 80, 24) as terminal:
@@ -126,16 +195,20 @@ def stopping(blactl):
 
 
 def closed_terminal(blactl):
-    with Terminal(blactl, fleet(1), 80, 24) as terminal:
-        terminal.run("monitor")
+    with Terminal(blactl, fleet(2), 80, 24) as terminal:
+        terminal.run("monitor", "--identify", "-y")
         terminal.shows("STATE")
         processes = terminal.processes()
         require(processes, "no process")
         terminal.tmux("kill-session")
-        end = time.monotonic() + 10
+        end = time.monotonic() + 20
         while time.monotonic() < end and any(os.path.exists(f"/proc/{pid}") for pid in processes):
             time.sleep(0.1)
         require(not any(os.path.exists(f"/proc/{pid}") for pid in processes), "a process is left")
+        outputs = subprocess.run([blactl, "-i", "sim:", "get", "torque_output", "--csv"],
+                                 capture_output=True, text=True, check=True,
+                                 env=terminal.environment).stdout
+        require(outputs.count(",on,") == 2, "torque did not come back", outputs.split("\n"))
 
 
 def other_terminals(blactl):
@@ -151,7 +224,7 @@ def main():
         print("skipped: tmux is missing")
         return 77
     blactl = sys.argv[1]
-    for test in (sizes, keys, resizing, what_happens, ends, stopping, closed_terminal,
+    for test in (sizes, keys, resizing, what_happens, coming_back, identifying, playing, ends, stopping, closed_terminal,
                  other_terminals):
         test(blactl)
         print(f"{test.__name__}: ok", flush=True)

@@ -24,9 +24,8 @@ class Terminal:
         self.environment = {**os.environ, "XDG_RUNTIME_DIR": self.folder.name,
                             "XDG_STATE_HOME": self.folder.name, "LANG": "C.UTF-8", "LC_ALL": "",
                             "PS1": "$ "}
-        self.simulator = subprocess.Popen([self.blactl, "sim", path, "--json"],
-                                          stdout=subprocess.PIPE, env=self.environment, text=True)
-        self.simulator.stdout.readline()  # ready
+        self.scenario = path
+        self.start_simulator()
         self.tmux("-f", "/dev/null", "new-session", "-d", "-x", str(width), "-y", str(height),
                   "sh")
 
@@ -35,9 +34,18 @@ class Terminal:
 
     def __exit__(self, *_):
         subprocess.run(["tmux", "-S", self.socket, "kill-server"], capture_output=True, check=False)
+        self.stop_simulator()
+        self.folder.cleanup()
+
+    def start_simulator(self):
+        self.simulator = subprocess.Popen([self.blactl, "sim", self.scenario, "--json"],
+                                          stdout=subprocess.PIPE, env=self.environment, text=True)
+        self.simulator.stdout.readline()  # ready
+
+    def stop_simulator(self):
         self.simulator.terminate()
         self.simulator.wait(PATIENCE_S)
-        self.folder.cleanup()
+        self.simulator.stdout.close()
 
     def tmux(self, *arguments):
         return subprocess.run(["tmux", "-S", self.socket, *arguments], capture_output=True,

@@ -62,10 +62,18 @@ struct Opened {
   std::string note{}; ///< What a person should know of it; empty: nothing.
 };
 
+/// The interface went away and is waited for: until Back nothing comes, and nothing is sent.
+struct Away {
+  Error error;
+};
+
+/// It is there again. Whatever was on its way is lost.
+struct Back {};
+
 /// A log has been read to its end; nothing more comes from this bus.
 struct Ended {};
 
-using BusEvent = std::variant<Received, Sent, BusFault, Overflow, Gone, Opened, Ended>;
+using BusEvent = std::variant<Received, Sent, BusFault, Overflow, Gone, Away, Back, Opened, Ended>;
 
 /// Extended data frames whose ID agrees with `id` in the bits of `mask`.
 struct Filter {
@@ -125,6 +133,9 @@ class Bus {
 
   /// What comes has happened long ago: nobody can be asked, and no frame is taken. Ends with Ended.
   [[nodiscard]] virtual bool is_recording() const { return false; }
+
+  /// What was recorded comes when its time has come, by now(); else all of it at once.
+  [[nodiscard]] virtual bool is_paced() const { return false; }
 
   /// The bus clock. Real interfaces: CLOCK_MONOTONIC.
   [[nodiscard]] virtual Time now() const;

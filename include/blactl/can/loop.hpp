@@ -11,7 +11,7 @@
 
 namespace blactl::can {
 
-/// SIGINT, SIGTERM or SIGWINCH arrived.
+/// SIGINT, SIGTERM, SIGHUP or SIGWINCH arrived.
 struct Signal {
   int number;
 };
@@ -24,8 +24,8 @@ struct Ready {
 /// The deadline given to next() has come.
 struct DeadlineReached {};
 
-using Event = std::variant<Received, Sent, BusFault, Overflow, Gone, Opened, Ended, Signal, Ready,
-                           DeadlineReached>;
+using Event = std::variant<Received, Sent, BusFault, Overflow, Gone, Away, Back, Opened, Ended,
+                           Signal, Ready, DeadlineReached>;
 
 /// One thread, one loop: everything above it is a state machine without I/O.
 ///
@@ -35,7 +35,7 @@ using Event = std::variant<Received, Sent, BusFault, Overflow, Gone, Opened, End
 class Loop {
  public:
   /// Takes over the bus (may be null: a loop of descriptors only) and SIGINT, SIGTERM, SIGWINCH;
-  /// SIGPIPE is ignored.
+  /// SIGHUP too, unless it is ignored (nohup). SIGPIPE is ignored.
   explicit Loop(std::unique_ptr<Bus> bus);
   ~Loop();
   Loop(const Loop&) = delete;

@@ -64,6 +64,8 @@ class Recorder final : public Bus {
 
   [[nodiscard]] bool is_recording() const override { return bus_->is_recording(); }
 
+  [[nodiscard]] bool is_paced() const override { return bus_->is_paced(); }
+
   [[nodiscard]] Time now() const override { return bus_->now(); }
 
   [[nodiscard]] WallTime wall() const override { return bus_->wall(); }

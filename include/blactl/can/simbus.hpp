@@ -46,6 +46,9 @@ class SimBus final : public Bus {
 
   [[nodiscard]] std::string bus_off_hint() const override;
 
+  /// Its time is that of the simulation, and ends with it.
+  [[nodiscard]] bool has_virtual_clock() const { return virtual_clock_; }
+
   [[nodiscard]] int descriptor() const override { return socket_; }
 
   [[nodiscard]] Time now() const override;

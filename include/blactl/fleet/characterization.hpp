@@ -81,7 +81,7 @@ struct BenchManner {
 };
 
 /// How long putting back may take after a first signal, or an error.
-inline constexpr Duration put_back_time = std::chrono::seconds(10);
+inline constexpr Duration put_back_time = Session::put_back_grace;
 
 /// The registers that must be known before: what is changed, and what it is commanded.
 /// Errors: no_profile, where the model is not known well enough to write to it.

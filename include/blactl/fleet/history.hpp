@@ -49,6 +49,10 @@ class History {
   /// are as it was to make them.
   [[nodiscard]] Result<void> end(std::span<const dronecan::UniqueId> units);
 
+  /// This command has given these units back what they held: there is nothing to undo, and the
+  /// change before it is the last one again.
+  [[nodiscard]] Result<void> take_back(std::span<const dronecan::UniqueId> units);
+
   /// What the ROM of this servo holds, if that was proven and it has run on since; else empty, also
   /// where what was recorded cannot be read.
   [[nodiscard]] std::optional<bla::Values> proven_rom(const Servo& servo, const Session& session);

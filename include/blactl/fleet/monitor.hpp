@@ -5,6 +5,7 @@
 #include "blactl/fleet/poll_job.hpp"
 #include "blactl/fleet/session.hpp"
 #include "blactl/fleet/target.hpp"
+#include "blactl/fleet/turn_watch.hpp"
 
 #include <array>
 #include <cstddef>
@@ -50,6 +51,7 @@ struct LiveServo {
   bool is_gone = false;                        ///< not heard for offline_time
   bool is_doubled = false; ///< two units send under its ID: nothing is told of either
   bool is_stale = false;   ///< something of it is older than it should be
+  bool has_turned = false; ///< where that is watched: its shaft was turned, see TurnWatch
 
   [[nodiscard]] const std::optional<LiveValue>& value(LiveField field) const {
     return values[static_cast<std::size_t>(field)];
@@ -73,6 +75,7 @@ class Monitor final : private dronecan::Service {
     Identification::Options identification;
     std::vector<LiveField> fields;                    ///< to ask for
     Duration period = std::chrono::milliseconds(500); ///< of a sample
+    bool watches_turns = false;                       ///< LiveServo::has_turned
     /// Called once every period; on a recording by its own time, and at its end.
     std::function<void(Time now)> sample{};
   };
@@ -97,6 +100,7 @@ class Monitor final : private dronecan::Service {
     std::map<bla::Address, LiveValue> values{};
     std::optional<dronecan::UniqueId> unique_id{}; ///< overheard
     std::string name{};
+    TurnWatch turns{};
     std::optional<Time> status_at{}; ///< of its last actuator.Status
     bool is_far = false;             ///< beyond what that tells exactly
     std::uint32_t boot = 0;          ///< when all this was heard
@@ -110,12 +114,13 @@ class Monitor final : private dronecan::Service {
   void advance(Time now) override;
 
   void take_angle(Watched& node, const dronecan::Transfer& transfer);
+  static void tell_angle(Watched& node, std::int64_t decideg, Time at);
   void take_register(Watched& node, const dronecan::Transfer& transfer);
   void forget_past_faults(Watched& node);
   void attend(dronecan::NodeId id);
   void plan_rounds();
   [[nodiscard]] bool needs_angle(const Watched& node) const;
-  [[nodiscard]] PollPlan further(dronecan::NodeId id, const Watched& node) const;
+  [[nodiscard]] std::optional<PollPlan> further(dronecan::NodeId id, const Watched& node) const;
   [[nodiscard]] bool is_meant(const Member& member) const;
   [[nodiscard]] Servo servo(const Member& member, const Watched& node) const;
   [[nodiscard]] LiveServo live(const Member& member, const Watched& node, Time now) const;

@@ -19,17 +19,21 @@ struct PollPlan {
 
 /// Identifies a servo and then reads it in rounds, until it is cancelled or the node is no BLA
 /// servo. What it answers is heard like everything on the bus: the job keeps nothing. A servo that
-/// restarted is identified again; one that is silent is asked again as soon as it is heard.
+/// restarted is identified again; one that is silent is asked again as soon as it is heard. One
+/// that is not meant is not asked for anything more, until it restarts: it may be another then.
 class PollJob final : public dronecan::Job {
  public:
-  /// What to read of a servo besides, now.
-  using Further = std::function<PollPlan()>;
+  /// What to read of a servo besides, now that it is identified; empty: it is not meant.
+  using Further = std::function<std::optional<PollPlan>()>;
 
   /// All references outlive the job, and `plan` may change meanwhile.
   PollJob(Roster& roster, dronecan::NodeId id, const bla::Profiles& profiles,
           Identification::Options options, const PollPlan& plan, Further further);
 
   [[nodiscard]] dronecan::Step next(const dronecan::Outcome& outcome) override;
+
+  /// It is asked in rounds, or will be as far as is known.
+  [[nodiscard]] bool polls() const { return polls_; }
 
  private:
   enum class At : std::uint8_t { begin, identify, rest, read };
@@ -40,6 +44,8 @@ class PollJob final : public dronecan::Job {
   [[nodiscard]] dronecan::Step read_next(Time now);
   [[nodiscard]] dronecan::Step rest(Time until);
   [[nodiscard]] dronecan::Step wait_for_sign(Time now);
+  [[nodiscard]] dronecan::Step wait_for_restart();
+  [[nodiscard]] dronecan::Step end();
   [[nodiscard]] bool has_restarted() const;
 
   Roster& roster_;
@@ -54,6 +60,7 @@ class PollJob final : public dronecan::Job {
   std::vector<const bla::Parameter*> left_; ///< to read in this round, the last one first
   std::size_t turn_ = 0;                    ///< of the registers that are read seldom
   int unanswered_ = 0;                      ///< in a row
+  bool polls_ = true;
   Time round_began_{};
 };
 

@@ -60,6 +60,9 @@ class Session {
   /// The bus is a log: what is asked is answered from it.
   [[nodiscard]] bool is_recording() const { return playback_.has_value(); }
 
+  /// It is, and all of it was heard.
+  [[nodiscard]] bool has_played() const { return playback_ && playback_->finished(); }
+
   /// False: nothing is sent, without a node ID of our own.
   [[nodiscard]] bool may_ask() const { return node_.id().is_unicast() || playback_.has_value(); }
 
@@ -106,16 +109,26 @@ class Session {
 
   static constexpr Duration usual_grace = std::chrono::seconds(3);
 
+  /// Of a command that puts back what it changed (contract, section 2).
+  static constexpr Duration put_back_grace = std::chrono::seconds(10);
+
   /// Another grace, for a command that puts back what it changed: until that is over the session
   /// lives on after a first signal, whatever that has ended.
   void set_grace(Duration grace) { grace_ = grace; }
+
+  /// Called when the interface goes away and is waited for, and when it is back; see away().
+  void on_away(std::function<void()> hook) { away_hook_ = std::move(hook); }
+
+  /// Why the interface is away; empty: it is not.
+  [[nodiscard]] const std::optional<Error>& away() const { return away_; }
 
   /// Lives until the bus is open: what is asked from then on, and how long is listened, has nothing
   /// to do with how long an adapter took. A node ID of our own that is no tool's is listened for
   /// before it is used.
   [[nodiscard]] Result<void> wait_until_open();
 
-  /// Lives until `deadline`; on a recording, until all of it was heard, whatever the deadline.
+  /// Lives until `deadline`; on a recording that does not come at its own pace, until all of it was
+  /// heard, whatever the deadline.
   /// Errors of this, run() and wait_until_open(): interrupted, interface, bus_off, no_acknowledge,
   /// duplicate_node_id, no_local_node_id (others have our IDs); of a recording: bad_file. They end
   /// the session: every job is cancelled.
@@ -167,12 +180,16 @@ class Session {
   enum class Happened : std::uint8_t { something, deadline, input };
   [[nodiscard]] Result<Happened> step(Time deadline);
   [[nodiscard]] Result<Happened> take(const can::Event& event);
+  void take_presence(std::optional<Error> away);
   [[nodiscard]] Result<Happened> take_frame(const can::Received& received);
   [[nodiscard]] Result<Happened> take_signal(int number);
   [[nodiscard]] Time next_deadline() const;
   void advance(Time now);
   [[nodiscard]] std::unexpected<Error> end(Error error);
   [[nodiscard]] Time acknowledge_deadline() const;
+
+  [[nodiscard]] bool plays_at_once() const { return playback_ && !loop_.bus().is_paced(); }
+
   [[nodiscard]] Result<void> play();
   [[nodiscard]] Result<void> run_while(const std::function<bool()>& busy);
 
@@ -187,6 +204,8 @@ class Session {
   std::function<void()> stopping_, resized_;
   int input_ = -1; ///< of on_input()
   std::function<void()> input_hook_;
+  std::function<void()> away_hook_;
+  std::optional<Error> away_;
   RequestHook asked_, unanswered_;
   IdHook new_id_;
   bool waits_alone_ = false;

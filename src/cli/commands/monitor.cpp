@@ -1,17 +1,17 @@
 // blactl monitor: servos as they are now, on a screen or as a stream.
 
-#include "blactl/fleet/guard.hpp"
-
 #include "cli/commands.hpp"
 #include "cli/context.hpp"
+#include "cli/monitor/identify.hpp"
+#include "cli/monitor/run.hpp"
 #include "cli/monitor/sample.hpp"
 #include "cli/monitor/texts.hpp"
-#include "cli/monitor/view.hpp"
 #include "cli/texts.hpp"
 
+#include <algorithm>
 #include <chrono>
-#include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 
 namespace blactl::cli {
@@ -22,6 +22,7 @@ struct MonitorOptions {
   std::string fields{};                    ///< keys, with commas between them; empty: all
   std::optional<Duration> duration{};
   std::optional<std::uint64_t> count{};
+  bool identify = false;
 
   [[nodiscard]] Duration period() const {
     constexpr std::int64_t second = std::chrono::microseconds(std::chrono::seconds(1)).count();
@@ -57,158 +58,55 @@ constexpr Option monitor_options[]{
      .whole = {1, ~std::uint64_t{0}},
      .help = {"end after so many samples", "この回数サンプルしたら終了"},
      .store = into<&MonitorOptions::count>},
+    {.name = "--identify",
+     .kind = Kind::flag,
+     .help =
+         {"takes torque off, after a yes: the servo that is turned by hand lights up; in the end "
+          "torque comes back",
+          "確認後にトルクを OFF にし、手で回したサーボを強調表示。終了時に元へ戻す"},
+     .store = into<&MonitorOptions::identify>},
 };
 
-SampleFields chosen_fields(const std::string& keys) {
+/// Errors: usage.
+Result<SampleFields> chosen_fields(const MonitorOptions& options) {
   SampleFields fields;
-  for (const SampleField field : all_sample_fields()) {
+  const auto is_named = [keys = ',' + options.fields + ','](SampleField field) {
     const std::string key(sample_keys[static_cast<std::size_t>(field)]);
-    if (keys.empty() || (',' + keys + ',').find(',' + key + ',') != std::string::npos) {
-      fields.push_back(field);
-    }
+    return keys.find(',' + key + ',') != std::string::npos;
+  };
+  if (is_named(SampleField::moved) && !options.identify) {
+    return fail(Code::usage, say<texts::moved_unwatched>(), say<texts::moved_unwatched_hint>());
   }
+  std::ranges::copy_if(
+      all_sample_fields(options.identify), std::back_inserter(fields),
+      [&](SampleField field) { return options.fields.empty() || is_named(field); });
   return fields;
 }
 
-/// One run of the command, once the session is open.
-class MonitorRun {
- public:
-  MonitorRun(const MonitorOptions& options, fleet::Targets targets, Context& context,
-             Report& report);
-
-  void run();
-
- private:
-  void open_screen();
-  [[nodiscard]] bool is_past_duration(Time now);
-  void sample(Time now);
-  void stream(const std::vector<fleet::LiveServo>& servos);
-  void check(const Result<bool>& printed);
-  void conclude();
-
-  const MonitorOptions& options_;
-  Context& context_;
-  Report& report_;
-  SampleFields fields_;
-  std::unique_ptr<MonitorView> view_; ///< null: lines
-  fleet::Monitor monitor_;
-  std::optional<Time> begin_; ///< of a recording, whose time is its own
-  std::uint64_t samples_ = 0;
-  bool has_header_ = false;
-  bool is_over_ = false;
-};
-
-MonitorRun::MonitorRun(const MonitorOptions& options, fleet::Targets targets, Context& context,
-                       Report& report)
-    : options_(options), context_(context), report_(report), fields_(chosen_fields(options.fields)),
-      monitor_(context.session(), context.known(), std::move(targets),
-               {.identification = context.identification(),
-                .fields = live_fields_of(fields_),
-                .period = options.period(),
-                .sample = [this](Time now) { sample(now); }}) {}
-
-/// Without a screen it prints lines: where the terminal cannot be drawn on, and for a recording,
-/// which is over at once.
-void MonitorRun::open_screen() {
-  const Reporter& reporter = context_.reporter();
-  if (reporter.format() != Format::text || !reporter.has_screen() ||
-      context_.session().is_recording()) {
-    return;
-  }
-  auto screen = Screen::open(reporter.page().colour);
-  if (!screen) {
-    return reporter.note(say<texts::monitor_other_screen>(screen.error().message));
-  }
-  fleet::Session& session = context_.session();
-  view_ =
-      std::make_unique<MonitorView>(std::move(*screen), reporter, report_.interface, session.now());
-  if (Screen::input() >= 0) {
-    session.on_input(Screen::input(), [this] {
-      is_over_ = is_over_ || !view_->take_keys(context_.session().now());
-      monitor_.watch_limits(view_->shown());
-    });
-  }
-  session.on_resize([this] { view_->draw(context_.session().now()); });
-  view_->draw(session.now());
-}
-
-/// A reader that has left ends the run.
-void MonitorRun::check(const Result<bool>& printed) {
-  if (!printed) {
-    report_.fail(printed.error());
-  }
-  is_over_ = is_over_ || !printed.value_or(false);
-}
-
-void MonitorRun::stream(const std::vector<fleet::LiveServo>& servos) {
-  const Reporter& reporter = context_.reporter();
-  const WallTime wall = context_.session().wall();
-  std::string out;
-  if (!std::exchange(has_header_, true) && reporter.format() != Format::json) {
-    out = reporter.format() == Format::csv ? csv_header(fields_) : text_header(fields_);
-  }
-  for (const fleet::LiveServo& servo : servos) {
-    switch (reporter.format()) {
-    case Format::json: out += json_sample(wall, servo, fields_); break;
-    case Format::csv: out += csv_sample(wall, servo, fields_); break;
-    case Format::text: out += text_sample(wall, servo, fields_); break;
-    }
-  }
-  check(reporter.stream(out));
-}
-
-/// A session on a recording hears all of it, whatever the time.
-bool MonitorRun::is_past_duration(Time now) {
-  if (!context_.session().is_recording() || !options_.duration) {
+/// Opens the session; false: the report says why not.
+bool open(Context& context, Report& report) {
+  if (const auto session = context.open(fleet::Session::Hearing::answers); !session) {
+    report.fail(session.error());
     return false;
   }
-  begin_ = begin_.value_or(now - options_.period());
-  return now - *begin_ > *options_.duration;
+  report.interface = context.session().interface();
+  return true;
 }
 
-void MonitorRun::sample(Time now) {
-  if (is_over_ || is_past_duration(now)) {
-    is_over_ = true;
-    return;
-  }
-  auto servos = monitor_.servos(now);
-  if (view_) {
-    view_->take(std::move(servos), now);
-  } else {
-    stream(servos);
-  }
-  is_over_ = is_over_ || ++samples_ == options_.count;
-}
-
-/// What of the servos is a failure of the command.
-void MonitorRun::conclude() {
-  const fleet::Session& session = context_.session();
-  const auto servos = monitor_.servos(session.now());
-  for (const fleet::LiveServo& servo : servos) {
-    report_.targets.emplace_back();
-    if (servo.is_doubled) {
-      report_.targets.back().errors.push_back(fleet::doubled(session.roster(), servo.servo.id));
+void identify(const MonitorManner& manner, const fleet::Targets& targets, Context& context,
+              Report& report) {
+  Identify identified(context, report);
+  if (!identified.begin(targets)) {
+    identified.end(false);
+    for (const Error& error : identified.errors()) {
+      report.fail_target(error);
     }
+    return report.count_targets();
   }
-  report_.count_targets();
-  report_.counts.emplace_back("samples", samples_);
-}
-
-void MonitorRun::run() {
-  fleet::Session& session = context_.session();
-  session.wait_alone();
-  open_screen();
-  const Time end = options_.duration ? session.now() + *options_.duration : never;
-  const auto lived = session.live_until(end, [this] { return is_over_; });
-  if (session.is_recording() && lived) {
-    sample(session.now()); // what came after the last one
-  }
-  session.on_input(-1, {});
-  view_.reset();
-  if (!lived) {
-    context_.broken(lived.error(), report_);
-  }
-  conclude();
+  MonitorRun run(manner, targets, context, report);
+  run.run();
+  identified.end(run.was_quit());
+  run.conclude(identified.errors());
 }
 
 Report execute(const MonitorOptions& options, Context& context) {
@@ -222,12 +120,28 @@ Report execute(const MonitorOptions& options, Context& context) {
     report.fail(targets.error());
     return report;
   }
-  if (const auto session = context.open(fleet::Session::Hearing::answers); !session) {
-    report.fail(session.error());
+  auto fields = chosen_fields(options);
+  if (!fields) {
+    report.fail(fields.error());
     return report;
   }
-  report.interface = context.session().interface();
-  MonitorRun(options, std::move(*targets), context, report).run();
+  const MonitorManner manner{.fields = std::move(*fields),
+                             .period = options.period(),
+                             .duration = options.duration,
+                             .count = options.count,
+                             .identifies = options.identify};
+  context.wait_for_return();
+  const Reporter& reporter = context.reporter();
+  if (reporter.format() == Format::text && reporter.has_screen()) {
+    context.play_at_pace();
+  }
+  if (options.identify) {
+    identify(manner, *targets, context, report);
+  } else if (open(context, report)) {
+    MonitorRun run(manner, std::move(*targets), context, report);
+    run.run();
+    run.conclude({});
+  }
   return report;
 }
 

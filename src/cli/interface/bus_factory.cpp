@@ -35,6 +35,13 @@ std::string with_adapters(std::string hint) {
   return hint;
 }
 
+/// What every kind of interface is.
+template <class Kind>
+Result<std::unique_ptr<can::Bus>> as_bus(Result<std::unique_ptr<Kind>> opened) {
+  return opened ? Result<std::unique_ptr<can::Bus>>(std::move(*opened))
+                : std::unexpected(std::move(opened.error()));
+}
+
 /// The name of the only CAN interface that is up.
 Result<std::string> the_only_interface() {
   const auto links = can::links();
@@ -70,8 +77,10 @@ Result<OpenBus> open_socketcan(const std::string& name) {
     return std::unexpected(bus.error());
   }
   // Not as it was typed: an interface may have further names.
-  auto place = lock_place(std::string((*bus)->name()));
-  return OpenBus{.bus = std::move(*bus), .place = std::move(place)};
+  const std::string link((*bus)->name());
+  return OpenBus{.bus = std::move(*bus), .place = lock_place(link), .reopen = [link] {
+                   return can::SocketCan::open(link);
+                 }};
 }
 
 /// The name of the bus says the network interface: those on another one do not hear each other.
@@ -84,7 +93,9 @@ Result<OpenBus> open_mcast(const InterfaceName& name, const Reporter& reporter) 
   if (name.rest.empty()) {
     reporter.note(say<texts::mcast_chosen>(place.interface));
   }
-  return OpenBus{.bus = std::move(*bus), .place = std::move(place)};
+  return OpenBus{.bus = std::move(*bus), .place = std::move(place), .reopen = [name] {
+                   return as_bus(can::Mcast::open(name.bus_number, name.rest));
+                 }};
 }
 
 /// A piece of the dialogue with an adapter, for people.
@@ -117,8 +128,13 @@ Result<OpenBus> open_slcan(std::string_view rest, const Reporter& reporter, bool
   std::error_code error;
   const auto canonical = std::filesystem::canonical(name->device, error);
   can::Slcan* adapter = bus->get();
+  name->options.inquires = false;
   return OpenBus{.bus = std::move(*bus),
                  .place = {.interface = "slcan:" + (error ? device : canonical.string())},
+                 .reopen =
+                     [name = *name, shown = "slcan:" + printable(device)] {
+                       return as_bus(can::Slcan::open(name.device, shown, name.options));
+                     },
                  .adapter = adapter};
 }
 
@@ -131,6 +147,16 @@ Result<OpenBus> open_private(std::string_view text, const Result<sim::Scenario>&
     reporter.note(printable(warning));
   }
   return OpenBus{.bus = std::make_unique<sim::PrivateBus>(printable(text), *scenario)};
+}
+
+/// One whose time is another is another bus.
+Result<std::unique_ptr<can::Bus>> reopen_simulator(const std::filesystem::path& path,
+                                                   const std::string& name) {
+  auto bus = can::SimBus::open(path, name);
+  if (bus && (*bus)->has_virtual_clock()) {
+    return fail(Code::interface, {});
+  }
+  return as_bus(std::move(bus));
 }
 
 Result<OpenBus> open_simulator(std::string_view text, const std::string& socket,
@@ -146,13 +172,18 @@ Result<OpenBus> open_simulator(std::string_view text, const std::string& socket,
     reporter.note(say<texts::sim_is_private>());
     return open_private(text, sim::default_scenario(profiles), reporter);
   }
+  const bool is_virtual = (*bus)->has_virtual_clock();
   // Many paths may lead there.
   std::error_code error;
   const auto canonical = std::filesystem::canonical(path, error);
   const auto& where = error ? path : canonical;
-  return OpenBus{
+  OpenBus opened{
       .bus = std::move(*bus),
       .place = {.interface = "sim:" + where.string(), .folder = where.parent_path().string()}};
+  if (!is_virtual) {
+    opened.reopen = [path, name = printable(text)] { return reopen_simulator(path, name); };
+  }
+  return opened;
 }
 
 Result<OpenBus> open_log(std::string_view text, const std::string& path) {

@@ -5,6 +5,7 @@
 #include "blactl/bla/profile.hpp"
 #include "blactl/can/bus.hpp"
 #include "blactl/can/replay.hpp"
+#include "blactl/can/returning_bus.hpp"
 #include "blactl/can/slcan.hpp"
 #include "blactl/fleet/fleet_file.hpp"
 #include "blactl/state/lock_file.hpp"
@@ -23,6 +24,8 @@ namespace blactl::cli {
 struct OpenBus {
   std::unique_ptr<can::Bus> bus;
   state::LockPlace place{}; ///< of its lock files: those of a simulated bus lie beside its socket
+  /// Opens the same interface once more; empty: what ends there does not come back.
+  can::ReturningBus::Opener reopen{};
   const can::ReplayBus* log = nullptr; ///< the bus, if it is one
   can::Slcan* adapter = nullptr;       ///< the same
   /// What a session is told in its place, where it is no bus at all.

@@ -20,7 +20,7 @@ using fleet::LiveField;
 using fleet::LiveServo;
 
 /// As wide as the widest value; the words of mode and health among them.
-constexpr std::array<std::size_t, sample_keys.size()> widths{17, 11, 9, 10, 13, 9, 15, 8, 13, 5};
+constexpr std::array<std::size_t, sample_keys.size()> widths{17, 11, 9, 10, 13, 9, 15, 8, 13, 5, 5};
 
 std::optional<LiveField> live_field(SampleField field) {
   switch (field) {
@@ -33,7 +33,8 @@ std::optional<LiveField> live_field(SampleField field) {
   case SampleField::time:
   case SampleField::mode:
   case SampleField::health:
-  case SampleField::stale: break;
+  case SampleField::stale:
+  case SampleField::moved: break;
   }
   return std::nullopt;
 }
@@ -59,6 +60,7 @@ std::string cell(WallTime time, const LiveServo& servo, SampleField field) {
   case SampleField::time: return std::string(UnixTime(time).text());
   case SampleField::mode: return std::string(mode_of(servo).value_or(""));
   case SampleField::health: return std::string(health_of(servo).value_or(""));
+  case SampleField::moved: return servo.has_turned ? "true" : "false";
   default: break;
   }
   return servo.is_stale || servo.is_gone ? "true" : "false";
@@ -91,10 +93,12 @@ std::string live_text(const LiveServo& servo, LiveField field) {
   return value && parameter != nullptr ? bla::value_text(*parameter, value->raw) : std::string();
 }
 
-SampleFields all_sample_fields() {
+SampleFields all_sample_fields(bool with_moved) {
   SampleFields all;
   for (std::size_t i = 0; i < sample_keys.size(); ++i) {
-    all.push_back(static_cast<SampleField>(i));
+    if (const auto field = static_cast<SampleField>(i); field != SampleField::moved || with_moved) {
+      all.push_back(field);
+    }
   }
   return all;
 }

@@ -24,16 +24,17 @@ enum class SampleField : std::uint8_t {
   health,
   faults,
   stale,
+  moved, ///< only with --identify
 };
 
-inline constexpr std::array<std::string_view, 10> sample_keys{
-    "time",      "angle_deg", "speed_rpm", "torque_pct",    "temperature_c",
-    "voltage_v", "mode",      "health",    "fault_summary", "stale"};
+inline constexpr std::array<std::string_view, 11> sample_keys{
+    "time", "angle_deg", "speed_rpm",     "torque_pct", "temperature_c", "voltage_v",
+    "mode", "health",    "fault_summary", "stale",      "moved"};
 
 using SampleFields = std::vector<SampleField>;
 
-/// All of them.
-[[nodiscard]] SampleFields all_sample_fields();
+/// All of them; `moved` where that is watched.
+[[nodiscard]] SampleFields all_sample_fields(bool with_moved);
 
 /// What must be asked of servos to fill these.
 [[nodiscard]] std::vector<fleet::LiveField> live_fields_of(const SampleFields& fields);

@@ -126,7 +126,10 @@ ScreenLine header() {
 
 ScreenLine row(const LiveServo& servo, Time now, Time begin, bool is_chosen) {
   const bool is_old = servo.is_stale || now - servo.last_heard > silence;
-  const Look look = is_chosen ? Look::chosen : is_old ? Look::dim : Look::plain;
+  const Look look = servo.has_turned ? Look::lit
+                    : is_chosen      ? Look::chosen
+                    : is_old         ? Look::dim
+                                     : Look::plain;
   std::string line = right(std::to_string(servo.servo.id.value()), node_width) + "  " +
                      left(servo.servo.identity.model(), model_width);
   for (const Measured& each : measured) {
@@ -136,7 +139,9 @@ ScreenLine row(const LiveServo& servo, Time now, Time begin, bool is_chosen) {
   const double age = std::chrono::duration<double>(now - servo.last_heard).count();
   line += right(fmt::format("{:.1f} s", std::max(age, 0.0)), age_width) + "  ";
   Piece state = state_of(servo, now, begin);
-  return {{line, look}, std::move(state)};
+  return servo.has_turned
+             ? ScreenLine{{line + say<texts::state_turned>(), look}, {"  "}, std::move(state)}
+             : ScreenLine{{line, look}, std::move(state)};
 }
 
 } // namespace
@@ -161,7 +166,19 @@ Piece state_of(const LiveServo& servo, Time now, Time begin) {
   return {std::move(out), worst_look(servo)};
 }
 
+/// The servo that has begun to turn, wherever it stands, is looked for.
+void MonitorTable::follow(const std::vector<LiveServo>& servos) {
+  for (const LiveServo& servo : servos) {
+    const auto before = std::ranges::find(servos_, servo.servo.id,
+                                          [](const LiveServo& each) { return each.servo.id; });
+    if (servo.has_turned && (before == servos_.end() || !before->has_turned)) {
+      chosen_ = servo.servo.id;
+    }
+  }
+}
+
 void MonitorTable::take(std::vector<LiveServo> servos) {
+  follow(servos);
   servos_ = std::move(servos);
   sort();
   const bool is_there = chosen_ && std::ranges::any_of(servos_, [this](const LiveServo& servo) {

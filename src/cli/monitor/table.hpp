@@ -20,7 +20,8 @@ class MonitorTable {
   /// New servos, and how old data is, are told against `begin`.
   explicit MonitorTable(Time begin) : begin_(begin) {}
 
-  /// The servos as they are now. The chosen one stays chosen wherever it stands.
+  /// The servos as they are now. The chosen one stays chosen wherever it stands; one whose shaft
+  /// begins to turn becomes it.
   void take(std::vector<fleet::LiveServo> servos);
 
   /// True: the key meant something.
@@ -43,6 +44,7 @@ class MonitorTable {
  private:
   enum class Order : std::uint8_t { node, state, angle, temperature, voltage };
 
+  void follow(const std::vector<fleet::LiveServo>& servos);
   void sort();
   void move(std::ptrdiff_t by);
   [[nodiscard]] std::size_t place() const;

@@ -13,6 +13,9 @@ inline constexpr Text monitor_waiting{"no servo was heard yet", "サーボをま
 inline constexpr Text monitor_rows{"{}-{} of {}", "{}～{} / {}"};
 inline constexpr Text monitor_keys{"q quit   Enter graphs   s sort   p pause   ? help",
                                    "q 終了   Enter グラフ   s 並べ替え   p 一時停止   ? ヘルプ"};
+inline constexpr Text monitor_keys_log{
+    "q quit   Enter graphs   s sort   p pause   + - faster, slower   ? help",
+    "q 終了   Enter グラフ   s 並べ替え   p 一時停止   + - 再生速度   ? ヘルプ"};
 inline constexpr Text monitor_keys_one{"q quit   Esc table   p pause   ? help",
                                        "q 終了   Esc 一覧   p 一時停止   ? ヘルプ"};
 
@@ -27,9 +30,44 @@ inline constexpr Text state_gone{"not heard for {} s", "{} 秒間受信なし"};
 inline constexpr Text state_doubled{"two units use this ID", "ID 重複 (2 台)"};
 inline constexpr Text state_restarts{"restarts: {}", "再起動: {} 回"};
 inline constexpr Text state_former{"was node {}", "旧ノード {}"};
+inline constexpr Text state_turned{"<< TURNED", "<< 回転検出"};
 inline constexpr Text state_new{"new", "新規"};
 inline constexpr Text state_more{"+{}", "他 {}"};
 inline constexpr Text state_unknown_fault{"{} bit {}", "{} ビット {}"};
+
+inline constexpr Text monitor_played{"log: {} s", "ログ: {} 秒"};
+inline constexpr Text monitor_played_faster{"{} times faster", "{} 倍速"};
+inline constexpr Text monitor_played_slower{"{} times slower", "1/{} 倍速"};
+inline constexpr Text monitor_played_out{"end of the log", "ログの終わり"};
+inline constexpr Text monitor_gone{"interface gone: waiting", "インターフェース切断: 復帰待ち"};
+inline constexpr Text monitor_away{"{}: waiting for it", "{}。復帰を待っています"};
+inline constexpr Text monitor_back{"{} is back", "{} が復帰しました"};
+inline constexpr Text monitor_identifies{"torque off: turn a horn by hand",
+                                         "トルク OFF: ホーンを手で回して下さい"};
+inline constexpr Text moved_unwatched{"whether a servo moved is watched with --identify only",
+                                      "moved は --identify 指定時のみ使用できます"};
+inline constexpr Text moved_unwatched_hint{
+    "add --identify, or leave moved out of --fields",
+    "--identify を付けるか、--fields から moved を外して下さい"};
+
+inline constexpr Text identify_question{
+    "They have no torque until the command ends, then it comes back.\n",
+    "コマンド終了までトルクが OFF になり、終了時に元へ戻ります。\n"};
+inline constexpr Text identify_begun{
+    "torque is off at {} servos ({}): turn a horn by hand",
+    "サーボ {} 台 ({}) のトルクを OFF にしました。ホーンを手で回して下さい"};
+inline constexpr Text identify_nothing{"no servo had torque: nothing was changed",
+                                       "トルク ON のサーボがないため、何も変更していません"};
+inline constexpr Text identify_back{"Torque comes back at {} servos ({}): hands off.",
+                                    "サーボ {} 台 ({}) のトルクが元に戻ります。手を離して下さい。"};
+inline constexpr Text identify_enter{" Enter: ", " Enter で続行: "};
+inline constexpr Text identify_in_time{" 10 s at most (Ctrl-C again: not at all)",
+                                       " 最大 10 秒 (もう一度 Ctrl-C で中止)"};
+inline constexpr Text identify_done{"{} servos have the torque that they had before ({})",
+                                    "サーボ {} 台のトルクを元に戻しました ({})"};
+inline constexpr Text identify_done_hint{"their torque is as it was", "トルクは元に戻しました"};
+inline constexpr Text identify_not_done_hint{"see below whose torque was not put back",
+                                             "トルクを元に戻せなかったサーボは次の通りです"};
 
 inline constexpr Text sort_node{"node ID", "ノード ID"};
 inline constexpr Text sort_state{"state", "状態"};
@@ -43,14 +81,16 @@ inline constexpr Text monitor_help{
     "Enter          graphs of the chosen servo: the last 60 s\n"
     "Esc, Backspace back to the table\n"
     "s              sort by node ID, state, angle, temperature, voltage\n"
-    "p, Space       pause: what is shown stays, servos are still heard\n"
+    "p, Space       pause: what is shown stays, servos are still heard; a log stops\n"
+    "+, -           a log is played faster, slower\n"
     "?              this help",
     "q、Ctrl-C      終了\n"
     "↑、↓、k、j     サーボを選択 (PgUp、PgDn、Home、End で移動)\n"
     "Enter          選択したサーボのグラフ (直近 60 秒)\n"
     "Esc、Backspace 一覧に戻る\n"
     "s              並べ替え (ノード ID、状態、舵角、温度、電圧)\n"
-    "p、スペース    一時停止 (表示を保持、受信は継続)\n"
+    "p、スペース    一時停止 (表示を保持、受信は継続。ログは再生停止)\n"
+    "+、-           ログの再生速度を変更\n"
     "?              このヘルプ"};
 
 inline constexpr Text graph_range{"last {} s   now {}   min {}   max {}",

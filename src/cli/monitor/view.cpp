@@ -31,7 +31,7 @@ std::vector<ScreenLine> help_lines() {
 MonitorView::MonitorView(std::unique_ptr<Screen> screen, const Reporter& reporter,
                          std::string opened, Time begin)
     : screen_(std::move(screen)), reporter_(reporter), opened_(std::move(opened)), begin_(begin),
-      table_(begin) {
+      table_(begin), keys_(say<texts::monitor_keys>()) {
   reporter_.hold(&held_);
 }
 
@@ -51,6 +51,11 @@ void MonitorView::take(std::vector<fleet::LiveServo> servos, Time now) {
   draw(now);
 }
 
+void MonitorView::on_other_keys(std::function<void(Key)> hook, std::string keys) {
+  other_keys_ = std::move(hook);
+  keys_ = std::move(keys);
+}
+
 bool MonitorView::press(Key key) {
   switch (key) {
   case U'q': return false;
@@ -58,7 +63,11 @@ bool MonitorView::press(Key key) {
   case keys::escape:
   case keys::back: page_ = Page::table; break;
   case keys::enter: page_ = table_.chosen() != nullptr ? Page::graphs : page_; break;
-  default: (void)table_.press(key); break;
+  default:
+    if (!table_.press(key) && other_keys_) {
+      other_keys_(key);
+    }
+    break;
   }
   return true;
 }
@@ -95,6 +104,7 @@ ScreenLine MonitorView::title(Time now) const {
   if (!table_.shown().empty()) {
     line.push_back({"  " + table_.shown()});
   }
+  line.insert(line.end(), told_.begin(), told_.end());
   if (paused_) {
     line.push_back({"  " + say<texts::monitor_paused>(), Look::warning});
   }
@@ -106,8 +116,7 @@ ScreenLine MonitorView::footer() const {
   if (!held_.empty()) {
     return {{last_line(held_), Look::warning}};
   }
-  return {{page_ == Page::table ? say<texts::monitor_keys>() : say<texts::monitor_keys_one>(),
-           Look::dim}};
+  return {{page_ == Page::table ? keys_ : say<texts::monitor_keys_one>(), Look::dim}};
 }
 
 std::vector<ScreenLine> MonitorView::body(std::size_t height, Time now) {

@@ -6,6 +6,7 @@
 #include "cli/output/reporter.hpp"
 #include "cli/output/screen.hpp"
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -30,7 +31,15 @@ class MonitorView {
   /// Takes the keys that were typed; false: it shall end.
   [[nodiscard]] bool take_keys(Time now);
 
+  /// Gets the keys that mean nothing here, and `keys` in place of the usual line tells of them.
+  void on_other_keys(std::function<void(Key)> hook, std::string keys);
+
+  [[nodiscard]] bool is_paused() const { return paused_.has_value(); }
+
   void draw(Time now);
+
+  /// What stands in the title from now on; empty: nothing.
+  void tell(ScreenLine state) { told_ = std::move(state); }
 
   /// Whose graphs are shown; empty: nobody's.
   [[nodiscard]] std::optional<dronecan::NodeId> shown() const;
@@ -52,6 +61,9 @@ class MonitorView {
   Page page_ = Page::table;
   std::optional<Time> paused_{}; ///< since when
   std::string held_;             ///< notes
+  std::string keys_;             ///< of the table
+  std::function<void(Key)> other_keys_;
+  ScreenLine told_; ///< see tell()
 };
 
 } // namespace blactl::cli

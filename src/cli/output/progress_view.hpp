@@ -3,9 +3,13 @@
 
 #include "blactl/fleet/carry_out.hpp"
 
+#include <span>
 #include <string>
 
 namespace blactl::cli {
+
+/// "11, 12, 13", and no more than one line takes.
+[[nodiscard]] std::string short_list(std::span<const dronecan::NodeId> ids);
 
 [[nodiscard]] std::string text(const fleet::Progress& progress);
 

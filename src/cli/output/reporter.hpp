@@ -52,7 +52,8 @@ class Reporter {
   /// What was held, on stderr.
   void repeat(std::string_view held) const { print(held); }
 
-  /// A question on stderr, answered on stdin by the caller.
+  /// A question on stderr, answered on stdin by the caller; or a warning that not even --quiet
+  /// keeps back.
   void ask(std::string_view question) const;
 
   /// A piece of data on stdout at once. A reader that has left is no failure: there is nobody to

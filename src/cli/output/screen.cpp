@@ -31,6 +31,7 @@ attr_t attributes(Look look) {
   case Look::head: return A_BOLD;
   case Look::dim: return A_DIM;
   case Look::chosen: return A_REVERSE;
+  case Look::lit: return A_REVERSE | A_BOLD | colour_or(good_colour, A_NORMAL);
   case Look::good: return colour_or(good_colour, A_NORMAL);
   case Look::warning: return colour_or(warning_colour, A_BOLD);
   case Look::bad: break;

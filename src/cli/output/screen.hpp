@@ -14,7 +14,7 @@
 namespace blactl::cli {
 
 /// How a piece of a line stands out; on a terminal without colours by weight alone.
-enum class Look : std::uint8_t { plain, head, dim, good, warning, bad, chosen };
+enum class Look : std::uint8_t { plain, head, dim, good, warning, bad, chosen, lit };
 
 struct Piece {
   std::string text{};

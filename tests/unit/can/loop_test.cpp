@@ -247,6 +247,18 @@ TEST_CASE("a controller that went bus-off has forgotten the frames it had") {
   CHECK(rig.wire.sent.size() == 7);
 }
 
+TEST_CASE("an interface that is away has forgotten the frames it had, and comes back") {
+  Rig rig;
+  rig.wire.echo = Wire::Echo::by_hand;
+  rig.send(1, 3);
+  CHECK(rig.loop.unacknowledged_since());
+  rig.wire.happen(Away{{Code::interface, "unplugged"}});
+  CHECK(std::holds_alternative<Away>(rig.loop.next(never)));
+  rig.wire.happen(Back{});
+  CHECK(std::holds_alternative<Back>(rig.loop.next(never)));
+  CHECK(rig.wire.sent.size() >= 2);
+}
+
 TEST_CASE("faults, overflows and frames come as they are, in order") {
   Rig rig;
   rig.wire.happen(BusFault{FaultKind::error_passive, rig.wire.now});
@@ -284,14 +296,26 @@ TEST_CASE("a bus that refuses a frame is gone") {
   CHECK(std::holds_alternative<DeadlineReached>(rig.loop.next(rig.wire.now)));
 }
 
-TEST_CASE("SIGINT, SIGTERM and SIGWINCH are events, and come before the bus") {
+TEST_CASE("SIGINT, SIGTERM, SIGHUP and SIGWINCH are events, and come before the bus") {
   Rig rig;
-  for (const int number : {SIGINT, SIGTERM, SIGWINCH}) {
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGWINCH}) {
     rig.wire.hear(frame(1));
     REQUIRE(raise(number) == 0);
     CHECK(signal_number(rig.loop.next(never)) == number);
     CHECK(std::holds_alternative<Received>(rig.loop.next(never)));
   }
+}
+
+TEST_CASE("who was told by nohup to live on without a terminal does so") {
+  const auto before = signal(SIGHUP, SIG_IGN);
+  sigset_t hangup;
+  sigemptyset(&hangup);
+  sigaddset(&hangup, SIGHUP);
+  sigprocmask(SIG_UNBLOCK, &hangup, nullptr); // a loop before this one has blocked it
+  Rig rig;
+  REQUIRE(raise(SIGHUP) == 0);
+  CHECK(std::holds_alternative<DeadlineReached>(rig.loop.next(rig.wire.now)));
+  signal(SIGHUP, before);
 }
 
 TEST_CASE("a signal wakes the loop") {

@@ -225,6 +225,21 @@ TEST_CASE("a servo to which nothing was sent keeps its last change") {
   CHECK(after[1] == before[0]);
 }
 
+TEST_CASE("what a command has given back by itself is no change that undo would look for") {
+  const Kept kept;
+  const Scene scene(servos());
+  const auto first = change(scene, set("angle_limit_cw=90deg"), kept);
+  const auto before = kept.entries();
+  History history = kept.history("monitor --identify");
+  const auto results = change(scene, set("torque_output=off"), history, {11, 12}).servos;
+  REQUIRE(kept.entries().size() == 3);
+  REQUIRE(history.take_back(std::vector{results[0].servo.unique_id.value()}));
+  const auto after = kept.entries();
+  REQUIRE(after.size() == 2);
+  CHECK(after[0].unique_id == results[1].servo.unique_id);
+  CHECK(after[1] == before[0]);
+}
+
 TEST_CASE("in several rounds of one command the record tells what the first has found") {
   const Kept kept;
   const Scene scene(servos());

@@ -225,7 +225,7 @@ TEST_CASE("a signal ends the jobs of a group and those beside it") {
 }
 
 TEST_CASE("a signal ends the session, and what is asked is cancelled") {
-  const int number = GENERATE(SIGINT, SIGTERM);
+  const int number = GENERATE(SIGINT, SIGTERM, SIGHUP);
   Scene scene(R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11}])");
   Ask job(100);
   scene.session->start(job);
@@ -238,6 +238,18 @@ TEST_CASE("a signal ends the session, and what is asked is cancelled") {
   CHECK(job.outcomes.back() == cancelled);
   CHECK(scene.session->node().jobs() == 0);
   CHECK(scene.sent.size() == sent);
+}
+
+TEST_CASE("that a terminal is gone is told twice where a shell tells it too, and is one signal") {
+  const int first = GENERATE(SIGHUP, SIGTERM);
+  Rig rig;
+  rig.session->set_grace(10s);
+  REQUIRE(raise(first) == 0);
+  CHECK_FALSE(rig.session->live_until(never));
+  REQUIRE(raise(SIGHUP) == 0);
+  CHECK(rig.session->live_until(rig.wire.now + 1s));
+  REQUIRE(raise(SIGINT) == 0);
+  CHECK_FALSE(rig.session->live_until(rig.wire.now + 1s));
 }
 
 TEST_CASE("a window that changes its size ends nothing") {
@@ -387,6 +399,20 @@ TEST_CASE("a bus that goes away ends the session with its error, and is asked no
   CHECK(ran.error().code == Code::interface);
   CHECK(ran.error().message == "unplugged");
   CHECK(job.outcomes.back() == cancelled);
+}
+
+TEST_CASE("an interface that is waited for ends nothing, and who wants to know is told") {
+  Rig rig;
+  std::vector<bool> told;
+  rig.session->on_away([&] { told.push_back(rig.session->away().has_value()); });
+  rig.wire.happen(can::Away{{Code::interface, "unplugged"}}, 10ms);
+  rig.wire.happen(can::Back{}, 5s);
+  CHECK(rig.session->live_until(rig.wire.now + 1s));
+  REQUIRE(rig.session->away());
+  CHECK(rig.session->away()->message == "unplugged");
+  CHECK(rig.session->live_until(rig.wire.now + 6s));
+  CHECK_FALSE(rig.session->away());
+  CHECK(told == std::vector<bool>{true, false});
 }
 
 TEST_CASE("bus-off ends the session, other faults do not") {
