@@ -14,6 +14,8 @@ LIMITS = {"angle": ("0x39", "0x38"), "speed": ("0x3B", "0x3A"), "torque": ("0x3D
 ANGLE, SPEED, TORQUE = MEASURED = "0x08", "0x09", "0x0A"
 SHOWN = {ANGLE: ("angle_deg", 10), SPEED: ("speed_rpm", 1), TORQUE: ("torque_pct", 1)}
 HELD = re.compile(r"held at (-?\d+\.\d) deg")
+AFTERWARDS = re.compile(r"(\d+) ms after the last command .*?\((hold|off|brake)\)")
+ACTIONS = ["hold", "off", "brake"]
 ENDS = ("stopped at", "held at", "is not known")  # one of them is said wherever it was commanded
 OUTPUT, CONTROL, TIMEOUT_ACTION, TIMEOUT = "0x20", "0x25", "0x26", "0x27"
 HOLD = 0
@@ -101,7 +103,9 @@ def check_writes(outcome, writes, lines, step):
 
 def check_samples(outcome, lines, step):
     """Every number of a line was told by the servo, one after the other."""
-    if not lines or any(step.holders(node) > 1 for node in step.node_ids(lines[0]["serial_number"])):
+    if not lines:
+        return
+    if any(step.holders(node_id) > 1 for node_id in step.node_ids(lines[0]["serial_number"])):
         return
     for register, (key, scale) in SHOWN.items():
         told = iter(answer[3] for answer in outcome.record.answers([register]))
@@ -115,8 +119,18 @@ def check_held(outcome, serial, after):
     said = HELD.search(outcome.err)
     if said:
         held = round(float(said[1]) * SCALES["angle"])
-        require(abs(after[ANGLE] - held) <= REACHED, f"{serial} is at {after[ANGLE]}, not at {held}")
+        require(abs(after[ANGLE] - held) <= REACHED,
+                f"{serial} is at {after[ANGLE]}, not at {held}")
         require(abs(after[SPEED]) <= STANDING, f"{serial} is held, and turns")
+
+
+def check_afterwards(outcome, serial, after):
+    """What it is said to do when commands end, is what it will do."""
+    said = AFTERWARDS.search(outcome.err)
+    if said:
+        require((int(said[1]), said[2]) == (after[TIMEOUT], ACTIONS[after[TIMEOUT_ACTION]]),
+                f"{serial}: {said[0]} is said, it is {after[TIMEOUT]} ms and "
+                f"{ACTIONS[after[TIMEOUT_ACTION]]}")
 
 
 def check_end(outcome, serial, writes, step):
@@ -129,6 +143,7 @@ def check_end(outcome, serial, writes, step):
         require(after[REGISTERS[kind]] in (0, NOT_ACTIVE), f"{serial} was not stopped")
         require(abs(after[SPEED]) <= STANDING, f"{serial} still turns")
     check_held(outcome, serial, after)
+    check_afterwards(outcome, serial, after)
     if outcome.status != 0:
         return
     moments = [write[0] for write in writes]

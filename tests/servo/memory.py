@@ -9,7 +9,8 @@ import shaft
 from shaft import COMMANDS, NOT_ACTIVE, OUTPUT
 
 SPEC = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "data", "spec")
-NAMES = {"speed_torque_control": shaft.SPEED_TORQUE, "timeout_time": shaft.TIMEOUT}
+NAMES = {"speed_torque_control": shaft.SPEED_TORQUE, "timeout_time": shaft.TIMEOUT,
+         "timeout_action": shaft.TIMEOUT_ACTION}
 WORDS = {"off": 0, "on": 1}
 ROM_LOST = 1 << 15  # of 0x1A
 
@@ -64,6 +65,7 @@ class Memory:
                          for name, value in setup.get("rom", {}).items()})
         self.rom_is_lost = False
         self.shaft = shaft.Shaft(now)
+        self._keeps_turning = setup.get("faults", {}).get("keeps_turning")
         self._once = {int(name, 16): value for name, value in setup.get("ram", {}).items()}
         self.load()
 
@@ -143,6 +145,8 @@ class Memory:
             value = min(max(value, register.least), register.most)
         if address in (0x01, 0x02) and not self.ram[0x25]:
             return self.ram[address]
+        if self._keeps_turning and address in COMMANDS[1:] and not value:
+            return value  # and does not take it
         self.look()
         if address in (*COMMANDS, OUTPUT):
             self.shaft.command()
