@@ -1,6 +1,7 @@
 """Whether what `blactl command` has told agrees with what was sent and what the shaft did."""
 
 import json
+import re
 
 import story
 from record import GET_SET
@@ -10,7 +11,12 @@ ARRAY_COMMAND = 1010
 REGISTERS = {"angle": "0x00", "speed": "0x01", "torque": "0x02"}
 SCALES = {"angle": 10, "speed": 1, "torque": 1}
 LIMITS = {"angle": ("0x39", "0x38"), "speed": ("0x3B", "0x3A"), "torque": ("0x3D", "0x3C")}
-ANGLE, SPEED = "0x08", "0x09"  # what is measured
+ANGLE, SPEED, TORQUE = MEASURED = "0x08", "0x09", "0x0A"
+SHOWN = {ANGLE: ("angle_deg", 10), SPEED: ("speed_rpm", 1), TORQUE: ("torque_pct", 1)}
+HELD = re.compile(r"held at (-?\d+\.\d) deg")
+AFTERWARDS = re.compile(r"(\d+) ms after the last command .*?\((hold|off|brake)\)")
+ACTIONS = ["hold", "off", "brake"]
+ENDS = ("stopped at", "held at", "is not known")  # one of them is said wherever it was commanded
 OUTPUT, CONTROL, TIMEOUT_ACTION, TIMEOUT = "0x20", "0x25", "0x26", "0x27"
 HOLD = 0
 NOT_ACTIVE = 555555555
@@ -37,6 +43,8 @@ def check(outcome, step, defaults, alone):
         return
     writes = writes_of(outcome.record)
     check_writes(outcome, writes, lines, step)
+    check_samples(outcome, lines, step)
+    require(not writes or any(end in outcome.err for end in ENDS), "how it ended is not said")
     story.check_refusal(outcome, step)
     story.check_others(outcome, step)
     story.check_rom_writes(outcome, step)
@@ -93,6 +101,38 @@ def check_writes(outcome, writes, lines, step):
             require(value in (target, 0), f"{register} = {value}")
 
 
+def check_samples(outcome, lines, step):
+    """Every number of a line was told by the servo, one after the other."""
+    if not lines:
+        return
+    if any(step.holders(node_id) > 1 for node_id in step.node_ids(lines[0]["serial_number"])):
+        return
+    for register, (key, scale) in SHOWN.items():
+        told = iter(answer[3] for answer in outcome.record.answers([register]))
+        for line in lines:
+            shown = line[key]
+            require(shown is None or round(shown * scale) in told, f"{key} {shown}: nobody told so")
+
+
+def check_held(outcome, serial, after):
+    """Where it is said to be held, it stays."""
+    said = HELD.search(outcome.err)
+    if said:
+        held = round(float(said[1]) * SCALES["angle"])
+        require(abs(after[ANGLE] - held) <= REACHED,
+                f"{serial} is at {after[ANGLE]}, not at {held}")
+        require(abs(after[SPEED]) <= STANDING, f"{serial} is held, and turns")
+
+
+def check_afterwards(outcome, serial, after):
+    """What it is said to do when commands end, is what it will do."""
+    said = AFTERWARDS.search(outcome.err)
+    if said:
+        require((int(said[1]), said[2]) == (after[TIMEOUT], ACTIONS[after[TIMEOUT_ACTION]]),
+                f"{serial}: {said[0]} is said, it is {after[TIMEOUT]} ms and "
+                f"{ACTIONS[after[TIMEOUT_ACTION]]}")
+
+
 def check_end(outcome, serial, writes, step):
     """What it was told last is so, and it did what was told."""
     kind, target = motion(outcome.command)
@@ -102,6 +142,8 @@ def check_end(outcome, serial, writes, step):
     if kind != "angle" and (outcome.status == 0 or "stopped at" in outcome.err):
         require(after[REGISTERS[kind]] in (0, NOT_ACTIVE), f"{serial} was not stopped")
         require(abs(after[SPEED]) <= STANDING, f"{serial} still turns")
+    check_held(outcome, serial, after)
+    check_afterwards(outcome, serial, after)
     if outcome.status != 0:
         return
     moments = [write[0] for write in writes]

@@ -6,6 +6,10 @@ import story
 from story import require
 
 VALUES = ("angle_deg", "speed_rpm", "torque_pct", "temperature_c", "voltage_v", "fault_summary")
+LATENESS_S = 0.01  # of the clock of the record against that of the lines
+# Key: register, and what 1 means in it. Angles come from actuator.Status as well.
+ASKED = {"speed_rpm": ("0x09", 1), "torque_pct": ("0x0A", 1), "temperature_c": ("0x0B", 1),
+         "voltage_v": ("0x0C", 10), "fault_summary": ("0x18", 1)}
 
 
 def is_meant(outcome):
@@ -19,7 +23,9 @@ def check(outcome, step, defaults, alone):
         return
     story.check_document(outcome)
     last = {}
-    for line in map(json.loads, outcome.out.splitlines()[:-1]):
+    lines = [json.loads(line) for line in outcome.out.splitlines()[:-1]]
+    check_values(outcome, lines)
+    for line in lines:
         if line["serial_number"] is not None:
             story.check_identity(line, step)
             last[line["serial_number"]] = line
@@ -35,3 +41,17 @@ def check(outcome, step, defaults, alone):
             require(outcome.status != 0, f"0, but {serial} is one of two under a node ID")
             require(all(last.get(serial, {}).get(key) is None for key in VALUES),
                     f"data of {serial}, which is one of two")
+
+
+def check_values(outcome, lines):
+    """Every number was told by that node before."""
+    registers = {register for register, _ in ASKED.values()}
+    told = {}
+    for time, node_id, register, value in outcome.record.answers(registers):
+        told.setdefault((node_id, register, value), time)
+    for line in lines:
+        for key, (register, scale) in ASKED.items():
+            if line[key] is not None:
+                since = told.get((line["node_id"], register, round(line[key] * scale)))
+                require(since is not None and since <= line["time"] + LATENESS_S,
+                        f"{key} {line[key]}: node {line['node_id']} has not told so")

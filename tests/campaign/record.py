@@ -69,6 +69,27 @@ class Record:
     def changes(self):
         return [frame for frame in self.frames if is_change(frame)]
 
+    def answers(self, registers):
+        """(time, node ID, register, value) of every answer of GetSet about one of these that came
+        whole. The CRC is not looked at: a frame that is missing or is another's breaks the toggles
+        or the length."""
+        found, parts = [], {}
+        for frame in self.frames:
+            if not frame.is_service or frame.is_request or frame.type != GET_SET:
+                continue
+            key, tail = frame.can_id & 0xFFFFFF, frame.data[-1]
+            if frame.starts:
+                parts[key] = [frame.data]
+            elif key in parts and (parts[key][-1][-1] ^ tail) & 0x3F == 0x20:  # only the toggle
+                parts[key].append(frame.data)
+            if tail & 0x40 and key in parts:
+                payload = b"".join(data[:-1] for data in parts.pop(key))[2:]
+                if len(payload) == 16 and payload[0] == INTEGER:
+                    name = payload[12:].decode("ascii", "replace")
+                    value = int.from_bytes(payload[1:9], "little", signed=True)
+                    found.append((frame.time, frame.source, name, value))
+        return [answer for answer in found if answer[2] in registers]
+
     @property
     def end(self):
         return self.frames[-1].time if self.frames else 0.0

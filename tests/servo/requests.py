@@ -1,5 +1,6 @@
 """What is asked of a servo, and its answers (2.3)."""
 
+import math
 import struct
 
 from transfer import EXECUTE_OPCODE, GET_NODE_INFO, GET_SET, RESTART_NODE
@@ -10,6 +11,8 @@ SAVE, ERASE = 0, 1
 EMPTY, INTEGER = 0, 1
 INITIALIZE, REBOOT, WRITE_ROM = 0x10, 0x11, 0x12
 OK = b"\x80"
+EVERY_SERVO = 255
+ARRAY_KINDS = {0: (0x00, 1800), 1: (0x00, 1000), 2: (0x02, 1), 3: (0x01, 1)}
 
 
 def parse(service, payload):
@@ -92,6 +95,15 @@ class GetSet:
             return self.refusal()
         return (bytes([INTEGER]) + struct.pack("<q", value) + bytes(3) +
                 f"0x{self._address:02X}".encode())
+
+
+def told_by_array(payload, servo_id):
+    """Of an ArrayCommand (tables 2-20, 2-21): (address, value) of what it tells this servo."""
+    whole = len(payload) - len(payload) % 4
+    for number, kind, value in struct.iter_unpack("<BBe", payload[:whole]):
+        if number in (servo_id, EVERY_SERVO) and kind in ARRAY_KINDS and math.isfinite(value):
+            address, scale = ARRAY_KINDS[kind]
+            yield address, round(value * scale)
 
 
 def address_of(name):

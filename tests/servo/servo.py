@@ -7,7 +7,8 @@ import struct
 from allocation import Allocatee
 from faults import Faults
 from memory import Memory
-from transfer import ACTUATOR_STATUS, ALLOCATION, NODE_STATUS, Head, Inbox, split
+from transfer import (ACTUATOR_STATUS, ALLOCATION, ARRAY_COMMAND, NODE_STATUS, Head, Inbox,
+                      split)
 import requests
 
 PRIORITY = 16
@@ -30,7 +31,7 @@ class Servo:
         self.chance = random.Random(f"{seed} {setup['serial_number']}")
         self.serial = setup["serial_number"]
         self.unique_id = hashlib.sha256(str(self.serial).encode()).digest()[:16]
-        self.memory = Memory(setup)
+        self.memory = Memory(setup, world.now)
         self.faults = Faults(setup.get("faults", {}))
         self._behaviour = setup.get("behaviour", {})
         self._life = 0  # what belongs to a former one does not happen any more
@@ -63,6 +64,7 @@ class Servo:
             self.restart()
 
     def _end_life(self, phase):
+        self.memory.look()
         self._life += 1
         self.phase, self.node_id = phase, 0
         self.memory.load()
@@ -113,7 +115,7 @@ class Servo:
 
     def _send_status(self):
         self.later(0.1, self._send_status)
-        angle = self.memory.ram[0x08] / 1000
+        angle = self.memory.read(0x08) / 1000
         unused = float("nan")
         self._broadcast(ACTUATOR_STATUS, struct.pack("<BeeeB", self.memory.ram[0x45], angle, unused,
                                                      unused, 127))
@@ -144,6 +146,14 @@ class Servo:
               and head.data_type in requests.SERVED):
             if taken := self._inbox.take(head, data, self._world.now()):
                 self._serve(head, *taken)
+        elif (self.phase == "running" and not head.is_service and head.source
+              and head.data_type == ARRAY_COMMAND):
+            if taken := self._inbox.take(head, data, self._world.now()):
+                self._obey_array(taken[0])
+
+    def _obey_array(self, payload):
+        for address, value in requests.told_by_array(payload, self.memory.ram[0x45]):
+            self.memory.write(address, value)
 
     def _serve(self, head, payload, transfer_id):
         request = requests.parse(head.data_type, payload)

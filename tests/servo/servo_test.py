@@ -28,6 +28,7 @@ from world import World  # pylint: disable=wrong-import-position
 
 MOST_STEPS = 3
 LONGEST_RETURN = "1s"
+SHORTEST_TIMEOUT_MS = 500  # a busy machine is late now and then
 
 
 class RealEpisode(scenario.Episode):
@@ -46,6 +47,9 @@ class RealEpisode(scenario.Episode):
             servo.pop("sending", None)
             if "return_delay" in servo.get("faults", {}):
                 servo["faults"]["return_delay"] = LONGEST_RETURN
+            if "rom" in servo:
+                rom = servo["rom"]
+                rom["timeout_time"] = max(rom["timeout_time"], SHORTEST_TIMEOUT_MS)
         self.steps = [[command._replace(killed_after_s=None) for command in step]
                       for step in self.steps[:MOST_STEPS]]
 

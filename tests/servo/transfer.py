@@ -9,7 +9,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."
 from mcast_peer import crc  # pylint: disable=wrong-import-position
 
 ALLOCATION, GET_NODE_INFO, RESTART_NODE, EXECUTE_OPCODE, GET_SET = 1, 1, 5, 10, 11
-NODE_STATUS, ACTUATOR_STATUS = 341, 1011
+NODE_STATUS, ARRAY_COMMAND, ACTUATOR_STATUS = 341, 1010, 1011
 
 # Of chapter 2.3 of the BLA specification, by (is it a service, data type ID).
 SIGNATURES = {
@@ -19,6 +19,7 @@ SIGNATURES = {
     (True, EXECUTE_OPCODE): 0x3B131AC5EB69D2CD,
     (True, GET_SET): 0xA7B622F939D1A4D5,
     (False, NODE_STATUS): 0x0F0868D0C1A7C6F1,
+    (False, ARRAY_COMMAND): 0xD8A7486238EC3AF3,
     (False, ACTUATOR_STATUS): 0x5E9BBA44FAF1EA04,
 }
 TRANSFER_ID_TIMEOUT_S = 2.0

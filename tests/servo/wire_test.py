@@ -134,5 +134,55 @@ class Registers(unittest.TestCase):
         self.assertEqual(self.memory.read(0x1A), 0)
 
 
+class Shaft(unittest.TestCase):
+    def setUp(self):
+        self.time = 0.0
+        self.memory = memory.Memory(
+            {"model": "BLA21-12U-A0", "serial_number": 240900001, "node_id": 11,
+             "rom": {"speed_torque_control": "on"}}, lambda: self.time)
+
+    def after(self, seconds):
+        self.time += seconds
+        return [self.memory.read(address) for address in (0x08, 0x09)]
+
+    def test_an_angle_is_gone_to_and_held(self):
+        self.memory.write(0x00, 900)
+        self.assertEqual(self.after(0.1), [360, 60])
+        self.assertEqual(self.after(0.2), [900, 0])
+
+    def test_a_limit_is_where_an_angle_ends(self):
+        self.memory.write(0x38, 300)
+        self.memory.write(0x00, 900)
+        self.assertEqual(self.after(0.5), [300, 0])
+
+    def test_a_speed_turns_it_round_until_the_timeout(self):
+        self.memory.write(0x01, 30)
+        self.assertEqual(self.after(0.9), [1620, 30])
+        self.assertEqual(self.after(0.6), [-1800, 0])
+
+    def test_hold_has_no_timeout(self):
+        self.memory.write(0x24, 1)
+        self.memory.write(0x26, 0)
+        self.memory.write(0x01, -30)
+        self.assertEqual(self.after(4.0), [-7200, -30])
+
+    def test_output_off_and_on_forgets_the_command(self):
+        self.memory.write(0x01, 30)
+        self.after(0.5)
+        self.memory.write(0x20, 1)
+        self.memory.write(0x20, 0)
+        self.assertEqual(self.after(0.5), [900, 0])
+
+    def test_reverse_turns_the_angle_over(self):
+        self.memory.write(0x00, 90)
+        self.after(0.1)
+        self.memory.write(0x23, 1)
+        self.assertEqual(self.memory.read(0x08), -90)
+
+    def test_what_an_array_command_tells(self):
+        payload = struct.pack("<BBeBBeBBe", 3, 1, 0.045, 4, 3, 10.0, 255, 2, -20.0)
+        self.assertEqual(list(requests.told_by_array(payload, 3)), [(0x00, 45), (0x02, -20)])
+
+
 if __name__ == "__main__":
     unittest.main()
