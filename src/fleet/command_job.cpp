@@ -2,10 +2,10 @@
 
 #include "blactl/bla/value.hpp"
 #include "blactl/fleet/array_command.hpp"
-#include "blactl/fleet/conflict_texts.hpp"
 #include "blactl/fleet/guard.hpp"
 #include "blactl/fleet/restart_texts.hpp"
 #include "blactl/fleet/texts.hpp"
+#include "blactl/state/local_node_id.hpp"
 
 #include "fleet/command_texts.hpp"
 
@@ -32,16 +32,16 @@ constexpr Duration sample_period = 10ms;
 /// A servo that leaves so many questions in a row unanswered is not there any more.
 constexpr int most_silent = 3;
 
-/// How long a shaft may take to stand, and what it may show then (both unproven).
-constexpr Duration longest_stop = 1s;
-constexpr std::int64_t standing_rpm = 1;
+/// How far a shaft may have been moved since the question, in tenths of a degree.
+constexpr std::int64_t most_moved = 20;
 
 constexpr std::array readings{at::current_angle, at::current_speed, at::current_torque};
 
 } // namespace
 
 CommandJob::CommandJob(const Roster& roster, const CommandPlan& plan, Options options)
-    : roster_(roster), plan_(plan), options_(std::move(options)), conditions_(plan.conditions()) {
+    : roster_(roster), plan_(plan), options_(std::move(options)), servo_(plan.servo()),
+      conditions_(plan.conditions()) {
   for (const auto& [id, member] : roster_.members()) {
     others_.push_back(id);
   }
@@ -50,21 +50,19 @@ CommandJob::CommandJob(const Roster& roster, const CommandPlan& plan, Options op
 Step CommandJob::next(const Outcome& outcome) {
   now_ = options_.now();
   if (outcome.kind == Outcome::Kind::cancelled) {
-    return give_up(no_answer(outcome, plan_.servo().id, plan_.parameter->name));
+    return give_up(no_answer(outcome, servo_.id, plan_.parameter->name));
   }
   switch (at_) {
   case At::begin:
     at_ = At::unit;
-    return ask(plan_.servo().id, GetNodeInfo::type, GetNodeInfo::Request{}.encode(),
-               options_.patience);
+    return ask(servo_.id, GetNodeInfo::type, GetNodeInfo::Request{}.encode(), options_.patience);
   case At::unit: return judge_unit(outcome);
   case At::look: return judge_condition(outcome);
-  case At::run: return go_on();
+  case At::pause: return go_on();
   case At::write: return judge_echo(outcome);
   case At::shown: return judge_shown(outcome);
   case At::read: return take_sample(outcome);
-  case At::end_write: return judge_end(outcome);
-  case At::end: return end_sample();
+  case At::timeout: return judge_timeout(outcome);
   case At::proof: break;
   }
   return judge_proof(outcome);
@@ -73,34 +71,36 @@ Step CommandJob::next(const Outcome& outcome) {
 /// Between the question and the answer of a person another unit may have come to the node ID.
 Step CommandJob::judge_unit(const Outcome& outcome) {
   if (!outcome.answered()) {
-    return give_up(no_answer(outcome, plan_.servo().id, "GetNodeInfo"));
+    return give_up(no_answer(outcome, servo_.id, "GetNodeInfo"));
   }
   const auto info = GetNodeInfo::Response::decode(outcome.payload);
-  if (!info || info->unique_id != plan_.servo().unique_id) {
+  if (!info || info->unique_id != servo_.unique_id) {
     return give_up(
         {Code::state, say<texts::another_servo>(id()), say<texts::run_again_hint>(), id()});
   }
+  looked_at_ = now_;
   return look();
 }
 
-/// The next of the settings that the plan rests on.
+/// The next of what the plan rests on.
 Step CommandJob::look() {
   if (result_.is_cut || conditions_.empty()) {
     sample_due_ = now_;
     return go_on();
   }
   at_ = At::look;
-  return read_register(plan_.servo().id, conditions_.begin()->first, options_.patience);
+  return read_register(servo_.id, conditions_.begin()->first, options_.patience);
 }
 
 Step CommandJob::judge_condition(const Outcome& outcome) {
   const auto [address, expected] = *conditions_.begin();
-  const bla::Parameter& parameter = *plan_.servo().identity.parameter(address);
-  const auto raw = register_value(outcome, plan_.servo().id, address, parameter.width);
+  const bla::Parameter& parameter = *servo_.identity.parameter(address);
+  const auto raw = register_value(outcome, servo_.id, address, parameter.width);
   if (!raw) {
     return give_up(raw.error());
   }
-  if (*raw != expected) {
+  const std::int64_t slack = address == at::current_angle ? most_moved : 0;
+  if (std::abs(*raw - expected) > slack) {
     return give_up({Code::state,
                     say<texts::motion_changed>(id(), parameter.name, bla::display(parameter, *raw),
                                                bla::display(parameter, expected)),
@@ -112,21 +112,37 @@ Step CommandJob::judge_condition(const Outcome& outcome) {
 
 /// What must never be written to, whatever was agreed.
 std::optional<Error> CommandJob::forbidden() const {
-  const Servo& servo = plan_.servo();
-  if (roster_.is_doubled(servo.id)) {
-    return doubled(roster_, servo.id);
+  if (roster_.is_doubled(servo_.id)) {
+    return doubled(roster_, servo_.id);
   }
-  if (roster_.member(servo.id).boots != servo.boot) {
-    return Error{Code::state, say<texts::motion_restarted>(id()),
-                 say<texts::motion_restarted_hint>(id()), id()};
-  }
+  const std::string then = after_commands(plan_, result_);
   if (const auto by = roster_.armed_by()) {
-    return Error{Code::armed, say<texts::armed>(by->value()), say<texts::armed_hint>(), id()};
+    return Error{Code::armed, say<texts::motion_armed>(id(), by->value()), then, id()};
   }
-  const auto driver = roster_.driver_of(servo, now_);
+  const auto driver = roster_.driver_of(servo_, now_);
   if (driver && !options_.while_driven) {
-    return Error{Code::driven, say<texts::driven>(driver->value(), id()), say<texts::driven_hint>(),
-                 id()};
+    return Error{Code::driven, say<texts::motion_driven>(id(), driver->value()), then, id()};
+  }
+  return std::nullopt;
+}
+
+/// Why it must not go on as it was agreed.
+std::optional<Error> CommandJob::disturbed() const {
+  if (const auto writer = roster_.writer_to(servo_.id, looked_at_)) {
+    return Error{Code::state, say<texts::written_by_other>(id(), writer->value()),
+                 say<texts::other_writer_hint>(), id()};
+  }
+  if (const auto other = newcomer()) {
+    const auto servo_id = plan_.plan.before.raw(at::servo_id).value_or(0);
+    return Error{Code::duplicate_servo_id, say<texts::motion_newcomer>(other->value(), servo_id),
+                 say<texts::motion_servo_id_hint>(), id()};
+  }
+  const Duration gap = now_ - last_command_;
+  if (result_.has_commanded() && gap > plan_.timeout) {
+    return Error{Code::state,
+                 say<texts::motion_not_repeated>(
+                     id(), std::chrono::duration_cast<std::chrono::milliseconds>(gap).count()),
+                 say<texts::motion_not_repeated_hint>(), id()};
   }
   return std::nullopt;
 }
@@ -134,7 +150,7 @@ std::optional<Error> CommandJob::forbidden() const {
 /// A node that came since an ArrayCommand is told to everybody: it may have the same servo ID.
 std::optional<NodeId> CommandJob::newcomer() const {
   for (const auto& [id, member] : roster_.members()) {
-    if (plan_.by_servo_id && member.sends_actuator_status() &&
+    if (plan_.by_servo_id && !state::is_tool_id(id) &&
         std::ranges::find(others_, id) == others_.end()) {
       return id;
     }
@@ -142,65 +158,65 @@ std::optional<NodeId> CommandJob::newcomer() const {
   return std::nullopt;
 }
 
-/// The next command, the next question, or neither yet.
+bool CommandJob::has_restarted() const {
+  return roster_.member(servo_.id).boots != servo_.boot;
+}
+
 Step CommandJob::go_on() {
   if (auto why = forbidden()) {
     return give_up(std::move(*why));
   }
-  const auto servo_id = plan_.plan.before.raw(at::servo_id).value_or(0);
-  if (const auto other = newcomer()) {
-    return fail({Code::duplicate_servo_id, say<texts::motion_newcomer>(other->value(), servo_id),
-                 say<texts::motion_servo_id_hint>(), id()});
+  if (has_restarted()) {
+    return recognise();
   }
-  const Duration gap = now_ - last_command_;
-  if (result_.has_commanded() && gap > plan_.timeout) {
-    return fail({Code::state,
-                 say<texts::motion_not_repeated>(
-                     id(), std::chrono::duration_cast<std::chrono::milliseconds>(gap).count()),
-                 say<texts::motion_not_repeated_hint>(), id()});
+  return phase_ == Phase::moving ? move() : end();
+}
+
+Step CommandJob::move() {
+  if (auto why = disturbed()) {
+    return fail(std::move(*why));
   }
-  const bool is_over = result_.has_commanded() && now_ >= result_.began + plan_.duration;
-  if (result_.is_cut || is_over) {
+  const Duration after = result_.has_commanded() ? now_ - result_.began : Duration{};
+  if (result_.is_cut || after >= plan_.duration) {
     return finish();
   }
-  const Duration since = result_.has_commanded() ? now_ - result_.began : Duration{};
-  const bool is_due = !result_.has_commanded() || now_ >= last_command_ + plan_.period;
-  if (is_due || plan_.target_at(since) != target_) {
-    return command();
-  }
-  return ask_sample();
+  const std::int64_t target = plan_.target_at(after);
+  return is_due() || target != target_ ? command(target) : sample();
 }
 
-Step CommandJob::command() {
-  target_ = plan_.target_at(result_.has_commanded() ? now_ - result_.began : Duration{});
+/// Late answers leave time for either a command or a question: they take turns, as far as the
+/// servo's timeout lets them.
+bool CommandJob::is_due() const {
+  const bool is_urgent = now_ >= last_command_ + plan_.longest_gap;
+  return !result_.has_commanded() || is_urgent ||
+         (now_ >= last_command_ + plan_.period && !reads_first_);
+}
+
+Step CommandJob::command(std::int64_t raw) {
+  target_ = raw;
   last_command_ = now_;
-  if (result_.commands++ == 0) {
+  reads_first_ = true;
+  const Address address = plan_.parameter->address;
+  const bool is_end = phase_ != Phase::moving;
+  if (!is_end && result_.commands++ == 0) {
     result_.began = now_;
   }
+  if (plan_.by_servo_id && (!is_end || raw == 0)) { // others that obey it stop with it
+    const auto servo_id = plan_.plan.before.raw(at::servo_id).value_or(0);
+    options_.broadcast(array_command(static_cast<std::uint8_t>(servo_id), address, raw));
+  }
+  if (plan_.by_servo_id && !is_end) {
+    return read_back();
+  }
   at_ = At::write;
-  const Patience once = patience_until(now_ + plan_.longest_gap);
-  const Address address = plan_.parameter->address;
-  if (!plan_.by_servo_id) {
-    return write_register(plan_.servo().id, address, target_, once);
-  }
-  const auto servo_id = plan_.plan.before.raw(at::servo_id).value_or(0);
-  options_.broadcast(array_command(static_cast<std::uint8_t>(servo_id), address, target_));
-  at_ = At::shown;
-  return read_register(plan_.servo().id, address, once);
-}
-
-/// There is no answer to an ArrayCommand. unproven: that the register shows it.
-Step CommandJob::judge_shown(const Outcome& outcome) {
-  if (has_answered(outcome)) {
-    result_.is_shown = result_.is_shown || value(outcome, plan_.parameter->address) == target_;
-  }
-  return unanswered_ < most_silent ? go_on() : fail(silent_since());
+  return write_register(servo_.id, address, raw, once());
 }
 
 /// One question, answered or given up in time for the next command.
-Patience CommandJob::patience_until(Time deadline) const {
+Patience CommandJob::once() const {
   constexpr Duration least = 1ms;
-  return {std::max(least, std::min(deadline - now_, options_.patience.timeout)), 0};
+  const Duration left = last_command_ + plan_.longest_gap - now_;
+  return {std::max(least, std::min(left, options_.patience.timeout)), 0};
 }
 
 /// False: again it did not. Too often is the end.
@@ -210,24 +226,49 @@ bool CommandJob::has_answered(const Outcome& outcome) {
 }
 
 std::optional<std::int64_t> CommandJob::value(const Outcome& outcome, Address address) const {
-  const bla::Parameter* parameter = plan_.servo().identity.parameter(address);
-  const auto raw = register_value(outcome, plan_.servo().id, address, parameter->width);
+  const bla::Parameter* parameter = servo_.identity.parameter(address);
+  const auto raw = register_value(outcome, servo_.id, address, parameter->width);
   return raw ? std::optional(*raw) : std::nullopt;
 }
 
 Step CommandJob::judge_echo(const Outcome& outcome) {
   if (outcome.kind == Outcome::Kind::not_sent) {
-    return fail(no_answer(outcome, plan_.servo().id, plan_.parameter->name));
+    auto unsent = no_answer(outcome, servo_.id, plan_.parameter->name);
+    return phase_ == Phase::moving ? fail(std::move(unsent)) : give_up(std::move(unsent));
   }
   if (!has_answered(outcome)) {
-    return unanswered_ < most_silent ? go_on() : fail(silent_since());
+    return unanswered_ < most_silent || phase_ != Phase::moving ? go_on() : fail(silent_since());
   }
   const auto echo = value(outcome, plan_.parameter->address);
-  if (echo != target_) {
-    return fail(not_taken(echo, Code::refused));
+  if (echo == target_) {
+    return result_.is_shown || phase_ != Phase::moving ? go_on() : read_back();
   }
-  result_.is_shown = true;
-  return go_on();
+  return phase_ == Phase::moving ? fail(not_taken(echo, Code::refused))
+                                 : give_up(not_taken(echo, Code::mismatch));
+}
+
+/// An answer says what was asked for; the register itself tells what is true.
+Step CommandJob::read_back() {
+  at_ = At::shown;
+  return read_register(servo_.id, plan_.parameter->address,
+                       phase_ == Phase::moving ? once() : options_.patience);
+}
+
+/// unproven: that the register shows an ArrayCommand.
+Step CommandJob::judge_shown(const Outcome& outcome) {
+  const auto held = value(outcome, plan_.parameter->address);
+  const bool is_known = has_answered(outcome);
+  if (phase_ != Phase::moving) {
+    if (!is_known) {
+      return give_up(no_answer(outcome, servo_.id, plan_.parameter->name));
+    }
+    return held == target_ ? read_timeout() : give_up(not_taken(held, Code::mismatch));
+  }
+  if (is_known && held != target_ && !plan_.by_servo_id) {
+    return fail(not_taken(held, Code::refused));
+  }
+  result_.is_shown = result_.is_shown || (is_known && held == target_);
+  return unanswered_ < most_silent ? go_on() : fail(silent_since());
 }
 
 Error CommandJob::silent_since() const {
@@ -238,164 +279,53 @@ Error CommandJob::not_taken(std::optional<std::int64_t> held, Code code) const {
   const auto text = [this](std::int64_t raw) { return bla::display(*plan_.parameter, raw); };
   return {code,
           say<texts::motion_not_taken>(id(), plan_.parameter->name, text(target_),
-                                       held ? text(*held) : "?"),
+                                       held ? say<texts::motion_holds>(text(*held))
+                                            : say<texts::motion_no_value>()),
           say<texts::motion_why_hint>(id()), id()};
 }
 
 /// The next question of a sample, or a pause until it is due.
-Step CommandJob::ask_sample() {
-  const Time next_command = is_ending_ ? never : last_command_ + plan_.period;
-  const Time end = is_ending_ ? never : result_.began + plan_.duration;
+Step CommandJob::sample() {
   if (reading_ == 0 && now_ < sample_due_) {
-    at_ = is_ending_ ? At::end : At::run;
-    return dronecan::Pause{.until = std::min({sample_due_, next_command, end}),
-                           .ready = [this] { return result_.is_cut && !is_ending_; }};
+    at_ = At::pause;
+    const Time end = phase_ == Phase::moving ? result_.began + plan_.duration : never;
+    return dronecan::Pause{.until = std::min({sample_due_, last_command_ + plan_.period, end}),
+                           .ready = [this] { return result_.is_cut && phase_ == Phase::moving; }};
   }
   at_ = At::read;
-  const Time latest =
-      is_ending_ ? now_ + options_.patience.timeout : last_command_ + plan_.longest_gap;
-  return read_register(plan_.servo().id, readings[reading_], patience_until(latest));
+  reads_first_ = false;
+  return read_register(servo_.id, readings[reading_], once());
 }
 
+/// When the servo looked at its angle is between the question and the answer.
 Step CommandJob::take_sample(const Outcome& outcome) {
   const auto raw = has_answered(outcome) ? value(outcome, readings[reading_]) : std::nullopt;
   if (reading_ == 0) {
-    sample_ = angle_sample(outcome, raw);
+    const Time asked = outcome.answered() ? outcome.asked : outcome.at;
+    const Time between = asked + (outcome.at - asked) / 2;
+    sample_ = {.at = between, .after = between - result_.began, .target = target_, .angle = raw};
   } else {
     (reading_ == 1 ? sample_.speed : sample_.torque) = raw;
   }
   if (++reading_ == readings.size()) {
-    reading_ = 0;
-    sample_due_ = std::max(sample_due_ + sample_period, now_);
-    result_.samples.push_back(sample_);
-    if (options_.sampled) {
-      options_.sampled(sample_); // whoever reads it may be slow
-      now_ = options_.now();
-    }
+    conclude_sample();
   }
-  if (unanswered_ >= most_silent && !is_ending_) {
-    return fail(silent_since());
-  }
-  return is_ending_ ? end_sample() : go_on();
+  return unanswered_ < most_silent || phase_ != Phase::moving ? go_on() : fail(silent_since());
 }
 
-/// When the servo looked at its angle is between the question and the answer.
-CommandSample CommandJob::angle_sample(const Outcome& outcome,
-                                       std::optional<std::int64_t> angle) const {
-  const Time asked = outcome.answered() ? outcome.asked : outcome.at;
-  const Time at = asked + (outcome.at - asked) / 2;
-  return {.at = at, .after = at - result_.began, .target = target_, .angle = angle};
-}
-
-/// It was not carried out as planned, and is brought to its end.
-Step CommandJob::fail(Error error) {
-  result_.error = std::move(error);
-  return finish();
-}
-
-/// Nothing may be written to it any more.
-Step CommandJob::give_up(Error error) {
-  if (result_.has_commanded()) {
-    result_.not_ended = Error{error.code, say<texts::motion_not_ended>(id(), error.message),
-                              say<texts::motion_not_ended_hint>(after_commands(plan_), id()), id()};
-  }
-  if (!result_.error) {
-    result_.error = std::move(error);
-  }
-  return std::nullopt;
-}
-
-Step CommandJob::finish() {
-  if (!result_.has_commanded()) {
-    return std::nullopt;
-  }
-  is_ending_ = true;
-  result_.ended = now_;
-  unanswered_ = 0;
+void CommandJob::conclude_sample() {
   reading_ = 0;
-  sample_due_ = now_;
-  return plan_.is_angle() ? ask_sample() : write_end(0);
-}
-
-Step CommandJob::write_end(std::int64_t raw) {
-  if (auto why = forbidden()) {
-    return give_up(std::move(*why));
+  sample_due_ = std::max(sample_due_ + sample_period, now_);
+  result_.samples.push_back(sample_);
+  if (options_.sampled) {
+    options_.sampled(sample_);
+    now_ = options_.now(); // whoever reads it may be slow
   }
-  target_ = raw;
-  at_ = At::end_write;
-  return write_register(plan_.servo().id, plan_.parameter->address, raw, options_.patience);
-}
-
-Step CommandJob::judge_end(const Outcome& outcome) {
-  const auto echo = value(outcome, plan_.parameter->address);
-  if (!outcome.answered()) {
-    return give_up(no_answer(outcome, plan_.servo().id, plan_.parameter->name));
+  if (phase_ == Phase::ending && has_end_) {
+    standing_ = stands() ? standing_ + 1 : 0;
+  } else if (phase_ == Phase::ending && sample_.angle) {
+    choose_end();
   }
-  if (echo != target_) {
-    return give_up(not_taken(echo, Code::mismatch));
-  }
-  unanswered_ = 0;
-  sample_ = {};
-  sample_due_ = outcome.at;
-  return ask_sample();
-}
-
-/// It is watched until it is where it shall stay.
-Step CommandJob::end_sample() {
-  if (unanswered_ >= most_silent) {
-    return give_up(silent_since());
-  }
-  const bool is_whole = reading_ == 0 && sample_.angle && sample_.speed;
-  if (!is_whole) {
-    return ask_sample();
-  }
-  return plan_.is_angle() ? hold() : stand();
-}
-
-/// An angle that is reached is held already.
-Step CommandJob::hold() {
-  if (result_.held || (has_arrived(plan_, result_) && !result_.error)) {
-    return prove();
-  }
-  result_.held = sample_.angle;
-  return write_end(*result_.held);
-}
-
-Step CommandJob::stand() {
-  if (std::abs(*sample_.speed) <= standing_rpm) {
-    return prove();
-  }
-  if (now_ < result_.ended + longest_stop) {
-    return ask_sample();
-  }
-  const bla::Parameter& parameter = *plan_.servo().identity.parameter(at::current_speed);
-  return give_up({Code::mismatch,
-                  say<texts::motion_still_turns>(id(), bla::display(parameter, *sample_.speed)),
-                  say<texts::motion_why_hint>(id()), id()});
-}
-
-Step CommandJob::prove() {
-  at_ = At::proof;
-  proof_.emplace(roster_, plan_.servo(), plan_.servo().since, options_.patience);
-  return proof_->next({Outcome::Kind::start, {}, now_});
-}
-
-/// What was proven by a servo that has restarted, or by another one, proves nothing.
-Step CommandJob::judge_proof(const Outcome& outcome) {
-  if (Step step = proof_->next(outcome); !step.is_end()) {
-    return step;
-  }
-  switch (proof_->verdict()) {
-  case RunProof::Verdict::failed: return give_up(*proof_->error());
-  case RunProof::Verdict::restarted:
-    return give_up({Code::state, say<texts::motion_restarted>(id()),
-                    say<texts::motion_restarted_hint>(id()), id()});
-  case RunProof::Verdict::too_late:
-    return give_up(
-        {Code::state, say<texts::written_too_late>(id()), say<texts::run_again_hint>(), id()});
-  case RunProof::Verdict::ran_on: break;
-  }
-  return std::nullopt;
 }
 
 } // namespace blactl::fleet

@@ -31,8 +31,8 @@ constexpr std::int64_t output_on = 0, action_hold = 0, action_off = 1;
 /// Commands come as often as an autopilot sends them, or as the servo's timeout needs.
 constexpr Duration usual_period = 100ms;
 
-/// A write and its answer take 1 ms of a bus that is free.
-constexpr Duration shortest_gap = 10ms;
+/// A write and its answer take 1 ms of a bus that is free; computers are not always so quick.
+constexpr Duration shortest_gap = 20ms;
 
 /// How far a wiggle goes to either side, in tenths of a degree, and how long each stay is.
 constexpr std::int64_t wiggle_decideg = 50;
@@ -102,6 +102,21 @@ std::optional<Error> check_limits(const Snapshot& before, Address command, std::
                                                   held(before, limits.ccw), name(limits.cw),
                                                   held(before, limits.cw)),
                  say<texts::motion_beyond_limits_hint>(id));
+}
+
+/// Beyond its limits it cannot be held on the way: it would run on to the nearer one (4.31).
+std::optional<Error> check_place(const Snapshot& before, Address command) {
+  const auto angle = before.raw(at::current_angle);
+  const auto ccw = before.raw(at::angle_limit_ccw), cw = before.raw(at::angle_limit_cw);
+  if (command != at::command_angle || !angle || !ccw || !cw || (*angle >= *ccw && *angle <= *cw)) {
+    return std::nullopt;
+  }
+  const std::uint8_t id = before.servo.id.value();
+  return refused(before,
+                 say<texts::motion_outside>(id, held(before, at::current_angle),
+                                            held(before, at::angle_limit_ccw),
+                                            held(before, at::angle_limit_cw)),
+                 say<texts::motion_outside_hint>(id));
 }
 
 std::optional<Error> check_timeout(const Snapshot& before, const CommandPlan& plan) {
@@ -228,6 +243,9 @@ std::int64_t CommandPlan::target_at(Duration after) const {
 
 bla::Values CommandPlan::conditions() const {
   bla::Values values;
+  if (const auto angle = plan.before.raw(at::current_angle); angle && is_angle()) {
+    values[at::current_angle] = *angle;
+  }
   for (const Address address : settings_of(parameter->address)) {
     if (const auto raw = plan.before.raw(address)) {
       values[address] = *raw;
@@ -280,8 +298,9 @@ Result<CommandPlan> plan_command(const CommandWanted& wanted, Snapshot before,
   plan.faults = bla::faults(plan.plan.before.values(), profiles);
   std::erase_if(plan.faults, [](const auto& fault) { return fault.level == bla::Level::notice; });
   const Snapshot& now = plan.plan.before;
-  for (auto refusal : {check_output(now), check_limits(now, command, plan.course.front().raw),
-                       check_timeout(now, plan), check_exact(now, plan)}) {
+  for (auto refusal :
+       {check_output(now), check_limits(now, command, plan.course.front().raw),
+        check_place(now, command), check_timeout(now, plan), check_exact(now, plan)}) {
     if (refusal) {
       return std::unexpected(std::move(*refusal));
     }
@@ -289,9 +308,15 @@ Result<CommandPlan> plan_command(const CommandWanted& wanted, Snapshot before,
   return plan;
 }
 
-std::string after_commands(const CommandPlan& plan) {
-  const std::string timeout = held(plan.plan.before, at::timeout_time);
-  const auto action = plan.plan.before.raw(at::timeout_action);
+std::string after_commands(const CommandPlan& plan, const bla::Values& now) {
+  const auto value = [&](Address address) {
+    const auto raw = bla::find(now, address);
+    return raw ? raw : plan.plan.before.raw(address);
+  };
+  const auto raw = value(at::timeout_time);
+  const std::string timeout =
+      raw ? shown(plan.plan.before, at::timeout_time, *raw) : say<texts::unknown_before>();
+  const auto action = value(at::timeout_action);
   return action == action_hold  ? say<texts::motion_then_hold>(timeout)
          : action == action_off ? say<texts::motion_then_off>(timeout)
                                 : say<texts::motion_then_brake>(timeout);

@@ -5,6 +5,7 @@
 #include "fleet/command_texts.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdlib>
 #include <utility>
 
@@ -21,26 +22,30 @@ std::int64_t tolerance(const CommandPlan& plan) {
   return std::max(least, dead_band.value_or(0) + beside_dead_band);
 }
 
-std::optional<std::int64_t> last_angle(const CommandResult& result) {
-  return result.samples.empty() ? std::nullopt : result.samples.back().angle;
-}
-
-/// Any reading in the direction of the command.
-bool follows(const CommandPlan& plan, const CommandResult& result,
-             std::optional<std::int64_t> CommandSample::* reading) {
+/// In the second half of its time most samples show at least half of the speed; noise of a register
+/// that stands is none. Empty: there are no such samples.
+std::optional<bool> came_to_speed(const CommandPlan& plan, const CommandResult& result) {
+  constexpr std::int64_t noise_rpm = 3; // unproven
   const std::int64_t target = plan.last_target();
-  return std::ranges::any_of(result.samples, [&](const CommandSample& sample) {
-    const std::int64_t shown = (sample.*reading).value_or(0);
-    return (target > 0 && shown > 0) || (target < 0 && shown < 0);
-  });
+  const std::int64_t least = std::max(std::abs(target) / 2, std::min(noise_rpm, std::abs(target)));
+  std::size_t seen = 0, fast = 0;
+  for (const CommandSample& sample : result.samples) {
+    if (sample.target == target && sample.speed && sample.after >= plan.duration / 2) {
+      const std::int64_t forward = target < 0 ? -*sample.speed : *sample.speed;
+      ++seen;
+      fast += forward >= least ? 1U : 0U;
+    }
+  }
+  return seen > 0 ? std::optional(2 * fast > seen) : std::nullopt;
 }
 
-/// It went half of the way to some place and back.
+/// It went half of the way to some place, for more than a glitch of its register.
 bool has_wiggled(const CommandPlan& plan, const CommandResult& result) {
+  constexpr std::ptrdiff_t least = 3;
   const std::int64_t way = std::abs(plan.course.front().raw - plan.last_target());
-  return std::ranges::any_of(result.samples, [&](const CommandSample& sample) {
-    return sample.angle && 2 * std::abs(*sample.angle - plan.last_target()) >= way;
-  });
+  return std::ranges::count_if(result.samples, [&](const CommandSample& sample) {
+           return sample.angle && 2 * std::abs(*sample.angle - plan.last_target()) >= way;
+         }) >= least;
 }
 
 Error differs(const CommandPlan& plan, std::string message) {
@@ -50,9 +55,16 @@ Error differs(const CommandPlan& plan, std::string message) {
 
 } // namespace
 
-bool has_arrived(const CommandPlan& plan, const CommandResult& result) {
-  const auto angle = last_angle(result);
-  return angle && std::abs(*angle - plan.last_target()) <= tolerance(plan);
+bool is_at(const CommandPlan& plan, std::int64_t angle, std::int64_t target) {
+  return std::abs(angle - target) <= tolerance(plan);
+}
+
+std::string after_commands(const CommandPlan& plan, const CommandResult& result) {
+  const bool is_known = result.timeout.size() == 2;
+  if (!is_known && result.has_restarted) {
+    return say<texts::motion_then_unknown>();
+  }
+  return is_known ? after_commands(plan, result.timeout) : after_commands(plan);
 }
 
 std::optional<Error> judge_motion(const CommandPlan& plan, const CommandResult& result) {
@@ -61,20 +73,23 @@ std::optional<Error> judge_motion(const CommandPlan& plan, const CommandResult& 
   }
   const std::uint8_t id = plan.servo().id.value();
   const std::string target = bla::display(*plan.parameter, plan.last_target());
+  if (result.held) { // it was not there when its time was over
+    return differs(plan, say<texts::motion_not_reached>(
+                             id, target, bla::display(*plan.parameter, *result.held)));
+  }
   if (plan.wiggles() && !has_wiggled(plan, result)) {
     return differs(plan, say<texts::motion_not_wiggled>(id));
   }
-  if (plan.is_angle() && !has_arrived(plan, result)) {
-    const auto angle = last_angle(result);
-    return differs(plan, say<texts::motion_not_reached>(
-                             id, target, angle ? bla::display(*plan.parameter, *angle) : "?"));
+  const bool is_speed = plan.parameter->address == at::command_speed && plan.last_target() != 0;
+  const auto turned = is_speed ? came_to_speed(plan, result) : std::optional(true);
+  if (!turned) {
+    return Error{Code::timeout, say<texts::motion_not_seen>(id), say<texts::motion_why_hint>(id),
+                 id};
   }
-  const bool turns = follows(plan, result, &CommandSample::speed);
-  if (plan.parameter->address == at::command_speed && plan.last_target() != 0 && !turns) {
+  if (!*turned) {
     return differs(plan, say<texts::motion_not_turned>(id, target));
   }
-  const bool pushes = turns || follows(plan, result, &CommandSample::torque);
-  if (plan.by_servo_id && !plan.is_angle() && !result.is_shown && !pushes) {
+  if (plan.by_servo_id && !plan.is_angle() && !is_speed && !result.is_shown) {
     return differs(plan, say<texts::motion_array_ignored>(id, target));
   }
   return std::nullopt;
@@ -92,7 +107,7 @@ StepResponse step_response(const CommandPlan& plan, const CommandResult& result)
     response.overshoot_decideg = std::max(response.overshoot_decideg, way < 0   ? -beyond
                                                                       : way > 0 ? beyond
                                                                                 : 0);
-    if (std::abs(beyond) > tolerance(plan)) {
+    if (!is_at(plan, *sample.angle, target)) {
       response.settled.reset();
     } else if (!response.settled) {
       response.settled = sample.after;

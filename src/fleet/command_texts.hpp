@@ -16,6 +16,12 @@ inline constexpr Text motion_beyond_limits{
 inline constexpr Text motion_beyond_limits_hint{
     "command less, or see the limits: blactl get -n {} --group limit",
     "指令を小さくするか、制限を確認して下さい: blactl get -n {} --group limit"};
+inline constexpr Text motion_outside{
+    "node {}: the shaft is at {}, outside of its limits {} and {}: it could not be held on its way",
+    "ノード {}: 現在角度 {} が制限 {} ～ {} の範囲外のため、途中で保持できません"};
+inline constexpr Text motion_outside_hint{
+    "widen the limits, or move it without a stop on its way: blactl set -n {} command_angle=0deg",
+    "制限を広げるか、途中で停止できない方法で動かして下さい: blactl set -n {} command_angle=0deg"};
 inline constexpr Text motion_no_room{
     "node {}: at {} its limits {} and {} leave no room to wiggle",
     "ノード {}: 現在角度 {} では、制限 {} ～ {} の内側で往復動作できません"};
@@ -74,6 +80,10 @@ inline constexpr Text motion_then_off{
 inline constexpr Text motion_then_brake{"{} after the last command the output brakes (brake)",
                                         "最後の指令から {} 経過するとブレーキになります (brake)"};
 
+inline constexpr Text motion_then_unknown{
+    "what it does without commands its ROM says, which is not known",
+    "指令が途絶えた場合の動作は ROM の設定によります (未確認)"};
+
 // How it ended.
 
 inline constexpr Text motion_silent{"node {}: it does not answer any more while it is commanded",
@@ -89,26 +99,40 @@ inline constexpr Text motion_not_repeated{
 inline constexpr Text motion_not_repeated_hint{
     "this computer or its bus is too busy: end other programs, then run the command again",
     "PC またはバスの負荷が高すぎます。他のプログラムを終了してから再度実行して下さい"};
-inline constexpr Text motion_not_taken{"node {}: {} does not take {}: it holds {}",
-                                       "ノード {}: {} に {} を指令できません (現在値 {})"};
+inline constexpr Text motion_not_taken{"node {}: {} does not take {}: {}",
+                                       "ノード {}: {} に {} を指令できません ({})"};
+inline constexpr Text motion_holds{"it holds {}", "現在値 {}"};
+inline constexpr Text motion_no_value{"its answer holds no value", "応答に値がありません"};
 inline constexpr Text motion_not_ended{
-    "node {}: whether it was brought to its end is not known ({})",
-    "ノード {}: 終了の指令が反映されたか確認できません ({})"};
+    "node {}: whether it was brought to its end is not known: {}",
+    "ノード {}: 終了の指令が反映されたか確認できません: {}"};
+inline constexpr Text motion_nor_ended{"{}; and {}", "{}。さらに {}"};
 inline constexpr Text motion_not_ended_hint{"{}; to stop it: blactl set -n {} torque_output=off",
                                             "{}。停止するには: blactl set -n {} torque_output=off"};
+inline constexpr Text motion_armed{
+    "node {}: node {} says since that the vehicle is armed: nothing more was written to it",
+    "ノード {}: ノード {} が途中で ARM 状態を通知したため、以後は書き込んでいません"};
+inline constexpr Text motion_driven{
+    "node {}: node {} commands it since: it was left to that, nothing more was written to it",
+    "ノード {}: ノード {} が途中から動作指令を送信したため、以後は書き込んでいません"};
 inline constexpr Text motion_newcomer{
     "node {} appeared while servo ID {} was commanded by ArrayCommand: it may have moved as well",
     "ArrayCommand でサーボ ID {1} に指令中、ノード {0} "
     "が現れました。同時に動作した可能性があります"};
 inline constexpr Text motion_not_reached{"node {}: it was to be at {}, and is at {}",
                                          "ノード {}: 指令 {} に対し、現在角度は {} です"};
-inline constexpr Text motion_not_turned{"node {}: it was commanded {}, and did not turn",
-                                        "ノード {}: {} を指令しましたが、回転しませんでした"};
+inline constexpr Text motion_not_turned{
+    "node {}: it was commanded {}, and did not come to half of that",
+    "ノード {}: {} を指令しましたが、その半分の速度に達しませんでした"};
+inline constexpr Text motion_not_seen{"node {}: its answers came too late to see what it did",
+                                      "ノード {}: 応答が遅く、動作を確認できませんでした"};
 inline constexpr Text motion_not_wiggled{"node {}: it was commanded to and fro, and did not move",
                                          "ノード {}: 往復動作を指令しましたが、動きませんでした"};
 inline constexpr Text motion_array_ignored{
     "node {}: {} was sent by ArrayCommand, and nothing shows that it took it",
     "ノード {}: ArrayCommand で {} を送信しましたが、反映を確認できません"};
+inline constexpr Text motion_not_held{"node {}: it was told to hold {}, and is at {}",
+                                      "ノード {}: {} での保持を指令しましたが、現在角度は {} です"};
 inline constexpr Text motion_still_turns{
     "node {}: it was told to stop, and still turns at {}",
     "ノード {}: 停止を指令しましたが、まだ {} で回転しています"};

@@ -15,11 +15,13 @@
 namespace blactl::fleet {
 
 /// Writes 0x00, 0x01 or 0x02 again and again, at less than half of 0x27 (requirement 149), and
-/// reads angle, speed and torque in between. Before every write it looks at what was heard: a
-/// vehicle that says armed, another node that commands, a second unit on the ID, a restart end it.
-/// In the end a speed or torque is set to 0 and the shaft must stand; an angle that was not reached
-/// is commanded where the shaft is. Last the servo must prove that it ran on. Where nothing may be
-/// written any more, the servo's own timeout (0x26, 0x27) acts.
+/// reads angle, speed and torque in between. Before every write it looks at what was heard: where
+/// the vehicle says armed, another node commands, or a second unit has the ID, nothing is written
+/// any more, and the servo's own timeout acts (0x26, 0x27).
+/// Its end is a command, too: a speed or torque of 0; for an angle that was not reached where the
+/// shaft is. That is repeated until the shaft stands, so that no timeout looks like a stop, and
+/// read back. A servo that restarted is brought to its end as soon as it is recognised. Last it
+/// must prove that it ran on.
 class CommandJob final : public dronecan::Job {
  public:
   struct Options {
@@ -50,44 +52,54 @@ class CommandJob final : public dronecan::Job {
   enum class At : std::uint8_t {
     begin,
     unit,
-    look,
-    run,
-    write,
-    shown, ///< whether the register shows an ArrayCommand
-    read,
-    end_write,
-    end,
-    proof,
+    look,    ///< at what the plan rests on
+    pause,   ///< until the next command or sample is due
+    write,   ///< a command
+    shown,   ///< whether the register holds it
+    read,    ///< a sample
+    timeout, ///< what the servo does now that the commands have ended
+    proof,   ///< that it is the same, or ran on
   };
+  enum class Phase : std::uint8_t { moving, ending, ended };
 
+  // Before.
   [[nodiscard]] dronecan::Step judge_unit(const dronecan::Outcome& outcome);
   [[nodiscard]] dronecan::Step look();
   [[nodiscard]] dronecan::Step judge_condition(const dronecan::Outcome& outcome);
+
+  // Commands and samples, in either phase.
   [[nodiscard]] dronecan::Step go_on();
-  [[nodiscard]] dronecan::Step command();
+  [[nodiscard]] dronecan::Step move();
+  [[nodiscard]] dronecan::Step end();
+  [[nodiscard]] dronecan::Step command(std::int64_t raw);
   [[nodiscard]] dronecan::Step judge_echo(const dronecan::Outcome& outcome);
+  [[nodiscard]] dronecan::Step read_back();
   [[nodiscard]] dronecan::Step judge_shown(const dronecan::Outcome& outcome);
-  [[nodiscard]] dronecan::Step ask_sample();
+  [[nodiscard]] dronecan::Step sample();
   [[nodiscard]] dronecan::Step take_sample(const dronecan::Outcome& outcome);
+  void conclude_sample();
+
+  // The end.
   [[nodiscard]] dronecan::Step finish();
-  [[nodiscard]] dronecan::Step end_sample();
-  [[nodiscard]] dronecan::Step hold();
-  [[nodiscard]] dronecan::Step write_end(std::int64_t raw);
-  [[nodiscard]] dronecan::Step judge_end(const dronecan::Outcome& outcome);
-  [[nodiscard]] dronecan::Step stand();
-  [[nodiscard]] dronecan::Step prove();
+  void choose_end();
+  [[nodiscard]] bool stands() const;
+  [[nodiscard]] Error not_standing() const;
+  [[nodiscard]] dronecan::Step read_timeout();
+  [[nodiscard]] dronecan::Step judge_timeout(const dronecan::Outcome& outcome);
+  [[nodiscard]] dronecan::Step recognise();
   [[nodiscard]] dronecan::Step judge_proof(const dronecan::Outcome& outcome);
   [[nodiscard]] dronecan::Step fail(Error error);
   [[nodiscard]] dronecan::Step give_up(Error error);
 
   [[nodiscard]] std::optional<Error> forbidden() const;
+  [[nodiscard]] std::optional<Error> disturbed() const;
   [[nodiscard]] std::optional<dronecan::NodeId> newcomer() const;
+  [[nodiscard]] bool has_restarted() const;
+  [[nodiscard]] bool is_due() const;
   [[nodiscard]] bool has_answered(const dronecan::Outcome& outcome);
   [[nodiscard]] Error silent_since() const;
   [[nodiscard]] Error not_taken(std::optional<std::int64_t> held, Code code) const;
-  [[nodiscard]] CommandSample angle_sample(const dronecan::Outcome& outcome,
-                                           std::optional<std::int64_t> angle) const;
-  [[nodiscard]] Patience patience_until(Time deadline) const;
+  [[nodiscard]] Patience once() const;
   [[nodiscard]] std::optional<std::int64_t> value(const dronecan::Outcome& outcome,
                                                   bla::Address address) const;
 
@@ -96,14 +108,21 @@ class CommandJob final : public dronecan::Job {
   const Roster& roster_;
   const CommandPlan& plan_;
   Options options_;
+  Servo servo_; ///< as it was recognised last
+  Phase phase_ = Phase::moving;
   At at_ = At::begin;
   Time now_{};                             ///< when the next step is decided
   bla::Values conditions_;                 ///< still to be looked at
+  Time looked_at_{};                       ///< when they were
   std::vector<dronecan::NodeId> others_{}; ///< that were there when it began
-  bool is_ending_ = false;                 ///< the end was commanded
   std::int64_t target_ = 0;
   Time last_command_{};
-  int unanswered_ = 0; ///< in a row
+  bool reads_first_ = false; ///< a question is due before the next command
+  Time ended_{};             ///< when its end began
+  bool has_end_ = false;     ///< what is commanded in the end is known
+  int standing_ = 0;         ///< samples in a row
+  int unanswered_ = 0;       ///< in a row
+  int restarts_ = 0;
   CommandSample sample_{};
   std::size_t reading_ = 0; ///< which of 0x08-0x0A
   Time sample_due_{};

@@ -61,7 +61,7 @@ struct CommandPlan {
   /// What it is commanded before its end.
   [[nodiscard]] std::int64_t last_target() const { return course.back().raw; }
 
-  /// The settings that it rests on, as they were read: they must still hold when it begins.
+  /// What it rests on, as it was read: that must still hold when it begins.
   [[nodiscard]] bla::Values conditions() const;
 };
 
@@ -80,7 +80,8 @@ registers_to_command(const CommandWanted& wanted, const Servo& servo);
 /// The question before it: from where to where, for how long, and what comes after it.
 [[nodiscard]] std::string question_to_command(const CommandPlan& plan);
 
-/// What the servo does by itself once the commands end (4.19): "1000 ms later the output goes off".
-[[nodiscard]] std::string after_commands(const CommandPlan& plan);
+/// What the servo does by itself once the commands end (4.19): "1000 ms after the last command the
+/// output goes off". `now`: 0x26 and 0x27 where they were read since.
+[[nodiscard]] std::string after_commands(const CommandPlan& plan, const bla::Values& now = {});
 
 } // namespace blactl::fleet

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace blactl::fleet {
@@ -23,23 +24,29 @@ struct CommandResult {
   std::vector<CommandSample> samples{};
   std::size_t commands = 0;           ///< that went out, the end apart
   Time began{};                       ///< when the first one did
-  Time ended{};                       ///< when the end was commanded
   std::optional<std::int64_t> held{}; ///< an angle that it was told to hold instead of the target
   bool is_cut = false;                ///< brought to its end before its time
   bool is_shown = false;              ///< the register held what was commanded
-  std::optional<Error> error{};       ///< why it was not carried out as planned
-  std::optional<Error> not_ended{};   ///< why its end is not proven
+  bool has_restarted = false;         ///< meanwhile
+  bool is_ended = false;        ///< it was brought to its end: its register and its shaft show that
+  bla::Values timeout{};        ///< 0x26 and 0x27 in the end
+  std::optional<Error> error{}; ///< why it was not carried out as planned, or not ended
 
   [[nodiscard]] bool has_commanded() const { return commands > 0; }
 };
 
-/// The shaft is where it was commanded to be, as far as was read last. unproven: from when on an
-/// angle counts as reached: 1 deg, or its dead band and half a degree.
-[[nodiscard]] bool has_arrived(const CommandPlan& plan, const CommandResult& result);
+/// What the servo does by itself now that the commands have ended (4.19): "1000 ms after the last
+/// command the output goes off".
+[[nodiscard]] std::string after_commands(const CommandPlan& plan, const CommandResult& result);
+
+/// Whether this counts as being at an angle. unproven: within 1 deg, or its dead band and half a
+/// degree.
+[[nodiscard]] bool is_at(const CommandPlan& plan, std::int64_t angle, std::int64_t target);
 
 /// What the shaft did is not what it was told; empty: it did, as far as that can be told. Errors:
-/// mismatch: an angle was not reached, nothing turned, or nothing shows that an ArrayCommand was
-/// taken.
+/// mismatch: an angle was not reached, it did not come to its speed, or nothing shows that an
+/// ArrayCommand was taken; timeout: its answers came too late to see what it did. Of a torque
+/// nothing is judged: it need not turn.
 [[nodiscard]] std::optional<Error> judge_motion(const CommandPlan& plan,
                                                 const CommandResult& result);
 

@@ -99,7 +99,19 @@ bool MotionRun::show(const fleet::CommandSample& sample) {
     out = (is_first ? text_motion_header(*plan_) : "") + text_motion(*plan_, sample);
     break;
   }
-  const auto printed = reporter.stream(out);
+  unread_ += out;
+  while (!unread_.empty() && Reporter::has_room()) { // a slow reader must not delay a command
+    const std::size_t line = unread_.find('\n') + 1;
+    if (!print(unread_.substr(0, line))) {
+      return false;
+    }
+    unread_.erase(0, line);
+  }
+  return true;
+}
+
+bool MotionRun::print(const std::string& lines) {
+  const auto printed = context_.reporter().stream(lines);
   if (!printed) {
     report_.fail(printed.error());
   }
@@ -121,32 +133,29 @@ void MotionRun::move() {
 
 void MotionRun::conclude(const fleet::Commanded& commanded) {
   const fleet::CommandResult& result = commanded.result;
-  const bool is_ended = result.has_commanded() && !result.not_ended;
   if (commanded.broken) {
     (void)broken(*commanded.broken);
-    hint_interruption(is_ended ? say<texts::motion_interrupted_hint>(fleet::after_commands(*plan_))
-                               : say<texts::nothing_written_hint>());
+    const std::string then = fleet::after_commands(*plan_, result);
+    hint_interruption(!result.has_commanded() ? say<texts::nothing_written_hint>()
+                      : result.is_ended       ? say<texts::motion_interrupted_hint>(then)
+                                              : say<texts::motion_left_hint>(then));
   }
   Target target;
   const bool is_interruption = result.error && result.error->code == Code::interrupted;
-  if (result.error && !is_interruption) {
+  if (result.error && (!is_interruption || result.has_commanded())) {
     target.errors.push_back(*result.error);
   }
-  if (result.not_ended) {
-    target.errors.push_back(*result.not_ended);
-  }
-  auto differs = !result.error && !result.not_ended && result.has_commanded()
-                     ? fleet::judge_motion(*plan_, result)
-                     : std::nullopt;
-  if (differs) {
+  if (auto differs =
+          result.is_ended && !result.error ? fleet::judge_motion(*plan_, result) : std::nullopt) {
     target.errors.push_back(std::move(*differs));
   }
   report_.targets.push_back(std::move(target));
   report_.counts.emplace_back("commands", result.commands);
-  if (is_ended) {
+  if (result.is_ended) {
     context_.reporter().note(motion_summary(*plan_, result));
   }
   draw(result);
+  (void)print(std::exchange(unread_, {}));
 }
 
 void MotionRun::draw(const fleet::CommandResult& result) {

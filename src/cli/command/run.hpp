@@ -27,6 +27,7 @@ class MotionRun : WritingRun {
   [[nodiscard]] bool confirm();
   void move();
   [[nodiscard]] bool show(const fleet::CommandSample& sample);
+  bool print(const std::string& lines);
   void conclude(const fleet::Commanded& commanded);
   void draw(const fleet::CommandResult& result);
 
@@ -36,6 +37,7 @@ class MotionRun : WritingRun {
   std::optional<fleet::CommandPlan> plan_;
   std::uint64_t samples_ = 0;
   Time shown_at_{};
+  std::string unread_; ///< lines that stdout had no room for
 };
 
 } // namespace blactl::cli

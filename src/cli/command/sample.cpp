@@ -119,17 +119,20 @@ std::string motion_summary(const CommandPlan& plan, const fleet::CommandResult& 
   const std::uint8_t id = plan.servo().id.value();
   const std::string where = place(plan, result);
   std::string text =
-      plan.is_angle() ? say<texts::motion_held>(id, where) : say<texts::motion_stopped>(id, where);
+      plan.is_angle()
+          ? say<texts::motion_held>(
+                id, bla::display(*plan.parameter, result.held.value_or(plan.last_target())), where)
+          : say<texts::motion_stopped>(id, where);
   const auto response = fleet::step_response(plan, result);
-  if (plan.is_angle() && !plan.wiggles() && response.settled) {
-    text +=
-        "; " + say<texts::motion_settled>(
-                   fmt::format("{:.2f}", std::chrono::duration<double>(*response.settled).count()),
-                   bla::display(*plan.parameter, response.overshoot_decideg));
+  if (plan.is_angle() && !plan.wiggles() && !result.held && response.settled) {
+    const double settled = std::chrono::duration<double>(*response.settled).count();
+    text += "; " +
+            say<texts::motion_settled>(fmt::format("{:.2f}", settled),
+                                       bla::display(*plan.parameter, response.overshoot_decideg));
   }
   text += "; " + say<texts::motion_extremes>(most(plan, result, 1, &CommandSample::speed),
                                              most(plan, result, 2, &CommandSample::torque));
-  return text + "; " + fleet::after_commands(plan);
+  return text + "; " + fleet::after_commands(plan, result);
 }
 
 } // namespace blactl::cli

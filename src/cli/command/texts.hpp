@@ -19,11 +19,14 @@ inline constexpr Text motion_svg_to_stdout{"--svg: the drawing goes to a file on
 inline constexpr Text motion_svg_hint{"for example --svg step.svg", "例: --svg step.svg"};
 inline constexpr Text motion_drawn{"drawn into {}", "{} に出力しました"};
 inline constexpr Text motion_ending{"bringing it to its end", "動作を終了しています"};
+inline constexpr Text motion_left_hint{"it was commanded, and may still move: {}",
+                                       "指令を送信済みです。まだ動作している可能性があります。{}"};
 inline constexpr Text motion_interrupted_hint{"it was stopped: {}", "停止しました。{}"};
 
 // How it ended.
 
-inline constexpr Text motion_held{"node {}: held at {}", "ノード {}: {} で保持しています"};
+inline constexpr Text motion_held{"node {}: told to hold {}, the shaft is at {}",
+                                  "ノード {}: {} で保持しています (現在角度 {})"};
 inline constexpr Text motion_settled{"reached after {} s, overshoot {}",
                                      "到達時間 {} 秒、オーバーシュート {}"};
 inline constexpr Text motion_stopped{"node {}: stopped at {}", "ノード {}: {} で停止しました"};

@@ -64,12 +64,18 @@ constexpr Option command_arguments[]{
 /// "angle=45deg" is short for command_angle=45deg. Errors: as bla::parse_assignment(); usage, for
 /// what is no command.
 Result<bla::Assignment> parse_motion(const bla::Profiles& profiles, const std::string& text) {
-  const auto begins = [&](std::string_view word) { return text.starts_with(word); };
+  const auto begins = [&](std::string_view word) {
+    return std::ranges::equal(word, text.substr(0, word.size()), {}, {},
+                              [](char c) { return c >= 'A' && c <= 'Z' ? c + ('a' - 'A') : c; });
+  };
   const bool is_short = std::ranges::any_of(motions, begins);
   auto typed = bla::parse_assignment(profiles, (is_short ? "command_" : "") + text);
   if (typed && typed->parameter->group != bla::Group::command) {
     return fail(Code::usage, say<texts::motion_no_command>(typed->parameter->name),
                 say<texts::motion_what_hint>());
+  }
+  if (!typed && !is_short && !text.starts_with("command_")) {
+    typed.error().hint = say<texts::motion_what_hint>();
   }
   return typed;
 }

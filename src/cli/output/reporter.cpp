@@ -188,10 +188,14 @@ Result<bool> Reporter::show(std::string_view list) const {
   return stream(up + list_);
 }
 
-Result<bool> Reporter::offer(std::string_view line) const {
-  // A pipe that can be written takes PIPE_BUF bytes, and a line is shorter.
+/// A pipe that can be written takes PIPE_BUF bytes, and a line is shorter.
+bool Reporter::has_room() {
   pollfd room{.fd = STDOUT_FILENO, .events = POLLOUT, .revents = 0};
-  if (poll(&room, 1, 0) == 0) {
+  return poll(&room, 1, 0) != 0;
+}
+
+Result<bool> Reporter::offer(std::string_view line) const {
+  if (!has_room()) {
     return false;
   }
   if (const auto written = data(line); !written) {

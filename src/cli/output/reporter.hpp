@@ -62,6 +62,9 @@ class Reporter {
   /// The same for streams: false if the reader has left, which ends them. Errors: io.
   [[nodiscard]] Result<bool> stream(std::string_view text) const;
 
+  /// stdout takes a line at once.
+  [[nodiscard]] static bool has_room();
+
   /// stdout is a terminal, and what it is shown may change in place.
   [[nodiscard]] bool has_screen() const;
 
