@@ -16,7 +16,8 @@ SHOWN = {ANGLE: ("angle_deg", 10), SPEED: ("speed_rpm", 1), TORQUE: ("torque_pct
 HELD = re.compile(r"held at (-?\d+\.\d) deg")
 AFTERWARDS = re.compile(r"(\d+) ms after the last command .*?\((hold|off|brake)\)")
 ACTIONS = ["hold", "off", "brake"]
-ENDS = ("stopped at", "held at", "is not known")  # one of them is said wherever it was commanded
+# One of them is said wherever it was commanded.
+ENDS = ("stopped at", "held at", "is not known", "nothing more was written")
 OUTPUT, CONTROL, TIMEOUT_ACTION, TIMEOUT = "0x20", "0x25", "0x26", "0x27"
 HOLD = 0
 NOT_ACTIVE = 555555555

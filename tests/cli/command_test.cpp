@@ -78,7 +78,7 @@ TEST_CASE("command as comma-separated values is a step response") {
   CHECK(result.out.starts_with(
       "time,node_id,unique_id,model,serial_number,servo_id,firmware_version,hardware_version,"
       "angle_deg,speed_rpm,torque_pct,command_angle\n"));
-  CHECK(contains(result.err, "node 12: told to hold 45.0 deg, the shaft is at 44."));
+  CHECK(contains(result.err, "node 12: held at 45.0 deg (the shaft is at 44."));
   CHECK(contains(result.err, "reached after 0."));
   CHECK(contains(result.err, "1000 ms after the last command the output goes off"));
 }

@@ -25,7 +25,7 @@ inline constexpr Text motion_interrupted_hint{"it was stopped: {}", "停止し�
 
 // How it ended.
 
-inline constexpr Text motion_held{"node {}: told to hold {}, the shaft is at {}",
+inline constexpr Text motion_held{"node {}: held at {} (the shaft is at {})",
                                   "ノード {}: {} で保持しています (現在角度 {})"};
 inline constexpr Text motion_settled{"reached after {} s, overshoot {}",
                                      "到達時間 {} 秒、オーバーシュート {}"};
