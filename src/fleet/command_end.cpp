@@ -72,7 +72,7 @@ Step CommandJob::end() {
   if (now_ >= ended_ + longest_stop) {
     return give_up(not_standing());
   }
-  return has_end_ && is_due() ? command(target_) : sample();
+  return now_ >= command_due() ? command(target_) : sample();
 }
 
 /// An angle that is reached is held already; else the one where the shaft is, which lies within

@@ -32,8 +32,9 @@ constexpr Duration sample_period = 10ms;
 /// A servo that leaves so many questions in a row unanswered is not there any more.
 constexpr int most_silent = 3;
 
-/// How far a shaft may have been moved since the question, in tenths of a degree.
-constexpr std::int64_t most_moved = 20;
+/// How far a shaft may have been moved since the question, in tenths of a degree; and how far one
+/// that turned then, as after a soft start, goes on by itself in 0.2 s, for each rpm.
+constexpr std::int64_t most_moved = 20, moved_per_rpm = 12;
 
 constexpr std::array readings{at::current_angle, at::current_speed, at::current_torque};
 
@@ -99,7 +100,8 @@ Step CommandJob::judge_condition(const Outcome& outcome) {
   if (!raw) {
     return give_up(raw.error());
   }
-  const std::int64_t slack = address == at::current_angle ? most_moved : 0;
+  const std::int64_t turned = std::abs(plan_.plan.before.raw(at::current_speed).value_or(0));
+  const std::int64_t slack = address == at::current_angle ? most_moved + turned * moved_per_rpm : 0;
   if (std::abs(*raw - expected) > slack) {
     return give_up({Code::state,
                     say<texts::motion_changed>(id(), parameter.name, bla::display(parameter, *raw),
@@ -181,15 +183,17 @@ Step CommandJob::move() {
     return finish();
   }
   const std::int64_t target = plan_.target_at(after);
-  return is_due() || target != target_ ? command(target) : sample();
+  const bool is_due = !result_.has_commanded() || now_ >= command_due();
+  return is_due || target != target_ ? command(target) : sample();
 }
 
 /// Late answers leave time for either a command or a question: they take turns, as far as the
 /// servo's timeout lets them.
-bool CommandJob::is_due() const {
-  const bool is_urgent = now_ >= last_command_ + plan_.longest_gap;
-  return !result_.has_commanded() || is_urgent ||
-         (now_ >= last_command_ + plan_.period && !reads_first_);
+Time CommandJob::command_due() const {
+  if (phase_ == Phase::ending && !has_end_) {
+    return never;
+  }
+  return last_command_ + (reads_first_ ? plan_.longest_gap : plan_.period);
 }
 
 Step CommandJob::command(std::int64_t raw) {
@@ -289,7 +293,7 @@ Step CommandJob::sample() {
   if (reading_ == 0 && now_ < sample_due_) {
     at_ = At::pause;
     const Time end = phase_ == Phase::moving ? result_.began + plan_.duration : never;
-    return dronecan::Pause{.until = std::min({sample_due_, last_command_ + plan_.period, end}),
+    return dronecan::Pause{.until = std::min({sample_due_, command_due(), end}),
                            .ready = [this] { return result_.is_cut && phase_ == Phase::moving; }};
   }
   at_ = At::read;

@@ -274,6 +274,18 @@ TEST_CASE("wait does not tell of one of two servos on an ID what may be the othe
   }
 }
 
+TEST_CASE("a servo whose output comes on by erase holds the shaft where it is") {
+  const Bench bench;
+  const std::string scenario = bench.file("s.json", R"({"schema":"blactl-scenario/1",
+      "clock":"virtual","servos":[{"model":"BLA21-12U-AB","node_id":11,"serial_number":1,
+      "ram":{"torque_output":"off"}}],
+      "events":[{"at":"500ms","servo":1,"world":{"hand":"-80deg"}}]})");
+  const Result erased = bench.run({"-i", "sim:" + scenario, "erase", "-n", "11", "-y", "-j"});
+  INFO(erased.err);
+  CHECK(erased.status == 0);
+  CHECK(node(erased)["status"] == "done");
+}
+
 TEST_CASE("a ROM that kept its old values is found out") {
   const Result set = Scene()
                          .servo("BLA21-12U-AB", 11, {{"faults", {{"rom_write_fails", true}}}})

@@ -95,7 +95,7 @@ class CommandJob final : public dronecan::Job {
   [[nodiscard]] std::optional<Error> disturbed() const;
   [[nodiscard]] std::optional<dronecan::NodeId> newcomer() const;
   [[nodiscard]] bool has_restarted() const;
-  [[nodiscard]] bool is_due() const;
+  [[nodiscard]] Time command_due() const;
   [[nodiscard]] bool has_answered(const dronecan::Outcome& outcome);
   [[nodiscard]] Error silent_since() const;
   [[nodiscard]] Error not_taken(std::optional<std::int64_t> held, Code code) const;

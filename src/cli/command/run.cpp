@@ -20,7 +20,7 @@ MotionRun::MotionRun(fleet::CommandWanted wanted, std::string svg, Context& cont
 
 void MotionRun::all() {
   const auto may_move = [this] { return prove_servo_id() && check(); };
-  if (select() && plan() && hear() && may_move() && confirm() && may_move()) {
+  if (select() && hear() && plan() && may_move() && confirm() && may_move()) {
     move();
   } else if (report_.signal != 0) {
     hint_interruption(say<texts::nothing_written_hint>());

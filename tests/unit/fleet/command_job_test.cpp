@@ -171,6 +171,25 @@ TEST_CASE("no command waits longer than half of the servo's timeout, whatever is
   CHECK(ended.result.commands >= 1000 / 80); // 0.4 of 200 ms
 }
 
+TEST_CASE("lost frames and late answers keep no command, and no end, from coming") {
+  for (const char* trouble : {R"("wire": {"loss": 0.05})", R"("wire": {"loss": 0.2})"}) {
+    for (int seed = 1; seed <= 20; ++seed) {
+      CommandBench bench(servos() + ", " + trouble + ", \"seed\": " + std::to_string(seed));
+      const auto needed = [](const Servo& servo) {
+        return registers_to_command({.target = assignments({"command_angle=45deg"}).front()},
+                                    servo);
+      };
+      auto plan = plan_command(
+          {.target = assignments({"command_angle=45deg"}).front(), .duration = 50ms + 10ms * seed},
+          bench.scene.read(11, needed), profiles());
+      if (plan) { // else too much was lost before
+        const Commanded ended = bench.run(*plan);
+        CHECK((ended.result.is_ended || ended.result.error));
+      }
+    }
+  }
+}
+
 TEST_CASE("a servo that was unplugged is no success, and is not said to be stopped") {
   CommandBench bench(servos(R"({"at": "11s", "servo": 1, "happens": "power_off"})"));
   const Commanded ended = bench.run(bench.planned("command_speed=30rpm", 10s));
