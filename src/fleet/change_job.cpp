@@ -399,7 +399,8 @@ std::optional<Error> ChangeJob::check_commands(const Snapshot& now) const {
     const auto raw = now.raw(command);
     expected[command] = raw == bla::not_active ? bla::not_active : 0;
     // unproven: with that its output came on, and holds the shaft where it is (errata E3).
-    if (command == bla::address::command_angle && plan_.before.raw(at::torque_output) != 0) {
+    if (command == bla::address::command_angle &&
+        plan_.before.raw(bla::address::torque_output) != 0) {
       expected.erase(command);
     }
   }
