@@ -290,6 +290,13 @@ TEST_CASE("an interface that is away in the end is an error, as one that was nev
   check_error(bench.run({"-i", "sim:" + socket, "monitor"}), 3, "interface", "");
 }
 
+TEST_CASE("a rate that is out of range is told in Hz") {
+  check_error(Scene().run({"monitor", "--rate", "1000"}), 2, "usage",
+              "--rate 1000: not a number of Hz between 0.001 and 50");
+  const Result japanese = Scene().run({"--lang", "ja", "monitor", "--rate", "0"});
+  CHECK(contains(japanese.err, "--rate 0: 0.001～50 Hz の範囲の数ではありません"));
+}
+
 TEST_CASE("monitor waits on an empty bus") {
   const Result result = Scene().run({"monitor", "--json", "--duration", "5"});
   CHECK(result.status == 0);
