@@ -77,8 +77,11 @@ class Reading {
     const auto [min, max] = option_.seconds;
     const auto duration = decimal_seconds(text_);
     if (!duration || *duration < min || *duration > max) {
-      return refuse(say<texts::bad_seconds>(option_.name, printable(text_), in_seconds(min),
-                                            in_seconds(max)));
+      return refuse(option_.value == "HZ"
+                        ? say<texts::bad_rate>(option_.name, printable(text_), in_seconds(min),
+                                               in_seconds(max))
+                        : say<texts::bad_seconds>(option_.name, printable(text_), in_seconds(min),
+                                                  in_seconds(max)));
     }
     value_.duration = *duration;
     return {};

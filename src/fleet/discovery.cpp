@@ -1,6 +1,6 @@
 #include "blactl/fleet/discovery.hpp"
 
-#include "blactl/base/hex.hpp"
+#include "blactl/fleet/absent.hpp"
 #include "blactl/fleet/guard.hpp"
 #include "blactl/fleet/read_job.hpp"
 #include "blactl/fleet/restart_texts.hpp"
@@ -27,41 +27,6 @@ constexpr Duration probe_timeout = std::chrono::milliseconds(60);
 
 bool is_operational(const Member& member) {
   return member.is_known() && member.status && member.status->mode == dronecan::Mode::operational;
-}
-
-/// A unit whose unique ID begins like this asks for a node ID.
-bool is_pending(const Roster& roster, const Selector& selector) {
-  return selector.key == Selector::Key::unique_id &&
-         std::ranges::any_of(roster.pending(), [&](const UniqueIdPrefix& prefix) {
-           const std::string heard = hex(prefix);
-           return heard.starts_with(selector.value) || selector.value.starts_with(heard);
-         });
-}
-
-Error nothing_matches(const Roster& roster, const Selector& selector) {
-  if (is_pending(roster, selector)) {
-    return {Code::not_found, say<texts::target_waits_for_id>(printable(selector.text)),
-            say<texts::target_waits_for_id_hint>(), std::nullopt};
-  }
-  return {Code::not_found, say<texts::nothing_matches>(printable(selector.text)),
-          say<texts::node_not_found_hint>(), std::nullopt};
-}
-
-/// A node that sends no actuator.Status may be a servo all the same.
-Error no_servo(const Roster& roster) {
-  std::string ids, first;
-  for (const auto& [id, member] : roster.members()) {
-    if (roster.heard(id)) {
-      ids += (ids.empty() ? "" : ", ") + std::to_string(id.value());
-      first = first.empty() ? ids : first;
-    }
-  }
-  if (ids.empty()) {
-    return {Code::not_found, say<texts::no_servo_found>(), say<texts::no_servo_found_hint>(),
-            std::nullopt};
-  }
-  return {Code::not_found, say<texts::no_node_is_servo>(ids),
-          say<texts::no_node_is_servo_hint>(first), std::nullopt};
 }
 
 /// Why a node that was heard is not ready.
@@ -189,8 +154,7 @@ Result<Selection> Discovery::select(const Targets& targets, Duration listen) {
     if (session_.roster().member(id).id_is_known) {
       chosen.insert(id);
     } else { // nobody has this ID: it stands for a servo whose ID is not known
-      selection.errors.push_back({Code::not_recorded, say<texts::node_not_recorded>(id.value()),
-                                  say<texts::not_recorded_hint>(), id.value()});
+      selection.errors.push_back(unrecorded(id));
     }
   }
   for (const auto& [id, member] : session_.roster().members()) {

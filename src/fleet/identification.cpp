@@ -1,5 +1,6 @@
 #include "blactl/fleet/identification.hpp"
 
+#include "blactl/fleet/absent.hpp"
 #include "blactl/fleet/guard.hpp"
 #include "blactl/fleet/texts.hpp"
 
@@ -154,10 +155,9 @@ std::optional<Error> Identification::undecided() const {
     return std::nullopt;
   }
   const std::uint8_t id = servo_.id.value();
-  return Error{Code::not_recorded,
-               roster_.heard(servo_.id) ? say<texts::identity_not_recorded>(id)
-                                        : say<texts::node_not_recorded>(id),
-               say<texts::not_recorded_hint>(), id};
+  return roster_.heard(servo_.id) ? Error{Code::not_recorded, say<texts::identity_not_recorded>(id),
+                                          say<texts::not_recorded_hint>(), id}
+                                  : unrecorded(servo_.id);
 }
 
 std::optional<Request> Identification::conclude() {

@@ -35,12 +35,25 @@ void LostTransfers::take(dronecan::TransferId id, Time at) {
   }
   const unsigned steps = steps_between(*last, id);
   if (steps == 1) {
-    learn(elapsed_us);
+    take_next(elapsed_us);
   } else if (explains(steps, elapsed_us)) {
     lost_ += steps - 1;
   } else {
     ++jumps_;
   }
+}
+
+/// Also after 32 lost ones, or 64, the IDs go on by one: the time tells. One that sends in bursts
+/// pauses for any time; one that has become slower is silent for as long again.
+void LostTransfers::take_next(double elapsed_us) {
+  const bool is_silence = usual_us_ && elapsed_us >= *usual_us_ * transfer_id_modulus;
+  const bool is_first = !std::exchange(was_silent_, is_silence);
+  if (is_silence && is_first && !pauses_ && is_round(elapsed_us)) {
+    ++jumps_;
+    return;
+  }
+  pauses_ = pauses_ || is_silence;
+  learn(elapsed_us);
 }
 
 void LostTransfers::learn(double elapsed_us) {
@@ -49,6 +62,11 @@ void LostTransfers::learn(double elapsed_us) {
   }
   const double usual = usual_us_.value_or(elapsed_us);
   usual_us_ = usual + (std::min(elapsed_us, usual * most_growth) - usual) * weight;
+}
+
+/// Whether in this time the IDs come round, once or more often, and on to the next one.
+bool LostTransfers::is_round(double elapsed_us) const {
+  return std::abs(std::remainder(elapsed_us / *usual_us_ - 1, double{transfer_id_modulus})) <= 1;
 }
 
 /// Whether so many transfers are sent in this time.

@@ -1,5 +1,8 @@
 #include "blactl/fleet/monitor.hpp"
 
+#include "blactl/fleet/absent.hpp"
+#include "blactl/fleet/guard.hpp"
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -119,6 +122,8 @@ void Monitor::receive(const Transfer& transfer) {
   Watched& node = nodes_[header.source];
   if (std::exchange(node.boot, member->boots) != member->boots) {
     node.values.clear(); // of the run before, or of another unit
+    node.unique_id.reset();
+    node.name.clear();
     node.status_at.reset();
     node.turns.forget();
   }
@@ -133,6 +138,11 @@ void Monitor::receive(const Transfer& transfer) {
     }
   }
   attend(header.source);
+  for (const Selector& selector : targets_.selectors) {
+    if (selector.matches(servo(*member, node), profiles_)) {
+      met_.insert(selector.text);
+    }
+  }
 }
 
 /// Degrees are the field times 100 (errata C10).
@@ -189,12 +199,17 @@ void Monitor::forget_past_faults(Watched& node) {
   }
 }
 
-bool Monitor::is_meant(const Member& member) const {
+/// By what it told us, or others: on a recording nobody is asked.
+bool Monitor::is_meant(const Member& member, const Watched& node) const {
   const bool is_servo = member.sends_actuator_status() || member.is_servo;
   if (!targets_.given || targets_.all) {
     return is_servo;
   }
-  return targets_.mean(member, profiles_) || std::ranges::count(targets_.ids, member.id) > 0;
+  const auto matches = [known = servo(member, node), this](const Selector& selector) {
+    return selector.matches(known, profiles_);
+  };
+  return std::ranges::count(targets_.ids, member.id) > 0 ||
+         std::ranges::any_of(targets_.selectors, matches);
 }
 
 /// A servo is asked as soon as it is heard: whether a selector means it is told by its answers.
@@ -236,7 +251,7 @@ bool Monitor::needs_angle(const Watched& node) const {
 }
 
 std::optional<PollPlan> Monitor::further(NodeId id, const Watched& node) const {
-  if (!is_meant(session_.roster().member(id))) {
+  if (!is_meant(session_.roster().member(id), node)) {
     return std::nullopt;
   }
   PollPlan more;
@@ -281,13 +296,15 @@ Servo Monitor::servo(const Member& member, const Watched& node) const {
 }
 
 LiveServo Monitor::live(const Member& member, const Watched& node, Time now) const {
-  LiveServo out{.servo = servo(member, node),
+  const bool is_doubled = session_.roster().is_doubled(member.id);
+  LiveServo out{.servo = is_doubled ? Servo{.id = member.id} : servo(member, node),
                 .status = member.status,
                 .first_heard = member.first_heard,
                 .last_heard = member.last_heard,
                 .restarts = member.boots,
                 .is_gone = now - member.last_heard >= offline_time,
-                .is_doubled = session_.roster().is_doubled(member.id)};
+                .is_doubled = is_doubled,
+                .is_stale = is_doubled};
   for (const auto& [id, other] : session_.roster().members()) {
     // In this order: whether it has moved is asked of all others.
     if (id != member.id && other.unique_id() && other.unique_id() == out.servo.unique_id &&
@@ -335,12 +352,46 @@ std::vector<LiveServo> Monitor::servos(Time now) const {
   std::vector<LiveServo> out;
   for (const auto& [id, member] : session_.roster().members()) {
     const auto node = nodes_.find(id);
-    if (node != nodes_.end() && session_.roster().heard(id) && is_meant(member) &&
+    if (node != nodes_.end() && session_.roster().heard(id) && is_meant(member, node->second) &&
         !session_.roster().has_moved(member)) {
       out.push_back(live(member, node->second, now));
     }
   }
   return out;
+}
+
+/// Now: one that has just restarted is not known until it has answered.
+bool Monitor::is_met(const Selector& selector) const {
+  return std::ranges::any_of(nodes_, [&](const auto& entry) {
+    const Member* member = session_.roster().find(entry.first);
+    return member != nullptr && selector.matches(servo(*member, entry.second), profiles_);
+  });
+}
+
+std::vector<Error> Monitor::missing(Time now) const {
+  const Roster& roster = session_.roster();
+  std::vector<Error> errors;
+  for (const NodeId id : targets_.ids) {
+    if (!roster.heard(id)) {
+      errors.push_back(session_.is_recording() ? unrecorded(id) : silent(roster, id));
+    }
+  }
+  std::set<NodeId> shared; // an unmet one may be one of those
+  for (const Selector& selector : targets_.selectors) {
+    if (!is_met(selector)) {
+      shared = roster.doubled();
+      if (shared.empty() && !met_.contains(selector.text)) {
+        errors.push_back(nothing_matches(roster, selector));
+      }
+    }
+  }
+  for (const NodeId id : shared) {
+    errors.push_back(doubled(roster, id));
+  }
+  if (errors.empty() && targets_.need_search() && servos(now).empty()) {
+    errors.push_back(no_servo(roster));
+  }
+  return errors;
 }
 
 } // namespace blactl::fleet

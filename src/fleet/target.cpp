@@ -113,15 +113,16 @@ bool add_selector(std::string_view item, Targets& targets) {
 
 } // namespace
 
-bool Selector::matches(const Member& servo, const bla::Profiles& profiles) const {
-  if (!servo.is_known() || !servo.is_servo) {
+bool Selector::matches(const Member& member, const bla::Profiles& profiles) const {
+  return member.is_known() && matches(member.servo(), profiles);
+}
+
+bool Selector::matches(const Servo& servo, const bla::Profiles& profiles) const {
+  if (!servo.is_servo) {
     return false;
   }
   switch (key) {
-  case Key::unique_id: {
-    const auto unique_id = servo.unique_id();
-    return unique_id && hex(*unique_id).starts_with(value);
-  }
+  case Key::unique_id: return servo.unique_id && hex(*servo.unique_id).starts_with(value);
   case Key::serial_number: return servo.identity.readings().serial_number == number;
   case Key::servo_id: return servo.servo_id == number;
   case Key::model: {

@@ -245,8 +245,74 @@ TEST_CASE("of two servos under one node ID nothing is told but that") {
                             .run({"monitor", "--json", "--duration", "5"});
   CHECK(result.status == 9);
   const Lines samples = samples_of(lines_of(result), 11);
-  CHECK(samples.back()["angle_deg"] == nullptr);
+  for (const char* key : {"unique_id", "model", "serial_number", "servo_id", "firmware_version",
+                          "hardware_version", "angle_deg"}) {
+    INFO(key);
+    CHECK(samples.back()[key] == nullptr);
+  }
+  CHECK(samples.back()["stale"] == true);
   CHECK(codes(result) == std::vector<std::string>{"duplicate_node_id"});
+}
+
+TEST_CASE("a selector may mean one of two servos under one node ID") {
+  const Scene scene = Scene()
+                          .servo("BLA21-12U-AB", 11, {{"serial_number", 1}})
+                          .servo("BLA21-12U-AB", 11, {{"serial_number", 2}})
+                          .servo("BLA21-12U-AB", 12, {{"serial_number", 3}});
+  for (const char* target : {"serial:1", "serial:2", "serial:9", "serial:1,serial:2"}) {
+    const Result result = scene.run({"monitor", "--json", "--duration", "3", "-n", target});
+    INFO(target);
+    CHECK(result.status == 9);
+    CHECK(codes(result) == std::vector<std::string>{"duplicate_node_id"});
+    CHECK(samples_of(lines_of(result), 12).empty());
+  }
+  CHECK(scene.run({"monitor", "--duration", "3", "-n", "serial:3"}).status == 0);
+}
+
+TEST_CASE("who was never heard is missing in the end") {
+  const auto status = [](const char* targets) {
+    const Result result =
+        three_servos().run({"monitor", "--json", "--duration", "3", "-n", targets});
+    const bool is_missing = codes(result) == std::vector<std::string>{"not_found"};
+    CHECK(is_missing == (result.status != 0));
+    return result.status;
+  };
+  CHECK(status("99") == 4);
+  CHECK(status("serial:77") == 4);
+  CHECK(status("model:BLA56") == 4);
+  CHECK(status("11,99") == 6);
+  CHECK(status("11,serial:77") == 6);
+  CHECK(status("all,11") == 0);
+  const Result restarts = Scene() // just before the end
+                              .servo("BLA21-12U-AB", 11, {{"serial_number", 1}})
+                              .event(1, "power_off", "2s")
+                              .event(1, "power_on", "2.5s")
+                              .run({"monitor", "--duration", "2.9", "-n", "serial:1"});
+  CHECK(restarts.status == 0);
+  const Result nobody = Scene().foreign(40).run({"monitor", "--json", "--duration", "3"});
+  check_error(nobody, 4, "not_found", "nodes on the bus: 40");
+}
+
+TEST_CASE("of a recording a servo is chosen by what it said, and who is not in it is told") {
+  const Bench bench;
+  const std::string log = (bench.folder() / "bus.log").string();
+  REQUIRE(Scene()
+              .servo("BLA21-12U-AB", 11, {{"serial_number", 1}})
+              .servo("BLA15-06U-A0", 12, {{"serial_number", 2}})
+              .run(bench, {"monitor", "--duration", "3", "--record", log})
+              .status == 0);
+  const auto replay = [&](const char* targets) {
+    return bench.run({"-i", "replay:" + log, "monitor", "--json", "-n", targets});
+  };
+  for (const char* targets : {"serial:2", "model:BLA15"}) {
+    const Result chosen = replay(targets);
+    CHECK(chosen.status == 0);
+    CHECK_FALSE(samples_of(lines_of(chosen), 12).empty());
+    CHECK(samples_of(lines_of(chosen), 11).empty());
+  }
+  CHECK(codes(replay("99")) == std::vector<std::string>{"not_recorded"});
+  CHECK(replay("99").status == 4);
+  CHECK(codes(replay("serial:9")) == std::vector<std::string>{"not_found"});
 }
 
 TEST_CASE("an interface that goes away is waited for, and servos go on where they are back") {
@@ -290,8 +356,16 @@ TEST_CASE("an interface that is away in the end is an error, as one that was nev
   check_error(bench.run({"-i", "sim:" + socket, "monitor"}), 3, "interface", "");
 }
 
+TEST_CASE("a rate that is out of range is told in Hz") {
+  check_error(Scene().run({"monitor", "--rate", "1000"}), 2, "usage",
+              "--rate 1000: not a number of Hz between 0.001 and 50");
+  const Result japanese = Scene().run({"--lang", "ja", "monitor", "--rate", "0"});
+  CHECK(contains(japanese.err, "--rate 0: 0.001～50 Hz の範囲の数ではありません"));
+}
+
 TEST_CASE("monitor waits on an empty bus") {
   const Result result = Scene().run({"monitor", "--json", "--duration", "5"});
-  CHECK(result.status == 0);
+  CHECK(result.status == 4);
+  CHECK(codes(result) == std::vector<std::string>{"not_found"});
   CHECK(lines_of(result).size() == 1);
 }

@@ -29,12 +29,16 @@ class LostTransfers {
 
  private:
   [[nodiscard]] bool explains(unsigned steps, double elapsed_us) const;
+  [[nodiscard]] bool is_round(double elapsed_us) const;
+  void take_next(double elapsed_us);
   void learn(double elapsed_us);
 
   std::optional<dronecan::TransferId> last_;
   Time at_{};
   std::optional<double> usual_us_; ///< from one to the next
   std::uint64_t lost_ = 0, jumps_ = 0;
+  bool was_silent_ = false; ///< for 32 periods, before the last one
+  bool pauses_ = false;     ///< it sends in bursts, or has changed its rate
 };
 
 } // namespace blactl::fleet

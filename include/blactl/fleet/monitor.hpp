@@ -14,6 +14,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -50,7 +51,7 @@ struct LiveServo {
   std::optional<dronecan::NodeId> former_id{}; ///< it had before
   bool is_gone = false;                        ///< not heard for offline_time
   bool is_doubled = false; ///< two units send under its ID: nothing is told of either
-  bool is_stale = false;   ///< something of it is older than it should be
+  bool is_stale = false;   ///< something of it is older than it should be, or is not told
   bool has_turned = false; ///< where that is watched: its shaft was turned, see TurnWatch
 
   [[nodiscard]] const std::optional<LiveValue>& value(LiveField field) const {
@@ -91,6 +92,10 @@ class Monitor final : private dronecan::Service {
   /// The servos that are meant and were heard, by node ID, as they were at `now`.
   [[nodiscard]] std::vector<LiveServo> servos(Time now) const;
 
+  /// Why some that are meant are not among them: not_found; not_recorded; duplicate_node_id, where
+  /// one that was never met may be one of two under an ID. Where all are meant: none is there.
+  [[nodiscard]] std::vector<Error> missing(Time now) const;
+
   /// Asks this servo for its limits as well; empty: none.
   void watch_limits(std::optional<dronecan::NodeId> id) { limits_of_ = id; }
 
@@ -121,7 +126,8 @@ class Monitor final : private dronecan::Service {
   void plan_rounds();
   [[nodiscard]] bool needs_angle(const Watched& node) const;
   [[nodiscard]] std::optional<PollPlan> further(dronecan::NodeId id, const Watched& node) const;
-  [[nodiscard]] bool is_meant(const Member& member) const;
+  [[nodiscard]] bool is_meant(const Member& member, const Watched& node) const;
+  [[nodiscard]] bool is_met(const Selector& selector) const;
   [[nodiscard]] Servo servo(const Member& member, const Watched& node) const;
   [[nodiscard]] LiveServo live(const Member& member, const Watched& node, Time now) const;
   [[nodiscard]] bool is_stale(const LiveServo& servo, Time now) const;
@@ -133,6 +139,7 @@ class Monitor final : private dronecan::Service {
   PollPlan plan_;
   Time due_; ///< the next sample
   std::map<dronecan::NodeId, Watched> nodes_;
+  std::set<std::string> met_;                 ///< selectors that matched a servo at some time
   std::optional<dronecan::NodeId> limits_of_; ///< see watch_limits()
 };
 

@@ -21,7 +21,10 @@ struct Selector {
   std::int64_t number = 0; ///< of serial_number and servo_id
 
   /// Only an identified servo matches, and only what it said of itself.
-  [[nodiscard]] bool matches(const Member& servo, const bla::Profiles& profiles) const;
+  [[nodiscard]] bool matches(const Member& member, const bla::Profiles& profiles) const;
+
+  /// The same of what is known of a servo from elsewhere.
+  [[nodiscard]] bool matches(const Servo& servo, const bla::Profiles& profiles) const;
 };
 
 struct Targets {

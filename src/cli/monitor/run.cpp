@@ -198,7 +198,8 @@ void MonitorRun::run() {
   }
 }
 
-/// What of the servos is a failure of the command.
+/// What of the servos is a failure of the command. Where the bus could not be heard to the end,
+/// who is missing is not known.
 void MonitorRun::conclude(std::span<const Error> errors) {
   const fleet::Session& session = context_.session();
   std::map<std::optional<std::uint8_t>, Target> targets;
@@ -210,6 +211,14 @@ void MonitorRun::conclude(std::span<const Error> errors) {
   }
   for (const Error& error : errors) {
     targets[error.node_id].errors.push_back(error);
+  }
+  const bool was_heard = report_.errors.empty() || report_.signal != 0;
+  for (Error& error : was_heard ? monitor_.missing(session.now()) : std::vector<Error>{}) {
+    if (!error.node_id) {
+      report_.fail_target(std::move(error));
+    } else if (Target& target = targets[error.node_id]; target.errors.empty()) {
+      target.errors.push_back(std::move(error));
+    }
   }
   for (auto& [id, target] : targets) {
     report_.targets.push_back(std::move(target));

@@ -133,6 +133,33 @@ TEST_CASE("up to 31 can be lost; a silence in which 32 fit tells no number") {
   }
 }
 
+TEST_CASE(
+    "IDs that go on by one after a silence in which they came round once or more are a jump") {
+  for (const auto silence : {3300ms, 6500ms}) {
+    Sender sender = Sender().run(10).go(1, silence);
+    INFO(silence.count());
+    CHECK(sender.losses.lost() == Lost(0));
+    CHECK(sender.losses.jumps() == 1);
+    CHECK(sender.run(5).go(3, 300ms).losses.lost() == Lost(2)); // and no sign of another period
+    CHECK(sender.losses.jumps() == 1);
+  }
+}
+
+TEST_CASE("who pauses, or becomes slower, jumps once at most") {
+  Sender pauses; // for 4 s, then for as long as 32 and one
+  pauses.run(10).go(1, 4s);
+  for (int i = 0; i < 5; ++i) {
+    pauses.run(20).go(1, 3300ms);
+  }
+  CHECK(pauses.losses.jumps() == 0);
+  Sender slower = Sender().run(20);
+  for (int i = 0; i < 40; ++i) {
+    slower.go(1, 3300ms);
+  }
+  CHECK(slower.losses.jumps() == 1);
+  CHECK(slower.go(4, 13200ms).losses.lost() == Lost(3));
+}
+
 TEST_CASE("a sender that is not exact loses nothing by that") {
   Sender sender;
   for (int i = 0; i < 50; ++i) {
