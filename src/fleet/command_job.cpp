@@ -30,7 +30,7 @@ namespace {
 constexpr Duration sample_period = 10ms;
 
 /// A servo that leaves so many questions in a row unanswered is not there any more.
-constexpr int most_silent = 3;
+constexpr int silent_while_moving = 3;
 
 /// How far a shaft may have been moved since the question, in tenths of a degree; and how far one
 /// that turned then, as after a soft start, goes on by itself in 0.2 s, for each rpm.
@@ -241,7 +241,8 @@ Step CommandJob::judge_echo(const Outcome& outcome) {
     return phase_ == Phase::moving ? fail(std::move(unsent)) : give_up(std::move(unsent));
   }
   if (!has_answered(outcome)) {
-    return unanswered_ < most_silent || phase_ != Phase::moving ? go_on() : fail(silent_since());
+    return unanswered_ < silent_while_moving || phase_ != Phase::moving ? go_on()
+                                                                        : fail(silent_since());
   }
   const auto echo = value(outcome, plan_.parameter->address);
   if (echo == target_) {
@@ -272,7 +273,7 @@ Step CommandJob::judge_shown(const Outcome& outcome) {
     return fail(not_taken(held, Code::refused));
   }
   result_.is_shown = result_.is_shown || (is_known && held == target_);
-  return unanswered_ < most_silent ? go_on() : fail(silent_since());
+  return unanswered_ < silent_while_moving ? go_on() : fail(silent_since());
 }
 
 Error CommandJob::silent_since() const {
@@ -314,7 +315,8 @@ Step CommandJob::take_sample(const Outcome& outcome) {
   if (++reading_ == readings.size()) {
     conclude_sample();
   }
-  return unanswered_ < most_silent || phase_ != Phase::moving ? go_on() : fail(silent_since());
+  return unanswered_ < silent_while_moving || phase_ != Phase::moving ? go_on()
+                                                                      : fail(silent_since());
 }
 
 void CommandJob::conclude_sample() {
