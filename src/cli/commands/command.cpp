@@ -48,7 +48,7 @@ constexpr Option command_options[]{
      .kind = Kind::file,
      .help = {"draws command, angle, speed, torque and limits into FILE, for a browser or a "
               "printer",
-              "指令・角度・速度・トルク・制限を FILE に SVG で出力 (ブラウザ表示・印刷用)"},
+              "指令、応答、制限のグラフを FILE に SVG で出力 (ブラウザ表示・印刷用)"},
      .store = into<&CommandOptions::svg>},
 };
 
