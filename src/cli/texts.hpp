@@ -59,9 +59,9 @@ inline constexpr Text help_see_shared{"Options of all commands: see blactl --hel
 inline constexpr Text see_help{"see blactl --help", "blactl --help を参照して下さい"};
 inline constexpr Text see_command_help{"see blactl {} --help", "blactl {} --help を参照して下さい"};
 inline constexpr Text bad_seconds{"{} {}: not a number of seconds between {} and {}",
-                                  "{} {}: {}～{} 秒の範囲の数ではありません"};
+                                  "{} {}: {}～{} 秒の範囲の数値ではありません"};
 inline constexpr Text bad_rate{"{} {}: not a number of Hz between {} and {}",
-                               "{} {}: {}～{} Hz の範囲の数ではありません"};
+                               "{} {}: {}～{} Hz の範囲の数値ではありません"};
 inline constexpr Text bad_number{"{} {}: not a whole number between {} and {}",
                                  "{} {}: {}～{} の整数ではありません"};
 inline constexpr Text bad_word{"{} {}: not one of {}", "{} {}: {} のいずれでもありません"};

@@ -9,22 +9,23 @@ namespace blactl::texts {
 
 inline constexpr Text motion_output_off{
     "node {}: torque_output (0x20) is {}: the shaft follows no command",
-    "ノード {}: torque_output (0x20) が {} のため、指令に従って動作しません"};
+    "ノード {}: torque_output (0x20) が {} のため、出力軸は指令に従いません"};
 inline constexpr Text motion_beyond_limits{
     "node {}: {} is beyond its limits {} ({}) and {} ({}): it would stop there",
-    "ノード {}: {} は制限 {} ({}) ～ {} ({}) の範囲外です。制限値で停止します"};
+    "ノード {}: {} は制限 {} ({}) ～ {} ({}) の範囲外です。指令しても制限値にとどまります"};
 inline constexpr Text motion_beyond_limits_hint{
     "command less, or see the limits: blactl get -n {} --group limit",
-    "指令を小さくするか、制限を確認して下さい: blactl get -n {} --group limit"};
+    "指令値を制限の範囲内にするか、制限を確認して下さい: blactl get -n {} --group limit"};
 inline constexpr Text motion_outside{
     "node {}: the shaft is at {}, outside of its limits {} and {}: it could not be held on its way",
-    "ノード {}: 現在角度 {} が制限 {} ～ {} の範囲外のため、途中で保持できません"};
+    "ノード {}: 現在角度 {} が動作角度制限 {} ～ {} の範囲外のため、途中で保持できません"};
 inline constexpr Text motion_outside_hint{
     "widen the limits, or move it without a stop on its way: blactl set -n {} command_angle=0deg",
-    "制限を広げるか、途中で停止できない方法で動かして下さい: blactl set -n {} command_angle=0deg"};
+    "制限を広げるか、次のコマンドで動かして下さい (途中で停止できません): blactl set -n {} "
+    "command_angle=0deg"};
 inline constexpr Text motion_no_room{
     "node {}: at {} its limits {} and {} leave no room to wiggle",
-    "ノード {}: 現在角度 {} では、制限 {} ～ {} の内側で往復動作できません"};
+    "ノード {}: 現在角度 {} では、動作角度制限 {} ～ {} の範囲内に往復動作の余裕がありません"};
 inline constexpr Text motion_timeout_short{
     "node {}: timeout_time (0x27) is {}: commands cannot follow one another twice as fast over a "
     "bus",
@@ -36,16 +37,16 @@ inline constexpr Text motion_not_exact_hint{"leave --array out, or command {}",
                                             "--array を外すか、{} を指令して下さい"};
 inline constexpr Text motion_servo_id_shared{
     "nodes {} and {} both have servo ID {}: an ArrayCommand would move both",
-    "ノード {} と {} のサーボ ID が同じ ({}) です。ArrayCommand で両方が動作します"};
+    "ノード {} と {} のサーボ ID が {} で重複しています。ArrayCommand では両方が動作します"};
 inline constexpr Text motion_servo_id_unknown{
     "node {} did not tell its servo ID: it may be {}, too",
-    "ノード {} のサーボ ID を確認できません。{} と重複している可能性があります"};
+    "ノード {} のサーボ ID を確認できません。対象と同じ {} の可能性があります"};
 inline constexpr Text motion_servo_id_pending{
     "a unit waits for a node ID: its servo ID is not known, and may be {}, too",
-    "ノード ID 割当て待ちの機器があります。サーボ ID が {} と重複している可能性があります"};
+    "ノード ID 割当て待ちの機器があり、そのサーボ ID は不明です。対象と同じ {} の可能性があります"};
 inline constexpr Text motion_servo_id_hint{
     "leave --array out: 0x00-0x02 of the node reach just this servo",
-    "--array を外して下さい。ノードの 0x00～0x02 であれば対象のサーボだけが動作します"};
+    "--array を外して下さい。ノードの 0x00～0x02 への書込みであれば、対象のサーボだけに届きます"};
 inline constexpr Text motion_changed{
     "node {}: {} is {}, not {} as a moment ago: nothing was commanded",
     "ノード {}: {} が先ほどと異なるため ({}、直前は {})、指令していません"};
@@ -54,7 +55,7 @@ inline constexpr Text motion_changed{
 
 inline constexpr Text motion_question_angle{
     "This moves the shaft of node {}: from {} to {}. After {} s it is held there; {}.\n",
-    "ノード {} の出力軸を {} から {} に動かします。{} 秒後はその角度を保持します。{}。\n"};
+    "ノード {} の出力軸を {} から {} に動かします。{} 秒後にその角度で保持します。{}。\n"};
 inline constexpr Text motion_question_speed{
     "This turns the shaft of node {} at {} for {} s, from {} on. Then it is stopped; {}.\n",
     "ノード {} の出力軸を {} で {} 秒間回転させます (現在角度 {})。その後停止します。{}。\n"};
@@ -64,49 +65,52 @@ inline constexpr Text motion_question_torque{
 inline constexpr Text motion_question_wiggle{
     "This moves the shaft of node {} to and fro by {} for {} s, around {}. Then it is held there; "
     "{}.\n",
-    "ノード {} の出力軸を ±{} の範囲で {} 秒間往復させます (中心 {})。その後その角度を保持します。"
+    "ノード {} の出力軸を ±{} 以内で {} 秒間往復させます (現在角度 {})。"
+    "その後、元の角度で保持します。"
     "{}。\n"};
 inline constexpr Text motion_question_pwm{
     "A PWM signal is present: it commands the servo again after that.\n",
-    "PWM 信号が入力されているため、その後は PWM の指令に従います。\n"};
-inline constexpr Text motion_question_fault{"Present: {}. The motor may be off.\n",
-                                            "発生中: {}。モータが停止している可能性があります。\n"};
+    "PWM 信号が入力されているため、その後は再び PWM 信号の指令に従います。\n"};
+inline constexpr Text motion_question_fault{
+    "Present: {}. The motor may be off.\n",
+    "発生中の異常: {}。モータ出力が OFF の可能性があります。\n"};
 
 inline constexpr Text motion_then_hold{"{} after the last command nothing changes (hold)",
-                                       "最後の指令から {} 経過後も状態を維持します (hold)"};
+                                       "最後の指令から {} 経過後も最終指令状態を保持します (hold)"};
 inline constexpr Text motion_then_off{
     "{} after the last command the output goes off (off): it lets go of the load",
-    "最後の指令から {} 経過すると出力が OFF になり、負荷を保持しません (off)"};
-inline constexpr Text motion_then_brake{"{} after the last command the output brakes (brake)",
-                                        "最後の指令から {} 経過するとブレーキになります (brake)"};
+    "最後の指令から {} 経過すると出力が OFF になり、負荷を保持できなくなります (off)"};
+inline constexpr Text motion_then_brake{
+    "{} after the last command the output brakes (brake)",
+    "最後の指令から {} 経過するとブレーキ状態になります (brake)"};
 
 inline constexpr Text motion_then_unknown{
     "what it does without commands its ROM says, which is not known",
-    "指令が途絶えた場合の動作は ROM の設定によります (未確認)"};
+    "指令が途絶えた場合の動作は ROM の設定によります (内容は不明)"};
 
 // How it ended.
 
 inline constexpr Text motion_silent{"node {}: it does not answer any more while it is commanded",
-                                    "ノード {}: 動作中に応答しなくなりました"};
+                                    "ノード {}: 指令中に応答しなくなりました"};
 inline constexpr Text motion_restarted{"node {}: it restarted while it was commanded",
-                                       "ノード {}: 動作中に再起動しました"};
+                                       "ノード {}: 指令中に再起動しました"};
 inline constexpr Text motion_restarted_hint{
     "look at its supply; how often it has restarted: blactl monitor -n {}",
-    "電源を確認して下さい。再起動の監視: blactl monitor -n {}"};
+    "電源を確認して下さい。再起動回数の確認: blactl monitor -n {}"};
 inline constexpr Text motion_not_repeated{
     "node {}: no command went out for {} ms: the servo's own timeout has acted meanwhile",
-    "ノード {}: {} ms の間指令を送信できず、サーボの通信タイムアウトが動作しました"};
+    "ノード {}: {} ms の間、指令を送信できず、その間にサーボの通信タイムアウトが動作しました"};
 inline constexpr Text motion_not_repeated_hint{
     "this computer or its bus is too busy: end other programs, then run the command again",
     "PC またはバスの負荷が高すぎます。他のプログラムを終了してから再度実行して下さい"};
 inline constexpr Text motion_not_taken{"node {}: {} does not take {}: {}",
-                                       "ノード {}: {} に {} を指令できません ({})"};
+                                       "ノード {}: {} に {} が反映されません ({})"};
 inline constexpr Text motion_holds{"it holds {}", "現在値 {}"};
 inline constexpr Text motion_no_value{"its answer holds no value", "応答に値がありません"};
 inline constexpr Text motion_not_ended{
     "node {}: whether it was brought to its end is not known: {}",
-    "ノード {}: 終了の指令が反映されたか確認できません: {}"};
-inline constexpr Text motion_nor_ended{"{}; and {}", "{}。さらに {}"};
+    "ノード {}: 動作を終了できたか確認できません: {}"};
+inline constexpr Text motion_nor_ended{"{}; and {}", "{}。さらに、{}"};
 inline constexpr Text motion_not_ended_hint{"{}; to stop it: blactl set -n {} torque_output=off",
                                             "{}。停止するには: blactl set -n {} torque_output=off"};
 inline constexpr Text motion_armed{
@@ -114,13 +118,14 @@ inline constexpr Text motion_armed{
     "ノード {}: ノード {} が途中で ARM 状態を通知したため、以後は書き込んでいません"};
 inline constexpr Text motion_driven{
     "node {}: node {} commands it since: it was left to that, nothing more was written to it",
-    "ノード {}: ノード {} が途中から動作指令を送信したため、以後は書き込んでいません"};
+    "ノード {}: ノード {} が途中から動作指令を送信しているため、"
+    "その指令に任せ、以後は書き込んでいません"};
 inline constexpr Text motion_newcomer{
     "node {} appeared while servo ID {} was commanded by ArrayCommand: it may have moved as well",
-    "ArrayCommand でサーボ ID {1} に指令中、ノード {0} "
-    "が現れました。同時に動作した可能性があります"};
+    "ArrayCommand でサーボ ID {1} に指令中に、ノード {0} が現れました。"
+    "このノードも動作した可能性があります"};
 inline constexpr Text motion_not_reached{"node {}: it was to be at {}, and is at {}",
-                                         "ノード {}: 指令 {} に対し、現在角度は {} です"};
+                                         "ノード {}: 指令角度 {} に対し、実際の角度は {} です"};
 inline constexpr Text motion_not_turned{
     "node {}: it was commanded {}, and did not come to half of that",
     "ノード {}: {} を指令しましたが、その半分の速度に達しませんでした"};
@@ -138,6 +143,6 @@ inline constexpr Text motion_still_turns{
     "ノード {}: 停止を指令しましたが、まだ {} で回転しています"};
 inline constexpr Text motion_why_hint{
     "too little time, a load, or a fault? blactl faults -n {}",
-    "時間不足、過負荷、または異常の可能性があります: blactl faults -n {}"};
+    "時間不足、負荷、または異常の可能性があります。異常の確認: blactl faults -n {}"};
 
 } // namespace blactl::texts

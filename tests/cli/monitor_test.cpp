@@ -360,7 +360,7 @@ TEST_CASE("a rate that is out of range is told in Hz") {
   check_error(Scene().run({"monitor", "--rate", "1000"}), 2, "usage",
               "--rate 1000: not a number of Hz between 0.001 and 50");
   const Result japanese = Scene().run({"--lang", "ja", "monitor", "--rate", "0"});
-  CHECK(contains(japanese.err, "--rate 0: 0.001～50 Hz の範囲の数ではありません"));
+  CHECK(contains(japanese.err, "--rate 0: 0.001～50 Hz の範囲の数値ではありません"));
 }
 
 TEST_CASE("monitor waits on an empty bus") {

@@ -13,15 +13,15 @@ inline constexpr Text motion_both{"{} and --wiggle cannot both be done",
                                   "{} と --wiggle は同時に指定できません"};
 inline constexpr Text motion_no_command{
     "{} is no command: only angle, speed or torque is commanded",
-    "{} は指令できません。指令できるのは angle、speed、torque です"};
+    "{} は指令できません。指令できるのは angle、speed、torque のみです"};
 inline constexpr Text motion_svg_to_stdout{"--svg: the drawing goes to a file only",
                                            "--svg の出力先はファイルのみです"};
 inline constexpr Text motion_svg_hint{"for example --svg step.svg", "例: --svg step.svg"};
-inline constexpr Text motion_drawn{"drawn into {}", "{} に出力しました"};
-inline constexpr Text motion_ending{"bringing it to its end", "動作を終了しています"};
+inline constexpr Text motion_drawn{"drawn into {}", "グラフを {} に出力しました"};
+inline constexpr Text motion_ending{"bringing it to its end", "動作の終了処理中です"};
 inline constexpr Text motion_left_hint{"it was commanded, and may still move: {}",
                                        "指令を送信済みです。まだ動作している可能性があります。{}"};
-inline constexpr Text motion_interrupted_hint{"it was stopped: {}", "停止しました。{}"};
+inline constexpr Text motion_interrupted_hint{"it was stopped: {}", "サーボを停止させました。{}"};
 
 // How it ended.
 

@@ -30,11 +30,12 @@ constexpr Option command_options[]{
      .value = "SEC",
      .kind = Kind::seconds,
      .seconds = {std::chrono::milliseconds(1), std::chrono::hours(1)},
-     .help = {"for how long it is commanded (default 2)", "指令を継続する時間 (省略時 2 秒)"},
+     .help = {"for how long it is commanded (default 2)", "指令を継続する時間 (省略時 2)"},
      .store = into<&CommandOptions::duration>},
     {.name = "--wiggle",
      .kind = Kind::flag,
-     .help = {"to and fro by 5 deg, to show which servo it is", "±5° の往復動作で対象サーボを確認"},
+     .help = {"to and fro by 5 deg, to show which servo it is",
+              "±5° 以内の往復動作で、どのサーボかを示す"},
      .store = into<&CommandOptions::wiggle>},
     {.name = "--array",
      .kind = Kind::flag,
@@ -48,7 +49,7 @@ constexpr Option command_options[]{
      .kind = Kind::file,
      .help = {"draws command, angle, speed, torque and limits into FILE, for a browser or a "
               "printer",
-              "指令、応答、制限のグラフを FILE に SVG で出力 (ブラウザ表示・印刷用)"},
+              "指令、角度、速度、トルク、制限のグラフを FILE に SVG で出力 (ブラウザ表示・印刷用)"},
      .store = into<&CommandOptions::svg>},
 };
 
@@ -57,7 +58,7 @@ constexpr Option command_arguments[]{
      .kind = Kind::beginning,
      .words = motions,
      .help = {"what the shaft shall do: angle=45deg, speed=60rpm or torque=20%",
-              "動作の指令: angle=45deg、speed=60rpm、torque=20%"},
+              "出力軸の動作: angle=45deg、speed=60rpm、torque=20% のいずれか"},
      .store = into<&CommandOptions::motion>},
 };
 

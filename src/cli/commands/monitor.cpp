@@ -56,14 +56,14 @@ constexpr Option monitor_options[]{
      .value = "N",
      .kind = Kind::whole,
      .whole = {1, ~std::uint64_t{0}},
-     .help = {"end after so many samples", "この回数サンプルしたら終了"},
+     .help = {"end after so many samples", "この回数サンプリングしたら終了"},
      .store = into<&MonitorOptions::count>},
     {.name = "--identify",
      .kind = Kind::flag,
      .help =
          {"takes torque off, after a yes: the servo that is turned by hand lights up; in the end "
           "torque comes back",
-          "確認後にトルクを OFF にし、手で回したサーボを強調表示。終了時に元へ戻す"},
+          "確認後にトルクを OFF にし、手で回したサーボを強調表示。終了時にトルクを元に戻す"},
      .store = into<&MonitorOptions::identify>},
 };
 

@@ -19,7 +19,7 @@ inline constexpr Text monitor_keys_log{
 inline constexpr Text monitor_keys_one{"q quit   Esc table   p pause   ? help",
                                        "q 終了   Esc 一覧   p 一時停止   ? ヘルプ"};
 
-inline constexpr Text monitor_angle{"ANGLE", "舵角"};
+inline constexpr Text monitor_angle{"ANGLE", "角度"};
 inline constexpr Text monitor_speed{"SPEED", "速度"};
 inline constexpr Text monitor_torque{"TORQUE", "トルク"};
 inline constexpr Text monitor_temperature{"TEMP", "温度"};
@@ -43,7 +43,7 @@ inline constexpr Text monitor_gone{"interface gone: waiting", "インターフ�
 inline constexpr Text monitor_away{"{}: waiting for it", "{}。復帰を待っています"};
 inline constexpr Text monitor_back{"{} is back", "{} が復帰しました"};
 inline constexpr Text monitor_identifies{"torque off: turn a horn by hand",
-                                         "トルク OFF: ホーンを手で回して下さい"};
+                                         "トルク OFF: 手で回して下さい"};
 inline constexpr Text moved_unwatched{"whether a servo moved is watched with --identify only",
                                       "moved は --identify 指定時のみ使用できます"};
 inline constexpr Text moved_unwatched_hint{
@@ -52,7 +52,7 @@ inline constexpr Text moved_unwatched_hint{
 
 inline constexpr Text identify_question{
     "They have no torque until the command ends, then it comes back.\n",
-    "コマンド終了までトルクが OFF になり、終了時に元へ戻ります。\n"};
+    "このコマンドの終了まで上記サーボのトルクが OFF になり、終了時に元に戻ります。\n"};
 inline constexpr Text identify_begun{
     "torque is off at {} servos ({}): turn a horn by hand",
     "サーボ {} 台 ({}) のトルクを OFF にしました。ホーンを手で回して下さい"};
@@ -62,16 +62,17 @@ inline constexpr Text identify_back{"Torque comes back at {} servos ({}): hands 
                                     "サーボ {} 台 ({}) のトルクが元に戻ります。手を離して下さい。"};
 inline constexpr Text identify_enter{" Enter: ", " Enter で続行: "};
 inline constexpr Text identify_in_time{" 10 s at most (Ctrl-C again: not at all)",
-                                       " 最大 10 秒 (もう一度 Ctrl-C で中止)"};
+                                       " 最大 10 秒 (もう一度 Ctrl-C を押すと元に戻しません)"};
 inline constexpr Text identify_done{"{} servos have the torque that they had before ({})",
-                                    "サーボ {} 台のトルクを元に戻しました ({})"};
-inline constexpr Text identify_done_hint{"their torque is as it was", "トルクは元に戻しました"};
+                                    "サーボ {} 台 ({}) のトルクは元の状態に戻りました"};
+inline constexpr Text identify_done_hint{"their torque is as it was",
+                                         "トルクは元の状態に戻りました"};
 inline constexpr Text identify_not_done_hint{"see below whose torque was not put back",
                                              "トルクを元に戻せなかったサーボは次の通りです"};
 
 inline constexpr Text sort_node{"node ID", "ノード ID"};
 inline constexpr Text sort_state{"state", "状態"};
-inline constexpr Text sort_angle{"angle", "舵角"};
+inline constexpr Text sort_angle{"angle", "角度"};
 inline constexpr Text sort_temperature{"temperature", "温度"};
 inline constexpr Text sort_voltage{"voltage", "電圧"};
 
@@ -85,12 +86,12 @@ inline constexpr Text monitor_help{
     "+, -           a log is played faster, slower\n"
     "?              this help",
     "q、Ctrl-C      終了\n"
-    "↑、↓、k、j     サーボを選択 (PgUp、PgDn、Home、End で移動)\n"
+    "↑、↓、k、j     サーボを選択 (PgUp、PgDn、Home、End で大きく移動)\n"
     "Enter          選択したサーボのグラフ (直近 60 秒)\n"
     "Esc、Backspace 一覧に戻る\n"
-    "s              並べ替え (ノード ID、状態、舵角、温度、電圧)\n"
+    "s              並べ替え (ノード ID、状態、角度、温度、電圧)\n"
     "p、スペース    一時停止 (表示を保持、受信は継続。ログは再生停止)\n"
-    "+、-           ログの再生速度を変更\n"
+    "+、-           ログの再生速度を上げる、下げる\n"
     "?              このヘルプ"};
 
 inline constexpr Text graph_range{"last {} s   now {}   min {}   max {}",
