@@ -251,7 +251,7 @@ complete -c blactl -n __blactl_needs_command -a sim -d 'simulated servos: serves
 complete -c blactl -s i -l interface -r -f -a '(__blactl_interface)' -d 'can0, slcan:DEV, mcast:N, sim:, sim:SCENARIO.json, replay:FILE, file:FLEET.json (default: the only CAN interface that is up)'
 complete -c blactl -s n -l node -r -f -a '(__blactl_nodes)' -d 'servos'
 complete -c blactl -s j -l json -d 'output as one JSON document; streams'
-complete -c blactl -l csv -d 'output as CSV (scan, get)'
+complete -c blactl -l csv -d 'output as CSV (scan, get, monitor, command)'
 complete -c blactl -s q -l quiet -d 'no notes on stderr'
 complete -c blactl -s v -l verbose -d 'on stderr'
 complete -c blactl -l color -r -f -a 'auto always never' -d 'colour of states, warnings and errors'

@@ -99,7 +99,8 @@ struct Traits {
   bool streams = false;      ///< prints one object a line while it runs
   bool tables = false;       ///< takes --csv
   bool session = false;      ///< talks on an interface, so --record has something to write
-  bool recordings = false;   ///< answers from -i replay:FILE too
+  bool recordings = false;   ///< answers from -i replay:FILE and -i file:FLEET.json too
+  bool needs_frames = false; ///< of these two only the first, which holds frames
   bool offline = false;      ///< needs no bus at all: what is said of one is of no account
 };
 

@@ -107,7 +107,7 @@ std::vector<std::string> remarks(const Traits& traits) {
     texts.push_back(say<texts::help_writes>());
   }
   if (traits.recordings) {
-    texts.push_back(say<texts::help_recordings>());
+    texts.push_back(traits.needs_frames ? say<texts::help_logs>() : say<texts::help_recordings>());
   }
   if (traits.offline) {
     texts.push_back(say<texts::help_no_bus>());

@@ -47,6 +47,8 @@ inline constexpr Text help_from_history{"Without -n: the servos that the last co
                                         "-n 省略時の対象は、直前のコマンドで変更したサーボです。"};
 inline constexpr Text help_from_file{"FILE says which servos are meant; -n narrows it down.",
                                      "対象サーボは FILE で決まります。-n で絞り込めます。"};
+inline constexpr Text help_logs{"Also answers from a recording, -i replay:FILE.",
+                                "記録 (-i replay:FILE) からも読出しできます。"};
 inline constexpr Text help_recordings{
     "Also answers from a recording, -i replay:FILE, and from a fleet file, -i file:FLEET.json.",
     "記録 (-i replay:FILE)、フリートファイル (-i file:FLEET.json) からも読出しできます。"};

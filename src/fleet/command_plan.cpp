@@ -164,7 +164,7 @@ Result<std::vector<Waypoint>> wiggle(const Snapshot& before, Duration duration) 
                 say<texts::motion_no_room>(before.servo.id.value(), held(before, at::current_angle),
                                            held(before, at::angle_limit_ccw),
                                            held(before, at::angle_limit_cw)),
-                say<texts::motion_beyond_limits_hint>(before.servo.id.value())));
+                say<texts::motion_no_room_hint>(before.servo.id.value())));
   }
   const std::int64_t there = *angle + (goes_cw ? wiggle_decideg : -wiggle_decideg);
   const std::int64_t back = goes_cw && goes_ccw ? *angle - wiggle_decideg : *angle;

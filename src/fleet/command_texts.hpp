@@ -11,7 +11,7 @@ inline constexpr Text motion_output_off{
     "node {}: torque_output (0x20) is {}: the shaft follows no command",
     "ノード {}: torque_output (0x20) が {} のため、出力軸は指令に従いません"};
 inline constexpr Text motion_beyond_limits{
-    "node {}: {} is beyond its limits {} ({}) and {} ({}): it would stop there",
+    "node {}: {} is beyond its limits {} ({}) and {} ({}): it would stay at the limit",
     "ノード {}: {} は制限 {} ({}) ～ {} ({}) の範囲外です。指令しても制限値にとどまります"};
 inline constexpr Text motion_beyond_limits_hint{
     "command less, or see the limits: blactl get -n {} --group limit",
@@ -26,9 +26,10 @@ inline constexpr Text motion_outside_hint{
 inline constexpr Text motion_no_room{
     "node {}: at {} its limits {} and {} leave no room to wiggle",
     "ノード {}: 現在角度 {} では、動作角度制限 {} ～ {} の範囲内に往復動作の余裕がありません"};
+inline constexpr Text motion_no_room_hint{"see the limits: blactl get -n {} --group limit",
+                                          "制限の確認: blactl get -n {} --group limit"};
 inline constexpr Text motion_timeout_short{
-    "node {}: timeout_time (0x27) is {}: commands cannot follow one another twice as fast over a "
-    "bus",
+    "node {}: timeout_time (0x27) is {}: no bus carries a command in every half of that",
     "ノード {}: timeout_time (0x27) が {} のため、その半分以下の周期で指令を送信できません"};
 inline constexpr Text motion_not_exact{
     "ArrayCommand cannot tell {}: it carries half-precision numbers, the nearest is {}",
@@ -63,7 +64,8 @@ inline constexpr Text motion_question_torque{
     "This pushes the shaft of node {} with {} for {} s, from {} on. Then it is stopped; {}.\n",
     "ノード {} の出力軸に {} のトルクを {} 秒間加えます (現在角度 {})。その後停止します。{}。\n"};
 inline constexpr Text motion_question_wiggle{
-    "This moves the shaft of node {} to and fro by {} for {} s, around {}. Then it is held there; "
+    "This moves the shaft of node {} to and fro by up to {} for {} s, around {}. Then it is held "
+    "there; "
     "{}.\n",
     "ノード {} の出力軸を ±{} 以内で {} 秒間往復させます (現在角度 {})。"
     "その後、元の角度で保持します。"
@@ -85,7 +87,7 @@ inline constexpr Text motion_then_brake{
     "最後の指令から {} 経過するとブレーキ状態になります (brake)"};
 
 inline constexpr Text motion_then_unknown{
-    "what it does without commands its ROM says, which is not known",
+    "its ROM says what it does without commands, and that is not known",
     "指令が途絶えた場合の動作は ROM の設定によります (内容は不明)"};
 
 // How it ended.
@@ -95,8 +97,8 @@ inline constexpr Text motion_silent{"node {}: it does not answer any more while 
 inline constexpr Text motion_restarted{"node {}: it restarted while it was commanded",
                                        "ノード {}: 指令中に再起動しました"};
 inline constexpr Text motion_restarted_hint{
-    "look at its supply; how often it has restarted: blactl monitor -n {}",
-    "電源を確認して下さい。再起動回数の確認: blactl monitor -n {}"};
+    "look at its supply; whether it restarts again: blactl monitor -n {}",
+    "電源を確認して下さい。再起動の有無の確認: blactl monitor -n {}"};
 inline constexpr Text motion_not_repeated{
     "node {}: no command went out for {} ms: the servo's own timeout has acted meanwhile",
     "ノード {}: {} ms の間、指令を送信できず、その間にサーボの通信タイムアウトが動作しました"};
@@ -124,8 +126,8 @@ inline constexpr Text motion_newcomer{
     "node {} appeared while servo ID {} was commanded by ArrayCommand: it may have moved as well",
     "ArrayCommand でサーボ ID {1} に指令中に、ノード {0} が現れました。"
     "このノードも動作した可能性があります"};
-inline constexpr Text motion_not_reached{"node {}: it was to be at {}, and is at {}",
-                                         "ノード {}: 指令角度 {} に対し、実際の角度は {} です"};
+inline constexpr Text motion_not_reached{"node {}: it was to be at {}, and is held at {}",
+                                         "ノード {}: 指令角度 {} に到達せず、{} で保持しています"};
 inline constexpr Text motion_not_turned{
     "node {}: it was commanded {}, and did not come to half of that",
     "ノード {}: {} を指令しましたが、その半分の速度に達しませんでした"};

@@ -190,7 +190,7 @@ TEST_CASE("a shaft that is stuck is no success") {
       "events":[{"at":"0s","servo":1,"world":{"stuck":"on"}}]})");
   const Result stuck =
       bench.run({"-i", "sim:" + scenario, "command", "angle=45deg", "-n", "11", "-y"});
-  check_error(stuck, 5, "mismatch", "it was to be at 45.0 deg, and is at");
+  check_error(stuck, 5, "mismatch", "it was to be at 45.0 deg, and is held at");
 }
 
 TEST_CASE("by ArrayCommand a servo moves as by its registers, and only alone on its servo ID") {

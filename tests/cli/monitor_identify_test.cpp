@@ -59,9 +59,9 @@ TEST_CASE("the servo that a hand turns is told, and torque comes back as it was"
       bench, {"monitor", "--identify", "-y", "--json", "--duration", "12", "--record", log});
   INFO(result.err);
   CHECK(result.status == 0);
-  CHECK(contains(result.err, "torque is off at 2 servos (11, 12)"));
-  CHECK(contains(result.err, "Torque comes back at 2 servos (11, 12): hands off."));
-  CHECK(contains(result.err, "2 servos have the torque that they had before (11, 12)"));
+  CHECK(contains(result.err, "torque is off, servos: 2 (11, 12)"));
+  CHECK(contains(result.err, "Torque comes back, servos: 2 (11, 12). Hands off."));
+  CHECK(contains(result.err, "torque is as it was before, servos: 2 (11, 12)"));
   std::vector<int> moved;
   std::size_t samples = 0;
   for (const auto& line : json_lines(result.out)) {
@@ -104,7 +104,7 @@ TEST_CASE("where torque is off already nobody is asked, and nothing is written")
   const Result result = airframe().run({"monitor", "--identify", "-n", "13", "--duration", "1"});
   CHECK(result.status == 0);
   CHECK(contains(result.err, "no servo had torque"));
-  CHECK_FALSE(contains(result.err, "hands off"));
+  CHECK_FALSE(contains(result.err, "Hands off"));
 }
 
 TEST_CASE("what cannot be written to is refused") {
@@ -130,7 +130,7 @@ TEST_CASE("whatever signal ends it, torque comes back") {
     INFO(ended.err);
     CHECK(ended.status == 128 + signal);
     CHECK(contains(ended.err, "10 s at most"));
-    CHECK(contains(ended.err, "their torque is as it was"));
+    CHECK(contains(ended.err, "no torque is left off by this command"));
     CHECK(outputs(bench) == std::vector<std::string>{"on", "brake", "off"});
     CHECK(json(bench.run({"undo", "-i", "sim:", "--list", "--json"}).out)["snapshots"].empty());
   }
@@ -141,7 +141,7 @@ TEST_CASE("a second Ctrl-C ends it at once, and says what to type") {
   const Background sim(bench, {"sim", airframe().write(bench), "--clock", "real"});
   Background monitor(bench, in_the_background, {}, "\"node_id\":13");
   REQUIRE(kill(monitor.pid(), SIGINT) == 0);
-  monitor.expect("hands off");
+  monitor.expect("Hands off");
   const Result ended = monitor.stop(SIGINT);
   CHECK(ended.status == 130);
   CHECK(contains(ended.err, "blactl set torque_output=on -n 11"));
@@ -171,5 +171,5 @@ TEST_CASE("a servo that has gone is an error with what to type, the others are a
   CHECK(result.status == 6);
   CHECK(codes(result) == std::vector<std::string>{"timeout"});
   CHECK(contains(result.err, "blactl set torque_output=on -n 11"));
-  CHECK(contains(result.err, "before (12)"));
+  CHECK(contains(result.err, "before, servos: 1 (12)"));
 }

@@ -219,7 +219,7 @@ Report execute(const TraceOptions& options, Context& context) {
 
 constinit const Command commands::trace{
     .name = "trace",
-    .traits = {.streams = true, .session = true, .recordings = true},
+    .traits = {.streams = true, .session = true, .recordings = true, .needs_frames = true},
     .help = {"every DroneCAN transfer decoded, live or from a candump log; sends nothing",
              "全 DroneCAN 転送をデコードして表示 (バスまたは candump ログ。送信なし)"},
     .options = trace_options,

@@ -42,8 +42,7 @@ inline constexpr Text monitor_played_out{"end of the log", "ログの終わり"}
 inline constexpr Text monitor_gone{"interface gone: waiting", "インターフェース切断: 復帰待ち"};
 inline constexpr Text monitor_away{"{}: waiting for it", "{}。復帰を待っています"};
 inline constexpr Text monitor_back{"{} is back", "{} が復帰しました"};
-inline constexpr Text monitor_identifies{"torque off: turn a horn by hand",
-                                         "トルク OFF: 手で回して下さい"};
+inline constexpr Text monitor_identifies{"turn a horn by hand", "手で回して下さい"};
 inline constexpr Text moved_unwatched{"whether a servo moved is watched with --identify only",
                                       "moved は --identify 指定時のみ使用できます"};
 inline constexpr Text moved_unwatched_hint{
@@ -54,19 +53,19 @@ inline constexpr Text identify_question{
     "They have no torque until the command ends, then it comes back.\n",
     "このコマンドの終了まで上記サーボのトルクが OFF になり、終了時に元に戻ります。\n"};
 inline constexpr Text identify_begun{
-    "torque is off at {} servos ({}): turn a horn by hand",
+    "torque is off, servos: {} ({}). Turn a horn by hand",
     "サーボ {} 台 ({}) のトルクを OFF にしました。ホーンを手で回して下さい"};
 inline constexpr Text identify_nothing{"no servo had torque: nothing was changed",
                                        "トルク ON のサーボがないため、何も変更していません"};
-inline constexpr Text identify_back{"Torque comes back at {} servos ({}): hands off.",
+inline constexpr Text identify_back{"Torque comes back, servos: {} ({}). Hands off.",
                                     "サーボ {} 台 ({}) のトルクが元に戻ります。手を離して下さい。"};
 inline constexpr Text identify_enter{" Enter: ", " Enter で続行: "};
 inline constexpr Text identify_in_time{" 10 s at most (Ctrl-C again: not at all)",
                                        " 最大 10 秒 (もう一度 Ctrl-C を押すと元に戻しません)"};
-inline constexpr Text identify_done{"{} servos have the torque that they had before ({})",
+inline constexpr Text identify_done{"torque is as it was before, servos: {} ({})",
                                     "サーボ {} 台 ({}) のトルクは元の状態に戻りました"};
-inline constexpr Text identify_done_hint{"their torque is as it was",
-                                         "トルクは元の状態に戻りました"};
+inline constexpr Text identify_done_hint{"no torque is left off by this command",
+                                         "このコマンドで OFF にしたトルクは残っていません"};
 inline constexpr Text identify_not_done_hint{"see below whose torque was not put back",
                                              "トルクを元に戻せなかったサーボは次の通りです"};
 
