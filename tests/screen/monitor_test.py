@@ -117,7 +117,7 @@ def identifying(blactl):
         terminal.run("monitor", "--identify")
         terminal.shows("Go on? [y/N]")
         terminal.type("y", "Enter")
-        terminal.shows("torque off: turn a horn by hand")
+        terminal.shows("turn a horn by hand")
         lines = terminal.shows("<< TURNED")  # which is beyond the screen, until it turns
         require(any(line.split()[:1] == ["40"] and "TURNED" in line for line in lines),
                 "another row", lines)
@@ -125,9 +125,9 @@ def identifying(blactl):
             lambda lines: any(line.split()[:1] == ["2"] and "TURNED" in line for line in lines),
             "the second one")
         terminal.type("q")
-        terminal.shows("hands off. Enter:")
+        terminal.shows("Hands off. Enter:")
         terminal.type("Enter")
-        terminal.shows("have the torque that they had before")
+        terminal.shows("torque is as it was before")
         terminal.run("get", "torque_output", "-n", "1,40", "--csv", "|", "grep", "-c", ",on,")
         terminal.wait_for(lambda lines: "2" in lines, "torque is not on")
 
@@ -139,7 +139,7 @@ def playing(blactl):
         terminal.wait_for(lambda lines: len(rows_of(lines)) == 2, "no table")
         terminal.shows_no_more("STATE")
         begin = time.monotonic()
-        terminal.type(f"{terminal.blactl} -i replay:{log} monitor", "Enter")
+        terminal.shell(f"{terminal.blactl} -i replay:{log} monitor")
         terminal.shows("log: 2 s")
         require(time.monotonic() - begin > 1, "too fast")
         terminal.type("p")
@@ -163,7 +163,7 @@ def playing(blactl):
 def ends(blactl):
     for end in ("TERM", "INT", "quit"):
         with Terminal(blactl, fleet(1), 80, 24) as terminal:
-            terminal.type("stty -a | cksum", "Enter")
+            terminal.shell("stty -a | cksum")
             before = terminal.wait_for(lambda lines: any(line[:1].isdigit() for line in lines),
                                        "no checksum")
             checksum = next(line for line in before if line[:1].isdigit())
@@ -175,13 +175,13 @@ def ends(blactl):
                 for pid in terminal.processes():
                     os.kill(pid, getattr(signal, f"SIG{end}"))
             terminal.shows_no_more("STATE")
-            terminal.type("clear; stty -a | cksum", "Enter")
+            terminal.shell("clear; stty -a | cksum")
             terminal.shows(checksum)
 
 
 def stopping(blactl):
     with Terminal(blactl, fleet(1), 80, 24) as terminal:
-        terminal.type("set -m", "Enter")
+        terminal.shell("set -m")
         terminal.run("monitor")
         terminal.shows("STATE")
         terminal.type("C-z")
@@ -213,7 +213,7 @@ def closed_terminal(blactl):
 
 def other_terminals(blactl):
     with Terminal(blactl, fleet(1), 100, 24) as terminal:
-        terminal.type("TERM=dumb ")
+        terminal.shell("export TERM=dumb; clear")
         terminal.run("monitor", "--count", "2")
         terminal.shows("needs that: lines instead")
         terminal.shows("angle_deg")

@@ -54,9 +54,14 @@ class Terminal:
     def type(self, *keys):
         self.tmux("send-keys", *keys)
 
+    def shell(self, line):
+        """Types a line at the prompt: what is typed before it stands in front of it."""
+        self.wait_for(lambda lines: "".join(lines).rstrip()[-1:] in ("$", "#"), "no prompt")
+        self.type(line, "Enter")
+
     def run(self, *words):
         """Types a command of blactl."""
-        self.type(" ".join([self.blactl, "-i", "sim:", *words]), "Enter")
+        self.shell(" ".join([self.blactl, "-i", "sim:", *words]))
 
     def lines(self):
         return self.tmux("capture-pane", "-p").split("\n")[:-1]
