@@ -72,7 +72,10 @@ def shares_servo_id(step):
 
 
 def check_conflicts(outcome, document, step):
-    """Every node ID that two servos shared for long enough is told, of those that were heard."""
+    """Every node ID that two servos shared for long enough is told, of those that were heard: not
+    where the look ended early, which is told then."""
+    if any(finding["code"] == "bus_off" for finding in document["findings"]):
+        return
     told = {finding["node_id"] for finding in document["findings"]
             if finding["code"] == "duplicate_node_id"}
     for serial, state in step.after.items():

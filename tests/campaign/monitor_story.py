@@ -31,6 +31,9 @@ def check(outcome, step, defaults, alone):
         if line["serial_number"] is not None:
             story.check_identity(line, step)
             last[line["serial_number"]] = line
+        else:  # not known, or not any more: what an earlier line told of a unit there is over
+            last = {serial: told for serial, told in last.items()
+                    if told["node_id"] != line["node_id"]}
     if not alone:
         return
     require(not outcome.record.changes(), "it has sent what changes a servo")
