@@ -10,14 +10,19 @@ inline constexpr Text torque_not_back{"node {}: torque was not put back: {}",
 inline constexpr Text torque_back_hint{"to put it back: blactl set {}={} -n {}",
                                        "元に戻すには: blactl set {}={} -n {}"};
 inline constexpr Text torque_not_in_time{"interrupted", "中断されました"};
-inline constexpr Text torque_restarted{
-    "node {} restarted meanwhile: its ROM decides about its torque, it is left as it is",
-    "ノード {} は途中で再起動したため、トルクは ROM の設定に従います (変更しません)"};
+inline constexpr Text torque_changed{
+    "node {}: {} is {} now, not as a moment ago: nothing was changed",
+    "ノード {}: {} が直前の値から {} に変わっているため、何も変更していません"};
+inline constexpr Text torque_differs{"{}, and was {} before", "{} (元の値: {})"};
+inline constexpr Text torque_is{"node {}: {} is {} now", "ノード {}: {} は現在 {} です"};
+inline constexpr Text torque_restarted{"node {} restarted meanwhile: {} is {} now",
+                                       "ノード {} は途中で再起動しました。{} は現在 {} です"};
 inline constexpr Text torque_of_another{
     "node {} is another servo now: its torque is left as it is",
     "ノード {} は別のサーボに替わったため、トルクは変更しません"};
+inline constexpr Text torque_of_another_hint{"see what is there: blactl scan", "確認: blactl scan"};
 inline constexpr Text torque_set_by_another{
-    "node {}: another node has set {} to {} meanwhile: it is left as it is",
-    "ノード {}: 途中で別ノードが {} を {} に設定したため、変更しません"};
+    "node {}: node {} has written to it meanwhile: {} is {} now",
+    "ノード {}: 途中でノード {} が書き込みました。{} は現在 {} です"};
 
 } // namespace blactl::texts

@@ -93,7 +93,7 @@ bool open(Context& context, Report& report) {
   return true;
 }
 
-void identify(const MonitorManner& manner, const fleet::Targets& targets, Context& context,
+void identify(MonitorManner manner, const fleet::Targets& targets, Context& context,
               Report& report) {
   Identify identified(context, report);
   if (!identified.begin(targets)) {
@@ -103,7 +103,8 @@ void identify(const MonitorManner& manner, const fleet::Targets& targets, Contex
     }
     return report.count_targets();
   }
-  MonitorRun run(manner, targets, context, report);
+  manner.holding = identified.holding();
+  MonitorRun run(std::move(manner), targets, context, report);
   run.run();
   identified.end(run.was_quit());
   run.conclude(identified.errors());
@@ -125,20 +126,20 @@ Report execute(const MonitorOptions& options, Context& context) {
     report.fail(fields.error());
     return report;
   }
-  const MonitorManner manner{.fields = std::move(*fields),
-                             .period = options.period(),
-                             .duration = options.duration,
-                             .count = options.count,
-                             .identifies = options.identify};
+  MonitorManner manner{.fields = std::move(*fields),
+                       .period = options.period(),
+                       .duration = options.duration,
+                       .count = options.count,
+                       .identifies = options.identify};
   context.wait_for_return();
   const Reporter& reporter = context.reporter();
   if (reporter.format() == Format::text && reporter.has_screen()) {
     context.play_at_pace();
   }
   if (options.identify) {
-    identify(manner, *targets, context, report);
+    identify(std::move(manner), *targets, context, report);
   } else if (open(context, report)) {
-    MonitorRun run(manner, std::move(*targets), context, report);
+    MonitorRun run(std::move(manner), std::move(*targets), context, report);
     run.run();
     run.conclude({});
   }

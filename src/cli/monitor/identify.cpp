@@ -25,7 +25,7 @@ bool Identify::begin(fleet::Targets targets) {
     targets.given = targets.all = true;
   }
   const bool is_agreed = open("monitor --identify", Recording::if_possible) && select(targets) &&
-                         plan() && hear() && check() && confirm() && check();
+                         plan() && hear() && check() && confirm() && look_again() && check();
   if (!is_agreed && report_.signal != 0) {
     hint_interruption(say<texts::nothing_written_hint>());
   }
@@ -82,10 +82,19 @@ bool Identify::confirm() {
   return changes.empty() || WritingRun::confirm(changes + say<texts::identify_question>());
 }
 
+/// What was agreed to is not what another node has made of it meanwhile.
+bool Identify::look_again() {
+  release_.emplace(context_.session(), context_.known(), context_.identification());
+  auto errors = release_->look_again(plans_);
+  if (context_.signal() != 0) {
+    return broken(fleet::interrupted_by(context_.signal()));
+  }
+  errors_ = std::move(errors);
+  return errors_.empty();
+}
+
 bool Identify::let_go() {
-  fleet::Session& session = context_.session();
-  session.set_grace(fleet::Session::put_back_grace);
-  release_.emplace(session, context_.known(), context_.identification());
+  context_.session().set_grace(fleet::Session::put_back_grace);
   const auto carried_out = release_->let_go(plans_, manner({}, false));
   const Reporter& reporter = context_.reporter();
   for (const fleet::ChangeResult& result : carried_out.servos) {
@@ -99,10 +108,24 @@ bool Identify::let_go() {
   if (carried_out.broken) {
     return broken(*carried_out.broken);
   }
-  const auto loose = release_->servos();
-  reporter.note(loose.empty() ? say<texts::identify_nothing>()
-                              : say<texts::identify_begun>(loose.size(), short_list(loose)));
-  return errors_.size() < servos_.size();
+  if (const auto loose = release_->loose(); !loose.empty()) {
+    reporter.note(say<texts::identify_begun>(loose.size(), short_list(loose)));
+    return true;
+  }
+  if (errors_.empty()) {
+    reporter.note(say<texts::identify_nothing>());
+  }
+  return errors_.empty();
+}
+
+std::vector<dronecan::NodeId> Identify::holding() const {
+  std::vector<dronecan::NodeId> ids;
+  for (const Error& error : errors_) {
+    if (error.node_id) {
+      ids.emplace_back(*error.node_id);
+    }
+  }
+  return ids;
 }
 
 void Identify::end(bool may_ask) {

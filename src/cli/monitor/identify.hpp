@@ -24,6 +24,9 @@ class Identify : WritingRun {
   /// be asked to take the hands away.
   void end(bool may_ask);
 
+  /// Those that are meant and kept their torque, as far as is known.
+  [[nodiscard]] std::vector<dronecan::NodeId> holding() const;
+
   /// What went wrong at single servos.
   [[nodiscard]] const std::vector<Error>& errors() const { return errors_; }
 
@@ -32,6 +35,7 @@ class Identify : WritingRun {
   bool plan();
   bool check();
   bool confirm();
+  bool look_again();
   bool let_go();
   [[nodiscard]] bool warn(bool may_ask);
   void conclude(fleet::GivenBack given);

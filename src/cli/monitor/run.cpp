@@ -3,6 +3,7 @@
 #include "blactl/fleet/guard.hpp"
 
 #include "cli/monitor/texts.hpp"
+#include "cli/output/progress_view.hpp"
 #include "cli/texts.hpp"
 
 #include <algorithm>
@@ -93,7 +94,10 @@ void MonitorRun::tell_state() {
     state.push_back({"  " + say<texts::monitor_gone>(), Look::bad});
   }
   if (manner_.identifies) {
-    state.push_back({"  " + say<texts::monitor_identifies>(), Look::warning});
+    const std::string holding = manner_.holding.empty()
+                                    ? std::string()
+                                    : say<texts::monitor_holding>(short_list(manner_.holding));
+    state.push_back({"  " + say<texts::monitor_identifies>() + holding, Look::warning});
   }
   view_->tell(std::move(state));
   view_->draw(session.now());

@@ -22,8 +22,9 @@ struct MonitorManner {
   SampleFields fields{};
   Duration period{}; ///< of a sample
   std::optional<Duration> duration{};
-  std::optional<std::uint64_t> count{}; ///< of samples
-  bool identifies = false;              ///< servos are turned by hand
+  std::optional<std::uint64_t> count{};    ///< of samples
+  bool identifies = false;                 ///< servos are turned by hand
+  std::vector<dronecan::NodeId> holding{}; ///< those of them that have torque all the same
 };
 
 class MonitorRun {

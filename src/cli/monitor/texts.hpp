@@ -43,6 +43,7 @@ inline constexpr Text monitor_gone{"interface gone: waiting", "インターフ�
 inline constexpr Text monitor_away{"{}: waiting for it", "{}。復帰を待っています"};
 inline constexpr Text monitor_back{"{} is back", "{} が復帰しました"};
 inline constexpr Text monitor_identifies{"turn a horn by hand", "手で回して下さい"};
+inline constexpr Text monitor_holding{", not of {}", " ({} を除く)"};
 inline constexpr Text moved_unwatched{"whether a servo moved is watched with --identify only",
                                       "moved は --identify 指定時のみ使用できます"};
 inline constexpr Text moved_unwatched_hint{

@@ -33,6 +33,7 @@ struct Loose {
   explicit Loose(std::string_view more = "") : scene(three(more)) {
     scene.live(3s);
     const auto plans = plans_for(scene, wanted_to_let_go(profiles()), {11, 12, 13});
+    CHECK(release.look_again(plans).empty());
     CHECK(question(plans).find("node 11: torque_output") != std::string::npos);
     CHECK(question(plans).find("node 13") == std::string::npos);
     const auto carried_out = release.let_go(plans, {});
@@ -40,6 +41,28 @@ struct Loose {
       CHECK(result.is_done());
     }
     CHECK(outputs() == std::vector<std::int64_t>{1, 1, 1});
+    CHECK(release.loose() == std::vector{NodeId(11), NodeId(12)});
+  }
+
+  /// Node 40 sets 0x20 of this servo, heard or not.
+  void set_by_another(std::uint8_t id, std::int64_t output, bool is_heard) {
+    const auto plans = plans_for(
+        scene, {.assignments = assignments({fmt::format("torque_output={}", output)})}, {id});
+    REQUIRE_FALSE(carry_out(*scene.session, profiles(), plans, {}).broken);
+    if (is_heard) {
+      hear_write(id, output);
+    }
+  }
+
+  void hear_write(std::uint8_t id, std::int64_t output) const {
+    GetSet::Request request{.name = "0x20"};
+    request.value = output;
+    scene.roster().receive({.header = {.kind = dronecan::Kind::request,
+                                       .data_type_id = GetSet::type.id,
+                                       .source = NodeId(40),
+                                       .destination = NodeId(id)},
+                            .payload = request.encode().bytes(),
+                            .at = scene.session->now()});
   }
 
   [[nodiscard]] std::int64_t output(std::uint8_t id) const {
@@ -69,39 +92,102 @@ std::vector<Code> codes(const GivenBack& given) {
 TEST_CASE("each servo gets back what it held, and who was off is not touched") {
   Loose loose;
   CHECK(loose.release.servos() == std::vector{NodeId(11), NodeId(12)});
-  const std::size_t writes = loose.scene.requests(GetSet::type, 13);
+  const std::size_t asked = loose.scene.requests(GetSet::type, 13);
   const auto given = loose.release.give_back(false, nullptr);
   CHECK(given.errors.empty());
   CHECK(given.notes.empty());
   CHECK(given.servos.size() == 2);
   CHECK(loose.release.servos().empty());
-  CHECK(loose.scene.requests(GetSet::type, 13) == writes);
+  CHECK(loose.scene.requests(GetSet::type, 13) == asked + 1); // a read
   CHECK(loose.outputs() == std::vector<std::int64_t>{0, 2, 1});
 }
 
-TEST_CASE("a servo that restarted is left to its ROM") {
-  Loose loose(R"(, "events": [{"at": "6s", "servo": 1, "happens": "power_off"},
-                              {"at": "7s", "servo": 1, "happens": "power_on"}])");
-  loose.scene.live(8s);
-  const auto given = loose.release.give_back(false, nullptr);
+/// This servo has no power for a second.
+std::string restarts(int serial_number) {
+  return fmt::format(R"(, "events": [{{"at": "6s", "servo": {0}, "happens": "power_off"}},
+                                     {{"at": "7s", "servo": {0}, "happens": "power_on"}}])",
+                     serial_number);
+}
+
+TEST_CASE("a servo that restarted is left to its ROM, and that is an error if it differs") {
+  Loose same(restarts(1));
+  same.scene.live(8s);
+  const auto given = same.release.give_back(false, nullptr);
   CHECK(given.errors.empty());
   REQUIRE(given.notes.size() == 1);
-  CHECK(given.notes[0].find("node 11 restarted") == 0);
-  CHECK(loose.outputs() == std::vector<std::int64_t>{0, 2, 1});
+  CHECK(given.notes[0] == "node 11 restarted meanwhile: torque_output is on now");
+  CHECK(given.servos.size() == 2);
+  CHECK(same.outputs() == std::vector<std::int64_t>{0, 2, 1});
+
+  for (const int serial_number : {2, 3}) { // brake before, off before: on by their ROM
+    Loose other(restarts(serial_number));
+    other.scene.live(8s);
+    const auto differs = other.release.give_back(false, nullptr);
+    REQUIRE(codes(differs) == std::vector{Code::state});
+    CHECK(differs.errors[0].message ==
+          fmt::format("node {} restarted meanwhile: torque_output is on now, and was {} before",
+                      10 + serial_number, serial_number == 2 ? "brake" : "off"));
+    CHECK(other.output(static_cast<std::uint8_t>(10 + serial_number)) == 0);
+  }
 }
 
-TEST_CASE("what somebody else has set meanwhile stays") {
+TEST_CASE("what somebody else has set meanwhile stays, and is told as it is") {
   const std::int64_t there = GENERATE(0, 2);
+  Loose unheard;
+  unheard.set_by_another(11, there, false);
+  unheard.set_by_another(12, there, false);
+  const auto given = unheard.release.give_back(false, nullptr);
+  CHECK(given.notes.empty());
+  REQUIRE(codes(given) == std::vector{Code::state});
+  CHECK(given.errors[0].node_id == (there == 0 ? 12 : 11));
+  CHECK(unheard.outputs() == std::vector<std::int64_t>{there, there, 1});
+}
+
+TEST_CASE("torque that another node takes is not switched on") {
   Loose loose;
-  const auto plans =
-      plans_for(loose.scene, {.assignments = assignments({fmt::format("torque_output={}", there)})},
-                {11, 12});
-  REQUIRE_FALSE(carry_out(*loose.scene.session, profiles(), plans, {}).broken);
+  loose.hear_write(11, 1);
   const auto given = loose.release.give_back(false, nullptr);
+  REQUIRE(codes(given) == std::vector{Code::state});
+  CHECK(
+      given.errors[0].message ==
+      "node 11: node 40 has written to it meanwhile: torque_output is off now, and was on before");
+  CHECK(given.servos == std::vector{NodeId(12)});
+  CHECK(loose.outputs() == std::vector<std::int64_t>{1, 2, 1});
+
+  Loose to_another; // who had none before
+  to_another.set_by_another(13, 0, true);
+  const auto other = to_another.release.give_back(false, nullptr);
+  REQUIRE(codes(other) == std::vector{Code::state});
+  CHECK(other.errors[0].node_id == 13);
+  CHECK(to_another.outputs() == std::vector<std::int64_t>{0, 2, 0});
+}
+
+TEST_CASE("what another node has changed before the yes is not agreed to") {
+  Scene scene(three());
+  scene.live(3s);
+  TorqueRelease release(*scene.session, profiles(), {});
+  const auto plans = plans_for(scene, wanted_to_let_go(profiles()), {11, 12, 13});
+  const auto others = plans_for(scene, {.assignments = assignments({"torque_output=off"})}, {11});
+  REQUIRE_FALSE(carry_out(*scene.session, profiles(), others, {}).broken);
+  const auto errors = release.look_again(plans);
+  REQUIRE(errors.size() == 1);
+  CHECK(errors[0].code == Code::state);
+  CHECK(errors[0].node_id == 11);
+}
+
+TEST_CASE("a servo that restarts as soon as it was let go is left to its ROM, too") {
+  Scene scene(R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11,
+      "faults": {"restart_after_answer": [{"to": "write"}]}}])");
+  scene.live(3s);
+  TorqueRelease release(*scene.session, profiles(), {});
+  const auto plans = plans_for(scene, wanted_to_let_go(profiles()), {11});
+  REQUIRE_FALSE(release.let_go(plans, {}).broken);
+  scene.live(3s);
+  const auto given = release.give_back(false, nullptr);
   CHECK(given.errors.empty());
+  CHECK(given.servos == std::vector{NodeId(11)});
   REQUIRE(given.notes.size() == 1);
-  CHECK(given.notes[0].find(there == 0 ? "node 12: another" : "node 11: another") == 0);
-  CHECK(loose.outputs() == std::vector<std::int64_t>{there, there, 1});
+  CHECK(given.notes[0].find("node 11 restarted meanwhile") == 0);
 }
 
 TEST_CASE("of a servo that does not answer it is said what to type") {
