@@ -22,18 +22,21 @@ using namespace std::chrono_literals;
 
 namespace {
 
-/// How long a shaft may take to stand, and what its speed may show then, so often in a row (all
-/// unproven).
-constexpr Duration longest_stop = 1s;
+/// How long a shaft may take to stand, and how long it is looked at where few answers come; what
+/// its speed may show then, so often in a row, for so long, and how far its angle may go meanwhile,
+/// in tenths of a degree (all unproven).
+constexpr Duration longest_stop = 1s, longest_look = 3s;
 constexpr std::int64_t standing_rpm = 2;
 constexpr int standing_samples = 3;
+constexpr Duration standing_time = 150ms;
+constexpr std::int64_t most_creep = 5;
 
 constexpr int silent_in_the_end = 6;
 
 /// A servo that restarts more often meanwhile does so because of it, or of its supply.
 constexpr int most_restarts_commanded = 2;
 
-constexpr std::array timeout_registers{at::timeout_action, at::timeout_time};
+constexpr std::array end_registers{at::torque_output, at::timeout_action, at::timeout_time};
 
 } // namespace
 
@@ -53,7 +56,9 @@ Step CommandJob::finish() {
   ended_ = now_;
   unanswered_ = standing_ = 0;
   reading_ = 0;
-  sample_ = {};
+  sample_ = stood_ = {};
+  seen_.reset();
+  has_crept_ = false;
   sample_due_ = now_;
   reads_first_ = false;
   has_end_ = !plan_.is_angle();
@@ -65,11 +70,12 @@ Step CommandJob::end() {
   if (unanswered_ >= silent_in_the_end) {
     return give_up(silent_since());
   }
-  if (has_end_ && standing_ >= standing_samples) {
+  if (standing_ >= standing_samples && seen_->at - stood_.at >= standing_time) {
     phase_ = Phase::ended;
     return read_back();
   }
-  if (now_ >= ended_ + longest_stop) {
+  const bool may_stand = has_end_ && (!seen_ || standing_ > 0);
+  if (now_ >= ended_ + (may_stand ? longest_look : longest_stop)) {
     return give_up(not_standing());
   }
   return now_ >= command_due() ? command(target_) : sample();
@@ -90,40 +96,66 @@ void CommandJob::choose_end() {
   last_command_ = now_ - plan_.longest_gap; // due at once
 }
 
-bool CommandJob::stands() const {
-  const bool is_still = sample_.speed && std::abs(*sample_.speed) <= standing_rpm;
-  return is_still &&
-         (!plan_.is_angle() || (sample_.angle && is_at(plan_, *sample_.angle, target_)));
+/// Both the speed and the angle say so. A sample with an answer missing tells nothing.
+void CommandJob::watch_standing() {
+  if (!sample_.angle || !sample_.speed) {
+    return;
+  }
+  seen_ = sample_;
+  if (standing_ > 0 && std::abs(*sample_.angle - *stood_.angle) > most_creep) {
+    has_crept_ = true;
+    standing_ = 0;
+  }
+  if (standing_ == 0) {
+    stood_ = sample_;
+  }
+  standing_ = stands(sample_) ? standing_ + 1 : 0;
+}
+
+bool CommandJob::stands(const CommandSample& sample) const {
+  return std::abs(*sample.speed) <= standing_rpm &&
+         (!plan_.is_angle() || is_at(plan_, *sample.angle, target_));
 }
 
 Error CommandJob::not_standing() const {
-  const auto text = [&](std::size_t reading, const std::optional<std::int64_t>& raw) {
-    return raw ? bla::display(*plan_.readings.at(reading).parameter, *raw) : std::string("?");
+  const std::string hint = say<texts::motion_why_hint>(id());
+  if (!seen_ || (standing_ > 0 && !has_crept_)) {
+    return {Code::timeout, say<texts::motion_not_seen_standing>(id()), hint, id()};
+  }
+  const auto text = [&](std::size_t reading, std::int64_t raw) {
+    return bla::display(*plan_.readings.at(reading).parameter, raw);
   };
-  const bool is_still = sample_.speed && std::abs(*sample_.speed) <= standing_rpm;
+  const std::string angle = text(0, *seen_->angle);
+  if (std::abs(*seen_->speed) > standing_rpm) {
+    return {Code::mismatch, say<texts::motion_still_turns>(id(), text(1, *seen_->speed)), hint,
+            id()};
+  }
   return {Code::mismatch,
-          plan_.is_angle() && is_still
-              ? say<texts::motion_not_held>(id(), bla::display(*plan_.parameter, target_),
-                                            text(0, sample_.angle))
-              : say<texts::motion_still_turns>(id(), text(1, sample_.speed)),
-          say<texts::motion_why_hint>(id()), id()};
+          plan_.is_angle() && !stands(*seen_)
+              ? say<texts::motion_not_held>(id(), bla::display(*plan_.parameter, target_), angle)
+              : say<texts::motion_still_moves>(id(), angle),
+          hint, id()};
 }
 
 /// What it does from now on is told by what it holds now.
-Step CommandJob::read_timeout() {
-  at_ = At::timeout;
-  return read_register(servo_.id, timeout_registers.front(), options_.patience);
+Step CommandJob::read_settings() {
+  at_ = At::settings;
+  result_.output.reset();
+  result_.timeout.clear();
+  return read_register(servo_.id, end_registers.front(), options_.patience);
 }
 
-Step CommandJob::judge_timeout(const Outcome& outcome) {
-  const Address address = timeout_registers[result_.timeout.size()];
+Step CommandJob::judge_setting(const Outcome& outcome) {
+  std::size_t told = result_.timeout.size() + (result_.output ? 1U : 0U);
+  const Address address = end_registers.at(told);
   const auto raw = value(outcome, address);
   if (!raw) {
     return give_up(no_answer(outcome, servo_.id, servo_.identity.parameter(address)->name));
   }
-  result_.timeout[address] = *raw;
-  if (result_.timeout.size() < timeout_registers.size()) {
-    return read_register(servo_.id, timeout_registers.back(), options_.patience);
+  address == at::torque_output ? void(result_.output = *raw)
+                               : void(result_.timeout[address] = *raw);
+  if (++told < end_registers.size()) {
+    return read_register(servo_.id, end_registers.at(told), options_.patience);
   }
   at_ = At::proof;
   proof_.emplace(roster_, servo_, servo_.since, options_.patience);
@@ -142,6 +174,7 @@ Step CommandJob::recognise() {
   }
   result_.has_restarted = true;
   result_.timeout.clear();
+  result_.output.reset();
   if (++restarts_ > most_restarts_commanded) {
     return give_up(*result_.error);
   }
@@ -158,7 +191,9 @@ Step CommandJob::judge_proof(const Outcome& outcome) {
     return step;
   }
   switch (proof_->verdict()) {
-  case RunProof::Verdict::failed: return give_up(*proof_->error());
+  case RunProof::Verdict::failed:
+    return proof_->has_met_another() ? give_up_to_another(*proof_->error())
+                                     : give_up(*proof_->error());
   case RunProof::Verdict::restarted: return recognise();
   case RunProof::Verdict::too_late:
     return give_up(
@@ -170,6 +205,36 @@ Step CommandJob::judge_proof(const Outcome& outcome) {
     return why ? give_up(std::move(*why)) : finish();
   }
   result_.is_ended = true;
+  if (plan_.is_angle() && !holds(plan_, result_)) {
+    const bla::Parameter& output = *servo_.identity.parameter(at::torque_output);
+    add_error(
+        {Code::state,
+         say<texts::motion_not_holding>(id(), output.name, bla::display(output, *result_.output)),
+         say<texts::motion_not_holding_hint>(output.name, id()), id()});
+  }
+  return std::nullopt;
+}
+
+/// Beside what went wrong before.
+void CommandJob::add_error(Error error) {
+  if (!result_.error) {
+    result_.error = std::move(error);
+  } else if (result_.error->message != error.message) {
+    result_.error->message = say<texts::motion_nor_ended>(result_.error->message, error.message);
+    result_.error->hint = std::move(error.hint);
+  }
+}
+
+/// Another unit answers: that its uptime is another one tells nothing of the one that was
+/// commanded, which cannot be told anything any more.
+Step CommandJob::give_up_to_another(Error error) {
+  if (result_.has_commanded()) {
+    result_.has_restarted = false;
+    result_.error.reset();
+    error.message = say<texts::motion_not_ended>(id(), error.message);
+    error.hint = say<texts::motion_cut_hint>(after_commands(plan_, result_));
+  }
+  add_error(std::move(error));
   return std::nullopt;
 }
 
@@ -180,9 +245,8 @@ Step CommandJob::give_up(Error error) {
     error.message = say<texts::motion_not_ended>(id(), error.message);
     error.hint = say<texts::motion_not_ended_hint>(after_commands(plan_, result_), id());
   }
-  if (result_.error && result_.has_commanded() && result_.error->message != error.message) {
-    result_.error->message = say<texts::motion_nor_ended>(result_.error->message, error.message);
-    result_.error->hint = error.hint;
+  if (result_.has_commanded()) {
+    add_error(std::move(error));
   } else {
     result_.error = std::move(error);
   }

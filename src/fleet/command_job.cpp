@@ -44,7 +44,7 @@ CommandJob::CommandJob(const Roster& roster, const CommandPlan& plan, Options op
     : roster_(roster), plan_(plan), options_(std::move(options)), servo_(plan.servo()),
       conditions_(plan.conditions()) {
   for (const auto& [id, member] : roster_.members()) {
-    others_.push_back(id);
+    others_[id] = member.boots;
   }
 }
 
@@ -63,7 +63,7 @@ Step CommandJob::next(const Outcome& outcome) {
   case At::write: return judge_echo(outcome);
   case At::shown: return judge_shown(outcome);
   case At::read: return take_sample(outcome);
-  case At::timeout: return judge_timeout(outcome);
+  case At::settings: return judge_setting(outcome);
   case At::proof: break;
   }
   return judge_proof(outcome);
@@ -149,15 +149,26 @@ std::optional<Error> CommandJob::disturbed() const {
   return std::nullopt;
 }
 
-/// A node that came since an ArrayCommand is told to everybody: it may have the same servo ID.
+/// An ArrayCommand is told to everybody. Who tells its servo ID obeys it, and who came or restarted
+/// since may have it.
 std::optional<NodeId> CommandJob::newcomer() const {
+  if (!plan_.by_servo_id) {
+    return std::nullopt;
+  }
+  std::optional<NodeId> suspect;
   for (const auto& [id, member] : roster_.members()) {
-    if (plan_.by_servo_id && !state::is_tool_id(id) &&
-        std::ranges::find(others_, id) == others_.end()) {
+    if (id == servo_.id || state::is_tool_id(id)) {
+      continue;
+    }
+    if (member.actuator_id == plan_.plan.before.raw(at::servo_id)) {
       return id;
     }
+    const auto before = others_.find(id);
+    if (before == others_.end() || before->second != member.boots) {
+      suspect = id;
+    }
   }
-  return std::nullopt;
+  return suspect;
 }
 
 bool CommandJob::has_restarted() const {
@@ -166,7 +177,8 @@ bool CommandJob::has_restarted() const {
 
 Step CommandJob::go_on() {
   if (auto why = forbidden()) {
-    return give_up(std::move(*why));
+    return why->code == Code::duplicate_node_id ? give_up_to_another(std::move(*why))
+                                                : give_up(std::move(*why));
   }
   if (has_restarted()) {
     return recognise();
@@ -267,7 +279,7 @@ Step CommandJob::judge_shown(const Outcome& outcome) {
     if (!is_known) {
       return give_up(no_answer(outcome, servo_.id, plan_.parameter->name));
     }
-    return held == target_ ? read_timeout() : give_up(not_taken(held, Code::mismatch));
+    return held == target_ ? read_settings() : give_up(not_taken(held, Code::mismatch));
   }
   if (is_known && held != target_ && !plan_.by_servo_id) {
     return fail(not_taken(held, Code::refused));
@@ -328,7 +340,7 @@ void CommandJob::conclude_sample() {
     now_ = options_.now(); // whoever reads it may be slow
   }
   if (phase_ == Phase::ending && has_end_) {
-    standing_ = stands() ? standing_ + 1 : 0;
+    watch_standing();
   } else if (phase_ == Phase::ending && sample_.angle) {
     choose_end();
   }

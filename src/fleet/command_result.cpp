@@ -55,6 +55,10 @@ Error differs(const CommandPlan& plan, std::string message) {
 
 } // namespace
 
+bool holds(const CommandPlan& plan, const CommandResult& result) {
+  return result.output == plan.plan.before.raw(at::torque_output);
+}
+
 bool is_at(const CommandPlan& plan, std::int64_t angle, std::int64_t target) {
   return std::abs(angle - target) <= tolerance(plan);
 }

@@ -109,9 +109,8 @@ inline constexpr Text motion_not_taken{"node {}: {} does not take {}: {}",
                                        "ノード {}: {} に {} が反映されません ({})"};
 inline constexpr Text motion_holds{"it holds {}", "現在値 {}"};
 inline constexpr Text motion_no_value{"its answer holds no value", "応答に値がありません"};
-inline constexpr Text motion_not_ended{
-    "node {}: whether it was brought to its end is not known: {}",
-    "ノード {}: 動作を終了できたか確認できません: {}"};
+inline constexpr Text motion_not_ended{"{1}; whether node {0} was brought to its end is not known",
+                                       "{1}。ノード {0} の動作を終了できたか確認できません"};
 inline constexpr Text motion_nor_ended{"{}; and {}", "{}。さらに、{}"};
 inline constexpr Text motion_not_ended_hint{"{}; to stop it: blactl set -n {} torque_output=off",
                                             "{}。停止するには: blactl set -n {} torque_output=off"};
@@ -123,16 +122,30 @@ inline constexpr Text motion_driven{
     "ノード {}: ノード {} が途中から動作指令を送信しているため、"
     "その指令に任せ、以後は書き込んでいません"};
 inline constexpr Text motion_newcomer{
-    "node {} appeared while servo ID {} was commanded by ArrayCommand: it may have moved as well",
-    "ArrayCommand でサーボ ID {1} に指令中に、ノード {0} が現れました。"
-    "このノードも動作した可能性があります"};
+    "node {} came, restarted or tells servo ID {} since that was commanded by ArrayCommand: it may "
+    "have moved as well",
+    "ArrayCommand でサーボ ID {1} に指令中に、ノード {0} の出現、再起動、"
+    "またはサーボ ID の変更がありました。このノードも動作した可能性があります"};
 inline constexpr Text motion_not_reached{"node {}: it was to be at {}, and is held at {}",
                                          "ノード {}: 指令角度 {} に到達せず、{} で保持しています"};
 inline constexpr Text motion_not_turned{
     "node {}: it was commanded {}, and did not come to half of that",
     "ノード {}: {} を指令しましたが、その半分の速度に達しませんでした"};
-inline constexpr Text motion_not_seen{"node {}: its answers came too late to see what it did",
-                                      "ノード {}: 応答が遅く、動作を確認できませんでした"};
+inline constexpr Text motion_not_seen{
+    "node {}: what it did was not seen: its time was too short, or its answers came too late",
+    "ノード {}: 指令時間が短いか、応答が遅いため、動作を確認できませんでした"};
+inline constexpr Text motion_not_seen_standing{
+    "node {}: too few answers came to see whether it stands",
+    "ノード {}: 応答が少なく、停止を確認できませんでした"};
+inline constexpr Text motion_still_moves{
+    "node {}: it was told to stop, and its shaft still moves (it was at {})",
+    "ノード {}: 停止を指令しましたが、出力軸がまだ動いています (現在角度 {})"};
+inline constexpr Text motion_not_holding{"node {}: {} is {} now: nothing holds the shaft",
+                                         "ノード {}: {} が {} のため、出力軸は保持されていません"};
+inline constexpr Text motion_not_holding_hint{"to hold it where it is: blactl set {}=on -n {}",
+                                              "現在位置で保持するには: blactl set {}=on -n {}"};
+inline constexpr Text motion_cut_hint{"{}; to stop it: cut its supply",
+                                      "{}。停止するには電源を切って下さい"};
 inline constexpr Text motion_not_wiggled{"node {}: it was commanded to and fro, and did not move",
                                          "ノード {}: 往復動作を指令しましたが、動きませんでした"};
 inline constexpr Text motion_array_ignored{

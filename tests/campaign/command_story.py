@@ -17,7 +17,7 @@ HELD = re.compile(r"held at (-?\d+\.\d) deg")
 AFTERWARDS = re.compile(r"(\d+) ms after the last command .*?\((hold|off|brake)\)")
 ACTIONS = ["hold", "off", "brake"]
 # One of them is said wherever it was commanded.
-ENDS = ("stopped at", "held at", "is not known", "nothing more was written")
+ENDS = ("stopped at", "held at", "nothing holds it", "is not known", "nothing more was written")
 OUTPUT, CONTROL, TIMEOUT_ACTION, TIMEOUT = "0x20", "0x25", "0x26", "0x27"
 HOLD = 0
 NOT_ACTIVE = 555555555
@@ -176,7 +176,8 @@ def must_move(outcome, step):
         return False
     low, high = (before[limit] for limit in LIMITS[kind])
     value = before[ANGLE] if value is None else value
-    is_free = before[OUTPUT] == 0 and low + 60 <= value <= high - 60 if kind == "angle" else (
+    is_free = (before[OUTPUT] == 0 and low + 60 <= value <= high - 60
+               and low <= before[ANGLE] <= high) if kind == "angle" else (
         before[OUTPUT] == 0 and low <= value <= high and before[CONTROL] == 1
         and before[TIMEOUT_ACTION] != HOLD)
     return is_free and not any(before[reg] for reg in ("0x1A", "0x1B"))

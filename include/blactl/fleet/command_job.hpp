@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -52,13 +53,13 @@ class CommandJob final : public dronecan::Job {
   enum class At : std::uint8_t {
     begin,
     unit,
-    look,    ///< at what the plan rests on
-    pause,   ///< until the next command or sample is due
-    write,   ///< a command
-    shown,   ///< whether the register holds it
-    read,    ///< a sample
-    timeout, ///< what the servo does now that the commands have ended
-    proof,   ///< that it is the same, or ran on
+    look,     ///< at what the plan rests on
+    pause,    ///< until the next command or sample is due
+    write,    ///< a command
+    shown,    ///< whether the register holds it
+    read,     ///< a sample
+    settings, ///< what the servo does now that the commands have ended
+    proof,    ///< that it is the same, or ran on
   };
   enum class Phase : std::uint8_t { moving, ending, ended };
 
@@ -82,14 +83,17 @@ class CommandJob final : public dronecan::Job {
   // The end.
   [[nodiscard]] dronecan::Step finish();
   void choose_end();
-  [[nodiscard]] bool stands() const;
+  void watch_standing();
+  [[nodiscard]] bool stands(const CommandSample& sample) const;
   [[nodiscard]] Error not_standing() const;
-  [[nodiscard]] dronecan::Step read_timeout();
-  [[nodiscard]] dronecan::Step judge_timeout(const dronecan::Outcome& outcome);
+  [[nodiscard]] dronecan::Step read_settings();
+  [[nodiscard]] dronecan::Step judge_setting(const dronecan::Outcome& outcome);
   [[nodiscard]] dronecan::Step recognise();
   [[nodiscard]] dronecan::Step judge_proof(const dronecan::Outcome& outcome);
   [[nodiscard]] dronecan::Step fail(Error error);
   [[nodiscard]] dronecan::Step give_up(Error error);
+  [[nodiscard]] dronecan::Step give_up_to_another(Error error);
+  void add_error(Error error);
 
   [[nodiscard]] std::optional<Error> forbidden() const;
   [[nodiscard]] std::optional<Error> disturbed() const;
@@ -111,17 +115,20 @@ class CommandJob final : public dronecan::Job {
   Servo servo_; ///< as it was recognised last
   Phase phase_ = Phase::moving;
   At at_ = At::begin;
-  Time now_{};                             ///< when the next step is decided
-  bla::Values conditions_;                 ///< still to be looked at
-  Time looked_at_{};                       ///< when they were
-  std::vector<dronecan::NodeId> others_{}; ///< that were there when it began
+  Time now_{};                                         ///< when the next step is decided
+  bla::Values conditions_;                             ///< still to be looked at
+  Time looked_at_{};                                   ///< when they were
+  std::map<dronecan::NodeId, std::uint32_t> others_{}; ///< there when it began: their restarts
   std::int64_t target_ = 0;
   Time last_command_{};
-  bool reads_first_ = false; ///< a question is due before the next command
-  Time ended_{};             ///< when its end began
-  bool has_end_ = false;     ///< what is commanded in the end is known
-  int standing_ = 0;         ///< samples in a row
-  int unanswered_ = 0;       ///< in a row
+  bool reads_first_ = false;            ///< a question is due before the next command
+  Time ended_{};                        ///< when its end began
+  bool has_end_ = false;                ///< what is commanded in the end is known
+  std::optional<CommandSample> seen_{}; ///< the last whole one, once its end is known
+  int standing_ = 0;                    ///< samples in a row
+  CommandSample stood_{};               ///< the first of them
+  bool has_crept_ = false;              ///< at a speed that its register does not show
+  int unanswered_ = 0;                  ///< in a row
   int restarts_ = 0;
   CommandSample sample_{};
   std::size_t reading_ = 0; ///< which of 0x08-0x0A

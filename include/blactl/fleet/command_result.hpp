@@ -28,9 +28,10 @@ struct CommandResult {
   bool is_cut = false;                ///< brought to its end before its time
   bool is_shown = false;              ///< the register held what was commanded
   bool has_restarted = false;         ///< meanwhile
-  bool is_ended = false;        ///< it was brought to its end: its register and its shaft show that
-  bla::Values timeout{};        ///< 0x26 and 0x27 in the end
-  std::optional<Error> error{}; ///< why it was not carried out as planned, or not ended
+  bool is_ended = false; ///< it was brought to its end: its register and its shaft show that
+  bla::Values timeout{}; ///< 0x26 and 0x27 in the end
+  std::optional<std::int64_t> output{}; ///< 0x20 in the end
+  std::optional<Error> error{};         ///< why it was not carried out as planned, or not ended
 
   [[nodiscard]] bool has_commanded() const { return commands > 0; }
 };
@@ -38,6 +39,9 @@ struct CommandResult {
 /// What the servo does by itself now that the commands have ended (4.19): "1000 ms after the last
 /// command the output goes off".
 [[nodiscard]] std::string after_commands(const CommandPlan& plan, const CommandResult& result);
+
+/// Whether its output is on in the end as it was before, so that an angle is held.
+[[nodiscard]] bool holds(const CommandPlan& plan, const CommandResult& result);
 
 /// Whether this counts as being at an angle. unproven: within 1 deg, or its dead band and half a
 /// degree.

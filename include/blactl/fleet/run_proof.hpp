@@ -36,6 +36,11 @@ class RunProof final : public dronecan::Job {
   /// timeout, no_acknowledge, interrupted, state (it is another unit), duplicate_node_id.
   [[nodiscard]] const std::optional<Error>& error() const { return error_; }
 
+  /// Of these the last two.
+  [[nodiscard]] bool has_met_another() const {
+    return error_ && (error_->code == Code::state || error_->code == Code::duplicate_node_id);
+  }
+
  private:
   enum class At : std::uint8_t { begin, unit, later, twin };
 

@@ -111,11 +111,14 @@ bool MotionRun::show(const fleet::CommandSample& sample) {
 }
 
 bool MotionRun::print(const std::string& lines) {
-  const auto printed = context_.reporter().stream(lines);
-  if (!printed) {
-    report_.fail(printed.error());
+  if (has_reader_) {
+    const auto printed = context_.reporter().stream(lines);
+    if (!printed) {
+      report_.fail(printed.error());
+    }
+    has_reader_ = printed.value_or(false);
   }
-  return printed.value_or(false);
+  return has_reader_;
 }
 
 void MotionRun::move() {
@@ -124,10 +127,7 @@ void MotionRun::move() {
       {.patience = context_.identification().patience,
        .while_driven = context_.shared().while_driven,
        .sampled =
-           [this, reads = true](const fleet::CommandSample& sample) mutable {
-             reads = reads && show(sample);
-             return reads;
-           },
+           [this](const fleet::CommandSample& sample) { return has_reader_ && show(sample); },
        .ending = [this] { context_.reporter().note(say<texts::motion_ending>()); }}));
 }
 

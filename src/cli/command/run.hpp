@@ -38,6 +38,7 @@ class MotionRun : WritingRun {
   std::uint64_t samples_ = 0;
   Time shown_at_{};
   std::string unread_; ///< lines that stdout had no room for
+  bool has_reader_ = true;
 };
 
 } // namespace blactl::cli

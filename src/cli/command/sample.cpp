@@ -119,7 +119,8 @@ std::string motion_summary(const CommandPlan& plan, const fleet::CommandResult& 
   const std::uint8_t id = plan.servo().id.value();
   const std::string where = place(plan, result);
   std::string text =
-      plan.is_angle()
+      !fleet::holds(plan, result) ? say<texts::motion_loose>(id, where)
+      : plan.is_angle()
           ? say<texts::motion_held>(
                 id, bla::display(*plan.parameter, result.held.value_or(plan.last_target())), where)
           : say<texts::motion_stopped>(id, where);

@@ -1,5 +1,6 @@
 // A simulated servo that is commanded: what it is told, how often, and how that ends.
 
+#include "blactl/fleet/carry_out.hpp"
 #include "blactl/fleet/command_job.hpp"
 #include "blactl/fleet/command_run.hpp"
 #include "blactl/fleet/write_job.hpp"
@@ -336,6 +337,44 @@ TEST_CASE("a shaft that does not do what it is told is no success") {
     CHECK(differs->code == Code::mismatch);
     CHECK(differs->message.find(each.says) != std::string::npos);
   }
+}
+
+TEST_CASE("a shaft that nothing holds is not said to be held") {
+  const std::string members = R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11,
+      "serial_number": 1, "rom": {"soft_start": "off", "torque_output": "off"},
+      "ram": {"torque_output": "on"}}], "events": [
+      {"at": "11.5s", "servo": 1, "happens": "power_off"},
+      {"at": "11.6s", "servo": 1, "happens": "power_on"}])";
+  CommandBench bench(members);
+  const CommandPlan plan = bench.planned("command_angle=5deg", 3s);
+  const Commanded ended = bench.run(plan);
+  REQUIRE(ended.result.error);
+  CHECK(ended.result.error->code != Code::mismatch);
+  if (ended.result.is_ended) { // else it was silent for too long
+    CHECK_FALSE(holds(plan, ended.result));
+    CHECK(ended.result.error->message.find("torque_output is off") != std::string::npos);
+  }
+  CHECK(bench.read("torque_output") == 1);
+}
+
+TEST_CASE("by ArrayCommand nobody else is moved on who tells that servo ID, or restarted") {
+  const std::string members = R"("servos": [
+      {"model": "BLA21-12U-AB", "node_id": 11, "serial_number": 1, "servo_id": 3,
+       "rom": {"soft_start": "off"}},
+      {"model": "BLA21-12U-AB", "node_id": 12, "serial_number": 2, "servo_id": 3}], "events": [
+      {"at": "11.5s", "servo": 2, "happens": "power_off"},
+      {"at": "12s", "servo": 2, "happens": "power_on"}])";
+  CommandBench bench(members);
+  const auto unsaved = plans_for(bench.scene, {.assignments = assignments({"servo_id=4"})}, {12});
+  REQUIRE_FALSE(carry_out(*bench.scene.session, profiles(), unsaved, {}).broken);
+  CommandPlan plan = bench.planned("command_angle=45deg", 10s);
+  plan.by_servo_id = true;
+  CHECK_FALSE(refuse_servo_id(*bench.scene.session, profiles(), plan, {}));
+  const Commanded ended = bench.run(plan);
+  REQUIRE(ended.result.error);
+  CHECK(ended.result.error->code == Code::duplicate_servo_id);
+  CHECK(ended.result.error->message.find("node 12") != std::string::npos);
+  CHECK(ended.result.samples.back().after < 6s);
 }
 
 TEST_CASE("ArrayCommand only where nobody else may obey it") {
