@@ -152,8 +152,11 @@ Step CommandJob::judge_setting(const Outcome& outcome) {
   if (!raw) {
     return give_up(no_answer(outcome, servo_.id, servo_.identity.parameter(address)->name));
   }
-  address == at::torque_output ? void(result_.output = *raw)
-                               : void(result_.timeout[address] = *raw);
+  if (address == at::torque_output) {
+    result_.output = raw;
+  } else {
+    result_.timeout[address] = *raw;
+  }
   if (++told < end_registers.size()) {
     return read_register(servo_.id, end_registers.at(told), options_.patience);
   }
