@@ -322,7 +322,7 @@ def read_fleet(blactl, folder, document):
     return "".join(error["message"] for error in errors)
 
 
-def exported(blactl, folder):
+def exported(blactl, folder, *form):
     """What `export` writes of one servo of each model, one file for all and one for each."""
     models = json.loads(subprocess.run([blactl, "models", "--json"], capture_output=True, text=True,
                                        check=True).stdout)["models"]
@@ -332,15 +332,16 @@ def exported(blactl, folder):
     scenario.write_text(json.dumps({"schema": "blactl-scenario/1", "clock": "virtual",
                                     "servos": servos}), encoding="utf-8")
     documents = {}
-    for node in ["all", *range(1, len(models) + 1)]:
-        done = subprocess.run([blactl, "-i", f"sim:{scenario}", "export", "-n", str(node)],
+    for node in [*(() if form else ("all",)), *range(1, len(models) + 1)]:
+        done = subprocess.run([blactl, "-i", f"sim:{scenario}", "export", "-n", str(node), *form],
                               capture_output=True, text=True, timeout=60, check=True,
                               env={**os.environ, "XDG_RUNTIME_DIR": str(folder),
                                    "BLACTL_STATE_DIR": str(folder)})
         documents[f"export -n {node}"] = json.loads(done.stdout)
-    if sorted(servo["about"]["model"] for servo in documents["export -n all"]["servos"]) != sorted(
-            model["model"] for model in models):
-        raise RuntimeError("export -n all leaves models out")
+    told = ([document["model"] for document in documents.values()] if form else
+            [servo["about"]["model"] for servo in documents["export -n all"]["servos"]])
+    if sorted(told) != sorted(model["model"] for model in models):
+        raise RuntimeError("export leaves models out")
     return documents
 
 
@@ -351,6 +352,17 @@ def check_exported(source, blactl, faults):
         documents = [(name, document, True) for name, document in exported(blactl, folder).items()]
     return check_read_files("exported files", validator, documents,
                             lambda folder, document: read_fleet(blactl, folder, document), faults)
+
+
+def check_recipes(source, blactl, faults):
+    """The schema takes the examples, and what export writes for a line."""
+    validator = validator_of(source / "schemas", "recipe.schema.json")
+    recipes = {path.name: load(path) for path in (source / "tests/data/recipes").glob("*.json")}
+    with tempfile.TemporaryDirectory() as folder:
+        recipes |= exported(blactl, folder, "--recipe")
+    faults += [f"recipes: the schema refuses {name}: {error.json_path}: {error.message}"
+               for name, recipe in recipes.items() for error in validator.iter_errors(recipe)]
+    return f"{len(recipes)} recipes taken by the schema"
 
 
 def errors_of(words, folder, document):
@@ -404,6 +416,7 @@ def main(source, blactl):
         said.append(check_read_files(kind, validator_of(source / "schemas", f"{schema}.schema.json"),
                                      documents_of(examples, full, good, bad), read_with, faults))
     said.append(check_exported(source, blactl, faults))
+    said.append(check_recipes(source, blactl, faults))
     for fault in faults:
         print(fault, file=sys.stderr)
     print("; ".join(said) if not faults else "failed")

@@ -3,8 +3,8 @@
 #include "blactl/base/hex.hpp"
 #include "blactl/base/json_reader.hpp"
 
-#include "fleet/fault_text.hpp"
 #include "fleet/fleet_file_texts.hpp"
+#include "fleet/settings_reader.hpp"
 
 #include <algorithm>
 #include <span>
@@ -17,28 +17,12 @@ using dronecan::NodeId;
 
 namespace {
 
-/// A value and where it stands.
-struct Setting {
-  Assignment assignment;
-  const json::Value* where = nullptr;
-};
-
 /// An entry and where it stands.
 struct Read {
   FleetEntry entry;
   const json::Value* where = nullptr;
   std::vector<Setting> set; ///< entry.set, with its places
 };
-
-/// A number as it stands in the file: what it means is for the grammar of values to say.
-std::optional<std::string> value_text(const json::Value& value, json::Faults& faults) {
-  switch (value.kind) {
-  case json::Kind::integer: return std::to_string(value.integer);
-  case json::Kind::real:
-  case json::Kind::string: return value.text;
-  default: faults.add(value, say<texts::fleet_value_kind>()); return std::nullopt;
-  }
-}
 
 class Reader {
  public:
@@ -50,7 +34,7 @@ class Reader {
     (void)object.optional_string("$schema"); // what editors look at
     (void)object.word("schema", {fleet_schema});
     if (json::Object common = object.optional_object("common"); common.exists()) {
-      common_ = read_set(common);
+      common_ = read_settings(common.members(), profiles_, faults_);
     }
     for (const json::Value* item : object.array("servos")) {
       read_entry(*item);
@@ -74,7 +58,7 @@ class Reader {
       read.entry.match = read_match(match);
     }
     if (json::Object set = object.optional_object("set"); set.exists()) {
-      read.set = read_set(set);
+      read.set = read_settings(set.members(), profiles_, faults_);
     }
     if (json::Object about = object.optional_object("about"); about.exists()) {
       read.entry.about = read_about(about);
@@ -86,30 +70,6 @@ class Reader {
     add_common(read);
     check(read);
     entries_.push_back(std::move(read));
-  }
-
-  std::vector<Setting> read_set(json::Object& object) {
-    std::vector<Setting> settings;
-    for (const json::Value* member : object.members()) {
-      const auto text = value_text(*member, faults_);
-      auto assignment = text ? bla::make_assignment(profiles_, member->key, *text)
-                             : Result<Assignment>(std::unexpected(Error{}));
-      if (!assignment) {
-        if (text) {
-          faults_.add(*member, fault_text(assignment.error()));
-        }
-        continue;
-      }
-      const bla::Parameter* parameter = assignment->parameter;
-      if (!bla::is_setting(parameter->address)) {
-        faults_.add(*member, say<texts::fleet_no_setting>(parameter->name));
-      } else if (find(settings, parameter->address) != nullptr) {
-        faults_.add(*member, say<texts::fleet_set_twice>(parameter->name));
-      } else {
-        settings.push_back({std::move(*assignment), member});
-      }
-    }
-    return settings;
   }
 
   Match read_match(json::Object& object) {
@@ -150,13 +110,6 @@ class Reader {
     return about;
   }
 
-  static const Setting* find(std::span<const Setting> settings, bla::Address address) {
-    const auto it = std::ranges::find_if(settings, [&](const Setting& setting) {
-      return setting.assignment.parameter->address == address;
-    });
-    return it != settings.end() ? &*it : nullptr;
-  }
-
   /// What the entry says itself goes before what is said for all.
   void add_common(Read& read) const {
     for (const Setting& setting : common_) {
@@ -174,45 +127,15 @@ class Reader {
     if (read.entry.name.empty() && read.where->kind == json::Kind::object) {
       faults_.add(*read.where, say<texts::fleet_no_name>());
     }
-    check_model(read);
-    check_pwm(read);
+    if (!read.entry.match.model.empty()) {
+      check_model(read.set, profiles_.matching(read.entry.match.model), faults_);
+    }
+    check_pwm(read.set, profiles_, faults_);
     const Match& match = read.entry.match;
     if (!match.means_one()) {
       check_ids_of_many(read);
     } else if (!match.unique_id && !match.serial_number) {
       check_found_again(read);
-    }
-  }
-
-  void check_model(const Read& read) {
-    const auto models = profiles_.matching(read.entry.match.model);
-    if (read.entry.match.model.empty() || models.empty()) {
-      return;
-    }
-    for (const Setting& setting : read.set) {
-      Result<void> allowed;
-      for (const bla::Profile* model : models) {
-        allowed = bla::allowed_by_model(*model, setting.assignment);
-        if (allowed) {
-          break;
-        }
-      }
-      if (!allowed) {
-        faults_.add(*setting.where, fault_text(allowed.error()));
-      }
-    }
-  }
-
-  void check_pwm(const Read& read) {
-    const Setting* range = find(read.set, bla::address::pwm_output_range);
-    const Setting* mode = find(read.set, bla::address::pwm_mode);
-    if (range == nullptr || mode == nullptr) {
-      return;
-    }
-    if (const auto fits =
-            bla::check_pwm_unit(profiles_, range->assignment, mode->assignment.value.raw);
-        !fits) {
-      faults_.add(*range->where, fault_text(fits.error()));
     }
   }
 

@@ -6,6 +6,7 @@
 #include "blactl/bla/explain.hpp"
 #include "blactl/bla/value.hpp"
 #include "blactl/fleet/fleet_file.hpp"
+#include "blactl/fleet/recipe.hpp"
 
 #include <fmt/format.h>
 
@@ -133,7 +134,7 @@ std::string recipe_file(const Snapshot& servo) {
   std::string text;
   JsonWriter json(text, JsonWriter::Layout::pretty);
   json.begin_object();
-  json.member("schema", "blactl-recipe/1");
+  json.member("schema", recipe_schema);
   json.member("name", servo.servo.identity.model());
   json.member("model", servo.servo.identity.model());
   json.member("firmware_min", servo.servo.identity.readings().firmware_version);

@@ -102,8 +102,4 @@ struct FleetFileStyle {
 /// these servos, which were read completely, in their order.
 [[nodiscard]] std::string fleet_file(std::span<const Snapshot> servos, const FleetFileStyle& style);
 
-/// A recipe (blactl-recipe/1): the settings of one servo as those of any other of its model, so
-/// without IDs.
-[[nodiscard]] std::string recipe_file(const Snapshot& servo);
-
 } // namespace blactl::fleet

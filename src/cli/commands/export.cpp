@@ -5,6 +5,7 @@
 #include "blactl/fleet/fleet_file.hpp"
 #include "blactl/fleet/guard.hpp"
 #include "blactl/fleet/params_file.hpp"
+#include "blactl/fleet/recipe.hpp"
 
 #include "cli/commands.hpp"
 #include "cli/fleet_texts.hpp"

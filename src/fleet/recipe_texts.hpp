@@ -1,0 +1,17 @@
+#pragma once
+// What is said about recipes.
+
+#include "blactl/base/text.hpp"
+
+namespace blactl::texts {
+
+inline constexpr Text recipe_counter_of{
+    "{} is no ID: only servo_id and static_node_id are counted",
+    "{} は ID ではありません。カウンターは servo_id と static_node_id のみに指定できます"};
+inline constexpr Text recipe_counter_ends{"\"last\" is {}, below \"first\", {}",
+                                          "\"last\" ({}) が \"first\" ({}) より小さい値です"};
+inline constexpr Text recipe_counter_none{
+    "0 is no static node ID: the servo would ask for one",
+    "0 は固定ノード ID ではありません (サーボが割当てを要求します)"};
+
+} // namespace blactl::texts
