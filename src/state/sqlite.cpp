@@ -127,6 +127,11 @@ Statement& Statement::bind(std::int64_t value) {
   return *this;
 }
 
+Statement& Statement::bind_real(double value) {
+  note(sqlite3_bind_double(statement_, ++bound_, value));
+  return *this;
+}
+
 Statement& Statement::bind(std::span<const std::uint8_t> value) {
   note(sqlite3_bind_blob64(statement_, ++bound_, value.data(), value.size(), nullptr));
   return *this;
@@ -160,6 +165,14 @@ Result<void> Statement::run() {
       return {};
     }
   }
+}
+
+bool Statement::is_null(int column) const {
+  return sqlite3_column_type(statement_, column) == SQLITE_NULL;
+}
+
+double Statement::real(int column) const {
+  return sqlite3_column_double(statement_, column);
 }
 
 std::int64_t Statement::integer(int column) const {

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <chrono>
+#include <concepts>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -92,6 +93,9 @@ class Statement {
 
   /// Sets the next parameter. Bytes and text must live as long as the statement.
   Statement& bind(std::int64_t value);
+
+  Statement& bind(std::same_as<double> auto value) { return bind_real(value); } // no integer is one
+
   Statement& bind(std::span<const std::uint8_t> value);
   Statement& bind(std::string_view value);
   Statement& bind(std::nullopt_t null);
@@ -102,12 +106,16 @@ class Statement {
   /// Runs it, whatever rows it gives.
   [[nodiscard]] Result<void> run();
 
+  [[nodiscard]] bool is_null(int column) const;
   [[nodiscard]] std::int64_t integer(int column) const;
+  [[nodiscard]] double real(int column) const;
   /// Until the next step.
   [[nodiscard]] std::span<const std::uint8_t> bytes(int column) const;
   [[nodiscard]] std::string_view text(int column) const;
 
  private:
+  Statement& bind_real(double value);
+
   void note(int result) { failed_ = failed_ == SQLITE_OK ? result : failed_; }
 
   const Database& database_;

@@ -77,6 +77,27 @@ inline constexpr Text change_history{"change history", "変更履歴"};
 inline constexpr Text change_history_back{
     "a new one is begun; what is in this one `blactl undo` does not know any more",
     "履歴は新しく作成されます (これまでの変更は `blactl undo` で戻せなくなります)"};
+inline constexpr Text ledger{"ledger", "製造記録"};
+inline constexpr Text ledger_back{
+    "a new one is begun; servos that are finished by this one would be done again",
+    "製造記録は新しく作成されます (この記録で完了したサーボは再度処理されます)"};
+inline constexpr Text ledger_twice{"another record of the ledger has the record_id {}",
+                                   "record_id {} の製造記録が既に存在します"};
+inline constexpr Text counters{"table of counted IDs", "採番表"};
+inline constexpr Text counters_back{
+    "a new one is begun: counters begin with their first ID again",
+    "採番表は新しく作成されます (カウンターは最初の ID から始まります)"};
+inline constexpr Text counter_ended{"the counter of {} in the recipe {} is at its end, {}",
+                                    "レシピ {1} の {0} のカウンターは終了値 {2} に達しました"};
+inline constexpr Text counter_ended_hint{"give it more room: raise \"last\" in the recipe",
+                                         "レシピの \"last\" を大きくして下さい"};
+inline constexpr Text counter_taken{"{} {} was given to another servo before: unique ID {}",
+                                    "{} {} は別のサーボ (固有 ID {}) に割当て済みです"};
+inline constexpr Text counter_other{"this servo was given {} {} before, not {}",
+                                    "このサーボには {} {} が割当て済みです ({} ではありません)"};
+inline constexpr Text counter_taken_hint{
+    "check the label; what was given before stays given",
+    "ラベルを確認して下さい。割当て済みの ID は変更されません"};
 inline constexpr Text table_moved{"the {1} {0} was moved away or removed while it was in use",
                                   "{1} {0} が使用中に移動または削除されました"};
 inline constexpr Text table_moved_hint{"nothing was changed; run the command again",

@@ -101,6 +101,24 @@ class Child {
   int said = 0;
 };
 
+/// Several processes work at once, each with its number; whether all of them gave true.
+inline bool all_at_once(int processes, const std::function<bool(int number)>& work) {
+  for (int number = 0; number < processes; ++number) {
+    const pid_t pid = fork();
+    REQUIRE(pid >= 0);
+    if (pid == 0) {
+      _exit(work(number) ? 0 : 1);
+    }
+  }
+  bool all = true;
+  for (int i = 0; i < processes; ++i) {
+    int status = -1;
+    REQUIRE(waitpid(-1, &status, 0) > 0);
+    all = all && status == 0;
+  }
+  return all;
+}
+
 /// From here on every write of this process to a file fails: only a Child may call it.
 inline void fill_the_disk() {
   signal(SIGXFSZ, SIG_IGN); // NOLINT: the macro casts

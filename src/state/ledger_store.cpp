@@ -1,0 +1,218 @@
+#include "blactl/state/ledger_store.hpp"
+
+#include "blactl/base/rfc3339.hpp"
+
+#include "state/database_errors.hpp"
+#include "state/database_file.hpp"
+#include "state/sqlite.hpp"
+#include "state/state_file.hpp"
+#include "state/texts.hpp"
+
+#include <fmt/format.h>
+
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace blactl::state {
+
+namespace {
+
+/// "record_id, time, …": `each` makes of a column what stands for it.
+template <class Each> std::string columns(Each each) {
+  std::string text;
+  for (const LedgerColumn& column : ledger_columns) {
+    text += (text.empty() ? "" : ", ") + std::string(each(column));
+  }
+  return text;
+}
+
+std::string column_names() {
+  return columns([](const LedgerColumn& column) { return column.name; });
+}
+
+std::string_view type_of(const LedgerColumn& column) {
+  constexpr std::array types{"INTEGER", "REAL", "TEXT"};
+  return types.at(column.member.index());
+}
+
+/// `record_id`, `time` and `verdict` are always there. A whole row stands in the index once more,
+/// so the check of the file finds it if anything of it has changed.
+std::string ledger_schema() {
+  const std::string definitions = columns([](const LedgerColumn& column) {
+    const std::string definition = fmt::format("{} {}", column.name, type_of(column));
+    return column.name == "record_id" ? definition + " NOT NULL UNIQUE"
+           : column.name == "time"    ? definition + " NOT NULL"
+           : column.name == "verdict"
+               ? definition + " NOT NULL CHECK (verdict IN ('pass', 'fail', 'skip'))"
+               : definition;
+  });
+  return fmt::format("CREATE TABLE ledger (number INTEGER PRIMARY KEY, {}, UNIQUE (number, {})) "
+                     "STRICT",
+                     definitions, column_names());
+}
+
+const DatabaseFormat& ledger_format() {
+  static const DatabaseFormat format{.application_id = 0x626C616C, // "blal"
+                                     .version = 1,
+                                     .schema = ledger_schema(),
+                                     .file = "ledger.db",
+                                     .what = texts::ledger,
+                                     .way_back = texts::ledger_back};
+  return format;
+}
+
+void bind(Statement& statement, const LedgerRecord& record) {
+  for (const LedgerColumn& column : ledger_columns) {
+    std::visit(
+        [&](auto member) {
+          const auto& value = record.*member;
+          value ? statement.bind(*value) : statement.bind(std::nullopt);
+        },
+        column.member);
+  }
+}
+
+LedgerRecord record_of(const Statement& row) {
+  LedgerRecord record;
+  int place = 0;
+  for (const LedgerColumn& column : ledger_columns) {
+    std::visit(
+        [&](auto member) {
+          auto& value = record.*member;
+          using Value = typename std::remove_reference_t<decltype(value)>::value_type;
+          if (row.is_null(place)) {
+            return;
+          }
+          if constexpr (std::is_same_v<Value, std::string>) {
+            value = std::string(row.text(place));
+          } else if constexpr (std::is_same_v<Value, double>) {
+            value = row.real(place);
+          } else {
+            value = row.integer(place);
+          }
+        },
+        column.member);
+    ++place;
+  }
+  return record;
+}
+
+/// Empty: there is none.
+Result<std::optional<LedgerRecord>> find(const Database& database, const std::string& record_id) {
+  Statement statement(database, "SELECT " + column_names() + " FROM ledger WHERE record_id = ?");
+  statement.bind(record_id);
+  const auto row = statement.step();
+  if (!row) {
+    return std::unexpected(row.error());
+  }
+  return *row ? std::optional(record_of(statement)) : std::nullopt;
+}
+
+/// In the transaction of add().
+Result<void> insert(const Database& database, const LedgerRecord& record) {
+  const auto known = find(database, record.record_id.value_or(std::string()));
+  if (!known) {
+    return std::unexpected(known.error());
+  }
+  if (*known) {
+    return **known == record ? Result<void>()
+                             : fail(Code::state, say<texts::ledger_twice>(*record.record_id));
+  }
+  Statement statement(database, fmt::format("INSERT INTO ledger ({}) VALUES ({})", column_names(),
+                                            columns([](const LedgerColumn&) { return "?"; })));
+  bind(statement, record);
+  return statement.run();
+}
+
+/// The conditions of a query, and the values for them.
+class Conditions {
+ public:
+  explicit Conditions(const LedgerQuery& query) {
+    add("time >= ?", query.since ? std::optional(rfc3339(*query.since)) : std::nullopt);
+    add("time < ?", query.until ? std::optional(rfc3339(*query.until)) : std::nullopt);
+    add("verdict = ?", query.verdict);
+    add("work_order = ?", query.work_order);
+    add("unique_id = ?", query.unique_id);
+    add("recipe = ?", query.recipe);
+    if (query.serial_number) {
+      text_ += " AND serial_number = " + std::to_string(*query.serial_number);
+    }
+  }
+
+  [[nodiscard]] const std::string& text() const { return text_; }
+
+  void bind(Statement& statement) const {
+    for (const std::string& value : values_) {
+      statement.bind(value);
+    }
+  }
+
+ private:
+  void add(std::string_view condition, const std::optional<std::string>& value) {
+    if (value) {
+      text_ += fmt::format(" AND {}", condition);
+      values_.push_back(*value);
+    }
+  }
+
+  std::string text_ = "1";
+  std::vector<std::string> values_;
+};
+
+} // namespace
+
+LedgerStore::LedgerStore(std::unique_ptr<StateFile> file) : file_(std::move(file)) {}
+
+LedgerStore::LedgerStore(LedgerStore&&) noexcept = default;
+LedgerStore& LedgerStore::operator=(LedgerStore&&) noexcept = default;
+LedgerStore::~LedgerStore() = default;
+
+Result<LedgerStore> LedgerStore::open(const std::string& folder, Access access,
+                                      std::chrono::milliseconds patience) {
+  auto file = StateFile::open(folder, ledger_format(), access, patience);
+  if (!file) {
+    return std::unexpected(file.error());
+  }
+  return LedgerStore(std::make_unique<StateFile>(std::move(*file)));
+}
+
+Result<LedgerStore> LedgerStore::unshared() {
+  auto file = StateFile::unshared(ledger_format());
+  if (!file) {
+    return std::unexpected(file.error());
+  }
+  return LedgerStore(std::make_unique<StateFile>(std::move(*file)));
+}
+
+Result<void> LedgerStore::add(const LedgerRecord& record) {
+  return file_->transact([&](const Database& database) { return insert(database, record); });
+}
+
+Result<void> LedgerStore::each(const LedgerQuery& query,
+                               const std::function<bool(const LedgerRecord&)>& take) const {
+  const Database* database = file_->database();
+  if (database == nullptr) {
+    return {};
+  }
+  const Conditions conditions(query);
+  Statement statement(*database, fmt::format("SELECT {} FROM ledger WHERE {} ORDER BY number",
+                                             column_names(), conditions.text()));
+  conditions.bind(statement);
+  for (;;) {
+    const auto row = statement.step();
+    if (!row) {
+      return std::unexpected(row.error());
+    }
+    if (!*row || !take(record_of(statement))) {
+      return {};
+    }
+  }
+}
+
+const std::string& LedgerStore::path() const {
+  return file_->path();
+}
+
+} // namespace blactl::state
