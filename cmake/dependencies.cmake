@@ -26,6 +26,9 @@ if(PkgConfig_FOUND)
   # What must survive a power cut, and several processes at once. 3.37 is the first with STRICT.
   pkg_check_modules(SQLITE3 IMPORTED_TARGET QUIET sqlite3>=3.37)
   blactl_require(SQLITE3_FOUND libsqlite3-dev)
+  # Digests: what dpkg uses, small, and on every Debian.
+  pkg_check_modules(MD IMPORTED_TARGET QUIET libmd)
+  blactl_require(MD_FOUND libmd-dev)
   # The screen of monitor: every terminal, wide characters among its cells.
   pkg_check_modules(NCURSES IMPORTED_TARGET QUIET ncursesw>=6.1)
   blactl_require(NCURSES_FOUND libncurses-dev)

@@ -13,7 +13,7 @@ fi
 
 build_packages=(g++ cmake ninja-build ccache pkg-config
                 libcli11-dev nlohmann-json3-dev libfmt-dev libnl-route-3-dev
-                libsqlite3-dev zlib1g-dev libncurses-dev)
+                libsqlite3-dev zlib1g-dev libmd-dev libncurses-dev)
 
 say() {
   printf '%s\n' "$*"
