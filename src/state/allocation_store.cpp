@@ -200,19 +200,11 @@ AllocationStore::~AllocationStore() = default;
 
 Result<AllocationStore> AllocationStore::open(const std::string& folder, Access access,
                                               std::chrono::milliseconds patience) {
-  auto file = StateFile::open(folder, allocations_format(), access, patience);
-  if (!file) {
-    return std::unexpected(file.error());
-  }
-  return AllocationStore(std::make_unique<StateFile>(std::move(*file)));
+  return store_on<AllocationStore>(StateFile::open(folder, allocations_format(), access, patience));
 }
 
 Result<AllocationStore> AllocationStore::unshared() {
-  auto file = StateFile::unshared(allocations_format());
-  if (!file) {
-    return std::unexpected(file.error());
-  }
-  return AllocationStore(std::make_unique<StateFile>(std::move(*file)));
+  return store_on<AllocationStore>(StateFile::unshared(allocations_format()));
 }
 
 const std::string& AllocationStore::path() const {

@@ -171,19 +171,11 @@ CounterStore::~CounterStore() = default;
 
 Result<CounterStore> CounterStore::open(const std::string& folder, Access access,
                                         std::chrono::milliseconds patience) {
-  auto file = StateFile::open(folder, counters_format(), access, patience);
-  if (!file) {
-    return std::unexpected(file.error());
-  }
-  return CounterStore(std::make_unique<StateFile>(std::move(*file)));
+  return store_on<CounterStore>(StateFile::open(folder, counters_format(), access, patience));
 }
 
 Result<CounterStore> CounterStore::unshared() {
-  auto file = StateFile::unshared(counters_format());
-  if (!file) {
-    return std::unexpected(file.error());
-  }
-  return CounterStore(std::make_unique<StateFile>(std::move(*file)));
+  return store_on<CounterStore>(StateFile::unshared(counters_format()));
 }
 
 Result<std::vector<std::int64_t>> CounterStore::assign(const UniqueId& unique_id,

@@ -171,19 +171,11 @@ LedgerStore::~LedgerStore() = default;
 
 Result<LedgerStore> LedgerStore::open(const std::string& folder, Access access,
                                       std::chrono::milliseconds patience) {
-  auto file = StateFile::open(folder, ledger_format(), access, patience);
-  if (!file) {
-    return std::unexpected(file.error());
-  }
-  return LedgerStore(std::make_unique<StateFile>(std::move(*file)));
+  return store_on<LedgerStore>(StateFile::open(folder, ledger_format(), access, patience));
 }
 
 Result<LedgerStore> LedgerStore::unshared() {
-  auto file = StateFile::unshared(ledger_format());
-  if (!file) {
-    return std::unexpected(file.error());
-  }
-  return LedgerStore(std::make_unique<StateFile>(std::move(*file)));
+  return store_on<LedgerStore>(StateFile::unshared(ledger_format()));
 }
 
 Result<void> LedgerStore::add(const LedgerRecord& record) {

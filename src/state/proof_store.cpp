@@ -87,19 +87,11 @@ ProofStore::~ProofStore() = default;
 
 Result<ProofStore> ProofStore::open(const std::string& folder, Access access,
                                     std::chrono::milliseconds patience) {
-  auto file = StateFile::open(folder, proofs_format(), access, patience);
-  if (!file) {
-    return std::unexpected(file.error());
-  }
-  return ProofStore(std::make_unique<StateFile>(std::move(*file)));
+  return store_on<ProofStore>(StateFile::open(folder, proofs_format(), access, patience));
 }
 
 Result<ProofStore> ProofStore::unshared() {
-  auto file = StateFile::unshared(proofs_format());
-  if (!file) {
-    return std::unexpected(file.error());
-  }
-  return ProofStore(std::make_unique<StateFile>(std::move(*file)));
+  return store_on<ProofStore>(StateFile::unshared(proofs_format()));
 }
 
 Result<void> ProofStore::put(std::span<const RomProof> proofs) {

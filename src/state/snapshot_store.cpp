@@ -184,19 +184,11 @@ SnapshotStore::~SnapshotStore() = default;
 
 Result<SnapshotStore> SnapshotStore::open(const std::string& folder, Access access,
                                           std::chrono::milliseconds patience) {
-  auto file = StateFile::open(folder, snapshots_format(), access, patience);
-  if (!file) {
-    return std::unexpected(file.error());
-  }
-  return SnapshotStore(std::make_unique<StateFile>(std::move(*file)));
+  return store_on<SnapshotStore>(StateFile::open(folder, snapshots_format(), access, patience));
 }
 
 Result<SnapshotStore> SnapshotStore::unshared() {
-  auto file = StateFile::unshared(snapshots_format());
-  if (!file) {
-    return std::unexpected(file.error());
-  }
-  return SnapshotStore(std::make_unique<StateFile>(std::move(*file)));
+  return store_on<SnapshotStore>(StateFile::unshared(snapshots_format()));
 }
 
 Result<std::vector<std::int64_t>> SnapshotStore::keep(std::span<const SnapshotEntry> entries,

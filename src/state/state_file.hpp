@@ -8,6 +8,7 @@
 #include "state/sqlite.hpp"
 
 #include <chrono>
+#include <memory>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -52,5 +53,13 @@ class StateFile {
   const DatabaseFormat* format_;
   std::optional<Database> database_;
 };
+
+/// A store on this file, or why there is none.
+template <class Store> [[nodiscard]] Result<Store> store_on(Result<StateFile> file) {
+  if (!file) {
+    return std::unexpected(std::move(file.error()));
+  }
+  return Store(std::make_unique<StateFile>(std::move(*file)));
+}
 
 } // namespace blactl::state

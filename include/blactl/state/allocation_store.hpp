@@ -66,6 +66,9 @@ class AllocationStore {
   /// For a bus that no other process can reach: an empty table that ends with this object.
   [[nodiscard]] static Result<AllocationStore> unshared();
 
+  /// As open() and unshared() make it.
+  explicit AllocationStore(std::unique_ptr<StateFile> file);
+
   AllocationStore(const AllocationStore&) = delete;
   AllocationStore& operator=(const AllocationStore&) = delete;
   AllocationStore(AllocationStore&&) noexcept;
@@ -106,8 +109,6 @@ class AllocationStore {
   [[nodiscard]] const std::string& path() const;
 
  private:
-  explicit AllocationStore(std::unique_ptr<StateFile> file);
-
   std::unique_ptr<StateFile> file_;
 };
 

@@ -47,6 +47,9 @@ class CounterStore {
   /// For a bus that no other process can reach: an empty store that ends with this object.
   [[nodiscard]] static Result<CounterStore> unshared();
 
+  /// As open() and unshared() make it.
+  explicit CounterStore(std::unique_ptr<StateFile> file);
+
   CounterStore(const CounterStore&) = delete;
   CounterStore& operator=(const CounterStore&) = delete;
   CounterStore(CounterStore&&) noexcept;
@@ -65,8 +68,6 @@ class CounterStore {
                                                          WallTime now);
 
  private:
-  explicit CounterStore(std::unique_ptr<StateFile> file);
-
   std::unique_ptr<StateFile> file_;
 };
 

@@ -44,6 +44,9 @@ class LedgerStore {
   /// For a bus that no other process can reach: an empty ledger that ends with this object.
   [[nodiscard]] static Result<LedgerStore> unshared();
 
+  /// As open() and unshared() make it.
+  explicit LedgerStore(std::unique_ptr<StateFile> file);
+
   LedgerStore(const LedgerStore&) = delete;
   LedgerStore& operator=(const LedgerStore&) = delete;
   LedgerStore(LedgerStore&&) noexcept;
@@ -63,8 +66,6 @@ class LedgerStore {
   [[nodiscard]] const std::string& path() const;
 
  private:
-  explicit LedgerStore(std::unique_ptr<StateFile> file);
-
   std::unique_ptr<StateFile> file_;
 };
 

@@ -59,6 +59,9 @@ class ProofStore {
   /// For a bus that no other process can reach: an empty store that ends with this object.
   [[nodiscard]] static Result<ProofStore> unshared();
 
+  /// As open() and unshared() make it.
+  explicit ProofStore(std::unique_ptr<StateFile> file);
+
   ProofStore(const ProofStore&) = delete;
   ProofStore& operator=(const ProofStore&) = delete;
   ProofStore(ProofStore&&) noexcept;
@@ -75,8 +78,6 @@ class ProofStore {
   [[nodiscard]] Result<void> drop(std::span<const dronecan::UniqueId> units);
 
  private:
-  explicit ProofStore(std::unique_ptr<StateFile> file);
-
   std::unique_ptr<StateFile> file_;
 };
 

@@ -71,6 +71,9 @@ class SnapshotStore {
   /// For a bus that no other process can reach: an empty store that ends with this object.
   [[nodiscard]] static Result<SnapshotStore> unshared();
 
+  /// As open() and unshared() make it.
+  explicit SnapshotStore(std::unique_ptr<StateFile> file);
+
   SnapshotStore(const SnapshotStore&) = delete;
   SnapshotStore& operator=(const SnapshotStore&) = delete;
   SnapshotStore(SnapshotStore&&) noexcept;
@@ -103,8 +106,6 @@ class SnapshotStore {
   [[nodiscard]] Result<std::vector<SnapshotEntry>> entries() const;
 
  private:
-  explicit SnapshotStore(std::unique_ptr<StateFile> file);
-
   std::unique_ptr<StateFile> file_;
 };
 

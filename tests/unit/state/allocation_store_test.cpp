@@ -66,17 +66,7 @@ using Access = AllocationStore::Access;
 
 namespace {
 
-constexpr WallTime noon{std::chrono::sys_days{std::chrono::year{2026} / 11 / 22} + 12h};
-
 /// The unique ID of the unit with this number.
-UniqueId unit(int number) {
-  UniqueId id{};
-  id.fill(0xA5);
-  id[0] = static_cast<std::uint8_t>(number);
-  id[1] = static_cast<std::uint8_t>(number >> 8);
-  return id;
-}
-
 fs::path state_of(const Folder& folder) {
   return folder.path / "state";
 }

@@ -19,15 +19,6 @@ using dronecan::UniqueId;
 
 namespace {
 
-constexpr WallTime noon{std::chrono::sys_days{std::chrono::year{2026} / 11 / 23} + 12h};
-
-UniqueId unit(int number) {
-  UniqueId id{};
-  id.fill(0x5A);
-  id[0] = static_cast<std::uint8_t>(number);
-  return id;
-}
-
 CounterStore opened(const Folder& folder) {
   auto store = CounterStore::open((folder.path / "state").string(), Access::write, 10s);
   if (!store) {

@@ -1,7 +1,9 @@
 #pragma once
-// What tests of databases do with their files, and what a child says of a store.
+// What tests of databases put into them and do with their files, and what a child says of a store.
 
 #include "blactl/base/error.hpp"
+#include "blactl/base/time.hpp"
+#include "blactl/dronecan/ids.hpp"
 
 #include "catch.hpp"
 
@@ -10,6 +12,8 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -18,6 +22,19 @@
 #include <utility>
 
 namespace blactl::state::test {
+
+/// When tests of stores begin.
+constexpr WallTime noon{std::chrono::sys_days{std::chrono::year{2026} / 11 / 22} +
+                        std::chrono::hours(12)};
+
+/// One of many units.
+inline dronecan::UniqueId unit(int number) {
+  dronecan::UniqueId id{};
+  id.fill(0xA5);
+  id[0] = static_cast<std::uint8_t>(number);
+  id[1] = static_cast<std::uint8_t>(number >> 8);
+  return id;
+}
 
 inline std::string bytes_of(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);

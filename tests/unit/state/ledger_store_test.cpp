@@ -22,8 +22,6 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr WallTime noon{std::chrono::sys_days{std::chrono::year{2026} / 11 / 23} + 12h};
-
 LedgerRecord record(const std::string& id, WallTime at = noon,
                     const std::string& verdict = "pass") {
   LedgerRecord one;

@@ -25,15 +25,6 @@ using dronecan::UniqueId;
 
 namespace {
 
-constexpr WallTime noon{std::chrono::sys_days{std::chrono::year{2026} / 11 / 22} + 12h};
-
-UniqueId unit(std::uint8_t number) {
-  UniqueId id{};
-  id.fill(0xA5);
-  id[0] = number;
-  return id;
-}
-
 RomProof proof(std::uint8_t number, std::int64_t value = 900) {
   return {.unique_id = unit(number),
           .rom = {{0x20, 0}, {0x38, value}, {0x39, -1799}},

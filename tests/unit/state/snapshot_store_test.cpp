@@ -24,15 +24,6 @@ using dronecan::UniqueId;
 
 namespace {
 
-constexpr WallTime noon{std::chrono::sys_days{std::chrono::year{2026} / 11 / 22} + 12h};
-
-UniqueId unit(int number) {
-  UniqueId id{};
-  id.fill(0xA5);
-  id[0] = static_cast<std::uint8_t>(number);
-  return id;
-}
-
 SnapshotEntry entry(int number, std::int64_t value = 900, WallTime at = noon) {
   return {.at = at,
           .command = "set",
