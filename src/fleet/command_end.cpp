@@ -102,7 +102,7 @@ void CommandJob::watch_standing() {
     return;
   }
   seen_ = sample_;
-  if (standing_ > 0 && std::abs(*sample_.angle - *stood_.angle) > most_creep) {
+  if (standing_ > 0 && between(*sample_.angle, *stood_.angle) > most_creep) {
     has_crept_ = true;
     standing_ = 0;
   }

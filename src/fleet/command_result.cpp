@@ -44,7 +44,7 @@ bool has_wiggled(const CommandPlan& plan, const CommandResult& result) {
   constexpr std::ptrdiff_t least = 3;
   const std::int64_t way = std::abs(plan.course.front().raw - plan.last_target());
   return std::ranges::count_if(result.samples, [&](const CommandSample& sample) {
-           return sample.angle && 2 * std::abs(*sample.angle - plan.last_target()) >= way;
+           return sample.angle && 2 * between(*sample.angle, plan.last_target()) >= way;
          }) >= least;
 }
 
@@ -57,6 +57,12 @@ Error differs(const CommandPlan& plan, std::string message) {
 
 bool holds(const CommandPlan& plan, const CommandResult& result) {
   return result.output == plan.plan.before.raw(at::torque_output);
+}
+
+std::int64_t between(std::int64_t angle, std::int64_t other) {
+  constexpr std::int64_t turn = 3600;
+  const std::int64_t way = std::abs(angle - other) % turn;
+  return std::min(way, turn - way);
 }
 
 bool is_at(const CommandPlan& plan, std::int64_t angle, std::int64_t target) {

@@ -43,6 +43,9 @@ struct CommandResult {
 /// Whether its output is on in the end as it was before, so that an angle is held.
 [[nodiscard]] bool holds(const CommandPlan& plan, const CommandResult& result);
 
+/// How far apart two values of 0x08 are, in tenths of a degree: 179.9 and -180.0 are one apart.
+[[nodiscard]] std::int64_t between(std::int64_t angle, std::int64_t other);
+
 /// Whether this counts as being at an angle. unproven: within 1 deg, or its dead band and half a
 /// degree.
 [[nodiscard]] bool is_at(const CommandPlan& plan, std::int64_t angle, std::int64_t target);

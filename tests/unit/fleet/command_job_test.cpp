@@ -339,6 +339,24 @@ TEST_CASE("a shaft that does not do what it is told is no success") {
   }
 }
 
+TEST_CASE("a shaft that stands where angles wrap does not turn") {
+  CHECK(between(0, 0) == 0);
+  CHECK(between(10, -20) == 30);
+  CHECK(between(1799, -1800) == 1);
+  CHECK(between(-1799, 1799) == 2);
+  CHECK(between(0, 1800) == 1800);
+  CHECK(between(3601, 1) == 0); // 0x24: beyond a turn
+
+  CommandBench bench;
+  CommandPlan plan = bench.planned(nullptr);
+  plan.course = {{0s, 1749}, {500ms, 1799}};
+  CommandResult result;
+  result.samples.assign(20, {.target = 1799, .angle = -1800}); // noise of its register
+  const auto differs = judge_motion(plan, result);
+  REQUIRE(differs);
+  CHECK(differs->message.find("did not move") != std::string::npos);
+}
+
 TEST_CASE("a shaft that nothing holds is not said to be held") {
   const std::string members = R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11,
       "serial_number": 1, "rom": {"soft_start": "off", "torque_output": "off"},
