@@ -24,9 +24,9 @@ std::string_view without_blanks(std::string_view line) {
 /// Decimal, 32 bits. Empty: it is none.
 std::optional<std::int64_t> serial_number_of(std::string_view text) {
   std::uint32_t number = 0;
-  const char* end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, number);
-  return error == std::errc() && rest == end ? std::optional<std::int64_t>(number) : std::nullopt;
+  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const bool is_number = error == std::errc() && rest == text.data() + text.size();
+  return is_number ? std::optional<std::int64_t>(number) : std::nullopt;
 }
 
 Result<Label> read_label_object(std::string_view text, std::size_t number) {
