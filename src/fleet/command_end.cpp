@@ -194,9 +194,7 @@ Step CommandJob::judge_proof(const Outcome& outcome) {
     return step;
   }
   switch (proof_->verdict()) {
-  case RunProof::Verdict::failed:
-    return proof_->has_met_another() ? give_up_to_another(*proof_->error())
-                                     : give_up(*proof_->error());
+  case RunProof::Verdict::failed: return give_up(*proof_->error());
   case RunProof::Verdict::restarted: return recognise();
   case RunProof::Verdict::too_late:
     return give_up(
@@ -228,31 +226,23 @@ void CommandJob::add_error(Error error) {
   }
 }
 
-/// Another unit answers: that its uptime is another one tells nothing of the one that was
-/// commanded, which cannot be told anything any more.
-Step CommandJob::give_up_to_another(Error error) {
-  if (result_.has_commanded()) {
-    result_.has_restarted = false;
-    result_.error.reset();
-    error.message = say<texts::motion_not_ended>(id(), error.message);
-    error.hint = say<texts::motion_cut_hint>(after_commands(plan_, result_));
-  }
-  add_error(std::move(error));
-  return std::nullopt;
-}
-
-/// Nothing may be written to it any more, or nothing comes of it.
+/// Nothing may be written to it any more, or nothing comes of it. Where another unit answers, its
+/// uptime tells nothing of the one that was commanded, which cannot be told anything any more.
 Step CommandJob::give_up(Error error) {
   const bool is_left = error.code == Code::armed || error.code == Code::driven;
+  const bool has_met_another =
+      error.code == Code::duplicate_node_id || (proof_ && proof_->has_met_another());
+  if (result_.has_commanded() && has_met_another) {
+    result_.has_restarted = false;
+    result_.error.reset();
+  }
   if (result_.has_commanded() && !is_left) {
+    const std::string then = after_commands(plan_, result_);
     error.message = say<texts::motion_not_ended>(id(), error.message);
-    error.hint = say<texts::motion_not_ended_hint>(after_commands(plan_, result_), id());
+    error.hint = has_met_another ? say<texts::motion_cut_hint>(then)
+                                 : say<texts::motion_not_ended_hint>(then, id());
   }
-  if (result_.has_commanded()) {
-    add_error(std::move(error));
-  } else {
-    result_.error = std::move(error);
-  }
+  add_error(std::move(error));
   return std::nullopt;
 }
 

@@ -177,8 +177,7 @@ bool CommandJob::has_restarted() const {
 
 Step CommandJob::go_on() {
   if (auto why = forbidden()) {
-    return why->code == Code::duplicate_node_id ? give_up_to_another(std::move(*why))
-                                                : give_up(std::move(*why));
+    return give_up(std::move(*why));
   }
   if (has_restarted()) {
     return recognise();

@@ -92,7 +92,6 @@ class CommandJob final : public dronecan::Job {
   [[nodiscard]] dronecan::Step judge_proof(const dronecan::Outcome& outcome);
   [[nodiscard]] dronecan::Step fail(Error error);
   [[nodiscard]] dronecan::Step give_up(Error error);
-  [[nodiscard]] dronecan::Step give_up_to_another(Error error);
   void add_error(Error error);
 
   [[nodiscard]] std::optional<Error> forbidden() const;

@@ -273,6 +273,27 @@ TEST_CASE("when the vehicle is armed nothing more is written") {
   CHECK(bench.read("command_speed") == 30); // its own timeout lets go of it
 }
 
+TEST_CASE(
+    "when a second unit comes to its ID nothing is said of a restart, nor to type what fails") {
+  CommandBench bench;
+  const CommandPlan plan = bench.planned("command_speed=30rpm");
+  std::size_t writes = 0;
+  const Commanded ended = bench.run(plan, [&](const CommandSample& sample) {
+    if (sample.after > 500ms && writes == 0) {
+      writes = bench.writes();
+      bench.scene.roster().mark_doubled(NodeId(11), *plan.servo().unique_id, {});
+    }
+    return true;
+  });
+  REQUIRE(ended.result.error);
+  CHECK(ended.result.error->code == Code::duplicate_node_id);
+  CHECK(ended.result.error->message.find("restarted") == std::string::npos);
+  CHECK(ended.result.error->hint.find("cut its supply") != std::string::npos);
+  CHECK(ended.result.error->hint.find("blactl set") == std::string::npos);
+  CHECK_FALSE(ended.result.is_ended);
+  CHECK(bench.writes() == writes);
+}
+
 TEST_CASE("when an autopilot begins to command it, it is left to that") {
   CommandBench bench;
   const CommandPlan plan = bench.planned("command_speed=30rpm");
