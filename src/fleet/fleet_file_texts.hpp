@@ -12,6 +12,8 @@ inline constexpr Text fleet_no_setting{
     "{} はサーボに保存される設定ではありません (フリートファイルは 0x20 から 0x46 まで)"};
 inline constexpr Text fleet_set_twice{"{} is there twice, by address and by name",
                                       "{} がアドレスと名前で 2 回指定されています"};
+inline constexpr Text id_is_none{"0 is no static node ID: the servo would ask for one",
+                                 "0 は固定ノード ID ではありません (サーボが割当てを要求します)"};
 inline constexpr Text fleet_no_unique_id{"\"unique_id\" must be 32 hexadecimal digits",
                                          "\"unique_id\" は 16 進数 32 桁でなければなりません"};
 inline constexpr Text fleet_no_model{"there is no model '{}'; blactl models lists them",

@@ -4,6 +4,7 @@
 #include "blactl/base/text.hpp"
 
 #include "fleet/label_texts.hpp"
+#include "fleet/settings_reader.hpp"
 
 #include <charconv>
 #include <system_error>
@@ -29,10 +30,9 @@ std::optional<std::int64_t> serial_number_of(std::string_view text) {
   return is_number ? std::optional<std::int64_t>(number) : std::nullopt;
 }
 
-Result<Label> read_label_object(std::string_view text, std::size_t number) {
+Result<Label> read_label_object(std::string_view text, std::size_t number,
+                                const bla::Profiles& profiles) {
   constexpr std::int64_t most_of_32_bits = 0xFFFFFFFF;
-  constexpr std::int64_t last_servo_id = 254;       // 0x45, 4.37
-  constexpr std::int64_t last_static_node_id = 125; // the two above it are for tools
   auto document = json::parse(text, say<texts::label_line>(number));
   if (!document) {
     return std::unexpected(document.error());
@@ -40,11 +40,17 @@ Result<Label> read_label_object(std::string_view text, std::size_t number) {
   json::Object object(document->root(), document->faults());
   Label label{.text = std::string(text),
               .serial_number = object.optional_integer("serial_number", 0, most_of_32_bits),
-              .servo_id = object.optional_integer("servo_id", 0, last_servo_id),
-              .static_node_id = object.optional_integer("static_node_id", 1, last_static_node_id),
+              .servo_id = object.optional_integer("servo_id"),
+              .static_node_id = object.optional_integer("static_node_id"),
               .work_order = object.optional_string("work_order"),
               .operator_name = object.optional_string("operator")};
   object.finish();
+  for (const auto& [name, id] :
+       {std::pair("servo_id", label.servo_id), std::pair("static_node_id", label.static_node_id)}) {
+    if (id) {
+      (void)check_id(document->root(), name, *id, profiles, document->faults());
+    }
+  }
   if (const auto fine = document->faults().result(); !fine) {
     return std::unexpected(fine.error());
   }
@@ -53,10 +59,11 @@ Result<Label> read_label_object(std::string_view text, std::size_t number) {
 
 } // namespace
 
-Result<Label> parse_label(std::string_view line, std::size_t number) {
+Result<Label> parse_label(std::string_view line, std::size_t number,
+                          const bla::Profiles& profiles) {
   const std::string_view text = without_blanks(line);
   if (text.starts_with('{')) {
-    return read_label_object(text, number);
+    return read_label_object(text, number, profiles);
   }
   if (const auto serial_number = serial_number_of(text)) {
     return Label{.text = std::string(text), .serial_number = serial_number};

@@ -27,20 +27,6 @@ bool is_counted(bla::Address address) {
   return address == at::servo_id || address == at::static_node_id;
 }
 
-/// Whether some servo takes this ID.
-bool check_id(const json::Value& where, const bla::Parameter& parameter, std::int64_t id,
-              const bla::Profiles& profiles, json::Faults& faults) {
-  if (parameter.address == at::static_node_id && id == 0) {
-    faults.add(where, say<texts::recipe_counter_none>());
-    return false;
-  }
-  const auto assignment = bla::make_assignment(profiles, parameter.name, std::to_string(id));
-  if (!assignment) {
-    faults.add(where, fault_text(assignment.error()));
-  }
-  return assignment.has_value();
-}
-
 /// Empty: it is a fault.
 std::optional<Counter> read_counter(const json::Value& member, const bla::Profiles& profiles,
                                     json::Faults& faults) {
@@ -70,8 +56,8 @@ std::optional<Counter> read_counter(const json::Value& member, const bla::Profil
   if (counter.last < counter.first) {
     faults.add(member, say<texts::recipe_counter_ends>(counter.last, counter.first));
   }
-  const bool are_ids = check_id(member, *counter.parameter, counter.first, profiles, faults) &&
-                       check_id(member, *counter.parameter, counter.last, profiles, faults);
+  const bool are_ids = check_id(member, counter.parameter->name, counter.first, profiles, faults) &&
+                       check_id(member, counter.parameter->name, counter.last, profiles, faults);
   return are_ids ? std::optional(counter) : std::nullopt;
 }
 

@@ -10,8 +10,5 @@ inline constexpr Text recipe_counter_of{
     "{} は ID ではありません。カウンターは servo_id と static_node_id のみに指定できます"};
 inline constexpr Text recipe_counter_ends{"\"last\" is {}, below \"first\", {}",
                                           "\"last\" ({}) が \"first\" ({}) より小さい値です"};
-inline constexpr Text recipe_counter_none{
-    "0 is no static node ID: the servo would ask for one",
-    "0 は固定ノード ID ではありません (サーボが割当てを要求します)"};
 
 } // namespace blactl::texts

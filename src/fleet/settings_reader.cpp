@@ -96,4 +96,18 @@ void check_pwm(std::span<const Setting> settings, const bla::Profiles& profiles,
   }
 }
 
+bool check_id(const json::Value& where, std::string_view parameter, std::int64_t id,
+              const bla::Profiles& profiles, json::Faults& faults) {
+  const auto assignment = bla::make_assignment(profiles, parameter, std::to_string(id));
+  if (!assignment) {
+    faults.add(where, fault_text(assignment.error()));
+    return false;
+  }
+  const bool is_none = assignment->parameter->address == bla::address::static_node_id && id == 0;
+  if (is_none) {
+    faults.add(where, say<texts::id_is_none>());
+  }
+  return !is_none;
+}
+
 } // namespace blactl::fleet

@@ -5,7 +5,9 @@
 #include "blactl/bla/assignment.hpp"
 #include "blactl/bla/profile.hpp"
 
+#include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace blactl::fleet {
@@ -32,5 +34,10 @@ void check_model(std::span<const Setting> settings, std::span<const bla::Profile
 /// Faults: 0x36 in a unit that the 0x37 beside it does not take.
 void check_pwm(std::span<const Setting> settings, const bla::Profiles& profiles,
                json::Faults& faults);
+
+/// Whether some servo takes this ID: servo_id (0x45), or static_node_id (0x46) but for 0, with
+/// which it would ask for one. Else that is a fault.
+[[nodiscard]] bool check_id(const json::Value& where, std::string_view parameter, std::int64_t id,
+                            const bla::Profiles& profiles, json::Faults& faults);
 
 } // namespace blactl::fleet

@@ -3,6 +3,7 @@
 // section 6, "provision").
 
 #include "blactl/base/error.hpp"
+#include "blactl/bla/profile.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -23,6 +24,7 @@ struct Label {
 /// A serial number, or a JSON object with any of serial_number, servo_id, static_node_id,
 /// work_order and operator; `number` is that of the line, for messages. Errors: bad_file: it is
 /// neither, or what it says is out of range.
-[[nodiscard]] Result<Label> parse_label(std::string_view line, std::size_t number);
+[[nodiscard]] Result<Label> parse_label(std::string_view line, std::size_t number,
+                                        const bla::Profiles& profiles);
 
 } // namespace blactl::fleet

@@ -32,7 +32,7 @@ Recipe recipe_of(std::string_view more = R"("firmware_min": 1400, "set": {"servo
 }
 
 Label label_of(std::string_view line) {
-  const auto label = parse_label(line, 1);
+  const auto label = parse_label(line, 1, profiles());
   REQUIRE(label);
   return *label;
 }
