@@ -277,32 +277,15 @@ TEST_CASE("on a full disk all of one command is kept or nothing, and nothing tha
 TEST_CASE("two processes keep their changes side by side, each with a number of its own") {
   const Folder folder;
   constexpr int commands = 30;
-  const auto work = [&](int number) {
+  CHECK(all_at_once(2, [&](int number) {
     auto store = try_open(folder);
     for (int i = 0; store && i < commands; ++i) {
-      if (const auto numbers = store->keep(std::array{entry(number, i)}, noon); !numbers) {
-        return said(numbers);
+      if (!store->keep(std::array{entry(number, i)}, noon)) {
+        return false;
       }
     }
-    return store ? 0 : said(store);
-  };
-  std::array<int, 2> ready{};
-  REQUIRE(pipe(ready.data()) == 0);
-  for (const int number : {1, 2}) {
-    const pid_t pid = fork();
-    if (pid == 0) {
-      const int result = work(number);
-      (void)!write(ready[1], &result, sizeof result);
-      _exit(0);
-    }
-    REQUIRE(pid > 0);
-  }
-  for (int i = 0; i < 2; ++i) {
-    int result = -1;
-    REQUIRE(read(ready[0], &result, sizeof result) == sizeof result);
-    CHECK(result == 0);
-    waitpid(-1, nullptr, 0);
-  }
+    return store.has_value();
+  }));
   const auto store = opened(folder);
   std::set<std::int64_t> numbers;
   for (const SnapshotEntry& each : all(store)) {
