@@ -2,7 +2,7 @@
 // What most tests include, read once for all of them (BLACTL_UNITY): half of a test's compile time.
 
 #include "blactl/bla/profile.hpp"
-#include "blactl/fleet/session.hpp"
+#include "blactl/fleet/bus/session.hpp"
 #include "blactl/sim/simulator.hpp"
 
 #include "catch.hpp"

@@ -1,8 +1,8 @@
 #include "cli/change_servos.hpp"
 
-#include "blactl/fleet/carry_out.hpp"
-#include "blactl/fleet/guard.hpp"
-#include "blactl/fleet/survey.hpp"
+#include "blactl/fleet/change/carry_out.hpp"
+#include "blactl/fleet/change/guard.hpp"
+#include "blactl/fleet/change/survey.hpp"
 
 #include "cli/texts.hpp"
 #include "cli/writing_run.hpp"

@@ -2,7 +2,7 @@
 // The way of every command that changes servos: what is wanted, refusals, one question, carrying
 // out, results.
 
-#include "blactl/fleet/plan.hpp"
+#include "blactl/fleet/change/plan.hpp"
 
 #include "cli/context.hpp"
 #include "cli/options.hpp"

@@ -1,7 +1,7 @@
 #include "cli/context.hpp"
 
 #include "blactl/can/replay_texts.hpp"
-#include "blactl/fleet/texts.hpp"
+#include "blactl/fleet/bus/texts.hpp"
 #include "blactl/state/state_folder.hpp"
 
 #include "cli/interface/bus_factory.hpp"

@@ -2,8 +2,8 @@
 
 #include "blactl/base/nearest.hpp"
 #include "blactl/base/texts.hpp"
-#include "blactl/fleet/register_choice.hpp"
-#include "blactl/fleet/target.hpp"
+#include "blactl/fleet/bus/register_choice.hpp"
+#include "blactl/fleet/bus/target.hpp"
 
 #include "cli/interface/bus_factory.hpp"
 #include "cli/texts.hpp"

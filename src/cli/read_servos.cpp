@@ -1,6 +1,6 @@
 #include "cli/read_servos.hpp"
 
-#include "blactl/fleet/discovery.hpp"
+#include "blactl/fleet/bus/discovery.hpp"
 
 #include "cli/interface/bus_factory.hpp"
 #include "cli/texts.hpp"

@@ -1,6 +1,6 @@
 #include "cli/settings_files.hpp"
 
-#include "blactl/fleet/params_file.hpp"
+#include "blactl/fleet/files/params_file.hpp"
 
 #include "cli/fleet_texts.hpp"
 

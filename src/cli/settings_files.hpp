@@ -1,7 +1,7 @@
 #pragma once
 // The files with settings that a command is given.
 
-#include "blactl/fleet/fleet_file.hpp"
+#include "blactl/fleet/files/fleet_file.hpp"
 
 #include "cli/context.hpp"
 #include "cli/output/report.hpp"

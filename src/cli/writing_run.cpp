@@ -1,7 +1,7 @@
 #include "cli/writing_run.hpp"
 
-#include "blactl/fleet/findings.hpp"
-#include "blactl/fleet/texts.hpp"
+#include "blactl/fleet/bus/texts.hpp"
+#include "blactl/fleet/characterize/findings.hpp"
 
 #include "cli/confirm.hpp"
 #include "cli/interface/bus_factory.hpp"

@@ -1,9 +1,9 @@
 #pragma once
 // What every command that writes to servos does before it writes.
 
-#include "blactl/fleet/carry_out.hpp"
-#include "blactl/fleet/discovery.hpp"
-#include "blactl/fleet/history.hpp"
+#include "blactl/fleet/bus/discovery.hpp"
+#include "blactl/fleet/change/carry_out.hpp"
+#include "blactl/fleet/change/history.hpp"
 
 #include "cli/context.hpp"
 #include "cli/options.hpp"

@@ -1,9 +1,9 @@
 #include "cli/alloc/make_static.hpp"
 
 #include "blactl/base/hex.hpp"
-#include "blactl/fleet/discovery.hpp"
-#include "blactl/fleet/static_ids.hpp"
-#include "blactl/fleet/texts.hpp"
+#include "blactl/fleet/bus/discovery.hpp"
+#include "blactl/fleet/bus/texts.hpp"
+#include "blactl/fleet/change/static_ids.hpp"
 
 #include "cli/alloc/texts.hpp"
 #include "cli/alloc/view.hpp"

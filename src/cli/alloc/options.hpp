@@ -3,7 +3,7 @@
 
 #include "blactl/base/error.hpp"
 #include "blactl/base/time.hpp"
-#include "blactl/fleet/allocation_service.hpp"
+#include "blactl/fleet/change/allocation_service.hpp"
 #include "blactl/state/allocation_store.hpp"
 
 #include <chrono>

@@ -1,8 +1,8 @@
 #include "cli/alloc/serve.hpp"
 
 #include "blactl/base/hex.hpp"
-#include "blactl/fleet/discovery.hpp"
-#include "blactl/fleet/ticker.hpp"
+#include "blactl/fleet/bus/discovery.hpp"
+#include "blactl/fleet/bus/ticker.hpp"
 
 #include "cli/alloc/texts.hpp"
 #include "cli/alloc/view.hpp"

@@ -1,9 +1,9 @@
 #pragma once
 // What blactl alloc shows: a line for each thing that happens, or the list of the units as it is.
 
-#include "blactl/fleet/allocation_service.hpp"
-#include "blactl/fleet/id_moves.hpp"
-#include "blactl/fleet/roster.hpp"
+#include "blactl/fleet/bus/roster.hpp"
+#include "blactl/fleet/change/allocation_service.hpp"
+#include "blactl/fleet/change/id_moves.hpp"
 
 #include "cli/output/page.hpp"
 #include "cli/trace/time.hpp"

@@ -3,7 +3,7 @@
 
 #include "blactl/base/error.hpp"
 #include "blactl/base/time.hpp"
-#include "blactl/fleet/servo.hpp"
+#include "blactl/fleet/bus/servo.hpp"
 
 #include <memory>
 #include <optional>

@@ -1,8 +1,8 @@
 #include "cli/apply/run.hpp"
 
-#include "blactl/fleet/discovery.hpp"
-#include "blactl/fleet/let_in.hpp"
-#include "blactl/fleet/texts.hpp"
+#include "blactl/fleet/bus/discovery.hpp"
+#include "blactl/fleet/bus/texts.hpp"
+#include "blactl/fleet/change/let_in.hpp"
 
 #include "cli/apply/event_file.hpp"
 #include "cli/apply/texts.hpp"

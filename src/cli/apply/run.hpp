@@ -1,10 +1,10 @@
 #pragma once
 // The way of the commands that bring several servos each to what is wished of it: apply and undo.
 
-#include "blactl/fleet/apply.hpp"
-#include "blactl/fleet/fleet_diff.hpp"
-#include "blactl/fleet/roster.hpp"
-#include "blactl/fleet/target.hpp"
+#include "blactl/fleet/bus/roster.hpp"
+#include "blactl/fleet/bus/target.hpp"
+#include "blactl/fleet/change/apply.hpp"
+#include "blactl/fleet/files/fleet_diff.hpp"
 
 #include "cli/context.hpp"
 #include "cli/options.hpp"

@@ -2,8 +2,8 @@
 // What happens to servos while apply is at work: for people in a list on the terminal, for machines
 // in a file.
 
-#include "blactl/fleet/apply.hpp"
-#include "blactl/fleet/change_job.hpp"
+#include "blactl/fleet/change/apply.hpp"
+#include "blactl/fleet/change/change_job.hpp"
 
 #include "cli/apply/event_file.hpp"
 #include "cli/context.hpp"

@@ -1,7 +1,7 @@
 #include "cli/command/run.hpp"
 
 #include "blactl/base/replace_file.hpp"
-#include "blactl/fleet/guard.hpp"
+#include "blactl/fleet/change/guard.hpp"
 
 #include "cli/command/sample.hpp"
 #include "cli/command/svg.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 // One run of `blactl command`: proof, question, motion, end.
 
-#include "blactl/fleet/command_run.hpp"
+#include "blactl/fleet/motion/command_run.hpp"
 
 #include "cli/writing_run.hpp"
 

@@ -2,7 +2,7 @@
 // What a servo did while it was commanded, as data: the keys of the contract (section 5, command).
 
 #include "blactl/base/time.hpp"
-#include "blactl/fleet/command_result.hpp"
+#include "blactl/fleet/motion/command_result.hpp"
 
 #include <string>
 

@@ -1,7 +1,7 @@
 #pragma once
 // A command to a shaft as a drawing: what it was told, and what it did.
 
-#include "blactl/fleet/command_result.hpp"
+#include "blactl/fleet/motion/command_result.hpp"
 
 #include <string>
 

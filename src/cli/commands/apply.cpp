@@ -1,9 +1,9 @@
 // blactl apply: brings servos to a fleet file, proven after a restart.
 
-#include "blactl/fleet/fleet_diff.hpp"
-#include "blactl/fleet/fleet_file.hpp"
-#include "blactl/fleet/fleet_match.hpp"
-#include "blactl/fleet/saved_plan.hpp"
+#include "blactl/fleet/change/saved_plan.hpp"
+#include "blactl/fleet/files/fleet_diff.hpp"
+#include "blactl/fleet/files/fleet_file.hpp"
+#include "blactl/fleet/files/fleet_match.hpp"
 
 #include "cli/apply/run.hpp"
 #include "cli/apply/texts.hpp"

@@ -1,8 +1,8 @@
 // blactl characterize: measures on one servo what the specification leaves open.
 
 #include "blactl/base/replace_file.hpp"
-#include "blactl/fleet/carry_out.hpp"
-#include "blactl/fleet/characterization.hpp"
+#include "blactl/fleet/change/carry_out.hpp"
+#include "blactl/fleet/characterize/characterization.hpp"
 
 #include "cli/characterize_texts.hpp"
 #include "cli/commands.hpp"

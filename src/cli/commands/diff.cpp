@@ -1,8 +1,8 @@
 // blactl diff: servos against a fleet file, or file against file.
 
-#include "blactl/fleet/discovery.hpp"
-#include "blactl/fleet/fleet_diff.hpp"
-#include "blactl/fleet/fleet_match.hpp"
+#include "blactl/fleet/bus/discovery.hpp"
+#include "blactl/fleet/files/fleet_diff.hpp"
+#include "blactl/fleet/files/fleet_match.hpp"
 
 #include "cli/commands.hpp"
 #include "cli/fleet_texts.hpp"

@@ -1,11 +1,11 @@
 // blactl export: the configuration of servos as a file that apply takes.
 
 #include "blactl/base/replace_file.hpp"
-#include "blactl/fleet/carry_out.hpp"
-#include "blactl/fleet/fleet_file.hpp"
-#include "blactl/fleet/guard.hpp"
-#include "blactl/fleet/params_file.hpp"
-#include "blactl/fleet/recipe.hpp"
+#include "blactl/fleet/change/carry_out.hpp"
+#include "blactl/fleet/change/guard.hpp"
+#include "blactl/fleet/files/fleet_file.hpp"
+#include "blactl/fleet/files/params_file.hpp"
+#include "blactl/fleet/files/recipe.hpp"
 
 #include "cli/commands.hpp"
 #include "cli/fleet_texts.hpp"

@@ -1,6 +1,6 @@
 // blactl faults: 0x18-0x1B in words.
 
-#include "blactl/fleet/fault_job.hpp"
+#include "blactl/fleet/live/fault_job.hpp"
 
 #include "cli/commands.hpp"
 #include "cli/faults/watch.hpp"

@@ -1,9 +1,9 @@
 // blactl scan: who is on the bus.
 
-#include "blactl/fleet/discovery.hpp"
-#include "blactl/fleet/findings.hpp"
-#include "blactl/fleet/target_texts.hpp"
-#include "blactl/fleet/ticker.hpp"
+#include "blactl/fleet/bus/discovery.hpp"
+#include "blactl/fleet/bus/target_texts.hpp"
+#include "blactl/fleet/bus/ticker.hpp"
+#include "blactl/fleet/characterize/findings.hpp"
 
 #include "cli/commands.hpp"
 #include "cli/output/progress_view.hpp"

@@ -2,7 +2,7 @@
 
 #include "blactl/can/candump_reader.hpp"
 #include "blactl/can/replay_texts.hpp"
-#include "blactl/fleet/texts.hpp"
+#include "blactl/fleet/bus/texts.hpp"
 
 #include "cli/commands.hpp"
 #include "cli/interface/bus_factory.hpp"

@@ -1,6 +1,6 @@
 // blactl undo: back to what servos held before they were changed.
 
-#include "blactl/fleet/undo.hpp"
+#include "blactl/fleet/change/undo.hpp"
 
 #include "blactl/base/hex.hpp"
 #include "blactl/base/rfc3339.hpp"

@@ -1,7 +1,7 @@
 // blactl wait: until the servos are on the bus and operational.
 
-#include "blactl/fleet/discovery.hpp"
-#include "blactl/fleet/ticker.hpp"
+#include "blactl/fleet/bus/discovery.hpp"
+#include "blactl/fleet/bus/ticker.hpp"
 
 #include "cli/commands.hpp"
 #include "cli/interface/bus_factory.hpp"

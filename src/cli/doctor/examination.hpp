@@ -2,9 +2,9 @@
 // What blactl doctor looks at: the interface, the bus, its nodes, this user's rights.
 
 #include "blactl/can/link.hpp"
-#include "blactl/fleet/diagnosis.hpp"
-#include "blactl/fleet/findings.hpp"
-#include "blactl/fleet/traffic.hpp"
+#include "blactl/fleet/bus/traffic.hpp"
+#include "blactl/fleet/characterize/findings.hpp"
+#include "blactl/fleet/doctor/diagnosis.hpp"
 
 #include "cli/context.hpp"
 #include "cli/output/report.hpp"

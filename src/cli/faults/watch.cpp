@@ -1,6 +1,6 @@
 #include "cli/faults/watch.hpp"
 
-#include "blactl/fleet/fault_watch.hpp"
+#include "blactl/fleet/live/fault_watch.hpp"
 
 #include "cli/output/faults_view.hpp"
 #include "cli/output/node_head.hpp"

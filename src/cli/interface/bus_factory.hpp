@@ -7,7 +7,7 @@
 #include "blactl/can/replay.hpp"
 #include "blactl/can/returning_bus.hpp"
 #include "blactl/can/slcan.hpp"
-#include "blactl/fleet/fleet_file.hpp"
+#include "blactl/fleet/files/fleet_file.hpp"
 #include "blactl/state/lock_file.hpp"
 
 #include "cli/output/reporter.hpp"

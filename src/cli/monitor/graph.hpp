@@ -1,7 +1,7 @@
 #pragma once
 // What one servo did in the last minute, as graphs.
 
-#include "blactl/fleet/monitor.hpp"
+#include "blactl/fleet/live/monitor.hpp"
 
 #include "cli/output/screen.hpp"
 

@@ -1,6 +1,6 @@
 #include "cli/monitor/identify.hpp"
 
-#include "blactl/fleet/guard.hpp"
+#include "blactl/fleet/change/guard.hpp"
 
 #include "cli/confirm.hpp"
 #include "cli/monitor/texts.hpp"

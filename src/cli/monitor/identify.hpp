@@ -1,8 +1,8 @@
 #pragma once
 // monitor --identify: servos without torque, so that a hand can turn the one that is looked for.
 
-#include "blactl/fleet/target.hpp"
-#include "blactl/fleet/torque_release.hpp"
+#include "blactl/fleet/bus/target.hpp"
+#include "blactl/fleet/change/torque_release.hpp"
 
 #include "cli/writing_run.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 // One run of `blactl monitor` on an open session: samples, on a screen or as a stream.
 
-#include "blactl/fleet/monitor.hpp"
+#include "blactl/fleet/live/monitor.hpp"
 
 #include "cli/context.hpp"
 #include "cli/monitor/sample.hpp"

@@ -2,7 +2,7 @@
 // One servo at one moment as data: the keys of the contract (section 5, monitor).
 
 #include "blactl/base/time.hpp"
-#include "blactl/fleet/monitor.hpp"
+#include "blactl/fleet/live/monitor.hpp"
 
 #include <array>
 #include <cstdint>

@@ -1,7 +1,7 @@
 #pragma once
 // All servos at a glance, for a screen of any size.
 
-#include "blactl/fleet/monitor.hpp"
+#include "blactl/fleet/live/monitor.hpp"
 
 #include "cli/output/screen.hpp"
 

@@ -2,7 +2,7 @@
 // What was measured on a servo, as tables and as JSON.
 
 #include "blactl/base/json_writer.hpp"
-#include "blactl/fleet/characterization.hpp"
+#include "blactl/fleet/characterize/characterization.hpp"
 
 #include "cli/output/page.hpp"
 

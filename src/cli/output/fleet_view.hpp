@@ -2,7 +2,7 @@
 // What servos hold against a fleet file, as JSON and text.
 
 #include "blactl/base/json_writer.hpp"
-#include "blactl/fleet/fleet_diff.hpp"
+#include "blactl/fleet/files/fleet_diff.hpp"
 
 #include "cli/output/page.hpp"
 

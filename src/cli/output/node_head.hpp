@@ -2,7 +2,7 @@
 // How every output begins to speak of a node (contract, section 5).
 
 #include "blactl/base/json_writer.hpp"
-#include "blactl/fleet/servo.hpp"
+#include "blactl/fleet/bus/servo.hpp"
 
 #include <string>
 #include <string_view>

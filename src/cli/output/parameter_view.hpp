@@ -2,7 +2,7 @@
 // Parameters of servos as JSON, CSV and text.
 
 #include "blactl/base/json_writer.hpp"
-#include "blactl/fleet/snapshot.hpp"
+#include "blactl/fleet/bus/snapshot.hpp"
 
 #include "cli/output/page.hpp"
 

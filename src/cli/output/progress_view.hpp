@@ -1,7 +1,7 @@
 #pragma once
 // How far a command is, in one line.
 
-#include "blactl/fleet/carry_out.hpp"
+#include "blactl/fleet/change/carry_out.hpp"
 
 #include <span>
 #include <string>

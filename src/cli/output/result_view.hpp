@@ -3,7 +3,7 @@
 
 #include "blactl/base/json_writer.hpp"
 #include "blactl/base/time.hpp"
-#include "blactl/fleet/result.hpp"
+#include "blactl/fleet/change/result.hpp"
 
 #include "cli/output/page.hpp"
 

@@ -2,7 +2,7 @@
 // What a scan found, as JSON, CSV and text.
 
 #include "blactl/base/json_writer.hpp"
-#include "blactl/fleet/findings.hpp"
+#include "blactl/fleet/characterize/findings.hpp"
 
 #include "cli/output/page.hpp"
 

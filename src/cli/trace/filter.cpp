@@ -3,7 +3,7 @@
 #include "blactl/base/nearest.hpp"
 #include "blactl/base/texts.hpp"
 #include "blactl/dronecan/standard_types.hpp"
-#include "blactl/fleet/target.hpp"
+#include "blactl/fleet/bus/target.hpp"
 
 #include "cli/trace/texts.hpp"
 #include "cli/trace/type_name.hpp"

@@ -2,7 +2,7 @@
 // A trace added up: who sends what how often, what is lost, and what it costs the bus (--stats).
 
 #include "blactl/base/json_writer.hpp"
-#include "blactl/fleet/bus_statistics.hpp"
+#include "blactl/fleet/statistics/bus_statistics.hpp"
 
 #include "cli/output/page.hpp"
 #include "cli/trace/output.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 // What is found while a servo is measured.
 
-#include "blactl/fleet/characterization.hpp"
+#include "blactl/fleet/characterize/characterization.hpp"
 
 #include <optional>
 #include <string>

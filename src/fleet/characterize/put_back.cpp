@@ -2,9 +2,9 @@
 
 #include "blactl/bla/value.hpp"
 #include "blactl/dronecan/types.hpp"
-#include "blactl/fleet/guard.hpp"
-#include "blactl/fleet/target_texts.hpp"
-#include "blactl/fleet/texts.hpp"
+#include "blactl/fleet/bus/target_texts.hpp"
+#include "blactl/fleet/bus/texts.hpp"
+#include "blactl/fleet/change/guard.hpp"
 
 #include "fleet/characterize/jobs.hpp"
 #include "fleet/characterize/soft_start.hpp"

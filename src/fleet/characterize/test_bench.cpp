@@ -2,11 +2,11 @@
 
 #include "blactl/bla/value.hpp"
 #include "blactl/dronecan/types.hpp"
-#include "blactl/fleet/array_command.hpp"
-#include "blactl/fleet/conflict_texts.hpp"
-#include "blactl/fleet/guard.hpp"
-#include "blactl/fleet/restart_texts.hpp"
-#include "blactl/fleet/texts.hpp"
+#include "blactl/fleet/bus/array_command.hpp"
+#include "blactl/fleet/bus/conflict_texts.hpp"
+#include "blactl/fleet/bus/texts.hpp"
+#include "blactl/fleet/change/guard.hpp"
+#include "blactl/fleet/change/restart_texts.hpp"
 
 #include "fleet/characterize/jobs.hpp"
 #include "fleet/characterize/soft_start.hpp"

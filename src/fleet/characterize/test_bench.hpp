@@ -2,8 +2,8 @@
 // One servo on the bench: it is asked, written to, restarted, and given back what it held.
 
 #include "blactl/bla/profile.hpp"
-#include "blactl/fleet/characterization.hpp"
-#include "blactl/fleet/restart_job.hpp"
+#include "blactl/fleet/change/restart_job.hpp"
+#include "blactl/fleet/characterize/characterization.hpp"
 
 #include "fleet/characterize/ear.hpp"
 

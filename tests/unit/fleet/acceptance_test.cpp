@@ -1,7 +1,7 @@
 #include "blactl/base/sha256.hpp"
-#include "blactl/fleet/acceptance.hpp"
 
 #include "catch.hpp"
+#include "fleet/line/acceptance.hpp"
 #include "unit/fleet/support.hpp"
 
 #include <string>

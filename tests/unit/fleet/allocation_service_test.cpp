@@ -1,5 +1,5 @@
-#include "blactl/fleet/allocation_service.hpp"
-#include "blactl/fleet/discovery.hpp"
+#include "blactl/fleet/bus/discovery.hpp"
+#include "blactl/fleet/change/allocation_service.hpp"
 
 #include "support.hpp"
 #include "unit/can/fake_bus.hpp"

@@ -1,4 +1,4 @@
-#include "blactl/fleet/archive.hpp"
+#include "blactl/fleet/bus/archive.hpp"
 
 #include "support.hpp"
 

@@ -1,7 +1,7 @@
 // What ArrayCommand can tell a servo, against the receiving side of the simulator.
 
 #include "blactl/bla/address.hpp"
-#include "blactl/fleet/array_command.hpp"
+#include "blactl/fleet/bus/array_command.hpp"
 #include "blactl/sim/command.hpp"
 
 #include "catch.hpp"

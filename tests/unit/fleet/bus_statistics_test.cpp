@@ -1,5 +1,5 @@
 #include "blactl/can/frame_bits.hpp"
-#include "blactl/fleet/bus_statistics.hpp"
+#include "blactl/fleet/statistics/bus_statistics.hpp"
 
 #include "catch.hpp"
 

@@ -1,8 +1,8 @@
 // Several simulated servos changed at once: ChangeJob, UnitJob and Allocator together in a session.
 
 #include "blactl/dronecan/service.hpp"
-#include "blactl/fleet/carry_out.hpp"
-#include "blactl/fleet/discovery.hpp"
+#include "blactl/fleet/bus/discovery.hpp"
+#include "blactl/fleet/change/carry_out.hpp"
 
 #include "support.hpp"
 #include "unit/can/fake_bus.hpp"

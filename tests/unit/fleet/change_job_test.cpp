@@ -1,4 +1,4 @@
-#include "blactl/fleet/change_job.hpp"
+#include "blactl/fleet/change/change_job.hpp"
 
 #include "support.hpp"
 

@@ -2,9 +2,9 @@
 // was, whenever somebody interrupts.
 
 #include "blactl/dronecan/allocator.hpp"
-#include "blactl/fleet/carry_out.hpp"
-#include "blactl/fleet/characterization.hpp"
-#include "blactl/fleet/discovery.hpp"
+#include "blactl/fleet/bus/discovery.hpp"
+#include "blactl/fleet/change/carry_out.hpp"
+#include "blactl/fleet/characterize/characterization.hpp"
 #include "blactl/sim/facts.hpp"
 
 #include "support.hpp"

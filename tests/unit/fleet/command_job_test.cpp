@@ -1,9 +1,9 @@
 // A simulated servo that is commanded: what it is told, how often, and how that ends.
 
-#include "blactl/fleet/carry_out.hpp"
-#include "blactl/fleet/command_job.hpp"
-#include "blactl/fleet/command_run.hpp"
-#include "blactl/fleet/write_job.hpp"
+#include "blactl/fleet/change/carry_out.hpp"
+#include "blactl/fleet/change/write_job.hpp"
+#include "blactl/fleet/motion/command_job.hpp"
+#include "blactl/fleet/motion/command_run.hpp"
 
 #include "support.hpp"
 #include "unit/sim/motion_rig.hpp"

@@ -1,6 +1,6 @@
 // What is refused before a shaft is moved, and what is asked.
 
-#include "blactl/fleet/command_plan.hpp"
+#include "blactl/fleet/motion/command_plan.hpp"
 
 #include "support.hpp"
 

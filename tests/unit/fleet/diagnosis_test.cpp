@@ -1,4 +1,4 @@
-#include "blactl/fleet/diagnosis.hpp"
+#include "blactl/fleet/doctor/diagnosis.hpp"
 
 #include "support.hpp"
 

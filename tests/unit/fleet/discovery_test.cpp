@@ -1,4 +1,4 @@
-#include "blactl/fleet/discovery.hpp"
+#include "blactl/fleet/bus/discovery.hpp"
 
 #include "support.hpp"
 #include "unit/can/fake_bus.hpp"

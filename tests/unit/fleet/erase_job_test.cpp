@@ -1,4 +1,4 @@
-#include "blactl/fleet/erase_job.hpp"
+#include "blactl/fleet/change/erase_job.hpp"
 
 #include "support.hpp"
 

@@ -1,4 +1,4 @@
-#include "blactl/fleet/fault_job.hpp"
+#include "blactl/fleet/live/fault_job.hpp"
 
 #include "support.hpp"
 

@@ -1,4 +1,4 @@
-#include "blactl/fleet/fault_watch.hpp"
+#include "blactl/fleet/live/fault_watch.hpp"
 
 #include "support.hpp"
 

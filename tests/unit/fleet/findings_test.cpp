@@ -1,4 +1,4 @@
-#include "blactl/fleet/findings.hpp"
+#include "blactl/fleet/characterize/findings.hpp"
 
 #include "support.hpp"
 

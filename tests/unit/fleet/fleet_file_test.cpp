@@ -1,4 +1,4 @@
-#include "blactl/fleet/fleet_file.hpp"
+#include "blactl/fleet/files/fleet_file.hpp"
 
 #include "catch.hpp"
 #include "unit/fleet/support.hpp"

@@ -1,6 +1,6 @@
 #include "blactl/can/silent_recording.hpp"
-#include "blactl/fleet/discovery.hpp"
-#include "blactl/fleet/fleet_recording.hpp"
+#include "blactl/fleet/bus/discovery.hpp"
+#include "blactl/fleet/files/fleet_recording.hpp"
 
 #include "catch.hpp"
 #include "unit/fleet/support.hpp"

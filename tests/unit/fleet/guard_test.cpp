@@ -1,4 +1,4 @@
-#include "blactl/fleet/guard.hpp"
+#include "blactl/fleet/change/guard.hpp"
 
 #include "support.hpp"
 

@@ -1,8 +1,8 @@
 // What is recorded of changes that are carried out on simulated servos.
 
-#include "blactl/fleet/carry_out.hpp"
-#include "blactl/fleet/history.hpp"
-#include "blactl/fleet/undo.hpp"
+#include "blactl/fleet/change/carry_out.hpp"
+#include "blactl/fleet/change/history.hpp"
+#include "blactl/fleet/change/undo.hpp"
 
 #include "support.hpp"
 #include "unit/state/processes.hpp"

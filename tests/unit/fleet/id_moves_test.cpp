@@ -1,5 +1,5 @@
 #include "blactl/base/hex.hpp"
-#include "blactl/fleet/id_moves.hpp"
+#include "blactl/fleet/change/id_moves.hpp"
 
 #include "catch.hpp"
 

@@ -1,4 +1,4 @@
-#include "blactl/fleet/identification.hpp"
+#include "blactl/fleet/bus/identification.hpp"
 
 #include "support.hpp"
 

@@ -1,4 +1,4 @@
-#include "blactl/fleet/label.hpp"
+#include "blactl/fleet/files/label.hpp"
 
 #include "catch.hpp"
 #include "unit/fleet/support.hpp"

@@ -1,5 +1,5 @@
-#include "blactl/fleet/fleet_match.hpp"
-#include "blactl/fleet/params_file.hpp"
+#include "blactl/fleet/files/fleet_match.hpp"
+#include "blactl/fleet/files/params_file.hpp"
 
 #include "catch.hpp"
 #include "unit/fleet/support.hpp"

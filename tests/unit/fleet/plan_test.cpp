@@ -1,4 +1,4 @@
-#include "blactl/fleet/plan.hpp"
+#include "blactl/fleet/change/plan.hpp"
 
 #include "support.hpp"
 

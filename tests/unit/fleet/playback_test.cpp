@@ -1,6 +1,6 @@
-#include "blactl/fleet/fault_job.hpp"
-#include "blactl/fleet/playback.hpp"
-#include "blactl/fleet/read_job.hpp"
+#include "blactl/fleet/bus/playback.hpp"
+#include "blactl/fleet/bus/read_job.hpp"
+#include "blactl/fleet/live/fault_job.hpp"
 
 #include "support.hpp"
 #include "unit/can/fake_bus.hpp"

@@ -1,4 +1,4 @@
-#include "blactl/fleet/read_job.hpp"
+#include "blactl/fleet/bus/read_job.hpp"
 
 #include "support.hpp"
 

@@ -1,4 +1,4 @@
-#include "blactl/fleet/recipe.hpp"
+#include "blactl/fleet/files/recipe.hpp"
 
 #include "catch.hpp"
 #include "unit/fleet/support.hpp"

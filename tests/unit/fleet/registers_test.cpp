@@ -1,4 +1,4 @@
-#include "blactl/fleet/registers.hpp"
+#include "blactl/fleet/bus/registers.hpp"
 
 #include "support.hpp"
 

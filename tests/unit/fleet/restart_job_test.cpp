@@ -1,4 +1,4 @@
-#include "blactl/fleet/restart_job.hpp"
+#include "blactl/fleet/change/restart_job.hpp"
 
 #include "support.hpp"
 

@@ -1,4 +1,4 @@
-#include "blactl/fleet/roster.hpp"
+#include "blactl/fleet/bus/roster.hpp"
 #include "blactl/sim/random.hpp"
 
 #include "support.hpp"

@@ -1,4 +1,4 @@
-#include "blactl/fleet/servo.hpp"
+#include "blactl/fleet/bus/servo.hpp"
 
 #include "catch.hpp"
 

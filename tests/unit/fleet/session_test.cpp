@@ -1,4 +1,4 @@
-#include "blactl/fleet/session.hpp"
+#include "blactl/fleet/bus/session.hpp"
 
 #include "support.hpp"
 #include "unit/can/fake_bus.hpp"

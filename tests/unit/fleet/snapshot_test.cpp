@@ -1,4 +1,4 @@
-#include "blactl/fleet/snapshot.hpp"
+#include "blactl/fleet/bus/snapshot.hpp"
 
 #include "support.hpp"
 

@@ -1,5 +1,5 @@
-#include "blactl/fleet/survey.hpp"
-#include "blactl/fleet/write_job.hpp"
+#include "blactl/fleet/change/survey.hpp"
+#include "blactl/fleet/change/write_job.hpp"
 
 #include "support.hpp"
 

@@ -1,4 +1,4 @@
-#include "blactl/fleet/target.hpp"
+#include "blactl/fleet/bus/target.hpp"
 
 #include "catch.hpp"
 #include "unit/bla/built_in.hpp"

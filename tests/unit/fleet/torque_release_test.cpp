@@ -1,6 +1,6 @@
 // Servos that are let go get back what they held, or it is said why not.
 
-#include "blactl/fleet/torque_release.hpp"
+#include "blactl/fleet/change/torque_release.hpp"
 
 #include "support.hpp"
 

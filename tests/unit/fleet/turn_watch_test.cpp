@@ -1,4 +1,4 @@
-#include "blactl/fleet/turn_watch.hpp"
+#include "blactl/fleet/live/turn_watch.hpp"
 
 #include "catch.hpp"
 

@@ -1,4 +1,4 @@
-#include "blactl/fleet/write_job.hpp"
+#include "blactl/fleet/change/write_job.hpp"
 
 #include "support.hpp"
 

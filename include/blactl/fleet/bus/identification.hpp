@@ -1,0 +1,149 @@
+#pragma once
+// The questions that tell what a node is: GetNodeInfo, then 0x50-0x53, 0x45 and 0x46.
+
+#include "blactl/bla/profile.hpp"
+#include "blactl/dronecan/node.hpp"
+#include "blactl/fleet/bus/registers.hpp"
+#include "blactl/fleet/bus/roster.hpp"
+
+#include <optional>
+
+namespace blactl::fleet {
+
+/// Identifies one node as part of a job: feed it outcomes until it asks nothing more.
+class Identification {
+ public:
+  struct Options {
+    Patience patience;
+    const bla::Profile* assumed = nullptr; ///< --profile
+    bool static_node_id = false;           ///< 0x46 as well
+  };
+
+  /// All references outlive this object. What it finds is entered into `roster`.
+  Identification(Roster& roster, dronecan::NodeId id, const bla::Profiles& profiles,
+                 Options options);
+
+  /// The next question; none: done() or failed. The first call's outcome is not looked at.
+  [[nodiscard]] std::optional<dronecan::Request> next(const dronecan::Outcome& outcome);
+
+  [[nodiscard]] bool done() const { return done_; }
+
+  /// What the node is, when done().
+  [[nodiscard]] const Servo& servo() const { return servo_; }
+
+  /// Why it failed: timeout, not_found, model_mismatch, interrupted, no_acknowledge; not_recorded
+  /// where a recording holds nothing that tells whether it is a servo. What else a recording lacks
+  /// stays unknown.
+  [[nodiscard]] const std::optional<Error>& error() const { return error_; }
+
+ private:
+  enum class Step : std::uint8_t {
+    begin,
+    node_info,
+    model_number,
+    serial_number,
+    firmware_version,
+    hardware_version,
+    servo_id,
+    static_node_id,
+    end,
+  };
+
+  [[nodiscard]] static bla::Address address_of(Step step);
+  [[nodiscard]] std::optional<dronecan::Request> question(Step step);
+  [[nodiscard]] std::optional<dronecan::Request> conclude();
+  [[nodiscard]] std::optional<Error> undecided() const;
+  [[nodiscard]] bool sends_actuator_status() const;
+  [[nodiscard]] bool may_be_servo() const;
+  [[nodiscard]] Error silence_of_model() const;
+  void take_node_info(const dronecan::Outcome& outcome);
+  void take_register(const dronecan::Outcome& outcome);
+  [[nodiscard]] std::optional<std::int64_t>& slot(Step step);
+
+  Roster& roster_;
+  const bla::Profiles& profiles_;
+  Options options_;
+  Step step_ = Step::begin;
+  Servo servo_;
+  std::optional<dronecan::GetNodeInfo::Response> info_;
+  bla::Readings readings_;
+  bool recording_lacks_model_ = false;
+  bool model_silent_ = false; ///< an actuator did not answer 0x50
+  bool done_ = false;
+  std::optional<Error> error_;
+};
+
+/// A job that only identifies.
+class IdentifyJob : public dronecan::Job {
+ public:
+  IdentifyJob(Roster& roster, dronecan::NodeId id, const bla::Profiles& profiles,
+              Identification::Options options)
+      : identification_(roster, id, profiles, options) {}
+
+  [[nodiscard]] dronecan::Step next(const dronecan::Outcome& outcome) override {
+    return identification_.next(outcome);
+  }
+
+  [[nodiscard]] const Identification& identification() const { return identification_; }
+
+ private:
+  Identification identification_;
+};
+
+/// Asks the IDs that were not heard whether they live: scan runs several at a time, which share one
+/// cursor. What answers shows up in the roster by itself.
+class ProbeJob : public dronecan::Job {
+ public:
+  /// The last ID that is asked; 126 and 127 belong to tools.
+  static constexpr std::uint8_t last = 125;
+
+  /// `cursor`: the ID asked last by any of the jobs, 0 at the beginning.
+  ProbeJob(const Roster& roster, std::uint8_t& cursor, Duration timeout)
+      : roster_(roster), cursor_(cursor), timeout_(timeout) {}
+
+  [[nodiscard]] dronecan::Step next(const dronecan::Outcome& outcome) override;
+
+ private:
+  const Roster& roster_;
+  std::uint8_t& cursor_;
+  Duration timeout_;
+};
+
+/// Asks a unit that appeared or restarted for its unique ID, and nothing more.
+class UnitJob final : public dronecan::Job {
+ public:
+  UnitJob(Roster& roster, dronecan::NodeId id, Patience patience)
+      : roster_(roster), id_(id), patience_(patience) {}
+
+  [[nodiscard]] dronecan::Step next(const dronecan::Outcome& outcome) override;
+
+  /// Those who wait for a unit to come back may not be left half done.
+  [[nodiscard]] bool must_finish() const override { return true; }
+
+ private:
+  Roster& roster_;
+  dronecan::NodeId id_;
+  Patience patience_;
+};
+
+/// Asks an identified node for its unique ID once more: another answer is another unit.
+class DoubleCheckJob final : public dronecan::Job {
+ public:
+  DoubleCheckJob(Roster& roster, const Servo& servo, Patience patience)
+      : roster_(roster), servo_(servo), patience_(patience) {}
+
+  [[nodiscard]] dronecan::Step next(const dronecan::Outcome& outcome) override;
+
+  [[nodiscard]] dronecan::NodeId id() const { return servo_.id; }
+
+  /// It is there.
+  [[nodiscard]] bool is_answered() const { return is_answered_; }
+
+ private:
+  Roster& roster_;
+  Servo servo_;
+  Patience patience_;
+  bool is_answered_ = false;
+};
+
+} // namespace blactl::fleet

@@ -1,0 +1,43 @@
+#pragma once
+// Jobs on a recording: they wait until all of it was heard, and then are answered at once.
+
+#include "blactl/dronecan/node.hpp"
+#include "blactl/fleet/bus/archive.hpp"
+
+#include <vector>
+
+namespace blactl::fleet {
+
+class Playback {
+ public:
+  /// `roster` outlives this.
+  explicit Playback(const Roster& roster) : archive_(roster) {}
+
+  /// Every transfer of the recording, after the roster.
+  void receive(const dronecan::Transfer& transfer) { archive_.receive(transfer); }
+
+  /// See Archive::recall().
+  void recall(dronecan::NodeId node, bla::Address address, std::int64_t raw) {
+    archive_.recall(node, address, raw);
+  }
+
+  /// Begins a job: at once when all has been heard, else then. Jobs and hooks may call it.
+  void start(dronecan::Job& job);
+
+  [[nodiscard]] bool finished() const { return finished_; }
+
+  /// All has been heard.
+  void finish();
+
+  /// Nothing more will be heard: the jobs that wait are cancelled.
+  void cancel();
+
+ private:
+  void play(dronecan::Job& job) const;
+
+  Archive archive_;
+  std::vector<dronecan::Job*> waiting_;
+  bool finished_ = false;
+};
+
+} // namespace blactl::fleet

@@ -1,0 +1,75 @@
+#pragma once
+// Identifies one servo and reads registers of it, as they were at one moment.
+
+#include "blactl/fleet/bus/identification.hpp"
+#include "blactl/fleet/bus/run_proof.hpp"
+#include "blactl/fleet/bus/snapshot.hpp"
+
+#include <functional>
+#include <vector>
+
+namespace blactl::fleet {
+
+/// After the last register the servo must prove that it is still the same and ran on since it was
+/// identified; where it has not, all is read once more. For what RAM held before that, see Proof.
+class ReadJob final : public dronecan::Job {
+ public:
+  /// The registers to read of a servo, once it is identified.
+  /// Errors: whatever makes reading pointless; nothing is read then.
+  using Choice = std::function<Result<std::vector<const bla::Parameter*>>(const Servo& servo)>;
+
+  /// How much of it must be proven.
+  enum class Proof : std::uint8_t {
+    none,   ///< on a recording nothing can be asked
+    unit,   ///< that it is one servo: after SAVE a restart more changes nothing
+    moment, ///< that it was true of one servo at one time; a young servo takes a second for that
+    run,    ///< also that it has not restarted since it was first heard: RAM is what is to be saved
+  };
+
+  /// What else to read, after what was read so far; asked until it names nothing new.
+  using More = std::function<std::vector<const bla::Parameter*>(const Snapshot& so_far)>;
+
+  ReadJob(Roster& roster, dronecan::NodeId id, const bla::Profiles& profiles,
+          Identification::Options options, Choice choice, Proof proof = Proof::moment,
+          More more = {});
+
+  [[nodiscard]] dronecan::Step next(const dronecan::Outcome& outcome) override;
+
+  /// What was read so far, in the order of the choice. Errors beside those of identification and
+  /// choice: timeout (it does not answer any more), state (it is another unit, or restarts again
+  /// and again), duplicate_node_id.
+  [[nodiscard]] const Snapshot& snapshot() const { return snapshot_; }
+
+ private:
+  enum class At : std::uint8_t { identify, read, presence, proof };
+
+  [[nodiscard]] dronecan::Step begin(Time now);
+  [[nodiscard]] dronecan::Step take_reading(const dronecan::Outcome& outcome);
+  [[nodiscard]] dronecan::Step read_next(Time now);
+  [[nodiscard]] bool has_next();
+  [[nodiscard]] dronecan::Step prove(Time now);
+  [[nodiscard]] dronecan::Step judge_presence(const dronecan::Outcome& outcome);
+  [[nodiscard]] dronecan::Step judge_proof(const dronecan::Outcome& outcome);
+  [[nodiscard]] dronecan::Step judge_writers(Time now);
+  [[nodiscard]] dronecan::Step read_again(Time now);
+  [[nodiscard]] dronecan::Step give_up(Error error);
+  [[nodiscard]] Error told_by(const Error& error) const;
+  [[nodiscard]] std::optional<Time> must_run_since() const;
+
+  Roster& roster_;
+  dronecan::NodeId id_;
+  Patience patience_;
+  Identification identification_;
+  Choice choice_;
+  More more_;
+  Proof proof_;
+  At at_ = At::identify;
+  std::vector<const bla::Parameter*> wanted_;
+  int silent_ = 0; ///< registers in a row
+  int passes_ = 1; ///< of reading all
+  Time pass_began_{};
+  std::optional<RunProof> run_proof_;
+  Snapshot snapshot_;
+};
+
+} // namespace blactl::fleet

@@ -1,0 +1,221 @@
+#pragma once
+// One blactl process on one bus: the loop, our node, the roster, and jobs until they are done.
+
+#include "blactl/base/error.hpp"
+#include "blactl/can/loop.hpp"
+#include "blactl/dronecan/node.hpp"
+#include "blactl/dronecan/service.hpp"
+#include "blactl/fleet/bus/playback.hpp"
+#include "blactl/fleet/bus/roster.hpp"
+#include "blactl/fleet/bus/traffic.hpp"
+#include "blactl/fleet/files/fleet_recording.hpp"
+#include "blactl/state/local_node_id.hpp"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace blactl::fleet {
+
+/// What a process says that one of these signals ends.
+[[nodiscard]] Error interrupted_by(int signal);
+
+class Session {
+ public:
+  /// What of the bus this session wants to hear; a kernel filter keeps the rest away.
+  enum class Hearing : std::uint8_t {
+    answers,  ///< services for us, NodeStatus, actuator.Status, Allocation, and frames with our ID
+    commands, ///< also what a writer must know: ArrayCommand, ArmingStatus, GetSet requests
+    all,
+  };
+
+  /// Without a local ID the session only listens.
+  [[nodiscard]] static Result<std::unique_ptr<Session>>
+  open(std::unique_ptr<can::Bus> bus, std::optional<state::LocalNodeId> local, Hearing hearing);
+
+  ~Session() = default;
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  [[nodiscard]] const Roster& roster() const { return roster_; }
+
+  /// The roster for jobs: they enter what nodes say of themselves.
+  [[nodiscard]] Roster& records() { return roster_; }
+
+  [[nodiscard]] dronecan::Node& node() { return node_; }
+
+  [[nodiscard]] std::string_view interface() { return loop_.bus().name(); }
+
+  [[nodiscard]] Time now() const { return loop_.now(); }
+
+  /// The same moment by the calendar.
+  [[nodiscard]] WallTime wall() const { return loop_.wall(); }
+
+  /// When the bus was open: since then it has been heard.
+  [[nodiscard]] Time opened() const { return opened_; }
+
+  /// The bus is a log: what is asked is answered from it.
+  [[nodiscard]] bool is_recording() const { return playback_.has_value(); }
+
+  /// It is, and all of it was heard.
+  [[nodiscard]] bool has_played() const { return playback_ && playback_->finished(); }
+
+  /// False: nothing is sent, without a node ID of our own.
+  [[nodiscard]] bool may_ask() const { return node_.id().is_unicast() || playback_.has_value(); }
+
+  /// What a file says of a servo counts as if it had been heard. Only on a recording.
+  void recall(const RecordedServo& recorded);
+
+  /// On a recording nobody is asked: the job is answered from it, as soon as all of it was heard.
+  void start(dronecan::Job& job);
+
+  /// Ends a job that runs, with the outcome `cancelled`.
+  void cancel(dronecan::Job& job) { node_.cancel(job, loop_.now()); }
+
+  /// Begins these jobs and lives until they have ended; what else runs goes on. Errors: as
+  /// live_until().
+  [[nodiscard]] Result<void> run(std::span<dronecan::Job* const> jobs);
+
+  /// Lets a service hear and act; it must live until detach().
+  void attach(dronecan::Service& service) { services_.push_back(&service); }
+
+  void detach(dronecan::Service& service) { std::erase(services_, &service); }
+
+  /// Counts all frames from now on, ours too; null: no more. It must live as long as it counts.
+  void count(Traffic* traffic) { traffic_ = traffic; }
+
+  /// For a command that waits for servos: a bus on which nobody acknowledges is no error.
+  void wait_alone() { waits_alone_ = true; }
+
+  /// Called when a first signal came while jobs run that must not be left half done: they have
+  /// some grace to end. A second signal ends all at once.
+  void on_stopping(std::function<void()> hook) { stopping_ = std::move(hook); }
+
+  /// Called for every question that goes out or stays without an answer; see dronecan::Node::Hooks.
+  using RequestHook = std::function<void(const dronecan::Request&, int tries)>;
+
+  void on_requests(RequestHook asked, RequestHook unanswered) {
+    asked_ = std::move(asked);
+    unanswered_ = std::move(unanswered);
+  }
+
+  /// Called when another node had our node ID and this one took another.
+  using IdHook = std::function<void(const state::LocalNodeId&)>;
+
+  void on_new_id(IdHook hook) { new_id_ = std::move(hook); }
+
+  static constexpr Duration usual_grace = std::chrono::seconds(3);
+
+  /// Of a command that puts back what it changed (contract, section 2).
+  static constexpr Duration put_back_grace = std::chrono::seconds(10);
+
+  /// Another grace, for a command that puts back what it changed: until that is over the session
+  /// lives on after a first signal, whatever that has ended.
+  void set_grace(Duration grace) { grace_ = grace; }
+
+  /// Called when the interface goes away and is waited for, and when it is back; see away().
+  void on_away(std::function<void()> hook) { away_hook_ = std::move(hook); }
+
+  /// Why the interface is away; empty: it is not.
+  [[nodiscard]] const std::optional<Error>& away() const { return away_; }
+
+  /// Lives until the bus is open: what is asked from then on, and how long is listened, has nothing
+  /// to do with how long an adapter took. A node ID of our own that is no tool's is listened for
+  /// before it is used.
+  [[nodiscard]] Result<void> wait_until_open();
+
+  /// Lives until `deadline`; on a recording that does not come at its own pace, until all of it was
+  /// heard, whatever the deadline.
+  /// Errors of this, run() and wait_until_open(): interrupted, interface, bus_off, no_acknowledge,
+  /// duplicate_node_id, no_local_node_id (others have our IDs); of a recording: bad_file. They end
+  /// the session: every job is cancelled.
+  [[nodiscard]] Result<void> live_until(Time deadline);
+
+  /// Lives until `done` holds, which is looked at after every event; whether it did before
+  /// `deadline`.
+  [[nodiscard]] Result<bool> live_until(Time deadline, const std::function<bool()>& done);
+
+  /// Lives until no job is left.
+  [[nodiscard]] Result<void> run();
+
+  /// Calls `hook` whenever `descriptor` can be read, for as long as the session lives; empty: not
+  /// any more.
+  void on_input(int descriptor, std::function<void()> hook);
+
+  /// Called when the terminal has another size.
+  void on_resize(std::function<void()> hook) { resized_ = std::move(hook); }
+
+  /// Lives until `descriptor` (where a person answers a question) can be read.
+  [[nodiscard]] Result<void> wait_for_input(int descriptor);
+
+  /// The signal that ended the session; 0: none.
+  [[nodiscard]] int signal() const { return signal_; }
+
+  /// What a person should know of how the bus was opened; empty: nothing.
+  [[nodiscard]] const std::string& opening_note() const { return opening_note_; }
+
+  /// Something of DroneCAN was heard, of whomever.
+  [[nodiscard]] bool heard_anything() const { return heard_anything_; }
+
+  /// What of the transport explains that nothing was heard (see can::Bus).
+  [[nodiscard]] std::optional<Error> silence() const { return loop_.bus().silence(); }
+
+  /// Frames that the kernel dropped.
+  [[nodiscard]] std::uint64_t lost_frames() const { return lost_; }
+
+  /// What came and was no frame of classic CAN.
+  [[nodiscard]] std::uint64_t unreadable() const { return loop_.bus().unreadable(); }
+
+  /// Frames of ours that never were acknowledged: the kernel may still send what it was given.
+  [[nodiscard]] std::size_t unsent() const { return loop_.unsent(); }
+
+ private:
+  Session(std::unique_ptr<can::Bus> bus, std::optional<state::LocalNodeId> local, Hearing hearing);
+  void begin_as_node();
+  [[nodiscard]] Result<void> give_way();
+
+  enum class Happened : std::uint8_t { something, deadline, input };
+  [[nodiscard]] Result<Happened> step(Time deadline);
+  [[nodiscard]] Result<Happened> take(const can::Event& event);
+  void take_presence(std::optional<Error> away);
+  [[nodiscard]] Result<Happened> take_frame(const can::Received& received);
+  [[nodiscard]] Result<Happened> take_signal(int number);
+  [[nodiscard]] Time next_deadline() const;
+  void advance(Time now);
+  [[nodiscard]] std::unexpected<Error> end(Error error);
+  [[nodiscard]] Time acknowledge_deadline() const;
+
+  [[nodiscard]] bool plays_at_once() const { return playback_ && !loop_.bus().is_paced(); }
+
+  [[nodiscard]] Result<void> play();
+  [[nodiscard]] Result<void> run_while(const std::function<bool()>& busy);
+
+  std::optional<state::LocalNodeId> local_;
+  Hearing hearing_;
+  can::Loop loop_;
+  Roster roster_;
+  std::optional<Playback> playback_; ///< on a recording
+  dronecan::Node node_;
+  std::vector<dronecan::Service*> services_;
+  Traffic* traffic_ = nullptr;
+  std::function<void()> stopping_, resized_;
+  int input_ = -1; ///< of on_input()
+  std::function<void()> input_hook_;
+  std::function<void()> away_hook_;
+  std::optional<Error> away_;
+  RequestHook asked_, unanswered_;
+  IdHook new_id_;
+  bool waits_alone_ = false;
+  int signal_ = 0;
+  Duration grace_ = usual_grace;
+  Time give_up_at_ = never; ///< after a signal: when running jobs are left half done
+  std::uint64_t lost_ = 0;
+  Time opened_{};
+  std::string opening_note_;
+  bool heard_anything_ = false;
+};
+
+} // namespace blactl::fleet

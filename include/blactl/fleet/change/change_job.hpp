@@ -1,0 +1,125 @@
+#pragma once
+// Carries the plan of one servo out to its end, without waiting for any other servo.
+
+#include "blactl/bla/profile.hpp"
+#include "blactl/fleet/bus/read_job.hpp"
+#include "blactl/fleet/change/erase_job.hpp"
+#include "blactl/fleet/change/plan.hpp"
+#include "blactl/fleet/change/restart_job.hpp"
+#include "blactl/fleet/change/result.hpp"
+#include "blactl/fleet/change/write_job.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string_view>
+
+namespace blactl::fleet {
+
+/// What is being done to a servo, for those who watch.
+enum class ChangeStage : std::uint8_t { erase, write, save, restart, read, end };
+[[nodiscard]] std::string_view name(ChangeStage stage);
+
+/// Told when a stage begins; the servo as it was recognised last.
+using StageHook = std::function<void(const Servo& servo, ChangeStage stage)>;
+
+/// Erases and reads back, writes, restarts, recognises the servo and reads it once more: each stage
+/// is a job of its own, and begins only if everything before it went well. Where nothing proves
+/// that the servo ran on until SAVE, it is looked at again before: SAVE keeps what RAM holds then.
+/// What is to be shown and is no setting is read last, as the changes have left it.
+class ChangeJob final : public dronecan::Job {
+ public:
+  struct Options {
+    Identification::Options identification{};
+    Time start{};                ///< of the restart: not before
+    Duration come_back{};        ///< how long a restart may take
+    RestartPace* pace = nullptr; ///< outlives the job; null: nobody else is waited for
+    StageHook entered{};         ///< may be empty
+  };
+
+  /// `roster`, `profiles` and `plan` outlive the job.
+  ChangeJob(Roster& roster, const bla::Profiles& profiles, const Plan& plan, Options options);
+
+  [[nodiscard]] dronecan::Step next(const dronecan::Outcome& outcome) override;
+
+  /// From the request to restart until what the servo holds has been read.
+  [[nodiscard]] bool must_finish() const override;
+
+  /// The job has ended, and others have not: is its result still true, as far as was heard? What
+  /// was in RAM only is lost by a restart, and another node may have written to it since; what was
+  /// proven may be of another unit on the same ID.
+  void look_back();
+
+  /// It was told to save or to restart, and is not back.
+  [[nodiscard]] bool is_away() const { return stage_ == Stage::restart && restart_->is_sent(); }
+
+  [[nodiscard]] bool has_ended() const { return stage_ == Stage::end; }
+
+  /// How far it came; whole when the job has ended.
+  [[nodiscard]] const ChangeResult& result() const { return result_; }
+
+ private:
+  enum class Stage : std::uint8_t {
+    begin,
+    erase,
+    read_erased,
+    write,
+    restart,
+    look, ///< instead of a SAVE that was not sent
+    read_back,
+    read_shown,
+    end,
+  };
+
+  [[nodiscard]] bool is_stopped(Stage next) const;
+  void stop();
+  void tell_failure() const;
+  [[nodiscard]] std::optional<ChangeStage> told_as(Stage stage) const;
+  [[nodiscard]] Stage first_stage() const;
+  [[nodiscard]] dronecan::Step enter(Stage stage, Time now);
+  [[nodiscard]] Stage conclude_stage(bool cancelled);
+  [[nodiscard]] Stage conclude_erase();
+  [[nodiscard]] Stage conclude_read_erased();
+  [[nodiscard]] Stage conclude_write();
+  [[nodiscard]] Stage conclude_restart();
+  [[nodiscard]] Stage conclude_look();
+  [[nodiscard]] Stage conclude_read_back();
+  void conclude_read_shown();
+  [[nodiscard]] std::optional<RomReading> rom_reading(const Snapshot& now) const;
+  [[nodiscard]] Time known_since() const;
+  [[nodiscard]] std::optional<dronecan::NodeId> other_writer() const;
+  void explain_interruption(Stage at);
+  void blame_other_writer();
+  void blame_other_writer(Change& change) const;
+  void tell_reach();
+  [[nodiscard]] std::optional<Error> check_commands(const Snapshot& now) const;
+  void doubt_changes();
+  void tell_saved(const Snapshot& now);
+  [[nodiscard]] std::unique_ptr<WriteJob> write() const;
+  [[nodiscard]] std::unique_ptr<RestartJob> restart() const;
+  [[nodiscard]] Stage after_erase() const;
+  [[nodiscard]] Stage after_write() const;
+  [[nodiscard]] Stage to_show() const;
+  [[nodiscard]] std::unique_ptr<ReadJob> read_configuration();
+  [[nodiscard]] std::unique_ptr<ReadJob> read_shown();
+  void take_reading(const Snapshot& now);
+
+  Roster& roster_;
+  const bla::Profiles& profiles_;
+  const Plan& plan_;
+  Options options_;
+  Stage stage_ = Stage::begin;
+  Servo servo_; ///< as it was recognised last, before a restart of ours
+  bool may_erase_again_ = true;
+  int looks_ = 0;
+  Time begin_{};
+  std::unique_ptr<EraseJob> erase_;
+  std::unique_ptr<WriteJob> write_;
+  std::unique_ptr<RestartJob> restart_;
+  std::unique_ptr<ReadJob> read_;
+  dronecan::Job* job_ = nullptr; ///< the one of this stage
+  ChangeResult result_;
+};
+
+} // namespace blactl::fleet

@@ -1,0 +1,43 @@
+#pragma once
+// Resets the RAM of one servo to factory defaults.
+
+#include "blactl/dronecan/node.hpp"
+#include "blactl/fleet/bus/registers.hpp"
+#include "blactl/fleet/bus/roster.hpp"
+
+#include <optional>
+#include <utility>
+
+namespace blactl::fleet {
+
+/// ERASE (opcode 1; 2.3, 4.9) is sent once. Without an answer the registers must tell whether it
+/// was carried out: that is for the caller to read.
+class EraseJob final : public dronecan::Job {
+ public:
+  /// `roster` outlives the job.
+  EraseJob(const Roster& roster, Servo servo, Patience patience)
+      : roster_(roster), servo_(std::move(servo)), patience_(patience) {}
+
+  [[nodiscard]] dronecan::Step next(const dronecan::Outcome& outcome) override;
+
+  [[nodiscard]] bool is_confirmed() const { return is_confirmed_; }
+
+  /// The request left this machine, or may have.
+  [[nodiscard]] bool is_sent() const { return at_ == At::request; }
+
+  /// The request did not leave this machine for certain, or the servo refused it; empty also where
+  /// the answer was lost. Errors: refused, no_acknowledge, interrupted, state.
+  [[nodiscard]] const std::optional<Error>& error() const { return error_; }
+
+ private:
+  enum class At : std::uint8_t { begin, unit, request };
+
+  const Roster& roster_;
+  Servo servo_;
+  Patience patience_;
+  At at_ = At::begin;
+  bool is_confirmed_ = false;
+  std::optional<Error> error_;
+};
+
+} // namespace blactl::fleet

@@ -1,0 +1,149 @@
+#pragma once
+// Makes one servo save or restart, and waits until the same servo is back.
+
+#include "blactl/dronecan/node.hpp"
+#include "blactl/fleet/bus/registers.hpp"
+#include "blactl/fleet/bus/roster.hpp"
+#include "blactl/fleet/bus/run_proof.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <set>
+
+namespace blactl::fleet {
+
+/// What restarts a servo: SAVE (opcode 0: RAM to ROM, section 4.11) or RestartNode (4.10).
+enum class RestartKind : std::uint8_t { save, restart };
+
+/// What the jobs of several servos share: the distance between their requests, and whether one has
+/// failed.
+struct RestartPace {
+  Duration distance{};
+  Time next{};                          ///< when the next first request may go out
+  std::set<dronecan::NodeId> leaving{}; ///< who was told to restart, and may go to another ID
+  bool stops_at_failure = false; ///< after one has failed nothing is sent that changes another
+  bool has_failed = false;
+
+  [[nodiscard]] bool is_stopped() const { return stops_at_failure && has_failed; }
+};
+
+/// The request goes out once. Without an answer the uptime tells whether it was carried out, and
+/// only if it was not the request is sent once more. The servo is recognised by its unique ID,
+/// whatever node ID it comes back with; somebody must ask the units that appear for theirs
+/// (UnitJob). One that sends nothing by itself is asked at its node ID.
+class RestartJob final : public dronecan::Job {
+ public:
+  struct Options {
+    RestartKind kind = RestartKind::save;
+    Time start{};         ///< not before
+    Duration come_back{}; ///< how long it may take from the request on
+    Patience patience;
+    RestartPace* pace = nullptr; ///< outlives the job; null: nobody else is waited for
+    /// The node ID that the servo will have, where it is known.
+    std::optional<dronecan::NodeId> expected{};
+  };
+
+  /// `servo` has a unique ID; `roster` outlives the job.
+  RestartJob(const Roster& roster, const Servo& servo, Options options);
+
+  [[nodiscard]] dronecan::Step next(const dronecan::Outcome& outcome) override;
+
+  [[nodiscard]] bool must_finish() const override { return is_sent_ && !is_over_; }
+
+  /// The node ID that the servo has now; empty: it is not back.
+  [[nodiscard]] std::optional<dronecan::NodeId> returned() const { return returned_; }
+
+  /// Nothing was sent: the servo has restarted, and may not hold any more what was read of it.
+  [[nodiscard]] bool is_unproven() const { return is_unproven_; }
+
+  /// Why it is not, or what is not known: timeout, not_back, refused, state, no_acknowledge,
+  /// interrupted, duplicate_node_id.
+  [[nodiscard]] const std::optional<Error>& error() const { return error_; }
+
+  /// A request has left, or may have left, this machine.
+  [[nodiscard]] bool is_sent() const { return is_sent_; }
+
+  /// When the first one did.
+  [[nodiscard]] Time sent_at() const { return first_sent_at_; }
+
+  /// The servo answered that it does it.
+  [[nodiscard]] bool is_confirmed() const { return is_confirmed_; }
+
+  /// It ended with a proof that the servo ran on: RAM holds what it held.
+  [[nodiscard]] bool has_run_on() const { return has_run_on_; }
+
+  /// A request has left, or still may, and the servo neither refused it nor ran on in silence. One
+  /// that confirms it and runs on may have carried out a part of it.
+  [[nodiscard]] bool may_have_happened() const {
+    return is_sent_ && (is_confirmed_ || !has_run_on_ || !has_left_);
+  }
+
+  /// From the first request until it was back or given up.
+  [[nodiscard]] Duration duration() const {
+    return is_sent_ ? ended_at_ - first_sent_at_ : Duration::zero();
+  }
+
+ private:
+  enum class At : std::uint8_t {
+    begin,
+    start,
+    unit,
+    young,
+    proof,
+    request,
+    settling,
+    alive,
+    away,
+    call
+  };
+
+  [[nodiscard]] dronecan::Step ask_unit();
+  [[nodiscard]] dronecan::Step check_unit(const dronecan::Outcome& outcome);
+  [[nodiscard]] dronecan::Step judge_proof(const dronecan::Outcome& outcome);
+  [[nodiscard]] dronecan::Step request(Time now);
+  [[nodiscard]] dronecan::Step judge_answer(const dronecan::Outcome& outcome);
+  [[nodiscard]] dronecan::Step judge_life(const dronecan::Outcome& outcome);
+  [[nodiscard]] dronecan::Step wait_for_return(Time now);
+  [[nodiscard]] bool runs_on(const dronecan::GetNodeInfo::Response& info, Time now) const;
+  [[nodiscard]] dronecan::Step call(Time now);
+  [[nodiscard]] dronecan::Step judge_call(const dronecan::Outcome& outcome);
+  [[nodiscard]] std::optional<dronecan::NodeId> doubled_id() const;
+  [[nodiscard]] bool is_another_at(dronecan::NodeId id) const;
+
+  [[nodiscard]] bool has_news() const { return find_returned(true) || doubled_id(); }
+
+  [[nodiscard]] dronecan::Step conclude();
+  [[nodiscard]] dronecan::Step give_up(Error error);
+  [[nodiscard]] bool is_after_request(Time started) const;
+  [[nodiscard]] bool has_started_anew() const;
+  [[nodiscard]] bool lives_on() const;
+  [[nodiscard]] Error not_carried_out() const;
+  [[nodiscard]] Error not_back() const;
+  [[nodiscard]] Error left_waiting() const;
+  [[nodiscard]] bool has_answered_ok(dronecan::Bytes payload) const;
+  [[nodiscard]] std::optional<dronecan::NodeId> find_returned(bool must_operate) const;
+
+  const Roster& roster_;
+  Servo servo_;
+  dronecan::NodeId id_;
+  dronecan::UniqueId unique_id_;
+  Time since_; ///< RAM must be as it was then
+  std::optional<RunProof> run_proof_;
+  Options options_;
+  At at_ = At::begin;
+  std::uint32_t boot_ = 0; ///< of the servo when the request was sent
+  Time first_sent_at_{}, sent_at_{}, ended_at_{};
+  bool is_sent_ = false;
+  bool is_confirmed_ = false;
+  bool has_left_ = true; ///< the last request, for certain
+  bool may_repeat_ = true;
+  bool is_over_ = false;
+  bool is_unproven_ = false;
+  bool has_run_on_ = false;
+  bool has_restarted_ = false;  ///< its uptime says so, which the roster may have missed
+  bool calls_expected_ = false; ///< whom it called last
+  std::optional<dronecan::NodeId> returned_;
+  std::optional<Error> error_;
+};
+
+} // namespace blactl::fleet

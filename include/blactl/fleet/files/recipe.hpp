@@ -1,0 +1,68 @@
+#pragma once
+// A recipe: what every servo of a production line shall hold (contract, sections 6 and 7).
+//
+//   {
+//     "schema": "blactl-recipe/1",
+//     "name": "aileron",
+//     "model": "BLA21-12U-AB",
+//     "firmware_min": 1400,
+//     "set": {
+//       "servo_id": {"first": 1, "last": 8, "step": 1, "at_end": "again"},
+//       "angle_limit_cw": "45.0deg"
+//     }
+//   }
+//
+// (schemas/recipe.schema.json)
+
+#include "blactl/base/error.hpp"
+#include "blactl/bla/assignment.hpp"
+#include "blactl/bla/profile.hpp"
+#include "blactl/fleet/bus/snapshot.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace blactl::fleet {
+
+/// The word that a recipe begins with.
+inline constexpr std::string_view recipe_schema = "blactl-recipe/1";
+
+/// IDs for one servo after the other: first, first + step, … up to last.
+struct Counter {
+  const bla::Parameter* parameter = nullptr; ///< servo_id (0x45) or static_node_id (0x46)
+  std::int64_t first = 0;
+  std::int64_t last = 0;     ///< not below the first
+  std::int64_t step = 1;     ///< 1 or more
+  bool begins_again = false; ///< with the first one after the last; else there is none left
+
+  /// The ID after `value`, whatever that is; empty: none is left.
+  [[nodiscard]] std::optional<std::int64_t> after(std::int64_t value) const;
+};
+
+struct Recipe {
+  std::string name;  ///< of its counters: they go on when the file has changed
+  std::string model; ///< as `-n model:` takes it
+  std::optional<std::int64_t> firmware_min{}; ///< 0x52
+  std::vector<bla::Assignment> set{};         ///< by address
+  std::vector<Counter> counters{};            ///< by address
+};
+
+/// `file` is the name for messages. Errors: bad_file with file, line, JSON pointer and reason of
+/// every fault: what is no JSON, keys that are unknown or there twice, values that the model does
+/// not take, registers other than 0x20-0x46, counters for other registers than the two, or with an
+/// ID that no servo takes.
+[[nodiscard]] Result<Recipe> parse_recipe(std::string_view text, std::string file,
+                                          const bla::Profiles& profiles);
+
+/// "-" reads stdin. Errors: the same.
+[[nodiscard]] Result<Recipe> read_recipe(const std::filesystem::path& file,
+                                         const bla::Profiles& profiles);
+
+/// The settings of one servo as those of any other of its model, so without IDs.
+[[nodiscard]] std::string recipe_file(const Snapshot& servo);
+
+} // namespace blactl::fleet

@@ -1,0 +1,52 @@
+#pragma once
+// Reads the faults of a servo.
+
+#include "blactl/dronecan/node.hpp"
+#include "blactl/fleet/bus/read_job.hpp"
+#include "blactl/fleet/bus/session.hpp"
+#include "blactl/fleet/live/fault_state.hpp"
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace blactl::fleet {
+
+/// Reads 0x18, and where it says that there are faults what tells more. A servo whose NodeStatus
+/// tells of more than that is read once more, all four registers; on a recording its faults are
+/// not_recorded, as far as none were found.
+class FaultJob final : public dronecan::Job {
+ public:
+  /// `session` outlives the job, `profiles` its state too.
+  FaultJob(Session& session, const bla::Profiles& profiles, dronecan::NodeId id,
+           const Identification::Options& options);
+
+  [[nodiscard]] dronecan::Step next(const dronecan::Outcome& outcome) override;
+
+  /// Once the job has ended.
+  [[nodiscard]] const FaultState& state() const { return state_; }
+
+ private:
+  void look(std::span<const bla::Address> first);
+  [[nodiscard]] dronecan::Step judge(Time now);
+
+  Session& session_;
+  const bla::Profiles& profiles_;
+  Identification::Options options_;
+  std::optional<ReadJob> read_;
+  bool is_second_ = false; ///< the look at all four registers
+  FaultState state_;
+};
+
+/// Of several, in the order asked.
+struct FaultStates {
+  std::vector<FaultState> servos;
+  std::optional<Error> broken; ///< why the session ended before
+};
+
+/// Reads those of several servos at once. `profiles` outlives the states.
+[[nodiscard]] FaultStates read_faults(Session& session, const bla::Profiles& profiles,
+                                      std::span<const dronecan::NodeId> servos,
+                                      const Identification::Options& options);
+
+} // namespace blactl::fleet

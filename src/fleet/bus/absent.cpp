@@ -1,0 +1,55 @@
+#include "blactl/fleet/bus/absent.hpp"
+
+#include "blactl/base/hex.hpp"
+#include "blactl/fleet/bus/target_texts.hpp"
+#include "blactl/fleet/bus/texts.hpp"
+
+#include <algorithm>
+#include <string>
+
+namespace blactl::fleet {
+namespace {
+
+/// A unit whose unique ID begins like this asks for a node ID.
+bool is_pending(const Roster& roster, const Selector& selector) {
+  return selector.key == Selector::Key::unique_id &&
+         std::ranges::any_of(roster.pending(), [&](const UniqueIdPrefix& prefix) {
+           const std::string heard = hex(prefix);
+           return heard.starts_with(selector.value) || selector.value.starts_with(heard);
+         });
+}
+
+} // namespace
+
+Error nothing_matches(const Roster& roster, const Selector& selector) {
+  if (is_pending(roster, selector)) {
+    return {Code::not_found, say<texts::target_waits_for_id>(printable(selector.text)),
+            say<texts::target_waits_for_id_hint>(), std::nullopt};
+  }
+  return {Code::not_found, say<texts::nothing_matches>(printable(selector.text)),
+          say<texts::node_not_found_hint>(), std::nullopt};
+}
+
+/// A node that sends no actuator.Status may be a servo all the same.
+Error no_servo(const Roster& roster) {
+  std::string ids, first;
+  for (const auto& [id, member] : roster.members()) {
+    if (roster.heard(id)) {
+      ids += (ids.empty() ? "" : ", ") + std::to_string(id.value());
+      first = first.empty() ? ids : first;
+    }
+  }
+  if (ids.empty()) {
+    return {Code::not_found, say<texts::no_servo_found>(), say<texts::no_servo_found_hint>(),
+            std::nullopt};
+  }
+  return {Code::not_found, say<texts::no_node_is_servo>(ids),
+          say<texts::no_node_is_servo_hint>(first), std::nullopt};
+}
+
+Error unrecorded(dronecan::NodeId id) {
+  return {Code::not_recorded, say<texts::node_not_recorded>(id.value()),
+          say<texts::not_recorded_hint>(), id.value()};
+}
+
+} // namespace blactl::fleet

@@ -1,0 +1,167 @@
+#include "blactl/fleet/bus/archive.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <string_view>
+
+namespace blactl::fleet {
+
+using dronecan::ExecuteOpcode;
+using dronecan::GetNodeInfo;
+using dronecan::GetSet;
+using dronecan::Kind;
+using dronecan::Outcome;
+using dronecan::RestartNode;
+using dronecan::Transfer;
+
+namespace {
+
+/// The register that a GetSet request is about: a name wins over an index, which is the address
+/// (specification 2.3). Empty: none of a BLA servo.
+std::optional<bla::Address> address_of(const GetSet::Request& request) {
+  if (!request.name.empty()) {
+    return bla::find_address(request.name);
+  }
+  constexpr std::uint16_t most = 0xFF;
+  return request.index <= most
+             ? bla::find_address(bla::Address(static_cast<std::uint8_t>(request.index)).name())
+             : std::nullopt;
+}
+
+/// ERASE sets the commands to 0, too (4.9).
+bool is_erasable(bla::Address address) {
+  return bla::is_setting(address) ||
+         std::ranges::find(bla::command_registers, address) != bla::command_registers.end();
+}
+
+} // namespace
+
+Archive::Moment Archive::Server::unchanged_since(bla::Address address) const {
+  const auto write = written.find(address);
+  return std::max(
+      {restarted, is_erasable(address) ? erased : 0, write != written.end() ? write->second : 0});
+}
+
+void Archive::receive(const Transfer& transfer) {
+  ++now_;
+  const auto& header = transfer.header;
+  if (header.kind == Kind::request) {
+    receive_request(transfer);
+  } else if (header.kind == Kind::response && header.data_type_id == GetSet::type.id) {
+    receive_register(transfer);
+  } else if (header.kind == Kind::response && header.data_type_id == GetNodeInfo::type.id &&
+             GetNodeInfo::Response::decode(transfer.payload)) {
+    keep(servers_[header.source].info, transfer, now_);
+  }
+}
+
+void Archive::receive_request(const Transfer& transfer) {
+  const auto& header = transfer.header;
+  if (header.data_type_id == GetSet::type.id) {
+    receive_question(transfer);
+  } else if (header.data_type_id == RestartNode::type.id) {
+    servers_[header.destination].restarted = now_;
+  } else if (header.data_type_id == ExecuteOpcode::type.id) {
+    const auto request = ExecuteOpcode::Request::decode(transfer.payload);
+    Server& server = servers_[header.destination];
+    if (request && request->opcode == ExecuteOpcode::erase) {
+      server.erased = now_;
+    } else if (request && request->opcode == ExecuteOpcode::save) {
+      server.restarted = now_;
+    }
+  }
+}
+
+void Archive::receive_question(const Transfer& transfer) {
+  Server& server = servers_[transfer.header.destination];
+  const std::pair asked_by(transfer.header.source, transfer.transfer_id);
+  const auto request = GetSet::Request::decode(transfer.payload);
+  const auto address = request ? address_of(*request) : std::nullopt;
+  if (!address) {
+    server.questions.erase(asked_by);
+    return;
+  }
+  server.questions[asked_by] = {*address, now_};
+  if (std::holds_alternative<GetSet::Empty>(request->value)) {
+    return;
+  }
+  namespace at = bla::address;
+  if (*address == at::initialize) {
+    server.erased = now_;
+  } else if (*address == at::reboot || *address == at::write_rom) {
+    server.restarted = now_;
+  } else {
+    server.written[*address] = now_;
+  }
+}
+
+void Archive::receive_register(const Transfer& transfer) {
+  const auto response = GetSet::Response::decode(transfer.payload);
+  if (!response) {
+    return;
+  }
+  Server& server = servers_[transfer.header.source];
+  const auto question = server.questions.find({transfer.header.destination, transfer.transfer_id});
+  const bool is_known = question != server.questions.end();
+  auto address = bla::find_address(response->name);
+  if (response->name.empty() && is_known) {
+    address = question->second.address;
+  }
+  if (address) {
+    const bool is_about_it = is_known && question->second.address == *address;
+    keep(server.registers[*address], transfer, is_about_it ? question->second.at : now_);
+  }
+}
+
+void Archive::keep(Answer& slot, const Transfer& transfer, Moment asked) {
+  slot.payload.assign(transfer.payload.begin(), transfer.payload.end());
+  slot.at = transfer.at;
+  slot.boots = boots(transfer.header.source);
+  slot.asked = asked;
+}
+
+void Archive::recall(dronecan::NodeId node, bla::Address address, std::int64_t raw) {
+  const auto payload = GetSet::Response{.value = raw, .name = address.name()}.encode();
+  Answer& slot = servers_[node].registers[address];
+  slot.payload.assign(payload.bytes().begin(), payload.bytes().end());
+  slot.boots = boots(node);
+}
+
+/// How often the node has restarted so far.
+std::uint32_t Archive::boots(dronecan::NodeId node) const {
+  const Member* member = roster_.find(node);
+  return member != nullptr ? member->boots : 0;
+}
+
+const Archive::Answer* Archive::find(const dronecan::Request& request) const {
+  const auto server = servers_.find(request.server);
+  if (server == servers_.end()) {
+    return nullptr;
+  }
+  const Server& held = server->second;
+  if (request.type->id == GetNodeInfo::type.id) {
+    return held.info.asked >= held.restarted ? &held.info : nullptr;
+  }
+  const auto get_set = request.type->id == GetSet::type.id
+                           ? GetSet::Request::decode(request.payload.bytes())
+                           : std::nullopt;
+  if (!get_set || !std::holds_alternative<GetSet::Empty>(get_set->value)) {
+    return nullptr;
+  }
+  const auto address = address_of(*get_set);
+  const auto answer = address ? held.registers.find(*address) : held.registers.end();
+  const bool is_valid =
+      answer != held.registers.end() && answer->second.asked >= held.unchanged_since(*address);
+  return is_valid ? &answer->second : nullptr;
+}
+
+Outcome Archive::answer(const dronecan::Request& request) const {
+  const Answer* answer = find(request);
+  const bool holds = answer != nullptr && !answer->payload.empty() &&
+                     answer->boots == boots(request.server) &&
+                     (!request.accepts || request.accepts(answer->payload));
+  return holds ? Outcome{Outcome::Kind::answered, answer->payload, answer->at, answer->at}
+               : Outcome{Outcome::Kind::not_recorded, {}, {}};
+}
+
+} // namespace blactl::fleet

@@ -1,0 +1,38 @@
+#include "blactl/fleet/bus/array_command.hpp"
+
+#include <cmath>
+
+namespace blactl::fleet {
+
+namespace {
+
+/// Of table 2-21, and what 1 means in the register.
+struct ArrayEntry {
+  std::uint8_t type;
+  float scale;
+};
+
+constexpr ArrayEntry entry_of(bla::Address command) {
+  constexpr ArrayEntry position{1, 1000}, force{2, 1}, speed{3, 1};
+  return command == bla::address::command_angle   ? position
+         : command == bla::address::command_speed ? speed
+                                                  : force;
+}
+
+} // namespace
+
+dronecan::ArrayCommand array_command(std::uint8_t servo_id, bla::Address command,
+                                     std::int64_t raw) {
+  const ArrayEntry entry = entry_of(command);
+  return {{{.actuator_id = servo_id,
+            .command_type = entry.type,
+            .value = static_cast<float>(raw) / entry.scale}}};
+}
+
+std::int64_t told_by_array(bla::Address command, std::int64_t raw) {
+  const float sent = static_cast<float>(raw) / entry_of(command).scale;
+  const float told = dronecan::from_float16(dronecan::to_float16(sent));
+  return std::isfinite(told) ? std::llround(told * entry_of(command).scale) : 0;
+}
+
+} // namespace blactl::fleet

@@ -1,0 +1,128 @@
+#include "blactl/fleet/bus/command_watch.hpp"
+
+#include <algorithm>
+#include <utility>
+#include <variant>
+
+namespace blactl::fleet {
+
+using dronecan::Kind;
+using dronecan::NodeId;
+using dronecan::Transfer;
+
+namespace {
+
+/// ERASE writes all of them; a name that is none of ours may be any.
+constexpr std::optional<bla::Address> every_register{};
+constexpr std::uint16_t last_index = 0xFF;
+
+} // namespace
+
+void CommandWatch::receive(const Transfer& transfer) {
+  const auto& header = transfer.header;
+  const auto is = [&](Kind kind, const dronecan::DataType& type) {
+    return header.kind == kind && header.data_type_id == type.id;
+  };
+  if (is(Kind::request, dronecan::GetSet::type)) {
+    on_write(transfer);
+  } else if (is(Kind::request, dronecan::ExecuteOpcode::type)) {
+    on_opcode(transfer);
+  } else if (is(Kind::message, dronecan::ArrayCommand::type)) {
+    on_command(transfer);
+  } else if (is(Kind::message, dronecan::ArmingStatus::type)) {
+    on_arming(transfer);
+  }
+}
+
+Commander& CommandWatch::commander(NodeId source) {
+  Commander& known = commanders_[source];
+  known.source = source;
+  return known;
+}
+
+void CommandWatch::on_command(const Transfer& transfer) {
+  const auto command = dronecan::ArrayCommand::decode(transfer.payload);
+  if (!command) {
+    return;
+  }
+  for (const auto& entry : command->commands) {
+    commander(transfer.header.source).servo_ids[entry.actuator_id] = {transfer.at,
+                                                                      entry.command_type};
+  }
+}
+
+/// Each speaks for itself: one that is disarmed does not disarm another.
+void CommandWatch::on_arming(const Transfer& transfer) {
+  if (const auto arming = dronecan::ArmingStatus::decode(transfer.payload)) {
+    const NodeId source = transfer.header.source;
+    arming->status == dronecan::ArmingStatus::disarmed ? armed_.erase(source)
+                                                       : armed_.insert(source).second;
+  }
+}
+
+void CommandWatch::on_write(const Transfer& transfer) {
+  const auto request = dronecan::GetSet::Request::decode(transfer.payload);
+  if (!request || std::holds_alternative<dronecan::GetSet::Empty>(request->value)) {
+    return;
+  }
+  // A name wins over an index, which is the address.
+  const auto is_at = [&](bla::Address address) {
+    return request->name.empty() ? request->index == address.value()
+                                 : request->name == address.name();
+  };
+  namespace at = bla::address;
+  const auto& [source, server] = std::pair(transfer.header.source, transfer.header.destination);
+  if (is_at(at::command_angle) || is_at(at::command_speed) || is_at(at::command_torque)) {
+    commander(source).nodes[server] = transfer.at;
+  } else {
+    const auto reg = request->name.empty() ? std::optional(bla::Address(static_cast<std::uint8_t>(
+                                                 std::min(request->index, last_index))))
+                                           : bla::find_address(request->name);
+    writes_[server][reg] = {source, transfer.at};
+  }
+}
+
+void CommandWatch::on_opcode(const Transfer& transfer) {
+  const auto request = dronecan::ExecuteOpcode::Request::decode(transfer.payload);
+  if (request && request->opcode == dronecan::ExecuteOpcode::erase) {
+    writes_[transfer.header.destination][every_register] = {transfer.header.source, transfer.at};
+  }
+}
+
+std::optional<NodeId> CommandWatch::writer_to(NodeId id, Time since,
+                                              std::optional<bla::Address> reg) const {
+  const auto it = writes_.find(id);
+  if (it == writes_.end()) {
+    return std::nullopt;
+  }
+  for (const auto& [written, write] : it->second) {
+    if (write.at > since && (!reg || !written || *written == *reg)) {
+      return write.source;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<NodeId> CommandWatch::commander_of(const Servo& servo,
+                                                 std::optional<std::uint8_t> actuator_id,
+                                                 Time since) const {
+  const auto is_recent = [&](Time at) { return at >= since; };
+  for (const auto& [source, commander] : commanders_) {
+    const auto by_node = commander.nodes.find(servo.id);
+    if (by_node != commander.nodes.end() && is_recent(by_node->second)) {
+      return source;
+    }
+    for (const auto& [servo_id, command] : commander.servo_ids) {
+      constexpr std::uint8_t every_servo = 255;
+      // Register and actuator.Status may differ: which of them it obeys is not known.
+      const bool is_meant =
+          servo_id == every_servo || servo.servo_id == servo_id || actuator_id == servo_id;
+      if (is_meant && is_recent(command.at)) {
+        return source;
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+} // namespace blactl::fleet

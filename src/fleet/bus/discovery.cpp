@@ -1,0 +1,385 @@
+#include "blactl/fleet/bus/discovery.hpp"
+
+#include "blactl/fleet/bus/absent.hpp"
+#include "blactl/fleet/bus/read_job.hpp"
+#include "blactl/fleet/bus/target_texts.hpp"
+#include "blactl/fleet/bus/texts.hpp"
+#include "blactl/fleet/change/guard.hpp"
+#include "blactl/fleet/change/restart_texts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <list>
+#include <set>
+#include <utility>
+
+namespace blactl::fleet {
+
+using dronecan::NodeId;
+
+namespace {
+
+/// IDs that are asked at a time, and how long for: 125 of them fit into the time of listening.
+constexpr int probes_at_a_time = 8;
+constexpr Duration probe_timeout = std::chrono::milliseconds(60);
+
+bool is_operational(const Member& member) {
+  return member.is_known() && member.status && member.status->mode == dronecan::Mode::operational;
+}
+
+/// Why a node that was heard is not ready.
+Error not_ready(const Member& member, bool is_gone, const std::string& seconds) {
+  const std::uint8_t id = member.id.value();
+  if (is_gone) {
+    return {Code::timeout, say<texts::node_gone>(id), say<texts::no_answer_hint>(), id};
+  }
+  return member.is_known()
+             ? Error{Code::timeout, say<texts::wait_not_operational>(id, seconds),
+                     say<texts::opcode_refused_hint>(id), id}
+             : Error{Code::timeout, say<texts::node_mute>(id), say<texts::no_answer_hint>(), id};
+}
+
+} // namespace
+
+Discovery::Discovery(Session& session, const bla::Profiles& profiles,
+                     Identification::Options options)
+    : session_(session), profiles_(profiles), options_(options) {}
+
+Discovery::~Discovery() {
+  attend(Attention::none);
+  for (const auto& job : identifications_) {
+    session_.cancel(*job);
+  }
+  for (const auto& job : jobs_) {
+    session_.cancel(*job);
+  }
+}
+
+void Discovery::attend(Attention attention) {
+  const Attention before = std::exchange(attention_, attention);
+  if (before == Attention::none && attention != Attention::none) {
+    session_.records().add(*this);
+  } else if (before != Attention::none && attention == Attention::none) {
+    session_.records().remove(*this);
+  }
+  if (attention == Attention::all) {
+    for (const auto& [id, member] : session_.roster().members()) {
+      if (session_.roster().heard(id) && !member.is_known()) { // before this search began
+        identify(id);
+      }
+    }
+  }
+}
+
+void Discovery::recognise() {
+  attend(Attention::unit);
+}
+
+void Discovery::on_new_unit(const Member& member) {
+  if (attention_ == Attention::all) {
+    identify(member.id);
+  } else {
+    start(std::make_unique<UnitJob>(session_.records(), member.id, options_.patience));
+  }
+}
+
+void Discovery::identify(NodeId id) {
+  identifications_.push_back(
+      std::make_unique<IdentifyJob>(session_.records(), id, profiles_, options_));
+  session_.start(*identifications_.back());
+}
+
+void Discovery::start(std::unique_ptr<dronecan::Job> job) {
+  jobs_.push_back(std::move(job));
+  session_.start(*jobs_.back());
+}
+
+std::vector<std::optional<Error>> Discovery::identifications() const {
+  std::vector<std::optional<Error>> ends;
+  ends.reserve(identifications_.size());
+  for (const auto& job : identifications_) {
+    ends.push_back(job->identification().error());
+  }
+  return ends;
+}
+
+/// "All" takes in a servo that restarted since it was identified, and one that shares its ID:
+/// what they are is for the reading to tell, and an error, not a silence.
+bool Discovery::is_one_of_all(const Targets& targets, const Member& member) const {
+  const bool shares = session_.roster().is_doubled(member.id) && member.sends_actuator_status();
+  return (targets.all || !targets.given) && ((member.identified && member.is_servo) || shares);
+}
+
+/// Of a node that only a recording made us look at, nothing needs to be known.
+bool Discovery::is_bystander(const Error& error) const {
+  return error.code == Code::not_recorded && error.node_id &&
+         !session_.roster().member(NodeId(*error.node_id)).sends_actuator_status();
+}
+
+bool Discovery::is_met(const Selector& selector) const {
+  return std::ranges::any_of(session_.roster().members(), [&](const auto& entry) {
+    return selector.matches(entry.second, profiles_);
+  });
+}
+
+Result<Selection> Discovery::select(const Targets& targets, Duration listen) {
+  Selection selection;
+  if (targets.need_search()) {
+    if (auto lived = session_.live_until(session_.now() + listen); !lived) {
+      return std::unexpected(lived.error());
+    }
+    for (const auto& [id, member] : session_.roster().members()) {
+      // A recording may be too short for an actuator.Status, and nobody is asked.
+      if (member.sends_actuator_status() || session_.is_recording()) {
+        identify(id);
+      }
+    }
+    if (auto ran = session_.run(); !ran) {
+      return std::unexpected(ran.error());
+    }
+    for (auto& error : identifications()) {
+      // With a selector it may be another's.
+      if (error && targets.selectors.empty() && !is_bystander(*error)) {
+        selection.errors.push_back(std::move(*error));
+      }
+    }
+  }
+  if (auto ambiguous = targets.ambiguity(session_.roster(), profiles_)) {
+    return std::unexpected(std::move(*ambiguous));
+  }
+  std::set<NodeId> chosen;
+  for (const NodeId id : targets.ids) {
+    if (session_.roster().member(id).id_is_known) {
+      chosen.insert(id);
+    } else { // nobody has this ID: it stands for a servo whose ID is not known
+      selection.errors.push_back(unrecorded(id));
+    }
+  }
+  for (const auto& [id, member] : session_.roster().members()) {
+    if (member.is_known() && !member.is_servo && member.sends_actuator_status()) {
+      selection.notes.push_back(
+          say<texts::foreign_actuator>(id.value(), printable(member.servo().name)));
+    }
+  }
+  for (const auto& [id, member] : session_.roster().members()) {
+    if (targets.mean(member, profiles_) || is_one_of_all(targets, member)) {
+      chosen.insert(id);
+    }
+  }
+  for (const Selector& selector : targets.selectors) {
+    const auto shared = session_.roster().doubled(); // it may be one of those
+    if (!is_met(selector)) {
+      selection.errors.push_back(shared.empty() ? nothing_matches(session_.roster(), selector)
+                                                : doubled(session_.roster(), *shared.begin()));
+    }
+  }
+  selection.ids.assign(chosen.begin(), chosen.end());
+  if (chosen.empty() && selection.errors.empty()) {
+    selection.errors.push_back(no_servo(session_.roster()));
+  }
+  return selection;
+}
+
+Result<Selection> Discovery::select_for_writing(const Targets& targets) {
+  auto selection = select(targets, targets.given ? servo_search_time : bus_watch_time);
+  if (!selection || !selection->errors.empty() || targets.given || selection->ids.size() <= 1) {
+    return selection;
+  }
+  std::string ids;
+  for (const NodeId id : selection->ids) {
+    ids += (ids.empty() ? "" : ", ") + std::to_string(id.value());
+  }
+  return fail(Code::usage, say<texts::several_servos>(ids),
+              say<texts::several_servos_hint>(selection->ids.front().value()));
+}
+
+Result<void> Discovery::find_all(Duration listen) {
+  options_.static_node_id = true;
+  if (session_.may_ask()) {
+    attend(Attention::all);
+    for (int i = 0; i < probes_at_a_time; ++i) {
+      start(std::make_unique<ProbeJob>(session_.roster(), cursor_, probe_timeout));
+    }
+  }
+  if (auto lived = session_.live_until(session_.now() + listen); !lived) {
+    return lived;
+  }
+  if (auto ran = session_.run(); !ran) {
+    return ran;
+  }
+  std::vector<const Member*> servos;
+  for (const auto& [id, member] : session_.roster().members()) {
+    if (member.is_known() && member.is_servo) {
+      servos.push_back(&member);
+    }
+  }
+  return look_for_twins(servos);
+}
+
+Result<void> Discovery::look_for_twins(const std::vector<const Member*>& members) {
+  if (session_.is_recording()) { // it would only repeat itself
+    return {};
+  }
+  std::list<DoubleCheckJob> checks;
+  std::vector<dronecan::Job*> group;
+  group.reserve(members.size());
+  for (const Member* member : members) {
+    group.push_back(&checks.emplace_back(session_.records(), member->servo(), options_.patience));
+  }
+  if (auto ran = session_.run(group); !ran || members.empty()) {
+    return ran;
+  }
+  for (const DoubleCheckJob& check : checks) {
+    check.is_answered() ? gone_.erase(check.id()) : gone_.insert(check.id()).second;
+  }
+  return session_.live_until(session_.now() + RunProof::twin_time);
+}
+
+std::vector<const Member*> Discovery::meant(const Targets& targets) const {
+  std::vector<const Member*> members;
+  for (const auto& [id, member] : session_.roster().members()) {
+    if (targets.mean(member, profiles_) && session_.roster().heard(id) &&
+        !session_.roster().has_moved(member)) {
+      members.push_back(&member);
+    }
+  }
+  return members;
+}
+
+/// One servo, not one of two on its ID, as far as it was heard of late.
+bool Discovery::seems_ready(const Member& member) const {
+  return is_operational(member) && !session_.roster().is_doubled(member.id) &&
+         session_.now() - member.last_heard < offline_time;
+}
+
+/// It was there, and is not heard or does not answer any more.
+bool Discovery::is_gone(const Member& member) const {
+  return gone_.contains(member.id) || session_.now() - member.last_heard >= offline_time;
+}
+
+bool Discovery::is_ready(const Member& member) const {
+  return seems_ready(member) && !gone_.contains(member.id);
+}
+
+bool Discovery::all_there(const Targets& targets) const {
+  const auto members = meant(targets);
+  const auto heard = [this](NodeId id) { return session_.roster().heard(id); };
+  return !members.empty() && std::ranges::all_of(targets.ids, heard) &&
+         std::ranges::all_of(targets.selectors,
+                             [this](const Selector& selector) { return is_met(selector); }) &&
+         std::ranges::all_of(members,
+                             [this](const Member* member) { return seems_ready(*member); });
+}
+
+/// Whether they are; false also as soon as one of them is known not to be alone on its ID.
+Result<bool> Discovery::wait_until_there(const Targets& targets, Time deadline) {
+  // Without IDs all that live must have had the time to be heard.
+  const Time heard = session_.now() + (targets.need_search() ? bus_watch_time : Duration::zero());
+  for (;;) {
+    auto there = session_.live_until(deadline, [&] {
+      return session_.now() >= heard && session_.node().jobs() == 0 && all_there(targets);
+    });
+    if (!there || !*there) {
+      return there;
+    }
+    const auto members = meant(targets);
+    if (auto looked = look_for_twins(members); !looked) {
+      return std::unexpected(looked.error());
+    }
+    const bool is_shared = std::ranges::any_of(
+        members, [this](const Member* member) { return session_.roster().is_doubled(member->id); });
+    const bool is_over = session_.now() >= deadline;
+    if (is_shared || is_over || (all_there(targets) && gone_.empty())) {
+      return !is_shared && all_there(targets) && gone_.empty();
+    }
+  }
+}
+
+Arrivals Discovery::wait_for(const Targets& targets, Duration wait) {
+  const Time begin = session_.now();
+  attend(Attention::all);
+  auto there = wait_until_there(targets, begin + wait);
+  attend(Attention::none);
+  if (there && !*there) { // what is being asked is not waited for any longer than it takes
+    if (auto ran = session_.run(); !ran) {
+      there = std::unexpected(ran.error());
+    }
+  }
+  Arrivals arrivals{.servos = those_there(targets), .errors = {}, .broken = {}};
+  if (!there) {
+    arrivals.broken = there.error();
+    arrivals.errors = not_there_yet(targets);
+  } else if (!*there) {
+    arrivals.errors = missing(targets, wait);
+  }
+  if (auto ambiguous = targets.ambiguity(session_.roster(), profiles_); ambiguous && there) {
+    arrivals.broken = std::move(*ambiguous);
+  }
+  return arrivals;
+}
+
+std::vector<Arrival> Discovery::those_there(const Targets& targets) const {
+  std::vector<Arrival> servos;
+  for (const Member* member : meant(targets)) {
+    // What is known of one of two units on an ID may be the other's.
+    const bool is_one = !session_.roster().is_doubled(member->id);
+    servos.push_back({is_one ? member->servo() : Servo{.id = member->id}, is_ready(*member)});
+  }
+  return servos;
+}
+
+/// Those that were waited for when the session ended.
+std::vector<Error> Discovery::not_there_yet(const Targets& targets) const {
+  std::set<NodeId> awaited(targets.ids.begin(), targets.ids.end());
+  for (const Member* member : meant(targets)) {
+    is_ready(*member) ? awaited.erase(member->id) : awaited.insert(member->id).second;
+  }
+  std::vector<Error> errors;
+  errors.reserve(awaited.size());
+  for (const NodeId id : awaited) {
+    errors.push_back({Code::interrupted, say<texts::not_there_yet>(id.value()), {}, id.value()});
+  }
+  return errors;
+}
+
+std::vector<Error> Discovery::missing(const Targets& targets, Duration wait) const {
+  const auto seconds = fmt::format("{}", std::chrono::duration<double>(wait).count());
+  const auto members = meant(targets);
+  std::vector<Error> errors;
+  for (const Member* member : members) {
+    if (!is_ready(*member)) {
+      errors.push_back(session_.roster().is_doubled(member->id)
+                           ? doubled(session_.roster(), member->id)
+                           : not_ready(*member, is_gone(*member), seconds));
+    }
+  }
+  for (const NodeId id : targets.ids) {
+    if (!session_.roster().heard(id)) {
+      errors.push_back({Code::not_found, say<texts::wait_not_heard>(id.value(), seconds),
+                        say<texts::node_not_found_hint>(), id.value()});
+    }
+  }
+  for (const Selector& selector : targets.selectors) {
+    if (!is_met(selector)) {
+      errors.push_back(nothing_matches(session_.roster(), selector));
+    }
+  }
+  if (members.empty() && errors.empty()) {
+    errors.push_back(no_servo(session_.roster()));
+  }
+  return errors;
+}
+
+Result<void> hear_bus(Session& session) {
+  if (auto lived = session.live_until(session.opened() + bus_watch_time); !lived) {
+    return lived;
+  }
+  if (session.lost_frames() > 0) {
+    return fail(Code::state, say<texts::lost_while_listening>(), say<texts::run_again_hint>());
+  }
+  return {};
+}
+
+} // namespace blactl::fleet

@@ -1,0 +1,223 @@
+#include "blactl/fleet/bus/identification.hpp"
+
+#include "blactl/fleet/bus/absent.hpp"
+#include "blactl/fleet/bus/texts.hpp"
+#include "blactl/fleet/change/guard.hpp"
+
+#include <utility>
+
+namespace blactl::fleet {
+
+using dronecan::GetNodeInfo;
+using dronecan::GetSet;
+using dronecan::Outcome;
+using dronecan::Request;
+
+namespace {
+
+/// An answer as only registers have it, even if the number is none that this one can hold.
+bool is_number(const Outcome& outcome) {
+  const auto response =
+      outcome.answered() ? GetSet::Response::decode(outcome.payload) : std::nullopt;
+  return response && std::holds_alternative<std::int64_t>(response->value);
+}
+
+} // namespace
+
+Identification::Identification(Roster& roster, dronecan::NodeId id, const bla::Profiles& profiles,
+                               Options options)
+    : roster_(roster), profiles_(profiles), options_(options), servo_{.id = id} {}
+
+bla::Address Identification::address_of(Step step) {
+  switch (step) {
+  case Step::model_number: return bla::address::model_number;
+  case Step::serial_number: return bla::address::serial_number;
+  case Step::firmware_version: return bla::address::firmware_version;
+  case Step::hardware_version: return bla::address::hardware_version;
+  case Step::servo_id: return bla::address::servo_id;
+  default: return bla::address::static_node_id;
+  }
+}
+
+std::optional<std::int64_t>& Identification::slot(Step step) {
+  switch (step) {
+  case Step::model_number: return readings_.model_number;
+  case Step::serial_number: return readings_.serial_number;
+  case Step::firmware_version: return readings_.firmware_version;
+  case Step::hardware_version: return readings_.hardware_version;
+  case Step::servo_id: return servo_.servo_id;
+  default: return servo_.static_node_id;
+  }
+}
+
+std::optional<Request> Identification::question(Step step) {
+  step_ = step;
+  if (step == Step::node_info) {
+    return ask(servo_.id, GetNodeInfo::type, GetNodeInfo::Request{}.encode(), options_.patience);
+  }
+  return read_register(servo_.id, address_of(step), options_.patience);
+}
+
+std::optional<Request> Identification::next(const Outcome& outcome) {
+  if (step_ == Step::begin) {
+    if (const Member* member = roster_.find(servo_.id); member != nullptr && member->is_known()) {
+      servo_ = member->servo();
+      done_ = true;
+      return std::nullopt;
+    }
+    servo_.since = outcome.at;
+    return question(Step::node_info);
+  }
+  if (step_ == Step::node_info) {
+    take_node_info(outcome);
+  } else {
+    take_register(outcome);
+  }
+  if (error_) {
+    return std::nullopt;
+  }
+  const bool is_decided =
+      step_ == Step::serial_number || (step_ == Step::model_number && !model_silent_);
+  const bool foreign = is_decided && !servo_.is_servo && !recording_lacks_model_;
+  const auto following = static_cast<Step>(std::to_underlying(step_) + 1);
+  const bool last =
+      following == Step::end || (following == Step::static_node_id && !options_.static_node_id);
+  return foreign || last ? conclude() : question(following);
+}
+
+void Identification::take_node_info(const Outcome& outcome) {
+  auto response =
+      outcome.answered() ? GetNodeInfo::Response::decode(outcome.payload) : std::nullopt;
+  if (!response && outcome.kind != Outcome::Kind::not_recorded) {
+    error_ = no_answer(outcome, servo_.id, "GetNodeInfo");
+    if (error_->code == Code::timeout) {
+      error_ = silent(roster_, servo_.id);
+    }
+    return;
+  }
+  info_ = std::move(response);
+  if (info_) {
+    roster_.learn(servo_.id, *info_, outcome.at);
+    servo_.unique_id = info_->unique_id;
+    servo_.name = info_->name;
+    servo_.since = outcome.asked; // it may have started after an earlier question, which got lost
+  }
+  servo_.boot = roster_.member(servo_.id).boots;
+}
+
+bool Identification::sends_actuator_status() const {
+  return roster_.member(servo_.id).sends_actuator_status();
+}
+
+/// Two units on an ID disturb each other's answers, which must not make a foreign node of them.
+/// What a BLA servo is called is not in the specification. unproven: its maker or series is in it.
+bool Identification::may_be_servo() const {
+  const auto has = [this](std::string_view part) {
+    return servo_.name.find(part) != std::string::npos;
+  };
+  return has("futaba") || has("bla") || has("BLA") || roster_.is_doubled(servo_.id);
+}
+
+/// A servo that answers, but not what model it is.
+Error Identification::silence_of_model() const {
+  return no_answer({Outcome::Kind::timed_out, {}, {}}, servo_.id,
+                   bla::address::model_number.name());
+}
+
+void Identification::take_register(const Outcome& outcome) {
+  const auto* parameter = profiles_.find(address_of(step_));
+  const bla::Width width = parameter != nullptr ? parameter->width : bla::Width{.bits = 64};
+  const auto value = register_value(outcome, servo_.id, address_of(step_), width);
+  const bool first = step_ == Step::model_number;
+  const bool silent = !value && value.error().code == Code::timeout;
+  // A node without parameters (a GPS, a battery) answers GetNodeInfo and nothing else. Of an
+  // actuator, which may be of another make, only the second silent register proves it.
+  const bool foreign = silent && (first || model_silent_);
+  if (model_silent_ && (value || may_be_servo())) {
+    error_ = silence_of_model();
+    return;
+  }
+  model_silent_ = foreign && first && sends_actuator_status();
+  const bool not_recorded = outcome.kind == Outcome::Kind::not_recorded;
+  if (!value && value.error().code != Code::refused && !foreign && !not_recorded) {
+    error_ = value.error();
+    return;
+  }
+  recording_lacks_model_ = recording_lacks_model_ || (first && not_recorded);
+  servo_.is_servo = servo_.is_servo || is_number(outcome);
+  slot(step_) = value ? std::optional(*value) : std::nullopt;
+}
+
+/// What a recording holds of a node may not tell whether it is a servo.
+std::optional<Error> Identification::undecided() const {
+  const bool foreign = info_ && !sends_actuator_status();
+  if (!recording_lacks_model_ || servo_.is_servo || foreign) {
+    return std::nullopt;
+  }
+  const std::uint8_t id = servo_.id.value();
+  return roster_.heard(servo_.id) ? Error{Code::not_recorded, say<texts::identity_not_recorded>(id),
+                                          say<texts::not_recorded_hint>(), id}
+                                  : unrecorded(servo_.id);
+}
+
+std::optional<Request> Identification::conclude() {
+  error_ = undecided();
+  if (error_) {
+    return std::nullopt;
+  }
+  if (servo_.is_servo) {
+    servo_.identity = bla::Identity(profiles_, readings_);
+    if (options_.assumed != nullptr) {
+      if (auto agreed = servo_.identity.assume(*options_.assumed); !agreed) {
+        error_ = agreed.error();
+        error_->node_id = servo_.id.value();
+        error_->message = say<texts::about_node>(servo_.id.value(), error_->message);
+        return std::nullopt;
+      }
+    }
+  }
+  roster_.learn(servo_, info_); // of the boot in which it said so: it may have restarted since
+  done_ = true;
+  return std::nullopt;
+}
+
+dronecan::Step ProbeJob::next(const Outcome& outcome) {
+  if (outcome.kind == Outcome::Kind::cancelled) {
+    return std::nullopt;
+  }
+  while (cursor_ < last) {
+    const dronecan::NodeId id(++cursor_);
+    if (!roster_.heard(id) && id != roster_.local()) {
+      return ask(id, GetNodeInfo::type, GetNodeInfo::Request{}.encode(), {timeout_, 0});
+    }
+  }
+  return std::nullopt;
+}
+
+dronecan::Step UnitJob::next(const Outcome& outcome) {
+  if (outcome.kind == Outcome::Kind::start) {
+    return ask(id_, GetNodeInfo::type, GetNodeInfo::Request{}.encode(), patience_);
+  }
+  const auto info =
+      outcome.answered() ? GetNodeInfo::Response::decode(outcome.payload) : std::nullopt;
+  if (info) {
+    roster_.learn(id_, *info, outcome.at);
+  }
+  return std::nullopt;
+}
+
+dronecan::Step DoubleCheckJob::next(const Outcome& outcome) {
+  if (outcome.kind == Outcome::Kind::start) {
+    return ask(servo_.id, GetNodeInfo::type, GetNodeInfo::Request{}.encode(), patience_);
+  }
+  const auto info =
+      outcome.answered() ? GetNodeInfo::Response::decode(outcome.payload) : std::nullopt;
+  is_answered_ = info.has_value();
+  const bool has_restarted = roster_.member(servo_.id).boots != servo_.boot;
+  if (info && servo_.unique_id && info->unique_id != *servo_.unique_id && !has_restarted) {
+    roster_.mark_doubled(servo_.id, *servo_.unique_id, info->unique_id);
+  }
+  return std::nullopt;
+}
+
+} // namespace blactl::fleet

@@ -1,0 +1,47 @@
+#include "blactl/fleet/bus/playback.hpp"
+
+#include <utility>
+
+namespace blactl::fleet {
+
+using dronecan::Outcome;
+
+void Playback::start(dronecan::Job& job) {
+  if (finished_) {
+    play(job);
+  } else {
+    waiting_.push_back(&job);
+  }
+}
+
+void Playback::play(dronecan::Job& job) const {
+  Outcome outcome;
+  for (;;) {
+    const dronecan::Step step = job.next(outcome);
+    if (step.is_end()) {
+      return;
+    }
+    // On a log a pause is over at once: nothing more will be heard.
+    outcome = step.request() != nullptr ? archive_.answer(*step.request())
+                                        : Outcome{Outcome::Kind::woken, {}, {}};
+  }
+}
+
+void Playback::finish() {
+  finished_ = true;
+  for (dronecan::Job* job : std::exchange(waiting_, {})) {
+    play(*job);
+  }
+}
+
+void Playback::cancel() {
+  finished_ = true;
+  for (dronecan::Job* job : std::exchange(waiting_, {})) {
+    if (!job->next({})
+             .is_end()) { // its first question, to which the end of the session is the answer
+      (void)job->next({Outcome::Kind::cancelled, {}, {}});
+    }
+  }
+}
+
+} // namespace blactl::fleet

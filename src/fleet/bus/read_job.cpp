@@ -1,0 +1,203 @@
+#include "blactl/fleet/bus/read_job.hpp"
+
+#include "blactl/fleet/bus/target_texts.hpp"
+#include "blactl/fleet/bus/texts.hpp"
+#include "blactl/fleet/change/guard.hpp"
+#include "blactl/fleet/change/restart_texts.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace blactl::fleet {
+
+using dronecan::GetNodeInfo;
+using dronecan::Outcome;
+using dronecan::Step;
+
+namespace {
+
+/// Registers in a row that do not answer, before it is asked whether the servo is there at all.
+constexpr int most_silent = 2;
+
+/// A servo that restarts more often while it is read is not read to an end.
+constexpr int most_passes = 4;
+
+} // namespace
+
+ReadJob::ReadJob(Roster& roster, dronecan::NodeId id, const bla::Profiles& profiles,
+                 Identification::Options options, Choice choice, Proof proof, More more)
+    : roster_(roster), id_(id), patience_(options.patience),
+      identification_(roster, id, profiles, options), choice_(std::move(choice)),
+      more_(std::move(more)), proof_(proof) {
+  snapshot_.servo.id = id;
+}
+
+Step ReadJob::next(const Outcome& outcome) {
+  switch (at_) {
+  case At::identify:
+    if (auto question = identification_.next(outcome)) {
+      return question;
+    }
+    return begin(outcome.at);
+  case At::read: return take_reading(outcome);
+  case At::presence: return judge_presence(outcome);
+  case At::proof: return judge_proof(outcome);
+  }
+  return std::nullopt;
+}
+
+Step ReadJob::begin(Time now) {
+  if (identification_.error()) {
+    snapshot_.error = roster_.is_doubled(id_) ? doubled(roster_, id_) : identification_.error();
+    return std::nullopt;
+  }
+  snapshot_.servo = identification_.servo();
+  const std::uint8_t id = id_.value();
+  if (!snapshot_.servo.is_servo) {
+    snapshot_.error =
+        Error{Code::not_found, say<texts::not_a_servo>(id, printable(snapshot_.servo.name)),
+              say<texts::node_not_found_hint>(), id};
+    return std::nullopt;
+  }
+  auto wanted = choice_(snapshot_.servo);
+  if (!wanted) {
+    snapshot_.error = Error{wanted.error().code, say<texts::about_node>(id, wanted.error().message),
+                            wanted.error().hint, id};
+    return std::nullopt;
+  }
+  wanted_ = std::move(*wanted);
+  snapshot_.readings.reserve(wanted_.size());
+  pass_began_ = now;
+  return read_next(now);
+}
+
+Step ReadJob::take_reading(const Outcome& outcome) {
+  const bla::Parameter& parameter = *wanted_[snapshot_.readings.size()];
+  auto raw = register_value(outcome, id_, parameter.address, parameter.width);
+  silent_ = outcome.kind == Outcome::Kind::timed_out ? silent_ + 1 : 0;
+  snapshot_.readings.push_back({&parameter, std::move(raw)});
+  if (outcome.kind == Outcome::Kind::cancelled) {
+    const std::uint8_t id = id_.value();
+    return give_up({Code::interrupted, say<texts::not_read_completely>(id), {}, id});
+  }
+  if (roster_.is_doubled(id_) && proof_ != Proof::none) {
+    return give_up(doubled(roster_, id_));
+  }
+  if (silent_ == most_silent) {
+    at_ = At::presence;
+    return ask(id_, GetNodeInfo::type, GetNodeInfo::Request{}.encode(), patience_);
+  }
+  return read_next(outcome.at);
+}
+
+bool ReadJob::has_next() {
+  if (snapshot_.readings.size() == wanted_.size() && more_) {
+    for (const bla::Parameter* parameter : more_(snapshot_)) {
+      if (std::ranges::find(wanted_, parameter) == wanted_.end()) {
+        wanted_.push_back(parameter);
+      }
+    }
+  }
+  return snapshot_.readings.size() < wanted_.size();
+}
+
+Step ReadJob::read_next(Time now) {
+  if (!has_next()) {
+    return proof_ == Proof::none ? Step(std::nullopt) : prove(now);
+  }
+  at_ = At::read;
+  return read_register(id_, wanted_[snapshot_.readings.size()]->address, patience_);
+}
+
+/// Single registers may be silent; a servo that is gone is one error, not one a register.
+Step ReadJob::judge_presence(const Outcome& outcome) {
+  if (!outcome.answered()) {
+    return give_up(told_by(no_answer(outcome, id_, "GetNodeInfo")));
+  }
+  silent_ = 0;
+  return read_next(outcome.at);
+}
+
+/// A servo that does not answer any more is gone.
+Error ReadJob::told_by(const Error& error) const {
+  const std::uint8_t id = id_.value();
+  return error.code == Code::timeout
+             ? Error{Code::timeout, say<texts::node_gone>(id), say<texts::no_answer_hint>(), id}
+             : error;
+}
+
+Step ReadJob::prove(Time now) {
+  at_ = At::proof;
+  run_proof_.emplace(roster_, snapshot_.servo, must_run_since(), patience_);
+  return run_proof_->next({Outcome::Kind::start, {}, now});
+}
+
+Step ReadJob::judge_proof(const Outcome& outcome) {
+  if (Step step = run_proof_->next(outcome); !step.is_end()) {
+    return step;
+  }
+  const std::uint8_t id = id_.value();
+  switch (run_proof_->verdict()) {
+  case RunProof::Verdict::ran_on: return judge_writers(outcome.at);
+  case RunProof::Verdict::failed: return give_up(told_by(*run_proof_->error()));
+  case RunProof::Verdict::too_late:
+    return give_up(
+        {Code::state, say<texts::answers_too_late>(id), say<texts::run_again_hint>(), id});
+  case RunProof::Verdict::restarted: break;
+  }
+  snapshot_.has_restarted = true;
+  if (passes_ == most_passes) {
+    return give_up(
+        {Code::state, say<texts::restarts_while_read>(id), say<texts::restarts_again_hint>(), id});
+  }
+  return read_again(outcome.at);
+}
+
+/// What another node changed while it was read was not true at one time.
+Step ReadJob::judge_writers(Time now) {
+  std::optional<dronecan::NodeId> writer;
+  for (const bla::Parameter* parameter : wanted_) {
+    const auto by = roster_.writer_to(id_, pass_began_, parameter->address);
+    writer = by ? by : writer;
+  }
+  if (!writer) {
+    return std::nullopt;
+  }
+  if (passes_ == most_passes) {
+    const std::uint8_t id = id_.value();
+    return give_up({Code::state, say<texts::written_while_read>(id, writer->value()),
+                    say<texts::other_writer_hint>(), id});
+  }
+  return read_again(now);
+}
+
+/// The same servo: everything once more.
+Step ReadJob::read_again(Time now) {
+  ++passes_;
+  pass_began_ = now;
+  snapshot_.readings.clear();
+  Servo& servo = snapshot_.servo;
+  servo.boot = roster_.member(id_).boots;
+  servo.since = now;
+  roster_.learn_run(servo);
+  return read_next(now);
+}
+
+/// What RAM held when this session heard the servo first may be meant, however often it was
+/// identified since.
+std::optional<Time> ReadJob::must_run_since() const {
+  if (proof_ == Proof::unit) {
+    return std::nullopt;
+  }
+  return proof_ == Proof::run && !snapshot_.has_restarted ? roster_.member(id_).first_heard
+                                                          : snapshot_.servo.since;
+}
+
+/// What was read is not shown: it may be of two units, or of two times.
+Step ReadJob::give_up(Error error) {
+  snapshot_.error = std::move(error);
+  snapshot_.readings.clear();
+  return std::nullopt;
+}
+
+} // namespace blactl::fleet

@@ -1,0 +1,313 @@
+#include "blactl/fleet/bus/roster.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace blactl::fleet {
+
+using dronecan::Kind;
+using dronecan::NodeId;
+using dronecan::Transfer;
+
+namespace {
+
+constexpr std::uint16_t last_address = 0xFF;
+constexpr std::uint8_t tail_start_of_transfer = 0x80;
+
+/// Bound for what anybody on the bus can make us remember.
+constexpr std::size_t most_pending = 256;
+
+/// What a servo is (table 3-11), and how it is set (what SAVE keeps, 4.11): two values in answers
+/// to one question are of two servos.
+std::set<std::string> names_of_settled() {
+  namespace at = bla::address;
+  std::set<std::string> names{at::model_number.name(), at::serial_number.name(),
+                              at::firmware_version.name(), at::hardware_version.name()};
+  for (unsigned value = 0; value <= last_address; ++value) {
+    if (const bla::Address address(static_cast<std::uint8_t>(value)); bla::is_setting(address)) {
+      names.insert(address.name());
+    }
+  }
+  return names;
+}
+
+} // namespace
+
+Servo Member::servo() const {
+  return {.id = id,
+          .unique_id = unique_id(),
+          .boot = identified_boot,
+          .since = since,
+          .name = info ? info->name : std::string(),
+          .is_servo = is_servo,
+          .identity = identity,
+          .servo_id = servo_id,
+          .static_node_id = static_node_id,
+          .id_is_known = id_is_known};
+}
+
+Roster::Roster(NodeId local)
+    : local_(local),
+      answers_(names_of_settled(), [this](NodeId id, const std::set<dronecan::UniqueId>& units) {
+        doubled_.insert(id);
+        units_[id].insert(units.begin(), units.end());
+      }) {}
+
+void Roster::mark_doubled(NodeId id, const dronecan::UniqueId& one,
+                          const dronecan::UniqueId& other) {
+  doubled_.insert(id);
+  units_[id].insert({one, other});
+}
+
+std::set<dronecan::UniqueId> Roster::units(NodeId id) const {
+  const auto it = units_.find(id);
+  return it != units_.end() ? it->second : std::set<dronecan::UniqueId>{};
+}
+
+Member& Roster::known(NodeId id) {
+  const auto [it, added] = members_.try_emplace(id);
+  if (added) {
+    it->second.id = id;
+  }
+  return it->second;
+}
+
+Member Roster::member(NodeId id) const {
+  const Member* known = find(id);
+  return known != nullptr ? *known : Member{.id = id};
+}
+
+void Roster::announce(const Member& member) {
+  for (Listener* listener : std::vector(listeners_)) { // they may leave, bring or remove others
+    if (std::ranges::find(listeners_, listener) != listeners_.end()) {
+      listener->on_new_unit(member);
+    }
+  }
+}
+
+void Roster::learn(NodeId id, const dronecan::GetNodeInfo::Response& info, Time at) {
+  Member& member = known(id);
+  if (member.info && member.info_boot == member.boots && member.info->unique_id != info.unique_id) {
+    mark_doubled(id, member.info->unique_id, info.unique_id);
+  }
+  member.info = info;
+  member.info_boot = member.boots;
+  member.info_at = at;
+  member.info_start = at - std::chrono::seconds(info.status.uptime_s);
+  if (!member.is_known()) {
+    member.identified = member.is_servo = false;
+    member.identity = {};
+    member.servo_id = member.static_node_id = std::nullopt;
+  }
+}
+
+void Roster::learn(const Servo& servo, const std::optional<dronecan::GetNodeInfo::Response>& info) {
+  Member& member = known(servo.id);
+  member.info = info;
+  member.info_boot = member.identified_boot = servo.boot;
+  member.since = servo.since;
+  member.is_servo = servo.is_servo;
+  member.identity = servo.identity;
+  member.servo_id = servo.servo_id;
+  member.static_node_id = servo.static_node_id;
+  member.identified = true;
+}
+
+void Roster::recall(const Servo& servo) {
+  learn(servo, std::nullopt);
+  Member& member = known(servo.id);
+  member.told_unique_id = servo.unique_id;
+  member.id_is_known = servo.id_is_known;
+  heard_[servo.id.value()] = true;
+}
+
+void Roster::learn_run(const Servo& servo) {
+  Member& member = known(servo.id);
+  member.info_boot = member.identified_boot = servo.boot;
+  member.since = servo.since;
+}
+
+void Roster::learn_static_node_id(NodeId id, std::optional<std::int64_t> static_node_id) {
+  known(id).static_node_id = static_node_id;
+}
+
+bool Roster::has_moved(const Member& member) const {
+  return member.info && std::ranges::any_of(members_, [&](const auto& entry) {
+           const Member& other = entry.second;
+           return other.id != member.id && other.is_unit(member.info->unique_id) &&
+                  other.info_at > member.last_heard;
+         });
+}
+
+const Member* Roster::find(NodeId id) const {
+  const auto it = members_.find(id);
+  return it != members_.end() ? &it->second : nullptr;
+}
+
+void Roster::hear(const can::Frame& frame, Time at) {
+  if (!frame.extended || frame.remote || frame.size == 0) {
+    return;
+  }
+  const auto header = dronecan::decode_id(frame.id);
+  if (!header || !header->source.is_unicast() || header->source == local_) {
+    return;
+  }
+  Member& heard = known(header->source);
+  heard.last_heard = at;
+  answers_.receive(*header, frame, at);
+  const std::uint8_t tail = frame.data[frame.size - 1U];
+  if (header->kind == Kind::message && header->data_type_id == dronecan::ActuatorStatus::type.id &&
+      (tail & tail_start_of_transfer) != 0) {
+    watches_[header->source.value()].count_status(tail % dronecan::transfer_id_modulus, at);
+  }
+  if (!std::exchange(heard_[header->source.value()], true)) {
+    heard.first_heard = at;
+    announce(heard);
+  }
+  if (header->kind == Kind::message && header->data_type_id == dronecan::NodeStatus::type.id) {
+    hear_status(heard, frame, at);
+  }
+}
+
+/// NodeStatus is one frame.
+void Roster::hear_status(Member& sender, const can::Frame& frame, Time at) {
+  const std::size_t size = frame.size - 1U;
+  const auto status = dronecan::NodeStatus::decode(dronecan::Bytes(frame.data.data(), size));
+  if (status) {
+    const dronecan::TransferId id = frame.data[size] % dronecan::transfer_id_modulus;
+    take(watches_[sender.id.value()].hear_repetition(id, status->uptime_s, at), sender);
+  }
+}
+
+/// An actuator of another make may send its status as fast as it likes.
+bool Roster::is_too_fast(NodeId id) const {
+  const Member* sender = find(id);
+  const bool is_foreign = sender != nullptr && sender->identified && !sender->is_servo;
+  return watches_[id.value()].is_too_fast() && !is_foreign;
+}
+
+bool Roster::is_doubled(NodeId id) const {
+  return doubled_.contains(id) || is_too_fast(id);
+}
+
+std::set<NodeId> Roster::doubled() const {
+  std::set<NodeId> all = doubled_;
+  for (const auto& [id, member] : members_) {
+    if (is_too_fast(id)) {
+      all.insert(id);
+    }
+  }
+  return all;
+}
+
+void Roster::receive(const Transfer& transfer) {
+  const auto& header = transfer.header;
+  if (header.source == local_ && local_.is_unicast()) {
+    return;
+  }
+  commands_.receive(transfer);
+  if (header.kind == Kind::response && header.data_type_id == dronecan::GetNodeInfo::type.id) {
+    // Its uptime counts as well as that of NodeStatus: a restart before the first of these shows.
+    if (const auto info = dronecan::GetNodeInfo::Response::decode(transfer.payload);
+        info && header.source.is_unicast()) {
+      Member& sender = known(header.source);
+      sender.status = info->status;
+      sender.status_at = transfer.at;
+      take(watches_[header.source.value()].hear_answer(info->status.uptime_s, transfer.at), sender);
+      learn(header.source, *info, transfer.at);
+    }
+  }
+  if (header.kind != Kind::message) {
+    return;
+  }
+  switch (header.data_type_id) {
+  case dronecan::NodeStatus::type.id: on_status(transfer); break;
+  case dronecan::Allocation::type.id: on_allocation(transfer); break;
+  case dronecan::ActuatorStatus::type.id:
+    if (const auto status = dronecan::ActuatorStatus::decode(transfer.payload);
+        status && header.source.is_unicast()) {
+      known(header.source).actuator_id = status->actuator_id;
+    }
+    break;
+  default: break;
+  }
+}
+
+void Roster::on_status(const Transfer& transfer) {
+  const auto status = dronecan::NodeStatus::decode(transfer.payload);
+  if (!status || !transfer.header.source.is_unicast()) {
+    return;
+  }
+  Member& sender = known(transfer.header.source);
+  sender.status = *status;
+  sender.status_at = transfer.at;
+  take(watches_[sender.id.value()].hear_uptime(status->uptime_s, transfer.at), sender);
+}
+
+/// What an uptime has told of a node.
+void Roster::take(UnitWatch::Start start, Member& sender) {
+  if (start == UnitWatch::Start::twin) {
+    doubled_.insert(sender.id);
+  } else if (start == UnitWatch::Start::anew) {
+    ++sender.boots;
+    answers_.forget(sender.id);
+    announce(sender);
+  }
+}
+
+void Roster::on_allocation(const Transfer& transfer) {
+  const auto allocation = dronecan::Allocation::decode(transfer.payload);
+  if (!allocation) {
+    return;
+  }
+  const UniqueIdPrefix prefix(allocation->unique_id.begin(),
+                              allocation->unique_id.begin() + allocation->size);
+  if (transfer.header.source.is_unicast()) {
+    allocators_.insert(transfer.header.source);
+    if (allocation->node_id != 0 && prefix.size() == allocation->unique_id.size()) {
+      std::erase_if(pending_, [&](const UniqueIdPrefix& waiting) {
+        return std::ranges::equal(waiting, std::span(prefix).first(waiting.size()));
+      });
+    }
+  } else if (allocation->first_part_of_unique_id && !prefix.empty() &&
+             pending_.size() < most_pending) {
+    pending_.insert(prefix);
+  }
+}
+
+state::NodeIds Roster::ids_in_use(const dronecan::UniqueId& unit) const {
+  state::NodeIds ids;
+  ids.set(local_.value());
+  for (const auto& [id, member] : members_) {
+    const bool is_own = member.info && member.info->unique_id == unit && !is_doubled(id);
+    if (is_own) {
+      continue;
+    }
+    if (heard(id)) {
+      ids.set(id.value());
+    }
+    if (const auto fixed = member.static_node_id.value_or(0); fixed > 0 && fixed <= NodeId::max) {
+      ids.set(static_cast<std::size_t>(fixed));
+    }
+  }
+  return ids;
+}
+
+bool Roster::is_pending(const dronecan::UniqueId& unique_id) const {
+  return std::ranges::any_of(pending_, [&](const UniqueIdPrefix& prefix) {
+    return std::ranges::equal(prefix, std::span(unique_id).first(prefix.size()));
+  });
+}
+
+std::optional<NodeId> Roster::driver_of(const Servo& servo, Time now) const {
+  return commander_of(servo, now - driving_time);
+}
+
+std::optional<NodeId> Roster::commander_of(const Servo& servo, Time since) const {
+  const Member* member = find(servo.id);
+  return commands_.commander_of(servo, member != nullptr ? member->actuator_id : std::nullopt,
+                                since);
+}
+
+} // namespace blactl::fleet

@@ -1,0 +1,442 @@
+#include "blactl/fleet/bus/session.hpp"
+
+#include "blactl/fleet/bus/texts.hpp"
+
+#include <signal.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace blactl::fleet {
+
+using dronecan::NodeId;
+
+namespace {
+
+/// How long a frame of ours may wait for its echo on a silent bus.
+constexpr Duration acknowledge_time = std::chrono::milliseconds(100);
+
+dronecan::UniqueId own_unique_id(NodeId id) {
+  // Never zero, the same at every start: allocators that keep books ask for it.
+  dronecan::UniqueId unique_id{'b', 'l', 'a', 'c', 't', 'l'};
+  unique_id.back() = id.value();
+  return unique_id;
+}
+
+can::Filter message_filter(const dronecan::DataType& type) {
+  constexpr std::uint32_t type_and_kind = 0x00FFFF80;
+  return {static_cast<std::uint32_t>(type.id) << 8, type_and_kind};
+}
+
+std::vector<can::Filter> filters(Session::Hearing hearing, NodeId local) {
+  if (hearing == Session::Hearing::all) {
+    return {};
+  }
+  constexpr std::uint32_t service = 0x80;
+  constexpr std::uint32_t request = 0x8000;
+  constexpr std::uint32_t to_us = 0x7F80;
+  constexpr std::uint32_t source = 0x7F;
+  constexpr std::uint32_t anonymous_type = 0x3FF;
+  std::vector<can::Filter> wanted{
+      {static_cast<std::uint32_t>(local.value()) << 8 | service, to_us},
+      {local.value(), source},
+      message_filter(dronecan::NodeStatus::type),
+      message_filter(dronecan::ActuatorStatus::type),
+      message_filter(dronecan::Allocation::type),
+      // An anonymous request has but two bits for its type (specification 4.1).
+      {static_cast<std::uint32_t>(dronecan::Allocation::type.id) << 8, anonymous_type},
+  };
+  if (hearing == Session::Hearing::commands) {
+    wanted.push_back(message_filter(dronecan::ArrayCommand::type));
+    wanted.push_back(message_filter(dronecan::ArmingStatus::type));
+    wanted.push_back(
+        {static_cast<std::uint32_t>(dronecan::GetSet::type.id) << 16 | request | service,
+         0x00FF0000 | request | service});
+  }
+  return wanted;
+}
+
+/// As which node a session begins: with an ID that is no tool's it only listens at first.
+NodeId first_id(const std::optional<state::LocalNodeId>& local) {
+  return local && state::is_tool_id(local->id()) ? local->id() : dronecan::anonymous;
+}
+
+} // namespace
+
+Session::Session(std::unique_ptr<can::Bus> bus, std::optional<state::LocalNodeId> local,
+                 Hearing hearing)
+    : local_(std::move(local)), hearing_(hearing), loop_(std::move(bus)), roster_(first_id(local_)),
+      node_(first_id(local_), local_ ? &local_->transfer_ids() : nullptr,
+            {.name = "blactl",
+             .unique_id = own_unique_id(local_ ? local_->id() : dronecan::anonymous)},
+            {.send = [this](const can::Frame& frame) { loop_.send(frame); },
+             .transfer =
+                 [this](const dronecan::Transfer& transfer) {
+                   roster_.receive(transfer);
+                   for (dronecan::Service* service : services_) {
+                     service->receive(transfer);
+                   }
+                   if (playback_) {
+                     playback_->receive(transfer);
+                   }
+                 },
+             .error = {},
+             .backlog = [this] { return loop_.unsent(); },
+             .withdraw = [this](auto frames) { loop_.withdraw(frames); },
+             .asked =
+                 [this](const dronecan::Request& request, int tries) {
+                   if (traffic_ != nullptr && request.retries > 0) { // no look whether it lives
+                     traffic_->ask(request.server);
+                   }
+                   if (asked_) {
+                     asked_(request, tries);
+                   }
+                 },
+             .unanswered =
+                 [this](const dronecan::Request& request, int tries) {
+                   if (traffic_ != nullptr && request.retries > 0) {
+                     traffic_->miss_answer(request.server);
+                   }
+                   if (unanswered_) {
+                     unanswered_(request, tries);
+                   }
+                 }}) {
+  if (loop_.bus().is_recording()) {
+    playback_.emplace(roster_);
+  }
+}
+
+Result<std::unique_ptr<Session>> Session::open(std::unique_ptr<can::Bus> bus,
+                                               std::optional<state::LocalNodeId> local,
+                                               Hearing hearing) {
+  const NodeId id = local ? local->id() : dronecan::anonymous;
+  std::unique_ptr<Session> session(new Session(std::move(bus), std::move(local), hearing));
+  if (auto filtered = session->loop_.bus().filter(filters(hearing, id)); !filtered) {
+    return std::unexpected(filtered.error());
+  }
+  return session;
+}
+
+std::unexpected<Error> Session::end(Error error) {
+  loop_.drop_queue();
+  node_.cancel_all(loop_.now());
+  if (playback_) {
+    playback_->cancel();
+  }
+  return std::unexpected(std::move(error));
+}
+
+/// When a frame of ours will have waited too long for its echo.
+Time Session::acknowledge_deadline() const {
+  const auto since = waits_alone_ ? std::nullopt : loop_.unacknowledged_since();
+  return since ? *since + acknowledge_time : never;
+}
+
+Result<Session::Happened> Session::step(Time deadline) {
+  const can::Event event = loop_.next(std::min(deadline, next_deadline()));
+  node_.tell_time(loop_.now());
+  auto happened = take(event);
+  if (!happened || *happened != Happened::deadline) {
+    // What was on the bus before this frame has been read: so far it is known what is late, even
+    // if frames come faster than they can be read.
+    const auto* received = std::get_if<can::Received>(&event);
+    if (happened && received != nullptr) {
+      advance(received->at);
+      return received->at >= deadline ? Happened::deadline : *happened;
+    }
+    return happened;
+  }
+  // The loop has given everything that came. A process that slept would else give up answers that
+  // wait to be read.
+  const Time now = loop_.now();
+  if (acknowledge_deadline() <= now) {
+    return end({Code::no_acknowledge, say<texts::nobody_acknowledges>(interface()),
+                say<texts::nobody_acknowledges_hint>()});
+  }
+  if (give_up_at_ <= now) {
+    return end(interrupted_by(signal_));
+  }
+  advance(now);
+  return now >= deadline ? Happened::deadline : Happened::something;
+}
+
+Result<Session::Happened> Session::take(const can::Event& event) {
+  if (const auto* received = std::get_if<can::Received>(&event)) {
+    return take_frame(*received);
+  }
+  if (const auto* sent = std::get_if<can::Sent>(&event)) {
+    node_.sent(sent->frame, sent->at);
+    if (traffic_ != nullptr) {
+      traffic_->hear_own(sent->frame, sent->at);
+    }
+  } else if (const auto* fault = std::get_if<can::BusFault>(&event)) {
+    if (traffic_ != nullptr) {
+      traffic_->hear(*fault);
+    }
+    if (fault->kind == can::FaultKind::bus_off && !playback_) {
+      return end({Code::bus_off, say<texts::bus_is_off>(interface()), loop_.bus().bus_off_hint()});
+    }
+  } else if (const auto* overflow = std::get_if<can::Overflow>(&event)) {
+    lost_ = overflow->lost;
+    node_.echoes_lost(loop_.now()); // they may have been among what was lost
+  } else if (const auto* opened = std::get_if<can::Opened>(&event)) {
+    opening_note_ = opened->note;
+  } else if (const auto* gone = std::get_if<can::Gone>(&event)) {
+    return end(gone->error);
+  } else if (const auto* away = std::get_if<can::Away>(&event)) {
+    take_presence(away->error);
+  } else if (std::holds_alternative<can::Back>(event)) {
+    take_presence(std::nullopt);
+  } else if (const auto* caught = std::get_if<can::Signal>(&event)) {
+    return take_signal(caught->number);
+  } else if (const auto* ready = std::get_if<can::Ready>(&event)) {
+    if (!input_hook_ || ready->descriptor != input_) {
+      return Happened::input;
+    }
+    input_hook_();
+  } else if (playback_ && std::holds_alternative<can::Ended>(event)) {
+    playback_->finish();
+  } else {
+    return Happened::deadline;
+  }
+  return Happened::something;
+}
+
+/// What was on its way when the interface went is taken as sent: its answer does not come.
+void Session::take_presence(std::optional<Error> away) {
+  away_ = std::move(away);
+  node_.echoes_lost(loop_.now());
+  if (away_hook_) {
+    away_hook_();
+  }
+}
+
+Error interrupted_by(int signal) {
+  const std::string_view name = signal == SIGTERM  ? "SIGTERM"
+                                : signal == SIGHUP ? "SIGHUP"
+                                                   : "SIGINT";
+  return {Code::interrupted, say<texts::interrupted>(name)};
+}
+
+/// The first signal ends what may be ended, the second one everything. A terminal that is gone is
+/// told by the kernel and by the shell: nobody has become impatient.
+Result<Session::Happened> Session::take_signal(int number) {
+  if (number == SIGWINCH) {
+    if (resized_) {
+      resized_();
+    }
+    return Happened::something;
+  }
+  if (number == SIGHUP && signal_ != 0) {
+    return Happened::something;
+  }
+  const bool first = std::exchange(signal_, number) == 0;
+  if (first) {
+    node_.stop(loop_.now());
+    give_up_at_ = loop_.now() + grace_;
+  }
+  if (!first || node_.jobs() == 0) {
+    return end(interrupted_by(signal_));
+  }
+  if (stopping_) {
+    stopping_();
+  }
+  return Happened::something;
+}
+
+Time Session::next_deadline() const {
+  Time next = std::min({node_.next_deadline(), acknowledge_deadline(), give_up_at_});
+  for (const dronecan::Service* service : services_) {
+    next = std::min(next, service->next_deadline());
+  }
+  return next;
+}
+
+void Session::advance(Time now) {
+  node_.advance(now);
+  for (dronecan::Service* service : services_) {
+    service->advance(now);
+  }
+}
+
+Result<Session::Happened> Session::take_frame(const can::Received& received) {
+  const auto header = received.frame.extended && received.frame.size > 0
+                          ? dronecan::decode_id(received.frame.id)
+                          : std::nullopt;
+  if (header && local_ && header->source == local_->id()) {
+    if (auto changed = give_way(); !changed) {
+      return end(changed.error());
+    }
+  }
+  if (traffic_ != nullptr) {
+    traffic_->hear(received.frame, received.at);
+    if (playback_) {
+      traffic_->stamp(received.wall);
+    }
+  }
+  roster_.hear(received.frame, received.at);
+  node_.receive(received.frame, received.at);
+  heard_anything_ = heard_anything_ || header.has_value();
+  return Happened::something;
+}
+
+/// Another node has our ID. The next one may be that of a node that was heard before.
+Result<void> Session::give_way() {
+  const auto is_taken = [this](NodeId id) {
+    return roster_.heard(id) && loop_.now() - roster_.member(id).last_heard < offline_time;
+  };
+  do {
+    if (auto other = local_->give_way(interface()); !other) {
+      return other;
+    }
+  } while (is_taken(local_->id()));
+  if (new_id_) {
+    new_id_(*local_);
+  }
+  if (auto filtered = loop_.bus().filter(filters(hearing_, local_->id())); !filtered) {
+    return filtered;
+  }
+  begin_as_node();
+  return {};
+}
+
+void Session::begin_as_node() {
+  roster_.change_local(local_->id());
+  node_.change_id(local_->id(), local_->transfer_ids(), loop_.now());
+}
+
+Result<void> Session::wait_until_open() {
+  while (!loop_.bus().is_open()) {
+    if (const auto happened = step(never); !happened) {
+      return std::unexpected(happened.error());
+    }
+  }
+  opened_ = loop_.now();
+  if (!local_ || state::is_tool_id(local_->id())) {
+    return {};
+  }
+  if (auto free = live_until(opened_ + bus_watch_time); !free) {
+    return free;
+  }
+  begin_as_node();
+  return {};
+}
+
+void Session::recall(const RecordedServo& recorded) {
+  roster_.recall(recorded.servo);
+  for (const auto& [address, raw] : recorded.values) {
+    playback_->recall(recorded.servo.id, address, raw);
+  }
+  heard_anything_ = true;
+}
+
+void Session::start(dronecan::Job& job) {
+  if (playback_) {
+    playback_->start(job);
+  } else {
+    node_.start(job, loop_.now());
+  }
+}
+
+/// Hears what is left of a recording. A pipe may be slow, so it is the loop that waits.
+Result<void> Session::play() {
+  while (!playback_->finished()) {
+    if (const auto happened = take(loop_.next(never)); !happened) {
+      return std::unexpected(happened.error());
+    }
+  }
+  return {};
+}
+
+Result<void> Session::live_until(Time deadline) {
+  if (plays_at_once()) {
+    return play();
+  }
+  for (;;) {
+    const auto happened = step(deadline);
+    if (!happened) {
+      return std::unexpected(happened.error());
+    }
+    if (*happened == Happened::deadline) {
+      return {};
+    }
+  }
+}
+
+Result<bool> Session::live_until(Time deadline, const std::function<bool()>& done) {
+  if (plays_at_once()) {
+    const auto played = play();
+    return played ? Result<bool>(done()) : std::unexpected(played.error());
+  }
+  while (!done()) {
+    const auto happened = step(deadline);
+    if (!happened) {
+      return std::unexpected(happened.error());
+    }
+    if (*happened == Happened::deadline) {
+      return done();
+    }
+  }
+  return true;
+}
+
+Result<void> Session::run(std::span<dronecan::Job* const> jobs) {
+  for (dronecan::Job* job : jobs) {
+    start(*job);
+  }
+  // This is asked after every event, and what has ended does not begin again.
+  return run_while([this, jobs]() mutable {
+    while (!jobs.empty() && !node_.is_running(*jobs.front())) {
+      jobs = jobs.subspan(1);
+    }
+    return !jobs.empty();
+  });
+}
+
+Result<void> Session::run() {
+  return run_while([this] { return node_.jobs() > 0; });
+}
+
+Result<void> Session::run_while(const std::function<bool()>& busy) {
+  if (playback_) {
+    return play();
+  }
+  while (busy()) {
+    if (const auto happened = step(never); !happened) {
+      return std::unexpected(happened.error());
+    }
+  }
+  if (signal_ != 0) { // the jobs that had to be finished are
+    return end(interrupted_by(signal_));
+  }
+  return {};
+}
+
+void Session::on_input(int descriptor, std::function<void()> hook) {
+  if (input_hook_) {
+    loop_.unwatch(input_);
+  }
+  input_ = descriptor;
+  input_hook_ = std::move(hook);
+  if (input_hook_) {
+    loop_.watch(input_);
+  }
+}
+
+Result<void> Session::wait_for_input(int descriptor) {
+  loop_.watch(descriptor);
+  auto happened = step(never);
+  while (happened && *happened != Happened::input) {
+    happened = step(never);
+  }
+  loop_.unwatch(descriptor);
+  if (!happened) {
+    return std::unexpected(happened.error());
+  }
+  return {};
+}
+
+} // namespace blactl::fleet

@@ -1,0 +1,192 @@
+#include "blactl/fleet/bus/target.hpp"
+
+#include "blactl/base/hex.hpp"
+#include "blactl/bla/profile.hpp"
+#include "blactl/fleet/bus/target_texts.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <map>
+#include <optional>
+#include <ranges>
+#include <utility>
+
+namespace blactl::fleet {
+namespace {
+
+template <class Number> std::optional<Number> number(std::string_view text) {
+  Number value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool digits = !text.empty() && text.front() >= '0' && text.front() <= '9';
+  return digits && error == std::errc() && end == text.data() + text.size() ? std::optional(value)
+                                                                            : std::nullopt;
+}
+
+std::optional<dronecan::NodeId> node_id(std::string_view text) {
+  const auto value = number<unsigned>(text);
+  return value && *value >= 1 && *value <= dronecan::NodeId::max
+             ? std::optional(dronecan::NodeId(static_cast<std::uint8_t>(*value)))
+             : std::nullopt;
+}
+
+std::string lower(std::string_view text) {
+  std::string out(text);
+  std::ranges::transform(out, out.begin(),
+                         [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
+  return out;
+}
+
+bool is_number(std::string_view text) {
+  return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+/// One ID or a range of them, by its ends.
+struct IdRange {
+  std::string_view first, last;
+};
+
+/// Empty: the item is no number and no range of numbers.
+std::optional<IdRange> id_range(std::string_view item) {
+  const auto dash = item.find('-');
+  const auto first = item.substr(0, dash);
+  const IdRange range{first, dash == std::string_view::npos ? first : item.substr(dash + 1)};
+  return is_number(range.first) && is_number(range.last) ? std::optional(range) : std::nullopt;
+}
+
+Error bad_target(std::string_view list) {
+  return {Code::usage, say<texts::bad_target>(printable(list)), say<texts::bad_target_hint>(),
+          std::nullopt};
+}
+
+Result<void> add_ids(const IdRange& range, std::string_view item, Targets& targets) {
+  const auto first = node_id(range.first);
+  const auto last = node_id(range.last);
+  if (!first || !last) {
+    return fail(Code::usage, say<texts::bad_target_id>(item), say<texts::bad_target_id_hint>());
+  }
+  if (*first > *last) {
+    return fail(Code::usage, say<texts::bad_target_range>(item),
+                say<texts::bad_target_range_hint>(last->value(), first->value()));
+  }
+  for (unsigned id = first->value(); id <= last->value(); ++id) {
+    targets.ids.emplace_back(static_cast<std::uint8_t>(id));
+  }
+  return {};
+}
+
+/// The digits of a unique ID, or the first of them.
+bool begins_unique_id(std::string_view text) {
+  return !text.empty() && text.size() <= 2 * sizeof(dronecan::UniqueId) &&
+         text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+}
+
+bool add_selector(std::string_view item, Targets& targets) {
+  using Key = Selector::Key;
+  constexpr std::array<std::pair<std::string_view, Key>, 7> keys{{
+      {"unique_id", Key::unique_id},
+      {"uid", Key::unique_id},
+      {"serial_number", Key::serial_number},
+      {"serial", Key::serial_number},
+      {"servo_id", Key::servo_id},
+      {"servo", Key::servo_id},
+      {"model", Key::model},
+  }};
+  const auto colon = item.find(':');
+  const std::string word = lower(item.substr(0, colon));
+  const auto key = std::ranges::find(keys, word, &std::pair<std::string_view, Key>::first);
+  if (colon == std::string_view::npos || key == keys.end()) {
+    return false;
+  }
+  Selector selector{key->second, std::string(item), lower(item.substr(colon + 1))};
+  const auto value = number<std::int64_t>(selector.value);
+  selector.number = value.value_or(0);
+  targets.selectors.push_back(selector);
+  switch (selector.key) {
+  case Key::unique_id: return begins_unique_id(selector.value);
+  case Key::model: return !selector.value.empty();
+  default: return value.has_value();
+  }
+}
+
+} // namespace
+
+bool Selector::matches(const Member& member, const bla::Profiles& profiles) const {
+  return member.is_known() && matches(member.servo(), profiles);
+}
+
+bool Selector::matches(const Servo& servo, const bla::Profiles& profiles) const {
+  if (!servo.is_servo) {
+    return false;
+  }
+  switch (key) {
+  case Key::unique_id: return servo.unique_id && hex(*servo.unique_id).starts_with(value);
+  case Key::serial_number: return servo.identity.readings().serial_number == number;
+  case Key::servo_id: return servo.servo_id == number;
+  case Key::model: {
+    // Only a model that is known for sure matches: a selector never picks by a guess.
+    const auto matching = profiles.matching(value);
+    return std::ranges::find(matching, servo.identity.profile()) != matching.end();
+  }
+  }
+  return false;
+}
+
+bool Targets::mean(const Member& member, const bla::Profiles& profiles) const {
+  if (all || !given) {
+    return member.is_known() && member.is_servo;
+  }
+  const bool is_named = std::ranges::find(ids, member.id) != ids.end();
+  return (is_named && member.id_is_known) ||
+         std::ranges::any_of(selectors, [&](const Selector& selector) {
+           return selector.matches(member, profiles);
+         });
+}
+
+std::optional<Error> Targets::ambiguity(const Roster& roster, const bla::Profiles& profiles) const {
+  for (const Selector& selector : selectors) {
+    std::map<dronecan::UniqueId, dronecan::NodeId> meant;
+    for (const auto& [id, member] : roster.members()) {
+      if (selector.key == Selector::Key::unique_id && selector.matches(member, profiles)) {
+        meant.try_emplace(*member.unique_id(), id);
+      }
+    }
+    if (meant.size() > 1) {
+      std::string listed;
+      for (const auto& [unique_id, id] : meant) {
+        listed += fmt::format("{}{} ({})", listed.empty() ? "" : ", ", hex(unique_id), id.value());
+      }
+      return Error{Code::usage, say<texts::ambiguous_target>(selector.text, listed),
+                   say<texts::ambiguous_target_hint>(), std::nullopt};
+    }
+  }
+  return std::nullopt;
+}
+
+Result<Targets> parse_targets(std::string_view list) {
+  Targets targets;
+  targets.given = true;
+  for (const auto part : std::views::split(list, ',')) {
+    const std::string_view item(part.begin(), part.end());
+    if (lower(item) == "all") {
+      targets.all = true;
+    } else if (const auto range = id_range(item)) {
+      if (auto added = add_ids(*range, item, targets); !added) {
+        return std::unexpected(std::move(added.error()));
+      }
+    } else if (!add_selector(item, targets)) {
+      return std::unexpected(bad_target(list));
+    }
+  }
+  if (list.empty()) { // it has no parts at all
+    return std::unexpected(bad_target(list));
+  }
+  std::ranges::sort(targets.ids);
+  const auto repeated = std::ranges::unique(targets.ids);
+  targets.ids.erase(repeated.begin(), repeated.end());
+  return targets;
+}
+
+} // namespace blactl::fleet

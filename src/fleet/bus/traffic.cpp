@@ -1,0 +1,56 @@
+#include "blactl/fleet/bus/traffic.hpp"
+
+#include "blactl/can/frame_bits.hpp"
+#include "blactl/dronecan/transfer.hpp"
+#include "blactl/dronecan/types.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+namespace blactl::fleet {
+
+void Traffic::hear(const can::Frame& frame, Time at) {
+  const auto bits = can::frame_length(frame) + can::intermission_bits;
+  load_.hear(bits, at);
+  ++frames_;
+  if (!frame.extended) {
+    ++standard_frames_;
+    return;
+  }
+  const auto header = dronecan::decode_id(frame.id);
+  if (!header) {
+    return;
+  }
+  Sender& sender = senders_[header->source];
+  ++sender.frames;
+  sender.bits += bits;
+  sender.statuses += header->kind == dronecan::Kind::message &&
+                             header->data_type_id == dronecan::NodeStatus::type.id
+                         ? 1U
+                         : 0U;
+}
+
+void Traffic::hear_own(const can::Frame& frame, Time at) {
+  hear(frame, at);
+  ++own_frames_;
+}
+
+void Traffic::stamp(WallTime wall) {
+  constexpr Duration disorder = std::chrono::seconds(1); // of logs of several interfaces
+  runs_backwards_ = runs_backwards_ || wall + disorder < newest_;
+  newest_ = std::max(newest_, wall);
+}
+
+void Traffic::hear(const can::BusFault& fault) {
+  ++faults_[fault.kind];
+}
+
+std::optional<Duration> Traffic::duration() const {
+  return runs_backwards_ ? std::nullopt : load_.duration();
+}
+
+std::optional<std::uint64_t> Traffic::load_permille() const {
+  return runs_backwards_ ? std::nullopt : load_.mean_permille();
+}
+
+} // namespace blactl::fleet

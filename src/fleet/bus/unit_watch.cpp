@@ -1,0 +1,87 @@
+#include "blactl/fleet/bus/unit_watch.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+namespace blactl::fleet {
+namespace {
+
+/// A BLA servo sends actuator.Status every 100 ms (table 2-2). More than fourteen in a second are
+/// two servos: one servo cannot send them even if every delay falls the worst way.
+constexpr Duration status_window = std::chrono::seconds(1);
+constexpr unsigned most_statuses_of_one = 14;
+
+/// Uptime counts whole seconds and its message may be late: two starts less than this apart are
+/// one.
+constexpr Duration start_tolerance = std::chrono::milliseconds(1500);
+
+/// The same for an answer, which may be as late as it is waited for. RestartJob lets servos grow
+/// older than this before it restarts them.
+constexpr Duration answer_tolerance = std::chrono::seconds(2);
+
+} // namespace
+
+/// Nobody acknowledges a servo that is alone on the bus: when somebody joins, its waiting frames
+/// come all at once. But one unit numbers its transfers one by one; where the numbers of two units
+/// mix, at least every second one does not follow the one before.
+void UnitWatch::count_status(dronecan::TransferId transfer_id, Time at) {
+  if (!window_start_ || at - *window_start_ > status_window) {
+    window_start_ = at;
+    count_ = leaps_ = 0;
+  }
+  const unsigned next = (last_actuator_id_ + 1U) % dronecan::transfer_id_modulus;
+  leaps_ += transfer_id != next ? 1U : 0U;
+  last_actuator_id_ = transfer_id;
+  ++count_;
+  is_too_fast_ = is_too_fast_ || (count_ > most_statuses_of_one && leaps_ * 4 > count_);
+}
+
+/// Every uptime tells when its unit started. A new start is a restart; coming back to the old one
+/// means that two units send under one ID. A unit that restarts at once shows by its uptime alone,
+/// which never goes back.
+///
+/// What waited for a bus that was full makes a start look later. The unit then comes back to its
+/// old start and its uptime has never gone back, as it does each time a younger unit follows an
+/// older.
+UnitWatch::Start UnitWatch::hear_uptime(std::uint32_t uptime_s, Time at) {
+  const Time start = at - std::chrono::seconds(uptime_s);
+  const std::uint32_t before = std::exchange(last_uptime_s_, uptime_s);
+  may_be_late_ = may_be_late_ && uptime_s >= before;
+  // A servo that restarts right after its start has two that are close to each other.
+  const auto distance = [&](const std::optional<Time>& known) {
+    return known ? std::chrono::abs(*known - start) : Duration::max();
+  };
+  const auto it = std::ranges::min_element(starts_, {}, distance);
+  if (distance(*it) < start_tolerance) {
+    const auto index = static_cast<std::size_t>(it - starts_.begin());
+    *it = start; // clocks drift
+    if (index != std::exchange(last_start_, index)) {
+      starts_[1 - index] = may_be_late_ ? std::nullopt : starts_[1 - index];
+      return std::exchange(may_be_late_, false) ? Start::known : Start::twin;
+    }
+    return uptime_s < before ? Start::anew : Start::known;
+  }
+  const bool is_first = !starts_[last_start_];
+  may_be_late_ = !is_first && uptime_s >= before && start > *starts_[last_start_];
+  last_start_ = is_first ? last_start_ : 1 - last_start_;
+  starts_[last_start_] = start;
+  return is_first ? Start::known : Start::anew;
+}
+
+UnitWatch::Start UnitWatch::hear_repetition(dronecan::TransferId transfer_id,
+                                            std::uint32_t uptime_s, Time at) {
+  const bool is_repeated = std::exchange(last_status_id_, transfer_id) == transfer_id;
+  return is_repeated ? hear_uptime(uptime_s, at) : Start::known;
+}
+
+UnitWatch::Start UnitWatch::hear_answer(std::uint32_t uptime_s, Time at) {
+  const auto known = started();
+  const Time start = at - std::chrono::seconds(uptime_s);
+  if (!known || start - *known > answer_tolerance) {
+    return hear_uptime(uptime_s, at);
+  }
+  return *known - start > answer_tolerance ? Start::twin : Start::known;
+}
+
+} // namespace blactl::fleet

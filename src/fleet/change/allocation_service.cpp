@@ -1,0 +1,323 @@
+#include "blactl/fleet/change/allocation_service.hpp"
+
+#include "blactl/base/hex.hpp"
+#include "blactl/fleet/bus/conflict_texts.hpp"
+#include "blactl/fleet/change/guard.hpp"
+
+#include "fleet/change/node_id_texts.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <string>
+#include <utility>
+
+namespace blactl::fleet {
+
+using dronecan::Bytes;
+using dronecan::NodeId;
+using dronecan::UniqueId;
+
+namespace {
+
+/// More units than there are node IDs, so that those which get none are remembered, too.
+constexpr std::size_t most_units = 256;
+
+/// A unit without a node ID asks again after 0.6 s to 1 s; one request may be lost.
+constexpr Duration request_period = std::chrono::seconds(2);
+
+/// One that was given its ID so often and asks again does not take it: that so many answers were
+/// lost one after the other is not likely.
+constexpr unsigned most_vain_answers = 5;
+
+/// How much of a unique ID the first part of a request tells (1.Allocation.uavcan).
+constexpr std::size_t first_part_size = 6;
+
+bool begins_with(const UniqueId& unique_id, Bytes prefix) {
+  return std::ranges::equal(Bytes(unique_id).first(prefix.size()), prefix);
+}
+
+} // namespace
+
+AllocationService::AllocationService(Session& session, state::AllocationStore& store, Range range,
+                                     Hook hook)
+    : session_(session), store_(store), range_(range), hook_(std::move(hook)),
+      allocator_(session.node(), *this), last_request_(session.now()) {
+  session_.attach(*this);
+}
+
+AllocationService::~AllocationService() {
+  session_.detach(*this);
+}
+
+std::optional<Error> AllocationService::end() const {
+  if (failure_) {
+    return failure_;
+  }
+  const auto& others = session_.roster().allocators();
+  if (others.empty()) {
+    return std::nullopt;
+  }
+  const NodeId other = *others.begin();
+  const Member member = session_.roster().member(other);
+  const std::string name = member.info ? " (" + printable(member.info->name) + ")" : std::string();
+  return Error{Code::other_allocator, say<texts::other_allocator>(other.value(), name),
+               say<texts::other_allocator_hint>(), other.value()};
+}
+
+void AllocationService::receive(const dronecan::Transfer& transfer) {
+  const dronecan::Header& header = transfer.header;
+  const bool is_request = header.kind == dronecan::Kind::message && !header.source.is_unicast() &&
+                          header.data_type_id == dronecan::Allocation::type.id;
+  if (is_request) {
+    const auto request = dronecan::Allocation::decode(transfer.payload);
+    if (request && request->first_part_of_unique_id) {
+      hear_first_part(Bytes(request->unique_id).first(request->size), transfer.at);
+    }
+  }
+  allocator_.receive(transfer);
+}
+
+void AllocationService::hear_first_part(Bytes prefix, Time at) {
+  if (!is_left_out(prefix)) {
+    last_request_ = at;
+  }
+  UniqueIdPrefix known(prefix.begin(), prefix.end());
+  if (first_parts_.size() < most_units || first_parts_.contains(known)) {
+    first_parts_[std::move(known)] = at;
+  }
+}
+
+std::size_t AllocationService::asking() const {
+  const auto is_there = [this](const UniqueIdPrefix& prefix, Time asked) {
+    return std::ranges::any_of(units_, [&](const auto& entry) {
+      return begins_with(entry.first, prefix) && entry.second.asked_at >= asked &&
+             this->is_there(entry.second);
+    });
+  };
+  return static_cast<std::size_t>(std::ranges::count_if(first_parts_, [&](const auto& part) {
+    return session_.now() - part.second < request_period && !is_there(part.first, part.second);
+  }));
+}
+
+/// Who is refused asks on for ever, and so does who does not take its ID.
+bool AllocationService::is_left_out(Bytes prefix) const {
+  return std::ranges::any_of(units_, [&](const auto& entry) {
+    const AllocatedUnit& unit = entry.second;
+    return (unit.refused || (unit.is_deaf && !is_there(unit))) && begins_with(entry.first, prefix);
+  });
+}
+
+void AllocationService::advance(Time now) {
+  allocator_.advance(now);
+  watch_for_twins();
+}
+
+/// A unit with the same ID may join at any time.
+void AllocationService::watch_for_twins() {
+  for (const NodeId id : session_.roster().doubled()) {
+    for (auto& [unique_id, unit] : units_) {
+      if (unit.node_id == id && !unit.refused) {
+        unit.is_shared = true;
+        refuse(unit, Event::conflict, shared(unit));
+      }
+    }
+  }
+}
+
+bool AllocationService::serves(Bytes prefix) const {
+  if (end()) {
+    return false;
+  }
+  if (bus_is_known_) {
+    return true;
+  }
+  const auto entries = store_.entries();
+  return entries && std::ranges::any_of(*entries, [&](const state::AllocationEntry& entry) {
+           return begins_with(entry.unique_id, prefix);
+         });
+}
+
+/// Null: there are too many already.
+AllocatedUnit* AllocationService::known(const UniqueId& unique_id) {
+  const auto unit = units_.find(unique_id);
+  if (unit != units_.end()) {
+    return &unit->second;
+  }
+  return units_.size() < most_units
+             ? &units_.emplace(unique_id, AllocatedUnit{.unique_id = unique_id}).first->second
+             : nullptr;
+}
+
+std::optional<NodeId> AllocationService::assign(const UniqueId& unique_id, NodeId preferred) {
+  AllocatedUnit* unit = known(unique_id);
+  if (unit == nullptr || end()) {
+    return std::nullopt;
+  }
+  note_request(*unit);
+  const auto entry = store_.find(unique_id);
+  if (!entry) {
+    failure_ = entry.error();
+    return std::nullopt;
+  }
+  return *entry ? keep(*unit, (*entry)->node_id) : give(*unit, preferred);
+}
+
+void AllocationService::note_request(AllocatedUnit& unit) {
+  unit.given = is_there(unit) ? 0 : unit.given;
+  const bool was_deaf = std::exchange(unit.is_deaf, unit.given >= most_vain_answers);
+  unit.asked_at = session_.now();
+  if (unit.is_deaf && !was_deaf) {
+    hook_(Event::deaf, unit);
+  } else if (!unit.refused && !unit.is_deaf) {
+    hook_(Event::request, unit);
+  }
+}
+
+Error AllocationService::shared(const AllocatedUnit& unit) const {
+  Error error = doubled(session_.roster(), unit.node_id);
+  if (session_.roster().units(unit.node_id).empty()) {
+    error.message = say<texts::allocated_id_doubled>(unit.node_id.value(), hex(unit.unique_id));
+  }
+  return error;
+}
+
+std::optional<Error> AllocationService::refusal(const AllocatedUnit& unit) const {
+  return unit.is_shared ? shared(unit) : unit.refused;
+}
+
+Error AllocationService::absence(const AllocatedUnit& unit) const {
+  const std::uint8_t id = unit.node_id.value();
+  if (unit.given == 0) { // nobody knows who else is there
+    return in_use(unit);
+  }
+  return unit.given == 1
+             ? Error{Code::not_back, say<texts::allocated_not_up>(id, hex(unit.unique_id)),
+                     say<texts::allocated_not_up_hint>(), id}
+             : Error{Code::not_back, say<texts::allocated_not_taken>(id, hex(unit.unique_id)),
+                     say<texts::allocated_not_taken_hint>(), id};
+}
+
+Error AllocationService::in_use(const AllocatedUnit& unit) const {
+  const NodeId id = unit.node_id;
+  const Member member = session_.roster().member(id);
+  std::string who = say<texts::another_unit>();
+  if (id == session_.node().id()) {
+    who = "blactl";
+  } else if (member.info && member.info->unique_id != unit.unique_id) {
+    who = "uid:" + hex(member.info->unique_id);
+  }
+  return {Code::duplicate_node_id,
+          say<texts::allocated_id_in_use>(id.value(), hex(unit.unique_id), who),
+          say<texts::allocated_id_in_use_hint>(hex(unit.unique_id)), id.value()};
+}
+
+std::optional<NodeId> AllocationService::keep(AllocatedUnit& unit, NodeId id) {
+  unit.node_id = id;
+  switch (holder(id, unit.unique_id)) {
+  case Holder::unknown: return std::nullopt; // it asks again, and then more is known
+  case Holder::other: refuse(unit, Event::conflict, in_use(unit)); return std::nullopt;
+  case Holder::twin:
+    refuse(unit, Event::conflict,
+           {Code::duplicate_node_id, say<texts::same_unique_id>(id.value(), hex(unit.unique_id)),
+            say<texts::same_unique_id_hint>(), id.value()});
+    return std::nullopt;
+  case Holder::nobody: break;
+  }
+  unit.refused.reset();
+  ++unit.given;
+  if (!unit.is_deaf) {
+    hook_(Event::kept, unit);
+  }
+  return id;
+}
+
+std::optional<NodeId> AllocationService::give(AllocatedUnit& unit, NodeId preferred) {
+  if (!bus_is_known_) {
+    return std::nullopt; // its unique ID only begins like one of the table
+  }
+  const auto id = store_.assign(unit.unique_id,
+                                {.preferred = preferred,
+                                 .taken = session_.roster().ids_in_use(unit.unique_id),
+                                 .first = range_.first,
+                                 .last = range_.last},
+                                session_.wall());
+  if (id) {
+    unit.node_id = *id;
+    unit.is_new = true;
+    unit.refused.reset();
+    ++unit.given;
+    hook_(Event::assigned, unit);
+    return *id;
+  }
+  if (id.error().code == Code::table_full) {
+    refuse(unit, Event::full, id.error());
+  } else if (id.error().code != Code::busy) { // then it is free when the unit asks again
+    failure_ = id.error();
+  }
+  return std::nullopt;
+}
+
+void AllocationService::refuse(AllocatedUnit& unit, Event event, Error error) {
+  const bool is_news = !unit.refused;
+  unit.refused = std::move(error);
+  if (is_news) {
+    hook_(event, unit);
+  }
+}
+
+/// Who has this node ID on the bus, beside this unit itself, which may have been heard before it
+/// restarted.
+AllocationService::Holder AllocationService::holder(NodeId id, const UniqueId& unique_id) const {
+  const Roster& roster = session_.roster();
+  if (id == session_.node().id()) {
+    return Holder::other;
+  }
+  if (!roster.heard(id)) {
+    return Holder::nobody;
+  }
+  const Member member = roster.member(id);
+  if (roster.is_doubled(id)) {
+    return Holder::other;
+  }
+  if (member.info && member.info->unique_id == unique_id) {
+    return is_heard_while_asking(member, unique_id) ? Holder::twin : Holder::nobody;
+  }
+  const bool is_gone = session_.now() - member.last_heard >= offline_time;
+  const bool comes_back = member.static_node_id == id.value();
+  if (is_gone && !comes_back) {
+    return Holder::nobody;
+  }
+  return member.info ? Holder::other : Holder::unknown;
+}
+
+/// A unit that asks has no node ID, so what is heard under its own since it began is another's.
+bool AllocationService::is_heard_while_asking(const Member& member,
+                                              const UniqueId& unique_id) const {
+  const auto part =
+      first_parts_.find(UniqueIdPrefix(unique_id.begin(), unique_id.begin() + first_part_size));
+  return part != first_parts_.end() && member.last_heard > part->second;
+}
+
+bool AllocationService::is_there(const AllocatedUnit& unit) const {
+  const Member* member = session_.roster().find(unit.node_id);
+  return member != nullptr && !unit.refused && member->is_unit(unit.unique_id) &&
+         member->last_heard >= unit.asked_at;
+}
+
+Result<std::size_t> AllocationService::free_ids() const {
+  const auto entries = store_.entries();
+  if (!entries) {
+    return std::unexpected(entries.error());
+  }
+  state::NodeIds used = session_.roster().ids_in_use({});
+  for (const state::AllocationEntry& entry : *entries) {
+    used.set(entry.node_id.value());
+  }
+  std::size_t free = 0;
+  for (std::size_t id = range_.first.value(); id <= range_.last.value(); ++id) {
+    free += used[id] ? 0U : 1U;
+  }
+  return free;
+}
+
+} // namespace blactl::fleet

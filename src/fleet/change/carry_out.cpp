@@ -1,0 +1,215 @@
+#include "blactl/fleet/change/carry_out.hpp"
+
+#include "blactl/base/hex.hpp"
+#include "blactl/dronecan/allocator.hpp"
+#include "blactl/fleet/bus/discovery.hpp"
+#include "blactl/fleet/bus/texts.hpp"
+#include "blactl/fleet/bus/ticker.hpp"
+#include "blactl/fleet/change/former_ids.hpp"
+#include "blactl/fleet/change/restart_texts.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <iterator>
+#include <list>
+#include <map>
+#include <span>
+#include <utility>
+
+namespace blactl::fleet {
+
+using dronecan::NodeId;
+using dronecan::UniqueId;
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr Duration start_up_time = 5s;
+constexpr Duration allocation_time = 2s; // one servo after the other, about 1 s each
+constexpr Duration leaving_time = 20ms;
+
+/// The IDs of the servos that are changed.
+std::map<UniqueId, NodeId> ids_of(std::span<const Plan> plans) {
+  std::map<UniqueId, NodeId> ids;
+  for (const Plan& plan : plans) {
+    if (const Servo& servo = plan.before.servo; servo.unique_id) {
+      ids.emplace(*servo.unique_id, servo.id);
+    }
+  }
+  return ids;
+}
+
+/// Whether this servo will have to ask for a node ID when it starts, as far as is known.
+bool will_ask_for_id(const Plan& plan) {
+  if (!plan.restart) {
+    return false;
+  }
+  const auto expected = bla::find(plan.expected, bla::address::static_node_id);
+  const auto id = expected ? expected : plan.before.raw(bla::address::static_node_id);
+  // What ROM holds is not known before a restart; an ID that is the static one comes from there.
+  return id.value_or(0) == 0 ||
+         (plan.restart == RestartKind::restart && *id != plan.before.servo.id.value());
+}
+
+Duration come_back_time(std::span<const Plan> plans) {
+  return start_up_time + std::ranges::count_if(plans, will_ask_for_id) * allocation_time;
+}
+
+/// What of the last requests waits in the kernel's queue may still take effect.
+std::optional<Error> check_sent(Session& session) {
+  // A NodeStatus of ours may just be due: it is no write, and leaves at once where anything does.
+  if (session.unsent() > 0) {
+    if (const auto lived = session.live_until(session.now() + leaving_time); !lived) {
+      return lived.error();
+    }
+  }
+  const std::size_t frames = session.unsent();
+  return frames == 0 ? std::nullopt
+                     : std::optional(Error{Code::no_acknowledge,
+                                           say<texts::not_written>(frames, session.interface()),
+                                           {},
+                                           std::nullopt});
+}
+
+Progress progress_of(const std::list<ChangeJob>& jobs, Duration elapsed) {
+  Progress progress{.servos = jobs.size(), .elapsed = elapsed};
+  for (const ChangeJob& job : jobs) {
+    if (job.has_ended()) {
+      ++progress.ended;
+    } else {
+      (job.is_away() ? progress.away : progress.at_work).push_back(job.result().servo.id);
+    }
+  }
+  return progress;
+}
+
+/// What to do for a servo that is not back because it asks for a node ID: of this its own job only
+/// knows that nobody gave it one.
+void explain_waiting(const Plan& plan, const FormerIds& table, ChangeResult& result) {
+  const auto& unique_id = plan.before.servo.unique_id;
+  if (!unique_id || !result.error || result.error->hint != say<texts::waits_for_id_hint>()) {
+    return;
+  }
+  const auto saved = bla::find(plan.expected, bla::address::static_node_id).value_or(0);
+  if (auto hint = table.hint(*unique_id)) {
+    result.error->hint = std::move(*hint);
+  } else if (plan.restart == RestartKind::save && saved != 0) {
+    result.error->hint = say<texts::static_id_lost_hint>(saved, hex(*unique_id));
+  }
+}
+
+/// Why nothing must be changed, once this was recorded or not. Then it hears what came meanwhile:
+/// the kernel keeps little, and a disk may take its time.
+std::optional<Error> judge(const Result<void>& recorded, Session& session, const Manner& manner) {
+  if (!recorded && manner.not_recorded) {
+    if (auto refused = manner.not_recorded(recorded.error())) {
+      return refused;
+    }
+  }
+  const auto heard = session.live_until(session.now());
+  return heard ? std::nullopt : std::optional(heard.error());
+}
+
+/// Nothing was changed.
+CarriedOut not_begun(std::span<const Plan> plans, Error reason) {
+  CarriedOut none;
+  none.broken = std::move(reason);
+  std::ranges::transform(plans, std::back_inserter(none.servos), as_planned);
+  return none;
+}
+
+CarriedOut change(Session& session, const bla::Profiles& profiles, std::span<const Plan> plans,
+                  const Manner& manner) {
+  FormerIds table(session, ids_of(plans), manner.allocations, manner.not_kept);
+  dronecan::Allocator allocator(session.node(), table);
+  if (manner.may_allocate && session.roster().allocators().empty()) {
+    session.attach(allocator);
+  }
+  Discovery recogniser(session, profiles, manner.identification);
+  if (std::ranges::any_of(plans, [](const Plan& plan) { return plan.restart.has_value(); })) {
+    recogniser.recognise();
+  }
+  RestartPace pace{.distance = manner.stagger, .stops_at_failure = manner.stops_at_failure};
+  ChangeJob::Options options{.identification = manner.identification,
+                             .come_back = manner.come_back.value_or(come_back_time(plans)),
+                             .pace = &pace,
+                             .entered = manner.entered};
+  std::list<ChangeJob> jobs;
+  std::vector<dronecan::Job*> group;
+  for (const Plan& plan : plans) {
+    options.start = session.now() + static_cast<Duration::rep>(jobs.size()) * manner.stagger;
+    group.push_back(&jobs.emplace_back(session.records(), profiles, plan, options));
+  }
+  const Ticker ticker(session, 1s, [&, begin = session.now()] {
+    if (manner.progress) {
+      manner.progress(progress_of(jobs, session.now() - begin));
+    }
+  });
+  const auto ran = session.run(group);
+  session.detach(allocator);
+  CarriedOut carried_out;
+  for (ChangeJob& job : jobs) {
+    job.look_back();
+    carried_out.servos.push_back(job.result());
+    explain_waiting(plans[carried_out.servos.size() - 1], table, carried_out.servos.back());
+  }
+  carried_out.broken = ran ? check_sent(session) : std::optional(ran.error());
+  return carried_out;
+}
+
+} // namespace
+
+std::optional<Error> record(Session& session, std::span<const Plan> plans, const Manner& manner) {
+  if (manner.history == nullptr || session.is_recording()) {
+    return std::nullopt;
+  }
+  auto refused = judge(manner.history->drop_proofs(plans), session, manner);
+  return refused ? refused : judge(manner.history->keep(plans, session.wall()), session, manner);
+}
+
+void record_end(Session& session, std::span<const ChangeResult> results, const Manner& manner) {
+  if (manner.history == nullptr || session.is_recording()) {
+    return;
+  }
+  const auto concluded = manner.history->conclude(results, session);
+  if (!concluded && manner.end_not_recorded) {
+    manner.end_not_recorded(concluded.error());
+  }
+}
+
+CarriedOut carry_out(Session& session, const bla::Profiles& profiles, std::span<const Plan> plans,
+                     const Manner& manner) {
+  auto refused = record(session, plans, manner);
+  auto carried_out =
+      refused ? not_begun(plans, std::move(*refused)) : change(session, profiles, plans, manner);
+  record_end(session, carried_out.servos, manner);
+  return carried_out;
+}
+
+Snapshots take_snapshots(Session& session, const bla::Profiles& profiles,
+                         std::span<const NodeId> servos, const Identification::Options& options,
+                         const ReadJob::Choice& choice, ReadJob::Proof proof,
+                         const ReadJob::More& more) {
+  if (session.is_recording()) {
+    proof = ReadJob::Proof::none;
+  }
+  std::list<ReadJob> jobs;
+  std::vector<dronecan::Job*> group;
+  for (const NodeId id : servos) {
+    group.push_back(
+        &jobs.emplace_back(session.records(), id, profiles, options, choice, proof, more));
+  }
+  const auto ran = session.run(group);
+  Snapshots snapshots;
+  for (const ReadJob& job : jobs) {
+    snapshots.servos.push_back(job.snapshot());
+  }
+  if (!ran) {
+    snapshots.broken = ran.error();
+  }
+  return snapshots;
+}
+
+} // namespace blactl::fleet

@@ -1,0 +1,410 @@
+#include "blactl/fleet/change/change_job.hpp"
+
+#include "blactl/fleet/bus/texts.hpp"
+#include "blactl/fleet/change/restart_texts.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace blactl::fleet {
+
+using dronecan::Outcome;
+using dronecan::Step;
+
+namespace {
+
+bool has_failed(const std::vector<Change>& changes) {
+  return std::ranges::any_of(changes,
+                             [](const Change& change) { return change.error.has_value(); });
+}
+
+/// What ERASE leaves; the IDs are written again after it.
+bla::Values expected_after_erase(const Plan& plan) {
+  bla::Values expected = plan.expected;
+  for (const Change& change : plan.changes) {
+    expected[change.parameter->address] = change.before.value_or(0);
+  }
+  return expected;
+}
+
+} // namespace
+
+std::string_view name(ChangeStage stage) {
+  switch (stage) {
+  case ChangeStage::erase: return "erase";
+  case ChangeStage::write: return "write";
+  case ChangeStage::save: return "save";
+  case ChangeStage::restart: return "restart";
+  case ChangeStage::read: return "read";
+  case ChangeStage::end: return "end";
+  }
+  return {};
+}
+
+ChangeJob::ChangeJob(Roster& roster, const bla::Profiles& profiles, const Plan& plan,
+                     Options options)
+    : roster_(roster), profiles_(profiles), plan_(plan), options_(std::move(options)),
+      servo_(plan.before.servo), result_(as_planned(plan)) {
+  result_.was_begun = true;
+}
+
+Step ChangeJob::next(const Outcome& outcome) {
+  if (stage_ == Stage::begin) {
+    begin_ = outcome.at;
+    return enter(first_stage(), outcome.at);
+  }
+  Step step = job_->next(outcome);
+  if (!step.is_end()) {
+    return step;
+  }
+  return enter(conclude_stage(outcome.kind == Outcome::Kind::cancelled), outcome.at);
+}
+
+bool ChangeJob::must_finish() const {
+  return stage_ == Stage::read_back || (stage_ == Stage::restart && restart_->must_finish());
+}
+
+std::optional<ChangeStage> ChangeJob::told_as(Stage stage) const {
+  switch (stage) {
+  case Stage::erase: return ChangeStage::erase;
+  case Stage::write: return ChangeStage::write;
+  case Stage::restart:
+    return plan_.restart == RestartKind::save ? ChangeStage::save : ChangeStage::restart;
+  case Stage::read_erased:
+  case Stage::look:
+  case Stage::read_back:
+  case Stage::read_shown: return ChangeStage::read;
+  case Stage::end: return ChangeStage::end;
+  case Stage::begin: break;
+  }
+  return std::nullopt;
+}
+
+bool ChangeJob::is_stopped(Stage next) const {
+  const bool changes = next == Stage::erase || next == Stage::write || next == Stage::restart;
+  return changes && options_.pace != nullptr && options_.pace->is_stopped();
+}
+
+/// Another servo has failed.
+void ChangeJob::stop() {
+  const std::uint8_t id = servo_.id.value();
+  result_.was_begun = erase_ || write_;
+  result_.is_verified = false;
+  if (result_.was_begun) {
+    result_.error =
+        Error{Code::state, say<texts::stopped_by_another>(id), say<texts::run_again_hint>(), id};
+  }
+}
+
+void ChangeJob::tell_failure() const {
+  if (options_.pace != nullptr && !result_.is_done()) {
+    options_.pace->has_failed = true;
+  }
+}
+
+ChangeJob::Stage ChangeJob::first_stage() const {
+  return plan_.erase ? Stage::erase : after_erase();
+}
+
+ChangeJob::Stage ChangeJob::after_erase() const {
+  return plan_.changes.empty() ? after_write() : Stage::write;
+}
+
+ChangeJob::Stage ChangeJob::after_write() const {
+  return plan_.restart ? Stage::restart : to_show();
+}
+
+ChangeJob::Stage ChangeJob::to_show() const {
+  return std::ranges::all_of(plan_.shown, bla::is_setting) ? Stage::end : Stage::read_shown;
+}
+
+std::unique_ptr<RestartJob> ChangeJob::restart() const {
+  const auto given = bla::find(plan_.expected, bla::address::static_node_id);
+  RestartJob::Options options{.kind = *plan_.restart,
+                              .start = options_.start,
+                              .come_back = options_.come_back,
+                              .patience = options_.identification.patience,
+                              .pace = options_.pace};
+  if (given.value_or(0) != 0) {
+    options.expected = dronecan::NodeId(static_cast<std::uint8_t>(*given));
+  }
+  return std::make_unique<RestartJob>(roster_, servo_, options);
+}
+
+/// After a save everything is read.
+std::unique_ptr<WriteJob> ChangeJob::write() const {
+  const bool is_read_later = plan_.restart == RestartKind::save;
+  return std::make_unique<WriteJob>(
+      roster_, servo_, plan_.changes, options_.identification.patience,
+      is_read_later ? WriteJob::Echo::suffices : WriteJob::Echo::is_checked);
+}
+
+/// Begins a stage; one that has nothing to ask is over at once.
+Step ChangeJob::enter(Stage stage, Time now) {
+  for (;; stage = conclude_stage(false)) {
+    if (is_stopped(stage)) {
+      stop();
+      stage = Stage::end;
+    }
+    stage_ = stage;
+    if (const auto told = told_as(stage); told && options_.entered) {
+      options_.entered(servo_, *told);
+    }
+    const Patience patience = options_.identification.patience;
+    switch (stage) {
+    case Stage::erase:
+      job_ = (erase_ = std::make_unique<EraseJob>(roster_, servo_, patience)).get();
+      break;
+    case Stage::write: job_ = (write_ = write()).get(); break;
+    case Stage::restart:
+      result_.was_restarted = true;
+      job_ = (restart_ = restart()).get();
+      break;
+    case Stage::read_erased:
+    case Stage::look:
+    case Stage::read_back: job_ = (read_ = read_configuration()).get(); break;
+    case Stage::read_shown: job_ = (read_ = read_shown()).get(); break;
+    case Stage::begin:
+    case Stage::end: tell_failure(); return std::nullopt;
+    }
+    if (Step step = job_->next({Outcome::Kind::start, {}, now}); !step.is_end()) {
+      return step;
+    }
+  }
+}
+
+ChangeJob::Stage ChangeJob::conclude_stage(bool cancelled) {
+  const Stage ended = stage_;
+  Stage following = Stage::end;
+  switch (ended) {
+  case Stage::erase: following = conclude_erase(); break;
+  case Stage::read_erased: following = conclude_read_erased(); break;
+  case Stage::write: following = conclude_write(); break;
+  case Stage::restart: following = conclude_restart(); break;
+  case Stage::look: following = conclude_look(); break;
+  case Stage::read_back: following = conclude_read_back(); break;
+  case Stage::read_shown: conclude_read_shown(); break;
+  case Stage::begin:
+  case Stage::end: break;
+  }
+  blame_other_writer();
+  tell_reach();
+  if (servo_.unique_id && result_.node_id_after &&
+      roster_.member(*result_.node_id_after).is_another_unit(*servo_.unique_id)) {
+    result_.node_id_after = std::nullopt; // it is somewhere else
+  }
+  if (!cancelled) {
+    return following;
+  }
+  explain_interruption(ended);
+  return Stage::end;
+}
+
+ChangeJob::Stage ChangeJob::conclude_erase() {
+  result_.error = erase_->error();
+  return result_.error ? Stage::end : Stage::read_erased;
+}
+
+/// Where the registers show that a request without an answer was not carried out it is sent once
+/// more.
+ChangeJob::Stage ChangeJob::conclude_read_erased() {
+  take_reading(read_->snapshot());
+  result_.error = compare(read_->snapshot(), expected_after_erase(plan_));
+  if (!result_.error) {
+    result_.error = check_commands(read_->snapshot());
+  }
+  result_.is_verified = !result_.error;
+  result_.values_read = plan_.expected.size();
+  if (!result_.error) {
+    servo_ = read_->snapshot().servo;
+    return after_erase();
+  }
+  const bool ignored = result_.error->code == Code::mismatch && !erase_->is_confirmed();
+  if (ignored && std::exchange(may_erase_again_, false)) {
+    return Stage::erase;
+  }
+  const std::uint8_t id = servo_.id.value();
+  const bool has_restarted = roster_.member(servo_.id).boots != plan_.before.servo.boot;
+  if (result_.error->code == Code::mismatch && has_restarted) {
+    result_.error =
+        Error{Code::state, say<texts::erased_no_more>(id), say<texts::run_again_hint>(), id};
+  } else if (ignored) {
+    result_.error = Error{Code::timeout, say<texts::opcode_ignored>(id, "ERASE"),
+                          say<texts::no_answer_hint>(), id};
+  }
+  return Stage::end;
+}
+
+ChangeJob::Stage ChangeJob::conclude_write() {
+  result_.changes = write_->changes();
+  servo_ = write_->servo();
+  for (Change& change : result_.changes) {
+    blame_other_writer(change);
+    if (change.parameter->address == bla::address::static_node_id && change.after) {
+      roster_.learn_static_node_id(plan_.before.servo.id, change.after);
+    }
+    if (change.parameter->address == bla::address::servo_id && change.after) {
+      result_.servo.servo_id = change.after;
+    }
+  }
+  const std::uint8_t id = plan_.before.servo.id.value();
+  if (plan_.erase && roster_.member(plan_.before.servo.id).boots != plan_.before.servo.boot) {
+    result_.error =
+        Error{Code::state, say<texts::erased_no_more>(id), say<texts::run_again_hint>(), id};
+  }
+  result_.is_verified = !result_.error && !has_failed(result_.changes);
+  return result_.is_verified ? after_write() : Stage::end;
+}
+
+ChangeJob::Stage ChangeJob::conclude_restart() {
+  constexpr int most_looks = 3;
+  if (restart_->is_unproven() && ++looks_ <= most_looks) {
+    return Stage::look;
+  }
+  result_.error = restart_->error();
+  if (restart_->is_unproven()) {
+    const std::uint8_t id = servo_.id.value();
+    result_.error = Error{Code::state, say<texts::restarts_while_read>(id),
+                          say<texts::restarts_again_hint>(), id};
+  }
+  result_.may_have_saved = *plan_.restart == RestartKind::save && restart_->may_have_happened();
+  result_.duration = restart_->duration();
+  result_.returned = result_.node_id_after = restart_->returned();
+  if (!restart_->is_sent() || restart_->has_run_on()) {
+    result_.node_id_after = servo_.id; // it stayed
+  }
+  result_.is_verified = *plan_.restart == RestartKind::restart && !result_.error;
+  if (result_.error && restart_->is_sent() && !restart_->has_run_on()) {
+    doubt_changes();
+  }
+  const bool looks = *plan_.restart == RestartKind::save || plan_.proves_rom;
+  const bool reads = looks && !result_.error && result_.returned;
+  return reads ? Stage::read_back : Stage::end;
+}
+
+/// Before SAVE: RAM must still hold what is to be saved.
+ChangeJob::Stage ChangeJob::conclude_look() {
+  const Snapshot& now = read_->snapshot();
+  const std::uint8_t id = servo_.id.value();
+  auto difference = compare(now, plan_.expected);
+  if (!difference) {
+    servo_ = now.servo;
+    return Stage::restart;
+  }
+  const bool has_restarted = now.has_restarted || now.servo.boot != servo_.boot;
+  result_.error = difference->code == Code::mismatch
+                      ? Error{Code::state,
+                              has_restarted ? say<texts::restarted_before_save>(id)
+                                            : say<texts::changed_before_save>(id),
+                              say<texts::run_again_hint>(), id}
+                      : std::move(*difference);
+  result_.is_verified = false;
+  tell_saved(now);
+  return Stage::end;
+}
+
+ChangeJob::Stage ChangeJob::conclude_read_back() {
+  const Snapshot& now = read_->snapshot();
+  take_reading(now);
+  result_.values_read = plan_.expected.size();
+  result_.error = compare(now, plan_.expected);
+  // What RAM has shown before and does not show now, ROM has not taken.
+  if (auto unreadable = check_rom(now)) {
+    result_.error = std::move(unreadable);
+  } else if (result_.error && result_.error->code == Code::mismatch) {
+    result_.error->hint =
+        restart_->is_confirmed() ? say<texts::rom_differs_hint>() : say<texts::run_again_hint>();
+  }
+  const std::uint8_t id = now.servo.id.value();
+  if (const auto writer = roster_.writer_to(now.servo.id, restart_->sent_at());
+      writer && !result_.error) {
+    result_.error = Error{Code::state, say<texts::written_by_other>(id, writer->value()),
+                          say<texts::other_writer_hint>(), id};
+  }
+  result_.is_verified = !result_.error;
+  result_.saved = result_.is_verified && *plan_.restart == RestartKind::save;
+  if (result_.error) {
+    tell_saved(now);
+    return Stage::end;
+  }
+  result_.rom = rom_reading(now);
+  return to_show();
+}
+
+/// `now` ends with an uptime of the servo. Empty: it has started anew since.
+std::optional<RomReading> ChangeJob::rom_reading(const Snapshot& now) const {
+  const Member member = roster_.member(now.servo.id);
+  if (!member.is_unit(*servo_.unique_id)) {
+    return std::nullopt;
+  }
+  RomReading rom{.values = now.values(),
+                 .started = member.info_start,
+                 .uptime = std::chrono::seconds(member.info->status.uptime_s)};
+  std::erase_if(rom.values, [](const auto& held) { return !bla::is_setting(held.first); });
+  return rom;
+}
+
+/// Nothing rests on it: what cannot be read is not shown.
+void ChangeJob::conclude_read_shown() {
+  result_.now = read_->snapshot().values();
+}
+
+void ChangeJob::take_reading(const Snapshot& now) {
+  if (const auto servo_id = now.raw(bla::address::servo_id)) {
+    result_.servo.servo_id = servo_id;
+  }
+  roster_.learn_static_node_id(now.servo.id, now.raw(bla::address::static_node_id));
+}
+
+/// The configuration; after ERASE also the commands, after a save also whether ROM could be read.
+std::unique_ptr<ReadJob> ChangeJob::read_configuration() {
+  const bool after_save = stage_ == Stage::read_back;
+  const bool after_erase = stage_ == Stage::read_erased;
+  return std::make_unique<ReadJob>(
+      roster_, after_save ? *result_.returned : servo_.id, profiles_, options_.identification,
+      [=](const Servo& servo) -> Result<std::vector<const bla::Parameter*>> {
+        auto parameters = servo.identity.configuration();
+        if (const auto* rom = rom_state(servo.identity); after_save && rom != nullptr) {
+          parameters.push_back(rom);
+        }
+        if (after_erase) {
+          std::ranges::copy(servo.identity.registers(bla::command_registers),
+                            std::back_inserter(parameters));
+        }
+        return parameters;
+      },
+      after_save ? ReadJob::Proof::unit : ReadJob::Proof::moment);
+}
+
+/// What tells of a moment only: the settings were read before, or written since. unproven: that
+/// 0x19 follows a change before the writes have been proven.
+std::unique_ptr<ReadJob> ChangeJob::read_shown() {
+  return std::make_unique<ReadJob>(
+      roster_, result_.node_id_after.value_or(servo_.id), profiles_, options_.identification,
+      [this](const Servo& servo) -> Result<std::vector<const bla::Parameter*>> {
+        auto parameters = servo.identity.registers(plan_.shown);
+        std::erase_if(parameters, [](const auto* each) { return bla::is_setting(each->address); });
+        return parameters;
+      });
+}
+
+/// ERASE sets the commands to 0, too (4.9), unless somebody drives the servo.
+std::optional<Error> ChangeJob::check_commands(const Snapshot& now) const {
+  if (roster_.driver_of(now.servo, now.servo.since)) {
+    return std::nullopt;
+  }
+  bla::Values expected;
+  for (const bla::Address command : bla::command_registers) {
+    const auto raw = now.raw(command);
+    expected[command] = raw == bla::not_active ? bla::not_active : 0;
+    // unproven: with that its output came on, and holds the shaft where it is (errata E3).
+    if (command == bla::address::command_angle &&
+        plan_.before.raw(bla::address::torque_output) != 0) {
+      expected.erase(command);
+    }
+  }
+  return compare(now, expected);
+}
+
+} // namespace blactl::fleet

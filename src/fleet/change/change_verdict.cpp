@@ -1,0 +1,149 @@
+// What can be said of the servo in the end: what was lost, what others did meanwhile, what was not
+// reached.
+
+#include "blactl/base/hex.hpp"
+#include "blactl/fleet/bus/conflict_texts.hpp"
+#include "blactl/fleet/bus/texts.hpp"
+#include "blactl/fleet/change/change_job.hpp"
+#include "blactl/fleet/change/guard.hpp"
+#include "blactl/fleet/change/restart_texts.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace blactl::fleet {
+
+/// What another node has written the servo neither refused nor changed.
+void ChangeJob::blame_other_writer(Change& change) const {
+  const auto writer = roster_.writer_to(servo_.id, known_since(), change.parameter->address);
+  if (writer && change.error && change.after) {
+    const std::uint8_t id = servo_.id.value();
+    change.error = Error{Code::state, say<texts::other_writer>(id, writer->value()),
+                         say<texts::other_writer_hint>(), id};
+  }
+}
+
+/// Values that differ where another node wrote are neither the servo's fault nor ROM's.
+void ChangeJob::blame_other_writer() {
+  const bool differs = result_.error && (result_.error->code == Code::mismatch ||
+                                         result_.error->code == Code::state);
+  const dronecan::NodeId servo = servo_.id;
+  if (const auto writer = roster_.writer_to(servo, known_since()); differs && writer) {
+    result_.error = Error{Code::state, say<texts::other_writer>(servo.value(), writer->value()),
+                          say<texts::other_writer_hint>(), servo.value()};
+  }
+}
+
+/// What has been sent. A second unit that shows then may have taken it, too.
+void ChangeJob::tell_reach() {
+  const bool has_sent = result_.was_sent = (erase_ && erase_->is_sent()) ||
+                                           (write_ && write_->has_written()) ||
+                                           (restart_ && restart_->is_sent());
+  const auto tell = [&](std::optional<Error>& error) {
+    if (has_sent && error && error->code == Code::duplicate_node_id) {
+      error->hint = say<texts::doubled_meanwhile_hint>();
+    }
+  };
+  tell(result_.error);
+  for (Change& change : result_.changes) {
+    tell(change.error);
+  }
+}
+
+/// What the registers of the changes hold now, after a SAVE that went wrong.
+void ChangeJob::tell_saved(const Snapshot& now) {
+  doubt_changes();
+  for (Change& change : result_.changes) {
+    if (const auto raw = now.raw(change.parameter->address)) {
+      change.after = raw;
+      change.status = *raw == change.requested ? ChangeStatus::written : ChangeStatus::mismatch;
+    }
+  }
+}
+
+/// The servo restarted, or may have: what was written was in RAM.
+void ChangeJob::doubt_changes() {
+  result_.now.clear();
+  for (Change& change : result_.changes) {
+    change.after = std::nullopt;
+    change.status = ChangeStatus::failed;
+  }
+}
+
+/// Since when all that is told of the servo was asked.
+Time ChangeJob::known_since() const {
+  return std::min(begin_, plan_.before.servo.since);
+}
+
+/// Another node that wrote, as far as was heard, what this job has changed, found to be right or
+/// shows.
+std::optional<dronecan::NodeId> ChangeJob::other_writer() const {
+  const dronecan::NodeId id = plan_.before.servo.id;
+  if (plan_.erase) {
+    return roster_.writer_to(id, known_since());
+  }
+  std::vector<bla::Address> concerned = plan_.shown;
+  for (const Change& change : result_.changes) {
+    concerned.push_back(change.parameter->address);
+  }
+  for (const bla::Address address : concerned) {
+    const bool is_command =
+        std::ranges::find(bla::command_registers, address) != bla::command_registers.end();
+    const auto writer = is_command ? roster_.commander_of(plan_.before.servo, known_since())
+                                   : roster_.writer_to(id, known_since(), address);
+    if (writer) {
+      return writer;
+    }
+  }
+  return std::nullopt;
+}
+
+void ChangeJob::look_back() {
+  const dronecan::NodeId id = result_.node_id_after.value_or(servo_.id);
+  if (!result_.is_done()) {
+    const bool has_stayed = !restart_ || !restart_->is_sent() || restart_->has_run_on();
+    if (has_stayed && (roster_.member(id).boots != servo_.boot || other_writer())) {
+      doubt_changes();
+    }
+    return;
+  }
+  const bool is_in_ram_only = !plan_.restart && (plan_.erase || !result_.changes.empty());
+  if (roster_.is_doubled(id)) {
+    result_.error = doubled(roster_, id);
+  } else if (is_in_ram_only && roster_.member(id).boots != servo_.boot) {
+    result_.error = Error{Code::state, say<texts::lost_since>(id.value()),
+                          say<texts::run_again_hint>(), id.value()};
+  } else if (const auto writer = is_in_ram_only ? other_writer() : std::nullopt; writer) {
+    result_.error = Error{Code::state, say<texts::written_by_other>(id.value(), writer->value()),
+                          say<texts::other_writer_hint>(), id.value()};
+  } else {
+    return;
+  }
+  result_.is_verified = result_.saved = false;
+  doubt_changes();
+}
+
+/// What was not reached, where the stage itself cannot tell.
+void ChangeJob::explain_interruption(Stage at) {
+  const std::uint8_t id = servo_.id.value();
+  const std::string uid = servo_.unique_id ? hex(*servo_.unique_id) : std::string();
+  const bool is_unsaved =
+      at == Stage::write || at == Stage::look || (at == Stage::restart && !restart_->is_sent());
+  const auto interrupted = [&](std::string message) {
+    result_.error =
+        Error{Code::interrupted, std::move(message), say<texts::what_it_holds_hint>(uid), id};
+  };
+  if (at == Stage::read_back && plan_.restart == RestartKind::save) {
+    interrupted(say<texts::saved_not_verified>(id));
+  } else if ((at == Stage::erase && erase_->is_sent()) || at == Stage::read_erased) {
+    interrupted(say<texts::erased_not_verified>(id));
+  } else if (plan_.erase && is_unsaved) {
+    interrupted(say<texts::erased_not_saved>(id));
+  } else if (is_unsaved && at != Stage::write && !plan_.changes.empty()) {
+    interrupted(say<texts::not_saved>(id));
+  }
+}
+
+} // namespace blactl::fleet

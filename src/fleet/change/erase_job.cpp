@@ -1,0 +1,60 @@
+#include "blactl/fleet/change/erase_job.hpp"
+
+#include "blactl/fleet/bus/texts.hpp"
+#include "blactl/fleet/change/guard.hpp"
+#include "blactl/fleet/change/restart_texts.hpp"
+
+namespace blactl::fleet {
+
+using dronecan::ExecuteOpcode;
+using dronecan::GetNodeInfo;
+using dronecan::Outcome;
+using dronecan::Step;
+
+Step EraseJob::next(const Outcome& outcome) {
+  const std::uint8_t id = servo_.id.value();
+  switch (at_) {
+  case At::begin:
+    at_ = At::unit;
+    return ask(servo_.id, GetNodeInfo::type, GetNodeInfo::Request{}.encode(), patience_);
+  case At::unit: {
+    const auto info =
+        outcome.answered() ? GetNodeInfo::Response::decode(outcome.payload) : std::nullopt;
+    if (roster_.is_doubled(servo_.id)) {
+      error_ = doubled(roster_, servo_.id);
+      return std::nullopt;
+    }
+    if (!info) {
+      error_ = no_answer(outcome, servo_.id, "GetNodeInfo");
+      return std::nullopt;
+    }
+    const bool is_same = info->unique_id == servo_.unique_id;
+    if (!is_same || roster_.member(servo_.id).boots != servo_.boot) {
+      error_ =
+          Error{Code::state,
+                is_same ? say<texts::restarted_before_erase>(id) : say<texts::another_servo>(id),
+                say<texts::run_again_hint>(), id};
+      return std::nullopt;
+    }
+    at_ = At::request;
+    Patience once = patience_;
+    once.retries = 0;
+    return ask(servo_.id, ExecuteOpcode::type,
+               ExecuteOpcode::Request{.opcode = ExecuteOpcode::erase}.encode(), once);
+  }
+  case At::request: break;
+  }
+  if (outcome.answered()) {
+    const auto response = ExecuteOpcode::Response::decode(outcome.payload);
+    is_confirmed_ = response && response->ok;
+    if (!is_confirmed_) {
+      error_ = Error{Code::refused, say<texts::opcode_refused>(id, "ERASE"),
+                     say<texts::opcode_refused_hint>(id), id};
+    }
+  } else if (outcome.kind != Outcome::Kind::timed_out) {
+    error_ = no_answer(outcome, servo_.id, "ERASE");
+  }
+  return std::nullopt;
+}
+
+} // namespace blactl::fleet

@@ -1,0 +1,379 @@
+#include "blactl/fleet/change/fleet_change.hpp"
+
+#include "blactl/bla/assignment.hpp"
+#include "blactl/fleet/bus/texts.hpp"
+#include "blactl/fleet/change/guard.hpp"
+#include "blactl/fleet/change/restart_texts.hpp"
+#include "blactl/fleet/change/survey.hpp"
+
+#include "fleet/change/id_holders.hpp"
+#include "fleet/change/node_id_texts.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <ranges>
+
+namespace blactl::fleet {
+
+using dronecan::NodeId;
+
+namespace {
+
+using Wish = state::AllocationStore::Wish;
+
+std::vector<Plan> plans_of(std::span<const UnitChange> units) {
+  std::vector<Plan> plans;
+  std::ranges::transform(units, std::back_inserter(plans), &UnitChange::plan);
+  return plans;
+}
+
+std::vector<Wish> wishes_of(std::span<const UnitChange> units) {
+  std::vector<Wish> wishes;
+  for (const UnitChange& unit : units) {
+    if (const auto id = unit.static_node_id()) {
+      wishes.push_back({unit.unique_id, *id});
+    }
+  }
+  return wishes;
+}
+
+/// The same, with another static node ID.
+Result<Wanted> with_static_id(const bla::Profiles& profiles, Wanted wanted, NodeId id) {
+  auto assignment = bla::make_assignment(profiles, bla::address::static_node_id.name(),
+                                         std::to_string(id.value()));
+  if (!assignment) {
+    return std::unexpected(assignment.error());
+  }
+  std::erase_if(wanted.assignments, [](const bla::Assignment& each) {
+    return each.parameter->address == bla::address::static_node_id;
+  });
+  wanted.assignments.push_back(std::move(*assignment));
+  return wanted;
+}
+
+} // namespace
+
+std::optional<NodeId> UnitChange::static_node_id() const {
+  const auto saved = plan.restart == RestartKind::save
+                         ? bla::find(plan.expected, bla::address::static_node_id)
+                         : std::nullopt;
+  return saved.value_or(0) != 0 ? std::optional(NodeId(static_cast<std::uint8_t>(*saved)))
+                                : std::nullopt;
+}
+
+std::vector<Error> FleetChange::prepare(std::vector<UnitTask> tasks) {
+  auto errors = make_plans(std::move(tasks));
+  if (errors.empty()) {
+    errors = make_rounds();
+  }
+  if (errors.empty()) {
+    errors = check_ids();
+  }
+  return errors.empty() ? check() : errors;
+}
+
+std::vector<Error> FleetChange::make_plans(std::vector<UnitTask> tasks) {
+  const Roster& roster = session_.roster();
+  std::vector<Error> errors;
+  for (UnitTask& task : tasks) {
+    const NodeId id = task.before.servo.id;
+    const auto unique_id = task.before.servo.unique_id;
+    auto plan = make_plan(task.wanted, std::move(task.before), profiles_);
+    if (!plan || !unique_id) { // two that answer at once answer nothing
+      errors.push_back(roster.is_doubled(id) ? doubled(roster, id)
+                       : plan                ? fleet::silent(roster, id)
+                                             : std::move(plan.error()));
+      continue;
+    }
+    units_.push_back({.unique_id = *unique_id,
+                      .wanted = std::move(task.wanted),
+                      .plan = std::move(*plan),
+                      .now = id});
+  }
+  return errors;
+}
+
+/// Who wishes no ID begins at once.
+std::vector<Error> FleetChange::make_rounds() {
+  const std::vector<Wish> wishes = wishes_of(units_);
+  const auto taken = promised(session_.roster(), table_, wishes);
+  if (!taken) {
+    return {taken.error()};
+  }
+  const auto moves = plan_id_moves(holders(session_.roster(), wishes), wishes, *taken);
+  if (!moves) {
+    return moves.error();
+  }
+  rounds_.assign(std::max<std::size_t>(moves->size(), 1), {});
+  for (std::size_t i = 0; i < units_.size(); ++i) {
+    if (!units_[i].static_node_id()) {
+      rounds_.front().push_back({i, std::nullopt});
+    }
+  }
+  for (std::size_t r = 0; r < moves->size(); ++r) {
+    for (const IdMove& move : (*moves)[r]) {
+      const auto unit = std::ranges::find(units_, move.unique_id, &UnitChange::unique_id);
+      rounds_[r].push_back({static_cast<std::size_t>(unit - units_.begin()), move});
+    }
+  }
+  return {};
+}
+
+/// Whether others have the servo IDs that are given, or static node IDs that are only written to
+/// RAM: those that are saved are the rounds' to judge.
+std::vector<Error> FleetChange::check_ids() {
+  const std::vector<Plan> plans = plans_of(units_);
+  const auto survey = fleet::survey(session_, profiles_, plans, options_.manner.identification);
+  if (!survey) {
+    return {survey.error()};
+  }
+  silent_ = survey->silent;
+  std::vector<Error> errors;
+  for (const Plan& plan : plans) {
+    auto error = plan.restart == RestartKind::save ? servo_id_conflict(*survey, plans, plan)
+                                                   : conflict(*survey, plans, plan);
+    if (error) {
+      errors.push_back(std::move(*error));
+    }
+  }
+  return errors;
+}
+
+std::vector<Error> FleetChange::check() const {
+  std::vector<Error> errors;
+  for (const UnitChange& unit : units_) {
+    if (auto error =
+            forbidden(session_.roster(), session_.now(), unit.plan, options_.while_driven)) {
+      errors.push_back(std::move(*error));
+    }
+  }
+  return errors;
+}
+
+std::string FleetChange::question() const {
+  return fleet::question(plans_of(units_));
+}
+
+std::vector<IdMove> FleetChange::temporary() const {
+  std::vector<IdMove> moves;
+  for (const Step& step : rounds_ | std::views::join) {
+    if (step.move && step.move->is_temporary) {
+      moves.push_back(*step.move);
+    }
+  }
+  return moves;
+}
+
+std::vector<Error> FleetChange::carry_out(const Hook& hook) {
+  if (auto errors = check(); !errors.empty()) {
+    return errors;
+  }
+  const std::vector<Plan> plans = plans_of(units_);
+  if (auto refused = record(session_, plans, options_.manner)) {
+    return {std::move(*refused)};
+  }
+  auto errors = carry_out_rounds(hook);
+  std::vector<ChangeResult> never_begun;
+  std::ranges::transform(plans, std::back_inserter(never_begun), as_planned);
+  record_end(session_, never_begun, options_.manner);
+  return errors;
+}
+
+std::vector<Error> FleetChange::carry_out_rounds(const Hook& hook) {
+  if (const auto put = put_as_they_are(); !put) {
+    return {put.error()};
+  }
+  for (const Round& round : rounds_) {
+    auto errors = carry_out(round, hook);
+    const bool stops =
+        options_.stops_at_failure && std::ranges::any_of(units_, &UnitChange::has_failed);
+    if (stops || !errors.empty()) {
+      return errors;
+    }
+  }
+  return {};
+}
+
+/// Where a unit of the table is now; empty: nothing is known that would be better.
+std::optional<NodeId> FleetChange::place(const dronecan::UniqueId& unique_id) const {
+  const auto unit = std::ranges::find(units_, unique_id, &UnitChange::unique_id);
+  return unit != units_.end() && unit->static_node_id()
+             ? std::optional(unit->now)
+             : static_place(session_.roster(), unique_id);
+}
+
+/// An ID that a unit had when it was in the table, and has no more, is in nobody's way. Where
+/// nobody gets an ID the table stays as it is.
+Result<void> FleetChange::put_as_they_are() {
+  if (std::ranges::none_of(
+          units_, [](const UnitChange& unit) { return unit.static_node_id().has_value(); })) {
+    return {};
+  }
+  const auto known = table_.entries();
+  if (!known) {
+    return std::unexpected(known.error());
+  }
+  std::vector<Wish> entries;
+  for (const state::AllocationEntry& entry : *known) {
+    const auto now = place(entry.unique_id);
+    if (now && *now != entry.node_id) {
+      entries.push_back({entry.unique_id, *now});
+    }
+  }
+  return table_.put(entries, session_.wall());
+}
+
+/// The table says where each will be: other allocators of this machine give it to nobody else.
+Result<void> FleetChange::put(const Round& round) {
+  std::vector<Wish> entries;
+  for (const Step& step : round) {
+    if (step.move) {
+      entries.push_back({step.move->unique_id, step.move->to});
+    }
+  }
+  return table_.put(entries, session_.wall());
+}
+
+/// Who had it has left, and nobody was heard under it since.
+bool FleetChange::is_free(const IdMove& move) const {
+  const Member* there = session_.roster().find(move.to);
+  if (move.to == move.from || there == nullptr || !session_.roster().heard(move.to)) {
+    return move.to != session_.roster().local();
+  }
+  const auto left = left_.find(move.to);
+  return left != left_.end() && there->last_heard < left->second;
+}
+
+/// Those of the round that can go on: none that has failed, none whose ID is not free after all.
+FleetChange::Round FleetChange::ready(const Round& round) {
+  Round steps;
+  for (const Step& step : round) {
+    if (units_[step.unit].has_failed()) {
+      continue;
+    }
+    if (step.move && !is_free(*step.move)) {
+      const IdMove& move = *step.move;
+      fail(step, {Code::duplicate_node_id,
+                  say<texts::id_given_is_kept>(move.from.value(), move.to.value()),
+                  say<texts::id_given_is_kept_hint>(), move.from.value()});
+      continue;
+    }
+    steps.push_back(step);
+  }
+  return steps;
+}
+
+/// What those hold that have moved before, where they are now. They were saved and restarted: RAM
+/// is what ROM held, also after a restart that nobody heard.
+Result<FleetChange::Sights> FleetChange::look_again(const Round& steps) {
+  std::map<NodeId, std::pair<std::size_t, Wanted>> moved;
+  std::vector<NodeId> nodes;
+  for (const Step& step : steps) {
+    const UnitChange& unit = units_[step.unit];
+    if (step.move && unit.last) {
+      nodes.push_back(unit.now);
+      moved.insert_or_assign(unit.now, std::pair(step.unit, unit.wanted));
+    }
+  }
+  auto read = take_snapshots(
+      session_, profiles_, nodes, options_.manner.identification,
+      [&](const Servo& servo) { return registers_needed(moved.at(servo.id).second, servo); },
+      ReadJob::Proof::unit);
+  if (read.broken) {
+    return std::unexpected(*read.broken);
+  }
+  Sights sights;
+  for (Snapshot& snapshot : read.servos) {
+    const std::size_t unit = moved.at(snapshot.servo.id).first;
+    sights.insert_or_assign(unit, std::move(snapshot));
+  }
+  return sights;
+}
+
+/// As it was judged; anew for one that makes way for others, or has done so.
+Result<Plan> FleetChange::plan(const Step& step, const Sights& sights) {
+  const UnitChange& unit = units_[step.unit];
+  if (!step.move || (!step.move->is_temporary && !unit.last)) {
+    return unit.plan;
+  }
+  auto wanted = with_static_id(profiles_, unit.wanted, step.move->to);
+  if (!wanted) {
+    return std::unexpected(wanted.error());
+  }
+  const auto sight = sights.find(step.unit);
+  if (sight == sights.end()) {
+    return make_plan(*wanted, unit.plan.before, profiles_);
+  }
+  const Snapshot& before = sight->second;
+  if (!before.error && before.servo.unique_id != unit.unique_id) {
+    return std::unexpected(Error{Code::state, say<texts::another_servo>(unit.now.value()),
+                                 say<texts::run_again_hint>(), unit.now.value()});
+  }
+  auto plan = make_plan(*wanted, before, profiles_);
+  if (plan) {
+    if (auto error = forbidden(session_.roster(), session_.now(), *plan, options_.while_driven)) {
+      return std::unexpected(std::move(*error));
+    }
+  }
+  return plan;
+}
+
+std::vector<Error> FleetChange::carry_out(const Round& round, const Hook& hook) {
+  Round steps;
+  std::vector<Plan> plans;
+  const Round begun = ready(round);
+  const auto sights = look_again(begun);
+  if (!sights) {
+    return {sights.error()};
+  }
+  for (const Step& step : begun) {
+    auto planned = plan(step, *sights);
+    if (planned) {
+      steps.push_back(step);
+      plans.push_back(std::move(*planned));
+    } else {
+      fail(step, std::move(planned.error()));
+    }
+  }
+  if (options_.stops_at_failure && std::ranges::any_of(units_, &UnitChange::has_failed)) {
+    return {};
+  }
+  if (const auto kept = put(steps); !kept) {
+    return {kept.error()};
+  }
+  auto carried_out = fleet::carry_out(session_, profiles_, plans, options_.manner);
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    conclude(steps[i], std::move(carried_out.servos[i]), hook);
+  }
+  return carried_out.broken ? std::vector{*carried_out.broken} : std::vector<Error>();
+}
+
+void FleetChange::conclude(const Step& step, ChangeResult result, const Hook& hook) {
+  UnitChange& unit = units_[step.unit];
+  if (step.move && result.is_done() && result.node_id_after != step.move->to) {
+    const std::uint8_t id = result.node_id_after.value_or(step.move->from).value();
+    result.error = Error{Code::mismatch, say<texts::saved_and_elsewhere>(id, step.move->to.value()),
+                         say<texts::run_again_hint>(), id};
+  }
+  unit.now = result.node_id_after.value_or(unit.now);
+  unit.last = std::move(result);
+  if (!unit.last->is_done()) {
+    return;
+  }
+  unit.is_done = !step.move || !step.move->is_temporary;
+  if (step.move) {
+    left_[step.move->from] = session_.now();
+    hook(*step.move);
+  }
+}
+
+/// It was not its turn yet, or no more.
+void FleetChange::fail(const Step& step, Error error) {
+  UnitChange& unit = units_[step.unit];
+  ChangeResult result = unit.last ? *unit.last : as_planned(unit.plan);
+  result.is_verified = false;
+  result.error = std::move(error);
+  unit.last = std::move(result);
+}
+
+} // namespace blactl::fleet

@@ -1,0 +1,62 @@
+#include "blactl/fleet/change/guard.hpp"
+
+#include "blactl/base/hex.hpp"
+#include "blactl/fleet/bus/conflict_texts.hpp"
+#include "blactl/fleet/bus/target_texts.hpp"
+#include "blactl/fleet/bus/texts.hpp"
+
+#include <string>
+
+namespace blactl::fleet {
+
+Error doubled(const Roster& roster, dronecan::NodeId id) {
+  const auto units = roster.units(id);
+  std::string named;
+  for (const dronecan::UniqueId& unit : units) {
+    named += (named.empty() ? "uid:" : ", uid:") + hex(unit);
+  }
+  return {Code::duplicate_node_id,
+          units.empty() ? say<texts::doubled_target>(id.value())
+                        : say<texts::doubled_units>(id.value(), named),
+          say<texts::doubled_target_hint>(), id.value()};
+}
+
+Error silent(const Roster& roster, dronecan::NodeId node) {
+  const std::uint8_t id = node.value();
+  return roster.heard(node) && roster.member(node).id_is_known
+             ? Error{Code::timeout, say<texts::node_mute>(id), say<texts::no_answer_hint>(), id}
+             : Error{Code::not_found, say<texts::node_not_found>(id),
+                     say<texts::node_not_found_hint>(), id};
+}
+
+std::optional<Error> forbidden(const Roster& roster, Time now, const Plan& plan,
+                               bool while_driven) {
+  const Servo& servo = plan.before.servo;
+  const std::uint8_t id = servo.id.value();
+  if (roster.is_doubled(servo.id)) {
+    return doubled(roster, servo.id);
+  }
+  if (!plan.acts()) {
+    return std::nullopt;
+  }
+  // What was read and asked belongs to the time before a restart.
+  if (!roster.member(servo.id).is_known() || roster.member(servo.id).boots != servo.boot) {
+    return Error{Code::state, say<texts::restarted_before_write>(id), say<texts::run_again_hint>(),
+                 id};
+  }
+  if (const auto by = roster.armed_by()) {
+    return Error{Code::armed, say<texts::armed>(by->value()), say<texts::armed_hint>(), id};
+  }
+  const auto driver = roster.driver_of(servo, now);
+  if (driver && !while_driven && plan.moves()) {
+    return Error{Code::driven, say<texts::driven>(driver->value(), id), say<texts::driven_hint>(),
+                 id};
+  }
+  if (const auto given = plan.given_node_id(); given && *given == roster.local()) {
+    return Error{Code::out_of_range, say<texts::node_id_is_ours>(given->value()),
+                 say<texts::node_id_is_ours_hint>(), id};
+  }
+  return std::nullopt;
+}
+
+} // namespace blactl::fleet

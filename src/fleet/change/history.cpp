@@ -1,0 +1,251 @@
+#include "blactl/fleet/change/history.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstddef>
+
+namespace blactl::fleet {
+
+using dronecan::UniqueId;
+using state::ChangeEnd;
+
+namespace {
+
+/// A crystal that drifts by 30 ppm takes a twentieth of the tolerance in this time.
+constexpr std::chrono::hours worth_renewing{1};
+
+state::Registers stored(const bla::Values& values) {
+  state::Registers registers;
+  for (const auto& [address, raw] : values) {
+    registers.emplace(address.value(), raw);
+  }
+  return registers;
+}
+
+/// What these do not end they do when they are typed again.
+bool is_repeated_as_a_whole(std::string_view command) {
+  return command == "apply" || command == "undo" || command == "alloc --static";
+}
+
+/// Of a unit whose configuration was read after its restart.
+state::RomProof proof_of(const UniqueId& unique_id, const RomReading& rom, const Session& session) {
+  return {.unique_id = unique_id,
+          .rom = stored(rom.values),
+          .started = session.wall() - (session.now() - rom.started),
+          .uptime = rom.uptime};
+}
+
+} // namespace
+
+bla::Values replaced_by(const Plan& plan) {
+  const bla::Identity& identity = plan.before.servo.identity;
+  bla::Values values;
+  if (plan.erase) {
+    values = plan.before.values();
+  } else {
+    for (const Change& change : plan.changes) {
+      if (change.is_planned() && change.before) {
+        values.emplace(change.parameter->address, *change.before);
+      }
+    }
+  }
+  std::erase_if(values, [&](const auto& held) {
+    const bla::Parameter* parameter = identity.parameter(held.first);
+    return !bla::is_setting(held.first) || parameter == nullptr ||
+           !identity.check_pwm_input(*parameter); // no value of it could be written back
+  });
+  return values;
+}
+
+Result<void> History::drop_proofs(std::span<const Plan> plans) {
+  std::vector<UniqueId> units;
+  for (const Plan& plan : plans) {
+    const auto& unique_id = plan.before.servo.unique_id;
+    if (plan.restart && unique_id && !unproven_.contains(*unique_id)) {
+      units.push_back(*unique_id);
+    }
+  }
+  auto dropped = units.empty() ? Result<void>() : proofs_.drop(units);
+  if (dropped) {
+    unproven_.insert(units.begin(), units.end());
+  }
+  return dropped;
+}
+
+/// Where an earlier try of this command ended half way.
+Result<void> History::resume(const UniqueId& unique_id) {
+  if (!is_repeated_as_a_whole(command_) || kept_.contains(unique_id)) {
+    return {};
+  }
+  auto last = snapshots_.last(unique_id);
+  if (!last) {
+    return std::unexpected(last.error());
+  }
+  if (*last && !(*last)->ended && (*last)->command == command_) {
+    run_ = std::max(run_, (*last)->run);
+    const bool was_saved = (*last)->saved;
+    kept_[unique_id] = {.entry = std::move(**last), .was_changed = true, .was_saved = was_saved};
+  }
+  return {};
+}
+
+Result<void> History::keep(std::span<const Plan> plans, WallTime now) {
+  for (const Plan& plan : plans) {
+    const auto& unique_id = plan.before.servo.unique_id;
+    auto resumed = unique_id ? resume(*unique_id) : Result<void>();
+    if (!resumed) {
+      return resumed;
+    }
+  }
+  std::vector<state::SnapshotEntry> entries;
+  for (const Plan& plan : plans) {
+    const auto& unique_id = plan.before.servo.unique_id;
+    auto held = stored(replaced_by(plan));
+    if (!unique_id || held.empty()) {
+      continue;
+    }
+    const auto known = kept_.find(*unique_id);
+    state::SnapshotEntry entry =
+        known != kept_.end()
+            ? known->second.entry
+            : state::SnapshotEntry{
+                  .run = run_, .at = now, .command = command_, .unique_id = *unique_id};
+    const std::size_t size = entry.held.size();
+    entry.held.merge(held); // what an earlier round has replaced stays
+    const bool saves = entry.saved || plan.restart == RestartKind::save;
+    const std::int64_t run = run_ != 0 ? run_ : entry.run;
+    if (entry.number == 0 || entry.held.size() != size || entry.saved != saves ||
+        entry.run != run) {
+      entry.saved = saves;
+      entry.run = run;
+      entries.push_back(std::move(entry));
+    }
+  }
+  if (entries.empty()) {
+    return {};
+  }
+  const auto numbers = snapshots_.keep(entries, now);
+  if (!numbers) {
+    return std::unexpected(numbers.error());
+  }
+  run_ = run_ != 0 ? run_ : numbers->front();
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    entries[i].number = (*numbers)[i];
+    entries[i].run = run_;
+    kept_[entries[i].unique_id].entry = std::move(entries[i]);
+  }
+  return {};
+}
+
+Result<void> History::end(std::span<const UniqueId> units) {
+  return is_repeated_as_a_whole(command_) && !units.empty() ? snapshots_.end(units, command_)
+                                                            : Result<void>();
+}
+
+Result<void> History::take_back(std::span<const UniqueId> units) {
+  std::vector<state::Settlement> settlements;
+  for (const UniqueId& unit : units) {
+    if (const auto known = kept_.find(unit); known != kept_.end()) {
+      settlements.push_back({known->second.entry.number, ChangeEnd::never_begun});
+      kept_.erase(known);
+    }
+  }
+  return settlements.empty() ? Result<void>() : snapshots_.settle(settlements);
+}
+
+Result<void> History::conclude(std::span<const ChangeResult> results, const Session& session) {
+  auto settled = settle(results);
+  std::vector<state::RomProof> proofs;
+  for (const ChangeResult& result : results) {
+    if (result.is_done() && result.rom && result.servo.unique_id) {
+      proofs.push_back(proof_of(*result.servo.unique_id, *result.rom, session));
+    }
+  }
+  auto put = proofs.empty() ? Result<void>() : proofs_.put(proofs);
+  if (put) {
+    for (const state::RomProof& proof : proofs) {
+      unproven_.erase(proof.unique_id);
+    }
+  }
+  return settled ? put : settled;
+}
+
+std::optional<bla::Values> History::proven_rom(const Servo& servo, const Session& session) {
+  const Member member = session.roster().member(servo.id);
+  if (!servo.unique_id || !member.is_unit(*servo.unique_id) || !member.status) {
+    return std::nullopt;
+  }
+  const auto proof = proofs_.find(*servo.unique_id);
+  const std::chrono::seconds uptime(member.status->uptime_s);
+  const WallTime told = session.wall() - (session.now() - member.status_at);
+  if (!proof || !*proof || !state::holds(**proof, uptime, told)) {
+    return std::nullopt;
+  }
+  if (uptime - (*proof)->uptime > worth_renewing) {
+    // Else it ends sooner.
+    [[maybe_unused]] const auto put =
+        proofs_.put(std::array{state::renewed(**proof, uptime, told)});
+  }
+  bla::Values values;
+  for (const auto& [address, raw] : (*proof)->rom) {
+    values.emplace(bla::Address(address), raw);
+  }
+  return values;
+}
+
+/// A SAVE that replaces nothing itself keeps what an earlier change has put into RAM.
+Result<std::optional<state::Settlement>> History::made_lasting(const ChangeResult& result) const {
+  if (!result.may_have_saved || !result.servo.unique_id) {
+    return std::nullopt;
+  }
+  const auto last = snapshots_.last(*result.servo.unique_id);
+  if (!last) {
+    return std::unexpected(last.error());
+  }
+  return *last && !(*last)->saved
+             ? std::optional(state::Settlement{(*last)->number, ChangeEnd::saved})
+             : std::nullopt;
+}
+
+/// Of an undo that has begun elsewhere: what it did not begin is not done yet, either.
+bool History::is_half_undone() const {
+  return command_ == "undo" &&
+         std::ranges::any_of(kept_, [](const auto& each) { return each.second.was_changed; });
+}
+
+/// What came as it was planned stands in the store already.
+Result<void> History::settle(std::span<const ChangeResult> results) {
+  for (const ChangeResult& result : results) {
+    const auto known = result.servo.unique_id ? kept_.find(*result.servo.unique_id) : kept_.end();
+    if (known != kept_.end()) {
+      known->second.was_changed = known->second.was_changed || result.was_sent;
+      known->second.was_saved = known->second.was_saved || result.may_have_saved;
+    }
+  }
+  std::vector<state::Settlement> settlements;
+  for (const ChangeResult& result : results) {
+    const auto known = result.servo.unique_id ? kept_.find(*result.servo.unique_id) : kept_.end();
+    if (known == kept_.end()) {
+      if (auto earlier = made_lasting(result); !earlier) {
+        return std::unexpected(earlier.error());
+      } else if (*earlier) {
+        settlements.push_back(**earlier);
+      }
+      continue;
+    }
+    Kept& kept = known->second;
+    if (!kept.was_changed && !is_half_undone()) {
+      settlements.push_back({kept.entry.number, ChangeEnd::never_begun});
+      kept_.erase(known);
+      run_ = kept_.empty() ? 0 : run_;
+    } else if (kept.entry.saved != kept.was_saved) {
+      kept.entry.saved = kept.was_saved;
+      settlements.push_back(
+          {kept.entry.number, kept.was_saved ? ChangeEnd::saved : ChangeEnd::not_saved});
+    }
+  }
+  return settlements.empty() ? Result<void>() : snapshots_.settle(settlements);
+}
+
+} // namespace blactl::fleet

@@ -1,0 +1,398 @@
+#include "blactl/fleet/change/plan.hpp"
+
+#include "blactl/bla/cross_check.hpp"
+#include "blactl/bla/effect.hpp"
+#include "blactl/bla/value.hpp"
+#include "blactl/fleet/bus/conflict_texts.hpp"
+#include "blactl/fleet/bus/texts.hpp"
+#include "blactl/fleet/change/restart_texts.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace blactl::fleet {
+
+namespace at = bla::address;
+using bla::Address;
+using bla::Assignment;
+using bla::Parameter;
+using bla::Values;
+
+namespace {
+
+using Registers = std::vector<const Parameter*>;
+
+void add(Registers& wanted, const Parameter* parameter) {
+  const auto same = [&](const Parameter* other) { return other->address == parameter->address; };
+  if (parameter != nullptr && std::ranges::none_of(wanted, same)) {
+    wanted.push_back(parameter);
+  }
+}
+
+/// The registers to be written, 0x37 for the unit of 0x36, and what tells whether a change moves
+/// the shaft.
+Registers to_judge(const Wanted& wanted, const Servo& servo) {
+  Registers registers;
+  for (const Assignment& assignment : wanted.assignments) {
+    add(registers, servo.identity.parameter(assignment.parameter->address));
+  }
+  for (const Assignment& assignment : wanted.assignments) {
+    if (bla::unit_depends_on_mode(*assignment.parameter)) {
+      add(registers, servo.identity.parameter(at::pwm_mode));
+    }
+    const auto needed = bla::values_needed(assignment.parameter->address);
+    for (const Parameter* parameter : servo.identity.registers(needed)) {
+      add(registers, parameter);
+    }
+  }
+  return registers;
+}
+
+Error about(const Servo& servo, Error error) {
+  error.node_id = servo.id.value();
+  error.message = say<texts::about_node>(servo.id.value(), error.message);
+  return error;
+}
+
+/// 0x36 in deg or rpm is right only if 0x37 says so; without a 0x37 beside it, the servo's.
+std::optional<Error> check_unit(const Wanted& wanted, const Snapshot& before,
+                                const bla::Profiles& profiles) {
+  const auto mode = before.raw(at::pwm_mode);
+  const auto sets_mode = [](const Assignment& assignment) {
+    return assignment.parameter->address == at::pwm_mode;
+  };
+  if (!mode || std::ranges::any_of(wanted.assignments, sets_mode)) {
+    return std::nullopt; // parse_assignments() has compared the two
+  }
+  for (const Assignment& assignment : wanted.assignments) {
+    if (auto fits = bla::check_pwm_unit_of_servo(profiles, assignment, *mode); !fits) {
+      return about(before.servo, fits.error());
+    }
+  }
+  return std::nullopt;
+}
+
+/// `held`: what is there when the changes are made.
+void plan_changes(const Wanted& wanted, const Values& held, Plan& plan) {
+  for (const Assignment& assignment : wanted.assignments) {
+    const Address address = assignment.parameter->address;
+    Change change{.parameter = plan.before.servo.identity.parameter(address),
+                  .requested = assignment.value.raw,
+                  .before = bla::find(held, address)};
+    if (change.before == change.requested) {
+      change.status = ChangeStatus::unchanged;
+      change.after = change.before;
+    }
+    plan.changes.push_back(std::move(change));
+  }
+  // A command may need a switch that is set with it.
+  std::ranges::stable_partition(plan.changes, [](const Change& change) {
+    return change.parameter->group != bla::Group::command;
+  });
+  plan.mode_before = plan.mode_after = bla::find(held, at::pwm_mode);
+  for (const Change& change : plan.changes) {
+    if (change.parameter->address == at::pwm_mode) {
+      plan.mode_after = change.requested;
+    }
+  }
+}
+
+/// Every change that is going to be made, as the cross-checks judge it, in the order asked.
+template <class Visit> void for_each_proposal(const Plan& plan, Visit visit) {
+  const Values before = plan.before.values();
+  Values after = before;
+  for (const Change& change : plan.changes) {
+    after[change.parameter->address] = change.requested;
+  }
+  for (const Change& change : plan.changes) {
+    if (change.is_planned()) {
+      visit(change, bla::Proposal{.address = change.parameter->address,
+                                  .requested = change.requested,
+                                  .before = before,
+                                  .after = after,
+                                  .servo = plan.before.servo.identity});
+    }
+  }
+}
+
+std::string_view reason(const bla::CrossCheck& check) {
+  return choose(check.reason.en, check.reason.ja);
+}
+
+/// "angle_dead_band=0.0deg: …"
+std::string judgement(const Plan& plan, const Change& change, const bla::CrossCheck& check) {
+  const Parameter& parameter = *change.parameter;
+  return say<texts::judged_change>(
+      parameter.name, bla::input_text(parameter, change.requested, plan.mode_after), reason(check));
+}
+
+std::optional<Error> check_together(const Plan& plan) {
+  const std::uint8_t id = plan.before.servo.id.value();
+  std::optional<Error> refused;
+  for_each_proposal(plan, [&](const Change& change, const bla::Proposal& proposal) {
+    for (const auto* check : met(bla::CheckKind::refusal, proposal)) {
+      if (!refused) {
+        refused = Error{
+            Code::cross_check, say<texts::about_node>(id, judgement(plan, change, *check)),
+            check->remedy.empty() ? std::string() : say<texts::set_first_hint>(id, check->remedy),
+            id};
+      }
+    }
+  });
+  return refused;
+}
+
+/// Each kind once, of the change that meets it first.
+std::vector<Warning> warnings_of(const Plan& plan) {
+  std::vector<Warning> warnings;
+  for_each_proposal(plan, [&](const Change& change, const bla::Proposal& proposal) {
+    for (const auto* check : met(bla::CheckKind::warning, proposal)) {
+      if (std::ranges::find(warnings, check->code, &Warning::code) == warnings.end()) {
+        warnings.push_back({std::string(check->code), judgement(plan, change, *check)});
+      }
+    }
+  });
+  return warnings;
+}
+
+/// --keep-ids: 0x45 and 0x46 back into RAM, unless others are wanted. What is 0 before is 0 after
+/// ERASE.
+void plan_kept_ids(Plan& plan) {
+  for (const Address address : {at::servo_id, at::static_node_id}) {
+    const auto kept = plan.before.raw(address);
+    const Parameter* parameter = plan.before.servo.identity.parameter(address);
+    const bool is_given = std::ranges::any_of(
+        plan.changes, [&](const Change& change) { return change.parameter->address == address; });
+    if (kept.value_or(0) != 0 && parameter != nullptr && !is_given) {
+      plan.changes.push_back({.parameter = parameter, .requested = *kept, .before = 0});
+    }
+  }
+}
+
+/// The configuration once everything is done, as far as it will be proven.
+Values expected_after(const Plan& plan) {
+  Values expected = plan.expected; // after ERASE
+  if (!plan.erase) {
+    for (const Parameter* parameter : plan.before.servo.identity.configuration()) {
+      if (const auto raw = plan.before.raw(parameter->address)) {
+        expected[parameter->address] = *raw;
+      }
+    }
+  }
+  for (const Change& change : plan.changes) {
+    if (change.parameter->saved) {
+      expected[change.parameter->address] = change.requested;
+    }
+  }
+  return expected;
+}
+
+/// What SAVE keeps is known; what a mere restart starts with is not.
+std::string restart_question(const Plan& plan) {
+  const std::uint8_t id = plan.before.servo.id.value();
+  if (plan.restart == RestartKind::restart) {
+    return say<texts::question_restart_unknown>(id);
+  }
+  switch (bla::restart_motion(plan.expected)) {
+  case bla::RestartMotion::none: break;
+  case bla::RestartMotion::soft: return say<texts::question_restart_soft>(id);
+  case bla::RestartMotion::hard: return say<texts::question_restart_hard>(id);
+  }
+  return {};
+}
+
+/// What erasing this servo will do, from what to what.
+std::string erase_question(const Plan& plan) {
+  const auto id_text = [&](Address address) {
+    const auto raw = plan.before.raw(address);
+    return raw ? std::to_string(*raw) : say<texts::unknown_before>();
+  };
+  const std::uint8_t id = plan.before.servo.id.value();
+  std::string lines = plan.keep_ids ? say<texts::question_erase_keep>(id)
+                                    : say<texts::question_erase>(id, id_text(at::servo_id),
+                                                                 id_text(at::static_node_id));
+  // By default torque is on (4.13).
+  if (bla::restart_motion(plan.before.values()) == bla::RestartMotion::none) {
+    lines += say<texts::question_erase_torque>(id);
+  }
+  return lines;
+}
+
+/// A change may be asked for several reasons.
+std::string change_question(const Plan& plan, const Change& change,
+                            std::span<const bla::CrossCheck* const> checks) {
+  const Parameter& parameter = *change.parameter;
+  std::string line = say<texts::question_change>(
+      plan.before.servo.id.value(), parameter.name,
+      change.before ? bla::register_text(parameter, *change.before, plan.mode_before)
+                    : say<texts::unknown_before>(),
+      bla::register_text(parameter, change.requested, plan.mode_after));
+  for (const bla::CrossCheck* check : checks) {
+    line += check->code == bla::always_asked ? std::string()
+                                             : say<texts::question_reason>(reason(*check));
+  }
+  return line;
+}
+
+std::string change_questions(const Plan& plan) {
+  std::string lines;
+  for_each_proposal(plan, [&](const Change& change, const bla::Proposal& proposal) {
+    const auto checks = met(bla::CheckKind::question, proposal);
+    if (!plan.erase && !checks.empty()) {
+      lines += change_question(plan, change, checks);
+    }
+  });
+  return lines;
+}
+
+} // namespace
+
+bool Plan::acts() const {
+  return erase || restart || std::ranges::any_of(changes, &Change::is_planned);
+}
+
+bool Plan::moves() const {
+  bool moves = erase || restart;
+  for_each_proposal(*this, [&](const Change&, const bla::Proposal& proposal) {
+    moves = moves || bla::may_move(proposal);
+  });
+  return moves;
+}
+
+std::optional<dronecan::NodeId> Plan::given_node_id() const {
+  std::optional<std::int64_t> given;
+  for (const Change& change : changes) {
+    if (change.parameter->address == at::static_node_id) {
+      given = change.requested;
+    }
+  }
+  if (restart == RestartKind::save) {
+    given = bla::find(expected, at::static_node_id);
+  }
+  const bool is_news = given.value_or(0) != 0 && *given != before.servo.id.value();
+  return is_news ? std::optional(dronecan::NodeId(static_cast<std::uint8_t>(*given)))
+                 : std::nullopt;
+}
+
+std::optional<std::int64_t> Plan::given_servo_id() const {
+  std::optional<std::int64_t> given;
+  for (const Change& change : changes) {
+    if (change.parameter->address == at::servo_id) {
+      given = change.requested;
+    }
+  }
+  if (restart == RestartKind::save) {
+    given = bla::find(expected, at::servo_id);
+  }
+  return given.value_or(0) != 0 ? given : std::nullopt;
+}
+
+Result<std::vector<const Parameter*>> registers_needed(const Wanted& wanted, const Servo& servo) {
+  for (const Assignment& assignment : wanted.assignments) {
+    const auto allowed =
+        servo.identity.may_write(assignment.parameter->address, assignment.value.raw);
+    if (!allowed) {
+      return std::unexpected(allowed.error());
+    }
+  }
+  if (wanted.is_about_whole_servo() && servo.identity.model().empty()) {
+    return fail(Code::no_profile, say<texts::only_readable>(), say<texts::defaults_unknown_hint>());
+  }
+  Registers registers = to_judge(wanted, servo);
+  for (const Parameter* parameter : servo.identity.registers(wanted.also_read)) {
+    add(registers, parameter);
+  }
+  if (wanted.restart || wanted.erase) { // after the restart all of it must be the same
+    for (const Parameter* parameter : servo.identity.configuration()) {
+      add(registers, parameter);
+    }
+  }
+  return registers;
+}
+
+ReadJob::Proof proof_needed(const Wanted& wanted) {
+  return wanted.restart == RestartKind::save ? ReadJob::Proof::run : ReadJob::Proof::moment;
+}
+
+Result<Plan> make_plan(const Wanted& wanted, Snapshot before, const bla::Profiles& profiles) {
+  // For a mere restart nothing rests on single registers.
+  const bool needs_values =
+      !wanted.is_about_whole_servo() || wanted.erase || wanted.restart != RestartKind::restart;
+  if (auto incomplete = needs_values ? before.first_error() : before.error) {
+    return std::unexpected(std::move(*incomplete));
+  }
+  if (before.has_restarted && wanted.restart == RestartKind::save) {
+    const std::uint8_t id = before.servo.id.value();
+    return std::unexpected(
+        Error{Code::state, say<texts::restarted_while_read>(id), say<texts::run_again_hint>(), id});
+  }
+  if (auto misfit = check_unit(wanted, before, profiles)) {
+    return std::unexpected(std::move(*misfit));
+  }
+  Plan plan{.before = std::move(before),
+            .erase = wanted.erase,
+            .keep_ids = wanted.keep_ids,
+            .restart = wanted.restart,
+            .proves_rom = wanted.proves_rom,
+            .shown = wanted.also_read};
+  if (wanted.erase) {
+    auto defaults = plan.before.servo.identity.factory_defaults();
+    if (!defaults) {
+      return std::unexpected(about(plan.before.servo, std::move(defaults.error())));
+    }
+    plan.expected = std::move(*defaults);
+  }
+  plan_changes(wanted, wanted.erase ? plan.expected : plan.before.values(), plan);
+  if (wanted.erase && wanted.keep_ids) {
+    plan_kept_ids(plan);
+  }
+  if (auto refused = check_together(plan)) {
+    return std::unexpected(std::move(*refused));
+  }
+  if (plan.erase || plan.restart == RestartKind::save) {
+    plan.expected = expected_after(plan);
+  }
+  plan.warnings = warnings_of(plan);
+  return plan;
+}
+
+std::optional<Error> refuse_together(const Wanted& wanted,
+                                     std::span<const dronecan::NodeId> servos) {
+  for (const Assignment& assignment : wanted.assignments) {
+    const Parameter& parameter = *assignment.parameter;
+    if (wanted.restart == RestartKind::save && !parameter.saved) {
+      return Error{Code::usage, say<texts::command_is_not_saved>(parameter.name),
+                   say<texts::command_is_not_saved_hint>(), std::nullopt};
+    }
+    const bool gives_id = assignment.value.raw != 0 && servos.size() > 1;
+    if (gives_id && parameter.address == at::static_node_id) {
+      return Error{Code::duplicate_node_id, say<texts::one_id_for_several>(servos.size()),
+                   say<texts::one_id_for_several_hint>(servos.front().value()), std::nullopt};
+    }
+    if (gives_id && parameter.address == at::servo_id) {
+      return Error{Code::duplicate_servo_id, say<texts::servo_id_for_several>(servos.size()),
+                   say<texts::one_id_for_several_hint>(servos.front().value()), std::nullopt};
+    }
+  }
+  return std::nullopt;
+}
+
+std::string question(std::span<const Plan> plans) {
+  std::string lines;
+  bool of_registers = false;
+  for (const Plan& plan : plans) {
+    of_registers = of_registers || (!plan.erase && !plan.changes.empty());
+    lines += plan.erase ? erase_question(plan) : std::string();
+    if (plan.restart) { // ERASE and changes come before it
+      lines += restart_question(plan);
+    }
+    lines += change_questions(plan);
+  }
+  const auto stays_in_ram = [](const Plan& plan) { return plan.erase && !plan.restart; };
+  if (std::ranges::any_of(plans, stays_in_ram)) {
+    lines += say<texts::question_erase_rom>();
+  }
+  return lines.empty() || !of_registers ? lines : say<texts::question_may_move>() + lines;
+}
+
+} // namespace blactl::fleet

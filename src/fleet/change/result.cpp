@@ -1,0 +1,44 @@
+#include "blactl/fleet/change/result.hpp"
+
+namespace blactl::fleet {
+
+std::vector<Error> ChangeResult::errors() const {
+  std::vector<Error> all;
+  for (const Change& change : changes) {
+    if (change.error) {
+      all.push_back(*change.error);
+    }
+  }
+  if (error) {
+    all.push_back(*error);
+  }
+  return all;
+}
+
+bla::Values ChangeResult::after() const {
+  bla::Values values = before;
+  std::erase_if(values, [](const auto& held) { return !bla::is_setting(held.first); });
+  values.insert(now.begin(), now.end());
+  for (const Change& change : changes) {
+    const auto raw = was_begun ? change.after : std::optional(change.requested);
+    if (raw) {
+      values[change.parameter->address] = *raw;
+    } else {
+      values.erase(change.parameter->address);
+    }
+  }
+  return values;
+}
+
+ChangeResult as_planned(const Plan& plan) {
+  return {.servo = plan.before.servo,
+          .before = plan.before.values(),
+          .changes = plan.changes,
+          .mode_before = plan.mode_before,
+          .mode_after = plan.mode_after,
+          .warnings = plan.warnings,
+          .saves = plan.restart == RestartKind::save,
+          .node_id_after = plan.before.servo.id};
+}
+
+} // namespace blactl::fleet

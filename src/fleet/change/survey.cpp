@@ -1,0 +1,139 @@
+#include "blactl/fleet/change/survey.hpp"
+
+#include "blactl/base/hex.hpp"
+#include "blactl/fleet/bus/conflict_texts.hpp"
+#include "blactl/fleet/change/carry_out.hpp"
+
+#include <algorithm>
+#include <list>
+
+namespace blactl::fleet {
+
+namespace at = bla::address;
+using dronecan::NodeId;
+
+namespace {
+
+bool gives_id(const Plan& plan) {
+  return plan.given_node_id() || plan.given_servo_id();
+}
+
+/// Who answers at the node IDs that are given, silent units too.
+std::optional<Error> ask_holders(Session& session, std::span<const Plan> plans,
+                                 const Identification::Options& options) {
+  std::list<UnitJob> jobs;
+  std::vector<dronecan::Job*> group;
+  for (const Plan& plan : plans) {
+    if (const auto given = plan.given_node_id(); given && *given != session.roster().local()) {
+      group.push_back(&jobs.emplace_back(session.records(), *given, options.patience));
+    }
+  }
+  const auto ran = session.run(group);
+  return ran ? std::nullopt : std::optional(ran.error());
+}
+
+/// What a servo will have after the plans: as planned, else as its RAM says.
+std::optional<std::int64_t> after(std::span<const Plan> plans, const Survey::Neighbour& servo,
+                                  bla::Address address, std::optional<std::int64_t> in_ram) {
+  const auto plan = std::ranges::find_if(
+      plans, [&](const Plan& each) { return each.before.servo.id == servo.id; });
+  if (plan == plans.end()) {
+    return in_ram;
+  }
+  for (const Change& change : plan->changes) {
+    if (change.parameter->address == address) {
+      return change.requested;
+    }
+  }
+  return plan->erase && !plan->keep_ids ? std::optional<std::int64_t>(0) : in_ram;
+}
+
+Error taken(const Plan& plan, NodeId given, const dronecan::UniqueId& holder) {
+  const std::uint8_t id = plan.before.servo.id.value();
+  return {Code::duplicate_node_id, say<texts::id_given_is_taken>(id, given.value(), hex(holder)),
+          say<texts::node_id_in_use_hint>(), id};
+}
+
+} // namespace
+
+Result<Survey> survey(Session& session, const bla::Profiles& profiles, std::span<const Plan> plans,
+                      const Identification::Options& options) {
+  Survey found;
+  if (std::ranges::none_of(plans, gives_id)) {
+    return found;
+  }
+  if (auto broken = ask_holders(session, plans, options)) {
+    return std::unexpected(std::move(*broken));
+  }
+  std::vector<NodeId> servos;
+  for (const auto& [id, member] : session.roster().members()) {
+    if (session.roster().heard(id) && (member.is_servo || member.sends_actuator_status())) {
+      servos.push_back(id);
+    }
+    if (member.info && session.roster().heard(id)) {
+      found.holders[id] = member.info->unique_id;
+    }
+  }
+  const auto ids = [](const Servo& servo) -> Result<std::vector<const bla::Parameter*>> {
+    std::vector<const bla::Parameter*> both;
+    for (const bla::Address address : {at::servo_id, at::static_node_id}) {
+      if (const auto* parameter = servo.identity.parameter(address)) {
+        both.push_back(parameter);
+      }
+    }
+    return both;
+  };
+  const auto snapshots = take_snapshots(session, profiles, servos, options, ids);
+  if (snapshots.broken) {
+    return std::unexpected(*snapshots.broken);
+  }
+  for (const Snapshot& snapshot : snapshots.servos) {
+    if (!snapshot.raw(at::servo_id) || !snapshot.raw(at::static_node_id)) {
+      found.silent.push_back(snapshot.servo.id);
+    }
+    found.servos.push_back({snapshot.servo.id, snapshot.servo.unique_id, snapshot.raw(at::servo_id),
+                            snapshot.raw(at::static_node_id)});
+  }
+  return found;
+}
+
+std::optional<Error> conflict(const Survey& survey, std::span<const Plan> plans, const Plan& plan) {
+  const Servo& servo = plan.before.servo;
+  const std::uint8_t id = servo.id.value();
+  const auto node_id = plan.given_node_id();
+  if (node_id && *node_id != servo.id) {
+    const auto holder = survey.holders.find(*node_id);
+    if (holder != survey.holders.end() && holder->second != servo.unique_id) {
+      return taken(plan, *node_id, holder->second);
+    }
+  }
+  for (const Survey::Neighbour& other : survey.servos) {
+    if (other.id == servo.id) {
+      continue;
+    }
+    const auto its_node_id = after(plans, other, at::static_node_id, other.static_node_id);
+    if (node_id && its_node_id == node_id->value()) {
+      return Error{Code::duplicate_node_id,
+                   say<texts::id_given_will_be_taken>(id, node_id->value(), other.id.value()),
+                   say<texts::node_id_in_use_hint>(), id};
+    }
+  }
+  return servo_id_conflict(survey, plans, plan);
+}
+
+std::optional<Error> servo_id_conflict(const Survey& survey, std::span<const Plan> plans,
+                                       const Plan& plan) {
+  const std::uint8_t id = plan.before.servo.id.value();
+  const auto servo_id = plan.given_servo_id();
+  for (const Survey::Neighbour& other : survey.servos) {
+    const bool is_another = servo_id && other.id != plan.before.servo.id;
+    if (is_another && after(plans, other, at::servo_id, other.servo_id) == servo_id) {
+      return Error{Code::duplicate_servo_id,
+                   say<texts::servo_id_given_is_taken>(id, *servo_id, other.id.value()),
+                   say<texts::servo_id_taken_hint>(), id};
+    }
+  }
+  return std::nullopt;
+}
+
+} // namespace blactl::fleet

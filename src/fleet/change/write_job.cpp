@@ -1,0 +1,269 @@
+#include "blactl/fleet/change/write_job.hpp"
+
+#include "blactl/bla/value.hpp"
+#include "blactl/fleet/bus/target_texts.hpp"
+#include "blactl/fleet/bus/texts.hpp"
+#include "blactl/fleet/change/guard.hpp"
+#include "blactl/fleet/change/restart_texts.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace blactl::fleet {
+
+using dronecan::GetNodeInfo;
+using dronecan::Outcome;
+using dronecan::Step;
+
+namespace {
+
+/// A servo that restarts more often while it is written to does so because of it, or of its supply.
+constexpr int most_restarts = 2;
+
+/// The servo is to hold what was requested.
+bool is_held(const Change& change) {
+  return change.status == ChangeStatus::written || change.status == ChangeStatus::unchanged;
+}
+
+} // namespace
+
+WriteJob::WriteJob(const Roster& roster, Servo servo, std::vector<Change> changes,
+                   Patience patience, Echo echo)
+    : roster_(roster), servo_(std::move(servo)), changes_(std::move(changes)), patience_(patience),
+      echo_(echo) {}
+
+Step WriteJob::next(const Outcome& outcome) {
+  switch (at_) {
+  case At::begin: return begin(outcome.at);
+  case At::unit: return judge_unit(outcome);
+  case At::write: return after_write(outcome);
+  case At::read: return after_read(outcome);
+  case At::proof: return judge_proof(outcome);
+  }
+  return std::nullopt;
+}
+
+/// Between reading and writing another unit may have come to the node ID.
+Step WriteJob::begin(Time now) {
+  if (roster_.is_doubled(servo_.id) || std::ranges::none_of(changes_, &Change::is_planned)) {
+    return go_on(now);
+  }
+  at_ = At::unit;
+  return ask(servo_.id, GetNodeInfo::type, GetNodeInfo::Request{}.encode(), patience_);
+}
+
+Step WriteJob::judge_unit(const Outcome& outcome) {
+  const std::uint8_t id = servo_.id.value();
+  if (!outcome.answered()) {
+    return give_up(unproven(), no_answer(outcome, servo_.id, "GetNodeInfo"));
+  }
+  const auto info = GetNodeInfo::Response::decode(outcome.payload);
+  if (!roster_.is_doubled(servo_.id) && (!info || info->unique_id != servo_.unique_id)) {
+    return give_up(unproven(), {Code::state, say<texts::another_servo>(id),
+                                say<texts::node_not_found_hint>(), id});
+  }
+  return go_on(outcome.at);
+}
+
+/// The next write; in the end, or after a restart, the proof.
+Step WriteJob::go_on(Time now) {
+  while (current_ < changes_.size() && !changes_[current_].is_planned()) {
+    ++current_;
+  }
+  if (roster_.is_doubled(servo_.id)) {
+    return give_up(unproven(), doubled(roster_, servo_.id));
+  }
+  const auto concerned = [](const Change& change) {
+    return change.is_planned() || is_held(change);
+  };
+  if (servo_.boot != boots() && std::ranges::any_of(changes_, concerned)) {
+    return prove(now);
+  }
+  if (current_ == changes_.size()) {
+    return std::ranges::any_of(changes_, is_held) ? prove(now) : Step(std::nullopt);
+  }
+  at_ = At::write;
+  has_written_ = true;
+  is_lost_ = false;
+  return write_register(servo_.id, changes_[current_].parameter->address,
+                        changes_[current_].requested, patience_);
+}
+
+Step WriteJob::after_write(const Outcome& outcome) {
+  if (!outcome.answered() && outcome.kind != Outcome::Kind::timed_out) {
+    return give_up(current_, no_answer(outcome, servo_.id, changes_[current_].parameter->name));
+  }
+  Change& change = changes_[current_];
+  const bla::Parameter& parameter = *change.parameter;
+  const auto echo = register_value(outcome, servo_.id, parameter.address, parameter.width);
+  if (echo_ == Echo::suffices && echo == change.requested) {
+    return wrote(outcome.at);
+  }
+  // Whatever the answer says, or if it was lost: the register itself tells what is true.
+  is_lost_ = !outcome.answered();
+  at_ = At::read;
+  return read_register(servo_.id, parameter.address, patience_);
+}
+
+/// The register holds what was requested.
+Step WriteJob::wrote(Time now) {
+  Change& change = changes_[current_];
+  change.after = change.requested;
+  change.status = ChangeStatus::written;
+  ++current_;
+  return go_on(now);
+}
+
+Step WriteJob::after_read(const Outcome& outcome) {
+  Change& change = changes_[current_];
+  const bla::Parameter& parameter = *change.parameter;
+  const auto raw = register_value(outcome, servo_.id, parameter.address, parameter.width);
+  if (outcome.kind == Outcome::Kind::cancelled || outcome.kind == Outcome::Kind::not_sent) {
+    return give_up(current_, raw.error());
+  }
+  if (!raw) {
+    change.status = ChangeStatus::failed;
+    change.error = raw.error();
+    ++current_;
+    return go_on(outcome.at);
+  }
+  if (*raw == change.requested) {
+    return wrote(outcome.at);
+  }
+  change.after = *raw;
+  // A restart between the write and this answer looks the same.
+  is_doubtful_ = true;
+  return prove(outcome.at);
+}
+
+Step WriteJob::prove(Time now) {
+  at_ = At::proof;
+  run_proof_.emplace(roster_, servo_, servo_.since, patience_);
+  return run_proof_->next({Outcome::Kind::start, {}, now});
+}
+
+Step WriteJob::judge_proof(const Outcome& outcome) {
+  if (Step step = run_proof_->next(outcome); !step.is_end()) {
+    return step;
+  }
+  const std::uint8_t id = servo_.id.value();
+  switch (run_proof_->verdict()) {
+  case RunProof::Verdict::failed: return give_up(unproven(), told_by(*run_proof_->error()));
+  case RunProof::Verdict::restarted: return write_again(outcome.at);
+  case RunProof::Verdict::too_late:
+    return give_up(unproven(), {Code::state, say<texts::written_too_late>(id),
+                                say<texts::run_again_hint>(), id});
+  case RunProof::Verdict::ran_on: break;
+  }
+  if (!is_doubtful_) {
+    return std::nullopt;
+  }
+  judge();
+  ++current_;
+  return go_on(outcome.at);
+}
+
+/// A servo that has been written to is in doubt.
+Error WriteJob::told_by(const Error& error) const {
+  const std::uint8_t id = servo_.id.value();
+  if (has_written_ && error.code == Code::timeout) {
+    return {Code::timeout, say<texts::not_proven_any_more>(id), say<texts::no_answer_hint>(), id};
+  }
+  if (has_written_ && error.code == Code::state) {
+    return {Code::state, say<texts::written_to_another>(id), say<texts::node_not_found_hint>(), id};
+  }
+  return error;
+}
+
+/// The restart brought the values of the ROM back: what was written is to be written again.
+Step WriteJob::write_again(Time now) {
+  const std::uint8_t id = servo_.id.value();
+  if (++restarts_ > most_restarts) {
+    return give_up(unproven(), {Code::state, say<texts::restarts_again>(id),
+                                say<texts::restarts_again_hint>(), id});
+  }
+  is_doubtful_ = false;
+  servo_.boot = boots();
+  servo_.since = now;
+  if (!doubt_unchanged()) {
+    return std::nullopt;
+  }
+  for (Change& change : changes_) {
+    if (change.status == ChangeStatus::written) {
+      change.status = ChangeStatus::planned;
+    }
+  }
+  current_ = 0;
+  return go_on(now);
+}
+
+/// What was equal in RAM may have another value in ROM. To write it was never agreed. False: there
+/// is nothing left to write.
+bool WriteJob::doubt_unchanged() {
+  const std::uint8_t id = servo_.id.value();
+  for (Change& change : changes_) {
+    if (change.status == ChangeStatus::unchanged) {
+      change.status = ChangeStatus::failed;
+      change.after = std::nullopt;
+      change.error = Error{Code::state, say<texts::unchanged_no_more>(id, change.parameter->name),
+                           say<texts::run_again_hint>(), id};
+    }
+  }
+  return std::ranges::any_of(changes_, [](const Change& change) {
+    return change.is_planned() || change.status == ChangeStatus::written;
+  });
+}
+
+/// No restart explains why the register holds something else.
+void WriteJob::judge() {
+  is_doubtful_ = false;
+  Change& change = changes_[current_];
+  const bla::Parameter& parameter = *change.parameter;
+  const std::uint8_t id = servo_.id.value();
+  const std::string wanted = bla::display(parameter, change.requested);
+  const std::string held = bla::display(parameter, *change.after);
+  const bool is_as_before = change.after == change.before;
+  change.status = is_as_before ? ChangeStatus::failed : ChangeStatus::mismatch;
+  if (is_as_before && is_lost_) {
+    change.error = Error{Code::timeout, say<texts::write_lost>(id, parameter.name, wanted, held),
+                         say<texts::no_answer_hint>(), id};
+  } else if (is_as_before) {
+    change.error = Error{Code::refused, say<texts::write_refused>(id, parameter.name, wanted, held),
+                         say<texts::not_taken_hint>(id), id};
+  } else {
+    change.error =
+        Error{Code::mismatch, say<texts::write_mismatch>(id, parameter.name, wanted, held),
+              say<texts::not_taken_hint>(id), id};
+  }
+}
+
+/// Where the reason is told if the servo is not proven to be the same: at the change that is in
+/// doubt, else at the first that was made, else at the next one.
+std::size_t WriteJob::unproven() const {
+  const auto first = [this](ChangeStatus status) {
+    const auto it = std::ranges::find(changes_, status, &Change::status);
+    return static_cast<std::size_t>(it - changes_.begin());
+  };
+  const std::size_t made = is_doubtful_ ? current_ : first(ChangeStatus::written);
+  const std::size_t next = made < changes_.size() ? made : current_;
+  return next < changes_.size() ? next : first(ChangeStatus::unchanged);
+}
+
+/// This change failed, the planned ones are not tried, and what was written is not proven.
+Step WriteJob::give_up(std::size_t blamed, Error error) {
+  for (Change& change : changes_) {
+    if (change.status == ChangeStatus::written) {
+      change.status = ChangeStatus::failed;
+      change.after = std::nullopt;
+    }
+  }
+  if (blamed < changes_.size()) {
+    Change& change = changes_[blamed];
+    change.status = ChangeStatus::failed;
+    change.after = std::nullopt;
+    change.error = std::move(error);
+  }
+  return std::nullopt;
+}
+
+} // namespace blactl::fleet

@@ -1,0 +1,195 @@
+#include "blactl/fleet/characterize/characterization.hpp"
+
+#include "blactl/base/json_writer.hpp"
+#include "blactl/base/rfc3339.hpp"
+#include "blactl/bla/value.hpp"
+#include "blactl/dronecan/allocator.hpp"
+#include "blactl/fleet/bus/discovery.hpp"
+#include "blactl/fleet/bus/texts.hpp"
+#include "blactl/fleet/change/former_ids.hpp"
+#include "blactl/fleet/change/guard.hpp"
+
+#include "fleet/characterize/findings.hpp"
+#include "fleet/characterize/test_bench.hpp"
+#include "fleet/characterize/texts.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <utility>
+
+namespace blactl::fleet {
+
+namespace at = bla::address;
+using bla::Address;
+
+namespace {
+
+/// A speed or torque that it is commanded: no restart can give that back.
+std::optional<Error> refuse_motion(const Servo& servo, const bla::Values& now) {
+  const std::uint8_t id = servo.id.value();
+  for (const Address address : {at::command_speed, at::command_torque}) {
+    const auto raw = bla::find(now, address);
+    const bla::Parameter* parameter = servo.identity.parameter(address);
+    if (parameter != nullptr && raw && *raw != 0 && *raw != bla::not_active) {
+      return Error{Code::cross_check, say<texts::bench_moves>(id, bla::display(*parameter, *raw)),
+                   say<texts::bench_moves_hint>(id), id};
+    }
+  }
+  return std::nullopt;
+}
+
+/// RAM is to be given back in the end: what it holds must be known, and be what it held before.
+Result<void> measure_at_rest(TestBench& bench, Notes& notes) {
+  bench.tell(texts::bench_stage_settings);
+  const auto now = bench.rest();
+  if (!now) {
+    return std::unexpected(now.error());
+  }
+  if (auto difference = bench.differs_from(*now, bench.before())) {
+    return std::unexpected(std::move(*difference));
+  }
+  bench.learn_commands(*now);
+  if (auto moves = refuse_motion(bench.servo(), *now)) { // which it did not show before
+    moves->code = Code::state;
+    return std::unexpected(std::move(*moves));
+  }
+  for (const Measurement measure : measurements_at_rest()) {
+    if (auto measured = measure(bench, notes); !measured) {
+      return measured;
+    }
+    if (auto settled = bench.settle(); !settled) {
+      return settled;
+    }
+  }
+  return bench.prove_run();
+}
+
+Result<void> measure_all(TestBench& bench, Notes& notes) {
+  bench.tell(texts::bench_stage_answers);
+  for (const Measurement measure : measurements_of_answers()) {
+    if (auto measured = measure(bench, notes); !measured) {
+      return measured;
+    }
+  }
+  if (auto measured = measure_at_rest(bench, notes); !measured) {
+    return measured;
+  }
+  return measure_starts(bench, notes);
+}
+
+void write_about(JsonWriter& json, const Characterization& measured, WallTime now,
+                 std::string_view tool_version) {
+  const bla::Readings& readings = measured.servo.identity.readings();
+  json.key("about");
+  json.begin_object();
+  json.member("model", measured.servo.identity.model());
+  const auto number = [&](std::string_view key, const std::optional<std::int64_t>& raw) {
+    if (raw) {
+      json.member(key, *raw);
+    }
+  };
+  number("serial_number", readings.serial_number);
+  number("firmware_version", readings.firmware_version);
+  number("hardware_version", readings.hardware_version);
+  if (const auto& info = measured.info) {
+    json.member("name", printable(info->name));
+    json.member("software", fmt::format("{}.{}", info->software_major, info->software_minor));
+    json.member("hardware", fmt::format("{}.{}", info->hardware_major, info->hardware_minor));
+  }
+  json.member("time", rfc3339(now));
+  json.member("tool_version", tool_version);
+  json.end_object();
+}
+
+} // namespace
+
+Result<std::vector<const bla::Parameter*>> registers_to_characterize(const Servo& servo) {
+  if (servo.identity.profile() == nullptr) {
+    return fail(Code::no_profile, say<texts::only_readable>());
+  }
+  auto registers = servo.identity.configuration();
+  std::ranges::copy(servo.identity.registers(bla::command_registers),
+                    std::back_inserter(registers));
+  return registers;
+}
+
+std::optional<Error> refuse_to_characterize(const Session& session, const Snapshot& before,
+                                            bool while_driven) {
+  if (auto error = before.first_error()) {
+    return error;
+  }
+  if (auto moves = refuse_motion(before.servo, before.values())) {
+    return moves;
+  }
+  // To restart it is what moves it most.
+  const Plan plan{.before = before, .restart = RestartKind::restart};
+  return forbidden(session.roster(), session.now(), plan, while_driven);
+}
+
+std::string question_to_characterize(const Snapshot& before) {
+  const std::uint8_t id = before.servo.id.value();
+  std::string question = say<texts::bench_question>(id, restarts_measured);
+  const auto angle = before.raw(at::command_angle);
+  const bla::Parameter* parameter = before.servo.identity.parameter(at::command_angle);
+  if (angle && *angle != bla::not_active && parameter != nullptr &&
+      before.raw(at::torque_output) == 0) {
+    question += say<texts::bench_question_angle>(bla::display(*parameter, *angle));
+  }
+  return question;
+}
+
+Characterization characterize(Session& session, const bla::Profiles& profiles,
+                              const Snapshot& before, const BenchManner& manner) {
+  const Servo& servo = before.servo;
+  FormerIds ids(session, {{servo.unique_id.value_or(dronecan::UniqueId{}), servo.id}},
+                manner.allocations);
+  dronecan::Allocator allocator(session.node(), ids);
+  const bool allocates = manner.may_allocate && session.roster().allocators().empty();
+  if (allocates) {
+    session.attach(allocator);
+  }
+  Discovery recogniser(session, profiles, manner.identification);
+  recogniser.recognise();
+  session.set_grace(put_back_time);
+  Notes notes;
+  TestBench bench(session, profiles, before, manner);
+  const auto ended = measure_all(bench, notes);
+  if (!ended && bench.has_changed() && manner.putting_back) {
+    manner.putting_back();
+  }
+  const auto given = bench.put_back();
+  session.detach(allocator);
+  Characterization measured = std::move(notes).result();
+  measured.servo = bench.servo();
+  measured.was_put_back = bench.has_changed() && given.has_value();
+  if (!ended) {
+    measured.error = ended.error();
+  }
+  if (!given) {
+    measured.not_put_back = given.error();
+  }
+  return measured;
+}
+
+std::string facts_file(const Characterization& measured, WallTime now,
+                       std::string_view tool_version) {
+  std::string text;
+  JsonWriter json(text, JsonWriter::Layout::pretty);
+  json.begin_object();
+  json.member("schema", "blactl-facts/1");
+  json.key("behaviour");
+  json.begin_object();
+  for (const Fact& fact : measured.facts) {
+    if (fact.value) {
+      json.key(fact.setting);
+      std::visit([&](const auto& value) { json.value(value); }, *fact.value);
+    }
+  }
+  json.end_object();
+  write_about(json, measured, now, tool_version);
+  json.end_object();
+  return text + '\n';
+}
+
+} // namespace blactl::fleet

@@ -1,0 +1,301 @@
+// The nodes of a bus, each by itself and together.
+
+#include "blactl/bla/defect.hpp"
+#include "blactl/bla/explain.hpp"
+#include "blactl/bla/value.hpp"
+#include "blactl/fleet/doctor/diagnosis.hpp"
+
+#include "fleet/doctor/diagnosis_texts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <map>
+#include <ranges>
+#include <set>
+#include <utility>
+
+namespace blactl::fleet {
+namespace {
+
+using bla::Level;
+using dronecan::NodeId;
+
+/// So long a node was heard without a NodeStatus, of which there is one a second.
+constexpr Duration enough_for_status = std::chrono::milliseconds(2500);
+
+constexpr std::uint8_t every_servo = 255;
+
+/// Of ArrayCommand (1010.ArrayCommand.uavcan); PWM came after the BLA servos.
+constexpr std::uint8_t type_unitless = 0, type_pwm = 4;
+
+/// What +-1 in UNITLESS means (errata C10), in tenths of a degree; +180 is not reached.
+constexpr std::int64_t unitless_cw = 1799, unitless_ccw = -1800;
+
+/// "11, 12"
+std::string joined_ids(const auto& nodes) {
+  std::string ids;
+  for (const NodeId id : nodes) {
+    ids += (ids.empty() ? "" : ", ") + std::to_string(id.value());
+  }
+  return ids;
+}
+
+class NodeExamination {
+ public:
+  NodeExamination(const Findings& findings, const Traffic& traffic)
+      : findings_(findings), traffic_(traffic) {}
+
+  [[nodiscard]] Diagnoses all(std::span<const Snapshot> limits) {
+    conflicts();
+    for (const Finding& node : findings_.nodes) {
+      node_alone(node);
+    }
+    serial_numbers();
+    answers();
+    allocation();
+    for (const auto& [id, commander] : findings_.roster->commanders()) {
+      commands(commander);
+    }
+    for (const Snapshot& servo : limits) {
+      unitless(servo);
+    }
+    if (const auto by = findings_.roster->armed_by()) {
+      add("armed", Level::notice, by, say<texts::says_vehicle_armed>(by->value()),
+          say<texts::says_vehicle_armed_fix>());
+    }
+    return std::move(found_);
+  }
+
+ private:
+  void add(std::string code, Level level, std::optional<NodeId> node, std::string text,
+           std::string fix) {
+    found_.push_back({std::move(code), level, node, std::move(text), std::move(fix)});
+  }
+
+  void conflicts() {
+    for (const Conflict& conflict : findings_.conflicts) {
+      const bool is_fatal = conflict.code == Code::duplicate_node_id;
+      add(std::string(name(conflict.code)), is_fatal ? Level::failure : Level::warning,
+          conflict.nodes.size() == 1 ? std::optional(conflict.nodes.front()) : std::nullopt,
+          conflict.text, conflict.hint);
+    }
+  }
+
+  void node_alone(const Finding& node) {
+    const std::uint8_t id = node.servo.id.value();
+    if (findings_.roster->is_doubled(node.servo.id)) {
+      return; // what is known of it may be the other's
+    }
+    if (node.is_offline) {
+      if (!is_tool(node)) {
+        add("offline", Level::warning, node.servo.id, say<texts::node_offline>(id),
+            say<texts::node_offline_fix>(id));
+      }
+      return;
+    }
+    if (node.status && node.status->health != dronecan::Health::ok) {
+      const bool is_warning = node.status->health == dronecan::Health::warning;
+      add("health", is_warning ? Level::warning : Level::failure, node.servo.id,
+          say<texts::node_bad_health>(id, dronecan::name(node.status->health)),
+          say<texts::node_bad_health_fix>(id));
+    }
+    mode(node);
+    life(node.servo.id);
+    if (node.servo.is_servo) {
+      servo(node.servo);
+    }
+  }
+
+  void mode(const Finding& node) {
+    const auto mode = node.status ? node.status->mode : dronecan::Mode::operational;
+    if (mode == dronecan::Mode::operational) {
+      return;
+    }
+    const std::uint8_t id = node.servo.id.value();
+    const auto word = dronecan::name(mode); // empty: one that DroneCAN does not know
+    add("mode", Level::warning, node.servo.id,
+        say<texts::node_in_mode>(id, word.empty() ? std::to_string(std::to_underlying(mode))
+                                                  : std::string(word)),
+        node.servo.is_servo ? say<texts::servo_in_mode_fix>(id, id)
+                            : say<texts::node_in_mode_fix>(id));
+  }
+
+  void life(NodeId node) {
+    const Member member = findings_.roster->member(node);
+    const std::uint8_t id = node.value();
+    const auto sender = traffic_.senders().find(node);
+    const bool is_mute = sender == traffic_.senders().end() || sender->second.statuses == 0;
+    if (is_mute && member.last_heard - member.first_heard >= enough_for_status) {
+      add("no_node_status", Level::warning, node, say<texts::node_mute_status>(id),
+          say<texts::node_mute_status_fix>());
+    }
+    if (member.boots > 0) {
+      add("restarted", Level::warning, node, say<texts::node_restarted>(id),
+          say<texts::node_restarted_fix>(id));
+    }
+  }
+
+  void servo(const Servo& servo) {
+    const std::uint8_t id = servo.id.value();
+    const auto& readings = servo.identity.readings();
+    if (servo.identity.model().empty()) {
+      add("unknown_model", Level::warning, servo.id, say<texts::node_unknown_model>(id),
+          say<texts::node_unknown_model_fix>());
+    }
+    if (bla::may_stall(servo.identity)) {
+      add("firmware_defect", Level::notice, servo.id,
+          say<texts::node_may_stall>(bla::firmware_text(*readings.firmware_version), id),
+          say<texts::node_may_stall_fix>());
+    }
+    if (servo.static_node_id.value_or(0) != 0 && *servo.static_node_id != id) {
+      add("static_node_id", Level::warning, servo.id,
+          say<texts::node_static_differs>(id, *servo.static_node_id),
+          say<texts::node_static_differs_fix>(id, id));
+    }
+  }
+
+  /// Of servos that are here; one that moved to another ID meanwhile is one.
+  void serial_numbers() {
+    std::map<std::int64_t, std::map<std::optional<dronecan::UniqueId>, NodeId>> holders;
+    for (const Finding& node : findings_.nodes) {
+      const auto& number = node.servo.identity.readings().serial_number;
+      if (node.servo.is_servo && !node.is_offline && number) {
+        holders[*number].emplace(node.servo.unique_id, node.servo.id);
+      }
+    }
+    for (const auto& [number, units] : holders) {
+      if (units.size() > 1) {
+        add("duplicate_serial_number", Level::warning, std::nullopt,
+            say<texts::shared_serial_number>(joined_ids(std::views::values(units)), number),
+            say<texts::shared_serial_number_fix>());
+      }
+    }
+  }
+
+  /// Of servos that are here and answer: whoever restarted, or answers nothing, is told of as that;
+  /// a node that is no servo need not answer what only servos have.
+  void answers() {
+    Traffic::Questions all;
+    std::vector<NodeId> nodes;
+    for (const Finding& node : findings_.nodes) {
+      const Traffic::Questions questions = traffic_.questions_to(node.servo.id);
+      const bool ran_on = !node.is_offline && findings_.roster->member(node.servo.id).boots == 0 &&
+                          !findings_.roster->is_doubled(node.servo.id);
+      if (!node.servo.is_servo || !ran_on) {
+        continue;
+      }
+      all.asked += questions.asked;
+      all.unanswered += questions.unanswered;
+      if (questions.unanswered > 0) {
+        nodes.push_back(node.servo.id);
+      }
+    }
+    if (all.unanswered > 0) {
+      add("lost_answers", Level::warning, std::nullopt,
+          say<texts::answers_lost>(all.unanswered, all.asked, joined_ids(nodes)),
+          say<texts::answers_lost_fix>());
+    }
+  }
+
+  void allocation() {
+    const Roster& roster = *findings_.roster;
+    if (!roster.pending().empty()) {
+      add("no_node_id", Level::warning, std::nullopt,
+          say<texts::units_ask_for_id>(roster.pending().size()),
+          say<texts::units_ask_for_id_fix>());
+    }
+    if (roster.allocators().size() > 1) {
+      add("several_allocators", Level::failure, std::nullopt,
+          say<texts::several_allocators>(joined_ids(roster.allocators())),
+          say<texts::several_allocators_fix>());
+    }
+  }
+
+  void commands(const Commander& commander) {
+    const std::uint8_t by = commander.source.value();
+    add("commander", Level::notice, commander.source, say<texts::somebody_commands>(by),
+        say<texts::somebody_commands_fix>());
+    for (const auto& [servo_id, command] : commander.servo_ids) {
+      if (servo_id != every_servo && !is_somebody(servo_id)) {
+        add("no_such_servo", Level::warning, commander.source,
+            say<texts::commanded_nobody>(by, servo_id), say<texts::commanded_nobody_fix>(servo_id));
+      }
+      if (command.type == type_pwm) {
+        add("pwm_command", Level::failure, commander.source,
+            say<texts::commanded_pwm>(by, servo_id, type_pwm), say<texts::commanded_pwm_fix>());
+      }
+    }
+  }
+
+  /// Whether a servo on the bus has this servo ID, as far as is known.
+  [[nodiscard]] bool is_somebody(std::uint8_t servo_id) const {
+    return std::ranges::any_of(findings_.roster->members(), [&](const auto& entry) {
+      return entry.second.servo_id == servo_id || entry.second.actuator_id == servo_id;
+    });
+  }
+
+  [[nodiscard]] bool is_commanded_unitless(const Servo& servo) const {
+    return std::ranges::any_of(findings_.roster->commanders(), [&](const auto& entry) {
+      return std::ranges::any_of(entry.second.servo_ids, [&](const auto& command) {
+        return command.second.type == type_unitless &&
+               (command.first == every_servo || servo.servo_id == command.first);
+      });
+    });
+  }
+
+  void unitless(const Snapshot& servo) {
+    const auto* cw = servo.servo.identity.parameter(bla::address::angle_limit_cw);
+    const auto* ccw = servo.servo.identity.parameter(bla::address::angle_limit_ccw);
+    const auto right = servo.raw(bla::address::angle_limit_cw);
+    const auto left = servo.raw(bla::address::angle_limit_ccw);
+    const bool is_narrower = right && left && (*right < unitless_cw || *left > unitless_ccw);
+    if (is_narrower && cw != nullptr && ccw != nullptr && is_commanded_unitless(servo.servo)) {
+      add("unitless_range", Level::notice, servo.servo.id,
+          say<texts::unitless_limited>(servo.servo.id.value(), bla::display(*cw, *right),
+                                       bla::display(*ccw, *left)),
+          say<texts::unitless_limited_fix>(servo.servo.id.value()));
+    }
+  }
+
+  const Findings& findings_;
+  const Traffic& traffic_;
+  Diagnoses found_;
+};
+
+} // namespace
+
+std::vector<const bla::Parameter*> registers_to_diagnose(const Servo& servo) {
+  return servo.identity.registers(
+      std::array{bla::address::angle_limit_cw, bla::address::angle_limit_ccw});
+}
+
+Diagnoses diagnose_identifications(const Findings& findings,
+                                   const std::vector<std::optional<Error>>& ends) {
+  Diagnoses found;
+  std::set<NodeId> told;
+  for (const auto& error : ends) {
+    const auto node =
+        error && error->node_id ? std::optional(NodeId(*error->node_id)) : std::nullopt;
+    const auto is_here = [&](const Finding& each) {
+      return each.servo.id == node && !each.is_offline;
+    };
+    if (!node || std::ranges::none_of(findings.nodes, is_here) || // told of as that, or not meant
+        error->code == Code::not_recorded || findings.roster->is_doubled(*node) ||
+        findings.roster->member(*node).is_known()) {
+      continue;
+    }
+    if (told.insert(*node).second) {
+      found.push_back(
+          {std::string(name(error->code)), Level::failure, node, error->message, error->hint});
+    }
+  }
+  return found;
+}
+
+Diagnoses diagnose_nodes(const Findings& findings, const Traffic& traffic,
+                         std::span<const Snapshot> limits) {
+  return NodeExamination(findings, traffic).all(limits);
+}
+
+} // namespace blactl::fleet

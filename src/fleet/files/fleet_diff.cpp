@@ -1,0 +1,205 @@
+#include "blactl/fleet/files/fleet_diff.hpp"
+
+#include "blactl/fleet/bus/register_choice.hpp"
+#include "blactl/fleet/change/carry_out.hpp"
+#include "blactl/fleet/change/guard.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <utility>
+
+namespace blactl::fleet {
+
+using bla::Assignment;
+using dronecan::NodeId;
+
+namespace {
+
+/// Those of the entry that the servo has, and 0x37 where the unit of another depends on it.
+std::vector<const bla::Parameter*> registers_of(const FleetEntry& entry, const Servo& servo) {
+  std::vector<const bla::Parameter*> registers;
+  for (const Assignment& assignment : entry.set) {
+    if (const auto* own = own_register(*assignment.parameter, servo)) {
+      registers.push_back(own);
+    }
+  }
+  const bool needs_mode = std::ranges::any_of(
+      registers, [](const auto* each) { return bla::unit_depends_on_mode(*each); });
+  const auto* mode = servo.identity.parameter(bla::address::pwm_mode);
+  if (needs_mode && !entry.wish(bla::address::pwm_mode) && mode != nullptr) {
+    registers.push_back(mode);
+  }
+  return registers;
+}
+
+/// What a servo would have said of itself, as far as an entry knows it.
+Servo servo_of(const FleetEntry& entry, const bla::Profiles& profiles) {
+  const Match& match = entry.match;
+  Servo servo{.id = match.node_id.value_or(NodeId{}),
+              .unique_id = match.unique_id,
+              .is_servo = true,
+              .servo_id = match.servo_id};
+  servo.identity = bla::Identity(profiles, {.model_number = {},
+                                            .serial_number = match.serial_number,
+                                            .firmware_version = {},
+                                            .hardware_version = {}});
+  return servo;
+}
+
+EntryDiff without_servo(const FleetEntry& entry, EntryStatus status,
+                        const bla::Profiles& profiles) {
+  return {.name = entry.name, .status = status, .servo = servo_of(entry, profiles)};
+}
+
+/// Tells what came of a comparison.
+EntryDiff judged(EntryDiff diff) {
+  diff.status = !diff.errors.empty()     ? EntryStatus::failed
+                : diff.differences() > 0 ? EntryStatus::different
+                                         : EntryStatus::unchanged;
+  return diff;
+}
+
+EntryDiff compare(const FleetEntry& entry, const Snapshot& held) {
+  EntryDiff diff{.name = entry.name, .servo = held.servo, .errors = held.errors()};
+  diff.mode_before = held.pwm_mode();
+  diff.mode_after = entry.wish(bla::address::pwm_mode);
+  if (!diff.mode_after) {
+    diff.mode_after = diff.mode_before;
+  }
+  for (const Assignment& assignment : entry.set) {
+    const auto* own = own_register(*assignment.parameter, held.servo);
+    if (own == nullptr && held.servo.is_servo) {
+      diff.errors.push_back(lacking(*assignment.parameter, held.servo));
+    } else if (const auto raw = held.raw(assignment.parameter->address)) {
+      diff.registers.push_back({own, raw, assignment.value.raw});
+    }
+  }
+  return judged(std::move(diff));
+}
+
+/// The counterpart of `entry` of `one`; null: there is none.
+const FleetEntry* counterpart(const FleetEntry& entry, const FleetFile& one,
+                              const FleetFile& other) {
+  if (one.is_params || other.is_params) { // both have one entry
+    return &other.servos.front();
+  }
+  const auto find = [&](auto same) {
+    const auto it = std::ranges::find_if(other.servos, same);
+    return it != other.servos.end() ? &*it : nullptr;
+  };
+  if (entry.match.unique_id) {
+    if (const auto* found = find([&](const FleetEntry& each) {
+          return each.match.unique_id == entry.match.unique_id;
+        })) {
+      return found;
+    }
+  }
+  if (entry.match.serial_number) {
+    if (const auto* found = find([&](const FleetEntry& each) {
+          return each.match.serial_number == entry.match.serial_number;
+        })) {
+      return found;
+    }
+  }
+  return find([&](const FleetEntry& each) { return each.name == entry.name; });
+}
+
+EntryDiff compare(const FleetEntry& one, const FleetEntry& other, const bla::Profiles& profiles) {
+  const FleetEntry& who = other.name.empty() ? one : other; // a parameter file does not say
+  EntryDiff diff = without_servo(who, EntryStatus::unchanged, profiles);
+  diff.mode_before = one.wish(bla::address::pwm_mode);
+  diff.mode_after = other.wish(bla::address::pwm_mode);
+  for (const bla::Parameter& parameter : profiles.registers()) {
+    const Difference registers{&parameter, one.wish(parameter.address),
+                               other.wish(parameter.address)};
+    if (registers.before || registers.wished) {
+      diff.registers.push_back(registers);
+    }
+  }
+  return judged(std::move(diff));
+}
+
+} // namespace
+
+std::string_view name(EntryStatus status) {
+  switch (status) {
+  case EntryStatus::changed: return "changed";
+  case EntryStatus::unchanged: return "unchanged";
+  case EntryStatus::different: return "different";
+  case EntryStatus::failed: return "failed";
+  case EntryStatus::skipped: return "skipped";
+  case EntryStatus::missing: return "missing";
+  case EntryStatus::extra: return "extra";
+  }
+  return {};
+}
+
+std::size_t EntryDiff::differences() const {
+  return static_cast<std::size_t>(std::ranges::count_if(registers, &Difference::is_one));
+}
+
+std::vector<EntryDiff> unpaired(const FleetMatch& match, const Roster& roster,
+                                const bla::Profiles& profiles) {
+  std::vector<EntryDiff> entries;
+  entries.reserve(match.missing.size() + match.left_out.size() + match.extra.size());
+  for (const FleetEntry* entry : match.missing) {
+    entries.push_back(without_servo(*entry, EntryStatus::missing, profiles));
+  }
+  for (const FleetEntry* entry : match.left_out) {
+    entries.push_back(without_servo(*entry, EntryStatus::skipped, profiles));
+  }
+  for (const NodeId id : match.extra) {
+    entries.push_back(
+        {.name = {}, .status = EntryStatus::extra, .servo = roster.member(id).servo()});
+  }
+  return entries;
+}
+
+FleetDiff diff(Session& session, const bla::Profiles& profiles, const FleetMatch& match,
+               const Identification::Options& options) {
+  std::vector<NodeId> ids;
+  std::map<NodeId, const FleetEntry*> entries;
+  for (const FleetMatch::Pair& pair : match.pairs) {
+    ids.push_back(pair.id);
+    entries.emplace(pair.id, pair.entry);
+  }
+  auto held = take_snapshots(session, profiles, ids, options, [&](const Servo& servo) {
+    return Result<std::vector<const bla::Parameter*>>(registers_of(*entries.at(servo.id), servo));
+  });
+  FleetDiff found{.entries = {}, .broken = std::move(held.broken)};
+  const Roster& roster = session.roster();
+  for (std::size_t i = 0; i < match.pairs.size(); ++i) {
+    const FleetMatch::Pair& pair = match.pairs[i];
+    EntryDiff entry = compare(*pair.entry, held.servos[i]);
+    if (roster.is_doubled(pair.id)) { // what was read may be of either
+      entry = {.name = pair.entry->name, .status = EntryStatus::failed, .servo = {.id = pair.id}};
+      entry.errors = {doubled(roster, pair.id)};
+    }
+    found.entries.push_back(std::move(entry));
+  }
+  std::ranges::move(unpaired(match, roster, profiles), std::back_inserter(found.entries));
+  return found;
+}
+
+FleetDiff diff(const FleetFile& one, const FleetFile& other, const bla::Profiles& profiles) {
+  FleetDiff found;
+  std::vector<const FleetEntry*> paired;
+  for (const FleetEntry& entry : one.servos) {
+    const FleetEntry* partner = counterpart(entry, one, other);
+    if (partner != nullptr) {
+      paired.push_back(partner);
+      found.entries.push_back(compare(entry, *partner, profiles));
+    } else {
+      found.entries.push_back(without_servo(entry, EntryStatus::missing, profiles));
+    }
+  }
+  for (const FleetEntry& entry : other.servos) {
+    if (std::ranges::find(paired, &entry) == paired.end()) {
+      found.entries.push_back(without_servo(entry, EntryStatus::extra, profiles));
+    }
+  }
+  return found;
+}
+
+} // namespace blactl::fleet

@@ -1,0 +1,237 @@
+#include "blactl/fleet/files/fleet_match.hpp"
+
+#include "blactl/base/hex.hpp"
+#include "blactl/fleet/bus/target_texts.hpp"
+#include "blactl/fleet/bus/texts.hpp"
+#include "blactl/fleet/change/guard.hpp"
+
+#include "fleet/files/fleet_file_texts.hpp"
+#include "fleet/files/params_file_texts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <string_view>
+
+namespace blactl::fleet {
+
+using dronecan::NodeId;
+
+namespace {
+
+/// A dynamic servo may have another one's node ID after the next start.
+bool is_found_by_passing_id(const Match& match, const Servo& servo) {
+  const bool has_more = match.unique_id || match.serial_number || match.servo_id;
+  return match.node_id && !has_more && servo.static_node_id.value_or(0) != servo.id.value();
+}
+
+/// An entry of one unit means it also when it holds already what the entry sets.
+bool means(const FleetEntry& entry, const Servo& servo, const bla::Profiles& profiles) {
+  Match match = entry.match;
+  if (match.unique_id || match.serial_number) {
+    const auto servo_id = entry.wish(bla::address::servo_id);
+    const auto node_id = entry.wish(bla::address::static_node_id);
+    match.servo_id = servo_id && servo_id == servo.servo_id ? servo_id : match.servo_id;
+    match.node_id = node_id && node_id == servo.id.value() ? std::nullopt : match.node_id;
+  }
+  return match.means(servo, profiles);
+}
+
+/// What -n takes for this servo.
+std::string selector_of(const Member& member) {
+  if (member.id_is_known) {
+    return std::to_string(member.id.value());
+  }
+  if (const auto unique_id = member.unique_id()) {
+    return "uid:" + hex(*unique_id);
+  }
+  const auto serial = member.identity.readings().serial_number;
+  return serial ? fmt::format("serial:{}", *serial)
+                : fmt::format("servo:{}", member.servo_id.value_or(0));
+}
+
+class Matching {
+ public:
+  Matching(const Roster& roster, const Targets& targets, const bla::Profiles& profiles)
+      : roster_(roster), targets_(targets), profiles_(profiles) {}
+
+  FleetMatch run(const FleetFile& file) {
+    if (file.is_params) {
+      give_to_the_one(file);
+      check_named();
+      return std::move(match_);
+    }
+    for (const FleetEntry& entry : file.servos) {
+      add(entry);
+    }
+    for (const auto& [id, member] : roster_.members()) {
+      if (may_be_servo(id, member) && !taken_.contains(id) && is_wanted(member)) {
+        match_.extra.push_back(id);
+      }
+    }
+    check_named();
+    std::ranges::sort(match_.pairs, {}, &FleetMatch::Pair::id);
+    return std::move(match_);
+  }
+
+ private:
+  /// The settings in a parameter file are for the one servo that -n names, or that there is.
+  void give_to_the_one(const FleetFile& file) {
+    std::vector<NodeId> there;
+    for (const auto& [id, member] : roster_.members()) {
+      // One that does not say who it is may be the one that is meant.
+      if ((narrows() ? is_one_servo(id, member) : may_be_servo(id, member)) && is_wanted(member)) {
+        there.push_back(id);
+      }
+    }
+    if (there.size() > 1) {
+      refuse(say<texts::params_several>(printable(file.file), id_list(there)),
+             say<texts::params_several_hint>(selector_of(*roster_.find(there.front()))));
+    } else if (!there.empty()) {
+      match_.pairs.push_back({&file.servos.front(), there.front()});
+    } else if (narrows()) { // check_named() tells
+      match_.left_out.push_back(&file.servos.front());
+    } else if (const auto shared = roster_.doubled(); !shared.empty()) { // it may be one of those
+      match_.errors.push_back(doubled(roster_, *shared.begin()));
+    } else {
+      match_.errors.push_back({Code::not_found, say<texts::no_servo_found>(),
+                               say<texts::no_servo_found_hint>(), std::nullopt});
+    }
+  }
+
+  void add(const FleetEntry& entry) {
+    std::vector<NodeId> meant;
+    for (const auto& [id, member] : roster_.members()) {
+      if (is_one_servo(id, member) && means(entry, member.servo(), profiles_)) {
+        meant.push_back(id);
+      }
+    }
+    if (const auto shared = shared_by(entry.match); meant.empty() && shared) {
+      match_.errors.push_back(doubled(roster_, *shared));
+      return;
+    }
+    if (meant.empty()) {
+      (narrows() ? match_.left_out : match_.missing).push_back(&entry);
+      return;
+    }
+    if (meant.size() > 1 && entry.match.means_one()) {
+      refuse(say<texts::fleet_entry_means_several>(entry.name, id_list(meant)),
+             say<texts::fleet_entry_means_several_hint>());
+      return;
+    }
+    for (const NodeId id : meant) {
+      pair(entry, id);
+    }
+  }
+
+  /// The node ID that the unit has which is meant, and another one too.
+  [[nodiscard]] std::optional<NodeId> shared_by(const Match& match) const {
+    for (const NodeId id : roster_.doubled()) {
+      if (match.unique_id && roster_.units(id).contains(*match.unique_id)) {
+        return id;
+      }
+    }
+    return std::nullopt;
+  }
+
+  /// What -n names must be there, and be one servo each.
+  void check_named() {
+    for (const NodeId id : targets_.ids) {
+      const Member* member = roster_.find(id);
+      if (roster_.is_doubled(id)) {
+        match_.errors.push_back(doubled(roster_, id));
+      } else if (member == nullptr || !is_one_servo(id, *member) || !member->id_is_known) {
+        match_.errors.push_back(silent(roster_, id));
+      }
+    }
+    for (const Selector& selector : targets_.selectors) {
+      const bool is_there = std::ranges::any_of(roster_.members(), [&](const auto& entry) {
+        return is_one_servo(entry.first, entry.second) && selector.matches(entry.second, profiles_);
+      });
+      if (!is_there) {
+        match_.errors.push_back({Code::not_found, say<texts::nothing_matches>(selector.text),
+                                 say<texts::node_not_found_hint>(), std::nullopt});
+      }
+    }
+    if (auto ambiguous = targets_.ambiguity(roster_, profiles_)) {
+      match_.errors.push_back(std::move(*ambiguous));
+    }
+  }
+
+  void pair(const FleetEntry& entry, NodeId id) {
+    const Member& member = *roster_.find(id);
+    if (const auto [it, is_new] = taken_.try_emplace(id, &entry); !is_new) {
+      refuse(say<texts::fleet_servo_meant_twice>(id.value(), it->second->name, entry.name),
+             say<texts::fleet_entry_means_several_hint>(), id);
+    } else if (is_found_by_passing_id(entry.match, member.servo())) {
+      refuse(say<texts::fleet_passing_id>(entry.name, id.value()),
+             say<texts::fleet_passing_id_hint>(), id);
+    } else if (is_wanted(member)) {
+      match_.pairs.push_back({&entry, id});
+    } else {
+      match_.left_out.push_back(&entry);
+    }
+  }
+
+  [[nodiscard]] bool is_one_servo(NodeId id, const Member& member) const {
+    return member.is_known() && member.is_servo && !roster_.is_doubled(id);
+  }
+
+  /// The same, or it does not say what it is, but sends what only servos send.
+  [[nodiscard]] bool may_be_servo(NodeId id, const Member& member) const {
+    return is_one_servo(id, member) || (!member.is_known() && member.sends_actuator_status() &&
+                                        !roster_.is_doubled(id) && !roster_.has_moved(member));
+  }
+
+  /// Whether there may be servos that -n does not mean.
+  [[nodiscard]] bool narrows() const { return targets_.given && !targets_.all; }
+
+  [[nodiscard]] bool is_wanted(const Member& member) const {
+    return !targets_.given || targets_.mean(member, profiles_);
+  }
+
+  void refuse(std::string message, std::string hint, std::optional<NodeId> id = std::nullopt) {
+    match_.errors.push_back({Code::usage, std::move(message), std::move(hint),
+                             id ? std::optional(id->value()) : std::nullopt});
+  }
+
+  const Roster& roster_;
+  const Targets& targets_;
+  const bla::Profiles& profiles_;
+  std::map<NodeId, const FleetEntry*> taken_;
+  FleetMatch match_;
+};
+
+} // namespace
+
+std::string text(const Match& match) {
+  std::string out;
+  const auto add = [&](std::string_view key, const std::string& value) {
+    out += (out.empty() ? "" : ", ") + std::string(key) + ' ' + value;
+  };
+  if (match.unique_id) {
+    add("unique_id", hex(*match.unique_id));
+  }
+  if (match.serial_number) {
+    add("serial_number", std::to_string(*match.serial_number));
+  }
+  if (match.servo_id) {
+    add("servo_id", std::to_string(*match.servo_id));
+  }
+  if (match.node_id) {
+    add("node_id", std::to_string(match.node_id->value()));
+  }
+  if (!match.model.empty()) {
+    add("model", match.model);
+  }
+  return out;
+}
+
+FleetMatch match(const FleetFile& file, const Roster& roster, const Targets& targets,
+                 const bla::Profiles& profiles) {
+  return Matching(roster, targets, profiles).run(file);
+}
+
+} // namespace blactl::fleet

@@ -1,0 +1,152 @@
+#include "blactl/fleet/files/params_file.hpp"
+
+#include "blactl/base/json_reader.hpp"
+#include "blactl/base/read_file.hpp"
+
+#include "fleet/files/fault_text.hpp"
+#include "fleet/files/params_file_texts.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace blactl::fleet {
+
+using bla::Assignment;
+
+namespace {
+
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF"; // as some editors write it
+constexpr std::string_view word_ends = " \t,\r";             // \r: files of Windows
+constexpr std::string_view decimal_digits = "0123456789";
+
+std::string_view without_mark(std::string_view text) {
+  text.remove_prefix(text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0);
+  return text;
+}
+
+std::vector<std::string_view> words_of(std::string_view line) {
+  std::vector<std::string_view> words;
+  for (std::size_t at = line.find_first_not_of(word_ends); at != std::string_view::npos;) {
+    const std::size_t end = std::min(line.find_first_of(word_ends, at), line.size());
+    words.push_back(line.substr(at, end - at));
+    at = line.find_first_not_of(word_ends, end);
+  }
+  return words;
+}
+
+bool is_whole(std::string_view value) {
+  value.remove_prefix(value.starts_with('-') ? 1 : 0);
+  return !value.empty() && value.find_first_not_of(decimal_digits) == std::string_view::npos;
+}
+
+class ParamsReader {
+ public:
+  ParamsReader(std::string file, const bla::Profiles& profiles)
+      : profiles_(profiles), faults_(std::move(file)) {}
+
+  Result<FleetFile> read(std::string_view text) {
+    while (!text.empty()) {
+      const std::size_t end = std::min(text.find('\n'), text.size());
+      ++line_;
+      read_line(text.substr(0, end));
+      text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    if (lines_.empty() && faults_.empty()) {
+      faults_.add(std::max<std::size_t>(line_, 1), {}, say<texts::params_empty>());
+    }
+    if (auto fine = faults_.result(); !fine) {
+      return std::unexpected(fine.error());
+    }
+    std::ranges::sort(set_, {}, [](const Assignment& each) { return each.parameter->address; });
+    return FleetFile{.file = faults_.file(),
+                     .servos = {{.name = {}, .match = {}, .set = std::move(set_), .about = {}}},
+                     .is_params = true,
+                     .passed_over = {passed_over_.begin(), passed_over_.end()}};
+  }
+
+ private:
+  void read_line(std::string_view line) {
+    const auto words = words_of(line);
+    if (words.empty() || words.front().starts_with('#')) {
+      return;
+    }
+    if (words.size() != 2) {
+      faults_.add(line_, std::string(words.front()), say<texts::params_no_pair>());
+      return;
+    }
+    const auto address = bla::find_address(words[0]);
+    if (!address) {
+      fault(words[0], about_name(words[0]));
+    } else if (!bla::is_setting(*address)) {
+      passed_over_.insert(*address);
+    } else if (!is_whole(words[1])) {
+      fault(words[0], say<texts::params_not_whole>(printable(words[1])));
+    } else {
+      assign(*address, words[1]);
+    }
+  }
+
+  void assign(bla::Address address, std::string_view value) {
+    if (const auto [it, is_new] = lines_.try_emplace(address, line_); !is_new) {
+      fault(address.name(), say<texts::params_twice>(it->second));
+      return;
+    }
+    auto assignment = bla::make_assignment(profiles_, address.name(), value);
+    if (assignment) {
+      set_.push_back(std::move(*assignment));
+    } else {
+      fault(address.name(), fault_text(assignment.error()));
+    }
+  }
+
+  /// Why it is no address.
+  [[nodiscard]] std::string about_name(std::string_view name) const {
+    if (name.find_first_not_of(decimal_digits) == std::string_view::npos) {
+      return say<texts::params_decimal_name>(name);
+    }
+    const auto known = profiles_.find(name);
+    return known ? say<texts::params_own_name>((*known)->address.name())
+                 : say<texts::params_unknown_name>();
+  }
+
+  void fault(std::string_view name, std::string reason) {
+    faults_.add(line_, std::string(name), std::move(reason));
+  }
+
+  const bla::Profiles& profiles_;
+  json::Faults faults_;
+  std::size_t line_ = 0;
+  std::map<bla::Address, std::size_t> lines_; ///< where each setting stands
+  std::vector<Assignment> set_;
+  std::set<bla::Address> passed_over_;
+};
+
+bool is_fleet_file(std::string_view text, const std::filesystem::path& file) {
+  const std::size_t first = without_mark(text).find_first_not_of(" \t\r\n");
+  return file.extension() == ".json" ||
+         (first != std::string_view::npos && without_mark(text)[first] == '{');
+}
+
+} // namespace
+
+Result<FleetFile> parse_params_file(std::string_view text, std::string file,
+                                    const bla::Profiles& profiles) {
+  return ParamsReader(std::move(file), profiles).read(without_mark(text));
+}
+
+Result<FleetFile> read_settings_file(const std::filesystem::path& file,
+                                     const bla::Profiles& profiles) {
+  const auto text = read_file(file, json::max_file_bytes);
+  if (!text) {
+    return std::unexpected(text.error());
+  }
+  return is_fleet_file(*text, file) ? parse_fleet_file(*text, file.string(), profiles)
+                                    : parse_params_file(*text, file.string(), profiles);
+}
+
+} // namespace blactl::fleet

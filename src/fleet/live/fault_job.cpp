@@ -1,0 +1,156 @@
+#include "blactl/fleet/live/fault_job.hpp"
+
+#include "blactl/fleet/bus/texts.hpp"
+#include "blactl/fleet/change/guard.hpp"
+
+#include <algorithm>
+#include <array>
+#include <list>
+#include <utility>
+
+namespace blactl::fleet {
+namespace {
+
+using bla::Level;
+using bla::Parameter;
+using dronecan::NodeId;
+using dronecan::Outcome;
+using dronecan::Step;
+
+constexpr std::array summary{bla::address::fault_summary};
+
+/// What is missing of the three registers is missing of the faults; the values behind them and
+/// 0x18 are not.
+std::vector<Error> errors_of(const Snapshot& snapshot, const Roster& roster) {
+  const dronecan::NodeId id = snapshot.servo.id;
+  if (roster.is_doubled(id)) {
+    return {doubled(roster, id)};
+  }
+  Snapshot needed{.servo = snapshot.servo, .error = snapshot.error};
+  const auto values = snapshot.values();
+  for (const Reading& reading : snapshot.readings) {
+    const bool is_missing = std::ranges::find(bla::fault_registers, reading.parameter->address) !=
+                                bla::fault_registers.end() &&
+                            !bla::fault_register(values, reading.parameter->address);
+    if (is_missing) {
+      needed.readings.push_back(reading);
+    }
+  }
+  return needed.errors();
+}
+
+FaultState state_of(Snapshot snapshot, const Roster& roster, const bla::Profiles& profiles) {
+  FaultState state{.snapshot = std::move(snapshot), .faults = {}, .health = {}, .errors = {}};
+  state.errors = errors_of(state.snapshot, roster);
+  if (roster.is_doubled(state.snapshot.servo.id)) {
+    state.snapshot.readings.clear(); // they may be of either
+  }
+  state.faults = bla::faults(state.snapshot.values(), profiles);
+  if (const auto& status = roster.member(state.snapshot.servo.id).status) {
+    state.health = status->health;
+  }
+  return state;
+}
+
+/// 0x18 has bits of a register that had none when it was read.
+bool contradicts_itself(const FaultState& state) {
+  const auto values = state.snapshot.values();
+  return std::ranges::any_of(bla::fault_registers, [&](bla::Address reg) {
+    return bla::is_summed_up(values, reg) && bla::find(values, reg) == 0;
+  });
+}
+
+/// Its NodeStatus tells of more than the registers did, which were not read at one time.
+bool is_surpassed(const FaultState& state) {
+  const bool warns = state.health && *state.health != dronecan::Health::ok;
+  const bool fails = warns && *state.health != dronecan::Health::warning;
+  return state.errors.empty() &&
+         (contradicts_itself(state) || (warns && state.worst() < std::optional(Level::warning)) ||
+          (fails && state.worst() < std::optional(Level::failure)));
+}
+
+/// A log cannot be asked again: of a servo that tells later of more it is not known what 0x18
+/// holds, nor what the registers do in which nothing was found.
+void doubt(FaultState& state) {
+  const std::uint8_t id = state.snapshot.servo.id.value();
+  const Error error{Code::not_recorded, say<texts::faults_not_recorded>(id),
+                    say<texts::faults_not_recorded_hint>(), id};
+  for (Reading& reading : state.snapshot.readings) {
+    const bla::Address address = reading.parameter->address;
+    const bool is_empty = reading.raw == 0 && std::ranges::find(bla::fault_registers, address) !=
+                                                  bla::fault_registers.end();
+    if (is_empty || address == bla::address::fault_summary) {
+      reading.raw = std::unexpected(error);
+    }
+  }
+  state.errors.push_back(error);
+}
+
+} // namespace
+
+FaultJob::FaultJob(Session& session, const bla::Profiles& profiles, NodeId id,
+                   const Identification::Options& options)
+    : session_(session), profiles_(profiles), options_(options) {
+  state_.snapshot.servo.id = id;
+  look(summary);
+}
+
+/// `first`: the registers to read in any case.
+void FaultJob::look(std::span<const bla::Address> first) {
+  read_.emplace(
+      session_.records(), state_.snapshot.servo.id, profiles_, options_,
+      [first](const Servo& servo) -> Result<std::vector<const Parameter*>> {
+        return servo.identity.registers(first);
+      },
+      session_.is_recording() ? ReadJob::Proof::none : ReadJob::Proof::moment,
+      [this](const Snapshot& so_far) {
+        return so_far.servo.identity.registers(bla::fault_details(so_far.values(), profiles_));
+      });
+}
+
+Step FaultJob::next(const Outcome& outcome) {
+  Step step = read_->next(outcome);
+  return step.is_end() ? judge(outcome.at) : step;
+}
+
+Step FaultJob::judge(Time now) {
+  state_ = state_of(read_->snapshot(), session_.roster(), profiles_);
+  if (is_second_) {
+    if (state_.errors.empty() && contradicts_itself(state_)) {
+      const std::uint8_t id = state_.snapshot.servo.id.value();
+      state_.errors.push_back(
+          {Code::state, say<texts::faults_flicker>(id), say<texts::run_again_hint>(), id});
+    }
+    return std::nullopt;
+  }
+  if (!is_surpassed(state_)) {
+    return std::nullopt;
+  }
+  if (session_.is_recording()) {
+    doubt(state_);
+    return std::nullopt;
+  }
+  is_second_ = true;
+  look(bla::all_fault_registers);
+  return read_->next({Outcome::Kind::start, {}, now});
+}
+
+FaultStates read_faults(Session& session, const bla::Profiles& profiles,
+                        std::span<const NodeId> servos, const Identification::Options& options) {
+  std::list<FaultJob> jobs;
+  std::vector<dronecan::Job*> group;
+  for (const NodeId id : servos) {
+    group.push_back(&jobs.emplace_back(session, profiles, id, options));
+  }
+  const auto ran = session.run(group);
+  FaultStates states{.servos = {}, .broken = {}};
+  for (const FaultJob& job : jobs) {
+    states.servos.push_back(job.state());
+  }
+  if (!ran) {
+    states.broken = ran.error();
+  }
+  return states;
+}
+
+} // namespace blactl::fleet

@@ -1,0 +1,348 @@
+#include "blactl/fleet/motion/command_job.hpp"
+
+#include "blactl/bla/value.hpp"
+#include "blactl/fleet/bus/array_command.hpp"
+#include "blactl/fleet/bus/texts.hpp"
+#include "blactl/fleet/change/guard.hpp"
+#include "blactl/fleet/change/restart_texts.hpp"
+#include "blactl/state/local_node_id.hpp"
+
+#include "fleet/motion/command_texts.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <utility>
+
+namespace blactl::fleet {
+
+namespace at = bla::address;
+using bla::Address;
+using dronecan::GetNodeInfo;
+using dronecan::NodeId;
+using dronecan::Outcome;
+using dronecan::Step;
+using namespace std::chrono_literals;
+
+namespace {
+
+/// Angle, speed and torque take 1.6 ms of the bus: a sixth of it.
+constexpr Duration sample_period = 10ms;
+
+/// A servo that leaves so many questions in a row unanswered is not there any more.
+constexpr int silent_while_moving = 3;
+
+/// How far a shaft may have been moved since the question, in tenths of a degree; and how far one
+/// that turned then, as after a soft start, goes on by itself in 0.2 s, for each rpm.
+constexpr std::int64_t most_moved = 20, moved_per_rpm = 12;
+
+constexpr std::array readings{at::current_angle, at::current_speed, at::current_torque};
+
+} // namespace
+
+CommandJob::CommandJob(const Roster& roster, const CommandPlan& plan, Options options)
+    : roster_(roster), plan_(plan), options_(std::move(options)), servo_(plan.servo()),
+      conditions_(plan.conditions()) {
+  for (const auto& [id, member] : roster_.members()) {
+    others_[id] = member.boots;
+  }
+}
+
+Step CommandJob::next(const Outcome& outcome) {
+  now_ = options_.now();
+  if (outcome.kind == Outcome::Kind::cancelled) {
+    return give_up(no_answer(outcome, servo_.id, plan_.parameter->name));
+  }
+  switch (at_) {
+  case At::begin:
+    at_ = At::unit;
+    return ask(servo_.id, GetNodeInfo::type, GetNodeInfo::Request{}.encode(), options_.patience);
+  case At::unit: return judge_unit(outcome);
+  case At::look: return judge_condition(outcome);
+  case At::pause: return go_on();
+  case At::write: return judge_echo(outcome);
+  case At::shown: return judge_shown(outcome);
+  case At::read: return take_sample(outcome);
+  case At::settings: return judge_setting(outcome);
+  case At::proof: break;
+  }
+  return judge_proof(outcome);
+}
+
+/// Between the question and the answer of a person another unit may have come to the node ID.
+Step CommandJob::judge_unit(const Outcome& outcome) {
+  if (!outcome.answered()) {
+    return give_up(no_answer(outcome, servo_.id, "GetNodeInfo"));
+  }
+  const auto info = GetNodeInfo::Response::decode(outcome.payload);
+  if (!info || info->unique_id != servo_.unique_id) {
+    return give_up(
+        {Code::state, say<texts::another_servo>(id()), say<texts::run_again_hint>(), id()});
+  }
+  looked_at_ = now_;
+  return look();
+}
+
+/// The next of what the plan rests on.
+Step CommandJob::look() {
+  if (result_.is_cut || conditions_.empty()) {
+    sample_due_ = now_;
+    return go_on();
+  }
+  at_ = At::look;
+  return read_register(servo_.id, conditions_.begin()->first, options_.patience);
+}
+
+Step CommandJob::judge_condition(const Outcome& outcome) {
+  const auto [address, expected] = *conditions_.begin();
+  const bla::Parameter& parameter = *servo_.identity.parameter(address);
+  const auto raw = register_value(outcome, servo_.id, address, parameter.width);
+  if (!raw) {
+    return give_up(raw.error());
+  }
+  const std::int64_t turned = std::abs(plan_.plan.before.raw(at::current_speed).value_or(0));
+  const std::int64_t slack = address == at::current_angle ? most_moved + turned * moved_per_rpm : 0;
+  if (std::abs(*raw - expected) > slack) {
+    return give_up({Code::state,
+                    say<texts::motion_changed>(id(), parameter.name, bla::display(parameter, *raw),
+                                               bla::display(parameter, expected)),
+                    say<texts::run_again_hint>(), id()});
+  }
+  conditions_.erase(conditions_.begin());
+  return look();
+}
+
+/// What must never be written to, whatever was agreed.
+std::optional<Error> CommandJob::forbidden() const {
+  if (roster_.is_doubled(servo_.id)) {
+    return doubled(roster_, servo_.id);
+  }
+  const std::string then = after_commands(plan_, result_);
+  if (const auto by = roster_.armed_by()) {
+    return Error{Code::armed, say<texts::motion_armed>(id(), by->value()), then, id()};
+  }
+  const auto driver = roster_.driver_of(servo_, now_);
+  if (driver && !options_.while_driven) {
+    return Error{Code::driven, say<texts::motion_driven>(id(), driver->value()), then, id()};
+  }
+  return std::nullopt;
+}
+
+/// Why it must not go on as it was agreed.
+std::optional<Error> CommandJob::disturbed() const {
+  if (const auto writer = roster_.writer_to(servo_.id, looked_at_)) {
+    return Error{Code::state, say<texts::written_by_other>(id(), writer->value()),
+                 say<texts::other_writer_hint>(), id()};
+  }
+  if (const auto other = newcomer()) {
+    const auto servo_id = plan_.plan.before.raw(at::servo_id).value_or(0);
+    return Error{Code::duplicate_servo_id, say<texts::motion_newcomer>(other->value(), servo_id),
+                 say<texts::motion_servo_id_hint>(), id()};
+  }
+  const Duration gap = now_ - last_command_;
+  if (result_.has_commanded() && gap > plan_.timeout) {
+    return Error{Code::state,
+                 say<texts::motion_not_repeated>(
+                     id(), std::chrono::duration_cast<std::chrono::milliseconds>(gap).count()),
+                 say<texts::motion_not_repeated_hint>(), id()};
+  }
+  return std::nullopt;
+}
+
+/// An ArrayCommand is told to everybody. Who tells its servo ID obeys it, and who came or restarted
+/// since may have it.
+std::optional<NodeId> CommandJob::newcomer() const {
+  if (!plan_.by_servo_id) {
+    return std::nullopt;
+  }
+  std::optional<NodeId> suspect;
+  for (const auto& [id, member] : roster_.members()) {
+    if (id == servo_.id || state::is_tool_id(id)) {
+      continue;
+    }
+    if (member.actuator_id == plan_.plan.before.raw(at::servo_id)) {
+      return id;
+    }
+    const auto before = others_.find(id);
+    if (before == others_.end() || before->second != member.boots) {
+      suspect = id;
+    }
+  }
+  return suspect;
+}
+
+bool CommandJob::has_restarted() const {
+  return roster_.member(servo_.id).boots != servo_.boot;
+}
+
+Step CommandJob::go_on() {
+  if (auto why = forbidden()) {
+    return give_up(std::move(*why));
+  }
+  if (has_restarted()) {
+    return recognise();
+  }
+  return phase_ == Phase::moving ? move() : end();
+}
+
+Step CommandJob::move() {
+  if (auto why = disturbed()) {
+    return fail(std::move(*why));
+  }
+  const Duration after = result_.has_commanded() ? now_ - result_.began : Duration{};
+  if (result_.is_cut || after >= plan_.duration) {
+    return finish();
+  }
+  const std::int64_t target = plan_.target_at(after);
+  const bool is_due = !result_.has_commanded() || now_ >= command_due();
+  return is_due || target != target_ ? command(target) : sample();
+}
+
+/// Late answers leave time for either a command or a question: they take turns, as far as the
+/// servo's timeout lets them.
+Time CommandJob::command_due() const {
+  if (phase_ == Phase::ending && !has_end_) {
+    return never;
+  }
+  return last_command_ + (reads_first_ ? plan_.longest_gap : plan_.period);
+}
+
+Step CommandJob::command(std::int64_t raw) {
+  target_ = raw;
+  last_command_ = now_;
+  reads_first_ = true;
+  const Address address = plan_.parameter->address;
+  const bool is_end = phase_ != Phase::moving;
+  if (!is_end && result_.commands++ == 0) {
+    result_.began = now_;
+  }
+  if (plan_.by_servo_id && (!is_end || raw == 0)) { // others that obey it stop with it
+    const auto servo_id = plan_.plan.before.raw(at::servo_id).value_or(0);
+    options_.broadcast(array_command(static_cast<std::uint8_t>(servo_id), address, raw));
+  }
+  if (plan_.by_servo_id && !is_end) {
+    return read_back();
+  }
+  at_ = At::write;
+  return write_register(servo_.id, address, raw, once());
+}
+
+/// One question, answered or given up in time for the next command.
+Patience CommandJob::once() const {
+  constexpr Duration least = 1ms;
+  const Duration left = last_command_ + plan_.longest_gap - now_;
+  return {std::max(least, std::min(left, options_.patience.timeout)), 0};
+}
+
+/// False: again it did not. Too often is the end.
+bool CommandJob::has_answered(const Outcome& outcome) {
+  unanswered_ = outcome.answered() ? 0 : unanswered_ + 1;
+  return outcome.answered();
+}
+
+std::optional<std::int64_t> CommandJob::value(const Outcome& outcome, Address address) const {
+  const bla::Parameter* parameter = servo_.identity.parameter(address);
+  const auto raw = register_value(outcome, servo_.id, address, parameter->width);
+  return raw ? std::optional(*raw) : std::nullopt;
+}
+
+Step CommandJob::judge_echo(const Outcome& outcome) {
+  if (outcome.kind == Outcome::Kind::not_sent) {
+    auto unsent = no_answer(outcome, servo_.id, plan_.parameter->name);
+    return phase_ == Phase::moving ? fail(std::move(unsent)) : give_up(std::move(unsent));
+  }
+  if (!has_answered(outcome)) {
+    return unanswered_ < silent_while_moving || phase_ != Phase::moving ? go_on()
+                                                                        : fail(silent_since());
+  }
+  const auto echo = value(outcome, plan_.parameter->address);
+  if (echo == target_) {
+    return result_.is_shown || phase_ != Phase::moving ? go_on() : read_back();
+  }
+  return phase_ == Phase::moving ? fail(not_taken(echo, Code::refused))
+                                 : give_up(not_taken(echo, Code::mismatch));
+}
+
+/// An answer says what was asked for; the register itself tells what is true.
+Step CommandJob::read_back() {
+  at_ = At::shown;
+  return read_register(servo_.id, plan_.parameter->address,
+                       phase_ == Phase::moving ? once() : options_.patience);
+}
+
+/// unproven: that the register shows an ArrayCommand.
+Step CommandJob::judge_shown(const Outcome& outcome) {
+  const auto held = value(outcome, plan_.parameter->address);
+  const bool is_known = has_answered(outcome);
+  if (phase_ != Phase::moving) {
+    if (!is_known) {
+      return give_up(no_answer(outcome, servo_.id, plan_.parameter->name));
+    }
+    return held == target_ ? read_settings() : give_up(not_taken(held, Code::mismatch));
+  }
+  if (is_known && held != target_ && !plan_.by_servo_id) {
+    return fail(not_taken(held, Code::refused));
+  }
+  result_.is_shown = result_.is_shown || (is_known && held == target_);
+  return unanswered_ < silent_while_moving ? go_on() : fail(silent_since());
+}
+
+Error CommandJob::silent_since() const {
+  return {Code::timeout, say<texts::motion_silent>(id()), say<texts::no_answer_hint>(), id()};
+}
+
+Error CommandJob::not_taken(std::optional<std::int64_t> held, Code code) const {
+  const auto text = [this](std::int64_t raw) { return bla::display(*plan_.parameter, raw); };
+  return {code,
+          say<texts::motion_not_taken>(id(), plan_.parameter->name, text(target_),
+                                       held ? say<texts::motion_holds>(text(*held))
+                                            : say<texts::motion_no_value>()),
+          say<texts::motion_why_hint>(id()), id()};
+}
+
+/// The next question of a sample, or a pause until it is due.
+Step CommandJob::sample() {
+  if (reading_ == 0 && now_ < sample_due_) {
+    at_ = At::pause;
+    const Time end = phase_ == Phase::moving ? result_.began + plan_.duration : never;
+    return dronecan::Pause{.until = std::min({sample_due_, command_due(), end}),
+                           .ready = [this] { return result_.is_cut && phase_ == Phase::moving; }};
+  }
+  at_ = At::read;
+  reads_first_ = false;
+  return read_register(servo_.id, readings[reading_], once());
+}
+
+/// When the servo looked at its angle is between the question and the answer.
+Step CommandJob::take_sample(const Outcome& outcome) {
+  const auto raw = has_answered(outcome) ? value(outcome, readings[reading_]) : std::nullopt;
+  if (reading_ == 0) {
+    const Time asked = outcome.answered() ? outcome.asked : outcome.at;
+    const Time between = asked + (outcome.at - asked) / 2;
+    sample_ = {.at = between, .after = between - result_.began, .target = target_, .angle = raw};
+  } else {
+    (reading_ == 1 ? sample_.speed : sample_.torque) = raw;
+  }
+  if (++reading_ == readings.size()) {
+    conclude_sample();
+  }
+  return unanswered_ < silent_while_moving || phase_ != Phase::moving ? go_on()
+                                                                      : fail(silent_since());
+}
+
+void CommandJob::conclude_sample() {
+  reading_ = 0;
+  sample_due_ = std::max(sample_due_ + sample_period, now_);
+  result_.samples.push_back(sample_);
+  if (options_.sampled) {
+    options_.sampled(sample_);
+    now_ = options_.now(); // whoever reads it may be slow
+  }
+  if (phase_ == Phase::ending && has_end_) {
+    watch_standing();
+  } else if (phase_ == Phase::ending && sample_.angle) {
+    choose_end();
+  }
+}
+
+} // namespace blactl::fleet

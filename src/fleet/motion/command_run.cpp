@@ -1,0 +1,96 @@
+#include "blactl/fleet/motion/command_run.hpp"
+
+#include "blactl/fleet/change/carry_out.hpp"
+
+#include "fleet/motion/command_texts.hpp"
+
+#include <array>
+#include <vector>
+
+namespace blactl::fleet {
+
+namespace at = bla::address;
+using dronecan::NodeId;
+
+namespace {
+
+/// Who obeys ArrayCommand, as far as it was heard.
+std::vector<NodeId> servos_heard(const Roster& roster, NodeId except) {
+  std::vector<NodeId> ids;
+  for (const auto& [id, member] : roster.members()) {
+    if (id != except && roster.heard(id) && (member.is_servo || member.sends_actuator_status())) {
+      ids.push_back(id);
+    }
+  }
+  return ids;
+}
+
+Error shared(const CommandPlan& plan, std::string message) {
+  return {Code::duplicate_servo_id, std::move(message), say<texts::motion_servo_id_hint>(),
+          plan.servo().id.value()};
+}
+
+} // namespace
+
+std::optional<Error> refuse_servo_id(Session& session, const bla::Profiles& profiles,
+                                     const CommandPlan& plan,
+                                     const Identification::Options& options) {
+  const std::int64_t servo_id = plan.plan.before.raw(at::servo_id).value_or(0);
+  const auto others = servos_heard(session.roster(), plan.servo().id);
+  const auto ids = [](const Servo& servo) -> Result<std::vector<const bla::Parameter*>> {
+    return servo.identity.registers(std::array{at::servo_id});
+  };
+  const auto snapshots = take_snapshots(session, profiles, others, options, ids);
+  if (snapshots.broken) {
+    return snapshots.broken;
+  }
+  if (!session.roster().pending().empty()) {
+    return shared(plan, say<texts::motion_servo_id_pending>(servo_id));
+  }
+  for (const Snapshot& other : snapshots.servos) {
+    const NodeId id = other.servo.id;
+    const auto its = other.raw(at::servo_id);
+    const auto told = session.roster().member(id).actuator_id;
+    if (!its || session.roster().is_doubled(id)) {
+      return shared(plan, say<texts::motion_servo_id_unknown>(id.value(), servo_id));
+    }
+    if (*its == servo_id || told == servo_id) { // which of the two it obeys is not known
+      return shared(
+          plan, say<texts::motion_servo_id_shared>(plan.servo().id.value(), id.value(), servo_id));
+    }
+  }
+  return std::nullopt;
+}
+
+Commanded command(Session& session, const CommandPlan& plan, const CommandManner& manner) {
+  constexpr Duration end_time = std::chrono::seconds(10); // contract, section 2
+  CommandJob* running = nullptr;
+  CommandJob job(session.roster(), plan,
+                 {.patience = manner.patience,
+                  .while_driven = manner.while_driven,
+                  .now = [&] { return session.now(); },
+                  .sampled =
+                      [&](const CommandSample& sample) {
+                        if (manner.sampled && !manner.sampled(sample)) {
+                          running->stop();
+                        }
+                      },
+                  .broadcast =
+                      [&](const dronecan::ArrayCommand& message) {
+                        session.node().broadcast(dronecan::ArrayCommand::type,
+                                                 dronecan::priority_medium, message.encode());
+                      }});
+  running = &job;
+  session.set_grace(end_time);
+  session.on_stopping([&] {
+    job.stop();
+    if (manner.ending) {
+      manner.ending();
+    }
+  });
+  const auto ran = session.run(std::array<dronecan::Job*, 1>{&job});
+  session.on_stopping({});
+  return {job.result(), ran ? std::nullopt : std::optional(ran.error())};
+}
+
+} // namespace blactl::fleet
