@@ -1,5 +1,7 @@
 #include "cli/change_servos.hpp"
 
+#include "blactl/fleet/bus/snapshots.hpp"
+#include "blactl/fleet/bus/unreachable.hpp"
 #include "blactl/fleet/change/carry_out.hpp"
 #include "blactl/fleet/change/guard.hpp"
 #include "blactl/fleet/change/survey.hpp"

@@ -2,6 +2,7 @@
 
 #include "blactl/can/replay_texts.hpp"
 #include "blactl/fleet/bus/texts.hpp"
+#include "blactl/fleet/files/fleet_recording.hpp"
 #include "blactl/state/state_folder.hpp"
 
 #include "cli/interface/bus_factory.hpp"

@@ -26,6 +26,10 @@
 #include <utility>
 #include <vector>
 
+namespace blactl::fleet {
+struct FleetFile;
+} // namespace blactl::fleet
+
 namespace blactl::cli {
 
 class Context {

@@ -1,6 +1,8 @@
 #include "cli/command/run.hpp"
 
 #include "blactl/base/replace_file.hpp"
+#include "blactl/fleet/bus/snapshots.hpp"
+#include "blactl/fleet/bus/unreachable.hpp"
 #include "blactl/fleet/change/guard.hpp"
 
 #include "cli/command/sample.hpp"

@@ -1,8 +1,8 @@
 // blactl export: the configuration of servos as a file that apply takes.
 
 #include "blactl/base/replace_file.hpp"
-#include "blactl/fleet/change/carry_out.hpp"
-#include "blactl/fleet/change/guard.hpp"
+#include "blactl/fleet/bus/snapshots.hpp"
+#include "blactl/fleet/bus/unreachable.hpp"
 #include "blactl/fleet/files/fleet_file.hpp"
 #include "blactl/fleet/files/params_file.hpp"
 #include "blactl/fleet/files/recipe.hpp"

@@ -1,8 +1,8 @@
 // blactl get: reads parameters.
 
 #include "blactl/fleet/bus/register_choice.hpp"
-#include "blactl/fleet/change/carry_out.hpp"
-#include "blactl/fleet/change/guard.hpp"
+#include "blactl/fleet/bus/snapshots.hpp"
+#include "blactl/fleet/bus/unreachable.hpp"
 
 #include "cli/commands.hpp"
 #include "cli/output/parameter_view.hpp"

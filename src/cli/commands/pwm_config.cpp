@@ -3,8 +3,8 @@
 #include "blactl/base/replace_file.hpp"
 #include "blactl/bla/assignment.hpp"
 #include "blactl/bla/pwm_mapping.hpp"
-#include "blactl/fleet/change/carry_out.hpp"
-#include "blactl/fleet/change/guard.hpp"
+#include "blactl/fleet/bus/snapshots.hpp"
+#include "blactl/fleet/bus/unreachable.hpp"
 
 #include "cli/change_servos.hpp"
 #include "cli/commands.hpp"

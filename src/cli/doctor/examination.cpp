@@ -1,8 +1,8 @@
 #include "cli/doctor/examination.hpp"
 
 #include "blactl/fleet/bus/discovery.hpp"
+#include "blactl/fleet/bus/snapshots.hpp"
 #include "blactl/fleet/bus/ticker.hpp"
-#include "blactl/fleet/change/carry_out.hpp"
 #include "blactl/state/state_folder.hpp"
 
 #include "cli/doctor/texts.hpp"

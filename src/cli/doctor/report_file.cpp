@@ -3,7 +3,7 @@
 #include "blactl/base/replace_file.hpp"
 #include "blactl/base/rfc3339.hpp"
 #include "blactl/fleet/bus/register_choice.hpp"
-#include "blactl/fleet/change/carry_out.hpp"
+#include "blactl/fleet/bus/snapshots.hpp"
 #include "blactl/fleet/live/fault_job.hpp"
 
 #include "cli/alloc/book.hpp"

@@ -1,5 +1,7 @@
 #include "cli/monitor/identify.hpp"
 
+#include "blactl/fleet/bus/snapshots.hpp"
+#include "blactl/fleet/bus/unreachable.hpp"
 #include "blactl/fleet/change/guard.hpp"
 
 #include "cli/confirm.hpp"

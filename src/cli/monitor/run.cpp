@@ -1,6 +1,6 @@
 #include "cli/monitor/run.hpp"
 
-#include "blactl/fleet/change/guard.hpp"
+#include "blactl/fleet/bus/unreachable.hpp"
 
 #include "cli/monitor/texts.hpp"
 #include "cli/output/progress_view.hpp"

@@ -1,11 +1,9 @@
 #include "blactl/fleet/bus/discovery.hpp"
 
-#include "blactl/fleet/bus/absent.hpp"
 #include "blactl/fleet/bus/read_job.hpp"
 #include "blactl/fleet/bus/target_texts.hpp"
 #include "blactl/fleet/bus/texts.hpp"
-#include "blactl/fleet/change/guard.hpp"
-#include "blactl/fleet/change/restart_texts.hpp"
+#include "blactl/fleet/bus/unreachable.hpp"
 
 #include <fmt/format.h>
 

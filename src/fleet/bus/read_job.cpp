@@ -2,8 +2,7 @@
 
 #include "blactl/fleet/bus/target_texts.hpp"
 #include "blactl/fleet/bus/texts.hpp"
-#include "blactl/fleet/change/guard.hpp"
-#include "blactl/fleet/change/restart_texts.hpp"
+#include "blactl/fleet/bus/unreachable.hpp"
 
 #include <algorithm>
 #include <utility>

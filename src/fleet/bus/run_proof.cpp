@@ -1,8 +1,7 @@
 #include "blactl/fleet/bus/run_proof.hpp"
 
 #include "blactl/fleet/bus/texts.hpp"
-#include "blactl/fleet/change/guard.hpp"
-#include "blactl/fleet/change/restart_texts.hpp"
+#include "blactl/fleet/bus/unreachable.hpp"
 
 #include <utility>
 

@@ -3,7 +3,6 @@
 #include "blactl/bla/fault_bits.hpp"
 #include "blactl/bla/value.hpp"
 #include "blactl/fleet/bus/texts.hpp"
-#include "blactl/fleet/change/restart_texts.hpp"
 
 #include <string>
 #include <utility>

@@ -2,7 +2,7 @@
 
 #include "blactl/base/hex.hpp"
 #include "blactl/fleet/bus/conflict_texts.hpp"
-#include "blactl/fleet/change/guard.hpp"
+#include "blactl/fleet/bus/unreachable.hpp"
 
 #include "fleet/change/node_id_texts.hpp"
 

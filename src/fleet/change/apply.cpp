@@ -1,7 +1,8 @@
 #include "blactl/fleet/change/apply.hpp"
 
+#include "blactl/fleet/bus/snapshots.hpp"
 #include "blactl/fleet/bus/texts.hpp"
-#include "blactl/fleet/change/guard.hpp"
+#include "blactl/fleet/bus/unreachable.hpp"
 #include "blactl/fleet/change/restart_texts.hpp"
 
 #include <algorithm>

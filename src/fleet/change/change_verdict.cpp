@@ -4,8 +4,8 @@
 #include "blactl/base/hex.hpp"
 #include "blactl/fleet/bus/conflict_texts.hpp"
 #include "blactl/fleet/bus/texts.hpp"
+#include "blactl/fleet/bus/unreachable.hpp"
 #include "blactl/fleet/change/change_job.hpp"
-#include "blactl/fleet/change/guard.hpp"
 #include "blactl/fleet/change/restart_texts.hpp"
 
 #include <algorithm>

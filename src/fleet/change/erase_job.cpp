@@ -1,7 +1,7 @@
 #include "blactl/fleet/change/erase_job.hpp"
 
 #include "blactl/fleet/bus/texts.hpp"
-#include "blactl/fleet/change/guard.hpp"
+#include "blactl/fleet/bus/unreachable.hpp"
 #include "blactl/fleet/change/restart_texts.hpp"
 
 namespace blactl::fleet {

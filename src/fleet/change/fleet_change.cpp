@@ -1,7 +1,9 @@
 #include "blactl/fleet/change/fleet_change.hpp"
 
 #include "blactl/bla/assignment.hpp"
+#include "blactl/fleet/bus/snapshots.hpp"
 #include "blactl/fleet/bus/texts.hpp"
+#include "blactl/fleet/bus/unreachable.hpp"
 #include "blactl/fleet/change/guard.hpp"
 #include "blactl/fleet/change/restart_texts.hpp"
 #include "blactl/fleet/change/survey.hpp"

@@ -1,33 +1,11 @@
 #include "blactl/fleet/change/guard.hpp"
 
-#include "blactl/base/hex.hpp"
 #include "blactl/fleet/bus/conflict_texts.hpp"
 #include "blactl/fleet/bus/target_texts.hpp"
 #include "blactl/fleet/bus/texts.hpp"
-
-#include <string>
+#include "blactl/fleet/bus/unreachable.hpp"
 
 namespace blactl::fleet {
-
-Error doubled(const Roster& roster, dronecan::NodeId id) {
-  const auto units = roster.units(id);
-  std::string named;
-  for (const dronecan::UniqueId& unit : units) {
-    named += (named.empty() ? "uid:" : ", uid:") + hex(unit);
-  }
-  return {Code::duplicate_node_id,
-          units.empty() ? say<texts::doubled_target>(id.value())
-                        : say<texts::doubled_units>(id.value(), named),
-          say<texts::doubled_target_hint>(), id.value()};
-}
-
-Error silent(const Roster& roster, dronecan::NodeId node) {
-  const std::uint8_t id = node.value();
-  return roster.heard(node) && roster.member(node).id_is_known
-             ? Error{Code::timeout, say<texts::node_mute>(id), say<texts::no_answer_hint>(), id}
-             : Error{Code::not_found, say<texts::node_not_found>(id),
-                     say<texts::node_not_found_hint>(), id};
-}
 
 std::optional<Error> forbidden(const Roster& roster, Time now, const Plan& plan,
                                bool while_driven) {

@@ -2,7 +2,7 @@
 
 #include "blactl/base/hex.hpp"
 #include "blactl/fleet/bus/texts.hpp"
-#include "blactl/fleet/change/guard.hpp"
+#include "blactl/fleet/bus/unreachable.hpp"
 #include "blactl/fleet/change/restart_texts.hpp"
 
 #include <algorithm>

@@ -2,10 +2,11 @@
 
 #include "blactl/base/hex.hpp"
 #include "blactl/bla/assignment.hpp"
+#include "blactl/fleet/bus/snapshots.hpp"
 #include "blactl/fleet/bus/target_texts.hpp"
 #include "blactl/fleet/bus/texts.hpp"
+#include "blactl/fleet/bus/unreachable.hpp"
 #include "blactl/fleet/change/allocation_service.hpp"
-#include "blactl/fleet/change/guard.hpp"
 #include "blactl/fleet/change/restart_texts.hpp"
 
 #include "fleet/change/id_holders.hpp"

@@ -3,7 +3,7 @@
 #include "blactl/bla/value.hpp"
 #include "blactl/fleet/bus/target_texts.hpp"
 #include "blactl/fleet/bus/texts.hpp"
-#include "blactl/fleet/change/guard.hpp"
+#include "blactl/fleet/bus/unreachable.hpp"
 #include "blactl/fleet/change/restart_texts.hpp"
 
 #include <algorithm>

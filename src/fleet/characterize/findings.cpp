@@ -3,7 +3,7 @@
 #include "blactl/bla/defect.hpp"
 #include "blactl/fleet/bus/conflict_texts.hpp"
 #include "blactl/fleet/bus/texts.hpp"
-#include "blactl/fleet/change/guard.hpp"
+#include "blactl/fleet/bus/unreachable.hpp"
 #include "blactl/state/local_node_id.hpp"
 
 #include <algorithm>

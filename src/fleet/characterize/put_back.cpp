@@ -4,7 +4,6 @@
 #include "blactl/dronecan/types.hpp"
 #include "blactl/fleet/bus/target_texts.hpp"
 #include "blactl/fleet/bus/texts.hpp"
-#include "blactl/fleet/change/guard.hpp"
 
 #include "fleet/characterize/jobs.hpp"
 #include "fleet/characterize/soft_start.hpp"

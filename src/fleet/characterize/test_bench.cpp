@@ -5,6 +5,7 @@
 #include "blactl/fleet/bus/array_command.hpp"
 #include "blactl/fleet/bus/conflict_texts.hpp"
 #include "blactl/fleet/bus/texts.hpp"
+#include "blactl/fleet/bus/unreachable.hpp"
 #include "blactl/fleet/change/guard.hpp"
 #include "blactl/fleet/change/restart_texts.hpp"
 

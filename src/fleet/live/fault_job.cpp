@@ -1,7 +1,7 @@
 #include "blactl/fleet/live/fault_job.hpp"
 
 #include "blactl/fleet/bus/texts.hpp"
-#include "blactl/fleet/change/guard.hpp"
+#include "blactl/fleet/bus/unreachable.hpp"
 
 #include <algorithm>
 #include <array>

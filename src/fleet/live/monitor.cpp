@@ -1,7 +1,6 @@
 #include "blactl/fleet/live/monitor.hpp"
 
-#include "blactl/fleet/bus/absent.hpp"
-#include "blactl/fleet/change/guard.hpp"
+#include "blactl/fleet/bus/unreachable.hpp"
 
 #include <algorithm>
 #include <chrono>

@@ -1,6 +1,6 @@
 #include "blactl/fleet/motion/command_run.hpp"
 
-#include "blactl/fleet/change/carry_out.hpp"
+#include "blactl/fleet/bus/snapshots.hpp"
 
 #include "fleet/motion/command_texts.hpp"
 

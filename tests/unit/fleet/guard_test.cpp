@@ -1,3 +1,4 @@
+#include "blactl/fleet/bus/unreachable.hpp"
 #include "blactl/fleet/change/guard.hpp"
 
 #include "support.hpp"

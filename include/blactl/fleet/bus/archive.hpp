@@ -2,9 +2,11 @@
 // What a recording holds of the answers of servos: stands in for them when jobs ask.
 
 #include "blactl/bla/parameter.hpp"
+#include "blactl/bla/values.hpp"
 #include "blactl/dronecan/node.hpp"
 #include "blactl/dronecan/transfer.hpp"
 #include "blactl/fleet/bus/roster.hpp"
+#include "blactl/fleet/bus/servo.hpp"
 
 #include <cstdint>
 #include <map>
@@ -12,6 +14,12 @@
 #include <vector>
 
 namespace blactl::fleet {
+
+/// A servo as a file describes it.
+struct RecordedServo {
+  Servo servo;
+  bla::Values values; ///< what its registers hold, as far as the file tells
+};
 
 /// Keeps the last answer to each question that reads: GetNodeInfo, and GetSet of each register,
 /// whoever asked. An answer to a write tells the value after it, so it counts as well.

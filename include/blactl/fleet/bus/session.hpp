@@ -8,7 +8,6 @@
 #include "blactl/fleet/bus/playback.hpp"
 #include "blactl/fleet/bus/roster.hpp"
 #include "blactl/fleet/bus/traffic.hpp"
-#include "blactl/fleet/files/fleet_recording.hpp"
 #include "blactl/state/local_node_id.hpp"
 
 #include <functional>

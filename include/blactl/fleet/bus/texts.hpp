@@ -87,6 +87,22 @@ inline constexpr Text restarts_while_read{
     "node {} restarts again and again while it is read",
     "ノード {} は読出し中に何度も再起動しています",
 };
+inline constexpr Text restarts_again_hint{
+    "check its supply voltage",
+    "電源電圧を確認して下さい",
+};
+inline constexpr Text rom_unreadable{
+    "node {} could not read its ROM at its start and holds initial values",
+    "ノード {}: 起動時に ROM のデータを読み出せず、初期値で動作しています"};
+inline constexpr Text rom_unreadable_hint{
+    "was the supply cut while it saved? write its values again, then: blactl save -n {}",
+    "保存中に電源が切れた可能性があります。値を書き直してから blactl save -n {} "
+    "を実行して下さい"};
+inline constexpr Text another_servo{"node {} is another servo now",
+                                    "ノード {} は別のサーボに替わりました"};
+inline constexpr Text opcode_refused_hint{
+    "does it tell why? blactl get -n {} --group fault",
+    "原因を異常情報で確認して下さい: blactl get -n {} --group fault"};
 inline constexpr Text not_proven_any_more{
     "node {} was written to, but does not answer any more: whether it still holds the values is "
     "not known",

@@ -65,18 +65,4 @@ void record_end(Session& session, std::span<const ChangeResult> results, const M
 [[nodiscard]] CarriedOut carry_out(Session& session, const bla::Profiles& profiles,
                                    std::span<const Plan> plans, const Manner& manner);
 
-struct Snapshots {
-  std::vector<Snapshot> servos;  ///< in the order asked
-  std::optional<Error> broken{}; ///< why the session ended in between: they are not complete
-};
-
-/// Reads the registers that `choice` names of several servos at once. On a recording nothing is
-/// proven, whatever `proof` says.
-[[nodiscard]] Snapshots take_snapshots(Session& session, const bla::Profiles& profiles,
-                                       std::span<const dronecan::NodeId> servos,
-                                       const Identification::Options& options,
-                                       const ReadJob::Choice& choice,
-                                       ReadJob::Proof proof = ReadJob::Proof::moment,
-                                       const ReadJob::More& more = {});
-
 } // namespace blactl::fleet

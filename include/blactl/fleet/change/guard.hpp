@@ -8,13 +8,6 @@
 
 namespace blactl::fleet {
 
-/// That two units use this node ID, named by their unique IDs where both are known:
-/// duplicate_node_id. What is read from it may be of either, what is written goes to both.
-[[nodiscard]] Error doubled(const Roster& roster, dronecan::NodeId id);
-
-/// That nobody answers under this node ID: timeout where somebody was heard, else not_found.
-[[nodiscard]] Error silent(const Roster& roster, dronecan::NodeId id);
-
 /// Why this plan must not be carried out now, as far as the bus was heard; empty: it may.
 /// Errors: duplicate_node_id, state (the servo restarted since it was read), armed, driven unless
 /// `while_driven`, if the plan moves the servo; out_of_range for a static node ID that

@@ -9,10 +9,6 @@ inline constexpr Text restarts_again{
     "node {} restarts again and again while it is written to",
     "ノード {} は書込み中に何度も再起動しています",
 };
-inline constexpr Text restarts_again_hint{
-    "check its supply voltage",
-    "電源電圧を確認して下さい",
-};
 inline constexpr Text unnamed_saved{
     "{} is {} in RAM and {} in ROM: SAVE keeps all of RAM, so this too",
     "{} は RAM が {}、ROM が {} です。SAVE は RAM 全体を保存するため、この値も保存されます",
@@ -68,17 +64,8 @@ inline constexpr Text defaults_unknown_hint{
     "see what it says of itself: blactl get --group product",
     "機種情報を確認: blactl get --group product",
 };
-inline constexpr Text rom_unreadable{
-    "node {} could not read its ROM at its start and holds initial values",
-    "ノード {}: 起動時に ROM のデータを読み出せず、初期値で動作しています"};
-inline constexpr Text rom_unreadable_hint{
-    "was the supply cut while it saved? write its values again, then: blactl save -n {}",
-    "保存中に電源が切れた可能性があります。値を書き直してから blactl save -n {} "
-    "を実行して下さい"};
 inline constexpr Text not_saved{"node {}: ROM was not written",
                                 "ノード {}: ROM に保存していません"};
-inline constexpr Text another_servo{"node {} is another servo now",
-                                    "ノード {} は別のサーボに替わりました"};
 inline constexpr Text restarted_before_erase{"node {} restarted: nothing more was sent to it",
                                              "ノード {} が再起動したため、以後は送信していません"};
 inline constexpr Text opcode_refused{"node {} refused {}", "ノード {} が {} を拒否しました"};
@@ -88,9 +75,6 @@ inline constexpr Text opcode_ignored{
 };
 inline constexpr Text did_not_restart{"node {} confirmed {} and then did not restart",
                                       "ノード {} は {} に応答しましたが再起動しませんでした"};
-inline constexpr Text opcode_refused_hint{
-    "does it tell why? blactl get -n {} --group fault",
-    "原因を異常情報で確認して下さい: blactl get -n {} --group fault"};
 inline constexpr Text restart_not_waited_for{
     "node {} was sent RestartNode, and was not waited for until it was back",
     "ノード {}: RestartNode 送信後、復帰を確認せずに終了しました"};

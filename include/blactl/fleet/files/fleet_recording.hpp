@@ -3,19 +3,13 @@
 
 #include "blactl/base/error.hpp"
 #include "blactl/bla/profile.hpp"
-#include "blactl/bla/values.hpp"
-#include "blactl/fleet/bus/servo.hpp"
+#include "blactl/fleet/bus/archive.hpp"
 #include "blactl/fleet/files/fleet_file.hpp"
 
 #include <string>
 #include <vector>
 
 namespace blactl::fleet {
-
-struct RecordedServo {
-  Servo servo;
-  bla::Values values; ///< what its registers hold, as far as the file tells
-};
 
 struct FleetRecording {
   /// A servo of which the file tells no node ID has one that is free, for want of another handle
