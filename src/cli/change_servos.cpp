@@ -157,13 +157,14 @@ void Run::conclude(std::vector<ChangeResult> results) {
   std::size_t done = 0;
   for (const ChangeResult& result : results) {
     const bool acts =
-        result.saves || std::ranges::any_of(result.changes, &fleet::Change::is_planned);
+        result.saves || std::ranges::any_of(result.changes, &fleet::RegisterChange::is_planned);
     const bool would_change = request_.dry_run && acts;
     report_.targets.push_back({.errors = result.errors(), .has_found = would_change});
-    done += request_.view == ResultView::servos
-                ? static_cast<std::size_t>(result.is_done())
-                : static_cast<std::size_t>(std::ranges::count(
-                      result.changes, fleet::ChangeStatus::written, &fleet::Change::status));
+    done +=
+        request_.view == ResultView::servos
+            ? static_cast<std::size_t>(result.is_done())
+            : static_cast<std::size_t>(std::ranges::count(
+                  result.changes, fleet::ChangeStatus::written, &fleet::RegisterChange::status));
   }
   report_.counts = {{request_.view == ResultView::servos ? "done" : "written", done}};
   if (request_.results) {

@@ -11,22 +11,24 @@
 
 namespace blactl::cli {
 
-using fleet::Change;
 using fleet::EntryStatus;
 using fleet::GoalResult;
 using fleet::Need;
+using fleet::RegisterChange;
 
 namespace {
 
 constexpr std::size_t screen_lines = 24;
 
 std::size_t differences(const GoalResult& result) {
-  return static_cast<std::size_t>(std::ranges::count_if(
-      result.changes, [](const Change& change) { return change.before != change.requested; }));
+  return static_cast<std::size_t>(
+      std::ranges::count_if(result.changes, [](const RegisterChange& change) {
+        return change.before != change.requested;
+      }));
 }
 
 bool was_written(const GoalResult& result) {
-  return result.saved || std::ranges::any_of(result.changes, [](const Change& change) {
+  return result.saved || std::ranges::any_of(result.changes, [](const RegisterChange& change) {
            return change.status == fleet::ChangeStatus::written;
          });
 }
@@ -76,10 +78,11 @@ std::string servo_text(const GoalResult& result, bool is_plan, const Page& page)
   std::string out = title(result.goal.name, result.servo) + ": " +
                     (is_plan ? plan_text(result, page) : end_text(result, page)) + '\n';
   const bool has_failed = !is_plan && entry_status(result, false) == EntryStatus::failed;
-  std::vector<Change> shown;
-  std::ranges::copy_if(result.changes, std::back_inserter(shown), [&](const Change& change) {
-    return change.before != change.requested || change.error;
-  });
+  std::vector<RegisterChange> shown;
+  std::ranges::copy_if(result.changes, std::back_inserter(shown),
+                       [&](const RegisterChange& change) {
+                         return change.before != change.requested || change.error;
+                       });
   if ((is_plan || has_failed) && !shown.empty()) {
     out += changes_table(
         shown,

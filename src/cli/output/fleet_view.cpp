@@ -1,7 +1,7 @@
 #include "cli/output/fleet_view.hpp"
 
 #include "blactl/bla/value.hpp"
-#include "blactl/fleet/change/change.hpp"
+#include "blactl/fleet/change/register_change.hpp"
 
 #include "cli/fleet_texts.hpp"
 #include "cli/output/node_head.hpp"

@@ -12,9 +12,9 @@
 
 namespace blactl::cli {
 
-using fleet::Change;
 using fleet::ChangeResult;
 using fleet::ChangeStatus;
+using fleet::RegisterChange;
 
 std::string seconds_text(Duration duration) {
   return fmt::format("{:.3f}", std::chrono::duration<double>(duration).count());
@@ -22,7 +22,7 @@ std::string seconds_text(Duration duration) {
 
 namespace {
 
-void write_change(JsonWriter& json, const Change& change) {
+void write_change(JsonWriter& json, const RegisterChange& change) {
   json.begin_object();
   json.member("address", change.parameter->address.name());
   json.member("name", change.parameter->name);
@@ -92,16 +92,16 @@ std::string servo_text(const ChangeResult& result, const Page& page) {
 }
 
 /// SAVE could keep it, a restart ends it.
-bool is_in_ram_only(const Change& change) {
+bool is_in_ram_only(const RegisterChange& change) {
   return change.status == ChangeStatus::written && change.parameter->saved;
 }
 
 } // namespace
 
-void write_changes(JsonWriter& json, std::span<const Change> changes) {
+void write_changes(JsonWriter& json, std::span<const RegisterChange> changes) {
   json.key("changes");
   json.begin_array();
-  for (const Change& change : changes) {
+  for (const RegisterChange& change : changes) {
     write_change(json, change);
   }
   json.end_array();
@@ -113,7 +113,7 @@ void write_changes(JsonWriter& json, const ChangeResult& result) {
   write_warnings(json, result.warnings);
 }
 
-std::string changes_table(std::span<const Change> changes, const TableStyle& style,
+std::string changes_table(std::span<const RegisterChange> changes, const TableStyle& style,
                           const Page& page) {
   // In Japanese the specification's name stands beside the one that is typed.
   const bool shows_names = language() == Language::japanese;
@@ -123,7 +123,7 @@ std::string changes_table(std::span<const Change> changes, const TableStyle& sty
     header.push_back(say<texts::column_meaning>());
   }
   Table table(std::move(header));
-  for (const Change& change : changes) {
+  for (const RegisterChange& change : changes) {
     const bla::Parameter& parameter = *change.parameter;
     const auto shown = [&](const std::optional<std::int64_t>& raw,
                            const std::optional<std::int64_t>& mode) {

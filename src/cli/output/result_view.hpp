@@ -21,7 +21,7 @@ enum class ResultView : unsigned char { changes, servos };
 [[nodiscard]] std::string seconds_text(Duration duration);
 
 /// `changes` alone.
-void write_changes(JsonWriter& json, std::span<const fleet::Change> changes);
+void write_changes(JsonWriter& json, std::span<const fleet::RegisterChange> changes);
 
 /// `warnings`, where there are any.
 void write_warnings(JsonWriter& json, std::span<const fleet::Warning> warnings);
@@ -32,7 +32,7 @@ struct TableStyle {
   bool was_begun = false;                                  ///< else it is a plan that is shown
 };
 
-[[nodiscard]] std::string changes_table(std::span<const fleet::Change> changes,
+[[nodiscard]] std::string changes_table(std::span<const fleet::RegisterChange> changes,
                                         const TableStyle& style, const Page& page);
 
 /// `changes`, `saved` and `warnings` of one servo.

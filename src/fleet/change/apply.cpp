@@ -51,12 +51,12 @@ bool shows_other_rom(const Goal& goal, const Snapshot& held) {
 }
 
 /// From what the servo held to what is wished.
-std::vector<Change> changes(const Goal& goal, const Snapshot& held) {
-  std::vector<Change> all;
+std::vector<RegisterChange> changes(const Goal& goal, const Snapshot& held) {
+  std::vector<RegisterChange> all;
   for (const Assignment& wish : goal.set) {
-    Change change{.parameter = held.servo.identity.parameter(wish.parameter->address),
-                  .requested = wish.value.raw,
-                  .before = held.raw(wish.parameter->address)};
+    RegisterChange change{.parameter = held.servo.identity.parameter(wish.parameter->address),
+                          .requested = wish.value.raw,
+                          .before = held.raw(wish.parameter->address)};
     if (change.before == change.requested) {
       change.status = ChangeStatus::unchanged;
       change.after = change.before;
@@ -67,8 +67,8 @@ std::vector<Change> changes(const Goal& goal, const Snapshot& held) {
 }
 
 /// What the last of several steps tells of a change that an earlier one may have made.
-void learn(Change& change, const ChangeResult& last) {
-  const auto same = std::ranges::find_if(last.changes, [&](const Change& each) {
+void learn(RegisterChange& change, const ChangeResult& last) {
+  const auto same = std::ranges::find_if(last.changes, [&](const RegisterChange& each) {
     return each.parameter->address == change.parameter->address;
   });
   if (same == last.changes.end()) {
@@ -116,7 +116,7 @@ GoalResult planned(Goal goal, Need need, const Snapshot& held) {
   GoalResult result{.goal = std::move(goal), .need = need, .servo = held.servo};
   result.changes = changes(result.goal, held);
   result.mode_before = result.mode_after = held.pwm_mode();
-  for (const Change& change : result.changes) {
+  for (const RegisterChange& change : result.changes) {
     if (change.parameter->address == bla::address::pwm_mode) {
       result.mode_after = change.requested;
     }
@@ -140,7 +140,7 @@ std::string_view name(Need need) {
 
 bool GoalResult::has_differences() const {
   return std::ranges::any_of(
-      changes, [](const Change& change) { return change.before != change.requested; });
+      changes, [](const RegisterChange& change) { return change.before != change.requested; });
 }
 
 std::vector<Error> Apply::prepare(std::vector<Goal> goals) {
@@ -300,7 +300,7 @@ void Apply::conclude(const FleetChange& change, std::span<const std::size_t> uni
     }
     result.node_id_after = last.node_id_after;
     result.duration += last.duration;
-    std::ranges::for_each(result.changes, [&](Change& each) { learn(each, last); });
+    std::ranges::for_each(result.changes, [&](RegisterChange& each) { learn(each, last); });
   }
 }
 

@@ -14,15 +14,15 @@ using dronecan::Step;
 
 namespace {
 
-bool has_failed(const std::vector<Change>& changes) {
+bool has_failed(const std::vector<RegisterChange>& changes) {
   return std::ranges::any_of(changes,
-                             [](const Change& change) { return change.error.has_value(); });
+                             [](const RegisterChange& change) { return change.error.has_value(); });
 }
 
 /// What ERASE leaves; the IDs are written again after it.
 bla::Values expected_after_erase(const Plan& plan) {
   bla::Values expected = plan.expected;
-  for (const Change& change : plan.changes) {
+  for (const RegisterChange& change : plan.changes) {
     expected[change.parameter->address] = change.before.value_or(0);
   }
   return expected;
@@ -239,7 +239,7 @@ ChangeJob::Stage ChangeJob::conclude_read_erased() {
 ChangeJob::Stage ChangeJob::conclude_write() {
   result_.changes = write_->changes();
   servo_ = write_->servo();
-  for (Change& change : result_.changes) {
+  for (RegisterChange& change : result_.changes) {
     blame_other_writer(change);
     if (change.parameter->address == bla::address::static_node_id && change.after) {
       roster_.learn_static_node_id(plan_.before.servo.id, change.after);

@@ -16,7 +16,7 @@
 namespace blactl::fleet {
 
 /// What another node has written the servo neither refused nor changed.
-void ChangeJob::blame_other_writer(Change& change) const {
+void ChangeJob::blame_other_writer(RegisterChange& change) const {
   const auto writer = roster_.writer_to(servo_.id, known_since(), change.parameter->address);
   if (writer && change.error && change.after) {
     const std::uint8_t id = servo_.id.value();
@@ -47,7 +47,7 @@ void ChangeJob::tell_reach() {
     }
   };
   tell(result_.error);
-  for (Change& change : result_.changes) {
+  for (RegisterChange& change : result_.changes) {
     tell(change.error);
   }
 }
@@ -55,7 +55,7 @@ void ChangeJob::tell_reach() {
 /// What the registers of the changes hold now, after a SAVE that went wrong.
 void ChangeJob::tell_saved(const Snapshot& now) {
   doubt_changes();
-  for (Change& change : result_.changes) {
+  for (RegisterChange& change : result_.changes) {
     if (const auto raw = now.raw(change.parameter->address)) {
       change.after = raw;
       change.status = *raw == change.requested ? ChangeStatus::written : ChangeStatus::mismatch;
@@ -66,7 +66,7 @@ void ChangeJob::tell_saved(const Snapshot& now) {
 /// The servo restarted, or may have: what was written was in RAM.
 void ChangeJob::doubt_changes() {
   result_.now.clear();
-  for (Change& change : result_.changes) {
+  for (RegisterChange& change : result_.changes) {
     change.after = std::nullopt;
     change.status = ChangeStatus::failed;
   }
@@ -85,7 +85,7 @@ std::optional<dronecan::NodeId> ChangeJob::other_writer() const {
     return roster_.writer_to(id, known_since());
   }
   std::vector<bla::Address> concerned = plan_.shown;
-  for (const Change& change : result_.changes) {
+  for (const RegisterChange& change : result_.changes) {
     concerned.push_back(change.parameter->address);
   }
   for (const bla::Address address : concerned) {

@@ -44,7 +44,7 @@ bla::Values replaced_by(const Plan& plan) {
   if (plan.erase) {
     values = plan.before.values();
   } else {
-    for (const Change& change : plan.changes) {
+    for (const RegisterChange& change : plan.changes) {
       if (change.is_planned() && change.before) {
         values.emplace(change.parameter->address, *change.before);
       }

@@ -76,9 +76,9 @@ std::optional<Error> check_unit(const Wanted& wanted, const Snapshot& before,
 void plan_changes(const Wanted& wanted, const Values& held, Plan& plan) {
   for (const Assignment& assignment : wanted.assignments) {
     const Address address = assignment.parameter->address;
-    Change change{.parameter = plan.before.servo.identity.parameter(address),
-                  .requested = assignment.value.raw,
-                  .before = bla::find(held, address)};
+    RegisterChange change{.parameter = plan.before.servo.identity.parameter(address),
+                          .requested = assignment.value.raw,
+                          .before = bla::find(held, address)};
     if (change.before == change.requested) {
       change.status = ChangeStatus::unchanged;
       change.after = change.before;
@@ -86,11 +86,11 @@ void plan_changes(const Wanted& wanted, const Values& held, Plan& plan) {
     plan.changes.push_back(std::move(change));
   }
   // A command may need a switch that is set with it.
-  std::ranges::stable_partition(plan.changes, [](const Change& change) {
+  std::ranges::stable_partition(plan.changes, [](const RegisterChange& change) {
     return change.parameter->group != bla::Group::command;
   });
   plan.mode_before = plan.mode_after = bla::find(held, at::pwm_mode);
-  for (const Change& change : plan.changes) {
+  for (const RegisterChange& change : plan.changes) {
     if (change.parameter->address == at::pwm_mode) {
       plan.mode_after = change.requested;
     }
@@ -101,10 +101,10 @@ void plan_changes(const Wanted& wanted, const Values& held, Plan& plan) {
 template <class Visit> void for_each_proposal(const Plan& plan, Visit visit) {
   const Values before = plan.before.values();
   Values after = before;
-  for (const Change& change : plan.changes) {
+  for (const RegisterChange& change : plan.changes) {
     after[change.parameter->address] = change.requested;
   }
-  for (const Change& change : plan.changes) {
+  for (const RegisterChange& change : plan.changes) {
     if (change.is_planned()) {
       visit(change, bla::Proposal{.address = change.parameter->address,
                                   .requested = change.requested,
@@ -120,7 +120,8 @@ std::string_view reason(const bla::CrossCheck& check) {
 }
 
 /// "angle_dead_band=0.0deg: …"
-std::string judgement(const Plan& plan, const Change& change, const bla::CrossCheck& check) {
+std::string judgement(const Plan& plan, const RegisterChange& change,
+                      const bla::CrossCheck& check) {
   const Parameter& parameter = *change.parameter;
   return say<texts::judged_change>(
       parameter.name, bla::input_text(parameter, change.requested, plan.mode_after), reason(check));
@@ -129,7 +130,7 @@ std::string judgement(const Plan& plan, const Change& change, const bla::CrossCh
 std::optional<Error> check_together(const Plan& plan) {
   const std::uint8_t id = plan.before.servo.id.value();
   std::optional<Error> refused;
-  for_each_proposal(plan, [&](const Change& change, const bla::Proposal& proposal) {
+  for_each_proposal(plan, [&](const RegisterChange& change, const bla::Proposal& proposal) {
     for (const auto* check : met(bla::CheckKind::refusal, proposal)) {
       if (!refused) {
         refused = Error{
@@ -145,7 +146,7 @@ std::optional<Error> check_together(const Plan& plan) {
 /// Each kind once, of the change that meets it first.
 std::vector<Warning> warnings_of(const Plan& plan) {
   std::vector<Warning> warnings;
-  for_each_proposal(plan, [&](const Change& change, const bla::Proposal& proposal) {
+  for_each_proposal(plan, [&](const RegisterChange& change, const bla::Proposal& proposal) {
     for (const auto* check : met(bla::CheckKind::warning, proposal)) {
       if (std::ranges::find(warnings, check->code, &Warning::code) == warnings.end()) {
         warnings.push_back({std::string(check->code), judgement(plan, change, *check)});
@@ -161,8 +162,9 @@ void plan_kept_ids(Plan& plan) {
   for (const Address address : {at::servo_id, at::static_node_id}) {
     const auto kept = plan.before.raw(address);
     const Parameter* parameter = plan.before.servo.identity.parameter(address);
-    const bool is_given = std::ranges::any_of(
-        plan.changes, [&](const Change& change) { return change.parameter->address == address; });
+    const bool is_given = std::ranges::any_of(plan.changes, [&](const RegisterChange& change) {
+      return change.parameter->address == address;
+    });
     if (kept.value_or(0) != 0 && parameter != nullptr && !is_given) {
       plan.changes.push_back({.parameter = parameter, .requested = *kept, .before = 0});
     }
@@ -179,7 +181,7 @@ Values expected_after(const Plan& plan) {
       }
     }
   }
-  for (const Change& change : plan.changes) {
+  for (const RegisterChange& change : plan.changes) {
     if (change.parameter->saved) {
       expected[change.parameter->address] = change.requested;
     }
@@ -219,7 +221,7 @@ std::string erase_question(const Plan& plan) {
 }
 
 /// A change may be asked for several reasons.
-std::string change_question(const Plan& plan, const Change& change,
+std::string change_question(const Plan& plan, const RegisterChange& change,
                             std::span<const bla::CrossCheck* const> checks) {
   const Parameter& parameter = *change.parameter;
   std::string line = say<texts::question_change>(
@@ -236,7 +238,7 @@ std::string change_question(const Plan& plan, const Change& change,
 
 std::string change_questions(const Plan& plan) {
   std::string lines;
-  for_each_proposal(plan, [&](const Change& change, const bla::Proposal& proposal) {
+  for_each_proposal(plan, [&](const RegisterChange& change, const bla::Proposal& proposal) {
     const auto checks = met(bla::CheckKind::question, proposal);
     if (!plan.erase && !checks.empty()) {
       lines += change_question(plan, change, checks);
@@ -248,12 +250,12 @@ std::string change_questions(const Plan& plan) {
 } // namespace
 
 bool Plan::acts() const {
-  return erase || restart || std::ranges::any_of(changes, &Change::is_planned);
+  return erase || restart || std::ranges::any_of(changes, &RegisterChange::is_planned);
 }
 
 bool Plan::moves() const {
   bool moves = erase || restart;
-  for_each_proposal(*this, [&](const Change&, const bla::Proposal& proposal) {
+  for_each_proposal(*this, [&](const RegisterChange&, const bla::Proposal& proposal) {
     moves = moves || bla::may_move(proposal);
   });
   return moves;
@@ -261,7 +263,7 @@ bool Plan::moves() const {
 
 std::optional<dronecan::NodeId> Plan::given_node_id() const {
   std::optional<std::int64_t> given;
-  for (const Change& change : changes) {
+  for (const RegisterChange& change : changes) {
     if (change.parameter->address == at::static_node_id) {
       given = change.requested;
     }
@@ -276,7 +278,7 @@ std::optional<dronecan::NodeId> Plan::given_node_id() const {
 
 std::optional<std::int64_t> Plan::given_servo_id() const {
   std::optional<std::int64_t> given;
-  for (const Change& change : changes) {
+  for (const RegisterChange& change : changes) {
     if (change.parameter->address == at::servo_id) {
       given = change.requested;
     }

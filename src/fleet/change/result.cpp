@@ -4,7 +4,7 @@ namespace blactl::fleet {
 
 std::vector<Error> ChangeResult::errors() const {
   std::vector<Error> all;
-  for (const Change& change : changes) {
+  for (const RegisterChange& change : changes) {
     if (change.error) {
       all.push_back(*change.error);
     }
@@ -19,7 +19,7 @@ bla::Values ChangeResult::after() const {
   bla::Values values = before;
   std::erase_if(values, [](const auto& held) { return !bla::is_setting(held.first); });
   values.insert(now.begin(), now.end());
-  for (const Change& change : changes) {
+  for (const RegisterChange& change : changes) {
     const auto raw = was_begun ? change.after : std::optional(change.requested);
     if (raw) {
       values[change.parameter->address] = *raw;

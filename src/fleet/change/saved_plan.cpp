@@ -162,7 +162,7 @@ std::string what_changed(const SavedStep& step, const GoalResult& result) {
       identity.readings().firmware_version != step.firmware_version) {
     out = say<texts::plan_other_unit>(printable(step.model), step.firmware_version);
   }
-  for (const Change& change : result.changes) {
+  for (const RegisterChange& change : result.changes) {
     const auto before = bla::find(step.before, change.parameter->address);
     if (before == change.before) {
       continue;

@@ -40,7 +40,7 @@ std::optional<std::int64_t> after(std::span<const Plan> plans, const Survey::Nei
   if (plan == plans.end()) {
     return in_ram;
   }
-  for (const Change& change : plan->changes) {
+  for (const RegisterChange& change : plan->changes) {
     if (change.parameter->address == address) {
       return change.requested;
     }

@@ -21,13 +21,13 @@ namespace {
 constexpr int most_restarts = 2;
 
 /// The servo is to hold what was requested.
-bool is_held(const Change& change) {
+bool is_held(const RegisterChange& change) {
   return change.status == ChangeStatus::written || change.status == ChangeStatus::unchanged;
 }
 
 } // namespace
 
-WriteJob::WriteJob(const Roster& roster, Servo servo, std::vector<Change> changes,
+WriteJob::WriteJob(const Roster& roster, Servo servo, std::vector<RegisterChange> changes,
                    Patience patience, Echo echo)
     : roster_(roster), servo_(std::move(servo)), changes_(std::move(changes)), patience_(patience),
       echo_(echo) {}
@@ -45,7 +45,8 @@ Step WriteJob::next(const Outcome& outcome) {
 
 /// Between reading and writing another unit may have come to the node ID.
 Step WriteJob::begin(Time now) {
-  if (roster_.is_doubled(servo_.id) || std::ranges::none_of(changes_, &Change::is_planned)) {
+  if (roster_.is_doubled(servo_.id) ||
+      std::ranges::none_of(changes_, &RegisterChange::is_planned)) {
     return go_on(now);
   }
   at_ = At::unit;
@@ -73,7 +74,7 @@ Step WriteJob::go_on(Time now) {
   if (roster_.is_doubled(servo_.id)) {
     return give_up(unproven(), doubled(roster_, servo_.id));
   }
-  const auto concerned = [](const Change& change) {
+  const auto concerned = [](const RegisterChange& change) {
     return change.is_planned() || is_held(change);
   };
   if (servo_.boot != boots() && std::ranges::any_of(changes_, concerned)) {
@@ -93,7 +94,7 @@ Step WriteJob::after_write(const Outcome& outcome) {
   if (!outcome.answered() && outcome.kind != Outcome::Kind::timed_out) {
     return give_up(current_, no_answer(outcome, servo_.id, changes_[current_].parameter->name));
   }
-  Change& change = changes_[current_];
+  RegisterChange& change = changes_[current_];
   const bla::Parameter& parameter = *change.parameter;
   const auto echo = register_value(outcome, servo_.id, parameter.address, parameter.width);
   if (echo_ == Echo::suffices && echo == change.requested) {
@@ -107,7 +108,7 @@ Step WriteJob::after_write(const Outcome& outcome) {
 
 /// The register holds what was requested.
 Step WriteJob::wrote(Time now) {
-  Change& change = changes_[current_];
+  RegisterChange& change = changes_[current_];
   change.after = change.requested;
   change.status = ChangeStatus::written;
   ++current_;
@@ -115,7 +116,7 @@ Step WriteJob::wrote(Time now) {
 }
 
 Step WriteJob::after_read(const Outcome& outcome) {
-  Change& change = changes_[current_];
+  RegisterChange& change = changes_[current_];
   const bla::Parameter& parameter = *change.parameter;
   const auto raw = register_value(outcome, servo_.id, parameter.address, parameter.width);
   if (outcome.kind == Outcome::Kind::cancelled || outcome.kind == Outcome::Kind::not_sent) {
@@ -188,7 +189,7 @@ Step WriteJob::write_again(Time now) {
   if (!doubt_unchanged()) {
     return std::nullopt;
   }
-  for (Change& change : changes_) {
+  for (RegisterChange& change : changes_) {
     if (change.status == ChangeStatus::written) {
       change.status = ChangeStatus::planned;
     }
@@ -201,7 +202,7 @@ Step WriteJob::write_again(Time now) {
 /// is nothing left to write.
 bool WriteJob::doubt_unchanged() {
   const std::uint8_t id = servo_.id.value();
-  for (Change& change : changes_) {
+  for (RegisterChange& change : changes_) {
     if (change.status == ChangeStatus::unchanged) {
       change.status = ChangeStatus::failed;
       change.after = std::nullopt;
@@ -209,7 +210,7 @@ bool WriteJob::doubt_unchanged() {
                            say<texts::run_again_hint>(), id};
     }
   }
-  return std::ranges::any_of(changes_, [](const Change& change) {
+  return std::ranges::any_of(changes_, [](const RegisterChange& change) {
     return change.is_planned() || change.status == ChangeStatus::written;
   });
 }
@@ -217,7 +218,7 @@ bool WriteJob::doubt_unchanged() {
 /// No restart explains why the register holds something else.
 void WriteJob::judge() {
   is_doubtful_ = false;
-  Change& change = changes_[current_];
+  RegisterChange& change = changes_[current_];
   const bla::Parameter& parameter = *change.parameter;
   const std::uint8_t id = servo_.id.value();
   const std::string wanted = bla::display(parameter, change.requested);
@@ -241,7 +242,7 @@ void WriteJob::judge() {
 /// doubt, else at the first that was made, else at the next one.
 std::size_t WriteJob::unproven() const {
   const auto first = [this](ChangeStatus status) {
-    const auto it = std::ranges::find(changes_, status, &Change::status);
+    const auto it = std::ranges::find(changes_, status, &RegisterChange::status);
     return static_cast<std::size_t>(it - changes_.begin());
   };
   const std::size_t made = is_doubtful_ ? current_ : first(ChangeStatus::written);
@@ -251,14 +252,14 @@ std::size_t WriteJob::unproven() const {
 
 /// This change failed, the planned ones are not tried, and what was written is not proven.
 Step WriteJob::give_up(std::size_t blamed, Error error) {
-  for (Change& change : changes_) {
+  for (RegisterChange& change : changes_) {
     if (change.status == ChangeStatus::written) {
       change.status = ChangeStatus::failed;
       change.after = std::nullopt;
     }
   }
   if (blamed < changes_.size()) {
-    Change& change = changes_[blamed];
+    RegisterChange& change = changes_[blamed];
     change.status = ChangeStatus::failed;
     change.after = std::nullopt;
     change.error = std::move(error);

@@ -20,7 +20,7 @@ namespace {
 ChangeResult written(const char* name) {
   ChangeResult result;
   result.servo.id = dronecan::NodeId(11);
-  fleet::Change change;
+  fleet::RegisterChange change;
   change.parameter = &test::parameter(name);
   change.before = 0;
   change.requested = 1;

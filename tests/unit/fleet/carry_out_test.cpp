@@ -644,7 +644,7 @@ TEST_CASE("frames that were never acknowledged may still take effect, and that i
   Rig rig;
   rig.plan.restart.reset();
   rig.wire.echo = Wire::Echo::by_hand;
-  Change change;
+  RegisterChange change;
   change.parameter = &parameter("reverse");
   change.requested = 1;
   change.before = 0;

@@ -965,9 +965,9 @@ TEST_CASE("the warnings of a plan are those of its result") {
 
 TEST_CASE("errors are told in the order in which they happened: registers, then the servo") {
   ChangeResult result;
-  Change change;
+  RegisterChange change;
   change.error = Error{Code::refused, "first"};
-  result.changes = {change, Change{}};
+  result.changes = {change, RegisterChange{}};
   result.error = Error{Code::not_back, "second"};
   const auto errors = result.errors();
   REQUIRE(errors.size() == 2);

@@ -52,7 +52,8 @@ constexpr const char* bus = R"(
 
 /// Afterwards the servo is another node with its next restart.
 void give(const Scene& scene, std::uint8_t id, std::int64_t static_node_id) {
-  const Change change{.parameter = &parameter("static_node_id"), .requested = static_node_id};
+  const RegisterChange change{.parameter = &parameter("static_node_id"),
+                              .requested = static_node_id};
   WriteJob job(scene.roster(), scene.identify(id), {change}, {});
   scene.run(job);
   REQUIRE(job.changes()[0].status == ChangeStatus::written);

@@ -13,8 +13,9 @@ using namespace blactl::fleet::test;
 
 namespace {
 
-Change change(const char* name, std::int64_t requested, std::optional<std::int64_t> before) {
-  Change change;
+RegisterChange change(const char* name, std::int64_t requested,
+                      std::optional<std::int64_t> before) {
+  RegisterChange change;
   change.parameter = &parameter(name);
   change.requested = requested;
   change.before = before;
@@ -24,7 +25,7 @@ Change change(const char* name, std::int64_t requested, std::optional<std::int64
 
 /// A servo that is identified, without a bus.
 struct Bench : Acquaintance {
-  [[nodiscard]] WriteJob job(std::vector<Change> changes) const {
+  [[nodiscard]] WriteJob job(std::vector<RegisterChange> changes) const {
     return {roster, servo, std::move(changes), {}};
   }
 
@@ -313,7 +314,7 @@ TEST_CASE("a servo that restarted behind the last write is written to again") {
 
 TEST_CASE("what was equal before a restart is not called unchanged after it") {
   Bench bench;
-  Change equal = change("reverse", 1, 1);
+  RegisterChange equal = change("reverse", 1, 1);
   equal.status = ChangeStatus::unchanged;
   WriteJob job = bench.job({equal});
   bench.restart();
@@ -384,7 +385,7 @@ TEST_CASE("nothing is called written before the servo has told that it ran on") 
   CHECK(bench.value(job, "0x45", 5) == "read 0x45");
   CHECK(bench.value(job, "0x45", 5) == "GetNodeInfo");
   const auto none_written = [&](Code code) {
-    for (const Change& each : job.changes()) {
+    for (const RegisterChange& each : job.changes()) {
       CHECK(each.status == ChangeStatus::failed);
       CHECK_FALSE(each.after);
     }
@@ -467,7 +468,7 @@ TEST_CASE("a servo that has only just started is asked again when its uptime tel
         CHECK(text(job.next({Outcome::Kind::woken, {}, {}})) == "GetNodeInfo");
       }
     }
-    for (const Change& each : job.changes()) {
+    for (const RegisterChange& each : job.changes()) {
       CHECK((each.status == ChangeStatus::failed || each.status == ChangeStatus::unchanged));
     }
     CHECK(job.changes()[0].error->code == Code::state);

@@ -45,7 +45,7 @@ struct GoalResult {
   Goal goal;
   Need need = Need::nothing;
   Servo servo;                                             ///< as it was identified
-  std::vector<Change> changes{};                           ///< all that is wished, by address
+  std::vector<RegisterChange> changes{};                   ///< all that is wished, by address
   std::optional<std::int64_t> mode_before{}, mode_after{}; ///< 0x37: the unit of 0x36
   std::vector<Warning> warnings{};
   bool is_done = false;

@@ -91,7 +91,7 @@ class ChangeJob final : public dronecan::Job {
   [[nodiscard]] std::optional<dronecan::NodeId> other_writer() const;
   void explain_interruption(Stage at);
   void blame_other_writer();
-  void blame_other_writer(Change& change) const;
+  void blame_other_writer(RegisterChange& change) const;
   void tell_reach();
   [[nodiscard]] std::optional<Error> check_commands(const Snapshot& now) const;
   void doubt_changes();

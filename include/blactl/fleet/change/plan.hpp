@@ -7,7 +7,7 @@
 #include "blactl/bla/values.hpp"
 #include "blactl/fleet/bus/read_job.hpp"
 #include "blactl/fleet/bus/snapshot.hpp"
-#include "blactl/fleet/change/change.hpp"
+#include "blactl/fleet/change/register_change.hpp"
 #include "blactl/fleet/change/restart_job.hpp"
 
 #include <cstddef>
@@ -42,7 +42,7 @@ struct Plan {
   Snapshot before;
   bool erase = false;
   bool keep_ids = false;
-  std::vector<Change> changes{};
+  std::vector<RegisterChange> changes{};
   std::optional<RestartKind> restart{};
   bool proves_rom = false;           ///< as Wanted
   std::vector<bla::Address> shown{}; ///< as Wanted::also_read

@@ -21,7 +21,7 @@ struct ChangeResult {
   Servo servo;          ///< as it was identified; its servo ID as it was read last
   bla::Values before{}; ///< what was read before anything was changed
   bla::Values now{};    ///< what is shown and no setting, as it was read again after the changes
-  std::vector<Change> changes{};
+  std::vector<RegisterChange> changes{};
   std::optional<std::int64_t> mode_before{}, mode_after{}; ///< as Plan
   std::vector<Warning> warnings{};                         ///< as Plan
   bool was_begun = false;      ///< by a job; else it is a plan that is shown

@@ -5,7 +5,7 @@
 #include "blactl/fleet/bus/registers.hpp"
 #include "blactl/fleet/bus/roster.hpp"
 #include "blactl/fleet/bus/run_proof.hpp"
-#include "blactl/fleet/change/change.hpp"
+#include "blactl/fleet/change/register_change.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -30,12 +30,12 @@ class WriteJob final : public dronecan::Job {
   };
 
   /// `roster` outlives the job.
-  WriteJob(const Roster& roster, Servo servo, std::vector<Change> changes, Patience patience,
-           Echo echo = Echo::is_checked);
+  WriteJob(const Roster& roster, Servo servo, std::vector<RegisterChange> changes,
+           Patience patience, Echo echo = Echo::is_checked);
 
   [[nodiscard]] dronecan::Step next(const dronecan::Outcome& outcome) override;
 
-  [[nodiscard]] const std::vector<Change>& changes() const { return changes_; }
+  [[nodiscard]] const std::vector<RegisterChange>& changes() const { return changes_; }
 
   /// A write has left, or may have.
   [[nodiscard]] bool has_written() const { return has_written_; }
@@ -65,7 +65,7 @@ class WriteJob final : public dronecan::Job {
 
   const Roster& roster_;
   Servo servo_;
-  std::vector<Change> changes_;
+  std::vector<RegisterChange> changes_;
   Patience patience_;
   Echo echo_;
   At at_ = At::begin;

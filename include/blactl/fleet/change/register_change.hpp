@@ -15,7 +15,7 @@ enum class ChangeStatus : std::uint8_t { planned, unchanged, written, failed, mi
 [[nodiscard]] std::string_view name(ChangeStatus status);
 
 /// Register numbers; `before` and `after` are empty where they are not known.
-struct Change {
+struct RegisterChange {
   const bla::Parameter* parameter = nullptr;
   std::int64_t requested = 0;
   std::optional<std::int64_t> before{}, after{};

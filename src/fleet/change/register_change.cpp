@@ -1,4 +1,4 @@
-#include "blactl/fleet/change/change.hpp"
+#include "blactl/fleet/change/register_change.hpp"
 
 namespace blactl::fleet {
 
