@@ -94,6 +94,15 @@ Result<std::unique_ptr<SimBus>> SimBus::open(const std::filesystem::path& socket
   return nobody != 0 ? absent(socket, nobody) : std::move(bus);
 }
 
+bool SimBus::is_served(const std::filesystem::path& socket) {
+  const auto attempt = connect_to(socket);
+  if (attempt && attempt->socket >= 0) {
+    close(attempt->socket);
+    return true;
+  }
+  return false;
+}
+
 Result<std::unique_ptr<SimBus>> SimBus::open_if_served(const std::filesystem::path& socket,
                                                        std::string name) {
   int nobody = 0;

@@ -1,5 +1,6 @@
 #include "cli/context.hpp"
 
+#include "blactl/can/simbus.hpp"
 #include "blactl/can/replay_texts.hpp"
 #include "blactl/fleet/bus/texts.hpp"
 #include "blactl/fleet/files/fleet_recording.hpp"
@@ -295,7 +296,12 @@ Result<fleet::History> Context::history(std::string_view command, state::Access 
   if (!snapshots) {
     return std::unexpected(std::move(snapshots.error()));
   }
-  auto proofs = open_store<state::ProofStore>(shared_.interface, access);
+  // A private simulation has the unique IDs of the one before it, and another ROM.
+  const auto name = parse_interface(shared_.interface);
+  const bool is_private = name && name->kind == InterfaceKind::simulator && name->rest.empty() &&
+                          !can::SimBus::is_served(can::default_socket_path());
+  auto proofs = is_private ? state::ProofStore::unshared()
+                           : open_store<state::ProofStore>(shared_.interface, access);
   if (!proofs) {
     return std::unexpected(std::move(proofs.error()));
   }

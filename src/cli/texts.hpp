@@ -288,12 +288,6 @@ inline constexpr Text set_mismatch{"mismatch", "不一致"};
 inline constexpr Text set_planned{"planned", "予定"};
 inline constexpr Text ids_not_kept{"the node IDs given now are not kept: {}",
                                    "割り当てるノード ID は保存されません: {}"};
-inline constexpr Text came_since{
-    "node {} has come to the bus since the servos were looked for: nothing was written",
-    "サーボの検索後にノード {} がバスに加わったため、書込みを行っていません"};
-inline constexpr Text units_wait_for_id{
-    "left out because they have no node ID: {} (to give them one: `blactl alloc --once`)",
-    "ノード ID のないユニット {} 台は対象外です (割当て: `blactl alloc --once`)"};
 inline constexpr Text would_save{
     "then SAVE: all of RAM goes to ROM, and the servo restarts",
     "続いて SAVE により RAM の全設定を ROM に保存し、サーボを再起動します"};
@@ -355,9 +349,6 @@ inline constexpr Text no_defaults_known{
     "the model of node {} is not known, nor are its defaults: all that can be changed is shown",
     "ノード {} の機種が不明で初期値も不明のため、変更可能な全項目を表示します"};
 inline constexpr Text set_not_written{"not written", "未書込み"};
-inline constexpr Text did_not_tell_ids{
-    "node {} did not say which IDs it has: a conflict with it cannot be ruled out",
-    "ノード {} の ID を読み出せないため、重複の有無は確認できません"};
 inline constexpr Text do_not_cut_supply{"do not cut the supply while servos save",
                                         "保存中は電源を切らないで下さい"};
 

@@ -146,6 +146,12 @@ Result<void> drop(const Database& database, const UniqueId& unique_id) {
   return Statement(database, "DELETE FROM allocations WHERE unique_id = ?").bind(unique_id).run();
 }
 
+Result<void> drop(const Database& database, NodeId node_id) {
+  return Statement(database, "DELETE FROM allocations WHERE node_id = ?")
+      .bind(node_id.value())
+      .run();
+}
+
 Error given_to(const UniqueId& holder, NodeId node_id) {
   const std::string other = hex(holder);
   return {Code::duplicate_node_id, say<texts::node_id_given>(node_id.value(), other),
@@ -167,7 +173,7 @@ Result<void> put_unless_taken(const Database& database, const AllocationStore::W
 /// In the transaction of put(): first all give up what they have, for somebody else may wish it.
 /// Who has what it wishes keeps it, and since when.
 Result<void> put_all(const Database& database, std::span<const AllocationStore::Wish> wishes,
-                     WallTime now) {
+                     WallTime now, AllocationStore::Former former) {
   std::vector<AllocationStore::Wish> changes;
   for (const auto& wish : wishes) {
     const auto known = entry_with(database, wish.unique_id);
@@ -181,6 +187,13 @@ Result<void> put_all(const Database& database, std::span<const AllocationStore::
       return dropped;
     }
     changes.push_back(wish);
+  }
+  for (const auto& wish : changes) {
+    auto yielded =
+        former == AllocationStore::Former::yields ? drop(database, wish.node_id) : Result<void>();
+    if (!yielded) {
+      return yielded;
+    }
   }
   for (const auto& wish : changes) {
     if (auto put = put_unless_taken(database, wish, now); !put) {
@@ -246,14 +259,19 @@ Result<NodeId> AllocationStore::assign(const UniqueId& unique_id, const Allocati
       [&](const Database& database) { return known_or_new(database, unique_id, choice, now); });
 }
 
-Result<void> AllocationStore::put(std::span<const Wish> wishes, WallTime now) {
+Result<void> AllocationStore::put(std::span<const Wish> wishes, WallTime now, Former former) {
   for (const Wish& wish : wishes) {
     if (!may_be_given(wish.node_id)) {
       return fail(Code::out_of_range, say<texts::node_id_not_dynamic>(wish.node_id.value()),
                   say<texts::node_id_not_dynamic_hint>());
     }
+    const auto same = std::ranges::find(wishes, wish.node_id, &Wish::node_id);
+    if (same->unique_id != wish.unique_id) {
+      return std::unexpected(given_to(same->unique_id, wish.node_id));
+    }
   }
-  return file_->transact([&](const Database& database) { return put_all(database, wishes, now); });
+  return file_->transact(
+      [&](const Database& database) { return put_all(database, wishes, now, former); });
 }
 
 Result<bool> AllocationStore::forget(const UniqueId& unique_id) {

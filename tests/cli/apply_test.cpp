@@ -450,7 +450,7 @@ TEST_CASE("apply warns of what SAVE keeps beside what the file names, and of wha
   const Result planned = fleet.apply(document, {"--dry-run"});
   CHECK(json(planned.out)["nodes"][0]["warnings"][0]["code"] == "unnamed_saved");
   const Result applied = fleet.run({"apply", fleet.file(document), "-y"});
-  CHECK(contains(applied.out, "angle_limit_cw is 70.0 deg in RAM and 179.9 deg in ROM"));
+  CHECK(contains(applied.err, "angle_limit_cw is 70.0 deg in RAM and 179.9 deg in ROM"));
 }
 
 TEST_CASE("what a proving restart takes from RAM is told") {

@@ -31,6 +31,10 @@ class SimBus final : public Bus {
   /// The same; null if nobody listens there: no simulator was started, or its process is gone.
   [[nodiscard]] static Result<std::unique_ptr<SimBus>>
   open_if_served(const std::filesystem::path& socket, std::string name);
+
+  /// A simulator listens there.
+  [[nodiscard]] static bool is_served(const std::filesystem::path& socket);
+
   SimBus(const SimBus&) = delete;
   SimBus& operator=(const SimBus&) = delete;
   ~SimBus() override;

@@ -97,10 +97,17 @@ class AllocationStore {
     dronecan::NodeId node_id;
   };
 
+  /// What becomes of a unit that has an ID which is wished for another one.
+  enum class Former : std::uint8_t {
+    keeps, ///< its ID: that is an error
+    yields ///< and is not in the table any more
+  };
+
   /// Gives units the IDs that the user wishes for them, in place of those that they had: all, or
   /// none of them. They may exchange theirs. Errors: out_of_range: not 1 to 125; duplicate_node_id:
-  /// another unit has it, or two wishes are for the same.
-  [[nodiscard]] Result<void> put(std::span<const Wish> wishes, WallTime now);
+  /// two wishes are for the same, or another unit has it and keeps it.
+  [[nodiscard]] Result<void> put(std::span<const Wish> wishes, WallTime now,
+                                 Former former = Former::keeps);
 
   /// Drops this unit; its ID is free. False: it was not in the table.
   [[nodiscard]] Result<bool> forget(const dronecan::UniqueId& unique_id);

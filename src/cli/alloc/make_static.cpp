@@ -1,168 +1,113 @@
 #include "cli/alloc/make_static.hpp"
 
-#include "blactl/base/hex.hpp"
-#include "blactl/fleet/bus/discovery.hpp"
-#include "blactl/fleet/bus/texts.hpp"
 #include "blactl/fleet/change/static_ids.hpp"
 
 #include "cli/alloc/texts.hpp"
 #include "cli/alloc/view.hpp"
-#include "cli/texts.hpp"
-#include "cli/writing_run.hpp"
+#include "cli/change/run.hpp"
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
+#include <set>
+#include <span>
 #include <utility>
 #include <vector>
 
 namespace blactl::cli {
 namespace {
 
-using dronecan::NodeId;
-using fleet::StaticIds;
-using fleet::UnitChange;
 using state::AllocationStore;
+using Wishes = std::vector<AllocationStore::Wish>;
 
-/// One run. Each step may end it, with errors in the report.
-class MakeStatic : WritingRun {
+/// Which IDs are made static, and for whom.
+class StaticWishes {
  public:
-  MakeStatic(const AllocOptions& options, Context& context, AllocationStore& table, Report& report)
-      : WritingRun(context, report), options_(options), table_(table) {}
+  StaticWishes(const AllocOptions& options, Wishes wishes, AllocationStore& table, Context& context)
+      : options_(options), wishes_(std::move(wishes)), table_(table), context_(context) {}
 
-  void run(std::vector<StaticIds::Wish> wishes) {
-    wishes_ = std::move(wishes);
-    if (!open("alloc --static", Recording::if_possible)) {
-      return;
+  [[nodiscard]] Goals find(const Whom& whom) {
+    if (options_.assign.empty()) {
+      auto wishes = wishes_for(whom);
+      if (!wishes) {
+        return {.errors = {std::move(wishes.error())}};
+      }
+      wishes_ = std::move(*wishes);
     }
-    StaticIds ids(context_.session(), context_.known(), table_,
-                  {.manner = manner(),
-                   .while_driven = context_.shared().while_driven,
-                   .stops_at_failure = true});
-    if (find(ids) && prepare(ids) && confirm(ids)) {
-      carry_out(ids);
+    auto found = fleet::static_goals(whom.roster, context_.known(), wishes_, not_let_in_);
+    const bool may_wait = !found.errors.empty();
+    return {
+        .goals = std::move(found.goals), .errors = std::move(found.errors), .may_wait = may_wait};
+  }
+
+  [[nodiscard]] Result<void> let_in() {
+    auto left = fleet::let_in(context_.session(), table_, wishes_);
+    if (!left) {
+      return std::unexpected(std::move(left.error()));
     }
+    not_let_in_ = std::move(*left);
+    return {};
   }
 
  private:
-  bool find(StaticIds& ids);
-  bool wish_for(const StaticIds& ids, std::span<const NodeId> nodes);
-  bool prepare(StaticIds& ids);
-  bool confirm(StaticIds& ids);
-  void carry_out(StaticIds& ids);
-  void conclude(const UnitChange& unit);
-
-  using WritingRun::stop;
-
-  /// What ends a session ends the command; anything else is a refusal.
-  bool stop(const std::vector<Error>& errors) {
-    for (const Error& error : errors) {
-      context_.signal() != 0 ? context_.broken(error, report_) : report_.fail(error);
+  [[nodiscard]] Result<Wishes> wishes_for(const Whom& whom) const {
+    if (options_.id && whom.selected.size() != 1) {
+      return fail(Code::usage, say<texts::alloc_several_for_id>(*options_.id, whom.selected.size()),
+                  say<texts::alloc_several_for_id_hint>());
     }
-    return errors.empty();
+    auto wishes = fleet::ids_as_they_are(whom.roster, whom.selected);
+    if (wishes && options_.id) {
+      wishes->front().node_id = dronecan::NodeId(static_cast<std::uint8_t>(*options_.id));
+    }
+    return wishes;
   }
 
   const AllocOptions& options_;
+  Wishes wishes_;
   AllocationStore& table_;
-  std::vector<StaticIds::Wish> wishes_;
+  Context& context_;
+  fleet::NotLetIn not_let_in_;
 };
 
-/// The servos that are meant, and everybody else: whoever has an ID may stand in the way.
-bool MakeStatic::find(StaticIds& ids) {
-  const auto targets = context_.targets();
-  if (!targets) {
-    return stop(targets.error());
-  }
-  auto identification = context_.identification();
-  identification.static_node_id = true;
-  std::vector<NodeId> nodes;
-  if (options_.assign.empty()) {
-    auto selection = choose(*targets, identification);
-    if (!selection || !stop(selection->errors)) {
-      return false;
+/// A line for every move, and for every servo that has its ID already.
+class Stream {
+ public:
+  explicit Stream(Context& context) : context_(context) {}
+
+  void moved(const fleet::IdMove& move) {
+    if (!move.is_temporary) {
+      moved_.insert(move.unique_id);
     }
-    nodes = std::move(selection->ids);
+    print(move);
   }
-  fleet::Discovery discovery(context_.session(), context_.known(), identification);
-  if (const auto found = discovery.find_all(fleet::bus_watch_time); !found) {
-    return broken(found.error());
-  }
-  if (!hear()) {
-    return false;
-  }
-  if (options_.assign.empty() && !wish_for(ids, nodes)) {
-    return false;
-  }
-  if (const auto there = ids.let_in(wishes_); !there) {
-    return broken(there.error());
-  }
-  return true;
-}
 
-bool MakeStatic::wish_for(const StaticIds& ids, std::span<const NodeId> nodes) {
-  if (options_.id && nodes.size() != 1) {
-    return stop({Code::usage, say<texts::alloc_several_for_id>(*options_.id, nodes.size()),
-                 say<texts::alloc_several_for_id_hint>(), std::nullopt});
+  void ended(std::span<const fleet::GoalResult> results) {
+    for (const fleet::GoalResult& result : results) {
+      const auto& unit = result.goal.unique_id;
+      if (result.is_done && unit && !moved_.contains(*unit)) {
+        print(StaticUnit{*unit, result.servo().id});
+      }
+    }
   }
-  auto wishes = ids.as_they_are(nodes);
-  if (!wishes) {
-    return stop(wishes.error());
-  }
-  wishes_ = std::move(*wishes);
-  if (options_.id) {
-    wishes_.front().node_id = NodeId(static_cast<std::uint8_t>(*options_.id));
-  }
-  return true;
-}
 
-bool MakeStatic::prepare(StaticIds& ids) {
-  if (!stop(ids.prepare(wishes_))) {
-    return false;
-  }
-  for (const fleet::IdMove& move : ids.change().temporary()) {
-    context_.reporter().note(say<texts::alloc_will_make_way>(move.from.value(), move.to.value()));
-  }
-  return true;
-}
+  /// Why stdout could not be written; empty: it could.
+  [[nodiscard]] const std::optional<Error>& failure() const { return failure_; }
 
-bool MakeStatic::confirm(StaticIds& ids) {
-  tell_others();
-  return WritingRun::confirm(ids.change().question());
-}
-
-void MakeStatic::carry_out(StaticIds& ids) {
-  const Reporter& reporter = context_.reporter();
-  reporter.note(say<texts::do_not_cut_supply>());
-  const auto errors = ids.change().carry_out([&](const fleet::IdMove& move) {
+ private:
+  void print(const auto& what) {
     const UnixTime time(context_.session().wall());
-    const auto printed = reporter.stream(reporter.format() == Format::json ? json_line(time, move)
-                                                                           : text_line(time, move));
+    const Reporter& reporter = context_.reporter();
+    const bool is_json = reporter.format() == Format::json;
+    const auto printed = reporter.stream(is_json ? json_line(time, what) : text_line(time, what));
     if (!printed) {
-      report_.fail(printed.error());
-    }
-  });
-  tell_newcomers();
-  (void)stop(errors);
-  std::vector<dronecan::UniqueId> done;
-  for (const UnitChange& unit : ids.change().units()) {
-    conclude(unit);
-    if (unit.is_done) {
-      done.push_back(unit.unique_id);
+      failure_ = printed.error();
     }
   }
-  end_record(done);
-  report_.counts = {{"made_static", done.size()}};
-}
 
-/// Servos whose turn did not come are as they were, and that is said.
-void MakeStatic::conclude(const UnitChange& unit) {
-  std::vector<Error> errors = unit.last ? unit.last->errors() : std::vector<Error>();
-  if (!unit.is_done && errors.empty()) {
-    errors.push_back({Code::state,
-                      say<texts::alloc_not_begun>(hex(unit.unique_id), unit.now.value()),
-                      say<texts::run_again_hint>(), unit.now.value()});
-  }
-  report_.targets.push_back({.errors = std::move(errors)});
-}
+  Context& context_;
+  std::set<dronecan::UniqueId> moved_;
+  std::optional<Error> failure_;
+};
 
 } // namespace
 
@@ -183,8 +128,21 @@ Report make_static(const AllocOptions& options, Context& context) {
     report.fail(table.error());
     return report;
   }
-  MakeStatic(options, context, *table, report).run(std::move(*wishes));
-  report.count_targets();
+  StaticWishes ids(options, std::move(*wishes), *table, context);
+  Stream stream(context);
+  report = change_servos({.command = "alloc --static",
+                          .search = Search::everybody,
+                          .needs_targets = options.assign.empty(),
+                          .find = [&](const Whom& whom) { return ids.find(whom); },
+                          .let_in = [&] { return ids.let_in(); },
+                          .moved = [&](const fleet::IdMove& move) { stream.moved(move); },
+                          .ended = [&](auto results) { stream.ended(results); },
+                          .stops_at_failure = true,
+                          .view = ResultView::moves},
+                         context);
+  if (stream.failure()) {
+    report.fail(*stream.failure());
+  }
   return report;
 }
 

@@ -67,11 +67,10 @@ inline constexpr Text alloc_event_assigned{"gets node ID {}, new in the table",
 inline constexpr Text alloc_event_kept{"gets node ID {}, as always", "ノード ID {} を再割当て"};
 inline constexpr Text alloc_event_made_static{"has node ID {} for good, proven after its restart",
                                               "ノード ID {} を固定 (再起動後に確認済み)"};
+inline constexpr Text alloc_event_static{"has node ID {} for good already, nothing was saved",
+                                         "ノード ID {} は固定済み (保存不要)"};
 inline constexpr Text alloc_event_makes_way{"makes way: node ID {} for the time being",
                                             "ID 入替えのため、一時的にノード ID {} に移動"};
-inline constexpr Text alloc_will_make_way{
-    "node {} makes way for the others: it is saved twice, node ID {} comes in between",
-    "ノード {} は ID 入替えのため一時的にノード ID {} に移動します (保存は 2 回)"};
 inline constexpr Text alloc_not_begun{
     "uid:{} still has node ID {}: what came before it did not go well",
     "uid:{} のノード ID は {} のままです (先の変更が完了しなかったため)"};

@@ -101,6 +101,14 @@ std::string text_line(UnixTime time, const fleet::IdMove& move) {
                                      : say<texts::alloc_event_made_static>(move.to.value()));
 }
 
+std::string json_line(UnixTime time, const StaticUnit& unit) {
+  return json_line(time, "kept", unit.unique_id, unit.node_id);
+}
+
+std::string text_line(UnixTime time, const StaticUnit& unit) {
+  return text_line(time, unit.unique_id, say<texts::alloc_event_static>(unit.node_id.value()));
+}
+
 std::string text(const AllocationService& service, const fleet::Roster& roster, const Page& page) {
   Table table({say<texts::alloc_column_node>(), say<texts::alloc_column_unit>(),
                say<texts::alloc_column_state>(), say<texts::alloc_column_servo>()});

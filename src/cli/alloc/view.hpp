@@ -24,6 +24,15 @@ namespace blactl::cli {
 [[nodiscard]] std::string json_line(UnixTime time, const fleet::IdMove& move);
 [[nodiscard]] std::string text_line(UnixTime time, const fleet::IdMove& move);
 
+/// A servo that has its node ID for good already.
+struct StaticUnit {
+  dronecan::UniqueId unique_id{};
+  dronecan::NodeId node_id;
+};
+
+[[nodiscard]] std::string json_line(UnixTime time, const StaticUnit& unit);
+[[nodiscard]] std::string text_line(UnixTime time, const StaticUnit& unit);
+
 /// Who has which ID, by node ID, and how many still ask.
 [[nodiscard]] std::string text(const fleet::AllocationService& service, const fleet::Roster& roster,
                                const Page& page);

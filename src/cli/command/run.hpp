@@ -3,7 +3,7 @@
 
 #include "blactl/fleet/motion/command_run.hpp"
 
-#include "cli/writing_run.hpp"
+#include "cli/change/writing_run.hpp"
 
 #include <cstdint>
 #include <optional>

@@ -5,8 +5,8 @@
 #include "blactl/fleet/files/fleet_file.hpp"
 #include "blactl/fleet/files/fleet_match.hpp"
 
-#include "cli/apply/run.hpp"
-#include "cli/apply/texts.hpp"
+#include "cli/change/run.hpp"
+#include "cli/change/texts.hpp"
 #include "cli/commands.hpp"
 #include "cli/settings_files.hpp"
 
@@ -91,20 +91,28 @@ constexpr Option apply_arguments[]{
      .store = into<&ApplyOptions::file>},
 };
 
-fleet::Goal goal(const fleet::FleetEntry& entry, dronecan::NodeId id, bool saves) {
-  return {.id = id, .name = entry.name, .set = entry.set, .saves = saves};
+/// How an entry is to be carried out.
+struct Manner {
+  std::function<bool(const fleet::FleetEntry& entry)> saves; ///< its settings go to ROM, too
+  bool trusts_ram = false; ///< equal RAM is enough: nothing is restarted to prove ROM
+};
+
+fleet::Goal goal(const fleet::FleetEntry& entry, dronecan::NodeId id, const Manner& manner) {
+  return {.id = id,
+          .name = entry.name,
+          .wanted = {.assignments = entry.set,
+                     .restart = manner.saves(entry) ? std::optional(fleet::RestartKind::save)
+                                                    : std::nullopt},
+          .evidence = manner.trusts_ram ? fleet::Evidence::ram : fleet::Evidence::restart};
 }
 
-/// Whether what an entry wishes is to be saved.
-using Saves = std::function<bool(const fleet::FleetEntry& entry)>;
-
 /// The servos that the entries mean.
-Goals match(const fleet::FleetFile& file, const Saves& saves, const Whom& whom,
+Goals match(const fleet::FleetFile& file, const Manner& manner, const Whom& whom,
             const bla::Profiles& profiles) {
   const auto matched = fleet::match(file, whom.roster, whom.targets, profiles);
   Goals goals{.others = fleet::unpaired(matched, whom.roster, profiles), .errors = matched.errors};
   for (const fleet::FleetMatch::Pair& pair : matched.pairs) {
-    goals.goals.push_back(goal(*pair.entry, pair.id, saves(*pair.entry)));
+    goals.goals.push_back(goal(*pair.entry, pair.id, manner));
   }
   for (const fleet::FleetEntry* entry : matched.missing) {
     goals.errors.push_back({Code::not_found,
@@ -120,12 +128,12 @@ Goals match(const fleet::FleetFile& file, const Saves& saves, const Whom& whom,
 }
 
 /// One entry for the servo that is meant.
-Goals give(const fleet::FleetEntry& entry, const ApplyOptions& options, const Whom& whom) {
+Goals give(const fleet::FleetEntry& entry, const Manner& manner, const Whom& whom) {
   if (whom.selected.size() != 1) {
     return {.errors = {{Code::usage, say<texts::apply_entry_one>(whom.selected.size()),
                         say<texts::apply_entry_one_hint>(), std::nullopt}}};
   }
-  return {.goals = {goal(entry, whom.selected.front(), !options.no_save)}};
+  return {.goals = {goal(entry, whom.selected.front(), manner)}};
 }
 
 /// The entry that --entry names.
@@ -156,7 +164,7 @@ std::optional<Error> refuse_beside_plan(const ApplyOptions& options) {
   return std::nullopt;
 }
 
-Report carry_out_plan(const ApplyOptions& options, ApplyRequest request, Context& context) {
+Report carry_out_plan(const ApplyOptions& options, ChangeRequest request, Context& context) {
   Report report{.interface = printable(context.shared().interface)};
   if (auto refused = refuse_beside_plan(options)) {
     report.fail(std::move(*refused));
@@ -167,36 +175,39 @@ Report carry_out_plan(const ApplyOptions& options, ApplyRequest request, Context
     report.fail(plan.error());
     return report;
   }
-  const auto saves = [&](const fleet::FleetEntry& entry) { return plan->step(entry).saves; };
-  request.find = [&](const Whom& whom) { return match(plan->fleet, saves, whom, context.known()); };
+  const Manner manner{
+      .saves = [&](const fleet::FleetEntry& entry) { return plan->step(entry).saves; },
+      .trusts_ram = plan->trusts_ram};
+  request.find = [&](const Whom& whom) {
+    return match(plan->fleet, manner, whom, context.known());
+  };
   request.refuse = [&](std::span<const fleet::GoalResult> results) {
     return fleet::stale(*plan, results);
   };
-  request.trusts_ram = plan->trusts_ram;
-  return apply_goals(request, context);
+  return change_servos(request, context);
 }
 
-Report apply_file(const ApplyOptions& options, ApplyRequest request, Context& context) {
+Report apply_file(const ApplyOptions& options, ChangeRequest request, Context& context) {
   Report report{.interface = printable(context.shared().interface)};
   const auto file = read_settings(options.file, context, report);
   if (!file) {
     return report;
   }
-  const auto saves = [&](const fleet::FleetEntry&) { return !options.no_save; };
-  request.find = [&](const Whom& whom) { return match(*file, saves, whom, context.known()); };
-  request.trusts_ram = options.trust_ram;
+  const Manner manner{.saves = [&](const fleet::FleetEntry&) { return !options.no_save; },
+                      .trusts_ram = options.trust_ram};
+  request.find = [&](const Whom& whom) { return match(*file, manner, whom, context.known()); };
   if (!options.entry.empty()) {
     const auto entry = find_entry(*file, options.entry);
     if (!entry) {
       report.fail(entry.error());
       return report;
     }
-    request.find = [&options, entry = *entry](const Whom& whom) {
-      return give(*entry, options, whom);
+    request.find = [&manner, entry = *entry](const Whom& whom) {
+      return give(*entry, manner, whom);
     };
     request.needs_targets = true;
   }
-  return apply_goals(request, context);
+  return change_servos(request, context);
 }
 
 /// What is read must not be written over.
@@ -217,13 +228,16 @@ Report execute(const ApplyOptions& options, Context& context) {
     report.fail(profiles.error());
     return report;
   }
-  const ApplyRequest request{.command = "apply",
-                             .times = options.times,
-                             .dry_run = options.dry_run,
-                             .fails_fast = options.fail_fast,
-                             .events = options.events,
-                             .recording = options.no_snapshot ? Recording::if_possible
-                                                              : Recording::required};
+  const ChangeRequest request{.command = "apply",
+                              .search = Search::everybody,
+                              .needs_targets = false,
+                              .times = options.times,
+                              .dry_run = options.dry_run,
+                              .fails_fast = options.fail_fast,
+                              .events = options.events,
+                              .recording = options.no_snapshot ? Recording::if_possible
+                                                               : Recording::required,
+                              .view = ResultView::entries};
   return options.is_plan ? carry_out_plan(options, request, context)
                          : apply_file(options, request, context);
 }

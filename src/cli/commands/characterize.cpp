@@ -4,11 +4,11 @@
 #include "blactl/fleet/bus/snapshots.hpp"
 #include "blactl/fleet/characterize/characterization.hpp"
 
+#include "cli/change/writing_run.hpp"
 #include "cli/characterize_texts.hpp"
 #include "cli/commands.hpp"
 #include "cli/output/characterize_view.hpp"
 #include "cli/texts.hpp"
-#include "cli/writing_run.hpp"
 
 #include <algorithm>
 #include <memory>

@@ -1,6 +1,7 @@
 // blactl diff: servos against a fleet file, or file against file.
 
 #include "blactl/fleet/bus/discovery.hpp"
+#include "blactl/fleet/bus/target_texts.hpp"
 #include "blactl/fleet/files/fleet_diff.hpp"
 #include "blactl/fleet/files/fleet_match.hpp"
 

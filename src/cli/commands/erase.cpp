@@ -1,6 +1,6 @@
 // blactl erase: RAM to factory defaults.
 
-#include "cli/change_servos.hpp"
+#include "cli/change/run.hpp"
 #include "cli/commands.hpp"
 
 namespace blactl::cli {
@@ -27,10 +27,10 @@ constexpr Option erase_options[]{
 
 Report execute(const EraseOptions& options, Context& context) {
   const auto restart = options.save ? std::optional(fleet::RestartKind::save) : std::nullopt;
-  return change_servos({.command = "erase",
-                        .wanted = {.erase = true, .keep_ids = options.keep_ids, .restart = restart},
-                        .times = options.times},
-                       context);
+  auto request =
+      request_for_all("erase", {.erase = true, .keep_ids = options.keep_ids, .restart = restart});
+  request.times = options.times;
+  return change_servos(request, context);
 }
 
 } // namespace

@@ -6,7 +6,7 @@
 #include "blactl/fleet/bus/snapshots.hpp"
 #include "blactl/fleet/bus/unreachable.hpp"
 
-#include "cli/change_servos.hpp"
+#include "cli/change/run.hpp"
 #include "cli/commands.hpp"
 #include "cli/output/node_head.hpp"
 #include "cli/output/pwm_view.hpp"
@@ -320,24 +320,27 @@ Report change(const PwmOptions& options, const bla::Profiles& profiles, Context&
     return report;
   }
   const auto drawn = std::make_shared<std::vector<std::pair<fleet::Servo, bla::Values>>>();
-  report = change_servos(
-      {.command = "pwm-config",
-       .wanted = {.assignments = std::move(*assignments),
-                  .restart = options.save ? std::optional(fleet::RestartKind::save) : std::nullopt,
-                  .also_read = bla::pwm_registers()},
-       .times = options.times,
-       .dry_run = options.dry_run,
-       .refuse = [&](std::size_t servos) { return refuse_several(options, servos); },
-       .view = ResultView::changes,
-       .json = write_changed,
-       .text = changed_text,
-       .results =
-           [drawn](std::span<const ChangeResult> results) {
-             for (const ChangeResult& result : results) {
-               drawn->emplace_back(result.servo, result.after());
-             }
-           }},
-      context);
+  auto request = request_for_all(
+      "pwm-config",
+      {.assignments = std::move(*assignments),
+       .restart = options.save ? std::optional(fleet::RestartKind::save) : std::nullopt,
+       .also_read = bla::pwm_registers()},
+      options.save ? fleet::Evidence::record : fleet::Evidence::none);
+  request.find = [&options, find = std::move(request.find)](const Whom& whom) {
+    auto refused = refuse_several(options, whom.selected.size());
+    return refused ? Goals{.errors = {std::move(*refused)}} : find(whom);
+  };
+  request.ended = [drawn](std::span<const fleet::GoalResult> results) {
+    for (const fleet::GoalResult& result : results) {
+      drawn->emplace_back(result.servo(), result.change.after());
+    }
+  };
+  request.times = options.times;
+  request.dry_run = options.dry_run;
+  request.view = ResultView::changes;
+  request.json = write_changed;
+  request.text = changed_text;
+  report = change_servos(request, context);
   std::ranges::for_each(report.errors, [&](Error& error) { tell_by_options(error, options); });
   for (Target& target : report.targets) {
     std::ranges::for_each(target.errors, [&](Error& error) { tell_by_options(error, options); });

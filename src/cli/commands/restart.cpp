@@ -1,6 +1,6 @@
 // blactl restart: RAM from ROM.
 
-#include "cli/change_servos.hpp"
+#include "cli/change/run.hpp"
 #include "cli/commands.hpp"
 
 namespace blactl::cli {
@@ -16,10 +16,9 @@ constexpr Option restart_options[]{
 };
 
 Report execute(const RestartOptions& options, Context& context) {
-  return change_servos({.command = "restart",
-                        .wanted = {.restart = fleet::RestartKind::restart},
-                        .times = options.times},
-                       context);
+  auto request = request_for_all("restart", {.restart = fleet::RestartKind::restart});
+  request.times = options.times;
+  return change_servos(request, context);
 }
 
 } // namespace

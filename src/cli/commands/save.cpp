@@ -1,6 +1,6 @@
 // blactl save: RAM to ROM.
 
-#include "cli/change_servos.hpp"
+#include "cli/change/run.hpp"
 #include "cli/commands.hpp"
 
 namespace blactl::cli {
@@ -16,9 +16,9 @@ constexpr Option save_options[]{
 };
 
 Report execute(const SaveOptions& options, Context& context) {
-  return change_servos(
-      {.command = "save", .wanted = {.restart = fleet::RestartKind::save}, .times = options.times},
-      context);
+  auto request = request_for_all("save", {.restart = fleet::RestartKind::save});
+  request.times = options.times;
+  return change_servos(request, context);
 }
 
 } // namespace

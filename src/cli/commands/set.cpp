@@ -2,7 +2,7 @@
 
 #include "blactl/bla/assignment.hpp"
 
-#include "cli/change_servos.hpp"
+#include "cli/change/run.hpp"
 #include "cli/commands.hpp"
 
 namespace blactl::cli {
@@ -54,12 +54,13 @@ Report execute(const SetOptions& options, Context& context) {
     return report;
   }
   const auto restart = options.save ? std::optional(fleet::RestartKind::save) : std::nullopt;
-  return change_servos({.command = "set",
-                        .wanted = {.assignments = std::move(*assignments), .restart = restart},
-                        .times = options.times,
-                        .dry_run = options.dry_run,
-                        .view = ResultView::changes},
-                       context);
+  auto request =
+      request_for_all("set", {.assignments = std::move(*assignments), .restart = restart},
+                      options.save ? fleet::Evidence::record : fleet::Evidence::none);
+  request.times = options.times;
+  request.dry_run = options.dry_run;
+  request.view = ResultView::changes;
+  return change_servos(request, context);
 }
 
 } // namespace

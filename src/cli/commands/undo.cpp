@@ -6,8 +6,8 @@
 #include "blactl/base/rfc3339.hpp"
 #include "blactl/state/snapshot_store.hpp"
 
-#include "cli/apply/run.hpp"
-#include "cli/apply/texts.hpp"
+#include "cli/change/run.hpp"
+#include "cli/change/texts.hpp"
 #include "cli/commands.hpp"
 #include "cli/output/snapshots_view.hpp"
 #include "cli/undo_texts.hpp"
@@ -144,17 +144,21 @@ void Undo::take_back(const fleet::Undoing& change, dronecan::NodeId id, Goals& g
   if (!change.goes_on) {
     numbers_[entry.unique_id] = entry.number;
   }
+  if (options_.no_save) {
+    wanted->restart.reset();
+  }
   goals.goals.push_back({.id = id,
-                         .set = std::move(wanted->assignments),
-                         .saves = wanted->restart.has_value() && !options_.no_save});
+                         .unique_id = entry.unique_id,
+                         .wanted = std::move(*wanted),
+                         .evidence = fleet::Evidence::restart});
 }
 
 void Undo::forget_what_never_was(std::span<const fleet::GoalResult> results) {
   std::vector<state::Settlement> settlements;
   for (const fleet::GoalResult& result : results) {
     const auto number =
-        result.servo.unique_id ? numbers_.find(*result.servo.unique_id) : numbers_.end();
-    const bool is_as_it_was = result.is_done && !result.saved && !result.has_differences();
+        result.servo().unique_id ? numbers_.find(*result.servo().unique_id) : numbers_.end();
+    const bool is_as_it_was = result.is_done && !result.change.saved && !result.has_differences();
     if (number != numbers_.end() && is_as_it_was && !options_.no_save) {
       settlements.push_back({number->second, state::ChangeEnd::never_begun});
     }
@@ -206,12 +210,20 @@ Report execute(const UndoOptions& options, Context& context) {
                         : last.error());
   }
   Undo undo(options, *store, context);
-  return apply_goals({.command = "undo",
-                      .find = [&](const Whom& whom) { return undo.find(whom); },
-                      .ended = [&](auto results) { undo.forget_what_never_was(results); },
-                      .times = options.times,
-                      .dry_run = options.dry_run},
-                     context);
+  return change_servos({.command = "undo",
+                        .search = Search::everybody,
+                        .needs_targets = false,
+                        .find = [&](const Whom& whom) { return undo.find(whom); },
+                        .ended =
+                            [&](auto results) {
+                              if (!options.dry_run) {
+                                undo.forget_what_never_was(results);
+                              }
+                            },
+                        .times = options.times,
+                        .dry_run = options.dry_run,
+                        .view = ResultView::entries},
+                       context);
 }
 
 } // namespace

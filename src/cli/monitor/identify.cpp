@@ -1,9 +1,5 @@
 #include "cli/monitor/identify.hpp"
 
-#include "blactl/fleet/bus/snapshots.hpp"
-#include "blactl/fleet/bus/unreachable.hpp"
-#include "blactl/fleet/change/guard.hpp"
-
 #include "cli/confirm.hpp"
 #include "cli/monitor/texts.hpp"
 #include "cli/output/progress_view.hpp"
@@ -27,7 +23,7 @@ bool Identify::begin(fleet::Targets targets) {
     targets.given = targets.all = true;
   }
   const bool is_agreed = open("monitor --identify", Recording::if_possible) && select(targets) &&
-                         plan() && hear() && check() && confirm() && look_again() && check();
+                         prepare() && confirm() && look_again();
   if (!is_agreed && report_.signal != 0) {
     hint_interruption(say<texts::nothing_written_hint>());
   }
@@ -44,73 +40,62 @@ bool Identify::select(const fleet::Targets& targets) {
   return errors_.empty();
 }
 
-bool Identify::plan() {
-  const fleet::Wanted wanted = fleet::wanted_to_let_go(context_.known());
-  auto snapshots = fleet::take_snapshots(
-      context_.session(), context_.known(), servos_, context_.identification(),
-      [&wanted](const fleet::Servo& servo) { return fleet::registers_needed(wanted, servo); },
-      fleet::proof_needed(wanted));
-  if (snapshots.broken) {
-    return broken(*snapshots.broken);
-  }
-  const fleet::Roster& roster = context_.session().roster();
-  for (fleet::Snapshot& snapshot : snapshots.servos) {
-    const dronecan::NodeId id = snapshot.servo.id;
-    auto plan = fleet::make_plan(wanted, std::move(snapshot), context_.known());
-    if (plan) {
-      plans_.push_back(std::move(*plan));
+/// What ends a session ends the command; anything else is a servo's.
+bool Identify::stop_at(std::vector<Error> errors) {
+  for (Error& error : errors) {
+    if (context_.signal() != 0 || !error.node_id) {
+      (void)broken(error);
     } else {
-      errors_.push_back(roster.is_doubled(id) ? fleet::doubled(roster, id)
-                                              : std::move(plan.error()));
+      errors_.push_back(std::move(error));
     }
   }
-  return errors_.empty();
+  return errors.empty();
 }
 
-bool Identify::check() {
-  const fleet::Session& session = context_.session();
-  for (const fleet::Plan& plan : plans_) {
-    if (auto error = fleet::forbidden(session.roster(), session.now(), plan,
-                                      context_.shared().while_driven)) {
-      errors_.push_back(std::move(*error));
-    }
+bool Identify::prepare() {
+  loan_.emplace(context_.session(), context_.known(), fleet::torque_off(context_.known()),
+                fleet::Change::Options{.manner = manner({}, false),
+                                       .while_driven = context_.shared().while_driven,
+                                       .searched = searched_at()});
+  if (!stop_at(loan_->prepare(servos_))) {
+    return false;
   }
-  return errors_.empty();
+  tell(loan_->change().notes());
+  tell_warnings(loan_->change().results());
+  return true;
 }
 
 bool Identify::confirm() {
   tell_others();
-  const std::string changes = fleet::question(plans_);
+  const std::string changes = loan_->change().question();
   return changes.empty() || WritingRun::confirm(changes + say<texts::identify_question>());
 }
 
 /// What was agreed to is not what another node has made of it meanwhile.
 bool Identify::look_again() {
-  release_.emplace(context_.session(), context_.known(), context_.identification());
-  auto errors = release_->look_again(plans_);
+  auto errors = loan_->look_again();
   if (context_.signal() != 0) {
     return broken(fleet::interrupted_by(context_.signal()));
   }
-  errors_ = std::move(errors);
-  return errors_.empty();
+  return stop_at(std::move(errors));
 }
 
 bool Identify::let_go() {
   context_.session().set_grace(fleet::Session::put_back_grace);
-  const auto carried_out = release_->let_go(plans_, manner({}, false));
+  const auto errors = loan_->take();
   const Reporter& reporter = context_.reporter();
-  for (const fleet::ChangeResult& result : carried_out.servos) {
-    for (const Error& error : result.errors()) {
+  for (const fleet::GoalResult& result : loan_->change().results()) {
+    for (const Error& error : result.errors) {
       if (error.code != Code::interrupted) { // that is told once
         reporter.note(error.message);
         errors_.push_back(error);
       }
     }
   }
-  if (carried_out.broken) {
-    return broken(*carried_out.broken);
+  if (!stop_at(errors)) {
+    return false;
   }
-  if (const auto loose = release_->loose(); !loose.empty()) {
+  if (const auto loose = loan_->taken(); !loose.empty()) {
     reporter.note(say<texts::identify_begun>(loose.size(), short_list(loose)));
     return true;
   }
@@ -131,13 +116,13 @@ std::vector<dronecan::NodeId> Identify::holding() const {
 }
 
 void Identify::end(bool may_ask) {
-  if (!release_ || release_->servos().empty()) {
+  if (!loan_ || loan_->servos().empty()) {
     return;
   }
   if (!warn(may_ask)) {
-    return conclude(release_->give_up());
+    return conclude(loan_->give_up());
   }
-  conclude(release_->give_back(context_.shared().while_driven, history()));
+  conclude(loan_->give_back());
 }
 
 /// False: somebody has pressed Ctrl-C for the second time.
@@ -145,7 +130,7 @@ bool Identify::warn(bool may_ask) {
   fleet::Session& session = context_.session();
   const Reporter& reporter = context_.reporter();
   const bool was_interrupted = session.signal() != 0;
-  const auto loose = release_->servos();
+  const auto loose = loan_->servos();
   const std::string text = say<texts::identify_back>(loose.size(), short_list(loose));
   if (may_ask && !was_interrupted && Reporter::has_terminal() && !context_.shared().yes) {
     const auto read = wait_for_enter(text + say<texts::identify_enter>(), context_);

@@ -2,9 +2,9 @@
 // monitor --identify: servos without torque, so that a hand can turn the one that is looked for.
 
 #include "blactl/fleet/bus/target.hpp"
-#include "blactl/fleet/change/torque_release.hpp"
+#include "blactl/fleet/change/loan.hpp"
 
-#include "cli/writing_run.hpp"
+#include "cli/change/writing_run.hpp"
 
 #include <optional>
 #include <vector>
@@ -32,8 +32,8 @@ class Identify : WritingRun {
 
  private:
   bool select(const fleet::Targets& targets);
-  bool plan();
-  bool check();
+  bool prepare();
+  bool stop_at(std::vector<Error> errors);
   bool confirm();
   bool look_again();
   bool let_go();
@@ -41,8 +41,7 @@ class Identify : WritingRun {
   void conclude(fleet::GivenBack given);
 
   std::vector<dronecan::NodeId> servos_;
-  std::vector<fleet::Plan> plans_;
-  std::optional<fleet::TorqueRelease> release_; ///< once something may have been written
+  std::optional<fleet::Loan> loan_;
   std::vector<Error> errors_;
 };
 

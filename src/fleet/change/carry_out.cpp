@@ -122,7 +122,11 @@ CarriedOut not_begun(std::span<const Plan> plans, Error reason) {
 
 CarriedOut change(Session& session, const bla::Profiles& profiles, std::span<const Plan> plans,
                   const Manner& manner) {
-  FormerIds table(session, ids_of(plans), manner.allocations, manner.not_kept);
+  FormerIds table(session, ids_of(plans), manner.allocations, [&](const Error& reason) {
+    if (manner.not_kept) { // no reason to leave a servo without its node ID
+      [[maybe_unused]] const auto refused = manner.not_kept(reason);
+    }
+  });
   dronecan::Allocator allocator(session.node(), table);
   if (manner.may_allocate && session.roster().allocators().empty()) {
     session.attach(allocator);

@@ -4,6 +4,7 @@
 #include "blactl/fleet/change/restart_texts.hpp"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <utility>
 
@@ -116,7 +117,14 @@ ChangeJob::Stage ChangeJob::after_write() const {
 }
 
 ChangeJob::Stage ChangeJob::to_show() const {
-  return std::ranges::all_of(plan_.shown, bla::is_setting) ? Stage::end : Stage::read_shown;
+  return brings_unread_rom() || !std::ranges::all_of(plan_.shown, bla::is_setting)
+             ? Stage::read_shown
+             : Stage::end;
+}
+
+/// A mere restart: its ROM may hold another servo ID, and nobody reads it.
+bool ChangeJob::brings_unread_rom() const {
+  return plan_.restart == RestartKind::restart && !plan_.proves_rom;
 }
 
 std::unique_ptr<RestartJob> ChangeJob::restart() const {
@@ -278,9 +286,10 @@ ChangeJob::Stage ChangeJob::conclude_restart() {
   if (result_.error && restart_->is_sent() && !restart_->has_run_on()) {
     doubt_changes();
   }
-  const bool looks = *plan_.restart == RestartKind::save || plan_.proves_rom;
-  const bool reads = looks && !result_.error && result_.returned;
-  return reads ? Stage::read_back : Stage::end;
+  if (result_.error || !result_.returned) {
+    return Stage::end;
+  }
+  return brings_unread_rom() ? to_show() : Stage::read_back;
 }
 
 /// Before SAVE: RAM must still hold what is to be saved.
@@ -348,6 +357,10 @@ std::optional<RomReading> ChangeJob::rom_reading(const Snapshot& now) const {
 /// Nothing rests on it: what cannot be read is not shown.
 void ChangeJob::conclude_read_shown() {
   result_.now = read_->snapshot().values();
+  if (brings_unread_rom()) {
+    result_.servo.servo_id = bla::find(result_.now, bla::address::servo_id);
+    result_.now.erase(bla::address::servo_id);
+  }
 }
 
 void ChangeJob::take_reading(const Snapshot& now) {
@@ -385,6 +398,10 @@ std::unique_ptr<ReadJob> ChangeJob::read_shown() {
       [this](const Servo& servo) -> Result<std::vector<const bla::Parameter*>> {
         auto parameters = servo.identity.registers(plan_.shown);
         std::erase_if(parameters, [](const auto* each) { return bla::is_setting(each->address); });
+        if (brings_unread_rom()) {
+          std::ranges::copy(servo.identity.registers(std::array{bla::address::servo_id}),
+                            std::back_inserter(parameters));
+        }
         return parameters;
       });
 }

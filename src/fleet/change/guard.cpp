@@ -1,9 +1,12 @@
 #include "blactl/fleet/change/guard.hpp"
 
 #include "blactl/fleet/bus/conflict_texts.hpp"
+#include "blactl/fleet/bus/discovery.hpp"
 #include "blactl/fleet/bus/target_texts.hpp"
 #include "blactl/fleet/bus/texts.hpp"
 #include "blactl/fleet/bus/unreachable.hpp"
+
+#include "fleet/change/change_texts.hpp"
 
 namespace blactl::fleet {
 
@@ -35,6 +38,25 @@ std::optional<Error> forbidden(const Roster& roster, Time now, const Plan& plan,
                  say<texts::node_id_is_ours_hint>(), id};
   }
   return std::nullopt;
+}
+
+OthersHeard hear_others(Session& session, std::optional<Time> searched) {
+  OthersHeard heard;
+  if (const auto lived = hear_bus(session); !lived) {
+    heard.errors.push_back(lived.error());
+    return heard;
+  }
+  const Roster& roster = session.roster();
+  for (const auto& [id, member] : roster.members()) {
+    if (searched && member.first_heard > *searched && member.sends_actuator_status()) {
+      heard.errors.push_back({Code::state, say<texts::came_since>(id.value()),
+                              say<texts::run_again_hint>(), id.value()});
+    }
+  }
+  if (searched && !roster.pending().empty()) {
+    heard.notes.push_back(say<texts::units_wait_for_id>(roster.pending().size()));
+  }
+  return heard;
 }
 
 } // namespace blactl::fleet

@@ -15,6 +15,12 @@ bool moves(const dronecan::UniqueId& unit, std::span<const Wish> wishes) {
 
 } // namespace
 
+bool is_here(const Roster& roster, const dronecan::UniqueId& unit) {
+  return std::ranges::any_of(roster.members(), [&](const auto& entry) {
+    return entry.second.is_unit(unit) && roster.heard(entry.first);
+  });
+}
+
 std::vector<IdHolder> holders(const Roster& roster, std::span<const Wish> wishes) {
   std::vector<IdHolder> units;
   for (const auto& [id, member] : roster.members()) {
@@ -44,21 +50,26 @@ std::optional<dronecan::NodeId> static_place(const Roster& roster,
   return std::nullopt;
 }
 
-Result<state::NodeIds> promised(const Roster& roster, const state::AllocationStore& table,
-                                std::span<const Wish> wishes) {
-  state::NodeIds ids;
-  ids.set(roster.local().value());
+Result<TakenIds> taken_ids(const Roster& roster, const state::AllocationStore& table,
+                           std::span<const Wish> wishes) {
+  TakenIds ids;
+  ids.taken.set(roster.local().value());
   for (const auto& [id, member] : roster.members()) {
-    ids.set(id.value(), roster.heard(id) && !member.info);
+    ids.taken.set(id.value(), roster.heard(id) && !member.info);
   }
   const auto entries = table.entries();
   if (!entries) {
     return std::unexpected(entries.error());
   }
   for (const state::AllocationEntry& entry : *entries) {
-    if (!moves(entry.unique_id, wishes) && !roster.member(entry.node_id).is_unit(entry.unique_id) &&
-        !static_place(roster, entry.unique_id)) {
-      ids.set(entry.node_id.value());
+    if (moves(entry.unique_id, wishes) || is_here(roster, entry.unique_id)) {
+      continue; // where it is, holders() tells
+    }
+    if (roster.is_pending(entry.unique_id)) { // it may get its ID at any moment
+      ids.taken.set(entry.node_id.value());
+    } else {
+      ids.promised.set(entry.node_id.value());
+      ids.absent.push_back(entry);
     }
   }
   return ids;

@@ -12,6 +12,9 @@
 
 namespace blactl::fleet {
 
+/// This unit is heard under some node ID.
+[[nodiscard]] bool is_here(const Roster& roster, const dronecan::UniqueId& unit);
+
 /// Everybody who told its unique ID, each once. A unit holds its ID, and what it would get by its
 /// 0x46; one for which another is wished gives that up: what its ROM holds nobody knows, so its
 /// move is not spared.
@@ -23,10 +26,15 @@ namespace blactl::fleet {
 [[nodiscard]] std::optional<dronecan::NodeId> static_place(const Roster& roster,
                                                            const dronecan::UniqueId& unique_id);
 
-/// What those have that did not tell their unique ID, we ourselves, and units of the table that are
-/// not here, or that may ask for it. Errors: of the table.
-[[nodiscard]] Result<state::NodeIds> promised(const Roster& roster,
-                                              const state::AllocationStore& table,
-                                              std::span<const state::AllocationStore::Wish> wishes);
+/// The node IDs that no plan may take, and those that it may.
+struct TakenIds {
+  state::NodeIds taken;    ///< of nodes that did not say who they are, waiting units, and our own
+  state::NodeIds promised; ///< of units in the table that are not on this bus
+  std::vector<state::AllocationEntry> absent{}; ///< those units
+};
+
+/// Whose the IDs are for which no unit of `wishes` is the holder. Errors: of the table.
+[[nodiscard]] Result<TakenIds> taken_ids(const Roster& roster, const state::AllocationStore& table,
+                                         std::span<const state::AllocationStore::Wish> wishes);
 
 } // namespace blactl::fleet

@@ -103,8 +103,8 @@ class WishCheck {
 class IdSchedule {
  public:
   IdSchedule(std::span<const IdHolder> units, std::span<const Wish> wishes,
-             const state::NodeIds& taken)
-      : never_temporary_(taken) {
+             const state::NodeIds& taken, const state::NodeIds& promised)
+      : never_temporary_(taken), rather_not_(promised) {
     for (const IdHolder& unit : units) {
       const auto wish = std::ranges::find(wishes, unit.unique_id, &Wish::unique_id);
       units_.push_back({unit, wish == wishes.end() ? std::nullopt : std::optional(wish->node_id)});
@@ -198,8 +198,14 @@ class IdSchedule {
     return best;
   }
 
-  /// The highest ID that this unit can have for a while; 0: none.
+  /// The highest ID that this unit can have for a while, best one that is promised to nobody;
+  /// 0: none.
   [[nodiscard]] NodeId highest_free(const Unit& unit, const state::NodeIds& closed) const {
+    const NodeId unpromised = highest_open(unit, closed | rather_not_);
+    return unpromised.is_unicast() ? unpromised : highest_open(unit, closed);
+  }
+
+  [[nodiscard]] NodeId highest_open(const Unit& unit, const state::NodeIds& closed) const {
     for (std::uint8_t id = state::last_dynamic_id.value(); id > 0; --id) {
       const bool is_free = !closed[id] && std::ranges::none_of(units_, [&](const Unit& other) {
         return &other != &unit && holds(other.now, NodeId(id));
@@ -220,17 +226,19 @@ class IdSchedule {
 
   std::vector<Unit> units_;
   state::NodeIds never_temporary_; ///< others have them, or they are wished
+  state::NodeIds rather_not_;      ///< promised to units that are away
 };
 
 } // namespace
 
 std::expected<IdRounds, std::vector<Error>> plan_id_moves(std::span<const IdHolder> units,
                                                           std::span<const Wish> wishes,
-                                                          const state::NodeIds& taken) {
+                                                          const state::NodeIds& taken,
+                                                          const state::NodeIds& promised) {
   if (auto errors = WishCheck(units, wishes, taken).all(); !errors.empty()) {
     return std::unexpected(std::move(errors));
   }
-  auto rounds = IdSchedule(units, wishes, taken).rounds();
+  auto rounds = IdSchedule(units, wishes, taken, promised).rounds();
   if (!rounds) {
     return std::unexpected(std::vector{std::move(rounds.error())});
   }

@@ -1,5 +1,7 @@
 #include "blactl/fleet/change/result.hpp"
 
+#include <algorithm>
+
 namespace blactl::fleet {
 
 std::vector<Error> ChangeResult::errors() const {
@@ -28,6 +30,11 @@ bla::Values ChangeResult::after() const {
     }
   }
   return values;
+}
+
+bool GoalResult::has_differences() const {
+  return std::ranges::any_of(
+      change.changes, [](const RegisterChange& each) { return each.before != each.requested; });
 }
 
 ChangeResult as_planned(const Plan& plan) {

@@ -156,19 +156,19 @@ std::string need_changed(Need now) {
 
 /// Empty: it is as it was.
 std::string what_changed(const SavedStep& step, const GoalResult& result) {
-  const bla::Identity& identity = result.servo.identity;
+  const bla::Identity& identity = result.servo().identity;
   std::string out;
   if (identity.model() != step.model ||
       identity.readings().firmware_version != step.firmware_version) {
     out = say<texts::plan_other_unit>(printable(step.model), step.firmware_version);
   }
-  for (const RegisterChange& change : result.changes) {
+  for (const RegisterChange& change : result.change.changes) {
     const auto before = bla::find(step.before, change.parameter->address);
     if (before == change.before) {
       continue;
     }
     const auto shown = [&](std::optional<std::int64_t> raw) {
-      return raw ? bla::display(*change.parameter, *raw, result.mode_before) : "?";
+      return raw ? bla::display(*change.parameter, *raw, result.change.mode_before) : "?";
     };
     out += (out.empty() ? "" : ", ") +
            say<texts::plan_register>(change.parameter->name, shown(before), shown(change.before));
@@ -195,9 +195,9 @@ std::vector<Error> stale(const SavedPlan& plan, std::span<const GoalResult> resu
   std::vector<Error> errors;
   for (const GoalResult& result : results) {
     const auto entry = std::ranges::find_if(plan.fleet.servos, [&](const FleetEntry& each) {
-      return each.match.unique_id == result.servo.unique_id;
+      return each.match.unique_id == result.servo().unique_id;
     });
-    const std::uint8_t id = result.servo.id.value();
+    const std::uint8_t id = result.servo().id.value();
     const std::string changed =
         entry != plan.fleet.servos.end() ? what_changed(plan.step(*entry), result) : std::string();
     if (!changed.empty()) {

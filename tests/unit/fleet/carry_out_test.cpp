@@ -261,7 +261,10 @@ TEST_CASE("an ID that the allocation table does not take is told of once, whenev
   write(scene, 12, "static_node_id=0");
   Manner manner = allocating;
   std::vector<Code> told;
-  manner.not_kept = [&](const Error& error) { told.push_back(error.code); };
+  manner.not_kept = [&](const Error& error) -> std::optional<Error> {
+    told.push_back(error.code);
+    return std::nullopt;
+  };
   SECTION("it cannot be opened") {
     manner.allocations = []() -> Result<state::AllocationStore> {
       return fail(Code::permission, "no table");

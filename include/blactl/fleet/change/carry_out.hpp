@@ -34,12 +34,15 @@ struct Manner {
   /// Opens the allocation table, when a servo asks for an ID. Where it cannot be used, or this is
   /// empty, each gets the ID that it had, and that is not kept.
   std::function<Result<state::AllocationStore>()> allocations{};
-  std::function<void(const Error&)> not_kept{};    ///< told once, why; may be empty
+  /// Called once, why the table cannot be used; the reason why nothing is changed then. Empty: all
+  /// is, all the same.
+  std::function<std::optional<Error>(const Error&)> not_kept{};
   std::function<void(const Progress&)> progress{}; ///< called once a second; may be empty
   StageHook entered{};                             ///< called for each servo; may be empty
   History* history = nullptr;                      ///< records it; null: nothing is kept
-  /// Told why it cannot be recorded; gives why nothing is changed then. Empty: all is, all the
-  /// same.
+  History* proofs = nullptr; ///< knows what was proven of ROM before; null: nothing is known
+  /// Called with why it cannot be recorded; the reason why nothing is changed then. Empty: all is,
+  /// all the same.
   std::function<std::optional<Error>(const Error&)> not_recorded{};
   /// Told why it is not recorded how that ended; may be empty.
   std::function<void(const Error&)> end_not_recorded{};

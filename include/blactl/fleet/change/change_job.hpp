@@ -101,6 +101,7 @@ class ChangeJob final : public dronecan::Job {
   [[nodiscard]] Stage after_erase() const;
   [[nodiscard]] Stage after_write() const;
   [[nodiscard]] Stage to_show() const;
+  [[nodiscard]] bool brings_unread_rom() const;
   [[nodiscard]] std::unique_ptr<ReadJob> read_configuration();
   [[nodiscard]] std::unique_ptr<ReadJob> read_shown();
   void take_reading(const Snapshot& now);

@@ -42,16 +42,17 @@ using IdRounds = std::vector<std::vector<IdMove>>;
 
 /// The least moves that give each unit the static node ID that is wished for it: one a unit, none
 /// for a unit that has it already, one more for each cycle of units that wait for each other. That
-/// one leads to the highest free ID, which nobody wishes.
+/// one leads to the highest free ID, which nobody wishes, and none of `promised` if it can.
 ///
 /// `units`: all that are on the bus and tell their IDs, each once; who is not wished for stays.
 /// `wishes`: 1 to 125; 0, dynamic, is none: which ID an allocator will give, no plan can know.
-/// `taken`: what others have: further nodes, we ourselves, units to which the allocation table has
-/// promised an ID and for which nothing is wished.
+/// `taken`: what others have: further nodes, we ourselves.
+/// `promised`: what the allocation table keeps for units that are not on this bus. A wish is
+/// stronger.
 /// Errors, all of them: not_found (no such unit), out_of_range, usage (two wishes for one ID or one
 /// unit), duplicate_node_id (who has it stays); else table_full (a cycle, and no free ID).
 [[nodiscard]] std::expected<IdRounds, std::vector<Error>>
 plan_id_moves(std::span<const IdHolder> units, std::span<const state::AllocationStore::Wish> wishes,
-              const state::NodeIds& taken);
+              const state::NodeIds& taken, const state::NodeIds& promised = {});
 
 } // namespace blactl::fleet

@@ -1,6 +1,7 @@
 #pragma once
 // How the change of one servo ended.
 
+#include "blactl/fleet/change/goal.hpp"
 #include "blactl/fleet/change/plan.hpp"
 
 #include <chrono>
@@ -47,6 +48,22 @@ struct ChangeResult {
   /// What it holds now, as far as is known; of a plan, what it would hold. What changes by itself
   /// or by the changes is known only where it was read again.
   [[nodiscard]] bla::Values after() const;
+};
+
+/// What came of one goal, in however many rounds: exit status, text and JSON derive from it.
+struct GoalResult {
+  Goal goal;
+  Need need = Need::nothing;
+  /// As it is planned; then what came of it, from what the servo held at first to what it holds.
+  ChangeResult change{};
+  bool is_done = false;             ///< it holds the goal, proven as far as that is asked
+  std::optional<bool> rom_proven{}; ///< empty: that was not asked
+  std::vector<Error> errors{};
+
+  [[nodiscard]] const Servo& servo() const { return change.servo; }
+
+  /// A register held something else than the goal names.
+  [[nodiscard]] bool has_differences() const;
 };
 
 /// The result of a plan that is only shown (--dry-run).

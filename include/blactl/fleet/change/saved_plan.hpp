@@ -5,7 +5,7 @@
 #include "blactl/base/error.hpp"
 #include "blactl/bla/profile.hpp"
 #include "blactl/bla/values.hpp"
-#include "blactl/fleet/change/apply.hpp"
+#include "blactl/fleet/change/change.hpp"
 #include "blactl/fleet/files/fleet_file.hpp"
 
 #include <cstdint>
@@ -42,7 +42,7 @@ struct SavedPlan {
                                                 const bla::Profiles& profiles);
 
 /// What has changed since: stale_plan for every servo of which that is so. `results` are those of
-/// Apply::prepare() for entries of the plan.
+/// Change::prepare() for entries of the plan.
 [[nodiscard]] std::vector<Error> stale(const SavedPlan& plan, std::span<const GoalResult> results);
 
 } // namespace blactl::fleet

@@ -11,11 +11,22 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace blactl::cli {
 
-/// What a command tells of each servo: its single registers (`set`), or the servo as a whole.
-enum class ResultView : unsigned char { changes, servos };
+/// How a command shows the results.
+enum class ResultView : std::uint8_t {
+  changes, ///< the single registers of each servo (`set`)
+  servos,  ///< each servo as a whole (`save`)
+  entries, ///< each entry of a fleet file (`apply`)
+  moves    ///< nothing: every move of a node ID was a line of a stream (`alloc --static`)
+};
+
+/// The counts of a report, beside those of its servos.
+[[nodiscard]] std::vector<std::pair<std::string, std::uint64_t>>
+counts(ResultView view, std::span<const fleet::GoalResult> results, bool is_plan);
 
 /// "0.525"
 [[nodiscard]] std::string seconds_text(Duration duration);

@@ -1,6 +1,6 @@
 // Servos that are let go get back what they held, or it is said why not.
 
-#include "blactl/fleet/change/torque_release.hpp"
+#include "blactl/fleet/change/loan.hpp"
 
 #include "support.hpp"
 
@@ -30,18 +30,19 @@ std::string three(std::string_view more = "") {
 
 /// A scene in which all three are let go.
 struct Loose {
-  explicit Loose(std::string_view more = "") : scene(three(more)) {
+  explicit Loose(std::string_view more = "", Change::Options options = {})
+      : scene(three(more)), loan(*scene.session, profiles(), torque_off(profiles()), options) {
     scene.live(3s);
-    const auto plans = plans_for(scene, wanted_to_let_go(profiles()), {11, 12, 13});
-    CHECK(release.look_again(plans).empty());
-    CHECK(question(plans).find("node 11: torque_output") != std::string::npos);
-    CHECK(question(plans).find("node 13") == std::string::npos);
-    const auto carried_out = release.let_go(plans, {});
-    for (const ChangeResult& result : carried_out.servos) {
-      CHECK(result.is_done());
+    REQUIRE(loan.prepare(std::vector{NodeId(11), NodeId(12), NodeId(13)}).empty());
+    CHECK(loan.look_again().empty());
+    CHECK(loan.change().question().find("node 11: torque_output") != std::string::npos);
+    CHECK(loan.change().question().find("node 13") == std::string::npos);
+    CHECK(loan.take().empty());
+    for (const GoalResult& result : loan.change().results()) {
+      CHECK(result.is_done);
     }
     CHECK(outputs() == std::vector<std::int64_t>{1, 1, 1});
-    CHECK(release.loose() == std::vector{NodeId(11), NodeId(12)});
+    CHECK(loan.taken() == std::vector{NodeId(11), NodeId(12)});
   }
 
   /// Node 40 sets 0x20 of this servo, heard or not.
@@ -65,6 +66,14 @@ struct Loose {
                             .at = scene.session->now()});
   }
 
+  /// Node 30 says something to all.
+  void hear_message(dronecan::DataType type, std::vector<std::uint8_t> payload) const {
+    scene.roster().receive(
+        {.header = {.kind = dronecan::Kind::message, .data_type_id = type.id, .source = NodeId(30)},
+         .payload = payload,
+         .at = scene.session->now()});
+  }
+
   [[nodiscard]] std::int64_t output(std::uint8_t id) const {
     return scene.read(id, registers({"torque_output"}))
         .raw(bla::address::torque_output)
@@ -76,7 +85,7 @@ struct Loose {
   }
 
   Scene scene;
-  TorqueRelease release{*scene.session, profiles(), {}};
+  Loan loan;
 };
 
 std::vector<Code> codes(const GivenBack& given) {
@@ -91,13 +100,13 @@ std::vector<Code> codes(const GivenBack& given) {
 
 TEST_CASE("each servo gets back what it held, and who was off is not touched") {
   Loose loose;
-  CHECK(loose.release.servos() == std::vector{NodeId(11), NodeId(12)});
+  CHECK(loose.loan.servos() == std::vector{NodeId(11), NodeId(12)});
   const std::size_t asked = loose.scene.requests(GetSet::type, 13);
-  const auto given = loose.release.give_back(false, nullptr);
+  const auto given = loose.loan.give_back();
   CHECK(given.errors.empty());
   CHECK(given.notes.empty());
   CHECK(given.servos.size() == 2);
-  CHECK(loose.release.servos().empty());
+  CHECK(loose.loan.servos().empty());
   CHECK(loose.scene.requests(GetSet::type, 13) == asked + 1); // a read
   CHECK(loose.outputs() == std::vector<std::int64_t>{0, 2, 1});
 }
@@ -112,7 +121,7 @@ std::string restarts(int serial_number) {
 TEST_CASE("a servo that restarted is left to its ROM, and that is an error if it differs") {
   Loose same(restarts(1));
   same.scene.live(8s);
-  const auto given = same.release.give_back(false, nullptr);
+  const auto given = same.loan.give_back();
   CHECK(given.errors.empty());
   REQUIRE(given.notes.size() == 1);
   CHECK(given.notes[0] == "node 11 restarted meanwhile: torque_output is on now");
@@ -122,7 +131,7 @@ TEST_CASE("a servo that restarted is left to its ROM, and that is an error if it
   for (const int serial_number : {2, 3}) { // brake before, off before: on by their ROM
     Loose other(restarts(serial_number));
     other.scene.live(8s);
-    const auto differs = other.release.give_back(false, nullptr);
+    const auto differs = other.loan.give_back();
     REQUIRE(codes(differs) == std::vector{Code::state});
     CHECK(differs.errors[0].message ==
           fmt::format("node {} restarted meanwhile: torque_output is on now, and was {} before",
@@ -136,7 +145,7 @@ TEST_CASE("what somebody else has set meanwhile stays, and is told as it is") {
   Loose unheard;
   unheard.set_by_another(11, there, false);
   unheard.set_by_another(12, there, false);
-  const auto given = unheard.release.give_back(false, nullptr);
+  const auto given = unheard.loan.give_back();
   CHECK(given.notes.empty());
   REQUIRE(codes(given) == std::vector{Code::state});
   CHECK(given.errors[0].node_id == (there == 0 ? 12 : 11));
@@ -146,7 +155,7 @@ TEST_CASE("what somebody else has set meanwhile stays, and is told as it is") {
 TEST_CASE("torque that another node takes is not switched on") {
   Loose loose;
   loose.hear_write(11, 1);
-  const auto given = loose.release.give_back(false, nullptr);
+  const auto given = loose.loan.give_back();
   REQUIRE(codes(given) == std::vector{Code::state});
   CHECK(
       given.errors[0].message ==
@@ -156,7 +165,7 @@ TEST_CASE("torque that another node takes is not switched on") {
 
   Loose to_another; // who had none before
   to_another.set_by_another(13, 0, true);
-  const auto other = to_another.release.give_back(false, nullptr);
+  const auto other = to_another.loan.give_back();
   REQUIRE(codes(other) == std::vector{Code::state});
   CHECK(other.errors[0].node_id == 13);
   CHECK(to_another.outputs() == std::vector<std::int64_t>{0, 2, 0});
@@ -165,11 +174,11 @@ TEST_CASE("torque that another node takes is not switched on") {
 TEST_CASE("what another node has changed before the yes is not agreed to") {
   Scene scene(three());
   scene.live(3s);
-  TorqueRelease release(*scene.session, profiles(), {});
-  const auto plans = plans_for(scene, wanted_to_let_go(profiles()), {11, 12, 13});
+  Loan loan(*scene.session, profiles(), torque_off(profiles()), {});
+  REQUIRE(loan.prepare(std::vector{NodeId(11), NodeId(12), NodeId(13)}).empty());
   const auto others = plans_for(scene, {.assignments = assignments({"torque_output=off"})}, {11});
   REQUIRE_FALSE(carry_out(*scene.session, profiles(), others, {}).broken);
-  const auto errors = release.look_again(plans);
+  const auto errors = loan.look_again();
   REQUIRE(errors.size() == 1);
   CHECK(errors[0].code == Code::state);
   CHECK(errors[0].node_id == 11);
@@ -179,11 +188,11 @@ TEST_CASE("a servo that restarts as soon as it was let go is left to its ROM, to
   Scene scene(R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11,
       "faults": {"restart_after_answer": [{"to": "write"}]}}])");
   scene.live(3s);
-  TorqueRelease release(*scene.session, profiles(), {});
-  const auto plans = plans_for(scene, wanted_to_let_go(profiles()), {11});
-  REQUIRE_FALSE(release.let_go(plans, {}).broken);
+  Loan loan(*scene.session, profiles(), torque_off(profiles()), {});
+  REQUIRE(loan.prepare(std::vector{NodeId(11)}).empty());
+  REQUIRE(loan.take().empty());
   scene.live(3s);
-  const auto given = release.give_back(false, nullptr);
+  const auto given = loan.give_back();
   CHECK(given.errors.empty());
   CHECK(given.servos == std::vector{NodeId(11)});
   REQUIRE(given.notes.size() == 1);
@@ -193,7 +202,7 @@ TEST_CASE("a servo that restarts as soon as it was let go is left to its ROM, to
 TEST_CASE("of a servo that does not answer it is said what to type") {
   Loose loose(R"(, "events": [{"at": "6s", "servo": 2, "happens": "power_off"}])");
   loose.scene.live(8s);
-  const auto given = loose.release.give_back(false, nullptr);
+  const auto given = loose.loan.give_back();
   REQUIRE(codes(given) == std::vector{Code::timeout});
   CHECK(given.errors[0].hint == "to put it back: blactl set torque_output=brake -n 12");
   CHECK(given.errors[0].node_id == 12);
@@ -201,15 +210,26 @@ TEST_CASE("of a servo that does not answer it is said what to type") {
 }
 
 TEST_CASE("on a bus that is armed nothing is written, and on one that is driven only if told to") {
-  Loose armed(R"(, "foreign": [{"kind": "node", "node_id": 30, "armed": true}])");
-  CHECK(codes(armed.release.give_back(true, nullptr)) == std::vector{Code::armed, Code::armed});
+  Loose armed;
+  armed.hear_message(dronecan::ArmingStatus::type, {255});
+  CHECK(codes(armed.loan.give_back()) == std::vector{Code::armed, Code::armed});
   CHECK(armed.outputs() == std::vector<std::int64_t>{1, 1, 1});
-  Loose driven(R"(, "foreign": [{"kind": "node", "node_id": 30,
-                    "commands": {"servo_ids": [1, 2], "type": 1, "value": 0, "rate": 10}}])");
-  CHECK(codes(driven.release.give_back(false, nullptr)) == std::vector{Code::driven, Code::driven});
+
+  const auto drive = [](const Loose& loose) {
+    const dronecan::ArrayCommand command{
+        {{.actuator_id = 1, .command_type = 1}, {.actuator_id = 2, .command_type = 1}}};
+    const auto payload = command.encode();
+    loose.hear_message(dronecan::ArrayCommand::type,
+                       {payload.bytes().begin(), payload.bytes().end()});
+  };
+  Loose driven;
+  drive(driven);
+  CHECK(codes(driven.loan.give_back()) == std::vector{Code::driven, Code::driven});
   CHECK(driven.outputs() == std::vector<std::int64_t>{1, 1, 1});
-  CHECK(driven.release.give_back(true, nullptr).errors.empty());
-  CHECK(driven.outputs() == std::vector<std::int64_t>{0, 2, 1});
+  Loose told("", {.while_driven = true});
+  drive(told);
+  CHECK(told.loan.give_back().errors.empty());
+  CHECK(told.outputs() == std::vector<std::int64_t>{0, 2, 1});
 }
 
 TEST_CASE("a first signal does not keep torque from coming back, a second one does") {
@@ -217,19 +237,19 @@ TEST_CASE("a first signal does not keep torque from coming back, a second one do
   before.scene.session->set_grace(10s);
   REQUIRE(raise(SIGINT) == 0);
   CHECK_FALSE(before.scene.session->live_until(never));
-  CHECK(before.release.give_back(false, nullptr).servos.size() == 2);
+  CHECK(before.loan.give_back().servos.size() == 2);
 
   Loose meanwhile;
   meanwhile.scene.session->set_grace(10s);
   REQUIRE(raise(SIGINT) == 0);
-  CHECK(meanwhile.release.give_back(false, nullptr).servos.size() == 2);
+  CHECK(meanwhile.loan.give_back().servos.size() == 2);
 
   Loose twice;
   twice.scene.session->set_grace(10s);
   REQUIRE(raise(SIGINT) == 0);
   CHECK_FALSE(twice.scene.session->live_until(never));
   REQUIRE(raise(SIGTERM) == 0);
-  const auto given = twice.release.give_back(false, nullptr);
+  const auto given = twice.loan.give_back();
   CHECK(codes(given) == std::vector{Code::state, Code::state});
   CHECK(given.errors[0].hint == "to put it back: blactl set torque_output=on -n 11");
 }

@@ -2,10 +2,10 @@
 // What happens to servos while apply is at work: for people in a list on the terminal, for machines
 // in a file.
 
-#include "blactl/fleet/change/apply.hpp"
+#include "blactl/fleet/change/change.hpp"
 #include "blactl/fleet/change/change_job.hpp"
 
-#include "cli/apply/event_file.hpp"
+#include "cli/change/event_file.hpp"
 #include "cli/context.hpp"
 
 #include <cstddef>

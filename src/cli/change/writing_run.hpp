@@ -48,10 +48,17 @@ class WritingRun {
   /// The bus was searched: who comes from now on was not chosen.
   void searched();
 
-  /// Hears the bus long enough to know who else acts on it. A servo that came since they were
-  /// chosen may be one of those that are meant; one without a node ID is none of them, and that is
-  /// said.
+  /// When the bus was searched; empty: the servos that are meant were named.
+  [[nodiscard]] std::optional<Time> searched_at() const { return searched_at_; }
+
+  /// As fleet::hear_others(), for a command that writes by jobs of its own.
   [[nodiscard]] bool hear();
+
+  /// Each note once.
+  void tell(const std::vector<std::string>& notes);
+
+  /// The warnings of each servo, each once.
+  void tell_warnings(std::span<const fleet::GoalResult> results);
 
   /// Says who else acts on this bus, where that forbids nothing.
   void tell_others();
@@ -63,11 +70,11 @@ class WritingRun {
   /// allocates node IDs, if it may.
   [[nodiscard]] fleet::Manner manner(const RestartTimes& times = {}, bool restarts = true);
 
+  /// Why nothing must be changed, where the allocation table cannot be used; empty: it may.
+  [[nodiscard]] std::optional<Error> go_without_table(const Error& reason);
+
   /// What was recorded before; null: nothing is known.
   [[nodiscard]] fleet::History* history() { return history_ ? &*history_ : nullptr; }
-
-  /// What is recorded of these units has ended, see fleet::History::end().
-  void end_record(std::span<const dronecan::UniqueId> units);
 
   /// An empty question is none.
   [[nodiscard]] bool confirm(const std::string& question);
@@ -87,15 +94,13 @@ class WritingRun {
   Report& report_;
 
  private:
-  void tell(const std::vector<std::string>& notes);
   [[nodiscard]] bool open_record(std::string_view command);
   [[nodiscard]] std::optional<Error> go_unrecorded(const Error& reason);
 
   Recording recording_ = Recording::none;
   std::optional<fleet::History> history_;
-  bool has_searched_ = false; ///< the bus, for the servos that are meant
-  Time chosen_at_{};
-  std::set<std::string> told_; ///< who else acts
+  std::optional<Time> searched_at_;
+  std::set<std::string> told_; ///< notes
 };
 
 } // namespace blactl::cli

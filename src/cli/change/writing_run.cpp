@@ -1,6 +1,7 @@
-#include "cli/writing_run.hpp"
+#include "cli/change/writing_run.hpp"
 
 #include "blactl/fleet/bus/texts.hpp"
+#include "blactl/fleet/change/guard.hpp"
 #include "blactl/fleet/characterize/findings.hpp"
 
 #include "cli/confirm.hpp"
@@ -70,6 +71,14 @@ std::optional<Error> WritingRun::go_unrecorded(const Error& reason) {
   return std::nullopt;
 }
 
+std::optional<Error> WritingRun::go_without_table(const Error& reason) {
+  if (recording_ == Recording::required) {
+    return cannot_be_recorded(reason);
+  }
+  tell({say<texts::ids_not_kept>(reason.message)});
+  return std::nullopt;
+}
+
 std::optional<fleet::Selection>
 WritingRun::choose(const fleet::Targets& targets,
                    const fleet::Identification::Options& identification) {
@@ -112,28 +121,16 @@ std::optional<dronecan::NodeId> WritingRun::open_for_one(std::string_view comman
 }
 
 void WritingRun::searched() {
-  has_searched_ = true;
-  chosen_at_ = context_.session().now();
+  searched_at_ = context_.session().now();
 }
 
 bool WritingRun::hear() {
-  if (const auto heard = fleet::hear_bus(context_.session()); !heard) {
-    return fail(heard.error(), Code::state);
+  const auto heard = fleet::hear_others(context_.session(), searched_at_);
+  tell(heard.notes);
+  for (const Error& error : heard.errors) {
+    (void)fail(error, Code::state);
   }
-  if (!has_searched_) {
-    return true;
-  }
-  const fleet::Roster& roster = context_.session().roster();
-  for (const auto& [id, member] : roster.members()) {
-    if (member.first_heard > chosen_at_ && member.sends_actuator_status()) {
-      report_.fail({Code::state, say<texts::came_since>(id.value()), say<texts::run_again_hint>(),
-                    id.value()});
-    }
-  }
-  if (!roster.pending().empty()) {
-    context_.reporter().note(say<texts::units_wait_for_id>(roster.pending().size()));
-  }
-  return report_.errors.empty();
+  return heard.errors.empty();
 }
 
 void WritingRun::tell(const std::vector<std::string>& notes) {
@@ -142,6 +139,16 @@ void WritingRun::tell(const std::vector<std::string>& notes) {
       context_.reporter().note(note);
     }
   }
+}
+
+void WritingRun::tell_warnings(std::span<const fleet::GoalResult> results) {
+  std::vector<std::string> notes;
+  for (const fleet::GoalResult& result : results) {
+    for (const fleet::Warning& warning : result.change.warnings) {
+      notes.push_back(say<texts::about_node>(result.servo().id.value(), warning.text));
+    }
+  }
+  tell(notes);
 }
 
 void WritingRun::tell_others() {
@@ -160,24 +167,14 @@ fleet::Manner WritingRun::manner(const RestartTimes& times, bool restarts) {
       .come_back = times.wait,
       .may_allocate = restarts && context_.may_allocate(),
       .allocations = [this] { return context_.allocations(state::AllocationStore::Access::write); },
-      // No reason to leave a servo without its node ID.
-      .not_kept =
-          [this](const Error& error) {
-            context_.reporter().note(say<texts::ids_not_kept>(error.message));
-          },
+      .not_kept = [this](const Error& reason) { return go_without_table(reason); },
       .progress =
           [this](const fleet::Progress& progress) { context_.reporter().progress(text(progress)); },
       .history = recording_ == Recording::looked_up ? nullptr : history(),
+      .proofs = history(),
       .not_recorded = [this](const Error& reason) { return go_unrecorded(reason); },
       .end_not_recorded =
           [this](const Error& error) { tell({say<texts::end_not_recorded>(error.message)}); }};
-}
-
-void WritingRun::end_record(std::span<const dronecan::UniqueId> units) {
-  const auto ended = history() != nullptr ? history()->end(units) : Result<void>();
-  if (!ended) {
-    tell({say<texts::end_not_recorded>(ended.error().message)});
-  }
 }
 
 bool WritingRun::confirm(const std::string& question) {

@@ -1,6 +1,6 @@
 #pragma once
 // Changes several servos, each to what is wanted of it: all at once, save those that wait for a
-// node ID which another one still has (id_moves.hpp).
+// node ID which another one still has (id_moves.hpp). Change is the only one who uses it.
 
 #include "blactl/base/error.hpp"
 #include "blactl/bla/profile.hpp"
@@ -34,30 +34,30 @@ struct UnitChange {
   dronecan::NodeId now;               ///< where it was seen last
   bool is_done = false;               ///< it holds what is wanted, proven as far as that is asked
   std::optional<ChangeResult> last{}; ///< of its last restart or writing; empty: it was not begun
+  bool has_made_way = false;          ///< it is on an ID that it has for the time being only
 
-  /// The static node ID that SAVE gives it or leaves it; empty: none.
+  /// The static node ID that SAVE gives it; empty: none, or the one that it is on already.
   [[nodiscard]] std::optional<dronecan::NodeId> static_node_id() const;
 
   [[nodiscard]] bool has_failed() const { return last && !last->is_done(); }
 };
 
 /// First prepare(), then carry_out().
-class FleetChange {
+class Rounds {
  public:
   struct Options {
     Manner manner{};
     bool while_driven = false;
     bool stops_at_failure = false; ///< no round begins after one in which a unit failed
+    bool knows_ids = false;        ///< the bus was searched, with the static node IDs
   };
 
   /// Called for every move of a node ID that is proven.
   using Hook = std::function<void(const IdMove& move)>;
 
-  /// All references outlive this. The session has searched the bus (Discovery::find_all, with the
-  /// static node IDs).
-  FleetChange(Session& session, const bla::Profiles& profiles, state::AllocationStore& table,
-              Options options)
-      : session_(session), profiles_(profiles), table_(table), options_(std::move(options)) {}
+  /// Both references outlive this.
+  Rounds(Session& session, const bla::Profiles& profiles, Options options)
+      : session_(session), profiles_(profiles), options_(std::move(options)) {}
 
   /// Plans, and judges each servo as it is now; nobody is changed if one refuses. Errors, all of
   /// them: as plan_id_moves(), make_plan(), conflict() and forbidden(); what ends a session stands
@@ -67,8 +67,9 @@ class FleetChange {
   /// The one question before all of it; empty: nothing has to be asked.
   [[nodiscard]] std::string question() const;
 
-  /// Those that make way for others first.
-  [[nodiscard]] std::vector<IdMove> temporary() const;
+  /// What a person should know: who did not tell its IDs and may have those that are given, who
+  /// makes way for others first, and whose IDs are taken over.
+  [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
 
   /// Judges once more, after a question; then carries all out. A unit that fails stops those that
   /// wait for its node ID. What all of them hold is recorded before the first one is changed.
@@ -78,9 +79,6 @@ class FleetChange {
 
   /// In the order of the tasks, after prepare().
   [[nodiscard]] const std::vector<UnitChange>& units() const { return units_; }
-
-  /// Who did not tell its IDs: it may have those that are given.
-  [[nodiscard]] const std::vector<dronecan::NodeId>& silent() const { return silent_; }
 
  private:
   /// One unit in one round; without a move it stays on its node ID.
@@ -94,6 +92,9 @@ class FleetChange {
 
   [[nodiscard]] std::vector<Error> make_plans(std::vector<UnitTask> tasks);
   [[nodiscard]] std::vector<Error> make_rounds();
+  [[nodiscard]] Result<void> learn_ids();
+  [[nodiscard]] Result<state::AllocationStore*> table();
+  void note_takeovers(const std::vector<state::AllocationEntry>& absent);
   [[nodiscard]] std::vector<Error> check_ids();
   [[nodiscard]] std::vector<Error> check() const;
   [[nodiscard]] bool is_free(const IdMove& move) const;
@@ -110,11 +111,11 @@ class FleetChange {
 
   Session& session_;
   const bla::Profiles& profiles_;
-  state::AllocationStore& table_;
   Options options_;
+  std::optional<state::AllocationStore> table_; ///< once an ID is given
   std::vector<UnitChange> units_;
   std::vector<Round> rounds_;
-  std::vector<dronecan::NodeId> silent_;
+  std::vector<std::string> notes_;
   std::map<dronecan::NodeId, Time> left_; ///< IDs from which a unit has moved, and when
 };
 

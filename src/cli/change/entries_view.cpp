@@ -1,9 +1,9 @@
-#include "cli/apply/view.hpp"
+#include "cli/change/entries_view.hpp"
 
-#include "cli/apply/texts.hpp"
+#include "cli/change/result_view.hpp"
+#include "cli/change/texts.hpp"
 #include "cli/output/fleet_view.hpp"
 #include "cli/output/node_head.hpp"
-#include "cli/output/result_view.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -22,13 +22,14 @@ constexpr std::size_t screen_lines = 24;
 
 std::size_t differences(const GoalResult& result) {
   return static_cast<std::size_t>(
-      std::ranges::count_if(result.changes, [](const RegisterChange& change) {
+      std::ranges::count_if(result.change.changes, [](const RegisterChange& change) {
         return change.before != change.requested;
       }));
 }
 
 bool was_written(const GoalResult& result) {
-  return result.saved || std::ranges::any_of(result.changes, [](const RegisterChange& change) {
+  return result.change.saved ||
+         std::ranges::any_of(result.change.changes, [](const RegisterChange& change) {
            return change.status == fleet::ChangeStatus::written;
          });
 }
@@ -38,80 +39,77 @@ std::string plan_text(const GoalResult& result, const Page& page) {
   case Need::write:
     return page.paint(
         Tone::warning,
-        result.goal.saves
-            ? say<texts::apply_would_write_save>(differences(result), result.changes.size())
-            : say<texts::apply_would_write>(differences(result), result.changes.size()));
+        result.goal.saves()
+            ? say<texts::apply_would_write_save>(differences(result), result.change.changes.size())
+            : say<texts::apply_would_write>(differences(result), result.change.changes.size()));
   case Need::save: return page.paint(Tone::warning, say<texts::apply_would_save>());
   case Need::prove:
-    return page.paint(Tone::warning, say<texts::apply_would_prove>(result.changes.size()));
+    return page.paint(Tone::warning, say<texts::apply_would_prove>(result.change.changes.size()));
   case Need::nothing: break;
   }
-  return page.paint(Tone::good, result.is_verified ? say<texts::apply_unchanged_proven>()
-                                                   : say<texts::apply_unchanged>());
+  return page.paint(Tone::good, result.rom_proven ? say<texts::apply_unchanged_proven>()
+                                                  : say<texts::apply_unchanged>());
 }
 
 std::string changed_text(const GoalResult& result) {
-  if (!result.saved) {
-    return say<texts::apply_changed_ram>(differences(result), result.changes.size());
+  if (!result.change.saved) {
+    return say<texts::apply_changed_ram>(differences(result), result.change.changes.size());
   }
   return result.has_differences()
-             ? say<texts::apply_changed>(differences(result), result.changes.size())
+             ? say<texts::apply_changed>(differences(result), result.change.changes.size())
              : say<texts::apply_saved>();
 }
 
 std::string end_text(const GoalResult& result, const Page& page) {
-  const bool is_back = result.node_id_after && result.duration > Duration::zero();
-  const std::string back =
-      is_back ? say<texts::apply_back>(result.node_id_after->value(), seconds_text(result.duration))
-              : std::string();
+  const bool is_back = result.change.node_id_after && result.change.duration > Duration::zero();
+  const std::string back = is_back ? say<texts::apply_back>(result.change.node_id_after->value(),
+                                                            seconds_text(result.change.duration))
+                                   : std::string();
   switch (entry_status(result, false)) {
   case EntryStatus::failed: return page.paint(Tone::bad, say<texts::apply_failed>());
   case EntryStatus::skipped: return page.paint(Tone::warning, say<texts::apply_skipped>());
   case EntryStatus::changed: return page.paint(Tone::good, changed_text(result)) + back;
-  default:
-    return plan_text({.goal = result.goal, .servo = {}, .is_verified = result.is_verified}, page) +
-           back;
+  default: return plan_text({.goal = result.goal, .rom_proven = result.rom_proven}, page) + back;
   }
 }
 
 std::string servo_text(const GoalResult& result, bool is_plan, const Page& page) {
-  std::string out = title(result.goal.name, result.servo) + ": " +
+  std::string out = title(result.goal.name, result.servo()) + ": " +
                     (is_plan ? plan_text(result, page) : end_text(result, page)) + '\n';
   const bool has_failed = !is_plan && entry_status(result, false) == EntryStatus::failed;
   std::vector<RegisterChange> shown;
-  std::ranges::copy_if(result.changes, std::back_inserter(shown),
+  std::ranges::copy_if(result.change.changes, std::back_inserter(shown),
                        [&](const RegisterChange& change) {
                          return change.before != change.requested || change.error;
                        });
   if ((is_plan || has_failed) && !shown.empty()) {
-    out += changes_table(
-        shown,
-        {.mode_before = result.mode_before, .mode_after = result.mode_after, .was_begun = !is_plan},
-        page);
-  }
-  for (const fleet::Warning& warning : result.warnings) {
-    out += "  ! " + warning.text + '\n';
+    out += changes_table(shown,
+                         {.mode_before = result.change.mode_before,
+                          .mode_after = result.change.mode_after,
+                          .was_begun = !is_plan},
+                         page);
   }
   return out;
 }
 
 void write_servo(JsonWriter& json, const GoalResult& result, bool is_plan) {
   json.begin_object();
-  write_head(json, result.servo);
+  write_head(json, result.servo());
   json.member("name", result.goal.name.empty() ? std::nullopt : std::optional(result.goal.name));
   json.member("status", fleet::name(entry_status(result, is_plan)));
   if (is_plan) {
     json.member("action", fleet::name(result.need));
-    json.member("saves", result.goal.saves);
+    json.member("saves", result.goal.saves());
   }
-  write_changes(json, result.changes);
-  json.member("saved", result.saved);
-  json.member("verified_after_restart", result.is_verified.value_or(false));
+  write_changes(json, result.change.changes);
+  json.member("saved", result.change.saved);
+  json.member("verified_after_restart", result.rom_proven.value_or(false));
   json.key("node_id_after");
-  result.node_id_after ? json.value(result.node_id_after->value()) : json.value(nullptr);
+  result.change.node_id_after ? json.value(result.change.node_id_after->value())
+                              : json.value(nullptr);
   json.key("duration_s");
-  json.number(seconds_text(result.duration));
-  write_warnings(json, result.warnings);
+  json.number(seconds_text(result.change.duration));
+  write_warnings(json, result.change.warnings);
   json.end_object();
 }
 
@@ -138,13 +136,14 @@ EntryStatus entry_status(const GoalResult& result, bool is_plan) {
   if (result.is_done) {
     return was_written(result) ? EntryStatus::changed : EntryStatus::unchanged;
   }
-  return result.was_begun || !result.errors.empty() ? EntryStatus::failed : EntryStatus::skipped;
+  return result.change.was_begun || !result.errors.empty() ? EntryStatus::failed
+                                                           : EntryStatus::skipped;
 }
 
 std::vector<Error> errors_of(const GoalResult& result, bool is_plan) {
   std::vector<Error> errors = result.errors;
   if (!is_plan && !result.is_done && errors.empty()) {
-    const std::uint8_t id = result.servo.id.value();
+    const std::uint8_t id = result.servo().id.value();
     errors.push_back({Code::state, say<texts::apply_not_begun>(id), {}, id});
   }
   return errors;

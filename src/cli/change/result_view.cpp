@@ -1,7 +1,8 @@
-#include "cli/output/result_view.hpp"
+#include "cli/change/result_view.hpp"
 
 #include "blactl/bla/value.hpp"
 
+#include "cli/change/entries_view.hpp"
 #include "cli/output/node_head.hpp"
 #include "cli/output/table.hpp"
 #include "cli/texts.hpp"
@@ -146,15 +147,11 @@ std::string changes_table(std::span<const RegisterChange> changes, const TableSt
 }
 
 std::string changes_text(const ChangeResult& result, const Page& page) {
-  std::string out = head_line(result.servo) + changes_table(result.changes,
-                                                            {.mode_before = result.mode_before,
-                                                             .mode_after = result.mode_after,
-                                                             .was_begun = result.was_begun},
-                                                            page);
-  for (const fleet::Warning& warning : result.warnings) {
-    out += "  ! " + warning.text + '\n';
-  }
-  return out;
+  return head_line(result.servo) + changes_table(result.changes,
+                                                 {.mode_before = result.mode_before,
+                                                  .mode_after = result.mode_after,
+                                                  .was_begun = result.was_begun},
+                                                 page);
 }
 
 std::string saving_text(std::span<const ChangeResult> results, const Page& page) {
@@ -178,6 +175,32 @@ std::string saving_text(std::span<const ChangeResult> results, const Page& page)
     return say<texts::saving>() + '\n' + servos;
   }
   return in_ram_only ? say<texts::not_saved_note>() + '\n' : std::string();
+}
+
+std::vector<std::pair<std::string, std::uint64_t>>
+counts(ResultView view, std::span<const fleet::GoalResult> results, bool is_plan) {
+  const auto count = [&](auto which) {
+    return static_cast<std::uint64_t>(std::ranges::count_if(results, which));
+  };
+  const auto has_status = [&](fleet::EntryStatus status) {
+    return count([&](const auto& result) { return entry_status(result, is_plan) == status; });
+  };
+  switch (view) {
+  case ResultView::changes: {
+    std::uint64_t written = 0;
+    for (const fleet::GoalResult& result : results) {
+      written += static_cast<std::uint64_t>(std::ranges::count(
+          result.change.changes, ChangeStatus::written, &RegisterChange::status));
+    }
+    return {{"written", written}};
+  }
+  case ResultView::servos: return {{"done", count(&fleet::GoalResult::is_done)}};
+  case ResultView::entries:
+    return {{"changed", has_status(fleet::EntryStatus::changed)},
+            {"unchanged", has_status(fleet::EntryStatus::unchanged)}};
+  case ResultView::moves: return {{"made_static", count(&fleet::GoalResult::is_done)}};
+  }
+  return {};
 }
 
 void write_json(JsonWriter& json, ResultView view, std::span<const ChangeResult> results) {

@@ -1,7 +1,7 @@
-#include "cli/apply/watch.hpp"
+#include "cli/change/watch.hpp"
 
-#include "cli/apply/texts.hpp"
-#include "cli/apply/view.hpp"
+#include "cli/change/entries_view.hpp"
+#include "cli/change/texts.hpp"
 #include "cli/output/fleet_view.hpp"
 #include "cli/output/page.hpp"
 
@@ -33,8 +33,8 @@ std::string stage_text(std::optional<ChangeStage> stage) {
 
 void ApplyWatch::begin(std::span<const GoalResult> planned) {
   for (const GoalResult& result : planned) {
-    tell(result.servo, "plan", fleet::name(entry_status(result, true)));
-    lines_.push_back({.servo = result.servo,
+    tell(result.servo(), "plan", fleet::name(entry_status(result, true)));
+    lines_.push_back({.servo = result.servo(),
                       .name = result.goal.name,
                       .has_work = result.need != fleet::Need::nothing});
   }
@@ -54,7 +54,7 @@ void ApplyWatch::enter(const fleet::Servo& servo, ChangeStage stage) {
 
 void ApplyWatch::end(std::span<const GoalResult> results) {
   for (const GoalResult& result : results) {
-    tell(result.servo, "end", fleet::name(entry_status(result, false)));
+    tell(result.servo(), "end", fleet::name(entry_status(result, false)));
   }
   if (context_.reporter().has_screen()) {
     show({});

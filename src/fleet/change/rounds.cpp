@@ -1,6 +1,8 @@
-#include "blactl/fleet/change/fleet_change.hpp"
+#include "fleet/change/rounds.hpp"
 
+#include "blactl/base/hex.hpp"
 #include "blactl/bla/assignment.hpp"
+#include "blactl/fleet/bus/discovery.hpp"
 #include "blactl/fleet/bus/snapshots.hpp"
 #include "blactl/fleet/bus/texts.hpp"
 #include "blactl/fleet/bus/unreachable.hpp"
@@ -8,6 +10,7 @@
 #include "blactl/fleet/change/restart_texts.hpp"
 #include "blactl/fleet/change/survey.hpp"
 
+#include "fleet/change/change_texts.hpp"
 #include "fleet/change/id_holders.hpp"
 #include "fleet/change/node_id_texts.hpp"
 
@@ -59,11 +62,13 @@ std::optional<NodeId> UnitChange::static_node_id() const {
   const auto saved = plan.restart == RestartKind::save
                          ? bla::find(plan.expected, bla::address::static_node_id)
                          : std::nullopt;
-  return saved.value_or(0) != 0 ? std::optional(NodeId(static_cast<std::uint8_t>(*saved)))
-                                : std::nullopt;
+  const bool is_given =
+      saved.value_or(0) != 0 && (*saved != plan.before.servo.id.value() ||
+                                 saved != plan.before.raw(bla::address::static_node_id));
+  return is_given ? std::optional(NodeId(static_cast<std::uint8_t>(*saved))) : std::nullopt;
 }
 
-std::vector<Error> FleetChange::prepare(std::vector<UnitTask> tasks) {
+std::vector<Error> Rounds::prepare(std::vector<UnitTask> tasks) {
   auto errors = make_plans(std::move(tasks));
   if (errors.empty()) {
     errors = make_rounds();
@@ -74,7 +79,7 @@ std::vector<Error> FleetChange::prepare(std::vector<UnitTask> tasks) {
   return errors.empty() ? check() : errors;
 }
 
-std::vector<Error> FleetChange::make_plans(std::vector<UnitTask> tasks) {
+std::vector<Error> Rounds::make_plans(std::vector<UnitTask> tasks) {
   const Roster& roster = session_.roster();
   std::vector<Error> errors;
   for (UnitTask& task : tasks) {
@@ -95,41 +100,101 @@ std::vector<Error> FleetChange::make_plans(std::vector<UnitTask> tasks) {
   return errors;
 }
 
+/// Who has which node ID, where IDs are given: the bus is searched for it once.
+Result<void> Rounds::learn_ids() {
+  if (options_.knows_ids) {
+    return {};
+  }
+  options_.knows_ids = true;
+  Discovery discovery(session_, profiles_, options_.manner.identification);
+  return discovery.find_all(bus_watch_time);
+}
+
+/// The allocation table. Where it cannot be used one that ends with this change: what asks for
+/// `not_kept` decides whether that is a reason to change nothing.
+Result<state::AllocationStore*> Rounds::table() {
+  if (!table_) {
+    auto opened = options_.manner.allocations ? options_.manner.allocations()
+                                              : state::AllocationStore::unshared();
+    if (!opened) {
+      if (auto refused =
+              options_.manner.not_kept ? options_.manner.not_kept(opened.error()) : std::nullopt) {
+        return std::unexpected(std::move(*refused));
+      }
+      opened = state::AllocationStore::unshared();
+    }
+    if (!opened) {
+      return std::unexpected(opened.error());
+    }
+    table_ = std::move(*opened);
+  }
+  return &*table_;
+}
+
 /// Who wishes no ID begins at once.
-std::vector<Error> FleetChange::make_rounds() {
+std::vector<Error> Rounds::make_rounds() {
   const std::vector<Wish> wishes = wishes_of(units_);
-  const auto taken = promised(session_.roster(), table_, wishes);
-  if (!taken) {
-    return {taken.error()};
+  IdRounds moves;
+  if (!wishes.empty()) {
+    if (const auto learned = learn_ids(); !learned) {
+      return {learned.error()};
+    }
+    const auto table = this->table();
+    const auto ids = table ? taken_ids(session_.roster(), **table, wishes)
+                           : Result<TakenIds>(std::unexpected(table.error()));
+    if (!ids) {
+      return {ids.error()};
+    }
+    auto planned =
+        plan_id_moves(holders(session_.roster(), wishes), wishes, ids->taken, ids->promised);
+    if (!planned) {
+      return planned.error();
+    }
+    moves = std::move(*planned);
+    note_takeovers(ids->absent);
   }
-  const auto moves = plan_id_moves(holders(session_.roster(), wishes), wishes, *taken);
-  if (!moves) {
-    return moves.error();
-  }
-  rounds_.assign(std::max<std::size_t>(moves->size(), 1), {});
+  rounds_.assign(std::max<std::size_t>(moves.size(), 1), {});
   for (std::size_t i = 0; i < units_.size(); ++i) {
     if (!units_[i].static_node_id()) {
       rounds_.front().push_back({i, std::nullopt});
     }
   }
-  for (std::size_t r = 0; r < moves->size(); ++r) {
-    for (const IdMove& move : (*moves)[r]) {
+  for (std::size_t r = 0; r < moves.size(); ++r) {
+    for (const IdMove& move : moves[r]) {
       const auto unit = std::ranges::find(units_, move.unique_id, &UnitChange::unique_id);
       rounds_[r].push_back({static_cast<std::size_t>(unit - units_.begin()), move});
+      if (move.is_temporary) {
+        notes_.push_back(say<texts::will_make_way>(move.from.value(), move.to.value()));
+      }
     }
   }
   return {};
 }
 
+/// A person's wish takes the ID of a unit that is away.
+void Rounds::note_takeovers(const std::vector<state::AllocationEntry>& absent) {
+  for (const UnitChange& unit : units_) {
+    const auto former = std::ranges::find(absent, unit.static_node_id(), [](const auto& entry) {
+      return std::optional(entry.node_id);
+    });
+    if (former != absent.end()) {
+      notes_.push_back(say<texts::id_taken_over>(former->node_id.value(), hex(former->unique_id),
+                                                 unit.now.value()));
+    }
+  }
+}
+
 /// Whether others have the servo IDs that are given, or static node IDs that are only written to
 /// RAM: those that are saved are the rounds' to judge.
-std::vector<Error> FleetChange::check_ids() {
+std::vector<Error> Rounds::check_ids() {
   const std::vector<Plan> plans = plans_of(units_);
   const auto survey = fleet::survey(session_, profiles_, plans, options_.manner.identification);
   if (!survey) {
     return {survey.error()};
   }
-  silent_ = survey->silent;
+  for (const NodeId id : survey->silent) {
+    notes_.push_back(say<texts::did_not_tell_ids>(id.value()));
+  }
   std::vector<Error> errors;
   for (const Plan& plan : plans) {
     auto error = plan.restart == RestartKind::save ? servo_id_conflict(*survey, plans, plan)
@@ -141,7 +206,7 @@ std::vector<Error> FleetChange::check_ids() {
   return errors;
 }
 
-std::vector<Error> FleetChange::check() const {
+std::vector<Error> Rounds::check() const {
   std::vector<Error> errors;
   for (const UnitChange& unit : units_) {
     if (auto error =
@@ -152,21 +217,11 @@ std::vector<Error> FleetChange::check() const {
   return errors;
 }
 
-std::string FleetChange::question() const {
+std::string Rounds::question() const {
   return fleet::question(plans_of(units_));
 }
 
-std::vector<IdMove> FleetChange::temporary() const {
-  std::vector<IdMove> moves;
-  for (const Step& step : rounds_ | std::views::join) {
-    if (step.move && step.move->is_temporary) {
-      moves.push_back(*step.move);
-    }
-  }
-  return moves;
-}
-
-std::vector<Error> FleetChange::carry_out(const Hook& hook) {
+std::vector<Error> Rounds::carry_out(const Hook& hook) {
   if (auto errors = check(); !errors.empty()) {
     return errors;
   }
@@ -181,7 +236,7 @@ std::vector<Error> FleetChange::carry_out(const Hook& hook) {
   return errors;
 }
 
-std::vector<Error> FleetChange::carry_out_rounds(const Hook& hook) {
+std::vector<Error> Rounds::carry_out_rounds(const Hook& hook) {
   if (const auto put = put_as_they_are(); !put) {
     return {put.error()};
   }
@@ -197,7 +252,7 @@ std::vector<Error> FleetChange::carry_out_rounds(const Hook& hook) {
 }
 
 /// Where a unit of the table is now; empty: nothing is known that would be better.
-std::optional<NodeId> FleetChange::place(const dronecan::UniqueId& unique_id) const {
+std::optional<NodeId> Rounds::place(const dronecan::UniqueId& unique_id) const {
   const auto unit = std::ranges::find(units_, unique_id, &UnitChange::unique_id);
   return unit != units_.end() && unit->static_node_id()
              ? std::optional(unit->now)
@@ -206,12 +261,12 @@ std::optional<NodeId> FleetChange::place(const dronecan::UniqueId& unique_id) co
 
 /// An ID that a unit had when it was in the table, and has no more, is in nobody's way. Where
 /// nobody gets an ID the table stays as it is.
-Result<void> FleetChange::put_as_they_are() {
+Result<void> Rounds::put_as_they_are() {
   if (std::ranges::none_of(
           units_, [](const UnitChange& unit) { return unit.static_node_id().has_value(); })) {
     return {};
   }
-  const auto known = table_.entries();
+  const auto known = table_->entries();
   if (!known) {
     return std::unexpected(known.error());
   }
@@ -222,22 +277,24 @@ Result<void> FleetChange::put_as_they_are() {
       entries.push_back({entry.unique_id, *now});
     }
   }
-  return table_.put(entries, session_.wall());
+  return table_->put(entries, session_.wall(), state::AllocationStore::Former::yields);
 }
 
 /// The table says where each will be: other allocators of this machine give it to nobody else.
-Result<void> FleetChange::put(const Round& round) {
+Result<void> Rounds::put(const Round& round) {
   std::vector<Wish> entries;
   for (const Step& step : round) {
     if (step.move) {
       entries.push_back({step.move->unique_id, step.move->to});
     }
   }
-  return table_.put(entries, session_.wall());
+  return entries.empty()
+             ? Result<void>()
+             : table_->put(entries, session_.wall(), state::AllocationStore::Former::yields);
 }
 
 /// Who had it has left, and nobody was heard under it since.
-bool FleetChange::is_free(const IdMove& move) const {
+bool Rounds::is_free(const IdMove& move) const {
   const Member* there = session_.roster().find(move.to);
   if (move.to == move.from || there == nullptr || !session_.roster().heard(move.to)) {
     return move.to != session_.roster().local();
@@ -247,7 +304,7 @@ bool FleetChange::is_free(const IdMove& move) const {
 }
 
 /// Those of the round that can go on: none that has failed, none whose ID is not free after all.
-FleetChange::Round FleetChange::ready(const Round& round) {
+Rounds::Round Rounds::ready(const Round& round) {
   Round steps;
   for (const Step& step : round) {
     if (units_[step.unit].has_failed()) {
@@ -267,7 +324,7 @@ FleetChange::Round FleetChange::ready(const Round& round) {
 
 /// What those hold that have moved before, where they are now. They were saved and restarted: RAM
 /// is what ROM held, also after a restart that nobody heard.
-Result<FleetChange::Sights> FleetChange::look_again(const Round& steps) {
+Result<Rounds::Sights> Rounds::look_again(const Round& steps) {
   std::map<NodeId, std::pair<std::size_t, Wanted>> moved;
   std::vector<NodeId> nodes;
   for (const Step& step : steps) {
@@ -276,6 +333,9 @@ Result<FleetChange::Sights> FleetChange::look_again(const Round& steps) {
       nodes.push_back(unit.now);
       moved.insert_or_assign(unit.now, std::pair(step.unit, unit.wanted));
     }
+  }
+  if (nodes.empty()) {
+    return {};
   }
   auto read = take_snapshots(
       session_, profiles_, nodes, options_.manner.identification,
@@ -293,7 +353,7 @@ Result<FleetChange::Sights> FleetChange::look_again(const Round& steps) {
 }
 
 /// As it was judged; anew for one that makes way for others, or has done so.
-Result<Plan> FleetChange::plan(const Step& step, const Sights& sights) {
+Result<Plan> Rounds::plan(const Step& step, const Sights& sights) {
   const UnitChange& unit = units_[step.unit];
   if (!step.move || (!step.move->is_temporary && !unit.last)) {
     return unit.plan;
@@ -320,7 +380,7 @@ Result<Plan> FleetChange::plan(const Step& step, const Sights& sights) {
   return plan;
 }
 
-std::vector<Error> FleetChange::carry_out(const Round& round, const Hook& hook) {
+std::vector<Error> Rounds::carry_out(const Round& round, const Hook& hook) {
   Round steps;
   std::vector<Plan> plans;
   const Round begun = ready(round);
@@ -350,7 +410,7 @@ std::vector<Error> FleetChange::carry_out(const Round& round, const Hook& hook) 
   return carried_out.broken ? std::vector{*carried_out.broken} : std::vector<Error>();
 }
 
-void FleetChange::conclude(const Step& step, ChangeResult result, const Hook& hook) {
+void Rounds::conclude(const Step& step, ChangeResult result, const Hook& hook) {
   UnitChange& unit = units_[step.unit];
   if (step.move && result.is_done() && result.node_id_after != step.move->to) {
     const std::uint8_t id = result.node_id_after.value_or(step.move->from).value();
@@ -362,15 +422,18 @@ void FleetChange::conclude(const Step& step, ChangeResult result, const Hook& ho
   if (!unit.last->is_done()) {
     return;
   }
-  unit.is_done = !step.move || !step.move->is_temporary;
+  unit.has_made_way = step.move && step.move->is_temporary;
+  unit.is_done = !unit.has_made_way;
   if (step.move) {
     left_[step.move->from] = session_.now();
-    hook(*step.move);
+    if (hook) {
+      hook(*step.move);
+    }
   }
 }
 
 /// It was not its turn yet, or no more.
-void FleetChange::fail(const Step& step, Error error) {
+void Rounds::fail(const Step& step, Error error) {
   UnitChange& unit = units_[step.unit];
   ChangeResult result = unit.last ? *unit.last : as_planned(unit.plan);
   result.is_verified = false;

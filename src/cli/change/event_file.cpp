@@ -1,9 +1,9 @@
-#include "cli/apply/event_file.hpp"
+#include "cli/change/event_file.hpp"
 
 #include "blactl/base/json_writer.hpp"
 #include "blactl/base/system_error.hpp"
 
-#include "cli/apply/texts.hpp"
+#include "cli/change/texts.hpp"
 #include "cli/output/node_head.hpp"
 #include "cli/trace/time.hpp"
 

@@ -2,7 +2,7 @@
 // What apply and undo are going to do, or have done, as JSON and text.
 
 #include "blactl/base/json_writer.hpp"
-#include "blactl/fleet/change/apply.hpp"
+#include "blactl/fleet/change/change.hpp"
 #include "blactl/fleet/files/fleet_diff.hpp"
 
 #include "cli/output/page.hpp"

@@ -5,9 +5,6 @@
 
 namespace blactl::texts {
 
-inline constexpr Text apply_will_make_way{
-    "node {} makes way for others: it is saved twice, node ID {} comes in between",
-    "ノード {} は ID 入替えのため一時的にノード ID {} を使用します (保存は 2 回)"};
 inline constexpr Text apply_missing{"no servo for '{}': {}", "'{}' のサーボがありません: {}"};
 inline constexpr Text apply_missing_hint{
     "connect it, or name those that are meant with -n: nothing was written",
@@ -33,6 +30,8 @@ inline constexpr Text apply_skipped{"left as it was", "未処理"};
 inline constexpr Text apply_changed{
     "{} of {} settings changed, saved, read again after the restart",
     "{1} 項目中 {0} 項目を変更 (保存・再起動後に再読出し)"};
+inline constexpr Text held_already{"node {}: RAM and ROM hold this already: nothing was saved",
+                                   "ノード {}: RAM・ROM とも一致しているため、保存していません"};
 inline constexpr Text apply_saved{"saved: ROM held something else",
                                   "保存のみ実行 (ROM の値が異なっていたため)"};
 inline constexpr Text apply_changed_ram{"{} of {} settings changed, in RAM only",

@@ -1,0 +1,102 @@
+#pragma once
+// The one way in which servos are changed: goals in, every refusal out, one question, results
+// (contract, sections 4 and 6). Nothing else writes settings, saves, erases or restarts.
+
+#include "blactl/base/error.hpp"
+#include "blactl/bla/profile.hpp"
+#include "blactl/fleet/bus/session.hpp"
+#include "blactl/fleet/change/carry_out.hpp"
+#include "blactl/fleet/change/goal.hpp"
+#include "blactl/fleet/change/id_moves.hpp"
+#include "blactl/fleet/change/result.hpp"
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace blactl::fleet {
+
+class Rounds;
+struct UnitChange;
+struct UnitTask;
+
+/// First prepare(), then carry_out(). Guard, survey, promised IDs, cross-checks, history, proofs
+/// and the allocation table belong to it, whatever the goals are.
+class Change {
+ public:
+  struct Options {
+    Manner manner{};
+    bool while_driven = false;
+    bool stops_at_failure = false; ///< nothing begins after a round in which a servo failed
+    bool knows_ids = false;        ///< the bus was searched, with the static node IDs
+    /// When the bus was searched for the servos that are meant: who came since may be one of them.
+    /// Empty: they were named.
+    std::optional<Time> searched{};
+    /// It is the way back of a loan: the bus was heard before, and one that refuses keeps no other
+    /// from it.
+    bool gives_back = false;
+  };
+
+  /// Called for every move of a node ID that is proven.
+  using MoveHook = std::function<void(const IdMove& move)>;
+
+  /// Both references outlive this.
+  Change(Session& session, const bla::Profiles& profiles, Options options);
+  ~Change();
+  Change(const Change&) = delete;
+  Change(Change&&) = delete;
+  Change& operator=(const Change&) = delete;
+  Change& operator=(Change&&) = delete;
+
+  /// Reads the servos, judges what each needs, and hears the bus; nobody is changed if one refuses.
+  /// Errors, all of them: why a servo could not be read; as make_plan(), plan_id_moves(),
+  /// conflict() and forbidden(); state (a servo has come since, frames were lost); what ends a
+  /// session stands alone.
+  [[nodiscard]] std::vector<Error> prepare(std::vector<Goal> goals);
+
+  /// What a person should know before the question, each once.
+  [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
+
+  /// The one question before all of it; empty: nothing has to be asked.
+  [[nodiscard]] std::string question() const;
+
+  /// Asks the guard once more, after a question; then brings each servo to its goal. Errors: why it
+  /// did not begin or go on; what went wrong with single servos is in results().
+  [[nodiscard]] std::vector<Error> carry_out(const MoveHook& moved = {});
+
+  /// In the order of the goals, after prepare(): what is planned, then what came of it.
+  [[nodiscard]] const std::vector<GoalResult>& results() const { return results_; }
+
+ private:
+  using Snapshots = std::vector<Snapshot>;
+
+  [[nodiscard]] Result<Snapshots> read(std::span<const std::size_t> goals);
+  [[nodiscard]] std::optional<Error> refuse(const Goal& goal, const Snapshot& held) const;
+  [[nodiscard]] std::optional<bla::Values> proven_rom(const Goal& goal, const Servo& servo);
+  [[nodiscard]] std::vector<Error> hear();
+  [[nodiscard]] std::vector<Error> prepare(std::span<const std::size_t> goals);
+  [[nodiscard]] std::vector<Error> judge(std::span<const std::size_t> goals, Snapshots snapshots,
+                                         std::vector<UnitTask>& tasks);
+  [[nodiscard]] std::vector<Error> make_rounds(std::vector<UnitTask> tasks);
+  [[nodiscard]] std::vector<Error> make_rounds_of_willing(std::vector<UnitTask> tasks);
+  void note(std::span<const std::string> notes);
+  void conclude();
+  void conclude(const UnitChange& unit, GoalResult& result);
+  [[nodiscard]] std::vector<Error> write_what_rom_lacks();
+  void look_back();
+  void end_record();
+
+  Session& session_;
+  const bla::Profiles& profiles_;
+  Options options_;
+  std::unique_ptr<Rounds> rounds_;
+  std::vector<GoalResult> results_;
+  std::vector<std::size_t> begun_; ///< the goals behind the units of rounds_
+  std::vector<std::string> notes_;
+};
+
+} // namespace blactl::fleet

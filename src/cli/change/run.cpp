@@ -1,0 +1,334 @@
+#include "cli/change/run.hpp"
+
+#include "blactl/fleet/bus/discovery.hpp"
+#include "blactl/fleet/bus/texts.hpp"
+#include "blactl/fleet/change/let_in.hpp"
+
+#include "cli/change/entries_view.hpp"
+#include "cli/change/event_file.hpp"
+#include "cli/change/texts.hpp"
+#include "cli/change/watch.hpp"
+#include "cli/texts.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <memory>
+#include <utility>
+
+namespace blactl::cli {
+namespace {
+
+using fleet::Change;
+using fleet::ChangeResult;
+using fleet::GoalResult;
+
+bool restarts(const fleet::Goal& goal) {
+  return goal.wanted.restart.has_value();
+}
+
+bool will_save(const GoalResult& result) {
+  return result.goal.saves() && result.need != fleet::Need::nothing;
+}
+
+/// With --dry-run: something would be sent.
+bool would_act(const GoalResult& result) {
+  return result.goal.evidence == fleet::Evidence::none
+             ? result.change.saves || result.has_differences()
+             : result.need != fleet::Need::nothing;
+}
+
+std::vector<ChangeResult> changes_of(std::span<const GoalResult> results) {
+  std::vector<ChangeResult> changes;
+  std::ranges::transform(results, std::back_inserter(changes), &GoalResult::change);
+  return changes;
+}
+
+/// One run. Each step may end it, with errors in the report.
+class Run : WritingRun {
+ public:
+  Run(const ChangeRequest& request, EventFile* events, Context& context, Report& report)
+      : WritingRun(context, report), request_(request), watch_(context, events) {}
+
+  void all();
+
+ private:
+  [[nodiscard]] bool check_table();
+  [[nodiscard]] bool find();
+  [[nodiscard]] bool look_around();
+  [[nodiscard]] bool look_for(const fleet::Targets& targets);
+  [[nodiscard]] bool let_in();
+  [[nodiscard]] bool may_let_in();
+  [[nodiscard]] Change::Options options();
+  [[nodiscard]] bool prepare(Change& change);
+  [[nodiscard]] bool confirm(const Change& change);
+  void stop_before_begin();
+  void carry_out(Change& change);
+  void tell_held(std::span<const GoalResult> results);
+  void conclude(const Change& change);
+  void count(std::span<const GoalResult> results);
+  void show(const Change& change);
+  bool stop_at(const std::vector<Error>& errors);
+
+  const ChangeRequest& request_;
+  ApplyWatch watch_;
+  Goals goals_;
+  std::size_t named_ = 0; ///< targets, those included that are not there
+};
+
+void Run::all() {
+  if (open(request_.command, request_.dry_run ? Recording::looked_up : request_.recording) &&
+      check_table() && find()) {
+    Change change(context_.session(), context_.known(), options());
+    if (prepare(change) && confirm(change)) {
+      request_.dry_run ? conclude(change) : carry_out(change);
+      return;
+    }
+  }
+  stop_before_begin();
+}
+
+/// Nothing was written.
+void Run::stop_before_begin() {
+  if (report_.signal != 0) {
+    hint_interruption(say<texts::nothing_written_hint>());
+  }
+  report_.count_targets(std::max(named_, report_.targets.size()));
+}
+
+/// What is said of one servo is the end of that target.
+bool Run::stop_at(const std::vector<Error>& errors) {
+  for (const Error& error : errors) {
+    if (context_.signal() != 0) {
+      context_.broken(error, report_);
+    } else if (error.node_id) {
+      report_.fail_target(error);
+    } else {
+      report_.fail(error);
+    }
+  }
+  return errors.empty();
+}
+
+/// A command that may give IDs to anybody says at once that it cannot keep them.
+bool Run::check_table() {
+  if (request_.search != Search::everybody) {
+    return true;
+  }
+  const auto table = context_.allocations(state::Access::write);
+  auto refused = table ? std::nullopt : go_without_table(table.error());
+  return !refused || stop(std::move(*refused));
+}
+
+bool Run::look_around() {
+  auto identification = context_.identification();
+  identification.static_node_id = true;
+  fleet::Discovery discovery(context_.session(), context_.known(), identification);
+  if (const auto found = discovery.find_all(fleet::bus_watch_time); !found) {
+    return broken(found.error());
+  }
+  searched();
+  return true;
+}
+
+bool Run::find() {
+  const auto targets = context_.targets();
+  if (!targets) {
+    return stop(targets.error());
+  }
+  if (!look_for(*targets)) {
+    return false;
+  }
+  if (goals_.may_wait && may_let_in() && !(let_in() && look_for(*targets))) {
+    return false;
+  }
+  return stop_at(goals_.errors);
+}
+
+/// Servos that wait for a node ID may be those that are missing. A plan gives none.
+bool Run::may_let_in() {
+  return !request_.dry_run && !context_.session().roster().pending().empty() &&
+         context_.may_allocate();
+}
+
+bool Run::let_in() {
+  if (request_.let_in) {
+    const auto done = request_.let_in();
+    return done || broken(done.error());
+  }
+  auto table = context_.allocations(state::Access::write);
+  if (!table) {
+    context_.reporter().note(say<texts::ids_not_kept>(table.error().message));
+    table = state::AllocationStore::unshared();
+  }
+  const auto done = table ? fleet::let_in(context_.session(), *table)
+                          : Result<void>(std::unexpected(table.error()));
+  return done || broken(done.error());
+}
+
+/// What is wished of those that are known by now.
+bool Run::look_for(const fleet::Targets& targets) {
+  if (request_.search == Search::everybody && !look_around()) {
+    return false;
+  }
+  Whom whom{context_.session().roster(), targets};
+  if (targets.given || request_.needs_targets) {
+    auto selection = choose(targets, context_.identification());
+    if (!selection) {
+      return false;
+    }
+    named_ = selection->ids.size() + selection->errors.size();
+    if (!selection->errors.empty()) {
+      for (Error& error : selection->errors) {
+        report_.fail_target(std::move(error));
+      }
+      return false;
+    }
+    whom.selected = std::move(selection->ids);
+  }
+  goals_ = request_.find(whom);
+  return true;
+}
+
+Change::Options Run::options() {
+  auto manner = this->manner(request_.times, std::ranges::any_of(goals_.goals, restarts));
+  manner.stops_at_failure = request_.fails_fast;
+  if (request_.view == ResultView::entries) {
+    manner.entered = [this](const fleet::Servo& servo, fleet::ChangeStage stage) {
+      watch_.enter(servo, stage);
+    };
+  }
+  return {.manner = std::move(manner),
+          .while_driven = context_.shared().while_driven,
+          .stops_at_failure = request_.stops_at_failure || request_.fails_fast,
+          .knows_ids = request_.search == Search::everybody,
+          .searched = searched_at()};
+}
+
+bool Run::prepare(Change& change) {
+  const auto errors = change.prepare(goals_.goals);
+  tell(change.notes());
+  if (!stop_at(errors) || (request_.refuse && !stop_at(request_.refuse(change.results())))) {
+    return false;
+  }
+  watch_.begin(change.results());
+  tell_warnings(change.results());
+  return true;
+}
+
+bool Run::confirm(const Change& change) {
+  tell_others();
+  return WritingRun::confirm(request_.dry_run ? std::string() : change.question());
+}
+
+/// What was spared is said: `saved` is no for a servo that is as wished.
+void Run::tell_held(std::span<const GoalResult> results) {
+  std::vector<std::string> notes;
+  for (const GoalResult& result : results) {
+    if (result.goal.saves() && result.need == fleet::Need::nothing && result.is_done) {
+      notes.push_back(say<texts::held_already>(result.servo().id.value()));
+    }
+  }
+  tell(notes);
+}
+
+void Run::carry_out(Change& change) {
+  if (std::ranges::any_of(change.results(), will_save)) {
+    context_.reporter().note(say<texts::do_not_cut_supply>());
+  }
+  const auto errors = change.carry_out(request_.moved);
+  watch_.end(change.results());
+  tell(change.notes());
+  tell_warnings(change.results());
+  if (request_.view == ResultView::changes) {
+    tell_held(change.results());
+  }
+  tell_newcomers();
+  const auto was_begun = [](const GoalResult& result) {
+    return result.change.was_begun || result.is_done;
+  };
+  if (!errors.empty() && std::ranges::none_of(change.results(), was_begun)) {
+    (void)stop_at(errors);
+    return stop_before_begin();
+  }
+  for (const Error& error : errors) {
+    (void)broken(error);
+  }
+  conclude(change);
+}
+
+void Run::count(std::span<const GoalResult> results) {
+  for (const GoalResult& result : results) {
+    report_.targets.push_back({.errors = errors_of(result, request_.dry_run),
+                               .has_found = request_.dry_run && would_act(result)});
+  }
+  report_.count_targets(std::max(named_, report_.targets.size()));
+  std::ranges::copy(counts(request_.view, results, request_.dry_run),
+                    std::back_inserter(report_.counts));
+}
+
+void Run::conclude(const Change& change) {
+  count(change.results());
+  if (request_.ended) {
+    request_.ended(change.results());
+  }
+  if (request_.view != ResultView::moves) {
+    show(change);
+  }
+}
+
+void Run::show(const Change& change) {
+  const bool dry_run = request_.dry_run;
+  const auto kept = std::make_shared<std::vector<GoalResult>>(change.results());
+  if (request_.view == ResultView::entries) {
+    const auto others = std::make_shared<std::vector<fleet::EntryDiff>>(std::move(goals_.others));
+    const std::string asks = dry_run && !change.question().empty()
+                                 ? say<texts::apply_would_ask>(change.question())
+                                 : std::string();
+    report_.json = [=](JsonWriter& json) { write_json(json, *kept, *others, dry_run); };
+    report_.text = [=](const Page& page) { return text(*kept, *others, dry_run, page) + asks; };
+    return;
+  }
+  report_.json = [kept, view = request_.view, own = request_.json](JsonWriter& json) {
+    const auto changes = changes_of(*kept);
+    own ? own(json, changes) : write_json(json, view, changes);
+  };
+  report_.text = [kept, view = request_.view, own = request_.text](const Page& page) {
+    const auto changes = changes_of(*kept);
+    return own ? own(changes, page) : text(view, changes, page);
+  };
+}
+
+} // namespace
+
+ChangeRequest request_for_all(std::string_view command, fleet::Wanted wanted,
+                              fleet::Evidence evidence) {
+  return {.command = command, .find = [wanted = std::move(wanted), evidence](const Whom& whom) {
+            auto goals = fleet::goals_for_all(wanted, evidence, whom.selected);
+            return goals ? Goals{.goals = std::move(*goals)} : Goals{.errors = {goals.error()}};
+          }};
+}
+
+Report change_servos(const ChangeRequest& request, Context& context) {
+  Report report{.interface = printable(context.shared().interface),
+                .is_stream = request.view == ResultView::moves};
+  if (const auto profiles = context.profiles(); !profiles) {
+    report.fail(profiles.error());
+    return report;
+  }
+  std::unique_ptr<EventFile> events;
+  if (!request.events.empty()) {
+    auto opened = EventFile::open(request.events);
+    if (!opened) {
+      report.fail(opened.error());
+      return report;
+    }
+    events = std::move(*opened);
+  }
+  Run(request, events.get(), context, report).all();
+  if (events && events->error()) {
+    report.fail(*events->error());
+  }
+  return report;
+}
+
+} // namespace blactl::cli

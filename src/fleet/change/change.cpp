@@ -1,0 +1,427 @@
+#include "blactl/fleet/change/change.hpp"
+
+#include "blactl/fleet/bus/snapshots.hpp"
+#include "blactl/fleet/bus/texts.hpp"
+#include "blactl/fleet/bus/unreachable.hpp"
+#include "blactl/fleet/change/guard.hpp"
+#include "blactl/fleet/change/history.hpp"
+#include "blactl/fleet/change/restart_texts.hpp"
+
+#include "fleet/change/rounds.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <numeric>
+#include <utility>
+
+namespace blactl::fleet {
+
+using bla::Assignment;
+using dronecan::NodeId;
+
+namespace {
+
+Wanted wanted(const Goal& goal, Need need) {
+  return need == Need::prove ? Wanted{.restart = RestartKind::restart, .proves_rom = true}
+                             : goal.wanted;
+}
+
+/// The registers that the goal needs and, where ROM counts, whether the servo could read its ROM.
+Result<std::vector<const bla::Parameter*>> registers_to_read(const Goal& goal, const Servo& servo) {
+  auto needed = registers_needed(goal.wanted, servo);
+  const bool counts = goal.wanted.restart && goal.evidence != Evidence::none;
+  const bla::Parameter* state = counts ? rom_state(servo.identity) : nullptr;
+  if (needed && state != nullptr) {
+    needed->push_back(state);
+  }
+  return needed;
+}
+
+/// From what the servo held to what is wished.
+std::vector<RegisterChange> changes(const Goal& goal, const Snapshot& held) {
+  std::vector<RegisterChange> all;
+  for (const Assignment& wish : goal.wanted.assignments) {
+    const bla::Parameter* parameter = held.servo.identity.parameter(wish.parameter->address);
+    if (parameter == nullptr) {
+      continue; // no plan will come of it
+    }
+    RegisterChange change{.parameter = parameter,
+                          .requested = wish.value.raw,
+                          .before = held.raw(wish.parameter->address)};
+    if (change.before == change.requested) {
+      change.status = ChangeStatus::unchanged;
+      change.after = change.before;
+    }
+    all.push_back(std::move(change));
+  }
+  return all;
+}
+
+/// A register that an earlier round may have changed, as the last one has left it.
+void learn(RegisterChange& change, const ChangeResult& last) {
+  const auto same = std::ranges::find_if(last.changes, [&](const RegisterChange& each) {
+    return each.parameter->address == change.parameter->address;
+  });
+  if (same == last.changes.end()) {
+    return;
+  }
+  change.after = same->after;
+  change.error = same->error;
+  const bool was_made = change.is_planned() && same->status == ChangeStatus::unchanged;
+  change.status = was_made ? ChangeStatus::written : same->status;
+}
+
+/// A restart has not shown that ROM holds the goal.
+bool is_unproven(const GoalResult& result, const UnitChange& unit) {
+  return result.need == Need::prove && unit.is_done && unit.last &&
+         !(unit.last->rom && holds(unit.last->rom->values, result.goal));
+}
+
+bool names(const Goal& goal, bla::Address address) {
+  return std::ranges::any_of(goal.wanted.assignments, [&](const Assignment& wish) {
+    return wish.parameter->address == address;
+  });
+}
+
+/// What the goal does not name, and RAM and ROM hold differently: SAVE keeps it, a restart ends it.
+std::vector<Warning> unnamed(const Goal& goal, const Snapshot& ram, const bla::Values& rom,
+                             Need need) {
+  std::vector<Warning> warnings;
+  for (const Reading& reading : ram.readings) {
+    const bla::Parameter& parameter = *reading.parameter;
+    const auto kept = bla::find(rom, parameter.address);
+    if (!bla::is_setting(parameter.address) || names(goal, parameter.address) || !reading.raw ||
+        !kept || kept == reading.raw) {
+      continue;
+    }
+    const std::string in_ram = bla::display(parameter, *reading.raw, ram.pwm_mode());
+    const std::string in_rom = bla::display(parameter, *kept, ram.pwm_mode());
+    warnings.push_back(
+        need == Need::prove
+            ? Warning{"unnamed_lost", say<texts::unnamed_lost>(parameter.name, in_ram, in_rom)}
+            : Warning{"unnamed_saved", say<texts::unnamed_saved>(parameter.name, in_ram, in_rom)});
+  }
+  return warnings;
+}
+
+/// The goal against what the servo holds; a plan may say more.
+GoalResult compared(Goal goal, Need need, const Snapshot& held) {
+  GoalResult result{.goal = std::move(goal), .need = need};
+  ChangeResult& change = result.change;
+  change.servo = held.servo;
+  change.before = held.values();
+  change.changes = changes(result.goal, held);
+  change.mode_before = change.mode_after = held.pwm_mode();
+  for (const RegisterChange& each : change.changes) {
+    if (each.parameter->address == bla::address::pwm_mode) {
+      change.mode_after = each.requested;
+    }
+  }
+  change.node_id_after = held.servo.id;
+  result.is_done = need == Need::nothing;
+  return result;
+}
+
+/// `earlier`: the same servo, before its last round.
+ChangeResult merged(ChangeResult earlier, const ChangeResult& last) {
+  ChangeResult all = last;
+  all.was_begun = all.was_begun || earlier.was_begun;
+  all.was_sent = all.was_sent || earlier.was_sent;
+  all.may_have_saved = all.may_have_saved || earlier.may_have_saved;
+  all.was_restarted = all.was_restarted || earlier.was_restarted;
+  all.duration += earlier.duration;
+  all.before = std::move(earlier.before);
+  all.mode_before = earlier.mode_before;
+  all.mode_after = earlier.mode_after;
+  all.warnings = std::move(earlier.warnings);
+  all.changes = std::move(earlier.changes);
+  std::ranges::for_each(all.changes, [&](RegisterChange& each) { learn(each, last); });
+  return all;
+}
+
+} // namespace
+
+Change::Change(Session& session, const bla::Profiles& profiles, Options options)
+    : session_(session), profiles_(profiles), options_(std::move(options)) {}
+
+Change::~Change() = default;
+
+std::vector<Error> Change::prepare(std::vector<Goal> goals) {
+  for (Goal& goal : goals) {
+    results_.push_back({.goal = std::move(goal)});
+    results_.back().change.servo.id = results_.back().goal.id;
+  }
+  std::vector<std::size_t> all(results_.size());
+  std::iota(all.begin(), all.end(), 0U);
+  return prepare(all);
+}
+
+std::string Change::question() const {
+  return rounds_ ? rounds_->question() : std::string();
+}
+
+/// RAM that is going to be saved must be what it was before this run, save where that restarted the
+/// servo itself.
+Result<Change::Snapshots> Change::read(std::span<const std::size_t> goals) {
+  std::map<NodeId, const Goal*> all;
+  std::vector<NodeId> nodes;
+  auto proof = ReadJob::Proof::moment;
+  for (const std::size_t i : goals) {
+    const Goal& goal = results_[i].goal;
+    nodes.push_back(goal.id);
+    if (goal.saves() && !results_[i].change.was_begun) {
+      proof = ReadJob::Proof::run;
+    }
+    all.insert_or_assign(goal.id, &goal);
+  }
+  auto read = take_snapshots(
+      session_, profiles_, nodes, options_.manner.identification,
+      [&](const Servo& servo) { return registers_to_read(*all.at(servo.id), servo); }, proof);
+  // After a first signal every run of the session is told as broken; what was read stands for
+  // itself.
+  if (read.broken && !options_.gives_back) {
+    return std::unexpected(*read.broken);
+  }
+  return std::move(read.servos);
+}
+
+/// Why the goal cannot be judged; empty: it can, and make_plan() may still refuse it.
+std::optional<Error> Change::refuse(const Goal& goal, const Snapshot& held) const {
+  const std::uint8_t id = goal.id.value();
+  if (session_.roster().is_doubled(goal.id)) { // two that answer at once answer nothing
+    return doubled(session_.roster(), goal.id);
+  }
+  if (!held.error && goal.unique_id && held.servo.unique_id != goal.unique_id) {
+    return Error{Code::state, say<texts::another_servo>(id), say<texts::run_again_hint>(), id};
+  }
+  return goal.evidence != Evidence::none ? held.first_error() : std::nullopt;
+}
+
+/// Empty: ROM does not count, or nothing is on record.
+std::optional<bla::Values> Change::proven_rom(const Goal& goal, const Servo& servo) {
+  History* const record = options_.manner.proofs;
+  return goal.saves() && goal.evidence != Evidence::none && record != nullptr
+             ? record->proven_rom(servo, session_)
+             : std::nullopt;
+}
+
+/// Tasks for those for which something has to be done.
+std::vector<Error> Change::judge(std::span<const std::size_t> goals, Snapshots snapshots,
+                                 std::vector<UnitTask>& tasks) {
+  std::vector<Error> errors;
+  for (std::size_t i = 0; i < goals.size(); ++i) {
+    Snapshot& held = snapshots[i];
+    GoalResult& result = results_[goals[i]];
+    if (auto error = refuse(result.goal, held)) {
+      result.errors.push_back(*error);
+      errors.push_back(std::move(*error));
+      continue;
+    }
+    const auto rom = proven_rom(result.goal, held.servo);
+    const Need need = need_of(result.goal, held, rom);
+    const ChangeResult earlier = std::move(result.change); // to see what its ROM holds
+    result = compared(std::move(result.goal), need, held);
+    result.change.was_begun = earlier.was_begun;
+    result.change.was_sent = earlier.was_sent;
+    result.change.was_restarted = earlier.was_restarted;
+    result.change.duration = earlier.duration;
+    if (result.is_done && result.goal.saves() && result.goal.evidence != Evidence::ram) {
+      result.rom_proven = true;
+    }
+    if (need != Need::nothing) {
+      result.change.warnings =
+          rom ? unnamed(result.goal, held, *rom, need) : std::vector<Warning>();
+      begun_.push_back(goals[i]);
+      tasks.push_back({std::move(held), wanted(result.goal, need)});
+    }
+  }
+  return errors;
+}
+
+/// The plans of those that are begun, in rounds.
+std::vector<Error> Change::make_rounds(std::vector<UnitTask> tasks) {
+  rounds_ = std::make_unique<Rounds>(session_, profiles_,
+                                     Rounds::Options{.manner = options_.manner,
+                                                     .while_driven = options_.while_driven,
+                                                     .stops_at_failure = options_.stops_at_failure,
+                                                     .knows_ids = options_.knows_ids});
+  auto errors = rounds_->prepare(std::move(tasks));
+  note(rounds_->notes());
+  for (std::size_t i = 0; errors.empty() && i < begun_.size(); ++i) {
+    GoalResult& result = results_[begun_[i]];
+    ChangeResult& change = result.change;
+    ChangeResult plan = as_planned(rounds_->units()[i].plan);
+    change.warnings.insert(change.warnings.begin(), plan.warnings.begin(), plan.warnings.end());
+    if (result.need != Need::prove) {
+      change.changes = std::move(plan.changes);
+      change.mode_before = plan.mode_before;
+      change.mode_after = plan.mode_after;
+      change.saves = plan.saves;
+    }
+  }
+  return errors;
+}
+
+std::vector<Error> Change::hear() {
+  if (options_.gives_back) { // the bus was heard when it was taken
+    return {};
+  }
+  auto heard = hear_others(session_, options_.searched);
+  note(heard.notes);
+  return std::move(heard.errors);
+}
+
+std::vector<Error> Change::prepare(std::span<const std::size_t> goals) {
+  begun_.clear();
+  rounds_.reset();
+  if (goals.empty()) {
+    return {};
+  }
+  auto snapshots = read(goals);
+  if (!snapshots) {
+    return {snapshots.error()};
+  }
+  std::vector<UnitTask> tasks;
+  auto errors = judge(goals, std::move(*snapshots), tasks);
+  if (!errors.empty() && !options_.gives_back) {
+    return errors;
+  }
+  errors = hear();
+  if (!errors.empty()) {
+    return errors;
+  }
+  return options_.gives_back ? make_rounds_of_willing(std::move(tasks))
+                             : make_rounds(std::move(tasks));
+}
+
+/// The same without those that refuse: what they refuse is in their results.
+std::vector<Error> Change::make_rounds_of_willing(std::vector<UnitTask> tasks) {
+  for (;;) {
+    auto errors = make_rounds(tasks);
+    const auto refuses = [&](const UnitTask& task) {
+      const auto error = std::ranges::find(errors, task.before.servo.id.value(), &Error::node_id);
+      if (error == errors.end()) {
+        return false;
+      }
+      const auto goal = std::ranges::find(begun_, task.before.servo.id,
+                                          [&](std::size_t i) { return results_[i].goal.id; });
+      results_[*goal].errors.push_back(*error);
+      begun_.erase(goal);
+      return true;
+    };
+    if (errors.empty() || std::erase_if(tasks, refuses) == 0) {
+      return errors;
+    }
+  }
+}
+
+void Change::note(std::span<const std::string> notes) {
+  for (const std::string& text : notes) {
+    if (std::ranges::find(notes_, text) == notes_.end()) {
+      notes_.push_back(text);
+    }
+  }
+}
+
+std::vector<Error> Change::carry_out(const MoveHook& moved) {
+  std::vector<Error> errors;
+  if (!begun_.empty()) {
+    errors = rounds_->carry_out(moved);
+    conclude();
+    const bool has_failed = std::ranges::any_of(rounds_->units(), &UnitChange::has_failed);
+    if (errors.empty() && !(has_failed && options_.stops_at_failure)) {
+      errors = write_what_rom_lacks();
+    }
+  }
+  look_back();
+  end_record();
+  return errors;
+}
+
+/// Is what was found to be right still true of those that nothing was done to, as far as was heard?
+void Change::look_back() {
+  const Roster& roster = session_.roster();
+  for (GoalResult& result : results_) {
+    if (result.need != Need::nothing) {
+      continue; // its own job has looked
+    }
+    const Servo& servo = result.servo();
+    const std::uint8_t id = servo.id.value();
+    const bool restarted = roster.member(servo.id).boots != servo.boot;
+    if (roster.is_doubled(servo.id)) {
+      result.errors.push_back(doubled(roster, servo.id));
+    } else if (const auto writer = roster.writer_to(servo.id, servo.since)) {
+      result.errors.push_back({Code::state, say<texts::written_by_other>(id, writer->value()),
+                               say<texts::other_writer_hint>(), id});
+    } else if (restarted && !result.rom_proven) { // RAM is what ROM held now
+      result.errors.push_back(
+          {Code::state, say<texts::lost_since>(id), say<texts::run_again_hint>(), id});
+    }
+    result.is_done = result.errors.empty();
+  }
+}
+
+void Change::conclude() {
+  for (std::size_t i = 0; i < begun_.size(); ++i) {
+    conclude(rounds_->units()[i], results_[begun_[i]]);
+  }
+}
+
+void Change::conclude(const UnitChange& unit, GoalResult& result) {
+  result.is_done = unit.is_done && !is_unproven(result, unit);
+  if (!unit.last) {
+    return;
+  }
+  const ChangeResult& last = *unit.last;
+  result.change = merged(std::move(result.change), last);
+  result.change.saved = last.saved && !unit.has_made_way;
+  result.errors = result.change.errors();
+  if (unit.is_done && !result.is_done && !last.rom) {
+    const std::uint8_t id = last.servo.id.value();
+    result.errors.push_back(
+        {Code::state, say<texts::restarts_while_read>(id), say<texts::restarts_again_hint>(), id});
+  }
+  result.rom_proven = result.goal.saves() ? std::optional(result.is_done) : std::nullopt;
+  if (result.need == Need::prove && last.rom) {
+    result.change.warnings = unnamed(result.goal, unit.plan.before, last.rom->values, result.need);
+  }
+}
+
+/// Where the restart has shown that ROM holds something else, that is written now.
+std::vector<Error> Change::write_what_rom_lacks() {
+  std::vector<std::size_t> lacking;
+  for (std::size_t i = 0; i < begun_.size(); ++i) {
+    GoalResult& result = results_[begun_[i]];
+    if (is_unproven(result, rounds_->units()[i])) {
+      result.goal.id = result.change.node_id_after.value_or(result.goal.id);
+      lacking.push_back(begun_[i]);
+    }
+  }
+  if (lacking.empty()) {
+    return {};
+  }
+  auto errors = prepare(lacking);
+  if (errors.empty() && !begun_.empty()) {
+    errors = rounds_->carry_out({});
+    conclude();
+  }
+  return errors;
+}
+
+/// A change that came to its end is not gone on with when the command is typed again.
+void Change::end_record() {
+  std::vector<dronecan::UniqueId> units;
+  for (const GoalResult& result : results_) {
+    if (result.is_done && result.servo().unique_id) {
+      units.push_back(*result.servo().unique_id);
+    }
+  }
+  const Manner& manner = options_.manner;
+  const auto ended = manner.history != nullptr ? manner.history->end(units) : Result<void>();
+  if (!ended && manner.end_not_recorded) {
+    manner.end_not_recorded(ended.error());
+  }
+}
+
+} // namespace blactl::fleet
