@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Which floor of the source may include which, and which room of a floor; CONTRIBUTING.md, "The map
 of the house", draws it. Also that cli names no register's address: what is true of servos lives
-below it.
+below it; and that no folder of src/ has too many files.
 
 Usage: includes_test.py ROOT. First every include of ROOT is looked at, then, in a copy, an include
 is planted for every arrow that must not be, to see that it is found.
@@ -43,6 +43,8 @@ ROOMS = {
 }
 # A floor whose folders are no rooms: they may include one another.
 ROOMLESS = {"cli"}
+# More files than that, side by side in a folder of src/, nobody finds his way through.
+MOST_FILES = 45
 
 INCLUDE = re.compile(r"^[ \t]*#[ \t]*include\b[ \t]*(.*)$", re.MULTILINE)
 NAME = re.compile(r'(["<])([^">]+)[">]')
@@ -124,8 +126,17 @@ def missing_places(sources, root):
         yield f"{floor}/{room or ''}: there is no such folder"
 
 
+def crowds(root):
+    """Folders of src/ with too many files side by side."""
+    for folder in sorted({path.parent for path in (root / "src").rglob("*")}):
+        count = sum(path.is_file() for path in folder.iterdir())
+        if count > MOST_FILES:
+            yield f"{folder.relative_to(root)}: {count} files, more than {MOST_FILES}"
+
+
 def faults(root):
     root = root.resolve()
+    yield from crowds(root)
     sources = [path for folder in ("include", "src") for path in sorted((root / folder).rglob("*"))
                if path.suffix in (".cpp", ".hpp")]
     yield from missing_places(sources, root)
@@ -220,6 +231,11 @@ def blind_spots(root):
             look = (lambda: faults_in(source, copy)) if index else (lambda: faults(copy))
             if not is_found(source, line, look):
                 yield f"{source.relative_to(copy)}: {line or 'that it stands there'}: not found"
+        folder = copy / "src/base"
+        for index in range(MOST_FILES - sum(path.is_file() for path in folder.iterdir())):
+            (folder / f"one_more_{index}.txt").touch()
+        if list(crowds(copy)) or not is_found(folder / "too_many.cpp", "", lambda: crowds(copy)):
+            yield f"{folder.relative_to(copy)}: {MOST_FILES} files, and one more: not told apart"
 
 
 def main():
