@@ -5,7 +5,7 @@
 namespace blactl {
 namespace {
 
-// What eight shifts do to each value of the CRC's upper byte (polynomial 0x1021).
+// The effect of eight shifts on each value of the CRC's upper byte (polynomial 0x1021).
 constexpr auto table = [] {
   std::array<std::uint16_t, 256> values{};
   for (std::uint32_t i = 0; i < values.size(); ++i) {

@@ -1,4 +1,4 @@
-// The checked access to values: what a reader asks for, and the faults of what it gets.
+// Checked access to values: converts what a reader asks for and records the faults.
 
 #include "blactl/base/json_reader.hpp"
 #include "blactl/base/text.hpp"
@@ -26,7 +26,7 @@ std::string describe(Kind kind) {
   return {};
 }
 
-/// Whether `value` is of `kind`; if not, that is a fault.
+/// Whether `value` is of `kind`; adds a fault if not.
 bool expect(const Value& value, Kind kind, Faults& faults) {
   if (value.kind == kind) {
     return true;
@@ -35,7 +35,7 @@ bool expect(const Value& value, Kind kind, Faults& faults) {
   return false;
 }
 
-/// Whether min <= number <= max; if not, that is a fault.
+/// Whether min <= number <= max; adds a fault if not.
 template <class Number>
 bool within(Number number, Number min, Number max, const Value& value, Faults& faults) {
   if (number < min) {
@@ -273,7 +273,7 @@ void Object::finish() {
     return;
   }
   for (const Value* item : value_->items) {
-    // A second one of the same key is a fault of its own already.
+    // A duplicate key has its own fault already.
     if (std::ranges::find(asked_, item->key, &Value::key) == asked_.end()) {
       faults_->add(*item, known_.empty() ? say<texts::json_unknown_among_none>()
                                          : say<texts::json_unknown>(join(known_)));

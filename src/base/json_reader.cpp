@@ -15,7 +15,7 @@
 namespace blactl::json {
 namespace {
 
-/// Reads the text and lets the builder know how far the parser has come.
+/// Reads the text and informs the builder of the parser's position.
 class CountingIterator {
  public:
   using iterator_category = std::input_iterator_tag;
@@ -49,7 +49,7 @@ class CountingIterator {
 };
 
 /// nlohmann's "[json.exception.parse_error.101] parse error at line 3, column 5: syntax error …"
-/// without what stands before the reason.
+/// without everything before the reason.
 std::string reason_of(const std::string& what) {
   const std::size_t place = what.find("] parse error");
   const std::size_t colon = place == std::string::npos ? place : what.find(": ", place);
@@ -94,7 +94,7 @@ class Builder {
   }
 
   bool number_float(double value, const std::string& digits) {
-    // The parser takes integers that fit nowhere for reals.
+    // The parser treats integers beyond 64 bits as reals.
     if (digits.find_first_of(".eE") == std::string::npos) {
       too_big(add(Kind::integer), digits);
       return true;

@@ -8,7 +8,7 @@
 namespace blactl {
 namespace {
 
-/// What separates the parts of a word: "angle_limit_cw", "param.GetSet", "--dry-run".
+/// The characters that separate the parts of a word: "angle_limit_cw", "param.GetSet", "--dry-run".
 bool is_separator(char c) {
   return c == '_' || c == '-' || c == '.' || c == ' ';
 }
@@ -37,8 +37,8 @@ std::vector<std::string> parts_of(std::string_view word) {
   return parts;
 }
 
-/// The distance to the run of neighbouring parts that resembles `typed` most: "nodeid" is near to
-/// the end of "static_node_id".
+/// The distance to the run of neighbouring parts that is most like `typed`: "nodeid" is near the
+/// end of "static_node_id".
 std::size_t distance_to_parts(std::string_view typed, const std::vector<std::string>& parts) {
   std::size_t least = typed.size();
   for (std::size_t first = 0; first < parts.size(); ++first) {
@@ -51,9 +51,9 @@ std::size_t distance_to_parts(std::string_view typed, const std::vector<std::str
   return least;
 }
 
-/// How far a word is from what was typed: the smaller, the nearer.
+/// How far a word is from the typed one; smaller is nearer.
 struct Nearness {
-  std::size_t rank = 0;     ///< a word as a whole comes before a part that is as near
+  std::size_t rank = 0;     ///< a whole word ranks before an equally near part
   std::size_t distance = 0; ///< of the whole word
   friend auto operator<=>(const Nearness&, const Nearness&) = default;
 };
@@ -87,7 +87,7 @@ std::vector<std::string_view> nearest(std::string_view typed,
                                       std::span<const std::string_view> words) {
   constexpr std::size_t at_most = 3;
   constexpr std::size_t long_enough = 3;
-  // Foreign text can be of any length; what is far longer than every word resembles none.
+  // Foreign text can be of any length; one far longer than every word resembles none.
   constexpr std::size_t too_long = 64;
   if (typed.size() > too_long) {
     return {};

@@ -26,7 +26,7 @@ bool write_all(int descriptor, std::string_view content) {
   return fsync(descriptor) == 0;
 }
 
-/// As a new file would have them: mkstemp() makes it private.
+/// Sets the mode that a new file would have, because mkstemp() makes the file private.
 bool set_usual_rights(int descriptor) {
   const mode_t mask = umask(0);
   umask(mask);
@@ -38,8 +38,8 @@ std::unexpected<Error> failure(const std::string& path, int error) {
               say<texts::file_unwritable_hint>());
 }
 
-/// The file behind a symbolic link, which stays one. What is there and is no regular file (a
-/// device, a pipe) must not be replaced by one.
+/// The file behind a symbolic link, which stays a link. Anything but a regular file (a device, a
+/// pipe) must not be replaced by one.
 Result<std::string> target_of(const std::string& path) {
   struct stat there{};
   if (stat(path.c_str(), &there) != 0) {

@@ -11,7 +11,7 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-/// Reads a text from its front; empty: it is not as it must be.
+/// Reads a text from its front; an empty result: the text is malformed.
 class Reader {
  public:
   explicit Reader(std::string_view text) : rest_(text) {}
@@ -35,7 +35,7 @@ class Reader {
     return value;
   }
 
-  /// At least one digit.
+  /// Skips at least one digit.
   [[nodiscard]] bool skip_digits() {
     const auto digits = std::ranges::find_if_not(rest_, is_digit) - rest_.begin();
     rest_.remove_prefix(static_cast<std::size_t>(digits));

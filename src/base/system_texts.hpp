@@ -1,6 +1,6 @@
 #pragma once
-// The catalogue of the error numbers of the system. In English they are called as every other
-// program calls them, so that they are found elsewhere.
+// Texts for the system's error numbers. The English ones are those of strerror(), so that a search
+// finds them.
 
 #include "blactl/base/text.hpp"
 

@@ -11,7 +11,7 @@
 namespace blactl::bla {
 namespace {
 
-/// 0x10-0x12 have commands of their own.
+/// Refuses 0x10-0x12, which have their own commands.
 Result<void> check_operation(const Parameter& parameter) {
   if (parameter.group != Group::operation) {
     return {};
@@ -50,8 +50,8 @@ bool is_other_unit(const Assignment& assignment, std::int64_t pwm_mode) {
   return assignment.value.pwm_mode.value_or(pwm_mode) != pwm_mode;
 }
 
-/// The number that was typed in the unit of `pwm_mode`, if it can be (the register's would be ten
-/// times off), or as it was typed with the mode of its unit.
+/// Suggests the typed number in the unit of `pwm_mode`, if possible (the register number would be
+/// ten times off), or as typed with the mode that fits its unit.
 std::string ways_to_agree(const Parameter& mode, const Assignment& assignment,
                           std::int64_t pwm_mode) {
   const Parameter& range = *assignment.parameter;
@@ -142,9 +142,9 @@ Result<void> allowed_by_some_model(const Profiles& profiles, const Parameter& pa
                    say<texts::value_in_a_gap>(parameter.name + '=' +
                                               input_text(parameter, value.raw, value.pwm_mode)));
   }
-  if (parameter.group == Group::pwm) { // other models take nothing at all
+  if (parameter.group == Group::pwm) { // other models accept no value
     outside.error().hint = say<texts::pwm_models_take>(either(ranges));
-  } else if (ranges.size() > 1) { // the union of them is no range that one servo takes
+  } else if (ranges.size() > 1) { // no single servo accepts their union
     outside.error().hint = say<texts::value_ranges_hint>(either(ranges));
   }
   return outside;
@@ -167,7 +167,7 @@ Result<void> allowed_by_model(const Profile& model, const Assignment& assignment
 
 namespace {
 
-/// Each command makes the others inactive (4.1-4.3).
+/// Refuses several commands at once, since each makes the others inactive (4.1-4.3).
 Result<void> check_commands(std::span<const Assignment> assignments) {
   const auto commands = std::ranges::count_if(assignments, [](const Assignment& assignment) {
     return assignment.parameter->can_be_inactive;

@@ -25,7 +25,7 @@ bool holds(const Values& values, Address address, std::int64_t raw) {
   return find(values, address) == raw;
 }
 
-/// Both are known, and `compare` holds.
+/// Whether both values are known and `compare` holds.
 template <class Compare>
 bool both(const Values& values, Address first, Address second, Compare compare) {
   const auto left = find(values, first);
@@ -41,12 +41,12 @@ bool is_cw(Address address) {
   return address == at::angle_limit_cw;
 }
 
-/// A command of speed or torque that runs until something ends it.
+/// Whether a command of speed or torque runs until something ends it.
 bool runs(std::optional<std::int64_t> command) {
   return command && *command != 0 && *command != not_active;
 }
 
-/// In this mode the PWM output range reaches beyond one of the limits.
+/// Whether in this mode the PWM output range exceeds one of the limits.
 bool maps_beyond(const Proposal& change, std::int64_t mode, Address limit_cw, Address limit_ccw) {
   const auto is_above = [](std::int64_t output, std::int64_t limit) { return output > limit; };
   const auto is_below = [](std::int64_t output, std::int64_t limit) { return -output < limit; };
@@ -55,7 +55,7 @@ bool maps_beyond(const Proposal& change, std::int64_t mode, Address limit_cw, Ad
           both(change.after, at::pwm_output_range, limit_ccw, is_below));
 }
 
-/// The measured value that a protection limit is compared with, and on which side of it.
+/// The measured value that a protection limit is compared with, and the direction.
 struct Protection {
   Address limit, measured;
   bool is_upper;
@@ -99,15 +99,15 @@ bool meets_reversed_limits(const Proposal& change) {
               is_voltage ? at::voltage_limit_low : at::temperature_limit_low, std::less_equal());
 }
 
-// Questions: what is not known may be the worst
+// Questions: assume the worst of unknown values
 
-/// An angle limit inside of the present angle.
+/// The new angle limit is inside the present angle.
 bool meets_pulled_back(const Proposal& change) {
   const auto angle = find(change.before, at::current_angle);
   return !angle || (is_cw(change.address) ? change.requested < *angle : change.requested > *angle);
 }
 
-/// A wider limit, with a command beyond the old one that is still there.
+/// The limit widens while a command beyond the old one is still present.
 bool meets_let_go_on(const Proposal& change) {
   const auto command = find(change.before, at::command_angle);
   const auto held = find(change.before, change.address);
@@ -128,7 +128,7 @@ bool meets_trips(const Proposal& change) {
          (watched.is_upper ? *measured >= change.requested : *measured <= change.requested);
 }
 
-/// A protection that holds the motor off now, and would not with this limit.
+/// A protection keeps the motor off now and would not with this limit.
 bool meets_protection_ends(const Proposal& change) {
   const auto warnings = find(change.before, at::fault_warning);
   const bool is_active = !warnings || (*warnings & protection(change.address).warning) != 0;
@@ -162,7 +162,7 @@ bool meets_no_motion(const Proposal& change) {
   return both(change.after, at::angle_limit_cw, at::angle_limit_ccw, std::equal_to());
 }
 
-/// Such a pulse cannot be.
+/// The mapping would need negative pulses.
 bool meets_negative_pulse(const Proposal& change) {
   return has_pwm_input(change.servo) &&
          both(change.after, at::pwm_range, at::pwm_neutral, std::greater());

@@ -1,11 +1,11 @@
 #pragma once
-// When each cross-check fires; the table of them is in cross_check.cpp.
+// The condition of each cross-check; cross_check.cpp has their table.
 
 #include "blactl/bla/cross_check.hpp"
 
 namespace blactl::bla {
 
-// Refusals and warnings need to know; what questions do not know may be the worst.
+// Refusals and warnings require known values; questions assume the worst of unknown ones.
 [[nodiscard]] bool meets_control_off(const Proposal& change);
 [[nodiscard]] bool meets_no_stop(const Proposal& change);
 [[nodiscard]] bool meets_reversed_limits(const Proposal& change);

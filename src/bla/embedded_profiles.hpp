@@ -1,5 +1,5 @@
 #pragma once
-// The files of profiles/ as they were when the binary was built (generated source).
+// The files of profiles/ at build time (generated source).
 
 #include <span>
 #include <string_view>

@@ -42,7 +42,7 @@ std::string bit_title(const FaultBit* known) {
 
 namespace {
 
-/// The bits that are set, one a line.
+/// The bits that are set, one per line.
 std::vector<std::string> bit_lines(const Parameter& parameter, std::int64_t raw,
                                    const Profiles& profiles) {
   std::vector<std::string> lines;

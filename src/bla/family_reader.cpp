@@ -81,7 +81,7 @@ std::vector<Choice> read_choices(json::Object& object, json::Faults& faults) {
   return choices;
 }
 
-/// Range and default: here, or in the series files, but not in both.
+/// Checks that range and default are given here or in the series files, but not in both.
 void check_range_given(const json::Object& object, const Parameter& parameter,
                        json::Faults& faults) {
   const bool any = object.has("default") || object.has("min") || object.has("max");

@@ -10,7 +10,7 @@ Level level_of(Address reg) {
   return static_cast<Level>(reg.value() - address::fault_notice.value());
 }
 
-/// The four bits of 0x18 that tell whether a register of this level has any (4.12).
+/// The four bits of 0x18 that summarise the register of this level (4.12).
 std::int64_t summary_mask(Level level) {
   std::int64_t mask = 0;
   for (std::uint8_t bit = 0; bit < fault_register_bits; ++bit) {

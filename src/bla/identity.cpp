@@ -21,7 +21,7 @@ std::int64_t suffix_digits(std::int64_t hardware_version) {
   return hardware_version % class_unit;
 }
 
-/// Keeps those candidates that agree; if none does, all. Whether some did.
+/// Keeps the candidates that agree, or all if none does. Returns whether any did.
 template <class Agrees> bool narrow(std::vector<const Profile*>& candidates, Agrees agrees) {
   if (std::ranges::none_of(candidates, agrees)) {
     return false;
@@ -50,7 +50,7 @@ std::string reading(Address address, const std::optional<std::int64_t>& value) {
   return address.name() + '=' + (value ? std::to_string(*value) : say<texts::number_unknown>());
 }
 
-/// Same default, same range: then it does not matter which of the models it is.
+/// Whether default and range are the same, so that it does not matter which model it is.
 bool alike(const Parameter& a, const Parameter& b) {
   return a.default_raw == b.default_raw && a.min == b.min && a.max == b.max;
 }

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::array<std::string_view, 3> level_names{"notice", "warning", "failure"};
 
-/// A parameter's name as the profiles have it.
+/// A parameter's name in the form used by the profiles.
 std::string as_name(std::string_view text) {
   std::string name = lower(text);
   std::ranges::replace(name, '-', '_');
@@ -32,7 +32,7 @@ std::string as_label(std::string_view text) {
   return label;
 }
 
-/// "angle_limit_cw or angle_limit_ccw", for a word that is no parameter's name.
+/// "angle_limit_cw or angle_limit_ccw", for a word that is not a parameter's name.
 std::string suggestions(std::string_view typed, std::span<const Parameter> registers) {
   const std::string wanted = as_label(typed);
   std::vector<std::string> found;
@@ -116,7 +116,7 @@ std::vector<const FirmwareRelease*> Profiles::releases_of(const Profile& profile
     }
     kept = is_shipped ? releases.size() : kept;
   }
-  releases.resize(kept); // what came after the last one is of other models
+  releases.resize(kept); // later releases are those of other models
   return releases;
 }
 

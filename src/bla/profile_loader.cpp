@@ -1,4 +1,4 @@
-// Profiles::load(): which files there are, and how those of a directory join the built-in ones.
+// Profiles::load(): finds the files and merges those of a directory with the built-in ones.
 
 #include "blactl/base/json_reader.hpp"
 #include "blactl/base/system_error.hpp"
@@ -123,7 +123,7 @@ class Merger {
     }
   }
 
-  /// Models that answer alike cannot be told apart.
+  /// Refuses models that answer alike, since they cannot be distinguished.
   void check_twins() {
     for (std::size_t i = 0; i < models_.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) {
@@ -169,7 +169,7 @@ class Merger {
     } else if (same->file->built_in && !file.built_in) {
       replaced_.push_back(model.profile.model);
       *same = {std::move(model.profile), model.place, &file};
-    } else if (same->file != &file) { // else the file's reader has told it
+    } else if (same->file != &file) { // else the file's reader has reported it
       file.document.faults().add(*model.place,
                                  say<texts::profile_model_twice>(model.profile.model));
     }
@@ -201,7 +201,7 @@ void widen(Parameter& all, const Parameter& one) {
   all.by_suffix = all.by_suffix || one.by_suffix;
 }
 
-/// A value to show how one is typed: no model refuses it if that can be had.
+/// An example value: one that no model refuses, if possible.
 std::optional<Parameter::Example> find_example(Address address, std::span<const Profile> profiles) {
   std::vector<Parameter::Example> defaults;
   for (const Profile& profile : profiles) {
@@ -222,7 +222,7 @@ std::optional<Parameter::Example> find_example(Address address, std::span<const 
   return defaults.empty() ? std::nullopt : std::optional(defaults.front());
 }
 
-/// The register as a model has it of which nothing is known.
+/// The register as assumed for an unknown model.
 Parameter of_unknown(Parameter parameter) {
   parameter.default_raw = parameter.min = parameter.max = std::nullopt;
   return parameter;
@@ -248,7 +248,7 @@ Parameter unite(const Parameter& general, std::span<const Profile> profiles) {
       widen(all, *one);
     }
     if (!first) {
-      break; // the ranges of those that do not let it be written count only where no model does
+      break; // read-only ranges count only if no model can write it
     }
   }
   all.example = find_example(general.address, profiles);

@@ -1,4 +1,4 @@
-// What the files of the family and of the series have in common.
+// The parts common to family and series files.
 
 #include "bla/profile_reader.hpp"
 
@@ -14,7 +14,7 @@ bool describes_series(const json::Document& document) {
 }
 
 void read_head(json::Object& root) {
-  // For editors; they check the file while it is written.
+  // For editors, which check the file as it is written.
   static_cast<void>(root.optional_string("$schema"));
   static_cast<void>(root.word("schema", {profile_schema}));
   static_cast<void>(root.word("family", {profile_family}));

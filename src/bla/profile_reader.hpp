@@ -11,11 +11,11 @@
 
 namespace blactl::bla {
 
-/// What the version of the files is called in them, and what they all describe.
+/// The schema version named in the files, and the family they all describe.
 inline constexpr std::string_view profile_schema = "blactl-profile/1";
 inline constexpr std::string_view profile_family = "BLA";
 
-/// What all models have in common.
+/// The data common to all models.
 struct Family {
   std::vector<Parameter> parameters; ///< ascending; those of table 3-12 without default and range
   std::vector<FaultBit> fault_bits;
@@ -27,21 +27,21 @@ struct Family {
 struct Series {
   struct Model {
     Profile profile;
-    const json::Value* place = nullptr; ///< where the file lists it, for faults
+    const json::Value* place = nullptr; ///< its position in the file, for faults
   };
 
   Choice number; ///< of 0x50: the model number in words
   std::vector<Model> models;
 };
 
-/// Whether the file describes a series; else it is taken for the family's.
+/// Whether the file describes a series rather than the family.
 [[nodiscard]] bool describes_series(const json::Document& document);
 
-/// What is wrong goes to the document's faults; the result is of use only if there are none.
+/// Adds faults to the document; the result is usable only if there are none.
 [[nodiscard]] Family read_family(json::Document& document);
 [[nodiscard]] Series read_series(json::Document& document, const Family& family);
 
-// What both kinds of files have.
+// Parts of both kinds of files.
 
 /// "$schema", "schema" and "family".
 void read_head(json::Object& root);

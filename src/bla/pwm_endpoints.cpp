@@ -21,7 +21,7 @@ struct Endpoint {
   std::optional<std::int64_t> mode;
 };
 
-/// What a register holds in every model with a PWM input.
+/// The values that a register accepts in every model with a PWM input.
 struct Range {
   std::int64_t min, max;
 
@@ -44,7 +44,7 @@ Range range_of(const Profiles& profiles, Address address) {
   return range;
 }
 
-/// The registers as they are known without a servo.
+/// The registers as known without a servo.
 struct Registers {
   const Parameter &neutral_us, &output, &mode;
   Range neutral, range, most;
@@ -60,7 +60,7 @@ std::string assigned(const Parameter& parameter, std::int64_t raw, std::int64_t 
   return parameter.name + '=' + input_text(parameter, raw, mode);
 }
 
-/// An error about a value of a register, as one about a part of --endpoints.
+/// Rewrites an error about a register value as one about a part of --endpoints.
 Error about_endpoint(Error error, const Parameter& parameter) {
   const std::string name = parameter.name + '=';
   const auto replace = [&](std::string& text, std::string_view with) {
@@ -73,7 +73,7 @@ Error about_endpoint(Error error, const Parameter& parameter) {
   return error;
 }
 
-/// Whether a part of --endpoints, "neutral ", or a value of it, can be. Errors: out_of_range.
+/// Checks a part of --endpoints ("neutral ") or one of its values. Errors: out_of_range.
 Result<void> check_part(std::string_view part, const Parameter& parameter, std::int64_t raw,
                         Range possible, std::optional<std::int64_t> mode = std::nullopt) {
   if (possible.holds(raw)) {
@@ -143,7 +143,7 @@ std::optional<std::string> same_line(const Registers& registers, const Endpoint&
                                                input_text(registers.output, output, low.mode)));
 }
 
-/// The symmetric end points that the registers can hold, as near to those two as can be.
+/// The nearest symmetric end points that the registers can hold.
 std::string nearest(const Registers& registers, const Endpoint& low, const Endpoint& high) {
   const std::int64_t neutral = registers.neutral.nearest((low.pulse_us + high.pulse_us + 1) / 2);
   const std::int64_t range = registers.range.nearest((high.pulse_us - low.pulse_us + 1) / 2);
@@ -154,7 +154,7 @@ std::string nearest(const Registers& registers, const Endpoint& low, const Endpo
       neutral + range, input_text(registers.output, output, low.mode)));
 }
 
-/// What no registers can hold. Errors: usage, with what they can.
+/// Refuses end points that registers cannot hold. Errors: usage, with the nearest possible.
 Result<void> check_endpoints(const Registers& registers, const Endpoint& low,
                              const Endpoint& high) {
   if (low.pulse_us == high.pulse_us || low.mode != high.mode) {

@@ -38,7 +38,7 @@ std::optional<std::int64_t> PwmMapping::cut_off_below_us() const {
     return std::nullopt;
   }
   const std::int64_t pulse = neutral_us + *limit_ccw * range_us / output_raw;
-  return pulse >= 0 ? std::optional(pulse) : std::nullopt; // no pulse is shorter
+  return pulse >= 0 ? std::optional(pulse) : std::nullopt; // a pulse cannot be shorter
 }
 
 std::optional<std::int64_t> PwmMapping::cut_off_above_us() const {

@@ -1,4 +1,4 @@
-// A series file: what table 3-12 says of the series, its voltage classes and its suffixes.
+// A series file: the values in table 3-12 for the series, its voltage classes and suffixes.
 
 #include "blactl/base/text.hpp"
 
@@ -56,7 +56,7 @@ std::optional<Parameter> read_override(const json::Value& item, const Family& fa
     faults.add(item, say<texts::profile_writable_without_range>("default, min, max"));
   }
   if (general->writable() && !parameter.default_raw) {
-    parameter.default_raw = 0; // the fault is told already; the models do not lack this register
+    parameter.default_raw = 0; // the fault is already reported; the models do have this register
   }
   return parameter;
 }
@@ -105,7 +105,7 @@ std::vector<Section> read_suffixes(json::Object& root, const Family& family, jso
   return sections;
 }
 
-/// The section that a model names; an empty one if there is none.
+/// The section named by a model; an empty one if there is none.
 const Section& named_section(json::Object& model, std::string_view key,
                              const std::vector<Section>& sections, std::string_view where,
                              json::Faults& faults) {
@@ -136,7 +136,7 @@ void set_default(std::vector<Parameter>& parameters, Address address, std::int64
   }
 }
 
-/// What the whole series has, and its parts.
+/// The values of the whole series, and its sections.
 struct Parts {
   std::string series;
   std::int64_t model_number = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// The catalogue of the floor `bla`: what is said about profiles, parameters and values.
+// The text catalogue of the floor `bla`: profiles, parameters and values.
 
 #include "blactl/base/text.hpp"
 
@@ -17,7 +17,7 @@ inline constexpr Text parameter_list{
 inline constexpr Text list_and_more{", ", "、"};
 inline constexpr Text list_or{" or ", " または "};
 
-// Values as they are typed: the first argument of all is PARAM=VALUE
+// Values as typed: the first argument of each is PARAM=VALUE
 inline constexpr Text assignment_without_equals{"{}: not of the form PARAM=VALUE",
                                                 "{}: PARAM=VALUE の形式ではありません"};
 inline constexpr Text assignment_example{"for example {}", "例: {}"};
@@ -74,7 +74,7 @@ inline constexpr Text pwm_asymmetric{
 inline constexpr Text pwm_same_line{"through both points, for pulses from {} to {} us: {}",
                                     "指定の 2 点を通る設定 (パルス幅 {}～{} us): {}"};
 inline constexpr Text pwm_half_neutral{
-    "--endpoints: the middle between the pulses is no whole microsecond",
+    "--endpoints: the middle between the pulses is not a whole microsecond",
     "--endpoints: パルス幅の中央が整数 (us) になりません"};
 inline constexpr Text pwm_nearest{"the nearest that is possible: --endpoints {}",
                                   "設定可能な最も近い値: --endpoints {}"};
@@ -94,7 +94,7 @@ inline constexpr Text is_read_only_hint{"`blactl get {}` shows it",
 inline constexpr Text bootloader_refused{
     "0x49 starts the boot loader: the specification forbids writing it",
     "0x49 はブートローダ起動です。仕様書で書込みが禁止されています"};
-inline constexpr Text operation_refused{"{} ({}) is no setting but an operation",
+inline constexpr Text operation_refused{"{} ({}) is an operation, not a setting",
                                         "{} ({}) は設定ではなく操作です"};
 inline constexpr Text operation_hint{"use `blactl {}`", "`blactl {}` を使って下さい"};
 inline constexpr Text node_id_of_tools{
@@ -106,7 +106,7 @@ inline constexpr Text node_ids_of_tools_remark{
 inline constexpr Text node_id_hint{"type an ID from 1 to 125, or 0 for dynamic allocation",
                                    "1～125、または 0 (動的割当て) を入力して下さい"};
 
-// Refusals that hang on the servo
+// Refusals that depend on the servo
 inline constexpr Text model_unknown{
     "no profile fits this servo ({}): it is only read",
     "このサーボ ({}) に合うプロファイルが無いため、読出しのみ可能です"};
@@ -114,10 +114,10 @@ inline constexpr Text model_unknown_hint{
     "add a profile for this model with --profile-dir DIR",
     "--profile-dir DIR でこの機種のプロファイルを追加して下さい"};
 inline constexpr Text default_unknown{
-    "the model is not known well enough to tell the default of {}",
+    "the model is not known well enough to give the default of {}",
     "機種を特定できないため、{} の初期値が不明です"};
 inline constexpr Text model_not_certain{
-    "{} ({}) depends on the model, and {} leaves open which of these it is: {}",
+    "{} ({}) depends on the model, and {} fits more than one: {}",
     "{} ({}) の範囲は機種によりますが、{} から機種を特定できません (候補: {})"};
 inline constexpr Text model_mismatch{"the servo is {}, not {}",
                                      "サーボの機種は {} で、{} ではありません"};
@@ -127,12 +127,12 @@ inline constexpr Text firmware_needed{
     "{} ({}) needs firmware {}, this servo has {}",
     "{} ({}) にはファームウェア {} 以降が必要です (このサーボは {})"};
 inline constexpr Text firmware_unknown{
-    "{} ({}) needs firmware {}, and this servo does not tell its own",
+    "{} ({}) needs firmware {}, and this servo does not report its own",
     "{} ({}) にはファームウェア {} 以降が必要ですが、このサーボのバージョンは不明です"};
 inline constexpr Text firmware_unknown_hint{"`blactl get firmware_version` reads it",
                                             "`blactl get firmware_version` で確認して下さい"};
 inline constexpr Text firmware_needed_hint{
-    "`blactl models {}` tells which firmware has what",
+    "`blactl models {}` shows which firmware has which features",
     "`blactl models {}` でファームウェアごとの機能を確認できます"};
 inline constexpr Text no_pwm_input{"{} has no PWM input", "{} に PWM 入力はありません"};
 inline constexpr Text no_pwm_parameter{"{} has no PWM input, and so no {} ({})",
@@ -157,12 +157,12 @@ inline constexpr Text profile_directory{"cannot read the profiles in {}: {}",
 inline constexpr Text profile_directory_hint{
     "check --profile-dir or BLACTL_PROFILE_DIR",
     "--profile-dir または BLACTL_PROFILE_DIR を確認して下さい"};
-inline constexpr Text profile_bad_address{"{} is no address; addresses are 0x00 to 0x5F",
+inline constexpr Text profile_bad_address{"{} is not an address; addresses are 0x00 to 0x5F",
                                           "{} はアドレスではありません (0x00～0x5F)"};
-inline constexpr Text profile_bad_name{"{} is no name; names are a-z, 0-9 and _",
+inline constexpr Text profile_bad_name{"{} is not a valid name; names have only a-z, 0-9 and _",
                                        "{} は名前に使えません (a-z、0-9、_ のみ)"};
 inline constexpr Text profile_bad_model_part{
-    "{} is no part of a model name; letters A-Z and digits are",
+    "{} is not a valid part of a model name; use A-Z and digits",
     "{} は機種名に使えません (A-Z と数字のみ)"};
 inline constexpr Text profile_empty_text{"the text is empty", "文字列が空です"};
 inline constexpr Text profile_name_twice{"{} is already the name of {}", "{} は {} の名前です"};
@@ -198,7 +198,7 @@ inline constexpr Text profile_bit_group{"bit {} belongs to the group {}",
                                         "bit {} はグループ {} に属します"};
 inline constexpr Text profile_releases_order{"versions must ascend",
                                              "version は昇順でなければなりません"};
-inline constexpr Text profile_bad_month{"{} is no month like 2024-06",
+inline constexpr Text profile_bad_month{"{} is not a month like 2024-06",
                                         "{} は 2024-06 の形式ではありません"};
 inline constexpr Text profile_second_family{"there is already a family, in {}",
                                             "ファミリーは既に {} にあります"};

@@ -23,7 +23,7 @@ struct TypedUnit {
   std::optional<std::int64_t> pwm_mode{};
 };
 
-/// The unit in which the register is shown comes first.
+/// The accepted units; the one in which the register is shown comes first.
 std::vector<TypedUnit> typed_units(const Parameter& parameter) {
   switch (parameter.unit) {
   case Unit::none:
@@ -45,7 +45,7 @@ struct Number {
   std::string_view whole;    ///< without leading zeros
   std::string_view fraction; ///< without trailing zeros
   bool has_point = false;
-  std::string_view unit; ///< everything behind the digits
+  std::string_view unit; ///< everything after the digits
 };
 
 std::size_t count_digits(std::string_view text) {
@@ -87,8 +87,7 @@ struct Steps {
 
 /// Empty: beyond 64 bits.
 std::optional<Steps> to_steps(const Number& number, std::int64_t times, std::int64_t per) {
-  // No unit is finer than a millionth of another, so further decimals only tell that it is not
-  // exact.
+  // No unit is finer than a millionth of another, so further decimals only make it inexact.
   constexpr std::size_t most_decimals = 6;
   const std::string_view fraction = number.fraction.substr(0, most_decimals);
   std::int64_t value = 0;
@@ -134,7 +133,7 @@ std::string decimal(std::int64_t raw, std::int64_t steps_per_unit) {
                      negative ? -rest : rest);
 }
 
-/// Parses one value; its members share what all refusals name.
+/// Parses one value; its members share the context of all refusals.
 class ValueParser {
  public:
   ValueParser(const Parameter& parameter, NamedBy named, std::string_view text)
@@ -351,7 +350,7 @@ bool is_version(const Parameter& parameter) {
          parameter.address == address::hardware_version;
 }
 
-/// Which part it is, its name says.
+/// Whether it is part of the date; its name says which part.
 bool is_part_of_date(const Parameter& parameter) {
   return parameter.unit >= Unit::year;
 }

@@ -11,8 +11,8 @@ Time Bus::now() const {
       std::chrono::duration_cast<Duration>(std::chrono::steady_clock::now().time_since_epoch()));
 }
 
-/// Both clocks are read at one moment: a process that is not run in between reads them again, else
-/// a log would go back in time.
+/// Reads both clocks at one moment: if the process was suspended in between, it reads them again,
+/// otherwise a log would go back in time.
 WallTime Bus::wall_at(Time at) const {
   constexpr Duration one_moment = std::chrono::microseconds(20);
   constexpr int most_tries = 10;

@@ -7,7 +7,7 @@
 namespace blactl::can {
 namespace {
 
-/// In the ID of an error frame (CAN_ERR_FLAG of linux/can.h).
+/// Set in the ID of an error frame (CAN_ERR_FLAG of linux/can.h).
 constexpr std::uint32_t error_flag = 0x2000'0000;
 constexpr std::uint32_t standard_id_mask = 0x7FF;
 constexpr std::size_t standard_digits = 3;
@@ -15,7 +15,7 @@ constexpr std::size_t extended_digits = 8;
 
 /// candump writes absolute stamps as %010lu.%06lu, the others as %03lu.%06lu.
 constexpr std::size_t absolute_digits = 10;
-/// Seconds of more digits than this are no time that anybody logged, and would overflow.
+/// Seconds with more digits are not a time that anybody logged, and would overflow.
 constexpr std::size_t most_digits = 11;
 constexpr std::size_t micro_digits = 6;
 
@@ -41,7 +41,7 @@ constexpr bool is_decimal(char c) {
   return c >= '0' && c <= '9';
 }
 
-/// Every digit of `text`, or nothing.
+/// The number, if all of `text` is digits.
 std::optional<std::uint32_t> hex_number(std::string_view text) {
   std::uint32_t value = 0;
   int bad = 0;
@@ -68,7 +68,7 @@ class Scanner {
     return found;
   }
 
-  /// Up to the next space.
+  /// The text up to the next space.
   std::string_view word() {
     skip_spaces();
     const auto word = rest_.substr(0, rest_.find(' '));
@@ -134,7 +134,7 @@ std::optional<WallTime> date(std::int64_t year, Scanner& in) {
          std::chrono::seconds(second);
 }
 
-/// What stands in parentheses, behind the first of them.
+/// Reads the time stamp after the opening parenthesis.
 bool take_stamp(Scanner& in, LogLine& line) {
   const auto digits = in.digits();
   if (digits.empty() || digits.size() > most_digits) {
@@ -177,8 +177,8 @@ bool take_id(std::string_view text, LogLine& line) {
   return line.frame.extended && line.frame.id <= extended_id_mask;
 }
 
-/// Data of the log format: hexadecimal digits, which tools may separate by dots; behind eight bytes
-/// the length code that was on the wire ("_E").
+/// Data of the log format: hexadecimal digits, which tools may separate by dots; after eight bytes
+/// the length code from the wire ("_E") may follow.
 bool take_data(std::string_view text, Frame& frame) {
   std::size_t size = 0;
   std::size_t at = 0;
@@ -197,7 +197,7 @@ bool take_data(std::string_view text, Frame& frame) {
                           hex_digit(rest[1]) > 8);
 }
 
-/// "R", "R5", "R8_E": a remote frame with the length that it asks for.
+/// "R", "R5", "R8_E": a remote frame with its length code.
 bool take_remote(std::string_view text, Frame& frame) {
   frame.remote = true;
   if (text.size() > 1) {
@@ -230,9 +230,9 @@ bool is_direction(std::string_view word) {
   return word == "T" || word == "R";
 }
 
-/// "1401552A   [8]  D2 04 …" from the ID on. CAN FD has a length of two digits. What follows the
-/// data (`-a`: as text, `-e`: ERRORFRAME) tells nothing new. Data in reverse order (`-S`) bears a
-/// mark in place of the spaces and is refused.
+/// "1401552A   [8]  D2 04 …" from the ID on. CAN FD has a length of two digits. Text after the data
+/// (`-a`: as characters, `-e`: ERRORFRAME) adds nothing. Data in reverse order (`-S`) has a mark in
+/// place of the spaces and is refused.
 bool take_screen(std::string_view id, Scanner& in, LogLine& line) {
   const auto length = in.word();
   const bool brackets = length.size() >= 3 && length.front() == '[' && length.back() == ']';
@@ -269,14 +269,14 @@ bool take_screen(std::string_view id, Scanner& in, LogLine& line) {
   return true;
 }
 
-/// candump explains error frames (`-e`) on lines of their own, which a tab begins, and says how
-/// many frames it lost (`-d`).
+/// candump explains error frames (`-e`) on lines that begin with a tab, and reports how many frames
+/// it lost (`-d`).
 bool is_remark(std::string_view text) {
   return text.find_first_not_of(" \t") == std::string_view::npos || text.front() == '\t' ||
          text.starts_with("DROPCOUNT: ");
 }
 
-/// Everything behind the time stamp and the interface.
+/// Reads everything after the time stamp and the interface.
 bool take_frame(Scanner& in, LogLine& line) {
   auto word = in.word();
   if (const auto hash = word.find('#'); hash != std::string_view::npos) {
@@ -301,7 +301,7 @@ char* put_hex(char* out, std::uint32_t value, std::size_t digits) {
   return out;
 }
 
-/// At least `width` decimal digits.
+/// Writes at least `width` decimal digits.
 char* put_decimal(char* out, std::uint64_t value, std::size_t width) {
   std::array<char, 20> digits{};
   std::size_t size = 0;

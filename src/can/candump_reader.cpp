@@ -17,12 +17,12 @@
 namespace blactl::can {
 namespace {
 
-/// What is read at a time, and the longest line: the longest of candump (64 bytes of CAN FD with
-/// their text) has some 300.
+/// The size of one read and of the longest line: candump's longest (64 bytes of CAN FD with their
+/// text) has some 300 characters.
 constexpr std::size_t block_size = 64 << 10;
 
-/// Lines that say nothing, and pieces of a line that has no end: what one call of next() passes
-/// over takes some tens of milliseconds. A few KiB of gzip may hold gigabytes.
+/// The most empty lines, and pieces of an endless line, that one call of next() skips: some tens of
+/// milliseconds. A few KiB of gzip may hold gigabytes.
 constexpr std::size_t most_passed_over = 1024;
 
 Error unreadable(const std::string& name, int error) {
@@ -30,7 +30,7 @@ Error unreadable(const std::string& name, int error) {
           say<texts::log_unreadable_hint>()};
 }
 
-/// After so many lines.
+/// The fault of the input after `lines` lines, if any.
 std::optional<Error> fault_of(const LogInput& input, const std::string& name, std::uint64_t lines) {
   switch (input.fault()) {
   case LogInput::Fault::unreadable: return unreadable(name, input.error_number());
@@ -100,7 +100,7 @@ void CandumpReader::count_bad() {
   }
 }
 
-/// The next line without its end.
+/// The next line without its line end.
 std::optional<std::string_view> CandumpReader::take_line() {
   while (!ended_) {
     const std::string_view unread(buffer_.data() + begin_, end_ - begin_);
@@ -125,18 +125,18 @@ std::optional<std::string_view> CandumpReader::take_line() {
   return std::nullopt;
 }
 
-/// What the file ends with; its last line may have no end.
+/// The rest of the file: its last line may lack a line end.
 std::optional<std::string_view> CandumpReader::take_last_line() {
   const std::string_view rest(buffer_.data() + begin_, end_ - begin_);
   error_ = fault_of(*input_, name_, line_number_);
   begin_ = end_;
   searched_ = 0;
-  // Half a line may look like a whole one.
+  // A partial line may look like a complete one.
   ended_ = error_ || (rest.empty() && !in_long_line_);
   return ended_ ? std::nullopt : std::optional(rest);
 }
 
-/// Whether something changed: bytes came, or the file ended.
+/// Returns whether anything changed: bytes came, or the file ended.
 bool CandumpReader::read_more() {
   std::copy(buffer_.begin() + static_cast<std::ptrdiff_t>(begin_),
             buffer_.begin() + static_cast<std::ptrdiff_t>(end_), buffer_.begin());

@@ -37,12 +37,12 @@ std::size_t Gunzip::unpack(std::span<char> room) {
   z.next_out = reinterpret_cast<Bytef*>(room.data());
   z.avail_out = static_cast<uInt>(room.size());
   while (!damaged_ && z.avail_out > 0) {
-    if (whole_ && z.avail_in > 0) { // what the next run of gzip wrote
+    if (whole_ && z.avail_in > 0) { // the output of the next run of gzip
       inflateReset(&z);
       whole_ = false;
     }
     const int result = whole_ ? Z_BUF_ERROR : inflate(&z, Z_NO_FLUSH);
-    if (result == Z_BUF_ERROR) { // no fault: there is nothing to go on with
+    if (result == Z_BUF_ERROR) { // not a fault: it needs more input
       break;
     }
     whole_ = result == Z_STREAM_END;

@@ -1,5 +1,5 @@
 #pragma once
-// What gzip has packed, unpacked piece by piece (RFC 1952).
+// Unpacks gzip data piece by piece (RFC 1952).
 
 #include <array>
 #include <cstddef>
@@ -8,11 +8,11 @@
 
 namespace blactl::can {
 
-/// Takes packed bytes and gives back what they hold, some tens of KiB at a time however long it is
-/// all together. What several runs of gzip wrote one after the other is one text.
+/// Takes packed bytes and returns the unpacked ones, some tens of KiB at a time however long the
+/// whole is. The concatenated output of several gzip runs is one text.
 class Gunzip {
  public:
-  /// What every gzip file begins with.
+  /// The first bytes of every gzip file.
   static constexpr std::array<char, 2> magic{'\x1f', '\x8b'};
 
   Gunzip();
@@ -20,16 +20,16 @@ class Gunzip {
   Gunzip(const Gunzip&) = delete;
   Gunzip& operator=(const Gunzip&) = delete;
 
-  /// The bytes that follow; they stay where they are until unpack() has given nothing.
+  /// Takes the next bytes, which must stay in place until unpack() returns 0.
   void take(std::span<const char> packed);
 
-  /// How many bytes were put into `room`; 0: what was taken is used up, or is damaged.
+  /// Returns the number of bytes put into `room`; 0: the input is used up, or is damaged.
   [[nodiscard]] std::size_t unpack(std::span<char> room);
 
-  /// What was taken is not what gzip writes, or its checksum is wrong.
+  /// Whether the input is not gzip data, or its checksum is wrong.
   [[nodiscard]] bool is_damaged() const { return damaged_; }
 
-  /// It may end here: between what two runs of gzip wrote.
+  /// Whether the input may end here: a gzip member is complete.
   [[nodiscard]] bool is_whole() const { return whole_; }
 
  private:

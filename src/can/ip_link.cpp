@@ -20,7 +20,7 @@
 namespace blactl::can {
 namespace {
 
-/// What the kernel says of the interface that `request` names.
+/// Asks the kernel about the interface named in `request`.
 bool ask(unsigned long what, ifreq& request) {
   const Descriptor socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
   return socket.get() >= 0 && ioctl(socket.get(), what, &request) == 0;
@@ -32,7 +32,7 @@ ifreq named(const std::string& name) {
   return request;
 }
 
-/// The index of the interface that the routes choose; 0: no route, or rtnetlink does not answer.
+/// The index of the interface chosen by the routes; 0: no route, or rtnetlink does not answer.
 int route_towards(in_addr group) {
   const std::unique_ptr<nl_sock, decltype(&nl_socket_free)> socket(nl_socket_alloc(),
                                                                    &nl_socket_free);
@@ -100,7 +100,7 @@ bool IpLinkWatch::open() {
          bind(socket_.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
 }
 
-/// What exactly changed is not read: the state now is what counts, and messages may be lost.
+/// Does not read what changed: only the present state counts, and messages may be lost.
 bool IpLinkWatch::changed() {
   bool any = false;
   char part = 0;

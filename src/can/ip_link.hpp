@@ -12,16 +12,16 @@
 namespace blactl::can {
 
 struct IpLink {
-  int index = 0; ///< As the kernel counts them; stays when the name is changed.
+  int index = 0; ///< The kernel's index; stays when the name changes.
   std::string name{};
   bool is_up = false;
-  std::optional<in_addr> address{}; ///< Its first one.
+  std::optional<in_addr> address{}; ///< The first address.
 };
 
 /// Empty: there is no such interface.
 [[nodiscard]] std::optional<IpLink> ip_link(int index);
 
-/// Also by an alternative name (ip link property).
+/// Also finds it by an alternative name (ip link property).
 [[nodiscard]] std::optional<IpLink> ip_link(const std::string& name);
 
 /// The interface that the routes choose for datagrams to `group`, else the loopback interface.
@@ -30,10 +30,10 @@ struct IpLink {
 /// For a person: "interfaces of this machine: lo, eth0".
 [[nodiscard]] std::string describe_ip_links();
 
-/// Tells when an interface of this machine has changed in whatever way (rtnetlink, RTMGRP_LINK).
+/// Reports any change of an interface of this machine (rtnetlink, RTMGRP_LINK).
 class IpLinkWatch {
  public:
-  /// False, and errno says why: cannot watch.
+  /// False: cannot watch; errno has the reason.
   [[nodiscard]] bool open();
 
   /// Readable when something changed.

@@ -22,7 +22,7 @@ Link read(rtnl_link* raw) {
   return link;
 }
 
-/// What only a controller has. libnl aborts the program when asked this of another kind.
+/// Reads what only a controller has. libnl aborts the program if asked this of another kind.
 void read_controller(rtnl_link* raw, Link& link) {
   can_bittiming timing{};
   if (rtnl_link_can_get_bittiming(raw, &timing) == 0 && timing.bitrate != 0) {
@@ -63,7 +63,7 @@ Result<std::vector<Link>> links() {
   std::vector<Link> found;
   for (auto* object = nl_cache_get_first(raw_cache); object != nullptr;
        object = nl_cache_get_next(object)) {
-    auto* raw = reinterpret_cast<rtnl_link*>(object); // libnl's own way down the hierarchy
+    auto* raw = reinterpret_cast<rtnl_link*>(object); // the downcast that libnl itself uses
     if (rtnl_link_get_arptype(raw) != ARPHRD_CAN) {
       continue;
     }

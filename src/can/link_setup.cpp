@@ -14,7 +14,7 @@
 namespace blactl::can {
 namespace {
 
-/// An interface that is talked of with the kernel.
+/// Changes one interface over rtnetlink.
 class LinkEditor {
  public:
   explicit LinkEditor(const LinkSetup& setup) : setup_(setup) {}
@@ -29,7 +29,7 @@ class LinkEditor {
     return told(error);
   }
 
-  /// Asks for what `describe` writes into an empty change.
+  /// Requests the change that `describe` writes into an empty one.
   template <class Describe> [[nodiscard]] Result<void> change(Describe describe) {
     const NlLink change(rtnl_link_alloc(), &rtnl_link_put);
     if (!change) {
@@ -76,7 +76,7 @@ Result<void> LinkEditor::set_values() {
     });
   }
   if (done && setup_.sets_restart) {
-    // By itself, because some drivers have none, and that is no reason to leave the bit timing.
+    // A change by itself, because some drivers lack it, which must not prevent the bit timing.
     done = change([](rtnl_link* change) {
       rtnl_link_set_type(change, "can");
       rtnl_link_can_set_restart_ms(change, static_cast<std::uint32_t>(usual_restart.count()));

@@ -6,15 +6,15 @@
 namespace blactl::can {
 namespace {
 
-/// How far stamps of one log that rise may be out of order: sockets are read in turn.
+/// How far rising stamps of one log may be out of order: sockets are read in turn.
 constexpr Duration most_disorder = std::chrono::milliseconds(10);
 
-/// Whether stamps that rise from the first frame on would not do this.
+/// Whether this step is impossible for stamps that count from the first frame.
 bool falls(WallTime last, WallTime at) {
   return at.time_since_epoch() < last.time_since_epoch() / 2 || last - at > most_disorder;
 }
 
-/// Foreign digits must not overflow a clock.
+/// Adds without overflow, since the digits are foreign.
 template <class Clock> Clock later(Clock time, Duration step) {
   constexpr Clock latest{Clock::max().time_since_epoch() / 2};
   return time + std::min(step, latest - time);

@@ -10,7 +10,7 @@
 namespace blactl::can {
 namespace {
 
-/// What is read of a packed file at a time.
+/// The size of one read of a packed file.
 constexpr std::size_t packed_size = 64 << 10;
 
 } // namespace
@@ -31,10 +31,9 @@ void LogInput::end(Fault fault) {
   fault_ = fault_ == Fault::none ? fault : fault_;
 }
 
-/// As many bytes as the file has for now.
+/// Reads as many bytes as the file has for now.
 std::size_t LogInput::read_file(std::span<char> room) {
-  // Whoever gave us a pipe may read from it too: its mode is not ours to change, so it is asked
-  // whether it has something.
+  // Whoever gave us a pipe may read from it too, so its mode is not ours to change: poll first.
   pollfd readable{descriptor_, POLLIN, 0};
   if (file_ended_ || poll(&readable, 1, 0) <= 0) {
     return 0;
@@ -51,7 +50,7 @@ std::size_t LogInput::read_file(std::span<char> room) {
   return static_cast<std::size_t>(std::max<ssize_t>(size, 0));
 }
 
-/// Whether its first bytes are there; empty and very short files are plain.
+/// Whether its first bytes have been read; empty and very short files are plain.
 bool LogInput::knows_format() {
   const auto may_be_packed = [&] {
     return std::equal(head_.data(), head_.data() + head_size_, Gunzip::magic.data());

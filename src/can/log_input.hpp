@@ -1,6 +1,5 @@
 #pragma once
-// The bytes of a log: as they stand in a file or come through a pipe, or unpacked where gzip has
-// packed them.
+// The bytes of a log from a file or a pipe, unpacked if it is a gzip file.
 
 #include "can/gunzip.hpp"
 
@@ -13,14 +12,14 @@
 
 namespace blactl::can {
 
-/// Whether it is packed, its first bytes decide, not its name. Never waits.
+/// Its first bytes decide whether it is packed, not its name. Never waits.
 class LogInput {
  public:
   enum class Fault : std::uint8_t {
     none,
-    unreadable, ///< errno says why
-    cut_off,    ///< it ends in the middle of what gzip has packed
-    damaged,    ///< it is not what gzip has packed
+    unreadable, ///< see error_number()
+    cut_off,    ///< it ends in the middle of gzip data
+    damaged,    ///< its gzip data is not valid
   };
 
   /// Takes over the descriptor.
@@ -30,22 +29,22 @@ class LogInput {
   LogInput(const LogInput&) = delete;
   LogInput& operator=(const LogInput&) = delete;
 
-  /// How many bytes were put into `room`, which is not empty. 0: it has ended, or a pipe has
-  /// nothing for now.
+  /// Returns the number of bytes put into `room`, which is not empty. 0: it has ended, or a pipe
+  /// has nothing for now.
   [[nodiscard]] std::size_t read(std::span<char> room);
 
-  /// Nothing more comes, because of fault() if there is one.
+  /// Whether nothing more comes; the reason is fault(), if there is one.
   [[nodiscard]] bool ended() const { return ended_; }
 
   [[nodiscard]] Fault fault() const { return fault_; }
 
-  /// Of an unreadable one.
+  /// The errno of an unreadable log.
   [[nodiscard]] int error_number() const { return error_number_; }
 
   [[nodiscard]] int descriptor() const { return descriptor_; }
 
  private:
-  /// What comes behind the first bytes.
+  /// The packed input after the first bytes.
   struct Packed {
     Gunzip gunzip{};
     std::vector<char> buffer{};

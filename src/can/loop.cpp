@@ -13,11 +13,11 @@
 namespace blactl::can {
 namespace {
 
-/// Frames on their way without an echo: one probes a silent bus, three keep a live one busy.
+/// Frames in flight without an echo: one probes a silent bus, three keep a live one busy.
 constexpr std::size_t probe_window = 1;
 constexpr std::size_t window = 3;
 
-/// As nohup has it.
+/// Whether the signal is ignored, as nohup arranges.
 bool is_ignored(int number) {
   struct sigaction action{};
   return sigaction(number, nullptr, &action) == 0 && action.sa_handler == SIG_IGN; // NOLINT
@@ -46,9 +46,8 @@ timespec until(Time now, Time deadline) {
           static_cast<long>(std::chrono::nanoseconds(left - seconds).count())};
 }
 
-/// After these, frames of ours that are on their way may never be echoed: the echoes were among
-/// what the kernel dropped, the controller has forgotten the frames, or it is gone with them. They
-/// hold no place any more.
+/// After these events, frames in flight may never be echoed: the kernel dropped the echoes, the
+/// controller has forgotten the frames, or it is gone with them. They free their places.
 bool loses_echoes(const BusEvent& event) {
   const auto* fault = std::get_if<BusFault>(&event);
   return std::holds_alternative<Overflow>(event) || std::holds_alternative<Away>(event) ||
@@ -176,7 +175,7 @@ std::optional<Event> Loop::from_bus() {
                     std::move(*happened));
 }
 
-/// The bus lives: what waits may go on.
+/// The bus is alive: waiting frames may go on.
 void Loop::heard(Time at) {
   heard_ = true;
   last_heard_ = at;

@@ -5,7 +5,7 @@ namespace {
 
 constexpr std::uint8_t version_1 = 0xFE, version_2 = 0xFD;
 
-// What follows the length and, in version 2, the first flags; without the payload.
+// Bytes after the length and, in version 2, the first flags; without the payload.
 constexpr std::size_t rest_1 = 6, rest_2 = 9, signature = 13;
 constexpr std::uint8_t is_signed = 1;
 

@@ -1,13 +1,13 @@
 #pragma once
-// Whether a stream of bytes is MAVLink.
+// Recognises a stream of bytes as MAVLink.
 
 #include <cstddef>
 #include <cstdint>
 
 namespace blactl::can {
 
-/// Two frames, version 1 or 2, that follow each other without a gap: where the length of the first
-/// one says, the next one begins. Nothing is decoded. Source: mavlink.io, "Packet Serialization".
+/// Two frames, version 1 or 2, without a gap between them: the next begins where the length of the
+/// first one says. Nothing is decoded. Source: mavlink.io, "Packet Serialization".
 ///
 ///   0xFE length  sequence system component message(1)  payload  CRC(2)
 ///   0xFD length  flags flags sequence system component message(3)  payload  CRC(2) [signature(13)]
@@ -23,7 +23,7 @@ class MavlinkWatch {
   void begin(std::uint8_t byte);
 
   Awaits awaits_ = Awaits::begin;
-  std::uint8_t begin_ = 0; ///< the byte that this frame began with
+  std::uint8_t begin_ = 0; ///< the first byte of this frame
   std::size_t left_ = 0;   ///< bytes to the end of this frame
   bool follows_ = false;   ///< a frame has just ended
   bool has_heard_ = false;

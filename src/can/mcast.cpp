@@ -83,7 +83,7 @@ Result<std::unique_ptr<Bus>> Mcast::open(std::uint8_t number, std::string_view i
     return std::unexpected(std::move(*error));
   }
   std::unique_ptr<Mcast> bus(new Mcast(number, *link));
-  // The watch comes first: what happens before it makes connect() fail.
+  // The watch comes first: a change before it makes connect() fail.
   auto opened = bus->watch();
   if (opened) {
     opened = bus->connect(*link->address);
@@ -102,7 +102,7 @@ Result<void> Mcast::listen() {
   in_ = Descriptor(open_socket());
   const ip_mreqn membership{group_.sin_addr, {}, link_index_};
   // Every program of this machine binds to the same port. SO_REUSEPORT would share the datagrams
-  // out among them. IP_MULTICAST_ALL would bring those of other programs' memberships.
+  // out among them. IP_MULTICAST_ALL would deliver those of other programs' memberships.
   if (in_.get() < 0 || !set_option(in_.get(), SOL_SOCKET, SO_REUSEADDR, 1) ||
       !set_option(in_.get(), IPPROTO_IP, IP_MULTICAST_ALL, 0) || !prepare_to_receive(in_.get()) ||
       bind(in_.get(), raw(group_), sizeof group_) != 0 ||
@@ -143,7 +143,7 @@ Result<void> Mcast::watch() {
   return {};
 }
 
-/// What became of the interface, if it cannot be used any more.
+/// Why the interface can no longer be used, if it cannot.
 std::optional<Error> Mcast::broken_link() const {
   const auto link = ip_link(link_index_);
   if (!link) {
@@ -153,7 +153,7 @@ std::optional<Error> Mcast::broken_link() const {
   return unusable(*link);
 }
 
-/// The error of a system call, told as what became of the interface if that is the reason.
+/// The error of a system call, or that of the interface if it is the cause.
 Error Mcast::broken(int error) const {
   if (auto link = broken_link()) {
     return *link;
@@ -199,8 +199,7 @@ std::optional<BusEvent> Mcast::receive() {
 
 void Mcast::read() {
   Batch batch;
-  // Own datagrams and garbage are no events; somebody who floods us with them must not hold us
-  // here.
+  // Our own datagrams and garbage are not events; a flood of them must not hold us here.
   for (int i = 0; i < 64 && ready_.empty(); ++i) {
     const int count = batch.take(in_.get());
     if (count < 0) {

@@ -15,7 +15,7 @@ constexpr std::uint16_t flexible_rate = 1; ///< CAN FD
 // Offsets of the fields.
 constexpr std::size_t magic_at = 0;
 constexpr std::size_t crc_at = 2;
-constexpr std::size_t flags_at = 4; ///< from here on the CRC counts
+constexpr std::size_t flags_at = 4; ///< the CRC covers the datagram from here on
 constexpr std::size_t id_at = 6;
 
 void put(std::span<std::uint8_t> field, std::uint32_t value) {

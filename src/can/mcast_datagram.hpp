@@ -23,12 +23,12 @@ struct Datagram {
   [[nodiscard]] std::span<const std::uint8_t> view() const { return std::span(bytes).first(size); }
 };
 
-/// A remote frame carries as many zeros as it asks for: the format has no other place for its
-/// length.
+/// A remote frame carries as many zeros as its length code says: the format has no other field for
+/// it.
 [[nodiscard]] Datagram to_datagram(const Frame& frame);
 
-/// Empty for what holds no frame of classic CAN: another magic or length, a CRC that does not fit,
-/// CAN FD, an error frame, an ID too large for its kind. Flags without a meaning are passed over.
+/// Empty unless it holds a frame of classic CAN: a wrong magic, length or CRC, CAN FD, an error
+/// frame, an ID too large for its kind. Flags without a meaning are ignored.
 [[nodiscard]] std::optional<Frame> from_datagram(std::span<const std::uint8_t> bytes);
 
 } // namespace blactl::can

@@ -1,5 +1,5 @@
 #pragma once
-// What CAN over UDP multicast says to people.
+// Messages of CAN over UDP multicast.
 
 #include "blactl/base/text.hpp"
 

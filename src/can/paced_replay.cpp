@@ -9,14 +9,14 @@ namespace {
 
 constexpr int slowest = -3, fastest = 6;
 
-/// No wait is longer: a log may say any time.
+/// The longest wait, because a log may hold any time.
 constexpr Duration longest_wait = std::chrono::hours(1);
 
 Duration multiplied(Duration time, int doublings) {
   return doublings >= 0 ? time * (1 << doublings) : time / (1 << -doublings);
 }
 
-/// What happens at no time of its own happens now.
+/// The time of an event; empty: it has none and is due now.
 std::optional<Time> time_of(const BusEvent& event) {
   if (const auto* received = std::get_if<Received>(&event)) {
     return received->at;
@@ -39,7 +39,7 @@ WallTime PacedReplay::wall() const {
   return recording_->wall() - (recording_->now() - now());
 }
 
-/// From here on it is counted.
+/// Makes this moment the origin of both clocks.
 void PacedReplay::anchor() {
   log_ = now();
   machine_ = Bus::now();

@@ -101,11 +101,11 @@ void Recorder::record(const Frame& frame, WallTime at) {
   complete_ += size;
 }
 
-/// A disk that is full may have taken a part of the line, which would read as another frame.
+/// Truncates: a full disk may hold a part of the line, which would read as another frame.
 void Recorder::stop(int error) {
   error_ = Error{Code::io, say<texts::record_failed>(printable(path_), system_reason(error)),
                  say<texts::record_failed_hint>()};
-  std::ignore = ftruncate(descriptor_, complete_); // a pipe cannot, and has no file to keep right
+  std::ignore = ftruncate(descriptor_, complete_); // fails on a pipe, which has no file to mend
 }
 
 } // namespace blactl::can

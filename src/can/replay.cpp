@@ -10,7 +10,7 @@
 namespace blactl::can {
 namespace {
 
-/// Lines of no frame that are looked at until somebody may end it.
+/// The most lines without a frame that are read before the user may interrupt.
 constexpr std::size_t most_at_once = 4096;
 
 } // namespace
@@ -19,7 +19,7 @@ Result<std::unique_ptr<ReplayBus>> ReplayBus::open(const std::string& path, std:
   auto reader = CandumpReader::open(path);
   if (!reader) {
     Error error = std::move(reader.error());
-    error.code = Code::interface; // here the file stands where an interface would
+    error.code = Code::interface; // the file takes the place of an interface here
     return std::unexpected(std::move(error));
   }
   return std::unique_ptr<ReplayBus>(new ReplayBus(std::move(*reader), std::move(name)));

@@ -1,5 +1,5 @@
 #pragma once
-// What of libnl must be given back.
+// Owners of libnl objects.
 
 #include <netlink/cache.h>
 #include <netlink/netlink.h>

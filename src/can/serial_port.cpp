@@ -40,7 +40,7 @@ constexpr std::array<Rate, 21> rates{{
     {4000000, B4000000},
 }};
 
-/// What could be meant instead.
+/// A hint naming the ports that could be meant instead.
 std::string likely() {
   std::string adapters = describe(serial_adapters());
   return adapters.empty() ? say<texts::no_serial_adapter_here>() : adapters;
@@ -50,7 +50,7 @@ std::unexpected<Error> absent(const std::filesystem::path& device) {
   return fail(Code::interface, say<texts::no_such_port>(printable(device.string())), likely());
 }
 
-/// The name of a group; its number where it has none.
+/// The name of a group, or its number if it has none.
 std::string group_name(gid_t id) {
   const group* entry = getgrgid(id);
   return entry != nullptr ? printable(entry->gr_name) : std::to_string(id);
@@ -132,19 +132,19 @@ Result<std::unique_ptr<SerialPort>> SerialPort::open(const std::filesystem::path
 }
 
 SerialPort::~SerialPort() {
-  if (exclusive_) { // it would last while anybody has the port open
+  if (exclusive_) { // else it would last while anybody has the port open
     std::ignore = ioctl(descriptor_, TIOCNXCL);
   }
   close(descriptor_);
 }
 
-/// Nobody else may read what is meant for us: modem managers, terminals, a second blactl.
+/// Keeps others from reading our input: modem managers, terminals, a second blactl.
 Result<void> SerialPort::claim() {
-  // root is not kept out by TIOCEXCL, but by the lock.
+  // TIOCEXCL does not keep root out; the lock does.
   if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
     return errno == EWOULDBLOCK ? busy(device_) : cannot_open(device_, errno);
   }
-  // slcand has made a network interface of it.
+  // slcand may have made a network interface of it.
   int discipline = N_TTY;
   if (ioctl(descriptor_, TIOCGETD, &discipline) == 0 && discipline != N_TTY) {
     return busy(device_);
@@ -162,7 +162,7 @@ Result<void> SerialPort::configure(unsigned baud) {
   mode.c_cflag &= ~static_cast<tcflag_t>(CRTSCTS | CSTOPB | PARENB);
   mode.c_cflag |= static_cast<tcflag_t>(CLOCAL | CREAD | CS8);
   mode.c_iflag &= ~static_cast<tcflag_t>(IXOFF | IXANY);
-  // With one byte at least a read of 0 bytes means that the device is gone, not that it is silent.
+  // With a minimum of 1, a read of 0 bytes means that the device is gone, not that it is silent.
   mode.c_cc[VMIN] = 1;
   mode.c_cc[VTIME] = 0;
   const auto rate = std::ranges::find(rates, baud, &Rate::baud);

@@ -23,7 +23,7 @@ namespace {
 constexpr std::size_t queue_capacity = 10;
 constexpr int answer_timeout = 2000; // ms
 
-/// A folder of another user stays in the environment of `su`.
+/// `su` may keep another user's folder in the environment.
 bool is_usable(const char* folder) {
   struct stat status{};
   return stat(folder, &status) == 0 && S_ISDIR(status.st_mode) && access(folder, W_OK | X_OK) == 0;
@@ -39,13 +39,13 @@ struct Attempt {
   int socket = -1;
   int error = 0; ///< errno, if there is no socket
 
-  /// There is no socket, or the process that made it is gone.
+  /// Whether there is no socket, or its process is gone.
   [[nodiscard]] bool met_nobody() const {
     return error == ENOENT || error == ENOTDIR || error == ECONNREFUSED;
   }
 };
 
-/// Errors: what no simulator could change.
+/// Errors: those that starting a simulator would not mend.
 Result<Attempt> connect_to(const std::filesystem::path& path) {
   sockaddr_un address{};
   const std::string name = path.string();
@@ -109,11 +109,11 @@ Result<std::unique_ptr<SimBus>> SimBus::open_if_served(const std::filesystem::pa
   return open(socket, std::move(name), nobody);
 }
 
-/// `nobody`: errno where nobody listens, and null is returned.
+/// Returns null, with errno in `nobody`, if nobody listens.
 Result<std::unique_ptr<SimBus>> SimBus::open(const std::filesystem::path& socket, std::string name,
                                              int& nobody) {
   const auto folder = socket.parent_path();
-  std::error_code unseen; // what cannot be looked at cannot be connected to either
+  std::error_code unseen; // a path that cannot be examined cannot be connected to either
   if (socket == default_socket_path() && std::filesystem::exists(folder, unseen) &&
       !is_own_folder(folder)) {
     return fail(Code::interface, say<texts::simbus_foreign_folder>(printable(folder.string())),
@@ -169,7 +169,7 @@ Error SimBus::gone() const {
           say<texts::simbus_absent_hint>(), std::nullopt};
 }
 
-/// The simulator reads at once what comes, so a full socket is soon empty again.
+/// The simulator reads its input at once, so a full socket is soon empty again.
 Result<void> SimBus::post(const Message& message) {
   const auto sent = [&] {
     return ::send(socket_, &message, sizeof message, MSG_NOSIGNAL) == sizeof message;
@@ -227,7 +227,7 @@ std::optional<BusEvent> SimBus::event(const Message& message) {
     return Sent{sim_wire::frame_of(message), at, wall_at(at)};
   case Kind::fault: unechoed_ = 0; return BusFault{static_cast<FaultKind>(message.value), at};
   case Kind::overflow:
-    unechoed_ = 0; // their echoes may be among what was lost
+    unechoed_ = 0; // their echoes may have been lost
     return Overflow{message.count};
   default: return std::nullopt;
   }
@@ -258,14 +258,14 @@ WallTime SimBus::wall() const {
   return virtual_clock_ ? wall_epoch_ + now_.time_since_epoch() : Bus::wall();
 }
 
-/// On the virtual clock only the simulator can end the waiting, by what it sends.
+/// On the virtual clock only a message of the simulator ends the wait.
 Time SimBus::idle_until(Time deadline) {
   if (!virtual_clock_ || gone_) {
     return deadline;
   }
   const Message wait{
       .kind = Kind::wait, .at = deadline.time_since_epoch().count(), .count = messages_read_};
-  // A failure shows itself by the end of the connection, which receive() reports.
+  // A failure ends the connection, which receive() reports.
   if ((!waiting_ || waiting_->at != wait.at) && post(wait)) {
     waiting_ = wait;
   }

@@ -15,26 +15,26 @@
 namespace blactl::can {
 namespace {
 
-/// The vendor's program sleeps so long after each frame of a transfer.
+/// The time that the vendor's program sleeps after each frame of a transfer.
 constexpr Duration vendor_gap = std::chrono::milliseconds(3);
 
-/// Lines without an answer, of an adapter that answers them: enough to keep a bus of 1 Mbit/s
-/// busy over the delay of USB, few enough for the smallest receive buffers (CAN232: 256 bytes).
+/// Unanswered lines in flight to an adapter that answers: enough to keep a bus of 1 Mbit/s busy
+/// over the delay of USB, few enough for the smallest receive buffers (CAN232: 256 bytes).
 constexpr std::size_t line_window = 4;
 
-/// A frame waits for arbitration; an adapter that says nothing for so long has lost the answer.
+/// A frame waits for arbitration; an adapter silent for so long has lost the answer.
 constexpr Duration acknowledge_time = std::chrono::milliseconds(250);
 
-/// So many lost answers in a row: the adapter does not answer frames after all.
+/// After so many lost answers in a row, the adapter does not answer frames.
 constexpr unsigned most_silent_frames = 3;
 
-/// So many frames refused and none ever taken: more would be, too.
+/// After so many frames refused and none accepted, the adapter will refuse more.
 constexpr std::size_t most_refused_frames = 3;
 
 /// How long after the dialogue an answer may belong to one of its commands.
 constexpr Duration late_answer_time = std::chrono::milliseconds(250);
 
-/// Read at most, before somebody else has a turn: an adapter may flood.
+/// The most reads before other work gets a turn: an adapter may flood.
 constexpr int most_reads = 16;
 
 } // namespace
@@ -79,7 +79,7 @@ Result<bool> Slcan::send(const Frame& frame) {
   outgoing_ = to_slcan(frame);
   next_send_ = at + gap();
   awaited_.push_back(at + acknowledge_time);
-  if (awaited_.size() > line_window) { // of an adapter that does not answer frames
+  if (awaited_.size() > line_window) { // the adapter does not answer frames
     awaited_.pop_front();
   }
   flush();
@@ -121,7 +121,7 @@ Time Slcan::idle_until(Time deadline) {
   return std::min(deadline, dialogue_->deadline());
 }
 
-/// Writes what the port takes now.
+/// Writes as much as the port accepts now.
 void Slcan::flush() {
   if (outgoing_.empty() || gone_) {
     return;
@@ -159,7 +159,7 @@ void Slcan::read_port() {
   }
 }
 
-/// What an adapter says until it is open and its last answer is overdue; not all of a flood.
+/// Traces the adapter's output until it is open and its last answer overdue; not all of a flood.
 void Slcan::trace_answer(std::string_view bytes, Time at) {
   constexpr unsigned most_pieces = 20;
   if (options_.trace && traced_ < most_pieces &&
@@ -172,7 +172,7 @@ void Slcan::trace_answer(std::string_view bytes, Time at) {
 void Slcan::take(const SlcanLine& line, Time at) {
   switch (line.kind) {
   case SlcanLine::Kind::frame:
-    if (open_) { // what comes before was meant for the program that left the channel open
+    if (open_) { // earlier input was meant for the program that left the channel open
       ready_.emplace_back(Received{line.frame, at, wall()});
     }
     break;
@@ -209,7 +209,7 @@ bool Slcan::ask_status() {
     options_.trace(SlcanTalk::to_adapter, command);
   }
   outgoing_ += command;
-  ++late_answers_; // one that does not know it refuses it
+  ++late_answers_; // an adapter that does not know the command refuses it
   late_answers_until_ = now() + late_answer_time;
   flush();
   return true;
@@ -281,7 +281,7 @@ void Slcan::acknowledged(bool accepted, Time at) {
   }
 }
 
-/// Answers that did not come in time hold no place any more.
+/// Frees the places of answers that did not come in time.
 void Slcan::forget_lost(Time now) {
   while (!awaited_.empty() && awaited_.front() <= now) {
     awaited_.pop_front();

@@ -7,8 +7,8 @@
 namespace blactl::can {
 namespace {
 
-// An empty line ends what a program before us left unfinished. C, because an open channel refuses
-// another bit rate. S8 is 1 Mbit/s.
+// An empty line ends a command left unfinished by an earlier program. C, because an open channel
+// refuses another bit rate. S8 is 1 Mbit/s.
 constexpr std::string_view ask_version = "V\r", ask_serial_number = "N\r";
 constexpr std::string_view set_rate = "S8\r";
 constexpr std::string_view open_channel = "O\r";
@@ -16,7 +16,7 @@ constexpr std::array<std::string_view, 6> full{
     "\r", "C\r", ask_version, ask_serial_number, set_rate, open_channel};
 constexpr std::array<std::string_view, 1> plain{open_channel};
 
-/// Longer than a USB converter holds bytes back (FTDI: 16 ms) and an autopilot needs for a turn.
+/// Longer than a USB converter buffers (FTDI: 16 ms) and an autopilot's loop takes.
 constexpr Duration answer_time = std::chrono::milliseconds(250);
 
 /// Many adapters do not answer an empty line.
@@ -53,7 +53,7 @@ void SlcanDialogue::send_next(Time now) {
   }
 }
 
-/// One that has answered nothing yet would be asked in vain, and perhaps misled.
+/// Whether to skip an inquiry: an adapter without any answer so far might be confused by it.
 bool SlcanDialogue::is_left_out(std::string_view command) const {
   const bool is_inquiry = command == ask_version || command == ask_serial_number;
   return is_inquiry && (!inquires_ || !await_answers_ || answers_ == 0);

@@ -11,51 +11,50 @@
 
 namespace blactl::can {
 
-/// Sends one command after the other and waits for the answer to each, for a short time: many
-/// adapters answer nothing, and one that stayed silent twice is not waited for any more.
+/// Sends one command after the other and waits a short time for each answer: many adapters answer
+/// nothing, and after two silences it waits no more.
 ///
 ///   dialogue.begin(now); write(dialogue.take_commands());
 ///   dialogue.answered(…) and dialogue.advance(now) until is_done()
 class SlcanDialogue {
  public:
-  /// `inquires`: before it is opened, an adapter that answers is asked for its version and serial
-  /// number.
+  /// `inquires`: before opening, ask an adapter that answers for its version and serial number.
   SlcanDialogue(SlcanOpening opening, bool await_answers, bool inquires);
 
   void begin(Time now);
 
-  /// The adapter has answered: CR, or BEL.
+  /// To be called when the adapter has answered: CR, or BEL.
   void answered(bool accepted, Time now);
 
-  /// The adapter has told something of itself: "V1013".
+  /// To be called with an answer about the adapter itself: "V1013".
   void told(std::string_view answer, Time now);
 
-  /// Does what is due.
+  /// Takes the steps that are due.
   void advance(Time now);
 
   [[nodiscard]] Time deadline() const { return deadline_; }
 
-  /// What is to be written now; empty: nothing.
+  /// The bytes to write now; empty: none.
   [[nodiscard]] std::string take_commands();
 
   [[nodiscard]] bool is_done() const { return next_ == commands_.size() && !waiting_; }
 
-  /// The adapter has answered something.
+  /// Whether the adapter has answered anything.
   [[nodiscard]] bool adapter_answers() const { return answers_ > 0; }
 
-  /// Answers were waited for, and none came.
+  /// Whether answers were awaited and none came.
   [[nodiscard]] bool waited_in_vain() const { return silences_ > 0 && answers_ == 0; }
 
-  /// Commands without an answer, which may still come.
+  /// The number of commands whose answer may still come.
   [[nodiscard]] std::size_t unanswered() const { return sent_ - answers_; }
 
-  /// The adapter refused the bit rate.
+  /// Whether the adapter refused the bit rate.
   [[nodiscard]] bool rate_refused() const { return rate_refused_; }
 
-  /// The adapter refused to open; it may have been open.
+  /// Whether the adapter refused to open; it may have been open already.
   [[nodiscard]] bool open_refused() const { return open_refused_; }
 
-  /// The adapter refused the bit rate and to open. A refused O alone means that it is open.
+  /// Whether it refused both the bit rate and to open. A refused O alone means that it is open.
   [[nodiscard]] bool refused() const { return rate_refused_ && open_refused_; }
 
  private:

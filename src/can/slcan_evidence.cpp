@@ -3,10 +3,10 @@
 namespace blactl::can {
 namespace {
 
-/// What a line without meaning counts: satellite receivers and modems send printable text.
+/// The weight of a meaningless line: satellite receivers and modems send printable text.
 constexpr std::size_t line_without_meaning = 16;
 
-/// By chance some bytes of a wrong baud rate are an empty line; a few of those prove nothing.
+/// At a wrong baud rate some bytes look like an empty line; a few of those prove nothing.
 constexpr std::size_t garbage_for_a_line = 8;
 
 /// The first line may have lost its beginning.
@@ -40,7 +40,7 @@ void SlcanEvidence::understood(const SlcanLine& line) {
     return;
   }
   if (line.kind == SlcanLine::Kind::refused || line.kind == SlcanLine::Kind::told) {
-    return; // one byte, which is in any garbage; a word, which is in any text
+    return; // a single byte occurs in any garbage, a word in any text
   }
   ++understood_;
   ++lines_;

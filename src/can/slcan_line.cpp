@@ -19,7 +19,7 @@ std::optional<std::uint32_t> hex(std::string_view digits) {
                                                                          : std::nullopt;
 }
 
-/// What may stand behind the data: a time, and the mark of an own frame.
+/// Reads what may follow the data: a time, and the mark of our own frame.
 std::optional<SlcanLine::Kind> trailer(std::string_view rest) {
   constexpr std::size_t time_digits = 4;
   const bool own = rest.ends_with('L');
@@ -64,8 +64,8 @@ std::optional<SlcanLine> parse_frame(std::string_view line) {
   return kind ? std::optional(SlcanLine{.kind = *kind, .frame = frame}) : std::nullopt;
 }
 
-/// "V1010", "N1234", "F00"; no word of a text, which would have more than letters and digits, or
-/// stand among others.
+/// "V1010", "N1234", "F00"; not a word of a text, which would have other characters than letters
+/// and digits, or stand among others.
 bool is_told(std::string_view line) {
   constexpr std::size_t status_digits = 2;
   const std::string_view answer = line.substr(1);

@@ -1,5 +1,5 @@
 #pragma once
-// What serial ports and slcan adapters give to say to people.
+// Messages about serial ports and slcan adapters.
 
 #include "blactl/base/text.hpp"
 
@@ -54,7 +54,7 @@ inline constexpr Text adapter_stays_closed{
     "the adapter at {} refuses to open its CAN channel",
     "{} のアダプターは CAN チャンネルを開くことを拒否しています"};
 inline constexpr Text adapter_stays_closed_hint{
-    "unplug it and plug it in again; if it wants no other command before, "
+    "unplug it and plug it in again; if it accepts no other command first, try "
     "`-i \"slcan:{}?open=plain\"`",
     "一度抜いて接続し直して下さい。直前に他のコマンドを受け付けないアダプターなら "
     "`-i \"slcan:{}?open=plain\"` を試して下さい"};
@@ -68,13 +68,13 @@ inline constexpr Text adapter_takes_no_frames_hint{
     "ACK を返す相手がいるか (サーボの電源と接続、終端抵抗)、アダプターが受信専用になっていないか"
     "確認して下さい。接続し直すか、`-i \"slcan:{}?open=plain\"` を試して下さい"};
 inline constexpr Text adapter_speaks_no_slcan{
-    "what comes from {} at {} baud is no slcan",
+    "the data from {} at {} baud is not slcan",
     "{} から {} ボーで受信したデータは slcan ではありません"};
 inline constexpr Text adapter_speaks_no_slcan_hint{
     "is it a CAN adapter? if it has another baud rate: `-i \"slcan:{}?baud=115200\"`",
     "CAN アダプターか確認して下さい。ボーレートが異なる場合: `-i \"slcan:{}?baud=115200\"`"};
 inline constexpr Text port_speaks_mavlink{
-    "{} speaks MAVLink: it is the telemetry port of an autopilot, and no CAN adapter",
+    "{} speaks MAVLink: it is the telemetry port of an autopilot, not a CAN adapter",
     "{} は MAVLink を送信しています。オートパイロットのテレメトリポートで、CAN アダプターでは"
     "ありません"};
 inline constexpr Text port_speaks_mavlink_hint{
@@ -82,9 +82,9 @@ inline constexpr Text port_speaks_mavlink_hint{
     "and CAN_SLCAN_SERNUM",
     "別のポートを指定して下さい: `ls -l /dev/serial/by-id`。ArduPilot では CAN_SLCAN_CPORT と "
     "CAN_SLCAN_SERNUM で slcan 用のポートを設定できます"};
-inline constexpr Text port_speaks_text{"{} speaks text that is no slcan",
+inline constexpr Text port_speaks_text{"{} sends text that is not slcan",
                                        "{} は slcan ではないテキストを送信しています"};
-inline constexpr Text adapter_is_mute{"not one byte came from the adapter at {}",
+inline constexpr Text adapter_is_mute{"no data came from the adapter at {}",
                                       "{} のアダプターから 1 バイトも受信していません"};
 inline constexpr Text adapter_is_mute_hint{
     "is the supply on, and the bit rate of the bus 1000000? if it is, the adapter may want another "
@@ -93,7 +93,7 @@ inline constexpr Text adapter_is_mute_hint{
     "ボーレートが異なる可能性があります: `-i \"slcan:{0}?open=plain\"`、"
     "`-i \"slcan:{0}?baud=115200\"`"};
 inline constexpr Text adapter_rate_fixed{
-    "the adapter at {} refused the command for 1 Mbit/s; its bit rate is taken to be fixed",
+    "the adapter at {} refused the command for 1 Mbit/s; its bit rate is presumably fixed",
     "{} のアダプターは 1 Mbit/s の設定を拒否しました。ビットレートが固定されているとみなします"};
 
 } // namespace blactl::texts

@@ -26,7 +26,7 @@ WallTime wall_time(const timespec& stamp) {
 } // namespace
 
 bool prepare_to_receive(int descriptor) {
-  // The first is for administrators only, the second stays below net.core.rmem_max.
+  // The first option requires CAP_NET_ADMIN, the second stays below net.core.rmem_max.
   if (!set_option(descriptor, SOL_SOCKET, SO_RCVBUFFORCE, receive_buffer)) {
     std::ignore = set_option(descriptor, SOL_SOCKET, SO_RCVBUF, receive_buffer);
   }

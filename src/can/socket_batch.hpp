@@ -1,5 +1,5 @@
 #pragma once
-// Messages of a socket, many at a time, with what the kernel tells beside each.
+// Messages of a socket, many at a time, with the ancillary data of each.
 
 #include "blactl/can/arrivals.hpp"
 
@@ -14,25 +14,25 @@ template <class T> bool set_option(int descriptor, int level, int option, const 
   return setsockopt(descriptor, level, option, &value, sizeof value) == 0;
 }
 
-/// Asks for receive time stamps, the count of what had no room, and room for 3 s of a full bus.
-/// False, and errno says why: the kernel does not give the first two.
+/// Asks for receive time stamps, the count of dropped messages, and a buffer for 3 s of a full bus.
+/// False: the kernel refuses one of the first two; errno has the reason.
 [[nodiscard]] bool prepare_to_receive(int descriptor);
 
-/// What the kernel tells beside a message, if it was asked (prepare_to_receive()).
+/// The ancillary data of a message, if asked for (prepare_to_receive()).
 [[nodiscard]] Aside aside(const msghdr& header);
 
-/// What one recvmmsg() takes: `Content` is what a message has room for, `Address` its sender's.
+/// The messages of one recvmmsg() call, each with a `Content` and the sender's `Address`.
 template <class Content, class Address> class SocketBatch {
  public:
   struct Message {
     Content content;
     Address from;
-    std::size_t size; ///< What was read of it: at most sizeof(Content).
-    int flags;        ///< MSG_TRUNC: there was more of it; MSG_CONFIRM: of this very socket (CAN).
+    std::size_t size; ///< Bytes read: at most sizeof(Content).
+    int flags;        ///< MSG_TRUNC: it was longer; MSG_CONFIRM: sent by this socket (CAN).
     Aside aside;
   };
 
-  /// The number of messages taken; -1: errno says why.
+  /// Returns the number of messages read; -1: see errno.
   int take(int descriptor) {
     for (std::size_t i = 0; i < slots_.size(); ++i) {
       Slot& slot = slots_[i];

@@ -59,7 +59,7 @@ SocketCan::~SocketCan() {
   close(descriptor_);
 }
 
-/// Before bind(), so that the very first frame is seen with all of it.
+/// Called before bind(), so that even the first frame has its ancillary data.
 Result<void> SocketCan::configure() {
   const auto set = [this](int option, const auto& value) {
     return set_option(descriptor_, SOL_CAN_RAW, option, value);
@@ -78,7 +78,7 @@ Result<void> SocketCan::bind() {
     return fail(Code::interface, say<texts::no_such_interface>(printable(name_)),
                 describe(links_or_none()));
   }
-  // An alternative name (ip link property) opens it too; the others know it by the first.
+  // An alternative name (ip link property) opens it too; other tools show the first.
   if (std::array<char, IF_NAMESIZE> first{}; if_indextoname(index, first.data()) != nullptr) {
     name_ = first.data();
   }
@@ -91,7 +91,7 @@ Result<void> SocketCan::bind() {
                       describe(links_or_none()))
                : cannot_open_interface(name_, errno);
   }
-  // An interface that is down can be bound; the socket then holds the error.
+  // Binding to an interface that is down succeeds; the socket then holds the error.
   int error = 0;
   socklen_t size = sizeof error;
   if (getsockopt(descriptor_, SOL_SOCKET, SO_ERROR, &error, &size) != 0) {
@@ -103,14 +103,14 @@ Result<void> SocketCan::bind() {
   return {};
 }
 
-/// The error of a socket that worked before, told as what became of the interface.
+/// The error of a socket that worked before, explained by the state of the interface.
 Error SocketCan::broken(int error) const {
   const std::string name = printable(name_);
   const bool down = error == ENETDOWN;
   if (!down && error != ENODEV && error != ENXIO) {
     return {Code::interface, say<texts::interface_failed>(name, system_reason(error))};
   }
-  // An interface that goes away goes down first: the kernel's word is not the last one.
+  // An interface that disappears goes down first, so the kernel's error is not the final one.
   const auto all = links_or_none();
   const auto link = std::ranges::find(all, name_, &Link::name);
   if (!down || link == all.end()) {
@@ -166,7 +166,7 @@ void SocketCan::read_batch() {
   }
 }
 
-/// Turns what was read into events: first what was lost before it, then the frame.
+/// Turns one message into events: first the loss before it, then the frame.
 void SocketCan::take(const can_frame& frame, bool is_own, const Arrivals::Arrival& arrival) {
   if (arrival.before) {
     ready_.emplace_back(*arrival.before);

@@ -1,5 +1,5 @@
 #pragma once
-// What the bus floor says to people.
+// Messages of the CAN floor.
 
 #include "blactl/base/text.hpp"
 
@@ -55,9 +55,9 @@ inline constexpr Text links_unreadable{"the network interfaces cannot be listed:
 inline constexpr Text link_setup_not_permitted{
     "setting up {} is not permitted: that takes root (CAP_NET_ADMIN)",
     "{} を設定する権限がありません。root 権限 (CAP_NET_ADMIN) が必要です"};
-inline constexpr Text link_setup_not_permitted_hint{"somebody who may, types: {}",
+inline constexpr Text link_setup_not_permitted_hint{"a user with that permission can run: {}",
                                                     "権限のあるユーザーで実行: {}"};
-inline constexpr Text link_setup_failed{"{} does not take the settings: {}",
+inline constexpr Text link_setup_failed{"{} does not accept the settings: {}",
                                         "{} を設定できません: {}"};
 inline constexpr Text link_setup_failed_hint{
     "try it by hand: {}; the kernel may say more: sudo dmesg | tail",

@@ -8,13 +8,13 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// FOLLOWUP_TIMEOUT_MS of the DSDL: after that an exchange that stopped is forgotten.
+/// FOLLOWUP_TIMEOUT_MS of the DSDL: after that an unfinished exchange is forgotten.
 constexpr Duration followup_timeout = 500ms;
 
-/// How long another allocator has to answer before this one does for the first time.
+/// How long this allocator leaves another one to answer before its own first answer.
 constexpr Duration courtesy = 100ms;
 
-/// As the vendor's program and the servos send it.
+/// The priority that the vendor's program and the servos use.
 constexpr Priority priority = 24;
 
 constexpr std::uint8_t part_size = 6;
@@ -42,13 +42,13 @@ void Allocator::receive(const Transfer& transfer) {
     collected_ = {};
   }
   if (!takes(*request)) {
-    return; // neither the part that is waited for nor a unit of ours: changes nothing
+    return; // not the part awaited, or not a unit of ours: changes nothing
   }
   answer_due_ = has_answered_ ? transfer.at : transfer.at + courtesy;
-  answered_at_ = answer_due_; // the servo takes its time from our answer on
+  answered_at_ = answer_due_; // the servo's timeout runs from our answer
 }
 
-/// Adds a part, if it is the one that comes next.
+/// Adds a part if it is the next one expected.
 bool Allocator::takes(const Allocation& request) {
   const std::uint8_t have = collected_.size;
   const std::uint8_t expected = have < 2 * part_size ? part_size : last_part_size;

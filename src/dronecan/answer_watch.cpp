@@ -9,10 +9,10 @@
 namespace blactl::dronecan {
 namespace {
 
-/// The longest answer, that to GetNodeInfo, with its CRC: longer ones are none.
+/// The longest valid answer, that to GetNodeInfo, with its CRC.
 constexpr std::size_t most_bytes = 400;
 
-/// The data type of an answer that is watched; null: it is not.
+/// The data type of a watched answer; null: it is not watched.
 const DataType* watched(const Header& header) {
   for (const DataType* type : {&GetNodeInfo::type, &GetSet::type}) {
     if (header.kind == Kind::response && header.data_type_id == type->id) {

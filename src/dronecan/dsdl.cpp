@@ -1,5 +1,5 @@
 // The fields of the data types, by hand from their DSDL: those of the BLA specification (section
-// 2.3), and what else a technician meets on the bus of a drone.
+// 2.3), and others that occur on the bus of a drone.
 
 #include "dronecan/dsdl.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-// DSDL as data: what the reader of fields needs to know of a data type.
+// DSDL as data: the description of data types for the field reader.
 
 #include "blactl/dronecan/ids.hpp"
 
@@ -12,10 +12,10 @@ namespace blactl::dronecan::dsdl {
 
 enum class Shape : std::uint8_t { nothing, natural, integer, truth, real, structure, choice };
 
-/// How many of it there are.
+/// The number of elements of a field.
 enum class Count : std::uint8_t { one, fixed, up_to };
 
-/// What an array of bytes means.
+/// The meaning of an array of bytes.
 enum class Meaning : std::uint8_t { numbers, text, bytes };
 
 /// A field, or a member of a union.
@@ -85,7 +85,7 @@ constexpr Field fixed_bytes(std::string_view name, std::uint16_t size) {
   return field;
 }
 
-/// The fields of a message, or of one direction of a service; null: not known.
+/// The fields of a message, or of one direction of a service; null: unknown.
 [[nodiscard]] const std::span<const Field>* find_fields(Kind kind, std::uint16_t data_type_id);
 
 } // namespace blactl::dronecan::dsdl

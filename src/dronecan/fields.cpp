@@ -24,7 +24,7 @@ class BitReader {
   [[nodiscard]] std::size_t left() const { return payload_.size() * 8 - at_; }
 
   /// The next `width` bits (0..64): little-endian by bytes, each byte from its most significant bit
-  /// on; what is no whole byte is the top of the number.
+  /// on; a partial byte is the top of the number.
   std::uint64_t take(std::size_t width) {
     if (width > left()) {
       fail();
@@ -38,7 +38,7 @@ class BitReader {
     return width == 0 ? value : value | static_cast<std::uint64_t>(take_bits(width)) << shift;
   }
 
-  /// `size` whole bytes: where they lie if they are aligned, else in `scratch`.
+  /// `size` whole bytes: in place if they are aligned, else in `scratch`.
   Bytes take_bytes(std::size_t size, std::span<std::uint8_t> scratch) {
     if (size * 8 > left()) {
       fail();
@@ -62,7 +62,7 @@ class BitReader {
   }
 
  private:
-  /// 1..8 bits that are there.
+  /// Takes 1..8 bits, which must be present.
   unsigned take_bits(std::size_t width) {
     const auto offset = at_ % 8;
     const auto* byte = payload_.data() + at_ / 8;
@@ -152,7 +152,7 @@ class Walker {
     if (tail && element >= smallest_tail_element) {
       count = reader_.left() / element;
       if (reader_.left() % element >= 8) {
-        reader_.fail(); // a part of an element, not only what fills the last byte
+        reader_.fail(); // a partial element, more than the padding of the last byte
       }
     } else {
       count = reader_.take(static_cast<std::size_t>(std::bit_width(field.limit)));

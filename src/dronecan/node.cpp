@@ -6,18 +6,18 @@
 namespace blactl::dronecan {
 namespace {
 
-/// A node says that it lives at least once a second (uavcan/protocol/341.NodeStatus). The first
-/// time is after a second of life: a short command is never announced to anybody's allocator.
+/// A node sends NodeStatus at least once a second (uavcan/protocol/341.NodeStatus). The first one
+/// comes after a second, so that a short command never announces itself to an allocator.
 constexpr Duration status_period = std::chrono::seconds(1);
 
-/// A request that did not leave within this time is given up (specification 4.1).
+/// A request that has not left within this time is given up (specification 4.1).
 constexpr Duration transmit_timeout = std::chrono::seconds(1);
 
 /// (kind, type, source, destination) remembered at a time: eight for each of 127 nodes.
 constexpr std::size_t receiver_sessions = 1024;
 
-/// With so many frames waiting to leave, NodeStatus and answers are left out: nobody acknowledges,
-/// or somebody asks faster than we can answer. What is old when it leaves helps nobody.
+/// With so many frames waiting to leave, NodeStatus and answers are omitted: nobody acknowledges,
+/// or requests come faster than we can answer. A stale frame helps nobody.
 constexpr std::size_t most_backlog = 16;
 
 } // namespace
@@ -75,7 +75,7 @@ void Node::on_transfer(const Transfer& transfer) {
   if (for_us && is_response && asked_for(transfer) == nullptr) {
     return;
   }
-  // First those who only listen: what a job concludes from an answer rests on what they know.
+  // Listeners come first: a job's conclusions from an answer rest on what they know.
   if (hooks_.transfer) {
     hooks_.transfer(transfer);
   }
@@ -89,7 +89,7 @@ void Node::on_transfer(const Transfer& transfer) {
   wake();
 }
 
-/// Jobs that pause for something to be heard.
+/// Wakes the jobs whose pause is over.
 void Node::wake() {
   for (Active& active : jobs_) {
     const Pause* pause = active.step.pause();
@@ -100,7 +100,7 @@ void Node::wake() {
   ask_waiting(now_);
 }
 
-/// The job whose question this answers; null: none.
+/// The job whose request this answers; null: none.
 Node::Active* Node::asked_for(const Transfer& response) {
   const Header& header = response.header;
   const auto it = std::ranges::find_if(jobs_, [&](const Active& active) {
@@ -185,7 +185,7 @@ void Node::start(Job& job, Time now) {
   ask_waiting(now_);
 }
 
-/// Tells the job how its last step ended and takes its next one.
+/// Passes the outcome of its last step to the job and takes its next one.
 void Node::tell(Active& active, const Outcome& outcome) {
   active.asked = false;
   active.deadline = never;
@@ -200,7 +200,7 @@ void Node::tell(Active& active, const Outcome& outcome) {
   }
 }
 
-/// The same for a job that is to go on: a listener asks nothing, its first question ends the job.
+/// As tell(), except that on an anonymous node, which cannot ask, a request ends the job.
 void Node::finish(Active& active, const Outcome& outcome) {
   tell(active, outcome);
   if (active.step.request() != nullptr && !local_.is_unicast()) {
@@ -238,7 +238,7 @@ void Node::ask(Active& active, Time now) {
   }
 }
 
-/// Drops ended jobs, and asks what waits for a server that is free now.
+/// Drops ended jobs, and sends the requests that waited for a server now free.
 void Node::ask_waiting(Time now) {
   if (in_callback_) {
     return; // a job started another one: the call that runs it goes on with the list
@@ -261,7 +261,7 @@ void Node::advance(Time now) {
   if (status_due_ <= now) {
     broadcast_status(now);
     status_due_ += status_period;
-    if (status_due_ <= now) { // this process slept: what it missed is not made up for
+    if (status_due_ <= now) { // this process slept: missed messages are not made up for
       status_due_ = now + status_period;
     }
   }
@@ -293,7 +293,7 @@ void Node::unanswered(Active& active, Time now) {
   }
 }
 
-/// What of a question is still here leaves no more: nobody waits for its answer.
+/// Drops the frames of a request not yet sent: nobody waits for its answer.
 void Node::withdraw(const Active& active) {
   if (active.asked && !active.left && hooks_.withdraw) {
     hooks_.withdraw(active.frames);

@@ -37,7 +37,7 @@ struct Arrival {
   Time at;
 };
 
-/// Without the tail byte.
+/// The payload of a frame, without the tail byte.
 std::span<const std::uint8_t> payload_of(const can::Frame& frame) {
   return frame.payload().first(frame.size - 1U);
 }
@@ -53,16 +53,16 @@ std::optional<Arrival> take_apart(const can::Frame& frame, Time at) {
   return Arrival{frame, *header, Tail::decode(frame.data[frame.size - 1U]), at};
 }
 
-/// How far the transfer that is being put together can be believed; each is worse than the last.
+/// How far the transfer in progress can be trusted; each value is worse than the last.
 enum class Trust : std::uint8_t {
   whole,    ///< nothing is amiss so far
   doubtful, ///< there may be a gap: it is delivered only if its CRC proves it right
   broken,   ///< parts of it were not kept: it is not delivered
 };
 
-/// What is remembered of one transfer descriptor.
+/// The state of one transfer descriptor.
 struct Session {
-  std::span<std::uint8_t> buffer; ///< CRC and payload of a transfer of several frames
+  std::span<std::uint8_t> buffer; ///< CRC and payload of a multi-frame transfer
 
   // The state variables of the pseudo code; `started`: `first` has a value.
   bool started = false;
@@ -72,14 +72,14 @@ struct Session {
 
   // The transfer in progress.
   bool pending = false;
-  bool single = false; ///< it is its first frame: no CRC, and nothing goes into the buffer
+  bool single = false; ///< single-frame transfer: no CRC, the buffer stays unused
   Trust trust = Trust::whole;
   Priority priority = 0; ///< of its first frame
   std::size_t size = 0;  ///< bytes in the buffer
 
-  // What keeps the reports to one a fault.
+  // Limits the reports to one per fault.
   can::Frame last{.size = 0};       ///< the last frame that was accepted
-  std::optional<TransferId> blamed; ///< the transfer of which a fault was reported last
+  std::optional<TransferId> blamed; ///< the transfer whose fault was reported last
   Time blamed_at;
 
   [[nodiscard]] bool needs_restart(const Arrival& arrival) const {
@@ -99,7 +99,7 @@ struct Session {
     blamed_at = at;
   }
 
-  /// Frames which continue a transfer that was reported lost are no news.
+  /// Whether the frame continues a transfer already reported as lost.
   [[nodiscard]] bool is_blamed(const Arrival& arrival) const {
     return !arrival.tail.start && blamed == arrival.tail.transfer_id &&
            !timed_out(blamed_at, arrival.at);
@@ -113,7 +113,7 @@ struct Session {
   }
 };
 
-/// Why the specification ignores this frame.
+/// The reason why the specification ignores this frame.
 ReceiveError reason(const Session& session, const Tail& tail) {
   const bool repeated = next(tail.transfer_id) == session.expected;
   if (tail.transfer_id != session.expected) {
@@ -152,7 +152,7 @@ class Receiver::Impl {
   Callbacks callbacks_;
   SlotTable slots_;
   std::vector<Session> sessions_; ///< grows within reserved memory
-  /// Left uninitialised on purpose: the kernel gives pages only to the buffers that are written.
+  /// Left uninitialised on purpose: the kernel provides pages only for buffers that are written.
   std::unique_ptr<std::uint8_t[]> buffers_;
   can::Frame anonymous_{};
 };
@@ -218,7 +218,7 @@ Session& Receiver::Impl::session_of(const Arrival& arrival) {
   return sessions_[slot];
 }
 
-// Whether the frame may begin a transfer. What was in progress is lost.
+// Returns whether the frame may begin a transfer. One in progress is lost.
 bool Receiver::Impl::restart(Session& session, const Arrival& arrival) {
   if (session.pending && session.blamed != session.expected) {
     session.blame(session.expected, arrival.at);
@@ -259,7 +259,7 @@ void Receiver::Impl::accept(Session& session, const Arrival& arrival) {
     session.size = 0;
   }
   // Where toggle and transfer ID happen to fit, the pseudo code takes a later frame for a first
-  // one, or a second first frame for a later one: then the CRC must tell.
+  // one, or a second first frame for a later one: then the CRC decides.
   if (begins != tail.start) {
     fault(session, tail.start ? ReceiveError::transfer_id : ReceiveError::missing_start, arrival);
     session.trust = std::max(session.trust, Trust::doubtful);
@@ -305,10 +305,10 @@ void Receiver::Impl::finish(Session& session, const Arrival& arrival) {
   }
 }
 
-// Takes the payload from behind its CRC; whether the transfer may be delivered.
+// Takes the payload after its CRC; returns whether the transfer may be delivered.
 bool Receiver::Impl::verify(Session& session, const Arrival& arrival, Transfer& transfer) {
   if (session.size < crc_size) {
-    return false; // its start is missing, which was reported
+    return false; // its start is missing, as reported before
   }
   const auto crc = static_cast<std::uint16_t>(session.buffer[0] | (session.buffer[1] << 8U));
   transfer.payload = session.buffer.first(session.size).subspan(crc_size);
@@ -343,7 +343,7 @@ void Receiver::Impl::expire(Time now) {
   }
 }
 
-// Reports a fault of the transfer to which the frame belongs, unless that was done.
+// Reports a fault of the frame's transfer, unless already reported.
 void Receiver::Impl::fault(Session& session, ReceiveError error, const Arrival& arrival) {
   if (!session.is_blamed(arrival)) {
     session.blame(arrival.tail.transfer_id, arrival.at);

@@ -51,7 +51,7 @@ std::size_t SlotTable::find_bucket(std::uint32_t key) const {
   return bucket;
 }
 
-// Closes the gap by moving back those behind it that would no longer be found: no tombstones, so
+// Closes the gap by moving back the keys behind it that would no longer be found: no tombstones, so
 // the table does not slow down however many keys pass through it.
 void SlotTable::forget(std::uint32_t key) {
   const auto mask = buckets_.size() - 1;

@@ -7,8 +7,8 @@
 
 namespace blactl::dronecan {
 
-/// Open addressing with linear probing, never more than half full, and a list through the slots in
-/// the order of their use. Memory is allocated by the constructor only.
+/// Open addressing with linear probing, never more than half full, and a list of the slots in order
+/// of use. Memory is allocated by the constructor only.
 class SlotTable {
  public:
   /// `capacity`: how many keys are remembered, at least 1 (0 is taken for 1).
@@ -16,10 +16,10 @@ class SlotTable {
 
   struct Touched {
     std::size_t slot; ///< 0..size()-1
-    bool fresh;       ///< the key was unknown: the slot is new, or was taken from the idlest key
+    bool fresh;       ///< the key was unknown: the slot is new, or taken from the idlest key
   };
 
-  /// Finds or makes the slot of `key`, which is then the one used last.
+  /// Finds or makes the slot of `key`, which becomes the most recently used.
   [[nodiscard]] Touched touch(std::uint32_t key);
 
   [[nodiscard]] std::size_t size() const { return slots_.size(); }

@@ -24,7 +24,7 @@ Payload ArrayCommand::encode() const {
   return payload;
 }
 
-// A part of a command is refused with all the others: they do not say what the sender meant.
+// A truncated command makes the whole message invalid: the sender's intent is unknown.
 std::optional<ArrayCommand> ArrayCommand::decode(Bytes payload) {
   const auto count = payload.size() / command_size;
   if (count > max_commands || payload.size() % command_size != 0) {

@@ -1,4 +1,4 @@
-// What every node speaks: status, information, address, restart.
+// The types of every node: status, information, address, restart.
 
 #include "blactl/dronecan/types.hpp"
 

@@ -1,4 +1,4 @@
-// Parameters: reading and writing them, and what is done with all of them at once.
+// Parameters: reading and writing them, saving and erasing all of them.
 
 #include "blactl/dronecan/types.hpp"
 
@@ -37,7 +37,7 @@ struct ValueWriter {
   }
 };
 
-/// `above`: what shares the byte with the tag.
+/// `above`: the bits that share the byte with the tag.
 template <class Union> void put_union(Payload& payload, const Union& value, unsigned above = 0) {
   put_integer(payload, above | value.index(), 1);
   std::visit(ValueWriter{payload}, value);
@@ -48,7 +48,7 @@ std::optional<std::string> take_text(Reader& reader) {
   return size > max_text ? std::nullopt : std::optional(reader.text(size));
 }
 
-/// Empty: no such tag, or a text beyond its limit. The end of the payload shows in the reader.
+/// Empty: no such tag, or a text beyond its limit. The reader records the end of the payload.
 std::optional<GetSet::Value> take_value(Reader& reader, unsigned tag) {
   switch (tag) {
   case 0: return GetSet::Empty{};

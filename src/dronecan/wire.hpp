@@ -45,7 +45,7 @@ inline void put_text(Payload& payload, std::string_view text, std::size_t limit)
 }
 
 /// Takes fields from a payload. Beyond its end every field is 0 and ok() becomes false, so that a
-/// decoder looks once, at its end.
+/// decoder checks once, at its end.
 class Reader {
  public:
   explicit Reader(Bytes payload) : rest_(payload) {}
@@ -54,7 +54,7 @@ class Reader {
 
   [[nodiscard]] Bytes rest() const { return rest_; }
 
-  /// The next `size` bytes; none of them if there are fewer.
+  /// The next `size` bytes; none if there are fewer.
   Bytes take(std::size_t size) {
     if (size > rest_.size()) {
       ok_ = false;
@@ -95,14 +95,14 @@ class Reader {
 
   float float32() { return std::bit_cast<float>(u32()); }
 
-  /// A string of `size` bytes, whatever they are.
+  /// A string of any `size` bytes.
   std::string text(std::size_t size) {
     const auto bytes = take(size);
     return {bytes.begin(), bytes.end()};
   }
 
   /// The array at the end of a payload has no length of its own on classic CAN (tail array
-  /// optimisation): all that is left, which must not be more than `limit` bytes.
+  /// optimisation): returns the rest, which must not exceed `limit` bytes.
   std::string text_to_end(std::size_t limit) {
     ok_ = ok_ && rest_.size() <= limit;
     return ok_ ? text(rest_.size()) : std::string();

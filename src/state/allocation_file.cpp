@@ -75,7 +75,7 @@ Result<std::vector<Wish>> read_allocation_file(const std::filesystem::path& file
   }
   json::Faults& faults = document->faults();
   json::Object root(document->root(), faults);
-  (void)root.optional_string("$schema"); // what editors look at
+  (void)root.optional_string("$schema"); // for editors
   (void)root.word("schema", {file_schema});
   std::vector<Wish> wishes;
   for (const json::Value* item : root.array("entries")) {

@@ -19,8 +19,8 @@ using dronecan::UniqueId;
 
 namespace {
 
-/// Both IDs stand in the table and in its index, so the check of the whole file finds it if one has
-/// changed. `at`: microseconds since 1970, UTC.
+/// Both IDs are in the table and in its index, so the check of the whole file detects a change.
+/// `at`: microseconds since 1970, UTC.
 const DatabaseFormat& allocations_format() {
   static const DatabaseFormat format{
       .application_id = 0x626C6163, // "blac"
@@ -59,7 +59,7 @@ NodeId first_free(const AllocationChoice& choice, const NodeIds& used) {
   return {};
 }
 
-/// Of a row of node_id, unique_id, at.
+/// The entry in a row of node_id, unique_id, at.
 AllocationEntry entry_of(const Statement& row) {
   AllocationEntry entry{.node_id = NodeId(static_cast<std::uint8_t>(row.integer(0))),
                         .at = WallTime(Duration(row.integer(2)))};
@@ -105,7 +105,7 @@ Result<NodeIds> all_given(const Database& database) {
   }
 }
 
-/// A new row, or another node ID for a unit that has one.
+/// Inserts a row, or replaces the node ID of a unit that has one.
 Result<void> store(const Database& database, const UniqueId& unique_id, NodeId node_id,
                    WallTime now) {
   return Statement(database, "INSERT INTO allocations (node_id, unique_id, at) VALUES (?, ?, ?) "
@@ -117,7 +117,7 @@ Result<void> store(const Database& database, const UniqueId& unique_id, NodeId n
       .run();
 }
 
-/// In the transaction of assign().
+/// The part of assign() inside its transaction.
 Result<NodeId> known_or_new(const Database& database, const UniqueId& unique_id,
                             const AllocationChoice& choice, WallTime now) {
   const auto known = entry_with(database, unique_id);
@@ -170,8 +170,8 @@ Result<void> put_unless_taken(const Database& database, const AllocationStore::W
   return store(database, wish.unique_id, wish.node_id, now);
 }
 
-/// In the transaction of put(): first all give up what they have, for somebody else may wish it.
-/// Who has what it wishes keeps it, and since when.
+/// The part of put() inside its transaction: first all units give up their IDs, since another may
+/// request one. A unit that keeps its ID keeps its time, too.
 Result<void> put_all(const Database& database, std::span<const AllocationStore::Wish> wishes,
                      WallTime now, AllocationStore::Former former) {
   std::vector<AllocationStore::Wish> changes;

@@ -16,8 +16,8 @@ using dronecan::UniqueId;
 namespace {
 
 /// Assignments are ordered by number, not by time: clocks are set back. `counted`: by a counter,
-/// not by a label. A whole row stands in the index once more, so the check of the file finds it if
-/// anything of it has changed. `at`: microseconds since 1970, UTC, up to the year 9999.
+/// not by a label. The index repeats whole rows, so the check of the file detects any change. `at`:
+/// microseconds since 1970, UTC, up to the year 9999.
 const DatabaseFormat& counters_format() {
   static const DatabaseFormat format{
       .application_id = 0x626C6163, // "blac"
@@ -38,7 +38,7 @@ const DatabaseFormat& counters_format() {
   return format;
 }
 
-/// What is asked for in the transaction of assign().
+/// The arguments of assign() for its transaction.
 struct Request {
   const Database& database;
   const UniqueId& unique_id;
@@ -70,7 +70,7 @@ Result<std::optional<std::int64_t>> last_counted(const Request& request, const I
   return first_number(statement);
 }
 
-/// The unit that has this ID; empty: nobody has.
+/// The unit that has this ID; empty: none.
 Result<std::optional<std::string>> holder(const Request& request, const IdWish& wish,
                                           std::int64_t value) {
   Statement statement(request.database, "SELECT unique_id FROM assignments WHERE recipe = ? AND "
@@ -84,7 +84,7 @@ Result<std::optional<std::string>> holder(const Request& request, const IdWish& 
 }
 
 std::optional<std::int64_t> after(const IdWish& wish, std::int64_t value) {
-  // The recipe may have been changed since it was given.
+  // The recipe may have changed since the ID was given.
   const std::int64_t next = value < wish.first ? wish.first : value + wish.step;
   return next <= wish.last   ? std::optional(next)
          : wish.begins_again ? std::optional(wish.first)

@@ -1,5 +1,5 @@
 #pragma once
-// What can be wrong with a database file, as errors.
+// The errors of database files.
 
 #include "blactl/base/error.hpp"
 #include "blactl/base/text.hpp"
@@ -10,21 +10,21 @@
 
 namespace blactl::state {
 
-/// A database file as people are told of it.
+/// The name of a database file for people.
 struct DatabaseName {
   std::string path;
   Text what;     ///< "allocation table"
-  Text way_back; ///< what comes after the file was moved away
+  Text way_back; ///< the way on after the file was moved away
 };
 
 } // namespace blactl::state
 
 namespace blactl::state::errors {
 
-/// No file of ours. The hints of this and the next three say how to get it out of the way.
+/// Not a file of ours. The hints of this error and the next three say how to move it away.
 [[nodiscard]] Error foreign(const DatabaseName& file);
 [[nodiscard]] Error link(const DatabaseName& file);
-/// The log (-wal, -journal) of a database that is gone: a new one would take it for its own.
+/// The log (-wal, -journal) of a lost database: a new one would take it for its own.
 [[nodiscard]] Error left_over(const DatabaseName& file, const std::string& log);
 [[nodiscard]] Error damaged(const DatabaseName& file, std::string_view reason);
 [[nodiscard]] Error newer(const DatabaseName& file, std::int64_t version, std::int64_t known);
@@ -33,7 +33,7 @@ namespace blactl::state::errors {
 [[nodiscard]] Error busy(const DatabaseName& file);
 [[nodiscard]] Error denied(const DatabaseName& file, std::string_view reason);
 [[nodiscard]] Error io(const DatabaseName& file, std::string_view reason);
-/// What a number of the system (errno) means: io or denied.
+/// The error for an errno: io or denied.
 [[nodiscard]] Error of_system(const DatabaseName& file, int number);
 
 } // namespace blactl::state::errors

@@ -20,7 +20,7 @@
 namespace blactl::state {
 namespace {
 
-// What lies beside a database: the log of write-ahead mode and its index, that of other modes.
+// Files beside a database: the log of write-ahead mode and its index, and that of other modes.
 constexpr std::string_view log_suffix = "-wal";
 constexpr std::array suffixes{log_suffix, std::string_view("-shm"), std::string_view("-journal")};
 
@@ -33,7 +33,7 @@ bool has_content(const std::string& path) {
   return lstat(path.c_str(), &info) == 0 && info.st_size > 0;
 }
 
-/// By the header alone, before SQLite may lay anything beside it (Database File Format, 1.3).
+/// Checks the header only, before SQLite can create files beside it (Database File Format, 1.3).
 bool is_ours(const Database::Header& header, const DatabaseFormat& format) {
   constexpr std::string_view magic("SQLite format 3\0", 16);
   constexpr std::size_t id_offset = 68;
@@ -46,8 +46,8 @@ bool is_ours(const Database::Header& header, const DatabaseFormat& format) {
          id == static_cast<std::uint32_t>(format.application_id);
 }
 
-/// What the file says of who may read and write it: 1 and 2 are those of today's SQLite. One that
-/// only newer ones may write would look like a lack of rights.
+/// Checks the read and write versions in the header: 1 and 2 are those of today's SQLite. A newer
+/// write version would otherwise look like missing permission.
 bool is_known_to_sqlite(const Database::Header& header) {
   constexpr std::size_t write_version = 18;
   constexpr std::size_t read_version = 19;
@@ -89,7 +89,7 @@ Result<void> check_version(const Database& database, const DatabaseFormat& forma
   return {};
 }
 
-/// A statement that gives one row with one text; any other answer is damage.
+/// Runs a statement that must return one row with the expected text; anything else is damage.
 Result<void> expect_one(const Database& database, std::string_view sql, std::string_view expected) {
   Statement statement(database, sql);
   for (int count = 0;; ++count) {
@@ -107,8 +107,8 @@ Result<void> expect_one(const Database& database, std::string_view sql, std::str
   }
 }
 
-/// The whole check, not PRAGMA quick_check: that one does not compare a table with its index, which
-/// is what finds a changed byte in an ID. Our databases are small.
+/// Runs the full check, since PRAGMA quick_check does not compare a table with its index, which
+/// detects a changed byte in an ID. Our databases are small.
 Result<void> check(const Database& database, const DatabaseFormat& format) {
   auto good = check_header(database, format);
   if (good) {
@@ -124,8 +124,8 @@ Result<void> check(const Database& database, const DatabaseFormat& format) {
   return good;
 }
 
-/// In write-ahead mode (WAL) readers and the writer do not wait for each other. Some file systems
-/// (of networks) are not fit for it.
+/// In write-ahead mode (WAL) readers and the writer do not wait for each other. Some network file
+/// systems do not support it.
 Result<void> write_ahead(const Database& database) {
   Statement statement(database, "PRAGMA journal_mode = WAL");
   const auto row = statement.step();
@@ -137,7 +137,7 @@ Result<void> write_ahead(const Database& database) {
              : std::unexpected(errors::io(database.name(), system_reason(ENOTSUP)));
 }
 
-/// With synchronous = FULL what was committed survives a power cut.
+/// With synchronous = FULL committed data survives a power cut.
 Result<void> set_up(const Database& database, bool writable) {
   if (!writable) {
     return database.execute("PRAGMA query_only = ON");
@@ -151,7 +151,7 @@ Result<void> set_up(const Database& database, bool writable) {
   return database.execute("PRAGMA synchronous = FULL");
 }
 
-/// SQLite makes the folder of a new file durable with its journal; this name it got since.
+/// Syncs the folder, because the file got its name after SQLite had synced it for the journal.
 Result<void> sync_folder_of(const std::string& path, const DatabaseFormat& format) {
   const std::string folder = std::filesystem::path(path).parent_path().string();
   const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -179,7 +179,7 @@ Result<void> fill(const std::string& draft, const std::string& path, const Datab
   return filled;
 }
 
-/// A log without its database would be taken for that of a new one, and be played back into it.
+/// Refuses a log without its database: a new database would play it back.
 Result<void> check_for_logs_of(const std::string& path, const DatabaseFormat& format) {
   for (const std::string_view suffix : suffixes) {
     const std::string log = beside(path, suffix);
@@ -202,8 +202,7 @@ Result<Database> open_database(const std::string& path, const DatabaseFormat& fo
   if (usable) {
     usable = set_up(*database, writable);
   }
-  // Without a log there is nothing that closing could write, and it takes away what SQLite laid
-  // beside the file.
+  // Without a log, closing writes nothing and removes the files that SQLite created beside it.
   database->leave_as_it_is(!usable && has_content(beside(path, log_suffix)));
   if (!usable) {
     return std::unexpected(usable.error());
@@ -222,7 +221,7 @@ Result<void> make_database(const std::string& path, const DatabaseFormat& format
   }
   close(descriptor);
   auto made = fill(draft, path, format);
-  // Unlike rename() this cannot replace what another process has made meanwhile.
+  // Unlike rename(), link() cannot replace a file that another process has made meanwhile.
   if (made && link(draft.c_str(), path.c_str()) != 0 && errno != EEXIST) {
     made = std::unexpected(errors::of_system(name_of(path, format), errno));
   }

@@ -1,5 +1,5 @@
 #pragma once
-// Folders that environment variables name.
+// Folders named by environment variables.
 
 #include <cstdlib>
 #include <string>
@@ -11,8 +11,8 @@ namespace blactl::state {
   return value != nullptr ? value : "";
 }
 
-/// Of a folder. One that is relative or empty is as good as unset (XDG base directory
-/// specification): what is shared must not depend on where a process was started.
+/// The folder named by a variable. A relative or empty one counts as unset (XDG base directory
+/// specification): shared files must not depend on the working directory.
 [[nodiscard]] inline std::string folder_variable(const char* name) {
   std::string value = variable(name);
   return value.starts_with('/') ? value : std::string();

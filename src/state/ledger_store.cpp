@@ -19,7 +19,7 @@ namespace blactl::state {
 
 namespace {
 
-/// "record_id, time, …": `each` makes of a column what stands for it.
+/// "record_id, time, …": `each` returns the text for a column.
 template <class Each> std::string columns(Each each) {
   std::string text;
   for (const LedgerColumn& column : ledger_columns) {
@@ -37,8 +37,8 @@ std::string_view type_of(const LedgerColumn& column) {
   return types.at(column.member.index());
 }
 
-/// `record_id`, `time` and `verdict` are always there. A whole row stands in the index once more,
-/// so the check of the file finds it if anything of it has changed.
+/// `record_id`, `time` and `verdict` are always set. The index repeats whole rows, so the check of
+/// the file detects any change.
 std::string ledger_schema() {
   const std::string definitions = columns([](const LedgerColumn& column) {
     const std::string definition = fmt::format("{} {}", column.name, type_of(column));
@@ -99,7 +99,7 @@ LedgerRecord record_of(const Statement& row) {
   return record;
 }
 
-/// Empty: there is none.
+/// The record with this ID; empty: there is none.
 Result<std::optional<LedgerRecord>> find(const Database& database, const std::string& record_id) {
   Statement statement(database, "SELECT " + column_names() + " FROM ledger WHERE record_id = ?");
   statement.bind(record_id);
@@ -110,7 +110,7 @@ Result<std::optional<LedgerRecord>> find(const Database& database, const std::st
   return *row ? std::optional(record_of(statement)) : std::nullopt;
 }
 
-/// In the transaction of add().
+/// The part of add() inside its transaction.
 Result<void> insert(const Database& database, const LedgerRecord& record) {
   const auto known = find(database, record.record_id.value_or(std::string()));
   if (!known) {

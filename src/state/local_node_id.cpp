@@ -23,7 +23,7 @@ namespace {
 
 using Table = std::array<TransferIds::Slot, TransferIds::slots>;
 
-/// What stands in the way of an ID, for a person.
+/// The obstacle to an ID, for people.
 std::string text(const LockRefusal& refusal, NodeId id) {
   if (refusal.error != 0) {
     return say<texts::node_id_lock_failed>(id.value(), printable(refusal.path),
@@ -33,8 +33,7 @@ std::string text(const LockRefusal& refusal, NodeId id) {
                      : say<texts::node_id_held>(id.value());
 }
 
-/// The file may be shorter than the table. The worst that wrong counters do is one repeated
-/// request.
+/// The file may be shorter than the table. Wrong counters cause at worst one repeated request.
 void load(const LockFile& file, Table& table) {
   if (pread(file.descriptor(), table.data(), sizeof table, LockFile::data_offset) < 0) {
     table = {};
@@ -52,7 +51,7 @@ struct LocalNodeId::State {
     }
   }
 
-  /// A full disk loses the memory for the next process, no more.
+  /// A full disk only loses the counters for the next process.
   void keep(std::size_t index) const {
     if (file) {
       const auto at = LockFile::data_offset + static_cast<long>(index * sizeof table[index]);
@@ -60,7 +59,7 @@ struct LocalNodeId::State {
     }
   }
 
-  /// Behind the counters of an ID lies whether another node was heard to have it.
+  /// The offset, after the counters, of the mark that another node was heard with this ID.
   static constexpr long mark_offset = LockFile::data_offset + sizeof(Table);
 
   void mark_as_foreign() const {
@@ -113,7 +112,7 @@ std::string LocalNodeId::lock_file() const {
   return state_->file ? state_->file->path() : std::string();
 }
 
-/// The first candidate that can be had. One that another node had is the last resort: that node may
+/// Takes the first available candidate. One that another node had is the last resort: that node may
 /// be gone.
 Result<void> LocalNodeId::take_one() {
   const bool is_shared = !place_.interface.empty();
@@ -168,7 +167,7 @@ Result<LocalNodeId> LocalNodeId::acquire(LockPlace place, Candidates candidates)
 
 LocalNodeId LocalNodeId::unshared(Candidates candidates) {
   LocalNodeId local({}, std::move(candidates));
-  std::ignore = local.take_one(); // there is nobody to refuse it
+  std::ignore = local.take_one(); // nobody can refuse it
   return local;
 }
 

@@ -18,7 +18,7 @@
 namespace blactl::state {
 namespace {
 
-/// Only processes of this tool write it; whoever can has this machine's lock folder anyway.
+/// Written by processes of this tool only; anyone else able to could also replace the lock folder.
 struct FileHeader {
   std::array<char, 8> magic;
   std::int32_t pid;
@@ -33,10 +33,10 @@ bool read_header(int descriptor, FileHeader& header) {
   return pread(descriptor, &header, sizeof header, 0) == sizeof header && header.magic == magic;
 }
 
-/// A folder that exists now, is no symbolic link and can be written; 01777 where all users share.
+/// Creates the folder if missing; returns whether it is a writable folder, not a symbolic link.
 bool usable(const std::string& folder, mode_t mode) {
   if (mkdir(folder.c_str(), mode) == 0) {
-    chmod(folder.c_str(), mode); // past the umask
+    chmod(folder.c_str(), mode); // despite the umask
   }
   struct stat info{};
   return lstat(folder.c_str(), &info) == 0 && S_ISDIR(info.st_mode) &&
@@ -52,8 +52,8 @@ std::uint64_t digest(std::string_view text) {
   return value;
 }
 
-/// Interface names become one path component. One that is too long for that keeps its end, which is
-/// what tells paths apart, and a number made of all of it.
+/// Interface names become one path component. One that is too long keeps its end, where paths
+/// differ, and a hash of the whole name.
 std::string file_name(const LockPlace& place, std::string_view suffix) {
   constexpr std::size_t longest = 200; // NAME_MAX less the number, the network and the suffix
   std::string name = place.interface;
@@ -66,8 +66,8 @@ std::string file_name(const LockPlace& place, std::string_view suffix) {
   return name.append(place.network).append(1, '.').append(suffix);
 }
 
-/// Opens a lock file, made if it is not there. One that another user made must not be opened with
-/// O_CREAT: in a folder for all the kernel would refuse it (fs.protected_regular).
+/// Opens or creates a lock file. Another user's file must not be opened with O_CREAT: in a shared
+/// folder the kernel would refuse it (fs.protected_regular).
 int open_file(const std::string& path) {
   constexpr int flags = O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK;
   int fd = open(path.c_str(), flags);
@@ -84,7 +84,7 @@ int open_file(const std::string& path) {
 
 } // namespace
 
-/// The same for all users where the system allows it.
+/// Returns the same folder for all users where the system allows it.
 std::string LockFile::folder(const LockPlace& place) {
   constexpr mode_t of_all = 01777;
   constexpr mode_t own = 0700;
@@ -120,10 +120,10 @@ LockFile::take(const std::string& folder, const LockPlace& place, std::string_vi
         LockRefusal{.path = path, .pid = had_data ? std::optional(header.pid) : std::nullopt});
   }
   if (!had_data) {
-    (void)ftruncate(fd, 0); // what lies in it is nobody's
+    (void)ftruncate(fd, 0); // its content is stale
   }
-  // A full disk keeps the name of the holder out of it, and hurts nobody else. Then no name is
-  // better than that of the holder before.
+  // On a full disk the holder's PID may be missing, which is harmless, and better than that of the
+  // previous holder.
   header = {magic, getpid(), 0};
   if (pwrite(fd, &header, sizeof header, 0) != sizeof header) {
     (void)ftruncate(fd, 0);

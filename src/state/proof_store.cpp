@@ -18,9 +18,9 @@ using dronecan::UniqueId;
 
 namespace {
 
-/// A whole row stands in the index once more, so the check of the file finds it if anything of it
-/// has changed. `started`: microseconds since 1970, UTC, before that where the clock was not set;
-/// in bounds that holds() can calculate with. `uptime`: seconds, as NodeStatus has them.
+/// The index repeats whole rows, so the check of the file detects any change. `started`:
+/// microseconds since 1970, UTC, negative if the clock was not set; within bounds for the
+/// arithmetic of holds(). `uptime`: seconds, as in NodeStatus.
 const DatabaseFormat& proofs_format() {
   static const DatabaseFormat format{
       .application_id = 0x626C6170, // "blap"
@@ -53,7 +53,7 @@ Result<void> drop_one(const Database& database, const UniqueId& unique_id) {
   return Statement(database, "DELETE FROM proofs WHERE unique_id = ?").bind(unique_id).run();
 }
 
-/// Of a row of rom, started, uptime.
+/// The proof in a row of rom, started, uptime.
 Result<RomProof> proof_of(const UniqueId& unique_id, const Statement& row,
                           const Database& database) {
   auto rom = registers_of(row.bytes(0));

@@ -10,11 +10,11 @@
 
 namespace blactl::state {
 
-/// Nine bytes a register, ascending by address: the address, and the number (64 bits, two's
-/// complement, the highest byte first).
+/// Nine bytes per register, ascending by address: the address and the value (64 bits, two's
+/// complement, most significant byte first).
 [[nodiscard]] std::vector<std::uint8_t> bytes_of(const Registers& registers);
 
-/// Null: that is not what bytes_of() makes.
+/// The inverse of bytes_of(); null: invalid bytes.
 [[nodiscard]] std::optional<Registers> registers_of(std::span<const std::uint8_t> bytes);
 
 } // namespace blactl::state

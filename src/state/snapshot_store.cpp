@@ -17,9 +17,9 @@ using dronecan::UniqueId;
 
 namespace {
 
-/// Changes are ordered by number, not by time: clocks are set back. A whole row stands in the index
-/// once more, so the check of the file finds it if anything of it has changed. `at`: microseconds
-/// since 1970, UTC, up to the year 9999.
+/// Changes are ordered by number, not by time: clocks are set back. The index repeats whole rows,
+/// so the check of the file detects any change. `at`: microseconds since 1970, UTC, up to the year
+/// 9999.
 const DatabaseFormat& snapshots_format() {
   static const DatabaseFormat format{
       .application_id = 0x626C6173, // "blas"
@@ -40,7 +40,7 @@ const DatabaseFormat& snapshots_format() {
   return format;
 }
 
-/// A query of what entry_of() reads.
+/// A query for the columns that entry_of() reads.
 std::string select(std::string_view rest) {
   return "SELECT number, at, command, unique_id, held, saved, run, ended FROM snapshots " +
          std::string(rest);
@@ -91,14 +91,14 @@ Result<std::optional<SnapshotEntry>> first_of(Statement& statement, const Databa
   return found->empty() ? std::nullopt : std::optional(std::move(found->front()));
 }
 
-/// Higher than all that are there: what SQLite gives the next new row, too.
+/// The number after the highest, which is also what SQLite gives the next new row.
 Result<std::int64_t> next_number(const Database& database) {
   Statement statement(database, "SELECT ifnull(max(number), 0) + 1 FROM snapshots");
   const auto row = statement.step();
   return row ? Result<std::int64_t>(statement.integer(0)) : std::unexpected(row.error());
 }
 
-/// Gives its number.
+/// Stores one entry and returns its number.
 Result<std::int64_t> keep_one(const Database& database, const SnapshotEntry& entry,
                               std::int64_t new_run) {
   const std::vector<std::uint8_t> held = bytes_of(entry.held);
@@ -129,7 +129,7 @@ Result<void> drop_surplus(const Database& database, const UniqueId& unique_id) {
       .run();
 }
 
-/// But for the last one of each servo.
+/// Drops old entries, but not the last one of each servo.
 Result<void> drop_old(const Database& database, WallTime now) {
   return Statement(database, "DELETE FROM snapshots WHERE at < ? AND number < "
                              "(SELECT max(number) FROM snapshots AS newer "
@@ -138,7 +138,7 @@ Result<void> drop_old(const Database& database, WallTime now) {
       .run();
 }
 
-/// In the transaction of keep().
+/// The part of keep() inside its transaction.
 Result<std::vector<std::int64_t>> keep_all(const Database& database,
                                            std::span<const SnapshotEntry> entries, WallTime now) {
   const auto new_run = next_number(database);

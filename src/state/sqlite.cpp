@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* main_database = "main";
 
-/// What SQLite says, or the system where that is to blame.
+/// The reason given by SQLite, or by the system if that is the cause.
 std::string reason_of(sqlite3* handle, int result) {
   const int primary = result & 0xFF;
   const int error = handle != nullptr ? sqlite3_system_errno(handle) : 0;
@@ -20,8 +20,8 @@ std::string reason_of(sqlite3* handle, int result) {
   return is_of_system && error != 0 ? system_reason(error) : sqlite3_errstr(result);
 }
 
-/// When SQLite cannot make a log it looks whether there is one: then the system names the missing
-/// file, and not what is in the way.
+/// When SQLite cannot create a log it checks whether one exists: errno then names the missing file,
+/// not the real obstacle.
 int reason_not_opened(const std::string& path, int error) {
   const std::string folder = std::filesystem::path(path).parent_path().string();
   return error == ENOENT && access(folder.c_str(), W_OK) != 0 ? errno : error;
@@ -66,7 +66,7 @@ Result<void> Database::execute(const char* sql) const {
   return {};
 }
 
-/// What is written into a file that was moved away or removed is lost for all others.
+/// Fails if the file was moved away or removed: writes to it would be lost for all others.
 Result<void> Database::begin() const {
   int has_moved = 0;
   sqlite3_file_control(handle(), main_database, SQLITE_FCNTL_HAS_MOVED, &has_moved);
@@ -76,7 +76,7 @@ Result<void> Database::begin() const {
   return execute("BEGIN IMMEDIATE");
 }
 
-/// Some failures end a transaction by themselves.
+/// Rolls back unless the failure already ended the transaction.
 void Database::roll_back_if_open() const {
   if (sqlite3_get_autocommit(handle()) == 0) {
     sqlite3_exec(handle(), "ROLLBACK", nullptr, nullptr, nullptr);
@@ -91,7 +91,7 @@ bool Database::is_read_only() const {
   return sqlite3_db_readonly(handle(), main_database) == 1;
 }
 
-/// What is not listed tells that the database is not the one that we made.
+/// Any code not listed means that the database is not the one we made.
 Error Database::failure(int result) const {
   const std::string reason = reason_of(handle(), result);
   switch (result & 0xFF) {

@@ -1,5 +1,5 @@
 #pragma once
-// SQLite with errors of ours: a database file in use, and statements on it.
+// SQLite with our errors: an open database file, and statements on it.
 
 #include "blactl/base/error.hpp"
 
@@ -21,25 +21,25 @@
 
 namespace blactl::state {
 
-/// A database file that is there, in use. Errors of its functions: bad_file, permission, io, busy.
+/// An open database file. Errors of its functions: bad_file, permission, io, busy.
 class Database {
  public:
   /// The first bytes of every database (SQLite, "Database File Format", 1.3).
   using Header = std::array<std::uint8_t, 100>;
 
-  /// Reads and changes nothing of the file yet; a symbolic link is refused. `path` is absolute and
-  /// no folder of it is a link. `told_as`: the file that errors name.
+  /// Does not read or change the file yet; refuses a symbolic link. `path` is absolute and contains
+  /// no link. `told_as`: the name of the file in errors.
   [[nodiscard]] static Result<Database> open(const std::string& path, DatabaseName told_as,
                                              std::chrono::milliseconds patience);
 
-  /// As it lies in the file, filled up with zeros. SQLite reads it: a descriptor of our own would
-  /// drop all POSIX locks of this process on the file when it is closed.
+  /// The header as in the file, padded with zeros. SQLite reads it: closing a descriptor of our own
+  /// would drop all POSIX locks of this process on the file.
   [[nodiscard]] Result<Header> header() const;
 
   [[nodiscard]] Result<void> execute(const char* sql) const;
 
-  /// Does `work` in one write transaction. What it returns is told only after it is on the disk; if
-  /// that is an error, or the commit fails, nothing has changed.
+  /// Does `work` in one write transaction. Its result is returned only after it is on disk; if it
+  /// is an error, or the commit fails, nothing has changed.
   template <class Work> [[nodiscard]] std::invoke_result_t<Work> transact(Work work) const {
     if (auto begun = begin(); !begun) {
       return std::unexpected(std::move(begun.error()));
@@ -54,14 +54,13 @@ class Database {
     return result;
   }
 
-  /// Whether the file must not be changed when it is closed, not even by what committed
-  /// transactions left in its log (-wal). So it is until this is called, and after damage was
-  /// found.
+  /// Whether closing must not change the file, not even by committed transactions in its log
+  /// (-wal). This is the default until called, and after damage was found.
   void leave_as_it_is(bool leave) const;
 
   [[nodiscard]] bool is_read_only() const;
 
-  /// What a result code of SQLite means for a person.
+  /// The error for a result code of SQLite.
   [[nodiscard]] Error failure(int result) const;
 
   [[nodiscard]] const DatabaseName& name() const { return told_as_; }
@@ -82,7 +81,7 @@ class Database {
   DatabaseName told_as_;
 };
 
-/// One statement. What fails before its first step is told by that.
+/// One statement. The first step reports any earlier failure.
 class Statement {
  public:
   Statement(const Database& database, std::string_view sql);
@@ -94,22 +93,22 @@ class Statement {
   /// Sets the next parameter. Bytes and text must live as long as the statement.
   Statement& bind(std::int64_t value);
 
-  Statement& bind(std::same_as<double> auto value) { return bind_real(value); } // no integer is one
+  Statement& bind(std::same_as<double> auto value) { return bind_real(value); } // not for integers
 
   Statement& bind(std::span<const std::uint8_t> value);
   Statement& bind(std::string_view value);
   Statement& bind(std::nullopt_t null);
 
-  /// True: it stands on the next row; false: there is none left.
+  /// Moves to the next row; false: there is none left.
   [[nodiscard]] Result<bool> step();
 
-  /// Runs it, whatever rows it gives.
+  /// Runs the statement and ignores its rows.
   [[nodiscard]] Result<void> run();
 
   [[nodiscard]] bool is_null(int column) const;
   [[nodiscard]] std::int64_t integer(int column) const;
   [[nodiscard]] double real(int column) const;
-  /// Until the next step.
+  /// Valid until the next step.
   [[nodiscard]] std::span<const std::uint8_t> bytes(int column) const;
   [[nodiscard]] std::string_view text(int column) const;
 

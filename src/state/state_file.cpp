@@ -14,18 +14,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The folder without symbolic links: SQLite, which is told to follow none, would refuse the file
-/// for a link anywhere in its path, and /home may be one.
+/// The path without symbolic links: SQLite is told to follow none and would refuse a link anywhere
+/// in the path, but /home may be one.
 std::string path_in(const std::string& folder, const std::string& file) {
   std::error_code error;
   const fs::path real = fs::weakly_canonical(fs::absolute(folder), error);
   return ((error ? fs::path(folder) : real) / file).string();
 }
 
-/// The folder of the file, private if it is new.
+/// Creates the folder of the file, if missing, as private.
 Result<void> make_folder(const DatabaseName& file) {
   const fs::path folder = fs::path(file.path).parent_path();
-  std::error_code ignored; // what matters is whether the folder itself can be made
+  std::error_code ignored; // only creating the folder itself matters
   fs::create_directories(folder.parent_path(), ignored);
   if (mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST) {
     return std::unexpected(errors::of_system(file, errno));
@@ -33,7 +33,7 @@ Result<void> make_folder(const DatabaseName& file) {
   return {};
 }
 
-/// Whether the file is there. Errors: something else is.
+/// Whether the file exists. Errors: something else does.
 Result<bool> is_there(const DatabaseName& file) {
   struct stat info{};
   if (lstat(file.path.c_str(), &info) != 0) {
@@ -45,7 +45,7 @@ Result<bool> is_there(const DatabaseName& file) {
   return S_ISREG(info.st_mode) ? Result<bool>(true) : std::unexpected(errors::foreign(file));
 }
 
-/// Makes the file if it is not there and `access` is to write; whether it is there then.
+/// Creates the file if it is missing and `access` is write; returns whether it exists then.
 Result<bool> provide(const DatabaseName& file, const DatabaseFormat& format, Access access) {
   const bool writes = access == Access::write;
   if (writes) {
@@ -93,7 +93,7 @@ Result<StateFile> StateFile::unshared(const DatabaseFormat& format) {
   return StateFile({}, format, std::move(*database));
 }
 
-/// A file that was opened for reading is for SQLite to refuse.
+/// The error of SQLite for a file opened read-only.
 Error StateFile::not_writable() const {
   return errors::denied({path_, format_->what, format_->way_back}, sqlite3_errstr(SQLITE_READONLY));
 }

@@ -1,5 +1,5 @@
 #pragma once
-// One database file in the state folder, from where it lies to its transactions.
+// One database file in the state folder, from its location to its transactions.
 
 #include "blactl/base/error.hpp"
 #include "blactl/state/access.hpp"
@@ -18,8 +18,8 @@ namespace blactl::state {
 
 class StateFile {
  public:
-  /// `folder`: what state_folder() said. `format` lives for ever. Errors beside those of Database:
-  /// state (the folder is empty).
+  /// `folder`: from state_folder(). `format` is static. Errors beside those of Database: state (the
+  /// folder is empty).
   [[nodiscard]] static Result<StateFile> open(const std::string& folder,
                                               const DatabaseFormat& format, Access access,
                                               std::chrono::milliseconds patience);
@@ -27,7 +27,7 @@ class StateFile {
   /// For a bus that no other process can reach: a database that ends with this object.
   [[nodiscard]] static Result<StateFile> unshared(const DatabaseFormat& format);
 
-  /// Null: there was no file to read.
+  /// The database; null: there was no file to read.
   [[nodiscard]] const Database* database() const { return database_ ? &*database_ : nullptr; }
 
   /// As Database::transact(). Errors beside those of `work`: permission (it was opened for
@@ -40,7 +40,7 @@ class StateFile {
     return database_->transact([&] { return work(*database_); });
   }
 
-  /// The path of the file, also while it is not there; empty: it never is.
+  /// The path of the file, even if that does not exist yet; empty: it has none.
   [[nodiscard]] const std::string& path() const { return path_; }
 
  private:
@@ -54,7 +54,7 @@ class StateFile {
   std::optional<Database> database_;
 };
 
-/// A store on this file, or why there is none.
+/// A store on this file, or the error why there is none.
 template <class Store> [[nodiscard]] Result<Store> store_on(Result<StateFile> file) {
   if (!file) {
     return std::unexpected(std::move(file.error()));

@@ -12,7 +12,7 @@
 namespace blactl::state {
 namespace {
 
-/// Of this user, also where HOME is unset (services, cron); empty: none.
+/// This user's home folder, even if HOME is unset (services, cron); empty: none.
 std::string home_folder() {
   if (std::string home = folder_variable("HOME"); !home.empty()) {
     return home;

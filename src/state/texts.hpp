@@ -1,5 +1,5 @@
 #pragma once
-// The catalogue of the floor state.
+// The text catalogue of the floor `state`.
 
 #include "blactl/base/text.hpp"
 
@@ -43,14 +43,14 @@ inline constexpr Text lock_failed_hint{
     "`ls -ld {0}` で所有者を確認して下さい。blactl が動作していなければ削除できます"};
 
 inline constexpr Text no_state_folder{
-    "there is no folder for what blactl must remember: BLACTL_STATE_DIR and HOME are not set",
+    "blactl has no folder to keep its state in: BLACTL_STATE_DIR and HOME are not set",
     "blactl の状態を保存するフォルダがありません (BLACTL_STATE_DIR も HOME も未設定です)"};
 inline constexpr Text state_folder_closed{
-    "{} cannot be written: allocations are not kept there",
+    "{} is not writable: allocations cannot be kept there",
     "{} に書き込めません。ノード ID の割当てを保存できません"};
 inline constexpr Text no_state_folder_hint{"set BLACTL_STATE_DIR to a folder of your own",
                                            "BLACTL_STATE_DIR に自分のフォルダを設定して下さい"};
-inline constexpr Text table_foreign{"{0} is no {1} of blactl", "{0} は blactl の{1}ではありません"};
+inline constexpr Text table_foreign{"{0} is not a blactl {1}", "{0} は blactl の{1}ではありません"};
 inline constexpr Text table_is_link{"{} is a symbolic link, which is not followed",
                                     "{} はシンボリックリンクのため使用できません"};
 inline constexpr Text table_left_over{"{0} is left over from another {1}",
@@ -69,23 +69,23 @@ inline constexpr Text allocation_table{"allocation table", "割当て表"};
 inline constexpr Text allocation_table_back{
     "bring in what you exported with `blactl alloc --import FILE`",
     "エクスポートした表は `blactl alloc --import ファイル` で取り込めます"};
-inline constexpr Text rom_record{"record of what ROM holds", "ROM 照合記録"};
+inline constexpr Text rom_record{"record of ROM contents", "ROM 照合記録"};
 inline constexpr Text rom_record_back{
-    "a new one is begun: `blactl apply` restarts servos once to see what their ROM holds",
+    "a new one is started: `blactl apply` restarts servos once to see what their ROM holds",
     "記録は新しく作成されます (ROM の内容は次回の `blactl apply` が再起動して確認します)"};
 inline constexpr Text change_history{"change history", "変更履歴"};
 inline constexpr Text change_history_back{
-    "a new one is begun; what is in this one `blactl undo` does not know any more",
+    "a new one is started; `blactl undo` cannot revert the changes in the old one",
     "履歴は新しく作成されます (これまでの変更は `blactl undo` で戻せなくなります)"};
 inline constexpr Text ledger{"ledger", "製造記録"};
 inline constexpr Text ledger_back{
-    "a new one is begun; servos that are finished by this one would be done again",
+    "a new one is started; servos finished in the old one would be processed again",
     "製造記録は新しく作成されます (この記録で完了したサーボは再度処理されます)"};
 inline constexpr Text ledger_twice{"another record of the ledger has the record_id {}",
                                    "record_id {} の製造記録が既に存在します"};
-inline constexpr Text counters{"table of counted IDs", "採番表"};
+inline constexpr Text counters{"table of assigned IDs", "採番表"};
 inline constexpr Text counters_back{
-    "a new one is begun: counters begin with their first ID again",
+    "a new one is started: counters begin with their first ID again",
     "採番表は新しく作成されます (カウンターは最初の ID から始まります)"};
 inline constexpr Text counter_ended{"the counter of {} in the recipe {} is at its end, {}",
                                     "レシピ {1} の {0} のカウンターは終了値 {2} に達しました"};
@@ -96,7 +96,7 @@ inline constexpr Text counter_taken{"{} {} was given to another servo before: un
 inline constexpr Text counter_other{"this servo was given {} {} before, not {}",
                                     "このサーボには {} {} が割当て済みです ({} ではありません)"};
 inline constexpr Text counter_taken_hint{
-    "check the label; what was given before stays given",
+    "check the label; IDs once given do not change",
     "ラベルを確認して下さい。割当て済みの ID は変更されません"};
 inline constexpr Text table_moved{"the {1} {0} was moved away or removed while it was in use",
                                   "{1} {0} が使用中に移動または削除されました"};
@@ -133,16 +133,14 @@ inline constexpr Text node_id_given_hint{
 inline constexpr Text node_id_not_dynamic{"node ID {} cannot be allocated",
                                           "ノード ID {} は割り当てられません"};
 inline constexpr Text node_id_not_dynamic_hint{
-    "1 to 125 can; 126 and 127 are for tools",
+    "give an ID from 1 to 125; 126 and 127 are for tools",
     "1～125 を指定して下さい。126 と 127 はツール用です"};
 
 inline constexpr Text no_unique_id{"not a unique ID: 32 hexadecimal digits, not all of them 0",
                                    "固有 ID ではありません (16 進数 32 桁、すべて 0 は不可)"};
 inline constexpr Text no_time{"not a time of RFC 3339, such as 2026-11-21T08:15:00Z",
                               "RFC 3339 形式の日時ではありません (例: 2026-11-21T08:15:00Z)"};
-inline constexpr Text unit_twice{"this unique ID stands here before",
-                                 "この固有 ID は重複しています"};
-inline constexpr Text node_id_twice{"this node ID stands here before",
-                                    "このノード ID は重複しています"};
+inline constexpr Text unit_twice{"this unique ID occurs twice", "この固有 ID は重複しています"};
+inline constexpr Text node_id_twice{"this node ID occurs twice", "このノード ID は重複しています"};
 
 } // namespace blactl::texts

@@ -144,7 +144,7 @@ TEST_CASE("a history that is damaged stays as it is, and stops no change") {
   std::ofstream(simulated(bench) / "snapshots.db") << "no database";
   const Result result = run(bench, {"set", "angle_limit_cw=90deg"});
   CHECK(result.status == 0);
-  CHECK(contains(result.err, "no change history of blactl"));
+  CHECK(contains(result.err, "not a blactl change history"));
   std::ifstream file(simulated(bench) / "snapshots.db");
   std::string content;
   std::getline(file, content);

@@ -212,7 +212,7 @@ TEST_CASE("a value is checked against the servo's own model") {
 TEST_CASE("what the firmware or the model lacks is refused with the reason") {
   check_error(with_firmware(1100).run({"set", "angle_boost=1%"}), 2, "unsupported",
               "node 11: angle_boost (0x2F) needs firmware 1.200, this servo has 1.100\n"
-              "  `blactl models BLA21-12U-AB` tells which firmware has what");
+              "  `blactl models BLA21-12U-AB` shows which firmware has which features");
   for (const char* assignment :
        {"speed_torque_control=on", "overcurrent_limit=6.5A", "pwm_neutral=1500us"}) {
     INFO(assignment);
@@ -286,8 +286,8 @@ TEST_CASE("nothing is written on a guess of the model") {
               "it is only read");
   const Scene unknown_class = Scene().servo("BLA21-12U-AB", 11, {{"hardware_version", 59050}});
   check_error(unknown_class.run({"set", "voltage_limit_high=20V"}), 9, "no_profile",
-              "voltage_limit_high (0x40) depends on the model, and 0x53=59050 leaves open which of "
-              "these it is: BLA21-06U-AB, BLA21-12U-AB, BLA21-28U-AB" +
+              "voltage_limit_high (0x40) depends on the model, and 0x53=59050 fits more than "
+              "one: BLA21-06U-AB, BLA21-12U-AB, BLA21-28U-AB" +
                   add);
   CHECK(unknown_class.run({"set", "smoothing=off"}).status == 0);
   check_error(three_servos().run({"set", "-n", "11", "smoothing=off", "--profile", "BLA34-28U-AB"}),

@@ -183,7 +183,7 @@ TEST_CASE("a state folder that cannot be written is a note for undo; a damaged h
   const Result undone = undo(fleet);
   INFO(undone.err);
   CHECK(undone.status == (is_damaged ? 2 : 0));
-  CHECK(contains(undone.err, is_damaged ? "no change history of blactl" : "not recorded"));
+  CHECK(contains(undone.err, is_damaged ? "not a blactl change history" : "not recorded"));
   CHECK(fleet.ram("11", "smoothing") == (is_damaged ? 0 : 1));
 }
 

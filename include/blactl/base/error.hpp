@@ -1,5 +1,5 @@
 #pragma once
-// Errors as values: a code of the command-line contract, what happened, what to type next, whose.
+// Errors as values: contract code, message, hint, and the servo concerned.
 
 #include <cstdint>
 #include <expected>
@@ -9,7 +9,7 @@
 
 namespace blactl {
 
-/// The codes of the contract, section 3. Their names are what scripts read: they never change.
+/// The codes of the contract, section 3. Scripts read their names, which never change.
 enum class Code : std::uint8_t {
   io,
   state,
@@ -51,18 +51,18 @@ enum class Code : std::uint8_t {
   interrupted,
 };
 
-/// The word of the contract, as in "code" of an error document: "out_of_range".
+/// The code's name in the contract, as in "code" of an error document: "out_of_range".
 [[nodiscard]] std::string_view name(Code code);
 
 /// The exit status of a command that failed with `code` alone (contract, section 3).
 [[nodiscard]] int exit_status(Code code);
 
-/// What went wrong, for a person and for a script.
+/// An error as it is reported to a person and to a script.
 struct Error {
   Code code = Code::internal;
-  std::string message;                   ///< What happened, in the language of the session.
-  std::string hint{};                    ///< What to type next; empty: nothing to add.
-  std::optional<std::uint8_t> node_id{}; ///< The servo it is about, by its address on the bus.
+  std::string message;                   ///< In the language of the session.
+  std::string hint{};                    ///< The next thing to type; empty: nothing to add.
+  std::optional<std::uint8_t> node_id{}; ///< The servo concerned, by its node ID.
 };
 
 template <class T> using Result = std::expected<T, Error>;

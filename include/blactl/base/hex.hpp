@@ -13,7 +13,7 @@
 
 namespace blactl {
 
-/// Appends two lower-case digits a byte: unique IDs and payloads in every output.
+/// Appends two lower-case digits per byte: unique IDs and payloads in every output.
 inline void append_hex(std::string& out, std::span<const std::uint8_t> bytes) {
   constexpr std::string_view digits = "0123456789abcdef";
   auto at = out.size();
@@ -30,7 +30,7 @@ inline void append_hex(std::string& out, std::span<const std::uint8_t> bytes) {
   return out;
 }
 
-/// The bytes that exactly so many digits of either case are; null: they are not.
+/// The bytes encoded by exactly 2 * `size` digits of either case; null: `digits` are not that.
 template <std::size_t size>
 [[nodiscard]] std::optional<std::array<std::uint8_t, size>> from_hex(std::string_view digits) {
   std::array<std::uint8_t, size> bytes{};

@@ -1,5 +1,5 @@
 #pragma once
-// JSON files read strictly: every fault of a file with its line, JSON pointer and reason.
+// Strict reading of JSON files: each fault is reported with its line, JSON pointer and reason.
 //
 //   auto document = json::parse_file(path);
 //   if (!document) { return std::unexpected(document.error()); }
@@ -14,8 +14,8 @@
 //   root.finish();
 //   if (auto fine = document->faults().result(); !fine) { return std::unexpected(fine.error()); }
 //
-// A reader asks for everything it knows and goes on after a fault: what is missing or wrong gives
-// an empty value and one fault. Only at the end result() tells whether the values may be used.
+// A reader asks for every key it knows and continues after a fault: a missing or wrong value reads
+// as empty and adds one fault. Only result(), at the end, decides whether the values may be used.
 
 #include "blactl/base/error.hpp"
 
@@ -40,7 +40,7 @@ inline constexpr std::size_t max_depth = 32;
 
 enum class Kind : std::uint8_t { null, boolean, integer, real, string, array, object };
 
-/// A value of a file and where it stands. Lives as long as its Document, which may be moved.
+/// A value of a file and its position. Lives as long as its Document, which may be moved.
 struct Value {
   Kind kind = Kind::null;
   std::size_t line = 0;              ///< where the value begins; the first line is 1
@@ -57,7 +57,7 @@ struct Value {
   [[nodiscard]] std::string pointer() const;
 };
 
-/// What is wrong in one file.
+/// The faults found in one file.
 class Faults {
  public:
   explicit Faults(std::string file) : file_(std::move(file)) {}
@@ -74,7 +74,7 @@ class Faults {
   [[nodiscard]] bool empty() const { return faults_.empty(); }
 
   /// Errors: bad_file; the message has a line "FILE:LINE: /json/pointer: reason" for every fault,
-  /// in the order of the file (a hopeless file: the first hundred and the number of the others).
+  /// in file order (if there are too many: the first hundred and the number of the others).
   [[nodiscard]] Result<void> result() const;
 
  private:
@@ -88,11 +88,11 @@ class Faults {
   std::vector<Fault> faults_;
 };
 
-/// A file that is JSON (RFC 8259, UTF-8). Keys that occur twice, integers beyond 64 bits and too
-/// deep nesting are among its faults from the beginning.
+/// A file that is JSON (RFC 8259, UTF-8). Duplicate keys, integers beyond 64 bits and nesting that
+/// is too deep are among its faults from the start.
 class Document {
  public:
-  /// `values` begin with the whole document and point to each other: they never move.
+  /// `values` begins with the whole document; values point to each other and never move.
   Document(std::unique_ptr<const std::deque<Value>> values, Faults faults)
       : values_(std::move(values)), faults_(std::move(faults)) {}
 
@@ -114,7 +114,7 @@ class Document {
 inline constexpr std::int64_t lowest = std::numeric_limits<std::int64_t>::min();
 inline constexpr std::int64_t highest = std::numeric_limits<std::int64_t>::max();
 
-// One value as a type; a fault and empty if it is not, or lies outside of min..max.
+// One value as a type; empty, with a fault, if it is of another type or outside min..max.
 [[nodiscard]] std::optional<std::string> as_string(const Value& value, Faults& faults);
 [[nodiscard]] std::optional<std::int64_t> as_integer(const Value& value, Faults& faults,
                                                      std::int64_t min = lowest,
@@ -126,19 +126,19 @@ inline constexpr std::int64_t highest = std::numeric_limits<std::int64_t>::max()
 /// One object of a file, read key by key.
 class Object {
  public:
-  /// A value that is no object is a fault; then nothing that is asked for is a further one.
+  /// A value that is not an object is one fault; reading keys from it adds no others.
   Object(const Value& value, Faults& faults);
 
-  /// False: the value is no object, or the key of which it was asked for is missing.
+  /// False: the value is not an object, or its key is missing.
   [[nodiscard]] bool exists() const { return value_ != nullptr; }
 
-  /// For faults about the object as a whole. Only if it exists().
+  /// For faults that concern the object as a whole. Requires exists().
   [[nodiscard]] const Value& value() const { return *value_; }
 
-  /// Whether the key is there; this is not asking for it.
+  /// Whether the key is present; does not count as asking for it.
   [[nodiscard]] bool has(std::string_view key) const;
 
-  // Keys that must be there. Missing or wrong: a fault, and the result is "", 0, false, no items.
+  // Required keys. Missing or wrong: adds a fault and returns "", 0, false or no items.
   [[nodiscard]] std::string string(std::string_view key);
   /// One of `words`, exactly.
   [[nodiscard]] std::string word(std::string_view key,
@@ -150,10 +150,10 @@ class Object {
   [[nodiscard]] bool boolean(std::string_view key);
   [[nodiscard]] std::span<const Value* const> array(std::string_view key);
   [[nodiscard]] Object object(std::string_view key);
-  /// A value of any kind, for what may be a number or a string. Missing: a fault and null.
+  /// A value of any kind, for example a number or a string. Missing: a fault and null.
   [[nodiscard]] const Value* any(std::string_view key);
 
-  // Keys that may be left out; wrong kinds and ranges are faults all the same.
+  // Optional keys; a value of the wrong kind or out of range is still a fault.
   [[nodiscard]] std::optional<std::string> optional_string(std::string_view key);
   [[nodiscard]] std::optional<std::string>
   optional_word(std::string_view key, std::initializer_list<std::string_view> words);
@@ -161,21 +161,21 @@ class Object {
   optional_integer(std::string_view key, std::int64_t min = lowest, std::int64_t max = highest);
   [[nodiscard]] std::optional<double> optional_number(std::string_view key, double min, double max);
   [[nodiscard]] std::optional<bool> optional_boolean(std::string_view key);
-  /// No items if left out.
+  /// No items if absent.
   [[nodiscard]] std::span<const Value* const> optional_array(std::string_view key);
-  /// Not exists() if left out.
+  /// Not exists() if absent.
   [[nodiscard]] Object optional_object(std::string_view key);
-  /// Null if left out.
+  /// Null if absent.
   [[nodiscard]] const Value* optional_any(std::string_view key);
 
-  /// All members, for objects whose keys are data (`key` of each); none of them is unknown then.
+  /// All members, for objects whose keys are data (`key` of each); all of them count as asked for.
   [[nodiscard]] std::span<const Value* const> members();
 
-  /// Every key that was not asked for is a fault.
+  /// Adds a fault for every key that was not asked for.
   void finish();
 
  private:
-  explicit Object(Faults& faults) : faults_(&faults) {} ///< of a key that is missing
+  explicit Object(Faults& faults) : faults_(&faults) {} ///< for a missing key
 
   const Value* value_ = nullptr;
   Faults* faults_;

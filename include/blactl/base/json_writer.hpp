@@ -10,11 +10,11 @@
 
 namespace blactl {
 
-/// Appends JSON to a string; commas are its business, the nesting is the caller's. (Measured: an
-/// order of magnitude faster than a document model, and the order of keys is the order of calls.)
+/// Appends JSON to a string; the writer places commas, the caller keeps the nesting right.
+/// (Measured: ten times as fast as a document model; keys keep the order of the calls.)
 class JsonWriter {
  public:
-  /// `out` outlives the writer. Pretty output is indented by two spaces, one member a line.
+  /// `out` outlives the writer. Pretty output is indented by two spaces, one member per line.
   enum class Layout : std::uint8_t { compact, pretty };
 
   explicit JsonWriter(std::string& out, Layout layout = Layout::compact)
@@ -30,13 +30,13 @@ class JsonWriter {
 
   void key(std::string_view name);
 
-  /// Controls, and what hides in text or turns its direction, are escaped: a reader gets them, a
-  /// terminal does not. A byte that is not well-formed UTF-8 becomes U+FFFD.
+  /// Escapes controls and characters that are invisible or change the direction of text: readers
+  /// get them, a terminal does not. Bytes that are not well-formed UTF-8 become U+FFFD.
   void value(std::string_view text);
 
   void value(const char* text) { value(std::string_view(text)); }
 
-  /// A bool and nothing that only converts to one (a double, a pointer).
+  /// A bool, but nothing that merely converts to one (a double, a pointer).
   template <std::same_as<bool> Truth> void value(Truth truth) { literal(truth ? "true" : "false"); }
 
   void value(std::nullptr_t) { literal("null"); }
@@ -53,11 +53,11 @@ class JsonWriter {
     maybe ? value(*maybe) : value(nullptr);
   }
 
-  /// The shortest text that gives just this number back; NaN and infinities, which JSON does not
-  /// know, are null. (A float is a double here: whoever reads the text gets one.)
+  /// The shortest text that reads back as exactly this number; NaN and infinities, which JSON
+  /// lacks, become null. (A float is written as a double, since readers parse doubles.)
   void real(double number);
 
-  /// A number that is text already: "90.0".
+  /// A number already formatted: "90.0".
   void number(std::string_view digits) { literal(digits); }
 
   template <class T> void member(std::string_view name, const T& content) {
@@ -75,7 +75,7 @@ class JsonWriter {
   std::string& out_;
   Layout layout_;
   int depth_ = 0;
-  bool first_ = true; ///< nothing in this object or array yet
+  bool first_ = true; ///< this object or array is still empty
   bool after_key_ = false;
 };
 

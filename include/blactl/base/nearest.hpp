@@ -8,8 +8,8 @@
 
 namespace blactl {
 
-/// How many letters must be inserted, removed, replaced or swapped with the next to turn one word
-/// into the other (optimal string alignment).
+/// The number of letters to insert, remove, replace or swap with the next one to turn one word into
+/// the other (optimal string alignment).
 [[nodiscard]] std::size_t edit_distance(std::string_view a, std::string_view b);
 
 /// At most three of `words` that resemble `typed`, the nearest first, whatever the case and with or

@@ -1,5 +1,5 @@
 #pragma once
-// The whole text of a file that a person names.
+// Reading the whole of a file named by the user.
 
 #include "blactl/base/error.hpp"
 
@@ -9,8 +9,8 @@
 
 namespace blactl {
 
-/// "-" reads stdin. Errors: bad_file with the system's reason, or that it is larger than `most`
-/// bytes.
+/// "-" reads stdin. Errors: bad_file (the system's reason, or the file is larger than `most`
+/// bytes).
 [[nodiscard]] Result<std::string> read_file(const std::filesystem::path& path, std::size_t most);
 
 } // namespace blactl

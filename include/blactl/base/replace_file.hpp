@@ -1,5 +1,5 @@
 #pragma once
-// Files that are there as a whole or not at all.
+// Files that are written completely or not at all.
 
 #include "blactl/base/error.hpp"
 
@@ -8,12 +8,12 @@
 
 namespace blactl {
 
-/// Puts `content` in the place of the file `path`: written beside it, synced, renamed. What fails
-/// leaves what was there. Errors: io.
+/// Replaces the file `path` by `content`: written beside it, synced, renamed. On failure the old
+/// file stays as it was. Errors: io.
 [[nodiscard]] Result<void> replace_file(const std::string& path, std::string_view content);
 
-/// Whether replace_file() can be expected to succeed: to be asked before what the file is to tell
-/// of is done. Leaves nothing behind. Errors: io.
+/// Checks that replace_file() can be expected to succeed; called before the work that the file is
+/// to record. Leaves nothing behind. Errors: io.
 [[nodiscard]] Result<void> check_replaceable(const std::string& path);
 
 } // namespace blactl

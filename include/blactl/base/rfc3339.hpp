@@ -23,7 +23,7 @@ namespace blactl {
                      clock.hours().count(), clock.minutes().count(), clock.seconds().count());
 }
 
-/// Whether the text is a date-time of RFC 3339, section 5.6, in whichever zone.
+/// Whether the text is a date-time of RFC 3339, section 5.6, in any time zone.
 [[nodiscard]] bool is_rfc3339(std::string_view text);
 
 } // namespace blactl

@@ -1,5 +1,5 @@
 #pragma once
-// Digests of what was read, so that a record tells of which files and settings it speaks.
+// Digests of input, so that a record identifies the files and settings it was made from.
 
 #include <string>
 #include <string_view>

@@ -1,14 +1,14 @@
 #pragma once
-// What blactl says to people, in English and Japanese.
+// Messages to people, in English and Japanese.
 //
-// Texts live in the catalogue, one header a floor (include/blactl/*/texts.hpp), never in the code:
+// Texts live in the catalogue, a header per floor (include/blactl/*/texts.hpp), never in the code:
 //
 //   namespace blactl::texts {
 //   inline constexpr Text interface_down{"{} is down", "{} は停止しています"};
 //   }
 //   fail(Code::interface, say<texts::interface_down>(name), ...)
 //
-// Both format strings are checked against the arguments when the program is compiled.
+// Both format strings are checked against the arguments at compile time.
 
 #include <fmt/core.h>
 
@@ -26,7 +26,7 @@ struct Text {
   const char* ja;
 };
 
-/// The language of this process; set once, before anything speaks. English until then.
+/// Sets the language of this process, once, before the first message. English until then.
 void set_language(Language language);
 [[nodiscard]] Language language();
 
@@ -37,18 +37,18 @@ template <const Text& text, class... Args> [[nodiscard]] std::string say(const A
   return language() == Language::japanese ? fmt::format(ja, args...) : fmt::format(en, args...);
 }
 
-/// Which of two texts that came with data (a profile) fits the language of this process.
+/// The one of two texts that came with data (a profile) that fits the language of this process.
 [[nodiscard]] std::string_view choose(std::string_view en, std::string_view ja);
 
-/// The length of the well-formed UTF-8 character that `text` begins with; 0: it is not well-formed
-/// (RFC 3629: no overlong forms, no surrogates, nothing above U+10FFFF). `text` is not empty.
+/// The length of the UTF-8 character at the start of `text`; 0: it is not well-formed (RFC 3629: no
+/// overlong forms, no surrogates, nothing above U+10FFFF). `text` is not empty.
 [[nodiscard]] std::size_t utf8_length(std::string_view text);
 
-/// Whether a well-formed character is none to be shown: C0, DEL and C1 controls, which terminals
-/// obey, and those that hide in text or change its direction.
+/// Whether a well-formed character must not be shown: C0, DEL and C1 controls, which terminals
+/// obey, and characters that are invisible or change the direction of text.
 [[nodiscard]] bool is_control(std::string_view character);
 
-/// Foreign bytes made fit for a terminal, a log line or JSON: valid UTF-8 stays, control
+/// Makes foreign bytes safe for a terminal, a log line or JSON: valid UTF-8 stays; control
 /// characters, escape sequences and broken UTF-8 become \xNN.
 [[nodiscard]] std::string printable(std::string_view foreign);
 

@@ -1,5 +1,5 @@
 #pragma once
-// The catalogue of the floor `base`: what is said about files.
+// The text catalogue of the floor `base`: messages about files.
 
 #include "blactl/base/text.hpp"
 
@@ -11,7 +11,7 @@ inline constexpr Text file_hint{"check the file's name and permissions",
                                 "ファイル名とアクセス権を確認して下さい"};
 inline constexpr Text file_unwritable{"cannot write {}: {}", "{} に書き込めません: {}"};
 inline constexpr Text file_unwritable_hint{
-    "what was there is unchanged; check the folder, its permissions and free space",
+    "the previous file is unchanged; check the folder, its permissions and free space",
     "元のファイルは変更していません。フォルダとアクセス権、空き容量を確認して下さい"};
 inline constexpr Text file_too_large{"{} is larger than {} MiB", "{} は {} MiB を超えています"};
 inline constexpr Text json_invalid{"not valid JSON: {}", "JSON として正しくありません: {}"};
@@ -39,7 +39,7 @@ inline constexpr Text json_more_faults{"… and {} more", "… 他に {} 件"};
 inline constexpr Text json_hint{"correct the file and try again",
                                 "ファイルを修正してもう一度実行して下さい"};
 
-// In Japanese each ends in a Japanese character: no blank follows it in the sentence.
+// Each Japanese text ends in a Japanese character, so that no space follows it in the sentence.
 inline constexpr Text kind_null{"null", "null 値"};
 inline constexpr Text kind_boolean{"true or false", "true または false の値"};
 inline constexpr Text kind_integer{"an integer", "整数"};

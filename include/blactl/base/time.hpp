@@ -5,7 +5,7 @@
 
 namespace blactl {
 
-/// Everything is counted in microseconds: a bit at 1 Mbit/s.
+/// All times are in microseconds, one bit time at 1 Mbit/s.
 using Duration = std::chrono::microseconds;
 
 /// The clock of one bus: monotonic; CLOCK_MONOTONIC on real interfaces, the simulator's time on a
@@ -20,7 +20,7 @@ struct BusClock {
 
 using Time = BusClock::time_point;
 
-/// "Never": a deadline that does not come.
+/// "Never": a deadline that is not reached.
 inline constexpr Time never = Time::max();
 
 /// UTC, for records and logs.

@@ -19,7 +19,7 @@ class Address {
 
   [[nodiscard]] constexpr std::uint8_t value() const { return value_; }
 
-  /// As the servo wants it: "0x" and two upper-case hexadecimal digits (table 2-14).
+  /// The form that the servo requires: "0x" and two upper-case hexadecimal digits (table 2-14).
   [[nodiscard]] std::string name() const;
   friend constexpr auto operator<=>(Address, Address) = default;
 
@@ -27,11 +27,11 @@ class Address {
   std::uint8_t value_ = 0;
 };
 
-/// The address that `text` is: "0x" and two hexadecimal digits, letters of either case. Null: it is
-/// none, or lies above 0x5F, where the servo has nothing.
+/// The address written as `text`: "0x" and two hexadecimal digits, letters of either case. Null:
+/// not an address, or above 0x5F, where the servo has no registers.
 [[nodiscard]] std::optional<Address> find_address(std::string_view text);
 
-/// Registers that the program itself must know; all others are known to the profiles alone.
+/// Registers that the program itself must know; all others are in the profiles only.
 namespace address {
 inline constexpr Address command_angle{0x00}, command_speed{0x01}, command_torque{0x02};
 inline constexpr Address current_angle{0x08}, current_speed{0x09}, current_torque{0x0A};
@@ -60,12 +60,12 @@ inline constexpr Address production_year{0x58}, production_month{0x59}, producti
 inline constexpr Address production_hour{0x5B}, production_minute{0x5C};
 } // namespace address
 
-/// What moves the shaft (4.1 to 4.3): none of them is kept in ROM.
+/// The registers that move the shaft (4.1 to 4.3): none of them is kept in ROM.
 inline constexpr std::array command_registers{address::command_angle, address::command_speed,
                                               address::command_torque};
 
-/// What SAVE keeps and ERASE sets to its default (4.9, 4.11). It changes by itself only where the
-/// servo restarts.
+/// Whether SAVE keeps the register and ERASE sets its default (4.9, 4.11). Such a register changes
+/// by itself only when the servo restarts.
 [[nodiscard]] constexpr bool is_setting(Address address) {
   return address >= address::torque_output && address <= address::static_node_id;
 }

@@ -1,6 +1,6 @@
 #pragma once
-// What a change asks for beyond its range: one table for every command that writes (contract,
-// section 4).
+// Checks of a change beyond its range: one table for every command that writes (contract, section
+// 4).
 
 #include "blactl/base/text.hpp"
 #include "blactl/bla/identity.hpp"
@@ -17,24 +17,24 @@ namespace blactl::bla {
 struct Proposal {
   Address address;
   std::int64_t requested = 0;
-  const Values& before; ///< what the servo holds and measures now
+  const Values& before; ///< present settings and measured values of the servo
   const Values& after;  ///< the same with all changes of the plan
   const Identity& servo;
 };
 
-/// What comes of it: it is not done at all, only after a yes, or with a word beside it.
+/// The consequence: the change is refused, needs confirmation, or is made with a warning.
 enum class CheckKind : std::uint8_t { refusal, question, warning };
 [[nodiscard]] std::string_view name(CheckKind kind);
 
-/// Of the check that needs no reason: the question says it.
+/// The name of the check without a reason: the question itself gives it.
 inline constexpr std::string_view always_asked = "always_asked";
 
 struct CrossCheck {
   std::string_view code;
   CheckKind kind;
-  std::span<const Address> of;    ///< a change of these is judged
-  std::span<const Address> needs; ///< by these too
-  /// A question counts what is not known as the worst; the others need to know.
+  std::span<const Address> of;    ///< a change of these is checked
+  std::span<const Address> needs; ///< these values are used, too
+  /// Questions assume the worst of unknown values; the others fire only on known ones.
   bool (*fires)(const Proposal& change);
   Text reason;               ///< without arguments
   std::string_view remedy{}; ///< what a refused change needs first: "speed_torque_control=on"
@@ -42,16 +42,16 @@ struct CrossCheck {
   [[nodiscard]] bool is_about(Address address) const;
 };
 
-/// All of them: refusals, questions, warnings.
+/// All cross-checks: refusals, questions, warnings.
 [[nodiscard]] std::span<const CrossCheck> cross_checks();
 
-/// The registers whose values they need to judge a change of `address`.
+/// The registers whose values are needed to check a change of `address`.
 [[nodiscard]] std::vector<Address> values_needed(Address address);
 
-/// Those of `kind` that this change meets, in the order of the table.
+/// The checks of `kind` that fire for this change, in the order of the table.
 [[nodiscard]] std::vector<const CrossCheck*> met(CheckKind kind, const Proposal& change);
 
-/// Whether it can move the shaft or let go of the load: it meets a question.
+/// Whether the change can move the shaft or release the load: a question fires.
 [[nodiscard]] bool may_move(const Proposal& change);
 
 } // namespace blactl::bla

@@ -1,12 +1,12 @@
 #pragma once
-// Defects of firmware releases that a technician should know of (chapter 5).
+// Known defects of firmware releases (chapter 5).
 
 #include "blactl/bla/identity.hpp"
 
 namespace blactl::bla {
 
-/// BLA15 and BLA21 before firmware 1.400 may stall at low speed. False where model or firmware are
-/// not known.
+/// BLA15 and BLA21 before firmware 1.400 may stall at low speed. False if the model or firmware is
+/// unknown.
 [[nodiscard]] bool may_stall(const Identity& servo);
 
 } // namespace blactl::bla

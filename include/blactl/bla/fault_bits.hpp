@@ -1,6 +1,6 @@
 #pragma once
 // The bits of 0x19 (notice), 0x1A (warning) and 0x1B (failure) that the program itself must know
-// (4.12); what they mean to a person is in the profiles.
+// (4.12); their meaning for people is in the profiles.
 
 #include <cstdint>
 
@@ -21,11 +21,11 @@ inline constexpr std::int64_t rom_unreadable = 1 << 15;
 inline constexpr std::int64_t motor_driver = 1 << 0, motor = 1 << 1, angle_sensor = 1 << 5;
 inline constexpr std::int64_t clock = 1 << 8, watchdog = 1 << 9, memory = 1 << 11;
 
-/// Note *2: they tell why the servo last restarted by itself.
+/// Note *2: they show why the servo last restarted by itself.
 inline constexpr std::int64_t restart_warnings = rom_unreadable;
 inline constexpr std::int64_t restart_failures = clock | watchdog | memory;
 
-/// Failures of the hardware, of which the specification does not say whether they stay (4.12).
+/// Hardware failures; the specification does not say whether they persist (4.12).
 inline constexpr std::int64_t hardware_failures = motor_driver | motor | angle_sensor;
 
 } // namespace blactl::bla::fault

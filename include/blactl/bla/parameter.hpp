@@ -12,7 +12,7 @@
 
 namespace blactl::bla {
 
-/// What 0x00-0x02 hold while another kind of command rules (4.1): never a number to show or send.
+/// The value of 0x00-0x02 while another kind of command is active (4.1): never shown or sent.
 inline constexpr std::int64_t not_active = 555'555'555;
 
 enum class Group : std::uint8_t {
@@ -32,7 +32,7 @@ enum class Group : std::uint8_t {
 [[nodiscard]] std::string_view name(Group group);
 [[nodiscard]] std::optional<Group> find_group(std::string_view word);
 
-/// In the order of their addresses.
+/// All groups, in the order of their addresses.
 [[nodiscard]] std::span<const Group> all_groups();
 
 enum class Access : std::uint8_t { read, write, read_write };
@@ -40,7 +40,7 @@ enum class Access : std::uint8_t { read, write, read_write };
 /// "R", "W", "RW".
 [[nodiscard]] std::string_view name(Access access);
 
-/// The unit a person uses; registers count whole or tenth units.
+/// The unit for people; registers count whole units or tenths.
 enum class Unit : std::uint8_t {
   none,
   deg,
@@ -59,14 +59,14 @@ enum class Unit : std::uint8_t {
   minute,
 };
 
-/// As it is typed and shown: "deg", "%", "us", "degC"; "" for none; "deg/rpm" for 0x36,
-/// which takes either.
+/// The unit as typed and shown: "deg", "%", "us", "degC"; "" for none; "deg/rpm" for 0x36, which
+/// accepts either.
 [[nodiscard]] std::string_view name(Unit unit);
 
 /// One word of an enumeration register.
 struct Choice {
   std::int64_t raw = 0;
-  std::string word; ///< "off", "brake": what is typed
+  std::string word; ///< as typed: "off", "brake"
   std::string text_en, text_ja;
 };
 
@@ -77,9 +77,9 @@ struct Width {
 
   /// The register's number in the low bits of `wire`, sign-extended if signed.
   [[nodiscard]] std::int64_t narrow(std::int64_t wire) const;
-  /// Nothing of `wire` is lost by that: it is a number of this width, with or without a sign.
+  /// Whether narrow() loses nothing: `wire` is a number of this width, with or without a sign.
   [[nodiscard]] bool holds(std::int64_t wire) const;
-  /// The least and the greatest number that it can hold.
+  /// The least and the greatest value of this width.
   [[nodiscard]] std::int64_t lowest() const;
   [[nodiscard]] std::int64_t highest() const;
 };
@@ -92,25 +92,24 @@ struct Parameter {
   std::string name_en, name_ja, vendor_label;
   Access access = Access::read;
   Unit unit = Unit::none;
-  std::int64_t steps_per_unit = 1; ///< 10 where the register counts tenths (0x36: of a degree)
+  std::int64_t steps_per_unit = 1; ///< 10 if the register counts tenths (0x36: of a degree)
   Width width;
   std::optional<std::int64_t> default_raw, min, max; ///< register numbers
   bool saved = false;                                ///< kept by SAVE (4.11)
   bool per_model = false;                            ///< table 3-12 gives its default and range
-  bool by_voltage_class = false;            ///< they hang on the voltage class of the model
-  bool by_suffix = false;                   ///< they hang on the suffix of the model
-  std::optional<std::int64_t> min_firmware; ///< 0x52 from which on it exists
-  std::vector<Choice> choices;              ///< empty: a number
-  bool can_be_inactive = false;             ///< 0x00-0x02: not_active is possible
-  std::string section;                      ///< of the specification: "4.20"
-  std::string meaning_en, meaning_ja;       ///< in a sentence or two
-  std::vector<Address> see;                 ///< what it works together with
+  bool by_voltage_class = false;                     ///< they depend on the voltage class
+  bool by_suffix = false;                            ///< they depend on the suffix
+  std::optional<std::int64_t> min_firmware;          ///< the 0x52 that introduced it
+  std::vector<Choice> choices;                       ///< empty: a number
+  bool can_be_inactive = false;                      ///< 0x00-0x02: not_active is possible
+  std::string section;                               ///< of the specification: "4.20"
+  std::string meaning_en, meaning_ja;                ///< in a sentence or two
+  std::vector<Address> see;                          ///< related registers
 
-  /// Of a register as all models have it, where they differ in the default: a value that each of
-  /// them takes, or that of one model.
+  /// An example value if the models differ in the default: one that all accept, or one model's.
   struct Example {
     std::int64_t raw = 0;
-    std::string model; ///< empty: every model takes it
+    std::string model; ///< empty: every model accepts it
   };
 
   std::optional<Example> example;

@@ -1,5 +1,5 @@
 #pragma once
-// Model profiles: what each BLA model of table 3-12 has, allows and reports. Pure knowledge.
+// Model profiles: the registers, ranges and faults of each BLA model of table 3-12. Data only.
 
 #include "blactl/base/error.hpp"
 #include "blactl/bla/parameter.hpp"
@@ -28,13 +28,13 @@ struct FaultBit {
   std::string group; ///< hardware, software, communication, other
   std::string code;  ///< contract, section 7: "voltage_low"; empty: a bit of 0x18
   bool pwm_only = false;
-  bool latched = false;     ///< tells why the servo restarted, stays until the next start
+  bool latched = false;     ///< shows why the servo restarted, stays until the next start
   bool vendor_only = false; ///< shown by the vendor's program, absent in the specification
   std::string text_en, text_ja, condition_en, condition_ja, action_en, action_ja;
-  std::vector<Address> values; ///< registers that tell more: what is measured, and its limit
+  std::vector<Address> values; ///< related registers: the measured value and its limit
 };
 
-/// "hardware", "software", "communication", "other": a byte each of every fault register (4.12).
+/// "hardware", "software", "communication", "other": one byte each in every fault register (4.12).
 [[nodiscard]] std::string_view fault_group(std::uint8_t bit);
 
 /// The bit of 0x18 that shows that this bit of the register of `level`, or another of its group, is
@@ -43,22 +43,22 @@ struct FaultBit {
 
 /// One release of the servos' firmware (chapter 5).
 struct FirmwareRelease {
-  /// Which models left the factory with it, and when: "BLA21-**U-AB2", "2021-10", "2022-04".
+  /// The models that left the factory with it, and when: "BLA21-**U-AB2", "2021-10", "2022-04".
   struct Shipment {
     std::string models;
-    std::string from, until; ///< year and month; `until` is empty if it is still so
+    std::string from, until; ///< year and month; `until` is empty if still shipping
 
-    /// Whether a model is meant: in `models` a star is any character, and the last one is a digit
-    /// of labels that models are not told apart by.
+    /// Whether a model is covered: in `models` a star matches any character, and the last character
+    /// is a digit of labels that does not distinguish models.
     [[nodiscard]] bool covers(std::string_view model) const;
   };
 
-  std::int64_t version = 0; ///< as 0x52 has it: 1400 is 1.400
+  std::int64_t version = 0; ///< as in 0x52: 1400 is 1.400
   std::vector<Shipment> shipments;
   std::string changes_en, changes_ja;
 };
 
-/// As the specification writes it: 1400 is "1.400".
+/// The version as the specification writes it: 1400 is "1.400".
 [[nodiscard]] std::string firmware_text(std::int64_t version);
 
 /// One model: series, voltage class and suffix, e.g. BLA21-12U-AB.
@@ -74,58 +74,56 @@ struct Profile {
 
   [[nodiscard]] const Parameter* find(Address address) const;
 
-  /// Whether there is a value that the model takes for this register of its own.
+  /// Whether this model accepts any value for this register.
   [[nodiscard]] bool takes(const Parameter& parameter) const {
     return parameter.writable() && (parameter.group != Group::pwm || pwm);
   }
 };
 
-/// All profiles: those in the binary, and those of a directory that add to or replace them.
+/// All profiles: those built in, and those of a directory, which add to or replace them.
 class Profiles {
  public:
-  /// Reads the profiles of the binary, then every *.json of `directory`, if given (*.schema.json
-  /// apart): a model there replaces the built-in one of its name, a family there the built-in one.
-  /// Errors: bad_file with file, place and reason of every fault.
+  /// Reads the built-in profiles, then every *.json of `directory`, if given, except *.schema.json:
+  /// a model there replaces the built-in one of that name, a family there the built-in one. Errors:
+  /// bad_file with file, place and reason of every fault.
   [[nodiscard]] static Result<Profiles> load(const std::optional<std::filesystem::path>& directory);
 
   [[nodiscard]] std::span<const Profile> all() const { return profiles_; }
 
   [[nodiscard]] std::span<const FaultBit> fault_bits() const { return fault_bits_; }
 
-  /// The bits of 0x18: what there is to look for in the other three.
+  /// The bits of 0x18, which summarise the other three registers.
   [[nodiscard]] std::span<const FaultBit> summary_bits() const { return summary_bits_; }
 
-  /// What a bit of 0x18-0x1B is; null: no document tells it.
+  /// A bit of 0x18-0x1B; null: undocumented.
   [[nodiscard]] const FaultBit* fault_bit(Address reg, std::uint8_t bit) const;
 
   /// Ascending by version.
   [[nodiscard]] std::span<const FirmwareRelease> firmware() const { return firmware_; }
 
-  /// The releases that servos of this model have had, from the first to the last that it left the
-  /// factory with: each contains those before it.
+  /// The releases shipped in this model, from the first to the last: each includes those before it.
   [[nodiscard]] std::vector<const FirmwareRelease*> releases_of(const Profile& profile) const;
 
-  /// The models that `text` means: a full name, its beginning ("BLA21-12U"), or a label with its
-  /// last digit ("BLA21-12U-AB2"); letters of either case. Empty: none.
+  /// The models matching `text`: a full name, its beginning ("BLA21-12U"), or a label with its last
+  /// digit ("BLA21-12U-AB2"); letters of either case. Empty: none.
   [[nodiscard]] std::vector<const Profile*> matching(std::string_view text) const;
 
-  /// Every register that some model has, with the union of the ranges of all models that let it be
-  /// written: what lies outside of it, every model refuses. No default where models differ.
-  /// Ascending by address.
+  /// Every register that some model has, with the union of the ranges of all models in which it is
+  /// writable: every model refuses values outside. No default if models differ. Ascending by
+  /// address.
   [[nodiscard]] std::span<const Parameter> registers() const { return registers_; }
 
   [[nodiscard]] const Parameter* find(Address address) const;
 
-  /// The same register of a model that is not known: without range and default.
+  /// The same register for an unknown model: without range and default.
   [[nodiscard]] const Parameter* find_of_unknown(Address address) const;
 
-  /// The register that a person means by an address ("0x38") or a name ("angle_limit_cw",
-  /// "angle-limit-cw"; letters of either case in both).
-  /// Errors: unknown_parameter with the nearest names (vendor's labels are looked up too);
-  /// unsupported for a reserved address.
+  /// The register given by an address ("0x38") or a name ("angle_limit_cw", "angle-limit-cw";
+  /// letters of either case in both). Errors: unknown_parameter with the nearest names (vendor's
+  /// labels are searched too); unsupported for a reserved address.
   [[nodiscard]] Result<const Parameter*> find(std::string_view text) const;
 
-  /// Built-in models that the directory replaced.
+  /// The built-in models that the directory replaced.
   [[nodiscard]] std::span<const std::string> replaced() const { return replaced_; }
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// Values between a person's text and a register, exact both ways (contract, sections 4 and 7).
+// Conversion of values between text and register, exact both ways (contract, sections 4 and 7).
 
 #include "blactl/base/error.hpp"
 #include "blactl/bla/parameter.hpp"
@@ -11,7 +11,7 @@
 
 namespace blactl::bla {
 
-/// How a parameter was named: bare integers mean register numbers by address, units by name.
+/// How a parameter was named: a bare integer is a register number by address, in units by name.
 enum class NamedBy : std::uint8_t { address, name };
 
 /// A value as it was typed.
@@ -22,18 +22,18 @@ struct TypedValue {
 };
 
 /// Reads `text` as a value of `parameter`: `[-]digits[.digits]unit`, `[-]digits`, `[-]digits` raw,
-/// or a word of the enumeration. The range is not checked here.
-/// Errors, with what to type as hint: usage (not a number, wrong or missing unit, finer than the
-/// register, unknown word); out_of_range (no such enumeration value, beyond 64 bits).
+/// or a word of the enumeration. The range is not checked here. Errors, with a hint what to type:
+/// usage (not a number, wrong or missing unit, finer than the register, unknown word); out_of_range
+/// (no such enumeration value, beyond 64 bits).
 [[nodiscard]] Result<TypedValue> parse_value(const Parameter& parameter, NamedBy named,
                                              std::string_view text);
 
 /// "for example angle_limit_cw=179.9deg", in the language of the session: a value that every model
-/// takes, or one with the model that takes it.
+/// accepts, or one with the model that accepts it.
 [[nodiscard]] std::string example_text(const Parameter& parameter);
 
-/// Whether `raw` lies in the parameter's range. Errors: out_of_range, naming the range in units;
-/// `pwm_mode` decides for 0x36.
+/// Checks that `raw` lies in the parameter's range. Errors: out_of_range, naming the range in
+/// units; `pwm_mode` decides for 0x36.
 [[nodiscard]] Result<void> check_range(const Parameter& parameter, std::int64_t raw,
                                        std::optional<std::int64_t> pwm_mode = std::nullopt);
 
@@ -46,26 +46,26 @@ struct TypedValue {
 [[nodiscard]] std::string_view unit_text(const Parameter& parameter,
                                          std::optional<std::int64_t> pwm_mode = std::nullopt);
 
-/// What a person or a file types, by name, to get just this value: "90.0deg", "brake", "1520us",
-/// "40"; for 0x36 without `pwm_mode` "700raw".
+/// The text, by name, that parses to exactly this value: "90.0deg", "brake", "1520us", "40"; for
+/// 0x36 without `pwm_mode` "700raw".
 [[nodiscard]] std::string input_text(const Parameter& parameter, std::int64_t raw,
                                      std::optional<std::int64_t> pwm_mode = std::nullopt);
 
-/// Its default for people, in the unit that the default of 0x37 gives it; empty: it has none.
+/// The default for people, in the unit that follows from the default of 0x37; empty: none.
 [[nodiscard]] std::string default_text(const Parameter& parameter);
 
 /// For people: "90.0 deg", "brake", "1.400", "not active" (in the language of the session).
 [[nodiscard]] std::string display(const Parameter& parameter, std::int64_t raw,
                                   std::optional<std::int64_t> pwm_mode = std::nullopt);
 
-/// A register and what it means: "900  (90.0 deg)"; one of them where both are the same.
+/// A register number and its meaning: "900  (90.0 deg)"; one of them where both are the same.
 [[nodiscard]] std::string register_text(const Parameter& parameter, std::int64_t raw,
                                         std::optional<std::int64_t> pwm_mode = std::nullopt);
 
-/// What 0x37 may be: pulses are commands of angle, or of speed.
+/// The values of 0x37: pulses command an angle, or a speed.
 inline constexpr std::int64_t pwm_angle_mode = 0, pwm_speed_mode = 1;
 
-/// 0x36 counts in the unit that 0x37 says: only its value means nothing without `pwm_mode`.
+/// Whether 0x37 determines the unit, as for 0x36: without `pwm_mode` such a value is meaningless.
 [[nodiscard]] bool unit_depends_on_mode(const Parameter& parameter);
 
 } // namespace blactl::bla

@@ -1,5 +1,5 @@
 #pragma once
-// What registers hold, as plain data.
+// Register values as plain data.
 
 #include "blactl/bla/address.hpp"
 
@@ -9,10 +9,10 @@
 
 namespace blactl::bla {
 
-/// Register numbers by address; what is not there is not known.
+/// Register values by address; absent ones are unknown.
 using Values = std::map<Address, std::int64_t>;
 
-/// Empty: not known.
+/// Empty: unknown.
 [[nodiscard]] inline std::optional<std::int64_t> find(const Values& values, Address address) {
   const auto it = values.find(address);
   return it != values.end() ? std::optional(it->second) : std::nullopt;

@@ -1,5 +1,5 @@
 #pragma once
-// When messages of a socket came on the bus clock, and how many had no room.
+// Arrival times of a socket's messages on the bus clock, and how many the kernel dropped.
 
 #include "blactl/can/bus.hpp"
 
@@ -8,22 +8,22 @@
 
 namespace blactl::can {
 
-/// What the kernel tells beside a message.
+/// Ancillary data that the kernel delivers with a message.
 struct Aside {
   std::optional<WallTime> stamp{};
-  std::optional<std::uint32_t> dropped{}; ///< Messages that had no room before this one.
+  std::optional<std::uint32_t> dropped{}; ///< Messages dropped before this one.
 };
 
-/// Keeps messages in order even if somebody sets the wall clock, by which the kernel stamps them.
+/// Keeps messages in order even if the wall clock, which the kernel stamps them with, is set.
 class Arrivals {
  public:
   struct Arrival {
     Time at;
     WallTime wall;
-    std::optional<Overflow> before; ///< If others before it had no room.
+    std::optional<Overflow> before; ///< If messages before it were dropped.
   };
 
-  /// Both clocks now, for the messages that were just read.
+  /// Sets both clocks to now, for the messages just read.
   void read_at(Time now, WallTime wall);
 
   [[nodiscard]] Arrival arrival(const Aside& aside);
@@ -32,7 +32,7 @@ class Arrivals {
   Time now_;
   WallTime wall_;
   Time last_;
-  std::uint32_t dropped_ = 0; ///< As the kernel counts: 32 bits that wrap.
+  std::uint32_t dropped_ = 0; ///< The kernel's counter: 32 bits, wrapping.
   std::uint64_t lost_ = 0;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// A bus moves frames. One implementation a transport; none of them waits.
+// A bus moves frames. There is one implementation per transport; none of them waits.
 
 #include "blactl/base/error.hpp"
 #include "blactl/base/time.hpp"
@@ -15,21 +15,21 @@
 
 namespace blactl::can {
 
-/// A frame of another node, at the time the kernel (or the simulator) saw it.
+/// A frame from another node, with the time at which the kernel (or the simulator) saw it.
 struct Received {
   Frame frame;
   Time at;
   WallTime wall;
 };
 
-/// The echo of a frame of ours: it has been acknowledged by somebody.
+/// The echo of one of our frames: some node has acknowledged it.
 struct Sent {
   Frame frame;
   Time at;
   WallTime wall;
 };
 
-/// What a controller tells in an error frame.
+/// The kinds of fault that a controller reports in an error frame.
 enum class FaultKind : std::uint8_t {
   bus_off,
   error_passive,
@@ -47,30 +47,30 @@ struct BusFault {
   Time at;
 };
 
-/// The kernel dropped frames because we read too late; `lost` counts since the bus was opened.
+/// The kernel dropped frames because we read too late; `lost` counts from when the bus was opened.
 struct Overflow {
   std::uint64_t lost;
 };
 
-/// The interface went down or away; nothing more comes from this bus.
+/// The interface went down or disappeared; this bus delivers nothing more.
 struct Gone {
   Error error;
 };
 
-/// The transport has finished its opening dialogue (is_open()): frames pass from now on.
+/// The transport has completed its opening dialogue (is_open()): frames pass from now on.
 struct Opened {
-  std::string note{}; ///< What a person should know of it; empty: nothing.
+  std::string note{}; ///< A remark for the user; empty: none.
 };
 
-/// The interface went away and is waited for: until Back nothing comes, and nothing is sent.
+/// The interface disappeared and is awaited: until Back nothing is received or sent.
 struct Away {
   Error error;
 };
 
-/// It is there again. Whatever was on its way is lost.
+/// The interface is back. Frames that were on their way are lost.
 struct Back {};
 
-/// A log has been read to its end; nothing more comes from this bus.
+/// A log has been read to its end; this bus delivers nothing more.
 struct Ended {};
 
 using BusEvent = std::variant<Received, Sent, BusFault, Overflow, Gone, Away, Back, Opened, Ended>;
@@ -88,64 +88,64 @@ class Bus {
   Bus(const Bus&) = delete;
   Bus& operator=(const Bus&) = delete;
 
-  /// As a person names it and JSON prints it: "vcan0", "sim:".
+  /// The name that the user gives and JSON prints: "vcan0", "sim:".
   [[nodiscard]] virtual std::string_view name() const = 0;
 
-  /// Whether frames can pass: not yet while a transport talks with its adapter.
+  /// Whether frames can pass: not while a transport is still in dialogue with its adapter.
   [[nodiscard]] virtual bool is_open() const { return true; }
 
   /// Hands one frame to the transport: true when taken, false when its queue is full for now
   /// (ENOBUFS, EAGAIN). Errors: interface, permission.
   [[nodiscard]] virtual Result<bool> send(const Frame& frame) = 0;
 
-  /// When a frame that was not taken at `refused` can be tried again; receive() may bring that
-  /// forward. A full queue of the kernel (ENOBUFS) does not poll as writable: it is tried again
-  /// after a time in which a bus of 1 Mbit/s moves some seven frames.
+  /// When to retry a frame that was refused at `refused`; receive() may bring that forward. A full
+  /// kernel queue (ENOBUFS) does not poll as writable: it is retried after the time in which a bus
+  /// at 1 Mbit/s moves some seven frames.
   [[nodiscard]] virtual Time send_again_at(Time refused) const {
     return refused + std::chrono::milliseconds(1);
   }
 
-  /// The next thing that happened, if any.
+  /// The next event, if any.
   [[nodiscard]] virtual std::optional<BusEvent> receive() = 0;
 
-  /// Asks for these frames only (an empty list: all). A filter saves work, nothing may rely on it.
+  /// Asks for these frames only (an empty list: all). A filter saves work; nothing may rely on it.
   [[nodiscard]] virtual Result<void> filter(std::span<const Filter> filters) = 0;
 
   /// Whether every frame of ours comes back as Sent once somebody has acknowledged it.
   [[nodiscard]] virtual bool echoes() const = 0;
 
-  /// What came since the bus was opened and was no frame that can be told: CAN FD, damaged.
+  /// The number of frames since the bus was opened that could not be decoded: CAN FD, damaged.
   [[nodiscard]] virtual std::uint64_t unreadable() const { return 0; }
 
-  /// What of the transport explains that nothing at all was heard; empty: nothing that it knows.
-  /// Code interface: the transport itself fails. not_found: that may be, or the bus is silent.
+  /// The transport's explanation for a silent bus; empty: it knows of none. Code interface: the
+  /// transport itself fails. not_found: it may be failing, or the bus is silent.
   [[nodiscard]] virtual std::optional<Error> silence() const { return std::nullopt; }
 
-  /// What ends a bus-off of this transport, for people.
+  /// How to end a bus-off on this transport, as a hint for people.
   [[nodiscard]] virtual std::string bus_off_hint() const;
 
   /// Becomes readable when receive() has something; -1: nothing to poll.
   [[nodiscard]] virtual int descriptor() const = 0;
 
-  /// Whether receive() shall also be called when descriptor() can be written to again: bytes that
-  /// the transport has taken wait in this process.
+  /// Whether to call receive() also when descriptor() becomes writable: bytes that the transport
+  /// has accepted are still waiting in this process.
   [[nodiscard]] virtual bool wants_to_write() const { return false; }
 
-  /// What comes has happened long ago: nobody can be asked, and no frame is taken. Ends with Ended.
+  /// Events come from the past: no node can be asked, no frame is accepted. Ends with Ended.
   [[nodiscard]] virtual bool is_recording() const { return false; }
 
-  /// What was recorded comes when its time has come, by now(); else all of it at once.
+  /// Whether recorded events come at their time, by now(), rather than all at once.
   [[nodiscard]] virtual bool is_paced() const { return false; }
 
   /// The bus clock. Real interfaces: CLOCK_MONOTONIC.
   [[nodiscard]] virtual Time now() const;
   [[nodiscard]] virtual WallTime wall() const;
 
-  /// The wall time of a moment of the bus clock, near now().
+  /// The wall time of a bus time near now().
   [[nodiscard]] WallTime wall_at(Time at) const;
 
-  /// The loop has nothing to do before `deadline`. Returns when it shall look again at the latest:
-  /// a real bus has no wish of its own; on a virtual clock this call lets time pass.
+  /// The loop has nothing to do before `deadline`. Returns the latest time to look again: a real
+  /// bus returns `deadline`; on a virtual clock this call lets time pass.
   [[nodiscard]] virtual Time idle_until(Time deadline) { return deadline; }
 
  protected:

@@ -16,8 +16,8 @@ namespace blactl::can {
 
 class LogInput;
 
-/// One buffer is all the memory it takes, and some more where a log is unpacked. Lines that begin
-/// with # are comments; others that are not candump's are passed over and counted.
+/// Uses one buffer, and some more memory to unpack a log. Lines that begin with # are comments;
+/// other lines that are not candump's are skipped and counted.
 class CandumpReader {
  public:
   /// `path`: a file, or `-` for standard input. Errors: bad_file.
@@ -32,25 +32,25 @@ class CandumpReader {
   /// pipe may have nothing yet.
   [[nodiscard]] std::optional<LogLine> next();
 
-  /// Nothing more comes; error() tells if there should have been more.
+  /// Nothing more comes; error() is set if the log ended too early.
   [[nodiscard]] bool ended() const { return ended_; }
 
-  /// next() gave nothing though there is more: it passes over so much at a time and no more, so
-  /// that somebody can end it.
+  /// next() returned empty though there is more: it limits how much it skips per call, so that the
+  /// user can interrupt it.
   [[nodiscard]] bool has_paused() const { return has_paused_; }
 
   [[nodiscard]] const std::optional<Error>& error() const { return error_; }
 
-  /// Can be read when more may have come.
+  /// Becomes readable when more may have come.
   [[nodiscard]] int descriptor() const;
 
-  /// As a person names it: the path, or "standard input".
+  /// The name for messages: the path, or "standard input".
   [[nodiscard]] const std::string& name() const { return name_; }
 
-  /// Of the line that next() gave last, from 1.
+  /// The number of the line last returned by next(), from 1.
   [[nodiscard]] std::uint64_t line_number() const { return line_number_; }
 
-  /// Lines that are none of candump's, and the number of the first of them.
+  /// The number of lines that are not candump's, and where the first of them is.
   [[nodiscard]] std::uint64_t bad_lines() const { return bad_lines_; }
 
   [[nodiscard]] std::uint64_t first_bad_line() const { return first_bad_line_; }
@@ -66,12 +66,12 @@ class CandumpReader {
   std::unique_ptr<LogInput> input_;
   std::string name_;
   std::vector<char> buffer_;
-  std::size_t begin_ = 0, end_ = 0; ///< what was read and not given yet
-  std::size_t searched_ = 0;        ///< how far behind begin_ there is no line end
+  std::size_t begin_ = 0, end_ = 0; ///< bytes read and not yet returned
+  std::size_t searched_ = 0;        ///< bytes after begin_ known to hold no line end
   bool ended_ = false;
-  bool in_long_line_ = false; ///< its beginning had no room and is gone
+  bool in_long_line_ = false; ///< its beginning did not fit and was discarded
   bool has_paused_ = false;
-  std::size_t passed_over_ = 0; ///< lines and pieces of lines, by the next() that runs
+  std::size_t passed_over_ = 0; ///< lines and pieces of lines, by the current next()
   std::optional<Error> error_;
   std::uint64_t line_number_ = 0;
   std::uint64_t bad_lines_ = 0;

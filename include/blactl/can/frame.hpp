@@ -8,7 +8,7 @@
 namespace blactl::can {
 
 /// A data or remote frame as it crosses the bus. DroneCAN uses extended data frames only; the
-/// others exist so that what is heard can be told.
+/// others exist so that all traffic can be shown.
 struct Frame {
   std::uint32_t id = 0; ///< 29 bits if extended, else 11; no flags.
   bool extended = true;

@@ -34,11 +34,11 @@ class FrameBits {
 /// Bits between two frames.
 inline constexpr std::size_t intermission_bits = 3;
 
-/// The whole frame: stuffed part, CRC delimiter, acknowledgement, end of frame.
-/// An extended frame of 8 bytes has 128 to 157 bits here, without the intermission.
+/// The length of the frame: stuffed part, CRC delimiter, acknowledgement, end of frame. An extended
+/// frame of 8 bytes has 128 to 157 bits here, without the intermission.
 [[nodiscard]] std::size_t frame_length(const Frame& frame);
 
-/// What decides who goes first: identifier, RTR and IDE in the order of the bus. Less wins.
+/// The bits that decide arbitration: identifier, RTR and IDE in bus order. The lower value wins.
 [[nodiscard]] std::uint32_t arbitration_field(const Frame& frame);
 
 } // namespace blactl::can

@@ -29,8 +29,8 @@ struct ErrorCounters {
   std::uint16_t receive;
 };
 
-/// One network interface of type ARPHRD_CAN. What only controllers have (kind "can") is empty
-/// for the others, and where the driver does not tell.
+/// One network interface of type ARPHRD_CAN. Members that only controllers (kind "can") have are
+/// empty for the others, and where the driver does not report them.
 struct Link {
   std::string name{};
   std::string kind{}; ///< "can" (a controller), "vcan", "vxcan"; empty: the driver does not say.
@@ -38,7 +38,7 @@ struct Link {
   std::uint32_t queue_length = 0;              ///< txqueuelen, in frames.
   std::optional<std::uint32_t> bit_rate{};     ///< bit/s
   std::optional<std::uint32_t> sample_point{}; ///< in tenths of a percent: 875 is 87.5 %.
-  std::optional<std::chrono::milliseconds> restart_after{}; ///< after bus-off; 0: by hand only.
+  std::optional<std::chrono::milliseconds> restart_after{}; ///< after bus-off; 0: manually only.
   std::optional<LinkState> state{};
   std::optional<ErrorCounters> errors{};
 };

@@ -9,21 +9,21 @@
 namespace blactl::can {
 
 /// The bus clock begins at 0 with the first line that has a stamp. A stamp before the last one
-/// (several interfaces, a wall clock that was set) does not turn it back. Lines without a stamp
-/// happen at the time of the line before.
+/// (several interfaces, a wall clock that was set) does not turn it back. A line without a stamp
+/// has the time of the line before.
 ///
 /// Stamps that count from the first frame (`-t z`) and from the last one (`-t d`) look alike. They
 /// count from the first until one goes back to less than half of the last, or by more than 10 ms,
 /// which no log of the first kind does: from there on they are added up.
 class LogClock {
  public:
-  /// Goes on to the time of this line.
+  /// Advances to the time of this line.
   void pass(const LogLine& line);
 
-  /// Since the first stamp.
+  /// The time since the first stamp.
   [[nodiscard]] Time now() const { return now_; }
 
-  /// What the last stamp says; 1970 and later where the log does not tell the date.
+  /// The wall time of the last stamp; counted from 1970 where the log has no date.
   [[nodiscard]] WallTime wall() const { return wall_; }
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// The one place that waits, and the only one that knows the time.
+// The one place that waits, and the only one that reads the time.
 
 #include "blactl/can/bus.hpp"
 
@@ -16,7 +16,7 @@ struct Signal {
   int number;
 };
 
-/// A watched descriptor (terminal, pipe, socket) can be read or was closed.
+/// A watched descriptor (terminal, pipe, socket) is readable or was closed.
 struct Ready {
   int descriptor;
 };
@@ -30,12 +30,12 @@ using Event = std::variant<Received, Sent, BusFault, Overflow, Gone, Away, Back,
 /// One thread, one loop: everything above it is a state machine without I/O.
 ///
 /// Sending: the kernel transmits what it was given even after the process is gone, so frames are
-/// handed over a few at a time. Until something was heard or echoed on the bus one frame probes
-/// it; then at most three are on their way without an echo. The rest waits in this process.
+/// handed over a few at a time. Until something is heard or echoed, one frame probes the bus; after
+/// that at most three are in flight without an echo. The rest wait in this process.
 class Loop {
  public:
-  /// Takes over the bus (may be null: a loop of descriptors only) and SIGINT, SIGTERM, SIGWINCH;
-  /// SIGHUP too, unless it is ignored (nohup). SIGPIPE is ignored.
+  /// Takes over the bus (null: a loop over descriptors only) and SIGINT, SIGTERM, SIGWINCH; also
+  /// SIGHUP, unless it is ignored (nohup). SIGPIPE is ignored.
   explicit Loop(std::unique_ptr<Bus> bus);
   ~Loop();
   Loop(const Loop&) = delete;
@@ -48,20 +48,20 @@ class Loop {
 
   [[nodiscard]] const Bus& bus() const { return *bus_; }
 
-  /// Queues a frame; it leaves in order, as the bus takes it.
+  /// Queues a frame; frames leave in order, as the bus accepts them.
   void send(const Frame& frame);
 
-  /// Frames queued here or handed over and not echoed yet.
+  /// The number of frames queued here, or handed over and not yet echoed.
   [[nodiscard]] std::size_t unsent() const;
 
-  /// Forgets the frames that were not handed over yet.
+  /// Drops all frames not yet handed over.
   void drop_queue() { queue_.clear(); }
 
-  /// Forgets these frames, as far as they were not handed over yet.
+  /// Drops these frames, as far as they are not yet handed over.
   void withdraw(std::span<const Frame> frames);
 
-  /// Since when a frame of ours waits for its echo while nothing at all was heard: nobody
-  /// acknowledges. Empty: not so.
+  /// Since when a frame of ours has waited for its echo while nothing was heard: no node
+  /// acknowledges. Empty: no frame does.
   [[nodiscard]] std::optional<Time> unacknowledged_since() const;
 
   /// Reports a descriptor as Ready whenever it can be read.
@@ -94,7 +94,7 @@ class Loop {
   bool heard_ = false;
   bool gone_ = false;
   Time last_heard_{};
-  std::optional<Time> refused_at_; ///< when the bus did not take the first frame of the queue
+  std::optional<Time> refused_at_; ///< when the bus refused the first frame of the queue
 };
 
 } // namespace blactl::can

@@ -19,11 +19,11 @@ namespace blactl::can {
 struct IpLink;
 class IpLinkWatch;
 
-/// One CAN frame a datagram to 239.65.82.N, port 57732 (DroneCAN specification 4.2); frames go no
+/// One CAN frame per datagram to 239.65.82.N, port 57732 (DroneCAN specification 4.2); frames go no
 /// further than the next router. Membership and sending are bound to one and the same network
 /// interface: the kernel alone would choose one by the route and the other by the source address.
 ///
-/// There is no acknowledgement, and what is lost on the way is lost silently. Only classic CAN.
+/// There is no acknowledgement, and datagrams are lost silently. Only classic CAN.
 class Mcast final : public Bus {
  public:
   /// `interface`: a network interface by name; empty: the one the routes choose for the group, else
@@ -40,7 +40,7 @@ class Mcast final : public Bus {
   [[nodiscard]] Result<bool> send(const Frame& frame) override;
   [[nodiscard]] std::optional<BusEvent> receive() override;
 
-  /// Everything passes: datagrams are cheap to take and the kernel cannot tell them apart.
+  /// Passes everything: datagrams are cheap to read, and the kernel cannot filter by their content.
   [[nodiscard]] Result<void> filter(std::span<const Filter> /*filters*/) override { return {}; }
 
   [[nodiscard]] bool echoes() const override { return false; }
@@ -66,10 +66,10 @@ class Mcast final : public Bus {
   std::string link_name_;
   int link_index_;
   sockaddr_in group_{};
-  sockaddr_in own_{}; ///< Where our datagrams come from: they come back like all others.
+  sockaddr_in own_{}; ///< The source of our datagrams, which come back like all others.
   Descriptor in_;
   Descriptor out_;
-  std::unique_ptr<IpLinkWatch> links_; ///< A UDP socket is not told when its interface goes down.
+  std::unique_ptr<IpLinkWatch> links_; ///< Needed because a UDP socket does not report link state.
   Descriptor either_;                  ///< Readable when `in_` or `links_` is (epoll).
   std::deque<BusEvent> ready_;
   Arrivals arrivals_;

@@ -1,5 +1,5 @@
 #pragma once
-// A log that is played at its own pace.
+// A log played back at its own pace.
 
 #include "blactl/can/bus.hpp"
 
@@ -9,17 +9,16 @@
 
 namespace blactl::can {
 
-/// Gives what another bus recorded when its time has come. The bus clock is the time of the log: it
-/// goes with that of the machine, faster or slower, and stands while it is paused and after the
-/// end.
+/// Delivers the events of a recording at their time. The bus clock is the time of the log: it
+/// follows the machine's, faster or slower, and stops while paused and after the end.
 class PacedReplay final : public Bus {
  public:
-  /// `recording`: a bus that gives its events at once, and whose clock is that of the last one.
+  /// `recording`: a bus that delivers events at once and whose clock is the time of the last one.
   explicit PacedReplay(std::unique_ptr<Bus> recording);
 
   void pause(bool is_paused);
 
-  /// Twice as fast, or half as fast, between 1/8 and 64 times.
+  /// Doubles or halves the speed, between 1/8 and 64 times.
   void go_faster();
   void go_slower();
 
@@ -55,9 +54,9 @@ class PacedReplay final : public Bus {
   void anchor();
 
   std::unique_ptr<Bus> recording_;
-  std::optional<BusEvent> next_; ///< its time has not come
+  std::optional<BusEvent> next_; ///< not yet due
   Time next_at_{};
-  Time log_{}, machine_{}; ///< these two are the same moment
+  Time log_{}, machine_{}; ///< the same moment on both clocks
   int doublings_ = 0;
   bool is_paused_ = false;
   bool has_ended_ = false;

@@ -1,5 +1,5 @@
 #pragma once
-// Writes down what crosses a bus, as a candump log: `--record FILE`.
+// Records the frames of a bus as a candump log: `--record FILE`.
 
 #include "blactl/can/bus.hpp"
 
@@ -11,20 +11,20 @@
 
 namespace blactl::can {
 
-/// The name under which a log knows a bus, as candump and canplayer take it: "vcan0" stays, "sim:"
-/// is "sim", "slcan:/dev/ttyUSB0" is "ttyUSB0", "mcast:0" is "mcast-0".
+/// The name of a bus in a log, acceptable to candump and canplayer: "vcan0" stays, "sim:" is "sim",
+/// "slcan:/dev/ttyUSB0" is "ttyUSB0", "mcast:0" is "mcast-0".
 [[nodiscard]] std::string log_interface(std::string_view bus_name);
 
-/// Passes everything on to another bus and writes a line for every frame that comes from it: those
-/// of others, and the echoes of ours. On a bus without echoes a frame of ours is written when the
-/// bus has taken it.
+/// Forwards everything to another bus and writes a line for every frame from it: those of other
+/// nodes, and the echoes of ours. Without echoes a frame of ours is written when the bus accepts
+/// it.
 ///
-/// Each line is one write(2): what was heard is in the file even if this process is killed. When a
-/// line cannot be written, recording ends there, with complete lines only, and the bus goes on.
+/// Each line is one write(2), so the file is current even if this process is killed. When a line
+/// cannot be written, recording ends there, with complete lines only, and the bus goes on.
 class Recorder final : public Bus {
  public:
-  /// The file is made new (mode 0644 less the umask); one that is there is replaced, as a shell's
-  /// redirection does. Errors: io.
+  /// Creates the file (mode 0644 less the umask), or replaces it as a shell's redirection does.
+  /// Errors: io.
   [[nodiscard]] static Result<std::unique_ptr<Recorder>> open(std::unique_ptr<Bus> bus,
                                                               const std::string& path);
 
@@ -47,7 +47,7 @@ class Recorder final : public Bus {
 
   [[nodiscard]] std::optional<BusEvent> receive() override;
 
-  /// Not passed on: the log has all frames.
+  /// Not forwarded: the log has all frames.
   [[nodiscard]] Result<void> filter(std::span<const Filter> filters) override;
 
   [[nodiscard]] bool echoes() const override { return bus_->echoes(); }

@@ -1,5 +1,5 @@
 #pragma once
-// A candump log as a bus that is only heard: `replay:FILE`.
+// A candump log as a receive-only bus: `replay:FILE`.
 
 #include "blactl/can/bus.hpp"
 #include "blactl/can/candump_reader.hpp"
@@ -14,9 +14,9 @@
 
 namespace blactl::can {
 
-/// The frames of all interfaces of the log in its order, as fast as they are asked for, then Ended.
-/// The bus clock is that of the line read last (see LogClock): waiting takes no time unless a pipe
-/// has nothing yet. Error frames are BusFault. Standard input is a log too (`replay:-`).
+/// Delivers the frames of all interfaces in the log's order, as fast as they are read, then Ended.
+/// The bus clock is the time of the last line (see LogClock): waiting takes no time unless a pipe
+/// has nothing yet. Error frames become BusFault. `replay:-` reads standard input.
 class ReplayBus final : public Bus {
  public:
   /// `name`: as the user gave it. Errors: interface (the log cannot be opened).
@@ -28,10 +28,10 @@ class ReplayBus final : public Bus {
   /// Errors: usage, always.
   [[nodiscard]] Result<bool> send(const Frame& frame) override;
 
-  /// A log without a frame ends as Gone (bad_file), and so does one that cannot be read further.
+  /// Ends with Gone (bad_file) for a log without a frame, or one that becomes unreadable.
   [[nodiscard]] std::optional<BusEvent> receive() override;
 
-  /// Now, if receive() has passed over so much that somebody shall get the chance to end it.
+  /// Now, if receive() has skipped so much that the user must get a chance to interrupt it.
   [[nodiscard]] Time idle_until(Time deadline) override;
 
   /// Lets everything through.
@@ -47,7 +47,7 @@ class ReplayBus final : public Bus {
 
   [[nodiscard]] bool is_recording() const override { return true; }
 
-  /// Where lines were passed over.
+  /// The log reader, which counts skipped lines.
   [[nodiscard]] const CandumpReader& reader() const { return *reader_; }
 
  private:
@@ -60,7 +60,7 @@ class ReplayBus final : public Bus {
   std::unique_ptr<CandumpReader> reader_;
   std::string name_;
   LogClock clock_;
-  std::deque<BusFault> faults_; ///< one error frame may tell several
+  std::deque<BusFault> faults_; ///< one error frame may report several
   bool has_frames_ = false;
   bool told_end_ = false;
   std::size_t passed_over_ = 0; ///< lines, by the receive() that ran last

@@ -1,5 +1,5 @@
 #pragma once
-// What is said about logs: read by `replay:`, written by `--record`.
+// Messages about logs: read by `replay:`, written by `--record`.
 
 #include "blactl/base/text.hpp"
 
@@ -16,9 +16,9 @@ inline constexpr Text log_damaged{
     "{} is damaged: its gzip data is not valid; lines read before: {}",
     "{} は破損しています (gzip データが不正)。読込み済み: {} 行"};
 inline constexpr Text log_damaged_hint{
-    "what stands before that was used; gzip -t tests a copy, and the original log has the rest",
+    "the lines before that were used; check the file with gzip -t, or use the original log",
     "そこまでの内容は使用しました。gzip -t でファイルを確認し、元のログを使用して下さい"};
-inline constexpr Text log_without_frames{"{} holds no frame in candump's format",
+inline constexpr Text log_without_frames{"{} contains no frame in candump's format",
                                          "{} には candump 形式のフレームがありません"};
 inline constexpr Text standard_input{"standard input", "標準入力"};
 inline constexpr Text log_takes_no_frames{"{} is a log: nothing can be sent to it",
@@ -31,7 +31,7 @@ inline constexpr Text log_takes_no_frames_hint{
 inline constexpr Text record_failed{"recording to {} ended early: {}",
                                     "{} への記録が途中で終了しました: {}"};
 inline constexpr Text record_failed_hint{
-    "what it holds is complete up to there; free some space, or record elsewhere",
+    "the recording is complete up to that point; free some space, or record elsewhere",
     "そこまでの記録は有効です。空き容量を確保するか、別の場所に記録して下さい"};
 inline constexpr Text record_unopened{"cannot record to {}: {}", "{} に記録できません: {}"};
 inline constexpr Text record_unopened_hint{"give a file that can be written: --record FILE",

@@ -1,5 +1,5 @@
 #pragma once
-// A bus that outlives its interface: an adapter that is unplugged, and plugged in again.
+// A bus that outlives its interface: an adapter that is unplugged and plugged in again.
 
 #include "blactl/can/bus.hpp"
 
@@ -13,9 +13,9 @@
 
 namespace blactl::can {
 
-/// Passes everything on to another bus. When that goes (Gone with the code interface, once it was
-/// open) it is Away instead, takes no frames, and is opened again and again until it is Back. Only
-/// for buses in real time.
+/// Forwards everything to another bus. When that bus ends (Gone with code interface, after it was
+/// open), this one reports Away, refuses frames, and reopens the bus until it is Back. Only for
+/// buses in real time.
 class ReturningBus final : public Bus {
  public:
   /// Opens the same interface once more.
@@ -26,7 +26,7 @@ class ReturningBus final : public Bus {
 
   ReturningBus(std::unique_ptr<Bus> bus, Opener opener, Duration period = usual_period);
 
-  /// That of the first one, always.
+  /// Always the name of the first bus.
   [[nodiscard]] std::string_view name() const override { return name_; }
 
   [[nodiscard]] bool is_open() const override { return bus_ && bus_->is_open(); }
@@ -68,10 +68,10 @@ class ReturningBus final : public Bus {
   bool echoes_;
   std::vector<Filter> filters_;
   bool has_worked_ = false;     ///< frames have passed, or might have
-  bool is_away_ = false;        ///< as was told
-  std::optional<Error> failed_; ///< what send() has met, and was not told yet
+  bool is_away_ = false;        ///< and has been reported
+  std::optional<Error> failed_; ///< an error of send() not yet reported
   Time next_try_{};
-  std::uint64_t lost_ = 0, lost_before_ = 0; ///< Overflow, all in all and until it went last
+  std::uint64_t lost_ = 0, lost_before_ = 0; ///< Overflow: in total, and until it last went away
   std::uint64_t unreadable_ = 0;             ///< of the buses before this one
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// A serial port of this process alone: raw bytes, 8N1, no handshake.
+// A serial port opened exclusively: raw bytes, 8N1, no handshake.
 
 #include "blactl/base/error.hpp"
 
@@ -14,12 +14,11 @@ namespace blactl::can {
 /// Whether Linux has a name for this rate (termios, up to 4,000,000).
 [[nodiscard]] bool is_baud_rate(unsigned baud);
 
-/// Nothing here waits.
+/// No call waits.
 class SerialPort {
  public:
-  /// What arrived before is discarded. `baud` is a baud rate.
-  /// Errors: interface (no such device, not a serial port, in use: by whom, if that can be seen),
-  /// permission (with the group that may).
+  /// Discards what arrived before. `baud` is a baud rate. Errors: interface (no such device, not a
+  /// serial port, in use: by whom, if that can be seen), permission (naming the group that has it).
   [[nodiscard]] static Result<std::unique_ptr<SerialPort>> open(const std::filesystem::path& device,
                                                                 unsigned baud);
   ~SerialPort();
@@ -28,10 +27,10 @@ class SerialPort {
 
   [[nodiscard]] int descriptor() const { return descriptor_; }
 
-  /// How many bytes came; 0: none for now. Errors: interface, once the device is gone.
+  /// The number of bytes read; 0: none for now. Errors: interface, once the device is gone.
   [[nodiscard]] Result<std::size_t> read(std::span<char> bytes);
 
-  /// How many bytes were taken. Errors: interface, once the device is gone.
+  /// The number of bytes accepted. Errors: interface, once the device is gone.
   [[nodiscard]] Result<std::size_t> write(std::string_view bytes);
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// A recording without a frame: what it stands for was not heard on a bus.
+// A recording without frames, for input that was not received on a bus.
 
 #include "blactl/can/bus.hpp"
 
@@ -19,7 +19,7 @@ class SilentRecording final : public Bus {
   /// Errors: usage, always.
   [[nodiscard]] Result<bool> send(const Frame& frame) override;
 
-  /// Its end, once.
+  /// Returns its end, once.
   [[nodiscard]] std::optional<BusEvent> receive() override;
 
   [[nodiscard]] Result<void> filter(std::span<const Filter>) override { return {}; }

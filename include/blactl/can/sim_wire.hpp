@@ -1,9 +1,9 @@
 #pragma once
-// What crosses the socket between the simulator and its clients.
+// The protocol on the socket between the simulator and its clients.
 //
-// A Unix socket of type SOCK_SEQPACKET; every packet is one Message in the byte order of the
-// machine, any other packet ends the connection. A client begins with `hello`, the simulator
-// answers with `welcome`. From then on:
+// A Unix socket of type SOCK_SEQPACKET; every packet is one Message in the machine's byte order;
+// any other packet ends the connection. A client begins with `hello`, the simulator answers with
+// `welcome`. From then on:
 //
 //   client     filter_none, filter_add*   the frames it wants; none: all
 //              send                       a frame for the bus
@@ -12,8 +12,8 @@
 //              overflow                   `count` messages were lost since the connection
 //              tick                       the deadline of `wait` has come
 //
-// On the virtual clock time moves only while every client waits: has said `wait` after reading
-// all that was sent to it. A client that says nothing holds time; one that goes away does not.
+// On the virtual clock time moves only while every client waits: it has sent `wait` after reading
+// all that was sent to it. A client that sends nothing stops time; one that disconnects does not.
 
 #include "blactl/can/frame.hpp"
 
@@ -42,7 +42,7 @@ enum class Kind : std::uint32_t {
 // Bits of Message::flags.
 inline constexpr std::uint8_t extended = 1, remote = 2, virtual_clock = 4;
 
-/// Fields that a kind does not use are 0.
+/// One packet. Fields that a kind does not use are 0.
 struct Message {
   Kind kind{};
   std::uint32_t value = 0;
@@ -65,7 +65,7 @@ static_assert(sizeof(Message) == 40 && std::is_trivially_copyable_v<Message>);
   return message;
 }
 
-/// The frame of a message; what no frame can have is cut off.
+/// The frame of a message; bits that no frame can have are cleared.
 [[nodiscard]] inline Frame frame_of(const Message& message) {
   Frame frame;
   frame.extended = (message.flags & extended) != 0;

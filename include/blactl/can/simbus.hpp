@@ -12,15 +12,15 @@
 
 namespace blactl::can {
 
-/// `$XDG_RUNTIME_DIR/blactl/sim`, where that folder can be used and a socket's name holds its path,
-/// else `/tmp/blactl-<uid>/sim`.
+/// `$XDG_RUNTIME_DIR/blactl/sim` if that folder is usable and the path fits a socket address, else
+/// `/tmp/blactl-<uid>/sim`.
 [[nodiscard]] std::filesystem::path default_socket_path();
 
 /// Whether `folder` is a real folder (no symbolic link) that belongs to this user and that nobody
-/// else can write to: what listens at a default path in it was put there by this user.
+/// else can write to, so that a socket at a default path in it is this user's.
 [[nodiscard]] bool is_own_folder(const std::filesystem::path& folder);
 
-/// On the virtual clock time stands still while this process works; see sim_wire.hpp.
+/// On the virtual clock, time stands still while this process works; see sim_wire.hpp.
 class SimBus final : public Bus {
  public:
   /// `name`: as the user gave it, "sim:". Waits at most 2 s for the simulator's greeting.
@@ -28,7 +28,7 @@ class SimBus final : public Bus {
   [[nodiscard]] static Result<std::unique_ptr<SimBus>> open(const std::filesystem::path& socket,
                                                             std::string name);
 
-  /// The same; null if nobody listens there: no simulator was started, or its process is gone.
+  /// As open(), but null if nobody listens there: no simulator was started, or its process is gone.
   [[nodiscard]] static Result<std::unique_ptr<SimBus>>
   open_if_served(const std::filesystem::path& socket, std::string name);
 
@@ -41,7 +41,7 @@ class SimBus final : public Bus {
 
   [[nodiscard]] std::string_view name() const override { return name_; }
 
-  /// False while ten frames wait for their echo, as many as a CAN interface queues by default.
+  /// False while ten frames wait for their echo, the default queue length of a CAN interface.
   [[nodiscard]] Result<bool> send(const Frame& frame) override;
   [[nodiscard]] std::optional<BusEvent> receive() override;
   [[nodiscard]] Result<void> filter(std::span<const Filter> filters) override;
@@ -50,7 +50,7 @@ class SimBus final : public Bus {
 
   [[nodiscard]] std::string bus_off_hint() const override;
 
-  /// Its time is that of the simulation, and ends with it.
+  /// Whether its time is that of the simulation, and ends with it.
   [[nodiscard]] bool has_virtual_clock() const { return virtual_clock_; }
 
   [[nodiscard]] int descriptor() const override { return socket_; }
@@ -78,7 +78,7 @@ class SimBus final : public Bus {
   Time now_{};            ///< virtual clock only
   WallTime wall_epoch_{}; ///< virtual clock only: wall time at bus time 0
   std::uint64_t messages_read_ = 0;
-  std::optional<sim_wire::Message> waiting_; ///< the last `wait`, if nothing was read since
+  std::optional<sim_wire::Message> waiting_; ///< the last `wait`, unless something was read since
   std::size_t unechoed_ = 0;
   bool gone_ = false;
 };

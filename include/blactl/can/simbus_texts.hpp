@@ -1,5 +1,5 @@
 #pragma once
-// What the client of the simulated bus says to people.
+// Messages of the client of the simulated bus.
 
 #include "blactl/base/text.hpp"
 
@@ -14,7 +14,7 @@ inline constexpr Text simbus_gone{"the simulator of {} has ended",
 inline constexpr Text simbus_off_hint{
     "it is simulated, by the event or the order `clients bus_off`; run the command again",
     "シミュレーション (イベントまたは指示 `clients bus_off`) です。もう一度実行して下さい"};
-inline constexpr Text simbus_version{"the simulator of {} is of another version of blactl",
+inline constexpr Text simbus_version{"the simulator of {} belongs to another version of blactl",
                                      "{} のシミュレータは別のバージョンの blactl です"};
 inline constexpr Text simbus_version_hint{
     "stop it with Ctrl-C and start `blactl sim` again",
@@ -22,7 +22,7 @@ inline constexpr Text simbus_version_hint{
 inline constexpr Text simbus_silent{"{} does not answer as a simulator would",
                                     "{} はシミュレータとして応答しません"};
 inline constexpr Text simbus_foreign_folder{
-    "{} is not a folder of this user: what listens there is not trusted",
+    "{} is not a folder of this user: a socket there is not trusted",
     "{} はこのユーザーのフォルダではないため、接続しません"};
 inline constexpr Text simbus_foreign_folder_hint{
     "remove it, or set XDG_RUNTIME_DIR to a folder of your own",

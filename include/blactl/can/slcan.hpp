@@ -23,10 +23,10 @@ class SlcanEvidence;
 
 /// Which commands open the CAN channel of an adapter.
 enum class SlcanOpening : std::uint8_t {
-  /// C, S8, O, and whatever the adapter says to S8. This is the default because it is safe with
-  /// both kinds of adapters: one with several bit rates never opens at a wrong one, which would
-  /// spoil the frames of others on the bus; one with a fixed bit rate has an unknown command to
-  /// ignore. unproven: that the starter kit's adapter ignores it; `plain` is there if it does not.
+  /// C, S8, O, whatever the answer to S8. The default, because it is safe with both kinds of
+  /// adapters: one with several bit rates never opens at a wrong one, which would spoil the frames
+  /// of others on the bus; one with a fixed bit rate only has an unknown command to ignore.
+  /// unproven: that the starter kit's adapter ignores it; `plain` is there if it does not.
   careful,
   /// O alone, as the program of the servo's vendor opens the starter kit's adapter.
   plain,
@@ -34,7 +34,7 @@ enum class SlcanOpening : std::uint8_t {
   s8,
 };
 
-/// Who speaks.
+/// The direction of traffic on the port.
 enum class SlcanTalk : std::uint8_t { to_adapter, from_adapter };
 
 struct SlcanOptions {
@@ -45,25 +45,25 @@ struct SlcanOptions {
   /// the adapter answers nothing, as the vendor's program waits inside a transfer; else none.
   /// unproven: whether the starter kit's adapter needs it.
   std::optional<Duration> gap{};
-  /// Before it is opened, an adapter that answers is asked for its version and serial number.
+  /// Before opening, asks an adapter that answers for its version and serial number.
   bool inquires = false;
-  /// Called with what is sent to the adapter and what it says while it is opened. May be empty.
+  /// Called with the bytes to and from the adapter while it is opened. May be empty.
   std::function<void(SlcanTalk, std::string_view bytes)> trace{};
 };
 
-/// Frames as lines of text. An adapter tells nothing of acknowledgement on the bus: what it has
-/// taken counts as sent, and a bus without any other node looks like a silent one.
+/// Frames as lines of text. An adapter does not report acknowledgement on the bus: what it has
+/// accepted counts as sent, and a bus without any other node looks like a silent one.
 ///
-/// Adapters that acknowledge lines get a few at a time; the others are left to the port's own flow
-/// control and the gap. The adapter's clock is not used: frames bear the time they were read at.
+/// Adapters that acknowledge lines get a few at a time; for others only the port's flow control and
+/// the gap apply. The adapter's clock is not used: frames have the time at which they were read.
 class Slcan final : public Bus {
  public:
-  /// Opens the port and begins the opening dialogue, which goes on in receive(); how it ends is an
-  /// event. `name`: as a person names it. Errors: interface, permission (see SerialPort).
+  /// Opens the port and begins the opening dialogue, which goes on in receive(); its outcome is an
+  /// event. `name`: as the user gave it. Errors: interface, permission (see SerialPort).
   [[nodiscard]] static Result<std::unique_ptr<Slcan>>
   open(const std::filesystem::path& device, std::string name, const SlcanOptions& options);
 
-  /// Closes the CAN channel, as far as that takes no waiting.
+  /// Closes the CAN channel, as far as possible without waiting.
   ~Slcan() override;
   Slcan(const Slcan&) = delete;
   Slcan& operator=(const Slcan&) = delete;
@@ -76,22 +76,22 @@ class Slcan final : public Bus {
   [[nodiscard]] Time send_again_at(Time refused) const override;
   [[nodiscard]] std::optional<BusEvent> receive() override;
 
-  /// slcan has none that adapters agree on.
+  /// Does nothing: slcan has no filter that adapters agree on.
   [[nodiscard]] Result<void> filter(std::span<const Filter> /*filters*/) override { return {}; }
 
   [[nodiscard]] bool echoes() const override { return false; }
 
-  /// An adapter that refuses to open or to send, that says what is no slcan, or nothing at all.
+  /// An adapter that refuses to open or to send, that sends anything but slcan, or nothing at all.
   [[nodiscard]] std::optional<Error> silence() const override;
 
-  /// What it has told of itself so far.
+  /// The adapter's answers about itself so far.
   [[nodiscard]] const SlcanAnswers& answers() const { return answers_; }
 
-  /// What was heard on the port instead of slcan.
+  /// The kind of traffic heard on the port instead of slcan.
   [[nodiscard]] ForeignSpeech speech() const;
 
-  /// Asks for the status, which an adapter knows while it is open: one that answers, and that is at
-  /// rest. False: it is not asked.
+  /// Asks for the status, which an adapter has while it is open. False: not asked, because the
+  /// adapter does not answer or is busy.
   [[nodiscard]] bool ask_status();
 
   [[nodiscard]] int descriptor() const override;
@@ -126,17 +126,17 @@ class Slcan final : public Bus {
   std::unique_ptr<SlcanEvidence> evidence_;
   SlcanParser parser_;
   std::deque<BusEvent> ready_;
-  std::string outgoing_; ///< what the port did not take yet: a frame, or commands
+  std::string outgoing_; ///< bytes the port has not accepted yet: a frame, or commands
   SlcanAnswers answers_;
   bool open_ = false;
   bool gone_ = false;
   Time next_send_{};           ///< when the gap after the last frame ends
-  std::deque<Time> awaited_;   ///< frames without an answer: when that is given up
+  std::deque<Time> awaited_;   ///< frames without an answer: when to give up on each
   bool acknowledges_ = false;  ///< the adapter answers frames
-  unsigned silent_frames_ = 0; ///< answers given up one after the other
-  unsigned late_answers_ = 0;  ///< to commands that were not waited for
+  unsigned silent_frames_ = 0; ///< consecutive answers given up on
+  unsigned late_answers_ = 0;  ///< to commands no longer waited for
   Time late_answers_until_{};
-  unsigned traced_ = 0; ///< pieces of what the adapter said
+  unsigned traced_ = 0; ///< pieces of the adapter's output
 };
 
 } // namespace blactl::can

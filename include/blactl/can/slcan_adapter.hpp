@@ -1,5 +1,5 @@
 #pragma once
-// What an slcan adapter says of itself, and what else may speak on a serial port.
+// An slcan adapter's answers about itself, and other senders on a serial port.
 
 #include <cstdint>
 #include <optional>
@@ -7,9 +7,9 @@
 
 namespace blactl::can {
 
-/// The answers to V, N and F; many adapters have none. Source: Lawicel CAN232 manual 1.4.
+/// The answers to V, N and F; many adapters give none. Source: Lawicel CAN232 manual 1.4.
 struct SlcanAnswers {
-  std::string version{}; ///< as it writes it: "1013"
+  std::string version{}; ///< verbatim: "1013"
   std::string serial_number{};
   std::optional<std::uint8_t> status{}; ///< flags; see the bits below
 };
@@ -24,11 +24,11 @@ inline constexpr std::uint8_t error_passive = 1U << 5U;
 inline constexpr std::uint8_t bus_error = 1U << 7U;
 } // namespace slcan_status
 
-/// What is heard on a port instead of slcan.
+/// Kinds of traffic on a port instead of slcan.
 enum class ForeignSpeech : std::uint8_t {
-  none,    ///< nothing, slcan, or what nobody knows: another baud rate
+  none,    ///< nothing, slcan, or unrecognised (another baud rate)
   mavlink, ///< the telemetry of an autopilot
-  text,    ///< lines that are no slcan: a satellite receiver, a console
+  text,    ///< lines that are not slcan: a satellite receiver, a console
 };
 
 } // namespace blactl::can

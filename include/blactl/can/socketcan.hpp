@@ -15,8 +15,8 @@ struct can_frame; // NOLINT: the kernel's name
 
 namespace blactl::can {
 
-/// One raw socket on one interface (linux/can/raw.h). Frames of other programs of this machine
-/// are Received like those of the bus; those of ours come back as Sent. Only classic CAN.
+/// One raw socket on one interface (linux/can/raw.h). Frames of other programs on this machine are
+/// Received like those of the bus; our own come back as Sent. Only classic CAN.
 class SocketCan final : public Bus {
  public:
   /// Opens a CAN interface that is up. Errors: interface (no such interface, not a CAN one, down,
@@ -32,7 +32,7 @@ class SocketCan final : public Bus {
   [[nodiscard]] Result<bool> send(const Frame& frame) override;
   [[nodiscard]] std::optional<BusEvent> receive() override;
 
-  /// Our own frames pass in any case: an echo that the kernel holds back would never be Sent.
+  /// Our own frames always pass: an echo that the kernel filtered out would never be Sent.
   [[nodiscard]] Result<void> filter(std::span<const Filter> filters) override;
 
   [[nodiscard]] bool echoes() const override { return true; }
@@ -54,7 +54,7 @@ class SocketCan final : public Bus {
   std::string name_;
   int descriptor_;
   std::vector<Filter> filters_;
-  std::optional<Filter> echoes_; ///< What all frames sent so far agree with.
+  std::optional<Filter> echoes_; ///< Matches all frames sent so far.
   std::deque<BusEvent> ready_;
   Arrivals arrivals_;
 };

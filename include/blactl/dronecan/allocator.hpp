@@ -11,18 +11,18 @@
 
 namespace blactl::dronecan {
 
-/// Which unit gets which node ID.
+/// Assigns node IDs to units.
 class AllocationTable {
  public:
   virtual ~AllocationTable() = default;
   AllocationTable(const AllocationTable&) = delete;
   AllocationTable& operator=(const AllocationTable&) = delete;
 
-  /// Whether a unit whose unique ID begins with these bytes may get an ID from here.
+  /// Whether a unit whose unique ID begins with these bytes may get an ID from this table.
   [[nodiscard]] virtual bool serves(Bytes prefix) const = 0;
 
-  /// The ID of this unit; empty: it gets none now. Our own ID is never given. `preferred`: what the
-  /// unit would like; 0: it does not mind.
+  /// The ID of this unit; empty: it gets none now. Our own ID is never given. `preferred`: the ID
+  /// that the unit asked for; 0: any.
   [[nodiscard]] virtual std::optional<NodeId> assign(const UniqueId& unique_id,
                                                      NodeId preferred) = 0;
 
@@ -30,11 +30,11 @@ class AllocationTable {
   AllocationTable() = default;
 };
 
-/// Answers the three parts of an allocation request. As soon as another allocator is heard this one
-/// is silent for good: before its first answer it waits 100 ms for such a one.
+/// Answers the three parts of an allocation request. Once another allocator is heard, this one
+/// stays silent for good; before its first answer it waits 100 ms for one.
 class Allocator final : public Service {
  public:
-  /// Both outlive the allocator.
+  /// Both arguments outlive the allocator.
   Allocator(Node& node, AllocationTable& table) : node_(node), table_(table) {}
 
   void receive(const Transfer& transfer) override;
@@ -43,7 +43,7 @@ class Allocator final : public Service {
 
   void advance(Time now) override;
 
-  /// Another node that allocates.
+  /// The other allocator that was heard, if any.
   [[nodiscard]] std::optional<NodeId> other() const { return other_; }
 
  private:
@@ -52,8 +52,8 @@ class Allocator final : public Service {
 
   Node& node_;
   AllocationTable& table_;
-  Allocation collected_; ///< the parts of the unique ID that were heard
-  NodeId preferred_{};   ///< by the last part
+  Allocation collected_; ///< the parts of the unique ID heard so far
+  NodeId preferred_{};   ///< from the last part
   Time answered_at_{};   ///< the last accepted part: when its answer was or is due
   Time answer_due_ = never;
   bool has_answered_ = false;

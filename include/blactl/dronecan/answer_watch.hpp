@@ -1,5 +1,5 @@
 #pragma once
-// Hears whether one question is answered by two units that share a node ID.
+// Detects two units that share a node ID by their two answers to one request.
 
 #include "blactl/can/frame.hpp"
 #include "blactl/dronecan/transfer.hpp"
@@ -17,28 +17,28 @@
 
 namespace blactl::dronecan {
 
-/// The receiver of the specification takes a second answer with the same transfer ID for a
-/// repetition of the first, and drops it (4.1). This one puts every answer to GetNodeInfo and
-/// GetSet together, and reports two of them with one transfer ID that cannot be of one unit: their
-/// unique IDs differ, or their values of a parameter that changes only by a question. Answers whose
-/// frames mix are not read: then nobody takes them for an answer.
+/// The receiver of the specification takes a second response with the same transfer ID for a
+/// repetition of the first, and drops it (4.1). This one reassembles every response to GetNodeInfo
+/// and GetSet, and reports two with one transfer ID that cannot come from one unit: their unique
+/// IDs differ, or their values of a parameter that changes only by request. Responses whose frames
+/// interleave are not read; no receiver accepts those.
 class AnswerWatch {
  public:
-  /// The unique IDs of the two units, or none where parameters told them apart.
+  /// The unique IDs of the two units, or none if parameters gave them away.
   using Report = std::function<void(NodeId, const std::set<UniqueId>&)>;
 
-  /// `settled`: names of parameters that never change by themselves, as measured values do.
+  /// `settled`: names of parameters that never change by themselves, unlike measured values.
   AnswerWatch(std::set<std::string> settled, Report report)
       : settled_(std::move(settled)), report_(std::move(report)) {}
 
-  /// Another unit may be on this node ID now: what was answered before tells nothing of it.
+  /// Forgets earlier answers, because another unit may have this node ID now.
   void forget(NodeId server);
 
-  /// A frame of whatever kind with the header that its ID says; it has data.
+  /// Feeds a frame of any kind, with the header decoded from its ID; it has data.
   void receive(const Header& header, const can::Frame& frame, Time at);
 
  private:
-  /// What an answer says of the unit that gave it.
+  /// A trait of the responding unit.
   struct Trait {
     std::string name{}; ///< of the parameter; empty: its unique ID
     std::variant<UniqueId, GetSet::Value> value{};
@@ -54,12 +54,12 @@ class AnswerWatch {
     TransferId transfer_id = 0;
     bool toggle = false; ///< of the next frame
     std::vector<std::uint8_t> bytes{};
-    /// Who answered which question: the second one may come after answers to later questions.
+    /// The answers by transfer ID: a second one may come after answers to later requests.
     std::array<Answer, transfer_id_modulus> answers{};
   };
 
   void complete(Assembly& assembly, const DataType& type, const Header& header, Time at);
-  /// Transfer IDs soon come again: the next ones of this client are not those that were answered.
+  /// Transfer IDs soon wrap: the client's next ones are not those answered before.
   static void forget_last_lap(Assembly& assembly, NodeId client);
   [[nodiscard]] std::optional<Trait> trait(const DataType& type, Bytes payload) const;
 

@@ -1,6 +1,6 @@
 #pragma once
-// The fields of a payload by their DSDL names: the types are data, one reader walks through all of
-// them, and whoever shows them is a sink.
+// The fields of a payload by their DSDL names: types are described as data, one reader walks them
+// all and passes each field to a sink.
 
 #include "blactl/dronecan/types.hpp"
 
@@ -9,8 +9,8 @@
 
 namespace blactl::dronecan {
 
-/// What is told of a payload, front to back. Voids are not told. A structure is an object; so is a
-/// union, with its one active member (an empty one is an empty object).
+/// Receives the fields of a payload in order, without voids. A structure is an object; so is a
+/// union, with its one active member (if that is Empty, an empty object).
 class FieldSink {
  public:
   virtual ~FieldSink() = default;
@@ -28,9 +28,9 @@ class FieldSink {
   virtual void natural(std::uint64_t value, std::string_view word) = 0;
   virtual void integer(std::int64_t value) = 0;
   virtual void truth(bool value) = 0;
-  /// float16 and float32, exactly; may be no number or infinite.
+  /// float16 and float32, exactly; may be NaN or infinite.
   virtual void real(float value) = 0;
-  /// A byte array that the DSDL means as text: foreign, of any bytes.
+  /// A byte array that is text by its DSDL: foreign, with any bytes.
   virtual void text(std::string_view bytes) = 0;
   /// Any other byte array.
   virtual void bytes(Bytes bytes) = 0;
@@ -42,14 +42,14 @@ class FieldSink {
 enum class FieldsResult : std::uint8_t {
   complete,
   too_short,     ///< the payload ends before the type does
-  contradictory, ///< an array beyond its limit, or a union without such a member
-  unknown,       ///< no fields are known of this type
+  contradictory, ///< an array beyond its limit, or an invalid union tag
+  unknown,       ///< the fields of this type are unknown
 };
 
-/// Tells `sink` the fields of a payload, as one object. Unless the result is `complete`, the sink
-/// got a beginning that is worth nothing. Trailing bytes are ignored. Never allocates.
-/// Source: DroneCAN specification 3, "Data serialization", for classic CAN (tail array
-/// optimisation); the DSDL of each type.
+/// Passes the fields of a payload to `sink`, as one object. Unless the result is `complete`,
+/// discard the part that the sink received. Trailing bytes are ignored. Never allocates. Source:
+/// DroneCAN specification 3, "Data serialization", for classic CAN (tail array optimisation); the
+/// DSDL of each type.
 [[nodiscard]] FieldsResult write_fields(FieldSink& sink, Kind kind, std::uint16_t data_type_id,
                                         Bytes payload);
 

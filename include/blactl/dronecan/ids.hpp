@@ -49,7 +49,7 @@ struct DataType {
 using Priority = std::uint8_t;
 
 inline constexpr Priority priority_medium = 16;
-/// What the vendor's program uses for GetSet; below everything that keeps a vehicle in the air.
+/// The vendor's program's priority for GetSet; below all traffic that keeps a vehicle in the air.
 inline constexpr Priority priority_service = 30;
 
 } // namespace blactl::dronecan

@@ -1,5 +1,5 @@
 #pragma once
-// This process as a DroneCAN node: its own services, and questions to other nodes as jobs.
+// This process as a DroneCAN node: its own services, and requests to other nodes as jobs.
 
 #include "blactl/base/time.hpp"
 #include "blactl/can/frame.hpp"
@@ -18,7 +18,7 @@
 
 namespace blactl::dronecan {
 
-/// One question to one node.
+/// One request to one node.
 struct Request {
   NodeId server;
   const DataType* type = nullptr;
@@ -26,17 +26,17 @@ struct Request {
   Duration timeout = std::chrono::milliseconds(500); ///< servers answer within 0.5 s (spec. 4.1)
   int retries = 2;                                   ///< further tries, each with a new transfer ID
   Priority priority = priority_service;
-  /// Whether a payload is an answer to this question (the right parameter name); empty: any is.
+  /// Whether a payload answers this request (has its parameter name); empty: any does.
   std::function<bool(Bytes)> accepts;
 };
 
-/// How a question ended.
+/// The outcome of a request or a pause.
 struct Outcome {
   enum class Kind : std::uint8_t {
-    start,     ///< there was no question yet
+    start,     ///< no request yet
     answered,  ///< `payload` is the answer
-    timed_out, ///< the question went out, no answer came
-    not_sent,  ///< the question did not leave this machine in time; the kernel may still send it
+    timed_out, ///< the request was sent, no answer came
+    not_sent,  ///< the request did not leave this machine in time; the kernel may still send it
     woken,     ///< the pause is over
     cancelled,
     not_recorded, ///< the bus is a recording that does not hold the answer
@@ -44,20 +44,20 @@ struct Outcome {
 
   Kind kind = Kind::start;
   Bytes payload; ///< valid during the call
-  Time at{};     ///< when the answer's first frame came, or when the waiting ended
-  Time asked{};  ///< when the question went to the bus that was answered
+  Time at{};     ///< when the answer's first frame came, or the wait ended
+  Time asked{};  ///< when the answered request went to the bus
 
   [[nodiscard]] bool answered() const { return kind == Kind::answered; }
 };
 
-/// A job that asks nothing now. It goes on (`woken`) as soon as `ready` holds after a transfer was
-/// heard, at `until` at the latest.
+/// A pause of a job. It ends (`woken`) as soon as `ready` holds after a received transfer, at
+/// `until` at the latest.
 struct Pause {
   Time until = never;
   std::function<bool()> ready{}; ///< empty: only the time counts
 };
 
-/// What a job does next: a question, a pause, or neither: it has ended.
+/// The next step of a job: a request, a pause, or neither when it has ended.
 class Step {
  public:
   Step(std::nullopt_t) {} // NOLINT: reads as "nothing"
@@ -91,8 +91,7 @@ class Job {
 
   [[nodiscard]] virtual Step next(const Outcome& outcome) = 0;
 
-  /// Whether it has begun what must not be left half done (a ROM write): Node::stop() lets it go
-  /// on.
+  /// Whether it has begun work that must be completed (a ROM write): Node::stop() lets it go on.
   [[nodiscard]] virtual bool must_finish() const { return false; }
 
  protected:
@@ -101,25 +100,25 @@ class Job {
 
 /// A node as a state machine without I/O: frames and time in, frames out.
 ///
-/// One question is in flight for each server, as many servers are busy as there are jobs; jobs for
-/// a busy server wait for their turn. Answers are matched by server, data type and transfer ID;
-/// whatever else arrives is no answer.
+/// At most one request is in flight per server, and as many servers are busy as there are jobs;
+/// jobs for a busy server wait their turn. Answers are matched by server, data type and transfer
+/// ID.
 class Node {
  public:
   struct Hooks {
     std::function<void(const can::Frame&)> send;
-    /// Every transfer heard, services between other nodes included; but no answer to this node that
-    /// it does not wait for, or no more: it may tell of a time long past. May be empty.
+    /// Called for every transfer heard, services between other nodes included, except answers to
+    /// this node that it does not, or no longer, wait for: they may be stale. May be empty.
     std::function<void(const Transfer&)> transfer;
-    /// A transfer that could not be reassembled. May be empty.
+    /// Called for a transfer that could not be reassembled. May be empty.
     std::function<void(ReceiveError, std::uint32_t can_id, Time)> error;
-    /// Frames that wait to leave this machine. May be empty: none.
+    /// Returns the number of frames waiting to leave this machine. May be empty: none.
     std::function<std::size_t()> backlog{};
-    /// These frames shall not leave any more, as far as they are still here. May be empty.
+    /// Drops these frames, as far as they have not left. May be empty.
     std::function<void(std::span<const can::Frame>)> withdraw{};
-    /// A question goes out, for the first time (`tries` is 1) or again. May be empty.
+    /// Called when a request is sent, the first time (`tries` is 1) or again. May be empty.
     std::function<void(const Request&, int tries)> asked{};
-    /// No answer came in time to a question that went out. May be empty.
+    /// Called when no answer came in time to a request that was sent. May be empty.
     std::function<void(const Request&, int tries)> unanswered{};
   };
 
@@ -137,40 +136,40 @@ class Node {
   /// `at`: when the frame was on the bus, which may be long before it is read.
   void receive(const can::Frame& frame, Time at);
   void sent(const can::Frame& frame, Time at);
-  /// Echoes were lost: questions without one are taken as sent.
+  /// Reports lost echoes: requests without one are taken as sent.
   void echoes_lost(Time at);
-  /// What is asked from here on is asked `now`.
+  /// Sets the time of the requests that follow.
   void tell_time(Time now);
-  /// Does what is due. All that was on the bus before `now` must have been read: a question whose
+  /// Does what is due. Everything on the bus before `now` must have been read: a request whose
   /// answer waits to be read is not unanswered.
   void advance(Time now);
-  /// When advance() is due; `never`: nothing is waited for.
+  /// When advance() is due; `never`: nothing is pending.
   [[nodiscard]] Time next_deadline() const;
 
-  /// From here on this is node `local`. What waits for an answer to the ID before is asked again. A
-  /// question that must not be asked twice (no retries) stays without its answer.
+  /// Becomes node `local`. Requests awaiting an answer to the old ID are sent again; one that must
+  /// not be repeated (no retries) stays unanswered.
   void change_id(NodeId local, TransferIds& transfer_ids, Time now);
 
-  /// Begins a job; it must live until it ended or cancel_all() was called. May be called by a job
-  /// or hook at any time. Without a local ID its first question ends it, as not sent.
+  /// Begins a job, which must live until it has ended or cancel_all() was called. May be called by
+  /// a job or hook at any time. Without a local ID its first request ends it, as not sent.
   void start(Job& job, Time now);
 
-  /// Jobs that have not ended.
+  /// The number of jobs that have not ended.
   [[nodiscard]] std::size_t jobs() const { return jobs_.size(); }
 
   /// Whether this job has begun and not ended.
   [[nodiscard]] bool is_running(const Job& job) const;
 
-  /// Ends this job, if it runs, with the outcome `cancelled`; what it asks then is not sent.
+  /// Ends this job, if it runs, with the outcome `cancelled`; a request it then makes is not sent.
   void cancel(Job& job, Time now);
 
-  /// Sends a message. Without a local ID nothing is sent.
+  /// Sends a message. Does nothing without a local ID.
   void broadcast(const DataType& type, Priority priority, const Payload& payload);
 
-  /// Ends the jobs that may be left half done, with the outcome `cancelled`.
+  /// Ends the jobs that need not be completed (must_finish()), with the outcome `cancelled`.
   void stop(Time now);
 
-  /// Ends every job with the outcome `cancelled`; what they ask then is not sent.
+  /// Ends every job with the outcome `cancelled`; requests they then make are not sent.
   void cancel_all(Time now);
 
  private:
@@ -181,8 +180,8 @@ class Node {
     int tries = 0;
     bool asked = false;               ///< handed to the bus
     bool left = false;                ///< its last frame was echoed
-    bool is_cancelled = false;        ///< perhaps in its own call: what it asks then is not sent
-    std::vector<can::Frame> frames{}; ///< of the question; the last one recognises the echo
+    bool is_cancelled = false;        ///< perhaps in its own call: its request is then not sent
+    std::vector<can::Frame> frames{}; ///< of the request; the last one identifies the echo
     Time asked_at{};                  ///< the last time
     Time deadline = never;            ///< of the answer, the echo or the pause
 
@@ -211,7 +210,7 @@ class Node {
   Hooks hooks_;
   Receiver receiver_;
   std::list<Active> jobs_;
-  bool in_callback_ = false; ///< a job is being asked: the list must not shrink
+  bool in_callback_ = false; ///< a job is being called: the list must not shrink
   std::optional<Time> born_;
   Time status_due_ = never;
   Time now_{};

@@ -18,7 +18,7 @@ class Payload {
 
   explicit Payload(std::span<const std::uint8_t> bytes) { append(bytes); }
 
-  /// Beyond the capacity nothing is kept; the encoders stay below it by their types.
+  /// Drops bytes beyond the capacity; the encoders stay below it by their types.
   void append(std::span<const std::uint8_t> bytes) {
     const auto n = std::min(bytes.size(), capacity - size_);
     std::copy_n(bytes.begin(), n, bytes_.begin() + static_cast<std::ptrdiff_t>(size_));

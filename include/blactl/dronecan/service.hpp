@@ -1,5 +1,5 @@
 #pragma once
-// What a node does beside its jobs, for as long as it lives.
+// Services of a node that run beside its jobs, for as long as it lives.
 
 #include "blactl/base/time.hpp"
 #include "blactl/dronecan/transfer.hpp"
@@ -15,7 +15,7 @@ class Service {
 
   virtual void receive(const Transfer& transfer) = 0;
 
-  /// When advance() is due; `never`: nothing is waited for.
+  /// When advance() is due; `never`: nothing is pending.
   [[nodiscard]] virtual Time next_deadline() const = 0;
   virtual void advance(Time now) = 0;
 

@@ -1,6 +1,6 @@
 #pragma once
-// The standard data types by name, ID and signature: what a listener needs to name a transfer and
-// to check its CRC.
+// The standard data types by name, ID and signature, so that a listener can name a transfer and
+// check its CRC.
 
 #include "blactl/dronecan/ids.hpp"
 
@@ -10,9 +10,9 @@
 namespace blactl::dronecan {
 
 /// The types of the DSDL namespaces uavcan and dronecan that have a default data type ID below
-/// 20000, where the range of the vendors begins: messages before services, each ascending by ID.
-/// (What a vendor's ID means is an agreement between a few devices; a wrong guess would turn a good
-/// transfer into a CRC error.)
+/// 20000, where the range of the vendors begins: messages before services, each ascending by ID. (A
+/// vendor's ID has a meaning only among a few devices; a wrong guess would turn a good transfer
+/// into a CRC error.)
 [[nodiscard]] std::span<const DataType> standard_types();
 
 /// The standard type with this ID; null: none.

@@ -16,7 +16,7 @@
 
 namespace blactl::dronecan {
 
-/// What the 29 bits of a CAN ID say.
+/// The fields of a 29-bit CAN ID.
 struct Header {
   Kind kind = Kind::message;
   Priority priority = priority_medium;
@@ -28,7 +28,7 @@ struct Header {
   friend bool operator==(const Header&, const Header&) = default;
 };
 
-/// The 29-bit CAN ID. Fields that are too wide for their place are cut to it.
+/// The 29-bit CAN ID. Values too wide for their field are truncated.
 [[nodiscard]] std::uint32_t encode_id(const Header& header);
 
 /// Empty for an ID that the standard forbids (a service from or to node 0, source = destination)
@@ -39,10 +39,10 @@ struct Header {
 using TransferId = std::uint8_t;
 inline constexpr TransferId transfer_id_modulus = 32;
 
-/// Bytes of the CRC that stands before the payload of a transfer of several frames.
+/// Bytes of the CRC in front of the payload of a multi-frame transfer.
 inline constexpr std::size_t crc_size = 2;
 
-/// The CRC over a data type signature, least significant byte first: where a transfer's CRC starts.
+/// The CRC over a data type signature, least significant byte first: a transfer's initial CRC.
 [[nodiscard]] std::uint16_t base_crc(std::uint64_t signature);
 
 /// The discriminator that libuavcan sends: the low 14 bits of the CRC over the payload and the
@@ -61,7 +61,7 @@ struct Transfer {
   TransferId transfer_id = 0;
   std::span<const std::uint8_t> payload{};
   Time at{};               ///< when its first frame was seen
-  bool crc_checked = true; ///< false: several frames of a type whose signature nobody knows
+  bool crc_checked = true; ///< false: multi-frame transfer of a type with unknown signature
 };
 
 /// Why a transfer could not be delivered (the words of `trace`).
@@ -70,13 +70,13 @@ enum class ReceiveError : std::uint8_t {
   toggle,        ///< a wrong toggle bit: a frame before this one was lost, or the sender is wrong
   missing_start, ///< frames of a transfer whose first frame was not heard
   transfer_id,   ///< a repeated transfer ID, or a new transfer before the end of the last one
-  truncated,     ///< a frame too short for its place, or a payload beyond the receiver's capacity
+  truncated,     ///< a frame that is not full before the last, or a payload beyond capacity
   timeout,       ///< the rest did not come within 2 s
 };
 
 /// Reassembles interleaved transfers of any number of senders, exactly by the pseudo code of the
-/// specification 4.1 (one interface). Memory is allocated once and bounded: a session that was
-/// idle longest makes room for a new one.
+/// specification 4.1 (one interface). Memory is allocated once and bounded: the session idle
+/// longest makes room for a new one.
 class Receiver {
  public:
   /// The longest payload that is reassembled. The longest of the types used here has 376 bytes.
@@ -88,17 +88,17 @@ class Receiver {
   struct Callbacks {
     /// A complete transfer.
     std::function<void(const Transfer&)> transfer{};
-    /// A transfer that is lost, told once: later frames of it are passed over in silence, and so
-    /// is a frame which CAN delivered twice. `can_id` is that of the frame which showed the fault.
+    /// A lost transfer, reported once: later frames of it are silently ignored, as is a frame that
+    /// CAN delivered twice. `can_id` is that of the frame that revealed the fault.
     std::function<void(ReceiveError, std::uint32_t can_id, Time)> error{};
     /// The signature of a data type; empty: unknown, delivered unchecked.
     std::function<std::optional<std::uint64_t>(Kind, std::uint16_t data_type_id)> signature{};
   };
 
   /// `sessions`: how many (kind, type, source, destination) are remembered at a time, at least 1;
-  /// each reserves 1.1 KiB of address space, which becomes real memory only where transfers of
-  /// several frames are heard. Anonymous transfers need none.
-  /// `local`: services for other nodes are dropped, unless it is 0 (a listener hears all).
+  /// each reserves 1.1 KiB of address space, which becomes real memory only for multi-frame
+  /// transfers. Anonymous transfers need none. `local`: services for other nodes are dropped,
+  /// unless it is 0 (a listener hears all).
   Receiver(std::size_t sessions, NodeId local, Callbacks callbacks);
   ~Receiver();
   Receiver(const Receiver&) = delete;
@@ -106,13 +106,13 @@ class Receiver {
   Receiver& operator=(const Receiver&) = delete;
   Receiver& operator=(Receiver&&) = delete;
 
-  /// Feeds one frame. Frames that are no DroneCAN (standard IDs, remote frames, no data, forbidden
+  /// Feeds one frame. Frames that are not DroneCAN (standard IDs, remote frames, no data, forbidden
   /// IDs, anonymous frames that are not single) are ignored. Never allocates.
   void receive(const can::Frame& frame, Time at);
 
   /// Reports the unfinished transfers that began more than 2 s before `now` as `timeout`, each with
   /// the CAN ID of its first frame and the time when its 2 s were over; `never` takes all, as at
-  /// the end of a log. Without it such a transfer is told only when more comes from its sender.
+  /// the end of a log. Without it such a transfer is reported only when its sender is heard again.
   void expire(Time now);
 
  private:

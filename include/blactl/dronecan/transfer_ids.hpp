@@ -1,5 +1,5 @@
 #pragma once
-// The next transfer ID of every transfer descriptor that this node sends.
+// The next transfer ID for every transfer descriptor that this node uses.
 
 #include "blactl/dronecan/ids.hpp"
 #include "blactl/dronecan/transfer.hpp"
@@ -14,7 +14,7 @@ namespace blactl::dronecan {
 
 /// Counts modulo 32 for each (kind, data type, destination), as the specification 4.1 demands: a
 /// strict receiver takes a repeated transfer ID within 2 s for a duplicate. The counters live in
-/// memory that the caller gives, so that the next process can go on where this one stopped.
+/// the caller's memory, so that the next process can continue where this one stopped.
 class TransferIds {
  public:
   /// One counter; all zero: free.
@@ -26,7 +26,7 @@ class TransferIds {
   static constexpr std::size_t slots = 1024;
 
   /// `table` outlives this object. `first` is where a counter without a slot starts; `changed` is
-  /// told the index of each slot that counted.
+  /// called with the index of each slot that counted.
   explicit TransferIds(std::span<Slot, slots> table, TransferId first = 0,
                        std::function<void(std::size_t)> changed = {})
       : table_(table), first_(first), changed_(std::move(changed)) {}

@@ -1,10 +1,9 @@
 #pragma once
-// The data types of the BLA specification (section 2.3), by hand from their DSDL.
-// Each has encode() to a payload and decode() from one. encode() brings what is too large for its
-// field to the field's limit, as DSDL's `saturated` demands: integers, finite floats (NaN and
-// infinities pass), names, arrays. decode() refuses a payload that is too short, contradicts itself
-// or has an array beyond its limit, and ignores trailing bytes. Strings from the bus stay the bytes
-// they were.
+// The data types of the BLA specification (section 2.3), by hand from their DSDL. Each has encode()
+// to a payload and decode() from one. encode() limits values too large for their field, as DSDL's
+// `saturated` demands: integers, finite floats (NaN and infinities pass), names, arrays. decode()
+// refuses a payload that is too short, contradicts itself or has an array beyond its limit, and
+// ignores trailing bytes. Strings from the bus keep their bytes unchanged.
 
 #include "blactl/dronecan/ids.hpp"
 #include "blactl/dronecan/payload.hpp"
@@ -149,7 +148,7 @@ struct ExecuteOpcode {
 };
 
 /// uavcan/protocol/param/11.GetSet.uavcan. BLA servos use Empty and integers only; the other kinds
-/// exist so that foreign nodes can be heard.
+/// exist so that foreign nodes can be decoded.
 struct GetSet {
   static constexpr DataType type{"uavcan.protocol.param.GetSet", 11, true, 0xA7B622F939D1A4D5};
   using Empty = std::monostate;
@@ -160,7 +159,7 @@ struct GetSet {
   using NumericValue = std::variant<Empty, std::int64_t, float>;
 
   struct Request {
-    std::uint16_t index = 0; ///< 13 bits; ignored where a name is given
+    std::uint16_t index = 0; ///< 13 bits; ignored if a name is given
     Value value{};           ///< Empty: read
     std::string name{};      ///< 0..92 bytes
     [[nodiscard]] Payload encode() const;
@@ -232,7 +231,7 @@ struct ArmingStatus {
   friend bool operator==(const ArmingStatus&, const ArmingStatus&) = default;
 };
 
-/// The type with this ID among those above; null: a foreign one.
+/// The type with this ID among those above; null: none of them.
 [[nodiscard]] const DataType* find_type(Kind kind, std::uint16_t data_type_id);
 
 } // namespace blactl::dronecan

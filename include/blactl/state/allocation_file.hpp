@@ -1,5 +1,5 @@
 #pragma once
-// The allocation table as a file that people keep and carry to another machine.
+// The allocation table as a file to keep or to move to another machine.
 //
 //   {
 //     "schema": "blactl-allocations/1",
@@ -27,9 +27,9 @@ void write_entries(JsonWriter& json, std::span<const AllocationEntry> entries);
 /// The whole file.
 [[nodiscard]] std::string allocation_file(std::span<const AllocationEntry> entries);
 
-/// Which unit shall have which node ID, in the order of the file; "-" reads stdin. Its times are
-/// not taken over. Errors: bad_file with file, line, JSON pointer and reason of every fault, units
-/// and IDs that stand in it twice among them.
+/// The node IDs for units, in the order of the file; "-" reads stdin. Its times are ignored.
+/// Errors: bad_file with file, line, JSON pointer and reason of every fault, including duplicate
+/// units and IDs.
 [[nodiscard]] Result<std::vector<AllocationStore::Wish>>
 read_allocation_file(const std::filesystem::path& file);
 

@@ -1,5 +1,5 @@
 #pragma once
-// What only one process of this machine does on an interface at a time.
+// Exclusive rights of one process of this machine on an interface.
 
 #include "blactl/base/error.hpp"
 #include "blactl/state/lock_file.hpp"
@@ -16,10 +16,10 @@ class InterfaceLock {
  public:
   enum class Right : std::uint8_t { write, allocate };
 
-  /// Where nothing can be written nobody is kept away. Errors: busy, naming the process.
+  /// Without a writable folder nobody is locked out. Errors: busy, naming the process.
   [[nodiscard]] static Result<InterfaceLock> acquire(const LockPlace& place, Right right);
 
-  /// Its path; empty: there is none.
+  /// The path of the lock file; empty: there is none.
   [[nodiscard]] std::string file() const { return file_ ? file_->path() : std::string(); }
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// What is recorded of one servo of a production line (contract, section 5, "provision", "ledger").
+// The record of one servo of a production line (contract, section 5, "provision", "ledger").
 
 #include <array>
 #include <cstdint>
@@ -10,14 +10,14 @@
 
 namespace blactl::state {
 
-/// Register numbers, if nothing else is said. Empty: not known, or not asked for.
+/// Integers are register numbers unless noted otherwise. Empty: unknown, or not requested.
 struct LedgerRecord {
   using Integer = std::optional<std::int64_t>;
   using Real = std::optional<double>;
   using Text = std::optional<std::string>;
 
-  Text record_id{};  ///< no other record has it, of whatever machine
-  Text time{};       ///< when its verdict stood, RFC 3339 UTC, whole seconds
+  Text record_id{};  ///< unique among the records of all machines
+  Text time{};       ///< time of the verdict, RFC 3339 UTC, whole seconds
   Text verdict{};    ///< pass, fail or skip
   Text code{};       ///< of the error that failed it
   Integer attempt{}; ///< from 1, of this unit by this recipe
@@ -26,11 +26,11 @@ struct LedgerRecord {
   Text model{};
   Integer firmware_version{}, hardware_version{};
   Text production_date{}; ///< as `export` writes it
-  Text label{};           ///< as it was read
-  Integer node_id{};      ///< that it came with; 0: it asked for one
+  Text label{};           ///< as read
+  Integer node_id{};      ///< on arrival; 0: it asked for one
   Integer node_id_after{};
   Integer static_node_id{}, servo_id{};
-  Text config_sha256{}; ///< over all configuration as it was read after the restart
+  Text config_sha256{}; ///< over all configuration as read after the restart
   Integer changed_count{};
   Real voltage_v{};
   Integer temperature_c{};
@@ -53,7 +53,7 @@ struct LedgerColumn {
   Member member;
 };
 
-/// All of them, in the order of the contract.
+/// All columns, in the order of the contract.
 inline constexpr std::array<LedgerColumn, 29> ledger_columns{{
     {"record_id", &LedgerRecord::record_id},
     {"time", &LedgerRecord::time},

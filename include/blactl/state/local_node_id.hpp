@@ -17,31 +17,31 @@ namespace blactl::state {
 /// The IDs that are reserved for tools (specification 5), in the order in which they are tried.
 inline constexpr std::array tool_ids{dronecan::NodeId(127), dronecan::NodeId(126)};
 
-/// Whether a tool may begin to use it without having listened whether it is free.
+/// Whether a tool may use the ID without first listening whether it is free.
 [[nodiscard]] constexpr bool is_tool_id(dronecan::NodeId id) {
   return id == tool_ids.front() || id == tool_ids.back();
 }
 
 /// A node ID that no other blactl of this machine uses on the same interface, and the transfer IDs
-/// that went out under it. An ID is never shared: one process's read inside another's three-frame
-/// write would break the write.
+/// used with it. An ID is never shared: one process's read inside another's three-frame write would
+/// break the write.
 ///
-/// Its lock file keeps the transfer IDs, so that the next process goes on where this one stopped.
+/// Its lock file keeps the transfer IDs, so that the next process continues where this one stopped.
 class LocalNodeId {
  public:
   using Candidates = std::vector<dronecan::NodeId>;
 
-  /// Takes the first of the candidates that no process holds, rather one that no other node was
-  /// heard to have; without candidates the tool_ids are.
-  /// Errors: no_local_node_id, naming the processes that hold them.
+  /// Takes the first candidate that no process holds, preferably one that no other node was heard
+  /// to have; the default candidates are tool_ids. Errors: no_local_node_id, naming the processes
+  /// that hold them.
   [[nodiscard]] static Result<LocalNodeId> acquire(LockPlace place, Candidates candidates);
 
   /// For a bus that no other process can reach: no lock, counters from 0.
   [[nodiscard]] static LocalNodeId unshared(Candidates candidates);
 
-  /// Another node of the bus has this ID: takes the next candidate in its place, and lets later
-  /// processes know. Errors: duplicate_node_id if there is none, no_local_node_id; then it stays
-  /// what it was.
+  /// Takes the next candidate because another node has this ID, and records that for later
+  /// processes. Errors: duplicate_node_id if there is none, no_local_node_id; the ID is then
+  /// unchanged.
   [[nodiscard]] Result<void> give_way(std::string_view interface);
 
   LocalNodeId(const LocalNodeId&) = delete;
@@ -53,7 +53,7 @@ class LocalNodeId {
   [[nodiscard]] dronecan::NodeId id() const;
   [[nodiscard]] dronecan::TransferIds& transfer_ids();
 
-  /// Why the other candidates were not to be had, for a person; empty: they were not tried.
+  /// Why other candidates were not available, for people; empty: none was tried.
   [[nodiscard]] std::string passed_over() const;
 
   /// The path of its lock file; empty: there is none.
@@ -66,7 +66,7 @@ class LocalNodeId {
 
   LockPlace place_;
   Candidates candidates_;
-  /// What stands in the way of an ID, for a person.
+  /// The obstacles to each ID, for people.
   std::vector<std::pair<dronecan::NodeId, std::string>> obstacles_;
   std::unique_ptr<State> state_;
 };

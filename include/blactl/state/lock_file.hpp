@@ -10,36 +10,36 @@
 
 namespace blactl::state {
 
-/// Where the lock files of an interface lie, and how they begin.
+/// The location and name of an interface's lock files.
 struct LockPlace {
-  std::string interface{}; ///< as people name it; empty: no other process can reach it
-  /// What tells it from a namesake: "can0" of another network namespace is another interface.
-  /// Empty: the name is enough.
+  std::string interface{}; ///< its name for people; empty: no other process can reach it
+  /// Distinguishes namesakes: "can0" of another network namespace is another interface. Empty: the
+  /// name is enough.
   std::string network{};
-  std::string folder = "/run/lock/blactl"; ///< where all users meet, if it can be used
+  std::string folder = "/run/lock/blactl"; ///< common to all users, if usable
 };
 
-/// Why a lock file cannot be had.
+/// Why a lock file could not be taken.
 struct LockRefusal {
   std::string path;
-  std::optional<std::int32_t> pid{}; ///< of the process that holds it, if it says so
+  std::optional<std::int32_t> pid{}; ///< of the process that holds it, if known
   int error = 0;                     ///< errno; 0: another process holds it
 };
 
 /// A locked file `<interface><network>.<suffix>` that names this process. It lies in the folder for
 /// all users, else in $XDG_RUNTIME_DIR/blactl, else in the state folder; the kernel releases the
-/// lock when the process dies. Behind its header lies what the holder before left; nothing, if that
-/// was no process of this tool.
+/// lock when the process dies. After its header it has the data of its previous holder, or nothing
+/// if that was not a process of this tool.
 class LockFile {
  public:
-  /// Where the holder's data begins.
+  /// The offset of the holder's data.
   static constexpr long data_offset = 16;
 
-  /// The folder for lock files; empty: nothing can be written anywhere. One that cannot be used
-  /// (of another user, no folder, too long a name, read-only) is passed over, whatever names it.
+  /// The folder for lock files; empty: none is writable. One that is unusable (of another user, not
+  /// a folder, name too long, read-only) is skipped, wherever it is named.
   [[nodiscard]] static std::string folder(const LockPlace& place);
 
-  /// `folder`: what folder() said.
+  /// `folder`: from folder().
   [[nodiscard]] static std::expected<LockFile, LockRefusal>
   take(const std::string& folder, const LockPlace& place, std::string_view suffix);
 

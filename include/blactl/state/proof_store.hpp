@@ -1,6 +1,6 @@
 #pragma once
-// What the ROM of servos was proven to hold.
-// Contract, sections 6 and 7, "apply": a restart followed by a complete read is a proof.
+// Proofs of the ROM contents of servos. Contract, sections 6 and 7, "apply": a restart followed by
+// a complete read is a proof.
 
 #include "blactl/base/error.hpp"
 #include "blactl/base/time.hpp"
@@ -18,11 +18,10 @@ namespace blactl::state {
 
 class StateFile;
 
-/// What the ROM of one unit held when it had started: RAM was read completely, and nothing had been
-/// written to it since.
+/// The ROM of one unit at its start: RAM was read completely before anything was written to it.
 struct RomProof {
   dronecan::UniqueId unique_id{};
-  Registers rom{};               ///< all that SAVE keeps
+  Registers rom{};               ///< all registers that SAVE keeps
   WallTime started{};            ///< by its uptime at the proof
   std::chrono::seconds uptime{}; ///< at the proof
 
@@ -33,33 +32,33 @@ struct RomProof {
 /// drift (contract, section 7, "apply").
 inline constexpr Duration uptime_tolerance = std::chrono::seconds(2);
 
-/// Whether a unit that tells this uptime has run on since the proof: ROM changes by SAVE alone, and
+/// Whether a unit with this uptime has kept running since the proof: ROM changes by SAVE alone, and
 /// a restart follows every SAVE (4.11).
 [[nodiscard]] bool holds(const RomProof& proof, std::chrono::seconds uptime, WallTime now);
 
-/// The same proof by a later uptime, once it holds(): a crystal that drifts by 30 ppm takes the
+/// The same proof with a later uptime, once it holds(): a crystal drifting by 30 ppm uses up the
 /// tolerance in a day.
 [[nodiscard]] RomProof renewed(RomProof proof, std::chrono::seconds uptime, WallTime now);
 
-/// One proof a unit, in `proofs.db` of a folder: an SQLite database that several processes use at
-/// once. What a function has told is on the disk.
+/// One proof per unit, in `proofs.db` of a folder: an SQLite database that several processes use at
+/// once. When a function returns, its result is on disk.
 ///
 /// A file that is not ours, is damaged or was made by a newer blactl is an error and stays as it
 /// is, byte for byte.
 ///
-/// Errors of every function: bad_file (no file of ours, damaged, of a newer blactl), permission, io
-/// (also a full disk: then nothing has changed), busy (another process wrote for longer than our
+/// Errors of every function: bad_file (not a file of ours, damaged, of a newer blactl), permission,
+/// io (also a full disk: then nothing has changed), busy (another process wrote for longer than our
 /// patience). A store is used by one thread and must not be carried through a fork().
 class ProofStore {
  public:
-  /// `folder`: what state_folder() said. Errors beside those of all: state: it is empty.
+  /// `folder`: from state_folder(). Further errors: state: it is empty.
   [[nodiscard]] static Result<ProofStore> open(const std::string& folder, Access access,
                                                std::chrono::milliseconds patience = usual_patience);
 
   /// For a bus that no other process can reach: an empty store that ends with this object.
   [[nodiscard]] static Result<ProofStore> unshared();
 
-  /// As open() and unshared() make it.
+  /// Used by open() and unshared().
   explicit ProofStore(std::unique_ptr<StateFile> file);
 
   ProofStore(const ProofStore&) = delete;
@@ -68,13 +67,13 @@ class ProofStore {
   ProofStore& operator=(ProofStore&&) noexcept;
   ~ProofStore();
 
-  /// In place of what was known of these units: all of them, or none.
+  /// Replaces the proofs of these units: all or none.
   [[nodiscard]] Result<void> put(std::span<const RomProof> proofs);
 
-  /// Empty: nothing is known of its ROM. Whether it still holds(), its uptime tells.
+  /// The proof of a unit, to be checked with holds(); empty: its ROM is unknown.
   [[nodiscard]] Result<std::optional<RomProof>> find(const dronecan::UniqueId& unique_id) const;
 
-  /// Nothing is known of their ROM any more: all of them, or none.
+  /// Removes the proofs of these units: all or none.
   [[nodiscard]] Result<void> drop(std::span<const dronecan::UniqueId> units);
 
  private:

@@ -1,13 +1,13 @@
 #pragma once
-// What registers of a servo held, as a store keeps it.
+// Register values of a servo, as kept by a store.
 
 #include <cstdint>
 #include <map>
 
 namespace blactl::state {
 
-/// Register numbers by address. What an address means this floor does not know: who reads them from
-/// a file must judge them.
+/// Register values by address. This floor does not know the meaning of an address: the reader of a
+/// file must check them.
 using Registers = std::map<std::uint8_t, std::int64_t>;
 
 } // namespace blactl::state

@@ -1,5 +1,5 @@
 #pragma once
-// What servos held before they were changed: what `undo` goes back to.
+// The settings of servos before changes, to which `undo` returns.
 
 #include "blactl/base/error.hpp"
 #include "blactl/base/time.hpp"
@@ -21,23 +21,23 @@ namespace blactl::state {
 
 class StateFile;
 
-/// One servo before the change that one command made.
+/// One servo before the change by one command.
 struct SnapshotEntry {
   std::int64_t number = 0; ///< given by the store, ascending: the order of the changes; 0: new
   std::int64_t run = 0;  ///< the number of the first entry of its command; 0: of the first new one
-  WallTime at{};         ///< when the change was about to begin
+  WallTime at{};         ///< just before the change
   std::string command{}; ///< "set"; from a file, so foreign bytes
   dronecan::UniqueId unique_id{};
-  Registers held{};   ///< what the change replaces
-  bool saved = false; ///< the change was saved to ROM; until it is settled, whether it will be
-  bool ended = false; ///< all that its command was to do was done; else it may be half of that
+  Registers held{};   ///< the values that the change replaces
+  bool saved = false; ///< saved to ROM; until settled, whether it is to be saved
+  bool ended = false; ///< its command was completed; else perhaps only in part
 
   friend bool operator==(const SnapshotEntry&, const SnapshotEntry&) = default;
 };
 
-/// What became of the change of one servo.
+/// The outcome of the change of one servo.
 enum class ChangeEnd : std::uint8_t {
-  never_begun, ///< nothing was sent: its entry goes, and the change before it is the last one
+  never_begun, ///< nothing was sent: its entry is removed, and the change before it is the last one
   not_saved,
   saved
 };
@@ -47,23 +47,23 @@ struct Settlement {
   ChangeEnd end = ChangeEnd::not_saved;
 };
 
-/// How many changes of one servo are kept, and for how long. The last one of a servo is kept for
-/// ever.
+/// How many changes of one servo are kept, and for how long. The last one of a servo is always
+/// kept.
 inline constexpr std::size_t most_snapshots = 100;
 inline constexpr std::chrono::days oldest_snapshot{365};
 
 /// The changes of servos, in `snapshots.db` of a folder: an SQLite database that several processes
-/// use at once. What a function has told is on the disk.
+/// use at once. When a function returns, its result is on disk.
 ///
 /// A file that is not ours, is damaged or was made by a newer blactl is an error and stays as it
 /// is, byte for byte.
 ///
-/// Errors of every function: bad_file (no file of ours, damaged, of a newer blactl), permission, io
-/// (also a full disk: then nothing has changed), busy (another process wrote for longer than our
+/// Errors of every function: bad_file (not a file of ours, damaged, of a newer blactl), permission,
+/// io (also a full disk: then nothing has changed), busy (another process wrote for longer than our
 /// patience). A store is used by one thread and must not be carried through a fork().
 class SnapshotStore {
  public:
-  /// `folder`: what state_folder() said. Errors beside those of all: state: it is empty.
+  /// `folder`: from state_folder(). Further errors: state: it is empty.
   [[nodiscard]] static Result<SnapshotStore>
   open(const std::string& folder, Access access,
        std::chrono::milliseconds patience = usual_patience);
@@ -71,7 +71,7 @@ class SnapshotStore {
   /// For a bus that no other process can reach: an empty store that ends with this object.
   [[nodiscard]] static Result<SnapshotStore> unshared();
 
-  /// As open() and unshared() make it.
+  /// Used by open() and unshared().
   explicit SnapshotStore(std::unique_ptr<StateFile> file);
 
   SnapshotStore(const SnapshotStore&) = delete;
@@ -80,26 +80,26 @@ class SnapshotStore {
   SnapshotStore& operator=(SnapshotStore&&) noexcept;
   ~SnapshotStore();
 
-  /// Keeps all of them, or none; those that have a number are put in place of the entry of that
-  /// number. What is too old or too much afterwards goes. Gives their numbers, in their order.
+  /// Stores all entries or none; those with a number replace the entry of that number. Then drops
+  /// entries that are too old or too many. Returns the numbers, in order.
   [[nodiscard]] Result<std::vector<std::int64_t>> keep(std::span<const SnapshotEntry> entries,
                                                        WallTime now);
 
-  /// Says of all of these entries what became of them, or of none.
+  /// Records the outcome of these entries: all or none.
   [[nodiscard]] Result<void> settle(std::span<const Settlement> settlements);
 
-  /// The last changes of these units have ended, if they were made by this command.
+  /// Marks the last changes of these units as ended, if this command made them.
   [[nodiscard]] Result<void> end(std::span<const dronecan::UniqueId> units,
                                  std::string_view command);
 
-  /// The last change of this unit; empty: none is known.
+  /// The last change of this unit; empty: none.
   [[nodiscard]] Result<std::optional<SnapshotEntry>>
   last(const dronecan::UniqueId& unique_id) const;
 
-  /// The change of the same unit before this one; empty: none is known.
+  /// The change of the same unit before this one; empty: none.
   [[nodiscard]] Result<std::optional<SnapshotEntry>> before(const SnapshotEntry& entry) const;
 
-  /// The changes that the last command made; empty: none is known.
+  /// The changes made by the last command; empty: none.
   [[nodiscard]] Result<std::vector<SnapshotEntry>> last_run() const;
 
   /// All changes, the newest first.

@@ -1,5 +1,5 @@
 #pragma once
-// Where this user's state lies: what blactl must still know after a restart of the machine.
+// The folder of this user's persistent state.
 
 #include "blactl/base/error.hpp"
 
@@ -8,11 +8,11 @@
 namespace blactl::state {
 
 /// $BLACTL_STATE_DIR, else $XDG_STATE_HOME/blactl, else ~/.local/state/blactl; empty: this user has
-/// none. It need not be there yet.
+/// none. It need not exist yet.
 [[nodiscard]] std::string state_folder();
 
-/// Whether what must outlive a process can be kept there; makes nothing. Errors: state (this user
-/// has no folder), permission (it, or the one that it would be made in, cannot be written).
+/// Checks that state can be stored there, without creating anything. Errors: state (this user has
+/// no folder), permission (it, or its parent if it does not exist, is not writable).
 [[nodiscard]] Result<void> check_state_folder(const std::string& folder);
 
 } // namespace blactl::state

@@ -74,8 +74,8 @@ TEST_CASE("an unknown voltage class refuses what hangs on it") {
   CHECK(answer(open, 0x34, 1520) == "yes"); // the suffix is that of the models with PWM input
   const auto refused = open.may_write(Address(0x2A), 63);
   CHECK(refused.error().message ==
-        "overcurrent_limit (0x2A) depends on the model, and 0x53=24050 leaves open which of these "
-        "it is: BLA21-06U-AB, BLA21-12U-AB, BLA21-28U-AB");
+        "overcurrent_limit (0x2A) depends on the model, and 0x53=24050 fits more than one: "
+        "BLA21-06U-AB, BLA21-12U-AB, BLA21-28U-AB");
   // BLA34: the ranges of 0x30 agree, its defaults do not.
   CHECK(answer(identify(86, 24'050), 0x30, 25) == "no_profile");
   CHECK(answer(identify(61, std::nullopt), 0x2A, 63) == "no_profile");

@@ -211,7 +211,7 @@ TEST_CASE("faults of a series file have line, place and reason") {
         "x.json:2: /schema: must be \"blactl-profile/1\", not \"blactl-profile/2\"");
   fault("\"family\": \"BLA\",", "", "x.json:1: /: \"family\" is missing");
   fault("\"BLA50\"", "\"bla-50\"",
-        "x.json:4: /series: \"bla-50\" is no part of a model name; letters A-Z and digits are");
+        "x.json:4: /series: \"bla-50\" is not a valid part of a model name; use A-Z and digits");
   fault("90,", "256,", "x.json:5: /model_number: 256 is more than 255");
   fault("90,", "-1,", "x.json:5: /model_number: -1 is less than 0");
   fault("90,", "9.5,", "x.json:5: /model_number: must be an integer, not a number");
@@ -241,8 +241,8 @@ TEST_CASE("faults of a series file have line, place and reason") {
         "x.json:17: /parameters/0x33/maximum: this key is not known; known here: "
         "default, min, max");
   fault("\"24U\": {\n", "\"24/U\": {\n",
-        "x.json:27: /voltage_classes/24~1U: \"24/U\" is no part of a model name; "
-        "letters A-Z and digits are");
+        "x.json:27: /voltage_classes/24~1U: \"24/U\" is not a valid part of a model name; "
+        "use A-Z and digits");
   fault("\"24U\", \"suffix\"", "\"28U\", \"suffix\"",
         "x.json:36: /models/0/voltage_class: \"28U\" is not among the voltage_classes");
   fault("\"suffix\": \"A0\"", "\"suffix\": \"AB\"",
@@ -288,10 +288,10 @@ TEST_CASE("faults of a family file have place and reason") {
     INFO(message);
     CHECK(message.find(end) != std::string::npos);
   };
-  fault("\"0x00\"", "\"0x60\"", ": /parameters/0x60: \"0x60\" is no address");
-  fault("\"0x0A\"", "\"0x0a\"", ": /parameters/0x0a: \"0x0a\" is no address");
+  fault("\"0x00\"", "\"0x60\"", ": /parameters/0x60: \"0x60\" is not an address");
+  fault("\"0x0A\"", "\"0x0a\"", ": /parameters/0x0a: \"0x0a\" is not an address");
   fault("\"command_angle\"", "\"Command Angle\"",
-        ": /parameters/0x00/name: \"Command Angle\" is no name");
+        ": /parameters/0x00/name: \"Command Angle\" is not a valid name");
   fault("\"command_angle\"", "\"command_torque\"",
         ": /parameters/0x02: command_torque is already the name of 0x00");
   fault("\"group\": \"command\"", "\"group\": \"commands\"",
@@ -328,6 +328,6 @@ TEST_CASE("faults of a family file have place and reason") {
         ": 0x18 bit 25 is described twice");
   fault("\"version\": 1100", "\"version\": 1010", ": /firmware/1: versions must ascend");
   fault("\"2021-01\"", "\"2021-13\"",
-        ": /firmware/0/shipments/0/from: \"2021-13\" is no month like 2024-06");
+        ": /firmware/0/shipments/0/from: \"2021-13\" is not a month like 2024-06");
   fault("\"source\"", "\"sources\"", ": /sources: this key is not known");
 }

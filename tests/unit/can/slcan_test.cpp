@@ -338,12 +338,12 @@ TEST_CASE("slcan: an adapter that says what is no slcan is told, whatever opens 
     Rig rig(dialect);
     const auto gone = rig.expect<Gone>();
     CHECK(gone.error.code == Code::interface);
-    CHECK(gone.error.message.find("no slcan") != std::string::npos);
+    CHECK(gone.error.message.find("not slcan") != std::string::npos);
     CHECK(gone.error.hint.find("?baud=") != std::string::npos);
   }
   for (const Dialect& dialect : {test::wrong_baud(), test::satellite_receiver()}) {
     Rig rig(dialect, {.opening = SlcanOpening::plain});
-    CHECK(rig.expect<Gone>().error.message.find("no slcan") != std::string::npos);
+    CHECK(rig.expect<Gone>().error.message.find("not slcan") != std::string::npos);
   }
 }
 

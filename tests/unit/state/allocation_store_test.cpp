@@ -612,7 +612,7 @@ TEST_CASE("a file that is no database is not touched") {
   const Folder folder;
   write_bytes(table_of(folder), GENERATE(as<std::string>{}, "", "x", "my precious notes\n",
                                          std::string(20000, '\7')));
-  check_refused(folder, "is no allocation table of blactl");
+  check_refused(folder, "is not a blactl allocation table");
 }
 
 TEST_CASE("the database of another program is not touched, not even beside it") {
@@ -620,7 +620,7 @@ TEST_CASE("the database of another program is not touched, not even beside it") 
   fs::create_directory(state_of(folder));
   run_sql(table_of(folder), "PRAGMA journal_mode = WAL; CREATE TABLE notes (line TEXT);" +
                                 GENERATE(as<std::string>{}, "", "PRAGMA application_id = 7;"));
-  check_refused(folder, "is no allocation table of blactl");
+  check_refused(folder, "is not a blactl allocation table");
 }
 
 TEST_CASE("what is no file is refused") {
@@ -702,7 +702,7 @@ TEST_CASE("a table that is cut short is damaged, wherever it ends") {
   }
   SECTION("in its header") {
     fs::resize_file(table_of(folder), GENERATE(1U, 16U, 70U));
-    check_refused(folder, "is no allocation table");
+    check_refused(folder, "is not a blactl allocation table");
   }
 }
 

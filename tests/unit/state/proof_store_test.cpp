@@ -168,9 +168,9 @@ TEST_CASE("reading proofs makes no file and changes nothing") {
 TEST_CASE("a file that is no record of ours is refused by its name, and stays as it is") {
   const Folder folder;
   const auto [content, message] = GENERATE(
-      std::pair("what is this", "no record of what ROM holds of blactl"),
+      std::pair("what is this", "not a blactl record of ROM contents"),
       std::pair("PRAGMA user_version = 2", "has version 2; this blactl knows version 1"),
-      std::pair("PRAGMA application_id = 1", "no record of what ROM holds"),
+      std::pair("PRAGMA application_id = 1", "not a blactl record of ROM contents"),
       std::pair("UPDATE proofs SET rom = x'38'", "is damaged"),
       std::pair("UPDATE proofs SET rom = x'380000000000000001380000000000000002'", "is damaged"),
       std::pair("PRAGMA ignore_check_constraints = 1; UPDATE proofs SET uptime = -1", "is damaged"),

@@ -195,7 +195,7 @@ TEST_CASE("reading a history makes no file and changes nothing") {
 TEST_CASE("a file that is no history of ours is refused by its name, and stays as it is") {
   const Folder folder;
   const auto [content, message] = GENERATE(
-      std::pair("what is this", "no change history of blactl"),
+      std::pair("what is this", "not a blactl change history"),
       std::pair("PRAGMA user_version = 2", "has version 2; this blactl knows version 1"),
       std::pair("UPDATE snapshots SET held = x'38'", "is damaged"),
       std::pair("PRAGMA ignore_check_constraints = 1; UPDATE snapshots SET saved = 2",
