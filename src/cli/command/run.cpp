@@ -3,7 +3,6 @@
 #include "blactl/base/replace_file.hpp"
 #include "blactl/fleet/bus/snapshots.hpp"
 #include "blactl/fleet/bus/unreachable.hpp"
-#include "blactl/fleet/change/guard.hpp"
 
 #include "cli/command/sample.hpp"
 #include "cli/command/svg.hpp"
@@ -65,8 +64,8 @@ bool MotionRun::prove_servo_id() {
 
 /// What the others on the bus forbid; once more after the question, which may take its time.
 bool MotionRun::check() {
-  if (auto refused = fleet::forbidden(context_.session().roster(), context_.session().now(),
-                                      plan_->plan, context_.shared().while_driven)) {
+  if (auto refused =
+          fleet::refuse_to_command(context_.session(), *plan_, context_.shared().while_driven)) {
     report_.fail_target(std::move(*refused));
   }
   return report_.targets.empty();

@@ -1,6 +1,7 @@
 #include "blactl/fleet/motion/command_run.hpp"
 
 #include "blactl/fleet/bus/snapshots.hpp"
+#include "blactl/fleet/change/guard.hpp"
 
 #include "fleet/motion/command_texts.hpp"
 
@@ -60,6 +61,11 @@ std::optional<Error> refuse_servo_id(Session& session, const bla::Profiles& prof
     }
   }
   return std::nullopt;
+}
+
+std::optional<Error> refuse_to_command(const Session& session, const CommandPlan& plan,
+                                       bool while_driven) {
+  return forbidden(session.roster(), session.now(), plan.plan, while_driven);
 }
 
 Commanded command(Session& session, const CommandPlan& plan, const CommandManner& manner) {

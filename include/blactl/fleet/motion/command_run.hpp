@@ -32,6 +32,10 @@ struct Commanded {
                                                    const CommandPlan& plan,
                                                    const Identification::Options& options);
 
+/// Why it must not be commanded now, as far as the bus was heard. Errors: as forbidden().
+[[nodiscard]] std::optional<Error> refuse_to_command(const Session& session,
+                                                     const CommandPlan& plan, bool while_driven);
+
 /// Commands it until its time is over, and brings it to its end, also where it is interrupted.
 [[nodiscard]] Commanded command(Session& session, const CommandPlan& plan,
                                 const CommandManner& manner);
