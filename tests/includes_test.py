@@ -40,6 +40,12 @@ ROOMS = {
         # An exception: the header that says who is on the bus, findings.hpp, stands in characterize.
         "doctor": {"characterize", "change", "files", "bus"},
     },
+    "sim": {
+        "node": set(),
+        "servo": {"node"},
+        "scenario": {"servo", "node"},
+        "bus": {"scenario", "servo", "node"},
+    },
 }
 # A floor whose folders are no rooms: they may include one another.
 ROOMLESS = {"cli"}

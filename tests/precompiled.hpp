@@ -3,7 +3,7 @@
 
 #include "blactl/bla/profile.hpp"
 #include "blactl/fleet/bus/session.hpp"
-#include "blactl/sim/simulator.hpp"
+#include "blactl/sim/bus/simulator.hpp"
 
 #include "catch.hpp"
 

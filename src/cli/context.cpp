@@ -1,7 +1,7 @@
 #include "cli/context.hpp"
 
-#include "blactl/can/simbus.hpp"
 #include "blactl/can/replay_texts.hpp"
+#include "blactl/can/simbus.hpp"
 #include "blactl/fleet/bus/texts.hpp"
 #include "blactl/fleet/files/fleet_recording.hpp"
 #include "blactl/state/state_folder.hpp"

@@ -146,7 +146,7 @@ def make_newer(disk):
 BROKEN = {
     "a full disk": (Disk.fill, 1, "io", "full|No space left"),
     "a read-only disk": (Disk.make_read_only, 3, "permission", "Read-only file system"),
-    "a damaged table": (damage, 2, "bad_file", "no allocation table"),
+    "a damaged table": (damage, 2, "bad_file", "is not a blactl allocation table"),
     "a newer table": (make_newer, 2, "bad_file", "version 2"),
 }
 

@@ -1,8 +1,8 @@
 // The built binary on an slcan adapter: a pseudo terminal with simulated servos behind it.
 
 #include "blactl/bla/profile.hpp"
-#include "blactl/sim/private_bus.hpp"
-#include "blactl/sim/scenario.hpp"
+#include "blactl/sim/bus/private_bus.hpp"
+#include "blactl/sim/scenario/scenario.hpp"
 
 #include "catch.hpp"
 #include "run.hpp"

@@ -1,7 +1,7 @@
 #include "tap.hpp"
 
 #include "blactl/dronecan/types.hpp"
-#include "blactl/sim/foreign_node.hpp"
+#include "blactl/sim/scenario/foreign_node.hpp"
 
 #include <poll.h>
 

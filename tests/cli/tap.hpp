@@ -5,7 +5,7 @@
 #include "blactl/can/simbus.hpp"
 #include "blactl/dronecan/payload.hpp"
 #include "blactl/dronecan/transfer.hpp"
-#include "blactl/sim/scenario.hpp"
+#include "blactl/sim/scenario/scenario.hpp"
 
 #include "run.hpp"
 

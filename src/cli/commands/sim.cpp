@@ -1,9 +1,9 @@
 // blactl sim: simulated servos, as a bus of their own or on a real interface.
 
 #include "blactl/can/simbus.hpp"
-#include "blactl/sim/facts.hpp"
-#include "blactl/sim/interface.hpp"
-#include "blactl/sim/server.hpp"
+#include "blactl/sim/bus/interface.hpp"
+#include "blactl/sim/bus/server.hpp"
+#include "blactl/sim/scenario/facts.hpp"
 
 #include "cli/commands.hpp"
 #include "cli/interface/bus_factory.hpp"

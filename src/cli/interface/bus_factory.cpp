@@ -9,8 +9,8 @@
 #include "blactl/can/simbus.hpp"
 #include "blactl/can/slcan.hpp"
 #include "blactl/can/socketcan.hpp"
-#include "blactl/sim/private_bus.hpp"
-#include "blactl/sim/scenario.hpp"
+#include "blactl/sim/bus/private_bus.hpp"
+#include "blactl/sim/scenario/scenario.hpp"
 
 #include "cli/interface/slcan_name.hpp"
 #include "cli/texts.hpp"

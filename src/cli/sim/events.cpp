@@ -2,7 +2,7 @@
 
 #include "blactl/base/hex.hpp"
 #include "blactl/base/json_writer.hpp"
-#include "blactl/sim/simulator.hpp"
+#include "blactl/sim/bus/simulator.hpp"
 
 #include "cli/sim/texts.hpp"
 

@@ -2,10 +2,10 @@
 // What happens to simulated servos, on stdout a line at a time.
 
 #include "blactl/can/loop.hpp"
-#include "blactl/sim/event.hpp"
-#include "blactl/sim/medium.hpp"
-#include "blactl/sim/scenario.hpp"
-#include "blactl/sim/servo.hpp"
+#include "blactl/sim/bus/medium.hpp"
+#include "blactl/sim/scenario/scenario.hpp"
+#include "blactl/sim/servo/event.hpp"
+#include "blactl/sim/servo/servo.hpp"
 
 #include "cli/output/report.hpp"
 #include "cli/output/reporter.hpp"

@@ -2,8 +2,8 @@
 // What a person or a script tells running simulated servos, a line at a time.
 
 #include "blactl/base/error.hpp"
-#include "blactl/sim/timeline.hpp"
-#include "blactl/sim/world_change.hpp"
+#include "blactl/sim/scenario/timeline.hpp"
+#include "blactl/sim/scenario/world_change.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -16,6 +16,6 @@ inline constexpr Text will_make_way{
     "ノード {} は ID 入替えのため一時的にノード ID {} を使用します (保存は 2 回)"};
 inline constexpr Text id_taken_over{
     "node ID {} was given to uid:{}, which is not on this bus: it is node {}'s from now on",
-    "ノード ID {} の割当て先 uid:{} はこのバスにないため、ノード {} に割り当て直します"};
+    "ノード ID {} の割当て先 uid:{} はこのバスにないため、ノード {} に割り当てます"};
 
 } // namespace blactl::texts

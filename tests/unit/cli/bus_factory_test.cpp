@@ -1,5 +1,5 @@
-#include "blactl/sim/scenario.hpp"
-#include "blactl/sim/server.hpp"
+#include "blactl/sim/bus/server.hpp"
+#include "blactl/sim/scenario/scenario.hpp"
 
 #include "catch.hpp"
 #include "cli/interface/bus_factory.hpp"

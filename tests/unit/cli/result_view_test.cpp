@@ -1,8 +1,8 @@
 #include "blactl/base/json_writer.hpp"
 
 #include "catch.hpp"
-#include "cli/output/page.hpp"
 #include "cli/change/result_view.hpp"
+#include "cli/output/page.hpp"
 #include "unit/bla/built_in.hpp"
 
 #include <span>

@@ -1,5 +1,5 @@
 #include "blactl/dronecan/allocator.hpp"
-#include "blactl/sim/allocatee.hpp"
+#include "blactl/sim/servo/allocatee.hpp"
 
 #include "catch.hpp"
 #include "support.hpp"

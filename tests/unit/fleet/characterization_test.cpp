@@ -6,7 +6,7 @@
 #include "blactl/fleet/bus/snapshots.hpp"
 #include "blactl/fleet/change/carry_out.hpp"
 #include "blactl/fleet/characterize/characterization.hpp"
-#include "blactl/sim/facts.hpp"
+#include "blactl/sim/scenario/facts.hpp"
 
 #include "support.hpp"
 

@@ -1,5 +1,5 @@
 #include "blactl/fleet/bus/roster.hpp"
-#include "blactl/sim/random.hpp"
+#include "blactl/sim/node/random.hpp"
 
 #include "support.hpp"
 

@@ -11,8 +11,8 @@
 #include "blactl/fleet/bus/roster.hpp"
 #include "blactl/fleet/bus/session.hpp"
 #include "blactl/fleet/change/plan.hpp"
-#include "blactl/sim/private_bus.hpp"
-#include "blactl/sim/scenario.hpp"
+#include "blactl/sim/bus/private_bus.hpp"
+#include "blactl/sim/scenario/scenario.hpp"
 #include "blactl/state/local_node_id.hpp"
 
 #include "catch.hpp"

@@ -1,4 +1,4 @@
-#include "blactl/sim/allocatee.hpp"
+#include "blactl/sim/servo/allocatee.hpp"
 
 #include "catch.hpp"
 

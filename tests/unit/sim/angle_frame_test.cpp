@@ -1,4 +1,4 @@
-#include "blactl/sim/angle_frame.hpp"
+#include "blactl/sim/servo/angle_frame.hpp"
 
 #include "unit/sim/support.hpp"
 

@@ -1,4 +1,4 @@
-#include "blactl/sim/command.hpp"
+#include "blactl/sim/servo/command.hpp"
 
 #include "unit/sim/support.hpp"
 

@@ -1,4 +1,4 @@
-#include "blactl/sim/command_timer.hpp"
+#include "blactl/sim/servo/command_timer.hpp"
 
 #include "unit/sim/support.hpp"
 

@@ -1,4 +1,4 @@
-#include "blactl/sim/controller.hpp"
+#include "blactl/sim/servo/controller.hpp"
 
 #include "unit/sim/support.hpp"
 

@@ -1,4 +1,4 @@
-#include "blactl/sim/delayed_device.hpp"
+#include "blactl/sim/node/delayed_device.hpp"
 
 #include "unit/sim/support.hpp"
 

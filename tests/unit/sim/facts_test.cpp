@@ -1,4 +1,4 @@
-#include "blactl/sim/facts.hpp"
+#include "blactl/sim/scenario/facts.hpp"
 
 #include "unit/sim/support.hpp"
 

@@ -1,4 +1,4 @@
-#include "sim/firmware_history.hpp"
+#include "sim/scenario/firmware_history.hpp"
 #include "unit/sim/support.hpp"
 
 using namespace blactl;

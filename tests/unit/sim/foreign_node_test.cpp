@@ -1,8 +1,8 @@
 #include "blactl/can/frame_bits.hpp"
 #include "blactl/dronecan/standard_types.hpp"
-#include "blactl/sim/foreign_node.hpp"
-#include "blactl/sim/servo.hpp"
-#include "blactl/sim/simulator.hpp"
+#include "blactl/sim/bus/simulator.hpp"
+#include "blactl/sim/scenario/foreign_node.hpp"
+#include "blactl/sim/servo/servo.hpp"
 
 #include "unit/sim/support.hpp"
 

@@ -1,4 +1,4 @@
-#include "blactl/sim/interface.hpp"
+#include "blactl/sim/bus/interface.hpp"
 
 #include "unit/sim/support.hpp"
 

@@ -1,7 +1,7 @@
 // A servo as a node: what it sends, hears and answers; its IDs; how it comes back.
 
-#include "blactl/sim/simulator.hpp"
-#include "blactl/sim/world.hpp"
+#include "blactl/sim/bus/simulator.hpp"
+#include "blactl/sim/servo/world.hpp"
 
 #include "unit/sim/servo_rig.hpp"
 

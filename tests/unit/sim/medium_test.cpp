@@ -1,5 +1,5 @@
 #include "blactl/can/frame_bits.hpp"
-#include "blactl/sim/medium.hpp"
+#include "blactl/sim/bus/medium.hpp"
 
 #include "unit/sim/support.hpp"
 

@@ -1,8 +1,8 @@
 // What a scenario lets happen to a servo at set times: power that goes, a CPU that restarts.
 
-#include "blactl/sim/simulator.hpp"
+#include "blactl/sim/bus/simulator.hpp"
 
-#include "sim/names.hpp"
+#include "sim/servo/names.hpp"
 #include "unit/sim/servo_rig.hpp"
 
 using namespace blactl;

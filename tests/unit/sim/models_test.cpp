@@ -1,6 +1,6 @@
 // All variants of table 3-12 and all firmware versions of chapter 5, as servos on the bench.
 
-#include "blactl/sim/world.hpp"
+#include "blactl/sim/servo/world.hpp"
 
 #include "unit/sim/servo_rig.hpp"
 

@@ -1,9 +1,9 @@
 #pragma once
 // The shaft of one servo without a bus, and a hand on everything around it.
 
-#include "blactl/sim/motion.hpp"
+#include "blactl/sim/servo/motion.hpp"
 
-#include "sim/names.hpp"
+#include "sim/servo/names.hpp"
 #include "unit/sim/support.hpp"
 
 #include <cstdlib>

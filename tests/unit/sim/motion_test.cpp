@@ -1,9 +1,9 @@
 // Commands and what the shaft makes of them (4.1-4.6, 4.16-4.24, 4.31-4.33, 4.36).
 
-#include "blactl/sim/motion.hpp"
-#include "blactl/sim/random.hpp"
+#include "blactl/sim/node/random.hpp"
+#include "blactl/sim/servo/motion.hpp"
 
-#include "sim/names.hpp"
+#include "sim/servo/names.hpp"
 #include "unit/sim/motion_rig.hpp"
 
 using namespace blactl;

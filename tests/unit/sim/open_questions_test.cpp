@@ -1,6 +1,6 @@
 // What the specification leaves open about the shaft: a setting each, and what is likelier.
 
-#include "sim/names.hpp"
+#include "sim/servo/names.hpp"
 #include "unit/sim/motion_rig.hpp"
 
 using namespace blactl;

@@ -1,5 +1,5 @@
 #include "blactl/can/loop.hpp"
-#include "blactl/sim/private_bus.hpp"
+#include "blactl/sim/bus/private_bus.hpp"
 
 #include "unit/sim/support.hpp"
 

@@ -1,7 +1,7 @@
 // What goes wrong, how it shows and what it stops (4.7, 4.8, 4.12).
 
-#include "sim/names.hpp"
-#include "sim/protection.hpp"
+#include "sim/servo/names.hpp"
+#include "sim/servo/protection.hpp"
 #include "unit/sim/motion_rig.hpp"
 
 using namespace blactl;

@@ -1,7 +1,7 @@
 #include "blactl/bla/pwm_mapping.hpp"
-#include "blactl/sim/pwm_input.hpp"
+#include "blactl/sim/servo/pwm_input.hpp"
 
-#include "sim/names.hpp"
+#include "sim/servo/names.hpp"
 #include "unit/sim/motion_rig.hpp"
 
 #include <vector>

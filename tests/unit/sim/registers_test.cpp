@@ -1,4 +1,4 @@
-#include "blactl/sim/registers.hpp"
+#include "blactl/sim/servo/registers.hpp"
 
 #include "unit/sim/support.hpp"
 

@@ -1,9 +1,9 @@
 // The published schemas know the same keys as the reader: what each object takes is what the reader
 // names beside an unknown key.
 
-#include "blactl/sim/facts.hpp"
-#include "blactl/sim/scenario.hpp"
-#include "blactl/sim/world_change.hpp"
+#include "blactl/sim/scenario/facts.hpp"
+#include "blactl/sim/scenario/scenario.hpp"
+#include "blactl/sim/scenario/world_change.hpp"
 
 #include "unit/sim/support.hpp"
 

@@ -1,4 +1,4 @@
-#include "blactl/sim/scenario.hpp"
+#include "blactl/sim/scenario/scenario.hpp"
 
 #include "unit/sim/support.hpp"
 

@@ -1,5 +1,5 @@
-#include "sim/backlog.hpp"
-#include "sim/server_client.hpp"
+#include "sim/bus/backlog.hpp"
+#include "sim/bus/server_client.hpp"
 #include "unit/sim/support.hpp"
 
 #include <sys/socket.h>

@@ -1,7 +1,7 @@
 #include "blactl/can/loop.hpp"
 #include "blactl/can/simbus.hpp"
-#include "blactl/sim/private_bus.hpp"
-#include "blactl/sim/server.hpp"
+#include "blactl/sim/bus/private_bus.hpp"
+#include "blactl/sim/bus/server.hpp"
 
 #include "unit/sim/support.hpp"
 

@@ -1,8 +1,8 @@
 // Motion as the bus sees it: ArrayCommand, actuator.Status, health, loss of power.
 
-#include "blactl/sim/servo.hpp"
+#include "blactl/sim/servo/servo.hpp"
 
-#include "sim/names.hpp"
+#include "sim/servo/names.hpp"
 #include "unit/sim/servo_rig.hpp"
 
 #include <limits>

@@ -1,7 +1,7 @@
 #pragma once
 // One servo on the bench, running, and what is asked of it.
 
-#include "blactl/sim/servo.hpp"
+#include "blactl/sim/servo/servo.hpp"
 
 #include "unit/sim/support.hpp"
 

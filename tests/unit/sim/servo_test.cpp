@@ -1,4 +1,4 @@
-#include "blactl/sim/servo.hpp"
+#include "blactl/sim/servo/servo.hpp"
 
 #include "unit/sim/servo_rig.hpp"
 

@@ -1,4 +1,4 @@
-#include "blactl/sim/shaft.hpp"
+#include "blactl/sim/servo/shaft.hpp"
 
 #include "unit/sim/support.hpp"
 

@@ -1,4 +1,4 @@
-#include "blactl/sim/simulator.hpp"
+#include "blactl/sim/bus/simulator.hpp"
 
 #include "unit/sim/support.hpp"
 

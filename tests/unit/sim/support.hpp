@@ -4,9 +4,9 @@
 #include "blactl/bla/profile.hpp"
 #include "blactl/dronecan/transfer.hpp"
 #include "blactl/dronecan/types.hpp"
-#include "blactl/sim/device.hpp"
-#include "blactl/sim/medium.hpp"
-#include "blactl/sim/scenario.hpp"
+#include "blactl/sim/bus/medium.hpp"
+#include "blactl/sim/node/device.hpp"
+#include "blactl/sim/scenario/scenario.hpp"
 
 #include "catch.hpp"
 

@@ -1,8 +1,8 @@
 // 0x20, soft start and communication timeout (4.13, 4.14, 4.19, 4.31).
 
-#include "blactl/sim/motion.hpp"
+#include "blactl/sim/servo/motion.hpp"
 
-#include "sim/names.hpp"
+#include "sim/servo/names.hpp"
 #include "unit/sim/motion_rig.hpp"
 
 using namespace blactl;

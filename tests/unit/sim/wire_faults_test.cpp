@@ -1,4 +1,4 @@
-#include "blactl/sim/wire_faults.hpp"
+#include "blactl/sim/scenario/wire_faults.hpp"
 
 #include "unit/sim/support.hpp"
 

@@ -1,0 +1,54 @@
+#pragma once
+// A simulated bus of this process alone: `sim:SCENARIO.json`, or `sim:` while no simulator runs.
+
+#include "blactl/can/bus.hpp"
+#include "blactl/sim/bus/simulator.hpp"
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace blactl::sim {
+
+/// The servos power on when it is made, and are gone with it. On the scenario's virtual clock time
+/// passes only in idle_until(), and then at once.
+class PrivateBus final : public can::Bus {
+ public:
+  /// `name`: as the user gave it. The scenario's profiles must outlive this.
+  PrivateBus(std::string name, const Scenario& scenario);
+  ~PrivateBus() override;
+
+  [[nodiscard]] std::string_view name() const override { return name_; }
+
+  /// False while ten frames wait, as many as a CAN interface queues by default.
+  [[nodiscard]] Result<bool> send(const can::Frame& frame) override;
+  [[nodiscard]] std::optional<can::BusEvent> receive() override;
+  [[nodiscard]] Result<void> filter(std::span<const can::Filter> filters) override;
+
+  [[nodiscard]] bool echoes() const override { return true; }
+
+  [[nodiscard]] std::string bus_off_hint() const override;
+
+  [[nodiscard]] int descriptor() const override { return -1; }
+
+  [[nodiscard]] Time now() const override;
+  [[nodiscard]] WallTime wall() const override;
+  [[nodiscard]] Time idle_until(Time deadline) override;
+
+  /// For tests: what the servos hold.
+  [[nodiscard]] const Simulator& simulator() const { return simulator_; }
+
+ private:
+  class Inbox;
+
+  std::string name_;
+  Clock clock_;
+  Simulator simulator_;
+  std::unique_ptr<Inbox> inbox_;
+  Medium::PortId port_;
+};
+
+} // namespace blactl::sim

@@ -1,0 +1,45 @@
+#pragma once
+// A node on the simulated bus that is no BLA servo: an autopilot, a satellite receiver.
+
+#include "blactl/dronecan/types.hpp"
+#include "blactl/sim/node/device.hpp"
+#include "blactl/sim/node/endpoint.hpp"
+#include "blactl/sim/scenario/foreign_setup.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace blactl::sim {
+
+class ForeignRole;
+
+/// Sends NodeStatus and answers GetNodeInfo; if the setup says so it answers GetSet, streams
+/// ArrayCommand, and sends ArmingStatus. Besides it does what its kind does.
+class ForeignNode final : public Device {
+ public:
+  ForeignNode(const ForeignSetup& setup, Time power_on);
+  ~ForeignNode() override;
+
+  void receive(const can::Frame& frame, Time at) override;
+  [[nodiscard]] Time next_deadline() const override;
+  void advance(Time now) override;
+
+ private:
+  [[nodiscard]] std::unique_ptr<ForeignRole> make_role(Time power_on);
+  void handle(const dronecan::Transfer& transfer);
+  void answer(const dronecan::Transfer& request, const dronecan::DataType& type,
+              const dronecan::Payload& payload);
+  std::vector<can::Frame> send_message(const dronecan::DataType& type, dronecan::Priority priority,
+                                       dronecan::Bytes payload);
+  [[nodiscard]] dronecan::NodeStatus node_status() const;
+
+  ForeignSetup setup_;
+  std::unique_ptr<ForeignRole> role_; ///< there always is one
+  Endpoint endpoint_;
+  Time power_on_;
+  Time now_;
+  Time next_status_;
+  Time next_command_ = never;
+};
+
+} // namespace blactl::sim

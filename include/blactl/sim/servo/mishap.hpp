@@ -1,0 +1,28 @@
+#pragma once
+// Faults that befall a simulated servo at once, beside what the world around it does.
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <utility>
+
+namespace blactl::sim {
+
+enum class Mishap : std::uint8_t {
+  power_off,      ///< it is dead, RAM is lost; the same as plugged=off
+  power_on,       ///< it starts from ROM
+  clock_error,    ///< it restarts by itself and says why (4.12, note 2): 0x1B.8
+  watchdog_error, ///< the same: 0x1B.9
+  ram_error,      ///< the same: 0x1B.11
+};
+
+/// Each with its word: "power_off", "power_on", "clock_error", "watchdog_error", "ram_error".
+inline constexpr std::array mishaps{
+    std::pair{std::string_view("power_off"), Mishap::power_off},
+    std::pair{std::string_view("power_on"), Mishap::power_on},
+    std::pair{std::string_view("clock_error"), Mishap::clock_error},
+    std::pair{std::string_view("watchdog_error"), Mishap::watchdog_error},
+    std::pair{std::string_view("ram_error"), Mishap::ram_error},
+};
+
+} // namespace blactl::sim

@@ -1,0 +1,114 @@
+#pragma once
+// What a simulated servo does with its shaft: commands, readings, protection, soft start, timeouts
+// (chapter 4). Without CAN: it knows registers and the world.
+
+#include "blactl/base/time.hpp"
+#include "blactl/sim/servo/angle_frame.hpp"
+#include "blactl/sim/servo/command.hpp"
+#include "blactl/sim/servo/command_timer.hpp"
+#include "blactl/sim/servo/controller.hpp"
+#include "blactl/sim/servo/motor.hpp"
+#include "blactl/sim/servo/pwm_input.hpp"
+#include "blactl/sim/servo/registers.hpp"
+#include "blactl/sim/servo/servo_setup.hpp"
+#include "blactl/sim/servo/shaft.hpp"
+#include "blactl/sim/servo/world.hpp"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+namespace blactl::sim {
+
+/// Computed in steps of 1 ms from power-on, and only when somebody looks: that one looks more often
+/// or less changes nothing. While nothing moves, time costs nothing.
+class Motion {
+ public:
+  /// `registers` must outlive this. The motor is off until start().
+  Motion(const ServoSetup& setup, Registers& registers, Time power_on);
+
+  /// The servo begins to run: the angle comes back within one turn (requirement 46), soft start.
+  void start(Time now);
+
+  /// The servo goes down: motor off. What told why it last restarted by itself is forgotten.
+  void stop(Time now);
+
+  /// Brings the readings 0x08-0x0C and 0x18-0x1B up to `now`.
+  void look(Time now);
+
+  /// GetSet, as Registers has it.
+  [[nodiscard]] std::optional<std::int64_t> read(bla::Address address, Time now);
+  std::optional<std::int64_t> write(bla::Address address, std::int64_t value, Time now);
+
+  /// ArrayCommand.
+  void command(const MotionCommand& command, Time now);
+
+  /// ERASE and 0x10 (4.9).
+  void initialize(Time now);
+
+  [[nodiscard]] const World& world() const { return world_; }
+
+  /// From now on this is around the servo.
+  void surround(const World& world, Time now);
+
+  [[nodiscard]] const Shaft& shaft() const { return shaft_; }
+
+ private:
+  // What is asked of it (motion.cpp).
+  void advance_to(Time now);
+  void heed_registers();
+  void forget_turns();
+  void measure();
+  bool protect();
+
+  // What a command does (motion_command.cpp).
+  void obey(bla::Address address, std::int64_t before);
+  void give_up_command();
+  void start_in_place();
+  void limit_command();
+  void drop_disabled_command();
+  [[nodiscard]] bool silences_pwm(bla::Address address) const;
+  void end_soft_start();
+  [[nodiscard]] std::optional<std::int64_t> told_instead(bla::Address address) const;
+
+  // One millisecond (motion_step.cpp).
+  bool step();
+  bool obey_pulse();
+  [[nodiscard]] Drive drive();
+  [[nodiscard]] Drive::Kind output() const;
+  [[nodiscard]] Mode mode() const;
+  [[nodiscard]] Aim aim() const;
+  [[nodiscard]] std::int64_t inside_limits(std::int64_t decideg) const;
+  void heed_soft_start(Drive::Kind kind);
+  [[nodiscard]] Duration timeout() const;
+
+  [[nodiscard]] Position position() const { return frame_.position(shaft_); }
+
+  [[nodiscard]] std::int64_t angle_decideg() const { return frame_.decideg(shaft_); }
+
+  Registers& registers_;
+  Behaviour behaviour_;
+  bool has_pwm_input_;
+  Motor motor_;
+
+  // Of registers and world, since they last changed.
+  PulseReading pulse_{};
+  Tuning tuning_;
+  AngleFrame frame_;
+
+  World world_;
+  Shaft shaft_;
+  Controller controller_;
+  Drive drive_;
+  CommandTimer timer_;
+  std::optional<std::array<std::int64_t, 3>> told_commands_; ///< for 0x00-0x02, if it hides them
+  Time grid_;                                                ///< of the last step
+  std::int64_t kept_failures_ = 0; ///< those that stay until the next start
+  bool runs_ = false;
+  bool stopped_ = false; ///< by its protection
+  bool holds_ = false;   ///< 0x00, inside its angle limits or not, until the next command
+  bool soft_start_ = false;
+  bool soft_start_cut_ = false; ///< by a timeout; it goes on with the next command
+};
+
+} // namespace blactl::sim

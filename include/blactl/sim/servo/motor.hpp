@@ -1,0 +1,27 @@
+#pragma once
+// The motor of a model, and how the registers tune it.
+
+#include "blactl/sim/servo/controller.hpp"
+#include "blactl/sim/servo/registers.hpp"
+#include "blactl/sim/servo/servo_setup.hpp"
+
+#include <cstdint>
+
+namespace blactl::sim {
+
+/// What a model and its firmware have.
+struct Motor {
+  std::int64_t nominal_decivolt = 0;
+  std::int64_t full_speed = 0;   ///< requirement 123
+  std::int64_t full_current = 0; ///< the default of 0x2A, which is 100 %; 0: there is no 0x2A
+  bool has_boost = false;        ///< 0x2F
+  // The defaults of 0x30, 0x31 and 0x33: what speed control is made for.
+  std::int64_t usual_speed_p = 1, usual_speed_i = 1, usual_integral_limit = 1;
+};
+
+[[nodiscard]] Motor motor_of(const ServoSetup& setup);
+
+/// The present tuning. A soft start has limits of its own and 0x25 on (requirement 140).
+[[nodiscard]] Tuning tuning_of(const Motor& motor, const Registers& registers, bool soft_start);
+
+} // namespace blactl::sim

@@ -1,0 +1,69 @@
+#pragma once
+// One client of the simulator's socket, seen from the simulator.
+
+#include "blactl/can/bus.hpp"
+#include "blactl/can/sim_wire.hpp"
+#include "blactl/sim/bus/simulator.hpp"
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <vector>
+
+namespace blactl::sim {
+
+class ServerClient final : public Medium::Listener {
+ public:
+  /// Takes over the socket. Both references must outlive the client.
+  ServerClient(int socket, Simulator& simulator, Clock clock);
+  ServerClient(const ServerClient&) = delete;
+  ServerClient& operator=(const ServerClient&) = delete;
+  ~ServerClient() override;
+
+  [[nodiscard]] int descriptor() const { return socket_; }
+
+  /// Reads what the client has sent, a bounded part of it at a time.
+  void serve();
+
+  /// Something waits because the socket is full: flush() when there is room again.
+  [[nodiscard]] bool has_backlog() const { return !backlog_.empty(); }
+
+  /// Hands over what waits, as far as the socket takes it.
+  void flush();
+
+  /// The connection has ended, or must end.
+  [[nodiscard]] bool gone() const { return gone_; }
+
+  /// Has a place on the bus.
+  [[nodiscard]] bool attached() const { return port_.has_value(); }
+
+  /// Virtual clock: until when the client lets time pass; empty: it works, time must stand still.
+  [[nodiscard]] std::optional<Time> waits_until() const;
+  /// Its deadline has come.
+  void tick(Time now);
+
+  void heard(const can::Frame& frame, Time at) override;
+  void sent(const can::Frame& frame, Time at) override;
+  void bus_off(Time at) override;
+
+ private:
+  void handle(const can::sim_wire::Message& message);
+  void greet(const can::sim_wire::Message& hello);
+  void post(const can::sim_wire::Message& message);
+  [[nodiscard]] bool keep(const can::sim_wire::Message& message);
+  [[nodiscard]] bool deliver(const can::sim_wire::Message& message);
+
+  int socket_;
+  Simulator& simulator_;
+  Clock clock_;
+  std::optional<Medium::PortId> port_; ///< from the greeting on
+  std::vector<can::Filter> filters_;
+  std::deque<can::sim_wire::Message> backlog_; ///< what its socket did not take yet
+  std::uint64_t posted_ = 0;                   ///< messages that are in its socket or wait for it
+  std::uint64_t lost_ = 0, reported_lost_ = 0;
+  std::uint64_t waits_after_ = 0; ///< messages it had read when it said `wait`; 0: it has not
+  Time deadline_ = never;
+  bool gone_ = false;
+};
+
+} // namespace blactl::sim

@@ -1,0 +1,28 @@
+#pragma once
+// A node that talks without end, as a faulty one does.
+
+#include "blactl/sim/scenario/foreign_setup.hpp"
+
+#include "sim/scenario/foreign_role.hpp"
+
+namespace blactl::sim {
+
+/// Fills a part of the bus with single frames of KeyValue.
+class Babbler final : public ForeignRole {
+ public:
+  Babbler(const BabblerSetup& setup, Broadcast broadcast, Time power_on);
+
+  /// Else its own NodeStatus would hold up what waits behind it, and let others in.
+  [[nodiscard]] dronecan::Priority status_priority() const override { return setup_.priority; }
+
+  [[nodiscard]] Time next_deadline() const override;
+  void advance(Time now) override;
+
+ private:
+  BabblerSetup setup_;
+  Time power_on_;
+  double bits_ = 0; ///< that it has sent, with the pauses between frames
+  std::uint8_t counter_ = 0;
+};
+
+} // namespace blactl::sim

@@ -1,0 +1,33 @@
+#pragma once
+// An electronic speed controller: a node with parameters that are not those of a servo.
+
+#include "blactl/sim/scenario/foreign_setup.hpp"
+
+#include "sim/scenario/foreign_role.hpp"
+
+#include <string>
+#include <vector>
+
+namespace blactl::sim {
+
+/// Sends esc.Status, and has parameters of every kind that GetSet knows, by name and by index from
+/// 0 on. A value of another kind or out of range leaves the parameter as it is; nothing is kept in
+/// a ROM.
+class Esc final : public ForeignRole {
+ public:
+  Esc(const EscSetup& setup, Broadcast broadcast, Time power_on);
+
+  [[nodiscard]] dronecan::GetSet::Response
+  get_set(const dronecan::GetSet::Request& request) override;
+
+  [[nodiscard]] Time next_deadline() const override { return next_status_; }
+
+  void advance(Time now) override;
+
+ private:
+  EscSetup setup_;
+  std::vector<dronecan::GetSet::Response> parameters_; ///< each as a read is answered
+  Time next_status_;
+};
+
+} // namespace blactl::sim

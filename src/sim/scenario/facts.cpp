@@ -1,0 +1,56 @@
+#include "blactl/sim/scenario/facts.hpp"
+
+#include "blactl/base/json_reader.hpp"
+
+#include "sim/scenario/behaviour_reader.hpp"
+
+#include <utility>
+
+namespace blactl::sim {
+namespace {
+
+constexpr std::string_view facts_schema = "blactl-facts/1";
+
+/// Which servo it was: for people, but no mistyped key passes.
+void read_about(json::Object object) {
+  if (!object.exists()) {
+    return;
+  }
+  for (const auto* key : {"model", "name", "software", "hardware", "time", "tool_version"}) {
+    (void)object.optional_string(key);
+  }
+  for (const auto* key : {"serial_number", "firmware_version", "hardware_version"}) {
+    (void)object.optional_integer(key);
+  }
+  object.finish();
+}
+
+Result<Behaviour> from_document(Result<json::Document> document) {
+  if (!document) {
+    return std::unexpected(document.error());
+  }
+  json::Faults& faults = document->faults();
+  json::Object root(document->root(), faults);
+  (void)root.optional_string("$schema"); // what editors look at
+  (void)root.word("schema", {facts_schema});
+  Behaviour behaviour;
+  read_behaviour(root.object("behaviour"), behaviour, faults);
+  read_about(root.optional_object("about"));
+  root.finish();
+  if (const auto fine = faults.result(); !fine) {
+    return std::unexpected(fine.error());
+  }
+  return behaviour;
+}
+
+} // namespace
+
+Result<Behaviour> read_facts(const std::filesystem::path& file) {
+  return from_document(json::parse_file(file));
+}
+
+Result<Behaviour> parse_facts(std::string_view text, std::string file) {
+  return from_document(json::parse(text, std::move(file)));
+}
+
+} // namespace blactl::sim

@@ -1,0 +1,133 @@
+#include "blactl/sim/scenario/foreign_node.hpp"
+
+#include "sim/scenario/allocation_server.hpp"
+#include "sim/scenario/babbler.hpp"
+#include "sim/scenario/esc.hpp"
+#include "sim/scenario/gnss_receiver.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+namespace blactl::sim {
+
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr Duration status_period = 1s; ///< of NodeStatus and ArmingStatus
+constexpr dronecan::Priority command_priority = dronecan::priority_medium;
+
+} // namespace
+
+ForeignNode::ForeignNode(const ForeignSetup& setup, Time power_on)
+    : setup_(setup), role_(make_role(power_on)),
+      endpoint_(role_->subscriptions(),
+                [this](const dronecan::Transfer& transfer) { handle(transfer); }),
+      power_on_(power_on), now_(power_on), next_status_(power_on) {
+  endpoint_.set_node_id(dronecan::NodeId(setup.node_id));
+  if (setup.commands) {
+    next_command_ = power_on;
+  }
+}
+
+ForeignNode::~ForeignNode() = default;
+
+std::unique_ptr<ForeignRole> ForeignNode::make_role(Time power_on) {
+  ForeignRole::Broadcast broadcast = [this](const dronecan::DataType& type,
+                                            dronecan::Priority priority, dronecan::Bytes payload) {
+    return send_message(type, priority, payload);
+  };
+  if (const auto* gnss = std::get_if<GnssSetup>(&setup_.kind)) {
+    return std::make_unique<GnssReceiver>(*gnss, setup_.node_id, std::move(broadcast), power_on);
+  }
+  if (const auto* esc = std::get_if<EscSetup>(&setup_.kind)) {
+    return std::make_unique<Esc>(*esc, std::move(broadcast), power_on);
+  }
+  if (const auto* babbler = std::get_if<BabblerSetup>(&setup_.kind)) {
+    return std::make_unique<Babbler>(*babbler, std::move(broadcast), power_on);
+  }
+  if (const auto* pilot = std::get_if<AutopilotSetup>(&setup_.kind); pilot && pilot->allocates) {
+    return std::make_unique<AllocationServer>(dronecan::NodeId(setup_.node_id),
+                                              std::move(broadcast));
+  }
+  return std::make_unique<ForeignRole>(std::move(broadcast));
+}
+
+void ForeignNode::receive(const can::Frame& frame, Time at) {
+  now_ = at;
+  role_->hear(frame);
+  endpoint_.receive(frame, at);
+}
+
+Time ForeignNode::next_deadline() const {
+  return std::min({next_status_, next_command_, role_->next_deadline()});
+}
+
+void ForeignNode::advance(Time now) {
+  now_ = now;
+  if (next_status_ <= now) {
+    next_status_ += status_period;
+    const dronecan::Priority priority = role_->status_priority();
+    send_message(dronecan::NodeStatus::type, priority, node_status().encode().bytes());
+    if (setup_.armed) {
+      dronecan::ArmingStatus arming;
+      arming.status =
+          *setup_.armed ? dronecan::ArmingStatus::fully_armed : dronecan::ArmingStatus::disarmed;
+      send_message(dronecan::ArmingStatus::type, priority, arming.encode().bytes());
+    }
+  }
+  if (next_command_ <= now) {
+    next_command_ += setup_.commands->period;
+    dronecan::ArrayCommand array;
+    for (const std::uint8_t id : setup_.commands->servo_ids) {
+      array.commands.push_back({id, setup_.commands->type, setup_.commands->value});
+    }
+    send_message(dronecan::ArrayCommand::type, command_priority, array.encode().bytes());
+  }
+  role_->advance(now);
+}
+
+void ForeignNode::handle(const dronecan::Transfer& transfer) {
+  if (transfer.header.kind == dronecan::Kind::message) {
+    role_->receive(transfer);
+  } else if (transfer.header.data_type_id == dronecan::GetNodeInfo::type.id) {
+    dronecan::GetNodeInfo::Response info;
+    info.status = node_status();
+    info.software_major = 1;
+    info.hardware_major = 1;
+    info.unique_id = setup_.unique_id;
+    info.name = setup_.name;
+    answer(transfer, dronecan::GetNodeInfo::type, info.encode());
+  } else if (transfer.header.data_type_id == dronecan::GetSet::type.id && setup_.serves_get_set) {
+    if (const auto request = dronecan::GetSet::Request::decode(transfer.payload)) {
+      answer(transfer, dronecan::GetSet::type, role_->get_set(*request).encode());
+    }
+  }
+}
+
+void ForeignNode::answer(const dronecan::Transfer& request, const dronecan::DataType& type,
+                         const dronecan::Payload& payload) {
+  for (const can::Frame& frame : endpoint_.response(request, type, payload.bytes())) {
+    send(frame);
+  }
+}
+
+std::vector<can::Frame> ForeignNode::send_message(const dronecan::DataType& type,
+                                                  dronecan::Priority priority,
+                                                  dronecan::Bytes payload) {
+  std::vector<can::Frame> frames = endpoint_.message(type, priority, payload);
+  for (const can::Frame& frame : frames) {
+    send(frame);
+  }
+  return frames;
+}
+
+dronecan::NodeStatus ForeignNode::node_status() const {
+  dronecan::NodeStatus status;
+  status.uptime_s = static_cast<std::uint32_t>(
+      std::chrono::duration_cast<std::chrono::seconds>(now_ - power_on_).count());
+  return status;
+}
+
+} // namespace blactl::sim
