@@ -190,6 +190,7 @@ void Node::tell(Active& active, const Outcome& outcome) {
   active.asked = false;
   active.deadline = never;
   active.tries = 0;
+  active.may_have_left = false;
   const bool nested = std::exchange(in_callback_, true);
   // The old step lives on during the call: the outcome may point into what it holds.
   Step step = active.job->next(outcome);
@@ -225,7 +226,7 @@ void Node::ask(Active& active, Time now) {
   active.transfer_id = transfer_ids_->next(Kind::request, request.type->id, request.server);
   active.frames =
       segment(header, active.transfer_id, request.type->signature, request.payload.bytes());
-  active.asked = true;
+  active.asked = active.may_have_left = true;
   active.left = false;
   active.asked_at = now;
   active.deadline = now + transmit_timeout;
@@ -238,18 +239,34 @@ void Node::ask(Active& active, Time now) {
   }
 }
 
+bool Node::is_waiting(const Active& active) const {
+  const Request* request = active.step.request();
+  return request != nullptr && !active.asked && !is_busy(request->server);
+}
+
+void Node::ask_if_allowed(Active& active, Time now) {
+  const Request& request = *active.step.request();
+  if (!request.may_leave || request.may_leave(now)) {
+    ask(active, now);
+  } else {
+    finish(active,
+           {active.may_have_left ? Outcome::Kind::timed_out : Outcome::Kind::withheld, {}, now});
+  }
+}
+
 /// Drops ended jobs, and sends the requests that waited for a server now free.
 void Node::ask_waiting(Time now) {
   if (in_callback_) {
     return; // a job started another one: the call that runs it goes on with the list
   }
-  jobs_.remove_if([](const Active& active) { return active.is_done(); });
+  const auto is_done = [](const Active& active) { return active.is_done(); };
+  jobs_.remove_if(is_done);
   for (Active& active : jobs_) {
-    const Request* request = active.step.request();
-    if (request != nullptr && !active.asked && !is_busy(request->server)) {
-      ask(active, now);
+    while (is_waiting(active)) { // one whose request is withheld may have another
+      ask_if_allowed(active, now);
     }
   }
+  jobs_.remove_if(is_done);
 }
 
 void Node::advance(Time now) {
@@ -286,7 +303,8 @@ void Node::unanswered(Active& active, Time now) {
   if (hooks_.unanswered) {
     hooks_.unanswered(request, active.tries);
   }
-  if (active.tries <= request.retries) {
+  const bool may_leave = !request.may_leave || request.may_leave(now);
+  if (active.tries <= request.retries && may_leave) {
     ask(active, now_);
   } else {
     finish(active, {Outcome::Kind::timed_out, {}, now});

@@ -117,7 +117,7 @@ Result<void> store(const Database& database, const UniqueId& unique_id, NodeId n
       .run();
 }
 
-/// The part of assign() inside its transaction.
+/// The part of allocate() inside its transaction.
 Result<NodeId> known_or_new(const Database& database, const UniqueId& unique_id,
                             const AllocationChoice& choice, WallTime now) {
   const auto known = entry_with(database, unique_id);
@@ -170,7 +170,7 @@ Result<void> put_unless_taken(const Database& database, const AllocationStore::W
   return store(database, wish.unique_id, wish.node_id, now);
 }
 
-/// The part of put() inside its transaction: first all units give up their IDs, since another may
+/// The part of enter() inside its transaction: first all units give up their IDs, since another may
 /// request one. A unit that keeps its ID keeps its time, too.
 Result<void> put_all(const Database& database, std::span<const AllocationStore::Wish> wishes,
                      WallTime now, AllocationStore::Former former) {
@@ -253,13 +253,13 @@ Result<std::optional<AllocationEntry>> AllocationStore::find(NodeId node_id) con
   return database != nullptr ? entry_with(*database, node_id) : std::nullopt;
 }
 
-Result<NodeId> AllocationStore::assign(const UniqueId& unique_id, const AllocationChoice& choice,
-                                       WallTime now) {
+Result<NodeId> AllocationStore::allocate(const UniqueId& unique_id, const AllocationChoice& choice,
+                                         WallTime now) {
   return file_->transact(
       [&](const Database& database) { return known_or_new(database, unique_id, choice, now); });
 }
 
-Result<void> AllocationStore::put(std::span<const Wish> wishes, WallTime now, Former former) {
+Result<void> AllocationStore::enter(std::span<const Wish> wishes, WallTime now, Former former) {
   for (const Wish& wish : wishes) {
     if (!may_be_given(wish.node_id)) {
       return fail(Code::out_of_range, say<texts::node_id_not_dynamic>(wish.node_id.value()),

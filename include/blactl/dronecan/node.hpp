@@ -28,6 +28,8 @@ struct Request {
   Priority priority = priority_service;
   /// Whether a payload answers this request (has its parameter name); empty: any does.
   std::function<bool(Bytes)> accepts;
+  /// Asked before each sending, repetitions included: whether it may leave now; empty: it may.
+  std::function<bool(Time)> may_leave{};
 };
 
 /// The outcome of a request or a pause.
@@ -37,6 +39,7 @@ struct Outcome {
     answered,  ///< `payload` is the answer
     timed_out, ///< the request was sent, no answer came
     not_sent,  ///< the request did not leave this machine in time; the kernel may still send it
+    withheld,  ///< `may_leave` kept it back before it was sent once
     woken,     ///< the pause is over
     cancelled,
     not_recorded, ///< the bus is a recording that does not hold the answer
@@ -179,6 +182,7 @@ class Node {
     TransferId transfer_id = 0;
     int tries = 0;
     bool asked = false;               ///< handed to the bus
+    bool may_have_left = false;       ///< a try of this request was handed to the bus
     bool left = false;                ///< its last frame was echoed
     bool is_cancelled = false;        ///< perhaps in its own call: its request is then not sent
     std::vector<can::Frame> frames{}; ///< of the request; the last one identifies the echo
@@ -200,6 +204,8 @@ class Node {
   void tell(Active& active, const Outcome& outcome);
   void finish(Active& active, const Outcome& outcome);
   void ask(Active& active, Time now);
+  [[nodiscard]] bool is_waiting(const Active& active) const;
+  void ask_if_allowed(Active& active, Time now);
   void ask_waiting(Time now);
   [[nodiscard]] bool is_busy(NodeId server) const;
   [[nodiscard]] NodeStatus status(Time now) const;

@@ -87,8 +87,8 @@ class AllocationStore {
   /// the bus or out of range: the caller decides what to do then. A new unit gets the first free ID
   /// from `preferred` (0: 125) upward to the end of the range, else downward to its beginning
   /// (1.Allocation.uavcan); never 0, 126 or 127. Errors: table_full: no ID of the range is free.
-  [[nodiscard]] Result<dronecan::NodeId> assign(const dronecan::UniqueId& unique_id,
-                                                const AllocationChoice& choice, WallTime now);
+  [[nodiscard]] Result<dronecan::NodeId> allocate(const dronecan::UniqueId& unique_id,
+                                                  const AllocationChoice& choice, WallTime now);
 
   /// A unit and the ID that the user requests for it.
   struct Wish {
@@ -105,8 +105,8 @@ class AllocationStore {
   /// Assigns the requested IDs in place of the units' present ones: all or none. Units may swap
   /// IDs. Errors: out_of_range: not 1 to 125; duplicate_node_id: two wishes name the same, or
   /// another unit has it and keeps it.
-  [[nodiscard]] Result<void> put(std::span<const Wish> wishes, WallTime now,
-                                 Former former = Former::keeps);
+  [[nodiscard]] Result<void> enter(std::span<const Wish> wishes, WallTime now,
+                                   Former former = Former::keeps);
 
   /// Removes this unit and frees its ID. False: it was not in the table.
   [[nodiscard]] Result<bool> forget(const dronecan::UniqueId& unique_id);

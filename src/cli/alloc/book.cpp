@@ -129,7 +129,7 @@ Report import_allocations(const std::string& file, Context& context) {
     return failed(std::move(store.error()));
   }
   const can::Loop clock(nullptr);
-  if (auto put = store->put(*wishes, clock.wall()); !put) {
+  if (auto put = store->enter(*wishes, clock.wall()); !put) {
     return failed(std::move(put.error()));
   }
   return done_with(file, say<texts::alloc_imported>(wishes->size(), printable(file)));

@@ -278,7 +278,7 @@ Report serve_allocations(const AllocOptions& options, Context& context) {
     return report;
   }
   report.interface = context.session().interface();
-  if (const auto put = store->put(*wishes, context.session().wall()); !put) {
+  if (const auto put = store->enter(*wishes, context.session().wall()); !put) {
     report.fail(put.error());
     return report;
   }

@@ -198,7 +198,6 @@ Change::Options Run::options() {
     };
   }
   return {.manner = std::move(manner),
-          .while_driven = context_.shared().while_driven,
           .stops_at_failure = request_.stops_at_failure || request_.fails_fast,
           .knows_ids = request_.search == Search::everybody,
           .searched = searched_at()};

@@ -165,6 +165,7 @@ fleet::Manner WritingRun::manner(const RestartTimes& times, bool restarts) {
       .identification = context_.identification(),
       .stagger = times.stagger,
       .come_back = times.wait,
+      .while_driven = context_.shared().while_driven,
       .may_allocate = restarts && context_.may_allocate(),
       .allocations = [this] { return context_.allocations(state::AllocationStore::Access::write); },
       .not_kept = [this](const Error& reason) { return go_without_table(reason); },

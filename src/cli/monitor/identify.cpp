@@ -54,9 +54,7 @@ bool Identify::stop_at(std::vector<Error> errors) {
 
 bool Identify::prepare() {
   loan_.emplace(context_.session(), context_.known(), fleet::torque_off(context_.known()),
-                fleet::Change::Options{.manner = manner({}, false),
-                                       .while_driven = context_.shared().while_driven,
-                                       .searched = searched_at()});
+                fleet::Change::Options{.manner = manner({}, false), .searched = searched_at()});
   if (!stop_at(loan_->prepare(servos_))) {
     return false;
   }

@@ -18,7 +18,7 @@ using fleet::EntryStatus;
 
 namespace {
 
-void write_register(JsonWriter& json, const Difference& difference) {
+void write_difference(JsonWriter& json, const Difference& difference) {
   const auto status =
       difference.is_one() ? fleet::ChangeStatus::planned : fleet::ChangeStatus::unchanged;
   json.begin_object();
@@ -55,7 +55,7 @@ void write_entry(JsonWriter& json, const EntryDiff& entry) {
   json.key("changes");
   json.begin_array();
   for (const Difference& difference : entry.registers) {
-    write_register(json, difference);
+    write_difference(json, difference);
   }
   json.end_array();
   json.end_object();

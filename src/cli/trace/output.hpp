@@ -101,7 +101,7 @@ class TextTrace final : public TraceOutput {
  private:
   [[nodiscard]] std::string time_text(WallTime at) const;
   void begin_line(const Occasion& occasion, const dronecan::Header& header);
-  [[nodiscard]] bool write_register(const dronecan::Transfer& transfer);
+  [[nodiscard]] bool write_value(const dronecan::Transfer& transfer);
 
   std::string& out_;
   const bla::Profiles& profiles_;

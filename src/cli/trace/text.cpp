@@ -173,7 +173,7 @@ bool TextTrace::transfer(const Occasion& occasion, const dronecan::Transfer& tra
   const auto line = out_.size();
   begin_line(occasion, header);
   fmt::format_to(std::back_inserter(out_), "{:>2}  ", transfer.transfer_id);
-  if (!write_register(transfer)) {
+  if (!write_value(transfer)) {
     const auto fields = out_.size();
     TextFields sink(out_);
     const auto result =
@@ -196,7 +196,7 @@ bool TextTrace::transfer(const Occasion& occasion, const dronecan::Transfer& tra
 }
 
 /// Registers of BLA servos are shown by name and in their unit.
-bool TextTrace::write_register(const dronecan::Transfer& transfer) {
+bool TextTrace::write_value(const dronecan::Transfer& transfer) {
   const auto& header = transfer.header;
   const auto text = header.kind != dronecan::Kind::message && header.data_type_id == GetSet::type.id
                         ? register_text(profiles_, transfer)

@@ -18,6 +18,13 @@ constexpr std::uint16_t last_index = 0xFF;
 
 } // namespace
 
+void Repeated::hear(Time at, Duration usual) {
+  constexpr int periods = 3;
+  const bool is_first = lasts_ == Duration::zero();
+  lasts_ = is_first ? usual : std::clamp<Duration>(periods * (at - at_), least, most);
+  at_ = at;
+}
+
 void CommandWatch::receive(const Transfer& transfer) {
   const auto& header = transfer.header;
   const auto is = [&](Kind kind, const dronecan::DataType& type) {
@@ -46,8 +53,9 @@ void CommandWatch::on_command(const Transfer& transfer) {
     return;
   }
   for (const auto& entry : command->commands) {
-    commander(transfer.header.source).servo_ids[entry.actuator_id] = {transfer.at,
-                                                                      entry.command_type};
+    auto& command = commander(transfer.header.source).servo_ids[entry.actuator_id];
+    command.heard.hear(transfer.at);
+    command.type = entry.command_type;
   }
 }
 
@@ -55,8 +63,11 @@ void CommandWatch::on_command(const Transfer& transfer) {
 void CommandWatch::on_arming(const Transfer& transfer) {
   if (const auto arming = dronecan::ArmingStatus::decode(transfer.payload)) {
     const NodeId source = transfer.header.source;
-    arming->status == dronecan::ArmingStatus::disarmed ? armed_.erase(source)
-                                                       : armed_.insert(source).second;
+    if (arming->status == dronecan::ArmingStatus::disarmed) {
+      armed_.erase(source);
+    } else {
+      armed_[source].hear(transfer.at, Repeated::most);
+    }
   }
 }
 
@@ -73,7 +84,7 @@ void CommandWatch::on_write(const Transfer& transfer) {
   namespace at = bla::address;
   const auto& [source, server] = std::pair(transfer.header.source, transfer.header.destination);
   if (is_at(at::command_angle) || is_at(at::command_speed) || is_at(at::command_torque)) {
-    commander(source).nodes[server] = transfer.at;
+    commander(source).nodes[server].hear(transfer.at);
   } else {
     const auto reg = request->name.empty() ? std::optional(bla::Address(static_cast<std::uint8_t>(
                                                  std::min(request->index, last_index))))
@@ -87,6 +98,12 @@ void CommandWatch::on_opcode(const Transfer& transfer) {
   if (request && request->opcode == dronecan::ExecuteOpcode::erase) {
     writes_[transfer.header.destination][every_register] = {transfer.header.source, transfer.at};
   }
+}
+
+std::optional<NodeId> CommandWatch::armed_by(Time now) const {
+  const auto armed =
+      std::ranges::find_if(armed_, [&](const auto& entry) { return entry.second.counts(now); });
+  return armed == armed_.end() ? std::nullopt : std::optional(armed->first);
 }
 
 std::optional<NodeId> CommandWatch::writer_to(NodeId id, Time since,
@@ -103,13 +120,12 @@ std::optional<NodeId> CommandWatch::writer_to(NodeId id, Time since,
   return std::nullopt;
 }
 
-std::optional<NodeId> CommandWatch::commander_of(const Servo& servo,
-                                                 std::optional<std::uint8_t> actuator_id,
-                                                 Time since) const {
-  const auto is_recent = [&](Time at) { return at >= since; };
+std::optional<NodeId>
+CommandWatch::commander_of(const Servo& servo, std::optional<std::uint8_t> actuator_id,
+                           const std::function<bool(const Repeated&)>& matters) const {
   for (const auto& [source, commander] : commanders_) {
     const auto by_node = commander.nodes.find(servo.id);
-    if (by_node != commander.nodes.end() && is_recent(by_node->second)) {
+    if (by_node != commander.nodes.end() && matters(by_node->second)) {
       return source;
     }
     for (const auto& [servo_id, command] : commander.servo_ids) {
@@ -117,7 +133,7 @@ std::optional<NodeId> CommandWatch::commander_of(const Servo& servo,
       // Register and actuator.Status may differ: which of them it obeys is not known.
       const bool is_meant =
           servo_id == every_servo || servo.servo_id == servo_id || actuator_id == servo_id;
-      if (is_meant && is_recent(command.at)) {
+      if (is_meant && matters(command.heard)) {
         return source;
       }
     }

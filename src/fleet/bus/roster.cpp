@@ -301,13 +301,13 @@ bool Roster::is_pending(const dronecan::UniqueId& unique_id) const {
 }
 
 std::optional<NodeId> Roster::driver_of(const Servo& servo, Time now) const {
-  return commander_of(servo, now - driving_time);
+  return commands_.commander_of(servo, member(servo.id).actuator_id,
+                                [now](const Repeated& command) { return command.counts(now); });
 }
 
 std::optional<NodeId> Roster::commander_of(const Servo& servo, Time since) const {
-  const Member* member = find(servo.id);
-  return commands_.commander_of(servo, member != nullptr ? member->actuator_id : std::nullopt,
-                                since);
+  return commands_.commander_of(servo, member(servo.id).actuator_id,
+                                [since](const Repeated& command) { return command.at() >= since; });
 }
 
 } // namespace blactl::fleet

@@ -235,12 +235,8 @@ std::optional<NodeId> AllocationService::give(AllocatedUnit& unit, NodeId prefer
   if (!bus_is_known_) {
     return std::nullopt; // its unique ID only begins like one of the table
   }
-  const auto id = store_.assign(unit.unique_id,
-                                {.preferred = preferred,
-                                 .taken = session_.roster().ids_in_use(unit.unique_id),
-                                 .first = range_.first,
-                                 .last = range_.last},
-                                session_.wall());
+  const auto id = allocate(session_, store_, unit.unique_id,
+                           {.preferred = preferred, .first = range_.first, .last = range_.last});
   if (id) {
     unit.node_id = *id;
     unit.is_new = true;
@@ -318,6 +314,12 @@ Result<std::size_t> AllocationService::free_ids() const {
     free += used[id] ? 0U : 1U;
   }
   return free;
+}
+
+Result<NodeId> allocate(const Session& session, state::AllocationStore& table,
+                        const UniqueId& unique_id, state::AllocationChoice choice) {
+  choice.taken = session.roster().ids_in_use(unique_id);
+  return table.allocate(unique_id, choice, session.wall());
 }
 
 } // namespace blactl::fleet

@@ -139,6 +139,7 @@ CarriedOut change(Session& session, const bla::Profiles& profiles, std::span<con
   ChangeJob::Options options{.identification = manner.identification,
                              .come_back = manner.come_back.value_or(come_back_time(plans)),
                              .pace = &pace,
+                             .while_driven = manner.while_driven,
                              .entered = manner.entered};
   std::list<ChangeJob> jobs;
   std::vector<dronecan::Job*> group;

@@ -243,7 +243,6 @@ std::vector<Error> Change::judge(std::span<const std::size_t> goals, Snapshots s
 std::vector<Error> Change::make_rounds(std::vector<UnitTask> tasks) {
   rounds_ = std::make_unique<Rounds>(session_, profiles_,
                                      Rounds::Options{.manner = options_.manner,
-                                                     .while_driven = options_.while_driven,
                                                      .stops_at_failure = options_.stops_at_failure,
                                                      .knows_ids = options_.knows_ids});
   auto errors = rounds_->prepare(std::move(tasks));

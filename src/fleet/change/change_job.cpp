@@ -133,7 +133,8 @@ std::unique_ptr<RestartJob> ChangeJob::restart() const {
                               .start = options_.start,
                               .come_back = options_.come_back,
                               .patience = options_.identification.patience,
-                              .pace = options_.pace};
+                              .pace = options_.pace,
+                              .may_be_driven = may_be_driven()};
   if (given.value_or(0) != 0) {
     options.expected = dronecan::NodeId(static_cast<std::uint8_t>(*given));
   }
@@ -145,7 +146,7 @@ std::unique_ptr<WriteJob> ChangeJob::write() const {
   const bool is_read_later = plan_.restart == RestartKind::save;
   return std::make_unique<WriteJob>(
       roster_, servo_, plan_.changes, options_.identification.patience,
-      is_read_later ? WriteJob::Echo::suffices : WriteJob::Echo::is_checked);
+      is_read_later ? WriteJob::Echo::suffices : WriteJob::Echo::is_checked, may_be_driven());
 }
 
 /// Begins a stage; one that has nothing to ask is over at once.
@@ -162,7 +163,8 @@ Step ChangeJob::enter(Stage stage, Time now) {
     const Patience patience = options_.identification.patience;
     switch (stage) {
     case Stage::erase:
-      job_ = (erase_ = std::make_unique<EraseJob>(roster_, servo_, patience)).get();
+      job_ =
+          (erase_ = std::make_unique<EraseJob>(roster_, servo_, patience, may_be_driven())).get();
       break;
     case Stage::write: job_ = (write_ = write()).get(); break;
     case Stage::restart:

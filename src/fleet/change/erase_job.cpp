@@ -39,8 +39,10 @@ Step EraseJob::next(const Outcome& outcome) {
     at_ = At::request;
     Patience once = patience_;
     once.retries = 0;
-    return ask(servo_.id, ExecuteOpcode::type,
-               ExecuteOpcode::Request{.opcode = ExecuteOpcode::erase}.encode(), once);
+    return guard_.guarded(ask(servo_.id, ExecuteOpcode::type,
+                              ExecuteOpcode::Request{.opcode = ExecuteOpcode::erase}.encode(),
+                              once),
+                          servo_);
   }
   case At::request: break;
   }
@@ -51,6 +53,9 @@ Step EraseJob::next(const Outcome& outcome) {
       error_ = Error{Code::refused, say<texts::opcode_refused>(id, "ERASE"),
                      say<texts::opcode_refused_hint>(id), id};
     }
+  } else if (outcome.kind == Outcome::Kind::withheld) {
+    is_withheld_ = true;
+    error_ = guard_.forbids(servo_, outcome.at);
   } else if (outcome.kind != Outcome::Kind::timed_out) {
     error_ = no_answer(outcome, servo_.id, "ERASE");
   }

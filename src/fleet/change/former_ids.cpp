@@ -2,6 +2,7 @@
 
 #include "blactl/base/hex.hpp"
 #include "blactl/fleet/bus/conflict_texts.hpp"
+#include "blactl/fleet/change/allocation_service.hpp"
 #include "blactl/fleet/change/restart_texts.hpp"
 
 #include <algorithm>
@@ -68,9 +69,7 @@ std::optional<NodeId> FormerIds::from_table(const UniqueId& unique_id, NodeId fo
     tell(table_->error());
     return std::nullopt;
   }
-  const state::AllocationChoice choice{.preferred = former,
-                                       .taken = session_.roster().ids_in_use(unique_id)};
-  const auto id = (*table_)->assign(unique_id, choice, session_.wall());
+  const auto id = allocate(session_, **table_, unique_id, {.preferred = former});
   if (!id) {
     tell(id.error());
   }

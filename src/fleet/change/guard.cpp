@@ -5,10 +5,31 @@
 #include "blactl/fleet/bus/target_texts.hpp"
 #include "blactl/fleet/bus/texts.hpp"
 #include "blactl/fleet/bus/unreachable.hpp"
+#include "blactl/fleet/change/plan.hpp"
 
 #include "fleet/change/change_texts.hpp"
 
 namespace blactl::fleet {
+
+std::optional<Error> Guard::forbids(const Servo& servo, Time now) const {
+  const std::uint8_t id = servo.id.value();
+  if (roster_->is_doubled(servo.id)) {
+    return doubled(*roster_, servo.id);
+  }
+  if (const auto by = roster_->armed_by(now)) {
+    return Error{Code::armed, say<texts::armed>(by->value()), say<texts::armed_hint>(), id};
+  }
+  if (const auto driver = roster_->driver_of(servo, now); driver && !may_be_driven_) {
+    return Error{Code::driven, say<texts::driven>(driver->value(), id), say<texts::driven_hint>(),
+                 id};
+  }
+  return std::nullopt;
+}
+
+dronecan::Request Guard::guarded(dronecan::Request request, const Servo& servo) const {
+  request.may_leave = [guard = *this, &servo](Time now) { return !guard.forbids(servo, now); };
+  return request;
+}
 
 std::optional<Error> forbidden(const Roster& roster, Time now, const Plan& plan,
                                bool while_driven) {
@@ -25,13 +46,8 @@ std::optional<Error> forbidden(const Roster& roster, Time now, const Plan& plan,
     return Error{Code::state, say<texts::restarted_before_write>(id), say<texts::run_again_hint>(),
                  id};
   }
-  if (const auto by = roster.armed_by()) {
-    return Error{Code::armed, say<texts::armed>(by->value()), say<texts::armed_hint>(), id};
-  }
-  const auto driver = roster.driver_of(servo, now);
-  if (driver && !while_driven && plan.moves()) {
-    return Error{Code::driven, say<texts::driven>(driver->value(), id), say<texts::driven_hint>(),
-                 id};
+  if (auto why = Guard(roster, while_driven || !plan.moves()).forbids(servo, now)) {
+    return why;
   }
   if (const auto given = plan.given_node_id(); given && *given == roster.local()) {
     return Error{Code::out_of_range, say<texts::node_id_is_ours>(given->value()),

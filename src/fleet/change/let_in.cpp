@@ -56,9 +56,7 @@ Result<NotLetIn> let_in(Session& session, state::AllocationStore& table,
     return {};
   }
   for (const Wish& wish : missing) {
-    const auto id = table.assign(
-        wish.unique_id, {.preferred = wish.node_id, .taken = roster.ids_in_use(wish.unique_id)},
-        session.wall());
+    const auto id = allocate(session, table, wish.unique_id, {.preferred = wish.node_id});
     if (!id) {
       return std::unexpected(id.error());
     }

@@ -153,8 +153,8 @@ void Loan::try_to_give_back() {
   }
   // The record of the loan is taken back; that it is given back is no change of its own.
   Change change(session_, profiles_,
-                {.manner = {.identification = options_.manner.identification},
-                 .while_driven = options_.while_driven,
+                {.manner = {.identification = options_.manner.identification,
+                            .while_driven = options_.manner.while_driven},
                  .gives_back = true});
   auto errors = change.prepare(std::move(goals));
   if (errors.empty()) {

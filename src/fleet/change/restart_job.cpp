@@ -40,7 +40,7 @@ std::string_view name(RestartKind kind) {
 RestartJob::RestartJob(const Roster& roster, const Servo& servo, Options options)
     : roster_(roster), servo_(servo), id_(servo.id),
       unique_id_(servo.unique_id.value_or(dronecan::UniqueId{})), since_(servo.since),
-      options_(options) {}
+      options_(options), guard_(roster, options.may_be_driven) {}
 
 Step RestartJob::next(const Outcome& outcome) {
   ended_at_ = outcome.at;
@@ -146,10 +146,21 @@ Step RestartJob::request(Time now) {
   }
   Patience once = options_.patience;
   once.retries = 0;
-  return options_.kind == RestartKind::save
-             ? ask(id_, ExecuteOpcode::type,
-                   ExecuteOpcode::Request{.opcode = ExecuteOpcode::save}.encode(), once)
-             : ask(id_, RestartNode::type, RestartNode::Request{}.encode(), once);
+  return guard_.guarded(options_.kind == RestartKind::save
+                            ? ask(id_, ExecuteOpcode::type,
+                                  ExecuteOpcode::Request{.opcode = ExecuteOpcode::save}.encode(),
+                                  once)
+                            : ask(id_, RestartNode::type, RestartNode::Request{}.encode(), once),
+                        servo_);
+}
+
+/// The request did not leave; one that did before was not carried out.
+Step RestartJob::hold_off(Time now) {
+  is_sent_ = has_run_on_ = !may_repeat_;
+  if (options_.pace != nullptr) {
+    options_.pace->leaving.erase(id_);
+  }
+  return give_up(*guard_.forbids(servo_, now));
 }
 
 bool RestartJob::has_answered_ok(dronecan::Bytes payload) const {
@@ -162,6 +173,9 @@ bool RestartJob::has_answered_ok(dronecan::Bytes payload) const {
 }
 
 Step RestartJob::judge_answer(const Outcome& outcome) {
+  if (outcome.kind == Outcome::Kind::withheld) {
+    return hold_off(outcome.at);
+  }
   if (outcome.answered()) {
     if (!has_answered_ok(outcome.payload)) {
       const std::uint8_t id = id_.value();

@@ -210,7 +210,7 @@ std::vector<Error> Rounds::check() const {
   std::vector<Error> errors;
   for (const UnitChange& unit : units_) {
     if (auto error =
-            forbidden(session_.roster(), session_.now(), unit.plan, options_.while_driven)) {
+            forbidden(session_.roster(), session_.now(), unit.plan, options_.manner.while_driven)) {
       errors.push_back(std::move(*error));
     }
   }
@@ -277,7 +277,7 @@ Result<void> Rounds::put_as_they_are() {
       entries.push_back({entry.unique_id, *now});
     }
   }
-  return table_->put(entries, session_.wall(), state::AllocationStore::Former::yields);
+  return table_->enter(entries, session_.wall(), state::AllocationStore::Former::yields);
 }
 
 /// The table says where each will be: other allocators of this machine give it to nobody else.
@@ -290,7 +290,7 @@ Result<void> Rounds::put(const Round& round) {
   }
   return entries.empty()
              ? Result<void>()
-             : table_->put(entries, session_.wall(), state::AllocationStore::Former::yields);
+             : table_->enter(entries, session_.wall(), state::AllocationStore::Former::yields);
 }
 
 /// Who had it has left, and nobody was heard under it since.
@@ -373,7 +373,8 @@ Result<Plan> Rounds::plan(const Step& step, const Sights& sights) {
   }
   auto plan = make_plan(*wanted, before, profiles_);
   if (plan) {
-    if (auto error = forbidden(session_.roster(), session_.now(), *plan, options_.while_driven)) {
+    if (auto error =
+            forbidden(session_.roster(), session_.now(), *plan, options_.manner.while_driven)) {
       return std::unexpected(std::move(*error));
     }
   }

@@ -47,7 +47,6 @@ class Rounds {
  public:
   struct Options {
     Manner manner{};
-    bool while_driven = false;
     bool stops_at_failure = false; ///< no round begins after one in which a unit failed
     bool knows_ids = false;        ///< the bus was searched, with the static node IDs
   };

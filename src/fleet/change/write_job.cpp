@@ -28,9 +28,9 @@ bool is_held(const RegisterChange& change) {
 } // namespace
 
 WriteJob::WriteJob(const Roster& roster, Servo servo, std::vector<RegisterChange> changes,
-                   Patience patience, Echo echo)
+                   Patience patience, Echo echo, bool may_be_driven)
     : roster_(roster), servo_(std::move(servo)), changes_(std::move(changes)), patience_(patience),
-      echo_(echo) {}
+      echo_(echo), guard_(roster, may_be_driven) {}
 
 Step WriteJob::next(const Outcome& outcome) {
   switch (at_) {
@@ -84,13 +84,17 @@ Step WriteJob::go_on(Time now) {
     return std::ranges::any_of(changes_, is_held) ? prove(now) : Step(std::nullopt);
   }
   at_ = At::write;
-  has_written_ = true;
   is_lost_ = false;
-  return write_register(servo_.id, changes_[current_].parameter->address,
-                        changes_[current_].requested, patience_);
+  return guard_.guarded(write_register(servo_.id, changes_[current_].parameter->address,
+                                       changes_[current_].requested, patience_),
+                        servo_);
 }
 
 Step WriteJob::after_write(const Outcome& outcome) {
+  if (outcome.kind == Outcome::Kind::withheld) {
+    return hold_off(outcome.at);
+  }
+  has_written_ = true;
   if (!outcome.answered() && outcome.kind != Outcome::Kind::timed_out) {
     return give_up(current_, no_answer(outcome, servo_.id, changes_[current_].parameter->name));
   }
@@ -104,6 +108,15 @@ Step WriteJob::after_write(const Outcome& outcome) {
   is_lost_ = !outcome.answered();
   at_ = At::read;
   return read_register(servo_.id, parameter.address, patience_);
+}
+
+/// This change and those after it are not made.
+Step WriteJob::hold_off(Time now) {
+  RegisterChange& change = changes_[current_];
+  change.status = ChangeStatus::failed;
+  change.error = guard_.forbids(servo_, now);
+  current_ = changes_.size();
+  return std::ranges::any_of(changes_, is_held) ? prove(now) : Step(std::nullopt);
 }
 
 /// The register holds what was requested.

@@ -8,6 +8,7 @@
 #include "blactl/fleet/bus/texts.hpp"
 #include "blactl/fleet/change/former_ids.hpp"
 #include "blactl/fleet/change/guard.hpp"
+#include "blactl/fleet/change/plan.hpp"
 
 #include "fleet/characterize/findings.hpp"
 #include "fleet/characterize/test_bench.hpp"

@@ -157,7 +157,7 @@ std::vector<std::string> others(const Roster& roster) {
   for (const NodeId id : commanders(roster)) {
     out.push_back(say<texts::commands_servos>(id.value()));
   }
-  if (const auto by = roster.armed_by()) {
+  if (const auto by = roster.said_armed()) {
     out.push_back(say<texts::says_armed>(by->value()));
   }
   return out;

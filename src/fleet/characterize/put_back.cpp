@@ -240,7 +240,8 @@ Result<void> TestBench::give_back_start() {
   RestartJob job(roster(), servo_,
                  {.kind = RestartKind::restart,
                   .come_back = longest_start,
-                  .patience = manner_.identification.patience});
+                  .patience = manner_.identification.patience,
+                  .may_be_driven = may_be_driven()});
   Stubborn stubborn(job);
   if (auto ran = run(stubborn); !ran) {
     return ran;

@@ -140,22 +140,11 @@ Error TestBench::restarted_by_itself() const {
 /// What must never be written to, looked at before every change. What was changed is put back also
 /// while somebody drives the servo.
 std::optional<Error> TestBench::forbidden() const {
-  const std::uint8_t id = servo_.id.value();
-  if (roster().is_doubled(servo_.id)) {
-    return doubled(roster(), servo_.id);
+  if (auto why = guard().forbids(servo_, session_.now())) {
+    return why;
   }
-  if (const auto by = roster().armed_by()) {
-    return Error{Code::armed, say<texts::armed>(by->value()), say<texts::armed_hint>(), id};
-  }
-  if (roster().member(servo_.id).boots != servo_.boot) {
-    return restarted_by_itself();
-  }
-  const auto driver = roster().driver_of(servo_, session_.now());
-  if (driver && !manner_.while_driven && !puts_back_) {
-    return Error{Code::driven, say<texts::driven>(driver->value(), id), say<texts::driven_hint>(),
-                 id};
-  }
-  return std::nullopt;
+  return roster().member(servo_.id).boots != servo_.boot ? std::optional(restarted_by_itself())
+                                                         : std::nullopt;
 }
 
 Result<Values> TestBench::rest() {
@@ -218,7 +207,8 @@ Result<std::int64_t> TestBench::write(Address address, std::int64_t raw) {
   if (bla::is_setting(address) && address != at::torque_output) {
     touched_.insert(address);
   }
-  const auto reply = ask(write_register(servo_.id, address, raw, manner_.identification.patience));
+  const auto reply = ask(guard().guarded(
+      write_register(servo_.id, address, raw, manner_.identification.patience), servo_));
   if (!reply) {
     return std::unexpected(reply.error());
   }
@@ -309,9 +299,11 @@ std::optional<Error> TestBench::refuse_restart(RestartKind kind) const {
 Result<dronecan::NodeId> TestBench::leave_and_return(RestartKind kind,
                                                      const std::vector<Address>& at_once) {
   const Patience& patience = manner_.identification.patience;
-  restart_.emplace(
-      roster(), servo_,
-      RestartJob::Options{.kind = kind, .come_back = longest_start, .patience = patience});
+  restart_.emplace(roster(), servo_,
+                   RestartJob::Options{.kind = kind,
+                                       .come_back = longest_start,
+                                       .patience = patience,
+                                       .may_be_driven = may_be_driven()});
   ear_.expect(servo_.id, [this] { return restart_->is_sent(); });
   EarlyReads early(
       servo_.id, servo_.identity.registers(at_once), [this] { return ear_.is_back(); },

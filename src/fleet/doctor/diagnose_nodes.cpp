@@ -60,7 +60,7 @@ class NodeExamination {
     for (const Snapshot& servo : limits) {
       unitless(servo);
     }
-    if (const auto by = findings_.roster->armed_by()) {
+    if (const auto by = findings_.roster->said_armed()) {
       add("armed", Level::notice, by, say<texts::says_vehicle_armed>(by->value()),
           say<texts::says_vehicle_armed_fix>());
     }

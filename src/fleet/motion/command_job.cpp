@@ -115,18 +115,11 @@ Step CommandJob::judge_condition(const Outcome& outcome) {
 
 /// What must never be written to, whatever was agreed.
 std::optional<Error> CommandJob::forbidden() const {
-  if (roster_.is_doubled(servo_.id)) {
-    return doubled(roster_, servo_.id);
+  auto why = Guard(roster_, options_.while_driven).forbids(servo_, now_);
+  if (why && why->code != Code::duplicate_node_id) {
+    why->hint = after_commands(plan_, result_);
   }
-  const std::string then = after_commands(plan_, result_);
-  if (const auto by = roster_.armed_by()) {
-    return Error{Code::armed, say<texts::motion_armed>(id(), by->value()), then, id()};
-  }
-  const auto driver = roster_.driver_of(servo_, now_);
-  if (driver && !options_.while_driven) {
-    return Error{Code::driven, say<texts::motion_driven>(id(), driver->value()), then, id()};
-  }
-  return std::nullopt;
+  return why;
 }
 
 /// Why it must not go on as it was agreed.
@@ -225,7 +218,7 @@ Step CommandJob::command(std::int64_t raw) {
     return read_back();
   }
   at_ = At::write;
-  return write_register(servo_.id, address, raw, once());
+  return write_register(servo_.id, address, raw, once()); // forbidden() was asked in this step
 }
 
 /// One question, answered or given up in time for the next command.

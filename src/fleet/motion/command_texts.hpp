@@ -114,13 +114,6 @@ inline constexpr Text motion_not_ended{"{1}; whether node {0} was brought to its
 inline constexpr Text motion_nor_ended{"{}; and {}", "{}。さらに、{}"};
 inline constexpr Text motion_not_ended_hint{"{}; to stop it: blactl set -n {} torque_output=off",
                                             "{}。停止するには: blactl set -n {} torque_output=off"};
-inline constexpr Text motion_armed{
-    "node {}: node {} says since that the vehicle is armed: nothing more was written to it",
-    "ノード {}: ノード {} が途中で ARM 状態を通知したため、以後は書き込んでいません"};
-inline constexpr Text motion_driven{
-    "node {}: node {} commands it since: it was left to that, nothing more was written to it",
-    "ノード {}: ノード {} が途中から動作指令を送信しているため、"
-    "その指令に任せ、以後は書き込んでいません"};
 inline constexpr Text motion_newcomer{
     "node {} came, restarted or tells servo ID {} since that was commanded by ArrayCommand: it may "
     "have moved as well",

@@ -168,6 +168,7 @@ constexpr auto not_sent = Outcome::Kind::not_sent;
 constexpr auto woken = Outcome::Kind::woken;
 constexpr auto cancelled = Outcome::Kind::cancelled;
 constexpr auto not_recorded = Outcome::Kind::not_recorded;
+constexpr auto withheld = Outcome::Kind::withheld;
 
 } // namespace
 
@@ -253,6 +254,46 @@ TEST_CASE("an unanswered question is tried again with a new transfer ID each tim
   CHECK(bench.node.jobs() == 0);
   CHECK(bench.told == Lines{"asked 10 1", "unanswered 10 1", "asked 10 2", "unanswered 10 2",
                             "asked 10 3", "unanswered 10 3"});
+}
+
+TEST_CASE("a request that may not leave is withheld, and the next job gets its turn") {
+  Bench bench;
+  bool may_leave = false;
+  Request guarded = ask_register(10, "0x38", std::int64_t{900});
+  guarded.may_leave = [&](Time now) {
+    CHECK(now == bench.now);
+    return may_leave;
+  };
+  Talk talk({guarded, guarded, ask_info(10)});
+  Talk other({ask_info(10)});
+  bench.node.start(talk, bench.now);
+  bench.node.start(other, bench.now);
+  CHECK(bench.sent_and_echoed() == Lines{"1E018AFF#C0"});
+  CHECK(talk.outcomes == Kinds{start, withheld, withheld});
+  Talk last({guarded});
+  bench.node.start(last, bench.now);
+  may_leave = true; // it waited for its turn, and is asked for then
+  bench.answer_info(10, 0);
+  bench.sent_and_echoed();
+  may_leave = false;
+  bench.answer_info(10, 1);
+  CHECK(bench.sent().empty());
+  CHECK(last.outcomes == Kinds{start, withheld});
+  CHECK(bench.node.jobs() == 0);
+}
+
+TEST_CASE("a request that was sent and may not be repeated is unanswered") {
+  Bench bench;
+  bool may_leave = true;
+  Request guarded = ask_register(10, "0x38", std::int64_t{900});
+  guarded.may_leave = [&](Time /*now*/) { return may_leave; };
+  Talk talk({guarded});
+  bench.node.start(talk, bench.now);
+  CHECK(bench.sent_and_echoed().size() == 3);
+  may_leave = false;
+  bench.pass(500ms);
+  CHECK(bench.sent().empty());
+  CHECK(talk.outcomes == Kinds{start, timed_out});
 }
 
 TEST_CASE("without retries a question is asked once") {

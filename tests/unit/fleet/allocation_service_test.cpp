@@ -101,7 +101,7 @@ TEST_CASE("a unit of the table gets its ID again, before the bus is known, too")
   bench.serve(5s);
   REQUIRE(bench.given() == std::set<int>{125});
   const dronecan::UniqueId unit = bench.store.entries()->front().unique_id;
-  REQUIRE(bench.store.put(std::array{AllocationStore::Wish{unit, NodeId(40)}}, {}));
+  REQUIRE(bench.store.enter(std::array{AllocationStore::Wish{unit, NodeId(40)}}, {}));
 
   Scene again(dynamic_servos(1));
   std::vector<Event> events;
@@ -128,7 +128,7 @@ TEST_CASE("an ID of the table that another unit uses is a conflict, told once, a
   bench.serve(5s);
   REQUIRE(bench.given() == std::set<int>{125});
   const dronecan::UniqueId unit = bench.store.entries()->front().unique_id;
-  REQUIRE(bench.store.put(std::array{AllocationStore::Wish{unit, NodeId(60)}}, {}));
+  REQUIRE(bench.store.enter(std::array{AllocationStore::Wish{unit, NodeId(60)}}, {}));
 
   Scene again(
       dynamic_servos(1, R"(, {"model": "BLA21-12U-AB", "node_id": 60, "serial_number": 50})"));

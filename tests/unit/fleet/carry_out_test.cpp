@@ -221,7 +221,7 @@ TEST_CASE("the allocation table says which ID a servo gets back, and keeps what 
   const std::array wishes{
       state::AllocationStore::Wish{first, NodeId(40)},
       state::AllocationStore::Wish{dronecan::UniqueId{1}, NodeId(12)}}; // of a servo that is away
-  REQUIRE(open()->put(wishes, {}));
+  REQUIRE(open()->enter(wishes, {}));
   for (const std::uint8_t id : std::array<std::uint8_t, 3>{11, 12, 13}) {
     write(scene, id, "static_node_id=0");
   }

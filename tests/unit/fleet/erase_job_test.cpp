@@ -60,6 +60,17 @@ TEST_CASE("ERASE is sent once, to the servo that is meant", "[requirement-50]") 
   CHECK_FALSE(bench.job.error());
 }
 
+TEST_CASE("armed before ERASE leaves: it is not sent") {
+  Bench bench;
+  bench.send();
+  REQUIRE(bench.step.request()->may_leave);
+  arm(bench.roster, {});
+  CHECK_FALSE(bench.step.request()->may_leave({}));
+  CHECK(bench.next(Script::withheld()) == "nothing");
+  CHECK(bench.error() == Code::armed);
+  CHECK_FALSE(bench.job.is_sent());
+}
+
 TEST_CASE("a lost answer to ERASE is no error and no confirmation: the registers must tell") {
   Bench bench;
   bench.send();

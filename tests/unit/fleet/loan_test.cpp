@@ -226,7 +226,7 @@ TEST_CASE("on a bus that is armed nothing is written, and on one that is driven 
   drive(driven);
   CHECK(codes(driven.loan.give_back()) == std::vector{Code::driven, Code::driven});
   CHECK(driven.outputs() == std::vector<std::int64_t>{1, 1, 1});
-  Loose told("", {.while_driven = true});
+  Loose told("", {.manner = {.while_driven = true}});
   drive(told);
   CHECK(told.loan.give_back().errors.empty());
   CHECK(told.outputs() == std::vector<std::int64_t>{0, 2, 1});

@@ -232,6 +232,36 @@ TEST_CASE("a restart is asked for with its magic number, once", "[requirement-42
   CHECK(bench.job.returned() == NodeId(11));
 }
 
+TEST_CASE("armed before the request leaves: the servo is neither saved nor restarted") {
+  const auto kind = GENERATE(RestartKind::save, RestartKind::restart);
+  Bench bench(kind);
+  bench.send();
+  REQUIRE(bench.step.request()->may_leave);
+  CHECK(bench.step.request()->may_leave(bench.now));
+  arm(bench.roster, bench.now);
+  CHECK_FALSE(bench.step.request()->may_leave(bench.now));
+  CHECK(bench.next(Script::withheld()) == "nothing");
+  CHECK(bench.error() == Code::armed);
+  CHECK_FALSE(bench.job.is_sent());
+  CHECK_FALSE(bench.job.may_have_happened());
+  CHECK(bench.pace.leaving.empty());
+}
+
+TEST_CASE("armed before the second request leaves: the first one was not carried out") {
+  Bench bench;
+  bench.send();
+  CHECK(bench.next(Script::timed_out()) == "pause");
+  bench.now += 2s;
+  CHECK(bench.time_is_over() == "GetNodeInfo");
+  CHECK(bench.info(1, bench.boot) == "ExecuteOpcode");
+  arm(bench.roster, bench.now);
+  CHECK(bench.next(Script::withheld()) == "nothing");
+  CHECK(bench.error() == Code::armed);
+  CHECK(bench.job.is_sent());
+  CHECK(bench.job.has_run_on());
+  CHECK_FALSE(bench.job.may_have_happened());
+}
+
 TEST_CASE("nothing is sent before its time") {
   Bench bench(RestartKind::save, 3s);
   CHECK(bench.start() == "pause");

@@ -493,20 +493,40 @@ TEST_CASE("what we command ourselves is not another node's doing") {
   ear.get_set(127, 10, {.index = 0, .value = std::int64_t{100}, .name = "0x00"});
   ear.arming(127, 255);
   CHECK(ear.roster.commanders().empty());
-  CHECK_FALSE(ear.roster.armed_by());
+  CHECK_FALSE(ear.roster.said_armed());
 }
 
 TEST_CASE("armed is armed until the same node says otherwise") {
   Ear ear;
-  CHECK_FALSE(ear.roster.armed_by());
+  const auto armed_by = [&] { return ear.roster.armed_by(ear.now); };
+  CHECK_FALSE(armed_by());
   ear.arming(30, ArmingStatus::fully_armed);
-  CHECK(ear.roster.armed_by() == NodeId(30));
+  CHECK(armed_by() == NodeId(30));
   ear.arming(31, ArmingStatus::disarmed); // another one does not disarm it
-  CHECK(ear.roster.armed_by() == NodeId(30));
+  CHECK(armed_by() == NodeId(30));
   ear.arming(30, 1); // not fully, but not disarmed either
-  CHECK(ear.roster.armed_by() == NodeId(30));
+  CHECK(armed_by() == NodeId(30));
   ear.arming(30, ArmingStatus::disarmed);
-  CHECK_FALSE(ear.roster.armed_by());
+  CHECK_FALSE(armed_by());
+  CHECK_FALSE(ear.roster.said_armed());
+}
+
+TEST_CASE("what was heard counts for three periods of its sender, at least 2 s, at most 10 s") {
+  Ear ear;
+  const auto [period, lasts] = GENERATE(std::pair(100ms, 2000ms), std::pair(1000ms, 3000ms),
+                                        std::pair(3000ms, 9000ms), std::pair(60000ms, 10000ms));
+  ear.arming(30, ArmingStatus::fully_armed);
+  ear.command(30, {3});
+  CHECK(ear.roster.armed_by(ear.now + 10s)); // its period is not known yet
+  ear.now += period;
+  ear.arming(30, ArmingStatus::fully_armed);
+  ear.command(30, {3});
+  const Servo servo{.id = NodeId(10), .servo_id = 3};
+  CHECK(ear.roster.armed_by(ear.now + lasts) == NodeId(30));
+  CHECK_FALSE(ear.roster.armed_by(ear.now + lasts + 1us));
+  CHECK(ear.roster.said_armed() == NodeId(30));
+  CHECK(ear.roster.driver_of(servo, ear.now + lasts) == NodeId(30));
+  CHECK_FALSE(ear.roster.driver_of(servo, ear.now + lasts + 1us));
 }
 
 TEST_CASE("a flood from every node ID leaves bounded tables") {

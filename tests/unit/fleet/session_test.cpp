@@ -537,7 +537,7 @@ TEST_CASE("commands of another node are heard through the filter") {
                               "commands": {"servo_ids": [1, 2], "rate": 50}}])",
               Session::Hearing::commands);
   scene.live(1100ms);
-  CHECK(scene.roster().armed_by() == NodeId(30));
+  CHECK(scene.roster().said_armed() == NodeId(30));
   CHECK(scene.roster().driver_of(scene.member(11).servo(), scene.session->now()) == NodeId(30));
 }
 

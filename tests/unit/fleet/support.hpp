@@ -324,6 +324,8 @@ class Script {
 
   static Outcome timed_out() { return {Outcome::Kind::timed_out, {}, {}}; }
 
+  static Outcome withheld() { return {Outcome::Kind::withheld, {}, {}}; }
+
   static Outcome not_sent() { return {Outcome::Kind::not_sent, {}, {}}; }
 
   static Outcome cancelled() { return {Outcome::Kind::cancelled, {}, {}}; }
@@ -331,6 +333,16 @@ class Script {
  private:
   dronecan::Payload payload_;
 };
+
+/// Node 30 says that the vehicle is armed.
+inline void arm(Roster& roster, Time at) {
+  const std::uint8_t armed[]{dronecan::ArmingStatus::fully_armed};
+  roster.receive({.header = {.kind = dronecan::Kind::message,
+                             .data_type_id = dronecan::ArmingStatus::type.id,
+                             .source = NodeId(30)},
+                  .payload = armed,
+                  .at = at});
+}
 
 /// "read 0x38", "write 0x38=900", "GetNodeInfo", "pause", "nothing": what a job does next.
 inline std::string text(const dronecan::Step& step) {

@@ -235,6 +235,36 @@ TEST_CASE("a write that never left is given up, and nothing behind it is tried")
   CHECK(job.changes()[1].status == ChangeStatus::planned);
 }
 
+TEST_CASE("armed in the middle: nothing more is written, and what was written is proven") {
+  Bench bench;
+  WriteJob job = bench.job({change("reverse", 1, 0), change("servo_id", 5, 0)});
+  CHECK(bench.begin(job) == "write 0x23=1");
+  std::ignore = job.next(bench.script.value("0x23", std::int64_t{1}));
+  const dronecan::Step second = job.next(bench.script.value("0x23", std::int64_t{1}));
+  CHECK(text(second) == "write 0x45=5");
+  REQUIRE(second.request()->may_leave);
+  CHECK(second.request()->may_leave({}));
+  arm(bench.roster, {});
+  CHECK_FALSE(second.request()->may_leave({}));
+  CHECK(text(job.next(Script::withheld())) == "GetNodeInfo");
+  CHECK(bench.proven(job) == "nothing");
+  CHECK(job.has_written());
+  CHECK(job.changes()[0].status == ChangeStatus::written);
+  CHECK(job.changes()[0].after == 1);
+  CHECK(job.changes()[1].status == ChangeStatus::failed);
+  CHECK(job.changes()[1].error->code == Code::armed);
+}
+
+TEST_CASE("armed before the first write: nothing was written") {
+  Bench bench;
+  WriteJob job = bench.job({change("reverse", 1, 0)});
+  std::ignore = bench.begin(job);
+  arm(bench.roster, {});
+  CHECK(text(job.next(Script::withheld())) == "nothing");
+  CHECK_FALSE(job.has_written());
+  CHECK(job.changes()[0].error->code == Code::armed);
+}
+
 TEST_CASE("a job that is cancelled while it reads back says so") {
   Bench bench;
   WriteJob job = bench.job({change("reverse", 1, 0), change("servo_id", 5, 0)});

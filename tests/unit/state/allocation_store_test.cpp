@@ -44,7 +44,7 @@ namespace {
 std::atomic<int> syncs{0};
 
 Result<void> put(AllocationStore& store, const UniqueId& unique_id, NodeId id, WallTime at) {
-  return store.put(std::array{AllocationStore::Wish{unique_id, id}}, at);
+  return store.enter(std::array{AllocationStore::Wish{unique_id, id}}, at);
 }
 
 } // namespace
@@ -89,7 +89,7 @@ AllocationStore opened(const Folder& folder, Access access = Access::write) {
 
 /// 0: an error.
 int assigned(AllocationStore& store, int number, const AllocationChoice& choice = {}) {
-  const auto id = store.assign(unit(number), choice, noon);
+  const auto id = store.allocate(unit(number), choice, noon);
   return id ? id->value() : 0;
 }
 
@@ -275,7 +275,7 @@ TEST_CASE("a unit keeps its ID, also where it is out of the range or in use by a
   AllocationChoice choice = range(10, 20);
   choice.preferred = NodeId(15);
   choice.taken.set(125);
-  CHECK(store.assign(unit(1), choice, noon + 1h) == NodeId(125));
+  CHECK(store.allocate(unit(1), choice, noon + 1h) == NodeId(125));
   CHECK(store.entries() == std::vector{AllocationEntry{NodeId(125), unit(1), noon}});
 }
 
@@ -289,7 +289,7 @@ TEST_CASE("all 125 IDs are given once, the next unit is told what to do, and nob
   CHECK(given.size() == 125);
   CHECK(*given.begin() == 1);
   CHECK(*given.rbegin() == 125);
-  const auto full = store.assign(unit(126), {}, noon);
+  const auto full = store.allocate(unit(126), {}, noon);
   REQUIRE_FALSE(full);
   CHECK(full.error().code == Code::table_full);
   CHECK(full.error().message == "no node ID from 1 to 125 is free");
@@ -306,7 +306,7 @@ TEST_CASE("a full range leaves the table as it was") {
   taken.set(30);
   AllocationChoice choice = range(30, 30);
   choice.taken = taken;
-  const auto full = store.assign(unit(1), choice, noon);
+  const auto full = store.allocate(unit(1), choice, noon);
   REQUIRE_FALSE(full);
   CHECK(full.error().code == Code::table_full);
   CHECK(full.error().message == "no node ID from 30 to 30 is free");
@@ -371,25 +371,25 @@ TEST_CASE("several wishes are granted together, an exchange too, or none of them
   REQUIRE(put(store, unit(2), NodeId(22), noon));
   const std::array swapped{AllocationStore::Wish{unit(1), NodeId(22)},
                            AllocationStore::Wish{unit(2), NodeId(21)}};
-  REQUIRE(store.put(swapped, noon + 1h));
+  REQUIRE(store.enter(swapped, noon + 1h));
   const std::vector<AllocationEntry> expected{{NodeId(21), unit(2), noon + 1h},
                                               {NodeId(22), unit(1), noon + 1h}};
   CHECK(store.entries() == expected);
   const std::array impossible{AllocationStore::Wish{unit(3), NodeId(30)},
                               AllocationStore::Wish{unit(4), NodeId(21)}};
-  CHECK(store.put(impossible, noon).error().code == Code::duplicate_node_id);
+  CHECK(store.enter(impossible, noon).error().code == Code::duplicate_node_id);
   const std::array twice{AllocationStore::Wish{unit(3), NodeId(30)},
                          AllocationStore::Wish{unit(4), NodeId(30)}};
-  CHECK(store.put(twice, noon).error().code == Code::duplicate_node_id);
+  CHECK(store.enter(twice, noon).error().code == Code::duplicate_node_id);
   CHECK(store.entries() == expected);
 }
 
 TEST_CASE("a table that nobody shares is in no file") {
   auto store = AllocationStore::unshared().value();
   CHECK(store.path().empty());
-  CHECK(store.assign(unit(1), {}, noon) == NodeId(125));
-  CHECK(store.assign(unit(2), {}, noon) == NodeId(124));
-  CHECK(store.assign(unit(1), {}, noon) == NodeId(125));
+  CHECK(store.allocate(unit(1), {}, noon) == NodeId(125));
+  CHECK(store.allocate(unit(2), {}, noon) == NodeId(124));
+  CHECK(store.allocate(unit(1), {}, noon) == NodeId(125));
   CHECK(AllocationStore::unshared()->entries()->empty());
 }
 
@@ -458,9 +458,9 @@ TEST_CASE("what was told is on the disk, and what changes nothing costs nothing"
     REQUIRE(work());
     return syncs.load();
   };
-  CHECK(syncs_of([&] { return store.assign(unit(1), {}, noon); }) > 0);
-  CHECK(syncs_of([&] { return store.assign(unit(2), {}, noon); }) > 0);
-  CHECK(syncs_of([&] { return store.assign(unit(1), {}, noon); }) == 0);
+  CHECK(syncs_of([&] { return store.allocate(unit(1), {}, noon); }) > 0);
+  CHECK(syncs_of([&] { return store.allocate(unit(2), {}, noon); }) > 0);
+  CHECK(syncs_of([&] { return store.allocate(unit(1), {}, noon); }) == 0);
   CHECK(syncs_of([&] { return put(store, unit(3), NodeId(9), noon); }) > 0);
   CHECK(syncs_of([&] { return put(store, unit(3), NodeId(9), noon); }) == 0);
   CHECK(syncs_of([&] { return store.forget(unit(3)); }) > 0);
@@ -484,7 +484,7 @@ TEST_CASE("what was opened for reading cannot be changed") {
   }
   auto store = opened(folder, Access::read);
   const auto entries = *store.entries();
-  CHECK(store.assign(unit(2), {}, noon).error().code == Code::permission);
+  CHECK(store.allocate(unit(2), {}, noon).error().code == Code::permission);
   CHECK(put(store, unit(2), NodeId(5), noon).error().code == Code::permission);
   CHECK(store.forget(unit(1)).error().code == Code::permission);
   CHECK(store.entries() == entries);
@@ -780,7 +780,7 @@ TEST_CASE("damage that comes while the table is in use is told, and is not writt
     bad = bytes_of(log_of(folder));
     bad.replace(56, bad.size() - 56, bad.size() - 56, '\x55'); // all but the two first headers
     write_bytes(log_of(folder), bad);
-    const auto refused = store.assign(unit(5), {}, noon);
+    const auto refused = store.allocate(unit(5), {}, noon);
     REQUIRE_FALSE(refused);
     CHECK(refused.error().code == Code::bad_file);
     CHECK(refused.error().hint.find("mv " + table_of(folder).string()) != std::string::npos);
@@ -810,7 +810,7 @@ TEST_CASE(
   auto store = opened(folder);
   REQUIRE(assigned(store, 1) == 125);
   fs::rename(table_of(folder), folder.path / "away.db");
-  const auto refused = store.assign(unit(2), {}, noon);
+  const auto refused = store.allocate(unit(2), {}, noon);
   REQUIRE_FALSE(refused);
   CHECK(refused.error().code == Code::io);
   CHECK(refused.error().message.find("moved away") != std::string::npos);
@@ -825,7 +825,7 @@ TEST_CASE("who must wait for another process for too long is told so, and reads 
   sqlite3* other = nullptr;
   REQUIRE(sqlite3_open(table_of(folder).c_str(), &other) == SQLITE_OK);
   REQUIRE(sqlite3_exec(other, "BEGIN IMMEDIATE", nullptr, nullptr, nullptr) == SQLITE_OK);
-  const auto busy = store->assign(unit(2), {}, noon);
+  const auto busy = store->allocate(unit(2), {}, noon);
   REQUIRE_FALSE(busy);
   CHECK(busy.error().code == Code::busy);
   CHECK(busy.error().message.find(table_of(folder).string()) != std::string::npos);
@@ -846,7 +846,7 @@ TEST_CASE("on a full disk nothing is half done, and what was given stays") {
       auto store = try_open(folder);
       limit_files_to(limit);
       for (int i = 21; store && i <= 60; ++i) {
-        const auto id = store->assign(unit(i), {}, noon);
+        const auto id = store->allocate(unit(i), {}, noon);
         if (!id) {
           tell(i, -said(id));
           const bool still_reads = store->find(unit(1)).value()->node_id == NodeId(125);

@@ -8,24 +8,45 @@
 #include "blactl/dronecan/types.hpp"
 #include "blactl/fleet/bus/servo.hpp"
 
+#include <chrono>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
-#include <set>
 
 namespace blactl::fleet {
+
+/// What a node says again and again: it counts for three of its periods, at least 2 s and at most
+/// 10 s (contract, section 4).
+class Repeated {
+ public:
+  static constexpr Duration least = std::chrono::seconds(2);
+  static constexpr Duration most = std::chrono::seconds(10);
+
+  /// `usual`: for how long it counts as long as its period is not known.
+  void hear(Time at, Duration usual = least);
+
+  /// When it was said last.
+  [[nodiscard]] Time at() const { return at_; }
+
+  [[nodiscard]] bool counts(Time now) const { return now - at_ <= lasts_; }
+
+ private:
+  Time at_{};
+  Duration lasts_{}; ///< zero: never said
+};
 
 /// Another node that moves servos: ArrayCommand, or writes to 0x00-0x02.
 struct Commander {
   /// The last command to one servo ID.
   struct Command {
-    Time at{};
+    Repeated heard{};
     std::uint8_t type = 0; ///< ArrayCommand::Command::command_type
   };
 
   dronecan::NodeId source;
-  std::map<std::uint8_t, Command> servo_ids; ///< by ArrayCommand; 255: every servo
-  std::map<dronecan::NodeId, Time> nodes;    ///< by GetSet
+  std::map<std::uint8_t, Command> servo_ids;  ///< by ArrayCommand; 255: every servo
+  std::map<dronecan::NodeId, Repeated> nodes; ///< by GetSet
 };
 
 class CommandWatch {
@@ -37,20 +58,24 @@ class CommandWatch {
     return commanders_;
   }
 
-  /// A node whose last ArmingStatus says that the vehicle is armed.
-  [[nodiscard]] std::optional<dronecan::NodeId> armed_by() const {
-    return armed_.empty() ? std::nullopt : std::optional(*armed_.begin());
+  /// A node whose last word is that the vehicle is armed, however long ago.
+  [[nodiscard]] std::optional<dronecan::NodeId> said_armed() const {
+    return armed_.empty() ? std::nullopt : std::optional(armed_.begin()->first);
   }
+
+  /// A node that says now that the vehicle is armed.
+  [[nodiscard]] std::optional<dronecan::NodeId> armed_by(Time now) const;
 
   /// Another node that changed a setting of this one after `since`. Commands to move (0x00-0x02)
   /// change none. With `reg` of this register, or of all at once.
   [[nodiscard]] std::optional<dronecan::NodeId>
   writer_to(dronecan::NodeId id, Time since, std::optional<bla::Address> reg = std::nullopt) const;
 
-  /// Another node that commanded this servo to move after `since`. `actuator_id`: the servo ID of
-  /// its actuator.Status.
+  /// Another node that commanded this servo to move, by a command that `matters`. `actuator_id`:
+  /// the servo ID of its actuator.Status.
   [[nodiscard]] std::optional<dronecan::NodeId>
-  commander_of(const Servo& servo, std::optional<std::uint8_t> actuator_id, Time since) const;
+  commander_of(const Servo& servo, std::optional<std::uint8_t> actuator_id,
+               const std::function<bool(const Repeated&)>& matters) const;
 
  private:
   struct Write {
@@ -65,7 +90,7 @@ class CommandWatch {
   Commander& commander(dronecan::NodeId source);
 
   std::map<dronecan::NodeId, Commander> commanders_;
-  std::set<dronecan::NodeId> armed_;
+  std::map<dronecan::NodeId, Repeated> armed_; ///< those that said so last
   /// The last ones to settings, by server and register; empty: to all of them.
   std::map<dronecan::NodeId, std::map<std::optional<bla::Address>, Write>> writes_;
 };

@@ -40,8 +40,9 @@ inline constexpr Text doubled_meanwhile_hint{
 };
 inline constexpr Text doubled_target_hint{"connect one of them alone and give it another ID",
                                           "1 台だけ接続して別の ID を設定して下さい"};
-inline constexpr Text armed{"node {} says that the vehicle is armed: nothing is written",
-                            "ノード {} が ARM 状態を通知しているため書き込みません"};
+inline constexpr Text armed{
+    "node {} says that the vehicle is armed: nothing is written while it is",
+    "ノード {} が ARM 状態を通知している間は書き込みません"};
 inline constexpr Text armed_hint{"disarm it first", "先に DISARM して下さい"};
 inline constexpr Text driven{"node {} commands node {}: not while it does",
                              "ノード {} がノード {} に動作指令を送信中のため実行しません"};

@@ -73,9 +73,6 @@ using UniqueIdPrefix = std::vector<std::uint8_t>;
 /// (uavcan/protocol/341.NodeStatus).
 inline constexpr Duration offline_time = std::chrono::seconds(3);
 
-/// How long a command counts as "drives" (contract, section 4).
-inline constexpr Duration driving_time = std::chrono::seconds(2);
-
 /// How long to listen until who commands, says armed, shares an ID or has one has been heard.
 inline constexpr Duration bus_watch_time = std::chrono::milliseconds(1100);
 
@@ -174,8 +171,15 @@ class Roster {
     return commands_.commanders();
   }
 
-  /// A node whose last ArmingStatus says that the vehicle is armed.
-  [[nodiscard]] std::optional<dronecan::NodeId> armed_by() const { return commands_.armed_by(); }
+  /// As CommandWatch::said_armed().
+  [[nodiscard]] std::optional<dronecan::NodeId> said_armed() const {
+    return commands_.said_armed();
+  }
+
+  /// As CommandWatch::armed_by().
+  [[nodiscard]] std::optional<dronecan::NodeId> armed_by(Time now) const {
+    return commands_.armed_by(now);
+  }
 
   /// When the unit of this node started at the latest, by its last uptime; empty: it told none.
   [[nodiscard]] std::optional<Time> started(dronecan::NodeId id) const {

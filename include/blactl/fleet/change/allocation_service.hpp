@@ -26,6 +26,13 @@ struct AllocatedUnit {
   bool is_deaf = false;           ///< it was given its ID again and again, and asks on
 };
 
+/// The node ID of a unit by the table, entered there if it is new: one that nobody on the bus has.
+/// Errors: as AllocationStore::allocate().
+[[nodiscard]] Result<dronecan::NodeId> allocate(const Session& session,
+                                                state::AllocationStore& table,
+                                                const dronecan::UniqueId& unique_id,
+                                                state::AllocationChoice choice);
+
 /// As long as it lives, units that ask for a node ID get one: what stands in the table, else one
 /// that nobody has. What goes over the wire is in the table before.
 ///

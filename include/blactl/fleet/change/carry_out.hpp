@@ -29,6 +29,7 @@ struct Manner {
   Duration stagger{};                  ///< between the requests to restart
   std::optional<Duration> come_back{}; ///< empty: 5 s, and 2 s for each that will ask for an ID
   bool stops_at_failure = false;       ///< one that fails stops all that are not saved yet
+  bool while_driven = false;           ///< also what moves a servo that another node drives
   /// Nobody else of this machine allocates on the interface: this process may.
   bool may_allocate = false;
   /// Opens the allocation table, when a servo asks for an ID. Where it cannot be used, or this is

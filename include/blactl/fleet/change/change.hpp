@@ -30,7 +30,6 @@ class Change {
  public:
   struct Options {
     Manner manner{};
-    bool while_driven = false;
     bool stops_at_failure = false; ///< nothing begins after a round in which a servo failed
     bool knows_ids = false;        ///< the bus was searched, with the static node IDs
     /// When the bus was searched for the servos that are meant: who came since may be one of them.

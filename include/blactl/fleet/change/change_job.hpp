@@ -35,6 +35,7 @@ class ChangeJob final : public dronecan::Job {
     Time start{};                ///< of the restart: not before
     Duration come_back{};        ///< how long a restart may take
     RestartPace* pace = nullptr; ///< outlives the job; null: nobody else is waited for
+    bool while_driven = false;   ///< what moves the servo, also while another node drives it
     StageHook entered{};         ///< may be empty
   };
 
@@ -98,6 +99,9 @@ class ChangeJob final : public dronecan::Job {
   void tell_saved(const Snapshot& now);
   [[nodiscard]] std::unique_ptr<WriteJob> write() const;
   [[nodiscard]] std::unique_ptr<RestartJob> restart() const;
+
+  [[nodiscard]] bool may_be_driven() const { return options_.while_driven || !plan_.moves(); }
+
   [[nodiscard]] Stage after_erase() const;
   [[nodiscard]] Stage after_write() const;
   [[nodiscard]] Stage to_show() const;

@@ -4,6 +4,7 @@
 #include "blactl/dronecan/node.hpp"
 #include "blactl/fleet/bus/registers.hpp"
 #include "blactl/fleet/bus/roster.hpp"
+#include "blactl/fleet/change/guard.hpp"
 
 #include <optional>
 #include <utility>
@@ -14,19 +15,20 @@ namespace blactl::fleet {
 /// was carried out: that is for the caller to read.
 class EraseJob final : public dronecan::Job {
  public:
-  /// `roster` outlives the job.
-  EraseJob(const Roster& roster, Servo servo, Patience patience)
-      : roster_(roster), servo_(std::move(servo)), patience_(patience) {}
+  /// `roster` outlives the job. `may_be_driven`: also while another node drives the servo.
+  EraseJob(const Roster& roster, Servo servo, Patience patience, bool may_be_driven = false)
+      : roster_(roster), servo_(std::move(servo)), patience_(patience),
+        guard_(roster, may_be_driven) {}
 
   [[nodiscard]] dronecan::Step next(const dronecan::Outcome& outcome) override;
 
   [[nodiscard]] bool is_confirmed() const { return is_confirmed_; }
 
   /// The request left this machine, or may have.
-  [[nodiscard]] bool is_sent() const { return at_ == At::request; }
+  [[nodiscard]] bool is_sent() const { return at_ == At::request && !is_withheld_; }
 
   /// The request did not leave this machine for certain, or the servo refused it; empty also where
-  /// the answer was lost. Errors: refused, no_acknowledge, interrupted, state.
+  /// the answer was lost. Errors: refused, no_acknowledge, interrupted, state; as Guard::forbids().
   [[nodiscard]] const std::optional<Error>& error() const { return error_; }
 
  private:
@@ -35,7 +37,9 @@ class EraseJob final : public dronecan::Job {
   const Roster& roster_;
   Servo servo_;
   Patience patience_;
+  Guard guard_;
   At at_ = At::begin;
+  bool is_withheld_ = false;
   bool is_confirmed_ = false;
   std::optional<Error> error_;
 };

@@ -1,9 +1,9 @@
 #pragma once
 // What the others on the bus forbid (contract, section 4).
 
+#include "blactl/dronecan/node.hpp"
 #include "blactl/fleet/bus/roster.hpp"
 #include "blactl/fleet/bus/session.hpp"
-#include "blactl/fleet/change/plan.hpp"
 
 #include <optional>
 #include <string>
@@ -11,10 +11,34 @@
 
 namespace blactl::fleet {
 
+struct Plan;
+
+/// Decides whether anything may be sent that changes a servo, as far as the bus was heard. Nobody
+/// else does: it is asked before each write, opcode, restart and ArrayCommand, however long a
+/// command runs.
+class Guard {
+ public:
+  /// `roster` outlives this. `may_be_driven`: also while another node drives the servo.
+  Guard(const Roster& roster, bool may_be_driven)
+      : roster_(&roster), may_be_driven_(may_be_driven) {}
+
+  /// Why nothing may be sent to this servo now; empty: it may. Errors: duplicate_node_id, armed,
+  /// driven.
+  [[nodiscard]] std::optional<Error> forbids(const Servo& servo, Time now) const;
+
+  /// The same request, which leaves only while nothing forbids it, and is withheld otherwise.
+  /// `servo` outlives the request.
+  [[nodiscard]] dronecan::Request guarded(dronecan::Request request, const Servo& servo) const;
+
+ private:
+  const Roster* roster_;
+  bool may_be_driven_;
+};
+
 /// Why this plan must not be carried out now, as far as the bus was heard; empty: it may.
-/// Errors: duplicate_node_id, state (the servo restarted since it was read), armed, driven unless
-/// `while_driven`, if the plan moves the servo; out_of_range for a static node ID that
-/// is ours; what others have is for survey() to find.
+/// Errors: as Guard::forbids(), driven only if the plan moves the servo and not `while_driven`;
+/// state (the servo restarted since it was read); out_of_range for a static node ID that is ours;
+/// what others have is for survey() to find.
 [[nodiscard]] std::optional<Error> forbidden(const Roster& roster, Time now, const Plan& plan,
                                              bool while_driven);
 

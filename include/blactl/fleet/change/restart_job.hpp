@@ -5,6 +5,7 @@
 #include "blactl/fleet/bus/registers.hpp"
 #include "blactl/fleet/bus/roster.hpp"
 #include "blactl/fleet/bus/run_proof.hpp"
+#include "blactl/fleet/change/guard.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -41,6 +42,7 @@ class RestartJob final : public dronecan::Job {
     RestartPace* pace = nullptr; ///< outlives the job; null: nobody else is waited for
     /// The node ID that the servo will have, where it is known.
     std::optional<dronecan::NodeId> expected{};
+    bool may_be_driven = false; ///< also while another node drives the servo
   };
 
   /// `servo` has a unique ID; `roster` outlives the job.
@@ -57,7 +59,7 @@ class RestartJob final : public dronecan::Job {
   [[nodiscard]] bool is_unproven() const { return is_unproven_; }
 
   /// Why it is not, or what is not known: timeout, not_back, refused, state, no_acknowledge,
-  /// interrupted, duplicate_node_id.
+  /// interrupted; as Guard::forbids().
   [[nodiscard]] const std::optional<Error>& error() const { return error_; }
 
   /// A request has left, or may have left, this machine.
@@ -102,6 +104,7 @@ class RestartJob final : public dronecan::Job {
   [[nodiscard]] dronecan::Step judge_proof(const dronecan::Outcome& outcome);
   [[nodiscard]] dronecan::Step request(Time now);
   [[nodiscard]] dronecan::Step judge_answer(const dronecan::Outcome& outcome);
+  [[nodiscard]] dronecan::Step hold_off(Time now);
   [[nodiscard]] dronecan::Step judge_life(const dronecan::Outcome& outcome);
   [[nodiscard]] dronecan::Step wait_for_return(Time now);
   [[nodiscard]] bool runs_on(const dronecan::GetNodeInfo::Response& info, Time now) const;
@@ -130,6 +133,7 @@ class RestartJob final : public dronecan::Job {
   Time since_; ///< RAM must be as it was then
   std::optional<RunProof> run_proof_;
   Options options_;
+  Guard guard_;
   At at_ = At::begin;
   std::uint32_t boot_ = 0; ///< of the servo when the request was sent
   Time first_sent_at_{}, sent_at_{}, ended_at_{};

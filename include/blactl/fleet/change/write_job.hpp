@@ -5,6 +5,7 @@
 #include "blactl/fleet/bus/registers.hpp"
 #include "blactl/fleet/bus/roster.hpp"
 #include "blactl/fleet/bus/run_proof.hpp"
+#include "blactl/fleet/change/guard.hpp"
 #include "blactl/fleet/change/register_change.hpp"
 
 #include <cstddef>
@@ -20,7 +21,7 @@ namespace blactl::fleet {
 /// whole servo after it, the register is read again after the write. In the end, and before a
 /// refusal is believed, the servo must prove that it ran on, also where all values were held
 /// already: they were read some time ago. What was written before a restart is written again: it
-/// was in RAM only.
+/// was in RAM only. What the guard forbids ends the writing; what was written is proven then, too.
 class WriteJob final : public dronecan::Job {
  public:
   /// What proves a write whose answer shows the requested value.
@@ -29,9 +30,9 @@ class WriteJob final : public dronecan::Job {
     suffices,   ///< that answer: everything is read after the restart that follows
   };
 
-  /// `roster` outlives the job.
+  /// `roster` outlives the job. `may_be_driven`: also while another node drives the servo.
   WriteJob(const Roster& roster, Servo servo, std::vector<RegisterChange> changes,
-           Patience patience, Echo echo = Echo::is_checked);
+           Patience patience, Echo echo = Echo::is_checked, bool may_be_driven = false);
 
   [[nodiscard]] dronecan::Step next(const dronecan::Outcome& outcome) override;
 
@@ -53,6 +54,7 @@ class WriteJob final : public dronecan::Job {
   [[nodiscard]] dronecan::Step judge_proof(const dronecan::Outcome& outcome);
   [[nodiscard]] dronecan::Step after_write(const dronecan::Outcome& outcome);
   [[nodiscard]] dronecan::Step wrote(Time now);
+  [[nodiscard]] dronecan::Step hold_off(Time now);
   [[nodiscard]] dronecan::Step after_read(const dronecan::Outcome& outcome);
   [[nodiscard]] dronecan::Step write_again(Time now);
   [[nodiscard]] bool doubt_unchanged();
@@ -68,6 +70,7 @@ class WriteJob final : public dronecan::Job {
   std::vector<RegisterChange> changes_;
   Patience patience_;
   Echo echo_;
+  Guard guard_;
   At at_ = At::begin;
   std::size_t current_ = 0; ///< the change that is being made or looked at
   bool has_written_ = false;
