@@ -38,6 +38,9 @@ def change(profile, place, value):
     return changed
 
 
+OWN_REGISTER = {"name": "own", "group": "option", "name_en": "Own", "name_ja": "独自", "access": "RW",
+                "width": "uint8", "default": 1, "min": 0, "max": 9, "saved": True}
+
 # What the schema must refuse: file, place, value.
 BAD = [
     ("BLA.json", ["schema"], "blactl-profile/2"),
@@ -62,7 +65,10 @@ BAD = [
     ("BLA21.json", ["voltage_classes", "12-U"], {}),
     ("BLA21.json", ["suffixes", "A0", "pwm"], "no"),
     ("BLA21.json", ["models", 0, "hardware_version"], None),
+    ("BLA21.json", ["parameters", "0x47"], {"name": "half_described", "saved": True}),
+    ("BLA21.json", ["suffixes", "A0", "parameters", "0x47"], OWN_REGISTER),
 ]
+GOOD = [("BLA21.json", ["parameters", "0x47"], OWN_REGISTER)]
 
 
 
@@ -269,9 +275,10 @@ def check_profiles(directory, faults):
     for name, profile in profiles.items():
         for error in validator.iter_errors(profile):
             faults.append(f"{name}: {error.json_path}: {error.message}")
-    for name, place, value in BAD:
-        if validator.is_valid(change(profiles[name], place, value)):
-            faults.append(f"{name}: {place} = {value!r} should be refused")
+    for right, cases in ((False, BAD), (True, GOOD)):
+        for name, place, value in cases:
+            if validator.is_valid(change(profiles[name], place, value)) != right:
+                faults.append(f"{name}: {place} = {value!r} should be {'taken' if right else 'refused'}")
     return f"{len(profiles)} profiles valid, {len(BAD)} bad ones refused"
 
 

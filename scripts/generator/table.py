@@ -51,12 +51,8 @@ class Parameter:
     unit: str
     readable: bool
     settable: bool
+    is_setting: bool  # a fleet file holds it
     words: tuple[str, ...]
-
-    @property
-    def is_setting(self):
-        """What a fleet file holds."""
-        return 0x20 <= int(self.address, 16) <= 0x46
 
 
 def _option(entry):
@@ -72,6 +68,7 @@ def _parameter(entry):
     # The opcodes are written by erase, restart and save, never by set.
     settable = "W" in entry["access"] and entry["group"] != "operation"
     return Parameter(entry["address"], entry["name"], entry["name_en"], entry["unit"], "R" in entry["access"], settable,
+                     entry["saved"] and entry["access"] == "RW",
                      tuple(choice["word"] for choice in entry["enumeration"]))
 
 

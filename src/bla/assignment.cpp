@@ -151,9 +151,14 @@ Result<void> allowed_by_some_model(const Profiles& profiles, const Parameter& pa
 }
 
 Result<void> allowed_by_model(const Profile& model, const Assignment& assignment) {
-  const Parameter* own = model.find(assignment.parameter->address);
-  if (own == nullptr || (own->group == Group::pwm && !model.pwm)) {
-    const Parameter& parameter = *assignment.parameter;
+  const Parameter& parameter = *assignment.parameter;
+  const Parameter* own = model.find(parameter.address);
+  if (own == nullptr) {
+    return fail(Code::unsupported,
+                say<texts::model_lacks>(model.model, parameter.name, parameter.address.name()),
+                say<texts::parameter_list>());
+  }
+  if (own->group == Group::pwm && !model.pwm) {
     return fail(Code::unsupported,
                 say<texts::no_pwm_parameter>(model.model, parameter.name, parameter.address.name()),
                 say<texts::no_pwm_input_hint>(model.model));

@@ -148,21 +148,6 @@ Parameter read_parameter(const json::Value& item, json::Faults& faults) {
   return parameter;
 }
 
-std::vector<Parameter> read_parameters(json::Object& root, json::Faults& faults) {
-  std::vector<Parameter> parameters;
-  json::Object all = root.object("parameters");
-  for (const json::Value* item : all.members()) {
-    Parameter parameter = read_parameter(*item, faults);
-    const auto twin = std::ranges::find(parameters, parameter.name, &Parameter::name);
-    if (twin != parameters.end()) {
-      faults.add(*item, say<texts::profile_name_twice>(parameter.name, twin->address.name()));
-    }
-    parameters.push_back(std::move(parameter));
-  }
-  std::ranges::sort(parameters, {}, &Parameter::address);
-  return parameters;
-}
-
 FaultBit read_fault_bit(const json::Value& item, json::Faults& faults) {
   json::Object object(item, faults);
   FaultBit bit;
@@ -265,13 +250,26 @@ std::vector<FirmwareRelease> read_firmware(json::Object& root, json::Faults& fau
 
 } // namespace
 
+void add_parameter(const json::Value& item, std::vector<Parameter>& known, json::Faults& faults) {
+  Parameter parameter = read_parameter(item, faults);
+  const auto twin = std::ranges::find(known, parameter.name, &Parameter::name);
+  if (twin != known.end()) {
+    faults.add(item, say<texts::profile_name_twice>(parameter.name, twin->address.name()));
+  }
+  const auto place = std::ranges::upper_bound(known, parameter.address, {}, &Parameter::address);
+  known.insert(place, std::move(parameter));
+}
+
 Family read_family(json::Document& document) {
   json::Faults& faults = document.faults();
   json::Object root(document.root(), faults);
   read_head(root);
   static_cast<void>(root.optional_string("source"));
   Family family;
-  family.parameters = read_parameters(root, faults);
+  json::Object parameters = root.object("parameters");
+  for (const json::Value* item : parameters.members()) {
+    add_parameter(*item, family.parameters, faults);
+  }
   read_fault_bits(root, family, faults);
   family.firmware = read_firmware(root, faults);
   root.finish();

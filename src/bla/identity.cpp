@@ -123,11 +123,10 @@ const Parameter* Identity::parameter(Address address) const {
     return profiles_->find_of_unknown(address);
   }
   const Parameter* first = candidates_.front()->find(address);
-  const bool agreed =
-      first != nullptr && std::ranges::all_of(candidates_, [&](const Profile* profile) {
-        const Parameter* other = profile->find(address);
-        return other != nullptr && alike(*other, *first);
-      });
+  const bool agreed = std::ranges::all_of(candidates_, [&](const Profile* profile) {
+    const Parameter* other = profile->find(address);
+    return first == nullptr || other == nullptr ? other == first : alike(*other, *first);
+  });
   return agreed ? first : profiles_->find(address);
 }
 
@@ -142,8 +141,7 @@ std::vector<const Parameter*> Identity::configuration() const {
   }
   for (const Parameter& known : profiles_->registers()) {
     const Parameter* of_model = parameter(known.address);
-    if (of_model != nullptr && of_model->saved && of_model->readable() && of_model->writable() &&
-        has(*of_model)) {
+    if (of_model != nullptr && of_model->is_setting() && has(*of_model)) {
       wanted.push_back(of_model);
     }
   }
@@ -212,7 +210,12 @@ Result<void> Identity::check_pwm_input() const {
                                     : Result<void>();
 }
 
-Result<void> Identity::check_pwm_input(const Parameter& parameter) const {
+Result<void> Identity::check_takes(const Parameter& parameter) const {
+  if (this->parameter(parameter.address) == nullptr) {
+    return fail(Code::unsupported,
+                say<texts::model_lacks>(model(), parameter.name, parameter.address.name()),
+                say<texts::parameter_list>());
+  }
   if (parameter.group != Group::pwm || candidates_.empty() ||
       std::ranges::any_of(candidates_, &Profile::pwm)) {
     return {};
@@ -227,6 +230,9 @@ Result<void> Identity::check_model(const Parameter& parameter) const {
     return fail(Code::no_profile,
                 say<texts::model_unknown>(reading(address::model_number, readings_.model_number)),
                 say<texts::model_unknown_hint>());
+  }
+  if (auto taken = check_takes(parameter); !taken) {
+    return taken;
   }
   const Parameter* first = candidates_.front()->find(parameter.address);
   const bool guessed = std::ranges::any_of(candidates_, [&](const Profile* profile) {
@@ -246,13 +252,10 @@ Result<void> Identity::check_model(const Parameter& parameter) const {
 }
 
 Result<void> Identity::check_support(const Parameter& parameter) const {
-  const std::string address = parameter.address.name();
-  if (auto has_input = check_pwm_input(parameter); !has_input) {
-    return has_input;
-  }
   if (!parameter.min_firmware) {
     return {};
   }
+  const std::string address = parameter.address.name();
   const std::string needed = firmware_text(*parameter.min_firmware);
   if (!readings_.firmware_version) {
     return fail(Code::unsupported, say<texts::firmware_unknown>(parameter.name, address, needed),

@@ -113,6 +113,19 @@ File* choose_family(std::vector<File>& files) {
   return chosen;
 }
 
+/// The register as assumed for an unknown model.
+Parameter of_unknown(Parameter parameter) {
+  parameter.default_raw = parameter.min = parameter.max = std::nullopt;
+  return parameter;
+}
+
+/// What does not depend on the model.
+Parameter description(const Parameter& parameter) {
+  Parameter all = of_unknown(parameter);
+  all.per_model = all.by_voltage_class = all.by_suffix = false;
+  return all;
+}
+
 /// Adds the models of one file to `models`; those of the directory replace built-in ones.
 class Merger {
  public:
@@ -135,6 +148,30 @@ class Merger {
         }
       }
     }
+  }
+
+  /// The registers that the family lacks, each as one model has it. Refuses those that another
+  /// describes otherwise: one name means one register, and so does an address.
+  [[nodiscard]] std::vector<Parameter> own_registers(const Family& family) {
+    std::vector<Parameter> all;
+    for (const Entry& entry : models_) {
+      for (const Parameter& one : entry.profile.parameters) {
+        if (std::ranges::binary_search(family.parameters, one.address, {}, &Parameter::address)) {
+          continue;
+        }
+        const auto same = std::ranges::find_if(all, [&](const Parameter& other) {
+          return other.address == one.address || other.name == one.name;
+        });
+        if (same == all.end()) {
+          all.push_back(one);
+        } else if (description(*same) != description(one)) {
+          entry.file->document.faults().add(
+              *entry.place, say<texts::profile_described_otherwise>(
+                                one.name, one.address.name(), same->name, same->address.name()));
+        }
+      }
+    }
+    return all;
   }
 
   /// The models, each with the words for all model numbers.
@@ -222,12 +259,6 @@ std::optional<Parameter::Example> find_example(Address address, std::span<const 
   return defaults.empty() ? std::nullopt : std::optional(defaults.front());
 }
 
-/// The register as assumed for an unknown model.
-Parameter of_unknown(Parameter parameter) {
-  parameter.default_raw = parameter.min = parameter.max = std::nullopt;
-  return parameter;
-}
-
 /// The register as all models together have it.
 Parameter unite(const Parameter& general, std::span<const Profile> profiles) {
   Parameter all = general;
@@ -276,6 +307,10 @@ Result<Profiles> Profiles::load(const std::optional<std::filesystem::path>& dire
     }
   }
   merger.check_twins();
+  for (Parameter& own : merger.own_registers(family)) {
+    family.parameters.push_back(std::move(own));
+  }
+  std::ranges::sort(family.parameters, {}, &Parameter::address);
   for (File& file : files) {
     errors.add(file.document.faults().result());
   }

@@ -8,9 +8,13 @@
 
 namespace blactl::bla {
 
+bool has_key(const json::Value& object, std::string_view key) {
+  return std::ranges::any_of(object.items,
+                             [=](const json::Value* item) { return item->key == key; });
+}
+
 bool describes_series(const json::Document& document) {
-  return std::ranges::any_of(document.root().items,
-                             [](const json::Value* item) { return item->key == "series"; });
+  return has_key(document.root(), "series");
 }
 
 void read_head(json::Object& root) {

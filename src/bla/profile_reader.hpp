@@ -39,9 +39,14 @@ struct Series {
 
 /// Adds faults to the document; the result is usable only if there are none.
 [[nodiscard]] Family read_family(json::Document& document);
-[[nodiscard]] Series read_series(json::Document& document, const Family& family);
+[[nodiscard]] Series read_series(json::Document& document, Family family);
 
 // Parts of both kinds of files.
+
+[[nodiscard]] bool has_key(const json::Value& object, std::string_view key);
+
+/// Adds the register that `item` describes to those known, which are ascending and stay so.
+void add_parameter(const json::Value& item, std::vector<Parameter>& known, json::Faults& faults);
 
 /// "$schema", "schema" and "family".
 void read_head(json::Object& root);

@@ -61,6 +61,20 @@ std::optional<Parameter> read_override(const json::Value& item, const Family& fa
   return parameter;
 }
 
+/// Of the series: what the family lacks and is described in full is a register of its own.
+Overrides read_registers(json::Object parameters, Family& family, json::Faults& faults) {
+  Overrides overrides;
+  for (const json::Value* item : parameters.members()) {
+    const auto address = find_address(item->key);
+    if (has_key(*item, "name") && !(address && find(family.parameters, *address) != nullptr)) {
+      add_parameter(*item, family.parameters, faults);
+    } else if (auto parameter = read_override(*item, family, faults)) {
+      overrides.push_back(std::move(*parameter));
+    }
+  }
+  return overrides;
+}
+
 Overrides read_overrides(json::Object parameters, const Family& family, json::Faults& faults) {
   Overrides overrides;
   for (const json::Value* item : parameters.members()) {
@@ -186,7 +200,7 @@ std::string read_series_name(json::Object& root, json::Faults& faults) {
 
 } // namespace
 
-Series read_series(json::Document& document, const Family& family) {
+Series read_series(json::Document& document, Family family) {
   json::Faults& faults = document.faults();
   json::Object root(document.root(), faults);
   read_head(root);
@@ -198,7 +212,7 @@ Series read_series(json::Document& document, const Family& family) {
   series.number.word = parts.series;
   series.number.text_en = read_text(root, "text_en", faults);
   series.number.text_ja = read_text(root, "text_ja", faults);
-  parts.overrides = read_overrides(root.optional_object("parameters"), family, faults);
+  parts.overrides = read_registers(root.optional_object("parameters"), family, faults);
   parts.voltage_classes = read_voltage_classes(root, family, faults);
   parts.suffixes = read_suffixes(root, family, faults);
   for (const json::Value* item : root.array("models")) {

@@ -134,6 +134,8 @@ inline constexpr Text firmware_unknown_hint{"`blactl get firmware_version` reads
 inline constexpr Text firmware_needed_hint{
     "`blactl models {}` shows which firmware has which features",
     "`blactl models {}` でファームウェアごとの機能を確認できます"};
+inline constexpr Text model_lacks{"{} has no parameter {} ({})",
+                                  "{} にパラメータ {} ({}) はありません"};
 inline constexpr Text no_pwm_input{"{} has no PWM input", "{} に PWM 入力はありません"};
 inline constexpr Text no_pwm_parameter{"{} has no PWM input, and so no {} ({})",
                                        "{} に PWM 入力はないため、{} ({}) は使用できません"};
@@ -190,6 +192,9 @@ inline constexpr Text profile_model_twice{"the model {} is described twice",
                                           "機種 {} が重複しています"};
 inline constexpr Text profile_like_another{"{} has the model number and hardware version of {}",
                                            "{} の機種番号とハードウェアバージョンが {} と同じです"};
+inline constexpr Text profile_described_otherwise{
+    "{} ({}) is not described as {} ({}) of another series: only default, min and max may differ",
+    "{} ({}) の定義が別のシリーズの {} ({}) と異なります (default、min、max だけが変更できます)"};
 inline constexpr Text profile_bit_twice{"{} bit {} is described twice",
                                         "{} の bit {} が重複しています"};
 inline constexpr Text profile_no_summary_bit{"0x18 has no bit {}", "0x18 に bit {} はありません"};

@@ -144,7 +144,8 @@ Result<fleet::Session*> Context::open(fleet::Session::Hearing hearing) {
   if (!recording) {
     return std::unexpected(recording.error());
   }
-  auto session = fleet::Session::open(std::move(*recording), std::move(*local), hearing);
+  auto session =
+      fleet::Session::open(std::move(*recording), std::move(*local), hearing, *profiles_);
   if (!session) {
     return std::unexpected(session.error());
   }

@@ -44,9 +44,8 @@ inline constexpr Text fleet_many_files_hint{
     "blactl diff fleet.json, or blactl diff old.json new.json",
     "例: blactl diff fleet.json、blactl diff old.json new.json"};
 
-inline constexpr Text params_passed_over{
-    "{}: passed over, as they are no settings (0x20 to 0x46): {}",
-    "{}: 設定 (0x20 から 0x46 まで) ではないため無視しました: {}"};
+inline constexpr Text params_passed_over{"{}: passed over, as they are no settings: {}",
+                                         "{}: 設定ではないため無視しました: {}"};
 inline constexpr Text params_one_entry{
     "a parameter file is of one servo, {} is not",
     "パラメータファイルは 1 台分ですが、{} は 1 台分ではありません"};

@@ -52,6 +52,10 @@ inline constexpr Text models_one{"one model only, or all: {} is another one",
 inline constexpr Text models_one_hint{
     "side by side: `blactl models all`, or their beginning: `blactl models BLA21`",
     "機種の比較: `blactl models all`、または先頭部分を指定: `blactl models BLA21`"};
+inline constexpr Text models_lack{"{} has no parameter {} ({})",
+                                  "{} にパラメータ {} ({}) はありません"};
+inline constexpr Text models_lack_hint{"which models have it: blactl models all {}",
+                                       "対応機種: blactl models all {}"};
 inline constexpr Text models_read_only{"can only be read", "読出し専用"};
 inline constexpr Text models_write_only{"an operation, cannot be read", "操作 (読出し不可)"};
 inline constexpr Text models_saved{"stored in ROM by save", "save で ROM に保存されます"};

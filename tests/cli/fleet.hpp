@@ -10,6 +10,7 @@
 #include <fstream>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace blactl::test {
@@ -19,11 +20,13 @@ using Document = nlohmann::ordered_json;
 /// Simulated servos that live on between commands.
 class Fleet {
  public:
-  explicit Fleet(const Scene& scene)
-      : sim_(bench_, {"sim", scene.write(bench_), "--json", "--clock", "virtual"}) {}
+  /// `shared`: options of the simulator and of every command.
+  explicit Fleet(const Scene& scene, Arguments shared = {})
+      : shared_(std::move(shared)), sim_(bench_, simulator(scene)) {}
 
   [[nodiscard]] Result run(Arguments arguments, const Options& options = {}) const {
     arguments.insert(arguments.begin(), {"-i", "sim:"});
+    arguments.insert(arguments.end(), shared_.begin(), shared_.end());
     return bench_.run(arguments, options);
   }
 
@@ -92,7 +95,14 @@ class Fleet {
   [[nodiscard]] std::ptrdiff_t rom_writes() { return count("rom_write"); }
 
  private:
+  [[nodiscard]] Arguments simulator(const Scene& scene) const {
+    Arguments arguments{"sim", scene.write(bench_), "--json", "--clock", "virtual"};
+    arguments.insert(arguments.end(), shared_.begin(), shared_.end());
+    return arguments;
+  }
+
   Bench bench_;
+  Arguments shared_;
   Background sim_;
   std::vector<nlohmann::json> events_;
 };

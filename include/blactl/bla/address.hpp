@@ -64,10 +64,4 @@ inline constexpr Address production_hour{0x5B}, production_minute{0x5C};
 inline constexpr std::array command_registers{address::command_angle, address::command_speed,
                                               address::command_torque};
 
-/// Whether SAVE keeps the register and ERASE sets its default (4.9, 4.11). Such a register changes
-/// by itself only when the servo restarts.
-[[nodiscard]] constexpr bool is_setting(Address address) {
-  return address >= address::torque_output && address <= address::static_node_id;
-}
-
 } // namespace blactl::bla

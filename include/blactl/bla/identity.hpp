@@ -45,8 +45,13 @@ class Identity {
   [[nodiscard]] std::string model() const;
 
   /// The register as described by the model, for reading and display; the union of all models if
-  /// the candidates differ or there are none. Null: no model has it.
+  /// the candidates differ or there are none. Null: none of them has it.
   [[nodiscard]] const Parameter* parameter(Address address) const;
+
+  [[nodiscard]] bool is_setting(Address address) const {
+    const Parameter* known = parameter(address);
+    return known != nullptr && known->is_setting();
+  }
 
   /// Whether this servo's firmware has the register. Unknown firmware: assumed.
   [[nodiscard]] bool has(const Parameter& parameter) const;
@@ -54,7 +59,8 @@ class Identity {
   /// The given registers as far as this servo has them, in the same order.
   [[nodiscard]] std::vector<const Parameter*> registers(std::span<const Address> addresses) const;
 
-  /// The registers that SAVE keeps (0x20-0x46, 4.11), as far as this servo has them, by address.
+  /// The settings (4.11: what the profile marks as saved), as far as this servo has them, by
+  /// address.
   [[nodiscard]] std::vector<const Parameter*> configuration() const;
 
   /// Their values after ERASE (4.9). Errors: no_profile, if the model is not known well enough.
@@ -64,14 +70,14 @@ class Identity {
   /// unsupported (firmware, no PWM input).
   [[nodiscard]] Result<void> check_pwm_input() const;
 
-  /// Checks that this model accepts a register of the group pwm, as far as it is known; accepts all
-  /// other groups. Errors: unsupported.
-  [[nodiscard]] Result<void> check_pwm_input(const Parameter& parameter) const;
+  /// Checks that this model has the register and, in the group pwm, accepts it, as far as the model
+  /// is known. Errors: unsupported.
+  [[nodiscard]] Result<void> check_takes(const Parameter& parameter) const;
 
   /// Checks that `raw` may be sent to `address` of this servo: never on a guess of the model, never
   /// to a register that firmware or model lack, never outside the range. Errors: no_profile
-  /// (unknown model; or candidates disagree about this register), unsupported (firmware, no PWM
-  /// input), read_only, out_of_range.
+  /// (unknown model; or candidates disagree about this register), unsupported (the model or its
+  /// firmware lacks it, no PWM input), read_only, out_of_range.
   [[nodiscard]] Result<void> may_write(Address address, std::int64_t raw) const;
 
  private:

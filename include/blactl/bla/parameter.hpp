@@ -68,12 +68,14 @@ struct Choice {
   std::int64_t raw = 0;
   std::string word; ///< as typed: "off", "brake"
   std::string text_en, text_ja;
+  friend bool operator==(const Choice&, const Choice&) = default;
 };
 
 /// How the 64-bit integer of GetSet is narrowed to the register (vendor program's casts).
 struct Width {
   std::uint8_t bits = 32;
   bool is_signed = true;
+  friend bool operator==(Width, Width) = default;
 
   /// The register's number in the low bits of `wire`, sign-extended if signed.
   [[nodiscard]] std::int64_t narrow(std::int64_t wire) const;
@@ -110,13 +112,19 @@ struct Parameter {
   struct Example {
     std::int64_t raw = 0;
     std::string model; ///< empty: every model accepts it
+    friend bool operator==(const Example&, const Example&) = default;
   };
 
   std::optional<Example> example;
+  friend bool operator==(const Parameter&, const Parameter&) = default;
 
   [[nodiscard]] bool readable() const { return access != Access::write; }
 
   [[nodiscard]] bool writable() const { return access != Access::read; }
+
+  /// Whether SAVE keeps it and ERASE sets its default (4.9, 4.11): it changes by itself only when
+  /// the servo restarts, and files hold it.
+  [[nodiscard]] bool is_setting() const { return saved && readable() && writable(); }
 
   [[nodiscard]] bool exists_in(std::int64_t firmware) const {
     return !min_firmware || firmware >= *min_firmware;

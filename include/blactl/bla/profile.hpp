@@ -115,6 +115,11 @@ class Profiles {
 
   [[nodiscard]] const Parameter* find(Address address) const;
 
+  [[nodiscard]] bool is_setting(Address address) const {
+    const Parameter* known = find(address);
+    return known != nullptr && known->is_setting();
+  }
+
   /// The same register for an unknown model: without range and default.
   [[nodiscard]] const Parameter* find_of_unknown(Address address) const;
 

@@ -98,6 +98,15 @@ Sheet choose(const ModelsOptions& options, const bla::Profiles& profiles, Report
   } else if (!parameter.empty()) {
     const auto found = profiles.find(parameter);
     found ? void(sheet.parameter = *found) : report.fail(found.error());
+    const auto has_it = [&](const bla::Profile* each) {
+      return each->find((*found)->address) != nullptr;
+    };
+    if (found && std::ranges::none_of(sheet.models, has_it)) {
+      report.fail(
+          {Code::unsupported,
+           say<texts::models_lack>(printable(model), (*found)->name, (*found)->address.name()),
+           say<texts::models_lack_hint>((*found)->name)});
+    }
   }
   sheet.group = bla::find_group(options.group);
   if (sheet.group && sheet.parameter != nullptr) {

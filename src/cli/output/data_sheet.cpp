@@ -236,7 +236,7 @@ std::string side_by_side(const Sheet& sheet, const bla::Profiles& profiles, cons
   for (const Parameter& general : profiles.registers()) {
     const auto variants =
         sheet.takes(general) ? variants_of(general.address, sheet.models) : std::vector<Variant>{};
-    if (variants.size() == 1) {
+    if (variants.size() == 1 && variants.front().models.size() == sheet.models.size()) {
       same.push_back(parameter_row(general, variants.front().initial, variants.front().range));
     } else if (!variants.empty()) {
       different += fmt::format("  {}  {}\n", general.address.name(), general.name) +

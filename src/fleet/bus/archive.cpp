@@ -28,18 +28,16 @@ std::optional<bla::Address> address_of(const GetSet::Request& request) {
              : std::nullopt;
 }
 
-/// ERASE sets the commands to 0, too (4.9).
-bool is_erasable(bla::Address address) {
-  return bla::is_setting(address) ||
-         std::ranges::find(bla::command_registers, address) != bla::command_registers.end();
-}
-
 } // namespace
 
-Archive::Moment Archive::Server::unchanged_since(bla::Address address) const {
-  const auto write = written.find(address);
-  return std::max(
-      {restarted, is_erasable(address) ? erased : 0, write != written.end() ? write->second : 0});
+/// ERASE sets the commands to 0, too (4.9).
+Archive::Moment Archive::unchanged_since(const Server& server, bla::Address address) const {
+  const bool is_erasable =
+      roster_.profiles().is_setting(address) ||
+      std::ranges::find(bla::command_registers, address) != bla::command_registers.end();
+  const auto write = server.written.find(address);
+  return std::max({server.restarted, is_erasable ? server.erased : 0,
+                   write != server.written.end() ? write->second : 0});
 }
 
 void Archive::receive(const Transfer& transfer) {
@@ -151,7 +149,7 @@ const Archive::Answer* Archive::find(const dronecan::Request& request) const {
   const auto address = address_of(*get_set);
   const auto answer = address ? held.registers.find(*address) : held.registers.end();
   const bool is_valid =
-      answer != held.registers.end() && answer->second.asked >= held.unchanged_since(*address);
+      answer != held.registers.end() && answer->second.asked >= unchanged_since(held, *address);
   return is_valid ? &answer->second : nullptr;
 }
 

@@ -58,9 +58,9 @@ const Parameter* own_register(const Parameter& parameter, const Servo& servo) {
 
 Error lacking(const Parameter& parameter, const Servo& servo) {
   const std::uint8_t id = servo.id.value();
-  if (auto has_input = servo.identity.check_pwm_input(parameter); !has_input) {
-    return {has_input.error().code, say<texts::about_node>(id, has_input.error().message),
-            has_input.error().hint, id};
+  if (auto taken = servo.identity.check_takes(parameter); !taken) {
+    return {taken.error().code, say<texts::about_node>(id, taken.error().message),
+            taken.error().hint, id};
   }
   const auto firmware = servo.identity.readings().firmware_version.value_or(0);
   const std::string message = say<texts::firmware_lacks>(

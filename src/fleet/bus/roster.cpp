@@ -12,7 +12,6 @@ using dronecan::Transfer;
 
 namespace {
 
-constexpr std::uint16_t last_address = 0xFF;
 constexpr std::uint8_t tail_start_of_transfer = 0x80;
 
 /// Bound for what anybody on the bus can make us remember.
@@ -20,13 +19,13 @@ constexpr std::size_t most_pending = 256;
 
 /// What a servo is (table 3-11), and how it is set (what SAVE keeps, 4.11): two values in answers
 /// to one question are of two servos.
-std::set<std::string> names_of_settled() {
+std::set<std::string> names_of_settled(const bla::Profiles& profiles) {
   namespace at = bla::address;
   std::set<std::string> names{at::model_number.name(), at::serial_number.name(),
                               at::firmware_version.name(), at::hardware_version.name()};
-  for (unsigned value = 0; value <= last_address; ++value) {
-    if (const bla::Address address(static_cast<std::uint8_t>(value)); bla::is_setting(address)) {
-      names.insert(address.name());
+  for (const bla::Parameter& parameter : profiles.registers()) {
+    if (parameter.is_setting()) {
+      names.insert(parameter.address.name());
     }
   }
   return names;
@@ -47,12 +46,13 @@ Servo Member::servo() const {
           .id_is_known = id_is_known};
 }
 
-Roster::Roster(NodeId local)
-    : local_(local),
-      answers_(names_of_settled(), [this](NodeId id, const std::set<dronecan::UniqueId>& units) {
-        doubled_.insert(id);
-        units_[id].insert(units.begin(), units.end());
-      }) {}
+Roster::Roster(NodeId local, const bla::Profiles& profiles)
+    : local_(local), profiles_(profiles),
+      answers_(names_of_settled(profiles),
+               [this](NodeId id, const std::set<dronecan::UniqueId>& units) {
+                 doubled_.insert(id);
+                 units_[id].insert(units.begin(), units.end());
+               }) {}
 
 void Roster::mark_doubled(NodeId id, const dronecan::UniqueId& one,
                           const dronecan::UniqueId& other) {

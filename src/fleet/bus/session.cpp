@@ -67,8 +67,9 @@ NodeId first_id(const std::optional<state::LocalNodeId>& local) {
 } // namespace
 
 Session::Session(std::unique_ptr<can::Bus> bus, std::optional<state::LocalNodeId> local,
-                 Hearing hearing)
-    : local_(std::move(local)), hearing_(hearing), loop_(std::move(bus)), roster_(first_id(local_)),
+                 Hearing hearing, const bla::Profiles& profiles)
+    : local_(std::move(local)), hearing_(hearing), loop_(std::move(bus)),
+      roster_(first_id(local_), profiles),
       node_(first_id(local_), local_ ? &local_->transfer_ids() : nullptr,
             {.name = "blactl",
              .unique_id = own_unique_id(local_ ? local_->id() : dronecan::anonymous)},
@@ -111,9 +112,10 @@ Session::Session(std::unique_ptr<can::Bus> bus, std::optional<state::LocalNodeId
 
 Result<std::unique_ptr<Session>> Session::open(std::unique_ptr<can::Bus> bus,
                                                std::optional<state::LocalNodeId> local,
-                                               Hearing hearing) {
+                                               Hearing hearing, const bla::Profiles& profiles) {
   const NodeId id = local ? local->id() : dronecan::anonymous;
-  std::unique_ptr<Session> session(new Session(std::move(bus), std::move(local), hearing));
+  std::unique_ptr<Session> session(
+      new Session(std::move(bus), std::move(local), hearing, profiles));
   if (auto filtered = session->loop_.bus().filter(filters(hearing, id)); !filtered) {
     return std::unexpected(filtered.error());
   }

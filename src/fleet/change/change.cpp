@@ -91,8 +91,8 @@ std::vector<Warning> unnamed(const Goal& goal, const Snapshot& ram, const bla::V
   for (const Reading& reading : ram.readings) {
     const bla::Parameter& parameter = *reading.parameter;
     const auto kept = bla::find(rom, parameter.address);
-    if (!bla::is_setting(parameter.address) || names(goal, parameter.address) || !reading.raw ||
-        !kept || kept == reading.raw) {
+    if (!parameter.is_setting() || names(goal, parameter.address) || !reading.raw || !kept ||
+        kept == reading.raw) {
       continue;
     }
     const std::string in_ram = bla::display(parameter, *reading.raw, ram.pwm_mode());

@@ -117,7 +117,10 @@ ChangeJob::Stage ChangeJob::after_write() const {
 }
 
 ChangeJob::Stage ChangeJob::to_show() const {
-  return brings_unread_rom() || !std::ranges::all_of(plan_.shown, bla::is_setting)
+  return brings_unread_rom() || std::ranges::any_of(plan_.shown,
+                                                    [this](bla::Address each) {
+                                                      return !servo_.identity.is_setting(each);
+                                                    })
              ? Stage::read_shown
              : Stage::end;
 }
@@ -352,7 +355,8 @@ std::optional<RomReading> ChangeJob::rom_reading(const Snapshot& now) const {
   RomReading rom{.values = now.values(),
                  .started = member.info_start,
                  .uptime = std::chrono::seconds(member.info->status.uptime_s)};
-  std::erase_if(rom.values, [](const auto& held) { return !bla::is_setting(held.first); });
+  std::erase_if(rom.values,
+                [&](const auto& held) { return !now.servo.identity.is_setting(held.first); });
   return rom;
 }
 
@@ -399,7 +403,7 @@ std::unique_ptr<ReadJob> ChangeJob::read_shown() {
       roster_, result_.node_id_after.value_or(servo_.id), profiles_, options_.identification,
       [this](const Servo& servo) -> Result<std::vector<const bla::Parameter*>> {
         auto parameters = servo.identity.registers(plan_.shown);
-        std::erase_if(parameters, [](const auto* each) { return bla::is_setting(each->address); });
+        std::erase_if(parameters, [](const auto* each) { return each->is_setting(); });
         if (brings_unread_rom()) {
           std::ranges::copy(servo.identity.registers(std::array{bla::address::servo_id}),
                             std::back_inserter(parameters));

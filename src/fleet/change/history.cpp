@@ -52,8 +52,8 @@ bla::Values replaced_by(const Plan& plan) {
   }
   std::erase_if(values, [&](const auto& held) {
     const bla::Parameter* parameter = identity.parameter(held.first);
-    return !bla::is_setting(held.first) || parameter == nullptr ||
-           !identity.check_pwm_input(*parameter); // no value of it could be written back
+    return !identity.is_setting(held.first) ||
+           !identity.check_takes(*parameter); // no value of it could be written back
   });
   return values;
 }

@@ -19,7 +19,7 @@ std::vector<Error> ChangeResult::errors() const {
 
 bla::Values ChangeResult::after() const {
   bla::Values values = before;
-  std::erase_if(values, [](const auto& held) { return !bla::is_setting(held.first); });
+  std::erase_if(values, [&](const auto& held) { return !servo.identity.is_setting(held.first); });
   values.insert(now.begin(), now.end());
   for (const RegisterChange& change : changes) {
     const auto raw = was_begun ? change.after : std::optional(change.requested);

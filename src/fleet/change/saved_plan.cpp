@@ -131,7 +131,7 @@ class PlanReader {
     auto assignment = bla::make_assignment(profiles_, address, std::to_string(requested) + "raw");
     if (!assignment) {
       faults_.add(value, fault_text(assignment.error()));
-    } else if (!bla::is_setting(assignment->parameter->address)) {
+    } else if (!assignment->parameter->is_setting()) {
       faults_.add(value, say<texts::plan_no_setting>(printable(address)));
     } else if (assignment->parameter->name != name) {
       faults_.add(value,

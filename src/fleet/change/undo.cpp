@@ -13,7 +13,7 @@ Result<Wanted> to_undo(const state::SnapshotEntry& entry, const bla::Profiles& p
   Wanted wanted{.restart = entry.saved ? std::optional(RestartKind::save) : std::nullopt};
   for (const auto& [address, raw] : entry.held) {
     const bla::Address setting(address);
-    if (!bla::is_setting(setting)) {
+    if (!profiles.is_setting(setting)) {
       return fail(Code::bad_file, say<texts::no_setting_in_history>(setting.name()),
                   say<texts::no_setting_in_history_hint>());
     }

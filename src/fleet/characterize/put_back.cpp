@@ -178,7 +178,7 @@ Result<void> TestBench::find_servo() {
 /// All but the output, and the command: that before 0x25 goes off, which ends speeds and torques.
 Result<void> TestBench::give_back_settings(const Values& now) {
   const auto differs = [&](Address address, std::int64_t raw) {
-    return bla::is_setting(address) && address != at::torque_output &&
+    return servo_.identity.is_setting(address) && address != at::torque_output &&
            bla::find(now, address) != raw;
   };
   for (const auto& [address, raw] : before_) {
@@ -267,7 +267,7 @@ Result<void> TestBench::give_back_after_start() {
     const std::int64_t told = now->at(address);
     const bool is_hidden = hides(address, told);
     const bool is_held = is_hidden ? bla::find(rom_, address) == raw : told == raw;
-    if (!bla::is_setting(address) || is_held) {
+    if (!servo_.identity.is_setting(address) || is_held) {
       continue;
     }
     const auto held = write(address, raw);
@@ -340,7 +340,7 @@ std::string TestBench::put_back_hint(const std::vector<const bla::Parameter*>& l
   const std::uint8_t id = servo_.id.value();
   std::string assignments;
   for (const bla::Parameter* parameter : left) {
-    if (bla::is_setting(parameter->address)) {
+    if (parameter->is_setting()) {
       assignments += (assignments.empty() ? "" : " ") + parameter->name + "=" +
                      std::to_string(*held(parameter->address)) + "raw";
     }

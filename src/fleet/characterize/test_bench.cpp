@@ -185,7 +185,7 @@ std::optional<Error> TestBench::differs_from(const Values& now, const Values& ex
   for (const auto& [address, raw] : expected) {
     const auto found = bla::find(now, address);
     const bla::Parameter* parameter = servo_.identity.parameter(address);
-    if (bla::is_setting(address) && parameter != nullptr && found != raw) {
+    if (parameter != nullptr && parameter->is_setting() && found != raw) {
       return Error{Code::state,
                    say<texts::bench_changed>(id, parameter->name,
                                              found ? bla::display(*parameter, *found) : "?",
@@ -204,7 +204,7 @@ Result<std::int64_t> TestBench::write(Address address, std::int64_t raw) {
     return std::unexpected(allowed.error());
   }
   has_changed_ = true;
-  if (bla::is_setting(address) && address != at::torque_output) {
+  if (servo_.identity.is_setting(address) && address != at::torque_output) {
     touched_.insert(address);
   }
   const auto reply = ask(guard().guarded(

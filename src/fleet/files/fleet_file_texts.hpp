@@ -8,8 +8,8 @@ namespace blactl::texts {
 inline constexpr Text fleet_value_kind{"must be a number or a text such as \"90.0deg\"",
                                        "数値、または \"90.0deg\" のような文字列を入れて下さい"};
 inline constexpr Text fleet_no_setting{
-    "{} is no setting that a servo keeps: a fleet file holds 0x20 to 0x46",
-    "{} はサーボに保存される設定ではありません (フリートファイルは 0x20 から 0x46 まで)"};
+    "{} is no setting: a fleet file holds what a save keeps, and can be read and written",
+    "{} は設定ではありません (フリートファイルの対象は、ROM に保存され読み書きできるものだけです)"};
 inline constexpr Text fleet_set_twice{"{} is there twice, by address and by name",
                                       "{} がアドレスと名前で 2 回指定されています"};
 inline constexpr Text id_is_none{"0 is no static node ID: the servo would ask for one",

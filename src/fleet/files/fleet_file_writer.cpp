@@ -67,7 +67,7 @@ void write_set(JsonWriter& json, const Snapshot& servo, bool with_ids) {
   json.begin_object();
   for (const Reading& reading : servo.readings) {
     const bla::Address address = reading.parameter->address;
-    if (bla::is_setting(address) && reading.raw && (with_ids || !is_id(address))) {
+    if (reading.parameter->is_setting() && reading.raw && (with_ids || !is_id(address))) {
       write_value(json, *reading.parameter, *reading.raw, servo.pwm_mode());
     }
   }
@@ -100,7 +100,7 @@ void write_about(JsonWriter& json, const Snapshot& servo, const FleetFileStyle& 
 std::vector<const bla::Parameter*> registers_to_export(const Servo& servo) {
   std::vector<const bla::Parameter*> registers = servo.identity.configuration();
   std::erase_if(registers, [&](const bla::Parameter* each) { // no value of it could be written
-    return !servo.identity.check_pwm_input(*each);
+    return !servo.identity.check_takes(*each);
   });
   constexpr std::array production{bla::address::production_year, bla::address::production_month,
                                   bla::address::production_day, bla::address::production_hour,

@@ -82,7 +82,7 @@ class ParamsReader {
     const auto address = bla::find_address(words[0]);
     if (!address) {
       fault(words[0], about_name(words[0]));
-    } else if (!bla::is_setting(*address)) {
+    } else if (profiles_.find(*address) != nullptr && !profiles_.is_setting(*address)) {
       passed_over_.insert(*address);
     } else if (!is_whole(words[1])) {
       fault(words[0], say<texts::params_not_whole>(printable(words[1])));

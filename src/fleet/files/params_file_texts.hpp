@@ -25,8 +25,8 @@ inline constexpr Text params_not_whole{
     "'{}' はレジスタ値ではありません (レジスタ値は単位の無い整数です)"};
 inline constexpr Text params_twice{"this register is also in line {}",
                                    "このレジスタは {} 行目にもあります"};
-inline constexpr Text params_empty{"no setting of a BLA servo (0x20 to 0x46) is in this file",
-                                   "BLA サーボの設定 (0x20 から 0x46 まで) がありません"};
+inline constexpr Text params_empty{"no setting of a BLA servo is in this file",
+                                   "BLA サーボの設定がありません"};
 inline constexpr Text params_several{
     "{} does not say which servo it is for, and there are several: nodes {}",
     "{} には対象のサーボの記述が無く、サーボが複数あります: ノード {}"};

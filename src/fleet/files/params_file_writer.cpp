@@ -10,7 +10,7 @@ std::string params_file(const Snapshot& servo, const FleetFileStyle& style) {
   std::string text = fmt::format("# {} {} blactl {}\n", servo.servo.identity.model(),
                                  serial ? std::to_string(*serial) : "unknown", style.tool_version);
   for (const Reading& reading : servo.readings) {
-    if (bla::is_setting(reading.parameter->address) && reading.raw) {
+    if (reading.parameter->is_setting() && reading.raw) {
       text += fmt::format("{} {}\n", reading.parameter->address.name(), *reading.raw);
     }
   }

@@ -48,7 +48,7 @@ std::vector<Setting> read_settings(std::span<const json::Value* const> members,
       continue;
     }
     const bla::Parameter* parameter = assignment->parameter;
-    if (!bla::is_setting(parameter->address)) {
+    if (!parameter->is_setting()) {
       faults.add(*member, say<texts::fleet_no_setting>(parameter->name));
     } else if (find(settings, parameter->address) != nullptr) {
       faults.add(*member, say<texts::fleet_set_twice>(parameter->name));

@@ -19,7 +19,7 @@ struct Setting {
 };
 
 /// Those of `members`, in their order. Faults: what is no value, what no model takes, registers
-/// other than 0x20-0x46, one that is there twice.
+/// that are no settings, one that is there twice.
 [[nodiscard]] std::vector<Setting> read_settings(std::span<const json::Value* const> members,
                                                  const bla::Profiles& profiles,
                                                  json::Faults& faults);

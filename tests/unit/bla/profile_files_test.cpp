@@ -175,6 +175,111 @@ TEST_CASE("a family in a directory stands for the built-in one") {
   CHECK(profiles->find(Address(0x27))->max == 30000);
 }
 
+namespace {
+
+const std::string own_register = R"("parameters": {
+    "0x47": {"name": "my_param", "group": "option", "name_en": "Mine", "name_ja": "独自",
+             "access": "RW", "width": "uint8", "default": 7, "min": 0, "max": 9, "saved": true},)";
+
+std::string with_own_register(const std::string& text) {
+  return changed(text, "\"parameters\": {", own_register);
+}
+
+} // namespace
+
+TEST_CASE("a series may have a register that no other has") {
+  Directory directory;
+  directory.with("x.json", with_own_register(series));
+  const auto profiles = Profiles::load(directory.path());
+  REQUIRE(profiles);
+  const auto found = profiles->find("my_param");
+  REQUIRE(found);
+  CHECK(*found == profiles->find(Address(0x47)));
+  CHECK((*found)->is_setting());
+  CHECK((*found)->max == 9);
+  CHECK((*found)->example->raw == 7);
+  CHECK(std::ranges::is_sorted(profiles->registers(), {}, &Parameter::address));
+  for (const Profile& profile : profiles->all()) {
+    CHECK((profile.find(Address(0x47)) != nullptr) == (profile.series == "BLA50"));
+    CHECK(std::ranges::is_sorted(profile.parameters, {}, &Parameter::address));
+  }
+  const Identity owner(*profiles, {90, 1, 1500, 24010});
+  CHECK(owner.parameter(Address(0x47))->default_raw == 7);
+  CHECK(owner.configuration().back()->name == "my_param");
+  CHECK(owner.may_write(Address(0x47), 9));
+  CHECK(owner.check_takes(**found));
+  CHECK_FALSE(owner.may_write(Address(0x47), 10));
+}
+
+TEST_CASE("a servo of a series without that register is not asked for it, nor written") {
+  Directory directory;
+  directory.with("x.json", with_own_register(series));
+  const auto profiles = Profiles::load(directory.path());
+  REQUIRE(profiles);
+  for (const std::int64_t hardware : {12050, 12011, 99999}) { // its suffix and class may be open
+    const Identity other(*profiles, {61, 1, 1500, hardware});
+    CHECK(other.parameter(Address(0x47)) == nullptr);
+    for (const auto& refused :
+         {other.may_write(Address(0x47), 7), other.check_takes(*profiles->find(Address(0x47)))}) {
+      REQUIRE_FALSE(refused);
+      CHECK(refused.error().code == Code::unsupported);
+      CHECK(refused.error().message == other.model() + " has no parameter my_param (0x47)");
+    }
+  }
+  // Of a servo of unknown model nobody knows what it has.
+  CHECK(Identity(*profiles, {}).parameter(Address(0x47)) != nullptr);
+}
+
+TEST_CASE("voltage classes and suffixes give ranges of their series' own register, too") {
+  Directory directory;
+  const std::string text = changed(with_own_register(series), "\"0x2A\"",
+                                   R"("0x47": {"default": 1, "min": 0, "max": 3}, "0x2A")");
+  directory.with("x.json", text);
+  const auto profiles = Profiles::load(directory.path());
+  REQUIRE(profiles);
+  CHECK(profiles->matching("BLA50").front()->find(Address(0x47))->max == 3);
+}
+
+TEST_CASE("one name means one register, and one address too, whichever series has it") {
+  const std::string other =
+      changed(changed(changed(series, "BLA50", "BLA60"), "90", "91"), "24010", "24011");
+  const auto told = [&](const std::string& from, const std::string& to) {
+    Directory directory;
+    directory.with("a.json", with_own_register(series))
+        .with("b.json", changed(with_own_register(other), from, to));
+    return faults(directory);
+  };
+  const std::string otherwise = "b.json:38: /models/0: my_param (0x47) is not described as "
+                                "my_param (0x47) of another series: only default, min and max "
+                                "may differ";
+  CHECK(has_line(told("\"uint8\"", "\"int16\""), otherwise));
+  CHECK(has_line(told("\"saved\": true", "\"saved\": false"), otherwise));
+  CHECK(has_line(told("my_param", "other_param"),
+                 "b.json:38: /models/0: other_param (0x47) is not described as my_param (0x47) of "
+                 "another series: only default, min and max may differ"));
+  CHECK(has_line(told("0x47", "0x48"),
+                 "b.json:38: /models/0: my_param (0x48) is not described as my_param (0x47) of "
+                 "another series: only default, min and max may differ"));
+  CHECK(
+      has_line(series_faults("\"0x2D\": {", "\"0x2D\": {\"name\": \"mine\", "),
+               "x.json:11: /parameters/0x2D/name: this key is not known; known here: default, min, "
+               "max"));
+  CHECK(has_line(
+      faults(Directory().with("x.json", changed(with_own_register(series), "my_param", "origin"))),
+      "x.json:9: /parameters/0x47: origin is already the name of 0x44"));
+}
+
+TEST_CASE("series that describe a register alike share it, each with its own range") {
+  Directory directory;
+  const std::string other =
+      changed(changed(changed(series, "BLA50", "BLA60"), "90", "91"), "24010", "24011");
+  directory.with("a.json", with_own_register(series))
+      .with("b.json", changed(with_own_register(other), "\"max\": 9,", "\"max\": 20,"));
+  const auto profiles = Profiles::load(directory.path());
+  REQUIRE(profiles);
+  CHECK(profiles->find(Address(0x47))->max == 20);
+}
+
 TEST_CASE("an empty directory changes nothing, one that is not there is an error") {
   CHECK(Profiles::load(Directory().path())->all().size() == 10);
   const auto missing = Profiles::load("/nonexistent/\x1B[m");

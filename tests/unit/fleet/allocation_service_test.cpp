@@ -171,8 +171,9 @@ namespace {
 /// An allocator on a bus that the test writes. The unit has a one and zeros for its unique ID.
 struct Rig {
   Rig() {
-    auto opened = Session::open(std::make_unique<can::test::FakeBus>(wire),
-                                state::LocalNodeId::unshared({}), Session::Hearing::all);
+    auto opened =
+        Session::open(std::make_unique<can::test::FakeBus>(wire), state::LocalNodeId::unshared({}),
+                      Session::Hearing::all, profiles());
     REQUIRE(opened);
     session = std::move(*opened);
     service.emplace(*session, store, AllocationService::Range{},

@@ -71,7 +71,7 @@ struct Recording {
   }
 
   Time now{1h};
-  Roster roster{dronecan::anonymous};
+  Roster roster{dronecan::anonymous, profiles()};
   Archive archive{roster};
 };
 

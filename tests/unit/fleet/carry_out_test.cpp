@@ -469,7 +469,7 @@ namespace {
 struct Rig {
   Rig() {
     auto opened = Session::open(std::make_unique<FakeBus>(wire), LocalNodeId::unshared({}),
-                                Session::Hearing::all);
+                                Session::Hearing::all, profiles());
     REQUIRE(opened);
     session = std::move(*opened);
     hear(message(NodeStatus::type, 11, NodeStatus{.uptime_s = 100}.encode(), 31), 0ms);

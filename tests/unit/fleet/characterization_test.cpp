@@ -160,7 +160,7 @@ class Rig {
         std::make_unique<Interrupted>(std::make_unique<sim::PrivateBus>("sim:", *scenario));
     bus = interrupted.get();
     auto opened = Session::open(std::move(interrupted), state::LocalNodeId::unshared({}),
-                                Session::Hearing::all);
+                                Session::Hearing::all, profiles());
     REQUIRE(opened);
     session = std::move(*opened);
     OneId table;

@@ -85,7 +85,7 @@ struct Bus {
     return diagnose_nodes(findings, traffic, limits);
   }
 
-  Roster roster{NodeId(127)};
+  Roster roster{NodeId(127), profiles()};
   Traffic traffic;
   Time now{1000s};
 };

@@ -344,7 +344,7 @@ namespace {
 struct Rig {
   Rig() {
     auto opened = Session::open(std::make_unique<FakeBus>(wire), LocalNodeId::unshared({}),
-                                Session::Hearing::all);
+                                Session::Hearing::all, profiles());
     REQUIRE(opened);
     session = std::move(*opened);
   }

@@ -41,7 +41,7 @@ struct Bus {
     return gather(roster, *targets, profiles(), now);
   }
 
-  Roster roster{NodeId(127)};
+  Roster roster{NodeId(127), profiles()};
   Time now{1000s};
 };
 

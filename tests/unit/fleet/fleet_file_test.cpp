@@ -195,7 +195,7 @@ TEST_CASE("what is exported is read as what the servo holds, every register at b
       snapshot.servo.identity =
           bla::Identity(profiles(), {model.model_number, 240900558, 1400, model.hardware_version});
       for (const bla::Parameter* parameter : registers_to_export(snapshot.servo)) {
-        if (!bla::is_setting(parameter->address)) {
+        if (!parameter->is_setting()) {
           continue;
         }
         const bool is_id = parameter->address == bla::address::static_node_id;

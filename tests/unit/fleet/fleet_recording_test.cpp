@@ -122,7 +122,7 @@ TEST_CASE("a session on a file answers what it was told, and no number names who
   const auto recording = recording_of(file, profiles(), nullptr);
   REQUIRE(recording);
   auto session = Session::open(std::make_unique<can::SilentRecording>("file:fleet.json"),
-                               std::nullopt, Session::Hearing::answers);
+                               std::nullopt, Session::Hearing::answers, profiles());
   REQUIRE(session);
   for (const RecordedServo& servo : recording->servos) {
     (*session)->recall(servo);

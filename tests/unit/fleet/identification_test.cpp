@@ -59,7 +59,7 @@ struct Dialogue {
     CHECK(next(script.info(unit)) == "read 0x50");
   }
 
-  Roster roster{NodeId(127)};
+  Roster roster{NodeId(127), profiles()};
   Script script;
   Identification identification;
 };
@@ -374,7 +374,7 @@ TEST_CASE("probes ask every silent ID once, eight at a time, and never our own")
 
 TEST_CASE("a probed node answers and is heard; a cancelled probe asks no more") {
   Scene scene(R"("foreign": [{"kind": "node", "node_id": 2}])");
-  Roster roster(NodeId(127)); // has not heard it
+  Roster roster(NodeId(127), profiles()); // has not heard it
   std::uint8_t cursor = 0;
   ProbeJob probe(roster, cursor, 60ms);
   scene.session->start(probe);

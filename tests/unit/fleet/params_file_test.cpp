@@ -128,7 +128,7 @@ TEST_CASE("what is written is read as what the servo holds, every register at bo
       snapshot.servo.identity =
           bla::Identity(profiles(), {model.model_number, 240900558, 1400, model.hardware_version});
       for (const bla::Parameter* parameter : registers_to_export(snapshot.servo)) {
-        if (!bla::is_setting(parameter->address)) {
+        if (!parameter->is_setting()) {
           continue;
         }
         const std::int64_t most =
@@ -162,7 +162,7 @@ void add_servos(Roster& roster, std::initializer_list<std::uint8_t> ids) {
 TEST_CASE("a parameter file is for the one servo that is named, or that there is") {
   const auto file = parsed_params("0x38 900\n");
   REQUIRE(file);
-  Roster roster(dronecan::anonymous);
+  Roster roster(dronecan::anonymous, profiles());
   const auto none = match(*file, roster, {}, profiles());
   CHECK(none.pairs.empty());
   REQUIRE(none.errors.size() == 1);

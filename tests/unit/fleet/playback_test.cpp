@@ -94,8 +94,8 @@ struct Writer {
 
   [[nodiscard]] std::unique_ptr<Session> play() {
     events.emplace_back(can::Ended{});
-    auto session =
-        Session::open(std::make_unique<Tape>(events), std::nullopt, Session::Hearing::answers);
+    auto session = Session::open(std::make_unique<Tape>(events), std::nullopt,
+                                 Session::Hearing::answers, profiles());
     REQUIRE(session);
     return std::move(*session);
   }

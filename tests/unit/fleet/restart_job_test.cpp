@@ -170,7 +170,7 @@ class Bench {
   dronecan::TransferId id_ = 0;
 
  public:
-  Roster roster{NodeId(127)};
+  Roster roster{NodeId(127), profiles()};
 
  private:
   dronecan::Receiver receiver_{

@@ -25,7 +25,7 @@ namespace {
 /// A roster that hears frames as a session makes it hear them.
 class Ear {
  public:
-  explicit Ear(NodeId local = NodeId(127)) : roster(local) {}
+  explicit Ear(NodeId local = NodeId(127)) : roster(local, profiles()) {}
 
   void hear(const std::vector<can::Frame>& frames) {
     for (const auto& frame : frames) {

@@ -29,7 +29,8 @@ struct Rig {
     if (!listen_only) {
       local = LocalNodeId::unshared({});
     }
-    auto opened = Session::open(std::make_unique<FakeBus>(wire), std::move(local), hearing);
+    auto opened =
+        Session::open(std::make_unique<FakeBus>(wire), std::move(local), hearing, profiles());
     REQUIRE(opened);
     session = std::move(*opened);
   }
@@ -77,7 +78,7 @@ std::unique_ptr<Session> on_simulated_bus(std::string_view members) {
       "test.json", profiles());
   REQUIRE(scenario);
   auto session = Session::open(std::make_unique<sim::PrivateBus>("sim:", *scenario),
-                               LocalNodeId::unshared({}), Session::Hearing::all);
+                               LocalNodeId::unshared({}), Session::Hearing::all, profiles());
   REQUIRE(session);
   return std::move(*session);
 }
@@ -343,7 +344,7 @@ TEST_CASE("an ID that was asked for and is another's is not spoken with") {
   std::vector<can::Frame> sent;
   auto session = Session::open(
       std::make_unique<Tap>(std::make_unique<sim::PrivateBus>("sim:", *scenario), sent),
-      LocalNodeId::unshared({NodeId(11)}), Session::Hearing::all);
+      LocalNodeId::unshared({NodeId(11)}), Session::Hearing::all, profiles());
   REQUIRE(session);
   const auto opened = (*session)->wait_until_open();
   REQUIRE_FALSE(opened);

@@ -125,8 +125,8 @@ class Scene {
     INFO((scenario ? "" : scenario.error().message));
     REQUIRE(scenario);
     auto bus = std::make_unique<sim::PrivateBus>("sim:test.json", *scenario);
-    auto opened =
-        Session::open(std::make_unique<Tap>(std::move(bus), sent), std::move(local), hearing);
+    auto opened = Session::open(std::make_unique<Tap>(std::move(bus), sent), std::move(local),
+                                hearing, profiles());
     REQUIRE(opened);
     session = std::move(*opened);
     live(start_time);
@@ -271,7 +271,7 @@ class Acquaintance {
                                        .name = "servo",
                                        .is_servo = true},
                         NodeId local = NodeId(127))
-      : roster(local), servo(std::move(known)) {
+      : roster(local, profiles()), servo(std::move(known)) {
     hear_uptime(100);
     roster.learn(servo, GetNodeInfo::Response{.unique_id = *servo.unique_id, .name = servo.name});
   }

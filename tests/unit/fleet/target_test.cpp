@@ -162,7 +162,7 @@ TEST_CASE("a selector never picks a model by a guess") {
 }
 
 TEST_CASE("the beginning of a unique ID must mean one unit") {
-  Roster roster(NodeId(127));
+  Roster roster(NodeId(127), profiles());
   for (const std::uint8_t id : {std::uint8_t{11}, std::uint8_t{12}}) {
     Member member = servo(id);
     member.info->unique_id[15] = id;

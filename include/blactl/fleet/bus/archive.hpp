@@ -67,15 +67,14 @@ class Archive {
     // What it was told last, whatever it answered.
     std::map<bla::Address, Moment> written;
     Moment erased = 0, restarted = 0;
-
-    /// Since when its answers tell what a register holds.
-    [[nodiscard]] Moment unchanged_since(bla::Address address) const;
   };
 
   void receive_request(const dronecan::Transfer& transfer);
   void receive_question(const dronecan::Transfer& transfer);
   void receive_register(const dronecan::Transfer& transfer);
   void keep(Answer& slot, const dronecan::Transfer& transfer, Moment asked);
+  /// Since when its answers tell what a register holds.
+  [[nodiscard]] Moment unchanged_since(const Server& server, bla::Address address) const;
   [[nodiscard]] std::uint32_t boots(dronecan::NodeId node) const;
   [[nodiscard]] const Answer* find(const dronecan::Request& request) const;
 

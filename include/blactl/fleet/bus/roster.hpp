@@ -95,13 +95,15 @@ class Roster {
     Listener() = default;
   };
 
-  /// `local`: our own ID, whose frames are not those of a member.
-  explicit Roster(dronecan::NodeId local);
+  /// `local`: our own ID, whose frames are not those of a member. `profiles` outlive this.
+  Roster(dronecan::NodeId local, const bla::Profiles& profiles);
   ~Roster() = default;
   Roster(const Roster&) = delete;
   Roster& operator=(const Roster&) = delete;
 
   [[nodiscard]] dronecan::NodeId local() const { return local_; }
+
+  [[nodiscard]] const bla::Profiles& profiles() const { return profiles_; }
 
   void change_local(dronecan::NodeId local) { local_ = local; }
 
@@ -208,6 +210,7 @@ class Roster {
   [[nodiscard]] bool is_too_fast(dronecan::NodeId id) const;
 
   dronecan::NodeId local_;
+  const bla::Profiles& profiles_;
   std::vector<Listener*> listeners_;
   std::map<dronecan::NodeId, Member> members_;
   std::array<bool, 128> heard_{};

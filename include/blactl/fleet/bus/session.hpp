@@ -31,9 +31,10 @@ class Session {
     all,
   };
 
-  /// Without a local ID the session only listens.
+  /// Without a local ID the session only listens. `profiles` outlive it.
   [[nodiscard]] static Result<std::unique_ptr<Session>>
-  open(std::unique_ptr<can::Bus> bus, std::optional<state::LocalNodeId> local, Hearing hearing);
+  open(std::unique_ptr<can::Bus> bus, std::optional<state::LocalNodeId> local, Hearing hearing,
+       const bla::Profiles& profiles);
 
   ~Session() = default;
   Session(const Session&) = delete;
@@ -172,7 +173,8 @@ class Session {
   [[nodiscard]] std::size_t unsent() const { return loop_.unsent(); }
 
  private:
-  Session(std::unique_ptr<can::Bus> bus, std::optional<state::LocalNodeId> local, Hearing hearing);
+  Session(std::unique_ptr<can::Bus> bus, std::optional<state::LocalNodeId> local, Hearing hearing,
+          const bla::Profiles& profiles);
   void begin_as_node();
   [[nodiscard]] Result<void> give_way();
 

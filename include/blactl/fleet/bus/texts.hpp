@@ -212,7 +212,9 @@ inline constexpr Text no_setting_in_history{
     "the change history says that {} was replaced, which is no setting",
     "変更履歴にある {} は設定項目ではありません"};
 inline constexpr Text no_setting_in_history_hint{
-    "another program has written to snapshots.db: move it away, a new one is begun",
-    "snapshots.db が別のプログラムで書き換えられています。移動すると新しく作成されます"};
+    "if it is one of a profile, name its folder with --profile-dir; else another program has "
+    "written to snapshots.db: move it away, a new one is begun",
+    "プロファイルの設定項目なら --profile-dir を指定して下さい。それ以外では snapshots.db が別の"
+    "プログラムで書き換えられています (移動すると新しく作成されます)"};
 
 } // namespace blactl::texts

@@ -80,7 +80,7 @@ struct FleetFile {
 
 /// `file` is the name for messages. Errors: bad_file with file, line, JSON pointer and reason of
 /// every fault: what is no JSON, keys that are unknown or there twice, values that no model takes,
-/// or not the model that the entry names, registers other than 0x20-0x46, two entries for one
+/// or not the model that the entry names, registers that are no settings, two entries for one
 /// servo, an ID for two, an entry that would not find its servo again after its own change.
 [[nodiscard]] Result<FleetFile> parse_fleet_file(std::string_view text, std::string file,
                                                  const bla::Profiles& profiles);

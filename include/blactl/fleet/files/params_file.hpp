@@ -23,7 +23,7 @@
 namespace blactl::fleet {
 
 /// One entry without name and match, FleetFile::is_params. Registers of a servo that are no
-/// settings (0x20-0x46) are passed over: a tool has saved them with the others.
+/// settings are passed over: a tool has saved them with the others.
 /// Errors: bad_file with file, line and reason of every fault: lines that are no name and value,
 /// names that are no address (also decimal ones, and blactl's own), values that are no whole number
 /// or that no model takes, a register named twice, a file without a setting.

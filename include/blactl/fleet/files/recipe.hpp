@@ -53,7 +53,7 @@ struct Recipe {
 
 /// `file` is the name for messages. Errors: bad_file with file, line, JSON pointer and reason of
 /// every fault: what is no JSON, keys that are unknown or there twice, values that the model does
-/// not take, registers other than 0x20-0x46, counters for other registers than the two, or with an
+/// not take, registers that are no settings, counters for other registers than the two, or with an
 /// ID that no servo takes.
 [[nodiscard]] Result<Recipe> parse_recipe(std::string_view text, std::string file,
                                           const bla::Profiles& profiles);

@@ -17,7 +17,7 @@
 //         "hardware_version": 12050,
 //         "name": "jp.co.futaba.bla21",    of GetNodeInfo
 //         "answer_delay": "0.5ms",         a value of time; an integer counts us
-//         "rom": {"angle_limit_cw": "90deg"},     of 0x20-0x46; default: as from the factory
+//         "rom": {"angle_limit_cw": "90deg"},    what SAVE keeps; default: as from the factory
 //         "ram": {"reverse": "on", "current_voltage": "11.8V", "fault_warning": 16},
 //         "behaviour": {"out_of_range": "clamp", "rom_write_time": "80ms"},
 //         "faults": {"lose_opcode_answers": 1, "return_delay": "3s",

@@ -46,7 +46,7 @@ class Registers {
   /// The number in a register, also where read() would fail; 0 where there is none.
   [[nodiscard]] std::int64_t value(bla::Address address) const;
 
-  /// The number that ROM holds for a saved register (0x20-0x4F); 0 for others.
+  /// The number that ROM holds for a saved register; 0 for others.
   [[nodiscard]] std::int64_t rom_value(bla::Address address) const;
 
   /// 4.11: what RAM holds of the saved registers goes to ROM.
