@@ -31,3 +31,7 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(blactl-warnings INTERFACE
     "$<${in_unity}:-Wshadow=local;-Wno-subobject-linkage>")
 endif()
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  # GCC 12 warns of `"text" + std::string()` itself (its bug 105651).
+  target_compile_options(blactl-warnings INTERFACE -Wno-restrict)
+endif()

@@ -43,9 +43,9 @@ _blactl_offer_list() {
 
 _blactl_offer_interface() {
   case $cur in
+    sim:*) _blactl_offer_files sim: ;;
     replay:*) _blactl_offer_files replay: ;;
     file:*) _blactl_offer_files file: ;;
-    sim:*) _blactl_offer_files sim: ;;
     *)
       _blactl_offer "$(_blactl_can_interfaces /sys/class/net)
         $(_blactl_serial_adapters /dev/serial/by-id) mcast:0 sim: replay: file:"

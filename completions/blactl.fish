@@ -60,12 +60,12 @@ end
 
 function __blactl_interface
     switch (__blactl_token)
+        case 'sim:*'
+            __blactl_files sim:
         case 'replay:*'
             __blactl_files replay:
         case 'file:*'
             __blactl_files file:
-        case 'sim:*'
-            __blactl_files sim:
         case '*'
             __blactl_can_interfaces /sys/class/net
             __blactl_serial_adapters /dev/serial/by-id

@@ -11,7 +11,7 @@ if [[ -t 1 && -z ${NO_COLOR:-} ]]; then
   bold=$'\e[1m' dim=$'\e[2m' red=$'\e[31m' plain=$'\e[0m'
 fi
 
-build_packages=(g++ cmake ninja-build ccache pkg-config
+build_packages=(g++ cmake ninja-build pkg-config
                 libcli11-dev nlohmann-json3-dev libfmt-dev libnl-route-3-dev
                 libsqlite3-dev zlib1g-dev libmd-dev libncurses-dev)
 

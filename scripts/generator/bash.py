@@ -22,7 +22,7 @@ _blactl_serial_adapters() {{
   local entry
   for entry in "$1"/*; do
     if [[ -e $entry ]]; then
-      printf 'slcan:%s\\n' "$entry"
+{serial_ports}
     fi
   done
 }}
@@ -49,12 +49,10 @@ _blactl_offer_list() {{
 
 _blactl_offer_interface() {{
   case $cur in
-    replay:*) _blactl_offer_files replay: ;;
-    file:*) _blactl_offer_files file: ;;
-    sim:*) _blactl_offer_files sim: ;;
+{file_cases}
     *)
       _blactl_offer "$(_blactl_can_interfaces /sys/class/net)
-        $(_blactl_serial_adapters /dev/serial/by-id) mcast:0 sim: replay: file:"
+        $(_blactl_serial_adapters /dev/serial/by-id) {interface_words}"
       if [[ ${{COMPREPLY[*]}} == *: ]]; then
         compopt -o nospace 2>/dev/null
       fi
@@ -237,4 +235,11 @@ def completion(table):
         *_option_lists(table),
         *_assignments(table),
     ]
-    return FIXED.format(notice=NOTICE) + "\n".join(lines) + "\n" + MAIN
+    files = table.schemes_with("file")
+    fixed = FIXED.format(
+        notice=NOTICE,
+        serial_ports="\n".join(f"      printf '{name}:%s\\n' \"$entry\""
+                               for name in table.schemes_with("serial_port")),
+        file_cases="\n".join(f"    {name}:*) _blactl_offer_files {name}: ;;" for name in files),
+        interface_words=" ".join(table.interface_words()))
+    return fixed + "\n".join(lines) + "\n" + MAIN

@@ -48,7 +48,7 @@ end
 # The serial ports in a folder such as /dev/serial/by-id.
 function __blactl_serial_adapters
     for entry in $argv[1]/*
-        echo slcan:$entry
+{serial_ports}
     end
 end
 
@@ -65,16 +65,11 @@ end
 
 function __blactl_interface
     switch (__blactl_token)
-        case 'replay:*'
-            __blactl_files replay:
-        case 'file:*'
-            __blactl_files file:
-        case 'sim:*'
-            __blactl_files sim:
+{file_cases}
         case '*'
             __blactl_can_interfaces /sys/class/net
             __blactl_serial_adapters /dev/serial/by-id
-            printf '%s\\n' mcast:0 sim: replay: file:
+            printf '%s\\n' {interface_words}
     end
 end
 
@@ -189,4 +184,11 @@ def completion(table):
         lines += [_option_line(option, condition) for option in command.options]
         lines += [_argument_line(command, place, argument)
                   for place, argument in enumerate(command.arguments)]
-    return FIXED.format(notice=NOTICE, with_value=_with_value(table)) + "\n".join(lines) + "\n"
+    fixed = FIXED.format(
+        notice=NOTICE, with_value=_with_value(table),
+        serial_ports="\n".join(f"        echo {name}:$entry"
+                               for name in table.schemes_with("serial_port")),
+        file_cases="\n".join(f"        case '{name}:*'\n            __blactl_files {name}:"
+                             for name in table.schemes_with("file")),
+        interface_words=" ".join(table.interface_words()))
+    return fixed + "\n".join(lines) + "\n"

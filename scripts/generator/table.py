@@ -36,6 +36,15 @@ class Command:
 
 
 @dataclasses.dataclass(frozen=True)
+class Scheme:
+    """A kind of interface: what stands before the colon, and what is completed behind it."""
+
+    name: str
+    operand: str
+    example: str
+
+
+@dataclasses.dataclass(frozen=True)
 class CrossCheck:
     code: str
     kind: str
@@ -81,6 +90,9 @@ class Table:
         self.commands = tuple(
             Command(entry["name"], entry["help_en"], _options(entry["options"]),
                     _options(entry["arguments"])) for entry in cli["commands"])
+        # Two of one name are completed alike.
+        self.schemes = tuple({entry["name"]: Scheme(entry["name"], entry["operand"], entry["example"])
+                              for entry in reversed(cli["interfaces"])}.values())[::-1]
         self.models = sorted(model["model"] for model in models["models"])
         by_address = {}
         for model in models["models"]:
@@ -93,6 +105,15 @@ class Table:
             CrossCheck(entry["code"], entry["kind"],
                        tuple(by_address[address].name for address in entry["addresses"]),
                        entry["help_en"]) for entry in cli["cross_checks"])
+
+    def schemes_with(self, operand):
+        """Their names."""
+        return [scheme.name for scheme in self.schemes if scheme.operand == operand]
+
+    def interface_words(self):
+        """What is offered before anything is typed, besides what the machine has."""
+        return ([scheme.example for scheme in self.schemes if scheme.operand == "other"] +
+                [f"{name}:" for name in self.schemes_with("file")])
 
     def readable(self):
         return [parameter for parameter in self.parameters if parameter.readable]

@@ -21,17 +21,17 @@ _blactl_can_interfaces() {{
 _blactl_serial_adapters() {{
   local entry
   for entry in $1/*(N); do
-    print -r -- slcan:$entry
+{serial_ports}
   done
 }}
 
 _blactl_interface() {{
-  if compset -P 'replay:' || compset -P 'file:' || compset -P 'sim:'; then
+  if {file_prefixes}; then
     _files
   else
     compadd -- $(_blactl_can_interfaces /sys/class/net) \
-      $(_blactl_serial_adapters /dev/serial/by-id) mcast:0
-    compadd -S '' -- sim: replay: file:
+      $(_blactl_serial_adapters /dev/serial/by-id) {whole_words}
+    compadd -S '' -- {beginnings}
   fi
 }}
 
@@ -181,4 +181,12 @@ def completion(table):
         "  compdef _blactl blactl",
         "fi",
     ]
-    return FIXED.format(notice=NOTICE) + "\n".join(lines) + "\n"
+    words = table.interface_words()
+    fixed = FIXED.format(
+        notice=NOTICE,
+        serial_ports="\n".join(f"    print -r -- {name}:$entry"
+                               for name in table.schemes_with("serial_port")),
+        file_prefixes=" || ".join(f"compset -P '{name}:'" for name in table.schemes_with("file")),
+        whole_words=" ".join(word for word in words if not word.endswith(":")),
+        beginnings=" ".join(word for word in words if word.endswith(":")))
+    return fixed + "\n".join(lines) + "\n"

@@ -7,6 +7,7 @@
 #include "blactl/state/state_folder.hpp"
 
 #include "cli/interface/bus_factory.hpp"
+#include "cli/interface/scheme.hpp"
 #include "cli/texts.hpp"
 
 #include <signal.h>
@@ -271,12 +272,11 @@ namespace {
 
 /// What is known of the servos behind `interface`: those of a private simulation end with it.
 template <class Store> Result<Store> open_store(std::string_view interface, state::Access access) {
-  const auto name = parse_interface(interface);
-  if (name && name->kind == InterfaceKind::scenario) {
+  if (names(interface, Behind::scenario)) {
     return Store::unshared();
   }
   std::string folder = state::state_folder();
-  if (!folder.empty() && name && name->kind == InterfaceKind::simulator) {
+  if (!folder.empty() && names(interface, Behind::simulator)) {
     folder += "/simulated";
   }
   return Store::open(folder, access);
@@ -299,7 +299,7 @@ Result<fleet::History> Context::history(std::string_view command, state::Access 
   }
   // A private simulation has the unique IDs of the one before it, and another ROM.
   const auto name = parse_interface(shared_.interface);
-  const bool is_private = name && name->kind == InterfaceKind::simulator && name->rest.empty() &&
+  const bool is_private = name && name->is(Behind::simulator) && name->rest.empty() &&
                           !can::SimBus::is_served(can::default_socket_path());
   auto proofs = is_private ? state::ProofStore::unshared()
                            : open_store<state::ProofStore>(shared_.interface, access);
@@ -372,8 +372,7 @@ void drop(Report& report, const auto& is_meant) {
 } // namespace
 
 bool Context::is_fleet_file() const {
-  const auto name = parse_interface(shared_.interface);
-  return name && name->kind == InterfaceKind::file;
+  return names(shared_.interface, Behind::fleet_file);
 }
 
 void Context::explain_file(Report& report) const {

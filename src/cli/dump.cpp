@@ -4,7 +4,10 @@
 #include "blactl/bla/cross_check.hpp"
 
 #include "cli/commands.hpp"
+#include "cli/interface/scheme.hpp"
 
+#include <array>
+#include <cstddef>
 #include <string_view>
 
 namespace blactl::cli {
@@ -85,6 +88,17 @@ void write(JsonWriter& json, const Command& command) {
   json.end_object();
 }
 
+void write(JsonWriter& json, const Scheme& scheme) {
+  // In the order of Operand.
+  constexpr std::array<std::string_view, 4> operands{"link", "serial_port", "file", "other"};
+  json.begin_object();
+  json.member("name", scheme.name);
+  json.member("operand", operands[static_cast<std::size_t>(scheme.operand)]);
+  json.member("form", scheme.form);
+  json.member("example", scheme.example);
+  json.end_object();
+}
+
 void write(JsonWriter& json, const bla::CrossCheck& check) {
   json.begin_object();
   json.member("code", check.code);
@@ -108,6 +122,12 @@ std::string dump_cli() {
   json.member("schema", "blactl-cli/1");
   json.member("version", BLACTL_VERSION);
   write(json, "options", shared_options());
+  json.key("interfaces");
+  json.begin_array();
+  for (const Scheme& scheme : schemes) {
+    write(json, scheme);
+  }
+  json.end_array();
   json.key("commands");
   json.begin_array();
   for (const Command* command : all_commands()) {

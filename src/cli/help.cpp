@@ -1,6 +1,7 @@
 #include "cli/help.hpp"
 
 #include "cli/commands.hpp"
+#include "cli/interface/scheme.hpp"
 #include "cli/texts.hpp"
 
 #include <sys/ioctl.h>
@@ -107,7 +108,9 @@ std::vector<std::string> remarks(const Traits& traits) {
     texts.push_back(say<texts::help_writes>());
   }
   if (traits.recordings) {
-    texts.push_back(traits.needs_frames ? say<texts::help_logs>() : say<texts::help_recordings>());
+    const std::string_view log = form_of(Behind::log), file = form_of(Behind::fleet_file);
+    texts.push_back(traits.needs_frames ? say<texts::help_logs>(log)
+                                        : say<texts::help_recordings>(log, file));
   }
   if (traits.offline) {
     texts.push_back(say<texts::help_no_bus>());

@@ -5,7 +5,7 @@
 #include "blactl/fleet/bus/register_choice.hpp"
 #include "blactl/fleet/bus/target.hpp"
 
-#include "cli/interface/bus_factory.hpp"
+#include "cli/interface/scheme.hpp"
 #include "cli/texts.hpp"
 
 #include <algorithm>

@@ -2,6 +2,9 @@
 
 #include "blactl/dronecan/transfer.hpp"
 
+#include "cli/interface/scheme.hpp"
+
+#include <algorithm>
 #include <array>
 #include <string_view>
 
@@ -14,15 +17,27 @@ using namespace std::chrono_literals;
 constexpr std::array<std::string_view, 3> colours{"auto", "always", "never"};
 constexpr std::array<std::string_view, 2> languages{"en", "ja"};
 
+/// The forms of every kind of interface, and what they end with.
+consteval std::array<char, 256> all_forms(std::string_view between, std::string_view end) {
+  std::array<char, 256> text{};
+  auto* at = text.begin();
+  for (const Scheme& scheme : schemes) {
+    at = &scheme == &schemes.front() ? at : std::ranges::copy(between, at).out;
+    at = std::ranges::copy(scheme.form, at).out;
+  }
+  std::ranges::copy(end, at);
+  return text;
+}
+
+constexpr auto interface_en = all_forms(", ", " (default: the only CAN interface that is up)");
+constexpr auto interface_ja = all_forms("、", " (省略時: 起動している唯一の CAN インターフェース)");
+
 constexpr Option shared[]{
     {.name = "--interface",
      .letter = 'i',
      .value = "IFACE",
      .kind = Kind::interface,
-     .help = {"can0, slcan:DEV, mcast:N, sim:, sim:SCENARIO.json, replay:FILE, file:FLEET.json "
-              "(default: the only CAN interface that is up)",
-              "can0、slcan:DEV、mcast:N、sim:、sim:SCENARIO.json、replay:FILE、file:FLEET.json "
-              "(省略時: 起動している唯一の CAN インターフェース)"},
+     .help = {interface_en.data(), interface_ja.data()},
      .store = into<&Shared::interface>},
     {.name = "--node",
      .letter = 'n',

@@ -2,7 +2,7 @@
 
 #include "blactl/fleet/bus/discovery.hpp"
 
-#include "cli/interface/bus_factory.hpp"
+#include "cli/interface/scheme.hpp"
 #include "cli/texts.hpp"
 
 #include <utility>

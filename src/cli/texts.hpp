@@ -47,11 +47,11 @@ inline constexpr Text help_from_history{"Without -n: the servos that the last co
                                         "-n 省略時の対象は、直前のコマンドで変更したサーボです。"};
 inline constexpr Text help_from_file{"FILE says which servos are meant; -n narrows it down.",
                                      "対象サーボは FILE で決まります。-n で絞り込めます。"};
-inline constexpr Text help_logs{"Also answers from a recording, -i replay:FILE.",
-                                "記録 (-i replay:FILE) からも読出しできます。"};
+inline constexpr Text help_logs{"Also answers from a recording, -i {}.",
+                                "記録 (-i {}) からも読出しできます。"};
 inline constexpr Text help_recordings{
-    "Also answers from a recording, -i replay:FILE, and from a fleet file, -i file:FLEET.json.",
-    "記録 (-i replay:FILE)、フリートファイル (-i file:FLEET.json) からも読出しできます。"};
+    "Also answers from a recording, -i {}, and from a fleet file, -i {}.",
+    "記録 (-i {})、フリートファイル (-i {}) からも読出しできます。"};
 inline constexpr Text help_no_bus{
     "It uses no bus: options about the bus, such as -i and --timeout, do nothing here.",
     "バスは使用しません。-i や --timeout などバスに関するオプションは無視されます。"};
@@ -105,10 +105,8 @@ inline constexpr Text interface_meant{"-i {}: the kind of interface is missing",
                                       "-i {}: インターフェースの種類がありません"};
 inline constexpr Text interface_meant_hint{"did you mean -i {}?", "もしかして: -i {}"};
 inline constexpr Text bad_interface_hint{
-    "for example -i can0, -i slcan:/dev/ttyUSB0, -i mcast:0, -i sim:SCENARIO.json, "
-    "-i replay:FILE, -i file:FLEET.json",
-    "例: -i can0, -i slcan:/dev/ttyUSB0, -i mcast:0, -i sim:SCENARIO.json, -i replay:FILE, "
-    "-i file:FLEET.json",
+    "for example {}",
+    "例: {}",
 };
 inline constexpr Text slcan_bad_name{"-i slcan:{}: {}", "-i slcan:{}: {}"};
 inline constexpr Text slcan_no_device{"the device is missing", "デバイスの指定がありません"};
@@ -122,8 +120,8 @@ inline constexpr Text slcan_name_hint{
     "-i \"slcan:DEV?baud=1000000&open=plain,s8&ack=auto,none&gap=MS\" (語はそれぞれ一つ選択、"
     "各オプションは省略可能)。例: -i \"slcan:/dev/ttyUSB0?open=plain\"",
 };
-inline constexpr Text bad_mcast{"-i {}: not of the form mcast:N or mcast:N?if=IFACE",
-                                "-i {}: mcast:N または mcast:N?if=IFACE の形ではありません"};
+inline constexpr Text bad_mcast{"-i mcast:{}: not of the form mcast:N or mcast:N?if=IFACE",
+                                "-i mcast:{}: mcast:N または mcast:N?if=IFACE の形ではありません"};
 inline constexpr Text bad_mcast_hint{
     "N is from 0 to 255, IFACE a network interface, for example -i mcast:0?if=lo",
     "N は 0～255、IFACE はネットワークインターフェースです (例: -i mcast:0?if=lo)",

@@ -232,6 +232,9 @@ TEST_CASE("--dump-cli has every command and option in both languages, and --help
   CHECK(document["options"][0]["name"] == "--interface");
   CHECK(document["options"][0]["letter"] == "i");
   CHECK(document["options"][0]["kind"] == "interface");
+  REQUIRE(document["interfaces"].size() == 7);
+  CHECK(document["interfaces"][1]["name"] == "slcan");
+  CHECK(document["interfaces"][1]["operand"] == "serial_port");
   REQUIRE(document["commands"].size() == 21);
   const auto get = document["commands"][2];
   CHECK(get["name"] == "get");

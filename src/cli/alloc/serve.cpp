@@ -6,7 +6,7 @@
 
 #include "cli/alloc/texts.hpp"
 #include "cli/alloc/view.hpp"
-#include "cli/interface/bus_factory.hpp"
+#include "cli/interface/scheme.hpp"
 #include "cli/output/progress_view.hpp"
 #include "cli/texts.hpp"
 #include "cli/trace/time.hpp"

@@ -5,7 +5,7 @@
 #include "blactl/fleet/characterize/findings.hpp"
 
 #include "cli/confirm.hpp"
-#include "cli/interface/bus_factory.hpp"
+#include "cli/interface/scheme.hpp"
 #include "cli/output/progress_view.hpp"
 #include "cli/texts.hpp"
 #include "cli/undo_texts.hpp"

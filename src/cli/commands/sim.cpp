@@ -7,6 +7,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/interface/bus_factory.hpp"
+#include "cli/interface/scheme.hpp"
 #include "cli/sim/events.hpp"
 #include "cli/sim/line_input.hpp"
 #include "cli/sim/orders.hpp"
@@ -267,10 +268,9 @@ Report execute(const SimOptions& options, Context& context) {
     report.fail(name.error());
   } else if (const auto refused = takes_no_frames(text)) {
     report.fail(*refused);
-  } else if (name->kind == InterfaceKind::socketcan || name->kind == InterfaceKind::slcan ||
-             name->kind == InterfaceKind::mcast) {
+  } else if (name->is(Behind::link) || name->is(Behind::bus)) {
     join(text, *scenario, **profiles, context, report);
-  } else if (name->kind == InterfaceKind::simulator) {
+  } else if (name->is(Behind::simulator)) {
     serve(name->rest.empty() ? can::default_socket_path().string() : name->rest, *scenario, context,
           report);
   } else {

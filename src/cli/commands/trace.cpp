@@ -6,6 +6,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/interface/bus_factory.hpp"
+#include "cli/interface/scheme.hpp"
 #include "cli/texts.hpp"
 #include "cli/trace/run.hpp"
 #include "cli/trace/stats.hpp"
@@ -88,7 +89,7 @@ std::optional<std::string> log_path(const TraceOptions& options, const std::stri
     return options.file;
   }
   const auto name = parse_interface(interface);
-  return name && name->kind == InterfaceKind::replay ? std::optional(name->rest) : std::nullopt;
+  return name && name->is(Behind::log) ? std::optional(name->rest) : std::nullopt;
 }
 
 Result<std::unique_ptr<can::CandumpReader>> open_log(const std::string& path, bool is_interface) {

@@ -4,7 +4,7 @@
 #include "blactl/fleet/bus/ticker.hpp"
 
 #include "cli/commands.hpp"
-#include "cli/interface/bus_factory.hpp"
+#include "cli/interface/scheme.hpp"
 #include "cli/output/node_head.hpp"
 #include "cli/output/progress_view.hpp"
 #include "cli/texts.hpp"

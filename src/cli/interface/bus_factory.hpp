@@ -12,7 +12,6 @@
 
 #include "cli/output/reporter.hpp"
 
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -32,35 +31,14 @@ struct OpenBus {
   std::optional<fleet::FleetFile> fleet{};
 };
 
-/// What kind of interface a name means.
-enum class InterfaceKind : unsigned char {
-  socketcan,
-  slcan,
-  mcast,
-  simulator,
-  scenario,
-  replay,
-  file,
+/// What is to be opened.
+struct OpenRequest {
+  std::string_view text;         ///< as typed
+  std::string rest;              ///< of it, behind the colon
+  const bla::Profiles& profiles; ///< this and the next outlive the bus
+  const Reporter& reporter;
+  bool inquires = false; ///< an adapter is asked what it is
 };
-
-struct InterfaceName {
-  InterfaceKind kind = InterfaceKind::socketcan;
-  std::string rest; ///< interface name, device with options, socket path, scenario file, log or
-                    ///< fleet file; empty: the default
-  std::uint8_t bus_number = 0; ///< of a multicast bus
-};
-
-/// `can0`, `socketcan:can0`, `slcan:DEV[?…]`, `mcast:N`, `mcast:N?if=IFACE`, `sim:`, `sim:SOCKET`,
-/// `sim:SCENARIO.json`, `replay:FILE`, `file:FILE`. Errors: usage.
-[[nodiscard]] Result<InterfaceName> parse_interface(std::string_view text);
-
-/// Why nothing can be sent to what stands behind -i, a log or a fleet file; empty: it can, as far
-/// as its name tells.
-[[nodiscard]] std::optional<Error> takes_no_frames(std::string_view text);
-
-/// What to look at where nothing was heard, by the kind of interface that `text` names; `name`: of
-/// the open bus. Empty: what is said of servos on any CAN bus fits.
-[[nodiscard]] std::string silence_hint(std::string_view text, std::string_view name);
 
 /// Where lock files of a network interface lie.
 [[nodiscard]] state::LockPlace lock_place(std::string link);

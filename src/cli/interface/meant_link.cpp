@@ -1,14 +1,13 @@
 #include "cli/interface/meant_link.hpp"
 
-#include "cli/interface/bus_factory.hpp"
+#include "cli/interface/scheme.hpp"
 
 #include <vector>
 
 namespace blactl::cli {
 
 bool may_be_link(const std::string& interface) {
-  const auto name = parse_interface(interface);
-  return interface.empty() || (name && name->kind == InterfaceKind::socketcan);
+  return interface.empty() || names(interface, Behind::link);
 }
 
 std::optional<can::Link> meant_link(const std::string& interface) {

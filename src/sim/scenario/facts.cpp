@@ -2,7 +2,7 @@
 
 #include "blactl/base/json_reader.hpp"
 
-#include "sim/scenario/behaviour_reader.hpp"
+#include "sim/scenario/member_tables.hpp"
 
 #include <utility>
 
@@ -13,9 +13,6 @@ constexpr std::string_view facts_schema = "blactl-facts/1";
 
 /// Which servo it was: for people, but no mistyped key passes.
 void read_about(json::Object object) {
-  if (!object.exists()) {
-    return;
-  }
   for (const auto* key : {"model", "name", "software", "hardware", "time", "tool_version"}) {
     (void)object.optional_string(key);
   }
@@ -34,7 +31,7 @@ Result<Behaviour> from_document(Result<json::Document> document) {
   (void)root.optional_string("$schema"); // what editors look at
   (void)root.word("schema", {facts_schema});
   Behaviour behaviour;
-  read_behaviour(root.object("behaviour"), behaviour, faults);
+  read_whole(root.object("behaviour"), behaviour_members, behaviour, faults);
   read_about(root.optional_object("about"));
   root.finish();
   if (const auto fine = faults.result(); !fine) {

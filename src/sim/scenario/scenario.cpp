@@ -3,6 +3,8 @@
 #include "blactl/base/json_reader.hpp"
 
 #include "sim/scenario/foreign_reader.hpp"
+#include "sim/scenario/member.hpp"
+#include "sim/scenario/member_tables.hpp"
 #include "sim/scenario/scenario_values.hpp"
 #include "sim/scenario/servo_reader.hpp"
 #include "sim/scenario/texts.hpp"
@@ -12,6 +14,11 @@
 
 namespace blactl::sim {
 namespace {
+
+constexpr Members<Scenario> of_all{
+    {"clock", word<&Scenario::clock, "real", "virtual">},
+    {"seed", integer<&Scenario::seed, 0, json::highest>},
+};
 
 constexpr std::string_view schema = "blactl-scenario/1";
 
@@ -33,7 +40,6 @@ class ScenarioReader {
   Scenario scenario(json::Object root);
 
  private:
-  WireFaults wire(json::Object object);
   TimedEvent event(const json::Value& value, const std::vector<ServoSetup>& servos);
   std::optional<Mishap> mishap(json::Object& object);
   std::vector<WorldChange> world(json::Object object);
@@ -47,9 +53,7 @@ Scenario ScenarioReader::scenario(json::Object root) {
   Scenario scenario;
   (void)root.optional_string("$schema"); // what editors look at
   (void)root.word("schema", {schema});
-  const auto clock = root.optional_word("clock", {"real", "virtual"});
-  scenario.clock = clock == "virtual" ? Clock::simulated : Clock::real;
-  scenario.seed = static_cast<std::uint64_t>(root.optional_integer("seed", 0).value_or(1));
+  read_members(root, of_all, scenario, faults_);
   ServoReader servos(profiles_, usual_, faults_);
   for (const json::Value* item : root.optional_array("servos")) {
     scenario.servos.push_back(servos.read(*item, scenario.servos.size()));
@@ -58,7 +62,7 @@ Scenario ScenarioReader::scenario(json::Object root) {
   for (const json::Value* item : root.optional_array("foreign")) {
     scenario.foreign.push_back(read_foreign(*item, faults_));
   }
-  scenario.wire = wire(root.optional_object("wire"));
+  read_whole(root.optional_object("wire"), wire_members, scenario.wire, faults_);
   for (const json::Value* item : root.optional_array("events")) {
     scenario.events.push_back(event(*item, scenario.servos));
   }
@@ -66,27 +70,10 @@ Scenario ScenarioReader::scenario(json::Object root) {
   return scenario;
 }
 
-WireFaults ScenarioReader::wire(json::Object object) {
-  constexpr std::chrono::seconds longest(3600);
-  WireFaults wire;
-  if (!object.exists()) {
-    return wire;
-  }
-  wire.loss = read_probability(object, "loss");
-  wire.duplication = read_probability(object, "duplication");
-  wire.errors = read_probability(object, "errors");
-  wire.bit_flips = read_probability(object, "bit_flips");
-  wire.burst_interval = read_duration(object, "burst_interval", {}, longest, faults_);
-  wire.burst_length = read_duration(object, "burst_length", {}, longest, faults_);
-  object.finish();
-  return wire;
-}
-
 TimedEvent ScenarioReader::event(const json::Value& value, const std::vector<ServoSetup>& servos) {
-  constexpr std::chrono::seconds longest(1'000'000);
   TimedEvent event;
   json::Object object(value, faults_);
-  event.at = read_duration(object, "at", {}, longest, faults_);
+  up_to_seconds<&TimedEvent::at, 1'000'000>(object, "at", event, faults_);
   if (const auto serial = object.optional_integer("servo", 1)) {
     event.serial_number = *serial;
     if (std::ranges::find(servos, *serial, &ServoSetup::serial_number) == servos.end()) {
@@ -116,9 +103,6 @@ std::optional<Mishap> ScenarioReader::mishap(json::Object& object) {
 
 std::vector<WorldChange> ScenarioReader::world(json::Object object) {
   std::vector<WorldChange> changes;
-  if (!object.exists()) {
-    return changes;
-  }
   for (const json::Value* member : object.members()) {
     const auto text = typed_text(*member, faults_);
     if (!text) {

@@ -6,7 +6,6 @@
 #include "sim/scenario/texts.hpp"
 
 #include <charconv>
-#include <chrono>
 #include <utility>
 
 namespace blactl::sim {
@@ -47,12 +46,12 @@ std::optional<std::string> typed_text(const json::Value& value, json::Faults& fa
   }
 }
 
-Duration read_duration(json::Object& object, std::string_view key, Duration fallback,
-                       std::chrono::seconds longest, json::Faults& faults) {
+std::optional<Duration> read_duration(json::Object& object, std::string_view key,
+                                      std::chrono::seconds longest, json::Faults& faults) {
   const json::Value* value = object.optional_any(key);
   const auto text = value != nullptr ? typed_text(*value, faults) : std::nullopt;
   if (!text) {
-    return fallback;
+    return std::nullopt;
   }
   bla::Parameter time;
   time.name = key;
@@ -60,17 +59,13 @@ Duration read_duration(json::Object& object, std::string_view key, Duration fall
   const auto typed = bla::parse_value(time, bla::NamedBy::name, *text);
   if (!typed) {
     faults.add(*value, typed.error().message);
-    return fallback;
+    return std::nullopt;
   }
   const Duration duration(typed->raw);
   if (duration < Duration::zero() || duration > longest) {
     faults.add(*value, say<texts::scenario_duration>(longest.count()));
   }
   return duration;
-}
-
-double read_probability(json::Object& object, std::string_view key) {
-  return object.optional_number(key, 0, 1).value_or(0);
 }
 
 dronecan::UniqueId read_unique_id(json::Object& object, std::uint64_t fallback,

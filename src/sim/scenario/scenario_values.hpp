@@ -5,6 +5,7 @@
 #include "blactl/base/time.hpp"
 #include "blactl/dronecan/ids.hpp"
 
+#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -15,13 +16,11 @@ namespace blactl::sim {
 /// nor string.
 [[nodiscard]] std::optional<std::string> typed_text(const json::Value& value, json::Faults& faults);
 
-/// By the value grammar, as if it were a register that counts microseconds; `fallback` if the key
-/// is left out. A fault beyond 0 to `longest`.
-[[nodiscard]] Duration read_duration(json::Object& object, std::string_view key, Duration fallback,
-                                     std::chrono::seconds longest, json::Faults& faults);
-
-/// From 0 to 1; 0 if the key is left out.
-[[nodiscard]] double read_probability(json::Object& object, std::string_view key);
+/// By the value grammar, as if it were a register that counts microseconds; empty if the key is
+/// left out. A fault beyond 0 to `longest`.
+[[nodiscard]] std::optional<Duration> read_duration(json::Object& object, std::string_view key,
+                                                    std::chrono::seconds longest,
+                                                    json::Faults& faults);
 
 /// "unique_id"; left out, one that follows from the number.
 [[nodiscard]] dronecan::UniqueId read_unique_id(json::Object& object, std::uint64_t fallback,

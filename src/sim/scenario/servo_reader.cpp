@@ -2,10 +2,10 @@
 
 #include "blactl/bla/value.hpp"
 
-#include "sim/scenario/behaviour_reader.hpp"
 #include "sim/scenario/firmware_history.hpp"
+#include "sim/scenario/member.hpp"
+#include "sim/scenario/member_tables.hpp"
 #include "sim/scenario/scenario_values.hpp"
-#include "sim/scenario/servo_faults_reader.hpp"
 #include "sim/scenario/texts.hpp"
 
 #include <fmt/core.h>
@@ -13,18 +13,26 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <chrono>
 #include <limits>
 
 namespace blactl::sim {
 namespace {
 
 constexpr std::int64_t first_serial_number = 240'900'001;
-constexpr std::int64_t max_node_id = dronecan::NodeId::max;
 constexpr std::int64_t max_servo_id = 254;
+constexpr std::int64_t max_uint8 = std::numeric_limits<std::uint8_t>::max();
 constexpr std::int64_t max_uint16 = std::numeric_limits<std::uint16_t>::max();
 constexpr std::int64_t max_uint32 = std::numeric_limits<std::uint32_t>::max();
-constexpr std::chrono::seconds longest_answer_delay(10);
+
+/// The keys that are integers.
+constexpr Members<ServoSetup> numbers{
+    {"node_id", integer<&ServoSetup::node_id, 0, dronecan::NodeId::max>},
+    {"serial_number", integer<&ServoSetup::serial_number, 0, max_uint32>},
+    {"servo_id", integer<&ServoSetup::servo_id, 0, max_servo_id>},
+    {"firmware_version", integer<&ServoSetup::firmware_version, 0, max_uint16>},
+    {"model_number", integer<&ServoSetup::model_number, 0, max_uint8>},
+    {"hardware_version", integer<&ServoSetup::hardware_version, 0, max_uint16>},
+};
 
 /// The newest firmware that chapter 5 lists for a model; 0 if it lists none.
 std::int64_t newest_firmware(const bla::Profiles& profiles, const bla::Profile& profile) {
@@ -56,7 +64,13 @@ ServoSetup ServoReader::read(const json::Value& value, std::size_t index) {
   json::Object object(value, faults_);
   const std::string label = object.string("model");
   servo.profile = model(object, label);
-  numbers(object, index, servo);
+  servo.serial_number = first_serial_number + static_cast<std::int64_t>(index);
+  if (servo.profile != nullptr) {
+    servo.firmware_version = newest_firmware(profiles_, *servo.profile);
+    servo.model_number = servo.profile->model_number;
+    servo.hardware_version = servo.profile->hardware_version;
+  }
+  read_members(object, numbers, servo, faults_);
   check_firmware(object, label, servo);
   servo.unique_id =
       read_unique_id(object, static_cast<std::uint64_t>(servo.serial_number), faults_);
@@ -65,11 +79,10 @@ ServoSetup ServoReader::read(const json::Value& value, std::size_t index) {
   servo.rom = registers(object.optional_object("rom"), Memory::rom, servo);
   servo.ram = registers(object.optional_object("ram"), Memory::ram, servo);
   servo.behaviour = usual_;
-  read_behaviour(object.optional_object("behaviour"), servo.behaviour, faults_);
-  servo.behaviour.answer_delay = read_duration(object, "answer_delay", servo.behaviour.answer_delay,
-                                               longest_answer_delay, faults_);
-  read_servo_faults(object.optional_object("faults"), servo.faults, faults_);
-  read_sending(object.optional_object("sending"), servo.sending, faults_);
+  read_whole(object.optional_object("behaviour"), behaviour_members, servo.behaviour, faults_);
+  up_to_seconds<&Behaviour::answer_delay, 10>(object, "answer_delay", servo.behaviour, faults_);
+  read_whole(object.optional_object("faults"), servo_fault_members, servo.faults, faults_);
+  read_whole(object.optional_object("sending"), sending_members, servo.sending, faults_);
   object.finish();
   return servo;
 }
@@ -112,24 +125,6 @@ void ServoReader::check_firmware(json::Object& object, const std::string& label,
   warnings_.push_back(fmt::format(
       "{}:{}: {}: {}", printable(faults_.file()), where->line, where->pointer(),
       say<texts::scenario_firmware>(model, bla::firmware_text(servo.firmware_version), known)));
-}
-
-/// Keys that are integers; what the model says if they are left out.
-void ServoReader::numbers(json::Object& object, std::size_t index, ServoSetup& servo) {
-  const bla::Profile unknown;
-  const bla::Profile& model = servo.profile != nullptr ? *servo.profile : unknown;
-  const auto number = [&](std::string_view key, std::int64_t max, std::int64_t fallback) {
-    return object.optional_integer(key, 0, max).value_or(fallback);
-  };
-  servo.node_id = static_cast<std::uint8_t>(number("node_id", max_node_id, 0));
-  servo.serial_number =
-      number("serial_number", max_uint32, first_serial_number + static_cast<std::int64_t>(index));
-  servo.servo_id = number("servo_id", max_servo_id, 0);
-  servo.firmware_version =
-      number("firmware_version", max_uint16, newest_firmware(profiles_, model));
-  servo.model_number =
-      number("model_number", std::numeric_limits<std::uint8_t>::max(), model.model_number);
-  servo.hardware_version = number("hardware_version", max_uint16, model.hardware_version);
 }
 
 ServoReader::Values ServoReader::registers(json::Object object, Memory memory,

@@ -40,7 +40,6 @@ class ServoReader {
 
   [[nodiscard]] const bla::Profile* model(json::Object& object, const std::string& wanted);
   void check_firmware(json::Object& object, const std::string& label, const ServoSetup& servo);
-  void numbers(json::Object& object, std::size_t index, ServoSetup& servo);
   [[nodiscard]] Values registers(json::Object object, Memory memory, const ServoSetup& servo);
   [[nodiscard]] std::optional<std::int64_t> register_value(const json::Value& value,
                                                            const bla::Parameter& parameter);

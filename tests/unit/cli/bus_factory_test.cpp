@@ -3,6 +3,8 @@
 
 #include "catch.hpp"
 #include "cli/interface/bus_factory.hpp"
+#include "cli/interface/mcast_name.hpp"
+#include "cli/interface/scheme.hpp"
 #include "unit/bla/built_in.hpp"
 
 #include <poll.h>
@@ -25,16 +27,10 @@ std::string kind(std::string_view text) {
   if (!name) {
     return std::string(blactl::name(name.error().code));
   }
-  switch (name->kind) {
-  case InterfaceKind::socketcan: return "socketcan " + name->rest;
-  case InterfaceKind::mcast: return "mcast " + std::to_string(name->bus_number) + " " + name->rest;
-  case InterfaceKind::slcan: return "slcan " + name->rest;
-  case InterfaceKind::simulator: return "simulator " + name->rest;
-  case InterfaceKind::scenario: return "scenario " + name->rest;
-  case InterfaceKind::replay: return "replay " + name->rest;
-  case InterfaceKind::file: return "file " + name->rest;
-  }
-  return {};
+  const std::string what = name->is(Behind::simulator)  ? "simulator"
+                           : name->is(Behind::scenario) ? "scenario"
+                                                        : std::string(name->scheme->name);
+  return what + " " + name->rest;
 }
 
 Result<OpenBus> open(std::string_view text) {
@@ -64,12 +60,16 @@ TEST_CASE("what stands behind -i") {
 }
 
 TEST_CASE("a multicast bus has a number from 0 to 255, and an interface if one is named") {
-  CHECK(kind("mcast:") == "mcast 0 ");
-  CHECK(kind("mcast:0") == "mcast 0 ");
-  CHECK(kind("mcast:255") == "mcast 255 ");
-  CHECK(kind("mcast:7?if=lo") == "mcast 7 lo");
-  CHECK(kind("mcast:?if=lo") == "mcast 0 lo");
-  CHECK(kind("mcast:1?if=br0.100") == "mcast 1 br0.100");
+  CHECK(kind("mcast:") == "mcast ");
+  CHECK(kind("mcast:0") == "mcast 0");
+  CHECK(kind("mcast:255") == "mcast 255");
+  CHECK(kind("mcast:7?if=lo") == "mcast 7?if=lo");
+  CHECK(kind("mcast:?if=lo") == "mcast ?if=lo");
+  CHECK(kind("mcast:1?if=br0.100") == "mcast 1?if=br0.100");
+  const auto named = parse_mcast("7?if=lo");
+  REQUIRE(named);
+  CHECK(named->bus_number == 7);
+  CHECK(named->link == "lo");
   for (const char* wrong : {"mcast:256", "mcast:-1", "mcast:+1", "mcast: 1", "mcast:1 ", "mcast:x",
                             "mcast:0x1", "mcast:1?", "mcast:1?if", "mcast:1?if=", "mcast:1?ttl=2",
                             "mcast:1&if=lo", "mcast:1:lo", "mcast:99999999999999999999"}) {
@@ -80,6 +80,27 @@ TEST_CASE("a multicast bus has a number from 0 to 255, and an interface if one i
     CHECK(name.error().message.find("mcast:N?if=IFACE") != std::string::npos);
     CHECK(name.error().hint.find("-i mcast:0?if=lo") != std::string::npos);
   }
+}
+
+TEST_CASE(
+    "a kind without its colon is taken for what was meant, and each has an example that is one") {
+  for (const Scheme& scheme : schemes) {
+    CAPTURE(scheme.example);
+    const auto example = parse_interface(scheme.example);
+    REQUIRE(example);
+    CHECK(example->scheme == &scheme);
+    if (!scheme.name.starts_with("socketcan")) {
+      const auto bare = parse_interface(scheme.name);
+      REQUIRE_FALSE(bare);
+      CHECK(bare.error().hint.find("-i " + std::string(scheme.name) + ":") != std::string::npos);
+    }
+    CHECK(parse_interface("nosuch:1").error().hint.find(scheme.example) != std::string::npos);
+  }
+}
+
+TEST_CASE("what an adapter's options may be is known before it is opened") {
+  CHECK(kind("slcan:") == "usage");
+  CHECK(kind("slcan:/dev/ttyUSB0?open=maybe") == "usage");
 }
 
 TEST_CASE("an unknown kind of interface is refused with examples, harmless to a terminal") {

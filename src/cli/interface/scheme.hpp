@@ -1,0 +1,159 @@
+#pragma once
+// The kinds of interface that -i names. A new adapter is a class after can::Bus, a function that
+// opens it, and a row of `schemes`: the help of -i, its hints, the completions and the factory go
+// by this table.
+
+#include "blactl/base/text.hpp"
+#include "blactl/can/replay_texts.hpp"
+
+#include "cli/interface/mcast_name.hpp"
+#include "cli/interface/openers.hpp"
+#include "cli/interface/slcan_name.hpp"
+#include "cli/texts.hpp"
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace blactl::cli {
+
+/// What stands behind a name, as far as commands care.
+enum class Behind : unsigned char {
+  link,       ///< a network interface of the kernel
+  bus,        ///< any other real bus
+  simulator,  ///< what `blactl sim` serves, or three servos of this process
+  scenario,   ///< simulated servos of this process
+  log,        ///< a recording of frames
+  fleet_file, ///< settings, no frames at all
+};
+
+/// What is typed behind the colon.
+enum class Operand : unsigned char { link, serial_port, file, other };
+
+/// One kind of interface.
+struct Scheme {
+  std::string_view name; ///< before the colon
+  Behind behind;
+  Operand operand;
+  std::string_view form;    ///< for the help of -i
+  std::string_view example; ///< for hints
+  /// Of files of this kind. Of two schemes of one name, that of the ending is meant.
+  std::string_view ending{};
+  bool may_be_bare = true; ///< nothing need stand behind the colon
+  Result<OpenBus> (*open)(const OpenRequest& request);
+  /// What is wrong with what stands behind the colon, before anything is opened; null: nothing.
+  Result<void> (*check)(std::string_view rest) = nullptr;
+  /// Why nothing can be sent there; null: it can.
+  std::string (*refusal)(std::string_view typed) = nullptr;
+  /// What to look at where nothing was heard on `bus`; null: what fits servos on any CAN bus.
+  std::string (*silence)(std::string_view rest, std::string_view bus) = nullptr;
+};
+
+template <auto parse> Result<void> parsed_by(std::string_view rest) {
+  const auto parsed = parse(rest);
+  return parsed ? Result<void>{} : std::unexpected(parsed.error());
+}
+
+template <const Text& text> std::string about(std::string_view what) {
+  return say<text>(what);
+}
+
+template <const Text& text> std::string about_rest(std::string_view rest, std::string_view) {
+  return say<text>(printable(rest));
+}
+
+template <const Text& text> std::string about_bus(std::string_view, std::string_view bus) {
+  return say<text>(bus);
+}
+
+inline std::string about_simulator(std::string_view rest, std::string_view bus) {
+  return rest.empty() ? say<texts::silent_sim_hint>() : say<texts::silent_simulator_hint>(bus);
+}
+
+inline constexpr std::array schemes{
+    // The kind of a name without a colon, and of no name.
+    Scheme{.name = "socketcan",
+           .behind = Behind::link,
+           .operand = Operand::link,
+           .form = "can0",
+           .example = "can0",
+           .may_be_bare = false,
+           .open = open_socketcan},
+    Scheme{.name = "slcan",
+           .behind = Behind::bus,
+           .operand = Operand::serial_port,
+           .form = "slcan:DEV",
+           .example = "slcan:/dev/ttyUSB0",
+           .open = open_slcan,
+           .check = parsed_by<parse_slcan>,
+           .silence = about_bus<texts::silent_slcan_hint>},
+    Scheme{.name = "mcast",
+           .behind = Behind::bus,
+           .operand = Operand::other,
+           .form = "mcast:N",
+           .example = "mcast:0",
+           .open = open_mcast,
+           .check = parsed_by<parse_mcast>,
+           .silence = about_bus<texts::silent_mcast_hint>},
+    Scheme{.name = "sim",
+           .behind = Behind::simulator,
+           .operand = Operand::file,
+           .form = "sim:",
+           .example = "sim:",
+           .open = open_simulator,
+           .silence = about_simulator},
+    Scheme{.name = "sim",
+           .behind = Behind::scenario,
+           .operand = Operand::file,
+           .form = "sim:SCENARIO.json",
+           .example = "sim:SCENARIO.json",
+           .ending = ".json",
+           .open = open_scenario,
+           .silence = about_rest<texts::silent_scenario_hint>},
+    Scheme{.name = "replay",
+           .behind = Behind::log,
+           .operand = Operand::file,
+           .form = "replay:FILE",
+           .example = "replay:FILE",
+           .ending = ".log",
+           .may_be_bare = false,
+           .open = open_log,
+           .refusal = about<texts::log_takes_no_frames>,
+           .silence = about_rest<texts::silent_log_hint>},
+    Scheme{.name = "file",
+           .behind = Behind::fleet_file,
+           .operand = Operand::file,
+           .form = "file:FLEET.json",
+           .example = "file:FLEET.json",
+           .may_be_bare = false,
+           .open = open_fleet_file,
+           .refusal = about<texts::file_takes_no_frames>,
+           .silence = about_rest<texts::silent_file_hint>},
+};
+
+struct InterfaceName {
+  const Scheme* scheme = &schemes.front();
+  std::string rest{}; ///< behind the colon; empty: the default
+
+  [[nodiscard]] bool is(Behind behind) const { return scheme->behind == behind; }
+};
+
+/// `can0`, `socketcan:can0`, and the forms of the table. Errors: usage.
+[[nodiscard]] Result<InterfaceName> parse_interface(std::string_view text);
+
+/// As the help of -i writes the first of that kind.
+[[nodiscard]] std::string_view form_of(Behind behind);
+
+/// Whether `text` names an interface, and one of that kind.
+[[nodiscard]] bool names(std::string_view text, Behind behind);
+
+/// Why nothing can be sent to what stands behind -i, a log or a fleet file; empty: it can, as far
+/// as its name tells.
+[[nodiscard]] std::optional<Error> takes_no_frames(std::string_view text);
+
+/// What to look at where nothing was heard, by the kind of interface that `text` names; `name`: of
+/// the open bus. Empty: what is said of servos on any CAN bus fits.
+[[nodiscard]] std::string silence_hint(std::string_view text, std::string_view name);
+
+} // namespace blactl::cli
