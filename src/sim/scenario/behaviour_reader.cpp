@@ -15,7 +15,7 @@ constexpr std::chrono::seconds longest_until_first_status(1);
 constexpr std::chrono::seconds longest_usual_delay(10);
 constexpr std::chrono::seconds longest_boot(10);
 
-/// Reads keys into members; what is left out stays as it is.
+/// Reads keys into members; members without a key stay unchanged.
 class Reader {
  public:
   explicit Reader(json::Object& object) : object_(object) {}
@@ -24,7 +24,7 @@ class Reader {
     into = object_.optional_boolean(key).value_or(into);
   }
 
-  /// Each word with what it stands for.
+  /// A word and its meaning.
   template <class Choice> using Word = std::pair<std::string_view, Choice>;
 
   template <class Choice>
@@ -52,7 +52,7 @@ class Reader {
   json::Object& object_;
 };
 
-/// The keys about what a servo sends and obeys.
+/// The keys on messages and commands.
 void read_commands(Reader reader, Behaviour& into) {
   reader.flag("array_command_shows", into.array_command_shows);
   reader.flag("array_command_feeds_timeout", into.array_command_feeds_timeout);
@@ -76,7 +76,7 @@ void read_commands(Reader reader, Behaviour& into) {
                 {"zero", StartAngle::zero});
 }
 
-/// The keys about the shaft.
+/// The keys on the shaft.
 void read_motion(Reader reader, Behaviour& into) {
   reader.flag("inclusive_limits", into.inclusive_limits);
   reader.flag("inclusive_stops", into.inclusive_stops);

@@ -43,7 +43,7 @@ CommanderSetup read_commander(json::Object object, json::Faults& faults) {
   return commander;
 }
 
-/// The keys of its kind alone, and what is usual for it.
+/// The keys specific to its kind, with their defaults.
 void read_kind(json::Object& object, std::string_view kind, ForeignSetup& node) {
   if (kind == "gnss") {
     GnssSetup gnss;
@@ -77,7 +77,7 @@ ForeignSetup read_foreign(const json::Value& value, json::Faults& faults) {
   read_kind(object, kind, node);
   node.node_id = static_cast<std::uint8_t>(object.integer("node_id", 1, dronecan::NodeId::max));
   node.name = read_node_name(object, "org.example." + kind, faults);
-  // Beyond every serial number, so that no servo has the same.
+  // above every serial number, so that no servo has the same
   node.unique_id = read_unique_id(object, (std::uint64_t{1} << 32U) + node.node_id, faults);
   node.serves_get_set = object.optional_boolean("serves_get_set").value_or(node.serves_get_set);
   if (json::Object commands = object.optional_object("commands"); commands.exists()) {

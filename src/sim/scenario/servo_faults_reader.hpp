@@ -1,5 +1,5 @@
 #pragma once
-// "faults" and "sending" of a scenario's servo.
+// Reads "faults" and "sending" of a scenario's servo.
 
 #include "blactl/base/json_reader.hpp"
 #include "blactl/sim/node/delayed_device.hpp"
@@ -7,7 +7,7 @@
 
 namespace blactl::sim {
 
-/// Both change what the object says; what it leaves out stays as it is.
+/// Both set the members named by the object; the others stay unchanged.
 void read_servo_faults(json::Object object, ServoFaults& into, json::Faults& faults);
 void read_sending(json::Object object, SendingFaults& into, json::Faults& faults);
 

@@ -1,5 +1,5 @@
 #pragma once
-// What the simulator says to people.
+// Messages of the simulator.
 
 #include "blactl/base/text.hpp"
 
