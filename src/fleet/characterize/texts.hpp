@@ -1,5 +1,5 @@
 #pragma once
-// The catalogue of what is measured on a servo.
+// Messages of the characterization.
 
 #include "blactl/base/text.hpp"
 
@@ -61,7 +61,7 @@ inline constexpr Text bench_stage_starts{"measuring how it starts", "起動を�
 inline constexpr Text bench_stage_save{"measuring how it saves", "保存を測定中"};
 inline constexpr Text bench_stage_put_back{"putting back what was changed", "元に戻しています"};
 
-// Why something is not measured, where that shows on the bench only.
+// Reasons for not measuring that arise on the bench only.
 
 inline constexpr Text bench_no_answer{"it did not answer", "応答がありませんでした"};
 inline constexpr Text bench_answers_lost{
@@ -127,7 +127,7 @@ inline constexpr Text bench_save_unproven{
 inline constexpr Text bench_start_unheard{"its first frames were not heard",
                                           "最初のフレームを受信できませんでした"};
 
-// What is seen beside the settings.
+// Observations beside the settings.
 
 inline constexpr Text bench_seen_name{"name of the node", "ノード名"};
 inline constexpr Text bench_seen_software{"software version", "ソフトウェアバージョン"};

@@ -1,5 +1,5 @@
 #pragma once
-// The catalogue of diagnoses.
+// Messages of the diagnoses.
 
 #include "blactl/base/text.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-// What is said of servos that do not leave a production line.
+// Messages about servos that must not leave a production line.
 
 #include "blactl/base/text.hpp"
 

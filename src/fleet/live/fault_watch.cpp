@@ -21,7 +21,7 @@ FaultWatch::~FaultWatch() {
   }
 }
 
-/// Those that are due.
+/// Starts the reads that are due.
 void FaultWatch::begin() {
   for (Look& look : looks_) {
     if (!look.job && look.due <= session_.now()) {

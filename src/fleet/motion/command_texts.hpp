@@ -1,11 +1,11 @@
 #pragma once
-// The catalogue of commands to the shaft of a servo.
+// Messages of commands to the shaft of a servo.
 
 #include "blactl/base/text.hpp"
 
 namespace blactl::texts {
 
-// Why it is not commanded.
+// Reasons for not commanding.
 
 inline constexpr Text motion_output_off{
     "node {}: torque_output (0x20) is {}: the shaft follows no command",
@@ -90,7 +90,7 @@ inline constexpr Text motion_then_unknown{
     "its ROM says what it does without commands, and that is not known",
     "指令が途絶えた場合の動作は ROM の設定によります (内容は不明)"};
 
-// How it ended.
+// The end.
 
 inline constexpr Text motion_silent{"node {}: it does not answer any more while it is commanded",
                                     "ノード {}: 指令中に応答しなくなりました"};
