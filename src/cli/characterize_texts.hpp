@@ -1,5 +1,5 @@
 #pragma once
-// The catalogue of `blactl characterize`.
+// Messages of `blactl characterize`.
 
 #include "blactl/base/text.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-// The catalogue of the commands about fleet files.
+// Messages of the commands on fleet files.
 
 #include "blactl/base/text.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-// The catalogue of the floor cli; commands with many texts of their own have one beside.
+// Messages of the floor cli; commands with many messages have their own catalogue.
 
 #include "blactl/base/text.hpp"
 
@@ -324,7 +324,7 @@ inline constexpr Text fault_other_servo{
     "ノード {} は別のサーボに替わりました。以下はそのサーボの情報です"};
 inline constexpr Text more_lines{"… more lines: {}", "… 他 {} 行"};
 
-// what becomes of servos
+// results of servos
 inline constexpr Text saving{"RAM to ROM:", "ROM への保存:"};
 inline constexpr Text finishing{
     "waiting for servos that save or restart, 3 s at most (Ctrl-C again: at once)",

@@ -1,5 +1,5 @@
 #pragma once
-// The catalogue of `blactl undo`, and of the record that it goes by.
+// Messages of `blactl undo`, and of its record.
 
 #include "blactl/base/text.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-// The catalogue of `blactl alloc`.
+// Messages of `blactl alloc`.
 
 #include "blactl/base/text.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-// The catalogue of apply and undo.
+// Messages of apply and undo.
 
 #include "blactl/base/text.hpp"
 

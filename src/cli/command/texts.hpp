@@ -1,5 +1,5 @@
 #pragma once
-// What `blactl command` says.
+// Messages of `blactl command`.
 
 #include "blactl/base/text.hpp"
 
@@ -23,7 +23,7 @@ inline constexpr Text motion_left_hint{"it was commanded, and may still move: {}
                                        "指令を送信済みです。まだ動作している可能性があります。{}"};
 inline constexpr Text motion_interrupted_hint{"it was stopped: {}", "サーボを停止させました。{}"};
 
-// How it ended.
+// The end.
 
 inline constexpr Text motion_held{"node {}: held at {} (the shaft is at {})",
                                   "ノード {}: {} で保持しています (現在角度 {})"};

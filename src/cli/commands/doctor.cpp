@@ -1,4 +1,4 @@
-// blactl doctor: what is wrong with interface, bus and nodes, how bad it is, what mends it.
+// blactl doctor: the problems of an interface, a bus and its nodes, their severity, and the fixes.
 
 #include "cli/commands.hpp"
 #include "cli/doctor/examination.hpp"
@@ -36,7 +36,7 @@ constexpr Option doctor_options[]{
      .store = into<&DoctorOptions::report>},
 };
 
-/// Longer than a node may be silent before it counts as lost.
+/// Longer than the silence after which a node counts as lost.
 constexpr Duration look_time = std::chrono::milliseconds(3500);
 constexpr Duration report_time = std::chrono::seconds(10);
 

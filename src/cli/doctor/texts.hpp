@@ -1,5 +1,5 @@
 #pragma once
-// The catalogue of `blactl doctor`.
+// Messages of `blactl doctor`.
 
 #include "blactl/base/text.hpp"
 

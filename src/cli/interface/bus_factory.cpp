@@ -27,7 +27,7 @@
 namespace blactl::cli {
 namespace {
 
-/// A hint, and which serial adapters could be meant instead.
+/// A hint, with the serial adapters that could be meant instead.
 std::string with_adapters(std::string hint) {
   if (const std::string adapters = can::describe(can::serial_adapters()); !adapters.empty()) {
     hint += "; " + adapters;
@@ -35,7 +35,7 @@ std::string with_adapters(std::string hint) {
   return hint;
 }
 
-/// What every kind of interface is.
+/// Converts any kind of interface to its base.
 template <class Kind>
 Result<std::unique_ptr<can::Bus>> as_bus(Result<std::unique_ptr<Kind>> opened) {
   return opened ? Result<std::unique_ptr<can::Bus>>(std::move(*opened))
@@ -76,14 +76,14 @@ Result<OpenBus> open_socketcan(const std::string& name) {
   if (!bus) {
     return std::unexpected(bus.error());
   }
-  // Not as it was typed: an interface may have further names.
+  // not as typed: an interface may have further names
   const std::string link((*bus)->name());
   return OpenBus{.bus = std::move(*bus), .place = lock_place(link), .reopen = [link] {
                    return can::SocketCan::open(link);
                  }};
 }
 
-/// The name of the bus says the network interface: those on another one do not hear each other.
+/// The bus is named by its network interface: nodes on different ones do not hear each other.
 Result<OpenBus> open_mcast(const InterfaceName& name, const Reporter& reporter) {
   auto bus = can::Mcast::open(name.bus_number, name.rest);
   if (!bus) {
@@ -98,7 +98,7 @@ Result<OpenBus> open_mcast(const InterfaceName& name, const Reporter& reporter) 
                  }};
 }
 
-/// A piece of the dialogue with an adapter, for people.
+/// Prints a piece of the dialogue with an adapter.
 void tell(const Reporter& reporter, can::SlcanTalk talk, std::string_view bytes) {
   constexpr std::size_t longest = 64;
   const std::string text = printable(bytes.substr(0, longest));
@@ -124,7 +124,7 @@ Result<OpenBus> open_slcan(std::string_view rest, const Reporter& reporter, bool
   if (!bus) {
     return std::unexpected(bus.error());
   }
-  // Links by product or by place lead to one device.
+  // links by product or by place lead to one device
   std::error_code error;
   const auto canonical = std::filesystem::canonical(name->device, error);
   can::Slcan* adapter = bus->get();
@@ -149,7 +149,7 @@ Result<OpenBus> open_private(std::string_view text, const Result<sim::Scenario>&
   return OpenBus{.bus = std::make_unique<sim::PrivateBus>(printable(text), *scenario)};
 }
 
-/// One whose time is another is another bus.
+/// A bus with another clock is another bus.
 Result<std::unique_ptr<can::Bus>> reopen_simulator(const std::filesystem::path& path,
                                                    const std::string& name) {
   auto bus = can::SimBus::open(path, name);
@@ -173,7 +173,7 @@ Result<OpenBus> open_simulator(std::string_view text, const std::string& socket,
     return open_private(text, sim::default_scenario(profiles), reporter);
   }
   const bool is_virtual = (*bus)->has_virtual_clock();
-  // Many paths may lead there.
+  // many paths may lead there
   std::error_code error;
   const auto canonical = std::filesystem::canonical(path, error);
   const auto& where = error ? path : canonical;
@@ -205,7 +205,7 @@ Result<OpenBus> open_fleet_file(std::string_view text, const std::string& path,
                  .fleet = std::move(*fleet)};
 }
 
-/// What stands behind "mcast:": "0?if=lo". The number alone is enough, and so is nothing: bus 0.
+/// Parses the rest of "mcast:": "0?if=lo". The number alone is enough; without it, bus 0.
 std::optional<InterfaceName> parse_mcast(std::string_view text) {
   constexpr std::string_view key = "if=";
   InterfaceName name{.kind = InterfaceKind::mcast, .rest = {}};
@@ -226,8 +226,8 @@ std::optional<InterfaceName> parse_mcast(std::string_view text) {
   return name;
 }
 
-/// What was probably meant by a text without the kind of interface; empty: nothing comes to mind,
-/// it may be the name of a CAN interface. (One that is called "sim" is socketcan:sim.)
+/// A guess at the intended name, if the kind of interface is missing; empty: no guess, it may be
+/// the name of a CAN interface. (One named "sim" is socketcan:sim.)
 std::string with_kind(std::string_view text) {
   const std::string typed = printable(text);
   if (text == "sim") {
@@ -261,8 +261,7 @@ std::string with_kind(std::string_view text) {
 } // namespace
 
 /// Its name means another interface in every network namespace, but all of them may share the
-/// folder. No process knows which namespace is that of the machine without being root, so each is
-/// named.
+/// folder. Only root can find out which namespace is the machine's own, so each gets its name.
 state::LockPlace lock_place(std::string link) {
   struct stat status{};
   const bool known = stat("/proc/self/ns/net", &status) == 0;

@@ -1,5 +1,5 @@
 #pragma once
-// What is said about terminals.
+// Messages about terminals.
 
 #include "blactl/base/text.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-// The catalogue of `blactl trace`.
+// Messages of `blactl trace`.
 
 #include "blactl/base/text.hpp"
 
