@@ -19,7 +19,7 @@ namespace blactl::cli {
 /// The end of one target of a command, usually a servo.
 struct Target {
   std::vector<Error> errors{};
-  bool has_found = false; ///< of the command as a whole: they outrank those of targets
+  bool has_found = false; ///< it succeeded and found something: exit status 8
 };
 
 /// The outcome of one command: data for three renderers, and errors.
@@ -34,8 +34,7 @@ struct Report {
   /// The data as comma-separated values with a header line; empty: this command has no tables.
   std::function<std::string()> csv{};
 
-  std::vector<Error>
-      errors{}; ///< of the command as a whole: they take precedence over those of targets
+  std::vector<Error> errors{}; ///< of the command as a whole: they outrank those of targets
   std::vector<Target> targets{};
   std::vector<std::pair<std::string, std::uint64_t>> counts{};
   int signal = 0; ///< that ended the command

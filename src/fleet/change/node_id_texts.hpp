@@ -1,5 +1,5 @@
 #pragma once
-// The catalogue of who gives and gets node IDs: the allocation service, static IDs.
+// Messages about the allocation of node IDs: the allocation service, static IDs.
 
 #include "blactl/base/text.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-// What is said about plans that were kept.
+// Messages about saved plans.
 
 #include "blactl/base/text.hpp"
 

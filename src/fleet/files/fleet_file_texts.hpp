@@ -1,5 +1,5 @@
 #pragma once
-// What is said about fleet files.
+// Messages about fleet files.
 
 #include "blactl/base/text.hpp"
 

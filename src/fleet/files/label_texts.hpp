@@ -1,5 +1,5 @@
 #pragma once
-// What is said about labels.
+// Messages about labels.
 
 #include "blactl/base/text.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-// What is said about parameter files.
+// Messages about parameter files.
 
 #include "blactl/base/text.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-// What is said about recipes.
+// Messages about recipes.
 
 #include "blactl/base/text.hpp"
 

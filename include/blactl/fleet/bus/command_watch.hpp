@@ -1,6 +1,6 @@
 #pragma once
-// What other nodes tell servos, as far as it was heard: commands to move, writes to settings, and
-// whether the vehicle is armed.
+// Requests and commands of other nodes to servos, as far as heard: motion commands, writes to
+// settings, and whether the vehicle is armed.
 
 #include "blactl/base/time.hpp"
 #include "blactl/bla/address.hpp"
@@ -15,7 +15,7 @@
 
 namespace blactl::fleet {
 
-/// Another node that moves servos: ArrayCommand, or writes to 0x00-0x02.
+/// Another node that commands servos: by ArrayCommand, or writes to 0x00-0x02.
 struct Commander {
   /// The last command to one servo ID.
   struct Command {
@@ -24,26 +24,26 @@ struct Commander {
   };
 
   dronecan::NodeId source;
-  std::map<std::uint8_t, Command> servo_ids; ///< by ArrayCommand; 255: every servo
+  std::map<std::uint8_t, Command> servo_ids; ///< by ArrayCommand; 255: all servos
   std::map<dronecan::NodeId, Time> nodes;    ///< by GetSet
 };
 
 class CommandWatch {
  public:
-  /// Every transfer of other nodes.
+  /// Takes every transfer of other nodes.
   void receive(const dronecan::Transfer& transfer);
 
   [[nodiscard]] const std::map<dronecan::NodeId, Commander>& commanders() const {
     return commanders_;
   }
 
-  /// A node whose last ArmingStatus says that the vehicle is armed.
+  /// A node whose last ArmingStatus reports that the vehicle is armed.
   [[nodiscard]] std::optional<dronecan::NodeId> armed_by() const {
     return armed_.empty() ? std::nullopt : std::optional(*armed_.begin());
   }
 
-  /// Another node that changed a setting of this one after `since`. Commands to move (0x00-0x02)
-  /// change none. With `reg` of this register, or of all at once.
+  /// Another node that changed a setting of this one after `since`. Motion commands (0x00-0x02) are
+  /// not settings. With `reg`: this register, or all at once.
   [[nodiscard]] std::optional<dronecan::NodeId>
   writer_to(dronecan::NodeId id, Time since, std::optional<bla::Address> reg = std::nullopt) const;
 
@@ -66,7 +66,7 @@ class CommandWatch {
 
   std::map<dronecan::NodeId, Commander> commanders_;
   std::set<dronecan::NodeId> armed_;
-  /// The last ones to settings, by server and register; empty: to all of them.
+  /// The last writes to settings, by server and register; empty: to all registers.
   std::map<dronecan::NodeId, std::map<std::optional<bla::Address>, Write>> writes_;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// What is said of answers, reading and writing, and what no other catalogue of the floor has.
+// Messages about responses, reading and writing, and others without their own catalogue.
 
 #include "blactl/base/text.hpp"
 

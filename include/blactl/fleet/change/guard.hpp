@@ -1,5 +1,5 @@
 #pragma once
-// What the others on the bus forbid (contract, section 4).
+// Refusals because of other nodes on the bus (contract, section 4).
 
 #include "blactl/fleet/bus/roster.hpp"
 #include "blactl/fleet/bus/session.hpp"
@@ -11,22 +11,22 @@
 
 namespace blactl::fleet {
 
-/// Why this plan must not be carried out now, as far as the bus was heard; empty: it may.
-/// Errors: duplicate_node_id, state (the servo restarted since it was read), armed, driven unless
-/// `while_driven`, if the plan moves the servo; out_of_range for a static node ID that
-/// is ours; what others have is for survey() to find.
+/// The reason why this plan must not be carried out now, as far as the bus was heard; empty: it
+/// may. Errors: duplicate_node_id, state (the servo restarted since it was read), armed, driven
+/// unless `while_driven`, if the plan moves the servo; out_of_range for a static node ID that is
+/// ours; IDs of others are checked by survey().
 [[nodiscard]] std::optional<Error> forbidden(const Roster& roster, Time now, const Plan& plan,
                                              bool while_driven);
 
-/// What was heard of the others before anything is written.
+/// The findings about other nodes before anything is written.
 struct OthersHeard {
-  std::vector<std::string> notes{}; ///< what a person should know of them
+  std::vector<std::string> notes{}; ///< notes for the user
   std::vector<Error> errors{};      ///< why nothing may be written
 };
 
-/// Lives until the bus was heard long enough to know who acts on it. `searched`: when servos were
-/// chosen by a search; one that came since may be one of those that are meant. Errors: state (that,
-/// or frames were lost); what ends a session stands alone.
+/// Waits until the bus was heard long enough to know the active nodes. `searched`: the time of the
+/// search for the servos; one that came since may be among the selected ones. Errors: state (such a
+/// servo, or lost frames); one that ends a session is the only one.
 [[nodiscard]] OthersHeard hear_others(Session& session, std::optional<Time> searched);
 
 } // namespace blactl::fleet
