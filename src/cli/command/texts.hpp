@@ -12,7 +12,7 @@ inline constexpr Text motion_what_hint{
 inline constexpr Text motion_both{"{} and --wiggle cannot both be done",
                                   "{} と --wiggle は同時に指定できません"};
 inline constexpr Text motion_no_command{
-    "{} is no command: only angle, speed or torque is commanded",
+    "{} is not a command: only angle, speed or torque is commanded",
     "{} は指令できません。指令できるのは angle、speed、torque のみです"};
 inline constexpr Text motion_svg_to_stdout{"--svg: the drawing goes to a file only",
                                            "--svg の出力先はファイルのみです"};

@@ -39,8 +39,8 @@ constexpr Option command_options[]{
      .store = into<&CommandOptions::wiggle>},
     {.name = "--array",
      .kind = Kind::flag,
-     .help = {"by ArrayCommand to its servo ID, as an autopilot does; only where no other servo "
-              "has that ID",
+     .help = {"by ArrayCommand to its servo ID, as an autopilot does; only if no other servo has "
+              "that ID",
               "オートパイロットと同じくサーボ ID 宛の ArrayCommand で指令 (サーボ ID の重複がない"
               "場合のみ)"},
      .store = into<&CommandOptions::array>},

@@ -22,9 +22,9 @@ struct DoctorOptions {
 constexpr Option doctor_options[]{
     {.name = "--fix",
      .kind = Kind::flag,
-     .help =
-         {"set up and raise the CAN interface, where something of it is wrong, after a question",
-          "問題があれば CAN インターフェースを設定、起動 (事前に確認)"},
+     .help = {"set up the CAN interface and bring it up, if something about it is wrong, after a "
+              "question",
+              "問題があれば CAN インターフェースを設定、起動 (事前に確認)"},
      .store = into<&DoctorOptions::fix>},
     {.name = "--report",
      .value = "FILE",
@@ -76,7 +76,7 @@ Report execute(const DoctorOptions& options, Context& context) {
 constinit const Command commands::doctor{
     .name = "doctor",
     .traits = {.session = true, .recordings = true},
-    .help = {"what is wrong with interface, bus and nodes, and what mends it",
+    .help = {"problems of interface, bus and nodes, and how to fix them",
              "インターフェース、バス、ノードの問題と対処"},
     .options = doctor_options,
     .action = action<DoctorOptions, execute>,

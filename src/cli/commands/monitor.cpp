@@ -56,7 +56,7 @@ constexpr Option monitor_options[]{
      .value = "N",
      .kind = Kind::whole,
      .whole = {1, ~std::uint64_t{0}},
-     .help = {"end after so many samples", "この回数サンプリングしたら終了"},
+     .help = {"end after this many samples", "この回数サンプリングしたら終了"},
      .store = into<&MonitorOptions::count>},
     {.name = "--identify",
      .kind = Kind::flag,
@@ -83,7 +83,6 @@ Result<SampleFields> chosen_fields(const MonitorOptions& options) {
   return fields;
 }
 
-/// Opens the session; false: the report has the reason.
 bool open(Context& context, Report& report) {
   if (const auto session = context.open(fleet::Session::Hearing::answers); !session) {
     report.fail(session.error());

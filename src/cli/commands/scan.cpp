@@ -33,7 +33,7 @@ constexpr Option scan_options[]{
      .value = "N",
      .kind = Kind::whole,
      .whole = {0, dronecan::NodeId::max},
-     .help = {"fail unless so many servos are found", "検出台数がこれより少なければ失敗とする"},
+     .help = {"fail unless this many servos are found", "検出台数がこれより少なければ失敗とする"},
      .store = into<&ScanOptions::expect>},
 };
 

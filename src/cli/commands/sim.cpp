@@ -119,7 +119,6 @@ void dump(const std::vector<sim::Servo*>& servos, const sim::Medium::Counters* w
   events.print_end(servos.size(), wire, now);
 }
 
-/// Carries out orders from stdin.
 template <class Perform>
 void obey(LineInput& input, const can::Event& event, const Context& context, Perform perform) {
   input.handle(event);

@@ -59,7 +59,7 @@ constexpr Option trace_options[]{
      .value = "N",
      .kind = Kind::whole,
      .whole = {1, ~std::uint64_t{0}},
-     .help = {"end after so many transfers", "この数の転送で終了"},
+     .help = {"end after this many transfers", "この数の転送で終了"},
      .store = into<&TraceOptions::count>},
     {.name = "--stats",
      .kind = Kind::flag,

@@ -25,7 +25,6 @@ class MonitorView {
   MonitorView(const MonitorView&) = delete;
   MonitorView& operator=(const MonitorView&) = delete;
 
-  /// Takes the present state of the servos.
   void take(std::vector<fleet::LiveServo> servos, Time now);
 
   /// Handles the typed keys; false: it shall end.

@@ -321,7 +321,6 @@ std::string summary_text(std::span<const bla::FaultBit> bits) {
   return out + fmt::format("  {}\n", choose(bits.front().action_en, bits.front().action_ja));
 }
 
-/// The bits of a register: their names, conditions and actions.
 std::string bits_text(std::span<const bla::FaultBit> bits, bla::Address address) {
   std::string out;
   for (const bla::FaultBit& bit : bits) {

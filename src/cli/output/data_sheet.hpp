@@ -20,7 +20,6 @@ struct Sheet {
   [[nodiscard]] bool takes(const bla::Parameter& one) const;
 };
 
-/// The list of models.
 [[nodiscard]] std::string list_text(const Sheet& sheet, const Page& page);
 
 /// The sheet of the parameter, or of the model; for several models the common values and the

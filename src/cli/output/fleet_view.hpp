@@ -18,7 +18,6 @@ namespace blactl::cli {
 /// "nodes", with the keys of the contract, section 5, `diff apply`.
 void write_json(JsonWriter& json, std::span<const fleet::EntryDiff> entries);
 
-/// Writes one of them.
 void write_entry(JsonWriter& json, const fleet::EntryDiff& entry);
 
 /// `one` and `other` are the headings of the two columns: "SERVO", "FILE". Equal registers are only

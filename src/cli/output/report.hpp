@@ -41,10 +41,8 @@ struct Report {
   /// A stream has printed its data: only one last line without nodes follows.
   bool is_stream = false;
 
-  /// Fails the command as a whole.
   void fail(Error error) { errors.push_back(std::move(error)); }
 
-  /// Fails one target.
   void fail_target(Error error) { targets.push_back({.errors = {std::move(error)}}); }
 
   /// Adds "nodes" and "failed" to the counts, the same in every command: the number of targets, and

@@ -61,7 +61,7 @@ bool Reporter::use_colour(int descriptor) const {
 
 namespace {
 
-/// What the locale of this process says of its terminal.
+/// Whether the locale of this process uses UTF-8.
 bool has_unicode() {
   for (const char* variable : {"LC_ALL", "LC_CTYPE", "LANG"}) {
     const char* value = std::getenv(variable); // NOLINT(concurrency-mt-unsafe): nobody sets it

@@ -48,7 +48,6 @@ class Reporter {
   /// null: to stderr again.
   void hold(std::string* held) const { held_ = held; }
 
-  /// Prints the held text on stderr.
   void repeat(std::string_view held) const { print(held); }
 
   /// Prints a question on stderr, whose answer the caller reads from stdin; or a warning that is

@@ -39,7 +39,6 @@ attr_t attributes(Look look) {
   return A_BOLD | colour_or(bad_colour, A_UNDERLINE);
 }
 
-/// Removes the last character of a UTF-8 text.
 void shorten(std::string_view& text) {
   const auto is_continued = [&text] {
     return (static_cast<unsigned char>(text.back()) & 0xC0U) == 0x80U;

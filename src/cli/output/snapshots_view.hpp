@@ -14,7 +14,6 @@ namespace blactl::cli {
 /// The member "snapshots" of the document (contract, section 5), in the order given.
 void write_snapshots(JsonWriter& json, std::span<const state::SnapshotEntry> entries);
 
-/// The list for people.
 [[nodiscard]] std::string text(std::span<const state::SnapshotEntry> entries, const Page& page);
 
 } // namespace blactl::cli

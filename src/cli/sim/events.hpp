@@ -29,7 +29,6 @@ class SimEvents {
 
   void print(const sim::ServoEvent& event);
 
-  /// Prints the contents of the servo's memories.
   void print(const sim::Servo& servo, Time at);
 
   /// Prints the last line of a dump: the number of servos, and the counters of the simulated wire

@@ -27,7 +27,6 @@ bool TraceRun::check(const Result<bool>& written) {
   return written.value_or(false);
 }
 
-/// Writes the pending lines; false ends the trace.
 bool TraceRun::flush() {
   if (out_.empty()) {
     return true;
@@ -37,7 +36,6 @@ bool TraceRun::flush() {
   return check(written);
 }
 
-/// False ends the trace.
 bool TraceRun::handle(const can::Event& event, std::string_view interface, Time end) {
   if (const auto* received = std::get_if<can::Received>(&event)) {
     if (received->at > end) {
@@ -94,7 +92,6 @@ void TraceRun::live(std::unique_ptr<can::Bus> bus) {
   (void)check(screen_.end());
 }
 
-/// False ends the trace.
 bool TraceRun::take(const can::LogLine& line, const can::LogClock& clock) {
   if (line.kind == can::LogLine::Kind::other) {
     return true;

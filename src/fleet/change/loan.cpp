@@ -37,7 +37,6 @@ std::vector<Error> Loan::prepare(std::span<const NodeId> servos) {
   return goals ? change_.prepare(std::move(*goals)) : std::vector{std::move(goals.error())};
 }
 
-/// Reads only that register.
 std::vector<Snapshot> Loan::read(std::span<const NodeId> ids) {
   // every snapshot shows by itself whether the session ended early
   return take_snapshots(session_, profiles_, ids, options_.manner.identification,

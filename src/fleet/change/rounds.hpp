@@ -26,7 +26,6 @@ struct UnitTask {
   Wanted wanted;
 };
 
-/// The result of one unit.
 struct UnitChange {
   dronecan::UniqueId unique_id{};
   Wanted wanted;

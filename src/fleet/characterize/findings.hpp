@@ -40,7 +40,6 @@ class Notes {
     return fact(setting).value;
   }
 
-  /// The complete result.
   [[nodiscard]] Characterization result() && {
     Characterization all;
     all.facts = std::move(facts_);
@@ -62,7 +61,6 @@ class Notes {
 /// end the characterization; what it cannot determine it leaves open.
 using Measurement = Result<void> (*)(TestBench& bench, Notes& notes);
 
-/// Measurements that only read.
 [[nodiscard]] std::span<const Measurement> measurements_of_answers();
 
 /// Measurements that write to RAM while the output is off.

@@ -15,7 +15,6 @@
 
 namespace blactl::fleet {
 
-/// Makes one request.
 class Question final : public dronecan::Job {
  public:
   /// `must_finish`: it goes on after a first signal, too.

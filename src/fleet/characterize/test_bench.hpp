@@ -54,7 +54,6 @@ class TestBench {
     return bla::find(before_, address);
   }
 
-  /// Reports the present stage.
   void tell(const Text& stage) const;
 
   // Reads.

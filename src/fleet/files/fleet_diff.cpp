@@ -52,7 +52,6 @@ EntryDiff without_servo(const FleetEntry& entry, EntryStatus status,
   return {.name = entry.name, .status = status, .servo = servo_of(entry, profiles)};
 }
 
-/// Sets the status from the comparison.
 EntryDiff judged(EntryDiff diff) {
   diff.status = !diff.errors.empty()     ? EntryStatus::failed
                 : diff.differences() > 0 ? EntryStatus::different

@@ -122,7 +122,6 @@ class Reader {
     std::ranges::transform(read.set, std::back_inserter(read.entry.set), &Setting::assignment);
   }
 
-  /// Checks one entry on its own.
   void check(const Read& read) {
     if (read.entry.name.empty() && read.where->kind == json::Kind::object) {
       faults_.add(*read.where, say<texts::fleet_no_name>());

@@ -97,7 +97,6 @@ Result<RecordedServo> servo_of(const FleetEntry& entry, const bla::Profiles& pro
   return recorded;
 }
 
-/// The node ID in an entry.
 std::optional<NodeId> told_id(const FleetEntry& entry) {
   if (entry.match.node_id) {
     return entry.match.node_id;

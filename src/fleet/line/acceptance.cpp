@@ -71,7 +71,6 @@ std::optional<Error> check_unit_label(const Servo& servo, const Label* label) {
                say<texts::unit_other_label_hint>());
 }
 
-/// The label's value for this register.
 std::optional<std::int64_t> told_by(const Label* label, bla::Address address) {
   if (label == nullptr) {
     return std::nullopt;

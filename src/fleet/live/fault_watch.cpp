@@ -21,7 +21,6 @@ FaultWatch::~FaultWatch() {
   }
 }
 
-/// Starts the reads that are due.
 void FaultWatch::begin() {
   for (Look& look : looks_) {
     if (!look.job && look.due <= session_.now()) {

@@ -40,7 +40,6 @@ constexpr std::array end_registers{at::torque_output, at::timeout_action, at::ti
 
 } // namespace
 
-/// Ends the command with an error.
 Step CommandJob::fail(Error error) {
   if (!result_.error) {
     result_.error = std::move(error);
@@ -216,7 +215,6 @@ Step CommandJob::judge_proof(const Outcome& outcome) {
   return std::nullopt;
 }
 
-/// In addition to an earlier error.
 void CommandJob::add_error(Error error) {
   if (!result_.error) {
     result_.error = std::move(error);

@@ -84,7 +84,6 @@ Step CommandJob::judge_unit(const Outcome& outcome) {
   return look();
 }
 
-/// Reads the next condition of the plan.
 Step CommandJob::look() {
   if (result_.is_cut || conditions_.empty()) {
     sample_due_ = now_;

@@ -141,7 +141,6 @@ std::optional<Error> check_exact(const Snapshot& before, const CommandPlan& plan
   return std::nullopt;
 }
 
-/// The values to read, and their limits.
 std::array<CommandReading, 3> readings_of(const Snapshot& before) {
   std::array<CommandReading, 3> readings;
   for (std::size_t i = 0; i < readings.size(); ++i) {

@@ -34,13 +34,11 @@ class ServerClient final : public Medium::Listener {
   /// Whether the connection has ended, or must end.
   [[nodiscard]] bool gone() const { return gone_; }
 
-  /// Whether it has a place on the bus.
   [[nodiscard]] bool attached() const { return port_.has_value(); }
 
   /// Virtual clock: the time until which the client lets time pass; empty: it is working, and time
   /// must stand still.
   [[nodiscard]] std::optional<Time> waits_until() const;
-  /// Its deadline has passed.
   void tick(Time now);
 
   void heard(const can::Frame& frame, Time at) override;

@@ -62,7 +62,6 @@ void Devices::happen(const TimedEvent& event, Time now) const {
   }
 }
 
-/// A device's place on the bus.
 class Simulator::Station final : public Medium::Listener {
  public:
   Station(Device& device, Medium& medium, const Time& now) : device_(device) {

@@ -52,7 +52,6 @@ class Reader {
   json::Object& object_;
 };
 
-/// The keys on messages and commands.
 void read_commands(Reader reader, Behaviour& into) {
   reader.flag("array_command_shows", into.array_command_shows);
   reader.flag("array_command_feeds_timeout", into.array_command_feeds_timeout);
@@ -76,7 +75,6 @@ void read_commands(Reader reader, Behaviour& into) {
                 {"zero", StartAngle::zero});
 }
 
-/// The keys on the shaft.
 void read_motion(Reader reader, Behaviour& into) {
   reader.flag("inclusive_limits", into.inclusive_limits);
   reader.flag("inclusive_stops", into.inclusive_stops);

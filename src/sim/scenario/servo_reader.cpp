@@ -115,7 +115,6 @@ void ServoReader::check_firmware(json::Object& object, const std::string& label,
       say<texts::scenario_firmware>(model, bla::firmware_text(servo.firmware_version), known)));
 }
 
-/// Integer keys, with defaults from the model.
 void ServoReader::numbers(json::Object& object, std::size_t index, ServoSetup& servo) {
   const bla::Profile unknown;
   const bla::Profile& model = servo.profile != nullptr ? *servo.profile : unknown;

@@ -116,7 +116,6 @@ std::int64_t Registers::rom_value(Address address) const {
   return address > last_address ? 0 : rom_[address.value()];
 }
 
-/// The register of this model and firmware.
 const bla::Parameter* Registers::existing(Address address) const {
   const bla::Parameter* parameter = profile_->find(address);
   return parameter != nullptr && parameter->exists_in(firmware_version_) ? parameter : nullptr;

@@ -26,7 +26,6 @@ struct Selection {
   std::vector<std::string> notes; ///< nodes that were left out although they look like servos
 };
 
-/// A servo that was waited for.
 struct Arrival {
   Servo servo;
   bool is_there = false; ///< identified, operational, and responding at the end

@@ -73,7 +73,6 @@ class Identification {
   std::optional<Error> error_;
 };
 
-/// A job that only identifies one node.
 class IdentifyJob : public dronecan::Job {
  public:
   IdentifyJob(Roster& roster, dronecan::NodeId id, const bla::Profiles& profiles,
@@ -136,7 +135,6 @@ class DoubleCheckJob final : public dronecan::Job {
 
   [[nodiscard]] dronecan::NodeId id() const { return servo_.id; }
 
-  /// Whether it responded.
   [[nodiscard]] bool is_answered() const { return is_answered_; }
 
  private:

@@ -119,7 +119,6 @@ class Roster {
   /// one unit can.
   void hear(const can::Frame& frame, Time at);
 
-  /// Takes every transfer heard.
   void receive(const dronecan::Transfer& transfer);
 
   /// The unit behind `id` responded to GetNodeInfo: earlier facts may be about another unit.

@@ -38,7 +38,6 @@ class FormerIds final : public dronecan::AllocationTable {
   [[nodiscard]] std::optional<std::string> hint(const dronecan::UniqueId& unique_id) const;
 
  private:
-  /// The requests of a unit.
   struct Asked {
     dronecan::NodeId id{}; ///< assigned, or intended
     unsigned given = 0;    ///< number of times

@@ -22,7 +22,6 @@ enum class Evidence : std::uint8_t {
   ram,     ///< RAM holds it, and no record contradicts it for ROM
 };
 
-/// The goal of one servo.
 struct Goal {
   dronecan::NodeId id; ///< its node ID
   /// The required unit; empty: any.

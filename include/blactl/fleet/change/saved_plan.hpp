@@ -16,7 +16,6 @@
 
 namespace blactl::fleet {
 
-/// The plan for one servo.
 struct SavedStep {
   Need need = Need::nothing;
   bool saves = true;

@@ -17,7 +17,6 @@ namespace blactl::fleet {
 [[nodiscard]] Result<Wanted> to_undo(const state::SnapshotEntry& entry,
                                      const bla::Profiles& profiles);
 
-/// A change to undo.
 struct Undoing {
   state::SnapshotEntry entry;
   bool goes_on = false; ///< an undo of it has begun and did not end

@@ -60,7 +60,7 @@ struct Characterization {
   std::optional<NodeInfo> info{};
   /// The reason why it was not finished.
   std::optional<Error> error{};
-  /// What could not be restored; empty: all settings are as before.
+  /// The settings that could not be restored; empty: all are as before.
   std::optional<Error> not_put_back{};
   /// Whether something was changed, and restored.
   bool was_put_back = false;

@@ -12,7 +12,6 @@
 
 namespace blactl::fleet {
 
-/// The faults of one servo.
 struct FaultState {
   Snapshot snapshot;
   std::vector<bla::Fault> faults;         ///< the worst first

@@ -38,7 +38,6 @@ struct LiveLimits {
   std::optional<std::int64_t> low{}, high{};
 };
 
-/// The state of one servo at one moment.
 struct LiveServo {
   Servo servo{}; ///< as identified or overheard; `id` always
   std::array<std::optional<LiveValue>, live_fields> values{};

@@ -35,7 +35,6 @@ struct CommandReading {
   std::optional<std::int64_t> low{}, high{};
 };
 
-/// The plan for one servo.
 struct CommandPlan {
   Plan plan;                                 ///< of 0x00, 0x01 or 0x02: checked by the guard
   const bla::Parameter* parameter = nullptr; ///< the commanded register

@@ -51,7 +51,6 @@ class Server {
   /// Stops the virtual clock until this number of clients is attached at once.
   void hold(std::size_t clients);
 
-  /// The number of connected clients.
   [[nodiscard]] std::size_t clients() const;
 
  private:

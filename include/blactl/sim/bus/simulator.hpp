@@ -59,7 +59,6 @@ class Simulator {
   /// Applies to all clients, present and future.
   void link_clients(ClientLink link);
 
-  /// See Devices.
   bool change(std::int64_t serial_number, std::span<const WorldChange> changes) {
     return devices_.change(serial_number, changes, now_);
   }
