@@ -78,7 +78,7 @@ inline constexpr Text port_speaks_mavlink{
     "{} は MAVLink を送信しています。オートパイロットのテレメトリポートで、CAN アダプターでは"
     "ありません"};
 inline constexpr Text port_speaks_mavlink_hint{
-    "take another port: `ls -l /dev/serial/by-id`; ArduPilot gives one to slcan by CAN_SLCAN_CPORT "
+    "use another port: `ls -l /dev/serial/by-id`; ArduPilot gives one to slcan by CAN_SLCAN_CPORT "
     "and CAN_SLCAN_SERNUM",
     "別のポートを指定して下さい: `ls -l /dev/serial/by-id`。ArduPilot では CAN_SLCAN_CPORT と "
     "CAN_SLCAN_SERNUM で slcan 用のポートを設定できます"};

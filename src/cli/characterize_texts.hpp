@@ -1,5 +1,5 @@
 #pragma once
-// The catalogue of `blactl characterize`.
+// Messages of `blactl characterize`.
 
 #include "blactl/base/text.hpp"
 
@@ -7,7 +7,7 @@ namespace blactl::texts {
 
 inline constexpr Text characterize_column_setting{"SETTING", "項目"};
 inline constexpr Text characterize_column_value{"VALUE", "値"};
-inline constexpr Text characterize_column_what{"WHAT IT SAYS", "意味"};
+inline constexpr Text characterize_column_what{"MEANING", "意味"};
 inline constexpr Text characterize_column_why{"WHY NOT", "理由"};
 inline constexpr Text characterize_measured{"measured:\n", "測定結果:\n"};
 inline constexpr Text characterize_seen{"seen beside that:\n", "その他の観測:\n"};

@@ -1,5 +1,6 @@
 #pragma once
-// What a command is, declared once: the parser, --help, the completions and the manual go by it.
+// The declaration of a command, from which the parser, --help, the completions and the manual
+// follow.
 //
 //     struct WaitOptions { Duration wait = std::chrono::seconds(10); };
 //
@@ -28,8 +29,8 @@ namespace blactl::cli {
 
 class Context;
 
-/// What the value of an option or argument is. The kinds after `word` are all text; they differ in
-/// what completes them.
+/// The kinds of values of options and arguments. The kinds after `word` are all text; they differ
+/// in their completions.
 enum class Kind : std::uint8_t {
   flag,    ///< no value
   seconds, ///< with up to six decimals
@@ -46,27 +47,27 @@ enum class Kind : std::uint8_t {
   file,
   folder,
   words,     ///< of Option::words, comma-separated
-  beginning, ///< one of Option::words begins it
+  beginning, ///< starts with one of Option::words
 };
 
-/// The name of a kind, for the readers of --dump-cli: "parameter".
+/// The name of a kind in --dump-cli: "parameter".
 [[nodiscard]] std::string_view name(Kind kind);
 
-/// What an option given twice means.
+/// The meaning of a repeated option.
 enum class Repeat : std::uint8_t { last, list };
 
-/// A value as it was understood, in the member of its kind.
+/// A parsed value, in the member of its kind.
 struct Value {
   std::string text{};              ///< of a list: its items, comma-separated
-  std::vector<std::string> list{}; ///< every value that was given
-  std::uint64_t number = 0;        ///< of a word its place in Option::words, of a flag how often
+  std::vector<std::string> list{}; ///< every given value
+  std::uint64_t number = 0; ///< of a word its index in Option::words, of a flag the number of times
   Duration duration{};
 };
 
-/// What a member of an options struct takes from a Value.
+/// The part of a Value that a member of an options struct takes.
 enum class Takes : std::uint8_t { flag, text, list, number, duration };
 
-/// Where the value goes.
+/// The destination of a value.
 struct Store {
   void (*put)(void* options, const Value& value);
   Takes takes;
@@ -76,37 +77,37 @@ template <class Number> struct Range {
   Number min, max;
 };
 
-/// An option, or an argument that goes by its place.
+/// An option, or a positional argument.
 struct Option {
-  std::string_view name;    ///< "--node"; of an argument "PARAM"
+  std::string_view name;    ///< "--node"; for an argument "PARAM"
   char letter = 0;          ///< 'n' for -n; 0: none
   std::string_view value{}; ///< "LIST"; empty for flags and arguments
   Kind kind = Kind::text;
   Repeat repeat = Repeat::last;
   bool required = false;
-  bool hidden = false;                       ///< from people; still accepted
-  std::span<const std::string_view> words{}; ///< of Kind::word, words and beginning
-  Range<Duration> seconds{};                 ///< of Kind::seconds
-  Range<std::uint64_t> whole{};              ///< of Kind::whole
+  bool hidden = false;                       ///< not in help texts; still accepted
+  std::span<const std::string_view> words{}; ///< for Kind::word, words and beginning
+  Range<Duration> seconds{};                 ///< for Kind::seconds
+  Range<std::uint64_t> whole{};              ///< for Kind::whole
   Text help;
   Store store;
 };
 
 struct Traits {
-  bool writes = false;       ///< changes servos; without -n there must be just one
-  bool from_file = false;    ///< its file says which servos those are
-  bool from_history = false; ///< without -n it is about those that the last command changed
-  bool streams = false;      ///< prints one object a line while it runs
+  bool writes = false;       ///< changes servos; without -n there must be exactly one
+  bool from_file = false;    ///< its file names the servos
+  bool from_history = false; ///< without -n it concerns the servos changed by the last command
+  bool streams = false;      ///< prints one object per line while it runs
   bool tables = false;       ///< takes --csv
-  bool session = false;      ///< talks on an interface, so --record has something to write
-  bool recordings = false;   ///< answers from -i replay:FILE and -i file:FLEET.json too
+  bool session = false;      ///< uses an interface, so that --record has something to write
+  bool recordings = false;   ///< also works with -i replay:FILE and -i file:FLEET.json
   bool needs_frames = false; ///< of these two only the first, which holds frames
-  bool offline = false;      ///< needs no bus at all: what is said of one is of no account
+  bool offline = false;      ///< needs no bus: options of one are ignored
 };
 
-/// What a command does with its options, whose type only its own file knows.
+/// The action of a command on its options, whose type is known in its own file only.
 struct Action {
-  std::shared_ptr<void> (*make)(); ///< options with their defaults
+  std::shared_ptr<void> (*make)(); ///< options with defaults
   Report (*run)(const void* options, Context& context);
 };
 
@@ -128,7 +129,7 @@ template <class Owner, class Type> struct MemberOf<Type Owner::*> {
   using Value = Type;
 };
 
-/// The member at the end of a way into nested structs.
+/// The member at the end of a path into nested structs.
 template <class First, class... Further> struct Last : Last<Further...> {};
 
 template <class Only> struct Last<Only> : MemberOf<Only> {};
@@ -175,7 +176,7 @@ template <class To> void assign(To& to, const Value& value) {
 
 } // namespace detail
 
-/// Stores a value in a member of an options struct, or in a member of that: into<&Set::times,
+/// Stores a value in a member of an options struct, or in a nested one: into<&Set::times,
 /// &Times::wait>. Enumerations are in the order of Option::words.
 template <auto first, auto... further>
 inline constexpr Store into{
@@ -185,7 +186,7 @@ inline constexpr Store into{
     },
     detail::takes<typename detail::Last<decltype(first), decltype(further)...>::Value>()};
 
-/// The action of a function; each command calls its own `execute`.
+/// The action for a function; each command passes its own `execute`.
 template <class Options, Report (*function)(const Options&, Context&)>
 inline constexpr Action action{
     []() -> std::shared_ptr<void> { return std::make_shared<Options>(); },

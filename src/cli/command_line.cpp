@@ -35,7 +35,7 @@ const Option* find_letter(char letter) {
   return found != shared_options().end() ? &*found : nullptr;
 }
 
-/// The first option of this name ("--node"), of whichever command; null: none.
+/// The first option of this name ("--node") of any command; null: none.
 const Option* find_option(std::string_view name, Commands commands) {
   const auto in = [&](std::span<const Option> options) {
     const auto found = std::ranges::find(options, name, &Option::name);
@@ -48,7 +48,7 @@ const Option* find_option(std::string_view name, Commands commands) {
   return found;
 }
 
-/// The flags of "-jqn": short options may share a dash, and one that takes a value ends them.
+/// The flags of "-jqn": short options may share a dash; one that takes a value is the last.
 std::string_view short_flags(std::string_view argument) {
   if (!looks_like_option(argument) || argument[1] == '-') {
     return {};
@@ -61,7 +61,7 @@ std::string_view short_flags(std::string_view argument) {
   return {letters.begin(), end};
 }
 
-/// Whether the value of this option is the next argument: "--node", "-n", "-jn".
+/// Whether the next argument is the value of this option: "--node", "-n", "-jn".
 bool takes_next(std::string_view argument, Commands commands) {
   const Option* option = nullptr;
   if (argument.starts_with("--")) {
@@ -73,7 +73,7 @@ bool takes_next(std::string_view argument, Commands commands) {
   return option != nullptr && option->kind != Kind::flag;
 }
 
-/// The place of the first argument that is neither an option nor the value of one.
+/// The index of the first argument that is neither an option nor the value of one.
 std::size_t first_word(Arguments arguments, Commands commands) {
   std::size_t at = 0;
   while (at < arguments.size() && !arguments[at].empty() && arguments[at].front() == '-') {
@@ -91,16 +91,15 @@ Error unknown_command(std::string_view word, Commands commands) {
           did_you_mean(word, names, say<texts::see_help>()), std::nullopt};
 }
 
-/// The parser for one command. It only sorts the arguments: what they mean, and what is missing,
-/// is found out afterwards, so that every fault is found and not just the first.
+/// The parser for one command. It only sorts the arguments; meanings and missing ones are checked
+/// afterwards, so that all errors are found and not just the first.
 class Parser {
  public:
   explicit Parser(const Command* command);
 
   std::expected<Invocation, std::vector<Error>> parse(Arguments arguments);
 
-  /// What is wrong beside a command that there is not: with the shared options, and with options
-  /// that no command has.
+  /// The errors besides an unknown command: in the shared options, and options that no command has.
   std::vector<Error> faults_beside_unknown_command(Arguments arguments, Commands commands);
 
  private:
@@ -112,7 +111,7 @@ class Parser {
   };
 
   void declare(const Option& option, void* options, const std::string& see_help);
-  /// Takes out "--node=": the parser would take the next argument for its value.
+  /// Removes "--node=", for which the parser would take the next argument as value.
   std::vector<std::string> without_empty_values(Arguments arguments);
   void sort(std::vector<std::string> arguments);
   void refuse_unknown(Arguments arguments);
@@ -211,7 +210,7 @@ void Parser::refuse_unknown(Arguments arguments) {
   }
   std::string before;
   for (const std::string& extra : app_.remaining()) {
-    // What follows an unknown option was probably its value.
+    // the argument after an unknown option was probably its value
     const std::vector<std::string> pair{std::exchange(before, extra), extra};
     const bool was_value = looks_like_option(pair[0]) && !looks_like_option(extra) &&
                            std::ranges::search(arguments, pair).begin() != arguments.end();
@@ -268,7 +267,7 @@ void Parser::check_combinations() {
   }
 }
 
-/// What another option reads or writes must not be written over.
+/// Files that other options read or write must not be overwritten.
 void Parser::check_recording() {
   for (const auto& [option, given, options, see_help] : declared_) {
     const bool is_other_file = option->kind == Kind::file && option->name != "--record";
@@ -283,7 +282,7 @@ void Parser::check_recording() {
   }
 }
 
-/// From the environment, what no option said.
+/// Completes options from the environment.
 void Parser::complete() {
   Shared& shared = result_.shared;
   const auto from = [&](const char* variable, std::string_view option) {

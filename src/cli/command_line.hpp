@@ -14,21 +14,21 @@
 
 namespace blactl::cli {
 
-/// A command line without a fault.
+/// A command line without errors.
 struct Invocation {
   Shared shared{};
-  const Command* command = nullptr;      ///< null: none, which only --help and the like allow
-  std::shared_ptr<const void> options{}; ///< of the command, for its action
+  const Command* command = nullptr;      ///< null: none, with --help and the like only
+  std::shared_ptr<const void> options{}; ///< for the command's action
 };
 
-/// What can be told before anything is parsed: every failure of a command line with --json prints
-/// a document, and is coloured as --color says.
+/// The shared options that are needed before parsing: with --json every failure of a command line
+/// prints a document, coloured by --color.
 [[nodiscard]] Shared peek(std::span<const std::string> arguments);
-/// The command that is meant; null: unknown.
+/// The command; null: unknown.
 [[nodiscard]] const Command* peek_command(std::span<const std::string> arguments);
 [[nodiscard]] Language peek_language(std::span<const std::string> arguments);
 
-/// Errors: usage; every fault of the command line, but where --help or --version asks for a text.
+/// Errors: usage; all errors of the command line, unless --help or --version is given.
 [[nodiscard]] std::expected<Invocation, std::vector<Error>>
 parse(std::span<const std::string> arguments,
       std::span<const Command* const> commands = all_commands());

@@ -1,6 +1,6 @@
 #pragma once
-// The table of commands. Each is declared in its file of commands/: options, help and what it does.
-// They print nothing but through the reporter, ask nothing without it, and never exit.
+// The table of commands. Each is declared in its file of commands/: options, help and action. They
+// print only through the reporter, ask only through it, and never exit.
 
 #include "cli/command.hpp"
 #include "cli/context.hpp"
@@ -15,7 +15,7 @@ namespace blactl::cli {
 namespace commands {
 
 extern const Command scan, alloc, get, set, save, erase, restart, wait, faults, pwm_config,
-    export_servos, // "export" alone is a word of C++
+    export_servos, // "export" is a keyword of C++
     diff, apply, undo, monitor, command, trace, doctor, characterize, models, sim;
 
 } // namespace commands
@@ -23,7 +23,7 @@ extern const Command scan, alloc, get, set, save, erase, restart, wait, faults, 
 /// All commands, in the order of --help.
 [[nodiscard]] std::span<const Command* const> all_commands();
 
-/// Null: there is none of this name.
+/// The command of this name; null: none.
 [[nodiscard]] const Command* find_command(std::string_view name);
 
 } // namespace blactl::cli

@@ -11,7 +11,7 @@
 namespace blactl::cli {
 namespace {
 
-/// What the person typed, without the line break; a closed terminal is an empty answer.
+/// The typed line without its line break; a closed terminal is an empty answer.
 std::string read_line() {
   std::array<char, 256> buffer{};
   const ssize_t count = read(STDIN_FILENO, buffer.data(), buffer.size());
@@ -19,12 +19,12 @@ std::string read_line() {
   return line.substr(0, line.find_first_of("\r\n"));
 }
 
-/// What was typed before the question is no answer to it.
+/// Input typed before the question does not answer it.
 Result<std::string> answer_to(const std::string& question, Context& context) {
   tcflush(STDIN_FILENO, TCIFLUSH);
   context.reporter().ask(question);
   if (auto ready = context.wait_for_input(STDIN_FILENO); !ready) {
-    context.reporter().ask("\n"); // the question's line will get no answer
+    context.reporter().ask("\n"); // ends the line of the unanswered question
     return std::unexpected(ready.error());
   }
   return read_line();
@@ -49,7 +49,7 @@ Result<void> confirm(std::string_view question, Context& context) {
       return {};
     }
   }
-  return fail(Code::not_confirmed, say<texts::not_confirmed>()); // who said no needs no advice
+  return fail(Code::not_confirmed, say<texts::not_confirmed>()); // a refusal needs no hint
 }
 
 Result<void> wait_for_enter(std::string_view text, Context& context) {

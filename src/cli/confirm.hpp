@@ -1,5 +1,5 @@
 #pragma once
-// Questions to the person at the terminal.
+// Questions to the user at the terminal.
 
 #include "cli/context.hpp"
 
@@ -7,11 +7,11 @@
 
 namespace blactl::cli {
 
-/// Asks `question` unless --yes was given; the bus, if it is open, goes on being heard meanwhile.
-/// Errors: not_confirmed (no terminal, or any answer but yes), and those of the session.
+/// Asks `question` unless --yes was given; an open bus is served meanwhile. Errors: not_confirmed
+/// (no terminal, or any answer but yes), and those of the session.
 [[nodiscard]] Result<void> confirm(std::string_view question, Context& context);
 
-/// Tells `text` to the person at the terminal and waits for Enter; the bus goes on being heard.
+/// Shows `text` to the user at the terminal and waits for Enter; the bus is served meanwhile.
 /// Errors: those of the session.
 [[nodiscard]] Result<void> wait_for_enter(std::string_view text, Context& context);
 

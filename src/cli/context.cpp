@@ -78,8 +78,8 @@ Result<std::optional<LocalNodeId>> Context::take_node_id(bool listens) {
   return std::move(*local);
 }
 
-/// The node IDs that this process may take: the one that --local-node-id says, else those of tools.
-/// A node that -n names cannot be asked by one that has its ID.
+/// The node IDs that this process may use: the one from --local-node-id, else those for tools. IDs
+/// of nodes in -n are excluded, as such a node could not be asked.
 LocalNodeId::Candidates Context::own_ids() const {
   if (shared_.local_node_id) {
     return {dronecan::NodeId(*shared_.local_node_id)};
@@ -92,7 +92,7 @@ LocalNodeId::Candidates Context::own_ids() const {
   return ids;
 }
 
-/// Our node ID and why it is this one. Not to have the usual one is worth a note.
+/// Our node ID and the reason for it. An unusual one is worth a note.
 void Context::tell(const LocalNodeId& local) const {
   const auto id = local.id().value();
   if (const std::string others = local.passed_over(); !others.empty()) {
@@ -133,7 +133,7 @@ Result<fleet::Session*> Context::open(fleet::Session::Hearing hearing) {
   log_ = bus->log;
   adapter_ = bus->adapter;
   if (waits_for_return_ && bus->reopen) {
-    adapter_ = nullptr; // the next one is another
+    adapter_ = nullptr; // the next one is different
     bus->bus = std::make_unique<can::ReturningBus>(std::move(bus->bus), std::move(bus->reopen));
   }
   if (plays_at_pace_ && log_ != nullptr) {
@@ -155,8 +155,7 @@ Result<fleet::Session*> Context::open(fleet::Session::Hearing hearing) {
   session_->on_stopping([this] { reporter_.note(say<texts::finishing>()); });
   session_->on_requests([this](const dronecan::Request& request, int) { requests_.asked(request); },
                         [this](const dronecan::Request& request, int tries) {
-                          // Whoever asks every ID once looks for somebody: an answer would be the
-                          // surprise.
+                          // one try to every ID is a search: no response is expected
                           if (request.retries > 0 || session_->roster().heard(request.server)) {
                             requests_.unanswered(request, tries);
                           }
@@ -173,7 +172,7 @@ Result<fleet::Session*> Context::open(fleet::Session::Hearing hearing) {
   return session_.get();
 }
 
-/// The session answers from what the file says.
+/// The session responds from the contents of the file.
 Result<void> Context::recall(const fleet::FleetFile& fleet) {
   const auto recording = fleet::recording_of(fleet, *profiles_, assumed_);
   if (!recording) {
@@ -270,7 +269,8 @@ Result<void> Context::lock_allocation() {
 
 namespace {
 
-/// What is known of the servos behind `interface`: those of a private simulation end with it.
+/// Opens the store for the servos behind `interface`: in memory for a private simulation, which
+/// ends with the process.
 template <class Store> Result<Store> open_store(std::string_view interface, state::Access access) {
   if (names(interface, Behind::scenario)) {
     return Store::unshared();
@@ -297,7 +297,7 @@ Result<fleet::History> Context::history(std::string_view command, state::Access 
   if (!snapshots) {
     return std::unexpected(std::move(snapshots.error()));
   }
-  // A private simulation has the unique IDs of the one before it, and another ROM.
+  // a private simulation has the unique IDs of the one before it, but another ROM
   const auto name = parse_interface(shared_.interface);
   const bool is_private = name && name->is(Behind::simulator) && name->rest.empty() &&
                           !can::SimBus::is_served(can::default_socket_path());
@@ -361,7 +361,7 @@ void Context::tell_losses(Report& report) const {
 
 namespace {
 
-/// Takes these errors out, and the targets that nothing else is known of.
+/// Removes these errors, and targets without anything else.
 void drop(Report& report, const auto& is_meant) {
   std::erase_if(report.errors, is_meant);
   std::erase_if(report.targets, [&](Target& target) {
@@ -402,7 +402,7 @@ void Context::explain_silence(Report& report) const {
   const auto reason = session_->silence();
   const auto is_absence = [](const Error& error) { return error.code == Code::not_found; };
   if (reason && reason->code == Code::interface) {
-    drop(report, is_absence); // that is but how it shows
+    drop(report, is_absence); // that is only its consequence
     if (std::ranges::find(report.errors, Code::interface, &Error::code) == report.errors.end()) {
       report.fail(*reason);
     }
@@ -429,7 +429,7 @@ void Context::check_recording(Report& report) const {
 }
 
 void Context::broken(const Error& error, Report& report) const {
-  // What the jobs say of their cancelled questions is the same news.
+  // errors of jobs whose requests were cancelled repeat the cause
   const auto is_same = [](const Error& known) { return known.code == Code::interrupted; };
   std::erase_if(report.errors, is_same);
   for (Target& target : report.targets) {

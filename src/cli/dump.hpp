@@ -6,7 +6,7 @@
 namespace blactl::cli {
 
 /// `{"schema":"blactl-cli/1","version",…,"options":[…],"commands":[…]}`, texts in both languages;
-/// ends with a line break. Hidden options are not in it.
+/// ends with a line break, without hidden options.
 [[nodiscard]] std::string dump_cli();
 
 } // namespace blactl::cli

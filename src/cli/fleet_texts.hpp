@@ -1,12 +1,12 @@
 #pragma once
-// The catalogue of the commands about fleet files.
+// Messages of the commands on fleet files.
 
 #include "blactl/base/text.hpp"
 
 namespace blactl::texts {
 
 inline constexpr Text export_json_needs_file{
-    "--json tells what became of FILE: both would stand on stdout",
+    "--json reports on FILE: both would be on stdout",
     "--json の結果とエクスポート内容がどちらも標準出力になるため、実行できません"};
 inline constexpr Text export_json_needs_file_hint{
     "give a file: blactl export fleet.json --json; or leave --json out",
@@ -20,12 +20,12 @@ inline constexpr Text export_one_form{"--recipe and --params are two forms of on
 inline constexpr Text export_one_form_hint{"leave one of them out", "いずれか一方を外して下さい"};
 inline constexpr Text export_has_faults{"apply would refuse what was exported: {}",
                                         "出力した内容は apply では受け付けられません: {}"};
-inline constexpr Text export_written{"{} written: {} servos\n", "{} に {} 台分を書き込みました\n"};
+inline constexpr Text export_written{"{} written, servos: {}\n", "{} に {} 台分を書き込みました\n"};
 inline constexpr Text export_not_written{"{} is as it was: not everything was read",
                                          "{} は変更していません (読み出せなかった項目があるため)"};
 inline constexpr Text fleet_entry_at{"{}  node {}", "{}  ノード {}"};
 inline constexpr Text fleet_different{"{} of {} settings differ", "{1} 項目中 {0} 項目が相違"};
-inline constexpr Text fleet_unchanged{"as in the file ({} settings)", "ファイルと一致 ({} 項目)"};
+inline constexpr Text fleet_unchanged{"as in the file (settings: {})", "ファイルと一致 ({} 項目)"};
 inline constexpr Text fleet_missing{"not there", "見つかりません"};
 inline constexpr Text fleet_extra{"in no entry of the file", "このサーボはファイルにありません"};
 inline constexpr Text fleet_skipped{"left out (-n)", "対象外 (-n)"};
@@ -44,7 +44,7 @@ inline constexpr Text fleet_many_files_hint{
     "blactl diff fleet.json, or blactl diff old.json new.json",
     "例: blactl diff fleet.json、blactl diff old.json new.json"};
 
-inline constexpr Text params_passed_over{"{}: passed over, as they are no settings: {}",
+inline constexpr Text params_passed_over{"{}: skipped, as they are not settings: {}",
                                          "{}: 設定ではないため無視しました: {}"};
 inline constexpr Text params_one_entry{
     "a parameter file is of one servo, {} is not",

@@ -22,14 +22,14 @@ std::string_view in_language(const Text& text) {
   return choose(text.en, text.ja);
 }
 
-/// What stands to the left: "-n, --node LIST".
+/// The left column: "-n, --node LIST".
 std::string label(const Option& option) {
   std::string text = option.letter != 0 ? std::string{'-', option.letter, ',', ' '} : "    ";
   text += option.name;
   return option.value.empty() ? text : text + " " + std::string(option.value);
 }
 
-/// The words that a value may be, after what it is for.
+/// The description, with the possible words of the value.
 std::string description(const Option& option) {
   std::string text(in_language(option.help));
   if (!option.words.empty()) {
@@ -47,7 +47,7 @@ struct Row {
   std::string text;
 };
 
-/// Two columns under a heading. Where the labels leave little room the texts go below them.
+/// Two columns under a heading. If the labels leave little room the texts go below them.
 std::string section(std::string_view heading, const std::vector<Row>& rows, std::size_t width) {
   constexpr std::size_t margin = 2;
   constexpr std::size_t gap = 2;

@@ -10,11 +10,11 @@
 
 namespace blactl::cli {
 
-/// The columns of the terminal behind stdout; 80 where there is none.
+/// The columns of the terminal behind stdout; 80 without one.
 [[nodiscard]] std::size_t terminal_width();
 
-/// The help of a command, or of the program (null), in lines of at most `width` columns; at least
-/// 40 are assumed.
+/// The help of a command, or of the program (null), in lines of at most `width` columns, but not
+/// less than 40.
 [[nodiscard]] std::string help(const Command* command, std::size_t width);
 
 } // namespace blactl::cli

@@ -1,5 +1,5 @@
 #pragma once
-// The catalogue of `blactl models`.
+// Messages of `blactl models`.
 
 #include "blactl/base/text.hpp"
 

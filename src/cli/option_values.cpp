@@ -44,7 +44,7 @@ class Reading {
       : option_(option), text_(text), see_help_(see_help), value_(value) {}
 
   Result<void> take() {
-    // An unset variable of a script: -n "$NODE" must not mean every servo.
+    // an unset variable of a script: -n "$NODE" must not select every servo
     if (text_.empty()) {
       return refuse(say<texts::empty_value>(option_.name));
     }
@@ -68,7 +68,7 @@ class Reading {
     return fail(Code::usage, std::move(message), std::move(hint));
   }
 
-  /// Whether it was understood; what it means is the command's business.
+  /// Whether it was parsed; its meaning is up to the command.
   template <class T> static Result<void> just(const Result<T>& result) {
     return result ? Result<void>() : std::unexpected(result.error());
   }

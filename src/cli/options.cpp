@@ -121,7 +121,7 @@ constexpr Option shared[]{
     {.name = "--profile",
      .value = "MODEL",
      .kind = Kind::model,
-     .help = {"read as this model where no profile fits",
+     .help = {"read as this model if no profile fits",
               "該当するプロファイルが無いサーボをこの機種として読出し"},
      .store = into<&Shared::profile>},
     {.name = "--record",

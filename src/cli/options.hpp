@@ -1,5 +1,5 @@
 #pragma once
-// The options that every command takes, and those that several commands have in common.
+// The options of every command, and those common to several commands.
 
 #include "blactl/base/text.hpp"
 #include "blactl/base/time.hpp"
@@ -18,7 +18,7 @@
 
 namespace blactl::cli {
 
-/// An option that a variable of the environment stands for.
+/// An option that was set by an environment variable.
 struct Origin {
   std::string_view option;
   std::string value;
@@ -38,18 +38,18 @@ struct Shared {
   std::optional<std::string> profile{};
   std::optional<std::string> record{};
   Reporter::Options output{};
-  std::vector<Origin> from_environment{}; ///< what no option said
+  std::vector<Origin> from_environment{}; ///< for options that are not given
   bool json = false;
   bool csv = false;
-  Language language{}; ///< only checked here: spoken before anything is parsed
+  Language language{}; ///< only checked here: used before anything is parsed
   bool help = false;
   bool version = false;
   bool dump_cli = false;
 };
 
-/// Where servos restart.
+/// The times of restarts.
 struct RestartTimes {
-  std::optional<Duration> wait{}; ///< for a servo to come back; empty: as many as there are need
+  std::optional<Duration> wait{}; ///< for a servo to come back; empty: as long as needed
   Duration stagger{};             ///< between two servos
 };
 

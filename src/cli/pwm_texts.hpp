@@ -1,5 +1,5 @@
 #pragma once
-// The catalogue of `blactl pwm-config`.
+// Messages of `blactl pwm-config`.
 
 #include "blactl/base/text.hpp"
 

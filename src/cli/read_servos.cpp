@@ -10,7 +10,7 @@
 namespace blactl::cli {
 namespace {
 
-/// Nothing may be sent, and it is no recording.
+/// Nothing may be sent, and it is not a recording.
 bool must_be_silent(const Context& context) {
   return context.shared().listen_only && !takes_no_frames(context.shared().interface);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// How a command that only reads comes to its servos.
+// How read-only commands find their servos.
 
 #include "cli/context.hpp"
 #include "cli/output/report.hpp"
@@ -10,12 +10,12 @@
 
 namespace blactl::cli {
 
-/// Opens the interface, where something may be sent or it is a recording; false: the report says
-/// why not. Errors: usage (--listen-only; `command` is named), and those of Context::open().
+/// Opens the interface, if something may be sent or it is a recording; false: the report has the
+/// reason. Errors: usage (--listen-only; `command` is named), and those of Context::open().
 [[nodiscard]] bool open_for_reading(std::string_view command, Context& context, Report& report);
 
-/// Opens the interface and finds the servos behind -n. What went wrong with some of them, and why
-/// the session broke, is in the report then. Empty: it holds why there is nothing to read at all.
+/// Opens the interface and finds the servos behind -n. Errors of single servos, or of a broken
+/// session, are in the report. Empty: the report has the reason why nothing can be read.
 [[nodiscard]] std::optional<std::vector<dronecan::NodeId>>
 select_for_reading(std::string_view command, Context& context, Report& report);
 

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::string_view version_text = "blactl " BLACTL_VERSION "\n";
 
-/// Plain text on stdout that is no report: help and version.
+/// Prints text on stdout that is not a report: help and version.
 int print(const Reporter& reporter, std::string_view text) {
   const auto printed = reporter.data(text);
   if (!printed) {
@@ -29,7 +29,7 @@ int print(const Reporter& reporter, std::string_view text) {
   return 0;
 }
 
-/// Ends a command that never had a report of its own, with these errors.
+/// Ends a command without its own report, with these errors.
 int refuse(std::span<const std::string> arguments, std::vector<Error> faults) {
   Report report;
   if (const Command* command = peek_command(arguments)) {
@@ -49,7 +49,7 @@ int carry_out(const Invocation& invocation, const Reporter& reporter) {
   const Command& command = *invocation.command;
   Report report = command.action.run(invocation.options.get(), context);
   report.command = command.name;
-  if (report.signal == 0) { // it may have come before the command had a session to ask
+  if (report.signal == 0) { // it may have come before the command had a session
     report.signal = context.signal();
   }
   context.explain_silence(report);
@@ -58,7 +58,7 @@ int carry_out(const Invocation& invocation, const Reporter& reporter) {
   return reporter.finish(report);
 }
 
-/// Nothing is left to tell it with, not even memory.
+/// Not even memory is left to report it.
 int fail_in_silence() {
   constexpr std::string_view text = "blactl: [internal] out of memory\n";
   std::ignore = ::write(STDERR_FILENO, text.data(), text.size());
@@ -67,7 +67,7 @@ int fail_in_silence() {
 
 int understand_and_run(std::span<const std::string> arguments) {
   set_language(peek_language(arguments));
-  // Answered before the parser is built: scripts ask for it often.
+  // before the parser is built: scripts ask for it often
   if (arguments.size() == 1 && (arguments[0] == "--version" || arguments[0] == "-V")) {
     return print(Reporter({}), version_text);
   }

@@ -1,5 +1,5 @@
 #pragma once
-// The whole program but for main(): from arguments to an exit status.
+// The whole program except main(): from arguments to an exit status.
 
 #include <functional>
 #include <span>
@@ -7,12 +7,11 @@
 
 namespace blactl::cli {
 
-/// Runs the command line without the program's name and prints what it has to say. Throws nothing:
-/// what is thrown is a fault of this program, told as `internal`.
+/// Runs the command line without the program's name and prints its output. Throws nothing: an
+/// exception is a bug of this program, reported as `internal`.
 [[nodiscard]] int run(std::span<const std::string> arguments);
 
-/// The exit status that `work` gives; where it throws, 1, with the document that `arguments` ask
-/// for.
+/// The exit status of `work`; if it throws, 1, with the document that `arguments` ask for.
 [[nodiscard]] int guarded(std::span<const std::string> arguments,
                           const std::function<int()>& work) noexcept;
 

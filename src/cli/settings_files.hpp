@@ -1,5 +1,5 @@
 #pragma once
-// The files with settings that a command is given.
+// Reads the files with settings that a command is given.
 
 #include "blactl/fleet/files/fleet_file.hpp"
 
@@ -11,8 +11,8 @@
 
 namespace blactl::cli {
 
-/// Reads a fleet file or a parameter file, and says what of it is passed over; empty: the report
-/// says why. The profiles have been read. Errors: bad_file.
+/// Reads a fleet file or a parameter file, and notes skipped parts; empty: the report has the
+/// reason. The profiles must have been read. Errors: bad_file.
 [[nodiscard]] std::optional<fleet::FleetFile> read_settings(const std::string& file,
                                                             const Context& context, Report& report);
 

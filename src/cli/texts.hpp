@@ -1,5 +1,5 @@
 #pragma once
-// The catalogue of the floor cli; commands with many texts of their own have one beside.
+// Messages of the floor cli; commands with many messages have their own catalogue.
 
 #include "blactl/base/text.hpp"
 
@@ -76,7 +76,7 @@ inline constexpr Text record_needs_file{"--record needs a file: standard output 
                                         "(標準出力はデータ用です)"};
 inline constexpr Text nothing_to_record{"{} has no session that could be recorded",
                                         "{} には記録できるセッションがありません"};
-inline constexpr Text no_nodes{"{} asks no servo: it takes no --node",
+inline constexpr Text no_nodes{"{} does not contact servos: it takes no --node",
                                "{} はサーボに問い合わせないため、--node は指定できません"};
 inline constexpr Text records_over_file{"--record {}: that is the file of {}",
                                         "--record {}: {} に指定したファイルと同じです"};
@@ -85,7 +85,7 @@ inline constexpr Text records_over_file_hint{"type another file for --record",
 inline constexpr Text records_itself{"--record {}: that is the log being read",
                                      "--record {}: 読込み中のログと同じファイルです"};
 inline constexpr Text lines_passed_over{
-    "{}: lines passed over because they are no frames: {}, the first is line {}",
+    "{}: lines skipped because they are not frames: {}, the first is line {}",
     "{}: フレームではない {} 行を無視しました (最初は {} 行目)"};
 inline constexpr Text only_one_servo{"{} takes one servo, not {}",
                                      "{} の対象は 1 台だけです ({} 台指定)"};
@@ -223,14 +223,14 @@ inline constexpr Text silent_file_hint{"{} holds no entry of one servo: blactl e
                                        "{} にサーボ 1 台のエントリがありません。作成するには: "
                                        "blactl export"};
 inline constexpr Text file_entries_of_many{
-    "entries that mean every servo of a model, and none in particular, are passed over: {}",
+    "entries that mean every servo of a model, and none in particular, are skipped: {}",
     "機種全体の設定で特定のサーボを指さないエントリを無視しました: {}"};
 inline constexpr Text file_without_node_ids{
-    "entries that do not tell a node ID, and the number that messages call them by: {}",
+    "entries without a node ID, and the numbers that stand for them in messages: {}",
     "ノード ID の無いエントリ (括弧内はメッセージで使う番号): {}"};
 inline constexpr Text file_not_recorded_hint{
-    "a fleet file tells of settings, and of who a servo is; the rest only the servo itself does: "
-    "-i can0",
+    "a fleet file holds the settings of a servo and which one it is; only the servo itself has the "
+    "rest: -i can0",
     "フリートファイルには設定と機種などの情報しかありません。他の値はサーボから読み出して下さい: "
     "-i can0"};
 inline constexpr Text file_without_frames{"{}: a fleet file holds no frames",
@@ -301,7 +301,7 @@ inline constexpr Text level_warning{"WARNING", "警告"};
 inline constexpr Text level_failure{"FAILURE", "障害"};
 inline constexpr Text no_faults{"no faults", "異常なし"};
 inline constexpr Text faults_unknown{"not known whether it has faults", "異常の有無は不明です"};
-inline constexpr Text faults_of_before{"does not tell its faults now; the last ones known:",
+inline constexpr Text faults_of_before{"does not report its faults now; the last known ones:",
                                        "現在の異常は不明です。以下は最後に取得した内容です"};
 inline constexpr Text faults_hidden{"not shown: {} below {}", "{} 件は{}レベル未満のため非表示"};
 inline constexpr Text unknown_bit_action{
@@ -310,7 +310,7 @@ inline constexpr Text unknown_bit_action{
 inline constexpr Text fault_now{"now: {}", "現在の値: {}"};
 inline constexpr Text fault_settings{"settings: {}", "設定値: {}"};
 inline constexpr Text fault_latched{
-    "It tells why the servo last reset or restarted itself, not its state now.",
+    "It shows why the servo last reset or restarted itself, not its present state.",
     "サーボが自ら初期化/再起動した原因で、現在の異常ではありません。"};
 inline constexpr Text fault_event{"{}  node {}  {}  {}", "{}  ノード {}  {}  {}"};
 inline constexpr Text fault_present{"present", "発生中"};
@@ -322,7 +322,7 @@ inline constexpr Text fault_other_servo{
     "ノード {} は別のサーボに替わりました。以下はそのサーボの情報です"};
 inline constexpr Text more_lines{"… more lines: {}", "… 他 {} 行"};
 
-// what becomes of servos
+// results of servos
 inline constexpr Text saving{"RAM to ROM:", "ROM への保存:"};
 inline constexpr Text finishing{
     "waiting for servos that save or restart, 3 s at most (Ctrl-C again: at once)",

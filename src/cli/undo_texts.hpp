@@ -1,5 +1,5 @@
 #pragma once
-// The catalogue of `blactl undo`, and of the record that it goes by.
+// Messages of `blactl undo`, and of its record.
 
 #include "blactl/base/text.hpp"
 
@@ -16,7 +16,7 @@ inline constexpr Text state_not_written{
     "what the servos hold cannot be recorded for `blactl undo`: {}",
     "変更前の値を変更履歴に記録できません: {}"};
 inline constexpr Text state_not_written_hint{
-    "mend that, or add --no-snapshot to do without `blactl undo`: nothing was written",
+    "fix that, or add --no-snapshot to do without `blactl undo`: nothing was written",
     "原因を取り除くか、--no-snapshot を指定して下さい (その場合 `blactl undo` では戻せません)。"
     "何も書き込んでいません"};
 

@@ -33,7 +33,7 @@ TEST_CASE("doctor finds nothing on a bus that is well, and says what it looked a
   const Result result = numbered_servos().run({"doctor"});
   INFO(result.out << result.err);
   CHECK(result.status == 0);
-  CHECK(contains(result.out, "2 servos, 0 other nodes"));
+  CHECK(contains(result.out, "servos: 2, other nodes: 0"));
   CHECK(contains(result.out, "% busy"));
   CHECK(contains(result.out, "nothing is wrong, as far as it was heard"));
 }
@@ -152,7 +152,7 @@ TEST_CASE("in a log the ID of a tool is called that") {
   CHECK(numbered_servos().run(bench, {"--record", log, "scan"}).status == 0);
   const Result result = bench.run({"-i", "replay:" + log, "doctor"});
   INFO(result.out << result.err);
-  CHECK(contains(result.out, "2 servos, 0 other nodes, tools (by their ID): 127"));
+  CHECK(contains(result.out, "servos: 2, other nodes: 0, tools (by their ID): 127"));
 }
 
 TEST_CASE("of a log whose time runs backwards it is said, and no load that is none") {

@@ -110,7 +110,7 @@ TEST_CASE("why a servo restarted by itself is told as a memory") {
   CHECK(result.status == 8);
   CHECK(contains(result.out, "FAILURE"));
   CHECK(contains(result.out, "[0x1B.9 watchdog]"));
-  CHECK(contains(result.out, "not its state now"));
+  CHECK(contains(result.out, "not its present state"));
 }
 
 TEST_CASE("faults --watch tells what is there, what comes and what goes, a line each") {

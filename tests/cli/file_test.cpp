@@ -68,7 +68,7 @@ TEST_CASE("what a fleet file does not say is not_recorded") {
   CHECK(result.status == 4);
   CHECK(codes(result) == std::vector<std::string>{"not_recorded"});
   CHECK(contains(result.out, "45.0 deg"));
-  CHECK(contains(result.err, "a fleet file tells of settings"));
+  CHECK(contains(result.err, "a fleet file holds the settings"));
   check_error(file.run({"get", "-n", "55", "smoothing"}), 4, "not_recorded", "55");
   CHECK(file.run({"faults", "-n", "11"}).status == 4);
   CHECK(file.run({"trace"}).status == 4);
@@ -83,7 +83,7 @@ TEST_CASE("a servo without a node ID in the file has none in what is told of it"
   CHECK(node["unique_id"] == "88ace781674b4cac255e706b7426bd30");
   CHECK(node["model"] == nullptr);
   CHECK(contains(result.err, "right aileron (1)"));
-  CHECK(contains(result.err, "passed over: the others"));
+  CHECK(contains(result.err, "skipped: the others"));
   const Result lacking = file.run({"get", "-n", "uid:88ac", "reverse", "--json"});
   CHECK(lacking.status == 4);
   CHECK(json(lacking.out)["errors"][0]["node_id"] == nullptr);

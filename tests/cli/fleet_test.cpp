@@ -16,7 +16,7 @@ struct Exported {
   Exported() {
     const Result result = three_servos().run(bench, {"export", path});
     REQUIRE(result.status == 0);
-    CHECK(result.out == path + " written: 3 servos\n");
+    CHECK(result.out == path + " written, servos: 3\n");
   }
 
   /// The file with one setting of one entry changed; null: left out.
@@ -56,7 +56,7 @@ TEST_CASE("what was exported is what the servos hold") {
   const Exported exported;
   const Result same = three_servos().run({"diff", exported.path});
   CHECK(same.status == 0);
-  CHECK(contains(same.out, "as in the file (3"));
+  CHECK(contains(same.out, "as in the file (settings: 3"));
   const Result piped = three_servos().run({"export"});
   REQUIRE(piped.status == 0);
   CHECK(three_servos().run({"diff", "-"}, {.stdin_text = piped.out}).status == 0);

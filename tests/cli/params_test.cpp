@@ -60,7 +60,7 @@ TEST_CASE("diff compares the one servo with what either tool has saved") {
     CAPTURE(name);
     const Result same = one_servo().run({"diff", kept(name)});
     CHECK(same.status == 0);
-    CHECK(contains(same.err, "passed over, as they are no settings"));
+    CHECK(contains(same.err, "skipped, as they are not settings"));
     CHECK(contains(same.err, "0x50"));
     const Result other = one_servo().run({"diff", kept(name), "--json"});
     CHECK(json(other.out)["nodes"][0]["name"] == nullptr);

@@ -229,8 +229,7 @@ TEST_CASE("a log that is none, or is not there") {
   const std::string spotty = bench.file("spotty.log", actuator + "\x1b[31mred\n" + actuator);
   const Result noted = bench.run({"-i", "replay:" + spotty, "scan"});
   CHECK(noted.status == 0);
-  CHECK(
-      contains(noted.err, "lines passed over because they are no frames: 1, the first is line 3"));
+  CHECK(contains(noted.err, "lines skipped because they are not frames: 1, the first is line 3"));
   CHECK(is_fit_for_a_terminal(noted.err));
 }
 

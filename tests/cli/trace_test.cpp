@@ -480,7 +480,7 @@ TEST_CASE("lines that are no frames are passed over, and told") {
   const Result result = bench.run({"trace", log});
   CHECK(result.status == 0);
   CHECK(std::ranges::count(result.out, '\n') == 1);
-  CHECK(contains(result.err, "no frames: 2, the first is line 1"));
+  CHECK(contains(result.err, "not frames: 2, the first is line 1"));
 }
 
 TEST_CASE("a pipe is shown while it is filled") {

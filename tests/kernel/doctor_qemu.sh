@@ -69,5 +69,5 @@ run "$blactl" doctor --fix -y
 expect_status 0
 expect_out "can0 up, $right, restart-ms 100"
 expect_out 'fixed  can0 is down'
-expect_out '1 servos, 0 other nodes'
+expect_out 'servos: 1, other nodes: 0'
 expect_out 'nothing is wrong'

@@ -44,7 +44,7 @@ std::string text(const Entries& entries, const Page& page) {
   return table.text("", page);
 }
 
-/// What was done with a file.
+/// The report of an operation on a file.
 Report done_with(const std::string& file, std::string text) {
   Report report;
   report.json = [file](JsonWriter& json) {

@@ -1,5 +1,5 @@
 #pragma once
-// blactl alloc --list, --forget, --export, --import: the table, without a bus.
+// blactl alloc --list, --forget, --export, --import: the allocation table, without a bus.
 
 #include "cli/alloc/options.hpp"
 #include "cli/context.hpp"

@@ -20,7 +20,7 @@ namespace {
 using state::AllocationStore;
 using Wishes = std::vector<AllocationStore::Wish>;
 
-/// Which IDs are made static, and for whom.
+/// The node IDs to make static, by servo.
 class StaticWishes {
  public:
   StaticWishes(const AllocOptions& options, Wishes wishes, AllocationStore& table, Context& context)
@@ -69,7 +69,7 @@ class StaticWishes {
   fleet::NotLetIn not_let_in_;
 };
 
-/// A line for every move, and for every servo that has its ID already.
+/// Prints a line for every move, and for every servo that already has its ID.
 class Stream {
  public:
   explicit Stream(Context& context) : context_(context) {}
@@ -90,7 +90,7 @@ class Stream {
     }
   }
 
-  /// Why stdout could not be written; empty: it could.
+  /// The error of writing to stdout; empty: none.
   [[nodiscard]] const std::optional<Error>& failure() const { return failure_; }
 
  private:

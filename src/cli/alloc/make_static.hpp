@@ -1,5 +1,5 @@
 #pragma once
-// blactl alloc --static: node IDs for good.
+// blactl alloc --static: permanent node IDs.
 
 #include "cli/alloc/options.hpp"
 #include "cli/context.hpp"
@@ -7,8 +7,8 @@
 
 namespace blactl::cli {
 
-/// Makes the IDs of the servos behind -n static, or those that --id and --assign wish, and prints a
-/// line for every move that is proven.
+/// Makes the IDs of the servos behind -n static, or those given by --id and --assign, and prints a
+/// line for every proven move.
 [[nodiscard]] Report make_static(const AllocOptions& options, Context& context);
 
 } // namespace blactl::cli

@@ -16,7 +16,7 @@ using dronecan::UniqueId;
 
 namespace {
 
-/// Digits and nothing else, 1 to 125.
+/// Digits only, 1 to 125.
 std::optional<NodeId> parse_dynamic_id(std::string_view text) {
   std::uint8_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);

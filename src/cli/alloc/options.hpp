@@ -1,5 +1,5 @@
 #pragma once
-// What `blactl alloc` is asked to do.
+// The options of `blactl alloc`.
 
 #include "blactl/base/error.hpp"
 #include "blactl/base/time.hpp"
@@ -21,21 +21,21 @@ struct AllocOptions {
   std::string range{};
   std::vector<std::string> assign{};
   bool makes_static = false;
-  std::optional<std::uint64_t> id{}; ///< with makes_static, of the one servo that is meant
+  std::optional<std::uint64_t> id{}; ///< with makes_static, for the one servo selected
   bool list = false;
   std::vector<std::string> forget{};
   std::string export_to{};
   std::string import_from{};
 };
 
-/// "10-99". Errors: usage.
+/// Parses "10-99". Errors: usage.
 [[nodiscard]] Result<fleet::AllocationService::Range> parse_range(const std::string& text);
 
-/// "UID=ID" each. Errors: usage, out_of_range; every fault.
+/// Parses "UID=ID" items. Errors: usage, out_of_range; all errors of the list.
 [[nodiscard]] std::expected<std::vector<state::AllocationStore::Wish>, std::vector<Error>>
 parse_wishes(const std::vector<std::string>& texts);
 
-/// 32 hexadecimal digits, with or without "uid:". Errors: usage.
+/// Parses 32 hexadecimal digits, with or without "uid:". Errors: usage.
 [[nodiscard]] Result<dronecan::UniqueId> parse_unique_id(std::string_view text);
 
 } // namespace blactl::cli

@@ -26,14 +26,14 @@ using fleet::AllocationService;
 using Event = AllocationService::Event;
 using state::AllocationStore;
 
-/// A unit without a node ID asks again after 1 s at most (1.Allocation.uavcan): so long nobody has
-/// asked even if two requests of a unit were lost.
+/// A unit without a node ID repeats its request after 1 s at most (1.Allocation.uavcan): silence of
+/// this length means that no unit asks, even if two requests were lost.
 constexpr Duration quiet_time = std::chrono::seconds(3);
 
-/// How long a unit may take from the answer to its first frame under the new ID.
+/// The longest time from the response to a unit's first frame under the new ID.
 constexpr Duration come_up_time = std::chrono::seconds(3);
 
-/// Beyond that whoever asks and does not get to the end does something else.
+/// A unit that asks for longer without completing an allocation is not following the protocol.
 constexpr Duration patience = std::chrono::seconds(30);
 
 constexpr std::size_t few_ids = 5;
@@ -70,14 +70,14 @@ class Serve {
   const AllocOptions& options_;
   Context& context_;
   Report& report_;
-  Time progress_at_; ///< when a unit got somewhere last
+  Time progress_at_; ///< when an allocation last made progress
   AllocationService::Range range_;
   bool has_reader_ = true;
   std::uint64_t assigned_ = 0, kept_ = 0;
   AllocationService service_;
 };
 
-/// A reader that has left ends the run.
+/// Ends the run if the reader has left.
 void Serve::check(const Result<bool>& printed) {
   if (!printed) {
     report_.fail(printed.error());
@@ -102,14 +102,14 @@ void Serve::tell(Event event, const AllocatedUnit& unit) {
   }
 }
 
-/// Before the table is full, somebody should know.
+/// Warns before the table is full.
 void Serve::tell_space() {
   if (const auto free = service_.free_ids(); free && *free <= few_ids) {
     context_.reporter().note(say<texts::alloc_few_left>(*free));
   }
 }
 
-/// On a terminal the list says how things are, instead of lines of what happened.
+/// On a terminal the list of units is redrawn, instead of a line for each event.
 void Serve::redraw() {
   const Reporter& reporter = context_.reporter();
   if (reporter.has_screen()) {
@@ -122,7 +122,7 @@ std::size_t Serve::there() const {
       service_.units(), [this](const auto& entry) { return service_.is_there(entry.second); }));
 }
 
-/// Somebody was given an ID of late, and was not heard under it yet.
+/// Whether a recently assigned ID was not heard yet.
 bool Serve::is_coming_up() const {
   return std::ranges::any_of(service_.units(), [this](const auto& entry) {
     const AllocatedUnit& unit = entry.second;
@@ -136,7 +136,7 @@ bool Serve::is_quiet() const {
   return session().now() - service_.last_request() >= enough && !is_coming_up();
 }
 
-/// They ask and ask, and nobody gets anywhere.
+/// Whether units keep asking without progress.
 bool Serve::is_stuck() const {
   return session().now() - progress_at_ >= std::max(patience, options_.wait);
 }
@@ -146,12 +146,12 @@ bool Serve::is_over() const {
          (options_.once && (is_quiet() || is_stuck()));
 }
 
-/// Whether the session lives on.
+/// Returns whether the session is still alive.
 bool Serve::wait() {
-  constexpr Duration interval = std::chrono::milliseconds(250); // of a person's patience
+  constexpr Duration interval = std::chrono::milliseconds(250); // within a person's patience
   const fleet::Ticker ticker(session(), interval, [this] { redraw(); });
   while (!is_over()) {
-    // What only time decides is looked at with every tick.
+    // conditions of time alone are checked with every tick
     const auto lived =
         session().live_until(session().now() + interval, [this] { return is_over(); });
     if (!lived) {
@@ -162,8 +162,8 @@ bool Serve::wait() {
   return true;
 }
 
-/// A unit that joined under an ID that was given answers too, and says who it is. Whether the
-/// session lives on.
+/// Identifies the nodes on assigned IDs: a second unit on one of them responds, too. Returns
+/// whether the session is still alive.
 bool Serve::look_for_twins(fleet::Discovery& discovery) {
   std::vector<const fleet::Member*> members;
   for (const AllocatedUnit& unit : service_.units() | std::views::values) {
@@ -191,13 +191,13 @@ void Serve::run() {
         say<texts::alloc_started>(range_.first.value(), range_.last.value(), *free));
   }
   while (wait() && look_for_twins(discovery) && !is_over()) {
-    // Somebody asked meanwhile, or is one of two.
+    // a unit asked meanwhile, or is one of two
   }
   redraw();
   conclude();
 }
 
-/// How it knows that nobody asks any more, or that nobody gets anywhere.
+/// Notes why the run ends: no unit asks any more, or none makes progress.
 void Serve::tell_quiet() {
   const auto seconds = [this](Time since) { return whole_seconds(session().now() - since); };
   if (!is_quiet() && is_stuck()) {
@@ -223,7 +223,7 @@ void Serve::conclude() {
       report_.fail_target(std::move(*refusal));
     } else if (unit.node_id.is_unicast() && !service_.is_there(unit)) {
       report_.fail_target(service_.absence(unit));
-    } else if (unit.node_id.is_unicast()) { // else it has got none, and nothing stands against it
+    } else if (unit.node_id.is_unicast()) { // else it has no ID, and nothing prevents one
       report_.targets.emplace_back();
     }
   }
@@ -238,7 +238,7 @@ void Serve::conclude() {
   report_.count_targets();
 }
 
-/// Why nothing can be allocated: no frame may be sent.
+/// The reason why no ID can be allocated: no frame may be sent.
 std::optional<Error> refuse(const Context& context) {
   if (context.shared().listen_only) {
     return Error{Code::usage, say<texts::listen_only_refused>("alloc"),

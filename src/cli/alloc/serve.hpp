@@ -1,5 +1,5 @@
 #pragma once
-// blactl alloc: the allocator of a bus, until it is stopped or nobody asks any more.
+// blactl alloc: the allocator of a bus, until it is stopped or no unit asks any more.
 
 #include "cli/alloc/options.hpp"
 #include "cli/context.hpp"
@@ -7,7 +7,7 @@
 
 namespace blactl::cli {
 
-/// Gives node IDs, and prints what happens: a line each, or on a terminal the list as it is.
+/// Allocates node IDs, and prints a line for each event, or the list of units on a terminal.
 [[nodiscard]] Report serve_allocations(const AllocOptions& options, Context& context);
 
 } // namespace blactl::cli

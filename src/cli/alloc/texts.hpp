@@ -1,5 +1,5 @@
 #pragma once
-// The catalogue of `blactl alloc`.
+// Messages of `blactl alloc`.
 
 #include "blactl/base/text.hpp"
 
@@ -72,7 +72,7 @@ inline constexpr Text alloc_event_static{"has node ID {} for good already, nothi
 inline constexpr Text alloc_event_makes_way{"makes way: node ID {} for the time being",
                                             "ID 入替えのため、一時的にノード ID {} に移動"};
 inline constexpr Text alloc_not_begun{
-    "uid:{} still has node ID {}: what came before it did not go well",
+    "uid:{} still has node ID {}: an earlier step failed",
     "uid:{} のノード ID は {} のままです (先の変更が完了しなかったため)"};
 inline constexpr Text alloc_only_static{"{} needs --static", "{} には --static が必要です"};
 inline constexpr Text alloc_only_static_hint{"for example: blactl alloc --static -n 12 --id 20",
@@ -86,7 +86,7 @@ inline constexpr Text alloc_state_there{"there", "接続中"};
 inline constexpr Text alloc_state_given{"given, no answer yet", "割当て済み (応答待ち)"};
 inline constexpr Text alloc_state_refused{"refused", "割当て不可"};
 inline constexpr Text alloc_state_shared{"used by two units", "ID 重複"};
-inline constexpr Text alloc_event_deaf{"asks on: it does not take node ID {}",
+inline constexpr Text alloc_event_deaf{"still asks: it does not accept node ID {}",
                                        "ノード ID {} が反映されず、要求が継続"};
 inline constexpr Text alloc_asking{"asking for a node ID: {}\n", "割当て要求中: {} 台\n"};
 inline constexpr Text alloc_expected_more{"units with a node ID: {}, expected: {}",
@@ -97,7 +97,7 @@ inline constexpr Text alloc_expected_more_hint{
 inline constexpr Text alloc_unfinished{"units that asked on for {1} s, and never to the end: {0}",
                                        "{} 台が {} 秒間要求を続けましたが、完了しません"};
 inline constexpr Text alloc_unfinished_hint{
-    "frames get lost, or it is no unit of DroneCAN: blactl trace --type Allocation",
+    "frames get lost, or the unit does not follow DroneCAN: blactl trace --type Allocation",
     "フレームの欠落、または DroneCAN 以外の機器の可能性があります: blactl trace --type Allocation"};
 
 } // namespace blactl::texts

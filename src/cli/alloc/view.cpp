@@ -21,7 +21,7 @@ using Event = AllocationService::Event;
 
 namespace {
 
-/// Of the contract; empty: it has none.
+/// The name in the contract; empty: none.
 std::string_view name(Event event) {
   switch (event) {
   case Event::request: return "request";

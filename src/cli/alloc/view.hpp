@@ -1,5 +1,5 @@
 #pragma once
-// What blactl alloc shows: a line for each thing that happens, or the list of the units as it is.
+// Output of blactl alloc: a line for each event, or the list of units.
 
 #include "blactl/fleet/bus/roster.hpp"
 #include "blactl/fleet/change/allocation_service.hpp"
@@ -12,19 +12,20 @@
 
 namespace blactl::cli {
 
-/// The object of the contract, section 5, with its line end; empty: that is no event of it.
+/// The object of the contract, section 5, with its line end; empty: the event is not in the
+/// contract.
 [[nodiscard]] std::string json_line(UnixTime time, fleet::AllocationService::Event event,
                                     const fleet::AllocatedUnit& unit);
 
-/// The same for people.
+/// The line for people.
 [[nodiscard]] std::string text_line(UnixTime time, fleet::AllocationService::Event event,
                                     const fleet::AllocatedUnit& unit);
 
-/// The same of a move to a static node ID; one that is only temporary is no event of the contract.
+/// The object for a move to a static node ID; a temporary move is not an event of the contract.
 [[nodiscard]] std::string json_line(UnixTime time, const fleet::IdMove& move);
 [[nodiscard]] std::string text_line(UnixTime time, const fleet::IdMove& move);
 
-/// A servo that has its node ID for good already.
+/// A servo whose node ID is already static.
 struct StaticUnit {
   dronecan::UniqueId unique_id{};
   dronecan::NodeId node_id;
@@ -33,7 +34,7 @@ struct StaticUnit {
 [[nodiscard]] std::string json_line(UnixTime time, const StaticUnit& unit);
 [[nodiscard]] std::string text_line(UnixTime time, const StaticUnit& unit);
 
-/// Who has which ID, by node ID, and how many still ask.
+/// The units by node ID, and the number of units that still ask.
 [[nodiscard]] std::string text(const fleet::AllocationService& service, const fleet::Roster& roster,
                                const Page& page);
 

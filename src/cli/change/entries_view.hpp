@@ -1,5 +1,5 @@
 #pragma once
-// What apply and undo are going to do, or have done, as JSON and text.
+// The plans and results of apply and undo, as JSON and text.
 
 #include "blactl/base/json_writer.hpp"
 #include "blactl/fleet/change/change.hpp"
@@ -13,20 +13,19 @@
 
 namespace blactl::cli {
 
-/// The word of the contract; of a plan what it is before: different or unchanged.
+/// The word of the contract; for a plan the state before it: different or unchanged.
 [[nodiscard]] fleet::EntryStatus entry_status(const fleet::GoalResult& result, bool is_plan);
 
-/// All that went wrong, and that a servo was not begun because of others.
+/// All errors, including that a servo was not started because of others.
 [[nodiscard]] std::vector<Error> errors_of(const fleet::GoalResult& result, bool is_plan);
 
-/// "nodes", with the keys of the contract, section 5, `diff apply`; what a plan is going to do is
-/// `action`: "nothing", "restart" (to see what ROM holds), "save", "write"; whether that is for ROM
-/// too is `saves`.
+/// "nodes", with the keys of the contract, section 5, `diff apply`; `action` of a plan: "nothing",
+/// "restart" (to check ROM), "save", "write"; `saves`: whether it writes to ROM, too.
 void write_json(JsonWriter& json, std::span<const fleet::GoalResult> results,
                 std::span<const fleet::EntryDiff> others, bool is_plan);
 
-/// A plan shows what changes; what was done is a line a servo, and its changes where they failed.
-/// Of more servos than a screen has lines those that are well are only counted.
+/// A plan lists the changes; a result has one line per servo, and the changes of failed ones. If
+/// there are more servos than lines on the screen, successful ones are only counted.
 [[nodiscard]] std::string text(std::span<const fleet::GoalResult> results,
                                std::span<const fleet::EntryDiff> others, bool is_plan,
                                const Page& page);

@@ -21,7 +21,7 @@ Result<std::unique_ptr<EventFile>> EventFile::open(const std::string& path) {
                         say<texts::events_unopened_hint>());
   }
   constexpr mode_t file_mode = 0644;
-  // A pipe without a reader would be waited for; nor is a slow one.
+  // O_NONBLOCK: neither a pipe without a reader nor a slow reader is waited for
   const int descriptor = ::open(
       path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOCTTY | O_NONBLOCK, file_mode);
   if (descriptor < 0) {

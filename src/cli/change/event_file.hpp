@@ -1,5 +1,5 @@
 #pragma once
-// `apply --events FILE`: what happens to each servo, a line of JSON at a time.
+// `apply --events FILE`: the events of each servo, one JSON object per line.
 
 #include "blactl/base/error.hpp"
 #include "blactl/base/time.hpp"
@@ -12,12 +12,13 @@
 
 namespace blactl::cli {
 
-/// Each line is one write(2): a line that was told is in the file even if this process is killed.
-/// A line that cannot be written is the last one; the work goes on, and error() tells it.
+/// Each line is one write(2), so that a reported line is in the file even if this process is
+/// killed. After a line that cannot be written there are no more; the work goes on, and error()
+/// returns the reason.
 class EventFile {
  public:
-  /// The file is made new; one that is there is replaced, as a shell's redirection does. A pipe
-  /// must have its reader. Errors: io; usage (stdout).
+  /// Creates or replaces the file, like a shell's redirection. A pipe must have its reader. Errors:
+  /// io; usage (stdout).
   [[nodiscard]] static Result<std::unique_ptr<EventFile>> open(const std::string& path);
 
   ~EventFile();

@@ -92,7 +92,7 @@ std::string servo_text(const ChangeResult& result, const Page& page) {
   return out + '\n';
 }
 
-/// SAVE could keep it, a restart ends it.
+/// Whether SAVE could keep it, and a restart drops it.
 bool is_in_ram_only(const RegisterChange& change) {
   return change.status == ChangeStatus::written && change.parameter->saved;
 }
@@ -116,7 +116,7 @@ void write_changes(JsonWriter& json, const ChangeResult& result) {
 
 std::string changes_table(std::span<const RegisterChange> changes, const TableStyle& style,
                           const Page& page) {
-  // In Japanese the specification's name stands beside the one that is typed.
+  // in Japanese the specification's name is shown beside the typed one
   const bool shows_names = language() == Language::japanese;
   std::vector<std::string> header{"", say<texts::column_parameter>(), say<texts::column_before>(),
                                   "", say<texts::column_after>(),     ""};

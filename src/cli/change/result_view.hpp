@@ -1,5 +1,5 @@
 #pragma once
-// How the changes of servos ended, as JSON and text.
+// The results of changes, as JSON and text.
 
 #include "blactl/base/json_writer.hpp"
 #include "blactl/base/time.hpp"
@@ -16,43 +16,43 @@
 
 namespace blactl::cli {
 
-/// How a command shows the results.
+/// The form of the results.
 enum class ResultView : std::uint8_t {
   changes, ///< the single registers of each servo (`set`)
   servos,  ///< each servo as a whole (`save`)
   entries, ///< each entry of a fleet file (`apply`)
-  moves    ///< nothing: every move of a node ID was a line of a stream (`alloc --static`)
+  moves    ///< nothing: the moves of node IDs were lines of a stream (`alloc --static`)
 };
 
-/// The counts of a report, beside those of its servos.
+/// The counts of a report, besides those of its servos.
 [[nodiscard]] std::vector<std::pair<std::string, std::uint64_t>>
 counts(ResultView view, std::span<const fleet::GoalResult> results, bool is_plan);
 
 /// "0.525"
 [[nodiscard]] std::string seconds_text(Duration duration);
 
-/// `changes` alone.
+/// Writes `changes`.
 void write_changes(JsonWriter& json, std::span<const fleet::RegisterChange> changes);
 
-/// `warnings`, where there are any.
+/// Writes `warnings`, if there are any.
 void write_warnings(JsonWriter& json, std::span<const fleet::Warning> warnings);
 
-/// How a table of changes is to be read.
+/// The style of a table of changes.
 struct TableStyle {
   std::optional<std::int64_t> mode_before{}, mode_after{}; ///< 0x37: the unit of 0x36
-  bool was_begun = false;                                  ///< else it is a plan that is shown
+  bool was_begun = false;                                  ///< false: the table shows a plan
 };
 
 [[nodiscard]] std::string changes_table(std::span<const fleet::RegisterChange> changes,
                                         const TableStyle& style, const Page& page);
 
-/// `changes`, `saved` and `warnings` of one servo.
+/// Writes `changes`, `saved` and `warnings` of one servo.
 void write_changes(JsonWriter& json, const fleet::ChangeResult& result);
 
-/// The table of its changes, and its warnings.
+/// The table of a servo's changes, and its warnings.
 [[nodiscard]] std::string changes_text(const fleet::ChangeResult& result, const Page& page);
 
-/// What is said below the changes of all: the servos that were saved, or that nothing was.
+/// The text below all changes: the servos that were saved, or that none was.
 [[nodiscard]] std::string saving_text(std::span<const fleet::ChangeResult> results,
                                       const Page& page);
 

@@ -30,7 +30,7 @@ bool will_save(const GoalResult& result) {
   return result.goal.saves() && result.need != fleet::Need::nothing;
 }
 
-/// With --dry-run: something would be sent.
+/// With --dry-run: whether something would be sent.
 bool would_act(const GoalResult& result) {
   return result.goal.evidence == fleet::Evidence::none
              ? result.change.saves || result.has_differences()
@@ -72,7 +72,7 @@ class Run : WritingRun {
   const ChangeRequest& request_;
   ApplyWatch watch_;
   Goals goals_;
-  std::size_t named_ = 0; ///< targets, those included that are not there
+  std::size_t named_ = 0; ///< targets, including missing ones
 };
 
 void Run::all() {
@@ -87,7 +87,7 @@ void Run::all() {
   stop_before_begin();
 }
 
-/// Nothing was written.
+/// Ends the run before anything was written.
 void Run::stop_before_begin() {
   if (report_.signal != 0) {
     hint_interruption(say<texts::nothing_written_hint>());
@@ -95,7 +95,7 @@ void Run::stop_before_begin() {
   report_.count_targets(std::max(named_, report_.targets.size()));
 }
 
-/// What is said of one servo is the end of that target.
+/// Ends a target with the errors of its servo.
 bool Run::stop_at(const std::vector<Error>& errors) {
   for (const Error& error : errors) {
     if (context_.signal() != 0) {
@@ -109,7 +109,7 @@ bool Run::stop_at(const std::vector<Error>& errors) {
   return errors.empty();
 }
 
-/// A command that may give IDs to anybody says at once that it cannot keep them.
+/// A command that may allocate IDs warns at once if it cannot keep them.
 bool Run::check_table() {
   if (request_.search != Search::everybody) {
     return true;
@@ -144,7 +144,7 @@ bool Run::find() {
   return stop_at(goals_.errors);
 }
 
-/// Servos that wait for a node ID may be those that are missing. A plan gives none.
+/// Whether missing servos may be waiting for a node ID. A plan allocates none.
 bool Run::may_let_in() {
   return !request_.dry_run && !context_.session().roster().pending().empty() &&
          context_.may_allocate();
@@ -165,7 +165,7 @@ bool Run::let_in() {
   return done || broken(done.error());
 }
 
-/// What is wished of those that are known by now.
+/// Finds the goals for the servos known so far.
 bool Run::look_for(const fleet::Targets& targets) {
   if (request_.search == Search::everybody && !look_around()) {
     return false;
@@ -219,7 +219,7 @@ bool Run::confirm(const Change& change) {
   return WritingRun::confirm(request_.dry_run ? std::string() : change.question());
 }
 
-/// What was spared is said: `saved` is no for a servo that is as wished.
+/// Notes skipped saves: `saved` is no for a servo that already is as wanted.
 void Run::tell_held(std::span<const GoalResult> results) {
   std::vector<std::string> notes;
   for (const GoalResult& result : results) {

@@ -1,6 +1,6 @@
 #pragma once
-// The one run of every command that changes servos: where its goals come from is all that such a
-// command says, and how the results are shown.
+// The run common to all commands that change servos: such a command only supplies the goals, and
+// the form of the results.
 
 #include "blactl/fleet/bus/roster.hpp"
 #include "blactl/fleet/bus/target.hpp"
@@ -23,58 +23,58 @@
 
 namespace blactl::cli {
 
-/// What is to be done, and to whom.
+/// The goals and the servos they are for.
 struct Goals {
   std::vector<fleet::Goal> goals{};
-  std::vector<fleet::EntryDiff> others{}; ///< of whom nothing is wished: missing, left out, extra
-  std::vector<Error> errors{};            ///< why nothing may be done
-  bool may_wait = false; ///< some are missing that may be among those that ask for a node ID
+  std::vector<fleet::EntryDiff> others{}; ///< without a goal: missing, left out, extra
+  std::vector<Error> errors{};            ///< why nothing may be changed
+  bool may_wait = false; ///< missing servos may be among those that request a node ID
 };
 
-/// Whom a command may be about.
+/// The servos that a command may be about.
 struct Whom {
   const fleet::Roster& roster;
-  const fleet::Targets& targets;            ///< what -n says
-  std::vector<dronecan::NodeId> selected{}; ///< the servos behind it; all, where it is not given
+  const fleet::Targets& targets;            ///< from -n
+  std::vector<dronecan::NodeId> selected{}; ///< the servos selected by it; all without -n
 };
 
-/// How the servos that a command is about are found.
+/// How the servos of a command are found.
 enum class Search : std::uint8_t {
-  targets,  ///< behind -n; without it the one servo there is
-  everybody ///< all nodes are identified, for whoever has an ID stands in the way of others
+  targets,  ///< those selected by -n; without it the only servo
+  everybody ///< all nodes are identified, as any ID in use may be in the way of a move
 };
 
 struct ChangeRequest {
   std::string_view command; ///< its name
   Search search = Search::targets;
-  bool needs_targets = true; ///< with Search::everybody, too: without -n it is about one servo
-  /// Asked when the bus is known, and once more when more servos are.
+  bool needs_targets = true; ///< with Search::everybody, too: without -n there must be one servo
+  /// Called once the bus is known, and again when more servos are.
   std::function<Goals(const Whom& whom)> find{};
-  /// Gives node IDs to those that wait, where they may be missing; empty: to all that ask.
+  /// Assigns node IDs to waiting servos that may be the missing ones; empty: to all that ask.
   std::function<Result<void>()> let_in{};
-  /// Judges what is going to be done, before a question; may be empty.
+  /// Checks the planned changes before the question; may be empty.
   std::function<std::vector<Error>(std::span<const fleet::GoalResult> planned)> refuse{};
   /// Called for every move of a node ID; may be empty.
   fleet::Change::MoveHook moved{};
-  /// Called with the results, before they are shown; may be empty.
+  /// Called with the results before they are shown; may be empty.
   std::function<void(std::span<const fleet::GoalResult>)> ended{};
   RestartTimes times{};
   bool dry_run = false;
   bool stops_at_failure = false;                ///< between rounds of node IDs
-  bool fails_fast = false;                      ///< the same, and within a round
+  bool fails_fast = false;                      ///< likewise, within a round, too
   std::string events{};                         ///< the file for them; empty: none
-  Recording recording = Recording::if_possible; ///< but with dry_run
+  Recording recording = Recording::if_possible; ///< except with dry_run
   ResultView view = ResultView::servos;
-  /// In place of the view, where a command has its own way to show what became of single registers.
+  /// Replaces the view in commands that show the results of single registers in their own way.
   std::function<void(JsonWriter&, std::span<const fleet::ChangeResult>)> json{};
   std::function<std::string(std::span<const fleet::ChangeResult>, const Page&)> text{};
 };
 
-/// The request of a command that wants the same of every servo behind -n.
+/// The request of a command with the same goal for every servo behind -n.
 [[nodiscard]] ChangeRequest request_for_all(std::string_view command, fleet::Wanted wanted,
                                             fleet::Evidence evidence = fleet::Evidence::none);
 
-/// Changes servos. If one of them refuses, none is written.
+/// Changes servos. If one of them cannot be changed, none is written to.
 [[nodiscard]] Report change_servos(const ChangeRequest& request, Context& context);
 
 } // namespace blactl::cli

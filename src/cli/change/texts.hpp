@@ -1,5 +1,5 @@
 #pragma once
-// The catalogue of apply and undo.
+// Messages of apply and undo.
 
 #include "blactl/base/text.hpp"
 
@@ -9,7 +9,7 @@ inline constexpr Text apply_missing{"no servo for '{}': {}", "'{}' のサーボ�
 inline constexpr Text apply_missing_hint{
     "connect it, or name those that are meant with -n: nothing was written",
     "接続するか、-n で対象を絞り込んで下さい (何も書き込んでいません)"};
-inline constexpr Text apply_nobody{"no entry of {} means any of these servos",
+inline constexpr Text apply_nobody{"no entry of {} matches any of these servos",
                                    "{} に対象のサーボと一致するエントリがありません"};
 inline constexpr Text apply_nobody_hint{"what the file says of these servos: blactl diff {}",
                                         "ファイルとサーボの比較: blactl diff {}"};
@@ -24,7 +24,7 @@ inline constexpr Text apply_beside_plan{"{} has no meaning beside --plan",
 inline constexpr Text apply_beside_plan_hint{"give it when the plan is made",
                                              "計画の作成時に指定して下さい"};
 inline constexpr Text apply_not_begun{
-    "node {} is as it was: what came before it did not go well",
+    "node {} is as it was: an earlier step failed",
     "ノード {} は変更していません (先の変更が完了しなかったため)"};
 inline constexpr Text apply_skipped{"left as it was", "未処理"};
 inline constexpr Text apply_changed{
@@ -37,7 +37,7 @@ inline constexpr Text apply_saved{"saved: ROM held something else",
 inline constexpr Text apply_changed_ram{"{} of {} settings changed, in RAM only",
                                         "{1} 項目中 {0} 項目を変更 (RAM のみ)"};
 inline constexpr Text apply_unchanged_proven{"unchanged, ROM too", "変更なし (ROM も確認済み)"};
-inline constexpr Text apply_unchanged{"unchanged, as far as RAM tells", "変更なし (RAM のみ確認)"};
+inline constexpr Text apply_unchanged{"unchanged, as far as RAM shows", "変更なし (RAM のみ確認)"};
 inline constexpr Text apply_failed{"failed", "失敗"};
 inline constexpr Text apply_back{", back as node {} after {} s", "、ノード {} として {} 秒で復帰"};
 inline constexpr Text apply_would_write_save{"would change {} of {} settings, then save",
@@ -47,13 +47,14 @@ inline constexpr Text apply_would_write{"would change {} of {} settings, in RAM 
 inline constexpr Text apply_would_save{"would only save: RAM holds it, ROM does not",
                                        "保存のみの予定 (RAM は一致、ROM は相違)"};
 inline constexpr Text apply_would_prove{
-    "would restart to see what ROM holds: RAM holds all {} settings",
+    "would restart to see what ROM holds: RAM holds all settings ({})",
     "ROM 確認のため再起動予定 (RAM は全 {} 項目一致)"};
 inline constexpr Text apply_would_ask{"It would ask before:\n{}\n",
                                       "実行前に確認を求めます:\n{}\n"};
-inline constexpr Text apply_counts{"{} servos: {} changed, {} unchanged, {} failed, {} left out\n",
-                                   "{} 台: 変更 {}、変更なし {}、失敗 {}、未処理 {}\n"};
-inline constexpr Text apply_plan_counts{"{} servos: {} would be changed, {} unchanged\n",
+inline constexpr Text apply_counts{
+    "servos: {} (changed {}, unchanged {}, failed {}, left out {})\n",
+    "{} 台: 変更 {}、変更なし {}、失敗 {}、未処理 {}\n"};
+inline constexpr Text apply_plan_counts{"servos: {} (would be changed {}, unchanged {})\n",
                                         "{} 台: 変更予定 {}、変更なし {}\n"};
 inline constexpr Text stage_waits{"waits for its turn", "待機中"};
 inline constexpr Text stage_erase{"erases", "初期化中"};
@@ -63,7 +64,7 @@ inline constexpr Text stage_restart{"restarts", "再起動中"};
 inline constexpr Text stage_read{"is read again", "再読出し中"};
 inline constexpr Text stage_end{"done", "完了"};
 inline constexpr Text events_no_stdout{
-    "stdout carries what came of all: events need a file",
+    "stdout carries the results: events need a file",
     "標準出力は結果に使用するため、イベントにはファイルが必要です"};
 inline constexpr Text events_over_file{
     "the events would be written over {}, which is applied",
@@ -75,7 +76,8 @@ inline constexpr Text events_unopened_hint{
     "書込み可能なファイル、または読み手のあるパイプを指定して下さい: --events FILE"};
 inline constexpr Text events_ended{"the events in {} ended early: {}",
                                    "{} へのイベントの書込みが途中で終了しました: {}"};
-inline constexpr Text events_ended_hint{"what came of the servos is in the output of this command",
-                                        "各サーボの結果はこのコマンドの出力にあります"};
+inline constexpr Text events_ended_hint{
+    "the results of the servos are in the output of this command",
+    "各サーボの結果はこのコマンドの出力にあります"};
 
 } // namespace blactl::texts

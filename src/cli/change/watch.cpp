@@ -41,7 +41,7 @@ void ApplyWatch::begin(std::span<const GoalResult> planned) {
 }
 
 void ApplyWatch::enter(const fleet::Servo& servo, ChangeStage stage) {
-  if (stage != ChangeStage::end) { // what came of it is known when all have ended
+  if (stage != ChangeStage::end) { // the outcome is known when all have ended
     tell(servo, fleet::name(stage), "running");
   }
   const auto line = std::ranges::find_if(
@@ -67,13 +67,13 @@ void ApplyWatch::tell(const fleet::Servo& servo, std::string_view stage, std::st
   }
 }
 
-/// Of more servos than the screen has lines those that are done are left out.
+/// If there are more servos than lines on the screen, finished ones are left out.
 void ApplyWatch::draw() {
   if (!context_.reporter().has_screen()) {
     return;
   }
   const Page page = context_.reporter().page();
-  const bool fits = lines_.size() + 2 < page.height; // the progress stands below
+  const bool fits = lines_.size() + 2 < page.height; // the progress is below
   std::string list;
   for (const Line& line : lines_) {
     if (line.has_work && (fits || line.stage != ChangeStage::end)) {
@@ -83,7 +83,7 @@ void ApplyWatch::draw() {
   show(list);
 }
 
-/// A reader that has left is told of nothing more, and the work goes on.
+/// If the reader has left, nothing more is printed; the work goes on.
 void ApplyWatch::show(const std::string& list) {
   has_reader_ = has_reader_ && context_.reporter().show(list).value_or(false);
 }

@@ -1,6 +1,5 @@
 #pragma once
-// What happens to servos while apply is at work: for people in a list on the terminal, for machines
-// in a file.
+// The progress of servos during apply: a list on the terminal for people, a file for programs.
 
 #include "blactl/fleet/change/change.hpp"
 #include "blactl/fleet/change/change_job.hpp"
@@ -21,19 +20,19 @@ class ApplyWatch {
   /// Both outlive this. `events` may be null.
   ApplyWatch(Context& context, EventFile* events) : context_(context), events_(events) {}
 
-  /// What is planned for each.
+  /// Takes the plan for each servo.
   void begin(std::span<const fleet::GoalResult> planned);
 
   void enter(const fleet::Servo& servo, fleet::ChangeStage stage);
 
-  /// What came of each, in the order of begin(); takes the list away.
+  /// Takes the results, in the order of begin(), and removes the list.
   void end(std::span<const fleet::GoalResult> results);
 
  private:
   struct Line {
     fleet::Servo servo;
     std::string name;
-    std::optional<fleet::ChangeStage> stage{}; ///< empty: it was not its turn yet
+    std::optional<fleet::ChangeStage> stage{}; ///< empty: not started yet
     bool has_work = false;
   };
 

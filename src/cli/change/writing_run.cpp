@@ -45,8 +45,8 @@ bool WritingRun::open(std::string_view command, Recording recording) {
   return true;
 }
 
-/// Before the bus: a disk may take longer than the kernel keeps frames. What will be refused there
-/// is not worth a file.
+/// Before the bus is opened: a disk may take longer than the kernel keeps frames. A command that
+/// will be refused creates no file.
 bool WritingRun::open_record(std::string_view command) {
   if (recording_ == Recording::none || context_.shared().listen_only ||
       takes_no_frames(context_.shared().interface)) {
@@ -62,7 +62,7 @@ bool WritingRun::open_record(std::string_view command) {
   return refused ? stop(std::move(*refused)) : true;
 }
 
-/// Why nothing must be changed then; empty: it may.
+/// The reason why nothing must be changed without a record; empty: it may.
 std::optional<Error> WritingRun::go_unrecorded(const Error& reason) {
   if (recording_ == Recording::required) {
     return cannot_be_recorded(reason);
@@ -155,7 +155,7 @@ void WritingRun::tell_others() {
   tell(fleet::notes_before_writing(context_.session().roster()));
 }
 
-/// Servos may have moved: who shares a servo ID is not looked at.
+/// Servos may have moved, so shared servo IDs are not checked.
 void WritingRun::tell_newcomers() {
   tell(fleet::others(context_.session().roster()));
 }

@@ -1,5 +1,5 @@
 #pragma once
-// What every command that writes to servos does before it writes.
+// The steps of every command that writes to servos, before it writes.
 
 #include "blactl/fleet/bus/discovery.hpp"
 #include "blactl/fleet/change/carry_out.hpp"
@@ -19,75 +19,76 @@
 
 namespace blactl::cli {
 
-/// Whether what servos held, and what their ROM was proven to hold, is recorded.
+/// Whether the settings of servos before a change, and the proven contents of their ROM, are
+/// recorded.
 enum class Recording : std::uint8_t {
   none,
-  looked_up,   ///< what was recorded before is read, and nothing is added
-  if_possible, ///< else that is said, and nothing else comes of it
-  required     ///< else nothing is changed
+  looked_up,   ///< earlier records are read, and none is added
+  if_possible, ///< a failure is noted, with no other effect
+  required     ///< otherwise nothing is changed
 };
 
-/// Why nothing is changed where that is required.
+/// The error if nothing is changed because a record is required.
 [[nodiscard]] Error cannot_be_recorded(const Error& reason);
 
-/// One run of such a command. Each step may end it: then it is false or empty, and the report says
-/// why.
+/// One run of such a command. Each step may end it: it returns false or empty then, and the report
+/// has the reason.
 class WritingRun {
  protected:
   WritingRun(Context& context, Report& report) : context_(context), report_(report) {}
 
   [[nodiscard]] bool open(std::string_view command, Recording recording = Recording::none);
 
-  /// The servos that are meant; those that are named and not there are its errors.
+  /// The selected servos; named ones that are missing become errors.
   [[nodiscard]] std::optional<fleet::Selection>
   choose(const fleet::Targets& targets, const fleet::Identification::Options& identification);
 
-  /// Opens, and chooses the one servo that is meant. Errors also: usage, where several are.
+  /// Opens, and finds the one servo selected. Errors also: usage, if there are several.
   [[nodiscard]] std::optional<dronecan::NodeId> open_for_one(std::string_view command);
 
-  /// The bus was searched: who comes from now on was not chosen.
+  /// The bus was searched: servos that come later were not selected.
   void searched();
 
-  /// When the bus was searched; empty: the servos that are meant were named.
+  /// The time of the search; empty: the servos were named.
   [[nodiscard]] std::optional<Time> searched_at() const { return searched_at_; }
 
-  /// As fleet::hear_others(), for a command that writes by jobs of its own.
+  /// Like fleet::hear_others(), for a command that writes by its own jobs.
   [[nodiscard]] bool hear();
 
-  /// Each note once.
+  /// Prints each note once.
   void tell(const std::vector<std::string>& notes);
 
-  /// The warnings of each servo, each once.
+  /// Prints each warning of each servo once.
   void tell_warnings(std::span<const fleet::GoalResult> results);
 
-  /// Says who else acts on this bus, where that forbids nothing.
+  /// Notes other active nodes on this bus that do not forbid writing.
   void tell_others();
 
-  /// The same of those who came while it wrote.
+  /// Notes those that came during the writing.
   void tell_newcomers();
 
-  /// How servos are changed, and recorded as open() was told. Where they restart this process
+  /// The options of changes, recorded as requested in open(). While servos restart this process
   /// allocates node IDs, if it may.
   [[nodiscard]] fleet::Manner manner(const RestartTimes& times = {}, bool restarts = true);
 
-  /// Why nothing must be changed, where the allocation table cannot be used; empty: it may.
+  /// The reason why nothing must be changed if the allocation table cannot be used; empty: it may.
   [[nodiscard]] std::optional<Error> go_without_table(const Error& reason);
 
-  /// What was recorded before; null: nothing is known.
+  /// The earlier records; null: none.
   [[nodiscard]] fleet::History* history() { return history_ ? &*history_ : nullptr; }
 
-  /// An empty question is none.
+  /// An empty question is not asked.
   [[nodiscard]] bool confirm(const std::string& question);
 
   bool stop(Error error);
 
-  /// The session broke.
+  /// Ends the run as the session broke.
   bool broken(const Error& error);
 
-  /// An error with the code `refusal` is an answer; any other one broke the session.
+  /// Fails the target if the error has the code `refusal`; any other error broke the session.
   bool fail(const Error& error, Code refusal);
 
-  /// What an interruption leaves behind.
+  /// Gives a hint on the state after an interruption.
   void hint_interruption(const std::string& hint);
 
   Context& context_;

@@ -45,7 +45,7 @@ bool MotionRun::plan() {
   }
   const fleet::Roster& roster = context_.session().roster();
   auto plan = fleet::plan_command(wanted_, std::move(snapshots.servos.front()), context_.known());
-  if (!plan) { // two that answer at once answer nothing
+  if (!plan) { // two units that respond at the same time cannot be read
     report_.fail_target(roster.is_doubled(id_) ? fleet::doubled(roster, id_)
                                                : std::move(plan.error()));
     return false;
@@ -54,7 +54,7 @@ bool MotionRun::plan() {
   return true;
 }
 
-/// Of each other servo, once more after the question: another one may have come.
+/// Checks the servo IDs of the other servos, again after the question: another one may have come.
 bool MotionRun::prove_servo_id() {
   auto refused = wanted_.by_servo_id ? fleet::refuse_servo_id(context_.session(), context_.known(),
                                                               *plan_, context_.identification())
@@ -62,7 +62,7 @@ bool MotionRun::prove_servo_id() {
   return !refused || fail(*refused, Code::duplicate_servo_id);
 }
 
-/// What the others on the bus forbid; once more after the question, which may take its time.
+/// Checks whether other nodes forbid it, again after the question, which may take a while.
 bool MotionRun::check() {
   if (auto refused =
           fleet::refuse_to_command(context_.session(), *plan_, context_.shared().while_driven)) {
@@ -79,9 +79,9 @@ bool MotionRun::confirm() {
   return WritingRun::confirm(fleet::question_to_command(*plan_));
 }
 
-/// False: the reader has left, or cannot be written to.
+/// False: the reader has left, or stdout cannot be written.
 bool MotionRun::show(const fleet::CommandSample& sample) {
-  constexpr Duration text_period = std::chrono::milliseconds(100); // what a person can read
+  constexpr Duration text_period = std::chrono::milliseconds(100); // readable for a person
   const Reporter& reporter = context_.reporter();
   const bool is_first = samples_++ == 0;
   std::string out;

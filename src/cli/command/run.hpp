@@ -14,7 +14,7 @@ namespace blactl::cli {
 /// Each step may end it, with errors in the report.
 class MotionRun : WritingRun {
  public:
-  /// `svg`: the file that it is drawn into; empty: none.
+  /// `svg`: the file for the drawing; empty: none.
   MotionRun(fleet::CommandWanted wanted, std::string svg, Context& context, Report& report);
 
   void all();
@@ -37,7 +37,7 @@ class MotionRun : WritingRun {
   std::optional<fleet::CommandPlan> plan_;
   std::uint64_t samples_ = 0;
   Time shown_at_{};
-  std::string unread_; ///< lines that stdout had no room for
+  std::string unread_; ///< lines waiting for room on stdout
   bool has_reader_ = true;
 };
 

@@ -27,7 +27,7 @@ using Raw = std::optional<std::int64_t>;
 
 constexpr std::array<std::string_view, 3> motion_keys{"angle_deg", "speed_rpm", "torque_pct"};
 
-/// The numbers of a sample in their units, in the order of the keys; empty: not answered.
+/// The numbers of a sample in their units, in the order of the keys; empty: no response.
 std::array<std::string, 3> numbers(const CommandPlan& plan, const CommandSample& sample) {
   std::array<std::string, 3> out;
   const std::array<Raw, 3> raws{sample.angle, sample.speed, sample.torque};
@@ -39,7 +39,7 @@ std::array<std::string, 3> numbers(const CommandPlan& plan, const CommandSample&
   return out;
 }
 
-/// What was read that is farthest from 0.
+/// The read value farthest from 0.
 std::string most(const CommandPlan& plan, const fleet::CommandResult& result, std::size_t reading,
                  Raw CommandSample::* member) {
   std::int64_t found = 0;

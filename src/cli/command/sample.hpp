@@ -1,5 +1,5 @@
 #pragma once
-// What a servo did while it was commanded, as data: the keys of the contract (section 5, command).
+// The samples of a commanded servo, as data: the keys of the contract (section 5, command).
 
 #include "blactl/base/time.hpp"
 #include "blactl/fleet/motion/command_result.hpp"
@@ -8,7 +8,7 @@
 
 namespace blactl::cli {
 
-/// One line of the stream; the raw target is named after its register.
+/// One line of the stream; the key of the raw target is named after its register.
 [[nodiscard]] std::string json_motion(WallTime time, const fleet::CommandPlan& plan,
                                       const fleet::CommandSample& sample);
 
@@ -22,7 +22,7 @@ namespace blactl::cli {
 [[nodiscard]] std::string text_motion(const fleet::CommandPlan& plan,
                                       const fleet::CommandSample& sample);
 
-/// How it ended, in a line: where the shaft is, how it came there, and what the servo does next.
+/// The end in one line: where the shaft is, how it got there, and what the servo does next.
 [[nodiscard]] std::string motion_summary(const fleet::CommandPlan& plan,
                                          const fleet::CommandResult& result);
 

@@ -25,7 +25,7 @@ using fleet::CommandReading;
 using fleet::CommandResult;
 using fleet::CommandSample;
 
-/// An A4 page in portrait, in points; three panels on it.
+/// An A4 page in portrait, in points, with three panels.
 constexpr double page_width = 595, page_height = 842;
 constexpr double left_edge = 70, right_edge = 560, first_top = 70, panel_height = 205,
                  panel_step = 245;
@@ -39,7 +39,7 @@ constexpr std::string_view limit = "stroke=\"#080\" stroke-width=\"0.7\"";
 struct Panel {
   const CommandReading& reading;
   std::optional<std::int64_t> CommandSample::* value;
-  bool is_commanded; ///< the target is one of this
+  bool is_commanded; ///< the target is of this quantity
   std::string title;
   double top;
 };
@@ -76,10 +76,10 @@ class MotionDrawing {
   const CommandPlan& plan_;
   const std::vector<CommandSample>& samples_;
   Svg svg_;
-  std::int64_t low_ = 0, high_ = 0; ///< of the panel that is drawn
+  std::int64_t low_ = 0, high_ = 0; ///< of the present panel
 };
 
-/// What was read, what was commanded, and zero; limits only if they are near.
+/// Fits the scale to readings, targets and zero; to limits only if they are near.
 void MotionDrawing::fit(const Panel& panel) {
   low_ = high_ = 0;
   for (const CommandSample& sample : samples_) {
@@ -94,7 +94,7 @@ void MotionDrawing::fit(const Panel& panel) {
   high_ += margin;
 }
 
-/// 1, 2 or 5 of some power of ten, so that no more than six of them fit into the span.
+/// 1, 2 or 5 times a power of ten, so that at most six of them fit into the span.
 std::int64_t round_step(std::int64_t span) {
   constexpr std::int64_t most = 6;
   for (std::int64_t power = 1;; power *= 10) {
@@ -125,7 +125,7 @@ void MotionDrawing::scale(const Panel& panel) {
   }
 }
 
-/// Those that are far away are told only.
+/// Limits outside the scale are only written as text.
 void MotionDrawing::limits(const Panel& panel) {
   std::string title = panel.title;
   if (panel.reading.low && panel.reading.high) {
@@ -147,7 +147,7 @@ void MotionDrawing::draw(const Panel& panel) {
   limits(panel);
   std::vector<SvgPoint> way, told;
   for (const CommandSample& sample : samples_) {
-    if (panel.is_commanded) { // it holds until another one comes
+    if (panel.is_commanded) { // it holds until the next one
       if (!told.empty()) {
         told.push_back({x(sample.at), told.back().y});
       }

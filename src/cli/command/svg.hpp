@@ -1,5 +1,5 @@
 #pragma once
-// A command to a shaft as a drawing: what it was told, and what it did.
+// A command to a shaft as a drawing of target and motion.
 
 #include "blactl/fleet/motion/command_result.hpp"
 
@@ -7,7 +7,7 @@
 
 namespace blactl::cli {
 
-/// Angle, speed and torque over time, one below the other, with the command and the limits.
+/// Angle, speed and torque over time, one below the other, with the target and the limits.
 [[nodiscard]] std::string motion_svg(const fleet::CommandPlan& plan,
                                      const fleet::CommandResult& result);
 

@@ -1,5 +1,5 @@
 #pragma once
-// What `blactl command` says.
+// Messages of `blactl command`.
 
 #include "blactl/base/text.hpp"
 
@@ -12,7 +12,7 @@ inline constexpr Text motion_what_hint{
 inline constexpr Text motion_both{"{} and --wiggle cannot both be done",
                                   "{} と --wiggle は同時に指定できません"};
 inline constexpr Text motion_no_command{
-    "{} is no command: only angle, speed or torque is commanded",
+    "{} is not a command: only angle, speed or torque is commanded",
     "{} は指令できません。指令できるのは angle、speed、torque のみです"};
 inline constexpr Text motion_svg_to_stdout{"--svg: the drawing goes to a file only",
                                            "--svg の出力先はファイルのみです"};
@@ -23,7 +23,7 @@ inline constexpr Text motion_left_hint{"it was commanded, and may still move: {}
                                        "指令を送信済みです。まだ動作している可能性があります。{}"};
 inline constexpr Text motion_interrupted_hint{"it was stopped: {}", "サーボを停止させました。{}"};
 
-// How it ended.
+// The end.
 
 inline constexpr Text motion_held{"node {}: held at {} (the shaft is at {})",
                                   "ノード {}: {} で保持しています (現在角度 {})"};

@@ -1,4 +1,4 @@
-// blactl alloc: dynamic node IDs, and the table of who has which.
+// blactl alloc: dynamic node IDs, and their table.
 
 #include "cli/alloc/book.hpp"
 #include "cli/alloc/make_static.hpp"
@@ -19,13 +19,13 @@ namespace {
 constexpr Option alloc_options[]{
     {.name = "--once",
      .kind = Kind::flag,
-     .help = {"end when nobody asks any more", "割当て要求がなくなったら終了"},
+     .help = {"end when no unit asks any more", "割当て要求がなくなったら終了"},
      .store = into<&AllocOptions::once>},
     {.name = "--count",
      .value = "N",
      .kind = Kind::whole,
      .whole = {1, 125},
-     .help = {"end when so many units have their node ID", "この台数の割当てが済んだら終了"},
+     .help = {"end when this many units have their node ID", "この台数の割当てが済んだら終了"},
      .store = into<&AllocOptions::count>},
     {.name = "--wait",
      .value = "SEC",
@@ -84,7 +84,7 @@ constexpr Option alloc_options[]{
      .store = into<&AllocOptions::import_from>},
 };
 
-/// What the command does; options that share none of them do not go together.
+/// The actions of the command; options without a common action exclude each other.
 struct Does {
   enum : std::uint8_t { serve = 1, fix = 2, list = 4, forget = 8, write = 16, read = 32 };
 };
@@ -92,7 +92,7 @@ struct Does {
 struct Given {
   bool is_given;
   std::string_view option;
-  unsigned does; ///< the things that it goes with
+  unsigned does; ///< the actions it may be combined with
 };
 
 std::vector<Given> given(const AllocOptions& options, const Shared& shared) {
@@ -126,7 +126,7 @@ std::optional<Error> refuse_together(const AllocOptions& options, const Shared& 
     }
   }
   const bool names_servos = options.id || shared.nodes.has_value();
-  if (names_servos && !options.assign.empty()) { // each says which servo gets which ID
+  if (names_servos && !options.assign.empty()) { // both assign IDs to servos
     return Error{Code::usage,
                  say<texts::alloc_one_thing>(options.id ? "--id" : "--node", "--assign"),
                  say<texts::alloc_one_thing_hint>(), std::nullopt};

@@ -1,4 +1,4 @@
-// blactl apply: brings servos to a fleet file, proven after a restart.
+// blactl apply: brings servos to the settings of a fleet file, proven after a restart.
 
 #include "blactl/fleet/change/saved_plan.hpp"
 #include "blactl/fleet/files/fleet_diff.hpp"
@@ -23,7 +23,7 @@ namespace {
 
 struct ApplyOptions {
   std::string file{};
-  std::string entry{}; ///< empty: all of the file
+  std::string entry{}; ///< empty: all entries
   bool dry_run = false;
   bool is_plan = false;
   bool no_save = false;
@@ -59,7 +59,7 @@ constexpr Option apply_options[]{
      .store = into<&ApplyOptions::no_save>},
     {.name = "--trust-ram",
      .kind = Kind::flag,
-     .help = {"where RAM is as wished, do not restart to see what ROM holds",
+     .help = {"if RAM is as wished, do not restart to check ROM",
               "RAM が一致していれば、ROM 確認のための再起動をしない"},
      .store = into<&ApplyOptions::trust_ram>},
     {.name = "--fail-fast",
@@ -75,7 +75,7 @@ constexpr Option apply_options[]{
      .store = into<&ApplyOptions::events>},
     {.name = "--no-snapshot",
      .kind = Kind::flag,
-     .help = {"go on where it cannot be recorded what servos hold, for `undo`",
+     .help = {"go on even if the settings of servos cannot be recorded for `undo`",
               "変更履歴を記録できない場合も続行 (`undo` では戻せません)"},
      .store = into<&ApplyOptions::no_snapshot>},
     restart_wait<&ApplyOptions::times>,
@@ -91,10 +91,10 @@ constexpr Option apply_arguments[]{
      .store = into<&ApplyOptions::file>},
 };
 
-/// How an entry is to be carried out.
+/// How to carry out an entry.
 struct Manner {
-  std::function<bool(const fleet::FleetEntry& entry)> saves; ///< its settings go to ROM, too
-  bool trusts_ram = false; ///< equal RAM is enough: nothing is restarted to prove ROM
+  std::function<bool(const fleet::FleetEntry& entry)> saves; ///< settings go to ROM, too
+  bool trusts_ram = false; ///< equal RAM is enough: no restart to prove ROM
 };
 
 fleet::Goal goal(const fleet::FleetEntry& entry, dronecan::NodeId id, const Manner& manner) {
@@ -106,7 +106,7 @@ fleet::Goal goal(const fleet::FleetEntry& entry, dronecan::NodeId id, const Mann
           .evidence = manner.trusts_ram ? fleet::Evidence::ram : fleet::Evidence::restart};
 }
 
-/// The servos that the entries mean.
+/// The goals for the servos that match entries.
 Goals match(const fleet::FleetFile& file, const Manner& manner, const Whom& whom,
             const bla::Profiles& profiles) {
   const auto matched = fleet::match(file, whom.roster, whom.targets, profiles);
@@ -127,7 +127,7 @@ Goals match(const fleet::FleetFile& file, const Manner& manner, const Whom& whom
   return goals;
 }
 
-/// One entry for the servo that is meant.
+/// The goals with one entry for the selected servo.
 Goals give(const fleet::FleetEntry& entry, const Manner& manner, const Whom& whom) {
   if (whom.selected.size() != 1) {
     return {.errors = {{Code::usage, say<texts::apply_entry_one>(whom.selected.size()),
@@ -136,7 +136,7 @@ Goals give(const fleet::FleetEntry& entry, const Manner& manner, const Whom& who
   return {.goals = {goal(entry, whom.selected.front(), manner)}};
 }
 
-/// The entry that --entry names.
+/// The entry named by --entry.
 Result<const fleet::FleetEntry*> find_entry(const fleet::FleetFile& file, const std::string& name) {
   const auto found = std::ranges::find(file.servos, name, &fleet::FleetEntry::name);
   if (found != file.servos.end()) {
@@ -150,7 +150,7 @@ Result<const fleet::FleetEntry*> find_entry(const fleet::FleetFile& file, const 
               say<texts::apply_no_entry_hint>(names));
 }
 
-/// A plan says all of this itself.
+/// A plan contains all of this already.
 std::optional<Error> refuse_beside_plan(const ApplyOptions& options) {
   const std::pair<bool, std::string_view> all[]{{!options.entry.empty(), "--entry"},
                                                 {options.no_save, "--no-save"},
@@ -210,7 +210,7 @@ Report apply_file(const ApplyOptions& options, ChangeRequest request, Context& c
   return change_servos(request, context);
 }
 
-/// What is read must not be written over.
+/// An input file must not be overwritten.
 bool overwrites_its_file(const ApplyOptions& options) {
   std::error_code none;
   return std::filesystem::equivalent(options.events, options.file, none);

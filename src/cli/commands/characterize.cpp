@@ -18,7 +18,7 @@ namespace blactl::cli {
 namespace {
 
 struct CharacterizeOptions {
-  std::string file{}; ///< empty: none is written
+  std::string file{}; ///< empty: none
 };
 
 constexpr Option characterize_arguments[]{
@@ -79,7 +79,7 @@ bool Characterize::read() {
   return true;
 }
 
-/// What forbids it; once more after the question, which may take its time.
+/// Checks that nothing forbids it, again after the question, which may take a while.
 bool Characterize::check() {
   if (auto refused = fleet::refuse_to_characterize(context_.session(), before_,
                                                    context_.shared().while_driven)) {

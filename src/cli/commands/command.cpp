@@ -1,4 +1,4 @@
-// blactl command: moves the shaft of one servo for a bounded time, and watches it.
+// blactl command: moves the shaft of one servo for a limited time, and watches it.
 
 #include "blactl/base/replace_file.hpp"
 #include "blactl/bla/assignment.hpp"
@@ -39,8 +39,8 @@ constexpr Option command_options[]{
      .store = into<&CommandOptions::wiggle>},
     {.name = "--array",
      .kind = Kind::flag,
-     .help = {"by ArrayCommand to its servo ID, as an autopilot does; only where no other servo "
-              "has that ID",
+     .help = {"by ArrayCommand to its servo ID, as an autopilot does; only if no other servo has "
+              "that ID",
               "オートパイロットと同じくサーボ ID 宛の ArrayCommand で指令 (サーボ ID の重複がない"
               "場合のみ)"},
      .store = into<&CommandOptions::array>},
@@ -63,7 +63,7 @@ constexpr Option command_arguments[]{
 };
 
 /// "angle=45deg" is short for command_angle=45deg. Errors: as bla::parse_assignment(); usage, for
-/// what is no command.
+/// other registers.
 Result<bla::Assignment> parse_motion(const bla::Profiles& profiles, const std::string& text) {
   const auto begins = [&](std::string_view word) {
     return std::ranges::equal(word, text.substr(0, word.size()), {}, {},
@@ -81,7 +81,7 @@ Result<bla::Assignment> parse_motion(const bla::Profiles& profiles, const std::s
   return typed;
 }
 
-/// What no servo would change anything about.
+/// Errors that do not depend on the servo.
 std::vector<Error> faults_of(const CommandOptions& options) {
   std::vector<Error> faults;
   if (options.svg == "-") {
@@ -121,7 +121,7 @@ Report execute(const CommandOptions& options, Context& context) {
       report.fail(drawable.error());
     }
   }
-  if (report.errors.empty()) { // else not one frame is sent
+  if (report.errors.empty()) { // otherwise no frame is sent
     MotionRun(std::move(wanted), options.svg, context, report).all();
   }
   return report;

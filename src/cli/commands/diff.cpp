@@ -37,7 +37,7 @@ constexpr Option diff_arguments[]{
      .store = into<&DiffOptions::files>},
 };
 
-/// Shows what was found, and makes an exit status of it.
+/// Shows the differences, and sets the exit status.
 void conclude(fleet::FleetDiff found, std::string one, std::string other, Report& report) {
   using fleet::EntryStatus;
   std::uint64_t differences = 0;
@@ -56,13 +56,13 @@ void conclude(fleet::FleetDiff found, std::string one, std::string other, Report
   };
 }
 
-/// Every servo that may be meant is known then; false: the report says why not.
+/// Identifies every servo that may be selected; false: the report has the reason.
 bool look_around(Context& context, Report& report) {
   if (!open_for_reading("diff", context, report)) {
     return false;
   }
   auto identification = context.identification();
-  identification.static_node_id = true; // where a servo is found by its node ID
+  identification.static_node_id = true; // if a servo is matched by its node ID
   fleet::Discovery discovery(context.session(), context.known(), identification);
   if (const auto found = discovery.find_all(fleet::bus_watch_time); !found) {
     context.broken(found.error(), report);
@@ -93,7 +93,7 @@ void compare_servos(const fleet::FleetFile& file, Context& context, Report& repo
            report);
 }
 
-/// What can be said before a file is read.
+/// Errors that are found before a file is read.
 std::optional<Error> refuse(const std::vector<std::string>& files) {
   if (files.size() > 2) {
     return Error{Code::usage, say<texts::fleet_many_files>(files.size()),
@@ -106,7 +106,7 @@ std::optional<Error> refuse(const std::vector<std::string>& files) {
   return std::nullopt;
 }
 
-/// What can be said of files together, as far as they could be read.
+/// Errors of the files taken together, as far as they could be read.
 std::optional<Error> refuse(std::span<const fleet::FleetFile> files) {
   const auto is_params = [](const fleet::FleetFile& file) { return file.is_params; };
   const auto many = std::ranges::find_if(

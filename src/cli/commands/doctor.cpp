@@ -1,4 +1,4 @@
-// blactl doctor: what is wrong with interface, bus and nodes, how bad it is, what mends it.
+// blactl doctor: the problems of an interface, a bus and its nodes, their severity, and the fixes.
 
 #include "cli/commands.hpp"
 #include "cli/doctor/examination.hpp"
@@ -22,9 +22,9 @@ struct DoctorOptions {
 constexpr Option doctor_options[]{
     {.name = "--fix",
      .kind = Kind::flag,
-     .help =
-         {"set up and raise the CAN interface, where something of it is wrong, after a question",
-          "問題があれば CAN インターフェースを設定、起動 (事前に確認)"},
+     .help = {"set up the CAN interface and bring it up, if something about it is wrong, after a "
+              "question",
+              "問題があれば CAN インターフェースを設定、起動 (事前に確認)"},
      .store = into<&DoctorOptions::fix>},
     {.name = "--report",
      .value = "FILE",
@@ -36,7 +36,7 @@ constexpr Option doctor_options[]{
      .store = into<&DoctorOptions::report>},
 };
 
-/// Longer than a node may be silent before it counts as lost.
+/// Longer than the silence after which a node counts as lost.
 constexpr Duration look_time = std::chrono::milliseconds(3500);
 constexpr Duration report_time = std::chrono::seconds(10);
 
@@ -76,7 +76,7 @@ Report execute(const DoctorOptions& options, Context& context) {
 constinit const Command commands::doctor{
     .name = "doctor",
     .traits = {.session = true, .recordings = true},
-    .help = {"what is wrong with interface, bus and nodes, and what mends it",
+    .help = {"problems of interface, bus and nodes, and how to fix them",
              "インターフェース、バス、ノードの問題と対処"},
     .options = doctor_options,
     .action = action<DoctorOptions, execute>,

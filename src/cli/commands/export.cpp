@@ -1,4 +1,4 @@
-// blactl export: the configuration of servos as a file that apply takes.
+// blactl export: the configuration of servos as a file for apply.
 
 #include "blactl/base/replace_file.hpp"
 #include "blactl/fleet/bus/snapshots.hpp"
@@ -52,7 +52,7 @@ constexpr Option export_arguments[]{
      .store = into<&ExportOptions::file>},
 };
 
-/// The option that makes a file of one servo; empty: none.
+/// The option for a file of one servo; empty: none.
 std::string_view form_of_one(const ExportOptions& options) {
   return options.recipe ? "--recipe" : options.params ? "--params" : "";
 }
@@ -65,7 +65,7 @@ std::string content(const ExportOptions& options, std::span<const fleet::Snapsho
                           : fleet::fleet_file(servos, style);
 }
 
-/// What can be said before a frame is sent.
+/// Errors that are found before a frame is sent.
 std::optional<Error> refuse(const ExportOptions& options, const Context& context) {
   if (options.recipe && options.params) {
     return Error{Code::usage, say<texts::export_one_form>(), say<texts::export_one_form_hint>(),
@@ -81,7 +81,7 @@ std::optional<Error> refuse(const ExportOptions& options, const Context& context
   return replaceable ? std::nullopt : std::optional(replaceable.error());
 }
 
-/// What went wrong with single servos goes to the report.
+/// Errors of single servos go to the report.
 std::vector<fleet::Snapshot> read(std::span<const dronecan::NodeId> servos, Context& context,
                                   Report& report) {
   auto read = fleet::take_snapshots(context.session(), context.known(), servos,
@@ -99,7 +99,7 @@ std::vector<fleet::Snapshot> read(std::span<const dronecan::NodeId> servos, Cont
   return std::move(read.servos);
 }
 
-/// Shows the content, or puts it into the file.
+/// Shows the content, or writes it to the file.
 void conclude(const ExportOptions& options, std::string content, Report& report) {
   const bool was_read = report.all_errors().empty();
   if (!options.to_stdout() && was_read) {
@@ -149,7 +149,7 @@ Report execute(const ExportOptions& options, Context& context) {
   if (servos.empty()) {
     return report;
   }
-  // When a fleet file was read from servos is not known of each of its values.
+  // the time at which a fleet file was read from servos is not known for each value
   const auto time =
       context.is_fleet_file() ? std::nullopt : std::optional(context.session().wall());
   const std::string text = content(options, servos, time);

@@ -49,7 +49,7 @@ bool has_found(const FaultState& servo, Level level) {
 void list(const std::vector<dronecan::NodeId>& ids, const FaultsOptions& options, Context& context,
           Report& report) {
   auto read = fleet::read_faults(context.session(), context.known(), ids, context.identification());
-  if (read.broken) { // before the servos: what they say of it is said of each
+  if (read.broken) { // before the servos: those report it as well
     context.broken(*read.broken, report);
   }
   for (const FaultState& servo : read.servos) {

@@ -52,15 +52,14 @@ constexpr Option get_arguments[]{
      .store = into<&GetOptions::parameters>},
 };
 
-/// Everything that can be refused without a servo.
+/// Checks that need no servo.
 std::expected<fleet::RegisterChoice, std::vector<Error>> understand(const GetOptions& options,
                                                                     const bla::Profiles& profiles) {
   auto choice = fleet::RegisterChoice::parse(profiles, options.parameters, options.groups);
   return choice && options.all ? fleet::RegisterChoice::parse(profiles, {}, {}) : choice;
 }
 
-/// What is shown of one servo. Where its model, and so the default, is not known for sure, nothing
-/// is left out.
+/// The shown values of one servo. If its model, and so the default, is uncertain, none is left out.
 ServoValues shown(fleet::Snapshot snapshot, const fleet::RegisterChoice& choice,
                   bool changed_only) {
   auto readings = choice.asked_for(snapshot);
@@ -74,7 +73,7 @@ ServoValues shown(fleet::Snapshot snapshot, const fleet::RegisterChoice& choice,
   return {.snapshot = std::move(snapshot), .shown = std::move(readings), .can_differ = can_differ};
 }
 
-/// Where no default is known, --changed cannot leave anything out.
+/// Without known defaults, --changed cannot leave values out.
 void tell_unknown_defaults(const GetOptions& options, const fleet::Servo& servo,
                            const Reporter& reporter) {
   if (options.changed && servo.is_servo && servo.identity.model().empty()) {
@@ -82,15 +81,15 @@ void tell_unknown_defaults(const GetOptions& options, const fleet::Servo& servo,
   }
 }
 
-/// What went wrong with one servo.
+/// The errors of one servo.
 std::vector<Error> errors(const fleet::Snapshot& snapshot, const fleet::RegisterChoice& choice,
                           const fleet::Roster& roster) {
   const bool is_begun = snapshot.servo.is_servo;
   if (!is_begun && snapshot.error && snapshot.error->code == Code::interrupted) {
-    return {}; // why the command ended says it all
+    return {}; // the command's own error covers it
   }
   std::vector<Error> all = snapshot.errors();
-  if (roster.is_doubled(snapshot.servo.id)) { // what was read is a mixture of two
+  if (roster.is_doubled(snapshot.servo.id)) { // the readings are from two units
     return {fleet::doubled(roster, snapshot.servo.id)};
   }
   std::ranges::move(choice.refusals(snapshot.servo), std::back_inserter(all));
@@ -118,7 +117,7 @@ Report execute(const GetOptions& options, Context& context) {
       fleet::take_snapshots(context.session(), context.known(), *servos, context.identification(),
                             [&](const fleet::Servo& servo) { return choice->registers_of(servo); });
   const fleet::Roster& roster = context.session().roster();
-  if (snapshots.broken) { // before the servos: what they say of it is said of each
+  if (snapshots.broken) { // before the servos: those report it as well
     context.broken(*snapshots.broken, report);
   }
   for (fleet::Snapshot& snapshot : snapshots.servos) {

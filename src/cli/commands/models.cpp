@@ -60,7 +60,7 @@ Models all_models(const bla::Profiles& profiles) {
   return models;
 }
 
-/// The models that a word means; none: it means none.
+/// The models matching a word; none: it does not match.
 Models models_of(const std::string& word, const bla::Profiles& profiles) {
   return word.size() == 3 && begins_with(word, "all") ? all_models(profiles)
                                                       : profiles.matching(word);
@@ -74,13 +74,12 @@ Error unknown_model(const std::string& word, const bla::Profiles& profiles) {
   return {Code::usage, say<texts::unknown_model>(printable(word)), say<texts::known_models>(known)};
 }
 
-/// What the arguments mean; the first one may be a parameter. Every fault of them goes into the
-/// report.
+/// The sheet for the arguments; the first one may be a parameter. All errors go to the report.
 Sheet choose(const ModelsOptions& options, const bla::Profiles& profiles, Report& report) {
   Sheet sheet{.models = all_models(profiles)};
   std::string model = options.model, parameter = options.parameter;
   if (models_of(model, profiles).empty() && !models_of(parameter, profiles).empty()) {
-    std::swap(model, parameter); // nobody can mistake one for the other
+    std::swap(model, parameter); // the two cannot be confused
   }
   if (!model.empty()) {
     const Models named = models_of(model, profiles);

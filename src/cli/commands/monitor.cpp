@@ -1,4 +1,4 @@
-// blactl monitor: servos as they are now, on a screen or as a stream.
+// blactl monitor: the present state of servos, on a screen or as a stream.
 
 #include "cli/commands.hpp"
 #include "cli/context.hpp"
@@ -18,8 +18,8 @@ namespace blactl::cli {
 namespace {
 
 struct MonitorOptions {
-  Duration rate = std::chrono::seconds(2); ///< samples a second, as if they were seconds
-  std::string fields{};                    ///< keys, with commas between them; empty: all
+  Duration rate = std::chrono::seconds(2); ///< samples per second, stored as seconds
+  std::string fields{};                    ///< comma-separated keys; empty: all
   std::optional<Duration> duration{};
   std::optional<std::uint64_t> count{};
   bool identify = false;
@@ -56,7 +56,7 @@ constexpr Option monitor_options[]{
      .value = "N",
      .kind = Kind::whole,
      .whole = {1, ~std::uint64_t{0}},
-     .help = {"end after so many samples", "この回数サンプリングしたら終了"},
+     .help = {"end after this many samples", "この回数サンプリングしたら終了"},
      .store = into<&MonitorOptions::count>},
     {.name = "--identify",
      .kind = Kind::flag,
@@ -83,7 +83,6 @@ Result<SampleFields> chosen_fields(const MonitorOptions& options) {
   return fields;
 }
 
-/// Opens the session; false: the report says why not.
 bool open(Context& context, Report& report) {
   if (const auto session = context.open(fleet::Session::Hearing::answers); !session) {
     report.fail(session.error());

@@ -103,7 +103,7 @@ Error usage(std::string message, std::string hint = {}) {
   return {Code::usage, std::move(message), std::move(hint), std::nullopt};
 }
 
-/// What the mapping is made of, as it is assigned and as the options call it.
+/// A part of the mapping, with its register and its option.
 struct Part {
   std::string_view assigned, option, of_endpoints;
 };
@@ -119,7 +119,7 @@ void replace_all(std::string& text, std::string_view what, std::string_view with
   }
 }
 
-/// An error about an assignment, as one about the option that was typed.
+/// Turns an error of an assignment into one of the typed option.
 void tell_by_options(Error& error, const PwmOptions& options) {
   for (const Part& part : parts) {
     for (std::string* text : {&error.message, &error.hint}) {
@@ -132,7 +132,7 @@ void tell_by_options(Error& error, const PwmOptions& options) {
   }
 }
 
-/// --mode without --output, or with a word that it does not know.
+/// --mode without --output, or with an unknown word.
 std::optional<Error> refuse_mode(const PwmOptions& options, const bla::Profiles& profiles) {
   if (options.mode.empty() || !options.output.empty()) {
     return std::nullopt; // the assignment is checked
@@ -143,7 +143,7 @@ std::optional<Error> refuse_mode(const PwmOptions& options, const bla::Profiles&
               : mode.error();
 }
 
-/// What the options say against each other. Every fault.
+/// All contradictions between options.
 std::vector<Error> contradictions(const PwmOptions& options, const bla::Profiles& profiles) {
   std::vector<Error> faults;
   const int ways = static_cast<int>(options.has_parts()) +
@@ -170,7 +170,7 @@ std::vector<Error> contradictions(const PwmOptions& options, const bla::Profiles
   return faults;
 }
 
-/// The values of 0x34-0x37 that are asked for.
+/// The wanted values of 0x34-0x37.
 Result<std::vector<std::string>> wanted_values(const PwmOptions& options,
                                                const bla::Profiles& profiles) {
   if (options.preset) {
@@ -189,7 +189,7 @@ Result<std::vector<std::string>> wanted_values(const PwmOptions& options,
   return values;
 }
 
-/// --svg and several servos: before anything is written.
+/// --svg with several servos: checked before anything is written.
 std::optional<Error> refuse_several(const PwmOptions& options, std::size_t servos) {
   return options.svg.empty() || servos <= 1
              ? std::nullopt
@@ -197,7 +197,7 @@ std::optional<Error> refuse_several(const PwmOptions& options, std::size_t servo
                    usage(say<texts::pwm_svg_one_servo>(servos), say<texts::pwm_svg_hint>()));
 }
 
-/// The mapping of the one servo into the file that was named.
+/// Draws the mapping of the one servo into the given file.
 void draw(const std::string& path, const std::pair<fleet::Servo, bla::Values>& one,
           const Reporter& reporter, Report& report) {
   const auto& [servo, values] = one;

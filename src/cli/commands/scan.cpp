@@ -1,4 +1,4 @@
-// blactl scan: who is on the bus.
+// blactl scan: the nodes on the bus.
 
 #include "blactl/fleet/bus/discovery.hpp"
 #include "blactl/fleet/bus/target_texts.hpp"
@@ -33,7 +33,7 @@ constexpr Option scan_options[]{
      .value = "N",
      .kind = Kind::whole,
      .whole = {0, dronecan::NodeId::max},
-     .help = {"fail unless so many servos are found", "検出台数がこれより少なければ失敗とする"},
+     .help = {"fail unless this many servos are found", "検出台数がこれより少なければ失敗とする"},
      .store = into<&ScanOptions::expect>},
 };
 
@@ -49,10 +49,11 @@ bool is_listed(const Findings& findings, std::uint8_t id) {
 void take_failures(const fleet::Discovery& discovery, const Findings& findings, Report& report) {
   for (auto& error : discovery.identifications()) {
     const bool is_meant = !error || !error->node_id || is_listed(findings, *error->node_id);
-    if (!is_meant) { // -n leaves it out
+    if (!is_meant) { // excluded by -n
       continue;
     }
-    // Who was heard is all that a recording of others may hold: no failure of this command.
+    // A recording of other nodes' traffic may only show that a node exists: that is not a failure
+    // of this command.
     const bool failed = error && error->code != Code::not_recorded;
     report.targets.push_back(failed ? Target{.errors = {std::move(*error)}} : Target{});
   }
@@ -65,8 +66,8 @@ std::uint64_t count_servos(const Findings& findings) {
       }));
 }
 
-/// What makes a scan fail although it ran: conflicts, too few servos, nobody there.
-/// `listed`: what -n said.
+/// Errors that make a scan fail: conflicts, too few servos, no nodes. `listed`: the selection of
+/// -n.
 void judge(const ScanOptions& options, const Findings& findings,
            const std::optional<std::string>& listed, Report& report) {
   const std::uint64_t servos = count_servos(findings);
@@ -78,7 +79,7 @@ void judge(const ScanOptions& options, const Findings& findings,
   const auto& members = findings.roster->members();
   const bool somebody = std::ranges::any_of(
       members, [&](const auto& member) { return findings.roster->heard(member.first); });
-  const bool may_be_shared = !findings.roster->doubled().empty(); // what is looked for
+  const bool may_be_shared = !findings.roster->doubled().empty(); // the wanted node
   if (findings.nodes.empty() && somebody && !may_be_shared) {
     report.fail({Code::not_found,
                  say<texts::nothing_matches_list>(report.interface, printable(listed.value_or(""))),

@@ -1,4 +1,4 @@
-// blactl set: checks against the profile, writes, reads back.
+// blactl set: checks values against the profile, writes them, and reads them back.
 
 #include "blactl/bla/assignment.hpp"
 
@@ -47,7 +47,7 @@ Report execute(const SetOptions& options, Context& context) {
     report.fail(profiles.error());
     return report;
   }
-  // What every model would refuse: not one frame is sent.
+  // errors that hold for every model: no frame is sent
   auto assignments = bla::parse_assignments(**profiles, options.assignments);
   if (!assignments) {
     report.errors = std::move(assignments.error());

@@ -1,4 +1,4 @@
-// blactl sim: simulated servos, as a bus of their own or on a real interface.
+// blactl sim: simulated servos, as their own bus or on a real interface.
 
 #include "blactl/can/simbus.hpp"
 #include "blactl/sim/bus/interface.hpp"
@@ -24,9 +24,9 @@ namespace {
 
 struct SimOptions {
   std::string scenario{};
-  std::optional<std::string> facts{}; ///< a facts file; empty: servos behave as is likely
+  std::optional<std::string> facts{}; ///< a facts file; empty: default behaviour
   std::optional<std::uint64_t> seed{};
-  std::optional<sim::Clock> clock{}; ///< empty: as the scenario says
+  std::optional<sim::Clock> clock{}; ///< empty: from the scenario
 };
 
 constexpr std::array<std::string_view, 2> clocks{"real", "virtual"}; // in the order of sim::Clock
@@ -79,13 +79,13 @@ Result<sim::Scenario> read_scenario(const SimOptions& options, const bla::Profil
   return scenario;
 }
 
-/// Tells scripts that clients may come.
+/// Reports to scripts that clients may connect.
 Result<void> say_ready(const Context& context) {
   const bool json = context.reporter().format() == Format::json;
   return context.reporter().data(json ? "{\"event\":\"ready\"}\n" : "ready\n");
 }
 
-/// A signal that ends the simulator, a broken interface or stdout; else the loop goes on.
+/// Whether to end: a signal that ends the simulator, a broken interface or stdout.
 bool ends(const can::Event& event, const SimEvents& events, Report& report) {
   if (events.error()) {
     report.fail(*events.error());
@@ -102,7 +102,7 @@ bool ends(const can::Event& event, const SimEvents& events, Report& report) {
   return false;
 }
 
-/// Tells about an order that cannot be carried out; the simulation goes on.
+/// Reports an order that cannot be carried out; the simulation goes on.
 void refuse(const Error& error, const Context& context) {
   context.reporter().error(error);
 }
@@ -120,7 +120,6 @@ void dump(const std::vector<sim::Servo*>& servos, const sim::Medium::Counters* w
   events.print_end(servos.size(), wire, now);
 }
 
-/// Carries out what comes in on stdin.
 template <class Perform>
 void obey(LineInput& input, const can::Event& event, const Context& context, Perform perform) {
   input.handle(event);
@@ -136,7 +135,8 @@ void obey(LineInput& input, const can::Event& event, const Context& context, Per
   }
 }
 
-/// Tells once that the bus runs late: what clients then see of times is no fault of servos.
+/// Warns once if the bus lags behind: times seen by clients are wrong then, through no fault of the
+/// servos.
 void tell_if_behind(const sim::Server& server, bool& told, const Context& context) {
   constexpr Duration worth_telling = std::chrono::seconds(1);
   if (!told && server.behind() >= worth_telling) {
@@ -201,7 +201,7 @@ bool is_for_clients(const sim::TimedEvent& event) {
   return event.serial_number == 0;
 }
 
-/// Puts the servos on a real interface until a signal comes or the interface goes.
+/// Runs the servos on a real interface until a signal comes or the interface goes away.
 void join(const std::string& name, const sim::Scenario& scenario, const bla::Profiles& profiles,
           const Context& context, Report& report) {
   if (std::ranges::any_of(scenario.events, is_for_clients) || scenario.wire != sim::WireFaults{}) {

@@ -60,7 +60,7 @@ constexpr Option trace_options[]{
      .value = "N",
      .kind = Kind::whole,
      .whole = {1, ~std::uint64_t{0}},
-     .help = {"end after so many transfers", "この数の転送で終了"},
+     .help = {"end after this many transfers", "この数の転送で終了"},
      .store = into<&TraceOptions::count>},
     {.name = "--stats",
      .kind = Kind::flag,
@@ -83,7 +83,7 @@ constexpr Option trace_arguments[]{
      .store = into<&TraceOptions::file>},
 };
 
-/// The log that is meant; empty: none, an interface is.
+/// The log to read; empty: an interface is used.
 std::optional<std::string> log_path(const TraceOptions& options, const std::string& interface) {
   if (!options.file.empty()) {
     return options.file;
@@ -95,12 +95,12 @@ std::optional<std::string> log_path(const TraceOptions& options, const std::stri
 Result<std::unique_ptr<can::CandumpReader>> open_log(const std::string& path, bool is_interface) {
   auto reader = can::CandumpReader::open(path);
   if (!reader && is_interface) {
-    reader.error().code = Code::interface; // the file stands where an interface would
+    reader.error().code = Code::interface; // the file takes the place of an interface
   }
   return reader;
 }
 
-/// The lines of this trace, appended to `out`.
+/// The line output of this trace, appended to `out`.
 std::unique_ptr<TraceOutput> make_lines(const TraceOptions& options, const Context& context,
                                         const bla::Profiles* profiles, std::string& out) {
   if (context.reporter().format() == Format::json) {
@@ -117,7 +117,7 @@ void count(const Tracer& tracer, std::uint64_t lost, std::uint64_t bad_lines, Re
                    {"skipped", counts.skipped}, {"bad_lines", bad_lines}};
 }
 
-/// What the user should know of what is not there.
+/// Notes on missing frames.
 void tell_losses(const Tracer& tracer, const TraceRun& run, const can::CandumpReader* log,
                  const Reporter& reporter) {
   if (run.lost() > 0) {
@@ -136,7 +136,7 @@ void tell_losses(const Tracer& tracer, const TraceRun& run, const can::CandumpRe
   }
 }
 
-/// Where the frames come from: one of both.
+/// The source of frames: one of the two.
 struct Source {
   std::unique_ptr<can::CandumpReader> log{};
   std::unique_ptr<can::Bus> bus{};

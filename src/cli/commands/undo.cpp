@@ -1,4 +1,4 @@
-// blactl undo: back to what servos held before they were changed.
+// blactl undo: restores the settings of servos before their last changes.
 
 #include "blactl/fleet/change/undo.hpp"
 
@@ -54,7 +54,7 @@ constexpr Option undo_options[]{
     restart_stagger<&UndoOptions::times>,
 };
 
-/// One run of the command: which changes it takes back.
+/// One run of the command: finds the changes to undo.
 class Undo {
  public:
   Undo(const UndoOptions& options, const SnapshotStore& store, Context& context)
@@ -70,8 +70,8 @@ class Undo {
     return goals;
   }
 
-  /// A change that there was nothing to take back of never was, or is no more: it must not stand in
-  /// front of the one before it.
+  /// Marks changes without effect, or already undone, as settled: they must not hide the one before
+  /// them.
   void forget_what_never_was(std::span<const fleet::GoalResult> results);
 
  private:
@@ -83,10 +83,10 @@ class Undo {
   const SnapshotStore& store_;
   Context& context_;
   std::set<std::string> told_;
-  std::map<dronecan::UniqueId, std::int64_t> numbers_{}; ///< of the changes that are taken back
+  std::map<dronecan::UniqueId, std::int64_t> numbers_{}; ///< of the changes being undone
 };
 
-/// Without -n: all servos that the last command changed, wherever they are now.
+/// Without -n: all servos changed by the last command, wherever they are now.
 void Undo::of_last_run(const Whom& whom, Goals& goals) {
   const auto changes = fleet::last_changes(store_);
   if (!changes) {
@@ -167,7 +167,7 @@ void Undo::forget_what_never_was(std::span<const fleet::GoalResult> results) {
     return;
   }
   if (auto store = context_.snapshots(state::Access::write)) {
-    // Else it is found once more the next time.
+    // on failure it is found again the next time
     [[maybe_unused]] const auto settled = store->settle(settlements);
   }
 }

@@ -59,7 +59,7 @@ std::string text(const std::vector<Arrival>& arrivals, const Page& page) {
   return out;
 }
 
-/// Why nothing can be waited for: no frame may be sent, or what is recorded will not come any more.
+/// The reason why waiting is pointless: no frame may be sent, or a recording has no later frames.
 std::optional<Error> refuse(const Context& context) {
   if (context.shared().listen_only) {
     return Error{Code::usage, say<texts::listen_only_refused>("wait"),

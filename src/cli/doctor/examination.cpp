@@ -31,7 +31,7 @@ Diagnosis as_diagnosis(const Error& error, Level level) {
           .fix = error.hint};
 }
 
-/// What must be kept on this machine can be.
+/// Checks that state can be stored on this machine.
 void examine_state(const Context& context, Examination& examination) {
   if (const auto writable = state::check_state_folder(state::state_folder()); !writable) {
     examination.diagnoses.push_back(as_diagnosis(writable.error(), Level::warning));
@@ -40,7 +40,7 @@ void examine_state(const Context& context, Examination& examination) {
   }
 }
 
-/// The angle limits, where somebody commands in parts of 180 deg.
+/// The angle limits, if a node commands in parts of 180 deg.
 std::vector<fleet::Snapshot> read_limits(Context& context, const fleet::Findings& findings) {
   std::vector<dronecan::NodeId> servos;
   for (const fleet::Finding& node : findings.nodes) {
@@ -57,7 +57,7 @@ std::vector<fleet::Snapshot> read_limits(Context& context, const fleet::Findings
       .servos;
 }
 
-/// An adapter knows its status while it is open. It is asked last: what others do is heard by then.
+/// An adapter reports its status while it is open. It is asked last, when other nodes were heard.
 Result<void> ask_status(Context& context) {
   constexpr Duration answer_time = std::chrono::milliseconds(250);
   can::Slcan* adapter = context.adapter();
@@ -100,7 +100,7 @@ void examine_bus(Duration time, Context& context, Examination& examination, Repo
     }
   }
   auto ends = discovery.identifications();
-  if (!found) { // what the end cut short is no fault of the node
+  if (!found) { // a node whose identification was cut short is not at fault
     std::erase_if(ends, [](const std::optional<Error>& error) {
       return error && error->code == Code::interrupted;
     });
@@ -127,7 +127,7 @@ void examine(Duration time, Context& context, Examination& examination, Report& 
     examination.adapter = adapter->answers();
     add(fleet::diagnose_adapter(adapter->answers(), adapter->speech()), examination);
   }
-  // Now, when the controller has had its time to count errors.
+  // only now has the controller had time to count errors
   examination.link = meant_link(context.shared().interface);
   if (examination.link) {
     add(fleet::diagnose_link(*examination.link), examination);

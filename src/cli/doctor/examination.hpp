@@ -1,5 +1,5 @@
 #pragma once
-// What blactl doctor looks at: the interface, the bus, its nodes, this user's rights.
+// The examination by blactl doctor: the interface, the bus, its nodes, this user's rights.
 
 #include "blactl/can/link.hpp"
 #include "blactl/fleet/bus/traffic.hpp"
@@ -15,20 +15,20 @@
 
 namespace blactl::cli {
 
-/// All that was found. It outlives neither the context nor its session.
+/// The results. It must not outlive the context or its session.
 struct Examination {
-  std::string interface{};                    ///< as it was named
-  std::optional<can::Link> link{};            ///< of a network interface
-  std::optional<can::SlcanAnswers> adapter{}; ///< of an adapter at a serial port
+  std::string interface{};                    ///< as named
+  std::optional<can::Link> link{};            ///< for a network interface
+  std::optional<can::SlcanAnswers> adapter{}; ///< for an adapter on a serial port
   fleet::Traffic traffic{};
   std::optional<fleet::Findings> nodes{}; ///< empty: the bus was not opened
-  fleet::Diagnoses fixed{};               ///< what --fix has mended
-  fleet::Diagnoses diagnoses{};           ///< what is wrong now, the worst first
-  bool is_whole = false;                  ///< nothing kept it from looking
+  fleet::Diagnoses fixed{};               ///< fixed by --fix
+  fleet::Diagnoses diagnoses{};           ///< present problems, the worst first
+  bool is_whole = false;                  ///< the examination was complete
 };
 
-/// Looks at everything for `time`. What kept it from looking is in the report; what the bus itself
-/// forbade (bus-off, nobody acknowledges) is a diagnosis.
+/// Examines everything for `time`. Errors that prevented it are in the report; those of the bus
+/// itself (bus-off, no acknowledgement) are diagnoses.
 void examine(Duration time, Context& context, Examination& examination, Report& report);
 
 } // namespace blactl::cli

@@ -16,7 +16,7 @@ namespace {
 
 using fleet::Diagnosis;
 
-/// From what to what: what is wrong now, and the command that does the same.
+/// The present problems, and the command with the same effect.
 std::string question(const fleet::Diagnoses& wrong, const can::LinkSetup& setup) {
   std::string text = say<texts::doctor_fix_question>(printable(setup.name));
   for (const Diagnosis& diagnosis : wrong) {
@@ -26,7 +26,7 @@ std::string question(const fleet::Diagnoses& wrong, const can::LinkSetup& setup)
   return setup.goes_down ? text + say<texts::doctor_fix_interrupts>(printable(setup.name)) : text;
 }
 
-/// Whoever may not is not asked.
+/// Without the rights the user is not asked.
 Result<void> mend(const fleet::Diagnoses& wrong, const can::LinkSetup& setup, Context& context) {
   auto lock =
       state::InterfaceLock::acquire(lock_place(setup.name), state::InterfaceLock::Right::write);

@@ -1,5 +1,6 @@
 #pragma once
-// blactl doctor --fix: the network interface is set up and raised, where something of it is wrong.
+// blactl doctor --fix: sets up a network interface and brings it up, if something about it is
+// wrong.
 
 #include "cli/context.hpp"
 #include "cli/doctor/examination.hpp"
@@ -7,9 +8,9 @@
 
 namespace blactl::cli {
 
-/// Asks first, and looks again afterwards: what of the findings is gone is in the examination. To
-/// be called before the interface is opened. Errors go to the report: permission, busy,
-/// not_confirmed, interrupted, interface.
+/// Asks first, and checks again afterwards: fixed findings are in the examination. Call before the
+/// interface is opened. Errors go to the report: permission, busy, not_confirmed, interrupted,
+/// interface.
 void mend_interface(Context& context, Examination& examination, Report& report);
 
 } // namespace blactl::cli

@@ -21,7 +21,7 @@
 namespace blactl::cli {
 namespace {
 
-/// Every line of it a comment, so that a reader of logs passes it over.
+/// Makes every line a comment, which readers of logs skip.
 std::string as_comment(const std::string& text) {
   std::istringstream lines(text);
   std::string out;
@@ -46,7 +46,7 @@ std::vector<dronecan::NodeId> servos(const Examination& examination) {
   return ids;
 }
 
-/// What cannot be read is left out: the findings say why.
+/// Unreadable parameters are left out: the findings give the reasons.
 std::string parameters(const std::vector<dronecan::NodeId>& ids, Context& context) {
   const auto all = fleet::RegisterChoice::parse(context.known(), {}, {});
   if (!all) {

@@ -1,6 +1,6 @@
 #pragma once
-// blactl doctor --report: one file for the support. People read its comments; the frames behind
-// them are a candump log that -i replay: takes.
+// blactl doctor --report: one file for the support. People read its comments; the frames after them
+// are a candump log for -i replay:.
 
 #include "cli/context.hpp"
 #include "cli/doctor/examination.hpp"
@@ -10,11 +10,11 @@
 
 namespace blactl::cli {
 
-/// To be called before the interface is opened: from then on all frames go to the file. Errors:
-/// usage (--record, or stdout), io.
+/// Call before the interface is opened: from then on all frames go to the file. Errors: usage
+/// (--record, or stdout), io.
 [[nodiscard]] Result<void> prepare_report(const std::string& file, Context& context);
 
-/// Reads what every servo holds, and puts it all above the frames.
+/// Reads the parameters of every servo, and puts everything above the frames.
 void write_report(const std::string& file, const Examination& examination, Context& context,
                   Report& report);
 

@@ -1,5 +1,5 @@
 #pragma once
-// The catalogue of `blactl doctor`.
+// Messages of `blactl doctor`.
 
 #include "blactl/base/text.hpp"
 
@@ -18,12 +18,12 @@ inline constexpr Text doctor_errors{"errors {} sending, {} receiving", "エラ�
 inline constexpr Text doctor_adapter_version{"version {}", "バージョン {}"};
 inline constexpr Text doctor_adapter_serial_number{"serial number {}", "シリアル番号 {}"};
 inline constexpr Text doctor_adapter_status{"status {}", "ステータス {}"};
-inline constexpr Text doctor_traffic{"{} frames in {} s, {}.{} % busy",
+inline constexpr Text doctor_traffic{"frames: {} in {} s, {}.{} % busy",
                                      "{} フレーム / {} 秒、負荷 {}.{} %"};
 inline constexpr Text doctor_no_traffic{"no frames", "フレームなし"};
-inline constexpr Text doctor_frames{"{} frames", "{} フレーム"};
+inline constexpr Text doctor_frames{"frames: {}", "{} フレーム"};
 inline constexpr Text doctor_senders{"frames/s by node: {}", "ノード別フレーム/秒: {}"};
-inline constexpr Text doctor_found{"{} servos, {} other nodes", "サーボ {} 台、その他 {} ノード"};
+inline constexpr Text doctor_found{"servos: {}, other nodes: {}", "サーボ {} 台、その他 {} ノード"};
 inline constexpr Text doctor_tools{"tools (by their ID): {}", "ツール (ID による判定): {}"};
 inline constexpr Text doctor_nothing{"nothing is wrong, as far as it was heard\n",
                                      "受信した範囲で問題は見つかりませんでした\n"};

@@ -1,5 +1,5 @@
 #pragma once
-// What blactl doctor shows.
+// Output of blactl doctor.
 
 #include "blactl/base/json_writer.hpp"
 
@@ -10,10 +10,10 @@
 
 namespace blactl::cli {
 
-/// "nodes", "fixed", "findings", and "adapter" where there is one.
+/// "nodes", "fixed", "findings", and "adapter" if there is one.
 void write_json(JsonWriter& json, const Examination& examination);
 
-/// What was looked at, a line each, then what was mended, what is wrong, and what mends that.
+/// One line for each examined part, then the fixes made, the problems, and their fixes.
 [[nodiscard]] std::string text(const Examination& examination, const Page& page);
 
 } // namespace blactl::cli

@@ -26,7 +26,7 @@ using fleet::FaultState;
 
 constexpr Duration interval = std::chrono::milliseconds(500);
 
-/// What happened to a fault: it was there when the watch began, it came, it went.
+/// The event of a fault: present when the watch began, came, went.
 enum class Happened : std::uint8_t { present, came, went };
 
 std::string_view name(Happened happened) {
@@ -52,7 +52,7 @@ class Watch {
   Watch(bla::Level shown, Context& context, Report& report)
       : shown_(shown), context_(context), report_(report) {}
 
-  /// Takes what was seen. False ends the watch.
+  /// Takes the latest reads. False ends the watch.
   [[nodiscard]] bool take(std::vector<FaultState> seen);
 
   [[nodiscard]] const std::map<NodeId, FaultState>& last() const { return last_; }
@@ -67,7 +67,7 @@ class Watch {
   bla::Level shown_;
   Context& context_;
   Report& report_;
-  std::map<NodeId, FaultState> last_; ///< what was read of each servo
+  std::map<NodeId, FaultState> last_; ///< the last reads of each servo
   std::set<NodeId> silent_;
 };
 
@@ -96,7 +96,7 @@ bool Watch::tell(Happened happened, const FaultState& servo, const Fault& fault)
     return check(context_.reporter().stream(line + '\n'));
   }
   if (context_.reporter().has_screen()) {
-    return true; // the list says it
+    return true; // the list shows it
   }
   return check(context_.reporter().stream(
       say<texts::fault_event>(UnixTime(context_.session().wall()).text(),
@@ -105,10 +105,10 @@ bool Watch::tell(Happened happened, const FaultState& servo, const Fault& fault)
       '\n'));
 }
 
-/// A servo that does not answer keeps what was known of it.
+/// A servo that does not respond keeps its last known faults.
 void Watch::tell_silence(const FaultState& now) {
   if (context_.reporter().has_screen()) {
-    return; // the list says it
+    return; // the list shows it
   }
   const NodeId id = now.snapshot.servo.id;
   if (now.errors.empty()) {
@@ -120,7 +120,7 @@ void Watch::tell_silence(const FaultState& now) {
   }
 }
 
-/// What one look shows of a servo against the look before.
+/// Compares one read of a servo with the one before.
 bool Watch::take(FaultState now) {
   tell_silence(now);
   const NodeId id = now.snapshot.servo.id;
@@ -128,12 +128,12 @@ bool Watch::take(FaultState now) {
   const auto& unit = now.snapshot.servo.unique_id;
   if (before != last_.end() && now.errors.empty() && before->second.snapshot.servo.unique_id &&
       before->second.snapshot.servo.unique_id != unit) {
-    // What the servo that was there before had does not go: it is another one's.
+    // The faults of the previous servo did not go: this is another unit.
     context_.reporter().note(say<texts::fault_other_servo>(id.value()));
     last_.erase(before);
     before = last_.end();
   }
-  // What was not readable before was there, as far as one knows.
+  // faults in registers that were unreadable before count as present
   const bool is_first = before == last_.end() || before->second.snapshot.readings.empty();
   if (!now.errors.empty() && !is_first) {
     before->second.errors = std::move(now.errors);
@@ -155,7 +155,7 @@ bool Watch::take(FaultState now) {
   return goes_on;
 }
 
-/// On a terminal the list says how things are, instead of lines of what happened.
+/// On a terminal the list is redrawn, instead of a line for each event.
 bool Watch::redraw() {
   if (!context_.reporter().has_screen()) {
     return true;

@@ -12,7 +12,7 @@
 namespace blactl::cli {
 namespace {
 
-/// A hint, and which serial adapters could be meant instead.
+/// A hint, with the serial adapters that could be meant instead.
 std::string with_adapters(std::string hint) {
   if (const std::string adapters = can::describe(can::serial_adapters()); !adapters.empty()) {
     hint += "; " + adapters;

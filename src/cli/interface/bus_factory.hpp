@@ -1,5 +1,5 @@
 #pragma once
-// From what stands behind -i to a bus (contract, section 2).
+// Opens the bus named by -i (contract, section 2).
 
 #include "blactl/base/error.hpp"
 #include "blactl/bla/profile.hpp"
@@ -19,15 +19,15 @@
 
 namespace blactl::cli {
 
-/// An open bus, and under which name processes of this machine share it.
+/// An open bus, and the name under which processes of this machine share it.
 struct OpenBus {
   std::unique_ptr<can::Bus> bus;
-  state::LockPlace place{}; ///< of its lock files: those of a simulated bus lie beside its socket
-  /// Opens the same interface once more; empty: what ends there does not come back.
+  state::LockPlace place{}; ///< of its lock files: for a simulated bus beside its socket
+  /// Opens the same interface again; empty: it does not come back once ended.
   can::ReturningBus::Opener reopen{};
-  const can::ReplayBus* log = nullptr; ///< the bus, if it is one
-  can::Slcan* adapter = nullptr;       ///< the same
-  /// What a session is told in its place, where it is no bus at all.
+  const can::ReplayBus* log = nullptr; ///< the bus, if it is a log
+  can::Slcan* adapter = nullptr;       ///< the bus, if it is an adapter
+  /// The data for the session in place of a bus.
   std::optional<fleet::FleetFile> fleet{};
 };
 
@@ -43,9 +43,9 @@ struct OpenRequest {
 /// Where lock files of a network interface lie.
 [[nodiscard]] state::LockPlace lock_place(std::string link);
 
-/// The interface that `text` names; empty: the only CAN interface that is up.
-/// Errors: interface with the list of what is there, permission, bad_file (scenario, fleet file),
-/// usage. `profiles` and `reporter` outlive the bus. `inquires`: an adapter is asked what it is.
+/// Opens the interface named by `text`; empty: the only CAN interface that is up. Errors: interface
+/// with the list of interfaces, permission, bad_file (scenario, fleet file), usage. `profiles` and
+/// `reporter` outlive the bus. `inquires`: asks an adapter for its identification.
 [[nodiscard]] Result<OpenBus> open_bus(std::string_view text, const bla::Profiles& profiles,
                                        const Reporter& reporter, bool inquires = false);
 

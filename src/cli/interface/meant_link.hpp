@@ -1,5 +1,5 @@
 #pragma once
-// The network interface of this machine that -i means.
+// The network interface of this machine behind -i.
 
 #include "blactl/can/link.hpp"
 
@@ -8,10 +8,10 @@
 
 namespace blactl::cli {
 
-/// What stands behind -i can be a network interface: its kind is one, or nothing was named.
+/// Whether -i may name a network interface: by its kind, or because it is missing.
 [[nodiscard]] bool may_be_link(const std::string& interface);
 
-/// The network interface behind -i, or the only one that could be meant; empty: there is none.
+/// The network interface behind -i, or the only candidate; empty: none.
 [[nodiscard]] std::optional<can::Link> meant_link(const std::string& interface);
 
 } // namespace blactl::cli

@@ -24,7 +24,7 @@ std::optional<unsigned> whole(std::string_view text) {
   return error == std::errc() && stop == text.end() ? std::optional(value) : std::nullopt;
 }
 
-/// What is wrong with a value, for a person; empty: nothing.
+/// The error in a value, for people; empty: none.
 std::string set_option(std::string_view key, std::string_view value, can::SlcanOptions& options) {
   if (key == "baud") {
     const auto baud = whole(value);

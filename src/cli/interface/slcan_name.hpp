@@ -1,5 +1,5 @@
 #pragma once
-// What stands behind `-i slcan:` (contract, section 2): DEV[?baud=…&open=…&ack=…&gap=…].
+// The name after `-i slcan:` (contract, section 2): DEV[?baud=…&open=…&ack=…&gap=…].
 
 #include "blactl/base/error.hpp"
 #include "blactl/can/slcan.hpp"

@@ -21,13 +21,13 @@ using fleet::LiveField;
 using fleet::LiveServo;
 using Points = std::vector<MonitorHistory::Point>;
 
-/// In front of a graph: its scale.
+/// The scale in front of a graph.
 constexpr std::size_t scale_width = 12;
 
-/// Less is no graph: a title, and some lines.
+/// The least height of a graph: a title, and some lines.
 constexpr std::size_t least_height = 5;
 
-/// A scale spans this at least, in register numbers: noise shall not look like a storm.
+/// The least span of a scale, in raw values, so that noise does not look like motion.
 constexpr std::int64_t least_span = 20;
 
 struct Scale {
@@ -42,8 +42,8 @@ Scale scale_of(const Points& points) {
           most.second + std::max<std::int64_t>(margin, 1)};
 }
 
-/// Dots on a grid that is finer than the cells of the terminal: two by four a cell with Unicode's
-/// Braille patterns, else one.
+/// Dots on a grid finer than the terminal's cells: two by four per cell with Unicode's Braille
+/// patterns, else one.
 class Canvas {
  public:
   Canvas(std::size_t height, std::size_t width, bool unicode)
@@ -63,7 +63,7 @@ class Canvas {
     cell = static_cast<std::uint8_t>(cell | bits[row % down_][column % across_]);
   }
 
-  /// A line from side to side, behind the dots.
+  /// A horizontal line behind the dots.
   void rule(std::size_t row) { rules_[row / down_] = true; }
 
   [[nodiscard]] std::string line(std::size_t row) const {
@@ -74,7 +74,7 @@ class Canvas {
         out += rules_[row] ? (down_ > 1 ? "┄" : "-") : " ";
       } else if (down_ == 1) {
         out += '*';
-      } else { // U+2800 and the pattern in UTF-8
+      } else { // U+2800 plus the pattern, in UTF-8
         out +=
             {'\xE2', static_cast<char>(0xA0 | cell >> 6), static_cast<char>(0x80 | (cell & 0x3F))};
       }
@@ -88,7 +88,7 @@ class Canvas {
   std::vector<bool> rules_;
 };
 
-/// The row of a value, the highest one at the top; empty: the scale does not reach it.
+/// The row of a value, the highest one at the top; empty: outside the scale.
 std::optional<std::size_t> row_of(std::int64_t value, const Scale& scale, std::size_t rows) {
   if (value < scale.low || value > scale.high) {
     return std::nullopt;
@@ -97,7 +97,7 @@ std::optional<std::size_t> row_of(std::int64_t value, const Scale& scale, std::s
   return static_cast<std::size_t>((scale.high - value) * last / (scale.high - scale.low));
 }
 
-/// The newest at the right. Steps are drawn: between two samples nothing is known.
+/// The newest sample is at the right. Steps are drawn, as nothing is known between samples.
 void plot(const Points& points, const Scale& scale, Time now, Canvas& canvas) {
   for (const auto& [at, value] : points) {
     const auto age = std::min<Duration>(now - at, MonitorHistory::span);
@@ -121,7 +121,7 @@ std::string header_of(LiveField field) {
   return {};
 }
 
-/// A title, and `height` - 1 lines below it.
+/// Draws a title, and `height` - 1 lines below it.
 void draw(const LiveServo& servo, LiveField field, const Points& points, Time now,
           std::size_t height, std::size_t width, bool unicode, std::vector<ScreenLine>& out) {
   const bla::Parameter& parameter = *servo.parameter(field);

@@ -1,5 +1,5 @@
 #pragma once
-// What one servo did in the last minute, as graphs.
+// Graphs of one servo over the last minute.
 
 #include "blactl/fleet/live/monitor.hpp"
 
@@ -16,14 +16,14 @@
 
 namespace blactl::cli {
 
-/// Keeps the samples of the last minute.
+/// Stores the samples of the last minute.
 class MonitorHistory {
  public:
   static constexpr Duration span = std::chrono::seconds(60);
 
   void take(const std::vector<fleet::LiveServo>& servos, Time now);
 
-  /// One value of a field and when it was sampled.
+  /// One value of a field and its time.
   using Point = std::pair<Time, std::int64_t>;
 
   [[nodiscard]] std::vector<Point> points(dronecan::NodeId id, fleet::LiveField field) const;
@@ -37,8 +37,8 @@ class MonitorHistory {
   std::map<dronecan::NodeId, std::deque<Moment>> moments_;
 };
 
-/// Angle, speed and torque of a servo one below the other, then temperature and voltage, as many of
-/// them as fit. Limits are drawn where the scale, which follows the data, reaches them.
+/// Angle, speed and torque of a servo one below the other, then temperature and voltage, as far as
+/// they fit. Limits are drawn if they are within the scale, which follows the data.
 [[nodiscard]] std::vector<ScreenLine> graphs(const fleet::LiveServo& servo,
                                              const MonitorHistory& history, Time now,
                                              std::size_t height, std::size_t width, bool unicode);

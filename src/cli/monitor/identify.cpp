@@ -13,7 +13,7 @@
 namespace blactl::cli {
 namespace {
 
-/// Between the warning and the torque, where nobody is asked.
+/// The delay between the warning and the torque, if no one is asked.
 constexpr Duration warning_time = std::chrono::seconds(2);
 
 } // namespace
@@ -40,7 +40,7 @@ bool Identify::select(const fleet::Targets& targets) {
   return errors_.empty();
 }
 
-/// What ends a session ends the command; anything else is a servo's.
+/// Errors that end a session end the command; all others concern one servo.
 bool Identify::stop_at(std::vector<Error> errors) {
   for (Error& error : errors) {
     if (context_.signal() != 0 || !error.node_id) {
@@ -69,7 +69,7 @@ bool Identify::confirm() {
   return changes.empty() || WritingRun::confirm(changes + say<texts::identify_question>());
 }
 
-/// What was agreed to is not what another node has made of it meanwhile.
+/// Repeats the checks, as other nodes may have acted since the confirmation.
 bool Identify::look_again() {
   auto errors = loan_->look_again();
   if (context_.signal() != 0) {
@@ -84,7 +84,7 @@ bool Identify::let_go() {
   const Reporter& reporter = context_.reporter();
   for (const fleet::GoalResult& result : loan_->change().results()) {
     for (const Error& error : result.errors) {
-      if (error.code != Code::interrupted) { // that is told once
+      if (error.code != Code::interrupted) { // reported once
         reporter.note(error.message);
         errors_.push_back(error);
       }
@@ -123,7 +123,7 @@ void Identify::end(bool may_ask) {
   conclude(loan_->give_back());
 }
 
-/// False: somebody has pressed Ctrl-C for the second time.
+/// False: Ctrl-C was pressed a second time.
 bool Identify::warn(bool may_ask) {
   fleet::Session& session = context_.session();
   const Reporter& reporter = context_.reporter();

@@ -1,5 +1,5 @@
 #pragma once
-// monitor --identify: servos without torque, so that a hand can turn the one that is looked for.
+// monitor --identify: switches the torque off, so that the wanted servo can be turned by hand.
 
 #include "blactl/fleet/bus/target.hpp"
 #include "blactl/fleet/change/loan.hpp"
@@ -16,18 +16,19 @@ class Identify : WritingRun {
   /// Both references outlive this.
   Identify(Context& context, Report& report) : WritingRun(context, report) {}
 
-  /// Opens the session and takes the torque of the servos that are meant (without -n: all of them),
-  /// after a yes. False: the command ends here, and the report says why. In any case end() follows.
+  /// Opens the session and switches off the torque of the selected servos (without -n: all), after
+  /// a yes. False: the command ends here, and the report has the reason. end() must follow in any
+  /// case.
   [[nodiscard]] bool begin(fleet::Targets targets);
 
-  /// Gives them their torque back, after a word of warning. `may_ask`: a person sits there and may
-  /// be asked to take the hands away.
+  /// Switches the torque back on, after a warning. `may_ask`: a user is present and may be asked to
+  /// take the hands away.
   void end(bool may_ask);
 
-  /// Those that are meant and kept their torque, as far as is known.
+  /// The selected servos that kept their torque, as far as known.
   [[nodiscard]] std::vector<dronecan::NodeId> holding() const;
 
-  /// What went wrong at single servos.
+  /// The errors of single servos.
   [[nodiscard]] const std::vector<Error>& errors() const { return errors_; }
 
  private:

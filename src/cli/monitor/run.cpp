@@ -19,7 +19,7 @@ MonitorRun::MonitorRun(MonitorManner manner, fleet::Targets targets, Context& co
     : manner_(std::move(manner)), context_(context), report_(report),
       monitor_(context.session(), context.known(), std::move(targets), options()) {}
 
-/// Whether a shaft turns only its angle tells.
+/// Only the angle shows whether a shaft turns.
 fleet::Monitor::Options MonitorRun::options() {
   fleet::Monitor::Options options{.identification = context_.identification(),
                                   .fields = live_fields_of(manner_.fields),
@@ -32,8 +32,8 @@ fleet::Monitor::Options MonitorRun::options() {
   return options;
 }
 
-/// Without a screen it prints lines: where the terminal cannot be drawn on, and for a recording
-/// that is over at once.
+/// It prints lines without a screen: if the terminal cannot be drawn on, or for a recording that is
+/// over at once.
 void MonitorRun::open_screen() {
   const Reporter& reporter = context_.reporter();
   if (reporter.format() != Format::text || !reporter.has_screen() ||
@@ -57,7 +57,7 @@ void MonitorRun::open_screen() {
   tell_state();
 }
 
-/// Whether the interface is there.
+/// Shows whether the interface is present.
 void MonitorRun::tell_presence() {
   if (view_) {
     return tell_state();
@@ -67,7 +67,7 @@ void MonitorRun::tell_presence() {
                                 : say<texts::monitor_back>(report_.interface));
 }
 
-/// How far a log is.
+/// The position within a log.
 std::string MonitorRun::playing() const {
   const auto seconds =
       std::chrono::duration_cast<std::chrono::seconds>(context_.session().now().time_since_epoch());
@@ -83,7 +83,7 @@ std::string MonitorRun::playing() const {
   return text;
 }
 
-/// What goes on, in the title of the screen.
+/// Shows the state in the title of the screen.
 void MonitorRun::tell_state() {
   const fleet::Session& session = context_.session();
   ScreenLine state;
@@ -121,7 +121,7 @@ void MonitorRun::take_other_key(Key key) {
   tell_state();
 }
 
-/// What a log showed last stays until somebody has seen it.
+/// The last state of a log stays until the user has seen it.
 bool MonitorRun::shall_end() {
   const bool has_played = context_.session().has_played();
   if (has_played && view_ && !std::exchange(told_end_, true)) {
@@ -130,7 +130,7 @@ bool MonitorRun::shall_end() {
   return is_over_ || (has_played && (!view_ || Screen::input() < 0));
 }
 
-/// A reader that has left ends the run.
+/// Ends the run if the reader has left.
 void MonitorRun::check(const Result<bool>& printed) {
   if (!printed) {
     report_.fail(printed.error());
@@ -156,7 +156,7 @@ void MonitorRun::stream(const std::vector<fleet::LiveServo>& servos) {
   check(reporter.stream(out));
 }
 
-/// A session on a recording hears all of it, whatever the time.
+/// A session on a recording receives all of it, whatever the time.
 bool MonitorRun::is_past_duration(Time now) {
   if (!context_.session().is_recording() || !manner_.duration) {
     return false;
@@ -190,7 +190,7 @@ void MonitorRun::run() {
   const Time end = manner_.duration ? session.now() + *manner_.duration : never;
   const auto lived = session.live_until(end, [this] { return shall_end(); });
   if (session.is_recording() && lived) {
-    sample(session.now()); // what came after the last one
+    sample(session.now()); // the samples after the last one
   }
   is_over_ = true;
   session.on_away({});
@@ -202,8 +202,7 @@ void MonitorRun::run() {
   }
 }
 
-/// What of the servos is a failure of the command. Where the bus could not be heard to the end,
-/// who is missing is not known.
+/// Reports errors of servos. If the bus could not be heard to the end, missing ones are not known.
 void MonitorRun::conclude(std::span<const Error> errors) {
   const fleet::Session& session = context_.session();
   std::map<std::optional<std::uint8_t>, Target> targets;

@@ -1,5 +1,5 @@
 #pragma once
-// One run of `blactl monitor` on an open session: samples, on a screen or as a stream.
+// One run of `blactl monitor` on an open session: samples on a screen or as a stream.
 
 #include "blactl/fleet/live/monitor.hpp"
 
@@ -17,14 +17,14 @@
 
 namespace blactl::cli {
 
-/// What is shown, and for how long.
+/// The options of the output, and its duration.
 struct MonitorManner {
   SampleFields fields{};
   Duration period{}; ///< of a sample
   std::optional<Duration> duration{};
   std::optional<std::uint64_t> count{};    ///< of samples
   bool identifies = false;                 ///< servos are turned by hand
-  std::vector<dronecan::NodeId> holding{}; ///< those of them that have torque all the same
+  std::vector<dronecan::NodeId> holding{}; ///< those of them that still have torque
 };
 
 class MonitorRun {
@@ -32,13 +32,13 @@ class MonitorRun {
   /// `context`, whose session is open, and `report` outlive this.
   MonitorRun(MonitorManner manner, fleet::Targets targets, Context& context, Report& report);
 
-  /// Until it shall end; the session may be broken then, as the report says.
+  /// Runs until the end; the report shows whether the session broke.
   void run();
 
-  /// A person has ended it by a key.
+  /// Whether the user has ended it by a key.
   [[nodiscard]] bool was_quit() const { return was_quit_; }
 
-  /// Tells the report of all servos; `errors`: what else went wrong at single ones.
+  /// Adds all servos to the report; `errors`: further errors of single ones.
   void conclude(std::span<const Error> errors);
 
  private:
@@ -60,12 +60,12 @@ class MonitorRun {
   Report& report_;
   std::unique_ptr<MonitorView> view_; ///< null: lines
   fleet::Monitor monitor_;
-  std::optional<Time> begin_; ///< of a recording, whose time is its own
+  std::optional<Time> begin_; ///< for a recording, which has its own time
   std::uint64_t samples_ = 0;
   bool has_header_ = false;
   bool is_over_ = false;
   bool was_quit_ = false;
-  bool told_end_ = false; ///< of a log
+  bool told_end_ = false; ///< of the log
 };
 
 } // namespace blactl::cli

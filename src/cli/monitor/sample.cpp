@@ -19,7 +19,7 @@ namespace {
 using fleet::LiveField;
 using fleet::LiveServo;
 
-/// As wide as the widest value; the words of mode and health among them.
+/// The widths of the widest values; among them the words of mode and health.
 constexpr std::array<std::size_t, sample_keys.size()> widths{17, 11, 9, 10, 13, 9, 15, 8, 13, 5, 5};
 
 std::optional<LiveField> live_field(SampleField field) {
@@ -51,7 +51,7 @@ std::optional<std::string_view> health_of(const LiveServo& servo) {
                                            : std::nullopt;
 }
 
-/// What stands for a field where quotes and null are not needed; empty: not known.
+/// The bare value of a field, without quotes or null; empty: unknown.
 std::string cell(WallTime time, const LiveServo& servo, SampleField field) {
   if (const auto live = live_field(field)) {
     return live_text(servo, *live);

@@ -1,5 +1,5 @@
 #pragma once
-// One servo at one moment as data: the keys of the contract (section 5, monitor).
+// A sample of one servo as data: the keys of the contract (section 5, monitor).
 
 #include "blactl/base/time.hpp"
 #include "blactl/fleet/live/monitor.hpp"
@@ -33,10 +33,10 @@ inline constexpr std::array<std::string_view, 11> sample_keys{
 
 using SampleFields = std::vector<SampleField>;
 
-/// All of them; `moved` where that is watched.
+/// All fields; `moved` only if it is watched.
 [[nodiscard]] SampleFields all_sample_fields(bool with_moved);
 
-/// What must be asked of servos to fill these.
+/// The quantities needed to fill these fields.
 [[nodiscard]] std::vector<fleet::LiveField> live_fields_of(const SampleFields& fields);
 
 /// One line of the stream.
@@ -48,7 +48,7 @@ using SampleFields = std::vector<SampleField>;
 [[nodiscard]] std::string csv_sample(WallTime time, const fleet::LiveServo& servo,
                                      const SampleFields& fields);
 
-/// Columns for people, each as wide as its widest value is: the header, and one line.
+/// Columns for people, each as wide as its widest value: the header, and one line.
 [[nodiscard]] std::string text_header(const SampleFields& fields);
 [[nodiscard]] std::string text_sample(WallTime time, const fleet::LiveServo& servo,
                                       const SampleFields& fields);

@@ -22,10 +22,10 @@ namespace {
 using fleet::LiveField;
 using fleet::LiveServo;
 
-/// Who appears so long after the beginning is new, for as long.
+/// A servo counts as new if it appears this long after the start, and for the same time.
 constexpr Duration novelty = std::chrono::seconds(10);
 
-/// A servo is silent for a while before that is told by colour.
+/// The silence of a servo after which the colour shows it.
 constexpr Duration silence = std::chrono::seconds(1);
 
 std::string name_of(const bla::Fault& fault) {
@@ -37,13 +37,13 @@ Look look_of(bla::Level level) {
   return level == bla::Level::warning ? Look::warning : Look::bad;
 }
 
-/// Notices, such as that no PWM comes, are how servos mostly are.
+/// Notices, such as a missing PWM signal, are normal in most servos.
 std::size_t count_worse_than_notices(const LiveServo& servo) {
   return static_cast<std::size_t>(std::ranges::count_if(
       servo.faults, [](const bla::Fault& fault) { return fault.level > bla::Level::notice; }));
 }
 
-/// What is wrong with it: the worst fault by name.
+/// The faults in words: the worst by name.
 std::string faults_of(const LiveServo& servo) {
   const std::size_t count = count_worse_than_notices(servo);
   if (count == 0) {
@@ -70,7 +70,7 @@ std::int64_t whole_seconds_since(Time then, Time now) {
   return std::chrono::duration_cast<std::chrono::seconds>(now - then).count();
 }
 
-/// The worst at the top.
+/// The order with the worst first.
 int rank(const LiveServo& servo) {
   if (servo.is_doubled) {
     return 0;
@@ -84,13 +84,13 @@ std::int64_t number(const LiveServo& servo, LiveField field) {
   return value ? value->raw : std::numeric_limits<std::int64_t>::min();
 }
 
-/// Who tells no temperature stands at the end.
+/// Servos without a temperature come last.
 std::int64_t hottest_first(const LiveServo& servo) {
   const auto& value = servo.value(LiveField::temperature);
   return value ? -value->raw : std::numeric_limits<std::int64_t>::max();
 }
 
-/// Padded on the left to so many cells.
+/// Pads the text on the left to this number of cells.
 std::string right(const std::string& text, std::size_t width) {
   const std::size_t cells = display_width(text);
   return std::string(width - std::min(width, cells), ' ') + text;
@@ -103,7 +103,7 @@ std::string left(const std::string& text, std::size_t width) {
 
 struct Measured {
   LiveField field;
-  std::string_view unit; ///< what the column is called
+  std::string_view unit; ///< the name of the column
   std::size_t width;
 };
 
@@ -166,7 +166,7 @@ Piece state_of(const LiveServo& servo, Time now, Time begin) {
   return {std::move(out), worst_look(servo)};
 }
 
-/// The servo that has begun to turn, wherever it stands, is looked for.
+/// A servo that has begun to turn, wherever it is, becomes the chosen one.
 void MonitorTable::follow(const std::vector<LiveServo>& servos) {
   for (const LiveServo& servo : servos) {
     const auto before = std::ranges::find(servos_, servo.servo.id,

@@ -1,5 +1,5 @@
 #pragma once
-// All servos at a glance, for a screen of any size.
+// A table of all servos, for a screen of any size.
 
 #include "blactl/fleet/live/monitor.hpp"
 
@@ -14,31 +14,31 @@
 
 namespace blactl::cli {
 
-/// A table of servos of which one is chosen.
+/// A table of servos with one row chosen.
 class MonitorTable {
  public:
-  /// New servos, and how old data is, are told against `begin`.
+  /// New servos, and the age of data, are relative to `begin`.
   explicit MonitorTable(Time begin) : begin_(begin) {}
 
-  /// The servos as they are now. The chosen one stays chosen wherever it stands; one whose shaft
-  /// begins to turn becomes it.
+  /// Takes the present state of the servos. The chosen one stays chosen wherever it is; one whose
+  /// shaft begins to turn becomes the chosen one.
   void take(std::vector<fleet::LiveServo> servos);
 
-  /// True: the key meant something.
+  /// Handles a key; false: it has no meaning here.
   [[nodiscard]] bool press(Key key);
 
   [[nodiscard]] std::size_t size() const { return servos_.size(); }
 
-  /// Null: there is none.
+  /// The chosen servo; null: none.
   [[nodiscard]] const fleet::LiveServo* chosen() const;
 
-  /// What the rows are in the order of.
+  /// The name of the sort order.
   [[nodiscard]] std::string order() const;
 
   /// `height` lines: the header, and the rows around the chosen one.
   [[nodiscard]] std::vector<ScreenLine> lines(std::size_t height, Time now);
 
-  /// Which rows those were: "1-20 of 120"; empty: all.
+  /// The range of those rows: "1-20 of 120"; empty: all.
   [[nodiscard]] const std::string& shown() const { return shown_; }
 
  private:
@@ -53,12 +53,12 @@ class MonitorTable {
   std::vector<fleet::LiveServo> servos_;
   std::optional<dronecan::NodeId> chosen_;
   Order order_ = Order::node;
-  std::size_t top_ = 0; ///< the first row that is shown
+  std::size_t top_ = 0; ///< the first visible row
   std::size_t rows_ = 1;
   std::string shown_;
 };
 
-/// What a person should know of a servo, the worst first, and how it stands out.
+/// The most important states of a servo, the worst first, and their look.
 [[nodiscard]] Piece state_of(const fleet::LiveServo& servo, Time now, Time begin);
 
 } // namespace blactl::cli

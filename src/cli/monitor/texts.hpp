@@ -1,5 +1,5 @@
 #pragma once
-// What monitor says on its screen.
+// Messages on the screen of monitor.
 
 #include "blactl/base/text.hpp"
 

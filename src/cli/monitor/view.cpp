@@ -111,7 +111,7 @@ ScreenLine MonitorView::title(Time now) const {
   return line;
 }
 
-/// What was noted last, else the keys.
+/// The latest note, else the keys.
 ScreenLine MonitorView::footer() const {
   if (!held_.empty()) {
     return {{last_line(held_), Look::warning}};

@@ -1,5 +1,5 @@
 #pragma once
-// The screen of monitor: table, graphs, help, and the keys that lead from one to the other.
+// The screen of monitor: table, graphs, help, and the keys that switch between them.
 
 #include "cli/monitor/graph.hpp"
 #include "cli/monitor/table.hpp"
@@ -17,31 +17,30 @@ namespace blactl::cli {
 
 class MonitorView {
  public:
-  /// `reporter` outlives this: its notes are told below the table, and once more when the screen is
-  /// gone. `opened`: what the screen is about, as it stands at the top.
+  /// `reporter` outlives this: its notes are shown below the table, and again when the screen is
+  /// gone. `opened`: the title of the screen.
   MonitorView(std::unique_ptr<Screen> screen, const Reporter& reporter, std::string opened,
               Time begin);
   ~MonitorView();
   MonitorView(const MonitorView&) = delete;
   MonitorView& operator=(const MonitorView&) = delete;
 
-  /// How the servos are now.
   void take(std::vector<fleet::LiveServo> servos, Time now);
 
-  /// Takes the keys that were typed; false: it shall end.
+  /// Handles the typed keys; false: it shall end.
   [[nodiscard]] bool take_keys(Time now);
 
-  /// Gets the keys that mean nothing here, and `keys` in place of the usual line tells of them.
+  /// Passes keys without a meaning here to `hook`; `keys` replaces the usual line of keys.
   void on_other_keys(std::function<void(Key)> hook, std::string keys);
 
   [[nodiscard]] bool is_paused() const { return paused_.has_value(); }
 
   void draw(Time now);
 
-  /// What stands in the title from now on; empty: nothing.
+  /// Sets the state in the title; empty: none.
   void tell(ScreenLine state) { told_ = std::move(state); }
 
-  /// Whose graphs are shown; empty: nobody's.
+  /// The servo whose graphs are shown; empty: none.
   [[nodiscard]] std::optional<dronecan::NodeId> shown() const;
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// What was measured on a servo, as tables and as JSON.
+// The measurements of a servo, as tables and as JSON.
 
 #include "blactl/base/json_writer.hpp"
 #include "blactl/fleet/characterize/characterization.hpp"
@@ -11,11 +11,11 @@
 
 namespace blactl::cli {
 
-/// What is measured, seen, and not measured, each as a table.
+/// Tables of measurements, observations, and settings not measured.
 [[nodiscard]] std::string characterize_text(const fleet::Characterization& measured,
                                             const Page& page);
 
-/// "nodes": the one servo. `file`: what the facts were written to; empty: to none.
+/// "nodes": the one servo. `file`: the facts file; empty: none.
 void write_characterization(JsonWriter& json, const fleet::Characterization& measured,
                             const std::optional<std::string>& file, bool is_done);
 

@@ -25,7 +25,7 @@ namespace {
 
 using Models = std::vector<const Profile*>;
 
-/// A default and a range as they are shown, and the models that have them.
+/// A default and a range as shown, and the models that have them.
 struct Variant {
   std::string initial, range;
   Models models{};
@@ -49,7 +49,7 @@ std::string words_text(const Parameter& parameter) {
 std::string bounds_text(const Parameter& parameter, std::optional<std::int64_t> pwm_mode = {}) {
   std::string least = bla::value_text(parameter, *parameter.min, pwm_mode);
   std::string most = bla::value_text(parameter, *parameter.max, pwm_mode);
-  if (least.ends_with(".0") && most.ends_with(".0")) { // shorter, and no less exact
+  if (least.ends_with(".0") && most.ends_with(".0")) { // shorter, but just as exact
     least.erase(least.size() - 2);
     most.erase(most.size() - 2);
   }
@@ -57,7 +57,7 @@ std::string bounds_text(const Parameter& parameter, std::optional<std::int64_t> 
   return say<texts::range_text>(least, most) + (unit.empty() ? "" : ' ' + std::string(unit));
 }
 
-/// What this model takes; why it takes nothing.
+/// The range for this model, or the reason why there is none.
 std::string range_text(const Parameter& parameter, const Profile& profile) {
   if (parameter.writable() && !profile.takes(parameter)) {
     return pwm_text(profile);
@@ -74,12 +74,12 @@ std::string range_text(const Parameter& parameter, const Profile& profile) {
 
 std::string default_text(const Parameter& parameter, const Profile& profile) {
   if (parameter.access != bla::Access::read_write) {
-    return {}; // what the tables give there is no setting
+    return {}; // the tables give no setting there
   }
   return profile.takes(parameter) ? bla::default_text(parameter) : "-";
 }
 
-/// When this model was shipped with a release: "2021-10 .. 2022-04", "2024-06 ..".
+/// The period in which this model was shipped with a release: "2021-10 .. 2022-04", "2024-06 ..".
 std::string shipped_text(const bla::FirmwareRelease& release, const Profile& profile) {
   std::string times;
   for (const bla::FirmwareRelease::Shipment& shipment : release.shipments) {
@@ -92,7 +92,7 @@ std::string shipped_text(const bla::FirmwareRelease& release, const Profile& pro
   return times.empty() ? "-" : times;
 }
 
-/// What each firmware of this model brought (chapter 5).
+/// The changes in each firmware of this model (chapter 5).
 std::string history_text(const Profile& profile, const bla::Profiles& profiles, const Page& page) {
   Table table(
       {say<texts::column_firmware>(), say<texts::column_shipped>(), say<texts::column_changes>()});
@@ -103,8 +103,7 @@ std::string history_text(const Profile& profile, const bla::Profiles& profiles, 
   return table.text("  ", page);
 }
 
-/// "all models", "BLA15, BLA21-**U-A0": these models and no other, as the specification writes
-/// several.
+/// "all models", "BLA15, BLA21-**U-A0": exactly these models, in the notation of the specification.
 std::string names_of(Models models, const bla::Profiles& profiles) {
   if (models.size() == profiles.all().size()) {
     return say<texts::models_all>();
@@ -171,8 +170,8 @@ Table table_of(const std::vector<Row>& rows, std::size_t columns) {
   return table;
 }
 
-/// A header and rows as of parameter_row(). In English the title, which comes last, tells little
-/// that the name does not: it is left out where there is no room beside the others.
+/// A header and rows from parameter_row(). In English the title, the last column, adds little to
+/// the name: it is left out if there is no room for it.
 std::string parameters_text(const std::vector<Row>& rows, const Page& page) {
   constexpr std::string_view indent = "  ";
   const Table whole = table_of(rows, rows.front().size());
@@ -201,7 +200,7 @@ Row parameter_row(const Parameter& parameter, const std::string& initial,
           title(parameter)};
 }
 
-/// One model: its registers, and what its firmware was.
+/// One model: its registers and its firmware history.
 std::string model_text(const Profile& profile, const Sheet& sheet, const bla::Profiles& profiles,
                        const Page& page) {
   std::vector<Row> rows{parameter_header()};
@@ -219,7 +218,7 @@ Row variant_row(const Variant& one, const bla::Profiles& profiles) {
   return {one.initial, one.range, names_of(one.models, profiles)};
 }
 
-/// Defaults and ranges, and who has them, without a header.
+/// Defaults and ranges with their models, without a header.
 std::string variants_text(const std::vector<Variant>& variants, const bla::Profiles& profiles,
                           const Page& page) {
   Table table;
@@ -229,7 +228,7 @@ std::string variants_text(const std::vector<Variant>& variants, const bla::Profi
   return table.text("        ", page);
 }
 
-/// Several models: what they have in common, and where they differ.
+/// Several models: the common values, and the differences.
 std::string side_by_side(const Sheet& sheet, const bla::Profiles& profiles, const Page& page) {
   std::vector<Row> same{parameter_header()};
   std::string different;
@@ -254,7 +253,7 @@ std::string side_by_side(const Sheet& sheet, const bla::Profiles& profiles, cons
   return out;
 }
 
-/// "RW: stored in ROM by save"; what can only be read or written is no setting to be kept.
+/// "RW: stored in ROM by save"; a read-only or write-only register is not stored.
 std::string access_text(const Parameter& general) {
   const std::string access = std::string(bla::name(general.access)) + ": ";
   switch (general.access) {
@@ -265,7 +264,7 @@ std::string access_text(const Parameter& general) {
   return access + (general.saved ? say<texts::models_saved>() : say<texts::models_not_saved>());
 }
 
-/// Parts of a date are words.
+/// The line for units that are parts of a date.
 std::string date_unit_line(bla::Unit unit) {
   switch (unit) {
   case bla::Unit::year: return say<texts::models_unit_year>();
@@ -288,7 +287,7 @@ std::string unit_line(const Parameter& general) {
   return unit.empty() ? std::string() : say<texts::models_unit>(unit, general.scale());
 }
 
-/// What a register is, whatever the model.
+/// The description of a register, independent of the model.
 std::string description(const Parameter& general) {
   std::string out =
       fmt::format("{}  {}  {}\n", general.address.name(), general.name, title(general));
@@ -313,7 +312,7 @@ std::string description(const Parameter& general) {
   return out;
 }
 
-/// The bits of 0x18, which have one title and one way on in common.
+/// The bits of 0x18, which have one title and one action in common.
 std::string summary_text(std::span<const bla::FaultBit> bits) {
   std::string out;
   for (const bla::FaultBit& bit : bits) {
@@ -322,7 +321,6 @@ std::string summary_text(std::span<const bla::FaultBit> bits) {
   return out + fmt::format("  {}\n", choose(bits.front().action_en, bits.front().action_ja));
 }
 
-/// The bits of a register: what they are called, when they are set, what to do.
 std::string bits_text(std::span<const bla::FaultBit> bits, bla::Address address) {
   std::string out;
   for (const bla::FaultBit& bit : bits) {
@@ -339,8 +337,7 @@ std::string bits_text(std::span<const bla::FaultBit> bits, bla::Address address)
   return out;
 }
 
-/// Of what takes a word to carry it out, its description tells all. What can only be read may have
-/// neither default nor range.
+/// An order needs only its description. A read-only register may have neither default nor range.
 std::string ranges_text(const Parameter& general, const Sheet& sheet, const bla::Profiles& profiles,
                         const Page& page) {
   if (general.access == bla::Access::write) {
@@ -366,7 +363,7 @@ std::string kind_text(bla::CheckKind kind) {
   return say<texts::models_warning>();
 }
 
-/// What a change of this register meets.
+/// The checks for a change of this register.
 std::string checks_text(const Parameter& general) {
   std::string out;
   for (const bla::CrossCheck& check : bla::cross_checks()) {
@@ -388,14 +385,14 @@ std::string see_text(const Parameter& general, const bla::Profiles& profiles) {
   return names.empty() ? names : '\n' + say<texts::models_see>(names) + '\n';
 }
 
-/// One register: what it is, its bits, its range by model, what to mind.
+/// One register: description, bits, range by model, checks.
 std::string parameter_text(const Parameter& general, const Sheet& sheet,
                            const bla::Profiles& profiles, const Page& page) {
   const auto summary = profiles.summary_bits();
   const bool sums_up = !summary.empty() && summary.front().reg == general.address;
   const std::string bits =
       sums_up ? summary_text(summary) : bits_text(profiles.fault_bits(), general.address);
-  // Bits are the same for all models.
+  // bits are the same for all models
   return description(general) +
          (bits.empty() ? ranges_text(general, sheet, profiles, page) : '\n' + bits) +
          checks_text(general) + see_text(general, profiles);

@@ -1,5 +1,5 @@
 #pragma once
-// The profiles as a data sheet: of a model, of a parameter, of all models side by side.
+// The profiles as a data sheet: for a model, for a parameter, or for all models side by side.
 
 #include "blactl/bla/profile.hpp"
 
@@ -11,19 +11,19 @@
 
 namespace blactl::cli {
 
-/// What of the profiles is shown.
+/// The selected part of the profiles.
 struct Sheet {
   std::vector<const bla::Profile*> models;   ///< not empty
-  const bla::Parameter* parameter = nullptr; ///< this one only; null: all
-  std::optional<bla::Group> group{};         ///< those of this group only
+  const bla::Parameter* parameter = nullptr; ///< the only one; null: all
+  std::optional<bla::Group> group{};         ///< only the parameters of this group
 
   [[nodiscard]] bool takes(const bla::Parameter& one) const;
 };
 
-/// Which models there are.
 [[nodiscard]] std::string list_text(const Sheet& sheet, const Page& page);
 
-/// The parameter; the model; of several models what they have in common, and where they differ.
+/// The sheet of the parameter, or of the model; for several models the common values and the
+/// differences.
 [[nodiscard]] std::string sheet_text(const Sheet& sheet, const bla::Profiles& profiles,
                                      const Page& page);
 

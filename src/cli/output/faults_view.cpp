@@ -62,7 +62,7 @@ std::string values_text(const FaultState& servo, const Fault& fault) {
   return out;
 }
 
-/// Whether one of the values is measured; PWM pulses are not, only what they should be is known.
+/// Whether one of the values is measured; for PWM pulses only the target is known.
 bool has_measured(const FaultState& servo, const Fault& fault) {
   return std::ranges::any_of(servo.values_of(fault), [](const fleet::Reading& reading) {
     return !reading.parameter->writable();
@@ -170,7 +170,7 @@ std::string text(std::span<const FaultState> servos, Level level, const Page& pa
     order.push_back(&servo);
   }
   std::ranges::stable_sort(order, [](const FaultState* a, const FaultState* b) {
-    return a->worst() > b->worst(); // none is the least
+    return a->worst() > b->worst(); // empty is the least
   });
   std::string out;
   for (const FaultState* servo : order) {

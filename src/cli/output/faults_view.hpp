@@ -11,13 +11,13 @@
 
 namespace blactl::cli {
 
-/// "WARNING", in the language of the person.
+/// "WARNING", in the user's language.
 [[nodiscard]] std::string level_word(bla::Level level);
 
 /// "nodes", with the faults from `level` up.
 void write_json(JsonWriter& json, std::span<const fleet::FaultState> servos, bla::Level level);
 
-/// The same for people, the worst servo first.
+/// Text for people, the worst servo first.
 [[nodiscard]] std::string text(std::span<const fleet::FaultState> servos, bla::Level level,
                                const Page& page);
 

@@ -35,7 +35,7 @@ void write_difference(JsonWriter& json, const Difference& difference) {
 
 std::string title(const std::string& name, const fleet::Servo& servo) {
   if (name.empty() && !servo.id.is_unicast()) {
-    return {}; // parameter files do not say
+    return {}; // parameter files have none
   }
   if (name.empty()) {
     std::string head = head_line(servo);

@@ -9,7 +9,7 @@ using bla::Profile;
 
 namespace {
 
-/// `write` of each of `items`, as a member.
+/// Calls `write` for each of `items`, as a member.
 template <class Items, class Write>
 void write_all(JsonWriter& json, std::string_view key, const Items& items, const Write& write) {
   json.key(key);

@@ -1,5 +1,5 @@
 #pragma once
-// How every output begins to speak of a node (contract, section 5).
+// The identification of a node at the start of every output (contract, section 5).
 
 #include "blactl/base/json_writer.hpp"
 #include "blactl/fleet/bus/servo.hpp"
@@ -14,7 +14,7 @@ namespace blactl::cli {
 /// first members of every node object; null where unknown or not a BLA servo.
 void write_head(JsonWriter& json, const fleet::Servo& servo);
 
-/// The same as CSV columns and cells; empty where JSON has null.
+/// The head as CSV columns and cells; empty where JSON has null.
 [[nodiscard]] std::vector<std::string> head_columns();
 [[nodiscard]] std::vector<std::string> head_cells(const fleet::Servo& servo);
 
@@ -24,7 +24,7 @@ void write_head(JsonWriter& json, const fleet::Servo& servo);
 /// "1.400": 0x52 and 0x53 count thousandths.
 [[nodiscard]] std::string version_text(std::int64_t raw);
 
-/// A number, or what stands for none.
+/// A number, or the placeholder for none.
 [[nodiscard]] std::string or_text(const std::optional<std::int64_t>& number, std::string_view none);
 
 } // namespace blactl::cli

@@ -24,8 +24,8 @@ char32_t take_code_point(std::string_view& text) {
   return point;
 }
 
-/// East Asian wide and full-width characters (Unicode Standard Annex 11), as far as names of
-/// parameters, hints and foreign nodes bring them.
+/// Whether it is an East Asian wide or full-width character (Unicode Standard Annex 11), as far as
+/// they occur in names of parameters, hints and foreign nodes.
 bool is_wide(char32_t point) {
   struct Range {
     char32_t first, last;
@@ -40,15 +40,15 @@ bool is_wide(char32_t point) {
       wide, [&](const Range& range) { return point >= range.first && point <= range.last; });
 }
 
-/// The length of the colour that `text` begins with (ECMA-48, SGR); 0: none.
+/// The length of the colour sequence at the start of `text` (ECMA-48, SGR); 0: none.
 std::size_t colour_length(std::string_view text) {
   return text.starts_with("\x1b[") ? std::min(text.find('m'), text.size() - 1) + 1 : 0;
 }
 
-/// A piece of text that no line break divides.
+/// A piece of text that is not broken.
 struct Unit {
   std::string text;
-  bool spaced = false; ///< a space stood before it
+  bool spaced = false; ///< preceded by a space
 };
 
 /// In the order of Unicode, which UTF-8 keeps.
@@ -60,8 +60,8 @@ bool is_one_of(std::span<const std::string_view> characters, std::string_view ch
   return std::ranges::find(characters, character) != characters.end();
 }
 
-/// Where a Japanese line may break: after punctuation, and behind the hiragana that end most words.
-/// What begins or closes a bracket stays with its content.
+/// Whether a Japanese line may break: after punctuation, and after the hiragana that end most
+/// words. Brackets stay with their content.
 bool may_break(std::string_view before, std::string_view after) {
   constexpr std::string_view closing[]{"、", "。", "」", "）", "：", "～", "…", ")", ",", ".", ":"};
   constexpr std::string_view pauses[]{"、", "。"};
@@ -71,13 +71,13 @@ bool may_break(std::string_view before, std::string_view after) {
   return is_one_of(pauses, before) || (is_hiragana(before) && !is_hiragana(after));
 }
 
-/// "0x38", with what stands before it in brackets: the name that follows stays with it.
+/// "0x38", with an opening bracket before it: the name that follows stays with it.
 bool is_address(std::string_view unit) {
   unit.remove_prefix(unit.starts_with('(') ? 1 : 0);
   return unit.size() == 4 && unit.starts_with("0x");
 }
 
-/// What `text` begins with: a command in backquotes that is no longer than a line, else one
+/// The first piece of `text`: a command in backquotes that is no longer than a line, else one
 /// character.
 std::string_view first_piece(std::string_view text, std::size_t longest) {
   const std::size_t end = text.starts_with('`') ? text.find('`', 1) : std::string_view::npos;

@@ -49,7 +49,7 @@ void write_reading(JsonWriter& json, const ServoValues& servo, const Reading& re
   json.end_object();
 }
 
-/// In Japanese the specification's name stands beside the one that is typed.
+/// In Japanese the specification's name is shown beside the typed one.
 bool shows_names() {
   return language() == Language::japanese;
 }
@@ -90,8 +90,8 @@ bool has_default(const ServoValues& servo) {
   });
 }
 
-/// Where a page is too narrow for both, names are worth more than defaults; what differs from its
-/// default is shown beside it. Servos that are shown together have the same columns.
+/// If a page is too narrow for both, names take precedence over defaults; a value that differs from
+/// its default shows the default beside it. Servos shown together have the same columns.
 bool has_room_for_defaults(std::span<const ServoValues> servos, const bla::Profiles& profiles,
                            const Page& page) {
   return std::ranges::all_of(servos, [&](const ServoValues& servo) {

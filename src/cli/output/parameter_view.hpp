@@ -12,17 +12,17 @@
 
 namespace blactl::cli {
 
-/// What is shown of one servo: readings without errors.
+/// The shown values of one servo: readings without errors.
 struct ServoValues {
   fleet::Snapshot snapshot;
   std::vector<fleet::Reading> shown;
-  bool is_complete = true; ///< all that was asked for was read
-  bool can_differ = true;  ///< some of what was read has a default
+  bool is_complete = true; ///< everything requested was read
+  bool can_differ = true;  ///< at least one reading has a default
 };
 
 void write_json(JsonWriter& json, std::span<const ServoValues> servos);
 [[nodiscard]] std::string csv(std::span<const ServoValues> servos);
-/// `changed_only`: of what was read, a servo without values has nothing but defaults.
+/// `changed_only`: a servo without values has only defaults among its readings.
 [[nodiscard]] std::string text(std::span<const ServoValues> servos, const bla::Profiles& profiles,
                                bool changed_only, const Page& page);
 

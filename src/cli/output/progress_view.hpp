@@ -1,5 +1,5 @@
 #pragma once
-// How far a command is, in one line.
+// The progress of a command in one line.
 
 #include "blactl/fleet/change/carry_out.hpp"
 
@@ -8,12 +8,12 @@
 
 namespace blactl::cli {
 
-/// "11, 12, 13", and no more than one line takes.
+/// "11, 12, 13", limited to one line.
 [[nodiscard]] std::string short_list(std::span<const dronecan::NodeId> ids);
 
 [[nodiscard]] std::string text(const fleet::Progress& progress);
 
-/// Whole seconds, as a person counts them.
+/// Whole seconds for people.
 [[nodiscard]] long long whole_seconds(Duration duration);
 
 } // namespace blactl::cli

@@ -14,7 +14,7 @@ namespace {
 
 using bla::PwmMapping;
 
-/// Of the drawing: an A5 page in landscape, in points.
+/// An A5 page in landscape, in points.
 constexpr double width = 595, height = 420;
 constexpr double left = 80, right = 560, top = 60, bottom = 350;
 
@@ -54,7 +54,7 @@ void Drawing::axes() {
   }
 }
 
-/// What the servo is told, and thicker what the limits leave of it.
+/// The command, and as a thicker line the part within the limits.
 void Drawing::curve() {
   const std::int64_t first = mapping_.points_us().front();
   svg_.line({x(first), y(mapping_.command(first).value_or(0))},

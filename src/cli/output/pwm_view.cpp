@@ -45,7 +45,7 @@ std::int64_t first_pulse(const PwmMapping& mapping) {
   return std::max<std::int64_t>(mapping.shortest_us(), 0);
 }
 
-/// Why a pulse is in the table.
+/// The reason why a pulse is in the table.
 std::string remark(const PwmMapping& mapping, std::int64_t pulse) {
   const auto cuts = mapping.cut_off_us();
   return pulse == mapping.neutral_us                    ? say<texts::pwm_neutral_point>()
@@ -73,7 +73,7 @@ std::string points_table(const PwmMapping& mapping, const Page& page) {
   return table.text("  ", page);
 }
 
-/// A grid of characters, one a cell of the terminal.
+/// A grid of characters, one per cell of the terminal.
 class Plot {
  public:
   Plot(const PwmMapping& mapping, const Page& page)
@@ -99,14 +99,15 @@ class Plot {
            (static_cast<std::int64_t>(column) - half) * mapping_.range_us / half;
   }
 
-  /// How many rows above that of neutral.
+  /// The number of rows above neutral.
   [[nodiscard]] std::int64_t height_of(std::int64_t command) const {
     const std::int64_t most = std::max<std::int64_t>(mapping_.output_raw, 1);
     const std::int64_t twice = 2 * command * half_rows;
     return (twice + (twice < 0 ? -most : most)) / (2 * most); // rounded
   }
 
-  /// The outermost rows are labelled with the ends of the range, which what is cut off never is.
+  /// The outermost rows are labelled with the ends of the range, which commands beyond a limit
+  /// never reach.
   [[nodiscard]] std::int64_t height_of_limited(std::int64_t command) const {
     return std::clamp(height_of(command), mapping_.cut_off_below_us() ? 1 - half_rows : -half_rows,
                       mapping_.cut_off_above_us() ? half_rows - 1 : half_rows);
@@ -141,7 +142,7 @@ void Plot::draw_curve() {
     const std::int64_t pulse = pulse_at(column);
     const auto given = mapping_.command(pulse);
     if (pulse < 0 || !given) {
-      continue; // there is no such pulse
+      continue; // no such pulse
     }
     const std::int64_t limited = *mapping_.limited_command(pulse);
     if (limited != *given) {
@@ -158,7 +159,7 @@ std::string Plot::scale(std::size_t row) const {
                            : std::string();
 }
 
-/// Where nothing is cut off, there is but one sign.
+/// If nothing is cut off, there is only one sign.
 std::string Plot::legend() const {
   return mapping_.cut_off_us().empty()
              ? std::string()

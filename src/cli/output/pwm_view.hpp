@@ -15,7 +15,7 @@
 namespace blactl::cli {
 
 /// neutral_us, range_us, output_range_raw, mode, unit, pulse_min_us, pulse_max_us, input,
-/// fallback_after_ms, cut_off_us, points; null where the mapping is not known.
+/// fallback_after_ms, cut_off_us, points; null if the mapping is unknown.
 void write_pwm(JsonWriter& json, const bla::Values& values);
 
 /// The mapping in words, as a plot and as a table.
@@ -27,7 +27,7 @@ void write_pwm(JsonWriter& json, const bla::Values& values);
 /// A command in the unit of the mode: "-70.0 deg", "150 rpm".
 [[nodiscard]] std::string pwm_command_text(const bla::PwmMapping& mapping, std::int64_t command);
 
-/// A drawing that a browser shows and prints. `title` is foreign text.
+/// A drawing for browsers. `title` is untrusted text.
 [[nodiscard]] std::string pwm_svg(const bla::PwmMapping& mapping, std::string_view title);
 
 } // namespace blactl::cli

@@ -1,5 +1,5 @@
 #pragma once
-// What a command has to say when it ends, for any of the renderers.
+// The result of a command, for any of the renderers.
 
 #include "blactl/base/error.hpp"
 #include "blactl/base/json_writer.hpp"
@@ -16,20 +16,20 @@
 
 namespace blactl::cli {
 
-/// How one of the things that a command was about ended, a servo most often.
+/// The end of one target of a command, usually a servo.
 struct Target {
   std::vector<Error> errors{};
-  bool has_found = false; ///< it ran well and found something: exit status 8
+  bool has_found = false; ///< it succeeded and found something: exit status 8
 };
 
-/// The outcome of one command: data for three renderers, and what went wrong.
+/// The outcome of one command: data for three renderers, and errors.
 struct Report {
-  std::string command{};   ///< empty: the command line was not understood
-  std::string interface{}; ///< empty: none was named or opened
+  std::string command{};   ///< empty: the command line could not be parsed
+  std::string interface{}; ///< empty: none was given or opened
 
-  /// Writes the members of the document that this command adds ("nodes": […], …).
+  /// Writes the command's own members of the document ("nodes": […], …).
   std::function<void(JsonWriter&)> json{};
-  /// The data for a person; ends with a line break.
+  /// The data for people; ends with a line break.
   std::function<std::string(const Page&)> text{};
   /// The data as comma-separated values with a header line; empty: this command has no tables.
   std::function<std::string()> csv{};
@@ -38,25 +38,23 @@ struct Report {
   std::vector<Target> targets{};
   std::vector<std::pair<std::string, std::uint64_t>> counts{};
   int signal = 0; ///< that ended the command
-  /// A stream has printed its data: what is left is one last line, without nodes.
+  /// A stream has printed its data: only one last line without nodes follows.
   bool is_stream = false;
 
-  /// A failure of the command as a whole.
   void fail(Error error) { errors.push_back(std::move(error)); }
 
-  /// A failure of one target.
   void fail_target(Error error) { targets.push_back({.errors = {std::move(error)}}); }
 
-  /// "nodes" and "failed" among the counts, the same in every command: how many targets there were,
-  /// and how many of them have errors. `all`: how many there were, where `targets` are not all
-  /// of them, because the command stopped before each had an end of its own.
+  /// Adds "nodes" and "failed" to the counts, the same in every command: the number of targets, and
+  /// of those with errors. `all`: the number of targets if `targets` does not contain all of them,
+  /// because the command ended early.
   void count_targets(std::optional<std::size_t> all = std::nullopt);
 
   /// Errors of the command, then those of its targets.
   [[nodiscard]] std::vector<Error> all_errors() const;
 
   /// The exit status by the contract, section 3: 3 outranks all, a failure outranks 8, different
-  /// ends of several servos are 6.
+  /// ends of several servos give 6.
   [[nodiscard]] int exit_status() const;
 };
 

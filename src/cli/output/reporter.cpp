@@ -16,7 +16,7 @@
 namespace blactl::cli {
 namespace {
 
-/// Writes everything or tells why not; false if the reader has left.
+/// Writes everything or returns the error; false if the reader has left.
 Result<bool> write_all(int descriptor, std::string_view text) {
   while (!text.empty()) {
     const ssize_t written = write(descriptor, text.data(), text.size());
@@ -35,14 +35,14 @@ Result<bool> write_all(int descriptor, std::string_view text) {
   return true;
 }
 
-/// stderr that cannot be written has nobody to tell.
+/// An unwritable stderr cannot be reported.
 void write_stderr(std::string_view text) {
   if (!write_all(STDERR_FILENO, text)) {
     return;
   }
 }
 
-/// Takes what stands in the line of the cursor away (ECMA-48, EL).
+/// Clears the line of the cursor (ECMA-48, EL).
 constexpr std::string_view clear_line = "\r\x1b[K";
 
 } // namespace
@@ -61,7 +61,7 @@ bool Reporter::use_colour(int descriptor) const {
 
 namespace {
 
-/// What the locale of this process says of its terminal.
+/// Whether the locale of this process uses UTF-8.
 bool has_unicode() {
   for (const char* variable : {"LC_ALL", "LC_CTYPE", "LANG"}) {
     const char* value = std::getenv(variable); // NOLINT(concurrency-mt-unsafe): nobody sets it

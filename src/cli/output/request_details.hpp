@@ -1,5 +1,5 @@
 #pragma once
-// What -v tells of the requests of a session.
+// Details on the requests of a session for -v.
 
 #include "blactl/dronecan/node.hpp"
 
@@ -12,8 +12,8 @@
 
 namespace blactl::cli {
 
-/// Tells of answers that were lost, of requests that are repeated, and of those that are sent once
-/// only (save, erase, restart) and had to be sent once more all the same.
+/// Prints lost responses, repeated requests, and those that are normally sent once only (save,
+/// erase, restart) but had to be sent again.
 class RequestDetails {
  public:
   /// `reporter` must outlive this.
@@ -26,7 +26,7 @@ class RequestDetails {
   using Key = std::tuple<std::uint8_t, std::uint16_t, std::vector<std::uint8_t>>;
 
   const Reporter& reporter_;
-  std::map<Key, unsigned> once_; ///< how often each went out
+  std::map<Key, unsigned> once_; ///< how often each was sent
 };
 
 } // namespace blactl::cli

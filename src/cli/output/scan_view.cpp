@@ -70,7 +70,7 @@ void write_node(JsonWriter& json, const Finding& node) {
   json.end_object();
 }
 
-/// "operational ok", each word in the colour of what it tells.
+/// "operational ok", each word in the colour of its meaning.
 std::string state_text(const dronecan::NodeStatus& now, const Page& page) {
   using dronecan::Health;
   using dronecan::Mode;
@@ -83,7 +83,7 @@ std::string state_text(const dronecan::NodeStatus& now, const Page& page) {
   return page.paint(mode, name(now.mode)) + ' ' + page.paint(health, name(now.health));
 }
 
-/// "BLA21-12U-AB", with a question mark where it is not certain.
+/// "BLA21-12U-AB", with a question mark if uncertain.
 std::string model_text(const Finding& node) {
   if (node.is_foreign) {
     return say<texts::foreign_node>(printable(node.info->name));

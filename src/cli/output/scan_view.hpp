@@ -1,5 +1,5 @@
 #pragma once
-// What a scan found, as JSON, CSV and text.
+// The results of a scan, as JSON, CSV and text.
 
 #include "blactl/base/json_writer.hpp"
 #include "blactl/fleet/characterize/findings.hpp"

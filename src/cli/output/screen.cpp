@@ -39,7 +39,6 @@ attr_t attributes(Look look) {
   return A_BOLD | colour_or(bad_colour, A_UNDERLINE);
 }
 
-/// Takes away the last character of a UTF-8 text.
 void shorten(std::string_view& text) {
   const auto is_continued = [&text] {
     return (static_cast<unsigned char>(text.back()) & 0xC0U) == 0x80U;
@@ -50,7 +49,7 @@ void shorten(std::string_view& text) {
   text.remove_suffix(1);
 }
 
-/// The beginning of a UTF-8 text that takes so many cells at most.
+/// The beginning of a UTF-8 text, at most this number of cells wide.
 std::string_view fitting(std::string_view text, std::size_t cells) {
   while (display_width(text) > cells) {
     shorten(text);
@@ -63,8 +62,8 @@ std::string_view terminal_name() {
   return name != nullptr ? name : "";
 }
 
-/// Wide characters need a locale that knows them. Where that of the user is not installed, the one
-/// of every Debian is.
+/// Wide characters need a UTF-8 locale. If the user's is not installed, the one in every Debian is
+/// used.
 void take_locale() {
   if (std::setlocale(LC_CTYPE, "") == nullptr || MB_CUR_MAX == 1) {
     (void)std::setlocale(LC_CTYPE, "C.UTF-8");
@@ -106,7 +105,7 @@ Result<std::unique_ptr<Screen>> Screen::open(bool colour) {
 }
 
 Screen::Screen(bool colour) {
-  constexpr int escape_wait_ms = 25; // for what follows in the sequence of a key
+  constexpr int escape_wait_ms = 25; // for the rest of a key's sequence
   set_escdelay(escape_wait_ms);
   cbreak();
   noecho();
@@ -164,7 +163,7 @@ std::optional<Key> Screen::read() {
     if (const auto special = special_key(code)) {
       return special;
     }
-    constexpr int delete_key = 0x7F; // what Backspace sends in most terminals
+    constexpr int delete_key = 0x7F; // sent by Backspace in most terminals
     if (code == '\r') {
       return keys::enter;
     }

@@ -1,5 +1,5 @@
 #pragma once
-// The whole terminal behind stdout, drawn again and again in place.
+// Draws on the whole terminal behind stdout, in place.
 
 #include "blactl/base/error.hpp"
 
@@ -13,7 +13,7 @@
 
 namespace blactl::cli {
 
-/// How a piece of a line stands out; on a terminal without colours by weight alone.
+/// The look of a piece of a line; without colours by weight alone.
 enum class Look : std::uint8_t { plain, head, dim, good, warning, bad, chosen, lit };
 
 struct Piece {
@@ -23,7 +23,7 @@ struct Piece {
 
 using ScreenLine = std::vector<Piece>;
 
-/// What was typed: a character, or one of these, which lie beyond Unicode.
+/// A typed key: a character, or one of these, which are beyond Unicode.
 using Key = char32_t;
 
 namespace keys {
@@ -33,13 +33,13 @@ inline constexpr Key page_up = 0x110004, page_down = 0x110005, home = 0x110006, 
 inline constexpr Key back = 0x110008;
 } // namespace keys
 
-/// Drawn by ncurses, which knows the terminals, writes only what has changed, and is in every
-/// Debian (notcurses wants a newer terminal than a Linux console is; escape sequences of our own
-/// would know one kind of terminal). The terminal is as it was when this ends, and while the
-/// process is stopped (Ctrl-Z). One at a time.
+/// Uses ncurses, which supports all terminals, writes only changes, and is in every Debian
+/// (notcurses requires a newer terminal than a Linux console; our own escape sequences would
+/// support one kind of terminal). The terminal is restored when this ends, and while the process is
+/// stopped (Ctrl-Z). Only one at a time.
 class Screen {
  public:
-  /// `colour`: whether colours may be used. Errors: unsupported, with what the terminal lacks.
+  /// `colour`: whether colours may be used. Errors: unsupported, naming what the terminal lacks.
   [[nodiscard]] static Result<std::unique_ptr<Screen>> open(bool colour);
   ~Screen();
   Screen(const Screen&) = delete;
@@ -49,16 +49,16 @@ class Screen {
   [[nodiscard]] std::size_t height() const;
   [[nodiscard]] std::size_t width() const;
 
-  /// Takes the size that the terminal has now.
+  /// Adapts to the present size of the terminal.
   void fit();
 
-  /// From the first line on; what does not fit is cut.
+  /// Draws from the first line on; lines that do not fit are cut.
   void draw(std::span<const ScreenLine> lines);
 
-  /// The next key that was typed; empty: none.
+  /// The next typed key; empty: none.
   [[nodiscard]] std::optional<Key> read();
 
-  /// What to wait for until a key can be read; -1: nobody can type.
+  /// The descriptor to wait on for keys; -1: there is no input.
   [[nodiscard]] static int input();
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// What `blactl undo --list` shows: the changes that are recorded.
+// Output of `blactl undo --list`: the recorded changes.
 
 #include "blactl/base/json_writer.hpp"
 #include "blactl/state/snapshot_store.hpp"
@@ -14,7 +14,6 @@ namespace blactl::cli {
 /// The member "snapshots" of the document (contract, section 5), in the order given.
 void write_snapshots(JsonWriter& json, std::span<const state::SnapshotEntry> entries);
 
-/// The same for people.
 [[nodiscard]] std::string text(std::span<const state::SnapshotEntry> entries, const Page& page);
 
 } // namespace blactl::cli

@@ -1,5 +1,5 @@
 #pragma once
-// A drawing that a browser shows and prints, built shape by shape.
+// A drawing for browsers, built shape by shape.
 
 #include <span>
 #include <string>
@@ -7,30 +7,30 @@
 
 namespace blactl::cli {
 
-/// Of the drawing, from its upper left corner, in points.
+/// A point of the drawing, from its upper left corner, in points.
 struct SvgPoint {
   double x = 0, y = 0;
 };
 
-/// `look` is what SVG calls presentation attributes: "stroke=\"#999\" stroke-width=\"0.7\"". Texts
-/// are foreign.
+/// `look` holds SVG's presentation attributes: "stroke=\"#999\" stroke-width=\"0.7\"". Texts are
+/// untrusted.
 class Svg {
  public:
-  /// White, with the title for programs; people see it only once it is a label.
+  /// A white page; the title is for programs and not visible.
   Svg(double width, double height, std::string_view title);
 
   void line(SvgPoint from, SvgPoint to, std::string_view look);
 
-  /// Not filled.
+  /// Draws a path without filling.
   void path(std::span<const SvgPoint> points, std::string_view look);
 
   void dot(SvgPoint at, std::string_view look);
 
-  /// `anchor`: which end of the text is there: "start", "middle", "end". `degrees`: turned
-  /// clockwise around that.
+  /// `anchor`: the end of the text at the point: "start", "middle", "end". `degrees`: clockwise
+  /// rotation around it.
   void label(SvgPoint at, std::string_view anchor, std::string_view text, double degrees = 0);
 
-  /// The file; nothing can be drawn after it.
+  /// The file; drawing ends with it.
   [[nodiscard]] std::string text();
 
  private:

@@ -7,8 +7,8 @@ namespace {
 
 constexpr std::size_t gap = 2;
 
-/// How far a further line of a row is indented: below the second column, where the first is as
-/// narrow as an address.
+/// The indentation of further lines of a row: below the second column, if the first is as narrow as
+/// an address.
 std::size_t deeper(const std::vector<std::size_t>& widths) {
   constexpr std::size_t usual = 4, most = 6;
   return widths.front() + gap <= most ? widths.front() + gap : usual;
@@ -62,7 +62,7 @@ std::string Table::text(std::string_view indent, const Page& page) const {
         text.append(all_widths[i] - display_width(row[i]) + gap, ' ');
       }
       text.erase(text.find_last_not_of(' ') + 1);
-      if (!text.empty() || line.first == 0) { // further lines are for what there is to tell
+      if (!text.empty() || line.first == 0) { // further lines need content
         out += text + '\n';
       }
     }

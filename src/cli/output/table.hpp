@@ -1,5 +1,5 @@
 #pragma once
-// Columns of text that line up, on a page of any width.
+// Aligned columns of text, on a page of any width.
 
 #include "cli/output/page.hpp"
 
@@ -11,32 +11,32 @@
 
 namespace blactl::cli {
 
-/// A header and rows of the same number of cells; columns are as wide as their widest cell. The
-/// columns that do not fit beside the others stand below them, in further lines of each row that
-/// are indented: nothing is cut, and nothing is left out but the header of a column that has such
-/// lines for itself.
+/// A header and rows of the same number of cells; columns are as wide as their widest cell. Columns
+/// that do not fit beside the others go below them, in further, indented lines of each row: nothing
+/// is cut or left out but the header of a column that has such lines for itself.
 class Table {
  public:
   explicit Table(std::vector<std::string> header) : has_header_(true), rows_{std::move(header)} {}
 
-  /// Without a header.
+  /// A table without a header.
   Table() = default;
 
   void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
 
-  /// A line below the last row, from the second column on, however long it is.
+  /// Adds a line of any length below the last row, from the second column on.
   void add_below(std::string line) { below_[rows_.size() - 1].push_back(std::move(line)); }
 
-  /// Nothing has to stand below.
+  /// Whether all columns fit beside each other.
   [[nodiscard]] bool fits(std::string_view indent, const Page& page) const;
 
-  /// Every line begins with `indent` and ends with a line break, without trailing blanks.
+  /// The table; every line begins with `indent` and ends with a line break, without trailing
+  /// blanks.
   [[nodiscard]] std::string text(std::string_view indent = "", const Page& page = {}) const;
 
  private:
   using Row = std::vector<std::string>;
 
-  /// Columns that stand beside each other.
+  /// Columns beside each other.
   struct Line {
     std::size_t first = 0, end = 0;
   };
@@ -46,7 +46,7 @@ class Table {
                                                 std::size_t indent, std::size_t page_width);
 
   bool has_header_ = false;
-  std::vector<Row> rows_;                                 ///< the header among them
+  std::vector<Row> rows_;                                 ///< including the header
   std::map<std::size_t, std::vector<std::string>> below_; ///< by row
 };
 

@@ -35,7 +35,7 @@ std::vector<const bla::Parameter*> readable(const sim::Registers& registers) {
   return found;
 }
 
-/// For people: what a restart would change.
+/// For people: the changes that a restart would make.
 std::string memory_text(const sim::Servo& servo) {
   const sim::Registers& registers = servo.registers();
   std::string unsaved;

@@ -1,5 +1,5 @@
 #pragma once
-// What happens to simulated servos, on stdout a line at a time.
+// The events of simulated servos, one line each on stdout.
 
 #include "blactl/can/loop.hpp"
 #include "blactl/sim/bus/medium.hpp"
@@ -18,28 +18,27 @@
 namespace blactl::cli {
 
 /// Prints events as they come. A reader that has left, or does not read, never holds up the
-/// simulator: what a full pipe does not take is dropped and counted.
+/// simulator: lines that do not fit into a full pipe are dropped and counted.
 ///
 /// In JSON `time` is in Unix seconds, of the virtual epoch on the virtual clock; in text it is in
 /// seconds since power-on.
 class SimEvents {
  public:
-  /// At power-on. `reporter` must outlive this; `clock`: of the simulated bus.
+  /// Created at power-on. `reporter` must outlive this; `clock`: of the simulated bus.
   SimEvents(const Reporter& reporter, const can::Loop& loop, sim::Clock clock);
 
   void print(const sim::ServoEvent& event);
 
-  /// What the servo's memories hold.
   void print(const sim::Servo& servo, Time at);
 
-  /// As the last line of a dump: how many servos there are, and what the simulated wire carried
+  /// Prints the last line of a dump: the number of servos, and the counters of the simulated wire
   /// since power-on (null: the wire is real).
   void print_end(std::size_t servos, const sim::Medium::Counters* wire, Time at);
 
-  /// stdout that cannot be written, though somebody may still read it.
+  /// The error of an unwritable stdout that may still have a reader.
   [[nodiscard]] const std::optional<Error>& error() const { return error_; }
 
-  /// Says how many were dropped, if any were.
+  /// Notes the number of dropped lines, if any.
   void tell_losses(Report& report) const;
 
  private:
@@ -50,7 +49,7 @@ class SimEvents {
 
   const Reporter& reporter_;
   Time power_on_;
-  WallTime wall_power_on_; ///< read once: events keep their order whatever wall time does
+  WallTime wall_power_on_; ///< read once, so that events keep their order if wall time is set
   std::uint64_t dropped_ = 0;
   std::optional<Error> error_;
 };

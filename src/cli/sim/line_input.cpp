@@ -10,7 +10,7 @@
 namespace blactl::cli {
 namespace {
 
-/// A shell's background job would be stopped if it read the terminal.
+/// A background job of a shell would be stopped by reading the terminal.
 bool is_in_foreground() {
   return tcgetpgrp(STDIN_FILENO) == getpgrp();
 }
@@ -18,7 +18,7 @@ bool is_in_foreground() {
 } // namespace
 
 LineInput::LineInput(can::Loop& loop) : loop_(loop), is_terminal_(isatty(STDIN_FILENO) != 0) {
-  (void)signal(SIGTTIN, SIG_IGN); // between a look and a read: reading fails instead
+  (void)signal(SIGTTIN, SIG_IGN); // between check and read: makes the read fail instead
   look();
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Lines that come in on stdin while a command runs.
+// Lines from stdin while a command runs.
 
 #include "blactl/can/loop.hpp"
 
@@ -9,20 +9,20 @@
 
 namespace blactl::cli {
 
-/// Never waits: the loop does. A terminal is read only while the command stands in its foreground;
-/// whether it does is looked at with every event.
+/// Never waits: the loop does. A terminal is read only while the command is in its foreground,
+/// which is checked with every event.
 class LineInput {
  public:
-  /// A longer line is cut into lines of this length.
+  /// Longer lines are split.
   static constexpr std::size_t longest = 4096;
 
   /// `loop` must outlive this.
   explicit LineInput(can::Loop& loop);
 
-  /// Reads what is there, if the event says that something is.
+  /// Reads available input, if the event announces it.
   void handle(const can::Event& event);
 
-  /// The next whole line without its end; empty: there is none yet.
+  /// The next whole line without its end; empty: none yet.
   [[nodiscard]] std::optional<std::string> next();
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// What a person or a script tells running simulated servos, a line at a time.
+// Orders from a person or a script to running simulated servos, one per line.
 
 #include "blactl/base/error.hpp"
 #include "blactl/sim/scenario/timeline.hpp"
@@ -13,7 +13,8 @@
 
 namespace blactl::cli {
 
-/// `240900001 voltage=5V hand=45deg`: around the servos of this serial number.
+/// `240900001 voltage=5V hand=45deg`: changes the surroundings of the servos with this serial
+/// number.
 struct ChangeWorld {
   std::int64_t serial_number;
   std::vector<sim::WorldChange> changes;
@@ -24,17 +25,18 @@ struct LinkClients {
   sim::ClientLink link;
 };
 
-/// `hold N`: virtual time stands until so many clients are there.
+/// `hold N`: stops virtual time until this number of clients is attached.
 struct HoldClock {
   std::size_t clients;
 };
 
-/// `dump`: what the memories hold.
+/// `dump`: prints the memories.
 struct DumpState {};
 
 using SimOrder = std::variant<ChangeWorld, LinkClients, HoldClock, DumpState>;
 
-/// One line without its end. Errors: usage, out_of_range, with what can be said as hint.
+/// Parses one line without its end. Errors: usage, out_of_range, with the possible orders as a
+/// hint.
 [[nodiscard]] Result<SimOrder> parse_sim_order(std::string_view line);
 
 } // namespace blactl::cli

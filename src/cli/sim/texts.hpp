@@ -1,5 +1,5 @@
 #pragma once
-// The catalogue of `blactl sim`.
+// Messages of `blactl sim`.
 
 #include "blactl/base/text.hpp"
 

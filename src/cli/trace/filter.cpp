@@ -95,7 +95,7 @@ void TraceFilter::take_kinds(const std::string& list) {
   kinds_.fill(false);
   for (const std::string_view word : words_of(list)) {
     const auto it = std::ranges::find(words, word);
-    if (it != words.end()) { // the declaration of --kind lets no other word pass
+    if (it != words.end()) { // the declaration of --kind allows no other word
       kinds_[static_cast<std::size_t>(it - words.begin())] = true;
     }
   }

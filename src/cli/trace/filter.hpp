@@ -1,5 +1,5 @@
 #pragma once
-// Which transfers a person wants to see: --type, --kind, -n.
+// The transfers that the user wants to see: --type, --kind, -n.
 
 #include "blactl/base/error.hpp"
 #include "blactl/dronecan/transfer.hpp"
@@ -16,27 +16,25 @@ namespace blactl::cli {
 
 class TraceFilter {
  public:
-  /// Everything passes.
+  /// A filter that everything passes.
   TraceFilter() { kinds_.fill(true); }
 
-  /// What --type and --kind say; empty: everything.
+  /// The values of --type and --kind; empty: everything.
   struct Wish {
     std::optional<std::string> types{}; ///< names or numbers, comma-separated
     std::optional<std::string> kinds{}; ///< message, request, response
   };
 
-  /// `nodes`: what -n says, which must be node IDs: who a servo is, a listener cannot ask.
-  /// Types go in letters of either case. Errors: usage, every fault, with the nearest names of
-  /// types.
+  /// `nodes`: the value of -n, which must be node IDs, as a listener cannot identify servos. Types
+  /// may be in upper or lower case. Errors: usage, all errors, with the nearest type names.
   [[nodiscard]] static std::expected<TraceFilter, std::vector<Error>>
   make(const Wish& wish, const std::optional<std::string>& nodes);
 
-  /// Whether a transfer with this header is wanted; of a node, what it sends and what is sent to
-  /// it.
+  /// Whether a transfer with this header is wanted; for a node, its own transfers and those to it.
   [[nodiscard]] bool passes(const dronecan::Header& header) const;
 
  private:
-  /// A number alone means the message and the service.
+  /// A plain number matches the message and the service.
   struct Type {
     std::uint16_t id;
     std::optional<bool> service;

@@ -15,7 +15,7 @@ using dronecan::FieldsResult;
 
 class JsonFields final : public dronecan::FieldSink {
  public:
-  /// `scratch` has the digits of one byte array.
+  /// `scratch` holds the digits of one byte array.
   JsonFields(JsonWriter& json, std::string& scratch) : json_(json), scratch_(scratch) {}
 
   void begin_object() override { json_.begin_object(); }

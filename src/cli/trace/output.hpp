@@ -1,5 +1,5 @@
 #pragma once
-// What a trace finds, and the ways to show it.
+// The results of a trace, and the ways to show them.
 
 #include "blactl/base/json_writer.hpp"
 #include "blactl/base/time.hpp"
@@ -15,7 +15,7 @@
 
 namespace blactl::cli {
 
-/// Why a transfer is not shown as one (contract, section 5).
+/// The reason why a transfer is not shown as one (contract, section 5).
 enum class TraceError : std::uint8_t {
   crc,
   toggle,
@@ -34,31 +34,31 @@ inline constexpr std::size_t trace_errors = 7;
 /// message, request, response.
 [[nodiscard]] std::string_view name(dronecan::Kind kind);
 
-/// A frame, and where and when it was heard.
+/// A frame, with its interface and times.
 struct Heard {
   const can::Frame& frame;
-  Time at; ///< may be any clock that agrees with `wall` but for a constant
+  Time at; ///< may be of any clock with a constant offset to `wall`
   WallTime wall;
-  std::string_view interface; ///< foreign
+  std::string_view interface; ///< untrusted
 };
 
-/// Where and when something was heard.
+/// The interface and the time of something heard.
 struct Occasion {
-  std::string_view interface; ///< foreign: a log says it
+  std::string_view interface; ///< untrusted: from a log
   WallTime at;
 };
 
-/// One way to show a trace. What it is told has passed the filter, frames apart. The views append
-/// to one string and allocate nothing once it has grown.
+/// One way to show a trace. All its input has passed the filter, except frames. The views append to
+/// one string and allocate nothing once it has grown.
 class TraceOutput {
  public:
   virtual ~TraceOutput() = default;
   TraceOutput(const TraceOutput&) = delete;
   TraceOutput& operator=(const TraceOutput&) = delete;
 
-  /// Every frame, before what comes of it. `wanted`: it is DroneCAN and passes the filter.
+  /// Takes every frame, before its transfer. `wanted`: it is DroneCAN and passes the filter.
   virtual void frame(const Heard& heard, bool wanted) = 0;
-  /// Whether the transfer was shown: false if its payload is too short for its type.
+  /// Returns whether the transfer was shown: false if its payload is too short for its type.
   [[nodiscard]] virtual bool transfer(const Occasion& occasion,
                                       const dronecan::Transfer& transfer) = 0;
   virtual void broken(const Occasion& occasion, TraceError error, std::uint32_t can_id) = 0;
@@ -67,7 +67,7 @@ class TraceOutput {
   TraceOutput() = default;
 };
 
-/// One JSON object a line (contract, section 5, `trace`).
+/// One JSON object per line (contract, section 5, `trace`).
 class JsonTrace final : public TraceOutput {
  public:
   /// `out` outlives the view.
@@ -83,10 +83,10 @@ class JsonTrace final : public TraceOutput {
   std::string hex_; ///< of one payload
 };
 
-/// How people are told when: in seconds since the first frame, or by the wall clock of this place.
+/// The form of times for people: in seconds since the first frame, or by the local wall clock.
 enum class Clock : std::uint8_t { since_first, wall };
 
-/// One line a transfer for a technician.
+/// One line per transfer for a technician.
 class TextTrace final : public TraceOutput {
  public:
   /// `out` and `profiles` outlive the view.

@@ -11,15 +11,15 @@
 namespace blactl::cli {
 namespace {
 
-/// What is kept until it is written to stdout at once, where nobody waits for a line.
+/// The size of a block for stdout, if no one waits for a single line.
 constexpr std::size_t block_size = 64 << 10;
 
-/// How many lines of a log pass until somebody looks for Ctrl-C.
+/// The number of log lines between checks for Ctrl-C.
 constexpr std::uint64_t lines_between_looks = 4096;
 
 } // namespace
 
-/// False ends the trace: stdout cannot be written, or nobody reads it.
+/// False ends the trace: stdout cannot be written, or its reader has left.
 bool TraceRun::check(const Result<bool>& written) {
   if (!written) {
     report_.fail(written.error());
@@ -27,7 +27,6 @@ bool TraceRun::check(const Result<bool>& written) {
   return written.value_or(false);
 }
 
-/// Writes what is there; false ends the trace.
 bool TraceRun::flush() {
   if (out_.empty()) {
     return true;
@@ -37,7 +36,6 @@ bool TraceRun::flush() {
   return check(written);
 }
 
-/// False ends the trace.
 bool TraceRun::handle(const can::Event& event, std::string_view interface, Time end) {
   if (const auto* received = std::get_if<can::Received>(&event)) {
     if (received->at > end) {
@@ -65,14 +63,15 @@ void TraceRun::live(std::unique_ptr<can::Bus> bus) {
   report_.interface = loop.bus().name();
   const Time end = duration_ ? loop.now() + *duration_ : never;
   screen_.begin(loop.now());
-  // While frames wait to be read the bus is not known up to now: what seems late is among them.
+  // While frames wait to be read, the bus is not known up to now: a transfer that seems overdue may
+  // be among them.
   Time known_until = loop.now();
   bool goes_on = true;
   while (goes_on) {
     const Time deadline = std::min({end, tracer_.next_expiry(), screen_.due()});
     const can::Event event = loop.next(deadline);
     const Time now = loop.now();
-    // What came before the end is read, however late this process comes to it.
+    // Everything before the end is read, however late this process is.
     const bool has_read_all = std::holds_alternative<can::DeadlineReached>(event);
     goes_on = handle(event, report_.interface, end) && !(has_read_all && now >= end);
     if (const auto* received = std::get_if<can::Received>(&event)) {
@@ -93,7 +92,6 @@ void TraceRun::live(std::unique_ptr<can::Bus> bus) {
   (void)check(screen_.end());
 }
 
-/// False ends the trace.
 bool TraceRun::take(const can::LogLine& line, const can::LogClock& clock) {
   if (line.kind == can::LogLine::Kind::other) {
     return true;
@@ -111,12 +109,12 @@ bool TraceRun::take(const can::LogLine& line, const can::LogClock& clock) {
   return !tracer_.full();
 }
 
-/// Takes the lines that are there, and does not wait.
+/// Takes the available lines without waiting.
 TraceRun::Next TraceRun::take_lines(can::CandumpReader& reader, can::LogClock& clock) {
   for (std::uint64_t i = 0; i < lines_between_looks; ++i) {
     const auto line = reader.next();
     if (!line) {
-      // A pipe has nothing for now: whoever looks shall see what came so far.
+      // a pipe is empty for now: the lines so far are to be visible
       const Next next = reader.has_paused() ? Next::go_on : Next::wait;
       return flush() ? next : Next::stop;
     }
@@ -128,7 +126,7 @@ TraceRun::Next TraceRun::take_lines(can::CandumpReader& reader, can::LogClock& c
   return Next::go_on;
 }
 
-/// Whether the log was read to its end.
+/// Returns whether the log was read to its end.
 bool TraceRun::play(can::CandumpReader& reader) {
   can::Loop loop(nullptr);
   loop.watch(reader.descriptor());

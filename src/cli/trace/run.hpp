@@ -1,5 +1,5 @@
 #pragma once
-// One run of `blactl trace`: where frames come from, and what ends it.
+// One run of `blactl trace`: the source of frames, and the end.
 
 #include "blactl/can/bus.hpp"
 #include "blactl/can/candump_reader.hpp"
@@ -21,8 +21,8 @@ namespace blactl::cli {
 
 class TraceRun {
  public:
-  /// `duration`: how long to listen, of a log its first seconds. `out`: what `tracer` has to say,
-  /// which goes to stdout. `report` gets what goes wrong. All of them outlive this.
+  /// `duration`: the listening time, or the first seconds of a log. `out`: the output of `tracer`
+  /// for stdout. `report` receives errors. All of them outlive this.
   TraceRun(std::optional<Duration> duration, const Context& context, Tracer& tracer,
            StatsScreen& screen, std::string& out, Report& report)
       : duration_(duration), context_(context), tracer_(tracer), screen_(screen), out_(out),
@@ -31,13 +31,13 @@ class TraceRun {
   void live(std::unique_ptr<can::Bus> bus);
   void log(can::CandumpReader& reader);
 
-  /// Frames that the kernel dropped, and what was no frame that can be told.
+  /// Frames dropped by the kernel, and log lines without a usable frame.
   [[nodiscard]] std::uint64_t lost() const { return lost_; }
 
   [[nodiscard]] std::uint64_t unreadable() const { return unreadable_; }
 
  private:
-  /// What comes after the lines that were there.
+  /// The step after the available lines.
   enum class Next : unsigned char { go_on, wait, stop };
 
   [[nodiscard]] bool handle(const can::Event& event, std::string_view interface, Time end);

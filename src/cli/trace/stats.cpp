@@ -14,7 +14,7 @@ namespace {
 using dronecan::Bytes;
 using dronecan::FieldsResult;
 
-/// Only whether a payload is long enough is asked.
+/// Only checks that a payload is long enough.
 class Nothing final : public dronecan::FieldSink {
  public:
   void begin_object() override {}
@@ -40,7 +40,7 @@ class Nothing final : public dronecan::FieldSink {
   void bytes(Bytes) override {}
 };
 
-/// Shorter times say nothing of a rate.
+/// Shorter times give no meaningful rate.
 constexpr Duration shortest_time = std::chrono::milliseconds(1);
 
 } // namespace

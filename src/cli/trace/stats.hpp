@@ -1,5 +1,6 @@
 #pragma once
-// A trace added up: who sends what how often, what is lost, and what it costs the bus (--stats).
+// Statistics of a trace: the transfers of each node, their losses, and their share of the bus load
+// (--stats).
 
 #include "blactl/base/json_writer.hpp"
 #include "blactl/fleet/statistics/bus_statistics.hpp"
@@ -16,11 +17,11 @@
 
 namespace blactl::cli {
 
-/// Interfaces are kept apart; there are at most Tracer::most_interfaces, so that all of it takes
-/// some 25 MB at the worst.
+/// Interfaces are separate; there are at most Tracer::most_interfaces, so that all of it takes at
+/// most some 25 MB.
 class TraceStats final : public TraceOutput {
  public:
-  /// Whatever the filter says: the load is that of all frames.
+  /// Not filtered: the load is that of all frames.
   struct Bus {
     std::string name;
     fleet::BusStatistics statistics{};
@@ -30,7 +31,7 @@ class TraceStats final : public TraceOutput {
   bool transfer(const Occasion& occasion, const dronecan::Transfer& transfer) override;
   void broken(const Occasion& occasion, TraceError error, std::uint32_t can_id) override;
 
-  /// Nothing more was heard until `now`, of the clock of the frames.
+  /// Advances to `now`, of the clock of the frames, without traffic.
   void pass(Time now);
 
   /// Tables for people.
@@ -44,11 +45,11 @@ class TraceStats final : public TraceOutput {
   void write_errors(JsonWriter& json) const;
 
   std::vector<Bus> buses_;
-  std::size_t last_ = 0; ///< place in buses_ of the one that was looked for last
+  std::size_t last_ = 0; ///< index in buses_ of the one looked up last
   std::array<std::uint64_t, trace_errors> errors_{};
 };
 
-/// Empty: the bus was heard for too short a time, or its times run backwards.
+/// Empty: the bus was heard for too short a time, or its times go backwards.
 [[nodiscard]] std::optional<double> per_second(std::uint64_t count,
                                                const fleet::BusStatistics& bus);
 

@@ -1,4 +1,4 @@
-// A trace added up, as a document.
+// The statistics of a trace as a document.
 
 #include "blactl/dronecan/standard_types.hpp"
 
@@ -40,7 +40,7 @@ void write_periods(JsonWriter& json, const fleet::Periods& periods) {
   json.end_object();
 }
 
-/// Of how much is in `stream`, behind what it is of.
+/// Writes the counts of `stream`, after its identification.
 void write_counts(JsonWriter& json, const TransferStream& stream, std::optional<double> rate) {
   json.member("count", stream.count);
   member_number(json, "rate_hz", rate);
@@ -78,7 +78,7 @@ void write_rest(JsonWriter& json, const TraceStats::Bus& bus) {
   json.end_object();
 }
 
-/// `load`: null where several buses have one each.
+/// `load`: null if several buses have one each.
 void write_load(JsonWriter& json, const fleet::BusLoad* load) {
   const auto value = [&](auto permille) {
     return load != nullptr ? (load->*permille)() : std::nullopt;
@@ -96,7 +96,7 @@ void write_time(JsonWriter& json, const char* name, std::optional<WallTime> time
   time ? json.number(UnixTime(*time).text()) : json.value(nullptr);
 }
 
-/// From the first frame of all buses to the last.
+/// From the first frame on any bus to the last.
 struct Span {
   std::optional<WallTime> begin{}, end{};
   std::optional<Duration> duration{};
@@ -109,7 +109,7 @@ Span span_of(const std::vector<TraceStats::Bus>& buses) {
     const auto time = bus.load().duration();
     is_known = is_known && (time || bus.begin() == bus.end());
     all.begin = std::min(all.begin.value_or(bus.begin()), bus.begin());
-    // While a bus is silent its clock goes on.
+    // the clock of a silent bus goes on
     all.end = std::max(all.end.value_or(bus.end()),
                        std::max(bus.end(), bus.begin() + time.value_or(Duration())));
   }

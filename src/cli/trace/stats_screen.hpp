@@ -1,5 +1,5 @@
 #pragma once
-// The statistics of a trace in place on a terminal, while they grow.
+// The growing statistics of a trace on a terminal, redrawn in place.
 
 #include "cli/output/reporter.hpp"
 #include "cli/trace/stats.hpp"
@@ -16,19 +16,19 @@ class StatsScreen {
   /// `stats`: null if lines are shown instead. Both outlive this.
   StatsScreen(TraceStats* stats, const Reporter& reporter) : stats_(stats), reporter_(reporter) {}
 
-  /// It begins: the first look is a period from now.
+  /// Starts: the first update is one period from now.
   void begin(Time now);
 
-  /// When there is something to show; never without a screen.
+  /// The time of the next update; never without a screen.
   [[nodiscard]] Time due() const { return due_; }
 
-  /// Shows how things are, if it is due. False if the reader has left. Errors: io.
+  /// Updates the screen, if it is due. False if the reader has left. Errors: io.
   [[nodiscard]] Result<bool> advance(Time now);
 
-  /// The frames have the clock of the caller: their bus is silent until `now`.
+  /// Advances to `now` without traffic; for frames with the caller's clock.
   void pass(Time now);
 
-  /// Leaves the place to what is printed in the end. Errors: io.
+  /// Makes room for the final output. Errors: io.
   [[nodiscard]] Result<bool> end();
 
  private:

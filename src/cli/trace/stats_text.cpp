@@ -1,4 +1,4 @@
-// A trace added up, as a table.
+// The statistics of a trace as a table.
 
 #include "cli/output/table.hpp"
 #include "cli/texts.hpp"
@@ -19,14 +19,14 @@ namespace {
 using fleet::BusStatistics;
 using fleet::TransferStream;
 
-/// candump's stamps of the time of day have ten digits; others count from something else.
+/// candump's timestamps of the time of day have ten digits; others count from something else.
 constexpr WallTime first_date{std::chrono::seconds(1'000'000'000)};
 
 std::string or_dash(std::string text) {
   return text.empty() ? "-" : std::move(text);
 }
 
-/// "100.2", "1002": as many digits as tell something.
+/// "100.2", "1002": the significant digits only.
 std::string ms_text(std::optional<double> us) {
   constexpr double long_us = 999'950;
   return or_dash(us ? fixed(*us / 1000, *us < long_us ? 1 : 0) : std::string());
@@ -36,7 +36,7 @@ std::string ms_text(std::optional<Duration> time) {
   return ms_text(time ? std::optional(static_cast<double>(time->count())) : std::nullopt);
 }
 
-/// BLA servos speak 1 Mbit/s.
+/// The share of a bus at 1 Mbit/s, the bit rate of BLA servos.
 std::string percent_text(const TransferStream& stream, const BusStatistics& bus) {
   const auto bits = per_second(stream.bits, bus);
   return or_dash(bits ? fixed(*bits / 1e4, 2) : std::string());
@@ -46,7 +46,7 @@ std::string permille_text(std::optional<std::uint64_t> permille) {
   return permille ? fmt::format("{}.{} %", *permille / 10, *permille % 10) : "-";
 }
 
-/// "3"; "3+" where there were gaps that cannot be counted.
+/// "3"; "3+" if there were gaps that cannot be counted.
 std::string lost_text(const TransferStream& stream) {
   const auto lost = stream.losses.lost();
   const char* more = stream.losses.jumps() > 0 ? "+" : "";
@@ -64,7 +64,7 @@ std::string range_text(const fleet::Periods& periods) {
   return periods.count() > 0 ? ms_text(periods.min()) + '-' + ms_text(periods.max()) : "-";
 }
 
-/// Who sends broken transfers is told where somebody does: 80 columns have room for the rest.
+/// Senders of broken transfers are listed only if there are any: 80 columns have room for the rest.
 bool has_errors(const BusStatistics& bus) {
   return (bus.rest() && bus.rest()->errors > 0) ||
          std::ranges::any_of(bus.streams(), [](const auto& row) { return row.second.errors > 0; });
@@ -111,7 +111,7 @@ std::string table_text(const BusStatistics& bus, const Page& page) {
   return table.text("", page);
 }
 
-/// What is said of a bus below its table.
+/// The text below the table of a bus.
 std::string bus_text(const TraceStats::Bus& bus) {
   const BusStatistics& all = bus.statistics;
   const auto time = all.load().duration();

@@ -1,4 +1,4 @@
-// A trace for people: one line a transfer.
+// A trace for people: one line per transfer.
 
 #include "blactl/base/hex.hpp"
 #include "blactl/bla/value.hpp"
@@ -92,7 +92,7 @@ class TextFields final : public dronecan::FieldSink {
 
 constexpr std::int64_t million = 1'000'000;
 
-/// "    0.000000": the times of a log may also go back.
+/// " 0.000000": may be negative, as the times of a log may go back.
 std::string relative_text(Duration since) {
   const std::int64_t micros = since.count();
   const std::int64_t size = micros < 0 ? -micros : micros;
@@ -124,8 +124,7 @@ std::string register_value(const bla::Parameter& parameter, std::int64_t wire) {
   return shown == number ? number : fmt::format("{} ({})", number, shown);
 }
 
-/// The register of a BLA servo and what is done with it; empty: it is none, or not spoken of as BLA
-/// servos do.
+/// The register of a BLA servo and the access to it; empty: none, or not the access of a BLA servo.
 std::optional<std::string> register_text(const bla::Profiles& profiles, const std::string& name,
                                          const GetSet::Value& value, std::string_view sign,
                                          std::string_view without_value) {

@@ -1,5 +1,5 @@
 #pragma once
-// The catalogue of `blactl trace`.
+// Messages of `blactl trace`.
 
 #include "blactl/base/text.hpp"
 
@@ -48,7 +48,8 @@ inline constexpr Text trace_no_frames{"no frames\n", "フレームなし\n"};
 inline constexpr Text trace_span{"from {} to {}\n", "{} から {} まで\n"};
 inline constexpr Text trace_errors_by_kind{"errors: {}\n", "エラー: {}\n"};
 inline constexpr Text trace_jumps{
-    "+: the transfer IDs also jumped in a way that tells no number: a restart, a longer silence, "
+    "+: the transfer IDs also jumped so that losses cannot be counted: a restart, a longer "
+    "silence, "
     "or "
     "two senders with one node ID\n",
     "+: 数を判定できない転送 ID の飛びもあります (再起動、長い中断、ノード ID の重複)\n"};

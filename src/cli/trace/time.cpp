@@ -12,7 +12,7 @@ std::string wall_text(WallTime at) {
   const auto seconds = static_cast<std::time_t>(micros / micros_a_second);
   std::tm parts{};
   if (localtime_r(&seconds, &parts) == nullptr) {
-    return {}; // a year that no int holds
+    return {}; // a year that does not fit into an int
   }
   return fmt::format("{:04}-{:02}-{:02} {:02}:{:02}:{:02}.{:06}", parts.tm_year + 1900,
                      parts.tm_mon + 1, parts.tm_mday, parts.tm_hour, parts.tm_min, parts.tm_sec,

@@ -11,13 +11,13 @@ namespace {
 
 using dronecan::Receiver;
 
-/// Senders times types that are reassembled at a time; 4 MiB of address space.
+/// Concurrent sessions of the reassembly (senders times types); 4 MiB of address space.
 constexpr std::size_t sessions = 4096;
 
-/// While frames come, unfinished transfers are looked for once in this time.
+/// The interval of checks for unfinished transfers while frames come.
 constexpr Duration sweep_interval = std::chrono::seconds(1);
 
-/// Just beyond the time that a transfer may take.
+/// Just longer than a transfer may take.
 constexpr Duration expiry = Receiver::transfer_timeout + Duration(1);
 
 std::optional<std::uint64_t> signature_of(dronecan::Kind kind, std::uint16_t data_type_id) {
@@ -45,7 +45,7 @@ Tracer::Tracer(TraceFilter filter, TraceOutput& output, std::uint64_t most)
 std::unique_ptr<Tracer::Network> Tracer::make_network(std::string_view interface) {
   auto network = std::make_unique<Network>();
   network->interface = interface;
-  // Without a node ID of its own the receiver hears every destination.
+  // without its own node ID the receiver accepts every destination
   network->receiver = std::make_unique<Receiver>(
       sessions, dronecan::anonymous,
       Receiver::Callbacks{

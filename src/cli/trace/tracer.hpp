@@ -1,5 +1,5 @@
 #pragma once
-// From frames to what a trace shows: reassembly of every interface by itself, and the filter.
+// From frames to the output of a trace: reassembly for each interface, and the filter.
 
 #include "blactl/dronecan/transfer.hpp"
 
@@ -14,11 +14,11 @@
 
 namespace blactl::cli {
 
-/// A state machine without I/O: frames come from a bus or a log, what they mean goes to a view.
+/// A state machine without I/O: frames come from a bus or a log, transfers go to a view.
 class Tracer {
  public:
-  /// Interfaces that are kept apart. A log may name any number of them; the frames of further ones
-  /// are counted, not decoded.
+  /// The number of separate interfaces. A log may name any number of them; the frames of further
+  /// ones are counted, not decoded.
   static constexpr std::size_t most_interfaces = 32;
 
   struct Counts {
@@ -36,21 +36,21 @@ class Tracer {
   /// Reports unfinished transfers that began more than 2 s before `now`.
   void expire(Time now);
 
-  /// When expire() has something to do if nothing more is heard.
+  /// The time of the next expire() if nothing more is heard.
   [[nodiscard]] Time next_expiry() const { return next_expiry_; }
 
-  /// The most transfers were shown: what comes further is ignored.
+  /// Whether `most` transfers were shown: further ones are ignored.
   [[nodiscard]] bool full() const { return counts_.transfers >= most_; }
 
   [[nodiscard]] const Counts& counts() const { return counts_; }
 
  private:
-  /// What is connected with each other.
+  /// The parts that belong to one interface.
   struct Network {
     std::string interface;
     std::unique_ptr<dronecan::Receiver> receiver;
-    Duration to_wall{}; ///< what makes a time of its clock a wall time
-    Time sweep{};       ///< when unfinished transfers are looked for next
+    Duration to_wall{}; ///< converts a time of its clock to wall time
+    Time sweep{};       ///< the next check for unfinished transfers
 
     [[nodiscard]] Occasion occasion(Time at) const {
       return {interface, WallTime(at.time_since_epoch() + to_wall)};
@@ -66,7 +66,7 @@ class Tracer {
   TraceOutput& output_;
   std::uint64_t most_;
   Counts counts_;
-  std::vector<std::unique_ptr<Network>> networks_; ///< their receivers know their addresses
+  std::vector<std::unique_ptr<Network>> networks_; ///< receivers know their addresses
   Network* last_ = nullptr;
   Time next_expiry_ = never;
 };

@@ -16,8 +16,8 @@ using dronecan::Transfer;
 
 namespace {
 
-/// The register that a GetSet request is about: a name wins over an index, which is the address
-/// (specification 2.3). Empty: none of a BLA servo.
+/// The register of a GetSet request: a name takes precedence over an index, which is the address
+/// (specification 2.3). Empty: not one of a BLA servo.
 std::optional<bla::Address> address_of(const GetSet::Request& request) {
   if (!request.name.empty()) {
     return bla::find_address(request.name);
@@ -125,7 +125,7 @@ void Archive::recall(dronecan::NodeId node, bla::Address address, std::int64_t r
   slot.boots = boots(node);
 }
 
-/// How often the node has restarted so far.
+/// The number of restarts of the node so far.
 std::uint32_t Archive::boots(dronecan::NodeId node) const {
   const Member* member = roster_.find(node);
   return member != nullptr ? member->boots : 0;

@@ -6,7 +6,7 @@ namespace blactl::fleet {
 
 namespace {
 
-/// Of table 2-21, and what 1 means in the register.
+/// An entry of table 2-21, with the register value of 1.
 struct ArrayEntry {
   std::uint8_t type;
   float scale;

@@ -13,7 +13,7 @@ void BusLoad::hear(std::size_t bits, Time at) {
   if (at + most_disorder < last_) {
     runs_backwards_ = true;
     last_ = at;
-    begin_window(at); // what the clock skipped is in no window
+    begin_window(at); // time skipped by the clock is in no window
   }
   pass(at);
   bits_ += bits;
@@ -36,7 +36,7 @@ void BusLoad::begin_window(Time at) {
 }
 
 void BusLoad::end_slices(Time now) {
-  // After as many as a window has, a silence looks the same however long it is.
+  // beyond a whole window, a longer silence makes no difference
   for (std::size_t i = 0; i <= slices && now - slice_began_ >= slice; ++i) {
     end_slice();
   }

@@ -12,7 +12,7 @@ using dronecan::Transfer;
 
 namespace {
 
-/// ERASE writes all of them; a name that is none of ours may be any.
+/// ERASE writes all of them; so may a name that is not one of ours.
 constexpr std::optional<bla::Address> every_register{};
 constexpr std::uint16_t last_index = 0xFF;
 
@@ -59,7 +59,7 @@ void CommandWatch::on_command(const Transfer& transfer) {
   }
 }
 
-/// Each speaks for itself: one that is disarmed does not disarm another.
+/// Each node counts for itself: a disarmed one does not disarm another.
 void CommandWatch::on_arming(const Transfer& transfer) {
   if (const auto arming = dronecan::ArmingStatus::decode(transfer.payload)) {
     const NodeId source = transfer.header.source;
@@ -76,7 +76,7 @@ void CommandWatch::on_write(const Transfer& transfer) {
   if (!request || std::holds_alternative<dronecan::GetSet::Empty>(request->value)) {
     return;
   }
-  // A name wins over an index, which is the address.
+  // a name takes precedence over an index, which is the address
   const auto is_at = [&](bla::Address address) {
     return request->name.empty() ? request->index == address.value()
                                  : request->name == address.name();
@@ -130,7 +130,7 @@ CommandWatch::commander_of(const Servo& servo, std::optional<std::uint8_t> actua
     }
     for (const auto& [servo_id, command] : commander.servo_ids) {
       constexpr std::uint8_t every_servo = 255;
-      // Register and actuator.Status may differ: which of them it obeys is not known.
+      // register and actuator.Status may differ: it is not known which of them it obeys
       const bool is_meant =
           servo_id == every_servo || servo.servo_id == servo_id || actuator_id == servo_id;
       if (is_meant && matters(command.heard)) {

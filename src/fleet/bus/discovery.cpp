@@ -19,7 +19,7 @@ using dronecan::NodeId;
 
 namespace {
 
-/// IDs that are asked at a time, and how long for: 125 of them fit into the time of listening.
+/// The number of concurrent probes and their timeout: all 125 fit into the listening time.
 constexpr int probes_at_a_time = 8;
 constexpr Duration probe_timeout = std::chrono::milliseconds(60);
 
@@ -27,7 +27,7 @@ bool is_operational(const Member& member) {
   return member.is_known() && member.status && member.status->mode == dronecan::Mode::operational;
 }
 
-/// Why a node that was heard is not ready.
+/// The reason why a node that was heard is not ready.
 Error not_ready(const Member& member, bool is_gone, const std::string& seconds) {
   const std::uint8_t id = member.id.value();
   if (is_gone) {
@@ -103,14 +103,14 @@ std::vector<std::optional<Error>> Discovery::identifications() const {
   return ends;
 }
 
-/// "All" takes in a servo that restarted since it was identified, and one that shares its ID:
-/// what they are is for the reading to tell, and an error, not a silence.
+/// "All" includes a servo that restarted since it was identified, and one that shares its ID:
+/// reading them gives their state, or an error instead of silence.
 bool Discovery::is_one_of_all(const Targets& targets, const Member& member) const {
   const bool shares = session_.roster().is_doubled(member.id) && member.sends_actuator_status();
   return (targets.all || !targets.given) && ((member.identified && member.is_servo) || shares);
 }
 
-/// Of a node that only a recording made us look at, nothing needs to be known.
+/// Nothing needs to be known of a node that was only looked at because it is in a recording.
 bool Discovery::is_bystander(const Error& error) const {
   return error.code == Code::not_recorded && error.node_id &&
          !session_.roster().member(NodeId(*error.node_id)).sends_actuator_status();
@@ -129,7 +129,7 @@ Result<Selection> Discovery::select(const Targets& targets, Duration listen) {
       return std::unexpected(lived.error());
     }
     for (const auto& [id, member] : session_.roster().members()) {
-      // A recording may be too short for an actuator.Status, and nobody is asked.
+      // a recording may be too short for an actuator.Status, and no requests are possible
       if (member.sends_actuator_status() || session_.is_recording()) {
         identify(id);
       }
@@ -138,7 +138,7 @@ Result<Selection> Discovery::select(const Targets& targets, Duration listen) {
       return std::unexpected(ran.error());
     }
     for (auto& error : identifications()) {
-      // With a selector it may be another's.
+      // with a selector it may be another's
       if (error && targets.selectors.empty() && !is_bystander(*error)) {
         selection.errors.push_back(std::move(*error));
       }
@@ -151,7 +151,7 @@ Result<Selection> Discovery::select(const Targets& targets, Duration listen) {
   for (const NodeId id : targets.ids) {
     if (session_.roster().member(id).id_is_known) {
       chosen.insert(id);
-    } else { // nobody has this ID: it stands for a servo whose ID is not known
+    } else { // not a real ID: a placeholder for a servo whose ID is unknown
       selection.errors.push_back(unrecorded(id));
     }
   }
@@ -246,13 +246,13 @@ std::vector<const Member*> Discovery::meant(const Targets& targets) const {
   return members;
 }
 
-/// One servo, not one of two on its ID, as far as it was heard of late.
+/// One servo, not one of two on its ID, as far as recently heard.
 bool Discovery::seems_ready(const Member& member) const {
   return is_operational(member) && !session_.roster().is_doubled(member.id) &&
          session_.now() - member.last_heard < offline_time;
 }
 
-/// It was there, and is not heard or does not answer any more.
+/// It was there, and is not heard or does not respond any more.
 bool Discovery::is_gone(const Member& member) const {
   return gone_.contains(member.id) || session_.now() - member.last_heard >= offline_time;
 }
@@ -271,9 +271,9 @@ bool Discovery::all_there(const Targets& targets) const {
                              [this](const Member* member) { return seems_ready(*member); });
 }
 
-/// Whether they are; false also as soon as one of them is known not to be alone on its ID.
+/// Returns whether they are; false also as soon as one of them is known not to be alone on its ID.
 Result<bool> Discovery::wait_until_there(const Targets& targets, Time deadline) {
-  // Without IDs all that live must have had the time to be heard.
+  // without IDs all present nodes must have had the time to be heard
   const Time heard = session_.now() + (targets.need_search() ? bus_watch_time : Duration::zero());
   for (;;) {
     auto there = session_.live_until(deadline, [&] {
@@ -300,7 +300,7 @@ Arrivals Discovery::wait_for(const Targets& targets, Duration wait) {
   attend(Attention::all);
   auto there = wait_until_there(targets, begin + wait);
   attend(Attention::none);
-  if (there && !*there) { // what is being asked is not waited for any longer than it takes
+  if (there && !*there) { // pending requests are not waited for beyond their timeout
     if (auto ran = session_.run(); !ran) {
       there = std::unexpected(ran.error());
     }
@@ -321,14 +321,14 @@ Arrivals Discovery::wait_for(const Targets& targets, Duration wait) {
 std::vector<Arrival> Discovery::those_there(const Targets& targets) const {
   std::vector<Arrival> servos;
   for (const Member* member : meant(targets)) {
-    // What is known of one of two units on an ID may be the other's.
+    // facts about one of two units on an ID may be the other's
     const bool is_one = !session_.roster().is_doubled(member->id);
     servos.push_back({is_one ? member->servo() : Servo{.id = member->id}, is_ready(*member)});
   }
   return servos;
 }
 
-/// Those that were waited for when the session ended.
+/// The errors for those that were waited for when the session ended.
 std::vector<Error> Discovery::not_there_yet(const Targets& targets) const {
   std::set<NodeId> awaited(targets.ids.begin(), targets.ids.end());
   for (const Member* member : meant(targets)) {

@@ -14,7 +14,7 @@ using dronecan::Request;
 
 namespace {
 
-/// An answer as only registers have it, even if the number is none that this one can hold.
+/// Whether it is a response with the value of a register, even if out of its range.
 bool is_number(const Outcome& outcome) {
   const auto response =
       outcome.answered() ? GetSet::Response::decode(outcome.payload) : std::nullopt;
@@ -99,7 +99,7 @@ void Identification::take_node_info(const Outcome& outcome) {
     roster_.learn(servo_.id, *info_, outcome.at);
     servo_.unique_id = info_->unique_id;
     servo_.name = info_->name;
-    servo_.since = outcome.asked; // it may have started after an earlier question, which got lost
+    servo_.since = outcome.asked; // it may have started after an earlier request that got lost
   }
   servo_.boot = roster_.member(servo_.id).boots;
 }
@@ -108,8 +108,9 @@ bool Identification::sends_actuator_status() const {
   return roster_.member(servo_.id).sends_actuator_status();
 }
 
-/// Two units on an ID disturb each other's answers, which must not make a foreign node of them.
-/// What a BLA servo is called is not in the specification. unproven: its maker or series is in it.
+/// Two units on an ID disturb each other's responses, which must not make a foreign node of them.
+/// The node name of BLA servos is not in the specification. unproven: it contains the maker or the
+/// series.
 bool Identification::may_be_servo() const {
   const auto has = [this](std::string_view part) {
     return servo_.name.find(part) != std::string::npos;
@@ -117,7 +118,7 @@ bool Identification::may_be_servo() const {
   return has("futaba") || has("bla") || has("BLA") || roster_.is_doubled(servo_.id);
 }
 
-/// A servo that answers, but not what model it is.
+/// A servo that responds, but not with its model.
 Error Identification::silence_of_model() const {
   return no_answer({Outcome::Kind::timed_out, {}, {}}, servo_.id,
                    bla::address::model_number.name());
@@ -129,8 +130,8 @@ void Identification::take_register(const Outcome& outcome) {
   const auto value = register_value(outcome, servo_.id, address_of(step_), width);
   const bool first = step_ == Step::model_number;
   const bool silent = !value && value.error().code == Code::timeout;
-  // A node without parameters (a GPS, a battery) answers GetNodeInfo and nothing else. Of an
-  // actuator, which may be of another make, only the second silent register proves it.
+  // A node without parameters (a GPS, a battery) responds to GetNodeInfo only. For an actuator,
+  // which may be of another make, only the second silent register proves it.
   const bool foreign = silent && (first || model_silent_);
   if (model_silent_ && (value || may_be_servo())) {
     error_ = silence_of_model();
@@ -147,7 +148,7 @@ void Identification::take_register(const Outcome& outcome) {
   slot(step_) = value ? std::optional(*value) : std::nullopt;
 }
 
-/// What a recording holds of a node may not tell whether it is a servo.
+/// Whether a recording leaves open if a node is a servo.
 std::optional<Error> Identification::undecided() const {
   const bool foreign = info_ && !sends_actuator_status();
   if (!recording_lacks_model_ || servo_.is_servo || foreign) {
@@ -175,7 +176,7 @@ std::optional<Request> Identification::conclude() {
       }
     }
   }
-  roster_.learn(servo_, info_); // of the boot in which it said so: it may have restarted since
+  roster_.learn(servo_, info_); // of the boot of the response: it may have restarted since
   done_ = true;
   return std::nullopt;
 }

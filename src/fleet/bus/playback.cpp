@@ -21,7 +21,7 @@ void Playback::play(dronecan::Job& job) const {
     if (step.is_end()) {
       return;
     }
-    // On a log a pause is over at once: nothing more will be heard.
+    // On a log a pause ends at once: nothing more will be heard.
     outcome = step.request() != nullptr ? archive_.answer(*step.request())
                                         : Outcome{Outcome::Kind::woken, {}, {}};
   }
@@ -38,7 +38,7 @@ void Playback::cancel() {
   finished_ = true;
   for (dronecan::Job* job : std::exchange(waiting_, {})) {
     if (!job->next({})
-             .is_end()) { // its first question, to which the end of the session is the answer
+             .is_end()) { // its first request, to which the end of the session is the outcome
       (void)job->next({Outcome::Kind::cancelled, {}, {}});
     }
   }

@@ -15,10 +15,11 @@ using dronecan::Step;
 
 namespace {
 
-/// Registers in a row that do not answer, before it is asked whether the servo is there at all.
+/// The number of consecutive registers without a response before the presence of the servo is
+/// checked.
 constexpr int most_silent = 2;
 
-/// A servo that restarts more often while it is read is not read to an end.
+/// A servo that restarts more often while it is read is given up.
 constexpr int most_passes = 4;
 
 } // namespace
@@ -108,7 +109,7 @@ Step ReadJob::read_next(Time now) {
   return read_register(id_, wanted_[snapshot_.readings.size()]->address, patience_);
 }
 
-/// Single registers may be silent; a servo that is gone is one error, not one a register.
+/// Single registers may be silent; a servo that is gone is one error, not one per register.
 Step ReadJob::judge_presence(const Outcome& outcome) {
   if (!outcome.answered()) {
     return give_up(told_by(no_answer(outcome, id_, "GetNodeInfo")));
@@ -117,7 +118,7 @@ Step ReadJob::judge_presence(const Outcome& outcome) {
   return read_next(outcome.at);
 }
 
-/// A servo that does not answer any more is gone.
+/// A servo that does not respond any more is gone.
 Error ReadJob::told_by(const Error& error) const {
   const std::uint8_t id = id_.value();
   return error.code == Code::timeout
@@ -152,7 +153,7 @@ Step ReadJob::judge_proof(const Outcome& outcome) {
   return read_again(outcome.at);
 }
 
-/// What another node changed while it was read was not true at one time.
+/// Readings with a change by another node in between are not of one moment.
 Step ReadJob::judge_writers(Time now) {
   std::optional<dronecan::NodeId> writer;
   for (const bla::Parameter* parameter : wanted_) {
@@ -170,7 +171,7 @@ Step ReadJob::judge_writers(Time now) {
   return read_again(now);
 }
 
-/// The same servo: everything once more.
+/// It is the same servo: reads everything again.
 Step ReadJob::read_again(Time now) {
   ++passes_;
   pass_began_ = now;
@@ -182,8 +183,8 @@ Step ReadJob::read_again(Time now) {
   return read_next(now);
 }
 
-/// What RAM held when this session heard the servo first may be meant, however often it was
-/// identified since.
+/// The earliest contents of RAM in this session may matter, however often the servo was identified
+/// since.
 std::optional<Time> ReadJob::must_run_since() const {
   if (proof_ == Proof::unit) {
     return std::nullopt;
@@ -192,7 +193,7 @@ std::optional<Time> ReadJob::must_run_since() const {
                                                           : snapshot_.servo.since;
 }
 
-/// What was read is not shown: it may be of two units, or of two times.
+/// Readings are dropped: they may be of two units, or of two times.
 Step ReadJob::give_up(Error error) {
   snapshot_.error = std::move(error);
   snapshot_.readings.clear();

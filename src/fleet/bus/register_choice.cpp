@@ -30,7 +30,7 @@ std::vector<std::string_view> similar_groups(std::string_view word) {
   return nearest(word, group_names());
 }
 
-/// Errors: as Profiles::find(), with the group that the name may be; unsupported.
+/// Errors: as Profiles::find(), with the group that may be meant; unsupported.
 Result<const Parameter*> find_readable(const bla::Profiles& profiles, std::string_view name) {
   auto parameter = profiles.find(name);
   if (parameter && (*parameter)->address == bla::address::bootloader) {

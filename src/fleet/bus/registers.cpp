@@ -11,7 +11,7 @@ using dronecan::Outcome;
 
 namespace {
 
-/// An answer bears the parameter's name; a failure may come without one (errata C7).
+/// A response bears the parameter's name; a failure may come without one (errata C7).
 bool answers(const std::string& name, dronecan::Bytes payload) {
   const auto response = GetSet::Response::decode(payload);
   if (!response) {

@@ -14,11 +14,11 @@ namespace {
 
 constexpr std::uint8_t tail_start_of_transfer = 0x80;
 
-/// Bound for what anybody on the bus can make us remember.
+/// Bound for the memory that other nodes can make us use.
 constexpr std::size_t most_pending = 256;
 
-/// What a servo is (table 3-11), and how it is set (what SAVE keeps, 4.11): two values in answers
-/// to one question are of two servos.
+/// The identification (table 3-11) and the settings (kept by SAVE, 4.11) of a servo: two values in
+/// responses to one request are of two servos.
 std::set<std::string> names_of_settled(const bla::Profiles& profiles) {
   namespace at = bla::address;
   std::set<std::string> names{at::model_number.name(), at::serial_number.name(),
@@ -79,7 +79,7 @@ Member Roster::member(NodeId id) const {
 }
 
 void Roster::announce(const Member& member) {
-  for (Listener* listener : std::vector(listeners_)) { // they may leave, bring or remove others
+  for (Listener* listener : std::vector(listeners_)) { // they may add or remove listeners
     if (std::ranges::find(listeners_, listener) != listeners_.end()) {
       listener->on_new_unit(member);
     }
@@ -208,7 +208,7 @@ void Roster::receive(const Transfer& transfer) {
   }
   commands_.receive(transfer);
   if (header.kind == Kind::response && header.data_type_id == dronecan::GetNodeInfo::type.id) {
-    // Its uptime counts as well as that of NodeStatus: a restart before the first of these shows.
+    // its uptime counts as well as that of NodeStatus: a restart before the first of these shows
     if (const auto info = dronecan::GetNodeInfo::Response::decode(transfer.payload);
         info && header.source.is_unicast()) {
       Member& sender = known(header.source);
@@ -245,7 +245,7 @@ void Roster::on_status(const Transfer& transfer) {
   take(watches_[sender.id.value()].hear_uptime(status->uptime_s, transfer.at), sender);
 }
 
-/// What an uptime has told of a node.
+/// Takes the result of an uptime for a node.
 void Roster::take(UnitWatch::Start start, Member& sender) {
   if (start == UnitWatch::Start::twin) {
     doubled_.insert(sender.id);

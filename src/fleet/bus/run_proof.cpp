@@ -13,7 +13,7 @@ using dronecan::Step;
 
 namespace {
 
-/// Uptimes that may come too late to tell anything.
+/// Uptimes that may be too late to be conclusive.
 constexpr int most_uptimes = 8;
 
 } // namespace
@@ -77,7 +77,7 @@ Step RunProof::judge_uptime(std::uint32_t uptime_s, const Outcome& outcome) {
                          .ready = [this] { return roster_.is_doubled(id_) || has_another_boot(); }};
 }
 
-/// A second unit on this ID answers the last question too, somewhat later.
+/// A second unit on this ID responds to the last request, too, a little later.
 Step RunProof::hear_twin(Time now) {
   at_ = At::twin;
   return dronecan::Pause{.until = now + twin_time,

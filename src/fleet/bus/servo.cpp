@@ -6,7 +6,7 @@
 namespace blactl::fleet {
 
 bool has_run_since(Time since, std::uint32_t uptime_s, Time now) {
-  constexpr std::uint32_t old_enough_s = 2; // near 0 whole seconds show no restart
+  constexpr std::uint32_t old_enough_s = 2; // near 0, whole seconds show no restart
   constexpr double clock_error = 0.02;
   const std::chrono::duration<double> elapsed = now - since;
   return uptime_s >= old_enough_s && uptime_s * (1 - clock_error) > elapsed.count();
@@ -24,8 +24,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// A servo is not back so soon after a restart. unproven: the specification does not say how long
-/// it takes.
+/// The least absence of a servo after a restart. unproven: the specification does not give its
+/// duration.
 constexpr Duration least_absence = 20ms;
 
 std::int64_t whole_seconds(Duration duration) {
@@ -35,10 +35,10 @@ std::int64_t whole_seconds(Duration duration) {
 } // namespace
 
 UptimeCheck::Verdict UptimeCheck::judge(std::uint32_t uptime_s, Time asked, Time told) {
-  // Where this process gets little of its machine, it asks late, too.
+  // a process with little CPU time asks late, too
   delay_ = told - std::min(asked, asking_at_.value_or(asked));
   const std::chrono::seconds uptime(uptime_s);
-  earliest_start_ = asked - uptime - 1s; // its seconds are whole ones
+  earliest_start_ = asked - uptime - 1s; // it counts whole seconds
   if (uptime_s < whole_seconds(asked - since_)) {
     return Verdict::restarted;
   }
@@ -49,9 +49,9 @@ UptimeCheck::Verdict UptimeCheck::judge(std::uint32_t uptime_s, Time asked, Time
   return uptime_s > 0 && is_older ? Verdict::ran_on : Verdict::unclear;
 }
 
-/// A unit that ran on has counted one more second as much earlier as it started before `since_`.
-/// That lies between the delay of its answer and what the last uptime left open: the middle halves
-/// it.
+/// In a unit that has not restarted, the seconds change earlier by the time for which it ran before
+/// `since_`. That lies between the delay of its response and the bound from the last uptime: the
+/// middle halves it.
 Time UptimeCheck::next(Time now) {
   const Duration least = std::max(Duration::zero(), delay_ - least_absence / 2);
   const Duration most = std::min<Duration>(since_ - std::min(since_, earliest_start_), 1s);

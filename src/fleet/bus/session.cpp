@@ -16,11 +16,11 @@ using dronecan::NodeId;
 
 namespace {
 
-/// How long a frame of ours may wait for its echo on a silent bus.
+/// The longest wait of our frame for its echo on a silent bus.
 constexpr Duration acknowledge_time = std::chrono::milliseconds(100);
 
 dronecan::UniqueId own_unique_id(NodeId id) {
-  // Never zero, the same at every start: allocators that keep books ask for it.
+  // never zero, the same at every start: required by allocators with a table
   dronecan::UniqueId unique_id{'b', 'l', 'a', 'c', 't', 'l'};
   unique_id.back() = id.value();
   return unique_id;
@@ -46,7 +46,7 @@ std::vector<can::Filter> filters(Session::Hearing hearing, NodeId local) {
       message_filter(dronecan::NodeStatus::type),
       message_filter(dronecan::ActuatorStatus::type),
       message_filter(dronecan::Allocation::type),
-      // An anonymous request has but two bits for its type (specification 4.1).
+      // an anonymous request has only two bits for its type (specification 4.1)
       {static_cast<std::uint32_t>(dronecan::Allocation::type.id) << 8, anonymous_type},
   };
   if (hearing == Session::Hearing::commands) {
@@ -59,7 +59,7 @@ std::vector<can::Filter> filters(Session::Hearing hearing, NodeId local) {
   return wanted;
 }
 
-/// As which node a session begins: with an ID that is no tool's it only listens at first.
+/// The initial node ID: with one that is not for tools it only listens at first.
 NodeId first_id(const std::optional<state::LocalNodeId>& local) {
   return local && state::is_tool_id(local->id()) ? local->id() : dronecan::anonymous;
 }
@@ -89,7 +89,7 @@ Session::Session(std::unique_ptr<can::Bus> bus, std::optional<state::LocalNodeId
              .withdraw = [this](auto frames) { loop_.withdraw(frames); },
              .asked =
                  [this](const dronecan::Request& request, int tries) {
-                   if (traffic_ != nullptr && request.retries > 0) { // no look whether it lives
+                   if (traffic_ != nullptr && request.retries > 0) { // probes are not counted
                      traffic_->ask(request.server);
                    }
                    if (asked_) {
@@ -131,7 +131,7 @@ std::unexpected<Error> Session::end(Error error) {
   return std::unexpected(std::move(error));
 }
 
-/// When a frame of ours will have waited too long for its echo.
+/// The deadline for the echo of our frame.
 Time Session::acknowledge_deadline() const {
   const auto since = waits_alone_ ? std::nullopt : loop_.unacknowledged_since();
   return since ? *since + acknowledge_time : never;
@@ -142,8 +142,8 @@ Result<Session::Happened> Session::step(Time deadline) {
   node_.tell_time(loop_.now());
   auto happened = take(event);
   if (!happened || *happened != Happened::deadline) {
-    // What was on the bus before this frame has been read: so far it is known what is late, even
-    // if frames come faster than they can be read.
+    // everything before this frame has been read: timeouts are known up to here, even if frames
+    // come faster than they can be read
     const auto* received = std::get_if<can::Received>(&event);
     if (happened && received != nullptr) {
       advance(received->at);
@@ -151,8 +151,8 @@ Result<Session::Happened> Session::step(Time deadline) {
     }
     return happened;
   }
-  // The loop has given everything that came. A process that slept would else give up answers that
-  // wait to be read.
+  // The loop has delivered everything that came; otherwise a process that slept would give up on
+  // responses that wait to be read.
   const Time now = loop_.now();
   if (acknowledge_deadline() <= now) {
     return end({Code::no_acknowledge, say<texts::nobody_acknowledges>(interface()),
@@ -183,7 +183,7 @@ Result<Session::Happened> Session::take(const can::Event& event) {
     }
   } else if (const auto* overflow = std::get_if<can::Overflow>(&event)) {
     lost_ = overflow->lost;
-    node_.echoes_lost(loop_.now()); // they may have been among what was lost
+    node_.echoes_lost(loop_.now()); // they may be among the lost ones
   } else if (const auto* opened = std::get_if<can::Opened>(&event)) {
     opening_note_ = opened->note;
   } else if (const auto* gone = std::get_if<can::Gone>(&event)) {
@@ -207,7 +207,7 @@ Result<Session::Happened> Session::take(const can::Event& event) {
   return Happened::something;
 }
 
-/// What was on its way when the interface went is taken as sent: its answer does not come.
+/// Frames on their way when the interface went away count as sent: their responses do not come.
 void Session::take_presence(std::optional<Error> away) {
   away_ = std::move(away);
   node_.echoes_lost(loop_.now());
@@ -223,8 +223,8 @@ Error interrupted_by(int signal) {
   return {Code::interrupted, say<texts::interrupted>(name)};
 }
 
-/// The first signal ends what may be ended, the second one everything. A terminal that is gone is
-/// told by the kernel and by the shell: nobody has become impatient.
+/// The first signal ends what may be ended, the second one everything. The end of a terminal is
+/// signalled by the kernel and by the shell: that is not impatience.
 Result<Session::Happened> Session::take_signal(int number) {
   if (number == SIGWINCH) {
     if (resized_) {
@@ -285,7 +285,7 @@ Result<Session::Happened> Session::take_frame(const can::Received& received) {
   return Happened::something;
 }
 
-/// Another node has our ID. The next one may be that of a node that was heard before.
+/// Another node has our ID. The next one may be that of a node heard before.
 Result<void> Session::give_way() {
   const auto is_taken = [this](NodeId id) {
     return roster_.heard(id) && loop_.now() - roster_.member(id).last_heard < offline_time;
@@ -343,7 +343,7 @@ void Session::start(dronecan::Job& job) {
   }
 }
 
-/// Hears what is left of a recording. A pipe may be slow, so it is the loop that waits.
+/// Plays the rest of a recording. A pipe may be slow, so the loop waits for it.
 Result<void> Session::play() {
   while (!playback_->finished()) {
     if (const auto happened = take(loop_.next(never)); !happened) {
@@ -389,7 +389,7 @@ Result<void> Session::run(std::span<dronecan::Job* const> jobs) {
   for (dronecan::Job* job : jobs) {
     start(*job);
   }
-  // This is asked after every event, and what has ended does not begin again.
+  // called after every event; ended jobs do not start again
   return run_while([this, jobs]() mutable {
     while (!jobs.empty() && !node_.is_running(*jobs.front())) {
       jobs = jobs.subspan(1);

@@ -11,7 +11,8 @@ namespace blactl::fleet {
 
 namespace {
 
-/// One error for all that a recording lacks: of a servo that was never read it is everything.
+/// One error for everything missing in a recording: for a servo that was never read that is
+/// everything.
 std::optional<Error> not_recorded(const Snapshot& snapshot) {
   constexpr std::size_t most_names = 8;
   std::string names;

@@ -48,7 +48,7 @@ struct IdRange {
   std::string_view first, last;
 };
 
-/// Empty: the item is no number and no range of numbers.
+/// Empty: the item is not a number or a range of numbers.
 std::optional<IdRange> id_range(std::string_view item) {
   const auto dash = item.find('-');
   const auto first = item.substr(0, dash);
@@ -77,7 +77,7 @@ Result<void> add_ids(const IdRange& range, std::string_view item, Targets& targe
   return {};
 }
 
-/// The digits of a unique ID, or the first of them.
+/// Whether it is a unique ID in digits, or the beginning of one.
 bool begins_unique_id(std::string_view text) {
   return !text.empty() && text.size() <= 2 * sizeof(dronecan::UniqueId) &&
          text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
@@ -126,7 +126,7 @@ bool Selector::matches(const Servo& servo, const bla::Profiles& profiles) const 
   case Key::serial_number: return servo.identity.readings().serial_number == number;
   case Key::servo_id: return servo.servo_id == number;
   case Key::model: {
-    // Only a model that is known for sure matches: a selector never picks by a guess.
+    // only a certain model matches: a selector never picks by a guess
     const auto matching = profiles.matching(value);
     return std::ranges::find(matching, servo.identity.profile()) != matching.end();
   }

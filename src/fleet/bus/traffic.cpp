@@ -36,7 +36,7 @@ void Traffic::hear_own(const can::Frame& frame, Time at) {
 }
 
 void Traffic::stamp(WallTime wall) {
-  constexpr Duration disorder = std::chrono::seconds(1); // of logs of several interfaces
+  constexpr Duration disorder = std::chrono::seconds(1); // in logs of several interfaces
   runs_backwards_ = runs_backwards_ || wall + disorder < newest_;
   newest_ = std::max(newest_, wall);
 }

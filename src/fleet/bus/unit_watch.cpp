@@ -8,23 +8,22 @@ namespace blactl::fleet {
 namespace {
 
 /// A BLA servo sends actuator.Status every 100 ms (table 2-2). More than fourteen in a second are
-/// two servos: one servo cannot send them even if every delay falls the worst way.
+/// from two servos: one cannot send them even with the worst delays.
 constexpr Duration status_window = std::chrono::seconds(1);
 constexpr unsigned most_statuses_of_one = 14;
 
-/// Uptime counts whole seconds and its message may be late: two starts less than this apart are
-/// one.
+/// Uptime counts whole seconds and its message may be late: two starts closer than this are one.
 constexpr Duration start_tolerance = std::chrono::milliseconds(1500);
 
-/// The same for an answer, which may be as late as it is waited for. RestartJob lets servos grow
+/// The tolerance for a response, which may be as late as its timeout. RestartJob lets servos grow
 /// older than this before it restarts them.
 constexpr Duration answer_tolerance = std::chrono::seconds(2);
 
 } // namespace
 
-/// Nobody acknowledges a servo that is alone on the bus: when somebody joins, its waiting frames
-/// come all at once. But one unit numbers its transfers one by one; where the numbers of two units
-/// mix, at least every second one does not follow the one before.
+/// A servo alone on the bus gets no acknowledgement: when another node joins, its waiting frames
+/// come all at once. But one unit numbers its transfers consecutively; if the numbers of two units
+/// mix, at least every second one is out of sequence.
 void UnitWatch::count_status(dronecan::TransferId transfer_id, Time at) {
   if (!window_start_ || at - *window_start_ > status_window) {
     window_start_ = at;
@@ -37,18 +36,17 @@ void UnitWatch::count_status(dronecan::TransferId transfer_id, Time at) {
   is_too_fast_ = is_too_fast_ || (count_ > most_statuses_of_one && leaps_ * 4 > count_);
 }
 
-/// Every uptime tells when its unit started. A new start is a restart; coming back to the old one
+/// Every uptime gives the start of its unit. A new start is a restart; a return to the old one
 /// means that two units send under one ID. A unit that restarts at once shows by its uptime alone,
 /// which never goes back.
 ///
-/// What waited for a bus that was full makes a start look later. The unit then comes back to its
-/// old start and its uptime has never gone back, as it does each time a younger unit follows an
-/// older.
+/// A message delayed by a full bus makes a start look later. The unit then returns to its old start
+/// and its uptime has never gone back, as it does each time a younger unit follows an older.
 UnitWatch::Start UnitWatch::hear_uptime(std::uint32_t uptime_s, Time at) {
   const Time start = at - std::chrono::seconds(uptime_s);
   const std::uint32_t before = std::exchange(last_uptime_s_, uptime_s);
   may_be_late_ = may_be_late_ && uptime_s >= before;
-  // A servo that restarts right after its start has two that are close to each other.
+  // a servo that restarts right after its start has two that are close to each other
   const auto distance = [&](const std::optional<Time>& known) {
     return known ? std::chrono::abs(*known - start) : Duration::max();
   };

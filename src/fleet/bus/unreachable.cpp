@@ -11,7 +11,7 @@
 namespace blactl::fleet {
 namespace {
 
-/// A unit whose unique ID begins like this asks for a node ID.
+/// Whether a unit whose unique ID begins like this asks for a node ID.
 bool is_pending(const Roster& roster, const Selector& selector) {
   return selector.key == Selector::Key::unique_id &&
          std::ranges::any_of(roster.pending(), [&](const UniqueIdPrefix& prefix) {

@@ -19,17 +19,17 @@ using dronecan::UniqueId;
 
 namespace {
 
-/// More units than there are node IDs, so that those which get none are remembered, too.
+/// More units than node IDs, so that those without one are stored, too.
 constexpr std::size_t most_units = 256;
 
-/// A unit without a node ID asks again after 0.6 s to 1 s; one request may be lost.
+/// A unit without a node ID repeats its request after 0.6 s to 1 s; one request may be lost.
 constexpr Duration request_period = std::chrono::seconds(2);
 
-/// One that was given its ID so often and asks again does not take it: that so many answers were
-/// lost one after the other is not likely.
+/// A unit that asks again after this number of responses does not accept its ID: so many
+/// consecutive losses are unlikely.
 constexpr unsigned most_vain_answers = 5;
 
-/// How much of a unique ID the first part of a request tells (1.Allocation.uavcan).
+/// The size of the unique ID in the first part of a request (1.Allocation.uavcan).
 constexpr std::size_t first_part_size = 6;
 
 bool begins_with(const UniqueId& unique_id, Bytes prefix) {
@@ -99,7 +99,7 @@ std::size_t AllocationService::asking() const {
   }));
 }
 
-/// Who is refused asks on for ever, and so does who does not take its ID.
+/// A refused unit asks for ever, and so does one that does not accept its ID.
 bool AllocationService::is_left_out(Bytes prefix) const {
   return std::ranges::any_of(units_, [&](const auto& entry) {
     const AllocatedUnit& unit = entry.second;
@@ -187,7 +187,7 @@ std::optional<Error> AllocationService::refusal(const AllocatedUnit& unit) const
 
 Error AllocationService::absence(const AllocatedUnit& unit) const {
   const std::uint8_t id = unit.node_id.value();
-  if (unit.given == 0) { // nobody knows who else is there
+  if (unit.given == 0) { // other nodes are not known yet
     return in_use(unit);
   }
   return unit.given == 1
@@ -261,8 +261,8 @@ void AllocationService::refuse(AllocatedUnit& unit, Event event, Error error) {
   }
 }
 
-/// Who has this node ID on the bus, beside this unit itself, which may have been heard before it
-/// restarted.
+/// The holder of this node ID on the bus, other than this unit itself, which may have been heard
+/// before it restarted.
 AllocationService::Holder AllocationService::holder(NodeId id, const UniqueId& unique_id) const {
   const Roster& roster = session_.roster();
   if (id == session_.node().id()) {
@@ -286,7 +286,7 @@ AllocationService::Holder AllocationService::holder(NodeId id, const UniqueId& u
   return member.info ? Holder::other : Holder::unknown;
 }
 
-/// A unit that asks has no node ID, so what is heard under its own since it began is another's.
+/// A unit that asks has no node ID, so frames under its ID since it began are another's.
 bool AllocationService::is_heard_while_asking(const Member& member,
                                               const UniqueId& unique_id) const {
   const auto part =

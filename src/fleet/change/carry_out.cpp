@@ -41,14 +41,14 @@ std::map<UniqueId, NodeId> ids_of(std::span<const Plan> plans) {
   return ids;
 }
 
-/// Whether this servo will have to ask for a node ID when it starts, as far as is known.
+/// Whether this servo will have to ask for a node ID when it starts, as far as known.
 bool will_ask_for_id(const Plan& plan) {
   if (!plan.restart) {
     return false;
   }
   const auto expected = bla::find(plan.expected, bla::address::static_node_id);
   const auto id = expected ? expected : plan.before.raw(bla::address::static_node_id);
-  // What ROM holds is not known before a restart; an ID that is the static one comes from there.
+  // the contents of ROM are unknown before a restart; an ID equal to the static one is from there
   return id.value_or(0) == 0 ||
          (plan.restart == RestartKind::restart && *id != plan.before.servo.id.value());
 }
@@ -57,9 +57,9 @@ Duration come_back_time(std::span<const Plan> plans) {
   return start_up_time + std::ranges::count_if(plans, will_ask_for_id) * allocation_time;
 }
 
-/// What of the last requests waits in the kernel's queue may still take effect.
+/// Requests still in the kernel's queue may take effect later.
 std::optional<Error> check_sent(Session& session) {
-  // A NodeStatus of ours may just be due: it is no write, and leaves at once where anything does.
+  // our NodeStatus may be due: it is not a write, and leaves at once if anything does
   if (session.unsent() > 0) {
     if (const auto lived = session.live_until(session.now() + leaving_time); !lived) {
       return lived.error();
@@ -85,8 +85,8 @@ Progress progress_of(const std::list<ChangeJob>& jobs, Duration elapsed) {
   return progress;
 }
 
-/// What to do for a servo that is not back because it asks for a node ID: of this its own job only
-/// knows that nobody gave it one.
+/// Adds a hint for a servo that is not back because it asks for a node ID: its own job only knows
+/// that it got none.
 void explain_waiting(const Plan& plan, const FormerIds& table, ChangeResult& result) {
   const auto& unique_id = plan.before.servo.unique_id;
   if (!unique_id || !result.error || result.error->hint != say<texts::waits_for_id_hint>()) {
@@ -100,8 +100,8 @@ void explain_waiting(const Plan& plan, const FormerIds& table, ChangeResult& res
   }
 }
 
-/// Why nothing must be changed, once this was recorded or not. Then it hears what came meanwhile:
-/// the kernel keeps little, and a disk may take its time.
+/// The reason why nothing must be changed, once this was recorded or not. Then the bus is heard:
+/// the kernel buffers little, and a disk may be slow.
 std::optional<Error> judge(const Result<void>& recorded, Session& session, const Manner& manner) {
   if (!recorded && manner.not_recorded) {
     if (auto refused = manner.not_recorded(recorded.error())) {

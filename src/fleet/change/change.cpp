@@ -27,7 +27,7 @@ Wanted wanted(const Goal& goal, Need need) {
                              : goal.wanted;
 }
 
-/// The registers that the goal needs and, where ROM counts, whether the servo could read its ROM.
+/// The registers of the goal and, if ROM matters, the one that shows whether ROM could be read.
 Result<std::vector<const bla::Parameter*>> registers_to_read(const Goal& goal, const Servo& servo) {
   auto needed = registers_needed(goal.wanted, servo);
   const bool counts = goal.wanted.restart && goal.evidence != Evidence::none;
@@ -38,13 +38,13 @@ Result<std::vector<const bla::Parameter*>> registers_to_read(const Goal& goal, c
   return needed;
 }
 
-/// From what the servo held to what is wished.
+/// From the present to the wanted values.
 std::vector<RegisterChange> changes(const Goal& goal, const Snapshot& held) {
   std::vector<RegisterChange> all;
   for (const Assignment& wish : goal.wanted.assignments) {
     const bla::Parameter* parameter = held.servo.identity.parameter(wish.parameter->address);
     if (parameter == nullptr) {
-      continue; // no plan will come of it
+      continue; // there will be no plan
     }
     RegisterChange change{.parameter = parameter,
                           .requested = wish.value.raw,
@@ -58,7 +58,7 @@ std::vector<RegisterChange> changes(const Goal& goal, const Snapshot& held) {
   return all;
 }
 
-/// A register that an earlier round may have changed, as the last one has left it.
+/// Updates a register that an earlier round may have changed, from the last one.
 void learn(RegisterChange& change, const ChangeResult& last) {
   const auto same = std::ranges::find_if(last.changes, [&](const RegisterChange& each) {
     return each.parameter->address == change.parameter->address;
@@ -72,7 +72,7 @@ void learn(RegisterChange& change, const ChangeResult& last) {
   change.status = was_made ? ChangeStatus::written : same->status;
 }
 
-/// A restart has not shown that ROM holds the goal.
+/// Whether a restart has not shown that ROM holds the goal.
 bool is_unproven(const GoalResult& result, const UnitChange& unit) {
   return result.need == Need::prove && unit.is_done && unit.last &&
          !(unit.last->rom && holds(unit.last->rom->values, result.goal));
@@ -84,7 +84,8 @@ bool names(const Goal& goal, bla::Address address) {
   });
 }
 
-/// What the goal does not name, and RAM and ROM hold differently: SAVE keeps it, a restart ends it.
+/// Warnings about registers outside of the goal that differ between RAM and ROM: SAVE keeps them, a
+/// restart resets them.
 std::vector<Warning> unnamed(const Goal& goal, const Snapshot& ram, const bla::Values& rom,
                              Need need) {
   std::vector<Warning> warnings;
@@ -105,7 +106,7 @@ std::vector<Warning> unnamed(const Goal& goal, const Snapshot& ram, const bla::V
   return warnings;
 }
 
-/// The goal against what the servo holds; a plan may say more.
+/// Compares the goal with the present values; a plan may add to it.
 GoalResult compared(Goal goal, Need need, const Snapshot& held) {
   GoalResult result{.goal = std::move(goal), .need = need};
   ChangeResult& change = result.change;
@@ -161,8 +162,8 @@ std::string Change::question() const {
   return rounds_ ? rounds_->question() : std::string();
 }
 
-/// RAM that is going to be saved must be what it was before this run, save where that restarted the
-/// servo itself.
+/// RAM that is going to be saved must be unchanged since before this run, unless the run itself
+/// restarted the servo.
 Result<Change::Snapshots> Change::read(std::span<const std::size_t> goals) {
   std::map<NodeId, const Goal*> all;
   std::vector<NodeId> nodes;
@@ -178,18 +179,17 @@ Result<Change::Snapshots> Change::read(std::span<const std::size_t> goals) {
   auto read = take_snapshots(
       session_, profiles_, nodes, options_.manner.identification,
       [&](const Servo& servo) { return registers_to_read(*all.at(servo.id), servo); }, proof);
-  // After a first signal every run of the session is told as broken; what was read stands for
-  // itself.
+  // after a first signal every run of the session is reported as broken; readings remain valid
   if (read.broken && !options_.gives_back) {
     return std::unexpected(*read.broken);
   }
   return std::move(read.servos);
 }
 
-/// Why the goal cannot be judged; empty: it can, and make_plan() may still refuse it.
+/// The reason why the goal cannot be judged; empty: it can, though make_plan() may still refuse it.
 std::optional<Error> Change::refuse(const Goal& goal, const Snapshot& held) const {
   const std::uint8_t id = goal.id.value();
-  if (session_.roster().is_doubled(goal.id)) { // two that answer at once answer nothing
+  if (session_.roster().is_doubled(goal.id)) { // two that respond at the same time cannot be read
     return doubled(session_.roster(), goal.id);
   }
   if (!held.error && goal.unique_id && held.servo.unique_id != goal.unique_id) {
@@ -198,7 +198,7 @@ std::optional<Error> Change::refuse(const Goal& goal, const Snapshot& held) cons
   return goal.evidence != Evidence::none ? held.first_error() : std::nullopt;
 }
 
-/// Empty: ROM does not count, or nothing is on record.
+/// Empty: ROM does not matter, or there is no record.
 std::optional<bla::Values> Change::proven_rom(const Goal& goal, const Servo& servo) {
   History* const record = options_.manner.proofs;
   return goal.saves() && goal.evidence != Evidence::none && record != nullptr
@@ -206,7 +206,7 @@ std::optional<bla::Values> Change::proven_rom(const Goal& goal, const Servo& ser
              : std::nullopt;
 }
 
-/// Tasks for those for which something has to be done.
+/// Creates tasks for servos with a need.
 std::vector<Error> Change::judge(std::span<const std::size_t> goals, Snapshots snapshots,
                                  std::vector<UnitTask>& tasks) {
   std::vector<Error> errors;
@@ -220,7 +220,7 @@ std::vector<Error> Change::judge(std::span<const std::size_t> goals, Snapshots s
     }
     const auto rom = proven_rom(result.goal, held.servo);
     const Need need = need_of(result.goal, held, rom);
-    const ChangeResult earlier = std::move(result.change); // to see what its ROM holds
+    const ChangeResult earlier = std::move(result.change); // to read its ROM
     result = compared(std::move(result.goal), need, held);
     result.change.was_begun = earlier.was_begun;
     result.change.was_sent = earlier.was_sent;
@@ -239,7 +239,7 @@ std::vector<Error> Change::judge(std::span<const std::size_t> goals, Snapshots s
   return errors;
 }
 
-/// The plans of those that are begun, in rounds.
+/// Plans the servos to change, in rounds.
 std::vector<Error> Change::make_rounds(std::vector<UnitTask> tasks) {
   rounds_ = std::make_unique<Rounds>(session_, profiles_,
                                      Rounds::Options{.manner = options_.manner,
@@ -294,7 +294,7 @@ std::vector<Error> Change::prepare(std::span<const std::size_t> goals) {
                              : make_rounds(std::move(tasks));
 }
 
-/// The same without those that refuse: what they refuse is in their results.
+/// Plans without those that refuse: their reasons are in the results.
 std::vector<Error> Change::make_rounds_of_willing(std::vector<UnitTask> tasks) {
   for (;;) {
     auto errors = make_rounds(tasks);
@@ -338,12 +338,12 @@ std::vector<Error> Change::carry_out(const MoveHook& moved) {
   return errors;
 }
 
-/// Is what was found to be right still true of those that nothing was done to, as far as was heard?
+/// Checks that servos left unchanged still hold their goals, as far as heard.
 void Change::look_back() {
   const Roster& roster = session_.roster();
   for (GoalResult& result : results_) {
     if (result.need != Need::nothing) {
-      continue; // its own job has looked
+      continue; // checked by its own job
     }
     const Servo& servo = result.servo();
     const std::uint8_t id = servo.id.value();
@@ -353,7 +353,7 @@ void Change::look_back() {
     } else if (const auto writer = roster.writer_to(servo.id, servo.since)) {
       result.errors.push_back({Code::state, say<texts::written_by_other>(id, writer->value()),
                                say<texts::other_writer_hint>(), id});
-    } else if (restarted && !result.rom_proven) { // RAM is what ROM held now
+    } else if (restarted && !result.rom_proven) { // RAM was reloaded from ROM
       result.errors.push_back(
           {Code::state, say<texts::lost_since>(id), say<texts::run_again_hint>(), id});
     }
@@ -387,7 +387,7 @@ void Change::conclude(const UnitChange& unit, GoalResult& result) {
   }
 }
 
-/// Where the restart has shown that ROM holds something else, that is written now.
+/// Writes goals that a restart has shown to be missing in ROM.
 std::vector<Error> Change::write_what_rom_lacks() {
   std::vector<std::size_t> lacking;
   for (std::size_t i = 0; i < begun_.size(); ++i) {
@@ -408,7 +408,7 @@ std::vector<Error> Change::write_what_rom_lacks() {
   return errors;
 }
 
-/// A change that came to its end is not gone on with when the command is typed again.
+/// A completed change is not continued when the command is repeated.
 void Change::end_record() {
   std::vector<dronecan::UniqueId> units;
   for (const GoalResult& result : results_) {

@@ -20,7 +20,7 @@ bool has_failed(const std::vector<RegisterChange>& changes) {
                              [](const RegisterChange& change) { return change.error.has_value(); });
 }
 
-/// What ERASE leaves; the IDs are written again after it.
+/// The values after ERASE; the IDs are written again after it.
 bla::Values expected_after_erase(const Plan& plan) {
   bla::Values expected = plan.expected;
   for (const RegisterChange& change : plan.changes) {
@@ -87,7 +87,7 @@ bool ChangeJob::is_stopped(Stage next) const {
   return changes && options_.pace != nullptr && options_.pace->is_stopped();
 }
 
-/// Another servo has failed.
+/// Called when another servo has failed.
 void ChangeJob::stop() {
   const std::uint8_t id = servo_.id.value();
   result_.was_begun = erase_ || write_;
@@ -125,7 +125,7 @@ ChangeJob::Stage ChangeJob::to_show() const {
              : Stage::end;
 }
 
-/// A mere restart: its ROM may hold another servo ID, and nobody reads it.
+/// A plain restart: its ROM may hold another servo ID, which is not read.
 bool ChangeJob::brings_unread_rom() const {
   return plan_.restart == RestartKind::restart && !plan_.proves_rom;
 }
@@ -152,7 +152,7 @@ std::unique_ptr<WriteJob> ChangeJob::write() const {
       is_read_later ? WriteJob::Echo::suffices : WriteJob::Echo::is_checked, may_be_driven());
 }
 
-/// Begins a stage; one that has nothing to ask is over at once.
+/// Begins a stage; one without requests ends at once.
 Step ChangeJob::enter(Stage stage, Time now) {
   for (;; stage = conclude_stage(false)) {
     if (is_stopped(stage)) {
@@ -219,8 +219,7 @@ ChangeJob::Stage ChangeJob::conclude_erase() {
   return result_.error ? Stage::end : Stage::read_erased;
 }
 
-/// Where the registers show that a request without an answer was not carried out it is sent once
-/// more.
+/// If the registers show that a request without a response was not carried out, it is sent again.
 ChangeJob::Stage ChangeJob::conclude_read_erased() {
   take_reading(read_->snapshot());
   result_.error = compare(read_->snapshot(), expected_after_erase(plan_));
@@ -297,7 +296,7 @@ ChangeJob::Stage ChangeJob::conclude_restart() {
   return brings_unread_rom() ? to_show() : Stage::read_back;
 }
 
-/// Before SAVE: RAM must still hold what is to be saved.
+/// Before SAVE: RAM must still hold the values to be saved.
 ChangeJob::Stage ChangeJob::conclude_look() {
   const Snapshot& now = read_->snapshot();
   const std::uint8_t id = servo_.id.value();
@@ -323,7 +322,7 @@ ChangeJob::Stage ChangeJob::conclude_read_back() {
   take_reading(now);
   result_.values_read = plan_.expected.size();
   result_.error = compare(now, plan_.expected);
-  // What RAM has shown before and does not show now, ROM has not taken.
+  // values that RAM held before and does not hold now were not written to ROM
   if (auto unreadable = check_rom(now)) {
     result_.error = std::move(unreadable);
   } else if (result_.error && result_.error->code == Code::mismatch) {
@@ -346,7 +345,7 @@ ChangeJob::Stage ChangeJob::conclude_read_back() {
   return to_show();
 }
 
-/// `now` ends with an uptime of the servo. Empty: it has started anew since.
+/// `now` ends with an uptime of the servo. Empty: it has restarted since.
 std::optional<RomReading> ChangeJob::rom_reading(const Snapshot& now) const {
   const Member member = roster_.member(now.servo.id);
   if (!member.is_unit(*servo_.unique_id)) {
@@ -360,7 +359,7 @@ std::optional<RomReading> ChangeJob::rom_reading(const Snapshot& now) const {
   return rom;
 }
 
-/// Nothing rests on it: what cannot be read is not shown.
+/// Nothing depends on it: unreadable values are not shown.
 void ChangeJob::conclude_read_shown() {
   result_.now = read_->snapshot().values();
   if (brings_unread_rom()) {
@@ -396,8 +395,8 @@ std::unique_ptr<ReadJob> ChangeJob::read_configuration() {
       after_save ? ReadJob::Proof::unit : ReadJob::Proof::moment);
 }
 
-/// What tells of a moment only: the settings were read before, or written since. unproven: that
-/// 0x19 follows a change before the writes have been proven.
+/// Values of the moment only: the settings were read before, or written since. unproven: that 0x19
+/// follows a change before the writes have been proven.
 std::unique_ptr<ReadJob> ChangeJob::read_shown() {
   return std::make_unique<ReadJob>(
       roster_, result_.node_id_after.value_or(servo_.id), profiles_, options_.identification,
@@ -412,7 +411,7 @@ std::unique_ptr<ReadJob> ChangeJob::read_shown() {
       });
 }
 
-/// ERASE sets the commands to 0, too (4.9), unless somebody drives the servo.
+/// ERASE sets the commands to 0, too (4.9), unless another node drives the servo.
 std::optional<Error> ChangeJob::check_commands(const Snapshot& now) const {
   if (roster_.driver_of(now.servo, now.servo.since)) {
     return std::nullopt;
@@ -421,7 +420,7 @@ std::optional<Error> ChangeJob::check_commands(const Snapshot& now) const {
   for (const bla::Address command : bla::command_registers) {
     const auto raw = now.raw(command);
     expected[command] = raw == bla::not_active ? bla::not_active : 0;
-    // unproven: with that its output came on, and holds the shaft where it is (errata E3).
+    // unproven: its output comes on by that, and holds the shaft in place (errata E3)
     if (command == bla::address::command_angle &&
         plan_.before.raw(bla::address::torque_output) != 0) {
       expected.erase(command);

@@ -1,5 +1,5 @@
 #pragma once
-// The catalogue of a change as a whole: what a person should know before it.
+// Messages about a change as a whole, before it.
 
 #include "blactl/base/text.hpp"
 

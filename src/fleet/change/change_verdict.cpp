@@ -1,5 +1,4 @@
-// What can be said of the servo in the end: what was lost, what others did meanwhile, what was not
-// reached.
+// The final verdict on the servo: losses, changes by other nodes meanwhile, and unmet goals.
 
 #include "blactl/base/hex.hpp"
 #include "blactl/fleet/bus/conflict_texts.hpp"
@@ -15,7 +14,7 @@
 
 namespace blactl::fleet {
 
-/// What another node has written the servo neither refused nor changed.
+/// A register written by another node was neither refused nor changed by the servo.
 void ChangeJob::blame_other_writer(RegisterChange& change) const {
   const auto writer = roster_.writer_to(servo_.id, known_since(), change.parameter->address);
   if (writer && change.error && change.after) {
@@ -25,7 +24,7 @@ void ChangeJob::blame_other_writer(RegisterChange& change) const {
   }
 }
 
-/// Values that differ where another node wrote are neither the servo's fault nor ROM's.
+/// Differing values that another node wrote are not the fault of the servo or its ROM.
 void ChangeJob::blame_other_writer() {
   const bool differs = result_.error && (result_.error->code == Code::mismatch ||
                                          result_.error->code == Code::state);
@@ -36,7 +35,7 @@ void ChangeJob::blame_other_writer() {
   }
 }
 
-/// What has been sent. A second unit that shows then may have taken it, too.
+/// Lists what has been sent. A second unit that shows up may have received it, too.
 void ChangeJob::tell_reach() {
   const bool has_sent = result_.was_sent = (erase_ && erase_->is_sent()) ||
                                            (write_ && write_->has_written()) ||
@@ -52,7 +51,7 @@ void ChangeJob::tell_reach() {
   }
 }
 
-/// What the registers of the changes hold now, after a SAVE that went wrong.
+/// Reports the present values of the changed registers, after a failed SAVE.
 void ChangeJob::tell_saved(const Snapshot& now) {
   doubt_changes();
   for (RegisterChange& change : result_.changes) {
@@ -63,7 +62,7 @@ void ChangeJob::tell_saved(const Snapshot& now) {
   }
 }
 
-/// The servo restarted, or may have: what was written was in RAM.
+/// The servo restarted, or may have: the changes were in RAM.
 void ChangeJob::doubt_changes() {
   result_.now.clear();
   for (RegisterChange& change : result_.changes) {
@@ -72,12 +71,12 @@ void ChangeJob::doubt_changes() {
   }
 }
 
-/// Since when all that is told of the servo was asked.
+/// The earliest request for anything reported about the servo.
 Time ChangeJob::known_since() const {
   return std::min(begin_, plan_.before.servo.since);
 }
 
-/// Another node that wrote, as far as was heard, what this job has changed, found to be right or
+/// Another node that wrote, as far as heard, to registers that this job has changed, checked or
 /// shows.
 std::optional<dronecan::NodeId> ChangeJob::other_writer() const {
   const dronecan::NodeId id = plan_.before.servo.id;
@@ -125,7 +124,7 @@ void ChangeJob::look_back() {
   doubt_changes();
 }
 
-/// What was not reached, where the stage itself cannot tell.
+/// Explains unmet goals if the stage itself cannot.
 void ChangeJob::explain_interruption(Stage at) {
   const std::uint8_t id = servo_.id.value();
   const std::string uid = servo_.unique_id ? hex(*servo_.unique_id) : std::string();

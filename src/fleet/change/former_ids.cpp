@@ -27,7 +27,7 @@ std::optional<NodeId> FormerIds::assign(const UniqueId& unique_id, NodeId /*pref
     return std::nullopt;
   }
   const NodeId id = from_table(unique_id, former->second).value_or(former->second);
-  // Somebody else may have taken the ID in the meantime, and not have said yet who it is.
+  // another unit may have taken the ID in the meantime, and not be identified yet
   const Member* now = session_.roster().find(id);
   const bool is_taken = now != nullptr && !now->is_unit(unique_id);
   Asked& asked = asked_[unique_id];
@@ -56,7 +56,7 @@ std::optional<std::string> FormerIds::hint(const UniqueId& unique_id) const {
       hex(unique_id));
 }
 
-/// Empty: the table cannot be used, and the servo gets the ID that it had.
+/// Empty: the table cannot be used, and the servo gets its previous ID.
 std::optional<NodeId> FormerIds::from_table(const UniqueId& unique_id, NodeId former) {
   if (!table_ && open_) {
     table_ = open_();

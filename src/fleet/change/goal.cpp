@@ -7,7 +7,7 @@ namespace {
 
 using bla::Assignment;
 
-/// A servo that started with this static node ID would be on it: it stands in RAM only.
+/// A servo that started with this static node ID would be on it: it is in RAM only.
 bool shows_other_rom(const Goal& goal, const Snapshot& held) {
   return std::ranges::any_of(goal.wanted.assignments, [&](const Assignment& wish) {
     return wish.parameter->address == bla::address::static_node_id && wish.value.raw != 0 &&
@@ -15,7 +15,7 @@ bool shows_other_rom(const Goal& goal, const Snapshot& held) {
   });
 }
 
-/// Where nothing is on record.
+/// The need without a record.
 Need need_without_record(const Goal& goal, const Snapshot& held) {
   if (goal.evidence == Evidence::record || shows_other_rom(goal, held)) {
     return Need::save;
@@ -60,7 +60,7 @@ Need need_of(const Goal& goal, const Snapshot& held, const std::optional<bla::Va
   if (!goal.saves()) {
     return Need::nothing;
   }
-  if (check_rom(held)) { // it holds initial values for want of its ROM
+  if (check_rom(held)) { // it holds initial values because ROM is unreadable
     return Need::save;
   }
   if (rom) {

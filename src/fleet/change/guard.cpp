@@ -41,7 +41,7 @@ std::optional<Error> forbidden(const Roster& roster, Time now, const Plan& plan,
   if (!plan.acts()) {
     return std::nullopt;
   }
-  // What was read and asked belongs to the time before a restart.
+  // readings and responses are from before a restart
   if (!roster.member(servo.id).is_known() || roster.member(servo.id).boots != servo.boot) {
     return Error{Code::state, say<texts::restarted_before_write>(id), say<texts::run_again_hint>(),
                  id};

@@ -12,7 +12,7 @@ using state::ChangeEnd;
 
 namespace {
 
-/// A crystal that drifts by 30 ppm takes a twentieth of the tolerance in this time.
+/// A crystal with a drift of 30 ppm uses a twentieth of the tolerance in this time.
 constexpr std::chrono::hours worth_renewing{1};
 
 state::Registers stored(const bla::Values& values) {
@@ -23,12 +23,12 @@ state::Registers stored(const bla::Values& values) {
   return registers;
 }
 
-/// What these do not end they do when they are typed again.
+/// Commands that complete an unfinished run when repeated.
 bool is_repeated_as_a_whole(std::string_view command) {
   return command == "apply" || command == "undo" || command == "alloc --static";
 }
 
-/// Of a unit whose configuration was read after its restart.
+/// For a unit whose configuration was read after its restart.
 state::RomProof proof_of(const UniqueId& unique_id, const RomReading& rom, const Session& session) {
   return {.unique_id = unique_id,
           .rom = stored(rom.values),
@@ -73,7 +73,7 @@ Result<void> History::drop_proofs(std::span<const Plan> plans) {
   return dropped;
 }
 
-/// Where an earlier try of this command ended half way.
+/// Resumes after an earlier try of this command that ended half way.
 Result<void> History::resume(const UniqueId& unique_id) {
   if (!is_repeated_as_a_whole(command_) || kept_.contains(unique_id)) {
     return {};
@@ -112,7 +112,7 @@ Result<void> History::keep(std::span<const Plan> plans, WallTime now) {
             : state::SnapshotEntry{
                   .run = run_, .at = now, .command = command_, .unique_id = *unique_id};
     const std::size_t size = entry.held.size();
-    entry.held.merge(held); // what an earlier round has replaced stays
+    entry.held.merge(held); // values replaced in an earlier round stay
     const bool saves = entry.saved || plan.restart == RestartKind::save;
     const std::int64_t run = run_ != 0 ? run_ : entry.run;
     if (entry.number == 0 || entry.held.size() != size || entry.saved != saves ||
@@ -183,7 +183,7 @@ std::optional<bla::Values> History::proven_rom(const Servo& servo, const Session
     return std::nullopt;
   }
   if (uptime - (*proof)->uptime > worth_renewing) {
-    // Else it ends sooner.
+    // on failure it expires sooner
     [[maybe_unused]] const auto put =
         proofs_.put(std::array{state::renewed(**proof, uptime, told)});
   }
@@ -194,7 +194,7 @@ std::optional<bla::Values> History::proven_rom(const Servo& servo, const Session
   return values;
 }
 
-/// A SAVE that replaces nothing itself keeps what an earlier change has put into RAM.
+/// A SAVE that replaces nothing itself makes an earlier change in RAM permanent.
 Result<std::optional<state::Settlement>> History::made_lasting(const ChangeResult& result) const {
   if (!result.may_have_saved || !result.servo.unique_id) {
     return std::nullopt;
@@ -208,13 +208,13 @@ Result<std::optional<state::Settlement>> History::made_lasting(const ChangeResul
              : std::nullopt;
 }
 
-/// Of an undo that has begun elsewhere: what it did not begin is not done yet, either.
+/// For an undo that has begun elsewhere: servos it did not begin are not done yet, either.
 bool History::is_half_undone() const {
   return command_ == "undo" &&
          std::ranges::any_of(kept_, [](const auto& each) { return each.second.was_changed; });
 }
 
-/// What came as it was planned stands in the store already.
+/// Results as planned are already in the store.
 Result<void> History::settle(std::span<const ChangeResult> results) {
   for (const ChangeResult& result : results) {
     const auto known = result.servo.unique_id ? kept_.find(*result.servo.unique_id) : kept_.end();

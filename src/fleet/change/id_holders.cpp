@@ -63,7 +63,7 @@ Result<TakenIds> taken_ids(const Roster& roster, const state::AllocationStore& t
   }
   for (const state::AllocationEntry& entry : *entries) {
     if (moves(entry.unique_id, wishes) || is_here(roster, entry.unique_id)) {
-      continue; // where it is, holders() tells
+      continue; // its place is given by holders()
     }
     if (roster.is_pending(entry.unique_id)) { // it may get its ID at any moment
       ids.taken.set(entry.node_id.value());

@@ -1,5 +1,5 @@
 #pragma once
-// Who has which node ID on a bus: what a plan of moves (id_moves.hpp) starts from.
+// The holders of node IDs on a bus, from which moves are planned (id_moves.hpp).
 
 #include "blactl/base/error.hpp"
 #include "blactl/fleet/bus/roster.hpp"
@@ -12,28 +12,28 @@
 
 namespace blactl::fleet {
 
-/// This unit is heard under some node ID.
+/// Whether this unit is heard under some node ID.
 [[nodiscard]] bool is_here(const Roster& roster, const dronecan::UniqueId& unit);
 
-/// Everybody who told its unique ID, each once. A unit holds its ID, and what it would get by its
-/// 0x46; one for which another is wished gives that up: what its ROM holds nobody knows, so its
-/// move is not spared.
+/// All nodes with a known unique ID, each once. A unit occupies its ID, and the one in its 0x46;
+/// one with a wish gives the latter up: the contents of its ROM are unknown, so its move is not
+/// skipped.
 [[nodiscard]] std::vector<IdHolder> holders(const Roster& roster,
                                             std::span<const state::AllocationStore::Wish> wishes);
 
-/// Where this unit is that has its node ID by its own 0x46: it asks for none, whatever the table
-/// promises. Empty: it is not here, or not so.
+/// The present node ID of a unit that has it from its own 0x46: it does not ask for one, whatever
+/// the table promises. Empty: it is not here, or has another ID.
 [[nodiscard]] std::optional<dronecan::NodeId> static_place(const Roster& roster,
                                                            const dronecan::UniqueId& unique_id);
 
-/// The node IDs that no plan may take, and those that it may.
+/// The node IDs that plans must not use, and those to avoid.
 struct TakenIds {
-  state::NodeIds taken;    ///< of nodes that did not say who they are, waiting units, and our own
+  state::NodeIds taken;    ///< of unidentified nodes and waiting units, and our own
   state::NodeIds promised; ///< of units in the table that are not on this bus
   std::vector<state::AllocationEntry> absent{}; ///< those units
 };
 
-/// Whose the IDs are for which no unit of `wishes` is the holder. Errors: of the table.
+/// The holders of IDs other than the units of `wishes`. Errors: of the table.
 [[nodiscard]] Result<TakenIds> taken_ids(const Roster& roster, const state::AllocationStore& table,
                                          std::span<const state::AllocationStore::Wish> wishes);
 

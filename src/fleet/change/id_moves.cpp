@@ -20,7 +20,7 @@ bool holds(const IdHolder& unit, NodeId id) {
   return unit.id == id || unit.static_node_id == id.value();
 }
 
-/// That one unit, or one ID, was wished for before.
+/// The error for a unit, or an ID, with an earlier wish.
 std::optional<Error> wished_twice(std::span<const Wish> earlier, const Wish& wish) {
   for (const Wish& other : earlier) {
     if (other.unique_id == wish.unique_id) {
@@ -39,7 +39,7 @@ std::optional<Error> wished_twice(std::span<const Wish> earlier, const Wish& wis
   return std::nullopt;
 }
 
-/// What speaks against this wish, whatever the order of the moves.
+/// Objections to a wish, independent of the order of the moves.
 class WishCheck {
  public:
   WishCheck(std::span<const IdHolder> units, std::span<const Wish> wishes,
@@ -99,7 +99,7 @@ class WishCheck {
   std::vector<Error> errors_;
 };
 
-/// The units as they are after the rounds so far. Wishes have been checked.
+/// The units after the rounds so far. Wishes have been checked.
 class IdSchedule {
  public:
   IdSchedule(std::span<const IdHolder> units, std::span<const Wish> wishes,
@@ -159,7 +159,7 @@ class IdSchedule {
     return round;
   }
 
-  /// Another unit that has what this one wishes; null: it may move, or need not.
+  /// Another unit that holds the ID wanted by this one; null: it may move, or need not.
   [[nodiscard]] const Unit* blocker(const Unit& unit) const {
     const auto found = std::ranges::find_if(units_, [&](const Unit& other) {
       return &other != &unit && !unit.is_done() && holds(other.now, *unit.wish);
@@ -167,7 +167,7 @@ class IdSchedule {
     return found == units_.end() ? nullptr : &*found;
   }
 
-  /// Units of which each waits for the next, and the last for the first.
+  /// Cycles of units each waiting for the next, and the last for the first.
   [[nodiscard]] std::vector<Cycle> cycles() const {
     std::vector<Cycle> found;
     std::set<const Unit*> seen;
@@ -185,8 +185,8 @@ class IdSchedule {
     return found;
   }
 
-  /// Who of them can go to the highest ID: after a cut that is the one that was on its way there.
-  /// Empty: no ID is free.
+  /// The unit of them that can go to the highest ID: after a cut that is the one that was on its
+  /// way there. Empty: no ID is free.
   [[nodiscard]] std::optional<IdMove> way_out(const Cycle& cycle,
                                               const state::NodeIds& closed) const {
     std::optional<IdMove> best;
@@ -198,8 +198,7 @@ class IdSchedule {
     return best;
   }
 
-  /// The highest ID that this unit can have for a while, best one that is promised to nobody;
-  /// 0: none.
+  /// The highest temporary ID for this unit, preferably one that is not promised; 0: none.
   [[nodiscard]] NodeId highest_free(const Unit& unit, const state::NodeIds& closed) const {
     const NodeId unpromised = highest_open(unit, closed | rather_not_);
     return unpromised.is_unicast() ? unpromised : highest_open(unit, closed);
@@ -225,7 +224,7 @@ class IdSchedule {
   }
 
   std::vector<Unit> units_;
-  state::NodeIds never_temporary_; ///< others have them, or they are wished
+  state::NodeIds never_temporary_; ///< held by others, or wanted
   state::NodeIds rather_not_;      ///< promised to units that are away
 };
 

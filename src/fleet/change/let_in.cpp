@@ -14,12 +14,13 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// For a unit to get an ID and to be heard under it: allocation takes about 1 s, one after the
+/// For a unit to get an ID and to be heard under it: allocation takes about 1 s, one unit after the
 /// other.
 constexpr Duration least_time = 5s;
 constexpr Duration time_for_one = 2s;
 
-/// Without a request for so long nobody asks any more, even if one was lost (1.Allocation.uavcan).
+/// After this time without a request no unit asks any more, even if one was lost
+/// (1.Allocation.uavcan).
 constexpr Duration quiet_time = 3s;
 
 Time deadline(const Session& session, std::size_t units) {
@@ -30,7 +31,7 @@ Time deadline(const Session& session, std::size_t units) {
 
 Result<void> let_in(Session& session, state::AllocationStore& table) {
   if (!session.roster().allocators().empty()) {
-    return {}; // it is another's to do
+    return {}; // another allocator does it
   }
   AllocationService service(session, table, {}, [](auto, const auto&) {});
   service.bus_is_known();
@@ -51,7 +52,7 @@ Result<NotLetIn> let_in(Session& session, state::AllocationStore& table,
   const auto is_missing = [&](const Wish& wish) { return !is_here(roster, wish.unique_id); };
   std::vector<Wish> missing;
   std::ranges::copy_if(wishes, std::back_inserter(missing), is_missing);
-  // Who asks may be one of them: requests collide, and not all of them are heard.
+  // a unit that asks may be one of them: requests collide, and not all of them are heard
   if (missing.empty() || roster.pending().empty() || !roster.allocators().empty()) {
     return {};
   }
@@ -61,7 +62,7 @@ Result<NotLetIn> let_in(Session& session, state::AllocationStore& table,
       return std::unexpected(id.error());
     }
   }
-  // Nobody else gets an ID from it: whoever is not in the table waits until the bus is known.
+  // no other unit gets an ID from it: those not in the table wait until the bus is known
   const AllocationService service(session, table, {}, [](auto, const auto&) {});
   const auto lived = session.live_until(deadline(session, missing.size()),
                                         [&] { return std::ranges::none_of(missing, is_missing); });

@@ -37,9 +37,8 @@ std::vector<Error> Loan::prepare(std::span<const NodeId> servos) {
   return goals ? change_.prepare(std::move(*goals)) : std::vector{std::move(goals.error())};
 }
 
-/// Only that register.
 std::vector<Snapshot> Loan::read(std::span<const NodeId> ids) {
-  // Every snapshot tells by itself whether the session ended before it was complete.
+  // every snapshot shows by itself whether the session ended early
   return take_snapshots(session_, profiles_, ids, options_.manner.identification,
                         [this](const Servo& servo) -> Result<std::vector<const bla::Parameter*>> {
                           return servo.identity.registers(std::array{borrowed_.parameter->address});
@@ -151,7 +150,7 @@ void Loan::try_to_give_back() {
       planned.push_back(all[i]);
     }
   }
-  // The record of the loan is taken back; that it is given back is no change of its own.
+  // the record of the loan is taken back; restoring it is not a change of its own
   Change change(session_, profiles_,
                 {.manner = {.identification = options_.manner.identification,
                             .while_driven = options_.manner.while_driven},
@@ -172,7 +171,7 @@ void Loan::try_to_give_back() {
   }
 }
 
-/// What is to be written to it; empty: nothing, and `held` says why.
+/// The write needed; empty: none, with the reason in `held`.
 std::optional<Goal> Loan::judge(const Snapshot& now, Held& held) const {
   if (auto error = now.first_error()) {
     held.error = std::move(*error);
@@ -194,7 +193,7 @@ std::optional<Goal> Loan::judge(const Snapshot& now, Held& held) const {
               .wanted = {.assignments = {std::move(former)}}};
 }
 
-/// What they hold now decides, whatever was written, and by whom.
+/// The present values decide, whatever was written, and by whom.
 GivenBack Loan::conclude() {
   std::vector<NodeId> ids;
   std::ranges::transform(held_, std::back_inserter(ids),
@@ -211,15 +210,15 @@ GivenBack Loan::conclude() {
     }
   }
   if (History* const history = options_.manner.history; history != nullptr) {
-    // Else undo finds nothing to do.
+    // on failure undo finds nothing to do
     [[maybe_unused]] const auto forgotten = history->take_back(settled);
   }
   return given;
 }
 
-/// False: it is still without its torque.
+/// Returns false: it is still without its torque.
 bool Loan::tell_unread(const Held& held, const Error& why, GivenBack& given) const {
-  if (held.state == State::given) { // as it showed then
+  if (held.state == State::given) { // as shown then
     given.servos.push_back(held.servo.id);
   } else if (held.state != State::untouched) {
     given.errors.push_back(not_given_back(held, held.error.value_or(why)));
@@ -227,7 +226,6 @@ bool Loan::tell_unread(const Held& held, const Error& why, GivenBack& given) con
   return held.state == State::given;
 }
 
-/// The same.
 bool Loan::tell(const Held& held, const Snapshot& now, GivenBack& given) const {
   const std::uint8_t id = held.servo.id.value();
   if (now.servo.unique_id != held.servo.unique_id) {
@@ -260,7 +258,7 @@ bool Loan::tell(const Held& held, const Snapshot& now, GivenBack& given) const {
   return is_left || held.state != State::borrowed;
 }
 
-/// Why its torque need not be what we have made it; with what it is.
+/// The reason why its torque may not be ours, with its present state.
 std::optional<std::string> Loan::what_happened(const Held& held, const Snapshot& now) const {
   const NodeId id = held.servo.id;
   const std::string raw = shown(value(now).value_or(borrowed_.value.raw));
@@ -273,7 +271,7 @@ std::optional<std::string> Loan::what_happened(const Held& held, const Snapshot&
   return std::nullopt;
 }
 
-/// An interruption is told once, by the command.
+/// An interruption is reported once, by the command.
 Error Loan::not_given_back(const Held& held, const Error& reason) const {
   const bool is_late = reason.code == Code::interrupted;
   return error_of(
@@ -283,7 +281,7 @@ Error Loan::not_given_back(const Held& held, const Error& reason) const {
       is_late ? Error{Code::state, {}, {}, {}} : reason);
 }
 
-/// Two units on one node ID cannot be told what to do: there its own hint stands.
+/// Two units on one node ID cannot be commanded: their own hint applies.
 Error Loan::error_of(const Held& held, std::string message, const Error& reason) const {
   const std::uint8_t id = held.servo.id.value();
   return {reason.code, std::move(message),

@@ -1,5 +1,5 @@
 #pragma once
-// The catalogue of loans. All of them are of torque today.
+// Messages about loans, which today are all of torque.
 
 #include "blactl/base/text.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-// The catalogue of who gives and gets node IDs: the allocation service, static IDs.
+// Messages about the allocation of node IDs: the allocation service, static IDs.
 
 #include "blactl/base/text.hpp"
 
@@ -33,7 +33,7 @@ inline constexpr Text allocated_not_up_hint{
     "see whether it is there: blactl scan; then run it again",
     "接続を確認 (blactl scan) してから再実行して下さい"};
 inline constexpr Text allocated_not_taken{
-    "node ID {} was given to uid:{} again and again: it does not take it, and asks on",
+    "node ID {} was given to uid:{} again and again: it does not accept it, and still asks",
     "ノード ID {} を uid:{} に繰り返し割り当てましたが、反映されず要求が続いています"};
 inline constexpr Text allocated_not_taken_hint{
     "power it off and on; if it still asks, frames get lost or it is faulty: blactl trace --type "

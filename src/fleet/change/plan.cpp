@@ -29,8 +29,8 @@ void add(Registers& wanted, const Parameter* parameter) {
   }
 }
 
-/// The registers to be written, 0x37 for the unit of 0x36, and what tells whether a change moves
-/// the shaft.
+/// The registers to be written, 0x37 for the unit of 0x36, and those that show whether a change
+/// moves the shaft.
 Registers to_judge(const Wanted& wanted, const Servo& servo) {
   Registers registers;
   for (const Assignment& assignment : wanted.assignments) {
@@ -54,7 +54,7 @@ Error about(const Servo& servo, Error error) {
   return error;
 }
 
-/// 0x36 in deg or rpm is right only if 0x37 says so; without a 0x37 beside it, the servo's.
+/// 0x36 in deg or rpm must agree with 0x37; without a 0x37 beside it, with the servo's.
 std::optional<Error> check_unit(const Wanted& wanted, const Snapshot& before,
                                 const bla::Profiles& profiles) {
   const auto mode = before.raw(at::pwm_mode);
@@ -72,7 +72,7 @@ std::optional<Error> check_unit(const Wanted& wanted, const Snapshot& before,
   return std::nullopt;
 }
 
-/// `held`: what is there when the changes are made.
+/// `held`: the values when the changes are made.
 void plan_changes(const Wanted& wanted, const Values& held, Plan& plan) {
   for (const Assignment& assignment : wanted.assignments) {
     const Address address = assignment.parameter->address;
@@ -85,7 +85,7 @@ void plan_changes(const Wanted& wanted, const Values& held, Plan& plan) {
     }
     plan.changes.push_back(std::move(change));
   }
-  // A command may need a switch that is set with it.
+  // a command may need a switch that is set with it
   std::ranges::stable_partition(plan.changes, [](const RegisterChange& change) {
     return change.parameter->group != bla::Group::command;
   });
@@ -97,7 +97,7 @@ void plan_changes(const Wanted& wanted, const Values& held, Plan& plan) {
   }
 }
 
-/// Every change that is going to be made, as the cross-checks judge it, in the order asked.
+/// Visits every change to be made in the form for cross-checks, in the order asked.
 template <class Visit> void for_each_proposal(const Plan& plan, Visit visit) {
   const Values before = plan.before.values();
   Values after = before;
@@ -143,7 +143,7 @@ std::optional<Error> check_together(const Plan& plan) {
   return refused;
 }
 
-/// Each kind once, of the change that meets it first.
+/// Each kind once, for the first change with it.
 std::vector<Warning> warnings_of(const Plan& plan) {
   std::vector<Warning> warnings;
   for_each_proposal(plan, [&](const RegisterChange& change, const bla::Proposal& proposal) {
@@ -156,8 +156,8 @@ std::vector<Warning> warnings_of(const Plan& plan) {
   return warnings;
 }
 
-/// --keep-ids: 0x45 and 0x46 back into RAM, unless others are wanted. What is 0 before is 0 after
-/// ERASE.
+/// --keep-ids: writes 0x45 and 0x46 back into RAM, unless other values are wanted. A 0 is 0 after
+/// ERASE anyway.
 void plan_kept_ids(Plan& plan) {
   for (const Address address : {at::servo_id, at::static_node_id}) {
     const auto kept = plan.before.raw(address);
@@ -171,7 +171,7 @@ void plan_kept_ids(Plan& plan) {
   }
 }
 
-/// The configuration once everything is done, as far as it will be proven.
+/// The final configuration, as far as it will be proven.
 Values expected_after(const Plan& plan) {
   Values expected = plan.expected; // after ERASE
   if (!plan.erase) {
@@ -189,7 +189,7 @@ Values expected_after(const Plan& plan) {
   return expected;
 }
 
-/// What SAVE keeps is known; what a mere restart starts with is not.
+/// The values kept by SAVE are known; those loaded by a plain restart are not.
 std::string restart_question(const Plan& plan) {
   const std::uint8_t id = plan.before.servo.id.value();
   if (plan.restart == RestartKind::restart) {
@@ -203,7 +203,7 @@ std::string restart_question(const Plan& plan) {
   return {};
 }
 
-/// What erasing this servo will do, from what to what.
+/// The effect of erasing this servo.
 std::string erase_question(const Plan& plan) {
   const auto id_text = [&](Address address) {
     const auto raw = plan.before.raw(address);
@@ -213,14 +213,14 @@ std::string erase_question(const Plan& plan) {
   std::string lines = plan.keep_ids ? say<texts::question_erase_keep>(id)
                                     : say<texts::question_erase>(id, id_text(at::servo_id),
                                                                  id_text(at::static_node_id));
-  // By default torque is on (4.13).
+  // by default torque is on (4.13)
   if (bla::restart_motion(plan.before.values()) == bla::RestartMotion::none) {
     lines += say<texts::question_erase_torque>(id);
   }
   return lines;
 }
 
-/// A change may be asked for several reasons.
+/// A change may need confirmation for several reasons.
 std::string change_question(const Plan& plan, const RegisterChange& change,
                             std::span<const bla::CrossCheck* const> checks) {
   const Parameter& parameter = *change.parameter;
@@ -317,7 +317,7 @@ ReadJob::Proof proof_needed(const Wanted& wanted) {
 }
 
 Result<Plan> make_plan(const Wanted& wanted, Snapshot before, const bla::Profiles& profiles) {
-  // For a mere restart nothing rests on single registers.
+  // a plain restart does not depend on single registers
   const bool needs_values =
       !wanted.is_about_whole_servo() || wanted.erase || wanted.restart != RestartKind::restart;
   if (auto incomplete = needs_values ? before.first_error() : before.error) {

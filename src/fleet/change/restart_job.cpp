@@ -24,11 +24,11 @@ using namespace std::chrono_literals;
 /// Uptime counts whole seconds: from this on a restart shows for certain.
 constexpr std::uint32_t old_enough_s = 2;
 
-/// How long a servo is given to carry out a request whose answer was lost, before it is asked
-/// whether it did. The vendor's updater waits as long (facts, section 6).
+/// The time for a servo to carry out a request whose response was lost, before it is checked. The
+/// vendor's updater waits as long (facts, section 6).
 constexpr Duration settling_time = 1500ms;
 
-/// How often a servo that is awaited and says nothing is asked whether it is there.
+/// The interval of requests to an expected servo that is silent.
 constexpr Duration call_period = 1s;
 
 std::string_view name(RestartKind kind) {
@@ -80,7 +80,7 @@ Step RestartJob::ask_unit() {
   return ask(id_, GetNodeInfo::type, GetNodeInfo::Request{}.encode(), options_.patience);
 }
 
-/// It must be the servo that is meant, old enough for its restart to show, and its turn.
+/// It must be the same servo, old enough for its restart to show, and its turn.
 Step RestartJob::check_unit(const Outcome& outcome) {
   const std::uint8_t id = id_.value();
   if (const auto shared = doubled_id()) {
@@ -98,7 +98,7 @@ Step RestartJob::check_unit(const Outcome& outcome) {
     return dronecan::Pause{.until = outcome.at +
                                     std::chrono::seconds(old_enough_s - info->status.uptime_s)};
   }
-  // SAVE keeps what is in RAM now: that must be what was read.
+  // SAVE keeps the present RAM: it must be unchanged since it was read
   if (options_.kind == RestartKind::save &&
       !has_run_since(since_, info->status.uptime_s, outcome.at)) {
     at_ = At::proof;
@@ -116,7 +116,7 @@ Step RestartJob::check_unit(const Outcome& outcome) {
   return request(outcome.at);
 }
 
-/// A servo that has run on until now is old enough to show a restart after this moment.
+/// A servo that has not restarted until now is old enough to show a restart after this moment.
 Step RestartJob::judge_proof(const Outcome& outcome) {
   if (Step step = run_proof_->next(outcome); !step.is_end()) {
     return step;
@@ -193,7 +193,7 @@ Step RestartJob::judge_answer(const Outcome& outcome) {
   return dronecan::Pause{.until = sent_at_ + settling_time, .ready = [this] { return has_news(); }};
 }
 
-/// Nobody confirmed the request: what does the servo say of itself?
+/// Without a confirmation, the servo's own uptime decides.
 Step RestartJob::judge_life(const Outcome& outcome) {
   if (has_news()) {
     return conclude();
@@ -214,13 +214,13 @@ Step RestartJob::judge_life(const Outcome& outcome) {
   return give_up(not_carried_out());
 }
 
-/// It was old enough when the request was sent: only without a restart it is older than that.
+/// It was old enough when the request was sent: only without a restart is it older than that.
 bool RestartJob::runs_on(const GetNodeInfo::Response& info, Time now) const {
   return has_run_since(sent_at_, info.status.uptime_s, now);
 }
 
-/// Whether a start that an uptime tells comes after the request. The servo had run for two seconds
-/// then, so what its uptime tells of an earlier start lies a second before the request at least.
+/// Whether the start given by an uptime is after the request. The servo had run for two seconds
+/// then, so an earlier start lies at least a second before the request.
 bool RestartJob::is_after_request(Time started) const {
   constexpr Duration between = 500ms;
   return started > sent_at_ - between;
@@ -240,7 +240,7 @@ Step RestartJob::wait_for_return(Time now) {
                          .ready = [this] { return has_news(); }};
 }
 
-/// A servo need not say by itself that it is back.
+/// A servo need not announce by itself that it is back.
 Step RestartJob::call(Time now) {
   if (now >= sent_at_ + options_.come_back) {
     has_run_on_ = lives_on();
@@ -256,14 +256,14 @@ Step RestartJob::call(Time now) {
 Step RestartJob::judge_call(const Outcome& outcome) {
   const auto info =
       outcome.answered() ? GetNodeInfo::Response::decode(outcome.payload) : std::nullopt;
-  // Under another node ID the roster knows it by this answer.
+  // under another node ID the roster knows it by this response
   if (info && info->unique_id == unique_id_ && !calls_expected_ && !runs_on(*info, outcome.at)) {
     has_restarted_ = true;
   }
   return has_news() ? conclude() : wait_for_return(outcome.at);
 }
 
-/// A node ID on which the servo is, or will be, together with another unit.
+/// A node ID shared by the servo, now or later, with another unit.
 std::optional<dronecan::NodeId> RestartJob::doubled_id() const {
   if (roster_.is_doubled(id_)) {
     return id_;
@@ -273,9 +273,9 @@ std::optional<dronecan::NodeId> RestartJob::doubled_id() const {
   return is_shared ? expected : std::nullopt;
 }
 
-/// Somebody is heard where the servo will be who has told another unique ID since, or has run for
-/// longer than the servo can, which was told to restart: who was there before may have moved away.
-/// Of a mere restart it is not certain where it will be.
+/// Whether another unit is on the servo's future ID: one that has reported another unique ID since,
+/// or has run for longer than the servo can since the request to restart; an earlier holder may
+/// have moved away. For a plain restart the future ID is not certain.
 bool RestartJob::is_another_at(dronecan::NodeId id) const {
   constexpr Duration tolerance = 1s; // uptime counts whole seconds
   const Member* member = id != id_ ? roster_.find(id) : nullptr;
@@ -290,11 +290,11 @@ bool RestartJob::is_another_at(dronecan::NodeId id) const {
   return (member->is_another_unit(unique_id_) && member->info_at > sent_at_) || is_too_old;
 }
 
-/// Where the servo is after its restart; empty: not yet. It says so itself: a start that was heard
-/// on its ID may be that of another unit.
+/// The servo's node ID after its restart; empty: not back yet. Only its own response counts: a
+/// start heard on its ID may be that of another unit.
 std::optional<dronecan::NodeId> RestartJob::find_returned(bool must_operate) const {
   for (const auto& [id, member] : roster_.members()) {
-    // Where it was before earlier restarts it is heard no more.
+    // its ID before earlier restarts is heard no more
     const bool is_restarted =
         id != id_ ? member.last_heard > sent_at_ : has_restarted_ || has_started_anew();
     const bool is_operational = member.status && member.status->mode == dronecan::Mode::operational;
@@ -321,7 +321,7 @@ Step RestartJob::give_up(Error error) {
   return std::nullopt;
 }
 
-/// Of a servo that lives on as before.
+/// For a servo that goes on running as before.
 Error RestartJob::not_carried_out() const {
   const std::uint8_t id = id_.value();
   const std::string_view request = name(options_.kind);
@@ -336,7 +336,7 @@ Error RestartJob::not_carried_out() const {
   return {Code::timeout, say<texts::opcode_ignored>(id, request), say<texts::no_answer_hint>(), id};
 }
 
-/// The last uptime that it told, by itself or asked, is that of before. That it is heard proves
+/// Whether its last uptime, sent or requested, continues that of before. Being heard proves
 /// nothing.
 bool RestartJob::lives_on() const {
   const Member* member = roster_.find(id_);
@@ -369,7 +369,7 @@ Error RestartJob::not_back() const {
           id};
 }
 
-/// Nobody waits any longer; it may come back all the same.
+/// It is not waited for any longer, but may still come back.
 Error RestartJob::left_waiting() const {
   const std::uint8_t id = id_.value();
   return {Code::interrupted,

@@ -42,7 +42,7 @@ std::vector<Wish> wishes_of(std::span<const UnitChange> units) {
   return wishes;
 }
 
-/// The same, with another static node ID.
+/// The same change, with another static node ID.
 Result<Wanted> with_static_id(const bla::Profiles& profiles, Wanted wanted, NodeId id) {
   auto assignment = bla::make_assignment(profiles, bla::address::static_node_id.name(),
                                          std::to_string(id.value()));
@@ -86,7 +86,7 @@ std::vector<Error> Rounds::make_plans(std::vector<UnitTask> tasks) {
     const NodeId id = task.before.servo.id;
     const auto unique_id = task.before.servo.unique_id;
     auto plan = make_plan(task.wanted, std::move(task.before), profiles_);
-    if (!plan || !unique_id) { // two that answer at once answer nothing
+    if (!plan || !unique_id) { // two that respond at the same time cannot be read
       errors.push_back(roster.is_doubled(id) ? doubled(roster, id)
                        : plan                ? fleet::silent(roster, id)
                                              : std::move(plan.error()));
@@ -100,7 +100,7 @@ std::vector<Error> Rounds::make_plans(std::vector<UnitTask> tasks) {
   return errors;
 }
 
-/// Who has which node ID, where IDs are given: the bus is searched for it once.
+/// Finds the holders of node IDs, if IDs are assigned: the bus is searched for it once.
 Result<void> Rounds::learn_ids() {
   if (options_.knows_ids) {
     return {};
@@ -110,7 +110,7 @@ Result<void> Rounds::learn_ids() {
   return discovery.find_all(bus_watch_time);
 }
 
-/// The allocation table. Where it cannot be used one that ends with this change: what asks for
+/// The allocation table; if it cannot be used, one that ends with this change: the caller of
 /// `not_kept` decides whether that is a reason to change nothing.
 Result<state::AllocationStore*> Rounds::table() {
   if (!table_) {
@@ -131,7 +131,7 @@ Result<state::AllocationStore*> Rounds::table() {
   return &*table_;
 }
 
-/// Who wishes no ID begins at once.
+/// Servos without a wanted ID begin at once.
 std::vector<Error> Rounds::make_rounds() {
   const std::vector<Wish> wishes = wishes_of(units_);
   IdRounds moves;
@@ -171,7 +171,7 @@ std::vector<Error> Rounds::make_rounds() {
   return {};
 }
 
-/// A person's wish takes the ID of a unit that is away.
+/// A user's wish takes the ID of a unit that is away.
 void Rounds::note_takeovers(const std::vector<state::AllocationEntry>& absent) {
   for (const UnitChange& unit : units_) {
     const auto former = std::ranges::find(absent, unit.static_node_id(), [](const auto& entry) {
@@ -184,8 +184,8 @@ void Rounds::note_takeovers(const std::vector<state::AllocationEntry>& absent) {
   }
 }
 
-/// Whether others have the servo IDs that are given, or static node IDs that are only written to
-/// RAM: those that are saved are the rounds' to judge.
+/// Checks that no other servo has the assigned servo IDs, or the static node IDs that are only
+/// written to RAM: those that are saved are checked by the rounds.
 std::vector<Error> Rounds::check_ids() {
   const std::vector<Plan> plans = plans_of(units_);
   const auto survey = fleet::survey(session_, profiles_, plans, options_.manner.identification);
@@ -251,7 +251,7 @@ std::vector<Error> Rounds::carry_out_rounds(const Hook& hook) {
   return {};
 }
 
-/// Where a unit of the table is now; empty: nothing is known that would be better.
+/// The present place of a unit in the table; empty: no better one is known.
 std::optional<NodeId> Rounds::place(const dronecan::UniqueId& unique_id) const {
   const auto unit = std::ranges::find(units_, unique_id, &UnitChange::unique_id);
   return unit != units_.end() && unit->static_node_id()
@@ -259,8 +259,8 @@ std::optional<NodeId> Rounds::place(const dronecan::UniqueId& unique_id) const {
              : static_place(session_.roster(), unique_id);
 }
 
-/// An ID that a unit had when it was in the table, and has no more, is in nobody's way. Where
-/// nobody gets an ID the table stays as it is.
+/// Removes IDs in the table that their units do not have any more. If no IDs are assigned the table
+/// stays unchanged.
 Result<void> Rounds::put_as_they_are() {
   if (std::ranges::none_of(
           units_, [](const UnitChange& unit) { return unit.static_node_id().has_value(); })) {
@@ -280,7 +280,8 @@ Result<void> Rounds::put_as_they_are() {
   return table_->enter(entries, session_.wall(), state::AllocationStore::Former::yields);
 }
 
-/// The table says where each will be: other allocators of this machine give it to nobody else.
+/// Enters the future IDs into the table, so that other allocators of this machine do not assign
+/// them.
 Result<void> Rounds::put(const Round& round) {
   std::vector<Wish> entries;
   for (const Step& step : round) {
@@ -293,7 +294,7 @@ Result<void> Rounds::put(const Round& round) {
              : table_->enter(entries, session_.wall(), state::AllocationStore::Former::yields);
 }
 
-/// Who had it has left, and nobody was heard under it since.
+/// Its previous holder has left, and no unit was heard under it since.
 bool Rounds::is_free(const IdMove& move) const {
   const Member* there = session_.roster().find(move.to);
   if (move.to == move.from || there == nullptr || !session_.roster().heard(move.to)) {
@@ -303,7 +304,7 @@ bool Rounds::is_free(const IdMove& move) const {
   return left != left_.end() && there->last_heard < left->second;
 }
 
-/// Those of the round that can go on: none that has failed, none whose ID is not free after all.
+/// The steps of the round that can go on: without a failure, and with a free ID.
 Rounds::Round Rounds::ready(const Round& round) {
   Round steps;
   for (const Step& step : round) {
@@ -322,8 +323,8 @@ Rounds::Round Rounds::ready(const Round& round) {
   return steps;
 }
 
-/// What those hold that have moved before, where they are now. They were saved and restarted: RAM
-/// is what ROM held, also after a restart that nobody heard.
+/// The present values of those that have moved before. They were saved and restarted: RAM equals
+/// ROM, also after a restart that was not heard.
 Result<Rounds::Sights> Rounds::look_again(const Round& steps) {
   std::map<NodeId, std::pair<std::size_t, Wanted>> moved;
   std::vector<NodeId> nodes;
@@ -352,7 +353,7 @@ Result<Rounds::Sights> Rounds::look_again(const Round& steps) {
   return sights;
 }
 
-/// As it was judged; anew for one that makes way for others, or has done so.
+/// The plan as made; a new one for a servo that makes way for others, or has done so.
 Result<Plan> Rounds::plan(const Step& step, const Sights& sights) {
   const UnitChange& unit = units_[step.unit];
   if (!step.move || (!step.move->is_temporary && !unit.last)) {
@@ -433,7 +434,7 @@ void Rounds::conclude(const Step& step, ChangeResult result, const Hook& hook) {
   }
 }
 
-/// It was not its turn yet, or no more.
+/// It was not its turn yet, or is not any more.
 void Rounds::fail(const Step& step, Error error) {
   UnitChange& unit = units_[step.unit];
   ChangeResult result = unit.last ? *unit.last : as_planned(unit.plan);

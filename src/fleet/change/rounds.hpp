@@ -1,6 +1,6 @@
 #pragma once
-// Changes several servos, each to what is wanted of it: all at once, save those that wait for a
-// node ID which another one still has (id_moves.hpp). Change is the only one who uses it.
+// Changes several servos, each to its wanted state: all at once, except those that wait for a node
+// ID that another one still has (id_moves.hpp). Used by Change only.
 
 #include "blactl/base/error.hpp"
 #include "blactl/bla/profile.hpp"
@@ -20,60 +20,58 @@
 
 namespace blactl::fleet {
 
-/// What is wanted of one servo, and what it held when that was judged.
+/// The wanted change of one servo, and its values when that was planned.
 struct UnitTask {
   Snapshot before; ///< holds registers_needed()
   Wanted wanted;
 };
 
-/// What came of one unit.
 struct UnitChange {
   dronecan::UniqueId unique_id{};
   Wanted wanted;
-  Plan plan;                          ///< from where it was to what is wanted
-  dronecan::NodeId now;               ///< where it was seen last
-  bool is_done = false;               ///< it holds what is wanted, proven as far as that is asked
-  std::optional<ChangeResult> last{}; ///< of its last restart or writing; empty: it was not begun
-  bool has_made_way = false;          ///< it is on an ID that it has for the time being only
+  Plan plan;                          ///< from the initial to the wanted state
+  dronecan::NodeId now;               ///< last seen node ID
+  bool is_done = false;               ///< it holds the goal, proven as far as required
+  std::optional<ChangeResult> last{}; ///< of its last restart or write; empty: not begun
+  bool has_made_way = false;          ///< it is on a temporary ID
 
-  /// The static node ID that SAVE gives it; empty: none, or the one that it is on already.
+  /// The static node ID stored by SAVE; empty: none, or its present one.
   [[nodiscard]] std::optional<dronecan::NodeId> static_node_id() const;
 
   [[nodiscard]] bool has_failed() const { return last && !last->is_done(); }
 };
 
-/// First prepare(), then carry_out().
+/// Call prepare(), then carry_out().
 class Rounds {
  public:
   struct Options {
     Manner manner{};
-    bool stops_at_failure = false; ///< no round begins after one in which a unit failed
+    bool stops_at_failure = false; ///< no round begins after one with a failed unit
     bool knows_ids = false;        ///< the bus was searched, with the static node IDs
   };
 
-  /// Called for every move of a node ID that is proven.
+  /// Called for every proven move of a node ID.
   using Hook = std::function<void(const IdMove& move)>;
 
   /// Both references outlive this.
   Rounds(Session& session, const bla::Profiles& profiles, Options options)
       : session_(session), profiles_(profiles), options_(std::move(options)) {}
 
-  /// Plans, and judges each servo as it is now; nobody is changed if one refuses. Errors, all of
-  /// them: as plan_id_moves(), make_plan(), conflict() and forbidden(); what ends a session stands
-  /// alone.
+  /// Plans, and checks each servo in its present state; if one refuses none is changed. Errors, all
+  /// of them: as plan_id_moves(), make_plan(), conflict() and forbidden(); one that ends a session
+  /// is the only one.
   [[nodiscard]] std::vector<Error> prepare(std::vector<UnitTask> tasks);
 
-  /// The one question before all of it; empty: nothing has to be asked.
+  /// The one question before everything; empty: none needed.
   [[nodiscard]] std::string question() const;
 
-  /// What a person should know: who did not tell its IDs and may have those that are given, who
-  /// makes way for others first, and whose IDs are taken over.
+  /// Notes for the user: servos with unknown IDs that may be the assigned ones, those that make way
+  /// for others first, and those whose IDs are taken over.
   [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
 
-  /// Judges once more, after a question; then carries all out. A unit that fails stops those that
-  /// wait for its node ID. What all of them hold is recorded before the first one is changed.
-  /// Errors: why it did not begin or go on; what went wrong with single
-  /// servos is in units().
+  /// Checks again, after a question; then carries everything out. A unit that fails stops those
+  /// that wait for its node ID. The settings of all of them are recorded before the first one is
+  /// changed. Errors: why it did not begin or go on; those of single servos are in units().
   [[nodiscard]] std::vector<Error> carry_out(const Hook& hook);
 
   /// In the order of the tasks, after prepare().
@@ -111,7 +109,7 @@ class Rounds {
   Session& session_;
   const bla::Profiles& profiles_;
   Options options_;
-  std::optional<state::AllocationStore> table_; ///< once an ID is given
+  std::optional<state::AllocationStore> table_; ///< opened when an ID is assigned
   std::vector<UnitChange> units_;
   std::vector<Round> rounds_;
   std::vector<std::string> notes_;

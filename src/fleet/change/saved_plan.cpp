@@ -50,7 +50,7 @@ class PlanReader {
     const auto changes = node.array("changes");
     const json::Value* model = node.any("model");
     const json::Value* firmware = node.any("firmware_version");
-    if (!node.has("action")) { // of no entry, or not meant
+    if (!node.has("action")) { // no entry, or not selected
       node.finish();
       return;
     }
@@ -126,7 +126,7 @@ class PlanReader {
     }
     change.finish();
     if (address.empty()) {
-      return; // told of
+      return; // already reported
     }
     auto assignment = bla::make_assignment(profiles_, address, std::to_string(requested) + "raw");
     if (!assignment) {
@@ -146,7 +146,7 @@ class PlanReader {
   const bla::Profiles& profiles_;
   json::Faults& faults_;
   SavedPlan plan_{};
-  std::vector<std::size_t> lines_; ///< where the servos stand
+  std::vector<std::size_t> lines_; ///< of the servos
 };
 
 std::string need_changed(Need now) {
@@ -154,7 +154,7 @@ std::string need_changed(Need now) {
                                                    : say<texts::plan_rom_not_proven>();
 }
 
-/// Empty: it is as it was.
+/// Empty: nothing.
 std::string what_changed(const SavedStep& step, const GoalResult& result) {
   const bla::Identity& identity = result.servo().identity;
   std::string out;

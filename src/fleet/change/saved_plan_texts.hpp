@@ -1,19 +1,19 @@
 #pragma once
-// What is said about plans that were kept.
+// Messages about saved plans.
 
 #include "blactl/base/text.hpp"
 
 namespace blactl::texts {
 
 inline constexpr Text plan_not_finished{
-    "this plan was not made: the document tells of errors; make it again",
+    "this plan is not complete: the document reports errors; make it again",
     "計画が完成していません (エラーを含む文書です)。作り直して下さい"};
 inline constexpr Text plan_no_unique_id{
     "a plan is for servos whose unique ID is known: 32 hexadecimal digits",
     "計画にはサーボの固有 ID が必要です (16 進数 32 桁)"};
 inline constexpr Text plan_servo_twice{"this servo is in the plan twice, first in line {}",
                                        "このサーボは計画に 2 回あります (最初は {} 行目)"};
-inline constexpr Text plan_no_setting{"a plan holds settings only: {} is none",
+inline constexpr Text plan_no_setting{"a plan holds settings only: {} is not a setting",
                                       "{} は設定ではないため、計画に含められません"};
 inline constexpr Text plan_other_name{"the name of {} is {}", "{} の名前は {} です"};
 inline constexpr Text plan_other_unit{"it was a {} with firmware {}",

@@ -26,10 +26,10 @@ Result<Wanted> wanted_id(const bla::Profiles& profiles, NodeId id) {
   return Wanted{.assignments = {std::move(*assignment)}, .restart = RestartKind::save};
 }
 
-/// Why a unit is not among those whose node ID is known.
+/// The reason why the node ID of a unit is unknown.
 Error absence(const Roster& roster, const dronecan::UniqueId& unit, const NotLetIn& not_let_in) {
   for (const NodeId id : roster.doubled()) {
-    const auto units = roster.units(id); // where none told who it is, it may be one of those
+    const auto units = roster.units(id); // if neither was identified, it may be one of those
     if (units.empty() || units.contains(unit)) {
       return doubled(roster, id);
     }

@@ -18,7 +18,7 @@ bool gives_id(const Plan& plan) {
   return plan.given_node_id() || plan.given_servo_id();
 }
 
-/// Who answers at the node IDs that are given, silent units too.
+/// Asks the holders of the assigned node IDs, including silent units.
 std::optional<Error> ask_holders(Session& session, std::span<const Plan> plans,
                                  const Identification::Options& options) {
   std::list<UnitJob> jobs;
@@ -32,7 +32,7 @@ std::optional<Error> ask_holders(Session& session, std::span<const Plan> plans,
   return ran ? std::nullopt : std::optional(ran.error());
 }
 
-/// What a servo will have after the plans: as planned, else as its RAM says.
+/// The value of a servo after the plans: as planned, else as in its RAM.
 std::optional<std::int64_t> after(std::span<const Plan> plans, const Survey::Neighbour& servo,
                                   bla::Address address, std::optional<std::int64_t> in_ram) {
   const auto plan = std::ranges::find_if(

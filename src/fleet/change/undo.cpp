@@ -32,7 +32,7 @@ bool is_unfinished_undo(const state::SnapshotEntry& entry) {
   return entry.command == "undo" && !entry.ended;
 }
 
-/// What is to be taken back instead of this entry, where that is an undo which did not end.
+/// The change to undo in place of this entry, if that is an undo which did not end.
 Result<std::optional<Undoing>> meant_by(const state::SnapshotStore& store,
                                         state::SnapshotEntry entry) {
   if (!is_unfinished_undo(entry)) {

@@ -20,7 +20,7 @@ namespace {
 /// A servo that restarts more often while it is written to does so because of it, or of its supply.
 constexpr int most_restarts = 2;
 
-/// The servo is to hold what was requested.
+/// Whether the servo is to hold the requested value.
 bool is_held(const RegisterChange& change) {
   return change.status == ChangeStatus::written || change.status == ChangeStatus::unchanged;
 }
@@ -66,7 +66,7 @@ Step WriteJob::judge_unit(const Outcome& outcome) {
   return go_on(outcome.at);
 }
 
-/// The next write; in the end, or after a restart, the proof.
+/// Makes the next write; at the end, or after a restart, the proof.
 Step WriteJob::go_on(Time now) {
   while (current_ < changes_.size() && !changes_[current_].is_planned()) {
     ++current_;
@@ -104,13 +104,13 @@ Step WriteJob::after_write(const Outcome& outcome) {
   if (echo_ == Echo::suffices && echo == change.requested) {
     return wrote(outcome.at);
   }
-  // Whatever the answer says, or if it was lost: the register itself tells what is true.
+  // whatever the response, or if it was lost: reading the register shows its value
   is_lost_ = !outcome.answered();
   at_ = At::read;
   return read_register(servo_.id, parameter.address, patience_);
 }
 
-/// This change and those after it are not made.
+/// Does not make this change and those after it.
 Step WriteJob::hold_off(Time now) {
   RegisterChange& change = changes_[current_];
   change.status = ChangeStatus::failed;
@@ -119,7 +119,7 @@ Step WriteJob::hold_off(Time now) {
   return std::ranges::any_of(changes_, is_held) ? prove(now) : Step(std::nullopt);
 }
 
-/// The register holds what was requested.
+/// The register holds the requested value.
 Step WriteJob::wrote(Time now) {
   RegisterChange& change = changes_[current_];
   change.after = change.requested;
@@ -145,7 +145,7 @@ Step WriteJob::after_read(const Outcome& outcome) {
     return wrote(outcome.at);
   }
   change.after = *raw;
-  // A restart between the write and this answer looks the same.
+  // a restart between the write and this response looks the same
   is_doubtful_ = true;
   return prove(outcome.at);
 }
@@ -189,7 +189,7 @@ Error WriteJob::told_by(const Error& error) const {
   return error;
 }
 
-/// The restart brought the values of the ROM back: what was written is to be written again.
+/// The restart has reloaded ROM: the values are to be written again.
 Step WriteJob::write_again(Time now) {
   const std::uint8_t id = servo_.id.value();
   if (++restarts_ > most_restarts) {
@@ -211,8 +211,8 @@ Step WriteJob::write_again(Time now) {
   return go_on(now);
 }
 
-/// What was equal in RAM may have another value in ROM. To write it was never agreed. False: there
-/// is nothing left to write.
+/// A value that was equal in RAM may differ in ROM; writing it was never agreed to. False: there is
+/// nothing left to write.
 bool WriteJob::doubt_unchanged() {
   const std::uint8_t id = servo_.id.value();
   for (RegisterChange& change : changes_) {
@@ -228,7 +228,7 @@ bool WriteJob::doubt_unchanged() {
   });
 }
 
-/// No restart explains why the register holds something else.
+/// No restart explains why the register differs.
 void WriteJob::judge() {
   is_doubtful_ = false;
   RegisterChange& change = changes_[current_];
@@ -251,8 +251,8 @@ void WriteJob::judge() {
   }
 }
 
-/// Where the reason is told if the servo is not proven to be the same: at the change that is in
-/// doubt, else at the first that was made, else at the next one.
+/// The index of the change that gets the error if the servo is not proven to be the same: the one
+/// in doubt, else the first written, else the next one.
 std::size_t WriteJob::unproven() const {
   const auto first = [this](ChangeStatus status) {
     const auto it = std::ranges::find(changes_, status, &RegisterChange::status);
@@ -263,7 +263,7 @@ std::size_t WriteJob::unproven() const {
   return next < changes_.size() ? next : first(ChangeStatus::unchanged);
 }
 
-/// This change failed, the planned ones are not tried, and what was written is not proven.
+/// This change failed, the remaining ones are not tried, and earlier writes are not proven.
 Step WriteJob::give_up(std::size_t blamed, Error error) {
   for (RegisterChange& change : changes_) {
     if (change.status == ChangeStatus::written) {

@@ -1,4 +1,4 @@
-// What a servo answers and sends by itself: nothing is changed.
+// Measurements of a servo's responses and messages: nothing is changed.
 
 #include "fleet/characterize/findings.hpp"
 #include "fleet/characterize/test_bench.hpp"
@@ -20,7 +20,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// How a register that is not there answers a read.
+/// The response to a read of a missing register.
 struct MissingAnswer {
   enum class Kind : std::uint8_t { silent, fails, zero, other };
 
@@ -113,13 +113,13 @@ Result<void> describe_node(TestBench& bench, Notes& notes) {
   return {};
 }
 
-/// From the end of the question on the wire to the beginning of the answer: both frames, which are
-/// seen when they have passed, take their time at 1 Mbit/s (67 bits and 8 for each byte of an
-/// extended frame, and some stuffing).
+/// The delay from the end of the request on the wire to the start of the response: both frames are
+/// seen at their ends, so their durations at 1 Mbit/s (67 bits and 8 for each byte of an extended
+/// frame, and some stuffing) are subtracted.
 Result<void> measure_answer_delay(TestBench& bench, Notes& notes) {
   constexpr int questions = 21;
   constexpr Duration frames = 260us;
-  constexpr Duration::rep step = 10; // finer is but the stuffing
+  constexpr Duration::rep step = 10; // stuffing makes finer steps meaningless
   std::vector<Duration> delays;
   for (int i = 0; i < questions; ++i) {
     const auto reply = bench.read_once(at::current_voltage);
@@ -146,7 +146,7 @@ Result<void> measure_answer_delay(TestBench& bench, Notes& notes) {
   return {};
 }
 
-/// Some of the addresses that no model has. Those that the vendor's updater uses are left alone.
+/// Reads some addresses that no model has. Those used by the vendor's updater are left out.
 Result<void> measure_reserved(TestBench& bench, Notes& notes) {
   constexpr std::array reserved{Address{0x03}, Address{0x0D}, Address{0x28}, Address{0x4A}};
   std::vector<MissingAnswer> answers;
@@ -187,7 +187,7 @@ Result<void> measure_gated(TestBench& bench, Notes& notes) {
   return {};
 }
 
-/// Above the last address there is nothing: if anything fails, this does.
+/// Reads above the last address, where no model has registers: this fails if anything does.
 Result<void> measure_failure(TestBench& bench, Notes& notes) {
   constexpr Address beyond{0x60};
   const auto answer = read_missing(bench, notes, beyond);

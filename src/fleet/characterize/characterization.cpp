@@ -26,7 +26,7 @@ using bla::Address;
 
 namespace {
 
-/// A speed or torque that it is commanded: no restart can give that back.
+/// A present command of speed or torque, which no restart can bring back.
 std::optional<Error> refuse_motion(const Servo& servo, const bla::Values& now) {
   const std::uint8_t id = servo.id.value();
   for (const Address address : {at::command_speed, at::command_torque}) {
@@ -40,7 +40,7 @@ std::optional<Error> refuse_motion(const Servo& servo, const bla::Values& now) {
   return std::nullopt;
 }
 
-/// RAM is to be given back in the end: what it holds must be known, and be what it held before.
+/// RAM is to be restored at the end: its contents must be known, and be the same as before.
 Result<void> measure_at_rest(TestBench& bench, Notes& notes) {
   bench.tell(texts::bench_stage_settings);
   const auto now = bench.rest();
@@ -51,7 +51,7 @@ Result<void> measure_at_rest(TestBench& bench, Notes& notes) {
     return std::unexpected(std::move(*difference));
   }
   bench.learn_commands(*now);
-  if (auto moves = refuse_motion(bench.servo(), *now)) { // which it did not show before
+  if (auto moves = refuse_motion(bench.servo(), *now)) { // hidden before
     moves->code = Code::state;
     return std::unexpected(std::move(*moves));
   }
@@ -123,7 +123,7 @@ std::optional<Error> refuse_to_characterize(const Session& session, const Snapsh
   if (auto moves = refuse_motion(before.servo, before.values())) {
     return moves;
   }
-  // To restart it is what moves it most.
+  // a restart is what moves it most
   const Plan plan{.before = before, .restart = RestartKind::restart};
   return forbidden(session.roster(), session.now(), plan, while_driven);
 }

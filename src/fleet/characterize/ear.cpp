@@ -14,7 +14,7 @@ using dronecan::RestartNode;
 
 namespace {
 
-/// What one unit sends next after this transfer ID (5 bits).
+/// The next transfer ID of a unit after this one (5 bits).
 constexpr dronecan::TransferId id_after(dronecan::TransferId id) {
   return static_cast<dronecan::TransferId>((id + 1U) & 0x1FU);
 }
@@ -27,7 +27,7 @@ void Ear::receive(const dronecan::Transfer& transfer) {
       header.data_type_id == RestartNode::type.id || header.data_type_id == ExecuteOpcode::type.id;
   if (header.kind == dronecan::Kind::response && header.source == id_ && is_order &&
       is_expected() && !answered_) {
-    begin_start(); // what came before was not of it
+    begin_start(); // earlier frames do not belong to it
     answered_ = transfer.at;
   } else if (header.kind == dronecan::Kind::message && header.source.is_unicast()) {
     hear_message(transfer);
@@ -36,7 +36,7 @@ void Ear::receive(const dronecan::Transfer& transfer) {
   }
 }
 
-/// Whoever has started anew counts its transfers anew, and its seconds, and sends at other moments.
+/// A sender that restarted begins its transfer IDs and its uptime anew, and sends at other moments.
 bool Ear::has_started(Sender& sender, const dronecan::Transfer& transfer) {
   constexpr Duration period = std::chrono::milliseconds(100); // of actuator.Status (2.2)
   constexpr Duration tolerance = std::chrono::milliseconds(20);

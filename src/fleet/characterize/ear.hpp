@@ -1,5 +1,5 @@
 #pragma once
-// Hears when a servo falls silent and when it is back.
+// Detects when a servo falls silent and when it is back.
 
 #include "blactl/dronecan/service.hpp"
 #include "blactl/dronecan/types.hpp"
@@ -11,14 +11,14 @@
 
 namespace blactl::fleet {
 
-/// When a servo went, and what it sent first when it was back.
+/// The times of a restart, and the first data afterwards.
 struct Start {
-  Time asked{};                               ///< the request to restart or to save went out
-  std::optional<Time> answered{};             ///< it was answered
-  std::optional<Time> requested{};            ///< it asked for a node ID for the first time
-  std::optional<Time> first{};                ///< the first frame under a node ID
-  std::optional<Time> first_status{};         ///< the first NodeStatus
-  std::optional<dronecan::Mode> first_mode{}; ///< that this told
+  Time asked{};                               ///< request to restart or save sent
+  std::optional<Time> answered{};             ///< response received
+  std::optional<Time> requested{};            ///< first allocation request
+  std::optional<Time> first{};                ///< first frame under a node ID
+  std::optional<Time> first_status{};         ///< first NodeStatus
+  std::optional<dronecan::Mode> first_mode{}; ///< the mode in it
 };
 
 class Ear final : public dronecan::Service {
@@ -31,13 +31,13 @@ class Ear final : public dronecan::Service {
 
   void advance(Time /*now*/) override {}
 
-  /// The servo `id` is told to go: what comes once `is_sent` holds is of that start.
+  /// Expects servo `id` to restart: frames belong to that start once `is_sent` holds.
   void expect(dronecan::NodeId id, std::function<bool()> is_sent);
 
-  /// The servo that is expected is back under the node ID that it had.
+  /// Whether the expected servo is back under its previous node ID.
   [[nodiscard]] bool is_back() const { return start_of(id_).first.has_value(); }
 
-  /// The start that was expected, of the servo that is back as `id`.
+  /// The expected start, of the servo that is back as `id`.
   [[nodiscard]] Start start_of(dronecan::NodeId id) const;
 
   /// The newest actuator.Status of a node; empty: none was heard.
@@ -46,10 +46,10 @@ class Ear final : public dronecan::Service {
  private:
   struct Sender {
     std::map<std::uint16_t, dronecan::TransferId> last_ids{}; ///< by data type
-    std::optional<std::uint32_t> uptime_s{};                  ///< told last
+    std::optional<std::uint32_t> uptime_s{};                  ///< the latest
     Time status_at{};                                         ///< of `status`
     std::optional<dronecan::ActuatorStatus> status{};
-    std::optional<Time> first{}, first_status{}; ///< of the start that is expected
+    std::optional<Time> first{}, first_status{}; ///< of the expected start
     std::optional<dronecan::Mode> first_mode{};
   };
 

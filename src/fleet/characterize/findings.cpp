@@ -19,7 +19,7 @@ using dronecan::NodeId;
 
 namespace {
 
-/// All but one need another.
+/// All sharers but one need another ID.
 std::string servo_id_hint(const std::vector<NodeId>& sharers) {
   const std::vector<NodeId> others(sharers.begin() + 1, sharers.end());
   const std::uint8_t first = others.front().value();
@@ -27,7 +27,7 @@ std::string servo_id_hint(const std::vector<NodeId>& sharers) {
                             : say<texts::shared_servo_id_hint>(id_list(others), first);
 }
 
-/// Servos that share the number that `key` gives.
+/// Finds servos that share the value of `key`.
 template <const Text& text>
 void find_shared(const Roster& roster, Code code,
                  const std::function<std::optional<std::int64_t>(const Member&)>& key,
@@ -65,7 +65,7 @@ std::vector<Conflict> find_conflicts(const Roster& roster) {
   return conflicts;
 }
 
-/// A servo sends actuator.Status ten times a second: so long it was not heard if it is away.
+/// Servos send actuator.Status ten times a second: silence of this length means that one is away.
 constexpr Duration servo_silence = std::chrono::milliseconds(300);
 
 Finding finding(const Member& member, Time now, bool is_gone) {
@@ -89,7 +89,7 @@ Finding finding(const Member& member, Time now, bool is_gone) {
   return found;
 }
 
-/// The units on an ID that several share.
+/// The units on a shared ID.
 std::vector<Finding> units_on(const Roster& roster, const Member& member) {
   const Servo unknown{.id = member.id,
                       .is_servo = member.is_servo || member.sends_actuator_status()};
@@ -103,7 +103,6 @@ std::vector<Finding> units_on(const Roster& roster, const Member& member) {
 
 } // namespace
 
-/// The newest status: heard by itself, else the one of GetNodeInfo.
 std::optional<dronecan::NodeStatus> status(const Member& member) {
   if (member.status) {
     return member.status;

@@ -1,5 +1,5 @@
 #pragma once
-// What is found while a servo is measured.
+// The results of measuring a servo.
 
 #include "blactl/fleet/characterize/characterization.hpp"
 
@@ -15,12 +15,12 @@ class TestBench;
 
 class Notes {
  public:
-  /// Of every open question nothing is known but why.
+  /// All open questions with their default reasons, none measured.
   Notes();
 
   void found(std::string_view setting, FactValue value) { fact(setting).value = std::move(value); }
 
-  /// Not measured, because of that; what was found before stays.
+  /// Records why a setting was not measured; an earlier measurement stays.
   void leave(std::string_view setting, std::string reason) {
     fact(setting).reason = std::move(reason);
   }
@@ -31,7 +31,7 @@ class Notes {
 
   void describe(NodeInfo info) { info_ = std::move(info); }
 
-  /// Answers that never came, although the servo was there.
+  /// Counts responses that never came, although the servo was there.
   void lose_answer() { ++lost_answers_; }
 
   [[nodiscard]] bool has_lost_answers() const { return lost_answers_ > 0; }
@@ -40,7 +40,6 @@ class Notes {
     return fact(setting).value;
   }
 
-  /// All of it.
   [[nodiscard]] Characterization result() && {
     Characterization all;
     all.facts = std::move(facts_);
@@ -58,20 +57,19 @@ class Notes {
   int lost_answers_ = 0;
 };
 
-/// One measurement: what it needs it looks at first, what it sets is put back after it. Errors end
-/// the measuring; what it cannot find out it leaves.
+/// One measurement: it checks its conditions first, and its settings are restored after it. Errors
+/// end the characterization; what it cannot determine it leaves open.
 using Measurement = Result<void> (*)(TestBench& bench, Notes& notes);
 
-/// What only reads.
 [[nodiscard]] std::span<const Measurement> measurements_of_answers();
 
-/// What writes to RAM while the output is off.
+/// Measurements that write to RAM while the output is off.
 [[nodiscard]] std::span<const Measurement> measurements_at_rest();
 
-/// Starts: each leaves the servo as ROM has it.
+/// Measures starts: each leaves the servo with its ROM settings.
 [[nodiscard]] Result<void> measure_starts(TestBench& bench, Notes& notes);
 
-/// How often it is told to restart, the save not counted.
+/// The number of measured restarts, not counting the save.
 inline constexpr int restarts_measured = 3;
 
 } // namespace blactl::fleet

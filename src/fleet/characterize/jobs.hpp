@@ -1,5 +1,5 @@
 #pragma once
-// Jobs that ask a servo one thing, or a few at the right moment.
+// Jobs for one request to a servo, or a few at the right moment.
 
 #include "blactl/bla/values.hpp"
 #include "blactl/dronecan/node.hpp"
@@ -15,10 +15,9 @@
 
 namespace blactl::fleet {
 
-/// One question.
 class Question final : public dronecan::Job {
  public:
-  /// `must_finish`: also after a first signal.
+  /// `must_finish`: it goes on after a first signal, too.
   Question(dronecan::Request request, bool must_finish)
       : request_(std::move(request)), must_finish_(must_finish) {}
 
@@ -43,7 +42,7 @@ class Question final : public dronecan::Job {
   Reply reply_;
 };
 
-/// Another job, which goes on after a first signal.
+/// Runs another job, which goes on after a first signal.
 class Stubborn final : public dronecan::Job {
  public:
   explicit Stubborn(dronecan::Job& job) : job_(job) {}
@@ -58,7 +57,7 @@ class Stubborn final : public dronecan::Job {
   dronecan::Job& job_;
 };
 
-/// Reads registers of a servo as soon as it is there; it needs no more than one try each.
+/// Reads registers of a servo as soon as it is back; one try each is enough.
 class EarlyReads final : public dronecan::Job {
  public:
   EarlyReads(dronecan::NodeId id, std::vector<const bla::Parameter*> registers,

@@ -19,20 +19,20 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// How near to 0 deg a shaft may be, and to a command, to count as there (4.14: about 1 deg).
+/// The tolerance at 0 deg and at a commanded angle (4.14: about 1 deg).
 constexpr std::int64_t near_decideg = 20;
 
 std::string milliseconds(Duration time) {
   return std::to_string(std::chrono::round<std::chrono::milliseconds>(time).count()) + "ms";
 }
 
-/// From the answer on, or the question where there was none.
+/// From the response, or the request if there was none.
 std::optional<Duration> silence_of(const Start& start) {
   return start.first ? std::optional(*start.first - start.answered.value_or(start.asked))
                      : std::nullopt;
 }
 
-/// What 0x00 says of a servo that was turned on in place.
+/// Judges the value of 0x00 in a servo that started in place.
 void judge_start_angle(const Values& seen, Notes& notes) {
   const auto angle = bla::find(seen, at::current_angle);
   const auto command = bla::find(seen, at::command_angle);
@@ -51,18 +51,18 @@ void judge_start_angle(const Values& seen, Notes& notes) {
   }
 }
 
-/// What else ends a soft start (4.14): a timeout that turns the output off, and whatever stops the
-/// motor.
+/// Whether something else ended the soft start (4.14): a timeout that turns the output off, or a
+/// fault that stops the motor.
 bool was_cut(const Values& seen, const Values& rom) {
   constexpr std::int64_t goes_on = 0;      // of 0x26
-  constexpr std::int64_t long_after = 500; // ms; it was asked at once
+  constexpr std::int64_t long_after = 500; // ms; the servo was asked at once
   const bool times_out = bla::find(rom, at::timeout_action) != goes_on &&
                          bla::find(rom, at::timeout_time).value_or(0) < long_after;
   return times_out || bla::find(seen, at::fault_warning) != 0 ||
          bla::find(seen, at::fault_failure) != 0;
 }
 
-/// What the registers say that the soft start changes, while it goes on. `rom`: what they hold.
+/// Judges the registers that the soft start overrides while it goes on. `rom`: their own values.
 void judge_soft_start(const Values& seen, const Values& rom, Notes& notes) {
   const auto angle = bla::find(seen, at::current_angle);
   if (!angle || seen.size() < asked_at_once().size() - 1) {
@@ -95,7 +95,7 @@ void judge_soft_start(const Values& seen, const Values& rom, Notes& notes) {
   }
 }
 
-/// The middle one: one start in which something was not heard counts for nothing.
+/// The median: a single start with a missed frame does not count.
 std::optional<Duration> middle(std::vector<Duration> times) {
   std::ranges::sort(times);
   return times.empty() ? std::nullopt : std::optional(times[times.size() / 2]);
@@ -119,8 +119,8 @@ void judge_first_status(std::optional<Duration> time, Notes& notes) {
   }
 }
 
-/// The first frame of a start may look like the next one of the time before. Its NodeStatus does
-/// not, and comes as long after as that of other starts.
+/// The first frame of a start may look like the next one of the previous run. Its NodeStatus does
+/// not, and comes with the same delay as in other starts.
 void correct(Start& start, std::optional<Duration> until_status) {
   if (start.first && start.first_status && until_status) {
     start.first = std::min(*start.first, *start.first_status - *until_status);
@@ -144,7 +144,7 @@ void judge_allocation(const Start& last, Notes& notes) {
   }
 }
 
-/// The middle one of the starts; empty: a servo that asks for a node ID first does not show it.
+/// The median of the starts; empty: a servo that requests a node ID first does not show it.
 std::optional<Duration> judge_boot(std::span<const Start> starts, Notes& notes) {
   std::vector<Duration> times;
   std::string all;
@@ -164,10 +164,10 @@ std::optional<Duration> judge_boot(std::span<const Start> starts, Notes& notes) 
   return usual;
 }
 
-/// A save is silent for longer than a restart. One that was not answered, and is not, may never
-/// have come: the servo restarted by itself when it was asked.
+/// A save is silent for longer than a restart. One that got no response and is not longer may never
+/// have been received: the servo restarted by itself on the request.
 bool is_proven(const Start& save, std::optional<Duration> boot) {
-  constexpr Duration shortest_write = 20ms; // starts are less alike than to the millisecond
+  constexpr Duration shortest_write = 20ms; // starts vary by more than a millisecond
   const auto silence = silence_of(save);
   return save.answered || (boot && silence && *silence >= *boot + shortest_write);
 }

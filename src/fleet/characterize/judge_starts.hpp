@@ -1,5 +1,5 @@
 #pragma once
-// What was seen of the starts of a servo, and what that says.
+// Judges the observed starts of a servo.
 
 #include "blactl/bla/values.hpp"
 
@@ -13,13 +13,14 @@ namespace blactl::fleet {
 
 struct StartsSeen {
   std::vector<Start> restarts{};
-  bla::Values at_once{};       ///< what it told as soon as it was back from the first
-  bla::Values rom{};           ///< what the registers hold after a start, once it is at rest
-  bool is_rom_readable = true; ///< else nothing was saved
+  bla::Values at_once{};       ///< read as soon as it was back from the first start
+  bla::Values rom{};           ///< register values at rest after a start
+  bool is_rom_readable = true; ///< false: nothing was saved
   std::optional<Start> save{};
 };
 
-/// What to ask it as soon as it is back; the angle last, as it is when all else was read.
+/// The registers to read as soon as it is back; the angle last, so that it is as of the end of the
+/// reads.
 [[nodiscard]] std::vector<bla::Address> asked_at_once();
 
 void judge_starts(StartsSeen seen, Notes& notes);

@@ -1,4 +1,4 @@
-// Every setting of the simulator that only a real servo could settle, in one table.
+// All settings of the simulator that only a real servo can settle, in one table.
 
 #include "fleet/characterize/findings.hpp"
 
@@ -9,7 +9,7 @@ namespace blactl::fleet {
 
 namespace {
 
-// Why no bench can tell, or may.
+// Reasons why a bench cannot or must not measure something.
 constexpr Text unfinished{"the measuring did not come to it", "測定に至りませんでした"};
 constexpr Text out_of_range{"would take a command out of range: only 0x27 is ever written so",
                             "範囲外の指令が必要です (範囲外の書込みは 0x27 のみ)"};
@@ -27,7 +27,7 @@ constexpr Text needs_exact_reading{
     "電圧または温度を制限値と正確に一致させる必要があります"};
 
 constexpr std::array questions{
-    // What it answers.
+    // Responses.
     OpenQuestion{
         "answer_delay", {"from a question to its answer", "質問から応答までの時間"}, unfinished},
     OpenQuestion{"out_of_range",
@@ -63,7 +63,7 @@ constexpr std::array questions{
                  {"0x00 after a start in place: the present angle, or 0",
                   "その場で起動した後の 0x00: 現在角度または 0"},
                  unfinished},
-    // What it sends by itself.
+    // Messages.
     OpenQuestion{"boot_time",
                  {"from a restart to the first frame", "再起動から最初のフレームまで"},
                  unfinished},
@@ -86,7 +86,7 @@ constexpr std::array questions{
         "rom_write_time",
         {"how much longer a save is silent than a restart", "保存時と再起動時の無通信時間の差"},
         unfinished},
-    // What it obeys.
+    // Commands.
     OpenQuestion{"keeps_disabled_command",
                  {"0x01 outlives 0x25 = off; else it becomes 0",
                   "0x25 を OFF にしても 0x01 が残る (残らなければ 0)"},
@@ -107,7 +107,7 @@ constexpr std::array questions{
         "soft_start_shows",
         {"reads tell the limits of the soft start", "ソフトスタート中の制限が読出し値に現れる"},
         unfinished},
-    // What a bench does not tell.
+    // Not measured on a bench.
     OpenQuestion{"not_a_number",
                  {"a command of ArrayCommand that is no number", "数値でない ArrayCommand の指令"},
                  out_of_range},

@@ -1,4 +1,4 @@
-// How a servo gets back what it held, whatever was going on when that became necessary.
+// Restores a servo's settings, whatever was under way.
 
 #include "blactl/bla/value.hpp"
 #include "blactl/dronecan/types.hpp"
@@ -25,7 +25,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Between two looks for a servo that is away.
+/// Between two searches for a servo that is away.
 constexpr Duration look_period = 200ms;
 
 } // namespace
@@ -53,7 +53,7 @@ Result<void> TestBench::give_back() {
   if (is_as_before(*now)) {
     return {};
   }
-  // With the output off nothing moves before all is as it was; and no soft start hides anything.
+  // With the output off nothing moves until all is restored; and no soft start hides anything.
   now = rest();
   if (!now) {
     return std::unexpected(now.error());
@@ -65,7 +65,7 @@ Result<void> TestBench::give_back() {
   return end ? prove_given(*end) : std::unexpected(end.error());
 }
 
-/// In this order nothing moves. What it does not take stays as it is, and shows in the end.
+/// In this order nothing moves. Refused values stay as they are, and show at the end.
 Result<void> TestBench::give_back_all(const Values& now) {
   if (auto given = give_back_standstill(); !given) {
     return given;
@@ -76,7 +76,7 @@ Result<void> TestBench::give_back_all(const Values& now) {
   if (auto given = give_back_output(); !given) {
     return given;
   }
-  // That the output came on has changed it.
+  // switching the output on has changed the command
   return was_never_commanded() ? give_back_start() : give_back_command();
 }
 
@@ -94,7 +94,7 @@ Result<void> TestBench::prove_given(const Values& now) const {
   return {};
 }
 
-/// The register of 0x01 and 0x02 that moves the shaft, where it may; it was at rest before.
+/// The one of 0x01 and 0x02 that can move the shaft; it was at rest before.
 const bla::Parameter* TestBench::motion() const {
   for (const Address address : {at::command_speed, at::command_torque}) {
     if (const auto raw = bla::find(known_, address).value_or(0);
@@ -105,7 +105,7 @@ const bla::Parameter* TestBench::motion() const {
   return nullptr;
 }
 
-/// While the output is off nothing turns; a start need not take a command away.
+/// While the output is off nothing turns; a start need not clear a command.
 Result<void> TestBench::give_back_standstill() {
   const bla::Parameter* moving = motion();
   const auto still = moving != nullptr ? write(moving->address, 0) : Result<std::int64_t>(0);
@@ -125,7 +125,7 @@ Result<void> TestBench::give_back_output() {
   return output ? try_set(at::torque_output, *output) : Result<void>();
 }
 
-/// Goes on where it does not take the value.
+/// Continues if the value is refused.
 Result<void> TestBench::try_set(Address address, std::int64_t raw) {
   auto given = set(address, raw);
   if (given || (given.error().code != Code::refused && given.error().code != Code::out_of_range)) {
@@ -135,7 +135,7 @@ Result<void> TestBench::try_set(Address address, std::int64_t raw) {
   return {};
 }
 
-/// The first one is told.
+/// The first one is reported.
 void TestBench::note_refusal(Error error) {
   if (!refused_) {
     refused_ = std::move(error);
@@ -175,7 +175,8 @@ Result<void> TestBench::find_servo() {
   }
 }
 
-/// All but the output, and the command: that before 0x25 goes off, which ends speeds and torques.
+/// All settings but the output, and the command before 0x25 goes off, which ends speeds and
+/// torques.
 Result<void> TestBench::give_back_settings(const Values& now) {
   const auto differs = [&](Address address, std::int64_t raw) {
     return servo_.identity.is_setting(address) && address != at::torque_output &&
@@ -206,7 +207,7 @@ bool TestBench::is_of_another(std::int64_t node_id) const {
   return id == roster().local() || (id != servo_.id && roster().heard(id));
 }
 
-/// The register of 0x00-0x02 that ruled before.
+/// The one of 0x00-0x02 that was active before.
 std::optional<Address> TestBench::commanded() const {
   for (const Address address : bla::command_registers) {
     if (const auto raw = held(address); raw && *raw != bla::not_active) {
@@ -216,15 +217,15 @@ std::optional<Address> TestBench::commanded() const {
   return std::nullopt;
 }
 
-/// As a start leaves it: whoever commands one of 0x00-0x02 makes the others not active.
+/// The state after a start: a command to one of 0x00-0x02 makes the others not active.
 bool TestBench::was_never_commanded() const {
   return std::ranges::none_of(bla::command_registers, [&](Address address) {
     return held(address).value_or(bla::not_active) == bla::not_active;
   });
 }
 
-/// Only a start gives that back, and what a register does not take but ROM holds; it brings the
-/// shaft slowly to where it goes.
+/// Only a start restores that, and values from ROM that a register refuses; it brings the shaft
+/// slowly to its target.
 Result<void> TestBench::give_back_start() {
   for (const Address address : bla::command_registers) {
     if (const auto now = read(address); !now) {
@@ -255,7 +256,7 @@ Result<void> TestBench::give_back_start() {
   return give_back_after_start();
 }
 
-/// What was in RAM only, and where it stood.
+/// Settings that were in RAM only, and the angle.
 Result<void> TestBench::give_back_after_start() {
   const auto now = read_all();
   if (!now) {
@@ -281,13 +282,13 @@ Result<void> TestBench::give_back_after_start() {
   return is_starting_softly_ ? Result<void>() : give_back_angle();
 }
 
-/// Whether a read tells what the soft start does, which is not what the register holds.
+/// Whether a read shows the soft start's value instead of the register's own.
 bool TestBench::hides(Address address, std::int64_t told) const {
   return is_starting_softly_ && is_soft_start_limit(address, told);
 }
 
-/// Of a servo that starts in place, and stood elsewhere then. What 0x00 says after a start proves
-/// nothing before a command: the output as it is.
+/// For a servo that starts in place, and was elsewhere before. The value of 0x00 after a start
+/// proves nothing before a command: the output stays as it is.
 Result<void> TestBench::give_back_angle() {
   if (auto told = give_back_output(); !told) {
     return told;
@@ -326,7 +327,7 @@ bool TestBench::is_as_before(const Values& now) const {
          });
 }
 
-/// As far as is known. Of a speed or torque it makes no difference whether it is 0 or not active.
+/// As far as known. For a speed or torque 0 and not active are equivalent.
 bool TestBench::is_put_back(Address address, std::int64_t raw) const {
   const bla::Parameter* moving = motion();
   if (address == at::command_speed || address == at::command_torque) {
@@ -335,7 +336,8 @@ bool TestBench::is_put_back(Address address, std::int64_t raw) const {
   return raw == bla::not_active || bla::find(known_, address) == raw;
 }
 
-/// What to type. Commands are no part of it: they would exclude each other, or move the shaft.
+/// The command to type. Motion commands are left out: they would exclude each other, or move the
+/// shaft.
 std::string TestBench::put_back_hint(const std::vector<const bla::Parameter*>& left) const {
   const std::uint8_t id = servo_.id.value();
   std::string assignments;
@@ -353,7 +355,7 @@ std::string TestBench::put_back_hint(const std::vector<const bla::Parameter*>& l
              : say<texts::bench_restart_hint>(id);
 }
 
-/// What differs, as far as is known, and what to type to put it back.
+/// The remaining differences, as far as known, and the command that restores them.
 Error TestBench::not_put_back(const Error& reason) const {
   const std::uint8_t id = servo_.id.value();
   std::vector<const bla::Parameter*> left;

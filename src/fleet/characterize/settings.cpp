@@ -1,5 +1,5 @@
-// What is measured by writes to RAM while the output is off: nothing moves, and each setting gets
-// back its value after its measurement.
+// Measurements by writes to RAM while the output is off: nothing moves, and each setting is
+// restored after its measurement.
 
 #include "blactl/dronecan/types.hpp"
 
@@ -20,17 +20,17 @@ using dronecan::GetSet;
 
 namespace {
 
-/// An angle that every servo is allowed (0x38 is not below it, 0x39 not above).
+/// An angle within the limits of every servo (0x38 is not below it, 0x39 not above).
 constexpr std::int64_t zero_angle = 0;
 
-/// The bit that the profiles know by this code.
+/// The bit with this code in the profiles.
 std::int64_t bit_of(const TestBench& bench, std::string_view code) {
   const auto bits = bench.profiles().fault_bits();
   const auto found = std::ranges::find(bits, code, &bla::FaultBit::code);
   return found != bits.end() ? std::int64_t{1} << found->bit : 0;
 }
 
-/// What the answer to a write out of range shows.
+/// Concludes from the response to a write out of range.
 void conclude_out_of_range(Notes& notes, const Reply& reply, std::int64_t before,
                            std::int64_t limit, std::int64_t after) {
   const auto answer = reply.answered() ? GetSet::Response::decode(reply.payload) : std::nullopt;
@@ -50,7 +50,7 @@ void conclude_out_of_range(Notes& notes, const Reply& reply, std::int64_t before
   }
 }
 
-/// Once, and with 0x27 alone; upwards, where a value that is taken after all does the least.
+/// Writes once, and to 0x27 only; upwards, where an accepted value does the least.
 Result<void> measure_out_of_range(TestBench& bench, Notes& notes) {
   const bla::Parameter& parameter = *bench.servo().identity.parameter(at::timeout_time);
   const std::int64_t lowest = *parameter.min, highest = *parameter.max;
@@ -71,7 +71,7 @@ Result<void> measure_out_of_range(TestBench& bench, Notes& notes) {
   return {};
 }
 
-/// 0x01 while 0x25 is off, or is not there: a standstill is what it is commanded.
+/// 0x01 while 0x25 is off or missing: the command is a standstill.
 Result<void> measure_disabled_command(TestBench& bench, Notes& notes) {
   const bool has_switch = bench.held(at::speed_torque_control).has_value();
   auto set = bench.set(at::command_angle, zero_angle);
@@ -99,7 +99,7 @@ Result<void> measure_disabled_command(TestBench& bench, Notes& notes) {
   return bench.set(at::command_angle, zero_angle);
 }
 
-/// A speed that 0x25 takes away; with the output off nothing turns.
+/// A speed that is dropped with 0x25; with the output off nothing turns.
 Result<void> measure_kept_command(TestBench& bench, Notes& notes) {
   constexpr std::int64_t some_rpm = 10;
   if (!bench.held(at::speed_torque_control)) {
@@ -132,7 +132,7 @@ Result<void> measure_kept_command(TestBench& bench, Notes& notes) {
   return bench.set(at::command_angle, zero_angle);
 }
 
-/// Whether the notices that stand now, and nothing worse, change the health.
+/// Whether the present notices, and nothing worse, change the health.
 Result<void> look_at_health(TestBench& bench, Notes& notes) {
   constexpr Duration until_shown = std::chrono::milliseconds(50);
   if (auto waited = bench.pause(until_shown); !waited) {
@@ -164,7 +164,7 @@ Result<void> look_at_health(TestBench& bench, Notes& notes) {
   return {};
 }
 
-/// The limit 0 of a shaft that stands still: at it, and not beyond.
+/// A limit of 0 on a shaft that stands still: at the limit, not beyond.
 Result<void> measure_limits(TestBench& bench, Notes& notes) {
   const std::int64_t bit = bit_of(bench, "speed_limit_cw");
   const auto speed = bench.read(at::current_speed);
@@ -195,7 +195,7 @@ Result<void> measure_limits(TestBench& bench, Notes& notes) {
   return look_at_health(bench, notes);
 }
 
-/// An angle beyond limits of 0 deg: what 0x00 holds, and what notice that is.
+/// An angle beyond limits of 0 deg: the value of 0x00, and the resulting notice.
 Result<void> measure_limited_angle(TestBench& bench, Notes& notes) {
   constexpr std::int64_t beyond = 10;
   for (const Address limit : {at::angle_limit_cw, at::angle_limit_ccw}) {
@@ -221,7 +221,7 @@ Result<void> measure_limited_angle(TestBench& bench, Notes& notes) {
   return bench.set(at::command_angle, zero_angle);
 }
 
-/// Whether others on the bus would hear a command to this servo, too.
+/// Whether an ArrayCommand to this servo reaches no other on the bus.
 bool is_alone_with_servo_id(const TestBench& bench, std::int64_t servo_id) {
   return std::ranges::none_of(bench.roster().members(), [&](const auto& entry) {
     const auto& [id, member] = entry;
@@ -229,7 +229,7 @@ bool is_alone_with_servo_id(const TestBench& bench, std::int64_t servo_id) {
   });
 }
 
-/// An angle other than the one that is commanded, inside the limits.
+/// An angle within the limits other than the commanded one.
 std::optional<std::int64_t> free_angle(const TestBench& bench) {
   constexpr std::int64_t step = 10;
   const std::int64_t cw = bench.held(at::angle_limit_cw).value_or(0);
@@ -237,7 +237,8 @@ std::optional<std::int64_t> free_angle(const TestBench& bench) {
   return cw >= step ? std::optional(step) : ccw <= -step ? std::optional(-step) : std::nullopt;
 }
 
-/// A command that no register shows: whether it was taken tells the notice that it is beyond.
+/// A command that no register shows: the notice that it is beyond a limit shows whether it was
+/// accepted.
 Result<bool> is_command_noticed(TestBench& bench, std::int64_t angle) {
   const Address limit = angle > 0 ? at::angle_limit_cw : at::angle_limit_ccw;
   const std::int64_t bit = bit_of(bench, angle > 0 ? "angle_limit_cw" : "angle_limit_ccw");
@@ -260,7 +261,7 @@ Result<bool> is_command_noticed(TestBench& bench, std::int64_t angle) {
 }
 
 Result<void> measure_array_command(TestBench& bench, Notes& notes) {
-  constexpr int most_tries = 3; // nobody repeats a message
+  constexpr int most_tries = 3; // messages are not retried
   const std::int64_t servo_id = bench.held(at::servo_id).value_or(0);
   const auto angle = free_angle(bench);
   if (!angle || !is_alone_with_servo_id(bench, servo_id)) {

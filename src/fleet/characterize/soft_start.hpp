@@ -1,5 +1,5 @@
 #pragma once
-// What the soft start puts in the place of registers as long as it lasts (4.14).
+// The registers that the soft start overrides while it lasts (4.14).
 
 #include "blactl/bla/values.hpp"
 
@@ -17,13 +17,13 @@ inline constexpr std::array<std::pair<bla::Address, std::int64_t>, 5> soft_start
      {bla::address::torque_limit_cw, 30},
      {bla::address::torque_limit_ccw, -30}}};
 
-/// Whether a servo that starts with these values does so softly.
+/// Whether a servo with these settings starts softly.
 [[nodiscard]] inline bool starts_softly(const bla::Values& held) {
   return bla::find(held, bla::address::torque_output) == 0 &&
          bla::find(held, bla::address::soft_start) == 1;
 }
 
-/// Whether this may be what a soft start tells, and not what the register holds.
+/// Whether the value may be that of a soft start instead of the register's own.
 [[nodiscard]] inline bool is_soft_start_limit(bla::Address address, std::int64_t told) {
   return std::ranges::find(soft_start_limits, std::pair(address, told)) != soft_start_limits.end();
 }

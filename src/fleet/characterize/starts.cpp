@@ -1,4 +1,4 @@
-// How a servo restarts and saves. Each start leaves it as ROM has it.
+// Measurements of restarts and saves. Each start leaves the servo with its ROM settings.
 
 #include "fleet/characterize/findings.hpp"
 #include "fleet/characterize/judge_starts.hpp"
@@ -16,8 +16,8 @@ using bla::Values;
 
 namespace {
 
-/// 0x11 alone, and just before it is restarted: a servo that takes the question for an order does
-/// what it would do anyway.
+/// Reads 0x11 only, and just before a restart: a servo that takes the read for an order restarts
+/// anyway.
 Result<void> read_write_only(TestBench& bench, Notes& notes) {
   const std::uint32_t boots = bench.roster().member(bench.servo().id).boots;
   const auto reply = bench.read_once(at::reboot);
@@ -41,8 +41,8 @@ Result<void> read_write_only(TestBench& bench, Notes& notes) {
   return {};
 }
 
-/// It has just started, and nothing was written since but the output, which is given back: RAM is
-/// what ROM is, and to save it changes nothing.
+/// Since the servo started, only the output was written, and restored: RAM equals ROM, and saving
+/// changes nothing.
 Result<Start> save_what_rom_holds(TestBench& bench, const Values& rom) {
   if (auto output = bench.set(at::torque_output, *bla::find(rom, at::torque_output)); !output) {
     return std::unexpected(output.error());

@@ -59,7 +59,8 @@ void TestBench::tell(const Text& stage) const {
   }
 }
 
-/// Lives until the job has ended. A first signal ends what may be ended, and all that is measured.
+/// The job lives until it has ended. A first signal ends whatever may be ended, and the
+/// measurements.
 Result<void> TestBench::run(dronecan::Job& job) {
   if (!session_.node().is_running(job)) {
     session_.start(job);
@@ -137,8 +138,8 @@ Error TestBench::restarted_by_itself() const {
   return {Code::state, say<texts::bench_restarted>(id), say<texts::bench_restarted_hint>(), id};
 }
 
-/// What must never be written to, looked at before every change. What was changed is put back also
-/// while somebody drives the servo.
+/// Checks the conditions that forbid writing, before every change. Changes are restored even while
+/// another node drives the servo.
 std::optional<Error> TestBench::forbidden() const {
   if (auto why = guard().forbids(servo_, session_.now())) {
     return why;
@@ -152,7 +153,7 @@ Result<Values> TestBench::rest() {
   if (!output) {
     return std::unexpected(output.error());
   }
-  // Written also where it is off: a command ends a soft start, and shows what 0x00 really holds.
+  // Written even if off: a command ends a soft start, and shows the real value of 0x00.
   if (auto off = set(at::torque_output, *output == output_on ? output_off : *output); !off) {
     return std::unexpected(off.error());
   }
@@ -212,7 +213,7 @@ Result<std::int64_t> TestBench::write(Address address, std::int64_t raw) {
   if (!reply) {
     return std::unexpected(reply.error());
   }
-  return read(address); // that tells what is true, whatever the answer says
+  return read(address); // a read is authoritative, whatever the response said
 }
 
 Result<void> TestBench::set(Address address, std::int64_t raw) {
@@ -287,7 +288,7 @@ std::optional<Error> TestBench::refuse_restart(RestartKind kind) const {
     return why;
   }
   const auto writer = roster().writer_to(servo_.id, servo_.since);
-  if (kind == RestartKind::save && writer) { // what it wrote is not what ROM holds
+  if (kind == RestartKind::save && writer) { // the writer's values are not those in ROM
     const std::uint8_t id = servo_.id.value();
     return Error{Code::state, say<texts::other_writer>(id, writer->value()),
                  say<texts::other_writer_hint>(), id};
@@ -295,7 +296,7 @@ std::optional<Error> TestBench::refuse_restart(RestartKind kind) const {
   return std::nullopt;
 }
 
-/// Where it is back; meanwhile it is asked for these registers.
+/// Until the servo is back; meanwhile these registers are requested.
 Result<dronecan::NodeId> TestBench::leave_and_return(RestartKind kind,
                                                      const std::vector<Address>& at_once) {
   const Patience& patience = manner_.identification.patience;
@@ -339,7 +340,7 @@ Result<Start> TestBench::restart(RestartKind kind, const std::vector<Address>& a
   if (!id) {
     return std::unexpected(id.error());
   }
-  // A servo is back with the first answer already; how it says so by itself is to be heard, too.
+  // The first response already shows that a servo is back; its own messages are to be heard, too.
   const auto heard = session_.live_until(session_.now() + longest_until_status, [&] {
     return ear_.start_of(*id).first_status.has_value();
   });

@@ -1,5 +1,5 @@
 #pragma once
-// One servo on the bench: it is asked, written to, restarted, and given back what it held.
+// One servo on the bench: reads, writes, restarts, and the restoring of its settings.
 
 #include "blactl/bla/profile.hpp"
 #include "blactl/fleet/change/restart_job.hpp"
@@ -15,10 +15,10 @@
 
 namespace blactl::fleet {
 
-/// How long a start may take, with the allocation of a node ID and the longest ROM write.
+/// The longest start, with the allocation of a node ID and the longest ROM write.
 inline constexpr Duration longest_start = std::chrono::seconds(15);
 
-/// What came of one question, kept.
+/// The result of one request, kept.
 struct Reply {
   dronecan::Outcome::Kind kind = dronecan::Outcome::Kind::start;
   std::vector<std::uint8_t> payload{};
@@ -27,12 +27,12 @@ struct Reply {
   [[nodiscard]] bool answered() const { return kind == dronecan::Outcome::Kind::answered; }
 };
 
-/// Every error of its functions ends the measuring: those that end a session; what guards every
-/// change (duplicate_node_id, armed, driven, state: it restarted by itself); timeout and refused
-/// where the servo must answer. Whatever it writes it remembers before, for put_back().
+/// Every error of its functions ends the characterization: those that end a session; guards of
+/// every change (duplicate_node_id, armed, driven, state: it restarted by itself); timeout and
+/// refused where the servo must respond. Before a write it records the old value, for put_back().
 class TestBench {
  public:
-  /// All references outlive this. `before`: what the servo held.
+  /// All references outlive this. `before`: the servo's initial values.
   TestBench(Session& session, const bla::Profiles& profiles, const Snapshot& before,
             const BenchManner& manner);
   ~TestBench();
@@ -49,74 +49,73 @@ class TestBench {
 
   [[nodiscard]] const Ear& ear() const { return ear_; }
 
-  /// What it held before; of what a soft start may hide only once rest() has looked.
+  /// The initial value; those that a soft start may hide only after rest().
   [[nodiscard]] std::optional<std::int64_t> held(bla::Address address) const {
     return bla::find(before_, address);
   }
 
-  /// Says what is done now.
   void tell(const Text& stage) const;
 
-  // Questions.
+  // Reads.
 
   [[nodiscard]] Result<Reply> ask(const dronecan::Request& request);
   [[nodiscard]] Result<void> pause(Duration time);
   [[nodiscard]] Result<std::int64_t> read(bla::Address address);
 
-  /// Once, whatever comes of it.
+  /// Reads once, whatever the result.
   [[nodiscard]] Result<Reply> read_once(bla::Address address);
 
-  /// That the servo ran on since it was identified.
+  /// Proves that the servo has not restarted since it was identified.
   [[nodiscard]] Result<void> prove_run();
 
   // Changes.
 
-  /// The output off, or as off as it is: nothing moves, no soft start goes on. Then all that it
-  /// holds, of the output what it was.
+  /// Switches the output off, unless it already is or brakes: nothing moves, no soft start goes on.
+  /// Then reads all settings; the output has its initial value in the result.
   [[nodiscard]] Result<bla::Values> rest();
 
-  /// What of the commands was read at rest for the first time is what it was commanded: a servo
-  /// need not tell it before.
+  /// Takes commands that were first readable at rest as the initial ones: a servo need not show
+  /// them before.
   void learn_commands(const bla::Values& now);
 
-  /// Errors: state, naming the first setting that is another.
+  /// Errors: state, naming the first setting that differs.
   [[nodiscard]] std::optional<Error> differs_from(const bla::Values& now,
                                                   const bla::Values& expected) const;
 
   [[nodiscard]] const bla::Values& before() const { return before_; }
 
-  /// Writes what the model allows; what the register holds afterwards.
+  /// Writes a value that the model allows, and returns the register's value afterwards.
   [[nodiscard]] Result<std::int64_t> write(bla::Address address, std::int64_t raw);
 
-  /// The same, where it must take the value. Errors also: refused.
+  /// Writes a value that must be accepted. Errors also: refused.
   [[nodiscard]] Result<void> set(bla::Address address, std::int64_t raw);
 
-  /// Writes once what may be out of range: of 0x27 alone.
+  /// Writes once, possibly out of range: to 0x27 only.
   [[nodiscard]] Result<Reply> write_timeout_time(std::int64_t raw);
 
-  /// One command by ArrayCommand to this servo alone; the output must be off.
+  /// Sends one ArrayCommand to this servo alone; the output must be off.
   [[nodiscard]] Result<void> command_angle(std::int64_t decideg);
 
-  /// What the last measurement set gets back its value, the output apart.
+  /// Restores the settings of the last measurement, except the output.
   [[nodiscard]] Result<void> settle();
 
-  /// Restarts or saves, waits until it is back and recognises it. As soon as it is back it is asked
-  /// for these registers.
+  /// Restarts or saves, waits until the servo is back and recognises it. As soon as it is back
+  /// these registers are read.
   [[nodiscard]] Result<Start> restart(RestartKind kind,
                                       const std::vector<bla::Address>& at_once = {});
 
-  /// What rest() has read just after a start.
+  /// Takes the values that rest() has read just after a start.
   void learn_rom(const bla::Values& rom) { rom_ = rom; }
 
-  /// Those registers, as far as they were answered.
+  /// Those registers, as far as they were read.
   [[nodiscard]] const bla::Values& at_once() const { return at_once_; }
 
   // The end.
 
   [[nodiscard]] bool has_changed() const { return has_changed_; }
 
-  /// The servo holds again what it held, and does what it was commanded. Errors also: what it could
-  /// not be given back; what one setting does not take keeps it from no other.
+  /// Restores the initial settings and the command. Errors also: what could not be restored; one
+  /// refused setting does not prevent the others.
   [[nodiscard]] Result<void> put_back();
 
  private:
@@ -163,17 +162,17 @@ class TestBench {
   const BenchManner& manner_;
   Servo servo_;
   Ear ear_;
-  bla::Values before_;             ///< what it shall hold in the end
-  bla::Values rom_;                ///< what ROM holds, once it is known
-  bla::Values hidden_;             ///< of it what a soft start may have hidden
-  bla::Values known_;              ///< what was read last
+  bla::Values before_;             ///< to be restored at the end
+  bla::Values rom_;                ///< values in ROM, once known
+  bla::Values hidden_;             ///< the initial values that a soft start may have hidden
+  bla::Values known_;              ///< last read
   std::set<bla::Address> touched_; ///< since settle()
   bla::Values at_once_;
-  std::optional<RestartJob> restart_; ///< the last one: the ear goes by it
+  std::optional<RestartJob> restart_; ///< the last one, used by the ear
   bool has_changed_ = false;
   bool puts_back_ = false;
-  bool is_starting_softly_ = false; ///< as far as is known, since it was put back
-  std::optional<Error> refused_;    ///< what it did not take first, while it was put back
+  bool is_starting_softly_ = false; ///< as far as known, since the restore
+  std::optional<Error> refused_;    ///< the first refusal during the restore
 };
 
 } // namespace blactl::fleet

@@ -1,5 +1,5 @@
 #pragma once
-// The catalogue of what is measured on a servo.
+// Messages of the characterization.
 
 #include "blactl/base/text.hpp"
 
@@ -61,7 +61,7 @@ inline constexpr Text bench_stage_starts{"measuring how it starts", "起動を�
 inline constexpr Text bench_stage_save{"measuring how it saves", "保存を測定中"};
 inline constexpr Text bench_stage_put_back{"putting back what was changed", "元に戻しています"};
 
-// Why something is not measured, where that shows on the bench only.
+// Reasons for not measuring that arise on the bench only.
 
 inline constexpr Text bench_no_answer{"it did not answer", "応答がありませんでした"};
 inline constexpr Text bench_answers_lost{
@@ -79,7 +79,7 @@ inline constexpr Text bench_no_status{"it sent no actuator.Status",
                                       "actuator.Status を受信できませんでした"};
 inline constexpr Text bench_status_fields{"force {}, speed {}, power rating {}",
                                           "force {}、speed {}、power rating {}"};
-inline constexpr Text bench_has_switch{"only a firmware without 0x25 tells",
+inline constexpr Text bench_has_switch{"only a firmware without 0x25 shows it",
                                        "0x25 の無いファームウェアでのみ測定できます"};
 inline constexpr Text bench_takes_disabled{
     "this firmware has no 0x25, and takes 0x01: it acts as if 0x25 were on, or takes what it then "
@@ -92,7 +92,7 @@ inline constexpr Text bench_command_not_taken{"0x01 did not take the command: it
                                               "0x01 に指令を設定できません (現在値 {})"};
 inline constexpr Text bench_shaft_turns{"the shaft is turning", "出力軸が回転しています"};
 inline constexpr Text bench_notice_before{"the bit was set already", "既に該当ビットが 1 でした"};
-inline constexpr Text bench_no_notice{"no notice could be brought about, or other faults stand",
+inline constexpr Text bench_no_notice{"no notice could be brought about, or there are other faults",
                                       "通知を発生させられないか、他の異常があります"};
 inline constexpr Text bench_servo_id_shared{
     "ArrayCommand to servo ID {} would reach others as well",
@@ -116,7 +116,7 @@ inline constexpr Text bench_limits_alike{"its own limits are those of the soft s
                                          "設定値がソフトスタートの制限と同じです"};
 inline constexpr Text bench_asks_for_id{"it asks for a node ID first, at a random moment",
                                         "先にノード ID を要求し、その時刻は不定です"};
-inline constexpr Text bench_static_id{"only a servo without a static node ID tells",
+inline constexpr Text bench_static_id{"only a servo without a static node ID shows it",
                                       "ノード ID が動的割当てのサーボでのみ測定できます"};
 inline constexpr Text bench_rom_unreadable{"its ROM cannot be read: nothing is saved over it",
                                            "ROM を読み込めないサーボのため、保存しません"};
@@ -127,7 +127,7 @@ inline constexpr Text bench_save_unproven{
 inline constexpr Text bench_start_unheard{"its first frames were not heard",
                                           "最初のフレームを受信できませんでした"};
 
-// What is seen beside the settings.
+// Observations beside the settings.
 
 inline constexpr Text bench_seen_name{"name of the node", "ノード名"};
 inline constexpr Text bench_seen_software{"software version", "ソフトウェアバージョン"};

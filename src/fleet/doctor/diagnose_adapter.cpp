@@ -1,4 +1,4 @@
-// An slcan adapter, and what is at its port instead.
+// An slcan adapter, or another device on its port.
 
 #include "blactl/fleet/doctor/diagnosis.hpp"
 
@@ -13,7 +13,7 @@ namespace {
 
 using bla::Level;
 
-/// Bits of the status that tell of trouble, as the same is called in error frames.
+/// Error bits of the adapter's status, with their counterparts in error frames.
 struct Flag {
   std::uint8_t bits;
   const char* code;

@@ -1,4 +1,4 @@
-// What was heard on the bus.
+// The traffic on the bus.
 
 #include "blactl/fleet/doctor/diagnosis.hpp"
 
@@ -12,7 +12,7 @@ namespace {
 
 using bla::Level;
 
-/// Above it, what is due waits noticeably.
+/// Above these loads, transfers are delayed noticeably.
 constexpr std::uint64_t busy_permille = 700, full_permille = 900;
 
 struct Complaint {
@@ -22,7 +22,7 @@ struct Complaint {
   std::string name;
 };
 
-/// What a controller complains about; that it has recovered is none of it.
+/// Complaints of a controller; its recovery is not one.
 std::vector<Complaint> complaints() {
   using enum can::FaultKind;
   return {

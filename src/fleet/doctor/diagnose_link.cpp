@@ -1,4 +1,4 @@
-// How the kernel has set the interface up, and what is to be done to it.
+// The setup of the interface by the kernel, and the needed changes.
 
 #include "blactl/can/link_setup.hpp"
 #include "blactl/fleet/doctor/diagnosis.hpp"
@@ -15,10 +15,10 @@ namespace {
 
 using bla::Level;
 
-/// In thousandths: what clocks of common controllers come to when 87.5 % is asked for.
+/// In thousandths: the actual values of common controller clocks for a setting of 87.5 %.
 constexpr std::uint32_t least_sample_point = 850, most_sample_point = 900;
 
-/// What kernels give an interface that nobody has set up.
+/// The queue length that kernels give an interface by default.
 constexpr std::uint32_t usual_queue = 10;
 
 bool has_wrong_bit_rate(const can::Link& link) {
@@ -50,7 +50,7 @@ std::string set_up_again(const can::Link& link, bool restarts = false) {
                        .goes_up = true});
 }
 
-/// What no setting mends.
+/// Errors that no setting fixes.
 Diagnoses diagnose_errors(const can::Link& link) {
   const std::string name = printable(link.name);
   const auto errors = link.errors.value_or(can::ErrorCounters{0, 0});

@@ -1,4 +1,4 @@
-// The nodes of a bus, each by itself and together.
+// The nodes of a bus, individually and together.
 
 #include "blactl/bla/defect.hpp"
 #include "blactl/bla/explain.hpp"
@@ -21,7 +21,7 @@ namespace {
 using bla::Level;
 using dronecan::NodeId;
 
-/// So long a node was heard without a NodeStatus, of which there is one a second.
+/// A node heard for this long without a NodeStatus does not send it; one a second is due.
 constexpr Duration enough_for_status = std::chrono::milliseconds(2500);
 
 constexpr std::uint8_t every_servo = 255;
@@ -29,7 +29,7 @@ constexpr std::uint8_t every_servo = 255;
 /// Of ArrayCommand (1010.ArrayCommand.uavcan); PWM came after the BLA servos.
 constexpr std::uint8_t type_unitless = 0, type_pwm = 4;
 
-/// What +-1 in UNITLESS means (errata C10), in tenths of a degree; +180 is not reached.
+/// The range of UNITLESS +-1 (errata C10), in tenths of a degree; +180 is not reached.
 constexpr std::int64_t unitless_cw = 1799, unitless_ccw = -1800;
 
 /// "11, 12"
@@ -85,7 +85,7 @@ class NodeExamination {
   void node_alone(const Finding& node) {
     const std::uint8_t id = node.servo.id.value();
     if (findings_.roster->is_doubled(node.servo.id)) {
-      return; // what is known of it may be the other's
+      return; // known facts may be the other unit's
     }
     if (node.is_offline) {
       if (!is_tool(node)) {
@@ -113,7 +113,7 @@ class NodeExamination {
       return;
     }
     const std::uint8_t id = node.servo.id.value();
-    const auto word = dronecan::name(mode); // empty: one that DroneCAN does not know
+    const auto word = dronecan::name(mode); // empty: not defined by DroneCAN
     add("mode", Level::warning, node.servo.id,
         say<texts::node_in_mode>(id, word.empty() ? std::to_string(std::to_underlying(mode))
                                                   : std::string(word)),
@@ -155,7 +155,7 @@ class NodeExamination {
     }
   }
 
-  /// Of servos that are here; one that moved to another ID meanwhile is one.
+  /// Of present servos; one that has moved to another ID is counted once.
   void serial_numbers() {
     std::map<std::int64_t, std::map<std::optional<dronecan::UniqueId>, NodeId>> holders;
     for (const Finding& node : findings_.nodes) {
@@ -173,8 +173,8 @@ class NodeExamination {
     }
   }
 
-  /// Of servos that are here and answer: whoever restarted, or answers nothing, is told of as that;
-  /// a node that is no servo need not answer what only servos have.
+  /// Of servos that are present and respond: restarts and silence have their own diagnoses; a node
+  /// that is not a servo need not respond to a servo's requests.
   void answers() {
     Traffic::Questions all;
     std::vector<NodeId> nodes;
@@ -228,7 +228,7 @@ class NodeExamination {
     }
   }
 
-  /// Whether a servo on the bus has this servo ID, as far as is known.
+  /// Whether a servo on the bus has this servo ID, as far as known.
   [[nodiscard]] bool is_somebody(std::uint8_t servo_id) const {
     return std::ranges::any_of(findings_.roster->members(), [&](const auto& entry) {
       return entry.second.servo_id == servo_id || entry.second.actuator_id == servo_id;
@@ -280,7 +280,7 @@ Diagnoses diagnose_identifications(const Findings& findings,
     const auto is_here = [&](const Finding& each) {
       return each.servo.id == node && !each.is_offline;
     };
-    if (!node || std::ranges::none_of(findings.nodes, is_here) || // told of as that, or not meant
+    if (!node || std::ranges::none_of(findings.nodes, is_here) || // has its own, or not selected
         error->code == Code::not_recorded || findings.roster->is_doubled(*node) ||
         findings.roster->member(*node).is_known()) {
       continue;

@@ -1,5 +1,5 @@
 #pragma once
-// The catalogue of diagnoses.
+// Messages of the diagnoses.
 
 #include "blactl/base/text.hpp"
 
@@ -32,7 +32,7 @@ inline constexpr Text bus_silent_fix{
     "look at the supply of the servos, CAN-H and CAN-L, the termination, the bit rate",
     "サーボの電源、CAN-H / CAN-L の配線、終端抵抗、ビットレートを確認して下さい"};
 inline constexpr Text log_runs_backwards{
-    "the times of the log run backwards: they tell neither durations nor the load of the bus",
+    "the times of the log run backwards: they give neither durations nor the load of the bus",
     "ログの時刻が逆行しています。経過時間とバス負荷は求められません"};
 inline constexpr Text log_runs_backwards_fix{
     "take a log of one recording, as it was written: blactl --record FILE",
@@ -58,11 +58,11 @@ inline constexpr Text fault_protocol{"damaged frames", "プロトコルエラー
 inline constexpr Text adapter_faults{"the adapter has reported {}",
                                      "アダプターが {} を報告しました"};
 inline constexpr Text port_mavlink{
-    "I hear MAVLink on this port: it is no CAN adapter",
+    "this port carries MAVLink: it is not a CAN adapter",
     "このポートで MAVLink を受信しました。CAN アダプターではありません"};
-inline constexpr Text port_text{"I hear text on this port that is no slcan",
+inline constexpr Text port_text{"this port carries text that is not slcan",
                                 "このポートで slcan ではないテキストを受信しました"};
-inline constexpr Text port_foreign_fix{"take another port: ls -l /dev/serial/by-id",
+inline constexpr Text port_foreign_fix{"use another port: ls -l /dev/serial/by-id",
                                        "別のポートを指定して下さい: ls -l /dev/serial/by-id"};
 
 inline constexpr Text node_bad_health{"node {} says that its health is {}",

@@ -1,5 +1,5 @@
 #pragma once
-// How a refusal stands among the faults of a file.
+// A refusal as one of the errors of a file.
 
 #include "blactl/base/error.hpp"
 

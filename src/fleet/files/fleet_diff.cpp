@@ -16,7 +16,7 @@ using dronecan::NodeId;
 
 namespace {
 
-/// Those of the entry that the servo has, and 0x37 where the unit of another depends on it.
+/// The registers of the entry that the servo has, and 0x37 if the unit of another depends on it.
 std::vector<const bla::Parameter*> registers_of(const FleetEntry& entry, const Servo& servo) {
   std::vector<const bla::Parameter*> registers;
   for (const Assignment& assignment : entry.set) {
@@ -33,7 +33,7 @@ std::vector<const bla::Parameter*> registers_of(const FleetEntry& entry, const S
   return registers;
 }
 
-/// What a servo would have said of itself, as far as an entry knows it.
+/// The identification of a servo, as far as an entry has it.
 Servo servo_of(const FleetEntry& entry, const bla::Profiles& profiles) {
   const Match& match = entry.match;
   Servo servo{.id = match.node_id.value_or(NodeId{}),
@@ -52,7 +52,6 @@ EntryDiff without_servo(const FleetEntry& entry, EntryStatus status,
   return {.name = entry.name, .status = status, .servo = servo_of(entry, profiles)};
 }
 
-/// Tells what came of a comparison.
 EntryDiff judged(EntryDiff diff) {
   diff.status = !diff.errors.empty()     ? EntryStatus::failed
                 : diff.differences() > 0 ? EntryStatus::different
@@ -78,7 +77,7 @@ EntryDiff compare(const FleetEntry& entry, const Snapshot& held) {
   return judged(std::move(diff));
 }
 
-/// The counterpart of `entry` of `one`; null: there is none.
+/// The counterpart of `entry` of `one`; null: none.
 const FleetEntry* counterpart(const FleetEntry& entry, const FleetFile& one,
                               const FleetFile& other) {
   if (one.is_params || other.is_params) { // both have one entry
@@ -106,7 +105,7 @@ const FleetEntry* counterpart(const FleetEntry& entry, const FleetFile& one,
 }
 
 EntryDiff compare(const FleetEntry& one, const FleetEntry& other, const bla::Profiles& profiles) {
-  const FleetEntry& who = other.name.empty() ? one : other; // a parameter file does not say
+  const FleetEntry& who = other.name.empty() ? one : other; // not in a parameter file
   EntryDiff diff = without_servo(who, EntryStatus::unchanged, profiles);
   diff.mode_before = one.wish(bla::address::pwm_mode);
   diff.mode_after = other.wish(bla::address::pwm_mode);
@@ -172,7 +171,7 @@ FleetDiff diff(Session& session, const bla::Profiles& profiles, const FleetMatch
   for (std::size_t i = 0; i < match.pairs.size(); ++i) {
     const FleetMatch::Pair& pair = match.pairs[i];
     EntryDiff entry = compare(*pair.entry, held.servos[i]);
-    if (roster.is_doubled(pair.id)) { // what was read may be of either
+    if (roster.is_doubled(pair.id)) { // readings may be of either
       entry = {.name = pair.entry->name, .status = EntryStatus::failed, .servo = {.id = pair.id}};
       entry.errors = {doubled(roster, pair.id)};
     }

@@ -17,7 +17,7 @@ using dronecan::NodeId;
 
 namespace {
 
-/// An entry and where it stands.
+/// An entry and its place in the file.
 struct Read {
   FleetEntry entry;
   const json::Value* where = nullptr;
@@ -31,7 +31,7 @@ class Reader {
 
   std::vector<FleetEntry> read(const json::Value& root) {
     json::Object object(root, faults_);
-    (void)object.optional_string("$schema"); // what editors look at
+    (void)object.optional_string("$schema"); // for editors
     (void)object.word("schema", {fleet_schema});
     if (json::Object common = object.optional_object("common"); common.exists()) {
       common_ = read_settings(common.members(), profiles_, faults_);
@@ -110,7 +110,7 @@ class Reader {
     return about;
   }
 
-  /// What the entry says itself goes before what is said for all.
+  /// The entry's own values take precedence over common ones.
   void add_common(Read& read) const {
     for (const Setting& setting : common_) {
       if (find(read.set, setting.assignment.parameter->address) == nullptr) {
@@ -122,7 +122,6 @@ class Reader {
     std::ranges::transform(read.set, std::back_inserter(read.entry.set), &Setting::assignment);
   }
 
-  /// What is wrong with one entry, whatever the others are.
   void check(const Read& read) {
     if (read.entry.name.empty() && read.where->kind == json::Kind::object) {
       faults_.add(*read.where, say<texts::fleet_no_name>());
@@ -148,7 +147,7 @@ class Reader {
     }
   }
 
-  /// On the second run such an entry would find nobody, or another servo.
+  /// On a second run such an entry would match no servo, or another one.
   void check_found_again(const Read& read) {
     const Match& match = read.entry.match;
     const auto check = [&](bla::Address address, std::optional<std::int64_t> matched) {
@@ -162,7 +161,7 @@ class Reader {
           match.node_id ? std::optional<std::int64_t>(match.node_id->value()) : std::nullopt);
   }
 
-  /// What two entries must not have in common.
+  /// Checks for conflicts between two entries.
   void check_pairs() {
     for (std::size_t second = 0; second < entries_.size(); ++second) {
       for (std::size_t first = 0; first < second; ++first) {
@@ -191,8 +190,7 @@ class Reader {
     }
   }
 
-  /// One key at least is the same, and none differs. That others mean one servo too shows on the
-  /// bus.
+  /// At least one key is equal, and none differs. Other pairs that match one servo show on the bus.
   static bool mean_the_same(const Match& one, const Match& other) {
     bool same = false;
     bool differ = false;

@@ -1,5 +1,5 @@
 #pragma once
-// What is said about fleet files.
+// Messages about fleet files.
 
 #include "blactl/base/text.hpp"
 
@@ -8,11 +8,11 @@ namespace blactl::texts {
 inline constexpr Text fleet_value_kind{"must be a number or a text such as \"90.0deg\"",
                                        "数値、または \"90.0deg\" のような文字列を入れて下さい"};
 inline constexpr Text fleet_no_setting{
-    "{} is no setting: a fleet file holds what a save keeps, and can be read and written",
+    "{} is not a setting: a fleet file holds what a save keeps, and can be read and written",
     "{} は設定ではありません (フリートファイルの対象は、ROM に保存され読み書きできるものだけです)"};
 inline constexpr Text fleet_set_twice{"{} is there twice, by address and by name",
                                       "{} がアドレスと名前で 2 回指定されています"};
-inline constexpr Text id_is_none{"0 is no static node ID: the servo would ask for one",
+inline constexpr Text id_is_none{"0 is not a static node ID: the servo would ask for one",
                                  "0 は固定ノード ID ではありません (サーボが割当てを要求します)"};
 inline constexpr Text fleet_no_unique_id{"\"unique_id\" must be 32 hexadecimal digits",
                                          "\"unique_id\" は 16 進数 32 桁でなければなりません"};
@@ -54,7 +54,7 @@ inline constexpr Text fleet_passing_id_hint{
     "match by unique_id or serial_number, or make the ID static: blactl alloc --static",
     "unique_id か serial_number で照合するか、ID を固定して下さい: blactl alloc --static"};
 
-inline constexpr Text fleet_too_many{"{} tells of more servos than a bus has room for: 125",
+inline constexpr Text fleet_too_many{"{} has more servos than a bus has room for: 125",
                                      "{} のサーボの台数がバスの上限 125 台を超えています"};
 inline constexpr Text fleet_too_many_hint{"split the file, a bus in each",
                                           "バスごとにファイルを分割して下さい"};

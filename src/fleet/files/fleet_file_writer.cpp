@@ -1,4 +1,4 @@
-// Fleet files and recipes from what servos hold.
+// Writes fleet files and recipes from settings of servos.
 
 #include "blactl/base/hex.hpp"
 #include "blactl/base/json_writer.hpp"
@@ -18,13 +18,13 @@
 namespace blactl::fleet {
 namespace {
 
-/// A servo's own name: what stands on its label.
+/// The name of a servo, as on its label.
 std::string name_of(const Servo& servo) {
   const auto serial = servo.identity.readings().serial_number;
   return fmt::format("{}-{}", servo.identity.model(), serial ? std::to_string(*serial) : "unknown");
 }
 
-/// Serial numbers may be doubled: no two entries have one name.
+/// Serial numbers may be doubled: no two entries have the same name.
 std::string unused_name(const Servo& servo, std::set<std::string>& used) {
   const std::string name = name_of(servo);
   std::string unused = name;
@@ -43,13 +43,13 @@ void write_match(JsonWriter& json, const Servo& servo) {
   if (const auto serial = servo.identity.readings().serial_number) {
     json.member("serial_number", *serial);
   }
-  if (!servo.unique_id) { // a recording may lack it
+  if (!servo.unique_id) { // may be missing in a recording
     json.member("model", servo.identity.model());
   }
   json.end_object();
 }
 
-/// What the file's grammar of values reads as just this register number.
+/// Writes a value that the file's grammar reads as exactly this raw value.
 void write_value(JsonWriter& json, const bla::Parameter& parameter, std::int64_t raw,
                  std::optional<std::int64_t> pwm_mode) {
   const std::string text = bla::input_text(parameter, raw, pwm_mode);

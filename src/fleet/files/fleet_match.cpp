@@ -27,7 +27,7 @@ bool is_found_by_passing_id(const Match& match, const Servo& servo) {
   return match.node_id && !has_more && servo.static_node_id.value_or(0) != servo.id.value();
 }
 
-/// An entry of one unit means it also when it holds already what the entry sets.
+/// An entry for one unit also matches it when it already has the values that the entry sets.
 bool means(const FleetEntry& entry, const Servo& servo, const bla::Profiles& profiles) {
   Match match = entry.match;
   if (match.unique_id || match.serial_number) {
@@ -39,7 +39,7 @@ bool means(const FleetEntry& entry, const Servo& servo, const bla::Profiles& pro
   return match.means(servo, profiles);
 }
 
-/// What -n takes for this servo.
+/// The value of -n for this servo.
 std::string selector_of(const Member& member) {
   if (member.id_is_known) {
     return std::to_string(member.id.value());
@@ -77,11 +77,11 @@ class Matching {
   }
 
  private:
-  /// The settings in a parameter file are for the one servo that -n names, or that there is.
+  /// The settings in a parameter file are for the servo selected by -n, or the only one.
   void give_to_the_one(const FleetFile& file) {
     std::vector<NodeId> there;
     for (const auto& [id, member] : roster_.members()) {
-      // One that does not say who it is may be the one that is meant.
+      // an unidentified one may be the one wanted
       if ((narrows() ? is_one_servo(id, member) : may_be_servo(id, member)) && is_wanted(member)) {
         there.push_back(id);
       }
@@ -91,7 +91,7 @@ class Matching {
              say<texts::params_several_hint>(selector_of(*roster_.find(there.front()))));
     } else if (!there.empty()) {
       match_.pairs.push_back({&file.servos.front(), there.front()});
-    } else if (narrows()) { // check_named() tells
+    } else if (narrows()) { // reported by check_named()
       match_.left_out.push_back(&file.servos.front());
     } else if (const auto shared = roster_.doubled(); !shared.empty()) { // it may be one of those
       match_.errors.push_back(doubled(roster_, *shared.begin()));
@@ -126,7 +126,7 @@ class Matching {
     }
   }
 
-  /// The node ID that the unit has which is meant, and another one too.
+  /// The node ID that the wanted unit shares with another one.
   [[nodiscard]] std::optional<NodeId> shared_by(const Match& match) const {
     for (const NodeId id : roster_.doubled()) {
       if (match.unique_id && roster_.units(id).contains(*match.unique_id)) {
@@ -136,7 +136,7 @@ class Matching {
     return std::nullopt;
   }
 
-  /// What -n names must be there, and be one servo each.
+  /// Nodes selected by -n must be present, and be one servo each.
   void check_named() {
     for (const NodeId id : targets_.ids) {
       const Member* member = roster_.find(id);
@@ -179,13 +179,13 @@ class Matching {
     return member.is_known() && member.is_servo && !roster_.is_doubled(id);
   }
 
-  /// The same, or it does not say what it is, but sends what only servos send.
+  /// Likewise, or it is unidentified, but sends messages of servos.
   [[nodiscard]] bool may_be_servo(NodeId id, const Member& member) const {
     return is_one_servo(id, member) || (!member.is_known() && member.sends_actuator_status() &&
                                         !roster_.is_doubled(id) && !roster_.has_moved(member));
   }
 
-  /// Whether there may be servos that -n does not mean.
+  /// Whether there may be servos outside of -n.
   [[nodiscard]] bool narrows() const { return targets_.given && !targets_.all; }
 
   [[nodiscard]] bool is_wanted(const Member& member) const {

@@ -17,10 +17,10 @@ using dronecan::NodeId;
 
 namespace {
 
-/// The last ID of a servo; above are those of tools.
+/// The last ID for servos; higher ones are for tools.
 constexpr std::uint8_t last_servo_id = 125;
 
-/// The model that an entry tells of; null: none, or a part of its name.
+/// The model in an entry; null: none, or a part of its name.
 const bla::Profile* model_of(const FleetEntry& entry, const bla::Profiles& profiles) {
   const auto models = profiles.matching(entry.about.model.value_or(entry.match.model));
   return models.size() == 1 ? models.front() : nullptr;
@@ -32,7 +32,7 @@ void add(bla::Values& values, bla::Address address, const std::optional<std::int
   }
 }
 
-/// "2025-06-22 15:30", as bla::production_time() writes it; another text tells nothing.
+/// "2025-06-22 15:30", as written by bla::production_time(); other texts are ignored.
 void add_production(bla::Values& values, std::string_view date) {
   namespace at = bla::address;
 
@@ -88,7 +88,7 @@ Result<RecordedServo> servo_of(const FleetEntry& entry, const bla::Profiles& pro
                                             .serial_number = value(at::serial_number),
                                             .firmware_version = value(at::firmware_version),
                                             .hardware_version = value(at::hardware_version)});
-  for (const bla::Profile* said : {assumed, model}) { // the hardware version may not be there
+  for (const bla::Profile* said : {assumed, model}) { // the hardware version may be missing
     if (const auto agreed = said != nullptr ? servo.identity.assume(*said) : Result<void>();
         !agreed) {
       return std::unexpected(agreed.error());
@@ -97,7 +97,6 @@ Result<RecordedServo> servo_of(const FleetEntry& entry, const bla::Profiles& pro
   return recorded;
 }
 
-/// The node ID that an entry tells of.
 std::optional<NodeId> told_id(const FleetEntry& entry) {
   if (entry.match.node_id) {
     return entry.match.node_id;
@@ -106,10 +105,10 @@ std::optional<NodeId> told_id(const FleetEntry& entry) {
   return fixed != 0 ? std::optional(NodeId(static_cast<std::uint8_t>(fixed))) : std::nullopt;
 }
 
-/// Gives every entry an ID of its own.
+/// Assigns a unique ID to every entry.
 class Places {
  public:
-  /// False: another entry has it already.
+  /// False: another entry already has it.
   [[nodiscard]] bool take(NodeId id) {
     const bool is_free = !taken_[id.value()];
     taken_.set(id.value());
@@ -153,7 +152,7 @@ Result<FleetRecording> recording_of(const FleetFile& file, const bla::Profiles& 
       elsewhere.push_back(std::move(*servo));
     }
   }
-  for (RecordedServo& servo : elsewhere) { // after all that have one
+  for (RecordedServo& servo : elsewhere) { // after all those with an ID
     const auto id = places.take_any();
     if (!id) {
       return fail(Code::bad_file, say<texts::fleet_too_many>(printable(file.file)),

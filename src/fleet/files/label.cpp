@@ -14,7 +14,7 @@ namespace blactl::fleet {
 
 namespace {
 
-/// Scanners end a line as they like.
+/// Scanners end lines in different ways.
 std::string_view without_blanks(std::string_view line) {
   constexpr std::string_view blanks = " \t\r\n";
   const auto first = line.find_first_not_of(blanks);
@@ -22,7 +22,7 @@ std::string_view without_blanks(std::string_view line) {
                             : line.substr(first, line.find_last_not_of(blanks) - first + 1);
 }
 
-/// Decimal, 32 bits. Empty: it is none.
+/// Decimal, 32 bits. Empty: invalid.
 std::optional<std::int64_t> serial_number_of(std::string_view text) {
   std::uint32_t number = 0;
   const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), number);

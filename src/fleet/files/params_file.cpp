@@ -20,8 +20,8 @@ using bla::Assignment;
 
 namespace {
 
-constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF"; // as some editors write it
-constexpr std::string_view word_ends = " \t,\r";             // \r: files of Windows
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF"; // as written by some editors
+constexpr std::string_view word_ends = " \t,\r";             // \r: files from Windows
 constexpr std::string_view decimal_digits = "0123456789";
 
 std::string_view without_mark(std::string_view text) {
@@ -104,7 +104,7 @@ class ParamsReader {
     }
   }
 
-  /// Why it is no address.
+  /// The reason why it is not an address.
   [[nodiscard]] std::string about_name(std::string_view name) const {
     if (name.find_first_not_of(decimal_digits) == std::string_view::npos) {
       return say<texts::params_decimal_name>(name);
@@ -121,7 +121,7 @@ class ParamsReader {
   const bla::Profiles& profiles_;
   json::Faults faults_;
   std::size_t line_ = 0;
-  std::map<bla::Address, std::size_t> lines_; ///< where each setting stands
+  std::map<bla::Address, std::size_t> lines_; ///< of each setting
   std::vector<Assignment> set_;
   std::set<bla::Address> passed_over_;
 };

@@ -1,5 +1,5 @@
 #pragma once
-// What is said about parameter files.
+// Messages about parameter files.
 
 #include "blactl/base/text.hpp"
 
@@ -21,7 +21,7 @@ inline constexpr Text params_unknown_name{
     "no register of a BLA servo: they go by their address here, such as 0x38",
     "BLA サーボのレジスタではありません。アドレスを記述して下さい (例: 0x38)"};
 inline constexpr Text params_not_whole{
-    "'{}' is no register number: those are whole, and have no unit",
+    "'{}' is not a register number: those are integers without a unit",
     "'{}' はレジスタ値ではありません (レジスタ値は単位の無い整数です)"};
 inline constexpr Text params_twice{"this register is also in line {}",
                                    "このレジスタは {} 行目にもあります"};

@@ -17,7 +17,7 @@ namespace at = bla::address;
 
 namespace {
 
-/// A counter and where it stands.
+/// A counter and its place in the file.
 struct CounterSetting {
   Counter counter;
   const json::Value* where = nullptr;
@@ -27,7 +27,7 @@ bool is_counted(bla::Address address) {
   return address == at::servo_id || address == at::static_node_id;
 }
 
-/// Empty: it is a fault.
+/// Empty: invalid, with an error.
 std::optional<Counter> read_counter(const json::Value& member, const bla::Profiles& profiles,
                                     json::Faults& faults) {
   json::Object object(member, faults);
@@ -61,7 +61,7 @@ std::optional<Counter> read_counter(const json::Value& member, const bla::Profil
   return are_ids ? std::optional(counter) : std::nullopt;
 }
 
-/// What "set" says: values, and counters.
+/// The contents of "set": values, and counters.
 struct RecipeSet {
   std::vector<Setting> values{};
   std::vector<CounterSetting> counters{};
@@ -108,7 +108,7 @@ void take_set(RecipeSet set, Recipe& recipe) {
 
 Recipe read_root(const json::Value& root, const bla::Profiles& profiles, json::Faults& faults) {
   json::Object object(root, faults);
-  (void)object.optional_string("$schema"); // what editors look at
+  (void)object.optional_string("$schema"); // for editors
   (void)object.word("schema", {recipe_schema});
   constexpr std::int64_t most_of_16_bits = 0xFFFF;
   Recipe recipe{.name = object.string("name"),

@@ -12,7 +12,7 @@ namespace blactl::fleet {
 
 namespace {
 
-/// A number as it stands in the file: what it means is for the grammar of values to say.
+/// A number as written in the file: its meaning is up to the grammar of values.
 std::optional<std::string> value_text(const json::Value& value, json::Faults& faults) {
   switch (value.kind) {
   case json::Kind::integer: return std::to_string(value.integer);
@@ -22,7 +22,7 @@ std::optional<std::string> value_text(const json::Value& value, json::Faults& fa
   }
 }
 
-/// Empty: it is a fault.
+/// Empty: invalid, with an error.
 std::optional<bla::Assignment> read_value(const json::Value& member, const bla::Profiles& profiles,
                                           json::Faults& faults) {
   const auto text = value_text(member, faults);

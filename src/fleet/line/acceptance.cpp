@@ -17,7 +17,7 @@ namespace at = bla::address;
 
 namespace {
 
-/// As people read it; "?" where it was not told.
+/// For people; "?" if there was no response.
 std::string shown_version(const Servo& servo, const std::optional<std::int64_t>& raw) {
   const bla::Parameter* version = servo.identity.parameter(at::firmware_version);
   return raw && version != nullptr ? bla::display(*version, *raw) : std::string("?");
@@ -71,7 +71,6 @@ std::optional<Error> check_unit_label(const Servo& servo, const Label* label) {
                say<texts::unit_other_label_hint>());
 }
 
-/// What the label says of this register.
 std::optional<std::int64_t> told_by(const Label* label, bla::Address address) {
   if (label == nullptr) {
     return std::nullopt;

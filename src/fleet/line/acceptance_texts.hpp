@@ -1,5 +1,5 @@
 #pragma once
-// What is said of servos that do not leave a production line.
+// Messages about servos that must not leave a production line.
 
 #include "blactl/base/text.hpp"
 
@@ -18,7 +18,7 @@ inline constexpr Text unit_other_label{"its serial number is {}, the label says 
 inline constexpr Text unit_other_label_hint{"put it aside with its label: two were swapped",
                                             "ラベルの取違えがあります。ラベルとともに"
                                             "ラインから外して下さい"};
-inline constexpr Text unit_silent{"it did not tell its {}", "{} の応答がありません"};
+inline constexpr Text unit_silent{"it did not report its {}", "{} の応答がありません"};
 inline constexpr Text unit_faulty{"it has faults: {}", "異常があります: {}"};
 inline constexpr Text unit_faulty_hint{"what they mean: blactl faults -n {}",
                                        "異常の内容: blactl faults -n {}"};

@@ -19,8 +19,8 @@ using dronecan::Step;
 
 constexpr std::array summary{bla::address::fault_summary};
 
-/// What is missing of the three registers is missing of the faults; the values behind them and
-/// 0x18 are not.
+/// A missing one of the three fault registers makes the faults incomplete; 0x18 and related values
+/// do not.
 std::vector<Error> errors_of(const Snapshot& snapshot, const Roster& roster) {
   const dronecan::NodeId id = snapshot.servo.id;
   if (roster.is_doubled(id)) {
@@ -43,7 +43,7 @@ FaultState state_of(Snapshot snapshot, const Roster& roster, const bla::Profiles
   FaultState state{.snapshot = std::move(snapshot), .faults = {}, .health = {}, .errors = {}};
   state.errors = errors_of(state.snapshot, roster);
   if (roster.is_doubled(state.snapshot.servo.id)) {
-    state.snapshot.readings.clear(); // they may be of either
+    state.snapshot.readings.clear(); // they may be either unit's
   }
   state.faults = bla::faults(state.snapshot.values(), profiles);
   if (const auto& status = roster.member(state.snapshot.servo.id).status) {
@@ -52,7 +52,7 @@ FaultState state_of(Snapshot snapshot, const Roster& roster, const bla::Profiles
   return state;
 }
 
-/// 0x18 has bits of a register that had none when it was read.
+/// 0x18 has bits of a register that was read without any.
 bool contradicts_itself(const FaultState& state) {
   const auto values = state.snapshot.values();
   return std::ranges::any_of(bla::fault_registers, [&](bla::Address reg) {
@@ -60,7 +60,7 @@ bool contradicts_itself(const FaultState& state) {
   });
 }
 
-/// Its NodeStatus tells of more than the registers did, which were not read at one time.
+/// Its NodeStatus reports more than the registers, which were read at different times.
 bool is_surpassed(const FaultState& state) {
   const bool warns = state.health && *state.health != dronecan::Health::ok;
   const bool fails = warns && *state.health != dronecan::Health::warning;
@@ -69,8 +69,8 @@ bool is_surpassed(const FaultState& state) {
           (fails && state.worst() < std::optional(Level::failure)));
 }
 
-/// A log cannot be asked again: of a servo that tells later of more it is not known what 0x18
-/// holds, nor what the registers do in which nothing was found.
+/// A log cannot be asked again: if a servo reports more later, the value of 0x18 is unknown, and so
+/// are the registers without faults.
 void doubt(FaultState& state) {
   const std::uint8_t id = state.snapshot.servo.id.value();
   const Error error{Code::not_recorded, say<texts::faults_not_recorded>(id),
@@ -95,7 +95,7 @@ FaultJob::FaultJob(Session& session, const bla::Profiles& profiles, NodeId id,
   look(summary);
 }
 
-/// `first`: the registers to read in any case.
+/// `first`: the registers that are read in any case.
 void FaultJob::look(std::span<const bla::Address> first) {
   read_.emplace(
       session_.records(), state_.snapshot.servo.id, profiles_, options_,

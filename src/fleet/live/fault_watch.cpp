@@ -21,7 +21,6 @@ FaultWatch::~FaultWatch() {
   }
 }
 
-/// Those that are due.
 void FaultWatch::begin() {
   for (Look& look : looks_) {
     if (!look.job && look.due <= session_.now()) {

@@ -29,7 +29,7 @@ struct Limits {
   Address low, high;
 };
 
-/// In the order of LiveField; faults have none.
+/// In the order of LiveField; faults have no limits.
 constexpr std::array limits{
     Limits{bla::address::angle_limit_ccw, bla::address::angle_limit_cw},
     Limits{bla::address::speed_limit_ccw, bla::address::speed_limit_cw},
@@ -37,12 +37,12 @@ constexpr std::array limits{
     Limits{bla::address::temperature_limit_low, bla::address::temperature_limit_high},
     Limits{bla::address::voltage_limit_low, bla::address::voltage_limit_high}};
 
-/// What changes as fast as a shaft turns.
+/// Fields that change as fast as a shaft turns.
 constexpr bool is_fast(LiveField field) {
   return field == LiveField::angle || field == LiveField::speed || field == LiveField::torque;
 }
 
-/// What the question about a register and its answer take of a bus of 1 Mbit/s.
+/// The duration of a register's request and response on a bus of 1 Mbit/s.
 constexpr Duration read_time = std::chrono::microseconds(533);
 
 template <class Told> bla::Values values_of(const Told& told) {
@@ -53,13 +53,13 @@ template <class Told> bla::Values values_of(const Told& told) {
   return values;
 }
 
-/// Without an actuator.Status for so long the angle is asked for.
+/// After this time without an actuator.Status the angle is read.
 constexpr Duration status_silence = std::chrono::seconds(1);
 
-/// As far actuator.Status tells tenths of a degree: it is a float16 (errata C11).
+/// The range in which actuator.Status resolves tenths of a degree: it is a float16 (errata C11).
 constexpr std::int64_t most_exact_tenths = 2000;
 
-/// An angle that was asked for is better than what actuator.Status tells beyond that.
+/// Beyond that range, an angle read this recently is better than one from actuator.Status.
 constexpr Duration exact_for = std::chrono::seconds(2);
 
 } // namespace
@@ -92,12 +92,12 @@ Monitor::~Monitor() {
   }
 }
 
-/// A moment that was missed is left out: samples do not come in heaps.
+/// A missed moment is skipped: samples do not come in bursts.
 void Monitor::advance(Time now) {
   if (now < due_) {
     return;
   }
-  const bool is_first = due_ == Time::min(); // of a recording: nothing was heard before
+  const bool is_first = due_ == Time::min(); // start of a recording: nothing was heard before
   const bool is_late = is_first || now >= due_ + options_.period;
   due_ = (is_late ? now : due_) + options_.period;
   plan_rounds();
@@ -120,7 +120,7 @@ void Monitor::receive(const Transfer& transfer) {
   }
   Watched& node = nodes_[header.source];
   if (std::exchange(node.boot, member->boots) != member->boots) {
-    node.values.clear(); // of the run before, or of another unit
+    node.values.clear(); // of the previous run, or of another unit
     node.unique_id.reset();
     node.name.clear();
     node.status_at.reset();
@@ -166,7 +166,7 @@ void Monitor::tell_angle(Watched& node, std::int64_t decideg, Time at) {
   node.turns.take(decideg, at);
 }
 
-/// Whoever asked.
+/// Responses to any node's request are used.
 void Monitor::take_register(Watched& node, const Transfer& transfer) {
   const auto response = GetSet::Response::decode(transfer.payload);
   const auto address = response ? bla::find_address(response->name) : std::nullopt;
@@ -188,7 +188,7 @@ void Monitor::take_register(Watched& node, const Transfer& transfer) {
   }
 }
 
-/// A register of which 0x18 shows no bit is not asked for any more: what it held is over.
+/// A register without a bit in 0x18 is not read any more: its earlier faults are over.
 void Monitor::forget_past_faults(Watched& node) {
   const bla::Values values = values_of(node.values);
   for (const Address reg : bla::fault_registers) {
@@ -198,7 +198,7 @@ void Monitor::forget_past_faults(Watched& node) {
   }
 }
 
-/// By what it told us, or others: on a recording nobody is asked.
+/// By the servo's responses to us or to others: on a recording nothing is requested.
 bool Monitor::is_meant(const Member& member, const Watched& node) const {
   const bool is_servo = member.sends_actuator_status() || member.is_servo;
   if (!targets_.given || targets_.all) {
@@ -211,7 +211,7 @@ bool Monitor::is_meant(const Member& member, const Watched& node) const {
          std::ranges::any_of(targets_.selectors, matches);
 }
 
-/// A servo is asked as soon as it is heard: whether a selector means it is told by its answers.
+/// A servo is asked as soon as it is heard: its responses show whether a selector matches.
 void Monitor::attend(NodeId id) {
   const Member* member = session_.roster().find(id);
   const bool is_named = std::ranges::count(targets_.ids, id) > 0;
@@ -230,7 +230,7 @@ void Monitor::attend(NodeId id) {
   session_.start(*node.poll);
 }
 
-/// All together take no more than their share of the bus.
+/// All rounds together take no more than their share of the bus.
 void Monitor::plan_rounds() {
   std::int64_t reads = 0;
   for (const auto& [id, node] : nodes_) {
@@ -243,7 +243,7 @@ void Monitor::plan_rounds() {
   plan_.round = std::max<Duration>(options_.period, reads * read_time * 100 / share_percent);
 }
 
-/// It does not tell its angle by itself, or not exactly.
+/// Whether it does not send its angle, or not exactly.
 bool Monitor::needs_angle(const Watched& node) const {
   const bool is_silent = !node.status_at || session_.now() - *node.status_at > status_silence;
   return (is_silent || node.is_far) && std::ranges::count(options_.fields, LiveField::angle) > 0;
@@ -273,7 +273,7 @@ std::optional<PollPlan> Monitor::further(NodeId id, const Watched& node) const {
   return more;
 }
 
-/// What it told us, else what it told others.
+/// From its responses to us, else to others.
 Servo Monitor::servo(const Member& member, const Watched& node) const {
   if (member.is_known()) {
     return member.servo();
@@ -305,7 +305,7 @@ LiveServo Monitor::live(const Member& member, const Watched& node, Time now) con
                 .is_doubled = is_doubled,
                 .is_stale = is_doubled};
   for (const auto& [id, other] : session_.roster().members()) {
-    // In this order: whether it has moved is asked of all others.
+    // in this order: whether it has moved is checked against all others
     if (id != member.id && other.unique_id() && other.unique_id() == out.servo.unique_id &&
         session_.roster().has_moved(other)) {
       out.former_id = id;
@@ -335,7 +335,7 @@ LiveServo Monitor::live(const Member& member, const Watched& node, Time now) con
   return out;
 }
 
-/// Two of its turns are over, and nothing came.
+/// Two of its turns have passed without a response.
 bool Monitor::is_stale(const LiveServo& servo, Time now) const {
   const auto turns = static_cast<std::int64_t>(std::max<std::size_t>(plan_.seldom.size(), 1));
   return std::ranges::any_of(options_.fields, [&](LiveField field) {
@@ -359,7 +359,7 @@ std::vector<LiveServo> Monitor::servos(Time now) const {
   return out;
 }
 
-/// Now: one that has just restarted is not known until it has answered.
+/// At present: one that has just restarted is unknown until it has responded.
 bool Monitor::is_met(const Selector& selector) const {
   return std::ranges::any_of(nodes_, [&](const auto& entry) {
     const Member* member = session_.roster().find(entry.first);

@@ -10,10 +10,11 @@ using dronecan::Step;
 
 namespace {
 
-/// A servo that leaves so many questions in a row unanswered is not asked until it is heard again.
+/// After this number of consecutive requests without a response a servo is not asked until it is
+/// heard.
 constexpr int most_unanswered = 3;
 
-/// One that was not identified is tried again after this.
+/// A failed identification is repeated after this.
 constexpr Duration identification_pause = std::chrono::seconds(2);
 
 } // namespace
@@ -27,7 +28,7 @@ Step PollJob::next(const Outcome& outcome) {
   if (outcome.kind == Outcome::Kind::cancelled) {
     return std::nullopt;
   }
-  if (roster_.is_doubled(id_)) { // whoever answers: it would be told of the other one, too
+  if (roster_.is_doubled(id_)) { // a response could be either unit's
     return wait_for_sign(outcome.at);
   }
   switch (at_) {
@@ -105,7 +106,7 @@ Step PollJob::rest(Time until) {
   return dronecan::Pause{.until = until, .ready = [this] { return has_restarted(); }};
 }
 
-/// Nothing until something is heard of it.
+/// Waits until something is heard from it.
 Step PollJob::wait_for_sign(Time now) {
   unanswered_ = 0;
   at_ = At::rest;

@@ -1,4 +1,4 @@
-// How a servo that was commanded is brought to its end, whatever was the reason.
+// Brings a commanded servo to its end, for any reason.
 
 #include "blactl/bla/value.hpp"
 #include "blactl/fleet/bus/texts.hpp"
@@ -22,9 +22,9 @@ using namespace std::chrono_literals;
 
 namespace {
 
-/// How long a shaft may take to stand, and how long it is looked at where few answers come; what
-/// its speed may show then, so often in a row, for so long, and how far its angle may go meanwhile,
-/// in tenths of a degree (all unproven).
+/// The time that a shaft may take to stand still, and the time it is watched if few responses come;
+/// the speed that may show then, the number of such samples in a row and their duration, and the
+/// angle that it may move meanwhile, in tenths of a degree (all unproven).
 constexpr Duration longest_stop = 1s, longest_look = 3s;
 constexpr std::int64_t standing_rpm = 2;
 constexpr int standing_samples = 3;
@@ -33,14 +33,13 @@ constexpr std::int64_t most_creep = 5;
 
 constexpr int silent_in_the_end = 6;
 
-/// A servo that restarts more often meanwhile does so because of it, or of its supply.
+/// A servo that restarts more often does so because of the command, or of its supply.
 constexpr int most_restarts_commanded = 2;
 
 constexpr std::array end_registers{at::torque_output, at::timeout_action, at::timeout_time};
 
 } // namespace
 
-/// It was not carried out as planned, and is brought to its end.
 Step CommandJob::fail(Error error) {
   if (!result_.error) {
     result_.error = std::move(error);
@@ -65,7 +64,7 @@ Step CommandJob::finish() {
   return has_end_ ? command(0) : end();
 }
 
-/// It is told what to do in the end again and again until it stands.
+/// Repeats the final command until the shaft stands still.
 Step CommandJob::end() {
   if (unanswered_ >= silent_in_the_end) {
     return give_up(silent_since());
@@ -81,8 +80,8 @@ Step CommandJob::end() {
   return now_ >= command_due() ? command(target_) : sample();
 }
 
-/// An angle that is reached is held already; else the one where the shaft is, which lies within
-/// the limits as all of its way does.
+/// An angle that was reached is held already; else the present angle, which lies within the limits
+/// like all of its way.
 void CommandJob::choose_end() {
   has_end_ = true;
   const bool arrived = is_at(plan_, *sample_.angle, plan_.last_target());
@@ -96,7 +95,7 @@ void CommandJob::choose_end() {
   last_command_ = now_ - plan_.longest_gap; // due at once
 }
 
-/// Both the speed and the angle say so. A sample with an answer missing tells nothing.
+/// Both speed and angle must show it. A sample with a missing value shows nothing.
 void CommandJob::watch_standing() {
   if (!sample_.angle || !sample_.speed) {
     return;
@@ -137,7 +136,7 @@ Error CommandJob::not_standing() const {
           hint, id()};
 }
 
-/// What it does from now on is told by what it holds now.
+/// The servo's further behaviour follows from its present settings.
 Step CommandJob::read_settings() {
   at_ = At::settings;
   result_.output.reset();
@@ -165,7 +164,7 @@ Step CommandJob::judge_setting(const Outcome& outcome) {
   return proof_->next({Outcome::Kind::start, {}, now_});
 }
 
-/// It restarted: whether it is still the same, before anything is written to it again.
+/// It restarted: checks that it is the same unit, before anything is written to it again.
 Step CommandJob::recognise() {
   if (!result_.has_commanded()) {
     return give_up({Code::state, say<texts::restarted_before_write>(id()),
@@ -181,7 +180,7 @@ Step CommandJob::recognise() {
   if (++restarts_ > most_restarts_commanded) {
     return give_up(*result_.error);
   }
-  phase_ = Phase::moving; // its end begins anew
+  phase_ = Phase::moving; // its end starts over
   servo_.boot = roster_.member(servo_.id).boots;
   servo_.since = now_;
   at_ = At::proof;
@@ -216,7 +215,6 @@ Step CommandJob::judge_proof(const Outcome& outcome) {
   return std::nullopt;
 }
 
-/// Beside what went wrong before.
 void CommandJob::add_error(Error error) {
   if (!result_.error) {
     result_.error = std::move(error);
@@ -226,8 +224,8 @@ void CommandJob::add_error(Error error) {
   }
 }
 
-/// Nothing may be written to it any more, or nothing comes of it. Where another unit answers, its
-/// uptime tells nothing of the one that was commanded, which cannot be told anything any more.
+/// Nothing more may be written to it, or writing has no effect. If another unit responds on the ID,
+/// its uptime says nothing about the commanded servo, which cannot be reached any more.
 Step CommandJob::give_up(Error error) {
   const bool is_left = error.code == Code::armed || error.code == Code::driven;
   const bool has_met_another =

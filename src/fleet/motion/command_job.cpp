@@ -30,11 +30,11 @@ namespace {
 /// Angle, speed and torque take 1.6 ms of the bus: a sixth of it.
 constexpr Duration sample_period = 10ms;
 
-/// A servo that leaves so many questions in a row unanswered is not there any more.
+/// After this number of consecutive requests without a response the servo is taken to be gone.
 constexpr int silent_while_moving = 3;
 
-/// How far a shaft may have been moved since the question, in tenths of a degree; and how far one
-/// that turned then, as after a soft start, goes on by itself in 0.2 s, for each rpm.
+/// The angle that a shaft may have moved since the user's question, in tenths of a degree; and the
+/// angle that a turning one, as after a soft start, goes on to turn in 0.2 s, per rpm.
 constexpr std::int64_t most_moved = 20, moved_per_rpm = 12;
 
 constexpr std::array readings{at::current_angle, at::current_speed, at::current_torque};
@@ -70,7 +70,7 @@ Step CommandJob::next(const Outcome& outcome) {
   return judge_proof(outcome);
 }
 
-/// Between the question and the answer of a person another unit may have come to the node ID.
+/// Between the question and the user's reply another unit may have come to the node ID.
 Step CommandJob::judge_unit(const Outcome& outcome) {
   if (!outcome.answered()) {
     return give_up(no_answer(outcome, servo_.id, "GetNodeInfo"));
@@ -84,7 +84,6 @@ Step CommandJob::judge_unit(const Outcome& outcome) {
   return look();
 }
 
-/// The next of what the plan rests on.
 Step CommandJob::look() {
   if (result_.is_cut || conditions_.empty()) {
     sample_due_ = now_;
@@ -113,7 +112,7 @@ Step CommandJob::judge_condition(const Outcome& outcome) {
   return look();
 }
 
-/// What must never be written to, whatever was agreed.
+/// Conditions that forbid writing, whatever was agreed.
 std::optional<Error> CommandJob::forbidden() const {
   auto why = Guard(roster_, options_.while_driven).forbids(servo_, now_);
   if (why && why->code != Code::duplicate_node_id) {
@@ -122,7 +121,7 @@ std::optional<Error> CommandJob::forbidden() const {
   return why;
 }
 
-/// Why it must not go on as it was agreed.
+/// The reason why it must not continue as agreed.
 std::optional<Error> CommandJob::disturbed() const {
   if (const auto writer = roster_.writer_to(servo_.id, looked_at_)) {
     return Error{Code::state, say<texts::written_by_other>(id(), writer->value()),
@@ -143,8 +142,8 @@ std::optional<Error> CommandJob::disturbed() const {
   return std::nullopt;
 }
 
-/// An ArrayCommand is told to everybody. Who tells its servo ID obeys it, and who came or restarted
-/// since may have it.
+/// An ArrayCommand reaches all servos. One that reports its servo ID obeys it, and one that came or
+/// restarted since may have it.
 std::optional<NodeId> CommandJob::newcomer() const {
   if (!plan_.by_servo_id) {
     return std::nullopt;
@@ -192,8 +191,8 @@ Step CommandJob::move() {
   return is_due || target != target_ ? command(target) : sample();
 }
 
-/// Late answers leave time for either a command or a question: they take turns, as far as the
-/// servo's timeout lets them.
+/// Late responses leave time for either a command or a read: they take turns, as far as the servo's
+/// timeout allows.
 Time CommandJob::command_due() const {
   if (phase_ == Phase::ending && !has_end_) {
     return never;
@@ -210,7 +209,7 @@ Step CommandJob::command(std::int64_t raw) {
   if (!is_end && result_.commands++ == 0) {
     result_.began = now_;
   }
-  if (plan_.by_servo_id && (!is_end || raw == 0)) { // others that obey it stop with it
+  if (plan_.by_servo_id && (!is_end || raw == 0)) { // others with this servo ID stop with it
     const auto servo_id = plan_.plan.before.raw(at::servo_id).value_or(0);
     options_.broadcast(array_command(static_cast<std::uint8_t>(servo_id), address, raw));
   }
@@ -221,14 +220,14 @@ Step CommandJob::command(std::int64_t raw) {
   return write_register(servo_.id, address, raw, once()); // forbidden() was asked in this step
 }
 
-/// One question, answered or given up in time for the next command.
+/// One request, answered or given up in time for the next command.
 Patience CommandJob::once() const {
   constexpr Duration least = 1ms;
   const Duration left = last_command_ + plan_.longest_gap - now_;
   return {std::max(least, std::min(left, options_.patience.timeout)), 0};
 }
 
-/// False: again it did not. Too often is the end.
+/// False: again there was no response. Too many of them end the command.
 bool CommandJob::has_answered(const Outcome& outcome) {
   unanswered_ = outcome.answered() ? 0 : unanswered_ + 1;
   return outcome.answered();
@@ -257,7 +256,7 @@ Step CommandJob::judge_echo(const Outcome& outcome) {
                                  : give_up(not_taken(echo, Code::mismatch));
 }
 
-/// An answer says what was asked for; the register itself tells what is true.
+/// A response only echoes the request; reading the register shows its value.
 Step CommandJob::read_back() {
   at_ = At::shown;
   return read_register(servo_.id, plan_.parameter->address,
@@ -294,7 +293,7 @@ Error CommandJob::not_taken(std::optional<std::int64_t> held, Code code) const {
           say<texts::motion_why_hint>(id()), id()};
 }
 
-/// The next question of a sample, or a pause until it is due.
+/// Reads the next value of a sample, or pauses until it is due.
 Step CommandJob::sample() {
   if (reading_ == 0 && now_ < sample_due_) {
     at_ = At::pause;
@@ -307,7 +306,7 @@ Step CommandJob::sample() {
   return read_register(servo_.id, readings[reading_], once());
 }
 
-/// When the servo looked at its angle is between the question and the answer.
+/// The servo measured its angle between the request and the response.
 Step CommandJob::take_sample(const Outcome& outcome) {
   const auto raw = has_answered(outcome) ? value(outcome, readings[reading_]) : std::nullopt;
   if (reading_ == 0) {
@@ -330,7 +329,7 @@ void CommandJob::conclude_sample() {
   result_.samples.push_back(sample_);
   if (options_.sampled) {
     options_.sampled(sample_);
-    now_ = options_.now(); // whoever reads it may be slow
+    now_ = options_.now(); // the consumer may be slow
   }
   if (phase_ == Phase::ending && has_end_) {
     watch_standing();

@@ -28,13 +28,13 @@ namespace {
 /// Of 0x20 and 0x26.
 constexpr std::int64_t output_on = 0, action_hold = 0, action_off = 1;
 
-/// Commands come as often as an autopilot sends them, or as the servo's timeout needs.
+/// Commands come as often as from an autopilot, or as required by the servo's timeout.
 constexpr Duration usual_period = 100ms;
 
-/// A write and its answer take 1 ms of a bus that is free; computers are not always so quick.
+/// A write and its response take 1 ms on an idle bus; computers are sometimes slower.
 constexpr Duration shortest_gap = 20ms;
 
-/// How far a wiggle goes to either side, in tenths of a degree, and how long each stay is.
+/// The amplitude of a wiggle, in tenths of a degree, and the time at each end.
 constexpr std::int64_t wiggle_decideg = 50;
 constexpr Duration wiggle_stay = 250ms;
 
@@ -55,7 +55,7 @@ Address commanded(const CommandWanted& wanted) {
   return wanted.target ? wanted.target->parameter->address : at::command_angle;
 }
 
-/// What a change of any of these would make of the command is not what was agreed to.
+/// If any of these changes, the command is not the one that was agreed to.
 std::vector<Address> settings_of(Address command) {
   const LimitPair& limits = limits_of(command);
   return {at::torque_output,  at::reverse,      at::extended_angle, at::speed_torque_control,
@@ -68,7 +68,7 @@ std::string shown(const Snapshot& before, Address address, std::int64_t raw) {
   return parameter != nullptr ? bla::display(*parameter, raw) : std::to_string(raw);
 }
 
-/// What the register holds, for people.
+/// The register's value, for people.
 std::string held(const Snapshot& before, Address address) {
   const auto raw = before.raw(address);
   return raw ? shown(before, address, *raw) : say<texts::unknown_before>();
@@ -87,8 +87,8 @@ std::optional<Error> check_output(const Snapshot& before) {
                  say<texts::set_first_hint>(id, "torque_output=on"));
 }
 
-/// Beyond them it would stop there (4.31 to 4.33). Torque limits, and those of speed, count only
-/// where 0x25 is on; without that neither is commanded.
+/// Beyond its limits the servo would stop there (4.31 to 4.33). Torque and speed limits apply only
+/// if 0x25 is on; without it neither is commanded.
 std::optional<Error> check_limits(const Snapshot& before, Address command, std::int64_t raw) {
   const LimitPair& limits = limits_of(command);
   const auto ccw = before.raw(limits.ccw), cw = before.raw(limits.cw);
@@ -104,7 +104,7 @@ std::optional<Error> check_limits(const Snapshot& before, Address command, std::
                  say<texts::motion_beyond_limits_hint>(id));
 }
 
-/// Beyond its limits it cannot be held on the way: it would run on to the nearer one (4.31).
+/// Outside its limits it cannot be held on the way: it would run on to the nearer one (4.31).
 std::optional<Error> check_place(const Snapshot& before, Address command) {
   const auto angle = before.raw(at::current_angle);
   const auto ccw = before.raw(at::angle_limit_ccw), cw = before.raw(at::angle_limit_cw);
@@ -128,7 +128,7 @@ std::optional<Error> check_timeout(const Snapshot& before, const CommandPlan& pl
                  say<texts::set_first_hint>(id, "timeout_time=1000ms"));
 }
 
-/// ArrayCommand carries float16: not every angle (errata C11).
+/// ArrayCommand carries float16: it cannot represent every angle (errata C11).
 std::optional<Error> check_exact(const Snapshot& before, const CommandPlan& plan) {
   for (const Waypoint& waypoint : plan.course) {
     const std::int64_t told = told_by_array(plan.parameter->address, waypoint.raw);
@@ -141,7 +141,6 @@ std::optional<Error> check_exact(const Snapshot& before, const CommandPlan& plan
   return std::nullopt;
 }
 
-/// What will be read, and its limits.
 std::array<CommandReading, 3> readings_of(const Snapshot& before) {
   std::array<CommandReading, 3> readings;
   for (std::size_t i = 0; i < readings.size(); ++i) {
@@ -151,7 +150,7 @@ std::array<CommandReading, 3> readings_of(const Snapshot& before) {
   return readings;
 }
 
-/// To both sides, or to the one where there is room; in the end back to where it began.
+/// To both sides, or to the one with room; finally back to the start.
 Result<std::vector<Waypoint>> wiggle(const Snapshot& before, Duration duration) {
   const auto angle = before.raw(at::current_angle);
   const auto ccw = before.raw(at::angle_limit_ccw), cw = before.raw(at::angle_limit_cw);
@@ -183,7 +182,7 @@ Result<std::vector<Waypoint>> course_of(const CommandWanted& wanted, const Snaps
   return wiggle(before, wanted.duration);
 }
 
-/// The change of 0x00, 0x01 or 0x02 as any command that writes would judge it.
+/// The change of 0x00, 0x01 or 0x02, checked as in any command that writes.
 Result<Plan> judged(const CommandWanted& wanted, Snapshot before, std::int64_t raw,
                     const bla::Profiles& profiles) {
   if (wanted.target) {
@@ -213,7 +212,7 @@ std::string seconds_text(Duration duration) {
   return fmt::format("{:g}", std::chrono::duration<double>(duration).count());
 }
 
-/// Warnings and failures that are there: they may hold the motor off (4.12).
+/// Present warnings and failures: they may keep the motor off (4.12).
 std::string fault_lines(const CommandPlan& plan) {
   std::string lines;
   for (const bla::Fault& fault : plan.faults) {

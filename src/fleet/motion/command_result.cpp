@@ -22,8 +22,8 @@ std::int64_t tolerance(const CommandPlan& plan) {
   return std::max(least, dead_band.value_or(0) + beside_dead_band);
 }
 
-/// In the second half of its time most samples show at least half of the speed; noise of a register
-/// that stands is none. Empty: there are no such samples.
+/// In the second half of its time most samples show at least half of the speed; the noise of a
+/// motor that stands still does not count. Empty: there are no such samples.
 std::optional<bool> came_to_speed(const CommandPlan& plan, const CommandResult& result) {
   constexpr std::int64_t noise_rpm = 3; // unproven
   const std::int64_t target = plan.last_target();
@@ -39,7 +39,7 @@ std::optional<bool> came_to_speed(const CommandPlan& plan, const CommandResult& 
   return seen > 0 ? std::optional(2 * fast > seen) : std::nullopt;
 }
 
-/// It went half of the way to some place, for more than a glitch of its register.
+/// The shaft went half of the way to some waypoint, for more than a glitch of its register.
 bool has_wiggled(const CommandPlan& plan, const CommandResult& result) {
   constexpr std::ptrdiff_t least = 3;
   const std::int64_t way = std::abs(plan.course.front().raw - plan.last_target());
@@ -83,7 +83,7 @@ std::optional<Error> judge_motion(const CommandPlan& plan, const CommandResult& 
   }
   const std::uint8_t id = plan.servo().id.value();
   const std::string target = bla::display(*plan.parameter, plan.last_target());
-  if (result.held) { // it was not there when its time was over
+  if (result.held) { // it had not arrived when its time was over
     return differs(plan, say<texts::motion_not_reached>(
                              id, target, bla::display(*plan.parameter, *result.held)));
   }

@@ -15,7 +15,7 @@ using dronecan::NodeId;
 
 namespace {
 
-/// Who obeys ArrayCommand, as far as it was heard.
+/// The servos that obey ArrayCommand, as far as heard.
 std::vector<NodeId> servos_heard(const Roster& roster, NodeId except) {
   std::vector<NodeId> ids;
   for (const auto& [id, member] : roster.members()) {
@@ -55,7 +55,7 @@ std::optional<Error> refuse_servo_id(Session& session, const bla::Profiles& prof
     if (!its || session.roster().is_doubled(id)) {
       return shared(plan, say<texts::motion_servo_id_unknown>(id.value(), servo_id));
     }
-    if (*its == servo_id || told == servo_id) { // which of the two it obeys is not known
+    if (*its == servo_id || told == servo_id) { // it is not known which of the two it obeys
       return shared(
           plan, say<texts::motion_servo_id_shared>(plan.servo().id.value(), id.value(), servo_id));
     }

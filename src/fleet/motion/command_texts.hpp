@@ -1,11 +1,11 @@
 #pragma once
-// The catalogue of commands to the shaft of a servo.
+// Messages of commands to the shaft of a servo.
 
 #include "blactl/base/text.hpp"
 
 namespace blactl::texts {
 
-// Why it is not commanded.
+// Reasons for not commanding.
 
 inline constexpr Text motion_output_off{
     "node {}: torque_output (0x20) is {}: the shaft follows no command",
@@ -32,7 +32,7 @@ inline constexpr Text motion_timeout_short{
     "node {}: timeout_time (0x27) is {}: no bus carries a command in every half of that",
     "ノード {}: timeout_time (0x27) が {} のため、その半分以下の周期で指令を送信できません"};
 inline constexpr Text motion_not_exact{
-    "ArrayCommand cannot tell {}: it carries half-precision numbers, the nearest is {}",
+    "ArrayCommand cannot carry {} exactly: its numbers have half precision, the nearest is {}",
     "ArrayCommand では {} を正確に送信できません (半精度浮動小数点、最も近い値は {})"};
 inline constexpr Text motion_not_exact_hint{"leave --array out, or command {}",
                                             "--array を外すか、{} を指令して下さい"};
@@ -40,7 +40,7 @@ inline constexpr Text motion_servo_id_shared{
     "nodes {} and {} both have servo ID {}: an ArrayCommand would move both",
     "ノード {} と {} のサーボ ID が {} で重複しています。ArrayCommand では両方が動作します"};
 inline constexpr Text motion_servo_id_unknown{
-    "node {} did not tell its servo ID: it may be {}, too",
+    "node {} did not report its servo ID: it may be {}, too",
     "ノード {} のサーボ ID を確認できません。対象と同じ {} の可能性があります"};
 inline constexpr Text motion_servo_id_pending{
     "a unit waits for a node ID: its servo ID is not known, and may be {}, too",
@@ -87,10 +87,10 @@ inline constexpr Text motion_then_brake{
     "最後の指令から {} 経過するとブレーキ状態になります (brake)"};
 
 inline constexpr Text motion_then_unknown{
-    "its ROM says what it does without commands, and that is not known",
+    "without commands it acts as its ROM says, which is not known",
     "指令が途絶えた場合の動作は ROM の設定によります (内容は不明)"};
 
-// How it ended.
+// The end.
 
 inline constexpr Text motion_silent{"node {}: it does not answer any more while it is commanded",
                                     "ノード {}: 指令中に応答しなくなりました"};
@@ -115,7 +115,8 @@ inline constexpr Text motion_nor_ended{"{}; and {}", "{}。さらに、{}"};
 inline constexpr Text motion_not_ended_hint{"{}; to stop it: blactl set -n {} torque_output=off",
                                             "{}。停止するには: blactl set -n {} torque_output=off"};
 inline constexpr Text motion_newcomer{
-    "node {} came, restarted or tells servo ID {} since that was commanded by ArrayCommand: it may "
+    "node {} appeared, restarted or reported servo ID {} while that was commanded by ArrayCommand: "
+    "it may "
     "have moved as well",
     "ArrayCommand でサーボ ID {1} に指令中に、ノード {0} の出現、再起動、"
     "またはサーボ ID の変更がありました。このノードも動作した可能性があります"};

@@ -9,18 +9,17 @@ namespace {
 
 using dronecan::transfer_id_modulus;
 
-/// How far transfers may be from their usual time: by one, or by a quarter of a long gap. Wide
-/// enough for senders that are not exact; a restart looks like a loss only if its ID happens to
-/// fit.
+/// The tolerance of transfer times: one period, or a quarter of a long gap. Wide enough for inexact
+/// senders; a restart looks like a loss only if its ID happens to fit.
 constexpr double gap_tolerance = 0.25;
 
-/// Of the usual period, what each further one counts.
+/// The weight of each further transfer in the usual period.
 constexpr double weight = 0.25;
 
-/// A pause of a sender that sends in bursts must not look like its period.
+/// The pause of a sender that sends in bursts must not be taken for its period.
 constexpr double most_growth = 2;
 
-/// From 1, right after the last one, to 32, the same ID again.
+/// From 1, the next ID, to 32, the same ID again.
 constexpr unsigned steps_between(dronecan::TransferId last, dronecan::TransferId id) {
   return (id - last - 1U) % static_cast<unsigned>(transfer_id_modulus) + 1U;
 }
@@ -43,8 +42,8 @@ void LostTransfers::take(dronecan::TransferId id, Time at) {
   }
 }
 
-/// Also after 32 lost ones, or 64, the IDs go on by one: the time tells. One that sends in bursts
-/// pauses for any time; one that has become slower is silent for as long again.
+/// After 32 lost transfers, or 64, the IDs are consecutive again: only the time shows it. A sender
+/// in bursts pauses for any time; one that has become slower is silent for as long again.
 void LostTransfers::take_next(double elapsed_us) {
   const bool is_silence = usual_us_ && elapsed_us >= *usual_us_ * transfer_id_modulus;
   const bool is_first = !std::exchange(was_silent_, is_silence);
@@ -58,18 +57,18 @@ void LostTransfers::take_next(double elapsed_us) {
 
 void LostTransfers::learn(double elapsed_us) {
   if (elapsed_us <= 0) {
-    return; // stamps of a log that are the same, or went back
+    return; // log timestamps that are equal, or went back
   }
   const double usual = usual_us_.value_or(elapsed_us);
   usual_us_ = usual + (std::min(elapsed_us, usual * most_growth) - usual) * weight;
 }
 
-/// Whether in this time the IDs come round, once or more often, and on to the next one.
+/// Whether this time is enough for the IDs to wrap around, once or more, and reach the next one.
 bool LostTransfers::is_round(double elapsed_us) const {
   return std::abs(std::remainder(elapsed_us / *usual_us_ - 1, double{transfer_id_modulus})) <= 1;
 }
 
-/// Whether so many transfers are sent in this time.
+/// Whether this number of transfers fits this time.
 bool LostTransfers::explains(unsigned steps, double elapsed_us) const {
   if (!usual_us_ || elapsed_us >= *usual_us_ * transfer_id_modulus) {
     return false;

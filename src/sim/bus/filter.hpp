@@ -1,5 +1,5 @@
 #pragma once
-// A client's receive filter, applied where the kernel would apply it.
+// A client's receive filter, applied as the kernel would.
 
 #include "blactl/can/bus.hpp"
 
@@ -8,7 +8,7 @@
 
 namespace blactl::sim {
 
-/// Whether a client with these filters hears the frame; without filters it hears all.
+/// Whether a client with these filters receives the frame; without filters it receives all.
 [[nodiscard]] inline bool passes(std::span<const can::Filter> filters, const can::Frame& frame) {
   return filters.empty() || std::ranges::any_of(filters, [&](const can::Filter& filter) {
            return frame.extended && !frame.remote && ((frame.id ^ filter.id) & filter.mask) == 0;

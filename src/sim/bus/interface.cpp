@@ -6,7 +6,7 @@
 namespace blactl::sim {
 namespace {
 
-/// While nobody acknowledges, the frames of the devices pile up; what comes beyond is lost.
+/// Frames of the devices queued while no node acknowledges; further ones are lost.
 constexpr std::size_t max_outgoing = 256;
 
 constexpr std::size_t nobody = static_cast<std::size_t>(-1);
@@ -40,7 +40,7 @@ void Interface::handle(const can::Event& event) {
       heard(sent->frame, sent->at, sender);
     }
   }
-  // Echoes of what was on its way do not come any more.
+  // echoes of frames on their way do not come any more
   const auto* fault = std::get_if<can::BusFault>(&event);
   if (std::holds_alternative<can::Overflow>(event) ||
       (fault != nullptr && fault->kind == can::FaultKind::bus_off)) {

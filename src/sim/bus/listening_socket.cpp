@@ -23,14 +23,15 @@
 namespace blactl::sim {
 namespace {
 
-/// The lock file says whose it is, for the next one that wants it. A full disk keeps that out.
+/// The lock file holds the PID of its owner, for the next process that wants the place. A full disk
+/// prevents that.
 void sign(int lock) {
   const std::string pid = std::to_string(getpid()) + '\n';
   std::ignore = ftruncate(lock, 0);
   std::ignore = pwrite(lock, pid.data(), pid.size(), 0);
 }
 
-/// What sign() wrote; 0: nothing that could be one.
+/// The PID written by sign(); 0: nothing plausible.
 pid_t signature(int lock) {
   std::array<char, 16> text{};
   const auto size = pread(lock, text.data(), text.size(), 0);
@@ -123,14 +124,14 @@ Result<void> ListeningSocket::listen() {
     if (!S_ISSOCK(status.st_mode)) {
       return fail(Code::interface, say<texts::sim_not_a_socket>(printable(name)));
     }
-    unlink(name.c_str()); // whoever listened there held the lock, and is dead
+    unlink(name.c_str()); // its listener held the lock, and is dead
   }
   address.sun_family = AF_UNIX;
   name.copy(address.sun_path, name.size());
   socket_ = socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
   const void* raw = &address;
-  // The mode of the socket before bind() is that of the file: never open to others, not for a
-  // moment.
+  // The mode of the socket before bind() becomes that of the file: it is not open to others even
+  // for a moment.
   bound_ = socket_ >= 0 && fchmod(socket_, S_IRUSR | S_IWUSR) == 0 &&
            bind(socket_, static_cast<const sockaddr*>(raw), sizeof address) == 0;
   if (!bound_ || ::listen(socket_, SOMAXCONN) != 0) {

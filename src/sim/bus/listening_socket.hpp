@@ -1,5 +1,5 @@
 #pragma once
-// Where clients of the simulator knock.
+// The socket to which clients of the simulator connect.
 
 #include "blactl/base/error.hpp"
 
@@ -8,12 +8,12 @@
 
 namespace blactl::sim {
 
-/// A listening SOCK_SEQPACKET socket. A lock file beside it, `<socket>.lock`, tells a simulator
-/// that lives from one that was killed: the kernel drops the lock with the process.
+/// A listening SOCK_SEQPACKET socket. A lock file beside it, `<socket>.lock`, distinguishes a
+/// running simulator from one that was killed: the kernel releases the lock with the process.
 class ListeningSocket {
  public:
-  /// Creates the folder (0700) and replaces the socket of a dead simulator.
-  /// Errors: busy (another one lives), interface.
+  /// Creates the folder (0700) and replaces the socket of a dead simulator. Errors: busy (another
+  /// one is running), interface.
   [[nodiscard]] static Result<std::unique_ptr<ListeningSocket>>
   open(const std::filesystem::path& path);
   ~ListeningSocket();

@@ -13,17 +13,17 @@ constexpr Duration bits(std::size_t n) {
   return Duration(n);
 }
 
-// ISO 11898-1: the counter rises by 8 with an error, from 128 on a node is error passive, beyond
-// 255 it is off and comes back after 128 times 11 recessive bits.
+// ISO 11898-1: the counter rises by 8 with an error; from 128 a node is error passive; beyond 255
+// it is bus-off and returns after 128 times 11 recessive bits.
 constexpr unsigned error_step = 8;
 constexpr unsigned error_passive = 128;
 constexpr unsigned error_limit = 255;
 constexpr Duration off_time = bits(std::size_t{128} * 11);
 
-/// Six bits of error flag, up to six by which the others' flags come later, eight of delimiter.
+/// Six bits of error flag, up to six bits until the last flag of the others, eight of delimiter.
 constexpr std::size_t error_frame_bits = 6 + 6 + 8;
 
-/// The order in which frames win: a dominant bit is 0.
+/// The arbitration order of frames: a dominant bit is 0.
 auto strength(const can::Frame& frame) {
   return std::tuple(can::arbitration_field(frame), frame.size, frame.data);
 }
@@ -36,7 +36,7 @@ Time Medium::Port::ready() const {
 
 void Medium::cut(PortId port, bool is_cut, Time now) {
   if (!on_wire_) {
-    idle_from_ = std::max(idle_from_, now); // what waited does not start in the past
+    idle_from_ = std::max(idle_from_, now); // waiting frames do not start in the past
   }
   ports_.at(port).cut = is_cut;
 }
@@ -49,7 +49,7 @@ void Medium::bus_off(PortId port, Time now) {
 }
 
 Medium::PortId Medium::attach(Listener& listener, std::size_t capacity, Time now) {
-  // A frame that waited for somebody to acknowledge it does not start in the past.
+  // A frame that waited for an acknowledgement does not start in the past.
   if (!on_wire_) {
     idle_from_ = std::max(idle_from_, now);
   }
@@ -77,7 +77,7 @@ bool Medium::send(PortId port, const can::Frame& frame, Time now) {
 
 Time Medium::next_start() const {
   if (std::ranges::count(ports_, false, [](const auto& entry) { return entry.second.cut; }) < 2) {
-    return never; // nobody would acknowledge
+    return never; // no node would acknowledge
   }
   Time first = never;
   for (const auto& [id, port] : ports_) {
@@ -117,7 +117,7 @@ void Medium::start(Time at) {
   }
   const can::Frame frame = head(*best);
   std::vector<PortId> senders;
-  std::vector<PortId> rivals; // not told apart by the arbitration
+  std::vector<PortId> rivals; // those that the arbitration does not separate
   for (const PortId id : contenders) {
     if (head(id) == frame) {
       senders.push_back(id);
@@ -128,7 +128,7 @@ void Medium::start(Time at) {
   begin(frame, std::move(senders), rivals, at);
 }
 
-/// A rival notices the difference: if it is error active its error flag destroys the frame.
+/// A rival notices the difference: if it is error active, its error flag destroys the frame.
 void Medium::begin(const can::Frame& frame, std::vector<PortId> senders,
                    const std::vector<PortId>& rivals, Time at) {
   const can::FrameBits own(frame);
@@ -150,7 +150,7 @@ void Medium::begin(const can::Frame& frame, std::vector<PortId> senders,
   if (!destroyed && disturbance_.destroys(at)) {
     ++counters_.errors;
     destroyed = true;
-    length = own.size() + error_frame_bits; // noticed by all when the CRC is wrong
+    length = own.size() + error_frame_bits; // all nodes notice it by the wrong CRC
   }
   if (destroyed) {
     for (const PortId sender : senders) {
@@ -195,7 +195,7 @@ void Medium::finish() {
   });
 }
 
-/// The frame is through: its senders go on to their next one.
+/// The frame is complete: its senders go on to their next one.
 void Medium::release(const std::vector<PortId>& senders) {
   for (const PortId sender : senders) {
     Port& port = ports_.at(sender);
@@ -204,7 +204,7 @@ void Medium::release(const std::vector<PortId>& senders) {
   }
 }
 
-/// `repeated`: the senders do not know that it has arrived, and will send it again.
+/// `repeated`: the senders do not know that it has arrived, and will repeat it.
 void Medium::deliver(const Transmission& transmission, bool repeated) {
   const can::Frame received = disturbance_.received(transmission.frame);
   for (auto& [id, port] : ports_) {

@@ -17,13 +17,13 @@ namespace {
 
 constexpr std::size_t own_queue_capacity = 10;
 
-/// Virtual time passes in steps, so that the loop sees signals even on a bus of which the filter
-/// lets nothing through.
+/// Virtual time passes in steps, so that the loop notices signals even if the filter lets nothing
+/// through.
 constexpr Duration longest_step = 100ms;
 
 } // namespace
 
-/// What happened on the bus and was not asked for yet.
+/// Frames and events of the bus that were not fetched yet.
 class PrivateBus::Inbox final : public Medium::Listener {
  public:
   explicit Inbox(const PrivateBus& bus) : bus_(bus) {}

@@ -24,11 +24,11 @@ namespace {
 
 constexpr std::size_t max_clients = 64;
 
-/// Events of the virtual clock in one call of service(): new clients are not kept waiting.
+/// Maximum number of virtual clock events per call of service(), so that new clients do not wait.
 constexpr int max_steps = 1000;
 
-/// Bus time that passes in one call of service() on the real clock: where more has gone by, because
-/// this process did not run or the machine is too slow, clients and signals are not kept waiting.
+/// Maximum bus time per call of service() on the real clock, so that clients and signals do not
+/// wait when this process did not run for a while or the machine is too slow.
 constexpr Duration longest_slice = std::chrono::milliseconds(20);
 
 Time monotonic_now() {
@@ -65,10 +65,10 @@ struct Server::State {
   std::unique_ptr<ListeningSocket> listening;
   Simulator simulator;
   std::vector<std::unique_ptr<ServerClient>> clients;
-  std::set<int> full; ///< descriptors of clients that are watched for room in their sockets
+  std::set<int> full; ///< descriptors of clients whose sockets are full
   int epoll;
-  std::size_t held_for = 0; ///< virtual clock: clients without which no time passes
-  Duration behind{};        ///< real clock: what of the time that is over has not passed yet
+  std::size_t held_for = 0; ///< virtual clock: time stands until this number of clients is attached
+  Duration behind{};        ///< real clock: elapsed time that the bus has yet to catch up with
   bool more = false;        ///< time could pass further at once
 };
 
@@ -79,7 +79,7 @@ bool Server::State::watch(int descriptor) const {
   return epoll_ctl(epoll, EPOLL_CTL_ADD, descriptor, &event) == 0;
 }
 
-/// Whose socket is full is looked at again when it has room.
+/// Looks at clients with full sockets again when they have room.
 void Server::State::watch_for_room() {
   for (const auto& client : clients) {
     const int socket = client->descriptor();
@@ -127,7 +127,7 @@ void Server::State::accept_clients() {
 void Server::State::remove_gone() {
   for (const auto& client : clients) {
     if (client->gone()) {
-      full.erase(client->descriptor()); // another one may get this number
+      full.erase(client->descriptor()); // another client may get this descriptor
     }
   }
   std::erase_if(clients, [](const auto& client) { return client->gone(); });
@@ -148,7 +148,7 @@ void Server::State::pass_time() {
   more = steps == max_steps;
 }
 
-/// The next thing that happens on the virtual clock; false: somebody works, or nobody is there.
+/// Goes to the next event of the virtual clock; false: a client is working, or there is none.
 bool Server::State::step() {
   Time first = simulator.next_event();
   std::size_t attached = 0;
@@ -226,7 +226,7 @@ Duration Server::behind() const {
 
 void Server::hold(std::size_t clients) {
   state_->held_for = clients;
-  state_->more = true; // look at once whether that lets time pass
+  state_->more = true; // check at once whether time can pass now
 }
 
 Simulator& Server::simulator() {

@@ -16,11 +16,11 @@ using can::sim_wire::Message;
 
 namespace {
 
-/// A client that sends without end shall not keep others waiting.
+/// Messages per call, so that one busy client does not keep the others waiting.
 constexpr int max_messages_at_a_time = 64;
 constexpr std::size_t max_filters = 512; // as CAN_RAW_FILTER_MAX
 
-/// More than a well-behaved client has on its way; what comes beyond is lost.
+/// More than a well-behaved client queues; further frames are lost.
 constexpr std::size_t queue_capacity = 64;
 
 std::int64_t microseconds(Time time) {
@@ -119,7 +119,7 @@ void ServerClient::bus_off(Time at) {
         .at = microseconds(at)});
 }
 
-/// What there is no room for is lost, and counted.
+/// Messages that find no room are lost, and counted.
 void ServerClient::post(const Message& message) {
   if (gone_) {
     return;
@@ -136,7 +136,7 @@ void ServerClient::post(const Message& message) {
   }
 }
 
-/// Nothing overtakes what waits. False: too much of it.
+/// Appends to the backlog, so that the order is kept. False: the backlog is full.
 bool ServerClient::keep(const Message& message) {
   if (backlog_.size() >= backlog_capacity) {
     return false;
@@ -154,7 +154,7 @@ void ServerClient::flush() {
   }
 }
 
-/// False: the socket is full, or its other end is gone.
+/// False: the socket is full, or its other end is closed.
 bool ServerClient::deliver(const Message& message) {
   if (::send(socket_, &message, sizeof message, MSG_NOSIGNAL | MSG_DONTWAIT) == sizeof message) {
     return true;

@@ -14,7 +14,7 @@ namespace blactl::sim {
 
 class ServerClient final : public Medium::Listener {
  public:
-  /// Takes over the socket. Both references must outlive the client.
+  /// Takes over the socket. `simulator` must outlive the client.
   ServerClient(int socket, Simulator& simulator, Clock clock);
   ServerClient(const ServerClient&) = delete;
   ServerClient& operator=(const ServerClient&) = delete;
@@ -22,24 +22,23 @@ class ServerClient final : public Medium::Listener {
 
   [[nodiscard]] int descriptor() const { return socket_; }
 
-  /// Reads what the client has sent, a bounded part of it at a time.
+  /// Reads messages of the client, a limited number at a time.
   void serve();
 
-  /// Something waits because the socket is full: flush() when there is room again.
+  /// Whether messages wait because the socket is full: flush() when it has room again.
   [[nodiscard]] bool has_backlog() const { return !backlog_.empty(); }
 
-  /// Hands over what waits, as far as the socket takes it.
+  /// Sends waiting messages, as far as the socket accepts them.
   void flush();
 
-  /// The connection has ended, or must end.
+  /// Whether the connection has ended, or must end.
   [[nodiscard]] bool gone() const { return gone_; }
 
-  /// Has a place on the bus.
   [[nodiscard]] bool attached() const { return port_.has_value(); }
 
-  /// Virtual clock: until when the client lets time pass; empty: it works, time must stand still.
+  /// Virtual clock: the time until which the client lets time pass; empty: it is working, and time
+  /// must stand still.
   [[nodiscard]] std::optional<Time> waits_until() const;
-  /// Its deadline has come.
   void tick(Time now);
 
   void heard(const can::Frame& frame, Time at) override;
@@ -58,10 +57,10 @@ class ServerClient final : public Medium::Listener {
   Clock clock_;
   std::optional<Medium::PortId> port_; ///< from the greeting on
   std::vector<can::Filter> filters_;
-  std::deque<can::sim_wire::Message> backlog_; ///< what its socket did not take yet
-  std::uint64_t posted_ = 0;                   ///< messages that are in its socket or wait for it
+  std::deque<can::sim_wire::Message> backlog_; ///< messages that the socket did not accept yet
+  std::uint64_t posted_ = 0;                   ///< messages in its socket or waiting for it
   std::uint64_t lost_ = 0, reported_lost_ = 0;
-  std::uint64_t waits_after_ = 0; ///< messages it had read when it said `wait`; 0: it has not
+  std::uint64_t waits_after_ = 0; ///< messages it had read when it sent `wait`; 0: it did not
   Time deadline_ = never;
   bool gone_ = false;
 };

@@ -9,10 +9,10 @@
 namespace blactl::sim {
 namespace {
 
-/// Frames that wait in a device's transmit queue; what comes beyond is lost.
+/// Frames in a device's transmit queue; further ones are lost.
 constexpr std::size_t device_queue = 64;
 
-/// Beyond the index of every device.
+/// Different from the index of every device.
 constexpr std::uint64_t seed_of_the_wire = ~std::uint64_t{0};
 
 } // namespace
@@ -62,7 +62,6 @@ void Devices::happen(const TimedEvent& event, Time now) const {
   }
 }
 
-/// A device's place on the bus.
 class Simulator::Station final : public Medium::Listener {
  public:
   Station(Device& device, Medium& medium, const Time& now) : device_(device) {
@@ -99,8 +98,8 @@ Time Simulator::next_event() const {
   return next == never ? never : std::max(next, now_);
 }
 
-/// At one moment the devices act before the medium does, so that whatever is sent at that moment
-/// takes part in its arbitration.
+/// At one moment the devices act before the medium, so that everything sent at that moment takes
+/// part in the same arbitration.
 void Simulator::advance_to(Time time) {
   for (Time at = next_event(); at <= time && at != never; at = next_event()) {
     now_ = at;

@@ -9,7 +9,7 @@
 namespace blactl::sim {
 namespace {
 
-/// Senders whose transfers are under way or remembered at one time.
+/// Concurrent sessions of the reassembly.
 constexpr std::size_t sessions = 32;
 
 std::optional<std::uint64_t> signature_of(dronecan::Kind kind, std::uint16_t data_type_id) {
@@ -24,8 +24,8 @@ Endpoint::Endpoint(std::vector<std::uint16_t> subscriptions, Handler handler)
   restart();
 }
 
-// The receiver listens for every node ID (0): which frames are meant for this one is decided by
-// wants(), because its ID is known later only.
+// The receiver accepts frames to every node ID (0); wants() selects those for this node, as its ID
+// is not known at first.
 void Endpoint::restart() {
   node_id_ = {};
   next_transfer_id_.clear();

@@ -13,10 +13,10 @@ using namespace std::chrono_literals;
 constexpr Duration followup_timeout = 500ms;
 
 constexpr std::uint8_t first_part_size =
-    6; ///< of the first two parts; the third has the other four
+    6; ///< in the first two parts; the third has the other four
 constexpr std::uint8_t whole = 16;
 
-/// IDs above are for tools (DSDL 1.Allocation); the search goes down from here.
+/// Higher IDs are for tools (DSDL 1.Allocation); the search goes down from here.
 constexpr std::uint8_t highest_given = 125;
 
 } // namespace

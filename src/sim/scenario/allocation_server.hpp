@@ -1,5 +1,5 @@
 #pragma once
-// An allocator that is not ours: that of an autopilot.
+// An allocator that is not ours: an autopilot's.
 
 #include "sim/scenario/foreign_role.hpp"
 
@@ -9,10 +9,10 @@
 
 namespace blactl::sim {
 
-/// Follows the standard to the letter, as the allocators of the common libraries do
-/// (DroneCAN specification 6, "Dynamic node ID allocation"). It answers at once and takes no notice
-/// of other allocators: dronecan::Allocator, which waits for others and gives way to them, would
-/// hide what blactl must stand. An ID under which anybody was heard is not given to another unit.
+/// Follows the standard to the letter, as the allocators of the common libraries do (DroneCAN
+/// specification 6, "Dynamic node ID allocation"). It responds at once and ignores other
+/// allocators: dronecan::Allocator, which waits for others and yields to them, would hide what
+/// blactl must cope with. An ID under which any node was heard is not assigned to another unit.
 class AllocationServer final : public ForeignRole {
  public:
   AllocationServer(dronecan::NodeId own_id, Broadcast broadcast);
@@ -25,13 +25,13 @@ class AllocationServer final : public ForeignRole {
   void receive(const dronecan::Transfer& message) override;
 
  private:
-  /// 0: the table is full.
+  /// Returns 0 if the table is full.
   [[nodiscard]] std::uint8_t assign(const dronecan::UniqueId& unique_id);
 
   std::map<dronecan::UniqueId, std::uint8_t> given_;
   std::bitset<dronecan::NodeId::max + 1> in_use_;
-  dronecan::Allocation collected_; ///< the parts of the unique ID that were accepted
-  Time accepted_at_{};             ///< the last of them
+  dronecan::Allocation collected_; ///< the parts of the unique ID accepted so far
+  Time accepted_at_{};             ///< the time of the last of them
 };
 
 } // namespace blactl::sim

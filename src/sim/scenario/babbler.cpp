@@ -30,7 +30,7 @@ void Babbler::advance(Time now) {
   if (next_deadline() > now) {
     return;
   }
-  // A float32 that changes and a name of three letters.
+  // a float32 that changes, and a name of three letters
   const std::array<std::uint8_t, 7> payload{counter_++, 0, 0x80, 0x3F, 'b', 'l', 'a'};
   for (const can::Frame& frame : broadcast(key_value, setup_.priority, payload)) {
     bits_ += static_cast<double>(can::frame_length(frame) + can::intermission_bits);

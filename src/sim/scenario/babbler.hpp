@@ -1,5 +1,5 @@
 #pragma once
-// A node that talks without end, as a faulty one does.
+// A node that floods the bus, as a faulty one does.
 
 #include "blactl/sim/scenario/foreign_setup.hpp"
 
@@ -12,7 +12,8 @@ class Babbler final : public ForeignRole {
  public:
   Babbler(const BabblerSetup& setup, Broadcast broadcast, Time power_on);
 
-  /// Else its own NodeStatus would hold up what waits behind it, and let others in.
+  /// A higher priority, so that its NodeStatus does not wait behind others' frames and hold up the
+  /// stream.
   [[nodiscard]] dronecan::Priority status_priority() const override { return setup_.priority; }
 
   [[nodiscard]] Time next_deadline() const override;
@@ -21,7 +22,7 @@ class Babbler final : public ForeignRole {
  private:
   BabblerSetup setup_;
   Time power_on_;
-  double bits_ = 0; ///< that it has sent, with the pauses between frames
+  double bits_ = 0; ///< sent so far, including the pauses between frames
   std::uint8_t counter_ = 0;
 };
 

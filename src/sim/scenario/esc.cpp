@@ -33,7 +33,7 @@ std::vector<GetSet::Response> parameters(std::uint8_t index) {
 template <class Number> bool within(const GetSet::Response& parameter, Number value) {
   const auto* min = std::get_if<Number>(&parameter.min_value);
   const auto* max = std::get_if<Number>(&parameter.max_value);
-  // As a condition that no NaN fulfils.
+  // written so that NaN fails
   return (min == nullptr || value >= *min) && (max == nullptr || value <= *max);
 }
 
@@ -87,7 +87,7 @@ void Esc::advance(Time now) {
     const std::uint16_t bits = dronecan::to_float16(value);
     put({static_cast<std::uint8_t>(bits), static_cast<std::uint8_t>(bits >> 8U)});
   }
-  // It stands: 18 bits of speed and 7 of power are 0, 5 bits of index follow.
+  // Speed and power of a stopped motor: 18 and 7 bits of 0, then 5 bits of index.
   put({0, 0, 0, static_cast<std::uint8_t>(setup_.index << index_shift)});
   broadcast(esc_status, priority, payload.bytes());
 }

@@ -1,5 +1,5 @@
 #pragma once
-// An electronic speed controller: a node with parameters that are not those of a servo.
+// An electronic speed controller: a node with other parameters than a servo.
 
 #include "blactl/sim/scenario/foreign_setup.hpp"
 
@@ -10,9 +10,8 @@
 
 namespace blactl::sim {
 
-/// Sends esc.Status, and has parameters of every kind that GetSet knows, by name and by index from
-/// 0 on. A value of another kind or out of range leaves the parameter as it is; nothing is kept in
-/// a ROM.
+/// Sends esc.Status, and has parameters of every kind in GetSet, by name and by index from 0. A
+/// value of another kind or out of range leaves the parameter unchanged; nothing is saved to ROM.
 class Esc final : public ForeignRole {
  public:
   Esc(const EscSetup& setup, Broadcast broadcast, Time power_on);
@@ -26,7 +25,7 @@ class Esc final : public ForeignRole {
 
  private:
   EscSetup setup_;
-  std::vector<dronecan::GetSet::Response> parameters_; ///< each as a read is answered
+  std::vector<dronecan::GetSet::Response> parameters_; ///< each as the response to a read
   Time next_status_;
 };
 

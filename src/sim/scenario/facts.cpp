@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::string_view facts_schema = "blactl-facts/1";
 
-/// Which servo it was: for people, but no mistyped key passes.
+/// The servo measured: for people only, but a mistyped key is an error.
 void read_about(json::Object object) {
   for (const auto* key : {"model", "name", "software", "hardware", "time", "tool_version"}) {
     (void)object.optional_string(key);
@@ -28,7 +28,7 @@ Result<Behaviour> from_document(Result<json::Document> document) {
   }
   json::Faults& faults = document->faults();
   json::Object root(document->root(), faults);
-  (void)root.optional_string("$schema"); // what editors look at
+  (void)root.optional_string("$schema"); // for editors
   (void)root.word("schema", {facts_schema});
   Behaviour behaviour;
   read_whole(root.object("behaviour"), behaviour_members, behaviour, faults);

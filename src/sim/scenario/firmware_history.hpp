@@ -1,5 +1,5 @@
 #pragma once
-// Which firmware a model ever had (BLA spec rev 1.11, chapter 5).
+// The firmware releases of a model (BLA spec rev 1.11, chapter 5).
 
 #include "blactl/bla/profile.hpp"
 
@@ -9,8 +9,8 @@
 
 namespace blactl::sim {
 
-/// The versions of chapter 5 that left the factory in this model, ascending. `model` may be a label
-/// ("BLA21-12U-AB2") or lack its last digit. Empty: chapter 5 does not know the model.
+/// The versions in chapter 5 with which this model left the factory, ascending. `model` may be a
+/// label ("BLA21-12U-AB2") or lack its last digit. Empty: the model is not in chapter 5.
 [[nodiscard]] std::vector<std::int64_t> shipped_firmware(const bla::Profiles& profiles,
                                                          std::string_view model);
 

@@ -84,7 +84,7 @@ ForeignSetup read_foreign(const json::Value& value, json::Faults& faults) {
   read_kind(object, kind, node, faults);
   node.node_id = static_cast<std::uint8_t>(object.integer("node_id", 1, dronecan::NodeId::max));
   node.name = read_node_name(object, "org.example." + kind, faults);
-  // Beyond every serial number, so that no servo has the same.
+  // above every serial number, so that no servo has the same
   node.unique_id = read_unique_id(object, (std::uint64_t{1} << 32U) + node.node_id, faults);
   read_members(object, every_kind, node, faults);
   object.finish();

@@ -6,7 +6,7 @@
 
 namespace blactl::sim {
 
-/// What is wrong goes to the faults of the document.
+/// Adds errors to the faults of the document.
 [[nodiscard]] ForeignSetup read_foreign(const json::Value& value, json::Faults& faults);
 
 } // namespace blactl::sim

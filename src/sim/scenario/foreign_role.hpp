@@ -1,5 +1,5 @@
 #pragma once
-// What a kind of foreign node does beside what every node does.
+// The behaviour of a foreign node beyond that common to all nodes.
 
 #include "blactl/base/time.hpp"
 #include "blactl/can/frame.hpp"
@@ -13,10 +13,10 @@
 
 namespace blactl::sim {
 
-/// As it is here: nothing.
+/// The default: nothing.
 class ForeignRole {
  public:
-  /// Sends a message from the node, and tells its frames.
+  /// Sends a message from the node, and returns its frames.
   using Broadcast = std::function<std::vector<can::Frame>(
       const dronecan::DataType&, dronecan::Priority, dronecan::Bytes payload)>;
 
@@ -26,24 +26,24 @@ class ForeignRole {
   ForeignRole(const ForeignRole&) = delete;
   ForeignRole& operator=(const ForeignRole&) = delete;
 
-  /// The data type IDs of the messages that it wants to receive().
+  /// The data type IDs of the messages passed to receive().
   [[nodiscard]] virtual std::vector<std::uint16_t> subscriptions() const { return {}; }
 
   /// Of NodeStatus and ArmingStatus.
   [[nodiscard]] virtual dronecan::Priority status_priority() const { return 20; }
 
-  /// Any frame of another node.
+  /// Handles any frame of another node.
   virtual void hear(const can::Frame& /*frame*/) {}
 
   virtual void receive(const dronecan::Transfer& /*message*/) {}
 
-  /// Without value and name, if there is no such parameter (DSDL 11.GetSet).
+  /// The response has no value and no name if there is no such parameter (DSDL 11.GetSet).
   [[nodiscard]] virtual dronecan::GetSet::Response
   get_set(const dronecan::GetSet::Request& /*request*/) {
     return {};
   }
 
-  /// When advance() must be called at the latest.
+  /// The latest time for the next advance().
   [[nodiscard]] virtual Time next_deadline() const { return never; }
 
   virtual void advance(Time /*now*/) {}

@@ -14,7 +14,7 @@ constexpr dronecan::DataType fix2{"uavcan.equipment.gnss.Fix2", 1063, false, 0xC
 constexpr dronecan::DataType auxiliary{"uavcan.equipment.gnss.Auxiliary", 1061, false,
                                        0x9BE8BDC4C3DBBFD2};
 
-/// Fix2 as receivers send it: with the six diagonal elements of its covariance, and without a
+/// The usual Fix2 of receivers: with the six diagonal elements of its covariance, and without a
 /// position in ECEF. The length of the covariance is in the low six bits of one byte.
 constexpr std::size_t fix2_size = 62;
 constexpr std::size_t covariance_length_at = 47;

@@ -1,5 +1,5 @@
 #pragma once
-// A satellite receiver: the usual neighbour of servos on an aircraft's bus, and the one with the
+// A satellite receiver: a usual neighbour of servos on an aircraft's bus, and the one with the
 // longest messages.
 
 #include "blactl/sim/node/random.hpp"
@@ -9,8 +9,8 @@
 
 namespace blactl::sim {
 
-/// Sends Fix2 and, once a second, Auxiliary. Only their sizes and rates are those of a receiver;
-/// what they say is of no use to anybody.
+/// Sends Fix2 and, once a second, Auxiliary. Only sizes and rates are realistic; the contents are
+/// meaningless.
 class GnssReceiver final : public ForeignRole {
  public:
   GnssReceiver(const GnssSetup& setup, std::uint64_t seed, Broadcast broadcast, Time power_on);

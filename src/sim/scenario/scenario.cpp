@@ -31,7 +31,7 @@ constexpr std::string_view default_text = R"({
   ]
 })";
 
-/// Reads one scenario; faults go to the document's list.
+/// Reads one scenario; errors go to the list of the document.
 class ScenarioReader {
  public:
   ScenarioReader(const bla::Profiles& profiles, const Behaviour& usual, json::Faults& faults)
@@ -51,7 +51,7 @@ class ScenarioReader {
 
 Scenario ScenarioReader::scenario(json::Object root) {
   Scenario scenario;
-  (void)root.optional_string("$schema"); // what editors look at
+  (void)root.optional_string("$schema"); // for editors
   (void)root.word("schema", {schema});
   read_members(root, of_all, scenario, faults_);
   ServoReader servos(profiles_, usual_, faults_);

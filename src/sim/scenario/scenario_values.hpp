@@ -1,5 +1,5 @@
 #pragma once
-// Values that several things of a scenario file have: times, unique IDs, node names.
+// Values common to several parts of a scenario file: times, unique IDs, node names.
 
 #include "blactl/base/json_reader.hpp"
 #include "blactl/base/time.hpp"
@@ -12,8 +12,8 @@
 
 namespace blactl::sim {
 
-/// As somebody would have typed it on the command line. Empty and a fault if it is neither number
-/// nor string.
+/// The value as it would be typed on the command line. Empty, with an error, if it is neither a
+/// number nor a string.
 [[nodiscard]] std::optional<std::string> typed_text(const json::Value& value, json::Faults& faults);
 
 /// By the value grammar, as if it were a register that counts microseconds; empty if the key is
@@ -22,11 +22,11 @@ namespace blactl::sim {
                                                     std::chrono::seconds longest,
                                                     json::Faults& faults);
 
-/// "unique_id"; left out, one that follows from the number.
+/// "unique_id"; if missing, one derived from the number.
 [[nodiscard]] dronecan::UniqueId read_unique_id(json::Object& object, std::uint64_t fallback,
                                                 json::Faults& faults);
 
-/// "name", as GetNodeInfo tells it.
+/// "name", as in GetNodeInfo.
 [[nodiscard]] std::string read_node_name(json::Object& object, std::string fallback,
                                          json::Faults& faults);
 

@@ -48,7 +48,7 @@ std::string default_name(std::string_view series) {
   return name;
 }
 
-/// The number that `values` give a register, the last of several; else `fallback`.
+/// The number that `values` assign to a register, the last one if repeated; else `fallback`.
 std::int64_t given(const std::vector<std::pair<bla::Address, std::int64_t>>& values,
                    bla::Address address, std::int64_t fallback) {
   for (const auto& [where, raw] : values) {
@@ -87,7 +87,7 @@ ServoSetup ServoReader::read(const json::Value& value, std::size_t index) {
   return servo;
 }
 
-/// `wanted` is a model or the label of one, not the beginning of its name.
+/// `wanted` is a full model or a label of one, not just the beginning of its name.
 const bla::Profile* ServoReader::model(json::Object& object, const std::string& wanted) {
   for (const bla::Profile* profile : profiles_.matching(wanted)) {
     if (wanted.size() >= profile->model.size()) {
@@ -105,14 +105,15 @@ const bla::Profile* ServoReader::model(json::Object& object, const std::string& 
   return nullptr;
 }
 
-/// Requirement 184. A warning only: a firmware may be of a unit that was updated, or to come.
+/// Requirement 184. Only a warning: the unit may have been updated, or the firmware may be newer
+/// than the specification.
 void ServoReader::check_firmware(json::Object& object, const std::string& label,
                                  const ServoSetup& servo) {
   const json::Value* where = object.optional_any("firmware_version");
   if (servo.profile == nullptr || where == nullptr) {
     return;
   }
-  // The letters as the profile has them, the last digit as the label has it.
+  // The letters are taken from the profile, the last digit from the label.
   const std::string model = servo.profile->model + label.substr(servo.profile->model.size());
   const auto versions = shipped_firmware(profiles_, model);
   if (versions.empty() || std::ranges::find(versions, servo.firmware_version) != versions.end()) {
@@ -133,7 +134,7 @@ ServoReader::Values ServoReader::registers(json::Object object, Memory memory,
   if (!object.exists()) {
     return values;
   }
-  const auto members = object.members(); // without a model nothing can be said about them
+  const auto members = object.members(); // without a model they cannot be checked
   if (servo.profile == nullptr) {
     return values;
   }
@@ -144,7 +145,7 @@ ServoReader::Values ServoReader::registers(json::Object object, Memory memory,
       values.emplace_back(meant->address, *raw);
     }
   }
-  // What this memory does not say of 0x37 the RAM has from the ROM, the ROM from the factory.
+  // If this memory does not set 0x37, RAM takes it from ROM, and ROM from the factory.
   const bla::Parameter* mode = servo.profile->find(bla::address::pwm_mode);
   const std::int64_t factory = mode != nullptr ? mode->default_raw.value_or(0) : 0;
   check_pwm_modes(
@@ -174,7 +175,7 @@ std::optional<std::int64_t> ServoReader::register_value(const json::Value& value
   return typed->raw;
 }
 
-/// The register that a key of "ram" or "rom" means; null and a fault if it cannot be set there.
+/// The register named by a key of "ram" or "rom"; null, with an error, if it cannot be set there.
 const bla::Parameter* ServoReader::parameter(const json::Value& value, Memory memory,
                                              const bla::Profile& profile) {
   const auto found = profiles_.find(value.key);

@@ -14,23 +14,23 @@
 
 namespace blactl::sim {
 
-/// Reads the servos of a scenario one by one; what is wrong goes to the faults of the document.
+/// Reads the servos of a scenario one by one; errors go to the faults of the document.
 class ServoReader {
  public:
-  /// All must outlive this. `usual`: how a servo behaves that says nothing of it.
+  /// All must outlive this. `usual`: the defaults for "behaviour".
   ServoReader(const bla::Profiles& profiles, const Behaviour& usual, json::Faults& faults)
       : profiles_(profiles), usual_(usual), faults_(faults) {}
 
-  /// See Scenario::warnings; of all servos so far.
+  /// See Scenario::warnings; for all servos so far.
   [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
 
-  /// `index`: its place among the servos, which gives it a serial number.
+  /// `index`: its place among the servos, from which the default serial number follows.
   [[nodiscard]] ServoSetup read(const json::Value& value, std::size_t index);
 
  private:
   using Values = std::vector<std::pair<bla::Address, std::int64_t>>;
 
-  /// A value of 0x36 in a unit that is right with one value of 0x37 only.
+  /// A value of 0x36 whose unit is right for one value of 0x37 only.
   struct InPwmMode {
     const json::Value* where;
     std::int64_t mode;
@@ -51,7 +51,7 @@ class ServoReader {
   const Behaviour& usual_;
   json::Faults& faults_;
   std::vector<std::string> warnings_;
-  std::vector<InPwmMode> in_pwm_mode_; ///< of the memory that is being read
+  std::vector<InPwmMode> in_pwm_mode_; ///< of the memory being read
 };
 
 } // namespace blactl::sim

@@ -1,5 +1,5 @@
 #pragma once
-// What the simulator says to people.
+// Messages of the simulator.
 
 #include "blactl/base/text.hpp"
 
@@ -48,7 +48,8 @@ inline constexpr Text sim_folder_foreign{"it is not a folder of this user alone"
 inline constexpr Text sim_folder_hint{
     "remove it, or set XDG_RUNTIME_DIR to a folder of your own",
     "削除するか、XDG_RUNTIME_DIR に自分のフォルダを設定して下さい"};
-inline constexpr Text sim_not_a_socket{"{} exists and is no socket", "{} はソケットではありません"};
+inline constexpr Text sim_not_a_socket{"{} exists and is not a socket",
+                                       "{} はソケットではありません"};
 inline constexpr Text sim_running{"a simulator already serves {}",
                                   "{} では既にシミュレータが動いています"};
 inline constexpr Text sim_running_as{"a simulator already serves {}: process {}",

@@ -16,12 +16,12 @@ namespace {
 
 using Number = std::int64_t;
 
-/// A number of the world, with the unit and range in which a person gives it.
+/// A numeric member of World, with the unit and range of its input.
 struct Quantity {
   std::string_view key;
   bla::Unit unit;
   Number steps_per_unit, min, max;
-  std::string_view none; ///< the word for "there is no such thing"; empty: there always is
+  std::string_view none; ///< the word for "none"; empty: there always is a value
   void (*set)(World&, std::optional<Number>);
 };
 
@@ -38,7 +38,7 @@ constexpr std::array quantities{
              [](World& world, std::optional<Number> raw) { world.pulse_us = raw; }},
 };
 
-/// Something that is so or not.
+/// A yes-or-no member of World.
 struct Switch {
   std::string_view key;
   bool World::* member;

@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::int64_t turn_decideg = 3600;
 
-/// How often 360 deg must be taken off to come to -180.0 to +179.9 deg.
+/// The number of turns to subtract for an angle of -180.0 to +179.9 deg.
 std::int64_t turns_in(std::int64_t decideg) {
   const std::int64_t from_lowest = decideg + turn_decideg / 2;
   const std::int64_t turns = from_lowest / turn_decideg;

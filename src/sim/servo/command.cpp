@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::uint8_t unitless = 0;
 
-/// What counts as the value of a command (requirement 107, table 2-21).
+/// The value of a command, if valid (requirement 107, table 2-21).
 std::optional<double> number(const dronecan::ArrayCommand::Command& command,
                              const Behaviour& behaviour) {
   const double value = command.value;
@@ -28,8 +28,8 @@ std::optional<double> number(const dronecan::ArrayCommand::Command& command,
 
 std::optional<MotionCommand> motion_command(const dronecan::ArrayCommand::Command& command,
                                             const Behaviour& behaviour) {
-  constexpr double half_turn_decideg = 1800; // UNITLESS 1
-  constexpr double position_decideg = 1000;  // POSITION 1
+  constexpr double half_turn_decideg = 1800; // at UNITLESS 1
+  constexpr double position_decideg = 1000;  // at POSITION 1
   const auto value = number(command, behaviour);
   if (!value) {
     return std::nullopt;

@@ -6,7 +6,7 @@
 namespace blactl::sim {
 namespace {
 
-/// unproven: how much smoothing levels a command. A first-order filter of 50 ms.
+/// unproven: the amount of smoothing. A first-order filter of 50 ms.
 constexpr std::int64_t smoothing_ms = 50;
 
 /// A derivative gain of 10 looks 1 ms ahead (unproven).
@@ -17,14 +17,14 @@ std::int64_t approach(std::int64_t from, std::int64_t to) {
   return step == 0 ? to : from + step;
 }
 
-/// What is left of a deviation outside of a dead band; from zero, without a jump.
+/// The part of a deviation beyond the dead band, from zero without a jump.
 std::int64_t beyond(std::int64_t deviation, std::int64_t dead_band) {
   const std::int64_t rest = std::max<std::int64_t>(std::abs(deviation) - dead_band, 0);
   return deviation < 0 ? -rest : rest;
 }
 
-/// Requirements 171, 182: more current is more torque. But it turns no motor faster without a load:
-/// what is more than usual is gone at full speed.
+/// Requirements 171, 182: more current gives more torque. But it does not turn an unloaded motor
+/// faster: the additional effort fades to none at full speed.
 std::int64_t greatest_effort(std::int64_t speed, const Tuning& tuning) {
   if (tuning.effort_limit <= full_effort) {
     return tuning.effort_limit;
@@ -58,8 +58,8 @@ void Controller::follow(const Aim& aim, const Position& position, bool smooth) {
   reference_ = smooth ? approach(reference_, aim.value) : aim.value;
 }
 
-/// Proportional, integral and feed-forward; steady without load, and stiff under one.
-/// unproven: what the units of 0x30-0x33 are, and that they combine so.
+/// Proportional, integral and feed-forward: steady without load, and stiff under one. unproven: the
+/// units of 0x30-0x33, and that they combine so.
 std::int64_t Controller::speed_control(std::int64_t wanted, const Position& position,
                                        const Tuning& tuning) {
   constexpr std::int64_t proportional = 3;
@@ -76,9 +76,9 @@ std::int64_t Controller::speed_control(std::int64_t wanted, const Position& posi
   const std::int64_t lowest = std::max(tuning.effort_ccw, -tuning.effort_limit);
   const std::int64_t given = std::clamp(effort, lowest, highest);
   const std::int64_t growth = tuning.speed_i.of(as_effort(deviation)) / integral_ms;
-  if (growth == 0) { // what a start built up fades, so that in the end no speed limit is exceeded
+  if (growth == 0) { // the integral of a start fades, so that in the end no speed limit is exceeded
     integral_ -= integral_ / fading_ms;
-  } else if (given == effort) { // else it would build up what it cannot give
+  } else if (given == effort) { // no windup while the output is limited
     integral_ += growth;
   }
   return given;

@@ -14,13 +14,13 @@ using bla::Address;
 
 namespace {
 
-/// -AB models, with a firmware that knows.
+/// -AB models, with a firmware that supports it.
 bool has_pwm_input(const ServoSetup& setup) {
   const bla::Parameter* range = setup.profile->find(address::pwm_range);
   return setup.profile->pwm && range != nullptr && range->exists_in(setup.firmware_version);
 }
 
-/// 0x00-0x02 and 0x20: what a servo takes for a command (4.19).
+/// 0x00-0x02 and 0x20: the commands that count for 4.19.
 bool is_command(Address address) {
   return address <= address::command_torque || address == address::torque_output;
 }
@@ -124,7 +124,7 @@ void Motion::initialize(Time now) {
   told_commands_.reset();
   holds_ = false;
   heed_registers();
-  if (!was_on && behaviour_.erase_holds) { // requirement 132: 0x20 comes on by that
+  if (!was_on && behaviour_.erase_holds) { // requirement 132: this switches 0x20 on
     give_up_command();
   }
   look(now);
@@ -151,13 +151,13 @@ void Motion::advance_to(Time now) {
   heed_registers();
   while (grid_ + grid <= now) {
     grid_ += grid;
-    if (!step()) { // nothing will happen by itself until time alone brings something
+    if (!step()) { // nothing changes until the next event that time alone brings
       const Time until = std::min(now, timer_.next_change(grid_, timeout()) - Duration(1));
       grid_ += until > grid_ ? (until - grid_) / grid * grid : Duration::zero();
     }
   }
   if (runs_) {
-    (void)obey_pulse(); // pulses went on while nothing happened
+    (void)obey_pulse(); // pulses continued meanwhile
   }
 }
 
@@ -189,7 +189,7 @@ void Motion::measure() {
   registers_.set(address::fault_failure, faults.failure | kept_failures_);
 }
 
-/// Requirements 136, 161, 162, 170. Whether something changed.
+/// Requirements 136, 161, 162, 170. Returns whether something changed.
 bool Motion::protect() {
   const bool stops =
       stops_motor(registers_, world_, behaviour_, registers_.value(address::fault_failure));

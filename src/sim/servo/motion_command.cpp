@@ -1,4 +1,4 @@
-// What a command does to a servo, and what becomes of it: taken, limited, given up, or told of.
+// The effects of a command on a servo: it is accepted, limited, dropped, or shown.
 
 #include "blactl/sim/servo/motion.hpp"
 
@@ -9,7 +9,7 @@ namespace blactl::sim {
 
 using bla::Address;
 
-/// A command was taken; `before` it the register held that.
+/// Obeys an accepted command; `before`: the previous value of the register.
 void Motion::obey(Address address, std::int64_t before) {
   if (!soft_start_cut_) {
     end_soft_start();
@@ -24,7 +24,7 @@ void Motion::obey(Address address, std::int64_t before) {
 }
 
 /// Holds the present angle, or brakes (tables of 4.7 and 4.13). unproven: that 0x20 and a start
-/// without soft start change the registers as protection does.
+/// without soft start change the registers as the protection does.
 void Motion::give_up_command() {
   told_commands_.reset();
   switch (mode()) {
@@ -37,7 +37,7 @@ void Motion::give_up_command() {
   }
 }
 
-/// Requirement 138: the torque comes on where the shaft is.
+/// Requirement 138: the torque comes on at the present position of the shaft.
 void Motion::start_in_place() {
   give_up_command();
   if (behaviour_.start_angle == StartAngle::zero) {
@@ -46,21 +46,21 @@ void Motion::start_in_place() {
   }
 }
 
-/// 0x00 becomes the limit that it is beyond, if the servo is set so (4.31).
+/// Limits 0x00 to the exceeded limit, if Behaviour says so (4.31).
 void Motion::limit_command() {
   if (mode() == Mode::angle && !behaviour_.keeps_limited_angle) {
     registers_.set(address::command_angle, inside_limits(registers_.value(address::command_angle)));
   }
 }
 
-/// 0x25 was on. Without it a speed or torque may be forgotten (4.18).
+/// Called when 0x25 goes off: a speed or torque command may be dropped (4.18).
 void Motion::drop_disabled_command() {
   if (!registers_.controls_speed() && !behaviour_.keeps_disabled_command && mode() != Mode::angle) {
     give_up_command();
   }
 }
 
-/// Which command makes PWM wait (4.30, whose heading names 0x00 and 0x01).
+/// Whether a command makes PWM wait (4.30, whose heading names 0x00 and 0x01).
 bool Motion::silences_pwm(Address address) const {
   return behaviour_.pwm_yields_to_all || address == address::command_angle ||
          address == address::command_speed;
@@ -74,7 +74,7 @@ void Motion::end_soft_start() {
   }
 }
 
-/// What a read tells that is not what the register holds, if the servo is set so.
+/// The value read instead of the register's own, if Behaviour says so.
 std::optional<std::int64_t> Motion::told_instead(Address address) const {
   if (told_commands_ && address <= address::command_torque) {
     return told_commands_->at(address.value());

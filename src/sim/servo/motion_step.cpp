@@ -1,4 +1,4 @@
-// One millisecond in the life of a shaft: which command counts, what the motor does about it.
+// One millisecond of a shaft: the active command, and the motor's reaction to it.
 
 #include "blactl/sim/servo/motion.hpp"
 
@@ -12,10 +12,10 @@ namespace blactl::sim {
 
 namespace {
 
-/// 0x20; in 0x26 the first means to go on.
+/// Of 0x20; in 0x26 the value 1 means to go on.
 constexpr std::int64_t output_off = 1, output_brake = 2;
 
-/// Requirement 123: about 10 rpm is the least that a servo can.
+/// Requirement 123: a servo turns at about 10 rpm at least.
 std::int64_t possible_rpm(std::int64_t rpm, SlowSpeed slow_speed) {
   constexpr std::int64_t slowest_rpm = 10;
   if (rpm == 0 || std::abs(rpm) >= slowest_rpm) {
@@ -29,7 +29,7 @@ std::int64_t possible_rpm(std::int64_t rpm, SlowSpeed slow_speed) {
 
 } // namespace
 
-/// False: and the same again would change nothing either.
+/// False: nothing changed, and a further step would change nothing either.
 bool Motion::step() {
   const Shaft shaft = shaft_;
   const Controller controller = controller_;
@@ -44,7 +44,7 @@ bool Motion::step() {
          !(controller_ == controller);
 }
 
-/// Requirements 150-157. Whether it changed a command.
+/// Requirements 150-157. Returns whether a command changed.
 bool Motion::obey_pulse() {
   if (!pulse_.command || !timer_.accepts_pwm(grid_, timeout()) ||
       !registers_.takes(pulse_.command->address, 0)) {
@@ -76,8 +76,8 @@ Drive Motion::drive() {
   return controller_.step(aim(), position(), tuning_);
 }
 
-/// Requirements 141, 143. A soft start that a timeout has cut goes on, if the servo is set so, with
-/// the next command; it ends where that leads, and with a command that leads nowhere.
+/// Requirements 141, 143. A soft start that was cut by a timeout resumes with the next command, if
+/// Behaviour says so; it ends at its target, or with a command without one.
 void Motion::heed_soft_start(Drive::Kind kind) {
   constexpr std::int64_t end_decideg = 10;
   if (kind != Drive::Kind::on) {
@@ -96,7 +96,7 @@ void Motion::heed_soft_start(Drive::Kind kind) {
   }
 }
 
-/// Whether the motor is on: protection first, then 0x20, then the timeout.
+/// The state of the motor: protection first, then 0x20, then the timeout.
 Drive::Kind Motion::output() const {
   if (!runs_ || stopped_) {
     return Drive::Kind::off;

@@ -13,7 +13,8 @@ namespace {
 /// unproven: 0x32 counts thousandths of 1 rpm.
 constexpr std::int64_t dead_band_per_rpm = 1000;
 
-/// unproven: that what 4.2 says of BLA21 holds for other series, as far as their limits allow.
+/// unproven: that the limits of 4.2 for BLA21 hold for other series, as far as their own limits
+/// allow.
 std::int64_t practical_rpm(const bla::Profile& profile) {
   constexpr std::int64_t bla21_rpm = 150;
   const bla::Parameter* limit = profile.find(address::speed_limit_cw);

@@ -1,5 +1,5 @@
 #pragma once
-// What the simulated servo calls by the names that all floors share.
+// Names from other floors used by the simulated servo.
 
 #include "blactl/bla/address.hpp"
 #include "blactl/bla/fault_bits.hpp"

@@ -52,7 +52,7 @@ std::int64_t bits_of(const std::array<Range, size>& ranges, const Registers& reg
   return bits;
 }
 
-/// 4.31: a command beyond a limit shows as well, although the shaft stays inside.
+/// 4.31: a command beyond a limit is shown as well, although the shaft stays inside.
 std::int64_t commanded_beyond(const Registers& registers) {
   const std::int64_t command = registers.value(address::command_angle);
   if (command == bla::not_active) {

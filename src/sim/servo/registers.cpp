@@ -20,7 +20,7 @@ constexpr std::array production_date{std::pair{Address{0x58}, 2025}, std::pair{A
                                      std::pair{Address{0x5A}, 22}, std::pair{Address{0x5B}, 15},
                                      std::pair{Address{0x5C}, 30}};
 
-/// Requirement 166: a bit for each level and byte (group of causes) of 0x19-0x1B.
+/// Requirement 166: one bit for each level and byte (group of causes) of 0x19-0x1B.
 std::int64_t summary(std::int64_t notice, std::int64_t warning, std::int64_t failure) {
   const std::array levels{notice, warning, failure};
   std::int64_t bits = 0;
@@ -90,7 +90,7 @@ void Registers::initialize() {
 }
 
 void Registers::restart() {
-  initialize(); // of the commands; what is saved comes from ROM
+  initialize(); // for the commands; saved registers come from ROM
   for (const bla::Parameter& parameter : profile_->parameters) {
     if (parameter.saved) {
       store(parameter.address, rom_value(parameter.address));
@@ -116,7 +116,6 @@ std::int64_t Registers::rom_value(Address address) const {
   return address > last_address ? 0 : rom_[address.value()];
 }
 
-/// The register as this model and firmware have it.
 const bla::Parameter* Registers::existing(Address address) const {
   const bla::Parameter* parameter = profile_->find(address);
   return parameter != nullptr && parameter->exists_in(firmware_version_) ? parameter : nullptr;
@@ -153,7 +152,7 @@ bool Registers::controls_speed() const {
                                                    : behaviour_.speed_control_before_1100;
 }
 
-/// Requirement 78: a refused value may be answered with a failure.
+/// Requirement 78: a refused value may get a failure as response.
 bool Registers::fails(const bla::Parameter& parameter, std::int64_t wanted) const {
   return behaviour_.out_of_range == OutOfRange::fail && !in_range(parameter, wanted);
 }

@@ -17,7 +17,7 @@ using dronecan::RestartNode;
 
 namespace {
 
-/// Answers that wait for their time; a request beyond that is not served.
+/// Responses waiting for their time; further requests are not served.
 constexpr std::size_t max_answers = 16;
 
 /// "0x2A": two upper-case hexadecimal digits (table 2-14).
@@ -30,7 +30,7 @@ std::optional<bla::Address> address_of(std::string_view name) {
   return bla::Address(value).name() == name ? std::optional(bla::Address(value)) : std::nullopt;
 }
 
-/// 1400 is 1.40, as the vendor's program shows it. unproven: what the two bytes really hold.
+/// 1400 is 1.40, as in the vendor's program. unproven: the contents of the two bytes.
 struct Version {
   explicit Version(std::int64_t number)
       : major_part(static_cast<std::uint8_t>(number / 1000)),
@@ -41,7 +41,7 @@ struct Version {
 
 } // namespace
 
-// unproven: that a servo which is about to go down takes no further requests.
+// unproven: that a servo about to go down accepts no further requests.
 void Servo::handle(const dronecan::Transfer& transfer) {
   if (departure_) {
     return;
@@ -60,7 +60,7 @@ void Servo::handle(const dronecan::Transfer& transfer) {
   }
   const auto kind = request_kind(transfer);
   if (!kind) {
-    return; // requirement 8: no answer
+    return; // requirement 8: no response
   }
   serve(transfer);
   if (counter_.restarts_after(*kind)) {
@@ -117,7 +117,7 @@ void Servo::serve_node_info(const dronecan::Transfer& request) {
   answer(request, dronecan::GetNodeInfo::type, info.encode());
 }
 
-/// Requirement 69: a name wins over an index.
+/// Requirement 69: a name takes precedence over an index.
 std::optional<bla::Address> Servo::addressed(const GetSet::Request& request) const {
   if (!request.name.empty()) {
     return address_of(request.name);
@@ -129,7 +129,7 @@ std::optional<bla::Address> Servo::addressed(const GetSet::Request& request) con
   return bla::Address(static_cast<std::uint8_t>(request.index));
 }
 
-/// Empty value: a failure.
+/// An empty value is a failure.
 dronecan::Payload Servo::get_set_answer(const GetSet::Request& request,
                                         std::optional<std::int64_t> value) const {
   const auto address = addressed(request);

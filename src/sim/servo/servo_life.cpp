@@ -1,4 +1,4 @@
-// What a servo does by itself: start, get a node ID, send, save, restart.
+// The life cycle of a servo: start, node ID, messages, save, restart.
 
 #include "blactl/sim/servo/servo.hpp"
 
@@ -19,7 +19,7 @@ constexpr Duration servo_status_period = 100ms;
 constexpr dronecan::Priority status_priority = 16;
 constexpr dronecan::Priority allocation_priority = 24;
 
-/// unproven: how long a servo takes from power to its first frame; each time a little different.
+/// unproven: the time from power to the first frame; it varies from start to start.
 constexpr Duration min_boot_time = 50ms;
 constexpr Duration max_boot_time = 150ms;
 
@@ -127,7 +127,7 @@ void Servo::operate(dronecan::NodeId id, Time now) {
   next_status_ = setup_.faults.no_actuator_status ? never : now;
 }
 
-/// `answered`: the answer comes first (requirement 57), after the delay of all answers.
+/// `answered`: the response comes first (requirement 57), after the usual delay.
 void Servo::obey(Order order, bool answered) {
   if (order == Order::erase) {
     motion_.initialize(now_);
@@ -138,7 +138,7 @@ void Servo::obey(Order order, bool answered) {
                 .kind = order == Order::save ? Departure::Kind::save : Departure::Kind::restart};
 }
 
-/// What is in its transmit queue by now leaves all the same: the answer is.
+/// Frames already in the transmit queue still leave; the response is among them.
 void Servo::depart(Time now) {
   const Departure::Kind kind = departure_->kind;
   departure_.reset();
@@ -191,7 +191,7 @@ void Servo::restart(Time now) {
   wake_ = setup_.faults.never_returns ? never : now + absence;
 }
 
-/// Bits of 0x1A and 0x1B that tell why it restarted.
+/// Bits of 0x1A and 0x1B that show the cause of the restart.
 void Servo::show_until_restart(std::int64_t warnings, std::int64_t failures, Time now) {
   World around = world();
   around.warnings |= warnings;

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::int64_t turn = 3600 * angle_per_decideg;
 constexpr std::int64_t lag_ms = 5;
-constexpr std::int64_t creep = speed_per_rpm / 10; ///< slower, friction stops it
+constexpr std::int64_t creep = speed_per_rpm / 10; ///< below this, friction stops it
 constexpr std::int64_t hand_speed = 60 * speed_per_rpm;
 
 constexpr std::int64_t friction(Drive::Kind kind) {
@@ -20,7 +20,7 @@ constexpr std::int64_t friction(Drive::Kind kind) {
   return 0;
 }
 
-/// The speed that `push` comes to against friction.
+/// The speed at which `push` and friction balance.
 std::int64_t settled_speed(std::int64_t push, std::int64_t friction, std::int64_t full_speed) {
   if (std::abs(push) <= friction) {
     return 0;
@@ -29,7 +29,7 @@ std::int64_t settled_speed(std::int64_t push, std::int64_t friction, std::int64_
   return full_speed * net / (full_effort - friction);
 }
 
-/// The nearest way from `angle` to where `decideg` is in a turn.
+/// The shortest way from `angle` to the position `decideg` within a turn.
 std::int64_t way_to(std::int64_t decideg, std::int64_t angle) {
   const std::int64_t way = (decideg * angle_per_decideg - angle) % turn;
   if (way > turn / 2) {

@@ -1,5 +1,5 @@
 #pragma once
-// What the soft start puts in the place of five registers as long as it lasts (4.14).
+// The values that override five registers during the soft start (4.14).
 
 #include "sim/servo/names.hpp"
 
@@ -8,7 +8,7 @@
 
 namespace blactl::sim {
 
-/// The number that counts instead of the register's own; empty: the register counts.
+/// The value in effect instead of the register's own; empty: the register is in effect.
 [[nodiscard]] constexpr std::optional<std::int64_t> soft_start_value(bla::Address address) {
   constexpr std::int64_t on = 1, rpm = 30, percent = 30;
   if (address == address::speed_torque_control) {

@@ -7,10 +7,10 @@
 namespace blactl::sim {
 namespace {
 
-/// "ram" states the bits of 0x19; those of the PWM input follow from the pulse.
+/// "ram" gives the bits of 0x19; those of the PWM input become a pulse.
 void set_notices(World& world, std::int64_t bits, const ServoSetup& setup) {
   constexpr std::int64_t too_short_us = 1;
-  constexpr std::int64_t too_long_us = 30'000; // more than any 0x34 + 0x35
+  constexpr std::int64_t too_long_us = 30'000; // longer than any 0x34 + 0x35
   world.notices = bits & ~fault::pwm_input;
   if (!setup.profile->pwm) {
     return;

@@ -311,7 +311,7 @@ TEST_CASE("all faults of a command line come at once") {
                     "there is no group 'g'\n"
                     "there is no group 'h'\n"
                     "--kind blue: not one of red, green\n"
-                    "sample asks no servo: it takes no --node\n");
+                    "sample does not contact servos: it takes no --node\n");
   CHECK(all_refused({"set", "--csv", "--json", "--record", "-"}).size() == 4);
   // An unknown command may have meant the options of any.
   CHECK(all_refused({"scna", "--expect", "x", "--timeout", "x", "-n", "", "--frob"}).size() == 4);

@@ -199,8 +199,8 @@ TEST_CASE("a silent bus, foreign frames, a full bus and error frames are told ap
   Traffic alone;
   alone.hear_own(message(NodeStatus::type, 127, NodeStatus{}.encode()).front(), Time(1s));
   CHECK(codes(diagnose_traffic(alone, std::nullopt)) == Codes{"silent"});
-  const Error reason{Code::not_found, "I hear MAVLink", "another port", std::nullopt};
-  CHECK(diagnose_traffic({}, reason).front().text == "I hear MAVLink");
+  const Error reason{Code::not_found, "this port carries MAVLink", "another port", std::nullopt};
+  CHECK(diagnose_traffic({}, reason).front().text == "this port carries MAVLink");
   Traffic foreign;
   foreign.hear({.id = 0x123, .extended = false, .size = 2}, Time(1s));
   CHECK(codes(diagnose_traffic(foreign, std::nullopt)) == Codes{"standard_frames"});

@@ -100,8 +100,8 @@ TEST_CASE("a parameter file is told all that is wrong with it, each with its lin
        {"wing.param:2: 56: is it 0x56, or the decimal number 56?",
         "wing.param:3: angle_limit_ccw: write the address 0x39",
         "wing.param:4: SERVO1_MIN: no register of a BLA servo",
-        "wing.param:5: 0x39: '-90.0' is no register number", "wing.param:6: 0x3A: '60rpm' is no",
-        "wing.param:7: 0x38: this register is also in line 1",
+        "wing.param:5: 0x39: '-90.0' is not a register number",
+        "wing.param:6: 0x3A: '60rpm' is not", "wing.param:7: 0x38: this register is also in line 1",
         "wing.param:8: 0x3B: a line must hold", "wing.param:9: 0x3C: a line must hold",
         "wing.param:10: 0x46: ", "wing.param:11: 0x28: ", "wing.param:12: 0x3F: ",
         "wing.param:13: 0x26: ", "wing.param:14: 0x60: no register of a BLA servo"}) {

@@ -101,7 +101,7 @@ TEST_CASE("what is wrong with a recipe is told with its line") {
            Wrong{with(R"("0x08": 3)"), "2: /set/0x08: "},
            Wrong{with(R"("torque_limit_cw": "140%")"), "2: /set/torque_limit_cw: "},
            Wrong{with(R"("timeout_time": {"first": 1, "last": 2})"),
-                 "2: /set/timeout_time: timeout_time is no ID"},
+                 "2: /set/timeout_time: timeout_time is not an ID"},
            Wrong{with(counts + R"(8, "last": 1})"), "2: /set/servo_id: \"last\" is 1, below"},
            Wrong{with(counts + R"(1, "last": 255})"), "2: /set/servo_id: "},
            Wrong{with(counts + R"(1, "last": 2, "step": 0})"), "2: /set/servo_id/step: "},
@@ -110,7 +110,7 @@ TEST_CASE("what is wrong with a recipe is told with its line") {
            Wrong{with(counts + "1}"), "2: /set/servo_id: "},
            Wrong{with(counts + R"(1, "last": 2}, "0x45": 3)"), "2: /set/servo_id: servo_id is"},
            Wrong{with(R"("static_node_id": {"first": 0, "last": 2})"),
-                 "2: /set/static_node_id: 0 is no static node ID"},
+                 "2: /set/static_node_id: 0 is not a static node ID"},
            Wrong{with(R"("static_node_id": {"first": 120, "last": 126})"),
                  "2: /set/static_node_id: "},
        }) {

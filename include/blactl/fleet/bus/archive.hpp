@@ -1,5 +1,5 @@
 #pragma once
-// What a recording holds of the answers of servos: stands in for them when jobs ask.
+// The responses of servos in a recording: they answer the requests of jobs.
 
 #include "blactl/bla/parameter.hpp"
 #include "blactl/bla/values.hpp"
@@ -15,46 +15,46 @@
 
 namespace blactl::fleet {
 
-/// A servo as a file describes it.
+/// A servo as described by a file.
 struct RecordedServo {
   Servo servo;
-  bla::Values values; ///< what its registers hold, as far as the file tells
+  bla::Values values; ///< register values, as far as the file has them
 };
 
-/// Keeps the last answer to each question that reads: GetNodeInfo, and GetSet of each register,
-/// whoever asked. An answer to a write tells the value after it, so it counts as well.
+/// Keeps the last response to each read request: GetNodeInfo, and GetSet of each register, whoever
+/// asked. The response to a write contains the resulting value, so it counts as well.
 ///
-/// What a node was told after that makes its answers history, whatever it answers: a write that of
-/// its register, until the value after it is told; ERASE all that it sets; RestartNode and SAVE, or
-/// a restart that uptimes show (see Roster), all: its RAM is gone, its ID may be that of another.
-/// Memory is bounded: one answer for each node and register, one question for each two nodes and
-/// transfer ID.
+/// Later requests to a node make its earlier responses obsolete, whatever it responds: a write
+/// those of its register, until a response with the new value; ERASE those of all registers that it
+/// sets; RestartNode and SAVE, or a restart shown by uptimes (see Roster), all of them: its RAM is
+/// lost, and its ID may be that of another unit. Memory is bounded: one response for each node and
+/// register, one request for each two nodes and transfer ID.
 class Archive {
  public:
-  /// `roster` outlives this and has been told of each transfer first.
+  /// `roster` outlives this and must receive each transfer first.
   explicit Archive(const Roster& roster) : roster_(roster) {}
 
   void receive(const dronecan::Transfer& transfer);
 
-  /// What a file says that a register holds counts as an answer.
+  /// Takes a register value of a file as a response.
   void recall(dronecan::NodeId node, bla::Address address, std::int64_t raw);
 
-  /// `answered` with the last answer, or `not_recorded`. The payload is valid until the next
+  /// The last response as `answered`, or `not_recorded`. The payload is valid until the next
   /// transfer.
   [[nodiscard]] dronecan::Outcome answer(const dronecan::Request& request) const;
 
  private:
-  /// The transfers of the recording, counted: many may have one time.
+  /// The number of transfers of the recording so far, as many may have the same time.
   using Moment = std::uint64_t;
 
   struct Answer {
     std::vector<std::uint8_t> payload;
     Time at{};
-    std::uint32_t boots = 0; ///< of the node when it said so
-    Moment asked = 0;        ///< where the question was not recorded: answered
+    std::uint32_t boots = 0; ///< of the node at that time
+    Moment asked = 0;        ///< if the request was not recorded: of the response
   };
 
-  /// Which register was asked for: a failure comes without its name (errata C7).
+  /// The requested register: a failure comes without its name (errata C7).
   struct Question {
     bla::Address address;
     Moment at = 0;
@@ -64,7 +64,7 @@ class Archive {
     Answer info;
     std::map<bla::Address, Answer> registers;
     std::map<std::pair<dronecan::NodeId, dronecan::TransferId>, Question> questions; ///< by client
-    // What it was told last, whatever it answered.
+    // The last writes, whatever the responses.
     std::map<bla::Address, Moment> written;
     Moment erased = 0, restarted = 0;
   };

@@ -1,5 +1,5 @@
 #pragma once
-// ArrayCommand as it tells a servo one of its registers 0x00-0x02 (tables 2-20, 2-21).
+// ArrayCommand for one of a servo's registers 0x00-0x02 (tables 2-20, 2-21).
 
 #include "blactl/bla/address.hpp"
 #include "blactl/dronecan/types.hpp"
@@ -8,12 +8,12 @@
 
 namespace blactl::fleet {
 
-/// `raw` for `command` (0x00, 0x01 or 0x02) to the servo with this servo ID alone.
+/// Sets `command` (0x00, 0x01 or 0x02) to `raw` in the servo with this servo ID only.
 [[nodiscard]] dronecan::ArrayCommand array_command(std::uint8_t servo_id, bla::Address command,
                                                    std::int64_t raw);
 
-/// What a servo takes from that: numbers are half precision on the wire. unproven: that it rounds
-/// to the nearest.
+/// The value that a servo takes from it: numbers are half precision on the wire. unproven: that it
+/// rounds to the nearest.
 [[nodiscard]] std::int64_t told_by_array(bla::Address command, std::int64_t raw);
 
 } // namespace blactl::fleet

@@ -1,5 +1,5 @@
 #pragma once
-// How busy a bus is: on average, in its busiest second, in the last one.
+// The load of a bus: its average, in its busiest second, and in the last second.
 
 #include "blactl/base/time.hpp"
 
@@ -11,36 +11,37 @@
 
 namespace blactl::fleet {
 
-/// Counts the bits that cross a bus of 1 Mbit/s, where one takes 1 us, from the first frame on. The
-/// same few bytes of memory however long it goes on.
+/// Counts the bits on a bus of 1 Mbit/s, where one takes 1 us, from the first frame on, in constant
+/// memory.
 ///
-/// Times that go back a little (stamps of several sockets) are taken for the latest so far. Once
-/// they go back by more than `most_disorder`, a clock was set: nothing tells a duration any more.
+/// Times that go back a little (timestamps of several sockets) are taken for the latest so far.
+/// Once they go back by more than `most_disorder`, a clock was set, and durations are not known any
+/// more.
 class BusLoad {
  public:
-  /// What the busiest and the last time are measured over. It is moved on by tenths.
+  /// The window of the busiest and the last load. It moves in tenths.
   static constexpr Duration window = std::chrono::seconds(1);
   static constexpr Duration most_disorder = std::chrono::seconds(1);
 
-  /// A frame of so many bits, with those between frames.
+  /// Takes a frame of this number of bits, including those between frames.
   void hear(std::size_t bits, Time at);
 
-  /// Nothing more was heard until `now`.
+  /// Advances to `now` without traffic.
   void pass(Time now);
 
-  /// From the first frame to the last, or to when pass() said that there was none; empty: that is
-  /// no time, or times run backwards.
+  /// From the first frame to the last, or to the last pass(); empty: no time has passed, or times
+  /// go backwards.
   [[nodiscard]] std::optional<Duration> duration() const;
 
   [[nodiscard]] std::uint64_t bits() const { return bits_; }
 
-  /// In thousandths of what fits; empty: no duration.
+  /// In thousandths of the capacity; empty: no duration.
   [[nodiscard]] std::optional<std::uint64_t> mean_permille() const;
 
-  /// Of the busiest window; empty: no whole one has passed.
+  /// For the busiest window; empty: no whole one has passed.
   [[nodiscard]] std::optional<std::uint64_t> max_permille() const { return permille(most_); }
 
-  /// Of the last whole window; empty: there is none yet.
+  /// For the last whole window; empty: none yet.
   [[nodiscard]] std::optional<std::uint64_t> last_permille() const {
     return permille(last_window_);
   }
@@ -59,9 +60,9 @@ class BusLoad {
   bool runs_backwards_ = false;
   std::uint64_t bits_ = 0;
 
-  std::array<std::uint64_t, slices> in_slice_{}; ///< bits; the running one is at current_
+  std::array<std::uint64_t, slices> in_slice_{}; ///< bits; the current one is at current_
   std::size_t current_ = 0;
-  std::size_t ended_ = 0; ///< slices since the window began, as far as they matter
+  std::size_t ended_ = 0; ///< slices since the start of the window, up to the relevant number
   Time slice_began_{};
   std::uint64_t in_window_ = 0; ///< of all slices
   std::optional<std::uint64_t> most_, last_window_;

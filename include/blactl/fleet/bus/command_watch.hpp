@@ -1,6 +1,6 @@
 #pragma once
-// What other nodes tell servos, as far as it was heard: commands to move, writes to settings, and
-// whether the vehicle is armed.
+// Requests and commands of other nodes to servos, as far as heard: motion commands, writes to
+// settings, and whether the vehicle is armed.
 
 #include "blactl/base/time.hpp"
 #include "blactl/bla/address.hpp"
@@ -16,27 +16,27 @@
 
 namespace blactl::fleet {
 
-/// What a node says again and again: it counts for three of its periods, at least 2 s and at most
-/// 10 s (contract, section 4).
+/// The time of a message that a node repeats. It counts for three of its periods, at least 2 s and
+/// at most 10 s (contract, section 4).
 class Repeated {
  public:
   static constexpr Duration least = std::chrono::seconds(2);
   static constexpr Duration most = std::chrono::seconds(10);
 
-  /// `usual`: for how long it counts as long as its period is not known.
+  /// `usual`: the time for which it counts while its period is unknown.
   void hear(Time at, Duration usual = least);
 
-  /// When it was said last.
+  /// The last time; meaningless before hear().
   [[nodiscard]] Time at() const { return at_; }
 
   [[nodiscard]] bool counts(Time now) const { return now - at_ <= lasts_; }
 
  private:
   Time at_{};
-  Duration lasts_{}; ///< zero: never said
+  Duration lasts_{}; ///< zero: never heard
 };
 
-/// Another node that moves servos: ArrayCommand, or writes to 0x00-0x02.
+/// Another node that commands servos: by ArrayCommand, or writes to 0x00-0x02.
 struct Commander {
   /// The last command to one servo ID.
   struct Command {
@@ -51,23 +51,23 @@ struct Commander {
 
 class CommandWatch {
  public:
-  /// Every transfer of other nodes.
+  /// Takes every transfer of other nodes.
   void receive(const dronecan::Transfer& transfer);
 
   [[nodiscard]] const std::map<dronecan::NodeId, Commander>& commanders() const {
     return commanders_;
   }
 
-  /// A node whose last word is that the vehicle is armed, however long ago.
+  /// A node whose last ArmingStatus reports that the vehicle is armed, however old.
   [[nodiscard]] std::optional<dronecan::NodeId> said_armed() const {
     return armed_.empty() ? std::nullopt : std::optional(armed_.begin()->first);
   }
 
-  /// A node that says now that the vehicle is armed.
+  /// A node whose ArmingStatus reports that the vehicle is armed, and still counts.
   [[nodiscard]] std::optional<dronecan::NodeId> armed_by(Time now) const;
 
-  /// Another node that changed a setting of this one after `since`. Commands to move (0x00-0x02)
-  /// change none. With `reg` of this register, or of all at once.
+  /// Another node that changed a setting of this one after `since`. Motion commands (0x00-0x02) are
+  /// not settings. With `reg`: this register, or all at once.
   [[nodiscard]] std::optional<dronecan::NodeId>
   writer_to(dronecan::NodeId id, Time since, std::optional<bla::Address> reg = std::nullopt) const;
 
@@ -90,8 +90,8 @@ class CommandWatch {
   Commander& commander(dronecan::NodeId source);
 
   std::map<dronecan::NodeId, Commander> commanders_;
-  std::map<dronecan::NodeId, Repeated> armed_; ///< those that said so last
-  /// The last ones to settings, by server and register; empty: to all of them.
+  std::map<dronecan::NodeId, Repeated> armed_; ///< by nodes that reported it last
+  /// The last writes to settings, by server and register; empty: to all registers.
   std::map<dronecan::NodeId, std::map<std::optional<bla::Address>, Write>> writes_;
 };
 

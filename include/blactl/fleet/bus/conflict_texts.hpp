@@ -1,5 +1,5 @@
 #pragma once
-// What is said of nodes that share an ID, and of those that act beside us.
+// Messages about nodes that share an ID, and about other active nodes.
 
 #include "blactl/base/text.hpp"
 

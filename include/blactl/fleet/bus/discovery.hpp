@@ -1,5 +1,5 @@
 #pragma once
-// Finds and identifies servos: those that a command means, all that are there, those that come.
+// Finds and identifies servos: those selected by a command, all present ones, or those that come.
 
 #include "blactl/bla/profile.hpp"
 #include "blactl/fleet/bus/identification.hpp"
@@ -15,30 +15,29 @@
 
 namespace blactl::fleet {
 
-/// How long a BLA servo may stay unheard: it sends actuator.Status ten times a second.
+/// The longest silence of a BLA servo: it sends actuator.Status ten times a second.
 inline constexpr Duration servo_search_time = std::chrono::milliseconds(250);
 
-/// The node IDs that a command is about, ascending, and why others that it names are not among
-/// them.
+/// The node IDs selected for a command, ascending, and the errors for selected ones that are not
+/// among them.
 struct Selection {
   std::vector<dronecan::NodeId> ids;
   std::vector<Error> errors;
-  std::vector<std::string> notes; ///< what was left out though it looks like a servo
+  std::vector<std::string> notes; ///< nodes that were left out although they look like servos
 };
 
-/// One servo that was waited for.
 struct Arrival {
   Servo servo;
-  bool is_there = false; ///< identified, operational, and answered in the end
+  bool is_there = false; ///< identified, operational, and responding at the end
 };
 
 struct Arrivals {
-  std::vector<Arrival> servos; ///< those that are meant and were heard
-  std::vector<Error> errors;   ///< of those that are not there; empty: all are
-  std::optional<Error> broken; ///< why the session ended before
+  std::vector<Arrival> servos; ///< selected ones that were heard
+  std::vector<Error> errors;   ///< for missing ones; empty: all are there
+  std::optional<Error> broken; ///< the error that ended the session early
 };
 
-/// One search on one session. The jobs that it starts end with it.
+/// One search on one session. The jobs it starts end with it.
 class Discovery final : private Roster::Listener {
  public:
   /// Both references outlive this.
@@ -49,36 +48,36 @@ class Discovery final : private Roster::Listener {
   Discovery& operator=(const Discovery&) = delete;
   Discovery& operator=(Discovery&&) = delete;
 
-  /// The nodes behind -n. Where the bus must be searched it is listened to for `listen`, and what
-  /// sends actuator.Status is identified.
-  /// Errors: those that end a session. In Selection: not_found, and why a servo was not identified.
+  /// The nodes behind -n. If the bus must be searched, this listens for `listen`, and identifies
+  /// senders of actuator.Status. Errors: those that end a session. In Selection: not_found, and why
+  /// a servo was not identified.
   [[nodiscard]] Result<Selection> select(const Targets& targets, Duration listen);
 
-  /// The same for a command that writes: without -n the one servo there is. Further errors: usage,
-  /// where there are several.
+  /// The selection for a command that writes: without -n the only servo. Further errors: usage, if
+  /// there are several.
   [[nodiscard]] Result<Selection> select_for_writing(const Targets& targets);
 
-  /// Listens for `listen`, identifies every node and, if this process may ask, looks for silent
-  /// ones; asks those found for their unique ID twice.
+  /// Listens for `listen`, identifies every node and, if this process may send requests, looks for
+  /// silent ones; those found are asked twice for their unique ID.
   [[nodiscard]] Result<void> find_all(Duration listen);
 
-  /// Asks these nodes once more who they are: a second unit on an ID answers too, somewhat later.
-  /// Errors: those that end a session.
+  /// Asks these nodes again for their unique ID: a second unit on an ID responds, too, a little
+  /// later. Errors: those that end a session.
   [[nodiscard]] Result<void> look_for_twins(const std::vector<const Member*>& members);
 
-  /// Lives until those that are meant are identified and operational, `wait` at most.
+  /// Waits until the selected servos are identified and operational, at most for `wait`.
   [[nodiscard]] Arrivals wait_for(const Targets& targets, Duration wait);
 
-  /// Those that are meant and were heard so far.
+  /// The selected servos heard so far.
   [[nodiscard]] std::vector<Arrival> those_there(const Targets& targets) const;
 
   /// From now on every unit that appears or restarts is asked for its unique ID.
   void recognise();
 
-  /// Those that were there, and did not answer when they were asked last.
+  /// Nodes that were there, and did not respond to their last request.
   [[nodiscard]] const std::set<dronecan::NodeId>& gone() const { return gone_; }
 
-  /// How each identification that was begun ended; empty: well.
+  /// The end of each identification; empty: success.
   [[nodiscard]] std::vector<std::optional<Error>> identifications() const;
 
  private:
@@ -104,13 +103,13 @@ class Discovery final : private Roster::Listener {
   const bla::Profiles& profiles_;
   Identification::Options options_;
   Attention attention_ = Attention::none;
-  std::uint8_t cursor_ = 0; ///< of the probes
+  std::uint8_t cursor_ = 0; ///< for the probes
   std::vector<std::unique_ptr<IdentifyJob>> identifications_;
   std::vector<std::unique_ptr<dronecan::Job>> jobs_;
-  std::set<dronecan::NodeId> gone_; ///< did not answer when they were asked last
+  std::set<dronecan::NodeId> gone_; ///< no response to the last request
 };
 
-/// Lives until the bus has been heard for bus_watch_time. Errors: those that end a session; state,
+/// Waits until the bus has been heard for bus_watch_time. Errors: those that end a session; state,
 /// if frames were lost meanwhile.
 [[nodiscard]] Result<void> hear_bus(Session& session);
 

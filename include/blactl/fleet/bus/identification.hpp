@@ -1,5 +1,5 @@
 #pragma once
-// The questions that tell what a node is: GetNodeInfo, then 0x50-0x53, 0x45 and 0x46.
+// The requests that identify a node: GetNodeInfo, then 0x50-0x53, 0x45 and 0x46.
 
 #include "blactl/bla/profile.hpp"
 #include "blactl/dronecan/node.hpp"
@@ -10,7 +10,7 @@
 
 namespace blactl::fleet {
 
-/// Identifies one node as part of a job: feed it outcomes until it asks nothing more.
+/// Identifies one node as part of a job: feed it outcomes until it has no further request.
 class Identification {
  public:
   struct Options {
@@ -19,21 +19,21 @@ class Identification {
     bool static_node_id = false;           ///< 0x46 as well
   };
 
-  /// All references outlive this object. What it finds is entered into `roster`.
+  /// All references outlive this object. Results are entered into `roster`.
   Identification(Roster& roster, dronecan::NodeId id, const bla::Profiles& profiles,
                  Options options);
 
-  /// The next question; none: done() or failed. The first call's outcome is not looked at.
+  /// The next request; none: done() or failed. The first call's outcome is ignored.
   [[nodiscard]] std::optional<dronecan::Request> next(const dronecan::Outcome& outcome);
 
   [[nodiscard]] bool done() const { return done_; }
 
-  /// What the node is, when done().
+  /// The identified node, when done().
   [[nodiscard]] const Servo& servo() const { return servo_; }
 
-  /// Why it failed: timeout, not_found, model_mismatch, interrupted, no_acknowledge; not_recorded
-  /// where a recording holds nothing that tells whether it is a servo. What else a recording lacks
-  /// stays unknown.
+  /// The error of a failure: timeout, not_found, model_mismatch, interrupted, no_acknowledge;
+  /// not_recorded if a recording does not show whether it is a servo. Anything else missing in a
+  /// recording stays unknown.
   [[nodiscard]] const std::optional<Error>& error() const { return error_; }
 
  private:
@@ -68,12 +68,11 @@ class Identification {
   std::optional<dronecan::GetNodeInfo::Response> info_;
   bla::Readings readings_;
   bool recording_lacks_model_ = false;
-  bool model_silent_ = false; ///< an actuator did not answer 0x50
+  bool model_silent_ = false; ///< an actuator did not respond to 0x50
   bool done_ = false;
   std::optional<Error> error_;
 };
 
-/// A job that only identifies.
 class IdentifyJob : public dronecan::Job {
  public:
   IdentifyJob(Roster& roster, dronecan::NodeId id, const bla::Profiles& profiles,
@@ -90,14 +89,14 @@ class IdentifyJob : public dronecan::Job {
   Identification identification_;
 };
 
-/// Asks the IDs that were not heard whether they live: scan runs several at a time, which share one
-/// cursor. What answers shows up in the roster by itself.
+/// Probes IDs that were not heard: scan runs several at a time, which share one cursor. Responding
+/// nodes appear in the roster.
 class ProbeJob : public dronecan::Job {
  public:
-  /// The last ID that is asked; 126 and 127 belong to tools.
+  /// The last probed ID; 126 and 127 are for tools.
   static constexpr std::uint8_t last = 125;
 
-  /// `cursor`: the ID asked last by any of the jobs, 0 at the beginning.
+  /// `cursor`: the ID last probed by any of the jobs, 0 at the beginning.
   ProbeJob(const Roster& roster, std::uint8_t& cursor, Duration timeout)
       : roster_(roster), cursor_(cursor), timeout_(timeout) {}
 
@@ -109,7 +108,7 @@ class ProbeJob : public dronecan::Job {
   Duration timeout_;
 };
 
-/// Asks a unit that appeared or restarted for its unique ID, and nothing more.
+/// Asks a unit that appeared or restarted for its unique ID only.
 class UnitJob final : public dronecan::Job {
  public:
   UnitJob(Roster& roster, dronecan::NodeId id, Patience patience)
@@ -117,7 +116,7 @@ class UnitJob final : public dronecan::Job {
 
   [[nodiscard]] dronecan::Step next(const dronecan::Outcome& outcome) override;
 
-  /// Those who wait for a unit to come back may not be left half done.
+  /// Jobs waiting for a unit to come back must not be left half done.
   [[nodiscard]] bool must_finish() const override { return true; }
 
  private:
@@ -126,7 +125,7 @@ class UnitJob final : public dronecan::Job {
   Patience patience_;
 };
 
-/// Asks an identified node for its unique ID once more: another answer is another unit.
+/// Asks an identified node for its unique ID again: a different response is another unit.
 class DoubleCheckJob final : public dronecan::Job {
  public:
   DoubleCheckJob(Roster& roster, const Servo& servo, Patience patience)
@@ -136,7 +135,6 @@ class DoubleCheckJob final : public dronecan::Job {
 
   [[nodiscard]] dronecan::NodeId id() const { return servo_.id; }
 
-  /// It is there.
   [[nodiscard]] bool is_answered() const { return is_answered_; }
 
  private:

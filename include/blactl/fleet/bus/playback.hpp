@@ -1,5 +1,5 @@
 #pragma once
-// Jobs on a recording: they wait until all of it was heard, and then are answered at once.
+// Jobs on a recording: they wait until all of it was heard, and then get their responses at once.
 
 #include "blactl/dronecan/node.hpp"
 #include "blactl/fleet/bus/archive.hpp"
@@ -13,7 +13,7 @@ class Playback {
   /// `roster` outlives this.
   explicit Playback(const Roster& roster) : archive_(roster) {}
 
-  /// Every transfer of the recording, after the roster.
+  /// Takes every transfer of the recording, after the roster.
   void receive(const dronecan::Transfer& transfer) { archive_.receive(transfer); }
 
   /// See Archive::recall().
@@ -21,15 +21,15 @@ class Playback {
     archive_.recall(node, address, raw);
   }
 
-  /// Begins a job: at once when all has been heard, else then. Jobs and hooks may call it.
+  /// Begins a job: at once if all has been heard, else later. Jobs and hooks may call it.
   void start(dronecan::Job& job);
 
   [[nodiscard]] bool finished() const { return finished_; }
 
-  /// All has been heard.
+  /// The whole recording has been heard.
   void finish();
 
-  /// Nothing more will be heard: the jobs that wait are cancelled.
+  /// Nothing more will be heard: waiting jobs are cancelled.
   void cancel();
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// Identifies one servo and reads registers of it, as they were at one moment.
+// Identifies one servo and reads its registers as of one moment.
 
 #include "blactl/fleet/bus/identification.hpp"
 #include "blactl/fleet/bus/run_proof.hpp"
@@ -10,23 +10,23 @@
 
 namespace blactl::fleet {
 
-/// After the last register the servo must prove that it is still the same and ran on since it was
-/// identified; where it has not, all is read once more. For what RAM held before that, see Proof.
+/// After the last register the servo must prove that it is still the same and has not restarted
+/// since it was identified; otherwise everything is read once more. On earlier contents of RAM, see
+/// Proof.
 class ReadJob final : public dronecan::Job {
  public:
-  /// The registers to read of a servo, once it is identified.
-  /// Errors: whatever makes reading pointless; nothing is read then.
+  /// The registers to read from an identified servo. Errors: reasons for not reading at all.
   using Choice = std::function<Result<std::vector<const bla::Parameter*>>(const Servo& servo)>;
 
-  /// How much of it must be proven.
+  /// The part that must be proven.
   enum class Proof : std::uint8_t {
     none,   ///< on a recording nothing can be asked
-    unit,   ///< that it is one servo: after SAVE a restart more changes nothing
-    moment, ///< that it was true of one servo at one time; a young servo takes a second for that
-    run,    ///< also that it has not restarted since it was first heard: RAM is what is to be saved
+    unit,   ///< the same servo: after SAVE a further restart changes nothing
+    moment, ///< consistent values of one servo; a young servo takes a second for this
+    run,    ///< also no restart since it was first heard: RAM is to be saved
   };
 
-  /// What else to read, after what was read so far; asked until it names nothing new.
+  /// Further registers to read, given those read so far; called until it returns nothing new.
   using More = std::function<std::vector<const bla::Parameter*>(const Snapshot& so_far)>;
 
   ReadJob(Roster& roster, dronecan::NodeId id, const bla::Profiles& profiles,
@@ -35,9 +35,9 @@ class ReadJob final : public dronecan::Job {
 
   [[nodiscard]] dronecan::Step next(const dronecan::Outcome& outcome) override;
 
-  /// What was read so far, in the order of the choice. Errors beside those of identification and
-  /// choice: timeout (it does not answer any more), state (it is another unit, or restarts again
-  /// and again), duplicate_node_id.
+  /// The registers read so far, in the order of the choice. Errors besides those of identification
+  /// and choice: timeout (it does not respond any more), state (it is another unit, or restarts
+  /// repeatedly), duplicate_node_id.
   [[nodiscard]] const Snapshot& snapshot() const { return snapshot_; }
 
  private:
@@ -65,8 +65,8 @@ class ReadJob final : public dronecan::Job {
   Proof proof_;
   At at_ = At::identify;
   std::vector<const bla::Parameter*> wanted_;
-  int silent_ = 0; ///< registers in a row
-  int passes_ = 1; ///< of reading all
+  int silent_ = 0; ///< consecutive registers
+  int passes_ = 1; ///< over all registers
   Time pass_began_{};
   std::optional<RunProof> run_proof_;
   Snapshot snapshot_;

@@ -1,5 +1,5 @@
 #pragma once
-// Which registers of a servo a person asks for, before any servo is known.
+// The registers selected by the user, before any servo is known.
 
 #include "blactl/base/error.hpp"
 #include "blactl/bla/profile.hpp"
@@ -17,31 +17,30 @@ namespace blactl::fleet {
 /// The group of this name (contract, section 7). Errors: usage, with the nearest or all names.
 [[nodiscard]] Result<bla::Group> parse_group(std::string_view word);
 
-/// The register as this servo has it; null: it has none.
+/// The register as defined for this servo; null: it has none.
 [[nodiscard]] const bla::Parameter* own_register(const bla::Parameter& parameter,
                                                  const Servo& servo);
 
-/// Why a servo has no such register. Errors: unsupported (firmware, no PWM input).
+/// The reason why a servo has no such register. Errors: unsupported (firmware, no PWM input).
 [[nodiscard]] Error lacking(const bla::Parameter& parameter, const Servo& servo);
 
-/// Single registers, groups of them, or all that can be read.
+/// Single registers, groups of them, or all readable ones.
 class RegisterChoice {
  public:
-  /// Neither names nor groups: all. `profiles` outlives the choice.
-  /// Errors: every fault, in the order typed: unknown_parameter, unsupported (reserved, or only to
-  /// be written), usage.
+  /// Neither names nor groups: all. `profiles` outlives the choice. Errors, all of them, in the
+  /// order typed: unknown_parameter, unsupported (reserved, or write-only), usage.
   [[nodiscard]] static std::expected<RegisterChoice, std::vector<Error>>
   parse(const bla::Profiles& profiles, std::span<const std::string> names,
         std::span<const std::string> groups);
 
-  /// Those that this servo has, in the order asked, then by address; 0x37 too where the unit of
+  /// Those that this servo has, in the order asked, then by address; 0x37, too, if the unit of
   /// another depends on it.
   [[nodiscard]] std::vector<const bla::Parameter*> registers_of(const Servo& servo) const;
 
-  /// Why single registers that were asked for cannot be read of it: unsupported (firmware).
+  /// The reasons why selected single registers cannot be read from it: unsupported (firmware).
   [[nodiscard]] std::vector<Error> refusals(const Servo& servo) const;
 
-  /// What was asked for of all that was read.
+  /// The selected ones among all readings.
   [[nodiscard]] std::vector<Reading> asked_for(const Snapshot& snapshot) const;
 
  private:

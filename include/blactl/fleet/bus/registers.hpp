@@ -1,5 +1,5 @@
 #pragma once
-// Registers of a servo as DroneCAN parameters: one question each by GetSet (specification 2.3).
+// Registers of a servo as DroneCAN parameters: one GetSet request each (specification 2.3).
 
 #include "blactl/base/error.hpp"
 #include "blactl/bla/parameter.hpp"
@@ -9,13 +9,13 @@
 
 namespace blactl::fleet {
 
-/// How patiently one question is asked (--timeout, --retries).
+/// Timeout and retries of a request (--timeout, --retries).
 struct Patience {
   Duration timeout = std::chrono::milliseconds(500);
   int retries = 2;
 };
 
-/// A question of `type` with this payload, as patient as asked for.
+/// A request of `type` with this payload and patience.
 [[nodiscard]] dronecan::Request ask(dronecan::NodeId server, const dronecan::DataType& type,
                                     const dronecan::Payload& payload, const Patience& patience);
 
@@ -25,13 +25,13 @@ struct Patience {
 [[nodiscard]] dronecan::Request write_register(dronecan::NodeId server, bla::Address address,
                                                std::int64_t raw, const Patience& patience);
 
-/// What stands behind an outcome without an answer. `subject` is what was asked, for the message.
+/// The error of an outcome without a response. `subject` is what was requested, for the message.
 /// Errors: timeout, no_acknowledge (it did not leave), interrupted, not_recorded.
 [[nodiscard]] Error no_answer(const dronecan::Outcome& outcome, dronecan::NodeId server,
                               std::string_view subject);
 
-/// The register's number that a GetSet answer carries. Errors: refused (no value, no integer, or
-/// one that the register cannot hold), and those of no_answer().
+/// The raw value in a GetSet response. Errors: refused (no value, not an integer, or outside of the
+/// register's width), and those of no_answer().
 [[nodiscard]] Result<std::int64_t> register_value(const dronecan::Outcome& outcome,
                                                   dronecan::NodeId server, bla::Address address,
                                                   bla::Width width);

@@ -1,5 +1,6 @@
 #pragma once
-// Who is on the bus: nodes and servos, who waits for an ID, who commands, allocates, collides.
+// The nodes on the bus: servos and others, units waiting for an ID, commanding and allocating
+// nodes, collisions.
 
 #include "blactl/bla/identity.hpp"
 #include "blactl/dronecan/answer_watch.hpp"
@@ -20,27 +21,27 @@
 
 namespace blactl::fleet {
 
-/// One node ID on the bus and what is known of the unit behind it.
+/// One node ID on the bus and the facts about its unit.
 struct Member {
   dronecan::NodeId id{};
   Time first_heard{}, last_heard{};
-  std::optional<dronecan::NodeStatus> status{}; ///< the newest, heard or answered
+  std::optional<dronecan::NodeStatus> status{}; ///< the newest, from NodeStatus or a response
   Time status_at{};
   std::optional<std::uint8_t> actuator_id{}; ///< from actuator.Status: only servos send it
   std::uint32_t boots = 0;                   ///< restarts seen, by uptimes going backwards
 
-  /// What Roster::learn() was told.
+  /// From Roster::learn().
   std::optional<dronecan::GetNodeInfo::Response> info{};
-  std::optional<dronecan::UniqueId> told_unique_id{}; ///< by a file, in place of `info`
+  std::optional<dronecan::UniqueId> told_unique_id{}; ///< from a file, in place of `info`
   std::uint32_t info_boot = 0;                        ///< `boots` when `info` came
   Time info_at{};                                     ///< when `info` came
-  Time info_start{};     ///< when the unit started, by the uptime that came with it
-  bool is_servo = false; ///< it answered register 0x50
+  Time info_start{};                                  ///< start of the unit, by the uptime in it
+  bool is_servo = false;                              ///< it responded to register 0x50
   bla::Identity identity{};
   std::optional<std::int64_t> servo_id{}, static_node_id{};
   bool id_is_known = true;           ///< Servo::id_is_known
-  bool identified = false;           ///< learn() was told all
-  std::uint32_t identified_boot = 0; ///< `boots` when it did
+  bool identified = false;           ///< learn() was called with everything
+  std::uint32_t identified_boot = 0; ///< `boots` at that time
   Time since{};                      ///< Servo::since
 
   [[nodiscard]] bool sends_actuator_status() const { return actuator_id.has_value(); }
@@ -52,50 +53,51 @@ struct Member {
   /// Identified, and not restarted since.
   [[nodiscard]] bool is_known() const { return identified && identified_boot == boots; }
 
-  /// This unit said since its last restart that it has this unique ID.
+  /// Whether the unit has responded with this unique ID since its last restart.
   [[nodiscard]] bool is_unit(const dronecan::UniqueId& unique_id) const {
     return info && info_boot == boots && info->unique_id == unique_id;
   }
 
-  /// It said that it is another one.
+  /// Whether it has responded with another one.
   [[nodiscard]] bool is_another_unit(const dronecan::UniqueId& unique_id) const {
     return info && info_boot == boots && info->unique_id != unique_id;
   }
 
-  /// What is known of the unit now.
+  /// The present knowledge of the unit.
   [[nodiscard]] Servo servo() const;
 };
 
-/// An unsettled allocation request: the part of the unique ID that was heard.
+/// An unfinished allocation request: the part of the unique ID heard.
 using UniqueIdPrefix = std::vector<std::uint8_t>;
 
-/// A node sends NodeStatus once a second at least; one that was not heard for so long is offline
+/// A node sends NodeStatus at least once a second; after this silence it is offline
 /// (uavcan/protocol/341.NodeStatus).
 inline constexpr Duration offline_time = std::chrono::seconds(3);
 
-/// How long to listen until who commands, says armed, shares an ID or has one has been heard.
+/// The listening time after which commanders, armed vehicles, shared IDs and used IDs have been
+/// heard.
 inline constexpr Duration bus_watch_time = std::chrono::milliseconds(1100);
 
-/// Who is on the bus. A session tells it what is heard and jobs tell it what they were answered;
-/// everybody else only reads it.
+/// The nodes on the bus. The session enters what is heard, and jobs enter the responses; all others
+/// only read it.
 class Roster {
  public:
-  /// Somebody who wants to know at once.
+  /// Listens for new units.
   class Listener {
    public:
     virtual ~Listener() = default;
     Listener(const Listener&) = delete;
     Listener& operator=(const Listener&) = delete;
 
-    /// A node was heard for the first time, or its unit restarted: what was known of it may be
-    /// another's.
+    /// A node was heard for the first time, or its unit restarted: earlier facts may be about
+    /// another unit.
     virtual void on_new_unit(const Member& member) = 0;
 
    protected:
     Listener() = default;
   };
 
-  /// `local`: our own ID, whose frames are not those of a member. `profiles` outlive this.
+  /// `local`: our own ID, whose frames are ignored. `profiles` outlive this.
   Roster(dronecan::NodeId local, const bla::Profiles& profiles);
   ~Roster() = default;
   Roster(const Roster&) = delete;
@@ -107,64 +109,64 @@ class Roster {
 
   void change_local(dronecan::NodeId local) { local_ = local; }
 
-  /// It must live until remove(). Listeners may be added and removed at any time.
+  /// The listener must live until remove(). Listeners may be added and removed at any time.
   void add(Listener& listener) { listeners_.push_back(&listener); }
 
   void remove(Listener& listener) { std::erase(listeners_, &listener); }
 
-  /// Every frame of other nodes: who lives, and who sends twice as often as one unit can.
+  /// Takes every frame of other nodes: for presence, and to find those that send twice as often as
+  /// one unit can.
   void hear(const can::Frame& frame, Time at);
 
-  /// Every transfer heard.
   void receive(const dronecan::Transfer& transfer);
 
-  /// The unit behind `id` answered GetNodeInfo: whatever was known may have been another's.
+  /// The unit behind `id` responded to GetNodeInfo: earlier facts may be about another unit.
   void learn(dronecan::NodeId id, const dronecan::GetNodeInfo::Response& info, Time at);
 
-  /// What a node said of itself; `servo.boot` is that of its GetNodeInfo, which may be over.
+  /// Takes an identification; `servo.boot` is that of its GetNodeInfo, and may be outdated.
   void learn(const Servo& servo, const std::optional<dronecan::GetNodeInfo::Response>& info);
 
-  /// What a file says of a servo counts as if it had been heard.
+  /// Takes a servo from a file as if it had been heard.
   void recall(const Servo& servo);
 
-  /// The servo of this node was recognised after a restart, as `servo` says: what it said of
-  /// itself before holds on.
+  /// The servo of this node was recognised after a restart, as `servo`: its earlier identification
+  /// stays valid.
   void learn_run(const Servo& servo);
 
-  /// The static node ID that a node has now, as it was read or written.
+  /// Takes the static node ID of a node, as read or written.
   void learn_static_node_id(dronecan::NodeId id, std::optional<std::int64_t> static_node_id);
 
-  /// Two answers to GetNodeInfo gave different unique IDs.
+  /// Two responses to GetNodeInfo had different unique IDs.
   void mark_doubled(dronecan::NodeId id, const dronecan::UniqueId& one,
                     const dronecan::UniqueId& other);
 
-  /// Null: never heard and never learnt of.
+  /// Null: never heard and never learnt.
   [[nodiscard]] const Member* find(dronecan::NodeId id) const;
 
-  /// What is known of this ID; of one that was never heard nothing is.
+  /// The facts about this ID; empty for one that was never heard.
   [[nodiscard]] Member member(dronecan::NodeId id) const;
 
   [[nodiscard]] const std::map<dronecan::NodeId, Member>& members() const { return members_; }
 
-  /// Since this member was heard last, its unit said under another ID who it is.
+  /// Whether its unit has identified itself under another ID since this member was last heard.
   [[nodiscard]] bool has_moved(const Member& member) const;
 
   [[nodiscard]] bool heard(dronecan::NodeId id) const { return heard_[id.value()]; }
 
-  /// Two units use this ID, as far as heard.
+  /// Whether two units use this ID, as far as heard.
   [[nodiscard]] bool is_doubled(dronecan::NodeId id) const;
   [[nodiscard]] std::set<dronecan::NodeId> doubled() const;
 
-  /// The unique IDs of the units that use this ID, where two told theirs; else none.
+  /// The unique IDs of the units that use this ID, if two were received; else none.
   [[nodiscard]] std::set<dronecan::UniqueId> units(dronecan::NodeId id) const;
 
-  /// What this unit cannot be given: IDs of which any frame of another was heard, those that others
-  /// have in 0x46, and our own.
+  /// The IDs that this unit cannot have: those under which any frame of another was heard, those
+  /// that others have in 0x46, and our own.
   [[nodiscard]] state::NodeIds ids_in_use(const dronecan::UniqueId& unit) const;
 
   [[nodiscard]] const std::set<UniqueIdPrefix>& pending() const { return pending_; }
 
-  /// A unit with this unique ID asked for a node ID and got none.
+  /// Whether a unit with this unique ID has asked for a node ID and got none.
   [[nodiscard]] bool is_pending(const dronecan::UniqueId& unique_id) const;
 
   [[nodiscard]] const std::set<dronecan::NodeId>& allocators() const { return allocators_; }
@@ -183,7 +185,7 @@ class Roster {
     return commands_.armed_by(now);
   }
 
-  /// When the unit of this node started at the latest, by its last uptime; empty: it told none.
+  /// The latest possible start of this node's unit, by its last uptime; empty: none was received.
   [[nodiscard]] std::optional<Time> started(dronecan::NodeId id) const {
     return watches_[id.value()].started();
   }

@@ -1,5 +1,5 @@
 #pragma once
-// Whether a servo that was asked or told something is still the same, and has not started anew.
+// Checks that a servo is still the same after requests, and has not restarted.
 
 #include "blactl/dronecan/node.hpp"
 #include "blactl/fleet/bus/registers.hpp"
@@ -10,23 +10,23 @@
 
 namespace blactl::fleet {
 
-/// Asks GetNodeInfo for the unique ID and the uptime. Where the uptime does not tell, as that of a
-/// servo which has only just started, it is asked for again at moments when it may. In the end a
-/// second unit on the ID has time to show.
+/// Requests GetNodeInfo for the unique ID and the uptime. If the uptime is inconclusive, as in a
+/// servo that has only just started, it is requested again at suitable moments. Finally a second
+/// unit on the ID has time to show.
 class RunProof final : public dronecan::Job {
  public:
   enum class Verdict : std::uint8_t {
     ran_on,    ///< the same servo, without a restart in between, alone on its ID
-    restarted, ///< the same servo, but RAM may hold what ROM held
-    failed,    ///< error() says why
-    too_late,  ///< the answers come too late to tell one from the other
+    restarted, ///< the same servo, but RAM may have been reloaded from ROM
+    failed,    ///< see error()
+    too_late,  ///< the responses come too late to decide
   };
 
-  /// How long a second unit on the ID may take longer to answer than the first.
+  /// The additional time for the response of a second unit on the ID.
   static constexpr Duration twin_time = std::chrono::milliseconds(20);
 
-  /// `servo`: as it was recognised. It is to prove that it has run since `since`; empty: only that
-  /// it is still the same, unless a restart was heard. `roster` outlives the job.
+  /// `servo`: as recognised. It is to prove that it has run since `since`; empty: only that it is
+  /// still the same, unless a restart was heard. `roster` outlives the job.
   RunProof(const Roster& roster, const Servo& servo, std::optional<Time> since, Patience patience);
 
   [[nodiscard]] dronecan::Step next(const dronecan::Outcome& outcome) override;
@@ -36,7 +36,7 @@ class RunProof final : public dronecan::Job {
   /// timeout, no_acknowledge, interrupted, state (it is another unit), duplicate_node_id.
   [[nodiscard]] const std::optional<Error>& error() const { return error_; }
 
-  /// Of these the last two.
+  /// Whether the error is one of the last two.
   [[nodiscard]] bool has_met_another() const {
     return error_ && (error_->code == Code::state || error_->code == Code::duplicate_node_id);
   }
@@ -58,10 +58,10 @@ class RunProof final : public dronecan::Job {
   dronecan::NodeId id_;
   std::optional<dronecan::UniqueId> unique_id_;
   std::uint32_t boot_;
-  std::optional<UptimeCheck> check_; ///< empty: it need not have run on
+  std::optional<UptimeCheck> check_; ///< empty: restarts are allowed
   Patience patience_;
   At at_ = At::begin;
-  int uptimes_ = 0; ///< that told nothing
+  int uptimes_ = 0; ///< that were inconclusive
   Verdict verdict_ = Verdict::failed;
   std::optional<Error> error_;
 };

@@ -19,15 +19,15 @@
 
 namespace blactl::fleet {
 
-/// What a process says that one of these signals ends.
+/// The error of a process ended by one of these signals.
 [[nodiscard]] Error interrupted_by(int signal);
 
 class Session {
  public:
-  /// What of the bus this session wants to hear; a kernel filter keeps the rest away.
+  /// The frames this session receives; a kernel filter drops the others.
   enum class Hearing : std::uint8_t {
     answers,  ///< services for us, NodeStatus, actuator.Status, Allocation, and frames with our ID
-    commands, ///< also what a writer must know: ArrayCommand, ArmingStatus, GetSet requests
+    commands, ///< also those needed before writing: ArrayCommand, ArmingStatus, GetSet requests
     all,
   };
 
@@ -42,7 +42,7 @@ class Session {
 
   [[nodiscard]] const Roster& roster() const { return roster_; }
 
-  /// The roster for jobs: they enter what nodes say of themselves.
+  /// The roster for jobs, which enter responses.
   [[nodiscard]] Roster& records() { return roster_; }
 
   [[nodiscard]] dronecan::Node& node() { return node_; }
@@ -51,50 +51,50 @@ class Session {
 
   [[nodiscard]] Time now() const { return loop_.now(); }
 
-  /// The same moment by the calendar.
+  /// The present wall time.
   [[nodiscard]] WallTime wall() const { return loop_.wall(); }
 
-  /// When the bus was open: since then it has been heard.
+  /// The time at which the bus was opened and first heard.
   [[nodiscard]] Time opened() const { return opened_; }
 
-  /// The bus is a log: what is asked is answered from it.
+  /// Whether the bus is a log: it provides the responses.
   [[nodiscard]] bool is_recording() const { return playback_.has_value(); }
 
-  /// It is, and all of it was heard.
+  /// Whether it is, and all of it was heard.
   [[nodiscard]] bool has_played() const { return playback_ && playback_->finished(); }
 
-  /// False: nothing is sent, without a node ID of our own.
+  /// False: nothing is sent, for want of our own node ID.
   [[nodiscard]] bool may_ask() const { return node_.id().is_unicast() || playback_.has_value(); }
 
-  /// What a file says of a servo counts as if it had been heard. Only on a recording.
+  /// Takes a servo from a file as if it had been heard. Only on a recording.
   void recall(const RecordedServo& recorded);
 
-  /// On a recording nobody is asked: the job is answered from it, as soon as all of it was heard.
+  /// Starts a job. On a recording it gets its responses from there, as soon as all of it was heard.
   void start(dronecan::Job& job);
 
-  /// Ends a job that runs, with the outcome `cancelled`.
+  /// Ends a running job, with the outcome `cancelled`.
   void cancel(dronecan::Job& job) { node_.cancel(job, loop_.now()); }
 
-  /// Begins these jobs and lives until they have ended; what else runs goes on. Errors: as
-  /// live_until().
+  /// Starts these jobs and waits until they have ended; others go on. Errors: as live_until().
   [[nodiscard]] Result<void> run(std::span<dronecan::Job* const> jobs);
 
-  /// Lets a service hear and act; it must live until detach().
+  /// Lets a service receive and act; it must live until detach().
   void attach(dronecan::Service& service) { services_.push_back(&service); }
 
   void detach(dronecan::Service& service) { std::erase(services_, &service); }
 
-  /// Counts all frames from now on, ours too; null: no more. It must live as long as it counts.
+  /// Counts all frames from now on, including ours; null: stops counting. It must live as long as
+  /// it counts.
   void count(Traffic* traffic) { traffic_ = traffic; }
 
-  /// For a command that waits for servos: a bus on which nobody acknowledges is no error.
+  /// For a command that waits for servos: a bus without acknowledgements is not an error.
   void wait_alone() { waits_alone_ = true; }
 
-  /// Called when a first signal came while jobs run that must not be left half done: they have
-  /// some grace to end. A second signal ends all at once.
+  /// Called when a first signal comes while jobs run that must not be left half done: they have
+  /// some grace to end. A second signal ends everything at once.
   void on_stopping(std::function<void()> hook) { stopping_ = std::move(hook); }
 
-  /// Called for every question that goes out or stays without an answer; see dronecan::Node::Hooks.
+  /// Called for every request that is sent or gets no response; see dronecan::Node::Hooks.
   using RequestHook = std::function<void(const dronecan::Request&, int tries)>;
 
   void on_requests(RequestHook asked, RequestHook unanswered) {
@@ -102,74 +102,72 @@ class Session {
     unanswered_ = std::move(unanswered);
   }
 
-  /// Called when another node had our node ID and this one took another.
+  /// Called when another node had our node ID and this one took a new one.
   using IdHook = std::function<void(const state::LocalNodeId&)>;
 
   void on_new_id(IdHook hook) { new_id_ = std::move(hook); }
 
   static constexpr Duration usual_grace = std::chrono::seconds(3);
 
-  /// Of a command that puts back what it changed (contract, section 2).
+  /// For a command that restores what it changed (contract, section 2).
   static constexpr Duration put_back_grace = std::chrono::seconds(10);
 
-  /// Another grace, for a command that puts back what it changed: until that is over the session
-  /// lives on after a first signal, whatever that has ended.
+  /// Sets the grace of a command that restores what it changed: until it is over the session lives
+  /// on after a first signal.
   void set_grace(Duration grace) { grace_ = grace; }
 
   /// Called when the interface goes away and is waited for, and when it is back; see away().
   void on_away(std::function<void()> hook) { away_hook_ = std::move(hook); }
 
-  /// Why the interface is away; empty: it is not.
+  /// The reason why the interface is away; empty: it is present.
   [[nodiscard]] const std::optional<Error>& away() const { return away_; }
 
-  /// Lives until the bus is open: what is asked from then on, and how long is listened, has nothing
-  /// to do with how long an adapter took. A node ID of our own that is no tool's is listened for
-  /// before it is used.
+  /// Waits until the bus is open, so that timeouts and listening times do not include an adapter's
+  /// start. Our own node ID, unless it is one for tools, is listened for before it is used.
   [[nodiscard]] Result<void> wait_until_open();
 
-  /// Lives until `deadline`; on a recording that does not come at its own pace, until all of it was
-  /// heard, whatever the deadline.
-  /// Errors of this, run() and wait_until_open(): interrupted, interface, bus_off, no_acknowledge,
-  /// duplicate_node_id, no_local_node_id (others have our IDs); of a recording: bad_file. They end
-  /// the session: every job is cancelled.
+  /// Runs until `deadline`; on a recording that is not played at its own pace, until all of it was
+  /// heard, whatever the deadline. Errors of this, run() and wait_until_open(): interrupted,
+  /// interface, bus_off, no_acknowledge, duplicate_node_id, no_local_node_id (others have our IDs);
+  /// for a recording: bad_file. They end the session: every job is cancelled.
   [[nodiscard]] Result<void> live_until(Time deadline);
 
-  /// Lives until `done` holds, which is looked at after every event; whether it did before
+  /// Runs until `done` holds, which is checked after every event; returns whether it did before
   /// `deadline`.
   [[nodiscard]] Result<bool> live_until(Time deadline, const std::function<bool()>& done);
 
-  /// Lives until no job is left.
+  /// Runs until no job is left.
   [[nodiscard]] Result<void> run();
 
-  /// Calls `hook` whenever `descriptor` can be read, for as long as the session lives; empty: not
-  /// any more.
+  /// Calls `hook` whenever `descriptor` is readable, as long as the session lives; empty: stops
+  /// that.
   void on_input(int descriptor, std::function<void()> hook);
 
-  /// Called when the terminal has another size.
+  /// Called when the size of the terminal changes.
   void on_resize(std::function<void()> hook) { resized_ = std::move(hook); }
 
-  /// Lives until `descriptor` (where a person answers a question) can be read.
+  /// Waits until `descriptor` (for the user's answer) is readable.
   [[nodiscard]] Result<void> wait_for_input(int descriptor);
 
   /// The signal that ended the session; 0: none.
   [[nodiscard]] int signal() const { return signal_; }
 
-  /// What a person should know of how the bus was opened; empty: nothing.
+  /// A note on the opening of the bus; empty: none.
   [[nodiscard]] const std::string& opening_note() const { return opening_note_; }
 
-  /// Something of DroneCAN was heard, of whomever.
+  /// Whether any DroneCAN traffic was heard.
   [[nodiscard]] bool heard_anything() const { return heard_anything_; }
 
-  /// What of the transport explains that nothing was heard (see can::Bus).
+  /// The transport's reason why nothing was heard (see can::Bus).
   [[nodiscard]] std::optional<Error> silence() const { return loop_.bus().silence(); }
 
   /// Frames that the kernel dropped.
   [[nodiscard]] std::uint64_t lost_frames() const { return lost_; }
 
-  /// What came and was no frame of classic CAN.
+  /// Received items that were not frames of classic CAN.
   [[nodiscard]] std::uint64_t unreadable() const { return loop_.bus().unreadable(); }
 
-  /// Frames of ours that never were acknowledged: the kernel may still send what it was given.
+  /// Our frames that were never acknowledged: the kernel may still send those it has.
   [[nodiscard]] std::size_t unsent() const { return loop_.unsent(); }
 
  private:
@@ -203,7 +201,7 @@ class Session {
   std::vector<dronecan::Service*> services_;
   Traffic* traffic_ = nullptr;
   std::function<void()> stopping_, resized_;
-  int input_ = -1; ///< of on_input()
+  int input_ = -1; ///< for on_input()
   std::function<void()> input_hook_;
   std::function<void()> away_hook_;
   std::optional<Error> away_;
@@ -212,7 +210,7 @@ class Session {
   bool waits_alone_ = false;
   int signal_ = 0;
   Duration grace_ = usual_grace;
-  Time give_up_at_ = never; ///< after a signal: when running jobs are left half done
+  Time give_up_at_ = never; ///< after a signal: when running jobs are abandoned
   std::uint64_t lost_ = 0;
   Time opened_{};
   std::string opening_note_;

@@ -14,11 +14,11 @@ namespace blactl::fleet {
 
 struct Snapshots {
   std::vector<Snapshot> servos;  ///< in the order asked
-  std::optional<Error> broken{}; ///< why the session ended in between: they are not complete
+  std::optional<Error> broken{}; ///< the error that ended the session early: they are incomplete
 };
 
-/// Reads the registers that `choice` names of several servos at once. On a recording nothing is
-/// proven, whatever `proof` says.
+/// Reads the registers named by `choice` from several servos at once. On a recording nothing is
+/// proven, whatever `proof`.
 [[nodiscard]] Snapshots take_snapshots(Session& session, const bla::Profiles& profiles,
                                        std::span<const dronecan::NodeId> servos,
                                        const Identification::Options& options,

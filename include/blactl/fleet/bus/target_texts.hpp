@@ -1,5 +1,5 @@
 #pragma once
-// What is said of which nodes are meant, and which of them are there.
+// Messages about the selected nodes, and which of them are present.
 
 #include "blactl/base/text.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-// What is said of answers, reading and writing, and what no other catalogue of the floor has.
+// Messages about responses, reading and writing, and others without their own catalogue.
 
 #include "blactl/base/text.hpp"
 
@@ -32,7 +32,7 @@ inline constexpr Text register_refused_hint{
     "このサーボのファームウェアには無いパラメータかもしれません: blactl get firmware_version -n {}",
 };
 inline constexpr Text no_register_value{
-    "node {}: what the servo answers for {} is no value of that register",
+    "node {}: the answer of the servo for {} is not a value of that register",
     "ノード {}: {} の応答がこのレジスタの値ではありません"};
 inline constexpr Text nobody_acknowledges{
     "{}: nobody acknowledges our frames",
@@ -101,7 +101,7 @@ inline constexpr Text rom_unreadable_hint{
 inline constexpr Text another_servo{"node {} is another servo now",
                                     "ノード {} は別のサーボに替わりました"};
 inline constexpr Text opcode_refused_hint{
-    "does it tell why? blactl get -n {} --group fault",
+    "a fault may be the reason: blactl get -n {} --group fault",
     "原因を異常情報で確認して下さい: blactl get -n {} --group fault"};
 inline constexpr Text not_proven_any_more{
     "node {} was written to, but does not answer any more: whether it still holds the values is "
@@ -122,7 +122,7 @@ inline constexpr Text written_while_read{
 inline constexpr Text faults_flicker{"node {}: its faults come and go while they are read",
                                      "ノード {}: 読出し中に異常の発生と解消を繰り返しています"};
 inline constexpr Text faults_not_recorded{
-    "node {}: it tells of faults which the registers in the recording do not show",
+    "node {}: it reports faults that the registers in the recording do not show",
     "ノード {}: 異常が通知されていますが、記録されたレジスタの値に現れていません"};
 inline constexpr Text faults_not_recorded_hint{"record them: blactl faults --record FILE",
                                                "記録するには: blactl faults --record FILE"};
@@ -176,7 +176,7 @@ inline constexpr Text question_change{"  node {}: {} {} -> {}\n", "  ノード {
 inline constexpr Text question_reason{"    ({})\n", "    ({})\n"};
 inline constexpr Text unknown_before{"?", "?"};
 inline constexpr Text warn_stall{
-    "firmware {} may stall at low speed; 1.400 mends it",
+    "firmware {} may stall at low speed; 1.400 fixes it",
     "ファームウェア {} は低速動作時にストールすることがあります (1.400 で修正)",
 };
 inline constexpr Text warn_unknown_model{"no profile fits: it can only be read",
@@ -209,7 +209,7 @@ inline constexpr Text or_a_group{" (all of a group: --group {})", " (グルー�
 inline constexpr Text known_groups{"the groups are {}", "グループ: {}"};
 
 inline constexpr Text no_setting_in_history{
-    "the change history says that {} was replaced, which is no setting",
+    "the change history says that {} was replaced, which is not a setting",
     "変更履歴にある {} は設定項目ではありません"};
 inline constexpr Text no_setting_in_history_hint{
     "if it is one of a profile, name its folder with --profile-dir; else another program has "

@@ -1,5 +1,5 @@
 #pragma once
-// Regular moments for somebody who shows how far a command is.
+// Regular calls for progress displays.
 
 #include "blactl/dronecan/service.hpp"
 #include "blactl/fleet/bus/session.hpp"
@@ -9,7 +9,8 @@
 
 namespace blactl::fleet {
 
-/// Calls a hook once every `period` for as long as it lives. On a recording nobody waits: never.
+/// Calls a hook once every `period` during its lifetime; never on a recording, where there is no
+/// waiting.
 class Ticker final : private dronecan::Service {
  public:
   /// `session` outlives this.

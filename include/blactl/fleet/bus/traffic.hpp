@@ -1,6 +1,6 @@
 #pragma once
-// What crosses a bus, counted: how busy it is, who sends how much, what controllers complain about,
-// what of our requests is answered.
+// Counters of a bus: its load, the frames of each sender, the complaints of controllers, and the
+// responses to our requests.
 
 #include "blactl/base/time.hpp"
 #include "blactl/can/bus.hpp"
@@ -13,32 +13,32 @@
 
 namespace blactl::fleet {
 
-/// Counts from the first frame to the last. Bounded: one entry a node ID and a kind of fault.
+/// Counts from the first frame to the last. Bounded: one entry per node ID and kind of fault.
 class Traffic {
  public:
   struct Sender {
     std::uint64_t frames = 0;
     std::uint64_t bits = 0;
-    std::uint64_t statuses = 0; ///< NodeStatus, which each node sends once a second
+    std::uint64_t statuses = 0; ///< NodeStatus, sent once a second by each node
   };
 
-  /// A frame of another node.
+  /// Takes a frame of another node.
   void hear(const can::Frame& frame, Time at);
 
-  /// The echo of a frame of ours.
+  /// Takes the echo of a frame of ours.
   void hear_own(const can::Frame& frame, Time at);
 
   void hear(const can::BusFault& fault);
 
   [[nodiscard]] std::uint64_t frames() const { return frames_; }
 
-  /// Somebody else was heard.
+  /// Whether any other node was heard.
   [[nodiscard]] bool has_others() const { return frames_ > own_frames_; }
 
-  /// A request of ours to this node went out.
+  /// Counts a request of ours to this node.
   void ask(dronecan::NodeId server) { ++questions_[server].asked; }
 
-  /// It was not answered in time.
+  /// Counts a request without a response in time.
   void miss_answer(dronecan::NodeId server) { ++questions_[server].unanswered; }
 
   /// Each try counts.
@@ -51,19 +51,19 @@ class Traffic {
     return found != questions_.end() ? found->second : Questions{};
   }
 
-  /// What a log says of when its next frame was; its bus clock never goes back.
+  /// Takes a log's timestamp for its next frame; its bus clock never goes back.
   void stamp(WallTime wall);
 
-  /// The stamps did: they tell no duration.
+  /// Whether the timestamps went back, so that they give no duration.
   [[nodiscard]] bool runs_backwards() const { return runs_backwards_; }
 
-  /// With 11-bit identifiers: DroneCAN has none.
+  /// Frames with 11-bit identifiers, which DroneCAN does not use.
   [[nodiscard]] std::uint64_t standard_frames() const { return standard_frames_; }
 
-  /// From the first frame to the last; empty: there were not two, or its stamps run backwards.
+  /// From the first frame to the last; empty: fewer than two, or the timestamps go backwards.
   [[nodiscard]] std::optional<Duration> duration() const;
 
-  /// How much of a bus of 1 Mbit/s was in use, in thousandths; empty: no duration.
+  /// The load of a bus of 1 Mbit/s, in thousandths; empty: no duration.
   [[nodiscard]] std::optional<std::uint64_t> load_permille() const;
 
   /// By node ID; 0: anonymous.

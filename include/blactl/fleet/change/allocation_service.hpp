@@ -1,6 +1,6 @@
 #pragma once
-// Gives node IDs on a session: the allocator with the table that outlives the process.
-// DroneCAN specification 6, uavcan/protocol/dynamic_node_id/1.Allocation.uavcan; Futaba 2.3.
+// Allocates node IDs on a session: the allocator with the table that outlives the process. DroneCAN
+// specification 6, uavcan/protocol/dynamic_node_id/1.Allocation.uavcan; Futaba 2.3.
 
 #include "blactl/base/error.hpp"
 #include "blactl/dronecan/allocator.hpp"
@@ -14,39 +14,40 @@
 
 namespace blactl::fleet {
 
-/// A unit that asked for a node ID, and what came of it.
+/// A unit that asked for a node ID, and the result.
 struct AllocatedUnit {
   dronecan::UniqueId unique_id{};
-  dronecan::NodeId node_id{};     ///< of the table; 0: it has none
+  dronecan::NodeId node_id{};     ///< from the table; 0: none
   bool is_new = false;            ///< it was not in the table before
   Time asked_at{};                ///< the last time
-  std::optional<Error> refused{}; ///< why it was given none: duplicate_node_id, table_full
-  bool is_shared = false;         ///< refused, too: it has got its ID, and so has another unit
-  unsigned given = 0;             ///< how often in a row, without being heard under it
-  bool is_deaf = false;           ///< it was given its ID again and again, and asks on
+  std::optional<Error> refused{}; ///< why it got none: duplicate_node_id, table_full
+  bool is_shared = false; ///< refused, too: its ID was assigned, and is used by another unit
+  unsigned given = 0;     ///< how often in a row, without the unit being heard under it
+  bool is_deaf = false;   ///< it was assigned its ID several times, and still asks
 };
 
-/// The node ID of a unit by the table, entered there if it is new: one that nobody on the bus has.
+/// The node ID of a unit by the table; a new unit is entered there with one that nobody on the bus
+/// has.
 /// Errors: as AllocationStore::allocate().
 [[nodiscard]] Result<dronecan::NodeId> allocate(const Session& session,
                                                 state::AllocationStore& table,
                                                 const dronecan::UniqueId& unique_id,
                                                 state::AllocationChoice choice);
 
-/// As long as it lives, units that ask for a node ID get one: what stands in the table, else one
-/// that nobody has. What goes over the wire is in the table before.
+/// During its lifetime, units that ask for a node ID get one: that of the table, else a free one.
+/// Every ID is in the table before it goes over the wire.
 ///
-/// Until bus_is_known() only those of the table are served: whoever is on the bus has had no time
-/// to be heard. It ends by itself when another allocator is heard, or the table cannot be used.
+/// Until bus_is_known() only units of the table are served, as other nodes have had no time to be
+/// heard. It ends by itself when another allocator is heard, or the table cannot be used.
 class AllocationService final : private dronecan::Service, private dronecan::AllocationTable {
  public:
   enum class Event : std::uint8_t {
-    request,  ///< a unit has told all of its unique ID
-    assigned, ///< it is new in the table, and the answer goes out
-    kept,     ///< it was in the table, and the answer goes out
-    conflict, ///< the ID that it has in the table is another unit's on the bus
+    request,  ///< a unit has sent its complete unique ID
+    assigned, ///< it is new in the table, and the response goes out
+    kept,     ///< it was in the table, and the response goes out
+    conflict, ///< its ID in the table is used by another unit on the bus
     full,     ///< no ID of the range is free
-    deaf      ///< it does not take the ID that it is given; it goes on being given, untold
+    deaf      ///< it does not accept its ID; further responses are not reported
   };
 
   using Hook = std::function<void(Event, const AllocatedUnit&)>;
@@ -56,8 +57,8 @@ class AllocationService final : private dronecan::Service, private dronecan::All
     dronecan::NodeId last = state::last_dynamic_id;
   };
 
-  /// `session` and `store` outlive this. `range`: where new IDs are taken from. `hook` is called
-  /// for everything that happens; what lasts, as a refusal does, happens once.
+  /// `session` and `store` outlive this. `range`: for new IDs. `hook` is called for every event;
+  /// for a lasting one, such as a refusal, once.
   AllocationService(Session& session, state::AllocationStore& store, Range range, Hook hook);
   ~AllocationService() override;
   AllocationService(const AllocationService&) = delete;
@@ -68,32 +69,31 @@ class AllocationService final : private dronecan::Service, private dronecan::All
   /// The bus was heard for bus_watch_time and silent nodes were looked for: new units are served.
   void bus_is_known() { bus_is_known_ = true; }
 
-  /// Why it does not serve any more. Errors: other_allocator, naming the node; those of the table
+  /// The reason why it has stopped. Errors: other_allocator, naming the node; those of the table
   /// (bad_file, permission, io).
   [[nodiscard]] std::optional<Error> end() const;
 
-  /// Those that asked, by unique ID. Bounded: a flood of strangers is not remembered.
+  /// The units that asked, by unique ID. Bounded: a flood of unknown units is not stored.
   [[nodiscard]] const std::map<dronecan::UniqueId, AllocatedUnit>& units() const { return units_; }
 
-  /// It was heard under the ID that it was given, and said that it is this unit.
+  /// Whether it was heard under its assigned ID, and identified itself as this unit.
   [[nodiscard]] bool is_there(const AllocatedUnit& unit) const;
 
-  /// Why it has no ID of its own: as `refused`, with what is known now. Empty: nothing is against
-  /// it.
+  /// The reason why it has no ID of its own: as `refused`, by present knowledge. Empty: none.
   [[nodiscard]] std::optional<Error> refusal(const AllocatedUnit& unit) const;
 
-  /// Why a unit that is not refused is not there. It has an ID in the table.
+  /// The reason why a unit that is not refused is not there. It has an ID in the table.
   [[nodiscard]] Error absence(const AllocatedUnit& unit) const;
 
-  /// When a unit asked last that may still get somewhere, so none that is refused or deaf; the
-  /// begin of this service, if none did.
+  /// The last request of a unit that may still succeed, so not of refused or deaf ones; without
+  /// one, the start of this service.
   [[nodiscard]] Time last_request() const { return last_request_; }
 
-  /// How many units ask now: they did of late, and have not been heard under an ID since. Units
-  /// whose unique IDs begin alike count as one.
+  /// The number of units asking: recently, and not heard under an ID since. Units whose unique IDs
+  /// begin alike count as one.
   [[nodiscard]] std::size_t asking() const;
 
-  /// How many IDs of the range are left for new units. Errors: of the table.
+  /// The number of IDs in the range left for new units. Errors: of the table.
   [[nodiscard]] Result<std::size_t> free_ids() const;
 
  private:
@@ -132,7 +132,7 @@ class AllocationService final : private dronecan::Service, private dronecan::All
   std::map<dronecan::UniqueId, AllocatedUnit> units_;
   std::optional<Error> failure_; ///< of the table
   Time last_request_;
-  std::map<UniqueIdPrefix, Time> first_parts_; ///< of requests, when they were heard last
+  std::map<UniqueIdPrefix, Time> first_parts_; ///< of requests, with the last time heard
   bool bus_is_known_ = false;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-// The one way in which servos are changed: goals in, every refusal out, one question, results
-// (contract, sections 4 and 6). Nothing else writes settings, saves, erases or restarts.
+// The only way to change servos: goals in, all refusals out, one question, results (contract,
+// sections 4 and 6). Nothing else writes settings, saves, erases or restarts.
 
 #include "blactl/base/error.hpp"
 #include "blactl/bla/profile.hpp"
@@ -24,23 +24,23 @@ class Rounds;
 struct UnitChange;
 struct UnitTask;
 
-/// First prepare(), then carry_out(). Guard, survey, promised IDs, cross-checks, history, proofs
-/// and the allocation table belong to it, whatever the goals are.
+/// Call prepare(), then carry_out(). Guard, survey, promised IDs, cross-checks, history, proofs and
+/// the allocation table apply, whatever the goals.
 class Change {
  public:
   struct Options {
     Manner manner{};
-    bool stops_at_failure = false; ///< nothing begins after a round in which a servo failed
+    bool stops_at_failure = false; ///< nothing begins after a round with a failed servo
     bool knows_ids = false;        ///< the bus was searched, with the static node IDs
-    /// When the bus was searched for the servos that are meant: who came since may be one of them.
+    /// The time of the search for the selected servos: nodes that came since may be among them.
     /// Empty: they were named.
     std::optional<Time> searched{};
-    /// It is the way back of a loan: the bus was heard before, and one that refuses keeps no other
-    /// from it.
+    /// The return of a loan: the bus was heard before, and one that refuses does not prevent the
+    /// others.
     bool gives_back = false;
   };
 
-  /// Called for every move of a node ID that is proven.
+  /// Called for every proven move of a node ID.
   using MoveHook = std::function<void(const IdMove& move)>;
 
   /// Both references outlive this.
@@ -51,23 +51,23 @@ class Change {
   Change& operator=(const Change&) = delete;
   Change& operator=(Change&&) = delete;
 
-  /// Reads the servos, judges what each needs, and hears the bus; nobody is changed if one refuses.
+  /// Reads the servos, plans each change, and hears the bus; if one refuses none is changed.
   /// Errors, all of them: why a servo could not be read; as make_plan(), plan_id_moves(),
-  /// conflict() and forbidden(); state (a servo has come since, frames were lost); what ends a
-  /// session stands alone.
+  /// conflict() and forbidden(); state (a servo has come since, frames were lost); one that ends a
+  /// session is the only one.
   [[nodiscard]] std::vector<Error> prepare(std::vector<Goal> goals);
 
-  /// What a person should know before the question, each once.
+  /// Notes for the user before the question, each once.
   [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
 
-  /// The one question before all of it; empty: nothing has to be asked.
+  /// The one question before everything; empty: none needed.
   [[nodiscard]] std::string question() const;
 
-  /// Asks the guard once more, after a question; then brings each servo to its goal. Errors: why it
-  /// did not begin or go on; what went wrong with single servos is in results().
+  /// Asks the guard again, after a question; then brings each servo to its goal. Errors: why it did
+  /// not begin or go on; those of single servos are in results().
   [[nodiscard]] std::vector<Error> carry_out(const MoveHook& moved = {});
 
-  /// In the order of the goals, after prepare(): what is planned, then what came of it.
+  /// In the order of the goals, after prepare(): the plans, then the results.
   [[nodiscard]] const std::vector<GoalResult>& results() const { return results_; }
 
  private:

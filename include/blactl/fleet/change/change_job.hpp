@@ -1,5 +1,5 @@
 #pragma once
-// Carries the plan of one servo out to its end, without waiting for any other servo.
+// Carries out the plan of one servo to its end, without waiting for any other servo.
 
 #include "blactl/bla/profile.hpp"
 #include "blactl/fleet/bus/read_job.hpp"
@@ -17,25 +17,25 @@
 
 namespace blactl::fleet {
 
-/// What is being done to a servo, for those who watch.
+/// The present work on a servo, for observers.
 enum class ChangeStage : std::uint8_t { erase, write, save, restart, read, end };
 [[nodiscard]] std::string_view name(ChangeStage stage);
 
-/// Told when a stage begins; the servo as it was recognised last.
+/// Called when a stage begins, with the servo as last recognised.
 using StageHook = std::function<void(const Servo& servo, ChangeStage stage)>;
 
 /// Erases and reads back, writes, restarts, recognises the servo and reads it once more: each stage
-/// is a job of its own, and begins only if everything before it went well. Where nothing proves
-/// that the servo ran on until SAVE, it is looked at again before: SAVE keeps what RAM holds then.
-/// What is to be shown and is no setting is read last, as the changes have left it.
+/// is its own job, and begins only if all earlier ones succeeded. If nothing proves that the servo
+/// has not restarted before SAVE, RAM is read again first, as SAVE keeps its contents. Shown values
+/// that are not settings are read last, after the changes.
 class ChangeJob final : public dronecan::Job {
  public:
   struct Options {
     Identification::Options identification{};
-    Time start{};                ///< of the restart: not before
-    Duration come_back{};        ///< how long a restart may take
-    RestartPace* pace = nullptr; ///< outlives the job; null: nobody else is waited for
-    bool while_driven = false;   ///< what moves the servo, also while another node drives it
+    Time start{};                ///< earliest time of the restart
+    Duration come_back{};        ///< the longest time of a restart
+    RestartPace* pace = nullptr; ///< outlives the job; null: no other servo is waited for
+    bool while_driven = false;   ///< as Manner
     StageHook entered{};         ///< may be empty
   };
 
@@ -44,20 +44,20 @@ class ChangeJob final : public dronecan::Job {
 
   [[nodiscard]] dronecan::Step next(const dronecan::Outcome& outcome) override;
 
-  /// From the request to restart until what the servo holds has been read.
+  /// From the request to restart until the servo has been read.
   [[nodiscard]] bool must_finish() const override;
 
-  /// The job has ended, and others have not: is its result still true, as far as was heard? What
-  /// was in RAM only is lost by a restart, and another node may have written to it since; what was
-  /// proven may be of another unit on the same ID.
+  /// For a job that has ended before others: checks that its result still holds, as far as heard.
+  /// Changes in RAM only are lost by a restart, and another node may have written since; the proof
+  /// may be of another unit on the same ID.
   void look_back();
 
-  /// It was told to save or to restart, and is not back.
+  /// Whether it was ordered to save or restart, and is not back.
   [[nodiscard]] bool is_away() const { return stage_ == Stage::restart && restart_->is_sent(); }
 
   [[nodiscard]] bool has_ended() const { return stage_ == Stage::end; }
 
-  /// How far it came; whole when the job has ended.
+  /// The result so far; complete when the job has ended.
   [[nodiscard]] const ChangeResult& result() const { return result_; }
 
  private:
@@ -67,7 +67,7 @@ class ChangeJob final : public dronecan::Job {
     read_erased,
     write,
     restart,
-    look, ///< instead of a SAVE that was not sent
+    look, ///< in place of a SAVE that was not sent
     read_back,
     read_shown,
     end,
@@ -115,7 +115,7 @@ class ChangeJob final : public dronecan::Job {
   const Plan& plan_;
   Options options_;
   Stage stage_ = Stage::begin;
-  Servo servo_; ///< as it was recognised last, before a restart of ours
+  Servo servo_; ///< as last recognised, before our restart
   bool may_erase_again_ = true;
   int looks_ = 0;
   Time begin_{};
@@ -123,7 +123,7 @@ class ChangeJob final : public dronecan::Job {
   std::unique_ptr<WriteJob> write_;
   std::unique_ptr<RestartJob> restart_;
   std::unique_ptr<ReadJob> read_;
-  dronecan::Job* job_ = nullptr; ///< the one of this stage
+  dronecan::Job* job_ = nullptr; ///< of this stage
   ChangeResult result_;
 };
 

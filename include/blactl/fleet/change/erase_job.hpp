@@ -11,8 +11,8 @@
 
 namespace blactl::fleet {
 
-/// ERASE (opcode 1; 2.3, 4.9) is sent once. Without an answer the registers must tell whether it
-/// was carried out: that is for the caller to read.
+/// Sends ERASE (opcode 1; 2.3, 4.9) once. Without a response the caller must read the registers to
+/// see whether it was carried out.
 class EraseJob final : public dronecan::Job {
  public:
   /// `roster` outlives the job. `may_be_driven`: also while another node drives the servo.
@@ -24,11 +24,11 @@ class EraseJob final : public dronecan::Job {
 
   [[nodiscard]] bool is_confirmed() const { return is_confirmed_; }
 
-  /// The request left this machine, or may have.
+  /// Whether the request left this machine, or may have.
   [[nodiscard]] bool is_sent() const { return at_ == At::request && !is_withheld_; }
 
-  /// The request did not leave this machine for certain, or the servo refused it; empty also where
-  /// the answer was lost. Errors: refused, no_acknowledge, interrupted, state; as Guard::forbids().
+  /// Set if the request certainly did not leave this machine, or the servo refused it; empty also
+  /// if the response was lost. Errors: refused, no_acknowledge, interrupted, state; as Guard::forbids().
   [[nodiscard]] const std::optional<Error>& error() const { return error_; }
 
  private:

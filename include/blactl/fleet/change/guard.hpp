@@ -1,5 +1,5 @@
 #pragma once
-// What the others on the bus forbid (contract, section 4).
+// Refusals because of other nodes on the bus (contract, section 4).
 
 #include "blactl/dronecan/node.hpp"
 #include "blactl/fleet/bus/roster.hpp"
@@ -13,16 +13,16 @@ namespace blactl::fleet {
 
 struct Plan;
 
-/// Decides whether anything may be sent that changes a servo, as far as the bus was heard. Nobody
-/// else does: it is asked before each write, opcode, restart and ArrayCommand, however long a
-/// command runs.
+/// The only judge of whether a request that changes a servo may be sent, as far as the bus was
+/// heard. It is asked before each write, opcode, restart and ArrayCommand, however long a command
+/// runs.
 class Guard {
  public:
   /// `roster` outlives this. `may_be_driven`: also while another node drives the servo.
   Guard(const Roster& roster, bool may_be_driven)
       : roster_(&roster), may_be_driven_(may_be_driven) {}
 
-  /// Why nothing may be sent to this servo now; empty: it may. Errors: duplicate_node_id, armed,
+  /// The reason why nothing may be sent to this servo now; empty: it may. Errors: duplicate_node_id, armed,
   /// driven.
   [[nodiscard]] std::optional<Error> forbids(const Servo& servo, Time now) const;
 
@@ -35,22 +35,22 @@ class Guard {
   bool may_be_driven_;
 };
 
-/// Why this plan must not be carried out now, as far as the bus was heard; empty: it may.
+/// The reason why this plan must not be carried out now, as far as the bus was heard; empty: it may.
 /// Errors: as Guard::forbids(), driven only if the plan moves the servo and not `while_driven`;
 /// state (the servo restarted since it was read); out_of_range for a static node ID that is ours;
-/// what others have is for survey() to find.
+/// IDs of others are checked by survey().
 [[nodiscard]] std::optional<Error> forbidden(const Roster& roster, Time now, const Plan& plan,
                                              bool while_driven);
 
-/// What was heard of the others before anything is written.
+/// The findings about other nodes before anything is written.
 struct OthersHeard {
-  std::vector<std::string> notes{}; ///< what a person should know of them
+  std::vector<std::string> notes{}; ///< notes for the user
   std::vector<Error> errors{};      ///< why nothing may be written
 };
 
-/// Lives until the bus was heard long enough to know who acts on it. `searched`: when servos were
-/// chosen by a search; one that came since may be one of those that are meant. Errors: state (that,
-/// or frames were lost); what ends a session stands alone.
+/// Waits until the bus was heard long enough to know the active nodes. `searched`: the time of the
+/// search for the servos; one that came since may be among the selected ones. Errors: state (such a
+/// servo, or lost frames); one that ends a session is the only one.
 [[nodiscard]] OthersHeard hear_others(Session& session, std::optional<Time> searched);
 
 } // namespace blactl::fleet

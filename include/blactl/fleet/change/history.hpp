@@ -1,6 +1,6 @@
 #pragma once
-// What outlives a change of servos: what they held before it, and what their ROM was proven to hold
-// after it.
+// The persistent record of changes: the servos' settings before, and the proven contents of their
+// ROM after.
 
 #include "blactl/base/error.hpp"
 #include "blactl/base/time.hpp"
@@ -21,40 +21,40 @@
 
 namespace blactl::fleet {
 
-/// The record of one command, in however many rounds it changes servos. Errors of its functions are
-/// those of the stores: what was to be kept is not, and nothing else has changed.
+/// The record of one command, over all of its rounds. Errors of its functions are those of the
+/// stores: the record is incomplete then, with no other effect.
 class History {
  public:
-  /// `command`: its name, as people type it.
+  /// `command`: its name as typed.
   History(std::string command, state::SnapshotStore snapshots, state::ProofStore proofs)
       : command_(std::move(command)), snapshots_(std::move(snapshots)), proofs_(std::move(proofs)) {
   }
 
-  /// Before the first request of a round: what was proven of the ROM of servos that restart in it
-  /// ends with that, and must not be believed of what is saved then.
+  /// Before the first request of a round: removes the proofs of ROM of servos that restart in it,
+  /// which become outdated.
   [[nodiscard]] Result<void> drop_proofs(std::span<const Plan> plans);
 
-  /// Before the first request of a round: what the servos hold that are changed in it. Of one that
-  /// an earlier round has changed the record goes on: it tells what that one has found. So it does
-  /// where apply, undo or alloc --static were killed or failed, and the same command comes again:
-  /// what the first try has found is what undo goes back to.
+  /// Before the first request of a round: records the present settings of the servos changed in it.
+  /// For one changed in an earlier round the existing record is kept. So it is if apply, undo or
+  /// alloc --static were killed or failed, and the same command is repeated: undo goes back to the
+  /// state before the first try.
   [[nodiscard]] Result<void> keep(std::span<const Plan> plans, WallTime now);
 
-  /// After a round: what became of each servo, and the proofs of those whose configuration was
-  /// read, complete and as expected, after a restart.
+  /// After a round: records the result of each servo, and the proofs of those whose configuration
+  /// was read, complete and as expected, after a restart.
   [[nodiscard]] Result<void> conclude(std::span<const ChangeResult> results,
                                       const Session& session);
 
-  /// At the end of a command that is repeated as a whole where it failed (see keep()): these units
-  /// are as it was to make them.
+  /// At the end of a command that is repeated as a whole after a failure (see keep()): these units
+  /// have reached its goal.
   [[nodiscard]] Result<void> end(std::span<const dronecan::UniqueId> units);
 
-  /// This command has given these units back what they held: there is nothing to undo, and the
-  /// change before it is the last one again.
+  /// This command has restored these units: there is nothing to undo, and the change before it is
+  /// the last one again.
   [[nodiscard]] Result<void> take_back(std::span<const dronecan::UniqueId> units);
 
-  /// What the ROM of this servo holds, if that was proven and it has run on since; else empty, also
-  /// where what was recorded cannot be read.
+  /// The contents of this servo's ROM, if proven and it has not restarted since; else empty, also
+  /// if the record cannot be read.
   [[nodiscard]] std::optional<bla::Values> proven_rom(const Servo& servo, const Session& session);
 
  private:
@@ -64,7 +64,7 @@ class History {
   [[nodiscard]] Result<void> resume(const dronecan::UniqueId& unique_id);
   [[nodiscard]] bool is_half_undone() const;
 
-  /// The entry of one servo, and what is certain of it.
+  /// The entry of one servo, and its certain state.
   struct Kept {
     state::SnapshotEntry entry;
     bool was_changed = false; ///< in any round
@@ -75,11 +75,11 @@ class History {
   state::SnapshotStore snapshots_;
   state::ProofStore proofs_;
   std::map<dronecan::UniqueId, Kept> kept_;
-  std::int64_t run_ = 0;                    ///< of all entries of this command; 0: none is kept
-  std::set<dronecan::UniqueId> unproven_{}; ///< have no proof any more
+  std::int64_t run_ = 0;                    ///< of all entries of this command; 0: no record
+  std::set<dronecan::UniqueId> unproven_{}; ///< their proofs were removed
 };
 
-/// The settings whose values this plan replaces, as they are; of ERASE all that can be written.
+/// The settings that this plan replaces, with their present values; for ERASE all writable ones.
 [[nodiscard]] bla::Values replaced_by(const Plan& plan);
 
 } // namespace blactl::fleet

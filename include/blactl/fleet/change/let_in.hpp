@@ -1,5 +1,5 @@
 #pragma once
-// Node IDs for units that wait for one, before servos are changed.
+// Allocates node IDs to waiting units, before servos are changed.
 
 #include "blactl/base/error.hpp"
 #include "blactl/fleet/bus/session.hpp"
@@ -10,16 +10,16 @@
 
 namespace blactl::fleet {
 
-/// Gives units that ask for a node ID one from the table, and lives until nobody asks any more. Not
-/// where another allocator is heard. Errors: those that end a session.
+/// Allocates IDs from the table to units that ask, and waits until none asks any more. Not if
+/// another allocator is heard. Errors: those that end a session.
 [[nodiscard]] Result<void> let_in(Session& session, state::AllocationStore& table);
 
-/// Why units have no node ID though they asked for one.
+/// The reasons why units have no node ID though they asked for one.
 using NotLetIn = std::map<dronecan::UniqueId, Error>;
 
-/// The same for those alone for which an ID is wished and that are not there: each gets its own for
-/// the time being. Lives until they are there; who is still away then is for others to judge.
-/// Errors: those that end a session, and those of the table.
+/// Allocates only to missing units with a wish: each gets its wanted ID for the time being. Waits
+/// until they are there; the caller judges those still missing. Errors: those that end a session,
+/// and those of the table.
 [[nodiscard]] Result<NotLetIn> let_in(Session& session, state::AllocationStore& table,
                                       std::span<const state::AllocationStore::Wish> wishes);
 

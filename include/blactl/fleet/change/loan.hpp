@@ -1,6 +1,6 @@
 #pragma once
-// A change with its way back: one setting of several servos is changed in RAM for a time, and given
-// back at the end, after Ctrl-C and after a restart.
+// A temporary change: one setting of several servos is changed in RAM for a time, and restored at
+// the end, after Ctrl-C and after a restart.
 
 #include "blactl/base/error.hpp"
 #include "blactl/bla/assignment.hpp"
@@ -17,23 +17,22 @@
 
 namespace blactl::fleet {
 
-/// 0x20 off, so that a hand can turn the shaft. Torque that comes on discards what was commanded
-/// before: the shaft holds where it is, after a speed or torque it stands (BLA spec
-/// rev 1.11, 4.13).
+/// 0x20 off, so that the shaft can be turned by hand. When torque comes on, earlier commands are
+/// discarded: the shaft holds its position; after a speed or torque it stands still (BLA spec rev
+/// 1.11, 4.13).
 [[nodiscard]] bla::Assignment torque_off(const bla::Profiles& profiles);
 
-/// How servos got back what they held: what the register holds in the end decides, as far as they
-/// answer.
+/// The result of restoring: the final value of the register decides, if it can be read.
 struct GivenBack {
-  std::vector<dronecan::NodeId> servos; ///< were changed, and hold again what they held
-  std::vector<std::string> notes;       ///< what else happened to those that hold what they held
-  std::vector<Error> errors; ///< of those that do not, or do not answer, with what to type
+  std::vector<dronecan::NodeId> servos; ///< were changed, and have their former value again
+  std::vector<std::string> notes;       ///< other events of servos with their former value
+  std::vector<Error> errors;            ///< for all others, with the command to type
 };
 
-/// First prepare(), then take(); in the end give_back() or give_up().
+/// Call prepare(), then take(); in the end give_back() or give_up().
 class Loan {
  public:
-  /// Both references outlive this. `borrowed`: what each servo holds for the time being.
+  /// Both references outlive this. `borrowed`: the temporary value.
   Loan(Session& session, const bla::Profiles& profiles, bla::Assignment borrowed,
        Change::Options options);
 
@@ -43,27 +42,27 @@ class Loan {
   /// The change itself: its notes, its question, and its results.
   [[nodiscard]] const Change& change() const { return change_; }
 
-  /// Reads the register once more: a person takes time to say yes. Errors: state: it is not what
-  /// the plan rests on; why a servo could not be read.
+  /// Reads the register again, as the question may take a while. Errors: state: it differs from the
+  /// plan; why a servo could not be read.
   [[nodiscard]] std::vector<Error> look_again();
 
-  /// Changes them, once. Whom a write may have reached is to be given back, however this ended; of
-  /// the others it is watched whether they keep what they hold. Errors: as Change::carry_out().
+  /// Changes them, once. Servos that a write may have reached are to be restored, however this
+  /// ended; the others are watched for keeping their value. Errors: as Change::carry_out().
   [[nodiscard]] std::vector<Error> take();
 
-  /// Those that are to be given back, ascending.
+  /// Those to be restored, ascending.
   [[nodiscard]] std::vector<dronecan::NodeId> servos() const;
 
-  /// Those that are proven to hold what was borrowed, ascending.
+  /// Those proven to hold the temporary value, ascending.
   [[nodiscard]] std::vector<dronecan::NodeId> taken() const;
 
-  /// What is recorded of the change is taken back with it. Nothing is written to a servo that
-  /// restarted since (its ROM has decided), that another node has set, or that the guard names. A
-  /// signal that comes first meanwhile does not end it, within the grace of the session; a second
+  /// Restores the servos, and removes the change from the record. Nothing is written to a servo
+  /// that restarted since (its ROM has decided), that another node has set, or that the guard
+  /// refuses. A first signal meanwhile does not end it, within the grace of the session; a second
   /// one does.
   [[nodiscard]] GivenBack give_back();
 
-  /// In place of that, where nothing may be sent any more: the errors that are due.
+  /// Replaces give_back() if nothing may be sent any more: returns the errors.
   [[nodiscard]] GivenBack give_up();
 
  private:
@@ -71,16 +70,16 @@ class Loan {
     untouched, ///< nothing was written to it
     borrowed,
     given,
-    left, ///< it is not ours any more
+    left, ///< no longer ours to restore
   };
 
   struct Held {
-    Servo servo;             ///< as it was planned
-    std::int64_t before = 0; ///< what the register held
-    std::uint32_t boot = 0;  ///< when it had been changed
+    Servo servo;             ///< as planned
+    std::int64_t before = 0; ///< the former value
+    std::uint32_t boot = 0;  ///< after the change
     bool is_taken = false;
     State state = State::untouched;
-    std::optional<Error> error{}; ///< why it is not given back
+    std::optional<Error> error{}; ///< why it is not restored
   };
 
   [[nodiscard]] std::vector<Snapshot> read(std::span<const dronecan::NodeId> ids);
@@ -105,7 +104,7 @@ class Loan {
   Change::Options options_;
   Change change_;
   std::vector<Held> held_;
-  Time since_{}; ///< when they were changed
+  Time since_{}; ///< the time of the change
 };
 
 } // namespace blactl::fleet

@@ -1,5 +1,5 @@
 #pragma once
-// What is going to be done to one servo: judged before the first frame that changes anything.
+// The plan of a change to one servo, checked before the first frame that changes anything.
 
 #include "blactl/base/error.hpp"
 #include "blactl/bla/assignment.hpp"
@@ -18,75 +18,74 @@
 
 namespace blactl::fleet {
 
-/// What a command wants of every servo that it is about.
+/// The wanted change, for every servo of a command.
 struct Wanted {
   std::vector<bla::Assignment> assignments{};
   bool erase = false;
-  bool keep_ids = false; ///< 0x45 and 0x46 outlive the erasing
+  bool keep_ids = false; ///< 0x45 and 0x46 survive ERASE
   std::optional<RestartKind> restart{};
-  bool proves_rom = false; ///< after a mere restart the configuration is read: what ROM holds
-  std::vector<bla::Address> also_read{}; ///< what is to be shown beside the changes
+  bool proves_rom = false; ///< after a plain restart the configuration is read: the contents of ROM
+  std::vector<bla::Address> also_read{}; ///< shown in addition to the changes
 
-  /// Changed are whole servos, not single registers.
+  /// Whether it concerns whole servos, not single registers.
   [[nodiscard]] bool is_about_whole_servo() const { return assignments.empty(); }
 };
 
-/// What a person should know before a change that is not refused.
+/// A warning about a change that is not refused.
 struct Warning {
   std::string code; ///< "leave_at_default"
   std::string text;
 };
 
-/// One servo from what it holds to what it shall hold: erased first, then written, then restarted.
+/// The change of one servo from its present to its wanted settings: erased first, then written,
+/// then restarted.
 struct Plan {
   Snapshot before;
   bool erase = false;
   bool keep_ids = false;
   std::vector<RegisterChange> changes{};
   std::optional<RestartKind> restart{};
-  bool proves_rom = false;           ///< as Wanted
-  std::vector<bla::Address> shown{}; ///< as Wanted::also_read
-  /// The configuration afterwards; empty where nobody can know or asks: a mere restart brings what
-  /// ROM holds.
+  bool proves_rom = false;           ///< as in Wanted
+  std::vector<bla::Address> shown{}; ///< Wanted::also_read
+  /// The configuration afterwards; empty if unknown or not needed: a plain restart loads ROM.
   bla::Values expected{};
-  /// 0x37 before and after, which the unit of 0x36 depends on; empty where it was not read.
+  /// 0x37 before and after, on which the unit of 0x36 depends; empty if not read.
   std::optional<std::int64_t> mode_before{}, mode_after{};
   std::vector<Warning> warnings{};
 
-  /// The static node ID that the servo will have; empty: it gets none, or has it already.
+  /// The new static node ID; empty: none, or the present one.
   [[nodiscard]] std::optional<dronecan::NodeId> given_node_id() const;
 
-  /// The servo ID other than 0 that it will have for good; empty: none is given.
+  /// The new permanent servo ID, if not 0; empty: none.
   [[nodiscard]] std::optional<std::int64_t> given_servo_id() const;
 
-  /// Something will be sent that changes the servo.
+  /// Whether requests will be sent that change the servo.
   [[nodiscard]] bool acts() const;
 
-  /// It can move the shaft or let go of the load.
+  /// Whether it can move the shaft or release the load.
   [[nodiscard]] bool moves() const;
 };
 
-/// The registers whose values the plan rests on. Errors: what this servo refuses, whatever it
-/// holds: no_profile, unsupported, read_only, out_of_range.
+/// The registers that the plan depends on. Errors: changes that this servo refuses in any state:
+/// no_profile, unsupported, read_only, out_of_range.
 [[nodiscard]] Result<std::vector<const bla::Parameter*>> registers_needed(const Wanted& wanted,
                                                                           const Servo& servo);
 
-/// How much of them must be proven: what RAM has lost SAVE must not make lasting.
+/// The required proof of them: SAVE must not store RAM that a restart has reset.
 [[nodiscard]] ReadJob::Proof proof_needed(const Wanted& wanted);
 
-/// `before` holds registers_needed(). Errors: why it does not; usage (0x36 in the unit that 0x37
-/// does not take); no_profile (ERASE, where the defaults are not known); cross_check (a command
-/// that the servo does not take as it is switched); state (SAVE, where a restart has just ended
-/// what was in RAM only).
+/// `before` holds registers_needed(). Errors: why it does not; usage (0x36 in a unit that
+/// contradicts 0x37); no_profile (ERASE, if the defaults are unknown); cross_check (a command that
+/// the servo's settings disable); state (SAVE, if a restart has just reset RAM).
 [[nodiscard]] Result<Plan> make_plan(const Wanted& wanted, Snapshot before,
                                      const bla::Profiles& profiles);
 
-/// Why this must not be done to several servos at once, or to any; empty: it may. Errors: usage
-/// (SAVE of what is no setting), duplicate_node_id, duplicate_servo_id (one ID for all).
+/// The reason why several servos at once, or any, must not be changed so; empty: they may. Errors:
+/// usage (SAVE of what is not a setting), duplicate_node_id, duplicate_servo_id (one ID for all).
 [[nodiscard]] std::optional<Error> refuse_together(const Wanted& wanted,
                                                    std::span<const dronecan::NodeId> servos);
 
-/// The one question before all of it; empty: nothing has to be asked.
+/// The one question before everything; empty: none needed.
 [[nodiscard]] std::string question(std::span<const Plan> plans);
 
 } // namespace blactl::fleet

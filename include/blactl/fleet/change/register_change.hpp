@@ -1,5 +1,5 @@
 #pragma once
-// One register of one servo from what to what.
+// The change of one register of one servo.
 
 #include "blactl/base/error.hpp"
 #include "blactl/bla/parameter.hpp"
@@ -14,7 +14,7 @@ namespace blactl::fleet {
 enum class ChangeStatus : std::uint8_t { planned, unchanged, written, failed, mismatch };
 [[nodiscard]] std::string_view name(ChangeStatus status);
 
-/// Register numbers; `before` and `after` are empty where they are not known.
+/// Raw values; `before` and `after` are empty if unknown.
 struct RegisterChange {
   const bla::Parameter* parameter = nullptr;
   std::int64_t requested = 0;

@@ -1,5 +1,5 @@
 #pragma once
-// Makes one servo save or restart, and waits until the same servo is back.
+// Makes one servo save or restart, and waits until it is back.
 
 #include "blactl/dronecan/node.hpp"
 #include "blactl/fleet/bus/registers.hpp"
@@ -13,34 +13,35 @@
 
 namespace blactl::fleet {
 
-/// What restarts a servo: SAVE (opcode 0: RAM to ROM, section 4.11) or RestartNode (4.10).
+/// The request that restarts a servo: SAVE (opcode 0: RAM to ROM, section 4.11) or RestartNode
+/// (4.10).
 enum class RestartKind : std::uint8_t { save, restart };
 
-/// What the jobs of several servos share: the distance between their requests, and whether one has
+/// Shared by the jobs of several servos: the interval of their requests, and whether one has
 /// failed.
 struct RestartPace {
   Duration distance{};
-  Time next{};                          ///< when the next first request may go out
-  std::set<dronecan::NodeId> leaving{}; ///< who was told to restart, and may go to another ID
-  bool stops_at_failure = false; ///< after one has failed nothing is sent that changes another
+  Time next{};                          ///< earliest time of the next first request
+  std::set<dronecan::NodeId> leaving{}; ///< ordered to restart, may return under another ID
+  bool stops_at_failure = false; ///< after a failure nothing is sent that changes another servo
   bool has_failed = false;
 
   [[nodiscard]] bool is_stopped() const { return stops_at_failure && has_failed; }
 };
 
-/// The request goes out once. Without an answer the uptime tells whether it was carried out, and
-/// only if it was not the request is sent once more. The servo is recognised by its unique ID,
-/// whatever node ID it comes back with; somebody must ask the units that appear for theirs
-/// (UnitJob). One that sends nothing by itself is asked at its node ID.
+/// The request is sent once. Without a response the uptime shows whether it was carried out, and
+/// only if not is it sent again. The servo is recognised by its unique ID, whatever its new node
+/// ID; units that appear must be asked for theirs (UnitJob). A servo that sends nothing by itself
+/// is asked at its node ID.
 class RestartJob final : public dronecan::Job {
  public:
   struct Options {
     RestartKind kind = RestartKind::save;
-    Time start{};         ///< not before
-    Duration come_back{}; ///< how long it may take from the request on
+    Time start{};         ///< earliest time
+    Duration come_back{}; ///< the longest time from the request on
     Patience patience;
-    RestartPace* pace = nullptr; ///< outlives the job; null: nobody else is waited for
-    /// The node ID that the servo will have, where it is known.
+    RestartPace* pace = nullptr; ///< outlives the job; null: no other servo is waited for
+    /// The future node ID of the servo, if known.
     std::optional<dronecan::NodeId> expected{};
     bool may_be_driven = false; ///< also while another node drives the servo
   };
@@ -52,30 +53,30 @@ class RestartJob final : public dronecan::Job {
 
   [[nodiscard]] bool must_finish() const override { return is_sent_ && !is_over_; }
 
-  /// The node ID that the servo has now; empty: it is not back.
+  /// The present node ID of the servo; empty: it is not back.
   [[nodiscard]] std::optional<dronecan::NodeId> returned() const { return returned_; }
 
-  /// Nothing was sent: the servo has restarted, and may not hold any more what was read of it.
+  /// Nothing was sent: the servo has restarted, and its settings may differ from those read.
   [[nodiscard]] bool is_unproven() const { return is_unproven_; }
 
-  /// Why it is not, or what is not known: timeout, not_back, refused, state, no_acknowledge,
+  /// The reason why it is not back, or what is uncertain: timeout, not_back, refused, state, no_acknowledge,
   /// interrupted; as Guard::forbids().
   [[nodiscard]] const std::optional<Error>& error() const { return error_; }
 
-  /// A request has left, or may have left, this machine.
+  /// Whether a request has left, or may have left, this machine.
   [[nodiscard]] bool is_sent() const { return is_sent_; }
 
-  /// When the first one did.
+  /// The time of the first request.
   [[nodiscard]] Time sent_at() const { return first_sent_at_; }
 
-  /// The servo answered that it does it.
+  /// Whether the servo has confirmed the request.
   [[nodiscard]] bool is_confirmed() const { return is_confirmed_; }
 
-  /// It ended with a proof that the servo ran on: RAM holds what it held.
+  /// Whether it ended with a proof that the servo did not restart: RAM is unchanged.
   [[nodiscard]] bool has_run_on() const { return has_run_on_; }
 
-  /// A request has left, or still may, and the servo neither refused it nor ran on in silence. One
-  /// that confirms it and runs on may have carried out a part of it.
+  /// A request has left, or still may, and the servo neither refused it nor went on running without
+  /// a response. One that confirms it and goes on running may have carried out part of it.
   [[nodiscard]] bool may_have_happened() const {
     return is_sent_ && (is_confirmed_ || !has_run_on_ || !has_left_);
   }
@@ -130,22 +131,22 @@ class RestartJob final : public dronecan::Job {
   Servo servo_;
   dronecan::NodeId id_;
   dronecan::UniqueId unique_id_;
-  Time since_; ///< RAM must be as it was then
+  Time since_; ///< RAM must not have changed since
   std::optional<RunProof> run_proof_;
   Options options_;
   Guard guard_;
   At at_ = At::begin;
-  std::uint32_t boot_ = 0; ///< of the servo when the request was sent
+  std::uint32_t boot_ = 0; ///< of the servo at the time of the request
   Time first_sent_at_{}, sent_at_{}, ended_at_{};
   bool is_sent_ = false;
   bool is_confirmed_ = false;
-  bool has_left_ = true; ///< the last request, for certain
+  bool has_left_ = true; ///< the last request, certainly
   bool may_repeat_ = true;
   bool is_over_ = false;
   bool is_unproven_ = false;
   bool has_run_on_ = false;
-  bool has_restarted_ = false;  ///< its uptime says so, which the roster may have missed
-  bool calls_expected_ = false; ///< whom it called last
+  bool has_restarted_ = false;  ///< shown by its uptime, the roster may have missed it
+  bool calls_expected_ = false; ///< which one it called last
   std::optional<dronecan::NodeId> returned_;
   std::optional<Error> error_;
 };

@@ -1,5 +1,5 @@
 #pragma once
-// What is said of saving, erasing and restarting.
+// Messages about saving, erasing and restarting.
 
 #include "blactl/base/text.hpp"
 

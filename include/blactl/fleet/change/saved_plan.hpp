@@ -1,6 +1,6 @@
 #pragma once
-// A plan that was kept: the document of `apply --dry-run --json`. It is carried out only where
-// everything is still as it was when it was made (contract, section 5, `diff apply`).
+// A saved plan: the document of `apply --dry-run --json`. It is carried out only if nothing has
+// changed since it was made (contract, section 5, `diff apply`).
 
 #include "blactl/base/error.hpp"
 #include "blactl/bla/profile.hpp"
@@ -16,19 +16,18 @@
 
 namespace blactl::fleet {
 
-/// What was planned for one servo.
 struct SavedStep {
   Need need = Need::nothing;
   bool saves = true;
-  bla::Values before{}; ///< of every register that the entry names
+  bla::Values before{}; ///< of every register of the entry
   std::string model{};
   std::int64_t firmware_version = 0; ///< 0x52
 };
 
 struct SavedPlan {
-  FleetFile fleet;              ///< whom it is about, by unique ID, and what is wished of each
+  FleetFile fleet;              ///< the servos, by unique ID, and their wanted settings
   std::vector<SavedStep> steps; ///< of the entries of `fleet`, in their order
-  bool trusts_ram = false;      ///< it was made with that
+  bool trusts_ram = false;      ///< made with --trust-ram
 
   /// The step of the entry; `entry` is one of `fleet`.
   [[nodiscard]] const SavedStep& step(const FleetEntry& entry) const {
@@ -36,13 +35,13 @@ struct SavedPlan {
   }
 };
 
-/// "-" reads stdin. Errors: bad_file with all its faults: another document, one that tells of
-/// errors, a servo without a unique ID or there twice, values that no model takes.
+/// "-" reads stdin. Errors: bad_file with all its errors: another document, one that reports
+/// errors, a servo without a unique ID or listed twice, values that no model accepts.
 [[nodiscard]] Result<SavedPlan> read_saved_plan(const std::filesystem::path& file,
                                                 const bla::Profiles& profiles);
 
-/// What has changed since: stale_plan for every servo of which that is so. `results` are those of
-/// Change::prepare() for entries of the plan.
+/// The changes since: stale_plan for every servo affected. `results` are those of Change::prepare()
+/// for entries of the plan.
 [[nodiscard]] std::vector<Error> stale(const SavedPlan& plan, std::span<const GoalResult> results);
 
 } // namespace blactl::fleet

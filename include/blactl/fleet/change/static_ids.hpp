@@ -1,5 +1,5 @@
 #pragma once
-// Static node IDs for units on the bus, wherever those are: goals that name nothing but the ID.
+// Goals that give units on the bus static node IDs, and nothing else.
 
 #include "blactl/base/error.hpp"
 #include "blactl/bla/profile.hpp"
@@ -13,18 +13,18 @@
 
 namespace blactl::fleet {
 
-/// The present ID of each of these nodes, as a wish. Errors: duplicate_node_id; timeout (it did not
-/// say who it is).
+/// The present ID of each of these nodes, as a wish. Errors: duplicate_node_id; timeout (its unique
+/// ID is unknown).
 [[nodiscard]] Result<std::vector<state::AllocationStore::Wish>>
 ids_as_they_are(const Roster& roster, std::span<const dronecan::NodeId> nodes);
 
-/// The goals that give units the IDs wished for them.
+/// The goals that give units their wanted IDs.
 struct StaticGoals {
-  std::vector<Goal> goals{};   ///< by the IDs wished
-  std::vector<Error> errors{}; ///< of units that are not there
+  std::vector<Goal> goals{};   ///< by wanted ID
+  std::vector<Error> errors{}; ///< for missing units
 };
 
-/// `not_let_in`: as let_in() has it. The roster knows the static node IDs.
+/// `not_let_in`: from let_in(). The roster knows the static node IDs.
 [[nodiscard]] StaticGoals static_goals(const Roster& roster, const bla::Profiles& profiles,
                                        std::vector<state::AllocationStore::Wish> wishes,
                                        const NotLetIn& not_let_in);

@@ -1,5 +1,5 @@
 #pragma once
-// What takes a change back.
+// Undoes a change.
 
 #include "blactl/base/error.hpp"
 #include "blactl/bla/profile.hpp"
@@ -11,25 +11,24 @@
 
 namespace blactl::fleet {
 
-/// What is wanted of the servo of this entry so that it holds what it held before: in RAM, and in
-/// ROM too where the change was saved. Errors: bad_file (a register that is no setting: the entry
-/// is from a file, and must move nothing), and those of bla::make_assignment().
+/// The change that restores the settings of this entry: in RAM, and in ROM, too, if the change was
+/// saved. Errors: bad_file (a register that is not a setting: the entry is from a file, and must
+/// not move anything), and those of bla::make_assignment().
 [[nodiscard]] Result<Wanted> to_undo(const state::SnapshotEntry& entry,
                                      const bla::Profiles& profiles);
 
-/// A change that undo takes back.
 struct Undoing {
   state::SnapshotEntry entry;
   bool goes_on = false; ///< an undo of it has begun and did not end
 };
 
-/// The last change of this unit; empty: none is known. Of an undo that did not end, what it was to
-/// take back. Errors: those of the store.
+/// The last change of this unit; empty: none is known. For an undo that did not end, the change
+/// that it was to undo. Errors: those of the store.
 [[nodiscard]] Result<std::optional<Undoing>> last_change(const state::SnapshotStore& store,
                                                          const dronecan::UniqueId& unique_id);
 
-/// The changes of the last command; where that is an undo which did not end, what is left of those
-/// that it was to take back. Errors: those of the store.
+/// The changes of the last command; if that is an undo which did not end, those still to be undone.
+/// Errors: those of the store.
 [[nodiscard]] Result<std::vector<Undoing>> last_changes(const state::SnapshotStore& store);
 
 } // namespace blactl::fleet

@@ -1,5 +1,6 @@
 #pragma once
-// Writes registers of one identified servo and proves each by its answer, or by reading it again.
+// Writes registers of one identified servo and verifies each by its response, or by reading it
+// again.
 
 #include "blactl/dronecan/node.hpp"
 #include "blactl/fleet/bus/registers.hpp"
@@ -15,19 +16,19 @@
 
 namespace blactl::fleet {
 
-/// Sends the planned changes in order, once the servo has said that it is still the one that is
-/// meant; those that hold the value already are `unchanged` before.
-/// An answer may show a clamped or refused value (requirement 73): then, and where nobody reads the
-/// whole servo after it, the register is read again after the write. In the end, and before a
-/// refusal is believed, the servo must prove that it ran on, also where all values were held
-/// already: they were read some time ago. What was written before a restart is written again: it
-/// was in RAM only. What the guard forbids ends the writing; what was written is proven then, too.
+/// Sends the planned changes in order, once the servo has proven to be the same unit; registers
+/// that already have the value become `unchanged`. A response may show a clamped or refused value
+/// (requirement 73): then, or if the whole servo is not read afterwards, the register is read again
+/// after the write. At the end, and before a refusal is believed, the servo must prove that it has
+/// not restarted, also if all values were unchanged, as they were read some time ago. Values
+/// written before a restart are written again, as they were in RAM only. If the guard forbids a
+/// write, no more are sent, and those that were made are proven.
 class WriteJob final : public dronecan::Job {
  public:
-  /// What proves a write whose answer shows the requested value.
+  /// The proof of a write whose response shows the requested value.
   enum class Echo : std::uint8_t {
     is_checked, ///< the register, read again
-    suffices,   ///< that answer: everything is read after the restart that follows
+    suffices,   ///< the response: everything is read after the following restart
   };
 
   /// `roster` outlives the job. `may_be_driven`: also while another node drives the servo.
@@ -38,10 +39,10 @@ class WriteJob final : public dronecan::Job {
 
   [[nodiscard]] const std::vector<RegisterChange>& changes() const { return changes_; }
 
-  /// A write has left, or may have.
+  /// Whether a write has left, or may have.
   [[nodiscard]] bool has_written() const { return has_written_; }
 
-  /// The servo as it was recognised last.
+  /// The servo as last recognised.
   [[nodiscard]] const Servo& servo() const { return servo_; }
 
  private:
@@ -72,10 +73,10 @@ class WriteJob final : public dronecan::Job {
   Echo echo_;
   Guard guard_;
   At at_ = At::begin;
-  std::size_t current_ = 0; ///< the change that is being made or looked at
+  std::size_t current_ = 0; ///< the change being written or checked
   bool has_written_ = false;
-  bool is_lost_ = false;     ///< no answer to the write of this change
-  bool is_doubtful_ = false; ///< the register does not hold what was written
+  bool is_lost_ = false;     ///< no response to the write of this change
+  bool is_doubtful_ = false; ///< the register differs from the written value
   int restarts_ = 0;         ///< seen while writing
   std::optional<RunProof> run_proof_;
 };

@@ -1,10 +1,10 @@
 #pragma once
-// Measures on one servo on the bench what the specification leaves open, and leaves it as it was.
+// Measures on one servo on the bench what the specification leaves open, and restores the servo
+// afterwards.
 //
-// What there is to ask is a table, open_questions(): each is a setting of the simulator that is
-// unproven (sim/behaviour.hpp), by its key in a facts file. What is measured is done in three
-// phases: what only reads; what writes to RAM while the output is off; starts, for which the servo
-// restarts and saves what its ROM holds already.
+// The table open_questions() lists the unproven settings of the simulator (sim/behaviour.hpp) by
+// their keys in a facts file. The measurements have three phases: reads only; writes to RAM while
+// the output is off; starts, for which the servo restarts and saves what its ROM already holds.
 
 #include "blactl/base/text.hpp"
 #include "blactl/fleet/bus/identification.hpp"
@@ -23,14 +23,14 @@
 
 namespace blactl::fleet {
 
-/// A setting that only a real servo could settle.
+/// A setting that only a real servo can settle.
 struct OpenQuestion {
   std::string_view setting; ///< its key in a facts file
-  Text what;                ///< what it says
-  Text reason;              ///< why it is not measured, as long as nothing else is known
+  Text what;                ///< its meaning
+  Text reason;              ///< why it is not measured, unless a more specific reason is known
 };
 
-/// In the order of the table that people see.
+/// All questions, in the order of the table for people.
 [[nodiscard]] std::span<const OpenQuestion> open_questions();
 
 /// A flag; or a word or a time: "clamp", "80ms".
@@ -39,70 +39,70 @@ using FactValue = std::variant<bool, std::string>;
 struct Fact {
   std::string_view setting;
   std::optional<FactValue> value{}; ///< empty: not measured
-  std::string reason{};             ///< why it was not
+  std::string reason{};             ///< why it was not measured
 };
 
-/// What was seen and is no setting: the name of the node, how long starts took.
+/// An observation that is not a setting: the name of the node, the duration of starts.
 struct Observation {
   std::string what, value;
 };
 
-/// What a servo says of itself in GetNodeInfo.
+/// The servo's GetNodeInfo response.
 struct NodeInfo {
-  std::string name; ///< foreign bytes
+  std::string name; ///< untrusted bytes
   std::uint8_t software_major = 0, software_minor = 0, hardware_major = 0, hardware_minor = 0;
 };
 
 struct Characterization {
   Servo servo;             ///< as it is now
-  std::vector<Fact> facts; ///< one of each open question, in their order
+  std::vector<Fact> facts; ///< one for each open question, in the same order
   std::vector<Observation> observations{};
   std::optional<NodeInfo> info{};
-  /// Why it was not finished.
+  /// The reason why it was not finished.
   std::optional<Error> error{};
-  /// What it could not be given back; empty: it is as it was.
+  /// The settings that could not be restored; empty: all are as before.
   std::optional<Error> not_put_back{};
-  /// Something was changed, and put back.
+  /// Whether something was changed, and restored.
   bool was_put_back = false;
 
   [[nodiscard]] bool is_done() const { return !error && !not_put_back; }
 };
 
-/// How it is treated.
+/// Options of a characterization.
 struct BenchManner {
   Identification::Options identification{};
   bool while_driven = false;
-  /// Nobody else of this machine allocates on the interface: this process may.
+  /// Whether this process may allocate node IDs: no other on this machine does so on the interface.
   bool may_allocate = false;
   std::function<Result<state::AllocationStore>()> allocations{}; ///< as Manner::allocations
-  std::function<void(const std::string&)> progress{};            ///< what is measured now
-  /// It was interrupted, or failed, and what was changed is put back.
+  std::function<void(const std::string&)> progress{};            ///< called with the present stage
+  /// Called when, after an interruption or error, changes are being restored.
   std::function<void()> putting_back{};
 };
 
-/// How long putting back may take after a first signal, or an error.
+/// The time limit for restoring after a first signal or an error.
 inline constexpr Duration put_back_time = Session::put_back_grace;
 
-/// The registers that must be known before: what is changed, and what it is commanded.
-/// Errors: no_profile, where the model is not known well enough to write to it.
+/// The registers to read beforehand: those that are changed, and the commands. Errors: no_profile,
+/// if the model is not known well enough to write to it.
 [[nodiscard]] Result<std::vector<const bla::Parameter*>>
 registers_to_characterize(const Servo& servo);
 
-/// Why this servo must not be measured now, as far as the bus was heard; empty: it may. Errors: why
-/// `before` is not complete; cross_check (it turns, or pushes: no restart can give that back); as
-/// forbidden().
+/// The reason why this servo must not be measured now, as far as the bus was heard; empty: it may.
+/// Errors: why `before` is incomplete; cross_check (it is turning or exerting torque, which no
+/// restart can bring back); those of forbidden().
 [[nodiscard]] std::optional<Error>
 refuse_to_characterize(const Session& session, const Snapshot& before, bool while_driven);
 
-/// The question before it: what will happen to this servo.
+/// The question to the user beforehand: what will happen to this servo.
 [[nodiscard]] std::string question_to_characterize(const Snapshot& before);
 
-/// Measures, and puts back what it changed, also where it is interrupted. `before` holds
+/// Measures, and restores what it changed, also after an interruption. `before` holds
 /// registers_to_characterize().
 [[nodiscard]] Characterization characterize(Session& session, const bla::Profiles& profiles,
                                             const Snapshot& before, const BenchManner& manner);
 
-/// The facts file ("schema":"blactl-facts/1") of what was measured.
+/// The facts file ("schema":"blactl-facts/1") for the measurements.
 [[nodiscard]] std::string facts_file(const Characterization& measured, WallTime now,
                                      std::string_view tool_version);
 

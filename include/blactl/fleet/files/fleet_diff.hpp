@@ -1,5 +1,5 @@
 #pragma once
-// What servos hold against what a fleet file says, or one file against another.
+// Compares servos with a fleet file, or two files.
 
 #include "blactl/fleet/bus/identification.hpp"
 #include "blactl/fleet/bus/session.hpp"
@@ -27,44 +27,44 @@ enum class EntryStatus : std::uint8_t {
 };
 [[nodiscard]] std::string_view name(EntryStatus status);
 
-/// One register: what the servo (or the first file) holds, and what the (second) file says.
+/// One register: the value of the servo (or the first file), and of the (second) file.
 struct Difference {
   const bla::Parameter* parameter = nullptr;
-  std::optional<std::int64_t> before{}; ///< empty: the first file does not say
-  std::optional<std::int64_t> wished{}; ///< empty: the second file does not say
+  std::optional<std::int64_t> before{}; ///< empty: not in the first file
+  std::optional<std::int64_t> wished{}; ///< empty: not in the second file
 
   [[nodiscard]] bool is_one() const { return before != wished; }
 };
 
-/// What is told of one entry of a fleet file, or of a servo that no entry means.
+/// The comparison of one entry of a fleet file, or of a servo without an entry.
 struct EntryDiff {
-  std::string name; ///< empty: of no entry
+  std::string name; ///< empty: no entry
   EntryStatus status = EntryStatus::unchanged;
-  Servo servo;                                             ///< as far as it is known
-  std::vector<Difference> registers{};                     ///< all that the entry names, by address
+  Servo servo;                         ///< as far as known
+  std::vector<Difference> registers{}; ///< all registers of the entry, by address
   std::optional<std::int64_t> mode_before{}, mode_after{}; ///< 0x37: the unit of 0x36
   std::vector<Error> errors{};                             ///< why it was not compared
 
-  /// How many registers hold something else.
+  /// The number of registers that differ.
   [[nodiscard]] std::size_t differences() const;
 };
 
 struct FleetDiff {
-  std::vector<EntryDiff> entries; ///< servos by node ID, then what is missing, then what is extra
-  std::optional<Error> broken{};  ///< why the session ended in between
+  std::vector<EntryDiff> entries; ///< servos by node ID, then missing ones, then extra ones
+  std::optional<Error> broken{};  ///< the error that ended the session early
 };
 
-/// Reads from each servo what its entry wishes, all at once. Changes nothing.
+/// Reads the registers of each servo's entry, all at once. Changes nothing.
 [[nodiscard]] FleetDiff diff(Session& session, const bla::Profiles& profiles,
                              const FleetMatch& match, const Identification::Options& options);
 
-/// What is missing, left out or extra, for itself.
+/// The missing, left out or extra ones, each on its own.
 [[nodiscard]] std::vector<EntryDiff> unpaired(const FleetMatch& match, const Roster& roster,
                                               const bla::Profiles& profiles);
 
-/// Entries belong together by their unique ID, else by their serial number, else by their name.
-/// Of two that do, a register that only one of them names is different too. A parameter file is
-/// compared with a file of one entry.
+/// Pairs entries by their unique ID, else by their serial number, else by their name. In a pair, a
+/// register that only one of them has differs, too. A parameter file is compared with a file of one
+/// entry.
 [[nodiscard]] FleetDiff diff(const FleetFile& one, const FleetFile& other,
                              const bla::Profiles& profiles);
 

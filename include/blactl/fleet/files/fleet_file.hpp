@@ -1,5 +1,5 @@
 #pragma once
-// A fleet file: which servos there are, and what each shall hold (contract, section 6).
+// A fleet file: a list of servos with their wanted settings (contract, section 6).
 //
 //   {
 //     "schema": "blactl-fleet/1",
@@ -33,25 +33,25 @@
 
 namespace blactl::fleet {
 
-/// The word that a fleet file begins with.
+/// The schema at the start of a fleet file.
 inline constexpr std::string_view fleet_schema = "blactl-fleet/1";
 
-/// Which servo an entry means: all keys that are given must agree.
+/// The servo of an entry: all given keys must agree.
 struct Match {
   std::optional<dronecan::UniqueId> unique_id{};
   std::optional<std::int64_t> serial_number{}; ///< 0x51
   std::optional<std::int64_t> servo_id{};      ///< 0x45
-  std::optional<dronecan::NodeId> node_id{};   ///< where it is on the bus
-  std::string model{};                         ///< as `-n model:` takes it; empty: any
+  std::optional<dronecan::NodeId> node_id{};   ///< its present node ID
+  std::string model{};                         ///< like `-n model:`; empty: any
 
-  /// Exactly one servo; else as many as there are of the model.
+  /// Whether it selects exactly one servo; else all of the model.
   [[nodiscard]] bool means_one() const { return unique_id || serial_number || servo_id || node_id; }
 
-  /// Whether this identified servo is meant; a model only if it is known for sure.
+  /// Whether it selects this identified servo; a model only if it is certain.
   [[nodiscard]] bool means(const Servo& servo, const bla::Profiles& profiles) const;
 };
 
-/// What `export` tells of a servo beside its settings; nothing is compared with it.
+/// Information from `export` besides the settings; it is not compared.
 struct About {
   std::optional<std::string> model{};
   std::optional<std::int64_t> firmware_version{}, hardware_version{}; ///< 0x52, 0x53
@@ -61,27 +61,27 @@ struct About {
 };
 
 struct FleetEntry {
-  std::string name; ///< each once in a file; for people, and for `--entry`
+  std::string name; ///< unique in a file; for people, and for `--entry`
   Match match;
-  std::vector<bla::Assignment> set; ///< with those of "common", by address, each register once
+  std::vector<bla::Assignment> set; ///< including those of "common", by address, each register once
   About about;
 
-  /// The value for this register; empty: none is wished.
+  /// The value for this register; empty: none.
   [[nodiscard]] std::optional<std::int64_t> wish(bla::Address address) const;
 };
 
 struct FleetFile {
   std::string file; ///< its name, for messages
   std::vector<FleetEntry> servos;
-  /// A parameter file (see params_file.hpp): its one entry says nothing of which servo it is for.
+  /// A parameter file (see params_file.hpp): its one entry does not identify a servo.
   bool is_params = false;
-  std::vector<bla::Address> passed_over{}; ///< no settings, by address: in parameter files
+  std::vector<bla::Address> passed_over{}; ///< not settings, by address: in parameter files
 };
 
 /// `file` is the name for messages. Errors: bad_file with file, line, JSON pointer and reason of
-/// every fault: what is no JSON, keys that are unknown or there twice, values that no model takes,
-/// or not the model that the entry names, registers that are no settings, two entries for one
-/// servo, an ID for two, an entry that would not find its servo again after its own change.
+/// each error: invalid JSON, unknown or repeated keys, values that no model accepts, or not the
+/// model of the entry, registers that are not settings, two entries for one servo, an ID for two, an
+/// entry that would not match its servo again after its own change.
 [[nodiscard]] Result<FleetFile> parse_fleet_file(std::string_view text, std::string file,
                                                  const bla::Profiles& profiles);
 
@@ -89,17 +89,17 @@ struct FleetFile {
 [[nodiscard]] Result<FleetFile> read_fleet_file(const std::filesystem::path& file,
                                                 const bla::Profiles& profiles);
 
-/// What export makes of servos.
+/// Data for an exported file.
 struct FleetFileStyle {
-  std::optional<WallTime> time{}; ///< of the reading; empty: not known
+  std::optional<WallTime> time{}; ///< of the reading; empty: unknown
   std::string tool_version{};     ///< of this program
 };
 
-/// The registers that an entry tells of: the configuration, and when the servo was made.
+/// The registers of an entry: the configuration, and the date of production.
 [[nodiscard]] std::vector<const bla::Parameter*> registers_to_export(const Servo& servo);
 
-/// A file that `apply` takes as it is and that reads well in version control: every setting of
-/// these servos, which were read completely, in their order.
+/// A file for `apply` that reads well in version control: every setting of these servos, which were
+/// read completely, in their order.
 [[nodiscard]] std::string fleet_file(std::span<const Snapshot> servos, const FleetFileStyle& style);
 
 } // namespace blactl::fleet

@@ -1,5 +1,5 @@
 #pragma once
-// Which servos on a bus the entries of a fleet file mean.
+// Matches the entries of a fleet file with the servos on a bus.
 
 #include "blactl/base/error.hpp"
 #include "blactl/fleet/bus/roster.hpp"
@@ -11,7 +11,7 @@
 
 namespace blactl::fleet {
 
-/// "serial_number 240900558, model BLA21-12U-AB": whom an entry means, for people.
+/// "serial_number 240900558, model BLA21-12U-AB": the keys of an entry, for people.
 [[nodiscard]] std::string text(const Match& match);
 
 struct FleetMatch {
@@ -21,18 +21,18 @@ struct FleetMatch {
   };
 
   std::vector<Pair> pairs;                 ///< by node ID
-  std::vector<const FleetEntry*> missing;  ///< no servo on the bus is meant
-  std::vector<const FleetEntry*> left_out; ///< their servos are not among those that -n names
-  std::vector<dronecan::NodeId> extra;     ///< servos that no entry means
-  /// usage: an entry that means several servos though it must mean one, a servo that two entries
-  /// mean, one that is found by a node ID which is not its own for good, a parameter file where
-  /// there are several servos. not_found, timeout, duplicate_node_id: what -n names, and is not
-  /// there, or not one servo; a parameter file, and there is none.
+  std::vector<const FleetEntry*> missing;  ///< no servo on the bus matches
+  std::vector<const FleetEntry*> left_out; ///< their servos are not selected by -n
+  std::vector<dronecan::NodeId> extra;     ///< servos without an entry
+  /// usage: an entry that matches several servos though it must match one, a servo matched by two
+  /// entries, one matched by a node ID that is not permanently its own, a parameter file with
+  /// several servos. not_found, timeout, duplicate_node_id: selected by -n, but missing or not a
+  /// single servo; a parameter file without a servo.
   std::vector<Error> errors;
 };
 
 /// `file` outlives the result. The session has searched the bus (Discovery::find_all, with the
-/// static node IDs); node IDs that two units share mean no servo.
+/// static node IDs); node IDs shared by two units match no servo.
 [[nodiscard]] FleetMatch match(const FleetFile& file, const Roster& roster, const Targets& targets,
                                const bla::Profiles& profiles);
 

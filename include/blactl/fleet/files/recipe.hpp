@@ -1,5 +1,5 @@
 #pragma once
-// A recipe: what every servo of a production line shall hold (contract, sections 6 and 7).
+// A recipe: the wanted settings of every servo on a production line (contract, sections 6 and 7).
 //
 //   {
 //     "schema": "blactl-recipe/1",
@@ -28,33 +28,33 @@
 
 namespace blactl::fleet {
 
-/// The word that a recipe begins with.
+/// The schema at the start of a recipe.
 inline constexpr std::string_view recipe_schema = "blactl-recipe/1";
 
-/// IDs for one servo after the other: first, first + step, … up to last.
+/// IDs for successive servos: first, first + step, … up to last.
 struct Counter {
   const bla::Parameter* parameter = nullptr; ///< servo_id (0x45) or static_node_id (0x46)
   std::int64_t first = 0;
-  std::int64_t last = 0;     ///< not below the first
+  std::int64_t last = 0;     ///< not less than the first
   std::int64_t step = 1;     ///< 1 or more
-  bool begins_again = false; ///< with the first one after the last; else there is none left
+  bool begins_again = false; ///< starts again with the first after the last; else there are no more
 
-  /// The ID after `value`, whatever that is; empty: none is left.
+  /// The ID after `value`, whatever that is; empty: no more.
   [[nodiscard]] std::optional<std::int64_t> after(std::int64_t value) const;
 };
 
 struct Recipe {
-  std::string name;  ///< of its counters: they go on when the file has changed
-  std::string model; ///< as `-n model:` takes it
+  std::string name;  ///< of its counters: they continue when the file has changed
+  std::string model; ///< like `-n model:`
   std::optional<std::int64_t> firmware_min{}; ///< 0x52
   std::vector<bla::Assignment> set{};         ///< by address
   std::vector<Counter> counters{};            ///< by address
 };
 
 /// `file` is the name for messages. Errors: bad_file with file, line, JSON pointer and reason of
-/// every fault: what is no JSON, keys that are unknown or there twice, values that the model does
-/// not take, registers that are no settings, counters for other registers than the two, or with an
-/// ID that no servo takes.
+/// each error: invalid JSON, unknown or repeated keys, values that the model does not accept,
+/// registers that are not settings, counters for registers other than the two, or with an ID that
+/// no servo accepts.
 [[nodiscard]] Result<Recipe> parse_recipe(std::string_view text, std::string file,
                                           const bla::Profiles& profiles);
 
@@ -62,7 +62,7 @@ struct Recipe {
 [[nodiscard]] Result<Recipe> read_recipe(const std::filesystem::path& file,
                                          const bla::Profiles& profiles);
 
-/// The settings of one servo as those of any other of its model, so without IDs.
+/// The settings of one servo for all servos of its model, so without IDs.
 [[nodiscard]] std::string recipe_file(const Snapshot& servo);
 
 } // namespace blactl::fleet

@@ -1,5 +1,5 @@
 #pragma once
-// Reads the faults of a servo.
+// Reads the faults of one or several servos.
 
 #include "blactl/dronecan/node.hpp"
 #include "blactl/fleet/bus/read_job.hpp"
@@ -12,9 +12,9 @@
 
 namespace blactl::fleet {
 
-/// Reads 0x18, and where it says that there are faults what tells more. A servo whose NodeStatus
-/// tells of more than that is read once more, all four registers; on a recording its faults are
-/// not_recorded, as far as none were found.
+/// Reads 0x18, and if it shows faults the registers behind it. If NodeStatus reports more than
+/// that, all four registers are read once more; on a recording the faults are not_recorded then,
+/// unless some were found.
 class FaultJob final : public dronecan::Job {
  public:
   /// `session` outlives the job, `profiles` its state too.
@@ -23,7 +23,7 @@ class FaultJob final : public dronecan::Job {
 
   [[nodiscard]] dronecan::Step next(const dronecan::Outcome& outcome) override;
 
-  /// Once the job has ended.
+  /// Valid once the job has ended.
   [[nodiscard]] const FaultState& state() const { return state_; }
 
  private:
@@ -34,17 +34,17 @@ class FaultJob final : public dronecan::Job {
   const bla::Profiles& profiles_;
   Identification::Options options_;
   std::optional<ReadJob> read_;
-  bool is_second_ = false; ///< the look at all four registers
+  bool is_second_ = false; ///< the second read, of all four registers
   FaultState state_;
 };
 
-/// Of several, in the order asked.
+/// The faults of several servos, in the order asked.
 struct FaultStates {
   std::vector<FaultState> servos;
-  std::optional<Error> broken; ///< why the session ended before
+  std::optional<Error> broken; ///< the error that ended the session early
 };
 
-/// Reads those of several servos at once. `profiles` outlives the states.
+/// Reads the faults of several servos at once. `profiles` outlives the states.
 [[nodiscard]] FaultStates read_faults(Session& session, const bla::Profiles& profiles,
                                       std::span<const dronecan::NodeId> servos,
                                       const Identification::Options& options);

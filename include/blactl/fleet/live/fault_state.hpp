@@ -12,20 +12,19 @@
 
 namespace blactl::fleet {
 
-/// Of one servo.
 struct FaultState {
   Snapshot snapshot;
   std::vector<bla::Fault> faults;         ///< the worst first
   std::optional<dronecan::Health> health; ///< of its NodeStatus
-  std::vector<Error> errors;              ///< why it is not complete; empty: it is
+  std::vector<Error> errors;              ///< why it is incomplete; empty: complete
 
-  /// What one of 0x18-0x1B holds; empty: not known.
+  /// The value of one of 0x18-0x1B; empty: unknown.
   [[nodiscard]] std::optional<std::int64_t> fault_register(bla::Address reg) const;
 
-  /// Empty: no bit is set, as far as is known.
+  /// The worst level; empty: no bit is known to be set.
   [[nodiscard]] std::optional<bla::Level> worst() const;
 
-  /// The registers that tell more about a fault, as far as they were read.
+  /// The registers related to a fault, as far as they were read.
   [[nodiscard]] std::vector<Reading> values_of(const bla::Fault& fault) const;
 };
 

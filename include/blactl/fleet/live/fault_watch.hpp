@@ -1,5 +1,5 @@
 #pragma once
-// Looks at the faults of servos again and again.
+// Polls the faults of servos.
 
 #include "blactl/fleet/live/fault_job.hpp"
 
@@ -9,11 +9,11 @@
 
 namespace blactl::fleet {
 
-/// Looks at each servo in its own time: one that does not answer holds up no other.
+/// Polls each servo at its own pace: one that does not respond delays no other.
 class FaultWatch {
  public:
-  /// `interval`: from the end of a look at a servo to the next one. `session` and `profiles`
-  /// outlive the watch, `profiles` also the states.
+  /// `interval`: from the end of one read of a servo to the start of the next. `session` and
+  /// `profiles` outlive the watch, `profiles` also the states.
   FaultWatch(Session& session, const bla::Profiles& profiles,
              std::span<const dronecan::NodeId> servos, const Identification::Options& options,
              Duration interval);
@@ -23,15 +23,15 @@ class FaultWatch {
   FaultWatch& operator=(const FaultWatch&) = delete;
   FaultWatch& operator=(FaultWatch&&) = delete;
 
-  /// Lives until some looks have ended: what they saw. On a recording, which never changes, that is
-  /// all servos, the first time. Errors: as Session::live_until().
+  /// Waits until some reads have ended, and returns their results. On a recording, which never
+  /// changes, the first call returns all servos. Errors: as Session::live_until().
   [[nodiscard]] Result<std::vector<FaultState>> next();
 
  private:
   struct Look {
     dronecan::NodeId id;
-    Time due{};                      ///< of the next one
-    std::unique_ptr<FaultJob> job{}; ///< the one that is under way
+    Time due{};                      ///< of the next read
+    std::unique_ptr<FaultJob> job{}; ///< under way
   };
 
   void begin();

@@ -1,5 +1,5 @@
 #pragma once
-// Servos as they are now: what they send by themselves, and what is asked of them in turn.
+// The present state of servos: their messages, and the registers read from them in turn.
 
 #include "blactl/bla/faults.hpp"
 #include "blactl/fleet/bus/session.hpp"
@@ -20,39 +20,38 @@
 
 namespace blactl::fleet {
 
-/// What is watched of a servo.
+/// The monitored quantities of a servo.
 enum class LiveField : std::uint8_t { angle, speed, torque, temperature, voltage, faults };
 inline constexpr std::size_t live_fields = 6;
 
-/// Where it stands: 0x08-0x0C and 0x18.
+/// The register of a field: 0x08-0x0C and 0x18.
 [[nodiscard]] bla::Address address_of(LiveField field);
 
-/// What a register held, and when that was told.
+/// The value of a register, and the time of that value.
 struct LiveValue {
   std::int64_t raw = 0;
   Time at{};
 };
 
-/// What a servo is told to stay within (0x38-0x41); empty: not known.
+/// The servo's limits for a field (0x38-0x41); empty: unknown.
 struct LiveLimits {
   std::optional<std::int64_t> low{}, high{};
 };
 
-/// One servo at one moment.
 struct LiveServo {
-  Servo servo{}; ///< as it was identified, or as was overheard; `id` always
+  Servo servo{}; ///< as identified or overheard; `id` always
   std::array<std::optional<LiveValue>, live_fields> values{};
-  std::array<const bla::Parameter*, live_fields> parameters{}; ///< as its model has them
-  std::array<LiveLimits, live_fields> limits{};                ///< as far as they were asked for
-  std::vector<bla::Fault> faults{};             ///< as far as they are known, the worst first
-  std::optional<dronecan::NodeStatus> status{}; ///< of its last NodeStatus
+  std::array<const bla::Parameter*, live_fields> parameters{}; ///< as defined by its model
+  std::array<LiveLimits, live_fields> limits{};                ///< as far as they were read
+  std::vector<bla::Fault> faults{};                            ///< as far as known, the worst first
+  std::optional<dronecan::NodeStatus> status{};                ///< of its last NodeStatus
   Time first_heard{}, last_heard{};
   std::uint32_t restarts = 0;                  ///< since it was first heard
-  std::optional<dronecan::NodeId> former_id{}; ///< it had before
+  std::optional<dronecan::NodeId> former_id{}; ///< its earlier node ID
   bool is_gone = false;                        ///< not heard for offline_time
-  bool is_doubled = false; ///< two units send under its ID: nothing is told of either
-  bool is_stale = false;   ///< something of it is older than it should be, or is not told
-  bool has_turned = false; ///< where that is watched: its shaft was turned, see TurnWatch
+  bool is_doubled = false; ///< two units send under its ID: no values of either are shown
+  bool is_stale = false;   ///< a value is overdue or missing
+  bool has_turned = false; ///< if watched: its shaft was turned, see TurnWatch
 
   [[nodiscard]] const std::optional<LiveValue>& value(LiveField field) const {
     return values[static_cast<std::size_t>(field)];
@@ -63,21 +62,21 @@ struct LiveServo {
   }
 };
 
-/// Watches servos for as long as it lives. Angles come from actuator.Status, which every BLA servo
-/// sends ten times a second (degrees are its field times 100; errata C10); what that cannot tell
-/// exactly, and the rest, is asked for in turn. Without a node ID of our own, and on a recording,
-/// only what is heard counts: answers to others, too.
+/// Monitors servos for its lifetime. Angles come from actuator.Status, which every BLA servo sends
+/// ten times a second (degrees are its field times 100; errata C10); the rest, and what that cannot
+/// represent exactly, is read in turn. Without a node ID of our own, and on a recording, only
+/// transfers on the bus are used: responses to others, too.
 class Monitor final : private dronecan::Service {
  public:
-  /// The share of the bus that questions and answers take at most.
+  /// The share of the bus for requests and responses, at most.
   static constexpr int share_percent = 10;
 
   struct Options {
     Identification::Options identification;
-    std::vector<LiveField> fields;                    ///< to ask for
+    std::vector<LiveField> fields;                    ///< to be read
     Duration period = std::chrono::milliseconds(500); ///< of a sample
     bool watches_turns = false;                       ///< LiveServo::has_turned
-    /// Called once every period; on a recording by its own time, and at its end.
+    /// Called once per period; on a recording by its own time, and at its end.
     std::function<void(Time now)> sample{};
   };
 
@@ -89,26 +88,27 @@ class Monitor final : private dronecan::Service {
   Monitor& operator=(const Monitor&) = delete;
   Monitor& operator=(Monitor&&) = delete;
 
-  /// The servos that are meant and were heard, by node ID, as they were at `now`.
+  /// The servos that are selected and were heard, by node ID, in their state at `now`.
   [[nodiscard]] std::vector<LiveServo> servos(Time now) const;
 
-  /// Why some that are meant are not among them: not_found; not_recorded; duplicate_node_id, where
-  /// one that was never met may be one of two under an ID. Where all are meant: none is there.
+  /// Errors for selected servos that are not among them: not_found; not_recorded;
+  /// duplicate_node_id, if a servo that was never met may be one of two under an ID. If all are
+  /// selected: an error if there is none.
   [[nodiscard]] std::vector<Error> missing(Time now) const;
 
-  /// Asks this servo for its limits as well; empty: none.
+  /// Reads the limits of this servo as well; empty: of none.
   void watch_limits(std::optional<dronecan::NodeId> id) { limits_of_ = id; }
 
  private:
-  /// What was heard of one node.
+  /// The data heard from one node.
   struct Watched {
     std::map<bla::Address, LiveValue> values{};
     std::optional<dronecan::UniqueId> unique_id{}; ///< overheard
     std::string name{};
     TurnWatch turns{};
     std::optional<Time> status_at{}; ///< of its last actuator.Status
-    bool is_far = false;             ///< beyond what that tells exactly
-    std::uint32_t boot = 0;          ///< when all this was heard
+    bool is_far = false;             ///< beyond the exact range of actuator.Status
+    std::uint32_t boot = 0;          ///< the run of the servo (roster) that all this belongs to
     std::unique_ptr<PollJob> poll{};
   };
 
@@ -139,7 +139,7 @@ class Monitor final : private dronecan::Service {
   PollPlan plan_;
   Time due_; ///< the next sample
   std::map<dronecan::NodeId, Watched> nodes_;
-  std::set<std::string> met_;                 ///< selectors that matched a servo at some time
+  std::set<std::string> met_;                 ///< selectors that have matched a servo so far
   std::optional<dronecan::NodeId> limits_of_; ///< see watch_limits()
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// Asks one servo for registers again and again.
+// Polls the registers of one servo.
 
 #include "blactl/fleet/bus/identification.hpp"
 
@@ -10,20 +10,21 @@
 
 namespace blactl::fleet {
 
-/// What is asked of every servo, and how often.
+/// The registers to poll, and how often.
 struct PollPlan {
   std::vector<bla::Address> often;          ///< in every round
-  std::vector<bla::Address> seldom;         ///< one of them a round
-  Duration round = std::chrono::seconds(1); ///< from the beginning of a round to the next
+  std::vector<bla::Address> seldom;         ///< one of them per round
+  Duration round = std::chrono::seconds(1); ///< from the start of one round to the next
 };
 
-/// Identifies a servo and then reads it in rounds, until it is cancelled or the node is no BLA
-/// servo. What it answers is heard like everything on the bus: the job keeps nothing. A servo that
-/// restarted is identified again; one that is silent is asked again as soon as it is heard. One
-/// that is not meant is not asked for anything more, until it restarts: it may be another then.
+/// Identifies a servo and then reads it in rounds, until it is cancelled or the node turns out not
+/// to be a BLA servo. Its responses are taken from the bus like all traffic: the job stores
+/// nothing. A servo that restarted is identified again; a silent one is asked again as soon as it
+/// is heard. One that is not selected is left alone until it restarts: it may be another unit then.
 class PollJob final : public dronecan::Job {
  public:
-  /// What to read of a servo besides, now that it is identified; empty: it is not meant.
+  /// The additional registers to read from a servo once it is identified; empty: it is not
+  /// selected.
   using Further = std::function<std::optional<PollPlan>()>;
 
   /// All references outlive the job, and `plan` may change meanwhile.
@@ -32,7 +33,7 @@ class PollJob final : public dronecan::Job {
 
   [[nodiscard]] dronecan::Step next(const dronecan::Outcome& outcome) override;
 
-  /// It is asked in rounds, or will be as far as is known.
+  /// Whether it is read in rounds, or will be as far as is known.
   [[nodiscard]] bool polls() const { return polls_; }
 
  private:
@@ -56,9 +57,9 @@ class PollJob final : public dronecan::Job {
   Further further_;
   At at_ = At::begin;
   std::optional<Identification> identification_;
-  std::optional<Servo> servo_;              ///< once it was identified
-  std::vector<const bla::Parameter*> left_; ///< to read in this round, the last one first
-  std::size_t turn_ = 0;                    ///< of the registers that are read seldom
+  std::optional<Servo> servo_;              ///< set once identified
+  std::vector<const bla::Parameter*> left_; ///< still to be read in this round, the last one first
+  std::size_t turn_ = 0;                    ///< index into the registers that are read seldom
   int unanswered_ = 0;                      ///< in a row
   bool polls_ = true;
   Time round_began_{};

@@ -1,5 +1,5 @@
 #pragma once
-// Notices that a hand turns a shaft.
+// Detects that a shaft is turned by hand.
 
 #include "blactl/base/time.hpp"
 
@@ -9,21 +9,21 @@
 
 namespace blactl::fleet {
 
-/// Compares angles with that at rest. What turns slowly is noticed too, as soon as it has gone far
-/// enough; where it stops is the new rest.
+/// Compares angles with the angle at rest. Slow turns are detected, too, once they have gone far
+/// enough; the angle where a turn stops is the new rest.
 class TurnWatch {
  public:
-  /// More than a shaft without torque sways by itself: 2 deg, in 0.1 deg.
+  /// Larger than the sway of a shaft without torque: 2 deg, in 0.1 deg.
   static constexpr std::int64_t least_turn = 20;
 
-  /// So long after it moved last it counts as turned: as long as a look from the horn to the
-  /// screen.
+  /// The time after its last motion for which the shaft counts as turned: long enough to look from
+  /// the horn to the screen.
   static constexpr Duration told_for = std::chrono::seconds(5);
 
   /// An angle in 0.1 deg.
   void take(std::int64_t decideg, Time at);
 
-  /// Nothing is known of the angle any more.
+  /// Discards the angle at rest.
   void forget() { rest_.reset(); }
 
   [[nodiscard]] bool has_turned(Time now) const {

@@ -1,5 +1,5 @@
 #pragma once
-// Commands one servo for a bounded time, watches it meanwhile, and brings it to a defined end.
+// Commands one servo for a limited time, watches it meanwhile, and brings it to a defined end.
 
 #include "blactl/fleet/bus/roster.hpp"
 #include "blactl/fleet/bus/run_proof.hpp"
@@ -15,24 +15,24 @@
 
 namespace blactl::fleet {
 
-/// Writes 0x00, 0x01 or 0x02 again and again, at less than half of 0x27 (requirement 149), and
-/// reads angle, speed and torque in between. Before every write it looks at what was heard: where
-/// the vehicle says armed, another node commands, or a second unit has the ID, nothing is written
-/// any more, and the servo's own timeout acts (0x26, 0x27).
-/// Its end is a command, too: a speed or torque of 0; for an angle that was not reached where the
-/// shaft is. That is repeated until the shaft stands, so that no timeout looks like a stop, and
-/// read back. A servo that restarted is brought to its end as soon as it is recognised. Last it
-/// must prove that it ran on.
+/// Writes 0x00, 0x01 or 0x02 repeatedly, at intervals below half of 0x27 (requirement 149), and
+/// reads angle, speed and torque in between. Before every write it checks the traffic: if the
+/// vehicle reports armed, another node commands, or a second unit has the ID, nothing more is
+/// written, and the servo's own timeout acts (0x26, 0x27). The end is a command, too: a speed or
+/// torque of 0; for an angle that was not reached, the present angle. It is repeated until the
+/// shaft stands still, so that no timeout looks like a stop, and read back. A servo that restarted
+/// is brought to its end as soon as it is recognised. Finally it must prove that it has run without
+/// a restart.
 class CommandJob final : public dronecan::Job {
  public:
   struct Options {
     Patience patience{};
     bool while_driven = false;
-    /// An answer may be told of long after it came, of a process that was stopped: what is sent
-    /// then is sent now.
+    /// The present time: a process that was stopped may receive a response long after it came, but
+    /// sends its next command now.
     std::function<Time()> now;
     std::function<void(const CommandSample&)> sampled{}; ///< may be empty
-    /// Sends an ArrayCommand; needed where CommandPlan::by_servo_id.
+    /// Sends an ArrayCommand; required if CommandPlan::by_servo_id.
     std::function<void(const dronecan::ArrayCommand&)> broadcast{};
   };
 
@@ -41,10 +41,10 @@ class CommandJob final : public dronecan::Job {
 
   [[nodiscard]] dronecan::Step next(const dronecan::Outcome& outcome) override;
 
-  /// Once something was commanded, until the end is proven.
+  /// From the first command until the end is proven.
   [[nodiscard]] bool must_finish() const override { return result_.has_commanded(); }
 
-  /// Brings it to its end now.
+  /// Begins the end now.
   void stop() { result_.is_cut = true; }
 
   [[nodiscard]] const CommandResult& result() const { return result_; }
@@ -53,22 +53,22 @@ class CommandJob final : public dronecan::Job {
   enum class At : std::uint8_t {
     begin,
     unit,
-    look,     ///< at what the plan rests on
-    pause,    ///< until the next command or sample is due
-    write,    ///< a command
-    shown,    ///< whether the register holds it
-    read,     ///< a sample
-    settings, ///< what the servo does now that the commands have ended
-    proof,    ///< that it is the same, or ran on
+    look,     ///< reads the conditions of the plan
+    pause,    ///< waits until the next command or sample is due
+    write,    ///< writes a command
+    shown,    ///< reads the register back
+    read,     ///< reads a sample
+    settings, ///< reads the servo's behaviour after the commands
+    proof,    ///< proves that the servo is the same, or has not restarted
   };
   enum class Phase : std::uint8_t { moving, ending, ended };
 
-  // Before.
+  // Before the first command.
   [[nodiscard]] dronecan::Step judge_unit(const dronecan::Outcome& outcome);
   [[nodiscard]] dronecan::Step look();
   [[nodiscard]] dronecan::Step judge_condition(const dronecan::Outcome& outcome);
 
-  // Commands and samples, in either phase.
+  // Commands and samples, before and during the end.
   [[nodiscard]] dronecan::Step go_on();
   [[nodiscard]] dronecan::Step move();
   [[nodiscard]] dronecan::Step end();
@@ -111,26 +111,26 @@ class CommandJob final : public dronecan::Job {
   const Roster& roster_;
   const CommandPlan& plan_;
   Options options_;
-  Servo servo_; ///< as it was recognised last
+  Servo servo_; ///< as last recognised
   Phase phase_ = Phase::moving;
   At at_ = At::begin;
   Time now_{};                                         ///< when the next step is decided
-  bla::Values conditions_;                             ///< still to be looked at
-  Time looked_at_{};                                   ///< when they were
-  std::map<dronecan::NodeId, std::uint32_t> others_{}; ///< there when it began: their restarts
+  bla::Values conditions_;                             ///< still to be read
+  Time looked_at_{};                                   ///< the time they were read
+  std::map<dronecan::NodeId, std::uint32_t> others_{}; ///< restarts of those present at the start
   std::int64_t target_ = 0;
   Time last_command_{};
-  bool reads_first_ = false;            ///< a question is due before the next command
-  Time ended_{};                        ///< when its end began
-  bool has_end_ = false;                ///< what is commanded in the end is known
-  std::optional<CommandSample> seen_{}; ///< the last whole one, once its end is known
-  int standing_ = 0;                    ///< samples in a row
+  bool reads_first_ = false;            ///< a read is due before the next command
+  Time ended_{};                        ///< the time its end began
+  bool has_end_ = false;                ///< the final command is known
+  std::optional<CommandSample> seen_{}; ///< the last complete one, once the final command is known
+  int standing_ = 0;                    ///< consecutive samples
   CommandSample stood_{};               ///< the first of them
-  bool has_crept_ = false;              ///< at a speed that its register does not show
-  int unanswered_ = 0;                  ///< in a row
+  bool has_crept_ = false;              ///< slower than its speed register shows
+  int unanswered_ = 0;                  ///< consecutive
   int restarts_ = 0;
   CommandSample sample_{};
-  std::size_t reading_ = 0; ///< which of 0x08-0x0A
+  std::size_t reading_ = 0; ///< index of 0x08-0x0A
   Time sample_due_{};
   std::optional<RunProof> proof_;
   CommandResult result_;

@@ -1,6 +1,6 @@
 #pragma once
-// A command to the shaft of one servo for a bounded time: judged before the first frame that moves
-// anything.
+// The plan of a command to the shaft of one servo for a limited time, checked before the first
+// frame that moves anything.
 
 #include "blactl/bla/assignment.hpp"
 #include "blactl/bla/faults.hpp"
@@ -16,38 +16,36 @@
 
 namespace blactl::fleet {
 
-/// What the shaft of a servo shall do.
+/// The wanted motion of a servo's shaft.
 struct CommandWanted {
-  std::optional<bla::Assignment> target{}; ///< of 0x00-0x02; empty: it wiggles, to show itself
+  std::optional<bla::Assignment> target{}; ///< of 0x00-0x02; empty: a wiggle, to identify it
   Duration duration = std::chrono::seconds(2);
   bool by_servo_id = false; ///< by ArrayCommand instead of 0x00-0x02 of the node
 };
 
-/// From a moment on, counted from the first command, this is commanded.
+/// A target that applies from a time on, counted from the first command.
 struct Waypoint {
   Duration from{};
   std::int64_t raw = 0;
 };
 
-/// What is read of a servo while it is commanded, and what it is told to stay within; empty: not
-/// known.
+/// A quantity read while a servo is commanded, and its limits; empty: unknown.
 struct CommandReading {
-  const bla::Parameter* parameter = nullptr; ///< 0x08, 0x09 or 0x0A, as the model has it
+  const bla::Parameter* parameter = nullptr; ///< 0x08, 0x09 or 0x0A, as defined by the model
   std::optional<std::int64_t> low{}, high{};
 };
 
-/// One servo that is going to be commanded.
 struct CommandPlan {
-  Plan plan;                                 ///< of 0x00, 0x01 or 0x02: what the guard judges
-  const bla::Parameter* parameter = nullptr; ///< that one
-  std::vector<Waypoint> course; ///< one, or those of a wiggle, which ends where it began
+  Plan plan;                                 ///< of 0x00, 0x01 or 0x02: checked by the guard
+  const bla::Parameter* parameter = nullptr; ///< the commanded register
+  std::vector<Waypoint> course; ///< one target, or those of a wiggle, which ends where it began
   Duration duration{};
   bool by_servo_id = false;
   std::array<CommandReading, 3> readings{}; ///< angle, speed, torque
-  std::vector<bla::Fault> faults{};         ///< warnings and failures that were there before
-  Duration timeout{};     ///< 0x27: without a command for so long the servo acts by 0x26
+  std::vector<bla::Fault> faults{};         ///< warnings and failures present before
+  Duration timeout{};     ///< 0x27: after this time without a command the servo acts by 0x26
   Duration period{};      ///< from one command to the next
-  Duration longest_gap{}; ///< the next one is sent by then, whatever is still unanswered
+  Duration longest_gap{}; ///< the limit for the next one, whatever is still unanswered
 
   [[nodiscard]] const Servo& servo() const { return plan.before.servo; }
 
@@ -55,33 +53,33 @@ struct CommandPlan {
 
   [[nodiscard]] bool wiggles() const { return course.size() > 1; }
 
-  /// What is commanded so long after the first command.
+  /// The target at this time after the first command.
   [[nodiscard]] std::int64_t target_at(Duration after) const;
 
-  /// What it is commanded before its end.
+  /// The last target before the end.
   [[nodiscard]] std::int64_t last_target() const { return course.back().raw; }
 
-  /// What it rests on, as it was read: that must still hold when it begins.
+  /// The settings that the plan depends on, as read: they must still hold at the start.
   [[nodiscard]] bla::Values conditions() const;
 };
 
-/// The registers that the plan rests on. Errors: what this servo refuses, whatever it holds:
+/// The registers that the plan depends on. Errors: commands that this servo refuses in any state:
 /// no_profile, unsupported, out_of_range.
 [[nodiscard]] Result<std::vector<const bla::Parameter*>>
 registers_to_command(const CommandWanted& wanted, const Servo& servo);
 
-/// `before` holds registers_to_command(); `profiles` outlives the plan. Errors: why it does not;
-/// cross_check: the servo does not take it as it is switched (0x20, 0x25, 0x26), its limits
-/// (0x38-0x3D) are narrower, its timeout (0x27) is too short to be fed over a bus; usage, where
-/// ArrayCommand cannot tell it exactly.
+/// `before` holds registers_to_command(); `profiles` outlives the plan. Errors: why `before` is
+/// incomplete; cross_check: the servo's present settings prevent the command (0x20, 0x25, 0x26),
+/// its limits (0x38-0x3D) are narrower, its timeout (0x27) is too short to be met over a bus;
+/// usage, if ArrayCommand cannot represent the value exactly.
 [[nodiscard]] Result<CommandPlan> plan_command(const CommandWanted& wanted, Snapshot before,
                                                const bla::Profiles& profiles);
 
-/// The question before it: from where to where, for how long, and what comes after it.
+/// The question to the user beforehand: from where to where, for how long, and what follows.
 [[nodiscard]] std::string question_to_command(const CommandPlan& plan);
 
-/// What the servo does by itself once the commands end (4.19): "1000 ms after the last command the
-/// output goes off". `now`: 0x26 and 0x27 where they were read since.
+/// The servo's own behaviour once the commands end (4.19): "1000 ms after the last command the
+/// output goes off". `now`: 0x26 and 0x27 if they were read since.
 [[nodiscard]] std::string after_commands(const CommandPlan& plan, const bla::Values& now = {});
 
 } // namespace blactl::fleet

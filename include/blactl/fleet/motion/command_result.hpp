@@ -1,5 +1,5 @@
 #pragma once
-// What a servo did while it was commanded, and whether that is what it was told.
+// The behaviour of a servo while it was commanded, compared with the command.
 
 #include "blactl/fleet/motion/command_plan.hpp"
 
@@ -11,59 +11,59 @@
 
 namespace blactl::fleet {
 
-/// What a servo was told, and did, at one moment. Register numbers; empty: it did not answer.
+/// The command and the measured values at one moment, as register values; empty: no response.
 struct CommandSample {
-  Time at{};               ///< in the middle between the question about the angle and its answer
-  Duration after{};        ///< the first command
+  Time at{};               ///< halfway between the request for the angle and its response
+  Duration after{};        ///< since the first command
   std::int64_t target = 0; ///< of CommandPlan::parameter
   std::optional<std::int64_t> angle{}, speed{}, torque{}; ///< 0x08-0x0A, one after the other
 };
 
-/// How it ended.
+/// The result of a command.
 struct CommandResult {
   std::vector<CommandSample> samples{};
-  std::size_t commands = 0;           ///< that went out, the end apart
-  Time began{};                       ///< when the first one did
-  std::optional<std::int64_t> held{}; ///< an angle that it was told to hold instead of the target
-  bool is_cut = false;                ///< brought to its end before its time
-  bool is_shown = false;              ///< the register held what was commanded
-  bool has_restarted = false;         ///< meanwhile
-  bool is_ended = false; ///< it was brought to its end: its register and its shaft show that
-  bla::Values timeout{}; ///< 0x26 and 0x27 in the end
-  std::optional<std::int64_t> output{}; ///< 0x20 in the end
-  std::optional<Error> error{};         ///< why it was not carried out as planned, or not ended
+  std::size_t commands = 0;             ///< sent, not counting those of the end
+  Time began{};                         ///< the time of the first one
+  std::optional<std::int64_t> held{};   ///< the angle held instead of the target
+  bool is_cut = false;                  ///< ended early
+  bool is_shown = false;                ///< the register showed the command
+  bool has_restarted = false;           ///< during the command
+  bool is_ended = false;                ///< ended: its register and its shaft show it
+  bla::Values timeout{};                ///< 0x26 and 0x27 at the end
+  std::optional<std::int64_t> output{}; ///< 0x20 at the end
+  std::optional<Error> error{};         ///< why it did not go as planned, or did not end
 
   [[nodiscard]] bool has_commanded() const { return commands > 0; }
 };
 
-/// What the servo does by itself now that the commands have ended (4.19): "1000 ms after the last
+/// The servo's own behaviour now that the commands have ended (4.19): "1000 ms after the last
 /// command the output goes off".
 [[nodiscard]] std::string after_commands(const CommandPlan& plan, const CommandResult& result);
 
-/// Whether its output is on in the end as it was before, so that an angle is held.
+/// Whether its output is still on at the end, so that an angle is held.
 [[nodiscard]] bool holds(const CommandPlan& plan, const CommandResult& result);
 
-/// How far apart two values of 0x08 are, in tenths of a degree: 179.9 and -180.0 are one apart.
+/// The distance of two values of 0x08, in tenths of a degree: 179.9 and -180.0 are one apart.
 [[nodiscard]] std::int64_t between(std::int64_t angle, std::int64_t other);
 
-/// Whether this counts as being at an angle. unproven: within 1 deg, or its dead band and half a
-/// degree.
+/// Whether the shaft counts as being at an angle. unproven: within 1 deg, or its dead band and half
+/// a degree.
 [[nodiscard]] bool is_at(const CommandPlan& plan, std::int64_t angle, std::int64_t target);
 
-/// What the shaft did is not what it was told; empty: it did, as far as that can be told. Errors:
-/// mismatch: an angle was not reached, it did not come to its speed, or nothing shows that an
-/// ArrayCommand was taken; timeout: its answers came too late to see what it did. Of a torque
-/// nothing is judged: it need not turn.
+/// Compares the motion of the shaft with the command; empty: it agrees, as far as can be seen.
+/// Errors: mismatch: an angle was not reached, the speed was not attained, or nothing shows that an
+/// ArrayCommand was accepted; timeout: too few responses came in time. A torque is not judged: the
+/// shaft need not turn.
 [[nodiscard]] std::optional<Error> judge_motion(const CommandPlan& plan,
                                                 const CommandResult& result);
 
-/// How a shaft came to an angle.
+/// The step response of a shaft.
 struct StepResponse {
-  std::optional<Duration> settled{};  ///< after the first command; from then on it was there
+  std::optional<Duration> settled{};  ///< after the first command; it stayed there from then on
   std::int64_t overshoot_decideg = 0; ///< beyond the target
 };
 
-/// Of a command of one angle.
+/// For a command of one angle.
 [[nodiscard]] StepResponse step_response(const CommandPlan& plan, const CommandResult& result);
 
 } // namespace blactl::fleet

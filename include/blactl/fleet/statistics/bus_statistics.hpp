@@ -1,6 +1,6 @@
 #pragma once
-// What is sent on one bus, added up: who sends what how often and how regularly, what of it was
-// lost, and how busy the bus is with all of it.
+// Traffic statistics of one bus: the transfers of each node with their rates and regularity, the
+// losses, and the load of the bus.
 
 #include "blactl/base/time.hpp"
 #include "blactl/can/bus.hpp"
@@ -16,31 +16,31 @@
 
 namespace blactl::fleet {
 
-/// The transfers of one type and kind that one node sends.
+/// The transfers of one data type and kind from one node.
 struct TransferStream {
   dronecan::Kind kind{};
   std::uint16_t data_type_id = 0;
   dronecan::NodeId source{};
-  dronecan::NodeId destination{}; ///< of all of them; 0: messages, or to several nodes
+  dronecan::NodeId destination{}; ///< of all of them; 0: broadcast, or several nodes
 
-  std::uint64_t count = 0, bytes = 0; ///< transfers that came whole, their payloads
-  std::uint64_t frames = 0, bits = 0; ///< on the wire, with the intermission
-  std::uint64_t errors = 0;           ///< transfers that came broken
+  std::uint64_t count = 0, bytes = 0; ///< complete transfers, and their payloads
+  std::uint64_t frames = 0, bits = 0; ///< on the wire, including the intermission
+  std::uint64_t errors = 0;           ///< broken transfers
   Periods periods{};                  ///< of messages, from start to start
   LostTransfers losses{};             ///< of messages
 
-  /// Whether what is missing can be told: services are asked when somebody wants to, and nodes
-  /// without an ID cannot be told apart.
+  /// Whether losses can be detected: services are called irregularly, and nodes without an ID
+  /// cannot be distinguished.
   [[nodiscard]] bool is_regular() const {
     return kind == dronecan::Kind::message && source.is_unicast();
   }
 };
 
-/// A state machine without I/O. Bounded: some 300 bytes a stream, `most_streams` of them; what
-/// further ones send is added up in one, rest().
+/// A state machine without I/O. Bounded: some 300 bytes per stream, at most `most_streams` of them;
+/// all further ones are added up in rest().
 class BusStatistics {
  public:
-  /// A full bus of 127 nodes with 16 types each.
+  /// Enough for a bus of 127 nodes with 16 types each.
   static constexpr std::size_t most_streams = 2048;
 
   BusStatistics() = default;
@@ -50,23 +50,23 @@ class BusStatistics {
   BusStatistics(const BusStatistics&) = delete; // it points into itself
   BusStatistics& operator=(const BusStatistics&) = delete;
 
-  /// Every frame, for the load; those that are `counted`, and are DroneCAN, also for their stream.
+  /// Takes every frame, for the load; `counted` DroneCAN frames also count for their stream.
   void hear(const can::Received& received, bool counted);
 
-  /// A transfer of frames that were counted.
+  /// Takes a transfer of counted frames.
   void take(const dronecan::Transfer& transfer);
 
-  /// One that came broken.
+  /// Takes a broken transfer.
   void take_broken(const dronecan::Header& header);
 
-  /// Nothing more was heard until `now`.
+  /// Advances to `now` without traffic.
   void pass(Time now) { load_.pass(now); }
 
   [[nodiscard]] std::uint64_t frames() const { return frames_; }
 
   [[nodiscard]] const BusLoad& load() const { return load_; }
 
-  /// Of the first frame and of the latest; nothing if there was none.
+  /// The times of the first and of the latest frame; zero if there was none.
   [[nodiscard]] WallTime begin() const { return begin_; }
 
   [[nodiscard]] WallTime end() const { return end_; }
@@ -74,8 +74,8 @@ class BusStatistics {
   /// In the order of source, kind and type.
   [[nodiscard]] const std::map<std::uint32_t, TransferStream>& streams() const { return streams_; }
 
-  /// The streams for which there was no place; empty: all had one. It has neither source nor type,
-  /// nor a rhythm.
+  /// The sum of all streams beyond `most_streams`; empty: there are none. It has no source, type or
+  /// period.
   [[nodiscard]] const std::optional<TransferStream>& rest() const { return rest_; }
 
  private:
@@ -86,8 +86,8 @@ class BusStatistics {
   WallTime begin_{}, end_{};
   std::map<std::uint32_t, TransferStream> streams_;
   std::optional<TransferStream> rest_;
-  std::uint32_t last_key_ = 0;            ///< of the stream that was looked for last
-  TransferStream* last_stream_ = nullptr; ///< never the rest
+  std::uint32_t last_key_ = 0;            ///< of the stream looked up last
+  TransferStream* last_stream_ = nullptr; ///< never rest()
 };
 
 } // namespace blactl::fleet

@@ -1,5 +1,5 @@
 #pragma once
-// How many transfers of one sender and type are missing between those that came.
+// Counts the lost transfers of one sender and type.
 
 #include "blactl/base/time.hpp"
 #include "blactl/dronecan/transfer.hpp"
@@ -9,22 +9,22 @@
 
 namespace blactl::fleet {
 
-/// Transfer IDs count on by one modulo 32 (DroneCAN specification 4.1), so a gap tells how many
-/// were lost, but not whether 32 more were, nor whether the sender began anew. Therefore a gap is
-/// counted only where the time since the last transfer agrees with it, judged by the usual period;
-/// what does not agree is a jump.
+/// Transfer IDs count modulo 32 (DroneCAN specification 4.1), so a gap shows the number of losses,
+/// but not whether 32 more were lost or the sender restarted. Therefore a gap is counted only if
+/// the time since the last transfer agrees with it, judged by the usual period; otherwise it is a
+/// jump.
 class LostTransfers {
  public:
-  /// The next one that came whole. Those that came broken are missing, too.
+  /// Takes the next complete transfer. Broken ones count as lost, too.
   void take(dronecan::TransferId id, Time at);
 
-  /// Empty: no two came one right after the other, so nothing is known of the period.
+  /// Empty: no two transfers were consecutive, so that the period is unknown.
   [[nodiscard]] std::optional<std::uint64_t> lost() const {
     return usual_us_ ? std::optional(lost_) : std::nullopt;
   }
 
-  /// How often the IDs went on as no loss explains: after a restart, a silence in which 32
-  /// transfers fit, with two senders of one node ID, or where clocks went back.
+  /// The number of jumps in the IDs that losses do not explain: after a restart, after a silence
+  /// long enough for 32 transfers, with two senders on one node ID, or if clocks went back.
   [[nodiscard]] std::uint64_t jumps() const { return jumps_; }
 
  private:
@@ -35,10 +35,10 @@ class LostTransfers {
 
   std::optional<dronecan::TransferId> last_;
   Time at_{};
-  std::optional<double> usual_us_; ///< from one to the next
+  std::optional<double> usual_us_; ///< from one transfer to the next
   std::uint64_t lost_ = 0, jumps_ = 0;
-  bool was_silent_ = false; ///< for 32 periods, before the last one
-  bool pauses_ = false;     ///< it sends in bursts, or has changed its rate
+  bool was_silent_ = false; ///< for 32 periods, before the last transfer
+  bool pauses_ = false;     ///< it sends in bursts, or its rate has changed
 };
 
 } // namespace blactl::fleet

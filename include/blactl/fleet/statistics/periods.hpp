@@ -1,5 +1,5 @@
 #pragma once
-// How regularly something comes.
+// Statistics of the periods of an event.
 
 #include "blactl/base/time.hpp"
 
@@ -8,22 +8,22 @@
 
 namespace blactl::fleet {
 
-/// The times between one and the next. A time before the last one (a clock that was set) ends no
-/// period, and begins the next. In microseconds, as they were measured; nothing is left out, so a
-/// transfer that was lost shows as a long period.
+/// The times between consecutive events. An event earlier than the one before (a clock was set)
+/// ends no period, but begins the next. In microseconds, as measured; nothing is omitted, so that a
+/// lost transfer shows as a long period.
 class Periods {
  public:
   void take(Time at);
 
-  /// Periods, one fewer than times where none went back.
+  /// The number of periods: one less than the events, if no clock went back.
   [[nodiscard]] std::uint64_t count() const { return count_; }
 
-  /// Empty, as all below: there is none.
+  /// Empty, as all below: there are no periods.
   [[nodiscard]] std::optional<double> mean_us() const;
   [[nodiscard]] std::optional<Duration> min() const;
   [[nodiscard]] std::optional<Duration> max() const;
 
-  /// The standard deviation of all of them; empty: there are not two.
+  /// The standard deviation; empty: there are fewer than two periods.
   [[nodiscard]] std::optional<double> jitter_us() const;
 
  private:

@@ -15,20 +15,20 @@
 
 namespace blactl::sim {
 
-/// All devices share the one node that this process is on the bus. What one of them sends the
-/// others hear when it has left; nothing is heard twice. The wire and the clients are real: what a
-/// scenario says of their faults is not for here.
+/// All devices share the one node that this process is on the bus. The others receive a frame of
+/// one device when it has been sent; no frame is received twice. The wire and the clients are real:
+/// the wire faults of a scenario do not apply.
 ///
 ///   for (;;) { interface.handle(loop.next(interface.next_deadline())); }
 class Interface {
  public:
-  /// Powers the devices on, on the clock of `loop`, whatever the scenario says of clocks. `loop`
-  /// and the scenario's profiles must outlive this. `sink`: who is told what happens to the servos.
+  /// Powers the devices on, on the clock of `loop`, whatever clock the scenario asks for. `loop`
+  /// and the scenario's profiles must outlive this. `sink` receives the events of the servos.
   Interface(can::Loop& loop, const Scenario& scenario, const EventSink& sink = {});
 
   [[nodiscard]] Time next_deadline() const;
 
-  /// Passes a frame on, and lets the devices do what is due.
+  /// Passes a frame on, and does whatever is due in the devices.
   void handle(const can::Event& event);
 
   [[nodiscard]] const Devices& devices() const { return devices_; }

@@ -14,14 +14,14 @@
 
 namespace blactl::sim {
 
-/// Frames take their bits' time, stuffing and CRC included; whoever is lowest in arbitration goes
-/// first; a frame that nobody acknowledges waits. Two nodes that send different frames under one
-/// identifier destroy each other's until the error counters let one of them through. Errors come as
-/// WireFaults says.
-/// Not simulated: receive error counters, suspend transmission, overload frames.
+/// Frames take the time of their bits, stuffing and CRC included; the lowest identifier wins the
+/// arbitration; a frame that no node acknowledges waits. Two nodes that send different frames under
+/// one identifier destroy each other's frames until the error counters let one of them through.
+/// Errors follow WireFaults. Not simulated: receive error counters, suspend transmission, overload
+/// frames.
 class Medium {
  public:
-  /// A node's side of the bus. A call must not attach or detach; it may send.
+  /// A node's side of the bus. Calls must not attach or detach ports; they may send.
   class Listener {
    public:
     virtual ~Listener() = default;
@@ -42,22 +42,22 @@ class Medium {
   using PortId = std::uint32_t;
 
   struct Counters {
-    std::uint64_t frames = 0; ///< transmitted whole
+    std::uint64_t frames = 0; ///< transmitted completely
     std::uint64_t collisions = 0;
-    std::uint64_t errors = 0; ///< frames that WireFaults has destroyed
+    std::uint64_t errors = 0; ///< frames destroyed by WireFaults
     Duration busy{};          ///< bits of frames, errors and intermissions
   };
 
   explicit Medium(const WireFaults& faults = {}, std::uint64_t seed = 0)
       : disturbance_(faults, seed) {}
 
-  /// `capacity`: frames that wait in this node's queue at most. `listener` must outlive the port.
+  /// `capacity`: maximum number of frames in this node's queue. `listener` must outlive the port.
   PortId attach(Listener& listener, std::size_t capacity, Time now);
 
-  /// The listener hears nothing more; what its queue holds is sent all the same, as a kernel does.
+  /// The listener receives nothing more; frames still in its queue are sent, as a kernel does.
   void detach(PortId port);
 
-  /// A node whose cable is cut hears nothing; what it sends waits, for nobody acknowledges it.
+  /// A node with a cut cable receives nothing; its frames wait for an acknowledgement.
   void cut(PortId port, bool is_cut, Time now);
 
   /// The node's controller leaves the bus as after too many errors.
@@ -66,11 +66,11 @@ class Medium {
   /// Queues a frame; false: the queue is full.
   bool send(PortId port, const can::Frame& frame, Time now);
 
-  /// When the next frame starts or ends; `never` if nothing can happen without a call.
+  /// The time of the next start or end of a frame; `never` if nothing can happen without a call.
   [[nodiscard]] Time next_event() const;
 
-  /// Does the one thing that next_event() announced, if it is due. A start is a thing of its own,
-  /// so that all who send at one moment take part in the arbitration.
+  /// Carries out the single step announced by next_event(), if it is due. The start of a frame is a
+  /// step of its own, so that all nodes that send at one moment take part in the arbitration.
   void advance(Time now);
 
   [[nodiscard]] const Counters& counters() const { return counters_; }
@@ -94,7 +94,7 @@ class Medium {
 
   struct Transmission {
     can::Frame frame;
-    std::vector<PortId> senders; ///< several, if they send the very same frame
+    std::vector<PortId> senders; ///< several, if they send the same frame
     Time end;
     bool destroyed = false;
   };

@@ -17,13 +17,13 @@ namespace blactl::sim {
 /// passes only in idle_until(), and then at once.
 class PrivateBus final : public can::Bus {
  public:
-  /// `name`: as the user gave it. The scenario's profiles must outlive this.
+  /// `name`: as given by the user. The scenario's profiles must outlive this.
   PrivateBus(std::string name, const Scenario& scenario);
   ~PrivateBus() override;
 
   [[nodiscard]] std::string_view name() const override { return name_; }
 
-  /// False while ten frames wait, as many as a CAN interface queues by default.
+  /// False while ten frames wait, the default queue of a CAN interface.
   [[nodiscard]] Result<bool> send(const can::Frame& frame) override;
   [[nodiscard]] std::optional<can::BusEvent> receive() override;
   [[nodiscard]] Result<void> filter(std::span<const can::Filter> filters) override;
@@ -38,7 +38,7 @@ class PrivateBus final : public can::Bus {
   [[nodiscard]] WallTime wall() const override;
   [[nodiscard]] Time idle_until(Time deadline) override;
 
-  /// For tests: what the servos hold.
+  /// For tests: the state of the servos.
   [[nodiscard]] const Simulator& simulator() const { return simulator_; }
 
  private:

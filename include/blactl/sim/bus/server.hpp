@@ -18,40 +18,39 @@ namespace blactl::sim {
 ///   loop.watch(server.descriptor());
 ///   for (;;) { … loop.next(server.next_deadline(loop.now())); server.service(); }
 ///
-/// A client that dies, sends garbage or does not read hurts nobody: it is disconnected, or gets its
-/// frames later. Beyond 2.5 s of a full bus it loses frames, and is told how many.
+/// A client that dies, sends garbage or does not read harms no other: it is disconnected, or
+/// receives its frames late. Beyond 2.5 s of a full bus it loses frames, and receives their number.
 class Server {
  public:
-  /// Creates the folder of the socket if it is missing (0700), takes the place of a simulator that
-  /// was killed, and powers the servos on. The scenario's profiles must outlive the server.
-  /// `sink`: who is told what happens to the servos, always during service().
-  /// Errors: busy (another simulator serves there), interface.
+  /// Creates the folder of the socket if it is missing (0700), replaces a simulator that was
+  /// killed, and powers the servos on. The scenario's profiles must outlive the server. `sink`
+  /// receives the events of the servos, always during service(). Errors: busy (another simulator
+  /// serves there), interface.
   [[nodiscard]] static Result<std::unique_ptr<Server>>
   open(const std::filesystem::path& socket, const Scenario& scenario, const EventSink& sink = {});
   ~Server();
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
-  /// Becomes readable when a client has come, gone or sent something.
+  /// Becomes readable when a client has connected, disconnected or sent something.
   [[nodiscard]] int descriptor() const;
 
   /// Serves the clients and lets time pass. Never waits.
   void service();
 
-  /// When service() must be called although the descriptor is not readable. `now`: of the
-  /// monotonic clock, whatever the clock of the bus.
+  /// The time of the next service() if the descriptor does not become readable earlier. `now`: of
+  /// the monotonic clock, whatever the clock of the bus.
   [[nodiscard]] Time next_deadline(Time now) const;
 
-  /// How far the bus was behind the monotonic clock after the last service(); 0 on the virtual
-  /// clock. Grows without end where the machine is too slow for what is on the bus.
+  /// The lag of the bus behind the monotonic clock after the last service(); 0 on the virtual
+  /// clock. It keeps growing if the machine is too slow for the traffic.
   [[nodiscard]] Duration behind() const;
 
   [[nodiscard]] Simulator& simulator();
 
-  /// The virtual clock stands until so many clients are attached at once.
+  /// Stops the virtual clock until this number of clients is attached at once.
   void hold(std::size_t clients);
 
-  /// Clients that are connected.
   [[nodiscard]] std::size_t clients() const;
 
  private:

@@ -21,23 +21,23 @@ inline constexpr WallTime virtual_epoch{std::chrono::sys_days(std::chrono::year(
 
 struct Devices {
   std::vector<std::unique_ptr<Device>> all;
-  std::vector<Servo*> servos; ///< those of them that are, in the order of the scenario
+  std::vector<Servo*> servos; ///< the servos among the devices, in the order of the scenario
 
-  /// What surrounds the servos of this serial number changes. False: there is none.
+  /// Changes the surroundings of the servos with this serial number. False: there is none.
   bool change(std::int64_t serial_number, std::span<const WorldChange> changes, Time now) const;
 
-  /// What an event does to servos.
+  /// Applies an event to its servos.
   void happen(const TimedEvent& event, Time now) const;
 };
 
-/// The devices of a scenario, just powered on; each is yet to be connected.
+/// The devices of a scenario, just powered on and not yet connected.
 [[nodiscard]] Devices make_devices(const Scenario& scenario, Time power_on, const EventSink& sink);
 
 /// The medium, the devices of a scenario, and the ports of clients. The same scenario and the same
 /// calls give the same frames, to the microsecond.
 class Simulator {
  public:
-  /// The scenario's profiles must outlive this. `sink`: who is told what happens to the servos.
+  /// The scenario's profiles must outlive this. `sink` receives the events of the servos.
   Simulator(const Scenario& scenario, Time power_on, const EventSink& sink = {});
   ~Simulator();
   Simulator(const Simulator&) = delete;
@@ -45,10 +45,10 @@ class Simulator {
 
   [[nodiscard]] Time now() const { return now_; }
 
-  /// When something happens next by itself; may be now().
+  /// The time of the next thing to happen by itself; may be now().
   [[nodiscard]] Time next_event() const;
 
-  /// Lets time pass, listeners hear what happens on the way. Never goes back.
+  /// Lets time pass and calls the listeners on the way. Never goes back.
   void advance_to(Time time);
 
   /// A client's node, at now(). See Medium.
@@ -56,10 +56,9 @@ class Simulator {
   void detach(Medium::PortId port);
   bool send(Medium::PortId port, const can::Frame& frame);
 
-  /// All clients, those to come too.
+  /// Applies to all clients, present and future.
   void link_clients(ClientLink link);
 
-  /// See Devices.
   bool change(std::int64_t serial_number, std::span<const WorldChange> changes) {
     return devices_.change(serial_number, changes, now_);
   }

@@ -1,5 +1,5 @@
 #pragma once
-// A device whose frames do not leave when they should.
+// A device whose frames leave late or twice.
 
 #include "blactl/sim/node/device.hpp"
 #include "blactl/sim/node/random.hpp"
@@ -11,19 +11,19 @@
 
 namespace blactl::sim {
 
-/// When the frames of a device leave. Probabilities, from 0 to 1, are of one answer.
+/// Faults of a device's sending. Probabilities, from 0 to 1, are per response.
 struct SendingFaults {
-  Duration jitter{};         ///< every transfer leaves up to so much later, in the order of sending
-  double late_answers = 0;   ///< an answer leaves `late_by` later, whatever was sent meanwhile
-  Duration late_by{};        ///< best beyond the patience of who has asked
-  double double_answers = 0; ///< an answer leaves twice, the second time up to 20 ms later
+  Duration jitter{};         ///< every transfer is delayed by up to this, in the order of sending
+  double late_answers = 0;   ///< a response is delayed by `late_by`, and may be overtaken
+  Duration late_by{};        ///< best longer than the client's timeout
+  double double_answers = 0; ///< a response is sent twice, the second time up to 20 ms later
 
   [[nodiscard]] bool any() const {
     return jitter > Duration::zero() || late_answers > 0 || double_answers > 0;
   }
 };
 
-/// Stands for the device on the bus. Answers are the transfers of services that are no requests.
+/// Replaces the device on the bus.
 class DelayedDevice final : public Device {
  public:
   DelayedDevice(std::unique_ptr<Device> device, const SendingFaults& faults, std::uint64_t seed);
@@ -46,9 +46,9 @@ class DelayedDevice final : public Device {
   SendingFaults faults_;
   Random random_;
   Time now_{};
-  Time last_due_{};                    ///< of what keeps its order
-  std::vector<can::Frame> incomplete_; ///< the transfer that the device is sending
-  std::deque<Waiting> waiting_;        ///< in the order of leaving
+  Time last_due_{};                    ///< of the transfers that keep their order
+  std::vector<can::Frame> incomplete_; ///< the transfer being sent by the device
+  std::deque<Waiting> waiting_;        ///< in the order of departure
 };
 
 } // namespace blactl::sim

@@ -17,16 +17,16 @@ class Device {
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
 
-  /// Where its frames go, in the order of sending.
+  /// `sink` receives the device's frames, in the order of sending.
   void connect(Sink sink) { sink_ = std::move(sink); }
 
-  /// A frame of another node.
+  /// Handles a frame of another node.
   virtual void receive(const can::Frame& frame, Time at) = 0;
 
-  /// When advance() must be called at the latest; may lie in the past: now.
+  /// The latest time for the next advance(); one in the past means now.
   [[nodiscard]] virtual Time next_deadline() const = 0;
 
-  /// Does everything that is due. Time never goes back.
+  /// Does whatever is due. Time never goes back.
   virtual void advance(Time now) = 0;
 
  protected:

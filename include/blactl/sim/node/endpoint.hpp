@@ -1,5 +1,6 @@
 #pragma once
-// The DroneCAN side of a simulated node: its ID, its transfer IDs, reassembly of what concerns it.
+// The DroneCAN side of a simulated node: its ID, its transfer IDs, the reassembly of transfers for
+// it.
 
 #include "blactl/base/time.hpp"
 #include "blactl/can/frame.hpp"
@@ -19,15 +20,15 @@ class Endpoint {
  public:
   using Handler = std::function<void(const dronecan::Transfer&)>;
 
-  /// `handler` gets complete messages of the `subscriptions` (data type IDs) and the requests to
-  /// this node's ID. A repeated transfer ID within 2 s is dropped, as the standard has it.
+  /// `handler` receives complete messages of the `subscriptions` (data type IDs) and the requests
+  /// to this node's ID. A repeated transfer ID within 2 s is dropped, as the standard requires.
   Endpoint(std::vector<std::uint16_t> subscriptions, Handler handler);
 
   [[nodiscard]] dronecan::NodeId node_id() const { return node_id_; }
 
   void set_node_id(dronecan::NodeId id) { node_id_ = id; }
 
-  /// As after power-on: no ID, transfer IDs from 0, nothing half received.
+  /// Resets to the state after power-on: no ID, transfer IDs from 0, nothing half received.
   void restart();
 
   void receive(const can::Frame& frame, Time at);
@@ -37,7 +38,7 @@ class Endpoint {
                                                 dronecan::Priority priority,
                                                 std::span<const std::uint8_t> payload);
 
-  /// The frames of the answer to `request`, at the priority of the request.
+  /// The frames of the response to `request`, at the priority of the request.
   [[nodiscard]] std::vector<can::Frame> response(const dronecan::Transfer& request,
                                                  const dronecan::DataType& type,
                                                  std::span<const std::uint8_t> payload) const;
@@ -49,7 +50,7 @@ class Endpoint {
   Handler handler_;
   dronecan::NodeId node_id_;
   std::map<std::uint16_t, dronecan::TransferId> next_transfer_id_;
-  std::optional<dronecan::Receiver> receiver_; ///< there always is one
+  std::optional<dronecan::Receiver> receiver_; ///< never empty
 };
 
 } // namespace blactl::sim

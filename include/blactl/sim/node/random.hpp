@@ -1,5 +1,5 @@
 #pragma once
-// Chance that repeats: the same seed gives the same numbers with every compiler and library.
+// Pseudo-random numbers: the same seed gives the same numbers with every compiler and library.
 
 #include "blactl/base/time.hpp"
 
@@ -20,12 +20,12 @@ class Random {
     return z ^ (z >> 31U);
   }
 
-  /// True with this probability. One that is never or always true uses up no chance.
+  /// True with this probability. A probability of 0 or 1 does not advance the sequence.
   [[nodiscard]] bool chance(double probability) {
     if (probability <= 0 || probability >= 1) {
       return probability >= 1;
     }
-    constexpr double steps = 9007199254740992.0; // 2^53: all that a double can tell apart
+    constexpr double steps = 9007199254740992.0; // 2^53, the precision of a double
     return static_cast<double>(next() >> 11U) < probability * steps;
   }
 

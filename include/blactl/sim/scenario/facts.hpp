@@ -1,5 +1,5 @@
 #pragma once
-// What was measured on a real servo: a facts file ("schema":"blactl-facts/1").
+// Facts: the behaviour measured on a real servo, as a file ("schema":"blactl-facts/1").
 //
 //   {
 //     "schema": "blactl-facts/1",
@@ -7,10 +7,10 @@
 //     "about": {"model": "BLA21-12U-AB", "name": "jp.co.futaba.bla21", "software": "1.40"}
 //   }
 //
-// "behaviour" has the members of Behaviour; what it leaves out is as likely as before. With
-// `blactl sim --facts FILE` every servo behaves like that; what its scenario says stands above it,
-// key by key. "about" tells people which servo it was (`blactl characterize` writes it); no servo
-// goes by it. (schemas/facts.schema.json)
+// "behaviour" has the members of Behaviour; members left out keep their defaults. With `blactl sim
+// --facts FILE` they become the defaults of every servo; the keys of its scenario override them one
+// by one. "about" records for people which servo was measured (`blactl characterize` writes it);
+// the simulator does not use it. (schemas/facts.schema.json)
 
 #include "blactl/base/error.hpp"
 #include "blactl/sim/scenario/scenario.hpp"
@@ -21,7 +21,7 @@
 
 namespace blactl::sim {
 
-/// Errors: bad_file with file, line, JSON pointer and reason of every fault.
+/// Errors: bad_file with file, line, JSON pointer and reason for each error.
 [[nodiscard]] Result<Behaviour> read_facts(const std::filesystem::path& file);
 [[nodiscard]] Result<Behaviour> parse_facts(std::string_view text, std::string file);
 

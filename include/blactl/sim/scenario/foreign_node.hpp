@@ -1,5 +1,5 @@
 #pragma once
-// A node on the simulated bus that is no BLA servo: an autopilot, a satellite receiver.
+// A node on the simulated bus that is not a BLA servo: an autopilot, a satellite receiver.
 
 #include "blactl/dronecan/types.hpp"
 #include "blactl/sim/node/device.hpp"
@@ -13,8 +13,8 @@ namespace blactl::sim {
 
 class ForeignRole;
 
-/// Sends NodeStatus and answers GetNodeInfo; if the setup says so it answers GetSet, streams
-/// ArrayCommand, and sends ArmingStatus. Besides it does what its kind does.
+/// Sends NodeStatus and answers GetNodeInfo; if configured, it answers GetSet, streams
+/// ArrayCommand, and sends ArmingStatus. Its role adds the behaviour of its kind.
 class ForeignNode final : public Device {
  public:
   ForeignNode(const ForeignSetup& setup, Time power_on);
@@ -34,7 +34,7 @@ class ForeignNode final : public Device {
   [[nodiscard]] dronecan::NodeStatus node_status() const;
 
   ForeignSetup setup_;
-  std::unique_ptr<ForeignRole> role_; ///< there always is one
+  std::unique_ptr<ForeignRole> role_; ///< never null
   Endpoint endpoint_;
   Time power_on_;
   Time now_;

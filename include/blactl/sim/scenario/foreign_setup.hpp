@@ -1,5 +1,5 @@
 #pragma once
-// What a scenario says of a node that is no BLA servo.
+// The configuration of a node that is not a BLA servo, from a scenario.
 
 #include "blactl/base/time.hpp"
 #include "blactl/dronecan/ids.hpp"
@@ -13,7 +13,7 @@
 
 namespace blactl::sim {
 
-/// A stream of ArrayCommand, as an autopilot sends it.
+/// A stream of ArrayCommand, as sent by an autopilot.
 struct CommanderSetup {
   std::vector<std::uint8_t> servo_ids;
   std::uint8_t type = 1; ///< table 2-21
@@ -21,12 +21,12 @@ struct CommanderSetup {
   Duration period = std::chrono::milliseconds(20);
 };
 
-/// Nothing but what every node does.
+/// A node with the behaviour common to all nodes, and nothing else.
 struct PlainSetup {};
 
 /// A satellite receiver.
 struct GnssSetup {
-  Duration period = std::chrono::milliseconds(200); ///< of Fix2: what such receivers default to
+  Duration period = std::chrono::milliseconds(200); ///< of Fix2: the default of such receivers
 };
 
 /// An electronic speed controller.
@@ -37,13 +37,13 @@ struct EscSetup {
 
 /// A flight controller.
 struct AutopilotSetup {
-  bool allocates = false; ///< gives node IDs to those who ask
+  bool allocates = false; ///< answers requests for node IDs
 };
 
-/// A node that talks without end.
+/// A node that floods the bus.
 struct BabblerSetup {
   dronecan::Priority priority = dronecan::priority_medium;
-  double load = 0.5; ///< of the bus, 0 to 1
+  double load = 0.5; ///< share of the bus, 0 to 1
 };
 
 struct ForeignSetup {

@@ -1,13 +1,13 @@
 #pragma once
-// What is on a simulated bus: a scenario file ("schema":"blactl-scenario/1").
+// The contents of a simulated bus, as a scenario file ("schema":"blactl-scenario/1").
 //
 //   {
 //     "schema": "blactl-scenario/1",
 //     "clock": "virtual",            real (default) or virtual
-//     "seed": 7,                     of everything that happens by chance; default 1
+//     "seed": 7,                     of all random events; default 1
 //     "servos": [
 //       {
-//         "model": "BLA21-12U-AB",   the only key that must be there; or a label: BLA21-12U-AB2
+//         "model": "BLA21-12U-AB",   the only required key; or a label: BLA21-12U-AB2
 //         "node_id": 11,             0x46 in ROM; 0 (default): asks an allocator
 //         "unique_id": "00112233445566778899aabbccddeeff",   default: from the serial number
 //         "serial_number": 240900558,      default 240900001 and up
@@ -17,7 +17,7 @@
 //         "hardware_version": 12050,
 //         "name": "jp.co.futaba.bla21",    of GetNodeInfo
 //         "answer_delay": "0.5ms",         a value of time; an integer counts us
-//         "rom": {"angle_limit_cw": "90deg"},    what SAVE keeps; default: as from the factory
+//         "rom": {"angle_limit_cw": "90deg"},    what SAVE keeps; default: factory values
 //         "ram": {"reverse": "on", "current_voltage": "11.8V", "fault_warning": 16},
 //         "behaviour": {"out_of_range": "clamp", "rom_write_time": "80ms"},
 //         "faults": {"lose_opcode_answers": 1, "return_delay": "3s",
@@ -26,7 +26,7 @@
 //         0.01}
 //       }
 //     ],
-//     "wire": {                              what goes wrong by chance; default: nothing
+//     "wire": {                              random faults; default: none
 //       "loss": 0.01, "duplication": 0.01, "errors": 0.001, "bit_flips": 0.001,
 //       "burst_interval": "2s", "burst_length": "3ms"
 //     },
@@ -40,7 +40,7 @@
 //         "armed": false                   sends ArmingStatus
 //       },
 //       {"kind": "gnss", "node_id": 31, "rate": 5},         Fix2 and Auxiliary
-//       {"kind": "esc", "node_id": 32, "index": 0, "rate": 50},      with parameters of its own
+//       {"kind": "esc", "node_id": 32, "index": 0, "rate": 50},      with its own parameters
 //       {"kind": "autopilot", "node_id": 33, "allocates": true},     disarmed; gives node IDs
 //       {"kind": "babbler", "node_id": 34, "priority": 16, "load": 0.5}
 //     ],
@@ -51,16 +51,17 @@
 //     ]
 //   }
 //
-// At power-on RAM is what ROM holds, then what "ram" says. A restart brings back what ROM holds by
-// then; what "ram" says of 0x0B, 0x0C and 0x19-0x1B is no memory of the servo but the world around
-// it (World), and stays, as 0x50 up does; of 0x08 and 0x09 how the shaft stands and turns at
-// power-on. "behaviour" has the members of Behaviour, "faults" those of ServoFaults, "sending"
-// those of SendingFaults, "wire" those of WireFaults; in "restart_after_answer" both keys may be
-// left out: "to" is "any" then, "number" 1. An event names its servo by the serial number; "world"
-// has the keys of parse_world_change(), "happens" is power_off, power_on, clock_error,
-// watchdog_error or ram_error (Mishap), and one of the two must be there. Every kind of foreign
-// node has the keys of "node", too. A firmware that the model never had (chapter 5) is a warning.
-// What all of this may be, schemas/scenario.schema.json says to an editor.
+// At power-on RAM is loaded from ROM, then from "ram". A restart loads it from ROM as it is then.
+// The values that "ram" gives 0x0B, 0x0C and 0x19-0x1B are not the servo's memory but its
+// surroundings (World), and stay, as those from 0x50 up do; the values of 0x08 and 0x09 are the
+// angle and speed of the shaft at power-on. "behaviour" has the members of Behaviour, "faults"
+// those of ServoFaults, "sending" those of SendingFaults, "wire" those of WireFaults; in
+// "restart_after_answer" both keys are optional: "to" defaults to "any", "number" to 1. An event
+// names its servo by the serial number; "world" has the keys of parse_world_change(), "happens" is
+// power_off, power_on, clock_error, watchdog_error or ram_error (Mishap), and at least one of the
+// two is required. Every kind of foreign node has the keys of "node", too. A firmware that the
+// model never had (chapter 5) gives a warning. schemas/scenario.schema.json describes all of this
+// for editors.
 
 #include "blactl/base/error.hpp"
 #include "blactl/base/time.hpp"
@@ -88,12 +89,12 @@ struct Scenario {
   std::vector<ForeignSetup> foreign;
   WireFaults wire;
   std::vector<TimedEvent> events;
-  std::vector<std::string> warnings; ///< what is odd but possible: "file:line: /pointer: why"
+  std::vector<std::string> warnings; ///< odd but possible: "file:line: /pointer: why"
 };
 
-/// Both refer to `profiles`, which must outlive the scenario. `usual`: how a servo behaves as far
-/// as its own "behaviour" says nothing else (see facts.hpp). Errors: bad_file with file, line, JSON
-/// pointer and reason of every fault.
+/// Both refer to `profiles`, which must outlive the scenario. `usual`: the defaults for the servos'
+/// "behaviour" (see facts.hpp). Errors: bad_file with file, line, JSON pointer and reason for each
+/// error.
 [[nodiscard]] Result<Scenario> read_scenario(const std::filesystem::path& file,
                                              const bla::Profiles& profiles,
                                              const Behaviour& usual = {});

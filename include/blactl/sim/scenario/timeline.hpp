@@ -1,5 +1,5 @@
 #pragma once
-// What happens at set times, whatever the frames do.
+// Events at set times, independent of the traffic.
 
 #include "blactl/base/time.hpp"
 #include "blactl/sim/scenario/world_change.hpp"
@@ -13,11 +13,11 @@
 
 namespace blactl::sim {
 
-/// How the clients of a simulated bus hang on it.
+/// The state of the clients' connection to a simulated bus.
 enum class ClientLink : std::uint8_t {
   joined,
-  cut,     ///< the cable is pulled: nobody hears or acknowledges them
-  bus_off, ///< their controllers leave the bus for a moment, and lose what they wanted to send
+  cut,     ///< the cable is pulled: no node receives or acknowledges their frames
+  bus_off, ///< their controllers leave the bus for a moment, and drop their queued frames
 };
 
 /// "joined", "cut", "bus_off"; empty: none of them.
@@ -25,19 +25,19 @@ enum class ClientLink : std::uint8_t {
 
 struct TimedEvent {
   Duration at{};                      ///< after power-on
-  std::int64_t serial_number = 0;     ///< of the servos that it happens to; 0: to the clients
-  std::vector<WorldChange> changes{}; ///< around those servos
-  std::optional<Mishap> mishap{};     ///< of those servos, after the changes
+  std::int64_t serial_number = 0;     ///< of the affected servos; 0: the clients
+  std::vector<WorldChange> changes{}; ///< to the surroundings of those servos
+  std::optional<Mishap> mishap{};     ///< applied to those servos after the changes
   ClientLink clients = ClientLink::joined;
 };
 
-/// Gives events out when they are due.
+/// Gives out events when they are due.
 class Timeline {
  public:
-  /// `events`: in any order; those of one time happen in theirs.
+  /// `events`: in any order; those of the same time keep theirs.
   Timeline(std::vector<TimedEvent> events, Time power_on);
 
-  /// Of the next event; `never` if there is none.
+  /// The time of the next event; `never` if there is none.
   [[nodiscard]] Time next() const;
 
   /// The next event if it is due; else null. Valid as long as this is.

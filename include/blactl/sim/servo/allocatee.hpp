@@ -1,5 +1,5 @@
 #pragma once
-// How a servo without a node ID asks for one (section 2.3, tables 2-7 and 2-8).
+// The allocation request of a servo without a node ID (section 2.3, tables 2-7 and 2-8).
 
 #include "blactl/base/time.hpp"
 #include "blactl/dronecan/ids.hpp"
@@ -11,21 +11,22 @@
 
 namespace blactl::sim {
 
-/// Sends its unique ID in three parts; each goes out only after the allocator has repeated all
-/// that came before. Any other Allocation message on the bus makes it start over (DSDL rule C;
-/// unproven: the specification only says that a wrong answer does). An answer that it has had
-/// already is none of these: two allocators that answer alike both help it.
+/// Sends its unique ID in three parts; each is sent only after the allocator has repeated all those
+/// before. Any other Allocation message on the bus makes it start over (DSDL rule C; unproven: the
+/// specification only says so of a wrong response). A response that it has already received is not
+/// one of these: two allocators with identical responses both help it.
 class Allocatee {
  public:
   Allocatee(const dronecan::UniqueId& unique_id, std::uint64_t seed, Time now);
 
-  /// When the next request goes out.
+  /// The time of the next request.
   [[nodiscard]] Time next_deadline() const { return due_; }
 
   /// The request to send now, if one is due.
   [[nodiscard]] std::optional<dronecan::Allocation> advance(Time now);
 
-  /// An Allocation message of another node. Returns the node ID when it completes the exchange.
+  /// Handles an Allocation message of another node. Returns the node ID when the exchange is
+  /// complete.
   [[nodiscard]] std::optional<dronecan::NodeId> receive(const dronecan::Allocation& message,
                                                         bool anonymous, Time now);
 
@@ -37,7 +38,7 @@ class Allocatee {
   dronecan::UniqueId unique_id_;
   Random random_;
   std::uint8_t sent_ = 0;      ///< bytes of the unique ID sent in this exchange: 0, 6, 12, 16
-  std::uint8_t confirmed_ = 0; ///< repeated by the allocator, the next part is due: 0, 6, 12
+  std::uint8_t confirmed_ = 0; ///< repeated by the allocator, next part is due: 0, 6, 12
   std::uint8_t answered_ = 0;  ///< repeated by the allocator in this exchange: 0, 6, 12
   Time due_;
 };

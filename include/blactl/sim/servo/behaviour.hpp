@@ -1,6 +1,6 @@
 #pragma once
-// What only a real servo can tell: how a simulated one behaves where the BLA specification (rev
-// 1.11) is silent or says two things.
+// The behaviour of a simulated servo where the BLA specification (rev 1.11) is silent or
+// contradicts itself; only a real servo can settle it.
 
 #include "blactl/base/time.hpp"
 
@@ -10,83 +10,83 @@
 
 namespace blactl::sim {
 
-/// What a servo does with a written value that is out of range (requirement 78): it keeps and
-/// answers the present one, it takes the nearest, or it answers the failure of table 2-16.
+/// The reaction to a written value out of range (requirement 78): the servo keeps the present value
+/// and responds with it, takes the nearest, or responds with the failure of table 2-16.
 enum class OutOfRange : std::uint8_t { refuse, clamp, fail };
 
-/// What the read of a register answers that is not there: a failure, or the value 0.
+/// The response to a read of a missing register: a failure, or the value 0.
 enum class MissingRead : std::uint8_t { fail, zero };
 
-/// What a servo does with a command of ArrayCommand that is no number or infinite (requirement
-/// 107).
+/// The reaction to a command of ArrayCommand that is NaN or infinite (requirement 107).
 enum class NotANumber : std::uint8_t { ignore, zero };
 
-/// What a servo does with a UNITLESS command beyond -1 to +1 (table 2-21): more than 180 deg inside
-/// the limits 0x38 and 0x39, 180 deg, or nothing.
+/// The reaction to a UNITLESS command beyond -1 to +1 (table 2-21): more than 180 deg inside the
+/// limits 0x38 and 0x39, 180 deg, or none.
 enum class BeyondUnitless : std::uint8_t { limits, clamp, ignore };
 
-/// What the unused numbers of actuator.Status hold (table 2-22).
+/// The contents of the unused fields of actuator.Status (table 2-22).
 enum class UnusedFields : std::uint8_t { unknown, zero };
 
-/// What a speed command does that is slower than the servo can turn (4.2).
+/// The reaction to a speed command below the servo's lowest speed (4.2).
 enum class SlowSpeed : std::uint8_t { stands, turns_slowest };
 
-/// What 0x00 reads after a start in place (4.14): the present angle, or the 0 of table 3-1.
+/// The value of 0x00 after a start in place (4.14): the present angle, or the 0 of table 3-1.
 enum class StartAngle : std::uint8_t { present, zero };
 
-/// unproven: all of it. The defaults are what is likelier.
+/// unproven: all of it. The defaults are the likelier choices.
 struct Behaviour {
-  // What it answers.
+  // Responses.
   OutOfRange out_of_range = OutOfRange::refuse;
   MissingRead reserved_reads = MissingRead::fail;   ///< reserved addresses up to 0x5F
   MissingRead gated_reads = MissingRead::fail;      ///< registers the firmware lacks
   MissingRead write_only_reads = MissingRead::fail; ///< 0x10-0x12, 0x49
-  bool index_only_access = true;                    ///< GetSet by index = address
-  bool failure_with_name = false;                   ///< table 2-16 prints no name
+  bool index_only_access = true;                    ///< GetSet accepts index = address
+  bool failure_with_name = false;                   ///< table 2-16 shows no name
   bool ignores_disabled_commands = true;            ///< 0x01, 0x02 keep their value while 0x25 = 0
-  bool answers_save_first = true;  ///< SAVE and 0x12; false: there is no answer at all
-  bool array_command_shows = true; ///< 0x00-0x02 read what ArrayCommand brought
+  bool answers_save_first = true;                   ///< SAVE and 0x12; false: no response at all
+  bool array_command_shows = true; ///< 0x00-0x02 read back the values from ArrayCommand
   StartAngle start_angle = StartAngle::present;
 
-  // What it sends by itself.
+  // Messages.
   UnusedFields unused_fields = UnusedFields::unknown; ///< DSDL's NaN and 127, or 0
-  bool notices_warn = false;                          ///< bits of 0x19 too make health 1
+  bool notices_warn = false;                          ///< bits of 0x19, too, set health to 1
   bool assignment_shows = false; ///< mode 1 (table 2-19) in the first NodeStatus under a new ID
-  /// From the start, or from getting its ID, to the first NodeStatus; up to 1 s. The common
-  /// libraries of DroneCAN send at once; section 2.2 asks for one a second only.
+  /// The delay from the start, or from getting an ID, to the first NodeStatus; up to 1 s. The
+  /// common DroneCAN libraries send at once; section 2.2 only asks for one a second.
   Duration first_node_status{};
 
-  // What it obeys.
+  // Commands.
   NotANumber not_a_number = NotANumber::ignore;
   BeyondUnitless beyond_unitless = BeyondUnitless::limits;
   SlowSpeed slow_speed = SlowSpeed::stands; ///< below 10 rpm
   bool array_command_feeds_timeout = true;  ///< 4.19 lists registers only
   bool get_set_feeds_timeout = false;       ///< any other GetSet, reads too
-  bool timeout_beats_brake = false;   ///< 0x26 = OFF lets go what 0x20 brakes; else the brake stays
-  bool keeps_disabled_command = true; ///< 0x01, 0x02 outlive 0x25 = 0; else they become 0
-  bool keeps_limited_angle = true;    ///< 0x00 beyond 0x38, 0x39 stays so; else it is the limit
-  bool erase_holds = true; ///< 0x10 and ERASE while 0x20 is OFF or brake: as 4.13; else to 0 deg
+  bool timeout_beats_brake = false; ///< 0x26 = OFF releases the brake of 0x20; else the brake stays
+  bool keeps_disabled_command = true; ///< 0x01, 0x02 survive 0x25 = 0; else they become 0
+  bool keeps_limited_angle = true;    ///< 0x00 beyond 0x38, 0x39 stays; else it becomes the limit
+  bool erase_holds = true; ///< 0x10, ERASE while 0x20 is OFF or brake: as in 4.13; else to 0 deg
   bool speed_control_before_1100 = false; ///< a firmware without 0x25 acts as if it were ON, or OFF
 
-  // What it takes for a fault.
-  bool inclusive_limits = true;    ///< bits of 4.12 as in Japanese; English: beyond only
-  bool inclusive_stops = false;    ///< the motor stops at a limit of 0x3E-0x41; else beyond (4.7)
-  bool failures_latch = false;     ///< 0x1B.0, .1, .5 stay until the next start
+  // Faults.
+  bool inclusive_limits = true; ///< bits of 4.12 as in Japanese; in English: only beyond the limit
+  bool inclusive_stops = false; ///< stops at a limit of 0x3E-0x41; else only beyond it (4.7)
+  bool failures_latch = false;  ///< 0x1B.0, .1, .5 stay until the next start
   bool restart_bits_stop = false;  ///< 0x1B.8, .9, .11 keep the motor off
-  bool boost_in_dead_band = false; ///< 0x2F pushes inside the dead band, too
+  bool boost_in_dead_band = false; ///< 0x2F is effective inside the dead band, too
 
   // PWM (4.30) and soft start (4.14).
   bool pwm_end_points_move = true;    ///< the ends of the pulse range are valid
-  bool pwm_waits_after_start = false; ///< no pulse counts for 0x27 after the start
+  bool pwm_waits_after_start = false; ///< no pulse is valid within 0x27 after the start
   bool pwm_yields_to_all = true;      ///< also to 0x02 and 0x20; else to 0x00 and 0x01 only
-  bool soft_start_shows = false;      ///< reads tell the limits of the soft start
-  bool soft_start_resumes = false;    ///< cut by a timeout it goes on with the next command
+  bool soft_start_shows = false;      ///< reads show the limits of the soft start
+  bool soft_start_resumes = false;    ///< after a cut by timeout it resumes with the next command
 
   Duration rom_write_time = std::chrono::milliseconds(50); ///< "about 0.05 s" (4.11); up to 10 s
-  /// From a request to its answer; up to 10 s. A servo of a scenario has a key of its own for it.
+  /// The delay from a request to its response; up to 10 s. A servo of a scenario has its own key
+  /// for it.
   Duration answer_delay = std::chrono::microseconds(500);
-  /// From power or restart to the first frame; up to 10 s. Empty: 50 to 150 ms, each time a little
-  /// different.
+  /// The time from power or restart to the first frame; up to 10 s. Empty: 50 to 150 ms, varying
+  /// from start to start.
   std::optional<Duration> boot_time;
 };
 

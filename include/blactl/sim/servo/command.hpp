@@ -1,5 +1,5 @@
 #pragma once
-// What ArrayCommand says to a servo, as registers (tables 2-20, 2-21).
+// The commands of ArrayCommand for a servo, as registers (tables 2-20, 2-21).
 
 #include "blactl/bla/parameter.hpp"
 #include "blactl/dronecan/types.hpp"
@@ -18,8 +18,8 @@ struct MotionCommand {
   friend bool operator==(const MotionCommand&, const MotionCommand&) = default;
 };
 
-/// Empty: an unknown type, no number, or UNITLESS beyond 1 (requirements 104, 107; the last two if
-/// the servo is set so).
+/// Empty: an unknown type, not a number, or UNITLESS beyond 1 (requirements 104, 107; the last two
+/// depend on Behaviour).
 [[nodiscard]] std::optional<MotionCommand>
 motion_command(const dronecan::ArrayCommand::Command& command, const Behaviour& behaviour);
 

@@ -1,6 +1,6 @@
 #pragma once
-// When a simulated servo last was commanded: the communication timeout (4.19), and whether the PWM
-// input counts (4.30).
+// The time since a simulated servo was last commanded: for the communication timeout (4.19) and the
+// validity of the PWM input (4.30).
 
 #include "blactl/base/time.hpp"
 
@@ -11,7 +11,8 @@ namespace blactl::sim {
 
 class CommandTimer {
  public:
-  /// The servo begins to run; the timeout counts from here. `pwm_waits`: so does the wait of PWM.
+  /// The servo begins to run; the timeout counts from here. `pwm_waits`: so does the wait of the
+  /// PWM input.
   void start(Time now, bool pwm_waits) {
     last_ = now;
     last_can_ = pwm_waits ? std::optional(now) : std::nullopt;
@@ -19,7 +20,8 @@ class CommandTimer {
 
   void commanded(Time at) { last_ = at; }
 
-  /// By CAN. `feeds`: it also counts for the timeout; `silences_pwm`: PWM waits from here.
+  /// A command came by CAN. `feeds`: it restarts the timeout; `silences_pwm`: the wait of the PWM
+  /// input restarts.
   void commanded_by_can(Time at, bool feeds, bool silences_pwm = true) {
     last_can_ = silences_pwm ? std::optional(at) : last_can_;
     last_ = feeds ? at : last_;
@@ -33,7 +35,7 @@ class CommandTimer {
     return !last_can_ || at - *last_can_ >= limit;
   }
 
-  /// When one of the two answers changes by time alone.
+  /// The time at which one of the two results changes without a further call.
   [[nodiscard]] Time next_change(Time at, Duration limit) const {
     const Time pwm = accepts_pwm(at, limit) ? never : *last_can_ + limit;
     return timed_out(at, limit) ? pwm : std::min(pwm, last_ + limit);

@@ -1,5 +1,5 @@
 #pragma once
-// What happens inside a simulated servo and its frames do not tell.
+// Events inside a simulated servo that its frames do not show.
 
 #include "blactl/base/time.hpp"
 #include "blactl/dronecan/ids.hpp"
@@ -13,16 +13,16 @@ namespace blactl::sim {
 struct ServoEvent {
   enum class Kind : std::uint8_t {
     rom_write, ///< the silence of a ROM write is over
-    restart,   ///< it goes down
-    erase,     ///< RAM has the defaults
-    allocated, ///< an allocator gave it an ID
+    restart,   ///< the servo goes down
+    erase,     ///< RAM holds the defaults
+    allocated, ///< an allocator has assigned an ID
   };
 
   Kind kind = Kind::rom_write;
   Time at;
   dronecan::UniqueId unique_id{};
   std::int64_t serial_number = 0;
-  dronecan::NodeId node_id;     ///< its address when it happened; of `allocated` the new one
+  dronecan::NodeId node_id;     ///< its ID at the time of the event; for `allocated` the new one
   std::uint32_t rom_writes = 0; ///< since power-on, this one included
 };
 
@@ -37,7 +37,7 @@ struct ServoEvent {
   return {};
 }
 
-/// Told at once; must not call the simulator back.
+/// Called at once; must not call back into the simulator.
 using EventSink = std::function<void(const ServoEvent&)>;
 
 } // namespace blactl::sim

@@ -1,5 +1,5 @@
 #pragma once
-// Faults that befall a simulated servo at once, beside what the world around it does.
+// Sudden faults of a simulated servo, other than those that follow from its surroundings.
 
 #include <array>
 #include <cstdint>
@@ -9,14 +9,15 @@
 namespace blactl::sim {
 
 enum class Mishap : std::uint8_t {
-  power_off,      ///< it is dead, RAM is lost; the same as plugged=off
-  power_on,       ///< it starts from ROM
-  clock_error,    ///< it restarts by itself and says why (4.12, note 2): 0x1B.8
+  power_off,      ///< dead, RAM is lost; the same as plugged=off
+  power_on,       ///< starts from ROM
+  clock_error,    ///< restarts by itself and reports the cause (4.12, note 2): 0x1B.8
   watchdog_error, ///< the same: 0x1B.9
   ram_error,      ///< the same: 0x1B.11
 };
 
-/// Each with its word: "power_off", "power_on", "clock_error", "watchdog_error", "ram_error".
+/// All mishaps with their words: "power_off", "power_on", "clock_error", "watchdog_error",
+/// "ram_error".
 inline constexpr std::array mishaps{
     std::pair{std::string_view("power_off"), Mishap::power_off},
     std::pair{std::string_view("power_on"), Mishap::power_on},

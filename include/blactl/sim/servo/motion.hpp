@@ -1,6 +1,6 @@
 #pragma once
-// What a simulated servo does with its shaft: commands, readings, protection, soft start, timeouts
-// (chapter 4). Without CAN: it knows registers and the world.
+// The motion of a simulated servo: commands, readings, protection, soft start, timeouts (chapter
+// 4). Without CAN: it has only registers and surroundings.
 
 #include "blactl/base/time.hpp"
 #include "blactl/sim/servo/angle_frame.hpp"
@@ -20,23 +20,24 @@
 
 namespace blactl::sim {
 
-/// Computed in steps of 1 ms from power-on, and only when somebody looks: that one looks more often
-/// or less changes nothing. While nothing moves, time costs nothing.
+/// Computed in steps of 1 ms from power-on, and only on demand; the result does not depend on how
+/// often it is demanded. While nothing moves, time costs nothing.
 class Motion {
  public:
   /// `registers` must outlive this. The motor is off until start().
   Motion(const ServoSetup& setup, Registers& registers, Time power_on);
 
-  /// The servo begins to run: the angle comes back within one turn (requirement 46), soft start.
+  /// The servo begins to run: the angle comes back within one turn (requirement 46), then soft
+  /// start.
   void start(Time now);
 
-  /// The servo goes down: motor off. What told why it last restarted by itself is forgotten.
+  /// The servo goes down: the motor is off. The cause of its last restart by itself is cleared.
   void stop(Time now);
 
   /// Brings the readings 0x08-0x0C and 0x18-0x1B up to `now`.
   void look(Time now);
 
-  /// GetSet, as Registers has it.
+  /// GetSet, as in Registers.
   [[nodiscard]] std::optional<std::int64_t> read(bla::Address address, Time now);
   std::optional<std::int64_t> write(bla::Address address, std::int64_t value, Time now);
 
@@ -48,20 +49,20 @@ class Motion {
 
   [[nodiscard]] const World& world() const { return world_; }
 
-  /// From now on this is around the servo.
+  /// Changes the surroundings of the servo.
   void surround(const World& world, Time now);
 
   [[nodiscard]] const Shaft& shaft() const { return shaft_; }
 
  private:
-  // What is asked of it (motion.cpp).
+  // Requests (motion.cpp).
   void advance_to(Time now);
   void heed_registers();
   void forget_turns();
   void measure();
   bool protect();
 
-  // What a command does (motion_command.cpp).
+  // Effects of a command (motion_command.cpp).
   void obey(bla::Address address, std::int64_t before);
   void give_up_command();
   void start_in_place();
@@ -91,7 +92,7 @@ class Motion {
   bool has_pwm_input_;
   Motor motor_;
 
-  // Of registers and world, since they last changed.
+  // Of the registers and surroundings as last changed.
   PulseReading pulse_{};
   Tuning tuning_;
   AngleFrame frame_;
@@ -101,14 +102,14 @@ class Motion {
   Controller controller_;
   Drive drive_;
   CommandTimer timer_;
-  std::optional<std::array<std::int64_t, 3>> told_commands_; ///< for 0x00-0x02, if it hides them
+  std::optional<std::array<std::int64_t, 3>> told_commands_; ///< reads of 0x00-0x02, if hidden
   Time grid_;                                                ///< of the last step
-  std::int64_t kept_failures_ = 0; ///< those that stay until the next start
+  std::int64_t kept_failures_ = 0;                           ///< those latched until the next start
   bool runs_ = false;
-  bool stopped_ = false; ///< by its protection
+  bool stopped_ = false; ///< by the protection
   bool holds_ = false;   ///< 0x00, inside its angle limits or not, until the next command
   bool soft_start_ = false;
-  bool soft_start_cut_ = false; ///< by a timeout; it goes on with the next command
+  bool soft_start_cut_ = false; ///< by a timeout; it resumes with the next command
 };
 
 } // namespace blactl::sim

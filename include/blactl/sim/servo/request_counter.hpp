@@ -1,5 +1,5 @@
 #pragma once
-// What a simulated servo has been asked so far, for faults that come after so many requests.
+// Counts the requests to a simulated servo, for faults after a given number of them.
 
 #include "blactl/dronecan/transfer.hpp"
 #include "blactl/sim/servo/servo_faults.hpp"
@@ -12,8 +12,8 @@
 
 namespace blactl::sim {
 
-/// The kind of a request to one of the four services (section 2.2). Empty: of another service, or
-/// nothing that can be read.
+/// The kind of a request to one of the four services (section 2.2). Empty: another service, or a
+/// malformed request.
 [[nodiscard]] std::optional<RequestKind> request_kind(const dronecan::Transfer& request);
 
 class RequestCounter {
@@ -21,7 +21,7 @@ class RequestCounter {
   /// `faults`: ServoFaults::restart_after_answer.
   explicit RequestCounter(std::vector<RestartAfterAnswer> faults) : faults_(std::move(faults)) {}
 
-  /// Counts a request. Whether the servo restarts after the answer to it.
+  /// Counts a request. Returns whether the servo restarts after its response.
   [[nodiscard]] bool restarts_after(RequestKind kind);
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
-// A simulated BLA servo: what it says and hears on the bus (sections 2.2, 2.3, 4.9-4.11). Its shaft
-// is Motion.
+// A simulated BLA servo: its messages and services on the bus (sections 2.2, 2.3, 4.9-4.11). Its
+// shaft is Motion.
 
 #include "blactl/bla/parameter.hpp"
 #include "blactl/dronecan/types.hpp"
@@ -23,36 +23,36 @@
 
 namespace blactl::sim {
 
-/// Sends NodeStatus and actuator.Status, asks for a node ID, obeys ArrayCommand, answers
-/// GetNodeInfo, GetSet, ExecuteOpcode and RestartNode; restarts, and keeps through that what is
-/// saved.
+/// Sends NodeStatus and actuator.Status, requests a node ID, obeys ArrayCommand, answers
+/// GetNodeInfo, GetSet, ExecuteOpcode and RestartNode; restarts, and keeps its saved registers
+/// across that.
 class Servo final : public Device {
  public:
   /// `seed`: of its boot times and its allocation requests.
   Servo(const ServoSetup& setup, std::uint64_t seed, Time power_on);
 
-  /// Who is told what happens to it.
+  /// `sink` receives the servo's events.
   void report_to(EventSink sink) { tell_ = std::move(sink); }
 
   void receive(const can::Frame& frame, Time at) override;
   [[nodiscard]] Time next_deadline() const override;
   void advance(Time now) override;
 
-  /// The address it uses on the bus; 0 while it has none.
+  /// Its node ID; 0 while it has none.
   [[nodiscard]] dronecan::NodeId node_id() const { return endpoint_.node_id(); }
 
-  /// Why a servo may restart by itself (4.12, note 2).
+  /// The causes of a restart by itself (4.12, note 2).
   enum class Upset : std::uint8_t { clock, watchdog, memory };
 
   [[nodiscard]] const World& world() const { return motion_.world(); }
 
-  /// From now on this is around it. Without power it is dead; with power again it starts (4.8).
+  /// Changes its surroundings. Without power it is dead; when power returns it starts (4.8).
   void surround(const World& world, Time now);
 
-  /// It restarts by itself and says why until its next start.
+  /// Restarts by itself and shows the cause until the next start.
   void upset(Upset cause, Time now);
 
-  /// As an event of a scenario has it.
+  /// Applies an event of a scenario.
   void suffer(Mishap mishap, Time now);
 
   /// Brings the readings in registers() up to `now`.
@@ -68,20 +68,21 @@ class Servo final : public Device {
 
   [[nodiscard]] std::int64_t serial_number() const { return setup_.serial_number; }
 
-  /// How often ROM was written since power-on, those included that failed by a fault.
+  /// The number of ROM writes since power-on, including those that failed by a fault.
   [[nodiscard]] std::uint32_t rom_writes() const { return rom_writes_; }
 
  private:
   enum class Phase : std::uint8_t {
     boot,      ///< until wake_; `never`: dead
-    run,       ///< with a node ID, or asking for one
+    run,       ///< with a node ID, or requesting one
     rom_write, ///< silent until wake_
   };
 
-  /// What there are three ways to demand: ExecuteOpcode, RestartNode, 1 written to 0x10-0x12.
+  /// Orders, each of which can be given in three ways: ExecuteOpcode, RestartNode, 1 written to
+  /// 0x10-0x12.
   enum class Order : std::uint8_t { save, erase, restart };
 
-  /// What ends the run, when an answer has gone out: an order, or a fault.
+  /// The end of the run after a response has left: an order, or a fault.
   struct Departure {
     enum class Kind : std::uint8_t { restart, save, fault };
 
@@ -94,7 +95,7 @@ class Servo final : public Device {
     std::vector<can::Frame> frames;
   };
 
-  // The life of a servo (servo_life.cpp).
+  // Life cycle (servo_life.cpp).
   [[nodiscard]] Duration boot_time();
   void wake(Time now);
   void start(Time now);
@@ -108,7 +109,7 @@ class Servo final : public Device {
   void obey(Order order, bool answered);
   void tell(ServoEvent::Kind kind) const;
 
-  // What it answers (servo.cpp).
+  // Services (servo.cpp).
   void handle(const dronecan::Transfer& transfer);
   void hear_allocation(const dronecan::Transfer& transfer);
   void hear_commands(const dronecan::Transfer& transfer);
@@ -138,17 +139,17 @@ class Servo final : public Device {
   Motion motion_;
   Endpoint endpoint_;
   EventSink tell_;
-  std::optional<Allocatee> allocatee_; ///< while it asks for a node ID
-  std::optional<Departure> departure_; ///< from a request on that ends the run
+  std::optional<Allocatee> allocatee_; ///< while it requests a node ID
+  std::optional<Departure> departure_; ///< set from a request that ends the run
   std::uint32_t rom_writes_ = 0;
   std::uint32_t requests_ = 0; ///< of services, since power-on
   RequestCounter counter_;
-  bool assigned_now_ = false; ///< no NodeStatus since an allocator gave it an ID
-  bool rom_is_torn_ = false;  ///< power was lost while it was written
+  bool assigned_now_ = false; ///< no NodeStatus yet since an allocator assigned the ID
+  bool rom_is_torn_ = false;  ///< power was lost during a write
   Phase phase_ = Phase::boot;
   Time wake_;    ///< the end of a phase other than `run`
   Time now_;     ///< of the present receive() or advance()
-  Time started_; ///< when it began to run; uptime counts from here
+  Time started_; ///< the start of the run; uptime counts from here
   Time next_node_status_ = never;
   Time next_status_ = never;
   std::deque<Answer> answers_;

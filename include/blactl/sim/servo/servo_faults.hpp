@@ -1,5 +1,5 @@
 #pragma once
-// What goes wrong with a simulated servo, because a scenario says so.
+// The faults of a simulated servo that a scenario sets.
 
 #include "blactl/base/time.hpp"
 
@@ -9,13 +9,12 @@
 
 namespace blactl::sim {
 
-/// What a client asks a servo for. A `read` and a `write` are of GetSet; an `opcode` is SAVE or
-/// ERASE.
+/// The kind of a client's request. A `read` and a `write` are GetSet; an `opcode` is SAVE or ERASE.
 enum class RequestKind : std::uint8_t { any, node_info, read, write, opcode, restart };
 
-/// A restart by itself as soon as the answer to a request has left. Such restarts come between any
-/// two requests: `number` counts requests since power-on, the first is 1. What the request orders
-/// of ROM and restart does not happen any more.
+/// A restart by itself as soon as the response to a request has left, so that it falls between two
+/// requests: `number` counts requests since power-on, the first is 1. A ROM write or restart
+/// ordered by that request does not take place.
 struct RestartAfterAnswer {
   RequestKind to = RequestKind::any;
   std::uint32_t number = 1; ///< of the requests of that kind
@@ -26,20 +25,20 @@ struct RestartAfterAnswer {
 /// Orders are SAVE, ERASE, RestartNode with the right magic number, and 1 written to 0x10, 0x11 or
 /// 0x12.
 struct ServoFaults {
-  std::uint32_t lose_responses = 0;      ///< the first so many answers never reach the bus
-  bool mute = false;                     ///< none ever does; its messages go on
+  std::uint32_t lose_responses = 0;      ///< this many first responses are lost
+  bool mute = false;                     ///< no response is ever sent; messages go on
   bool no_node_status = false;           ///< it never sends NodeStatus
   bool no_actuator_status = false;       ///< it never sends actuator.Status
-  std::uint32_t lose_opcode_answers = 0; ///< the first so many orders are obeyed without an answer
-  std::uint32_t ignore_opcodes = 0;      ///< the first so many are neither obeyed nor answered
-  bool refuse_opcodes = false;           ///< all are answered with ok=false, or a failure of GetSet
-  bool rom_write_fails = false; ///< ok, silence, restart as ever, and counted, but ROM is as it was
-  bool stays = false;           ///< answers ok and writes ROM, but does not restart
+  std::uint32_t lose_opcode_answers = 0; ///< this many first orders are obeyed without a response
+  std::uint32_t ignore_opcodes = 0; ///< this many first orders are neither carried out nor answered
+  bool refuse_opcodes = false;      ///< all get a response with ok=false, or a failure of GetSet
+  bool rom_write_fails = false; ///< ok, silence, restart and count as usual, but ROM is unchanged
+  bool stays = false;           ///< responds ok and writes ROM, but does not restart
   bool never_returns = false;   ///< is dead after its first restart
-  std::uint32_t restart_instead_of_answer = 0; ///< to this request of a service, the first is 1
+  std::uint32_t restart_instead_of_answer = 0; ///< number of the service request, the first is 1
   std::vector<RestartAfterAnswer> restart_after_answer;
-  std::optional<Duration> power_loss_in_save{}; ///< once, so long after the ROM write has begun
-  Duration return_delay{}; ///< how much longer a restart takes than power-on; up to 600 s
+  std::optional<Duration> power_loss_in_save{}; ///< once, this long into the ROM write
+  Duration return_delay{}; ///< the additional time of a restart over power-on; up to 600 s
 };
 
 } // namespace blactl::sim

@@ -16,14 +16,14 @@
 namespace blactl::sim {
 
 struct ServoSetup {
-  const bla::Profile* profile = nullptr; ///< of the Profiles that the scenario was read with
+  const bla::Profile* profile = nullptr; ///< from the Profiles used to read the scenario
   std::uint8_t node_id = 0;              ///< 0x46 in ROM
   dronecan::UniqueId unique_id{};
   std::int64_t serial_number = 0; ///< 0x51
   std::int64_t servo_id = 0;      ///< 0x45 in ROM
   std::int64_t model_number = 0, firmware_version = 0, hardware_version = 0;
-  std::string name; ///< of GetNodeInfo; unproven what real servos say
-  // Both of other registers than those above.
+  std::string name; ///< of GetNodeInfo; unproven: the name of real servos
+  // Both hold registers other than those above.
   std::vector<std::pair<bla::Address, std::int64_t>> rom; ///< instead of the factory's values
   std::vector<std::pair<bla::Address, std::int64_t>> ram; ///< over ROM, once at power-on
   Behaviour behaviour;
