@@ -2,7 +2,6 @@
 
 #include "blactl/base/text.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 

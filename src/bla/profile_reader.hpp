@@ -4,7 +4,6 @@
 #include "blactl/base/json_reader.hpp"
 #include "blactl/bla/profile.hpp"
 
-#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>

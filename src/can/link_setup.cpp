@@ -7,9 +7,6 @@
 
 #include <net/if.h>
 
-#include <memory>
-#include <string_view>
-#include <utility>
 
 namespace blactl::can {
 namespace {

@@ -3,7 +3,6 @@
 // print only through the reporter, ask only through it, and never exit.
 
 #include "cli/command.hpp"
-#include "cli/context.hpp"
 #include "cli/options.hpp"
 #include "cli/output/report.hpp"
 

@@ -21,10 +21,8 @@
 
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <utility>
-#include <vector>
 
 namespace blactl::fleet {
 struct FleetFile;

@@ -3,7 +3,6 @@
 
 #include "blactl/dronecan/ids.hpp"
 
-#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string_view>

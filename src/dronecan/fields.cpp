@@ -2,7 +2,6 @@
 
 #include "dronecan/dsdl.hpp"
 
-#include <algorithm>
 #include <array>
 #include <bit>
 

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <string_view>
 #include <utility>
 
 namespace blactl::state {

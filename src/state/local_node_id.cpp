@@ -11,7 +11,6 @@
 #include <random>
 #include <tuple>
 #include <utility>
-#include <vector>
 
 namespace blactl::state {
 

@@ -8,7 +8,6 @@
 #include "state/texts.hpp"
 
 #include <cstdint>
-#include <string_view>
 #include <utility>
 #include <vector>
 

@@ -157,12 +157,15 @@ TEST_CASE("a file that wishes it for a servo without it is refused as a whole, a
 
 TEST_CASE("a file that names the model is checked against it without a bus") {
   const ProfileFolder profiles;
-  const auto compared = [&](const std::string& model) {
+  const auto file = [&](const std::string& model) {
     Document document = {{"schema", "blactl-fleet/1"}, {"common", {{"my_param", 5}}}};
     document["servos"] = Document::array();
     document["servos"].push_back({{"name", "one"}, {"match", {{"model", model}}}});
-    const std::string file = profiles.bench.file("fleet.txt", document.dump());
-    return profiles.bench.run({"diff", file, file, "--profile-dir", profiles.bench.folder()});
+    return profiles.bench.file(model + ".txt", document.dump());
+  };
+  const auto compared = [&](const std::string& model) {
+    return profiles.bench.run(
+        {"diff", file("BLA21-12U"), file(model), "--profile-dir", profiles.bench.folder()});
   };
   CHECK(compared("BLA21").status == 0);
   check_error(compared("BLA15-06U-A0"), 2, "bad_file",
@@ -186,7 +189,7 @@ TEST_CASE("what the profile does not mark as saved is no setting, wherever its a
   CHECK_FALSE(exported["servos"][0]["set"].contains("my_param"));
   const Result refused = fleet.apply(changed(exported, 5));
   CHECK(refused.status == 2);
-  CHECK(contains(refused.err, "my_param is no setting"));
+  CHECK(contains(refused.err, "my_param is not a setting"));
   CHECK(fleet.run({"set", "my_param=5", "-n", "11"}).status == 0);
 }
 

@@ -5,7 +5,6 @@
 #include "blactl/bla/profile.hpp"
 #include "blactl/bla/values.hpp"
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>

@@ -4,7 +4,6 @@
 #include "blactl/base/time.hpp"
 #include "blactl/can/candump.hpp"
 
-#include <optional>
 
 namespace blactl::can {
 

@@ -6,7 +6,6 @@
 #include "blactl/dronecan/node.hpp"
 #include "blactl/dronecan/service.hpp"
 
-#include <cstdint>
 #include <optional>
 
 namespace blactl::dronecan {

@@ -1,7 +1,6 @@
 #include "cli/change/run.hpp"
 
 #include "blactl/fleet/bus/discovery.hpp"
-#include "blactl/fleet/bus/texts.hpp"
 #include "blactl/fleet/change/let_in.hpp"
 
 #include "cli/change/entries_view.hpp"

@@ -13,7 +13,6 @@
 #include "cli/options.hpp"
 #include "cli/output/report.hpp"
 
-#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <span>

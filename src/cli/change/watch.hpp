@@ -7,7 +7,6 @@
 #include "cli/change/event_file.hpp"
 #include "cli/context.hpp"
 
-#include <cstddef>
 #include <optional>
 #include <span>
 #include <string>

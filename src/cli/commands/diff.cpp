@@ -10,7 +10,6 @@
 #include "cli/output/fleet_view.hpp"
 #include "cli/read_servos.hpp"
 #include "cli/settings_files.hpp"
-#include "cli/texts.hpp"
 
 #include <algorithm>
 #include <memory>

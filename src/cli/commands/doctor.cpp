@@ -4,12 +4,10 @@
 #include "cli/doctor/examination.hpp"
 #include "cli/doctor/mend_interface.hpp"
 #include "cli/doctor/report_file.hpp"
-#include "cli/doctor/texts.hpp"
 #include "cli/doctor/view.hpp"
 
 #include <chrono>
 #include <memory>
-#include <utility>
 
 namespace blactl::cli {
 namespace {

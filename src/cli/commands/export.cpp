@@ -10,7 +10,6 @@
 #include "cli/commands.hpp"
 #include "cli/fleet_texts.hpp"
 #include "cli/read_servos.hpp"
-#include "cli/texts.hpp"
 
 #include <memory>
 #include <optional>

@@ -6,7 +6,6 @@
 #include "cli/monitor/run.hpp"
 #include "cli/monitor/sample.hpp"
 #include "cli/monitor/texts.hpp"
-#include "cli/texts.hpp"
 
 #include <algorithm>
 #include <chrono>

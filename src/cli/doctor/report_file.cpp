@@ -11,7 +11,6 @@
 #include "cli/doctor/view.hpp"
 #include "cli/output/faults_view.hpp"
 #include "cli/output/parameter_view.hpp"
-#include "cli/texts.hpp"
 
 #include <fstream>
 #include <sstream>

@@ -5,7 +5,6 @@
 #include "cli/output/node_head.hpp"
 #include "cli/output/progress_view.hpp"
 
-#include <algorithm>
 #include <chrono>
 
 namespace blactl::cli {

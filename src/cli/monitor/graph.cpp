@@ -5,14 +5,12 @@
 #include "cli/monitor/sample.hpp"
 #include "cli/monitor/texts.hpp"
 #include "cli/output/page.hpp"
-#include "cli/texts.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
 #include <string>
-#include <string_view>
 
 namespace blactl::cli {
 namespace {

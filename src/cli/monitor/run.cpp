@@ -4,7 +4,6 @@
 
 #include "cli/monitor/texts.hpp"
 #include "cli/output/progress_view.hpp"
-#include "cli/texts.hpp"
 
 #include <algorithm>
 #include <chrono>

@@ -4,7 +4,6 @@
 #include "cli/output/node_head.hpp"
 #include "cli/output/table.hpp"
 
-#include <string_view>
 #include <variant>
 
 namespace blactl::cli {

@@ -2,7 +2,6 @@
 
 #include "cli/output/table.hpp"
 #include "cli/pwm_texts.hpp"
-#include "cli/texts.hpp"
 
 #include <algorithm>
 #include <cstdlib>

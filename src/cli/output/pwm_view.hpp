@@ -4,7 +4,6 @@
 #include "blactl/base/json_writer.hpp"
 #include "blactl/bla/pwm_mapping.hpp"
 #include "blactl/bla/values.hpp"
-#include "blactl/fleet/bus/servo.hpp"
 
 #include "cli/output/page.hpp"
 

@@ -5,7 +5,6 @@
 #include "cli/trace/stats.hpp"
 
 #include <chrono>
-#include <optional>
 
 namespace blactl::cli {
 

@@ -3,7 +3,6 @@
 #include "blactl/base/hex.hpp"
 #include "blactl/bla/value.hpp"
 #include "blactl/dronecan/fields.hpp"
-#include "blactl/dronecan/standard_types.hpp"
 
 #include "cli/trace/output.hpp"
 #include "cli/trace/texts.hpp"
@@ -12,7 +11,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <iterator>
 #include <optional>

@@ -1,7 +1,6 @@
 #pragma once
 // Names of data types as shown and typed.
 
-#include "blactl/dronecan/standard_types.hpp"
 
 #include <cstdint>
 #include <string>

@@ -5,8 +5,6 @@
 #include <signal.h>
 
 #include <algorithm>
-#include <array>
-#include <string>
 #include <utility>
 #include <vector>
 

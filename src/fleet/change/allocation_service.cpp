@@ -4,7 +4,7 @@
 #include "blactl/fleet/bus/conflict_texts.hpp"
 #include "blactl/fleet/bus/unreachable.hpp"
 
-#include "fleet/change/node_id_texts.hpp"
+#include "fleet/change/texts.hpp"
 
 #include <algorithm>
 #include <chrono>

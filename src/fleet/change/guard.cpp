@@ -7,7 +7,7 @@
 #include "blactl/fleet/bus/unreachable.hpp"
 #include "blactl/fleet/change/plan.hpp"
 
-#include "fleet/change/change_texts.hpp"
+#include "fleet/change/texts.hpp"
 
 namespace blactl::fleet {
 

@@ -6,12 +6,11 @@
 #include "blactl/fleet/bus/texts.hpp"
 #include "blactl/fleet/change/history.hpp"
 
-#include "fleet/change/loan_texts.hpp"
+#include "fleet/change/texts.hpp"
 
 #include <algorithm>
 #include <array>
 #include <iterator>
-#include <string_view>
 #include <utility>
 
 namespace blactl::fleet {

@@ -7,12 +7,10 @@
 #include "blactl/fleet/bus/texts.hpp"
 #include "blactl/fleet/bus/unreachable.hpp"
 #include "blactl/fleet/change/guard.hpp"
-#include "blactl/fleet/change/restart_texts.hpp"
 #include "blactl/fleet/change/survey.hpp"
 
-#include "fleet/change/change_texts.hpp"
 #include "fleet/change/id_holders.hpp"
-#include "fleet/change/node_id_texts.hpp"
+#include "fleet/change/texts.hpp"
 
 #include <algorithm>
 #include <iterator>

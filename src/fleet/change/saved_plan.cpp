@@ -4,7 +4,7 @@
 #include "blactl/base/json_reader.hpp"
 #include "blactl/bla/value.hpp"
 
-#include "fleet/change/saved_plan_texts.hpp"
+#include "fleet/change/texts.hpp"
 #include "fleet/files/fault_text.hpp"
 
 #include <algorithm>

@@ -7,7 +7,6 @@
 #include <chrono>
 #include <cstdlib>
 #include <span>
-#include <utility>
 
 namespace blactl::fleet {
 

@@ -3,20 +3,15 @@
 #include "blactl/bla/value.hpp"
 #include "blactl/dronecan/types.hpp"
 #include "blactl/fleet/bus/array_command.hpp"
-#include "blactl/fleet/bus/conflict_texts.hpp"
 #include "blactl/fleet/bus/texts.hpp"
-#include "blactl/fleet/bus/unreachable.hpp"
 #include "blactl/fleet/change/guard.hpp"
-#include "blactl/fleet/change/restart_texts.hpp"
 
 #include "fleet/characterize/jobs.hpp"
 #include "fleet/characterize/soft_start.hpp"
 #include "fleet/characterize/texts.hpp"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
-#include <string_view>
 #include <utility>
 
 namespace blactl::fleet {

@@ -5,7 +5,6 @@
 #include "fleet/doctor/diagnosis_texts.hpp"
 
 #include <cstdint>
-#include <utility>
 
 namespace blactl::fleet {
 namespace {

@@ -1,7 +1,6 @@
 // The nodes of a bus, individually and together.
 
 #include "blactl/bla/defect.hpp"
-#include "blactl/bla/explain.hpp"
 #include "blactl/bla/value.hpp"
 #include "blactl/fleet/doctor/diagnosis.hpp"
 

@@ -3,11 +3,10 @@
 #include "blactl/base/hex.hpp"
 #include "blactl/base/json_reader.hpp"
 
-#include "fleet/files/fleet_file_texts.hpp"
 #include "fleet/files/settings_reader.hpp"
+#include "fleet/files/texts.hpp"
 
 #include <algorithm>
-#include <span>
 #include <utility>
 
 namespace blactl::fleet {

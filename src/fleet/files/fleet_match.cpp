@@ -2,11 +2,9 @@
 
 #include "blactl/base/hex.hpp"
 #include "blactl/fleet/bus/target_texts.hpp"
-#include "blactl/fleet/bus/texts.hpp"
 #include "blactl/fleet/bus/unreachable.hpp"
 
-#include "fleet/files/fleet_file_texts.hpp"
-#include "fleet/files/params_file_texts.hpp"
+#include "fleet/files/texts.hpp"
 
 #include <fmt/format.h>
 

@@ -2,9 +2,8 @@
 
 #include "blactl/base/text.hpp"
 
-#include "fleet/files/fleet_file_texts.hpp"
+#include "fleet/files/texts.hpp"
 
-#include <algorithm>
 #include <array>
 #include <bitset>
 #include <charconv>

@@ -3,8 +3,8 @@
 #include "blactl/base/json_reader.hpp"
 #include "blactl/base/text.hpp"
 
-#include "fleet/files/label_texts.hpp"
 #include "fleet/files/settings_reader.hpp"
+#include "fleet/files/texts.hpp"
 
 #include <charconv>
 #include <system_error>

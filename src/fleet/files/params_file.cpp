@@ -4,12 +4,11 @@
 #include "blactl/base/read_file.hpp"
 
 #include "fleet/files/fault_text.hpp"
-#include "fleet/files/params_file_texts.hpp"
+#include "fleet/files/texts.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <map>
-#include <optional>
 #include <set>
 #include <utility>
 #include <vector>

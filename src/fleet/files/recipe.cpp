@@ -3,9 +3,8 @@
 #include "blactl/base/json_reader.hpp"
 
 #include "fleet/files/fault_text.hpp"
-#include "fleet/files/fleet_file_texts.hpp"
-#include "fleet/files/recipe_texts.hpp"
 #include "fleet/files/settings_reader.hpp"
+#include "fleet/files/texts.hpp"
 
 #include <algorithm>
 #include <iterator>

@@ -1,7 +1,7 @@
 #include "fleet/files/settings_reader.hpp"
 
 #include "fleet/files/fault_text.hpp"
-#include "fleet/files/fleet_file_texts.hpp"
+#include "fleet/files/texts.hpp"
 
 #include <algorithm>
 #include <optional>

@@ -3,9 +3,7 @@
 #include "blactl/bla/value.hpp"
 #include "blactl/fleet/bus/array_command.hpp"
 #include "blactl/fleet/bus/texts.hpp"
-#include "blactl/fleet/bus/unreachable.hpp"
 #include "blactl/fleet/change/guard.hpp"
-#include "blactl/fleet/change/restart_texts.hpp"
 #include "blactl/state/local_node_id.hpp"
 
 #include "fleet/motion/command_texts.hpp"

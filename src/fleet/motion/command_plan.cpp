@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <span>
 #include <utility>
 
 namespace blactl::fleet {

@@ -5,7 +5,6 @@
 
 #include "sim/scenario/foreign_role.hpp"
 
-#include <string>
 #include <vector>
 
 namespace blactl::sim {

@@ -19,7 +19,6 @@
 #include <limits>
 #include <string_view>
 #include <type_traits>
-#include <utility>
 
 namespace blactl::sim {
 

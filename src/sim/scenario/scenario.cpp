@@ -10,7 +10,6 @@
 #include "sim/scenario/texts.hpp"
 
 #include <algorithm>
-#include <chrono>
 
 namespace blactl::sim {
 namespace {

@@ -28,7 +28,8 @@ class EraseJob final : public dronecan::Job {
   [[nodiscard]] bool is_sent() const { return at_ == At::request && !is_withheld_; }
 
   /// Set if the request certainly did not leave this machine, or the servo refused it; empty also
-  /// if the response was lost. Errors: refused, no_acknowledge, interrupted, state; as Guard::forbids().
+  /// if the response was lost. Errors: refused, no_acknowledge, interrupted, state; as
+  /// Guard::forbids().
   [[nodiscard]] const std::optional<Error>& error() const { return error_; }
 
  private:

@@ -22,8 +22,8 @@ class Guard {
   Guard(const Roster& roster, bool may_be_driven)
       : roster_(&roster), may_be_driven_(may_be_driven) {}
 
-  /// The reason why nothing may be sent to this servo now; empty: it may. Errors: duplicate_node_id, armed,
-  /// driven.
+  /// The reason why nothing may be sent to this servo now; empty: it may. Errors:
+  /// duplicate_node_id, armed, driven.
   [[nodiscard]] std::optional<Error> forbids(const Servo& servo, Time now) const;
 
   /// The same request, which leaves only while nothing forbids it, and is withheld otherwise.
@@ -35,10 +35,10 @@ class Guard {
   bool may_be_driven_;
 };
 
-/// The reason why this plan must not be carried out now, as far as the bus was heard; empty: it may.
-/// Errors: as Guard::forbids(), driven only if the plan moves the servo and not `while_driven`;
-/// state (the servo restarted since it was read); out_of_range for a static node ID that is ours;
-/// IDs of others are checked by survey().
+/// The reason why this plan must not be carried out now, as far as the bus was heard; empty: it
+/// may. Errors: as Guard::forbids(), driven only if the plan moves the servo and not
+/// `while_driven`; state (the servo restarted since it was read); out_of_range for a static node ID
+/// that is ours; IDs of others are checked by survey().
 [[nodiscard]] std::optional<Error> forbidden(const Roster& roster, Time now, const Plan& plan,
                                              bool while_driven);
 

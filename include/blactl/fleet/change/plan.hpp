@@ -10,7 +10,6 @@
 #include "blactl/fleet/change/register_change.hpp"
 #include "blactl/fleet/change/restart_job.hpp"
 
-#include <cstddef>
 #include <optional>
 #include <span>
 #include <string>

@@ -59,8 +59,8 @@ class RestartJob final : public dronecan::Job {
   /// Nothing was sent: the servo has restarted, and its settings may differ from those read.
   [[nodiscard]] bool is_unproven() const { return is_unproven_; }
 
-  /// The reason why it is not back, or what is uncertain: timeout, not_back, refused, state, no_acknowledge,
-  /// interrupted; as Guard::forbids().
+  /// The reason why it is not back, or what is uncertain: timeout, not_back, refused, state,
+  /// no_acknowledge, interrupted; as Guard::forbids().
   [[nodiscard]] const std::optional<Error>& error() const { return error_; }
 
   /// Whether a request has left, or may have left, this machine.

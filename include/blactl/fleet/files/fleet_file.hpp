@@ -80,8 +80,8 @@ struct FleetFile {
 
 /// `file` is the name for messages. Errors: bad_file with file, line, JSON pointer and reason of
 /// each error: invalid JSON, unknown or repeated keys, values that no model accepts, or not the
-/// model of the entry, registers that are not settings, two entries for one servo, an ID for two, an
-/// entry that would not match its servo again after its own change.
+/// model of the entry, registers that are not settings, two entries for one servo, an ID for two,
+/// an entry that would not match its servo again after its own change.
 [[nodiscard]] Result<FleetFile> parse_fleet_file(std::string_view text, std::string file,
                                                  const bla::Profiles& profiles);
 

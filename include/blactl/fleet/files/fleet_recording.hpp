@@ -6,7 +6,6 @@
 #include "blactl/fleet/bus/archive.hpp"
 #include "blactl/fleet/files/fleet_file.hpp"
 
-#include <string>
 #include <vector>
 
 namespace blactl::fleet {

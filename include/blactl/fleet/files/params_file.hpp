@@ -23,10 +23,10 @@
 namespace blactl::fleet {
 
 /// One entry without name and match, FleetFile::is_params. Registers that are not settings are
-/// skipped, as a tool has saved them with the others. Errors: bad_file with file, line and reason of
-/// each error: lines that are not a name and a value, names that are not an address (also decimal
-/// ones, and blactl's own), values that are not an integer or that no model accepts, a register
-/// named twice, a file without a setting.
+/// skipped, as a tool has saved them with the others. Errors: bad_file with file, line and reason
+/// of each error: lines that are not a name and a value, names that are not an address (also
+/// decimal ones, and blactl's own), values that are not an integer or that no model accepts, a
+/// register named twice, a file without a setting.
 [[nodiscard]] Result<FleetFile> parse_params_file(std::string_view text, std::string file,
                                                   const bla::Profiles& profiles);
 

@@ -10,8 +10,6 @@
 
 #include <cstddef>
 #include <deque>
-#include <memory>
-#include <vector>
 
 namespace blactl::sim {
 

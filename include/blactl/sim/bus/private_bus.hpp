@@ -4,12 +4,9 @@
 #include "blactl/can/bus.hpp"
 #include "blactl/sim/bus/simulator.hpp"
 
-#include <cstdint>
-#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace blactl::sim {
 

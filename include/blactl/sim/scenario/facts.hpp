@@ -13,7 +13,6 @@
 // the simulator does not use it. (schemas/facts.schema.json)
 
 #include "blactl/base/error.hpp"
-#include "blactl/sim/scenario/scenario.hpp"
 
 #include <filesystem>
 #include <string>

@@ -64,7 +64,6 @@
 // for editors.
 
 #include "blactl/base/error.hpp"
-#include "blactl/base/time.hpp"
 #include "blactl/bla/profile.hpp"
 #include "blactl/sim/scenario/foreign_setup.hpp"
 #include "blactl/sim/scenario/timeline.hpp"

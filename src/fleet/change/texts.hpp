@@ -1,10 +1,45 @@
 #pragma once
-// Messages about the allocation of node IDs: the allocation service, static IDs.
+// The catalogue of changes.
 
 #include "blactl/base/text.hpp"
 
 namespace blactl::texts {
 
+// Messages about a change as a whole, before it.
+inline constexpr Text came_since{
+    "node {} has come to the bus since the servos were looked for: nothing was written",
+    "サーボの検索後にノード {} がバスに加わったため、書込みを行っていません"};
+inline constexpr Text did_not_tell_ids{
+    "node {} did not say which IDs it has: a conflict with it cannot be ruled out",
+    "ノード {} の ID を読み出せないため、重複の有無は確認できません"};
+inline constexpr Text will_make_way{
+    "node {} makes way for others: it is saved twice, node ID {} comes in between",
+    "ノード {} は ID 入替えのため一時的にノード ID {} を使用します (保存は 2 回)"};
+inline constexpr Text id_taken_over{
+    "node ID {} was given to uid:{}, which is not on this bus: it is node {}'s from now on",
+    "ノード ID {} の割当て先 uid:{} はこのバスにないため、ノード {} に割り当てます"};
+
+// Messages about loans, which today are all of torque.
+inline constexpr Text loan_not_back{"node {}: torque was not put back: {}",
+                                    "ノード {}: トルクを元に戻せませんでした: {}"};
+inline constexpr Text loan_back_hint{"to put it back: blactl set {}={} -n {}",
+                                     "元に戻すには: blactl set {}={} -n {}"};
+inline constexpr Text loan_not_in_time{"interrupted", "中断されました"};
+inline constexpr Text loan_changed{
+    "node {}: {} is {} now, not as a moment ago: nothing was changed",
+    "ノード {}: {} が直前の値から {} に変わっているため、何も変更していません"};
+inline constexpr Text loan_differs{"{}, and was {} before", "{} (元の値: {})"};
+inline constexpr Text loan_is{"node {}: {} is {} now", "ノード {}: {} は現在 {} です"};
+inline constexpr Text loan_restarted{"node {} restarted meanwhile: {} is {} now",
+                                     "ノード {} は途中で再起動しました。{} は現在 {} です"};
+inline constexpr Text loan_of_another{"node {} is another servo now: its torque is left as it is",
+                                      "ノード {} は別のサーボに替わったため、トルクは変更しません"};
+inline constexpr Text loan_of_another_hint{"see what is there: blactl scan", "確認: blactl scan"};
+inline constexpr Text loan_set_by_another{
+    "node {}: node {} has written to it meanwhile: {} is {} now",
+    "ノード {}: 途中でノード {} が書き込みました。{} は現在 {} です"};
+
+// Messages about the allocation of node IDs: the allocation service, static IDs.
 inline constexpr Text other_allocator{"node {}{} allocates node IDs as well",
                                       "ノード {}{} もノード ID を割り当てています"};
 inline constexpr Text other_allocator_hint{
@@ -80,5 +115,31 @@ inline constexpr Text no_temporary_id_hint{
 inline constexpr Text saved_and_elsewhere{
     "node {} has saved static node ID {} and came back under another",
     "ノード {} は固定ノード ID {} を保存しましたが、別の ID で復帰しました"};
+
+// Messages about saved plans.
+inline constexpr Text plan_not_finished{
+    "this plan is not complete: the document reports errors; make it again",
+    "計画が完成していません (エラーを含む文書です)。作り直して下さい"};
+inline constexpr Text plan_no_unique_id{
+    "a plan is for servos whose unique ID is known: 32 hexadecimal digits",
+    "計画にはサーボの固有 ID が必要です (16 進数 32 桁)"};
+inline constexpr Text plan_servo_twice{"this servo is in the plan twice, first in line {}",
+                                       "このサーボは計画に 2 回あります (最初は {} 行目)"};
+inline constexpr Text plan_no_setting{"a plan holds settings only: {} is not a setting",
+                                      "{} は設定ではないため、計画に含められません"};
+inline constexpr Text plan_other_name{"the name of {} is {}", "{} の名前は {} です"};
+inline constexpr Text plan_other_unit{"it was a {} with firmware {}",
+                                      "計画時は {}、ファームウェア {} でした"};
+inline constexpr Text plan_set_twice{"{} is there twice", "{} が 2 回あります"};
+inline constexpr Text plan_is_stale{"node {} is not as it was when the plan was made: {}",
+                                    "ノード {} が計画の作成時から変わっています: {}"};
+inline constexpr Text plan_is_stale_hint{"look at it, and plan again: blactl apply FILE --dry-run "
+                                         "--json",
+                                         "確認して計画を作り直して下さい: blactl apply FILE "
+                                         "--dry-run --json"};
+inline constexpr Text plan_register{"{} was {}, is {}", "{} は {} でしたが、現在は {} です"};
+inline constexpr Text plan_rom_proven{"its ROM was proven since", "その後 ROM が確認されました"};
+inline constexpr Text plan_rom_not_proven{"what its ROM holds is not known any more",
+                                          "ROM の内容が不明になりました"};
 
 } // namespace blactl::texts
