@@ -27,10 +27,10 @@ RULES = {
         {"src/fleet/change/restart_job.cpp"}),
     "writes registers": (
         r"\bwrite_register\(",
-        {"include/blactl/fleet/bus/registers.hpp", "src/fleet/bus/registers.cpp",
+        {"include/blactl/fleet/bus/register_access.hpp", "src/fleet/bus/register_access.cpp",
          "src/fleet/change/write_job.cpp",
          # 0x00 to 0x02 again and again, which are not settings.
-         "src/fleet/motion/command_job.cpp",
+         "src/fleet/motion/motion_job.cpp",
          # Measures on a bench, by one write() that asks the same guard.
          "src/fleet/characterize/test_bench.cpp"}),
     "runs a job that changes servos": (

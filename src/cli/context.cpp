@@ -3,7 +3,7 @@
 #include "blactl/can/replay_texts.hpp"
 #include "blactl/can/simbus.hpp"
 #include "blactl/fleet/bus/texts.hpp"
-#include "blactl/fleet/files/fleet_recording.hpp"
+#include "blactl/fleet/files/fleet_replay.hpp"
 #include "blactl/state/state_folder.hpp"
 
 #include "cli/interface/bus_factory.hpp"
@@ -126,7 +126,7 @@ Result<fleet::Session*> Context::open(fleet::Session::Hearing hearing) {
     return std::unexpected(bus.error());
   }
   place_ = bus->place;
-  auto local = take_node_id(shared_.listen_only || bus->bus->is_recording());
+  auto local = take_node_id(shared_.listen_only || bus->bus->is_replay());
   if (!local) {
     return std::unexpected(local.error());
   }

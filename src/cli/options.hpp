@@ -3,7 +3,7 @@
 
 #include "blactl/base/text.hpp"
 #include "blactl/base/time.hpp"
-#include "blactl/fleet/bus/registers.hpp"
+#include "blactl/fleet/bus/register_access.hpp"
 
 #include "cli/command.hpp"
 #include "cli/output/reporter.hpp"

@@ -132,7 +132,7 @@ class Bus {
   [[nodiscard]] virtual bool wants_to_write() const { return false; }
 
   /// Events come from the past: no node can be asked, no frame is accepted. Ends with Ended.
-  [[nodiscard]] virtual bool is_recording() const { return false; }
+  [[nodiscard]] virtual bool is_replay() const { return false; }
 
   /// Whether recorded events come at their time, by now(), rather than all at once.
   [[nodiscard]] virtual bool is_paced() const { return false; }

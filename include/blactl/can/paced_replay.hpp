@@ -39,7 +39,7 @@ class PacedReplay final : public Bus {
 
   [[nodiscard]] int descriptor() const override { return next_ ? -1 : recording_->descriptor(); }
 
-  [[nodiscard]] bool is_recording() const override { return true; }
+  [[nodiscard]] bool is_replay() const override { return true; }
 
   [[nodiscard]] bool is_paced() const override { return true; }
 

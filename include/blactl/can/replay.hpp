@@ -45,7 +45,7 @@ class ReplayBus final : public Bus {
 
   [[nodiscard]] WallTime wall() const override { return clock_.wall(); }
 
-  [[nodiscard]] bool is_recording() const override { return true; }
+  [[nodiscard]] bool is_replay() const override { return true; }
 
   /// The log reader, which counts skipped lines.
   [[nodiscard]] const CandumpReader& reader() const { return *reader_; }

@@ -3,9 +3,9 @@
 #include "blactl/base/replace_file.hpp"
 #include "blactl/bla/assignment.hpp"
 
-#include "cli/command/run.hpp"
-#include "cli/command/texts.hpp"
 #include "cli/commands.hpp"
+#include "cli/motion/run.hpp"
+#include "cli/motion/texts.hpp"
 
 #include <algorithm>
 #include <chrono>

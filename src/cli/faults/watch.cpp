@@ -187,7 +187,7 @@ void watch_faults(std::span<const NodeId> servos, bla::Level shown, bla::Level c
       context.broken(seen.error(), report);
       break;
     }
-    goes_on = watch.take(std::move(*seen)) && !session.is_recording();
+    goes_on = watch.take(std::move(*seen)) && !session.is_replay();
   }
   for (const auto& [id, servo] : watch.last()) {
     report.targets.push_back(

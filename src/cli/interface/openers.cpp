@@ -1,7 +1,7 @@
 #include "cli/interface/openers.hpp"
 
 #include "blactl/can/mcast.hpp"
-#include "blactl/can/silent_recording.hpp"
+#include "blactl/can/silent_replay.hpp"
 #include "blactl/can/simbus.hpp"
 #include "blactl/can/slcan.hpp"
 #include "blactl/can/socketcan.hpp"
@@ -179,7 +179,7 @@ Result<OpenBus> open_fleet_file(const OpenRequest& request) {
   if (!fleet) {
     return std::unexpected(fleet.error());
   }
-  return OpenBus{.bus = std::make_unique<can::SilentRecording>(printable(request.text)),
+  return OpenBus{.bus = std::make_unique<can::SilentReplay>(printable(request.text)),
                  .fleet = std::move(*fleet)};
 }
 

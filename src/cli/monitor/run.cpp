@@ -36,7 +36,7 @@ fleet::Monitor::Options MonitorRun::options() {
 void MonitorRun::open_screen() {
   const Reporter& reporter = context_.reporter();
   if (reporter.format() != Format::text || !reporter.has_screen() ||
-      (context_.session().is_recording() && context_.pace() == nullptr)) {
+      (context_.session().is_replay() && context_.pace() == nullptr)) {
     return;
   }
   auto screen = Screen::open(reporter.page().colour);
@@ -157,7 +157,7 @@ void MonitorRun::stream(const std::vector<fleet::LiveServo>& servos) {
 
 /// A session on a recording receives all of it, whatever the time.
 bool MonitorRun::is_past_duration(Time now) {
-  if (!context_.session().is_recording() || !manner_.duration) {
+  if (!context_.session().is_replay() || !manner_.duration) {
     return false;
   }
   begin_ = begin_.value_or(now - manner_.period);
@@ -188,7 +188,7 @@ void MonitorRun::run() {
   open_screen();
   const Time end = manner_.duration ? session.now() + *manner_.duration : never;
   const auto lived = session.live_until(end, [this] { return shall_end(); });
-  if (session.is_recording() && lived) {
+  if (session.is_replay() && lived) {
     sample(session.now()); // the samples after the last one
   }
   is_over_ = true;

@@ -23,7 +23,7 @@ std::string seconds(Duration duration) {
 }
 
 /// The readable registers of a servo, in ascending order.
-std::vector<const bla::Parameter*> readable(const sim::Registers& registers) {
+std::vector<const bla::Parameter*> readable(const sim::Memory& registers) {
   constexpr unsigned end = 0x60;
   std::vector<const bla::Parameter*> found;
   for (unsigned i = 0; i < end; ++i) {
@@ -37,7 +37,7 @@ std::vector<const bla::Parameter*> readable(const sim::Registers& registers) {
 
 /// For people: the changes that a restart would make.
 std::string memory_text(const sim::Servo& servo) {
-  const sim::Registers& registers = servo.registers();
+  const sim::Memory& registers = servo.registers();
   std::string unsaved;
   for (const bla::Parameter* parameter : readable(registers)) {
     const auto ram = registers.value(parameter->address);
@@ -119,7 +119,7 @@ std::string SimEvents::json(const sim::ServoEvent& event) const {
 }
 
 std::string SimEvents::json(const sim::Servo& servo, Time at) const {
-  const sim::Registers& registers = servo.registers();
+  const sim::Memory& registers = servo.registers();
   std::string out;
   JsonWriter json(out);
   json.begin_object();

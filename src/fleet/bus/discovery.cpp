@@ -130,7 +130,7 @@ Result<Selection> Discovery::select(const Targets& targets, Duration listen) {
     }
     for (const auto& [id, member] : session_.roster().members()) {
       // a recording may be too short for an actuator.Status, and no requests are possible
-      if (member.sends_actuator_status() || session_.is_recording()) {
+      if (member.sends_actuator_status() || session_.is_replay()) {
         identify(id);
       }
     }
@@ -217,7 +217,7 @@ Result<void> Discovery::find_all(Duration listen) {
 }
 
 Result<void> Discovery::look_for_twins(const std::vector<const Member*>& members) {
-  if (session_.is_recording()) { // it would only repeat itself
+  if (session_.is_replay()) { // it would only repeat itself
     return {};
   }
   std::list<DoubleCheckJob> checks;

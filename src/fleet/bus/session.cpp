@@ -78,8 +78,8 @@ Session::Session(std::unique_ptr<can::Bus> bus, std::optional<state::LocalNodeId
                    for (dronecan::Service* service : services_) {
                      service->receive(transfer);
                    }
-                   if (playback_) {
-                     playback_->receive(transfer);
+                   if (replay_) {
+                     replay_->receive(transfer);
                    }
                  },
              .error = {},
@@ -103,8 +103,8 @@ Session::Session(std::unique_ptr<can::Bus> bus, std::optional<state::LocalNodeId
                      unanswered_(request, tries);
                    }
                  }}) {
-  if (loop_.bus().is_recording()) {
-    playback_.emplace(roster_);
+  if (loop_.bus().is_replay()) {
+    replay_.emplace(roster_);
   }
 }
 
@@ -123,8 +123,8 @@ Result<std::unique_ptr<Session>> Session::open(std::unique_ptr<can::Bus> bus,
 std::unexpected<Error> Session::end(Error error) {
   loop_.drop_queue();
   node_.cancel_all(loop_.now());
-  if (playback_) {
-    playback_->cancel();
+  if (replay_) {
+    replay_->cancel();
   }
   return std::unexpected(std::move(error));
 }
@@ -176,7 +176,7 @@ Result<Session::Happened> Session::take(const can::Event& event) {
     if (traffic_ != nullptr) {
       traffic_->hear(*fault);
     }
-    if (fault->kind == can::FaultKind::bus_off && !playback_) {
+    if (fault->kind == can::FaultKind::bus_off && !replay_) {
       return end({Code::bus_off, say<texts::bus_is_off>(interface()), loop_.bus().bus_off_hint()});
     }
   } else if (const auto* overflow = std::get_if<can::Overflow>(&event)) {
@@ -197,8 +197,8 @@ Result<Session::Happened> Session::take(const can::Event& event) {
       return Happened::input;
     }
     input_hook_();
-  } else if (playback_ && std::holds_alternative<can::Ended>(event)) {
-    playback_->finish();
+  } else if (replay_ && std::holds_alternative<can::Ended>(event)) {
+    replay_->finish();
   } else {
     return Happened::deadline;
   }
@@ -273,7 +273,7 @@ Result<Session::Happened> Session::take_frame(const can::Received& received) {
   }
   if (traffic_ != nullptr) {
     traffic_->hear(received.frame, received.at);
-    if (playback_) {
+    if (replay_) {
       traffic_->stamp(received.wall);
     }
   }
@@ -328,14 +328,14 @@ Result<void> Session::wait_until_open() {
 void Session::recall(const RecordedServo& recorded) {
   roster_.recall(recorded.servo);
   for (const auto& [address, raw] : recorded.values) {
-    playback_->recall(recorded.servo.id, address, raw);
+    replay_->recall(recorded.servo.id, address, raw);
   }
   heard_anything_ = true;
 }
 
 void Session::start(dronecan::Job& job) {
-  if (playback_) {
-    playback_->start(job);
+  if (replay_) {
+    replay_->start(job);
   } else {
     node_.start(job, loop_.now());
   }
@@ -343,7 +343,7 @@ void Session::start(dronecan::Job& job) {
 
 /// Plays the rest of a recording. A pipe may be slow, so the loop waits for it.
 Result<void> Session::play() {
-  while (!playback_->finished()) {
+  while (!replay_->finished()) {
     if (const auto happened = take(loop_.next(never)); !happened) {
       return std::unexpected(happened.error());
     }
@@ -401,7 +401,7 @@ Result<void> Session::run() {
 }
 
 Result<void> Session::run_while(const std::function<bool()>& busy) {
-  if (playback_) {
+  if (replay_) {
     return play();
   }
   while (busy()) {

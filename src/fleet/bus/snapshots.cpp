@@ -8,7 +8,7 @@ Snapshots take_snapshots(Session& session, const bla::Profiles& profiles,
                          std::span<const dronecan::NodeId> servos,
                          const Identification::Options& options, const ReadJob::Choice& choice,
                          ReadJob::Proof proof, const ReadJob::More& more) {
-  if (session.is_recording()) {
+  if (session.is_replay()) {
     proof = ReadJob::Proof::none;
   }
   std::list<ReadJob> jobs;

@@ -166,7 +166,7 @@ CarriedOut change(Session& session, const bla::Profiles& profiles, std::span<con
 } // namespace
 
 std::optional<Error> record(Session& session, std::span<const Plan> plans, const Manner& manner) {
-  if (manner.history == nullptr || session.is_recording()) {
+  if (manner.history == nullptr || session.is_replay()) {
     return std::nullopt;
   }
   auto refused = judge(manner.history->drop_proofs(plans), session, manner);
@@ -174,7 +174,7 @@ std::optional<Error> record(Session& session, std::span<const Plan> plans, const
 }
 
 void record_end(Session& session, std::span<const ChangeResult> results, const Manner& manner) {
-  if (manner.history == nullptr || session.is_recording()) {
+  if (manner.history == nullptr || session.is_replay()) {
     return;
   }
   const auto concluded = manner.history->conclude(results, session);

@@ -48,4 +48,15 @@ ChangeResult as_planned(const Plan& plan) {
           .node_id_after = plan.before.servo.id};
 }
 
+std::string_view name(ChangeStatus status) {
+  switch (status) {
+  case ChangeStatus::planned: return "planned";
+  case ChangeStatus::unchanged: return "unchanged";
+  case ChangeStatus::written: return "written";
+  case ChangeStatus::failed: return "failed";
+  case ChangeStatus::mismatch: return "mismatch";
+  }
+  return {};
+}
+
 } // namespace blactl::fleet

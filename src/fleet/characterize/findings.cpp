@@ -178,7 +178,7 @@ Time heard_until(const Session& session) {
   for (const auto& [id, member] : session.roster().members()) {
     last = std::max(last, member.last_heard);
   }
-  return session.is_recording() ? last : session.now();
+  return session.is_replay() ? last : session.now();
 }
 
 Findings gather(const Roster& roster, const Targets& targets, const bla::Profiles& profiles,

@@ -6,6 +6,8 @@
 #include "fleet/files/fault_text.hpp"
 #include "fleet/files/texts.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <map>
@@ -146,6 +148,19 @@ Result<FleetFile> read_settings_file(const std::filesystem::path& file,
   }
   return is_fleet_file(*text, file) ? parse_fleet_file(*text, file.string(), profiles)
                                     : parse_params_file(*text, file.string(), profiles);
+}
+
+std::string params_file(const Snapshot& servo, const FleetFileStyle& style) {
+  const auto serial = servo.servo.identity.readings().serial_number;
+  // The GUI Tool reads lines of at least two words only.
+  std::string text = fmt::format("# {} {} blactl {}\n", servo.servo.identity.model(),
+                                 serial ? std::to_string(*serial) : "unknown", style.tool_version);
+  for (const Reading& reading : servo.readings) {
+    if (reading.parameter->is_setting() && reading.raw) {
+      text += fmt::format("{} {}\n", reading.parameter->address.name(), *reading.raw);
+    }
+  }
+  return text;
 }
 
 } // namespace blactl::fleet

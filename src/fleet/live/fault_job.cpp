@@ -102,7 +102,7 @@ void FaultJob::look(std::span<const bla::Address> first) {
       [first](const Servo& servo) -> Result<std::vector<const Parameter*>> {
         return servo.identity.registers(first);
       },
-      session_.is_recording() ? ReadJob::Proof::none : ReadJob::Proof::moment,
+      session_.is_replay() ? ReadJob::Proof::none : ReadJob::Proof::moment,
       [this](const Snapshot& so_far) {
         return so_far.servo.identity.registers(bla::fault_details(so_far.values(), profiles_));
       });
@@ -126,7 +126,7 @@ Step FaultJob::judge(Time now) {
   if (!is_surpassed(state_)) {
     return std::nullopt;
   }
-  if (session_.is_recording()) {
+  if (session_.is_replay()) {
     doubt(state_);
     return std::nullopt;
   }

@@ -71,7 +71,7 @@ Address address_of(LiveField field) {
 Monitor::Monitor(Session& session, const bla::Profiles& profiles, Targets targets, Options options)
     : session_(session), profiles_(profiles), targets_(std::move(targets)),
       options_(std::move(options)),
-      due_(session.is_recording() ? Time::min() : session.now() + options_.period) {
+      due_(session.is_replay() ? Time::min() : session.now() + options_.period) {
   for (const LiveField field : options_.fields) {
     if (field != LiveField::angle) {
       (is_fast(field) ? plan_.often : plan_.seldom).push_back(address_of(field));
@@ -107,7 +107,7 @@ void Monitor::advance(Time now) {
 }
 
 void Monitor::receive(const Transfer& transfer) {
-  if (session_.is_recording()) {
+  if (session_.is_replay()) {
     advance(transfer.at);
   }
   const auto& header = transfer.header;
@@ -217,7 +217,7 @@ void Monitor::attend(NodeId id) {
   const bool is_named = std::ranges::count(targets_.ids, id) > 0;
   const bool may_be_meant = is_named || (member != nullptr && targets_.need_search() &&
                                          (member->sends_actuator_status() || member->is_servo));
-  if (!may_be_meant || session_.is_recording() || !session_.may_ask()) {
+  if (!may_be_meant || session_.is_replay() || !session_.may_ask()) {
     return;
   }
   Watched& node = nodes_[id];
@@ -372,7 +372,7 @@ std::vector<Error> Monitor::missing(Time now) const {
   std::vector<Error> errors;
   for (const NodeId id : targets_.ids) {
     if (!roster.heard(id)) {
-      errors.push_back(session_.is_recording() ? unrecorded(id) : silent(roster, id));
+      errors.push_back(session_.is_replay() ? unrecorded(id) : silent(roster, id));
     }
   }
   std::set<NodeId> shared; // an unmet one may be one of those

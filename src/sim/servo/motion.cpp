@@ -27,7 +27,7 @@ bool is_command(Address address) {
 
 } // namespace
 
-Motion::Motion(const ServoSetup& setup, Registers& registers, Time power_on)
+Motion::Motion(const ServoSetup& setup, Memory& registers, Time power_on)
     : registers_(registers), behaviour_(setup.behaviour), has_pwm_input_(has_pwm_input(setup)),
       motor_(motor_of(setup)), world_(world_of(setup)), grid_(power_on) {
   frame_.set(registers.value(address::reverse) != 0, registers.value(address::origin));

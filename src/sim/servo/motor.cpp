@@ -47,7 +47,7 @@ Motor motor_of(const ServoSetup& setup) {
   return motor;
 }
 
-Tuning tuning_of(const Motor& motor, const Registers& registers, bool soft_start) {
+Tuning tuning_of(const Motor& motor, const Memory& registers, bool soft_start) {
   const auto value = [&](bla::Address address) {
     const auto temporary = soft_start ? soft_start_value(address) : std::nullopt;
     return temporary.value_or(registers.value(address));

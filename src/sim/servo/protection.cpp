@@ -35,8 +35,8 @@ bool beyond(std::int64_t value, std::int64_t upper, std::int64_t lower, bool inc
 }
 
 template <std::size_t size>
-std::int64_t bits_of(const std::array<Range, size>& ranges, const Registers& registers,
-                     bool inclusive, bool soft_start = false) {
+std::int64_t bits_of(const std::array<Range, size>& ranges, const Memory& registers, bool inclusive,
+                     bool soft_start = false) {
   const auto limit = [&](bla::Address address) {
     const auto temporary = soft_start ? soft_start_value(address) : std::nullopt;
     return temporary.value_or(registers.value(address));
@@ -53,7 +53,7 @@ std::int64_t bits_of(const std::array<Range, size>& ranges, const Registers& reg
 }
 
 /// 4.31: a command beyond a limit is shown as well, although the shaft stays inside.
-std::int64_t commanded_beyond(const Registers& registers) {
+std::int64_t commanded_beyond(const Memory& registers) {
   const std::int64_t command = registers.value(address::command_angle);
   if (command == bla::not_active) {
     return 0;
@@ -69,7 +69,7 @@ std::int64_t of_magnet(Magnet magnet, Magnet state, std::int64_t bit) {
 
 } // namespace
 
-Faults present_faults(const Registers& registers, const World& world, const Behaviour& behaviour,
+Faults present_faults(const Memory& registers, const World& world, const Behaviour& behaviour,
                       bool soft_start) {
   Faults faults{world.notices, world.warnings, world.failures};
   faults.notice |= bits_of(notices, registers, behaviour.inclusive_limits, soft_start);
@@ -83,7 +83,7 @@ Faults present_faults(const Registers& registers, const World& world, const Beha
   return faults;
 }
 
-bool stops_motor(const Registers& registers, const World& world, const Behaviour& behaviour,
+bool stops_motor(const Memory& registers, const World& world, const Behaviour& behaviour,
                  std::int64_t failures) {
   const std::int64_t past = behaviour.restart_bits_stop ? 0 : fault::restart_failures;
   const auto stops = [&](std::int64_t measured, const Range& range) {

@@ -4,7 +4,7 @@
 
 namespace blactl::sim {
 
-PulseReading read_pulse(std::optional<std::int64_t> width_us, const Registers& registers,
+PulseReading read_pulse(std::optional<std::int64_t> width_us, const Memory& registers,
                         bool end_points_move) {
   if (!width_us) {
     return {.notices = fault::pwm_missing};

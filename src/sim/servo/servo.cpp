@@ -1,6 +1,6 @@
 #include "blactl/sim/servo/servo.hpp"
 
-#include "blactl/sim/servo/command.hpp"
+#include "blactl/sim/servo/array_entry.hpp"
 
 #include "sim/servo/names.hpp"
 

@@ -108,7 +108,7 @@ TEST_CASE("a recorder hears everything, and is the bus otherwise") {
   CHECK(recorder->name() == "fake");
   CHECK(recorder->echoes());
   CHECK(recorder->descriptor() == -1);
-  CHECK_FALSE(recorder->is_recording());
+  CHECK_FALSE(recorder->is_replay());
   CHECK_FALSE(recorder->wants_to_write());
   CHECK(recorder->now() == wire.now);
   CHECK(recorder->wall() == WallTime(wire.now.time_since_epoch()));

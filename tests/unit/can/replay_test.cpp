@@ -39,7 +39,7 @@ TEST_CASE("a log gives its frames in their order at their times, then its end, o
   const ScratchFile file(two_interfaces);
   const auto bus = open(file);
   CHECK(bus->name() == "replay:x");
-  CHECK(bus->is_recording());
+  CHECK(bus->is_replay());
   CHECK(bus->now() == Time{});
   const auto heard = bus->receive();
   const auto& received = std::get<Received>(heard.value());

@@ -2,7 +2,7 @@
 
 #include "blactl/bla/address.hpp"
 #include "blactl/fleet/bus/array_command.hpp"
-#include "blactl/sim/servo/command.hpp"
+#include "blactl/sim/servo/array_entry.hpp"
 
 #include "catch.hpp"
 

@@ -172,7 +172,7 @@ class Rig {
 
   [[nodiscard]] Memory memory() const {
     Memory memory;
-    const sim::Registers& registers = bus->servo().registers();
+    const sim::Memory& registers = bus->servo().registers();
     for (std::uint8_t value = 0; value <= 0x46; ++value) {
       const bla::Address address(value);
       const bla::Parameter* parameter = registers.existing(address);

@@ -1,7 +1,7 @@
 // A setting that only one series has, and no built-in profile.
 
-#include "blactl/fleet/bus/archive.hpp"
 #include "blactl/fleet/bus/register_choice.hpp"
+#include "blactl/fleet/bus/replayed_answers.hpp"
 #include "blactl/fleet/change/undo.hpp"
 #include "blactl/fleet/files/fleet_file.hpp"
 #include "blactl/fleet/files/params_file.hpp"
@@ -155,7 +155,7 @@ TEST_CASE("two values of it in answers to one question show two units") {
 TEST_CASE("in a recording ERASE makes history of it") {
   for (const bla::Profiles* known : {&with_own(), &profiles()}) {
     Roster roster(dronecan::anonymous, *known);
-    Archive archive(roster);
+    ReplayedAnswers archive(roster);
     const auto hear = [&](Kind kind, const dronecan::DataType& type, std::uint8_t source,
                           std::uint8_t destination, const dronecan::Payload& payload) {
       archive.receive({.header = {.kind = kind,

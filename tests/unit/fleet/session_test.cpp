@@ -562,7 +562,7 @@ TEST_CASE("what is asked, and what stays without an answer, is told to who wants
 TEST_CASE("that anything of DroneCAN was heard is known, of whomever it is") {
   Rig rig;
   CHECK_FALSE(rig.session->heard_anything());
-  CHECK_FALSE(rig.session->is_recording());
+  CHECK_FALSE(rig.session->is_replay());
   rig.wire.hear({.id = 0x55, .extended = false, .size = 1, .data = {0xC0}}, 1ms);
   REQUIRE(rig.session->live_until(rig.wire.now + 10ms));
   CHECK_FALSE(rig.session->heard_anything());

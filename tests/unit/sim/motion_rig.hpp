@@ -74,7 +74,7 @@ struct MotionRig {
   }
 
   ServoSetup setup;
-  Registers registers;
+  Memory registers;
   Motion motion;
   Time now{};
 };

@@ -39,7 +39,7 @@ constexpr std::array causes{
 /// The faults of a servo that reads `value` in one register.
 Faults with_reading(Address reading, std::int64_t value, bool inclusive = true) {
   const ServoSetup setup = servo_setup(R"("model": "BLA21-12U-AB")");
-  Registers registers(setup);
+  Memory registers(setup);
   registers.set(reading, value);
   Behaviour behaviour;
   behaviour.inclusive_limits = inclusive;

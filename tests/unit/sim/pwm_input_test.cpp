@@ -21,7 +21,7 @@ struct Mapping {
 
 PulseReading pulse(std::optional<std::int64_t> width, const Mapping& mapping = {1520, 700, 700, 0},
                    bool end_points_move = true) {
-  Registers registers(servo_setup(R"("model": "BLA21-12U-AB")"));
+  Memory registers(servo_setup(R"("model": "BLA21-12U-AB")"));
   registers.set(pwm_neutral, mapping.neutral);
   registers.set(pwm_range, mapping.range);
   registers.set(pwm_output_range, mapping.output);

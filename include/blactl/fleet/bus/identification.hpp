@@ -3,7 +3,7 @@
 
 #include "blactl/bla/profile.hpp"
 #include "blactl/dronecan/node.hpp"
-#include "blactl/fleet/bus/registers.hpp"
+#include "blactl/fleet/bus/register_access.hpp"
 #include "blactl/fleet/bus/roster.hpp"
 
 #include <optional>

@@ -2,7 +2,7 @@
 // Checks that a servo is still the same after requests, and has not restarted.
 
 #include "blactl/dronecan/node.hpp"
-#include "blactl/fleet/bus/registers.hpp"
+#include "blactl/fleet/bus/register_access.hpp"
 #include "blactl/fleet/bus/roster.hpp"
 
 #include <cstdint>

@@ -5,7 +5,7 @@
 #include "blactl/can/loop.hpp"
 #include "blactl/dronecan/node.hpp"
 #include "blactl/dronecan/service.hpp"
-#include "blactl/fleet/bus/playback.hpp"
+#include "blactl/fleet/bus/replayed_jobs.hpp"
 #include "blactl/fleet/bus/roster.hpp"
 #include "blactl/fleet/bus/traffic.hpp"
 #include "blactl/state/local_node_id.hpp"
@@ -58,13 +58,13 @@ class Session {
   [[nodiscard]] Time opened() const { return opened_; }
 
   /// Whether the bus is a log: it provides the responses.
-  [[nodiscard]] bool is_recording() const { return playback_.has_value(); }
+  [[nodiscard]] bool is_replay() const { return replay_.has_value(); }
 
   /// Whether it is, and all of it was heard.
-  [[nodiscard]] bool has_played() const { return playback_ && playback_->finished(); }
+  [[nodiscard]] bool has_played() const { return replay_ && replay_->finished(); }
 
   /// False: nothing is sent, for want of our own node ID.
-  [[nodiscard]] bool may_ask() const { return node_.id().is_unicast() || playback_.has_value(); }
+  [[nodiscard]] bool may_ask() const { return node_.id().is_unicast() || replay_.has_value(); }
 
   /// Takes a servo from a file as if it had been heard. Only on a recording.
   void recall(const RecordedServo& recorded);
@@ -187,7 +187,7 @@ class Session {
   [[nodiscard]] std::unexpected<Error> end(Error error);
   [[nodiscard]] Time acknowledge_deadline() const;
 
-  [[nodiscard]] bool plays_at_once() const { return playback_ && !loop_.bus().is_paced(); }
+  [[nodiscard]] bool plays_at_once() const { return replay_ && !loop_.bus().is_paced(); }
 
   [[nodiscard]] Result<void> play();
   [[nodiscard]] Result<void> run_while(const std::function<bool()>& busy);
@@ -196,7 +196,7 @@ class Session {
   Hearing hearing_;
   can::Loop loop_;
   Roster roster_;
-  std::optional<Playback> playback_; ///< on a recording
+  std::optional<ReplayedJobs> replay_; ///< on a recording
   dronecan::Node node_;
   std::vector<dronecan::Service*> services_;
   Traffic* traffic_ = nullptr;

@@ -2,7 +2,7 @@
 // Resets the RAM of one servo to factory defaults.
 
 #include "blactl/dronecan/node.hpp"
-#include "blactl/fleet/bus/registers.hpp"
+#include "blactl/fleet/bus/register_access.hpp"
 #include "blactl/fleet/bus/roster.hpp"
 #include "blactl/fleet/change/guard.hpp"
 

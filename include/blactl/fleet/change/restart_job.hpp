@@ -2,7 +2,7 @@
 // Makes one servo save or restart, and waits until it is back.
 
 #include "blactl/dronecan/node.hpp"
-#include "blactl/fleet/bus/registers.hpp"
+#include "blactl/fleet/bus/register_access.hpp"
 #include "blactl/fleet/bus/roster.hpp"
 #include "blactl/fleet/bus/run_proof.hpp"
 #include "blactl/fleet/change/guard.hpp"

@@ -3,7 +3,7 @@
 // again.
 
 #include "blactl/dronecan/node.hpp"
-#include "blactl/fleet/bus/registers.hpp"
+#include "blactl/fleet/bus/register_access.hpp"
 #include "blactl/fleet/bus/roster.hpp"
 #include "blactl/fleet/bus/run_proof.hpp"
 #include "blactl/fleet/change/guard.hpp"

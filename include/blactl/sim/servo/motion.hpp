@@ -4,12 +4,12 @@
 
 #include "blactl/base/time.hpp"
 #include "blactl/sim/servo/angle_frame.hpp"
-#include "blactl/sim/servo/command.hpp"
+#include "blactl/sim/servo/array_entry.hpp"
 #include "blactl/sim/servo/command_timer.hpp"
 #include "blactl/sim/servo/controller.hpp"
+#include "blactl/sim/servo/memory.hpp"
 #include "blactl/sim/servo/motor.hpp"
 #include "blactl/sim/servo/pwm_input.hpp"
-#include "blactl/sim/servo/registers.hpp"
 #include "blactl/sim/servo/servo_setup.hpp"
 #include "blactl/sim/servo/shaft.hpp"
 #include "blactl/sim/servo/world.hpp"
@@ -25,7 +25,7 @@ namespace blactl::sim {
 class Motion {
  public:
   /// `registers` must outlive this. The motor is off until start().
-  Motion(const ServoSetup& setup, Registers& registers, Time power_on);
+  Motion(const ServoSetup& setup, Memory& registers, Time power_on);
 
   /// The servo begins to run: the angle comes back within one turn (requirement 46), then soft
   /// start.
@@ -37,7 +37,7 @@ class Motion {
   /// Brings the readings 0x08-0x0C and 0x18-0x1B up to `now`.
   void look(Time now);
 
-  /// GetSet, as in Registers.
+  /// GetSet, as in Memory.
   [[nodiscard]] std::optional<std::int64_t> read(bla::Address address, Time now);
   std::optional<std::int64_t> write(bla::Address address, std::int64_t value, Time now);
 
@@ -87,7 +87,7 @@ class Motion {
 
   [[nodiscard]] std::int64_t angle_decideg() const { return frame_.decideg(shaft_); }
 
-  Registers& registers_;
+  Memory& registers_;
   Behaviour behaviour_;
   bool has_pwm_input_;
   Motor motor_;

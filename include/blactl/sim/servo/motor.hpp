@@ -2,7 +2,7 @@
 // The motor of a model, and how the registers tune it.
 
 #include "blactl/sim/servo/controller.hpp"
-#include "blactl/sim/servo/registers.hpp"
+#include "blactl/sim/servo/memory.hpp"
 #include "blactl/sim/servo/servo_setup.hpp"
 
 #include <cstdint>
@@ -22,6 +22,6 @@ struct Motor {
 [[nodiscard]] Motor motor_of(const ServoSetup& setup);
 
 /// The present tuning. A soft start has its own limits and works with 0x25 on (requirement 140).
-[[nodiscard]] Tuning tuning_of(const Motor& motor, const Registers& registers, bool soft_start);
+[[nodiscard]] Tuning tuning_of(const Motor& motor, const Memory& registers, bool soft_start);
 
 } // namespace blactl::sim

@@ -9,9 +9,9 @@
 #include "blactl/sim/node/random.hpp"
 #include "blactl/sim/servo/allocatee.hpp"
 #include "blactl/sim/servo/event.hpp"
+#include "blactl/sim/servo/memory.hpp"
 #include "blactl/sim/servo/mishap.hpp"
 #include "blactl/sim/servo/motion.hpp"
-#include "blactl/sim/servo/registers.hpp"
 #include "blactl/sim/servo/request_counter.hpp"
 #include "blactl/sim/servo/servo_setup.hpp"
 
@@ -62,7 +62,7 @@ class Servo final : public Device {
   [[nodiscard]] const Shaft& shaft() const { return motion_.shaft(); }
 
   /// RAM and ROM, readings as of the last look.
-  [[nodiscard]] const Registers& registers() const { return registers_; }
+  [[nodiscard]] const Memory& registers() const { return registers_; }
 
   [[nodiscard]] const dronecan::UniqueId& unique_id() const { return setup_.unique_id; }
 
@@ -135,7 +135,7 @@ class Servo final : public Device {
 
   ServoSetup setup_; ///< its faults count down
   Random random_;
-  Registers registers_;
+  Memory registers_;
   Motion motion_;
   Endpoint endpoint_;
   EventSink tell_;

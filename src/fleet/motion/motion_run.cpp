@@ -1,0 +1,102 @@
+#include "blactl/fleet/motion/motion_run.hpp"
+
+#include "blactl/fleet/bus/snapshots.hpp"
+#include "blactl/fleet/change/guard.hpp"
+
+#include "fleet/motion/motion_texts.hpp"
+
+#include <array>
+#include <vector>
+
+namespace blactl::fleet {
+
+namespace at = bla::address;
+using dronecan::NodeId;
+
+namespace {
+
+/// The servos that obey ArrayCommand, as far as heard.
+std::vector<NodeId> servos_heard(const Roster& roster, NodeId except) {
+  std::vector<NodeId> ids;
+  for (const auto& [id, member] : roster.members()) {
+    if (id != except && roster.heard(id) && (member.is_servo || member.sends_actuator_status())) {
+      ids.push_back(id);
+    }
+  }
+  return ids;
+}
+
+Error shared(const MotionPlan& plan, std::string message) {
+  return {Code::duplicate_servo_id, std::move(message), say<texts::motion_servo_id_hint>(),
+          plan.servo().id.value()};
+}
+
+} // namespace
+
+std::optional<Error> refuse_servo_id(Session& session, const bla::Profiles& profiles,
+                                     const MotionPlan& plan,
+                                     const Identification::Options& options) {
+  const std::int64_t servo_id = plan.plan.before.raw(at::servo_id).value_or(0);
+  const auto others = servos_heard(session.roster(), plan.servo().id);
+  const auto ids = [](const Servo& servo) -> Result<std::vector<const bla::Parameter*>> {
+    return servo.identity.registers(std::array{at::servo_id});
+  };
+  const auto snapshots = take_snapshots(session, profiles, others, options, ids);
+  if (snapshots.broken) {
+    return snapshots.broken;
+  }
+  if (!session.roster().pending().empty()) {
+    return shared(plan, say<texts::motion_servo_id_pending>(servo_id));
+  }
+  for (const Snapshot& other : snapshots.servos) {
+    const NodeId id = other.servo.id;
+    const auto its = other.raw(at::servo_id);
+    const auto told = session.roster().member(id).actuator_id;
+    if (!its || session.roster().is_doubled(id)) {
+      return shared(plan, say<texts::motion_servo_id_unknown>(id.value(), servo_id));
+    }
+    if (*its == servo_id || told == servo_id) { // it is not known which of the two it obeys
+      return shared(
+          plan, say<texts::motion_servo_id_shared>(plan.servo().id.value(), id.value(), servo_id));
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<Error> refuse_to_command(const Session& session, const MotionPlan& plan,
+                                       bool while_driven) {
+  return forbidden(session.roster(), session.now(), plan.plan, while_driven);
+}
+
+Commanded command(Session& session, const MotionPlan& plan, const MotionManner& manner) {
+  constexpr Duration end_time = std::chrono::seconds(10); // contract, section 2
+  MotionJob* running = nullptr;
+  MotionJob job(session.roster(), plan,
+                {.patience = manner.patience,
+                 .while_driven = manner.while_driven,
+                 .now = [&] { return session.now(); },
+                 .sampled =
+                     [&](const MotionSample& sample) {
+                       if (manner.sampled && !manner.sampled(sample)) {
+                         running->stop();
+                       }
+                     },
+                 .broadcast =
+                     [&](const dronecan::ArrayCommand& message) {
+                       session.node().broadcast(dronecan::ArrayCommand::type,
+                                                dronecan::priority_medium, message.encode());
+                     }});
+  running = &job;
+  session.set_grace(end_time);
+  session.on_stopping([&] {
+    job.stop();
+    if (manner.ending) {
+      manner.ending();
+    }
+  });
+  const auto ran = session.run(std::array<dronecan::Job*, 1>{&job});
+  session.on_stopping({});
+  return {job.result(), ran ? std::nullopt : std::optional(ran.error())};
+}
+
+} // namespace blactl::fleet
