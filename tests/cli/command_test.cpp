@@ -112,7 +112,7 @@ TEST_CASE("what is no command sends not one frame") {
            {{"command", "ANGLE=45"}, 2, "command_angle=45deg"},
            {{"command", "angle=45.05deg"}, 2, "angle"},
            {{"command", "speed=1000rpm"}, 2, "out_of_range"},
-           {{"command", "angle_limit_cw=90deg"}, 2, "no command"},
+           {{"command", "angle_limit_cw=90deg"}, 2, "not a command"},
            {{"command", "angle=45deg", "--wiggle"}, 2, "--wiggle"},
            {{"command", "--wiggle", "--svg", "-"}, 2, "--svg"},
            {{"command", "--wiggle", "--svg", "/no/such/folder/a.svg"}, 1, "/no/such/folder"},

@@ -167,7 +167,7 @@ TEST_CASE("export leaves the file as it was where not everything was read") {
   CHECK(result.status != 0);
   CHECK(content(exported.path) == before);
   check_error(three_servos().run({"export", "/nonexistent/x.json"}), 1, "io", "/nonexistent");
-  check_error(three_servos().run({"export", "--json"}), 2, "usage", "--json tells");
+  check_error(three_servos().run({"export", "--json"}), 2, "usage", "--json reports");
 }
 
 TEST_CASE("a recipe is of one servo and has no IDs") {

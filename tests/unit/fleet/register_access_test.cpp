@@ -71,7 +71,7 @@ TEST_CASE("a number that the register cannot hold is no value of it, and is neve
     const auto refused = value(wide, int16);
     REQUIRE_FALSE(refused);
     CHECK(refused.error().code == Code::refused);
-    CHECK(refused.error().message.find("no value of that register") != std::string::npos);
+    CHECK(refused.error().message.find("not a value of that register") != std::string::npos);
   }
   CHECK_FALSE(value(999, {.bits = 8, .is_signed = false}));
 }
