@@ -1,5 +1,5 @@
-// What apply costs of the bus: counted in bits of the simulated one, at 1 Mbit/s a microsecond
-// each.
+// What apply and get cost of the bus: counted in bits of the simulated one, at 1 Mbit/s a
+// microsecond each.
 
 #include "blactl/can/candump_reader.hpp"
 #include "blactl/can/frame_bits.hpp"
@@ -8,6 +8,7 @@
 
 #include "catch.hpp"
 #include "cli/mixed_fleet.hpp"
+#include "cli/scene.hpp"
 
 #include <array>
 #include <iostream>
@@ -147,6 +148,22 @@ std::size_t values_of(const nlohmann::ordered_json& document) {
 }
 
 } // namespace
+
+TEST_CASE("who was only just switched on is waited for, and read once") {
+  constexpr int servos = 120;
+  constexpr int configuration = 34;
+  test::Scene scene;
+  for (int id = 1; id <= servos; ++id) {
+    scene.servo("BLA21-12U-AB", id);
+  }
+  const test::Bench bench;
+  const std::string log = (bench.folder() / "get.log").string();
+  REQUIRE(scene.run(bench, {"get", "-n", "all", "--record", log}).status == 0);
+  const auto read = BusTime(log).sum([](const Exchange& each) { return each.is_setting; });
+  std::cout << "get of " << servos << " young servos: " << read.count << " settings read\n";
+  CHECK(read.count * 100 <= std::size_t{110} * servos * configuration);
+  CHECK(read.count >= std::size_t{servos} * configuration);
+}
 
 // The bounds, in exchanges; one costs what it costs on this bus, on the average.
 //

@@ -3,6 +3,7 @@
 #include "blactl/fleet/bus/texts.hpp"
 #include "blactl/fleet/bus/unreachable.hpp"
 
+#include <chrono>
 #include <utility>
 
 namespace blactl::fleet {
@@ -10,9 +11,12 @@ namespace blactl::fleet {
 using dronecan::GetNodeInfo;
 using dronecan::GetSet;
 using dronecan::Outcome;
-using dronecan::Request;
+using dronecan::Step;
 
 namespace {
+
+/// A servo that restarts again and again does not grow older; its reading shows that.
+constexpr int most_pauses = 4;
 
 /// Whether it is a response with the value of a register, even if out of its range.
 bool is_number(const Outcome& outcome) {
@@ -27,60 +31,79 @@ Identification::Identification(Roster& roster, dronecan::NodeId id, const bla::P
                                Options options)
     : roster_(roster), profiles_(profiles), options_(options), servo_{.id = id} {}
 
-bla::Address Identification::address_of(Step step) {
-  switch (step) {
-  case Step::model_number: return bla::address::model_number;
-  case Step::serial_number: return bla::address::serial_number;
-  case Step::firmware_version: return bla::address::firmware_version;
-  case Step::hardware_version: return bla::address::hardware_version;
-  case Step::servo_id: return bla::address::servo_id;
+bla::Address Identification::address_of(At at) {
+  switch (at) {
+  case At::model_number: return bla::address::model_number;
+  case At::serial_number: return bla::address::serial_number;
+  case At::firmware_version: return bla::address::firmware_version;
+  case At::hardware_version: return bla::address::hardware_version;
+  case At::servo_id: return bla::address::servo_id;
   default: return bla::address::static_node_id;
   }
 }
 
-std::optional<std::int64_t>& Identification::slot(Step step) {
-  switch (step) {
-  case Step::model_number: return readings_.model_number;
-  case Step::serial_number: return readings_.serial_number;
-  case Step::firmware_version: return readings_.firmware_version;
-  case Step::hardware_version: return readings_.hardware_version;
-  case Step::servo_id: return servo_.servo_id;
+std::optional<std::int64_t>& Identification::slot(At at) {
+  switch (at) {
+  case At::model_number: return readings_.model_number;
+  case At::serial_number: return readings_.serial_number;
+  case At::firmware_version: return readings_.firmware_version;
+  case At::hardware_version: return readings_.hardware_version;
+  case At::servo_id: return servo_.servo_id;
   default: return servo_.static_node_id;
   }
 }
 
-std::optional<Request> Identification::question(Step step) {
-  step_ = step;
-  if (step == Step::node_info) {
+Step Identification::question(At at) {
+  at_ = at;
+  if (at == At::node_info) {
     return ask(servo_.id, GetNodeInfo::type, GetNodeInfo::Request{}.encode(), options_.patience);
   }
-  return read_register(servo_.id, address_of(step), options_.patience);
+  return read_register(servo_.id, address_of(at), options_.patience);
 }
 
-std::optional<Request> Identification::next(const Outcome& outcome) {
-  if (step_ == Step::begin) {
-    if (const Member* member = roster_.find(servo_.id); member != nullptr && member->is_known()) {
-      servo_ = member->servo();
-      done_ = true;
-      return std::nullopt;
-    }
-    servo_.since = outcome.at;
-    return question(Step::node_info);
+Step Identification::begin(Time now) {
+  const Member* member = roster_.find(servo_.id);
+  if (member == nullptr || !member->is_known()) {
+    servo_.since = now;
+    return question(At::node_info);
   }
-  if (step_ == Step::node_info) {
-    take_node_info(outcome);
-  } else {
-    take_register(outcome);
+  if (options_.settled && member->is_young) {
+    return grow(member->info_start);
+  }
+  servo_ = member->servo();
+  done_ = true;
+  return std::nullopt;
+}
+
+/// `started`: at the latest.
+Step Identification::grow(Time started) {
+  at_ = At::young;
+  ++pauses_;
+  return dronecan::Pause{.until = started + std::chrono::seconds(1)};
+}
+
+Step Identification::next(const Outcome& outcome) {
+  switch (at_) {
+  case At::begin: return begin(outcome.at);
+  case At::young:
+    if (outcome.kind != Outcome::Kind::cancelled) {
+      return question(At::node_info);
+    }
+    [[fallthrough]];
+  case At::node_info: take_node_info(outcome); break;
+  default: take_register(outcome); break;
   }
   if (error_) {
     return std::nullopt;
   }
-  const bool is_decided =
-      step_ == Step::serial_number || (step_ == Step::model_number && !model_silent_);
+  if (at_ == At::node_info && options_.settled && servo_.is_young && pauses_ < most_pauses) {
+    return grow(outcome.at);
+  }
+  const bool is_decided = at_ == At::serial_number || (at_ == At::model_number && !model_silent_);
   const bool foreign = is_decided && !servo_.is_servo && !recording_lacks_model_;
-  const auto following = static_cast<Step>(std::to_underlying(step_) + 1);
+  const auto following = static_cast<At>(std::to_underlying(at_) + 1);
   const bool last =
-      following == Step::end || (following == Step::static_node_id && !options_.static_node_id);
+      following == At::end || (following == At::static_node_id && !options_.static_node_id);
   return foreign || last ? conclude() : question(following);
 }
 
@@ -100,6 +123,7 @@ void Identification::take_node_info(const Outcome& outcome) {
     servo_.unique_id = info_->unique_id;
     servo_.name = info_->name;
     servo_.since = outcome.asked; // it may have started after an earlier request that got lost
+    servo_.is_young = info_->status.uptime_s == 0;
   }
   servo_.boot = roster_.member(servo_.id).boots;
 }
@@ -125,10 +149,10 @@ Error Identification::silence_of_model() const {
 }
 
 void Identification::take_register(const Outcome& outcome) {
-  const auto* parameter = profiles_.find(address_of(step_));
+  const auto* parameter = profiles_.find(address_of(at_));
   const bla::Width width = parameter != nullptr ? parameter->width : bla::Width{.bits = 64};
-  const auto value = register_value(outcome, servo_.id, address_of(step_), width);
-  const bool first = step_ == Step::model_number;
+  const auto value = register_value(outcome, servo_.id, address_of(at_), width);
+  const bool first = at_ == At::model_number;
   const bool silent = !value && value.error().code == Code::timeout;
   // A node without parameters (a GPS, a battery) responds to GetNodeInfo only. For an actuator,
   // which may be of another make, only the second silent register proves it.
@@ -145,7 +169,7 @@ void Identification::take_register(const Outcome& outcome) {
   }
   recording_lacks_model_ = recording_lacks_model_ || (first && not_recorded);
   servo_.is_servo = servo_.is_servo || is_number(outcome);
-  slot(step_) = value ? std::optional(*value) : std::nullopt;
+  slot(at_) = value ? std::optional(*value) : std::nullopt;
 }
 
 /// Whether a recording leaves open if a node is a servo.
@@ -160,7 +184,7 @@ std::optional<Error> Identification::undecided() const {
                                   : unrecorded(servo_.id);
 }
 
-std::optional<Request> Identification::conclude() {
+Step Identification::conclude() {
   error_ = undecided();
   if (error_) {
     return std::nullopt;

@@ -22,12 +22,18 @@ constexpr int most_silent = 2;
 /// A servo that restarts more often while it is read is given up.
 constexpr int most_passes = 4;
 
+/// Whoever is to prove that he ran on must be old enough for that.
+Identification::Options settled(Identification::Options options, ReadJob::Proof proof) {
+  options.settled = proof == ReadJob::Proof::moment || proof == ReadJob::Proof::run;
+  return options;
+}
+
 } // namespace
 
 ReadJob::ReadJob(Roster& roster, dronecan::NodeId id, const bla::Profiles& profiles,
                  Identification::Options options, Choice choice, Proof proof, More more)
     : roster_(roster), id_(id), patience_(options.patience),
-      identification_(roster, id, profiles, options), choice_(std::move(choice)),
+      identification_(roster, id, profiles, settled(options, proof)), choice_(std::move(choice)),
       more_(std::move(more)), proof_(proof) {
   snapshot_.servo.id = id;
 }
@@ -35,8 +41,8 @@ ReadJob::ReadJob(Roster& roster, dronecan::NodeId id, const bla::Profiles& profi
 Step ReadJob::next(const Outcome& outcome) {
   switch (at_) {
   case At::identify:
-    if (auto question = identification_.next(outcome)) {
-      return question;
+    if (Step step = identification_.next(outcome); !step.is_end()) {
+      return step;
     }
     return begin(outcome.at);
   case At::read: return take_reading(outcome);
@@ -141,11 +147,14 @@ Step ReadJob::judge_proof(const Outcome& outcome) {
   case RunProof::Verdict::ran_on: return judge_writers(outcome.at);
   case RunProof::Verdict::failed: return give_up(told_by(*run_proof_->error()));
   case RunProof::Verdict::too_late:
-    return give_up(
-        {Code::state, say<texts::answers_too_late>(id), say<texts::run_again_hint>(), id});
+    if (passes_ == most_passes || is_about_earlier_run()) {
+      return give_up(
+          {Code::state, say<texts::answers_too_late>(id), say<texts::run_again_hint>(), id});
+    }
+    return read_again(outcome.at); // from now on it is older
   case RunProof::Verdict::restarted: break;
   }
-  snapshot_.has_restarted = true;
+  snapshot_.has_restarted = snapshot_.servo.is_young = true;
   if (passes_ == most_passes) {
     return give_up(
         {Code::state, say<texts::restarts_while_read>(id), say<texts::restarts_again_hint>(), id});
@@ -185,12 +194,15 @@ Step ReadJob::read_again(Time now) {
 
 /// The earliest contents of RAM in this session may matter, however often the servo was identified
 /// since.
+bool ReadJob::is_about_earlier_run() const {
+  return proof_ == Proof::run && !snapshot_.has_restarted;
+}
+
 std::optional<Time> ReadJob::must_run_since() const {
   if (proof_ == Proof::unit) {
     return std::nullopt;
   }
-  return proof_ == Proof::run && !snapshot_.has_restarted ? roster_.member(id_).first_heard
-                                                          : snapshot_.servo.since;
+  return is_about_earlier_run() ? roster_.member(id_).first_heard : snapshot_.servo.since;
 }
 
 /// Readings are dropped: they may be of two units, or of two times.

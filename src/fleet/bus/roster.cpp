@@ -38,6 +38,7 @@ Servo Member::servo() const {
           .unique_id = unique_id(),
           .boot = identified_boot,
           .since = since,
+          .is_young = is_young,
           .name = info ? info->name : std::string(),
           .is_servo = is_servo,
           .identity = identity,
@@ -107,6 +108,7 @@ void Roster::learn(const Servo& servo, const std::optional<dronecan::GetNodeInfo
   member.info = info;
   member.info_boot = member.identified_boot = servo.boot;
   member.since = servo.since;
+  member.is_young = servo.is_young;
   member.is_servo = servo.is_servo;
   member.identity = servo.identity;
   member.servo_id = servo.servo_id;
@@ -126,6 +128,7 @@ void Roster::learn_run(const Servo& servo) {
   Member& member = known(servo.id);
   member.info_boot = member.identified_boot = servo.boot;
   member.since = servo.since;
+  member.is_young = servo.is_young;
 }
 
 void Roster::learn_static_node_id(NodeId id, std::optional<std::int64_t> static_node_id) {

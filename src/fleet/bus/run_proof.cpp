@@ -16,11 +16,14 @@ namespace {
 /// Uptimes that may be too late to be conclusive.
 constexpr int most_uptimes = 8;
 
+/// So many servos, all switched on at once, can tell theirs early enough in the same second.
+constexpr std::size_t servos_a_second = 16;
+
 } // namespace
 
 RunProof::RunProof(const Roster& roster, const Servo& servo, std::optional<Time> since,
                    Patience patience)
-    : roster_(roster), id_(servo.id), unique_id_(servo.unique_id), boot_(servo.boot),
+    : roster_(roster), id_(servo.id), unique_id_(servo.unique_id), boot_(servo.boot), since_(since),
       patience_(patience) {
   if (since) {
     check_.emplace(*since);
@@ -73,8 +76,21 @@ Step RunProof::judge_uptime(std::uint32_t uptime_s, const Outcome& outcome) {
     return conclude(Verdict::too_late);
   }
   at_ = At::later;
-  return dronecan::Pause{.until = check_->next(outcome.at),
+  return dronecan::Pause{.until = next_turn(outcome.at),
                          .ready = [this] { return roster_.is_doubled(id_) || has_another_boot(); }};
+}
+
+/// Many servos that are asked at once are late for that reason alone. They take turns then, a
+/// second each, and the delays measured before do not count.
+Time RunProof::next_turn(Time now) {
+  const std::size_t turns = 1 + roster_.members().size() / servos_a_second;
+  if (turns > 1 && uptimes_ == 1) {
+    check_.emplace(*since_);
+  }
+  const Time next = check_->next(now);
+  const auto second = std::chrono::floor<std::chrono::seconds>(next.time_since_epoch()).count();
+  const std::size_t turn = (static_cast<std::size_t>(second) + id_.value()) % turns;
+  return turn == 0 ? next : check_->next(next + std::chrono::seconds(turns - turn - 1));
 }
 
 /// A second unit on this ID responds to the last request, too, a little later.

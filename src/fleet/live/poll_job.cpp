@@ -42,8 +42,8 @@ Step PollJob::next(const Outcome& outcome) {
 
 Step PollJob::identify(const Outcome& outcome) {
   at_ = At::identify;
-  if (auto request = identification_->next(outcome)) {
-    return request;
+  if (Step step = identification_->next(outcome); !step.is_end()) {
+    return step;
   }
   if (!identification_->done()) {
     const bool is_other = identification_->error()->code == Code::not_found;

@@ -31,11 +31,6 @@ constexpr int max_steps = 1000;
 /// wait when this process did not run for a while or the machine is too slow.
 constexpr Duration longest_slice = std::chrono::milliseconds(20);
 
-Time monotonic_now() {
-  return Time(
-      std::chrono::duration_cast<Duration>(std::chrono::steady_clock::now().time_since_epoch()));
-}
-
 } // namespace
 
 struct Server::State {

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <utility>
 
 namespace blactl::sim {
@@ -27,7 +28,18 @@ std::int64_t microseconds(Time time) {
   return time.time_since_epoch().count();
 }
 
+/// Now, for a client on the real clock: the simulator may not have got so far yet, and what is
+/// answered before it was asked makes clients think that a servo has started anew.
+Time handed_over(Clock clock) {
+  return clock == Clock::real ? monotonic_now() : Time{};
+}
+
 } // namespace
+
+Time monotonic_now() {
+  return Time(
+      std::chrono::duration_cast<Duration>(std::chrono::steady_clock::now().time_since_epoch()));
+}
 
 ServerClient::ServerClient(int socket, Simulator& simulator, Clock clock)
     : socket_(socket), simulator_(simulator), clock_(clock) {}
@@ -67,7 +79,9 @@ void ServerClient::handle(const Message& message) {
       filters_.push_back({message.id, message.value});
     }
     break;
-  case Kind::send: simulator_.send(*port_, can::sim_wire::frame_of(message)); break;
+  case Kind::send:
+    simulator_.send(*port_, can::sim_wire::frame_of(message), handed_over(clock_));
+    break;
   case Kind::wait:
     waits_after_ = message.count;
     deadline_ = Time(Duration(message.at));

@@ -12,6 +12,9 @@
 
 namespace blactl::sim {
 
+/// What time it is on the real clock.
+[[nodiscard]] Time monotonic_now();
+
 class ServerClient final : public Medium::Listener {
  public:
   /// Takes over the socket. `simulator` must outlive the client.

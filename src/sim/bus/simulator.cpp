@@ -147,8 +147,8 @@ void Simulator::detach(Medium::PortId port) {
   medium_.detach(port);
 }
 
-bool Simulator::send(Medium::PortId port, const can::Frame& frame) {
-  return medium_.send(port, frame, now_);
+bool Simulator::send(Medium::PortId port, const can::Frame& frame, Time at) {
+  return medium_.send(port, frame, std::max(at, now_));
 }
 
 } // namespace blactl::sim

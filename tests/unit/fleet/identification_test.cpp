@@ -53,6 +53,15 @@ struct Dialogue {
     return identification.error()->code == Code::timeout;
   }
 
+  /// The answers to 0x50 and all that follows.
+  void pass_registers() {
+    CHECK(next(script.value("0x50", std::int64_t{61})) == "read 0x51");
+    CHECK(next(script.value("0x51", std::int64_t{1})) == "read 0x52");
+    CHECK(next(script.value("0x52", std::int64_t{1400})) == "read 0x53");
+    CHECK(next(script.value("0x53", std::int64_t{12050})) == "read 0x45");
+    CHECK(next(script.value("0x45", std::int64_t{3})) == "nothing");
+  }
+
   /// As far as 0x50, which is not answered yet.
   void pass_node_info(std::uint8_t unit = 1) {
     CHECK(next(Script::start()) == "GetNodeInfo");
@@ -151,6 +160,61 @@ TEST_CASE("a restart in the middle of the questions leaves a servo that is not k
   CHECK_FALSE(dialogue.member().is_known());
 }
 
+TEST_CASE(
+    "where its runs must be told apart, a servo that has only just started grows older first") {
+  const Identification::Options settled{.patience = {}, .settled = true};
+  Dialogue dialogue(settled);
+  const auto told = [&](std::uint32_t uptime_s, Duration at) {
+    Outcome outcome = dialogue.script.info(1, uptime_s);
+    outcome.at = Time{} + at;
+    outcome.asked = outcome.at - 2ms;
+    return outcome;
+  };
+  CHECK(dialogue.next(Script::start()) == "GetNodeInfo");
+  SECTION("a second later whole seconds show a restart") {
+    const dronecan::Step step = dialogue.identification.next(told(0, 100ms));
+    REQUIRE(step.pause() != nullptr);
+    CHECK(step.pause()->until == Time{} + 1100ms);
+    CHECK(dialogue.next(Script::start()) == "GetNodeInfo");
+    CHECK(dialogue.next(told(1, 1102ms)) == "read 0x50");
+    dialogue.pass_registers();
+    CHECK_FALSE(dialogue.identification.servo().is_young);
+    CHECK(dialogue.identification.servo().since == Time{} + 1100ms);
+  }
+  SECTION("one that has run for a second is not waited for") {
+    CHECK(dialogue.next(told(1, 100ms)) == "read 0x50");
+  }
+  SECTION("one that restarts again and again is not waited for any longer") {
+    for (int i = 0; i < 4; ++i) {
+      CHECK(dialogue.next(told(0, 100ms)) == "pause");
+      CHECK(dialogue.next(Script::start()) == "GetNodeInfo");
+    }
+    CHECK(dialogue.next(told(0, 100ms)) == "read 0x50");
+    dialogue.pass_registers();
+    CHECK(dialogue.identification.servo().is_young);
+  }
+  SECTION("the wait can be cancelled") {
+    CHECK(dialogue.next(told(0, 100ms)) == "pause");
+    CHECK(dialogue.next(Script::cancelled()) == "nothing");
+    REQUIRE(dialogue.identification.error());
+    CHECK(dialogue.identification.error()->code == Code::interrupted);
+  }
+}
+
+TEST_CASE("who was identified too young is identified anew where that matters") {
+  Scene scene(one_servo);
+  CHECK(scene.identify(11).is_young);
+  scene.sent.clear();
+  const Servo servo = scene.identify(11, {.patience = {}, .settled = true});
+  CHECK_FALSE(servo.is_young);
+  CHECK(servo.servo_id == 7);
+  CHECK(scene.requests(GetNodeInfo::type, 11) == 1);
+  CHECK(scene.requests(GetSet::type, 11) == 5);
+  scene.sent.clear();
+  CHECK_FALSE(scene.identify(11, {.patience = {}, .settled = true}).is_young);
+  CHECK(scene.sent.empty());
+}
+
 TEST_CASE("numbers are narrowed to the width of their registers") {
   Dialogue dialogue;
   dialogue.pass_node_info();
@@ -237,7 +301,7 @@ TEST_CASE("a servo is dated by the question that it answered first") {
   CHECK(dialogue.identification.servo().since == Time{500s});
   CHECK(dialogue.member().servo().since == Time{500s});
   Identification again(dialogue.roster, NodeId(11), profiles(), {});
-  CHECK_FALSE(again.next({Outcome::Kind::start, {}, Time{600s}}));
+  CHECK(again.next({Outcome::Kind::start, {}, Time{600s}}).is_end());
   CHECK(again.servo().since == Time{500s});
 }
 

@@ -84,6 +84,7 @@ TEST_CASE("a known servo is not identified again") {
 
 TEST_CASE("an empty choice reads nothing") {
   Scene scene(one_servo);
+  scene.grow_old();
   scene.identify(11);
   scene.sent.clear();
   ReadJob job(scene.roster(), NodeId(11), profiles(), {}, registers({}));
@@ -95,6 +96,7 @@ TEST_CASE("an empty choice reads nothing") {
 
 TEST_CASE("a choice that is refused reads nothing, and the error names the servo") {
   Scene scene(one_servo);
+  scene.grow_old();
   scene.identify(11);
   scene.sent.clear();
   ReadJob job(scene.roster(), NodeId(11), profiles(), {},
@@ -155,6 +157,7 @@ TEST_CASE("a register that the servo refuses does not hinder the others") {
 
 TEST_CASE("a register that is not answered does not hinder the others") {
   Scene scene(one_servo);
+  scene.grow_old();
   scene.identify(11);
   Script script;
   ReadJob job(scene.roster(), NodeId(11), profiles(), {}, registers({"angle_limit_cw", "reverse"}));
@@ -168,6 +171,7 @@ TEST_CASE("a register that is not answered does not hinder the others") {
 
 TEST_CASE("what is read is narrowed to the width of its register") {
   Scene scene(one_servo);
+  scene.grow_old();
   scene.identify(11);
   Script script;
   ReadJob job(scene.roster(), NodeId(11), profiles(), {}, registers({"angle_limit_ccw"}));
@@ -178,6 +182,7 @@ TEST_CASE("what is read is narrowed to the width of its register") {
 
 TEST_CASE("a cancelled job asks nothing more") {
   Scene scene(one_servo);
+  scene.grow_old();
   scene.identify(11);
   ReadJob job(scene.roster(), NodeId(11), profiles(), {}, registers({"angle_limit_cw", "reverse"}));
   CHECK(text(job.next(Script::start())) == "read 0x38");
@@ -313,6 +318,32 @@ TEST_CASE(
     CHECK_FALSE(reader.step.pause()->ready());
     reader.known.restart();
     CHECK(reader.step.pause()->ready());
+  }
+}
+
+TEST_CASE("where answers are too late for a young servo it is read again when it is older") {
+  Reader reader({"angle_limit_cw"});
+  CHECK(reader.next(Script::start()) == "read 0x38");
+  CHECK(reader.value("0x38", 900) == "GetNodeInfo");
+  for (std::uint32_t second = 0; second < 7; ++second) {
+    CHECK(reader.told(unit, second, second * 1s + 100ms) == "pause");
+    CHECK(reader.next(Script::start()) == "GetNodeInfo");
+  }
+  CHECK(reader.told(unit, 7, 7100ms) == "read 0x38");
+  CHECK(reader.value("0x38", 901) == "GetNodeInfo");
+  SECTION("it ran on") {
+    CHECK(reader.told(unit, 7, 7200ms) == "pause"); // for a twin
+    CHECK(reader.next(Script::start()) == "nothing");
+    CHECK(reader.job.snapshot().raw(bla::address::angle_limit_cw) == 901);
+    CHECK_FALSE(reader.job.snapshot().has_restarted);
+  }
+  SECTION("it restarted meanwhile") {
+    CHECK(reader.told(unit, 0, 8200ms) == "read 0x38");
+    CHECK(reader.value("0x38", 902) == "GetNodeInfo");
+    CHECK(reader.told(unit, 1, 8300ms) == "pause"); // for a twin
+    CHECK(reader.next(Script::start()) == "nothing");
+    CHECK(reader.job.snapshot().raw(bla::address::angle_limit_cw) == 902);
+    CHECK(reader.job.snapshot().has_restarted);
   }
 }
 

@@ -16,6 +16,7 @@ using testing::scenario;
 
 namespace {
 
+constexpr const char* one_servo = R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11}])";
 constexpr const char* full_bus =
     R"("foreign": [{"kind": "babbler", "node_id": 40, "load": 1},
                    {"kind": "node", "node_id": 41}])";
@@ -23,7 +24,8 @@ constexpr const char* full_bus =
 /// A client of a bus whose time moves by hand, and the far end of its socket.
 class Rig {
  public:
-  Rig() : simulator_(scenario(full_bus), Time{}) {
+  explicit Rig(const char* members = full_bus, Time power_on = Time{})
+      : simulator_(scenario(members), power_on) {
     std::array<int, 2> ends{};
     REQUIRE(socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_NONBLOCK | SOCK_CLOEXEC, 0, ends.data()) ==
             0);
@@ -41,6 +43,12 @@ class Rig {
 
   void pass(Duration time) { simulator_.advance_to(simulator_.now() + time); }
 
+  void send(const can::Frame& frame) {
+    const Message message = can::sim_wire::with_frame(Kind::send, frame);
+    REQUIRE(::send(far_, &message, sizeof message, 0) == sizeof message);
+    client_->serve();
+  }
+
   /// Reads all that there is, as a client does that runs again.
   void read() {
     for (;;) {
@@ -53,6 +61,7 @@ class Rig {
         continue;
       }
       frames += message.kind == Kind::received ? 1U : 0U;
+      sent_at = message.kind == Kind::sent ? Time(Duration(message.at)) : sent_at;
       lost = message.kind == Kind::overflow ? message.count : lost;
       in_order = in_order && (message.kind != Kind::received || message.at > last_);
       last_ = message.kind == Kind::received ? message.at : last_;
@@ -63,6 +72,7 @@ class Rig {
 
   std::uint64_t frames = 0, lost = 0;
   bool in_order = true;
+  Time sent_at{}; ///< when its last frame was on the bus
 
  private:
   Simulator simulator_;
@@ -95,4 +105,16 @@ TEST_CASE("what a client that does not run for longer has lost is counted to the
   CHECK(rig.lost > 0);
   CHECK(rig.frames + rig.lost == rig.on_the_bus());
   CHECK(rig.in_order);
+}
+
+TEST_CASE("what a client sends is never on the bus before that, however late the simulator is") {
+  const Time now = monotonic_now();
+  Rig rig(one_servo, now - 100ms);
+  rig.send(testing::frame("1E018BFF#C1"));
+  rig.pass(50ms);
+  rig.read();
+  CHECK(rig.sent_at == Time{});
+  rig.pass(10s);
+  rig.read();
+  CHECK(rig.sent_at > now);
 }

@@ -17,14 +17,15 @@ class Identification {
     Patience patience;
     const bla::Profile* assumed = nullptr; ///< --profile
     bool static_node_id = false;           ///< 0x46 as well
+    bool settled = false; ///< not before it has run for a second, so that a restart after it shows
   };
 
   /// All references outlive this object. Results are entered into `roster`.
   Identification(Roster& roster, dronecan::NodeId id, const bla::Profiles& profiles,
                  Options options);
 
-  /// The next request; none: done() or failed. The first call's outcome is ignored.
-  [[nodiscard]] std::optional<dronecan::Request> next(const dronecan::Outcome& outcome);
+  /// The next step; the end: done() or failed. The first call's outcome is ignored.
+  [[nodiscard]] dronecan::Step next(const dronecan::Outcome& outcome);
 
   [[nodiscard]] bool done() const { return done_; }
 
@@ -37,8 +38,9 @@ class Identification {
   [[nodiscard]] const std::optional<Error>& error() const { return error_; }
 
  private:
-  enum class Step : std::uint8_t {
+  enum class At : std::uint8_t {
     begin,
+    young,
     node_info,
     model_number,
     serial_number,
@@ -49,21 +51,24 @@ class Identification {
     end,
   };
 
-  [[nodiscard]] static bla::Address address_of(Step step);
-  [[nodiscard]] std::optional<dronecan::Request> question(Step step);
-  [[nodiscard]] std::optional<dronecan::Request> conclude();
+  [[nodiscard]] static bla::Address address_of(At at);
+  [[nodiscard]] dronecan::Step begin(Time now);
+  [[nodiscard]] dronecan::Step grow(Time started);
+  [[nodiscard]] dronecan::Step question(At at);
+  [[nodiscard]] dronecan::Step conclude();
   [[nodiscard]] std::optional<Error> undecided() const;
   [[nodiscard]] bool sends_actuator_status() const;
   [[nodiscard]] bool may_be_servo() const;
   [[nodiscard]] Error silence_of_model() const;
   void take_node_info(const dronecan::Outcome& outcome);
   void take_register(const dronecan::Outcome& outcome);
-  [[nodiscard]] std::optional<std::int64_t>& slot(Step step);
+  [[nodiscard]] std::optional<std::int64_t>& slot(At at);
 
   Roster& roster_;
   const bla::Profiles& profiles_;
   Options options_;
-  Step step_ = Step::begin;
+  At at_ = At::begin;
+  int pauses_ = 0; ///< to let it grow older
   Servo servo_;
   std::optional<dronecan::GetNodeInfo::Response> info_;
   bla::Readings readings_;

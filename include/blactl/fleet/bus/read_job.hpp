@@ -10,9 +10,9 @@
 
 namespace blactl::fleet {
 
-/// After the last register the servo must prove that it is still the same and has not restarted
-/// since it was identified; otherwise everything is read once more. On earlier contents of RAM, see
-/// Proof.
+/// After the last register the servo must prove, once it is old enough for that, that it is still
+/// the same and has not restarted since it was identified; otherwise everything is read once more.
+/// On earlier contents of RAM, see Proof.
 class ReadJob final : public dronecan::Job {
  public:
   /// The registers to read from an identified servo. Errors: reasons for not reading at all.
@@ -54,6 +54,7 @@ class ReadJob final : public dronecan::Job {
   [[nodiscard]] dronecan::Step read_again(Time now);
   [[nodiscard]] dronecan::Step give_up(Error error);
   [[nodiscard]] Error told_by(const Error& error) const;
+  [[nodiscard]] bool is_about_earlier_run() const;
   [[nodiscard]] std::optional<Time> must_run_since() const;
 
   Roster& roster_;

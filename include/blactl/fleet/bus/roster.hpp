@@ -42,6 +42,7 @@ struct Member {
   bool identified = false;           ///< learn() was called with everything
   std::uint32_t identified_boot = 0; ///< `boots` at that time
   Time since{};                      ///< Servo::since
+  bool is_young = false;             ///< Servo::is_young
 
   [[nodiscard]] bool sends_actuator_status() const { return actuator_id.has_value(); }
 

@@ -48,6 +48,7 @@ class RunProof final : public dronecan::Job {
   [[nodiscard]] dronecan::Step judge(const dronecan::Outcome& outcome);
   [[nodiscard]] dronecan::Step judge_uptime(std::uint32_t uptime_s,
                                             const dronecan::Outcome& outcome);
+  [[nodiscard]] Time next_turn(Time now);
   [[nodiscard]] dronecan::Step hear_twin(Time now);
   [[nodiscard]] dronecan::Step conclude(Verdict verdict);
   [[nodiscard]] dronecan::Step fail(Error error);
@@ -58,6 +59,7 @@ class RunProof final : public dronecan::Job {
   dronecan::NodeId id_;
   std::optional<dronecan::UniqueId> unique_id_;
   std::uint32_t boot_;
+  std::optional<Time> since_;
   std::optional<UptimeCheck> check_; ///< empty: restarts are allowed
   Patience patience_;
   At at_ = At::begin;

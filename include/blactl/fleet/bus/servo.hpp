@@ -20,6 +20,7 @@ struct Servo {
   std::optional<dronecan::UniqueId> unique_id{}; ///< empty: a recording may lack it
   std::uint32_t boot = 0;                        ///< Member::boots at that time
   Time since{};          ///< the first successful request: all facts are newer
+  bool is_young = false; ///< uptime 0 at that time: a restart since may not show
   std::string name{};    ///< of GetNodeInfo, untrusted bytes
   bool is_servo = false; ///< it responded to register 0x50
   bla::Identity identity{};

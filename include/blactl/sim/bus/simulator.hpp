@@ -54,7 +54,8 @@ class Simulator {
   /// A client's node, at now(). See Medium.
   Medium::PortId attach(Medium::Listener& listener, std::size_t capacity);
   void detach(Medium::PortId port);
-  bool send(Medium::PortId port, const can::Frame& frame);
+  /// `at`: when it was handed over; where that is later than now(), the bus takes it then.
+  bool send(Medium::PortId port, const can::Frame& frame, Time at = {});
 
   /// Applies to all clients, present and future.
   void link_clients(ClientLink link);
