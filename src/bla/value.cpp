@@ -332,20 +332,6 @@ std::string input_text(const Parameter& parameter, std::int64_t raw,
   return fmt::format("{}{}", value_text(parameter, raw, pwm_mode), unit_text(parameter, pwm_mode));
 }
 
-namespace {
-
-bool is_version(const Parameter& parameter) {
-  return parameter.address == address::firmware_version ||
-         parameter.address == address::hardware_version;
-}
-
-/// Whether it is part of the date; its name says which part.
-bool is_part_of_date(const Parameter& parameter) {
-  return parameter.unit >= Unit::year;
-}
-
-} // namespace
-
 std::string display(const Parameter& parameter, std::int64_t raw,
                     std::optional<std::int64_t> pwm_mode) {
   if (parameter.can_be_inactive && raw == not_active) {
@@ -354,12 +340,14 @@ std::string display(const Parameter& parameter, std::int64_t raw,
   if (const Choice* choice = parameter.choice(raw)) {
     return choice->word;
   }
-  if (is_version(parameter)) {
+  if (parameter.address == address::firmware_version ||
+      parameter.address == address::hardware_version) {
     return firmware_text(raw);
   }
   const std::string_view unit = unit_text(parameter, pwm_mode);
   const std::string value = value_text(parameter, raw, pwm_mode);
-  return unit.empty() || is_part_of_date(parameter) ? value : fmt::format("{} {}", value, unit);
+  const bool is_part_of_date = parameter.unit >= Unit::year; // its name says which part
+  return unit.empty() || is_part_of_date ? value : fmt::format("{} {}", value, unit);
 }
 
 std::string register_text(const Parameter& parameter, std::int64_t raw,
