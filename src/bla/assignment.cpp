@@ -11,16 +11,6 @@
 namespace blactl::bla {
 namespace {
 
-/// Refuses 0x10-0x12, which have their own commands.
-Result<void> check_operation(const Parameter& parameter) {
-  if (parameter.group != Group::operation) {
-    return {};
-  }
-  return fail(Code::unsupported,
-              say<texts::operation_refused>(parameter.name, parameter.address.name()),
-              say<texts::operation_hint>(operation_command(parameter.address)));
-}
-
 Result<void> check_access(const Parameter& parameter) {
   if (parameter.address == address::bootloader) {
     return fail(Code::unsupported, say<texts::bootloader_refused>(), say<texts::parameter_list>());
@@ -30,6 +20,17 @@ Result<void> check_access(const Parameter& parameter) {
                 say<texts::is_read_only_hint>(parameter.name));
   }
   return {};
+}
+
+/// Refuses 0x10-0x12, too, which have their own commands.
+Result<void> check_settable(const Parameter& parameter) {
+  auto allowed = check_access(parameter);
+  if (!allowed || parameter.group != Group::operation) {
+    return allowed;
+  }
+  return fail(Code::unsupported,
+              say<texts::operation_refused>(parameter.name, parameter.address.name()),
+              say<texts::operation_hint>(operation_command(parameter.address)));
 }
 
 /// Checks 0x36 against a 0x37 beside it.
@@ -46,10 +47,6 @@ Result<void> check_pwm_pair(const Profiles& profiles, std::span<const Assignment
   return check_pwm_unit(profiles, *range, mode->value.raw);
 }
 
-bool is_other_unit(const Assignment& assignment, std::int64_t pwm_mode) {
-  return assignment.value.pwm_mode.value_or(pwm_mode) != pwm_mode;
-}
-
 /// Suggests the typed number in the unit of `pwm_mode`, if possible (the register number would be
 /// ten times off), or as typed with the mode that fits its unit.
 std::string ways_to_agree(const Parameter& mode, const Assignment& assignment,
@@ -64,6 +61,30 @@ std::string ways_to_agree(const Parameter& mode, const Assignment& assignment,
   return check_range(range, raw) ? say<texts::pwm_either_unit>(
                                        range.name + '=' + input_text(range, raw, pwm_mode), other)
                                  : say<texts::value_type>(other);
+}
+
+/// Refuses a number in the unit of another mode, with `message`.
+template <const Text& message>
+Result<void> check_unit_of_mode(const Profiles& profiles, const Assignment& assignment,
+                                std::int64_t pwm_mode) {
+  if (assignment.value.pwm_mode.value_or(pwm_mode) == pwm_mode) {
+    return {};
+  }
+  const Parameter& mode = *profiles.find(address::pwm_mode);
+  return fail(Code::usage,
+              say<message>(printable(assignment.text), mode.name + '=' + input_text(mode, pwm_mode),
+                           unit_text(*assignment.parameter, pwm_mode)),
+              ways_to_agree(mode, assignment, pwm_mode));
+}
+
+/// Refuses several commands at once, since each makes the others inactive (4.1-4.3).
+Result<void> check_commands(std::span<const Assignment> assignments) {
+  const auto commands = std::ranges::count_if(assignments, [](const Assignment& assignment) {
+    return assignment.parameter->can_be_inactive;
+  });
+  return commands > 1 ? fail(Code::cross_check, say<texts::one_command_only>(),
+                             say<texts::one_command_only_hint>())
+                      : Result<void>();
 }
 
 } // namespace
@@ -93,30 +114,12 @@ std::string remark(const Parameter& parameter) {
 
 Result<void> check_pwm_unit(const Profiles& profiles, const Assignment& assignment,
                             std::int64_t pwm_mode) {
-  if (!is_other_unit(assignment, pwm_mode)) {
-    return {};
-  }
-  const Parameter& range = *assignment.parameter;
-  const Parameter& mode = *profiles.find(address::pwm_mode);
-  return fail(Code::usage,
-              say<texts::pwm_unit_against_mode>(printable(assignment.text),
-                                                mode.name + '=' + input_text(mode, pwm_mode),
-                                                unit_text(range, pwm_mode)),
-              ways_to_agree(mode, assignment, pwm_mode));
+  return check_unit_of_mode<texts::pwm_unit_against_mode>(profiles, assignment, pwm_mode);
 }
 
 Result<void> check_pwm_unit_of_servo(const Profiles& profiles, const Assignment& assignment,
                                      std::int64_t pwm_mode) {
-  if (!is_other_unit(assignment, pwm_mode)) {
-    return {};
-  }
-  const Parameter& range = *assignment.parameter;
-  const Parameter& mode = *profiles.find(address::pwm_mode);
-  return fail(Code::usage,
-              say<texts::pwm_unit_against_servo>(printable(assignment.text),
-                                                 mode.name + '=' + input_text(mode, pwm_mode),
-                                                 unit_text(range, pwm_mode)),
-              ways_to_agree(mode, assignment, pwm_mode));
+  return check_unit_of_mode<texts::pwm_unit_against_servo>(profiles, assignment, pwm_mode);
 }
 
 Result<void> allowed_by_some_model(const Profiles& profiles, const Parameter& parameter,
@@ -170,22 +173,6 @@ Result<void> allowed_by_model(const Profile& model, const Assignment& assignment
   return within;
 }
 
-namespace {
-
-/// Refuses several commands at once, since each makes the others inactive (4.1-4.3).
-Result<void> check_commands(std::span<const Assignment> assignments) {
-  const auto commands = std::ranges::count_if(assignments, [](const Assignment& assignment) {
-    return assignment.parameter->can_be_inactive;
-  });
-  if (commands > 1) {
-    return fail(Code::cross_check, say<texts::one_command_only>(),
-                say<texts::one_command_only_hint>());
-  }
-  return {};
-}
-
-} // namespace
-
 Result<Assignment> make_assignment(const Profiles& profiles, std::string_view parameter,
                                    std::string_view value) {
   const auto found = profiles.find(parameter);
@@ -196,24 +183,16 @@ Result<Assignment> make_assignment(const Profiles& profiles, std::string_view pa
   assignment.parameter = *found;
   assignment.named = find_address(parameter) ? NamedBy::address : NamedBy::name;
   assignment.text = std::string(parameter) + '=' + std::string(value);
-  if (auto allowed = check_access(**found); !allowed) {
-    return std::unexpected(allowed.error());
-  }
-  if (auto allowed = check_operation(**found); !allowed) {
-    return std::unexpected(allowed.error());
-  }
-  const auto typed = parse_value(**found, assignment.named, value);
+  const auto may_be_set = check_settable(**found);
+  const auto typed = may_be_set ? parse_value(**found, assignment.named, value)
+                                : std::unexpected(may_be_set.error());
   if (!typed) {
     return std::unexpected(typed.error());
   }
   assignment.value = *typed;
-  if (auto allowed = allowed_by_some_model(profiles, **found, *typed); !allowed) {
-    return std::unexpected(allowed.error());
-  }
-  if (auto allowed = never_sent(**found, typed->raw); !allowed) {
-    return std::unexpected(allowed.error());
-  }
-  return assignment;
+  auto allowed = allowed_by_some_model(profiles, **found, *typed);
+  allowed = allowed ? never_sent(**found, typed->raw) : allowed;
+  return allowed ? Result<Assignment>(std::move(assignment)) : std::unexpected(allowed.error());
 }
 
 Result<Assignment> parse_assignment(const Profiles& profiles, std::string_view text) {

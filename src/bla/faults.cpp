@@ -19,12 +19,6 @@ std::int64_t summary_mask(Level level) {
   return mask;
 }
 
-void add_once(std::vector<Address>& all, Address address) {
-  if (std::ranges::find(all, address) == all.end()) {
-    all.push_back(address);
-  }
-}
-
 } // namespace
 
 std::optional<std::int64_t> fault_register(const Values& values, Address reg) {
@@ -68,8 +62,8 @@ std::vector<Address> fault_details(const Values& values, const Profiles& profile
   for (const Fault& fault : faults(values, profiles)) {
     for (const Address address :
          fault.known != nullptr ? std::span(fault.known->values) : std::span<const Address>()) {
-      if (!find(values, address)) {
-        add_once(wanted, address);
+      if (!find(values, address) && std::ranges::find(wanted, address) == wanted.end()) {
+        wanted.push_back(address);
       }
     }
   }

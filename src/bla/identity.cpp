@@ -183,16 +183,10 @@ Result<void> Identity::may_write(Address address, std::int64_t raw) const {
     return fail(Code::unsupported, say<texts::parameter_reserved>(address.name()),
                 say<texts::parameter_list>());
   }
-  if (auto allowed = never_sent(*general, raw); !allowed) {
-    return allowed;
-  }
-  if (auto known = check_model(*general); !known) {
-    return known;
-  }
-  if (auto supported = check_support(*general); !supported) {
-    return supported;
-  }
-  return check_range(*candidates_.front()->find(address), raw);
+  auto allowed = never_sent(*general, raw);
+  allowed = allowed ? check_model(*general) : allowed;
+  allowed = allowed ? check_support(*general) : allowed;
+  return allowed ? check_range(*candidates_.front()->find(address), raw) : allowed;
 }
 
 Result<void> Identity::check_pwm_input() const {

@@ -108,15 +108,11 @@ Result<Endpoint> parse_endpoint(const Registers& registers, std::string_view tex
                 say<texts::pwm_endpoints_example>());
   }
   const Range pulses{0, registers.neutral.max + registers.range.max};
-  if (auto fits = check_part("", registers.neutral_us, pulse->raw, pulses); !fits) {
-    return std::unexpected(fits.error());
-  }
   const Range commands{-registers.most.max, registers.most.max};
-  if (auto fits = check_part("", registers.output, command->raw, commands, command->pwm_mode);
-      !fits) {
-    return std::unexpected(fits.error());
-  }
-  return Endpoint{pulse->raw, command->raw, command->pwm_mode};
+  auto fits = check_part("", registers.neutral_us, pulse->raw, pulses);
+  fits = fits ? check_part("", registers.output, command->raw, commands, command->pwm_mode) : fits;
+  return fits ? Result<Endpoint>({pulse->raw, command->raw, command->pwm_mode})
+              : std::unexpected(fits.error());
 }
 
 /// The mapping through two points whose values are not opposite, as options of pwm-config; empty:
@@ -193,10 +189,7 @@ Result<std::vector<std::string>> pwm_from_endpoints(const Profiles& profiles,
   }
   const Registers registers = registers_of(profiles);
   auto low = parse_endpoint(registers, text.substr(0, comma));
-  if (!low) {
-    return std::unexpected(low.error());
-  }
-  auto high = parse_endpoint(registers, text.substr(comma + 1));
+  auto high = low ? parse_endpoint(registers, text.substr(comma + 1)) : low;
   if (!high) {
     return std::unexpected(high.error());
   }

@@ -61,12 +61,13 @@ std::optional<Parameter> read_override(const json::Value& item, const Family& fa
   return parameter;
 }
 
-/// Of the series: what the family lacks and is described in full is a register of its own.
-Overrides read_registers(json::Object parameters, Family& family, json::Faults& faults) {
+/// `own`: a register that the family lacks and that is described in full is added to it.
+Overrides read_overrides(json::Object parameters, Family& family, bool own, json::Faults& faults) {
   Overrides overrides;
   for (const json::Value* item : parameters.members()) {
     const auto address = find_address(item->key);
-    if (has_key(*item, "name") && !(address && find(family.parameters, *address) != nullptr)) {
+    if (own && has_key(*item, "name") &&
+        !(address && find(family.parameters, *address) != nullptr)) {
       add_parameter(*item, family.parameters, faults);
     } else if (auto parameter = read_override(*item, family, faults)) {
       overrides.push_back(std::move(*parameter));
@@ -75,45 +76,21 @@ Overrides read_registers(json::Object parameters, Family& family, json::Faults& 
   return overrides;
 }
 
-Overrides read_overrides(json::Object parameters, const Family& family, json::Faults& faults) {
-  Overrides overrides;
-  for (const json::Value* item : parameters.members()) {
-    if (auto parameter = read_override(*item, family, faults)) {
-      overrides.push_back(std::move(*parameter));
-    }
-  }
-  return overrides;
-}
-
-std::vector<Section> read_voltage_classes(json::Object& root, const Family& family,
-                                          json::Faults& faults) {
+/// Voltage classes, or suffixes, which say whether there is a PWM input; `origin` marks what they
+/// set.
+std::vector<Section> read_sections(json::Object all, bool Parameter::* origin, Family& family,
+                                   json::Faults& faults) {
   std::vector<Section> sections;
-  json::Object classes = root.object("voltage_classes");
-  for (const json::Value* item : classes.members()) {
+  for (const json::Value* item : all.members()) {
     check_name_part(*item, item->key, faults);
     json::Object object(*item, faults);
+    const bool pwm = origin == &Parameter::by_suffix && object.boolean("pwm");
     sections.push_back(
-        {item->key, false, read_overrides(object.optional_object("parameters"), family, faults)});
+        {item->key, pwm,
+         read_overrides(object.optional_object("parameters"), family, false, faults)});
     object.finish();
     for (Parameter& parameter : sections.back().overrides) {
-      parameter.by_voltage_class = true;
-    }
-  }
-  return sections;
-}
-
-std::vector<Section> read_suffixes(json::Object& root, const Family& family, json::Faults& faults) {
-  std::vector<Section> sections;
-  json::Object suffixes = root.object("suffixes");
-  for (const json::Value* item : suffixes.members()) {
-    check_name_part(*item, item->key, faults);
-    json::Object object(*item, faults);
-    const bool pwm = object.boolean("pwm");
-    sections.push_back(
-        {item->key, pwm, read_overrides(object.optional_object("parameters"), family, faults)});
-    object.finish();
-    for (Parameter& parameter : sections.back().overrides) {
-      parameter.by_suffix = true;
+      parameter.*origin = true;
     }
   }
   return sections;
@@ -212,9 +189,10 @@ Series read_series(json::Document& document, Family family) {
   series.number.word = parts.series;
   series.number.text_en = read_text(root, "text_en", faults);
   series.number.text_ja = read_text(root, "text_ja", faults);
-  parts.overrides = read_registers(root.optional_object("parameters"), family, faults);
-  parts.voltage_classes = read_voltage_classes(root, family, faults);
-  parts.suffixes = read_suffixes(root, family, faults);
+  parts.overrides = read_overrides(root.optional_object("parameters"), family, true, faults);
+  parts.voltage_classes =
+      read_sections(root.object("voltage_classes"), &Parameter::by_voltage_class, family, faults);
+  parts.suffixes = read_sections(root.object("suffixes"), &Parameter::by_suffix, family, faults);
   for (const json::Value* item : root.array("models")) {
     Profile profile = read_model(*item, parts, family, faults);
     if (std::ranges::any_of(series.models, [&](const Series::Model& other) {

@@ -213,4 +213,70 @@ inline constexpr Text profile_no_family{"no file describes the family",
 inline constexpr Text made{"made {}", "製造日時 {}"};
 inline constexpr Text unknown_bit{"Undocumented bit", "仕様書に記載のないビット"};
 
+// Reasons of cross-checks
+inline constexpr Text check_control_off{
+    "the servo takes no speed or torque while speed_torque_control (0x25) is off",
+    "speed_torque_control (0x25) が OFF の間、指令速度/指令トルクは無視されます"};
+inline constexpr Text check_no_stop{
+    "with timeout_action=hold (0x26) nothing stops a speed or torque command when the sender "
+    "falls silent",
+    "timeout_action=hold (0x26) では、送信元が停止しても指令速度/指令トルクの動作が継続します"};
+inline constexpr Text check_limits_reversed{
+    "the upper limit must be above the lower one, or the motor is always off",
+    "上限は下限より大きい値でなければなりません (モータが常に停止します)"};
+inline constexpr Text check_always_asked{"any change can move the shaft or let go of the load",
+                                         "変更により出力軸の動作または脱力の可能性があります"};
+inline constexpr Text check_pulled_back{"the shaft is beyond the limit: it runs back to it",
+                                        "現在角度が制限を超えているため、制限角度まで動作します"};
+inline constexpr Text check_let_go_on{
+    "a command beyond the old limit is still there: the shaft runs on to it",
+    "変更前の制限を超える指令が残っているため、その角度まで動作します"};
+inline constexpr Text check_no_torque{"with a limit of 0 % the servo lets go of the load",
+                                      "制限値が 0 % の場合、負荷を保持できません"};
+inline constexpr Text check_temperature_trips{
+    "the present temperature trips the limit at once: the motor is switched off",
+    "現在の温度が制限に達しているため、直ちにモータが停止します"};
+inline constexpr Text check_voltage_trips{
+    "the present voltage trips the limit at once: the motor is switched off",
+    "現在の電圧が制限に達しているため、直ちにモータが停止します"};
+inline constexpr Text check_protection_released{
+    "the protection that holds the motor off ends: torque comes back",
+    "モータを停止させている保護が解除され、トルクが復帰します"};
+inline constexpr Text check_pwm_present{
+    "a PWM signal is present: the shaft follows the new mapping",
+    "PWM 信号が入力されているため、新しい設定に従って動作します"};
+inline constexpr Text check_pwm_cut_off{
+    "the PWM output range reaches beyond the angle limits: the shaft stops at the limit",
+    "PWM の出力範囲が動作角度制限を超えています。出力軸は制限角度で停止します"};
+inline constexpr Text check_pwm_needs_switch{
+    "PWM in speed mode moves nothing while speed_torque_control (0x25) is off",
+    "speed_torque_control (0x25) が OFF の間、PWM の速度指令では動作しません"};
+inline constexpr Text check_pwm_speed_limited{
+    "the PWM output range exceeds the speed limits: the speed stays at the limit",
+    "PWM の出力範囲が動作速度制限を超えています。速度は制限値にとどまります"};
+inline constexpr Text check_no_motion{"the range of motion is 0: nothing moves",
+                                      "動作範囲が 0 のため動作しません"};
+inline constexpr Text check_pwm_below_zero{
+    "the range reaches below 0 us: that end of the output cannot be reached",
+    "入力範囲の下限が 0 us 未満になります。その側の端までは動作しません"};
+inline constexpr Text check_dead_band_zero{
+    "without a dead band the servo may hunt and heat up",
+    "デッドバンドが 0 の場合、ハンチングや発熱の可能性があります"};
+inline constexpr Text check_near_supply{
+    "the present supply is less than 0.5 V away: a dip or a peak under load switches the motor "
+    "off",
+    "現在電圧との差が 0.5 V 未満です。負荷変動でモータが停止する可能性があります"};
+inline constexpr Text check_timeout_short{
+    "shorter than 100 ms: a few commands that come late are taken for a loss of communication",
+    "100 ms 未満では、指令の遅れを通信途絶と判定する可能性があります"};
+inline constexpr Text check_leave_at_default{"the manufacturer advises to leave it at its default",
+                                             "メーカーは初期値のままとすることを推奨しています"};
+inline constexpr Text check_hard_start{
+    "when the servo starts, torque comes on at once where the shaft is, and the first command is "
+    "followed at full speed",
+    "起動時に現在位置で直ちにトルクが ON になり、最初の指令に全速で動作します"};
+inline constexpr Text check_low_speed_stall{
+    "firmware before 1.400 may stall at low speed",
+    "1.400 より前のファームウェアは低速動作時にストールすることがあります"};
+
 } // namespace blactl::texts

@@ -166,8 +166,13 @@ class ValueParser {
                 say<texts::value_grammar>(example()));
   }
 
-  [[nodiscard]] Result<TypedValue> too_large() const {
-    return fail(Code::out_of_range, say<texts::value_beyond_64_bits>(assignment()), example());
+  [[nodiscard]] Result<TypedValue> exactly(const Number& number, const TypedUnit& unit) const {
+    const auto steps = to_steps(number, unit.times, unit.per);
+    if (!steps) {
+      return fail(Code::out_of_range, say<texts::value_beyond_64_bits>(assignment()), example());
+    }
+    return steps->exact ? TypedValue{with_sign(number, steps->floor), unit.pwm_mode}
+                        : too_fine(number, *steps, unit);
   }
 
   [[nodiscard]] Result<TypedValue> word() const {
@@ -185,9 +190,7 @@ class ValueParser {
     if (number.has_point) {
       return fail(Code::usage, say<texts::value_not_whole>(assignment()), example());
     }
-    const auto steps = to_steps(number, 1, 1);
-    return steps ? Result<TypedValue>(TypedValue{with_sign(number, steps->floor), std::nullopt})
-                 : too_large();
+    return exactly(number, TypedUnit{});
   }
 
   /// Digits alone: by address the register number, by name units, and only where these are the
@@ -207,20 +210,16 @@ class ValueParser {
   [[nodiscard]] Result<TypedValue> unit_missing(const Number& number,
                                                 const std::vector<TypedUnit>& units) const {
     const TypedUnit& unit = units.front();
-    const auto steps = to_steps(number, unit.times, unit.per);
-    if (!steps) {
-      return too_large();
-    }
-    if (!steps->exact) {
-      return too_fine(number, *steps, unit);
+    const auto value = exactly(number, unit);
+    if (!value) {
+      return value;
     }
     const std::string typed = parameter_.name + '=' + std::string(text_);
-    std::vector<std::string> ways{
-        fmt::format("{}{} ({}raw)", typed, unit.name, with_sign(number, steps->floor))};
+    std::vector<std::string> ways{fmt::format("{}{} ({}raw)", typed, unit.name, value->raw)};
     if (!number.has_point && parameter_.unit == Unit::deg_or_rpm) {
       ways.push_back(fmt::format("{0}rpm ({1}raw)", typed, text_));
     } else if (!number.has_point) {
-      const std::int64_t raw = with_sign(number, steps->floor / unit.times);
+      const std::int64_t raw = value->raw / unit.times;
       ways.push_back(
           fmt::format("{}raw ({}{})", typed, value_text(parameter_, raw), unit_text(parameter_)));
     }
@@ -231,17 +230,7 @@ class ValueParser {
   [[nodiscard]] Result<TypedValue> with_unit(const Number& number) const {
     const auto units = typed_units(parameter_);
     const auto unit = std::ranges::find(units, number.unit, &TypedUnit::name);
-    if (unit == units.end()) {
-      return wrong_unit(number, units);
-    }
-    const auto steps = to_steps(number, unit->times, unit->per);
-    if (!steps) {
-      return too_large();
-    }
-    if (!steps->exact) {
-      return too_fine(number, *steps, *unit);
-    }
-    return TypedValue{with_sign(number, steps->floor), unit->pwm_mode};
+    return unit == units.end() ? wrong_unit(number, units) : exactly(number, *unit);
   }
 
   [[nodiscard]] Result<TypedValue> wrong_unit(const Number& number,
@@ -343,20 +332,6 @@ std::string input_text(const Parameter& parameter, std::int64_t raw,
   return fmt::format("{}{}", value_text(parameter, raw, pwm_mode), unit_text(parameter, pwm_mode));
 }
 
-namespace {
-
-bool is_version(const Parameter& parameter) {
-  return parameter.address == address::firmware_version ||
-         parameter.address == address::hardware_version;
-}
-
-/// Whether it is part of the date; its name says which part.
-bool is_part_of_date(const Parameter& parameter) {
-  return parameter.unit >= Unit::year;
-}
-
-} // namespace
-
 std::string display(const Parameter& parameter, std::int64_t raw,
                     std::optional<std::int64_t> pwm_mode) {
   if (parameter.can_be_inactive && raw == not_active) {
@@ -365,12 +340,14 @@ std::string display(const Parameter& parameter, std::int64_t raw,
   if (const Choice* choice = parameter.choice(raw)) {
     return choice->word;
   }
-  if (is_version(parameter)) {
+  if (parameter.address == address::firmware_version ||
+      parameter.address == address::hardware_version) {
     return firmware_text(raw);
   }
   const std::string_view unit = unit_text(parameter, pwm_mode);
   const std::string value = value_text(parameter, raw, pwm_mode);
-  return unit.empty() || is_part_of_date(parameter) ? value : fmt::format("{} {}", value, unit);
+  const bool is_part_of_date = parameter.unit >= Unit::year; // its name says which part
+  return unit.empty() || is_part_of_date ? value : fmt::format("{} {}", value, unit);
 }
 
 std::string register_text(const Parameter& parameter, std::int64_t raw,

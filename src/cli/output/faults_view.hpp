@@ -2,7 +2,7 @@
 // Faults of servos as JSON and text.
 
 #include "blactl/base/json_writer.hpp"
-#include "blactl/fleet/live/fault_state.hpp"
+#include "blactl/fleet/live/fault_job.hpp"
 
 #include "cli/output/page.hpp"
 

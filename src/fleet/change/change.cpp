@@ -43,17 +43,9 @@ std::vector<RegisterChange> changes(const Goal& goal, const Snapshot& held) {
   std::vector<RegisterChange> all;
   for (const Assignment& wish : goal.wanted.assignments) {
     const bla::Parameter* parameter = held.servo.identity.parameter(wish.parameter->address);
-    if (parameter == nullptr) {
-      continue; // there will be no plan
+    if (parameter != nullptr) { // else there will be no plan
+      all.push_back(change_from(held.raw(parameter->address), parameter, wish.value.raw));
     }
-    RegisterChange change{.parameter = parameter,
-                          .requested = wish.value.raw,
-                          .before = held.raw(wish.parameter->address)};
-    if (change.before == change.requested) {
-      change.status = ChangeStatus::unchanged;
-      change.after = change.before;
-    }
-    all.push_back(std::move(change));
   }
   return all;
 }

@@ -107,16 +107,6 @@ std::vector<NodeId> Loan::taken() const {
   return ids_of([](const Held& held) { return held.is_taken; });
 }
 
-std::vector<Loan::Held*> Loan::pending() {
-  std::vector<Held*> all;
-  for (Held& held : held_) {
-    if (held.state == State::borrowed) {
-      all.push_back(&held);
-    }
-  }
-  return all;
-}
-
 GivenBack Loan::give_back() {
   const bool was_interrupted = session_.signal() != 0;
   try_to_give_back();
@@ -135,10 +125,14 @@ GivenBack Loan::give_up() {
 }
 
 void Loan::try_to_give_back() {
-  const std::vector<Held*> all = pending();
+  std::vector<Held*> all;
   std::vector<NodeId> ids;
-  std::ranges::transform(all, std::back_inserter(ids),
-                         [](const Held* held) { return held->servo.id; });
+  for (Held& held : held_) {
+    if (held.state == State::borrowed) {
+      all.push_back(&held);
+      ids.push_back(held.servo.id);
+    }
+  }
   const auto now = read(ids);
   std::vector<Goal> goals;
   std::vector<Held*> planned;

@@ -76,14 +76,9 @@ std::optional<Error> check_unit(const Wanted& wanted, const Snapshot& before,
 void plan_changes(const Wanted& wanted, const Values& held, Plan& plan) {
   for (const Assignment& assignment : wanted.assignments) {
     const Address address = assignment.parameter->address;
-    RegisterChange change{.parameter = plan.before.servo.identity.parameter(address),
-                          .requested = assignment.value.raw,
-                          .before = bla::find(held, address)};
-    if (change.before == change.requested) {
-      change.status = ChangeStatus::unchanged;
-      change.after = change.before;
-    }
-    plan.changes.push_back(std::move(change));
+    plan.changes.push_back(change_from(bla::find(held, address),
+                                       plan.before.servo.identity.parameter(address),
+                                       assignment.value.raw));
   }
   // a command may need a switch that is set with it
   std::ranges::stable_partition(plan.changes, [](const RegisterChange& change) {
@@ -247,6 +242,16 @@ std::string change_questions(const Plan& plan) {
   return lines;
 }
 
+/// By SAVE the value kept, else the one to be written; empty: none.
+std::optional<std::int64_t> value_given(const Plan& plan, Address address) {
+  if (plan.restart == RestartKind::save) {
+    return bla::find(plan.expected, address);
+  }
+  const auto change = std::ranges::find_if(
+      plan.changes, [&](const RegisterChange& each) { return each.parameter->address == address; });
+  return change != plan.changes.end() ? std::optional(change->requested) : std::nullopt;
+}
+
 } // namespace
 
 bool Plan::acts() const {
@@ -262,30 +267,14 @@ bool Plan::moves() const {
 }
 
 std::optional<dronecan::NodeId> Plan::given_node_id() const {
-  std::optional<std::int64_t> given;
-  for (const RegisterChange& change : changes) {
-    if (change.parameter->address == at::static_node_id) {
-      given = change.requested;
-    }
-  }
-  if (restart == RestartKind::save) {
-    given = bla::find(expected, at::static_node_id);
-  }
+  const auto given = value_given(*this, at::static_node_id);
   const bool is_news = given.value_or(0) != 0 && *given != before.servo.id.value();
   return is_news ? std::optional(dronecan::NodeId(static_cast<std::uint8_t>(*given)))
                  : std::nullopt;
 }
 
 std::optional<std::int64_t> Plan::given_servo_id() const {
-  std::optional<std::int64_t> given;
-  for (const RegisterChange& change : changes) {
-    if (change.parameter->address == at::servo_id) {
-      given = change.requested;
-    }
-  }
-  if (restart == RestartKind::save) {
-    given = bla::find(expected, at::servo_id);
-  }
+  const auto given = value_given(*this, at::servo_id);
   return given.value_or(0) != 0 ? given : std::nullopt;
 }
 
@@ -310,10 +299,6 @@ Result<std::vector<const Parameter*>> registers_needed(const Wanted& wanted, con
     }
   }
   return registers;
-}
-
-ReadJob::Proof proof_needed(const Wanted& wanted) {
-  return wanted.restart == RestartKind::save ? ReadJob::Proof::run : ReadJob::Proof::moment;
 }
 
 Result<Plan> make_plan(const Wanted& wanted, Snapshot before, const bla::Profiles& profiles) {

@@ -5,7 +5,7 @@
 #include "blactl/bla/value.hpp"
 
 #include "fleet/change/texts.hpp"
-#include "fleet/files/fault_text.hpp"
+#include "fleet/files/settings_reader.hpp"
 
 #include <algorithm>
 #include <array>

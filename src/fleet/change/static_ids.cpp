@@ -20,10 +20,9 @@ namespace {
 Result<Wanted> wanted_id(const bla::Profiles& profiles, NodeId id) {
   auto assignment = bla::make_assignment(profiles, bla::address::static_node_id.name(),
                                          std::to_string(id.value()));
-  if (!assignment) {
-    return std::unexpected(assignment.error());
-  }
-  return Wanted{.assignments = {std::move(*assignment)}, .restart = RestartKind::save};
+  return assignment ? Result<Wanted>(
+                          {.assignments = {std::move(*assignment)}, .restart = RestartKind::save})
+                    : std::unexpected(assignment.error());
 }
 
 /// The reason why the node ID of a unit is unknown.

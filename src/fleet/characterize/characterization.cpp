@@ -55,11 +55,10 @@ Result<void> measure_at_rest(TestBench& bench, Notes& notes) {
     return std::unexpected(std::move(*moves));
   }
   for (const Measurement measure : measurements_at_rest()) {
-    if (auto measured = measure(bench, notes); !measured) {
+    auto measured = measure(bench, notes);
+    measured = measured ? bench.settle() : measured;
+    if (!measured) {
       return measured;
-    }
-    if (auto settled = bench.settle(); !settled) {
-      return settled;
     }
   }
   return bench.prove_run();
@@ -72,10 +71,8 @@ Result<void> measure_all(TestBench& bench, Notes& notes) {
       return measured;
     }
   }
-  if (auto measured = measure_at_rest(bench, notes); !measured) {
-    return measured;
-  }
-  return measure_starts(bench, notes);
+  const auto measured = measure_at_rest(bench, notes);
+  return measured ? measure_starts(bench, notes) : measured;
 }
 
 void write_about(JsonWriter& json, const Characterization& measured, WallTime now,

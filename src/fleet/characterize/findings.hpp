@@ -1,7 +1,10 @@
 #pragma once
 // The results of measuring a servo.
 
+#include "blactl/bla/values.hpp"
 #include "blactl/fleet/characterize/characterization.hpp"
+
+#include "fleet/characterize/ear.hpp"
 
 #include <optional>
 #include <string>
@@ -68,6 +71,20 @@ using Measurement = Result<void> (*)(TestBench& bench, Notes& notes);
 
 /// Measures starts: each leaves the servo with its ROM settings.
 [[nodiscard]] Result<void> measure_starts(TestBench& bench, Notes& notes);
+
+struct StartsSeen {
+  std::vector<Start> restarts{};
+  bla::Values at_once{};       ///< read as soon as it was back from the first start
+  bla::Values rom{};           ///< register values at rest after a start
+  bool is_rom_readable = true; ///< false: nothing was saved
+  std::optional<Start> save{};
+};
+
+/// The registers to read as soon as it is back; the angle last, so that it is as of the end of the
+/// reads.
+[[nodiscard]] std::vector<bla::Address> asked_at_once();
+
+void judge_starts(StartsSeen seen, Notes& notes);
 
 /// The number of measured restarts, not counting the save.
 inline constexpr int restarts_measured = 3;

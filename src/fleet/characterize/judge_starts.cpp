@@ -1,5 +1,6 @@
-#include "fleet/characterize/judge_starts.hpp"
+// Judges the observed starts of a servo.
 
+#include "fleet/characterize/findings.hpp"
 #include "fleet/characterize/soft_start.hpp"
 #include "fleet/characterize/texts.hpp"
 

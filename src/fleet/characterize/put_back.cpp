@@ -36,17 +36,13 @@ Result<void> TestBench::put_back() {
     return {};
   }
   tell(texts::bench_stage_put_back);
-  if (auto given = give_back(); !given) {
-    return std::unexpected(not_put_back(given.error()));
-  }
-  return {};
+  const auto given = give_back();
+  return given ? given : std::unexpected(not_put_back(given.error()));
 }
 
 Result<void> TestBench::give_back() {
-  if (auto found = find_servo(); !found) {
-    return found;
-  }
-  auto now = read_all();
+  const auto found = find_servo();
+  auto now = found ? read_all() : std::unexpected(found.error());
   if (!now) {
     return std::unexpected(now.error());
   }
@@ -55,25 +51,17 @@ Result<void> TestBench::give_back() {
   }
   // With the output off nothing moves until all is restored; and no soft start hides anything.
   now = rest();
-  if (!now) {
-    return std::unexpected(now.error());
-  }
-  if (auto given = give_back_all(*now); !given) {
-    return given;
-  }
-  const auto end = read_all();
+  const auto given = now ? give_back_all(*now) : std::unexpected(now.error());
+  const auto end = given ? read_all() : std::unexpected(given.error());
   return end ? prove_given(*end) : std::unexpected(end.error());
 }
 
 /// In this order nothing moves. Refused values stay as they are, and show at the end.
 Result<void> TestBench::give_back_all(const Values& now) {
-  if (auto given = give_back_standstill(); !given) {
-    return given;
-  }
-  if (auto given = give_back_settings(now); !given) {
-    return given;
-  }
-  if (auto given = give_back_output(); !given) {
+  auto given = give_back_standstill();
+  given = given ? give_back_settings(now) : given;
+  given = given ? give_back_output() : given;
+  if (!given) {
     return given;
   }
   // switching the output on has changed the command
@@ -128,11 +116,11 @@ Result<void> TestBench::give_back_output() {
 /// Continues if the value is refused.
 Result<void> TestBench::try_set(Address address, std::int64_t raw) {
   auto given = set(address, raw);
-  if (given || (given.error().code != Code::refused && given.error().code != Code::out_of_range)) {
-    return given;
+  if (!given && (given.error().code == Code::refused || given.error().code == Code::out_of_range)) {
+    note_refusal(std::move(given.error()));
+    return {};
   }
-  note_refusal(given.error());
-  return {};
+  return given;
 }
 
 /// The first one is reported.
@@ -250,10 +238,8 @@ Result<void> TestBench::give_back_start() {
   if (job.error()) {
     return std::unexpected(*job.error());
   }
-  if (auto found = find_servo(); !found) {
-    return found;
-  }
-  return give_back_after_start();
+  const auto found = find_servo();
+  return found ? give_back_after_start() : found;
 }
 
 /// Settings that were in RAM only, and the angle.
@@ -290,11 +276,9 @@ bool TestBench::hides(Address address, std::int64_t told) const {
 /// For a servo that starts in place, and was elsewhere before. The value of 0x00 after a start
 /// proves nothing before a command: the output stays as it is.
 Result<void> TestBench::give_back_angle() {
-  if (auto told = give_back_output(); !told) {
-    return told;
-  }
+  const auto told = give_back_output();
   const auto raw = held(at::command_angle);
-  const auto now = read(at::command_angle);
+  const auto now = told ? read(at::command_angle) : std::unexpected(told.error());
   if (!now) {
     return std::unexpected(now.error());
   }
@@ -315,10 +299,8 @@ Result<void> TestBench::give_back_command() {
   }
   const bool needs_switch =
       *address != at::command_angle && bla::find(known_, at::speed_torque_control) == 0;
-  if (auto on = needs_switch ? try_set(at::speed_torque_control, 1) : Result<void>(); !on) {
-    return on;
-  }
-  return try_set(*address, *held(*address));
+  const auto on = needs_switch ? try_set(at::speed_torque_control, 1) : Result<void>();
+  return on ? try_set(*address, *held(*address)) : on;
 }
 
 bool TestBench::is_as_before(const Values& now) const {

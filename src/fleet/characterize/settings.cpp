@@ -22,6 +22,9 @@ namespace {
 /// An angle within the limits of every servo (0x38 is not below it, 0x39 not above).
 constexpr std::int64_t zero_angle = 0;
 
+/// After this time notices and the health show a change.
+constexpr Duration until_shown = std::chrono::milliseconds(50);
+
 /// The bit with this code in the profiles.
 std::int64_t bit_of(const TestBench& bench, std::string_view code) {
   const auto bits = bench.profiles().fault_bits();
@@ -59,10 +62,7 @@ Result<void> measure_out_of_range(TestBench& bench, Notes& notes) {
   }
   const bool upwards = *before != highest;
   const auto reply = bench.write_timeout_time(upwards ? highest + 1 : lowest - 1);
-  if (!reply) {
-    return std::unexpected(reply.error());
-  }
-  const auto after = bench.read(at::timeout_time);
+  const auto after = reply ? bench.read(at::timeout_time) : std::unexpected(reply.error());
   if (!after) {
     return std::unexpected(after.error());
   }
@@ -70,17 +70,22 @@ Result<void> measure_out_of_range(TestBench& bench, Notes& notes) {
   return {};
 }
 
+/// A value that was written stays, or becomes 0.
+void conclude_kept(Notes& notes, std::string_view setting, std::int64_t written,
+                   std::int64_t after) {
+  if (after == written || after == 0) {
+    notes.found(setting, after == written);
+  } else {
+    notes.leave(setting, say<texts::bench_read_value>(after));
+  }
+}
+
 /// 0x01 while 0x25 is off or missing: the command is a standstill.
 Result<void> measure_disabled_command(TestBench& bench, Notes& notes) {
   const bool has_switch = bench.held(at::speed_torque_control).has_value();
   auto set = bench.set(at::command_angle, zero_angle);
-  if (set && has_switch) {
-    set = bench.set(at::speed_torque_control, 0);
-  }
-  if (!set) {
-    return set;
-  }
-  const auto held = bench.write(at::command_speed, 0);
+  set = set && has_switch ? bench.set(at::speed_torque_control, 0) : set;
+  const auto held = set ? bench.write(at::command_speed, 0) : std::unexpected(set.error());
   if (!held) {
     return std::unexpected(held.error());
   }
@@ -105,10 +110,8 @@ Result<void> measure_kept_command(TestBench& bench, Notes& notes) {
     notes.leave("keeps_disabled_command", say<texts::bench_no_switch>());
     return {};
   }
-  if (auto on = bench.set(at::speed_torque_control, 1); !on) {
-    return on;
-  }
-  const auto held = bench.write(at::command_speed, some_rpm);
+  const auto on = bench.set(at::speed_torque_control, 1);
+  const auto held = on ? bench.write(at::command_speed, some_rpm) : std::unexpected(on.error());
   if (!held) {
     return std::unexpected(held.error());
   }
@@ -116,24 +119,17 @@ Result<void> measure_kept_command(TestBench& bench, Notes& notes) {
     notes.leave("keeps_disabled_command", say<texts::bench_command_not_taken>(*held));
     return bench.set(at::command_angle, zero_angle);
   }
-  if (auto off = bench.set(at::speed_torque_control, 0); !off) {
-    return off;
-  }
-  const auto after = bench.read(at::command_speed);
+  const auto off = bench.set(at::speed_torque_control, 0);
+  const auto after = off ? bench.read(at::command_speed) : std::unexpected(off.error());
   if (!after) {
     return std::unexpected(after.error());
   }
-  if (*after == some_rpm || *after == 0) {
-    notes.found("keeps_disabled_command", *after == some_rpm);
-  } else {
-    notes.leave("keeps_disabled_command", say<texts::bench_read_value>(*after));
-  }
+  conclude_kept(notes, "keeps_disabled_command", some_rpm, *after);
   return bench.set(at::command_angle, zero_angle);
 }
 
 /// Whether the present notices, and nothing worse, change the health.
 Result<void> look_at_health(TestBench& bench, Notes& notes) {
-  constexpr Duration until_shown = std::chrono::milliseconds(50);
   if (auto waited = bench.pause(until_shown); !waited) {
     return waited;
   }
@@ -179,14 +175,9 @@ Result<void> measure_limits(TestBench& bench, Notes& notes) {
     notes.leave("inclusive_limits", say<texts::bench_notice_before>());
     return {};
   }
-  if (auto set = bench.set(at::speed_limit_cw, 0); !set) {
-    return set;
-  }
-  constexpr Duration until_shown = std::chrono::milliseconds(50);
-  if (auto waited = bench.pause(until_shown); !waited) {
-    return waited;
-  }
-  const auto after = bench.read(at::fault_notice);
+  auto set = bench.set(at::speed_limit_cw, 0);
+  set = set ? bench.pause(until_shown) : set;
+  const auto after = set ? bench.read(at::fault_notice) : std::unexpected(set.error());
   if (!after) {
     return std::unexpected(after.error());
   }
@@ -206,11 +197,7 @@ Result<void> measure_limited_angle(TestBench& bench, Notes& notes) {
   if (!held) {
     return std::unexpected(held.error());
   }
-  if (*held == beyond || *held == 0) {
-    notes.found("keeps_limited_angle", *held == beyond);
-  } else {
-    notes.leave("keeps_limited_angle", say<texts::bench_read_value>(*held));
-  }
+  conclude_kept(notes, "keeps_limited_angle", beyond, *held);
   if (auto looked = look_at_health(bench, notes); !looked) {
     return looked;
   }
@@ -242,17 +229,13 @@ Result<bool> is_command_noticed(TestBench& bench, std::int64_t angle) {
   const Address limit = angle > 0 ? at::angle_limit_cw : at::angle_limit_ccw;
   const std::int64_t bit = bit_of(bench, angle > 0 ? "angle_limit_cw" : "angle_limit_ccw");
   auto set = bench.set(at::command_angle, zero_angle);
-  if (set) {
-    set = bench.set(limit, angle / 2);
-  }
+  set = set ? bench.set(limit, angle / 2) : set;
   const auto before = set ? bench.read(at::fault_notice) : std::unexpected(set.error());
   if (!before) {
     return std::unexpected(before.error());
   }
-  if (auto sent = bench.command_angle(angle); !sent) {
-    return std::unexpected(sent.error());
-  }
-  const auto after = bench.read(at::fault_notice);
+  const auto sent = bench.command_angle(angle);
+  const auto after = sent ? bench.read(at::fault_notice) : std::unexpected(sent.error());
   if (!after) {
     return std::unexpected(after.error());
   }
@@ -272,10 +255,8 @@ Result<void> measure_array_command(TestBench& bench, Notes& notes) {
     return set;
   }
   for (int tries = 0; tries < most_tries; ++tries) {
-    if (auto sent = bench.command_angle(*angle); !sent) {
-      return sent;
-    }
-    const auto held = bench.read(at::command_angle);
+    const auto sent = bench.command_angle(*angle);
+    const auto held = sent ? bench.read(at::command_angle) : std::unexpected(sent.error());
     if (!held) {
       return std::unexpected(held.error());
     }

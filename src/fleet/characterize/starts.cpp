@@ -1,7 +1,6 @@
 // Measurements of restarts and saves. Each start leaves the servo with its ROM settings.
 
 #include "fleet/characterize/findings.hpp"
-#include "fleet/characterize/judge_starts.hpp"
 #include "fleet/characterize/test_bench.hpp"
 #include "fleet/characterize/texts.hpp"
 
@@ -48,10 +47,7 @@ Result<Start> save_what_rom_holds(TestBench& bench, const Values& rom) {
     return std::unexpected(output.error());
   }
   auto save = bench.restart(RestartKind::save);
-  if (!save) {
-    return save;
-  }
-  const auto after = bench.rest();
+  const auto after = save ? bench.rest() : std::unexpected(save.error());
   if (!after) {
     return std::unexpected(after.error());
   }
@@ -110,10 +106,8 @@ Result<StartsSeen> see_starts(TestBench& bench) {
 
 Result<void> measure_starts(TestBench& bench, Notes& notes) {
   bench.tell(texts::bench_stage_starts);
-  if (auto read = read_write_only(bench, notes); !read) {
-    return read;
-  }
-  auto seen = see_starts(bench);
+  const auto read = read_write_only(bench, notes);
+  auto seen = read ? see_starts(bench) : std::unexpected(read.error());
   if (!seen) {
     return std::unexpected(seen.error());
   }

@@ -64,18 +64,14 @@ Result<void> TestBench::run(dronecan::Job& job) {
   if (!lived) {
     return std::unexpected(lived.error());
   }
-  if (session_.signal() != 0 && !puts_back_) {
-    return std::unexpected(interrupted_by(session_.signal()));
-  }
-  return {};
+  return session_.signal() != 0 && !puts_back_ ? std::unexpected(interrupted_by(session_.signal()))
+                                               : Result<void>();
 }
 
 Result<Reply> TestBench::ask(const dronecan::Request& request) {
   Question question(request, puts_back_);
-  if (auto ran = run(question); !ran) {
-    return std::unexpected(ran.error());
-  }
-  return question.reply();
+  const auto ran = run(question);
+  return ran ? Result<Reply>(question.reply()) : std::unexpected(ran.error());
 }
 
 Result<void> TestBench::pause(Duration time) {
@@ -149,10 +145,8 @@ Result<Values> TestBench::rest() {
     return std::unexpected(output.error());
   }
   // Written even if off: a command ends a soft start, and shows the real value of 0x00.
-  if (auto off = set(at::torque_output, *output == output_on ? output_off : *output); !off) {
-    return std::unexpected(off.error());
-  }
-  auto values = read_all();
+  const auto off = set(at::torque_output, *output == output_on ? output_off : *output);
+  auto values = off ? read_all() : std::unexpected(off.error());
   if (!values) {
     return values;
   }
@@ -205,18 +199,14 @@ Result<std::int64_t> TestBench::write(Address address, std::int64_t raw) {
   }
   const auto reply = ask(guard().guarded(
       write_register(servo_.id, address, raw, manner_.identification.patience), servo_));
-  if (!reply) {
-    return std::unexpected(reply.error());
-  }
-  return read(address); // a read is authoritative, whatever the response said
+  // a read is authoritative, whatever the response said
+  return reply ? read(address) : std::unexpected(reply.error());
 }
 
 Result<void> TestBench::set(Address address, std::int64_t raw) {
   const auto held = write(address, raw);
-  if (!held) {
-    return std::unexpected(held.error());
-  }
-  return *held == raw ? Result<void>() : std::unexpected(not_taken(address, raw, *held));
+  return held == raw ? Result<void>()
+                     : std::unexpected(held ? not_taken(address, raw, *held) : held.error());
 }
 
 Error TestBench::not_taken(Address address, std::int64_t raw, std::int64_t held) const {
@@ -339,10 +329,8 @@ Result<Start> TestBench::restart(RestartKind kind, const std::vector<Address>& a
   const auto heard = session_.live_until(session_.now() + longest_until_status, [&] {
     return ear_.start_of(*id).first_status.has_value();
   });
-  if (!heard) {
-    return std::unexpected(heard.error());
-  }
-  if (auto known = recognise(*id); !known) {
+  const auto known = heard ? recognise(*id) : std::unexpected(heard.error());
+  if (!known) {
     return std::unexpected(known.error());
   }
   Start start = ear_.start_of(servo_.id);

@@ -53,20 +53,16 @@ std::string set_up_again(const can::Link& link, bool restarts = false) {
 /// Errors that no setting fixes.
 Diagnoses diagnose_errors(const can::Link& link) {
   const std::string name = printable(link.name);
-  const auto errors = link.errors.value_or(can::ErrorCounters{0, 0});
-  if (link.is_up && link.state == can::LinkState::error_passive) {
-    return {{.code = "error_passive",
-             .level = Level::warning,
-             .text = say<texts::link_error_passive>(name, errors.transmit, errors.receive),
-             .fix = say<texts::look_at_wiring>()}};
-  }
-  if (link.is_up && link.state == can::LinkState::error_warning) {
-    return {{.code = "error_warning",
-             .level = Level::warning,
-             .text = say<texts::link_error_warning>(name, errors.transmit, errors.receive),
-             .fix = say<texts::look_at_wiring>()}};
-  }
-  return {};
+  const auto [transmit, receive] = link.errors.value_or(can::ErrorCounters{0, 0});
+  const auto found = [](std::string code, std::string text) -> Diagnoses {
+    return {{std::move(code), Level::warning, {}, std::move(text), say<texts::look_at_wiring>()}};
+  };
+  return !link.is_up ? Diagnoses()
+         : link.state == can::LinkState::error_passive
+             ? found("error_passive", say<texts::link_error_passive>(name, transmit, receive))
+         : link.state == can::LinkState::error_warning
+             ? found("error_warning", say<texts::link_error_warning>(name, transmit, receive))
+             : Diagnoses();
 }
 
 Diagnoses diagnose_timing(const can::Link& link) {

@@ -87,21 +87,16 @@ const FleetEntry* counterpart(const FleetEntry& entry, const FleetFile& one,
     const auto it = std::ranges::find_if(other.servos, same);
     return it != other.servos.end() ? &*it : nullptr;
   };
-  if (entry.match.unique_id) {
-    if (const auto* found = find([&](const FleetEntry& each) {
-          return each.match.unique_id == entry.match.unique_id;
-        })) {
-      return found;
-    }
-  }
-  if (entry.match.serial_number) {
-    if (const auto* found = find([&](const FleetEntry& each) {
-          return each.match.serial_number == entry.match.serial_number;
-        })) {
-      return found;
-    }
-  }
-  return find([&](const FleetEntry& each) { return each.name == entry.name; });
+  const auto with_same = [&](auto Match::* number) {
+    const auto same = [&](const FleetEntry& each) {
+      return each.match.*number && each.match.*number == entry.match.*number;
+    };
+    return find(same);
+  };
+  const auto* found = with_same(&Match::unique_id);
+  found = found != nullptr ? found : with_same(&Match::serial_number);
+  return found != nullptr ? found
+                          : find([&](const FleetEntry& each) { return each.name == entry.name; });
 }
 
 EntryDiff compare(const FleetEntry& one, const FleetEntry& other, const bla::Profiles& profiles) {

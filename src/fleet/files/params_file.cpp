@@ -3,7 +3,7 @@
 #include "blactl/base/json_reader.hpp"
 #include "blactl/base/read_file.hpp"
 
-#include "fleet/files/fault_text.hpp"
+#include "fleet/files/settings_reader.hpp"
 #include "fleet/files/texts.hpp"
 
 #include <fmt/format.h>

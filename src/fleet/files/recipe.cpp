@@ -2,7 +2,6 @@
 
 #include "blactl/base/json_reader.hpp"
 
-#include "fleet/files/fault_text.hpp"
 #include "fleet/files/settings_reader.hpp"
 #include "fleet/files/texts.hpp"
 

@@ -1,6 +1,5 @@
 #include "fleet/files/settings_reader.hpp"
 
-#include "fleet/files/fault_text.hpp"
 #include "fleet/files/texts.hpp"
 
 #include <algorithm>

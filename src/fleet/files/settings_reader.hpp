@@ -1,16 +1,24 @@
 #pragma once
 // Settings in files: {"angle_limit_cw": "45.0deg", "0x2A": 120}.
 
+#include "blactl/base/error.hpp"
 #include "blactl/base/json_reader.hpp"
 #include "blactl/bla/assignment.hpp"
 #include "blactl/bla/profile.hpp"
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
 namespace blactl::fleet {
+
+/// A refusal as one of the errors of a file: "angle_limit_cw=90: 90 or 9.0 degrees? (for example
+/// angle_limit_cw=90.0deg)".
+[[nodiscard]] inline std::string fault_text(const Error& error) {
+  return error.hint.empty() ? error.message : error.message + " (" + error.hint + ')';
+}
 
 /// A value and its place in the file.
 struct Setting {

@@ -88,6 +88,26 @@ void doubt(FaultState& state) {
 
 } // namespace
 
+std::optional<std::int64_t> FaultState::fault_register(bla::Address reg) const {
+  return bla::fault_register(snapshot.values(), reg);
+}
+
+std::optional<bla::Level> FaultState::worst() const {
+  return faults.empty() ? std::nullopt : std::optional(faults.front().level);
+}
+
+std::vector<Reading> FaultState::values_of(const bla::Fault& fault) const {
+  std::vector<Reading> values;
+  for (const Reading& reading : snapshot.readings) {
+    const bla::Address address = reading.parameter->address;
+    if (reading.raw && fault.known != nullptr &&
+        std::ranges::find(fault.known->values, address) != fault.known->values.end()) {
+      values.push_back(reading);
+    }
+  }
+  return values;
+}
+
 FaultJob::FaultJob(Session& session, const bla::Profiles& profiles, NodeId id,
                    const Identification::Options& options)
     : session_(session), profiles_(profiles), options_(options) {

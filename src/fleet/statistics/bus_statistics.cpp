@@ -3,6 +3,7 @@
 #include "blactl/can/frame_bits.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace blactl::fleet {
@@ -14,6 +15,38 @@ std::uint32_t key_of(const dronecan::Header& header) {
 }
 
 } // namespace
+
+void Periods::take(Time at) {
+  const auto last = std::exchange(last_, at);
+  if (!last || at < *last) {
+    return;
+  }
+  const Duration period = at - *last;
+  min_ = count_ == 0 ? period : std::min(min_, period);
+  max_ = std::max(max_, period);
+  ++count_;
+  const auto us = static_cast<double>(period.count());
+  const double before = us - mean_;
+  mean_ += before / static_cast<double>(count_);
+  squares_ += before * (us - mean_);
+}
+
+std::optional<double> Periods::mean_us() const {
+  return count_ > 0 ? std::optional(mean_) : std::nullopt;
+}
+
+std::optional<Duration> Periods::min() const {
+  return count_ > 0 ? std::optional(min_) : std::nullopt;
+}
+
+std::optional<Duration> Periods::max() const {
+  return count_ > 0 ? std::optional(max_) : std::nullopt;
+}
+
+std::optional<double> Periods::jitter_us() const {
+  return count_ > 1 ? std::optional(std::sqrt(squares_ / static_cast<double>(count_)))
+                    : std::nullopt;
+}
 
 void BusStatistics::hear(const can::Received& received, bool counted) {
   const auto bits = can::frame_length(received.frame) + can::intermission_bits;

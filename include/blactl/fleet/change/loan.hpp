@@ -90,7 +90,6 @@ class Loan {
   [[nodiscard]] std::optional<Goal> judge(const Snapshot& now, Held& held) const;
   [[nodiscard]] std::optional<std::string> what_happened(const Held& held,
                                                          const Snapshot& now) const;
-  [[nodiscard]] std::vector<Held*> pending();
   [[nodiscard]] std::vector<dronecan::NodeId>
   ids_of(const std::function<bool(const Held& held)>& which) const;
   [[nodiscard]] std::optional<std::int64_t> value(const Snapshot& snapshot) const;

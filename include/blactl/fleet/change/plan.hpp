@@ -5,7 +5,6 @@
 #include "blactl/bla/assignment.hpp"
 #include "blactl/bla/profile.hpp"
 #include "blactl/bla/values.hpp"
-#include "blactl/fleet/bus/read_job.hpp"
 #include "blactl/fleet/bus/snapshot.hpp"
 #include "blactl/fleet/change/register_change.hpp"
 #include "blactl/fleet/change/restart_job.hpp"
@@ -69,9 +68,6 @@ struct Plan {
 /// no_profile, unsupported, read_only, out_of_range.
 [[nodiscard]] Result<std::vector<const bla::Parameter*>> registers_needed(const Wanted& wanted,
                                                                           const Servo& servo);
-
-/// The required proof of them: SAVE must not store RAM that a restart has reset.
-[[nodiscard]] ReadJob::Proof proof_needed(const Wanted& wanted);
 
 /// `before` holds registers_needed(). Errors: why it does not; usage (0x36 in a unit that
 /// contradicts 0x37); no_profile (ERASE, if the defaults are unknown); cross_check (a command that

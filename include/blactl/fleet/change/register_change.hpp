@@ -25,4 +25,16 @@ struct RegisterChange {
   [[nodiscard]] bool is_planned() const { return status == ChangeStatus::planned; }
 };
 
+/// From the value held, if known; nothing is to be done if that is the requested one.
+[[nodiscard]] inline RegisterChange change_from(std::optional<std::int64_t> before,
+                                                const bla::Parameter* parameter,
+                                                std::int64_t requested) {
+  const bool is_held = before == requested;
+  return {.parameter = parameter,
+          .requested = requested,
+          .before = before,
+          .after = is_held ? before : std::nullopt,
+          .status = is_held ? ChangeStatus::unchanged : ChangeStatus::planned};
+}
+
 } // namespace blactl::fleet

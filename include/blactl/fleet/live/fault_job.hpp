@@ -1,16 +1,34 @@
 #pragma once
 // Reads the faults of one or several servos.
 
+#include "blactl/bla/faults.hpp"
 #include "blactl/dronecan/node.hpp"
 #include "blactl/fleet/bus/read_job.hpp"
 #include "blactl/fleet/bus/session.hpp"
-#include "blactl/fleet/live/fault_state.hpp"
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
 namespace blactl::fleet {
+
+/// The faults of a servo at one time: 0x18-0x1B, and the values behind their bits.
+struct FaultState {
+  Snapshot snapshot;
+  std::vector<bla::Fault> faults;         ///< the worst first
+  std::optional<dronecan::Health> health; ///< of its NodeStatus
+  std::vector<Error> errors;              ///< why it is incomplete; empty: complete
+
+  /// The value of one of 0x18-0x1B; empty: unknown.
+  [[nodiscard]] std::optional<std::int64_t> fault_register(bla::Address reg) const;
+
+  /// The worst level; empty: no bit is known to be set.
+  [[nodiscard]] std::optional<bla::Level> worst() const;
+
+  /// The registers related to a fault, as far as they were read.
+  [[nodiscard]] std::vector<Reading> values_of(const bla::Fault& fault) const;
+};
 
 /// Reads 0x18, and if it shows faults the registers behind it. If NodeStatus reports more than
 /// that, all four registers are read once more; on a recording the faults are not_recorded then,
