@@ -142,26 +142,18 @@ std::string fault_line(const Fault& fault, const Page& page) {
 }
 
 void write_json(JsonWriter& json, std::span<const FaultState> servos, Level level) {
-  json.key("nodes");
-  json.begin_array();
-  for (const FaultState& servo : servos) {
-    json.begin_object();
+  json.objects("nodes", servos, [&](const FaultState& servo) {
     write_head(json, servo.snapshot.servo);
     json.member("health", servo.health ? std::optional(name(*servo.health)) : std::nullopt);
     write_registers(json, servo);
-    json.key("active");
-    json.begin_array();
-    for (const Fault& fault : servo.faults) {
+    json.array("active", servo.faults, [&](const Fault& fault) {
       if (fault.level >= level) {
         json.begin_object();
         write_fault(json, servo, fault);
         json.end_object();
       }
-    }
-    json.end_array();
-    json.end_object();
-  }
-  json.end_array();
+    });
+  });
 }
 
 std::string text(std::span<const FaultState> servos, Level level, const Page& page) {
