@@ -124,8 +124,7 @@ void write_json(JsonWriter& json, const Examination& examination) {
   json.objects("findings", examination.diagnoses, [&](const Diagnosis& diagnosis) {
     json.member("code", diagnosis.code);
     json.member("level", name(diagnosis.level));
-    json.key("node_id");
-    diagnosis.node ? json.value(diagnosis.node->value()) : json.value(nullptr);
+    json.member("node_id", diagnosis.node ? std::optional(diagnosis.node->value()) : std::nullopt);
     json.member("text", diagnosis.text);
     json.member("fix", diagnosis.fix);
   });

@@ -121,8 +121,7 @@ void write_fault(JsonWriter& json, const FaultState& servo, const Fault& fault) 
   json.member("bit", fault.bit);
   json.member("level", bla::name(fault.level));
   json.member("group", fault.group);
-  json.key("code");
-  fault.known != nullptr ? json.value(fault.known->code) : json.value(nullptr);
+  json.member("code", fault.known != nullptr ? std::optional(fault.known->code) : std::nullopt);
   json.member("latched", is_latched(fault));
   json.member("text", bla::bit_title(fault.known));
   json.member("condition", condition(fault));

@@ -210,15 +210,13 @@ void write_pwm(JsonWriter& json, const bla::Values& values) {
   json.member("fallback_after_ms", bla::pwm_fallback_ms(values));
   json.array("cut_off_us", mapping ? mapping->cut_off_us() : std::vector<std::int64_t>(),
              [&](std::int64_t pulse) { json.value(pulse); });
-  json.array("points", mapping ? mapping->points_us() : std::vector<std::int64_t>(),
-             [&](std::int64_t pulse) {
-               const auto command = mapping->command(pulse);
-               json.begin_object();
-               json.member("pulse_us", pulse);
-               json.key("command");
-               command ? json.number(number(*mapping, *command)) : json.value(nullptr);
-               json.end_object();
-             });
+  json.objects("points", mapping ? mapping->points_us() : std::vector<std::int64_t>(),
+               [&](std::int64_t pulse) {
+                 const auto command = mapping->command(pulse);
+                 json.member("pulse_us", pulse);
+                 json.key("command");
+                 command ? json.number(number(*mapping, *command)) : json.value(nullptr);
+               });
 }
 
 std::string pwm_text(const bla::Values& values, const Page& page) {
