@@ -1,8 +1,8 @@
 #include "cli/output/characterize_view.hpp"
 
-#include "cli/characterize_texts.hpp"
 #include "cli/output/node_head.hpp"
 #include "cli/output/table.hpp"
+#include "cli/texts.hpp"
 
 #include <variant>
 

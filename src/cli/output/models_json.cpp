@@ -1,6 +1,8 @@
-#include "cli/output/models_json.hpp"
+// `models` as JSON (contract, section 5).
 
 #include "blactl/bla/cross_check.hpp"
+
+#include "cli/output/data_sheet.hpp"
 
 namespace blactl::cli {
 
@@ -65,8 +67,7 @@ void write_fault_bit(JsonWriter& json, const bla::FaultBit& bit) {
   json.member("bit", bit.bit);
   json.member("level", bla::name(bit.level));
   json.member("group", bit.group);
-  json.key("code");
-  bit.code.empty() ? json.value(nullptr) : json.value(bit.code);
+  json.member("code", bit.code.empty() ? std::nullopt : std::optional(bit.code));
   json.member("pwm_only", bit.pwm_only);
   json.member("latched", bit.latched);
   json.member("vendor_only", bit.vendor_only);
@@ -85,8 +86,7 @@ void write_release(JsonWriter& json, const bla::FirmwareRelease& release) {
   json.objects("shipments", release.shipments, [&](const Shipment& shipment) {
     json.member("models", shipment.models);
     json.member("from", shipment.from);
-    json.key("until");
-    shipment.until.empty() ? json.value(nullptr) : json.value(shipment.until);
+    json.member("until", shipment.until.empty() ? std::nullopt : std::optional(shipment.until));
   });
   json.member("changes_en", release.changes_en);
   json.member("changes_ja", release.changes_ja);
