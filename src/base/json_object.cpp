@@ -51,8 +51,7 @@ bool within(Number number, Number min, Number max, const Value& value, Faults& f
 template <class Words> std::string join(const Words& words) {
   std::string all;
   for (const auto& word : words) {
-    all += all.empty() ? "" : ", ";
-    all += word;
+    all += (all.empty() ? "" : ", ") + std::string(word);
   }
   return all;
 }

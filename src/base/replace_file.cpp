@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <utility>
 
 namespace blactl {
 namespace {
@@ -53,44 +54,48 @@ Result<std::string> target_of(const std::string& path) {
   return real ? Result<std::string>(real.get()) : failure(path, errno);
 }
 
+/// A new file, open, beside the one that it may replace.
+struct Beside {
+  std::string target, path;
+  int descriptor = -1;
+};
+
+Result<Beside> open_beside(const std::string& named) {
+  const auto target = target_of(named);
+  if (!target) {
+    return std::unexpected(target.error());
+  }
+  Beside made{*target, *target + ".XXXXXX"};
+  made.descriptor = mkostemp(made.path.data(), O_CLOEXEC);
+  return made.descriptor < 0 ? failure(*target, errno) : Result<Beside>(std::move(made));
+}
+
 } // namespace
 
 Result<void> replace_file(const std::string& named, std::string_view content) {
-  const auto target = target_of(named);
-  if (!target) {
-    return std::unexpected(target.error());
+  const auto made = open_beside(named);
+  if (!made) {
+    return std::unexpected(made.error());
   }
-  const std::string& path = *target;
-  std::string beside = path + ".XXXXXX";
-  const int descriptor = mkostemp(beside.data(), O_CLOEXEC);
-  if (descriptor < 0) {
-    return failure(path, errno);
-  }
-  const bool written = set_usual_rights(descriptor) && write_all(descriptor, content);
+  const bool written = set_usual_rights(made->descriptor) && write_all(made->descriptor, content);
   int error = errno;
-  const bool closed = close(descriptor) == 0;
+  const bool closed = close(made->descriptor) == 0;
   error = written && !closed ? errno : error;
-  if (written && closed && std::rename(beside.c_str(), path.c_str()) == 0) {
+  if (written && closed && std::rename(made->path.c_str(), made->target.c_str()) == 0) {
     return {};
   }
   error = written && closed ? errno : error;
-  unlink(beside.c_str());
-  return failure(path, error);
+  unlink(made->path.c_str());
+  return failure(made->target, error);
 }
 
 Result<void> check_replaceable(const std::string& named) {
-  const auto target = target_of(named);
-  if (!target) {
-    return std::unexpected(target.error());
+  const auto made = open_beside(named);
+  if (!made) {
+    return std::unexpected(made.error());
   }
-  const std::string& path = *target;
-  std::string beside = path + ".XXXXXX";
-  const int descriptor = mkostemp(beside.data(), O_CLOEXEC);
-  if (descriptor < 0) {
-    return failure(path, errno);
-  }
-  close(descriptor);
-  unlink(beside.c_str());
+  close(made->descriptor);
+  unlink(made->path.c_str());
   return {};
 }
 

@@ -1,6 +1,6 @@
 #include "can/ip_link.hpp"
 
-#include "can/mcast_texts.hpp"
+#include "can/texts.hpp"
 
 #include <netlink/addr.h>
 #include <netlink/netlink.h>
@@ -84,8 +84,7 @@ std::string describe_ip_links() {
   const Names names(if_nameindex(), &if_freenameindex);
   std::string list;
   for (const auto* entry = names.get(); entry != nullptr && entry->if_index != 0; ++entry) {
-    list += list.empty() ? "" : ", ";
-    list += printable(entry->if_name);
+    list += (list.empty() ? "" : ", ") + printable(entry->if_name);
   }
   return say<texts::ip_links_here>(list);
 }

@@ -4,7 +4,6 @@
 
 #include "can/ip_link.hpp"
 #include "can/mcast_datagram.hpp"
-#include "can/mcast_texts.hpp"
 #include "can/socket_batch.hpp"
 #include "can/texts.hpp"
 

@@ -48,8 +48,7 @@ Result<const bla::Profile*> Context::assumed_profile() {
   if (matching.size() != 1) {
     std::string models;
     for (const bla::Profile& profile : (*known)->all()) {
-      models += models.empty() ? "" : ", ";
-      models += profile.model;
+      models += (models.empty() ? "" : ", ") + profile.model;
     }
     const std::string typed = printable(*shared_.profile);
     return fail(Code::usage,

@@ -49,11 +49,9 @@ void write_range(JsonWriter& json, const Option& option) {
 }
 
 void write(JsonWriter& json, std::string_view key, std::span<const Option> options) {
-  json.key(key);
-  json.begin_array();
-  for (const Option& option : options) {
+  json.array(key, options, [&](const Option& option) {
     if (option.hidden) {
-      continue;
+      return;
     }
     json.begin_object();
     json.member("name", option.name);
@@ -67,8 +65,7 @@ void write(JsonWriter& json, std::string_view key, std::span<const Option> optio
     write_range(json, option);
     write(json, option.help);
     json.end_object();
-  }
-  json.end_array();
+  });
 }
 
 void write(JsonWriter& json, const Command& command) {
@@ -100,17 +97,10 @@ void write(JsonWriter& json, const Scheme& scheme) {
 }
 
 void write(JsonWriter& json, const bla::CrossCheck& check) {
-  json.begin_object();
   json.member("code", check.code);
   json.member("kind", name(check.kind));
-  json.key("addresses");
-  json.begin_array();
-  for (const bla::Address address : check.of) {
-    json.value(address.name());
-  }
-  json.end_array();
+  json.array("addresses", check.of, [&](bla::Address address) { json.value(address.name()); });
   write(json, check.reason);
-  json.end_object();
 }
 
 } // namespace
@@ -122,24 +112,10 @@ std::string dump_cli() {
   json.member("schema", "blactl-cli/1");
   json.member("version", BLACTL_VERSION);
   write(json, "options", shared_options());
-  json.key("interfaces");
-  json.begin_array();
-  for (const Scheme& scheme : schemes) {
-    write(json, scheme);
-  }
-  json.end_array();
-  json.key("commands");
-  json.begin_array();
-  for (const Command* command : all_commands()) {
-    write(json, *command);
-  }
-  json.end_array();
-  json.key("cross_checks");
-  json.begin_array();
-  for (const bla::CrossCheck& check : bla::cross_checks()) {
-    write(json, check);
-  }
-  json.end_array();
+  json.array("interfaces", schemes, [&](const Scheme& scheme) { write(json, scheme); });
+  json.array("commands", all_commands(), [&](const Command* command) { write(json, *command); });
+  json.objects("cross_checks", bla::cross_checks(),
+               [&](const bla::CrossCheck& check) { write(json, check); });
   json.end_object();
   return out + '\n';
 }

@@ -107,8 +107,7 @@ class Reading {
     }
     std::string known;
     for (const std::string_view each : option_.words) {
-      known += known.empty() ? "" : ", ";
-      known += each;
+      known += (known.empty() ? "" : ", ") + std::string(each);
     }
     return refuse(say<texts::bad_word>(option_.name, printable(word), known),
                   did_you_mean(word, option_.words, see_help_));
@@ -135,8 +134,7 @@ std::string did_you_mean(std::string_view typed, std::span<const std::string_vie
                          std::string otherwise) {
   std::string words;
   for (const std::string_view word : nearest(typed, known)) {
-    words += words.empty() ? "" : ", ";
-    words += word;
+    words += (words.empty() ? "" : ", ") + std::string(word);
   }
   return words.empty() ? otherwise : say<texts::did_you_mean>(words);
 }

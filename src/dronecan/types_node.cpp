@@ -1,4 +1,4 @@
-// The types of every node: status, information, address, restart.
+// The types of every node: status, information, address, restart; and which types there are.
 
 #include "blactl/dronecan/types.hpp"
 
@@ -146,6 +146,21 @@ std::optional<RestartNode::Response> RestartNode::Response::decode(Bytes payload
   Reader reader(payload);
   const Response response{.ok = (reader.u8() & true_bit) != 0};
   return reader.ok() ? std::optional(response) : std::nullopt;
+}
+
+const DataType* find_type(Kind kind, std::uint16_t data_type_id) {
+  static constexpr std::array types{
+      &NodeStatus::type,   &GetNodeInfo::type,    &Allocation::type,
+      &RestartNode::type,  &GetSet::type,         &ExecuteOpcode::type,
+      &ArrayCommand::type, &ActuatorStatus::type, &ArmingStatus::type,
+  };
+  const bool service = kind != Kind::message;
+  for (const auto* type : types) {
+    if (type->service == service && type->id == data_type_id) {
+      return type;
+    }
+  }
+  return nullptr;
 }
 
 } // namespace blactl::dronecan

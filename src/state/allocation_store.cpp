@@ -68,40 +68,25 @@ AllocationEntry entry_of(const Statement& row) {
   return entry;
 }
 
-Result<std::optional<AllocationEntry>> one_entry(Statement&& statement) {
-  const auto row = statement.step();
-  if (!row) {
-    return std::unexpected(row.error());
-  }
-  return *row ? std::optional(entry_of(statement)) : std::nullopt;
-}
-
 Result<std::optional<AllocationEntry>> entry_with(const Database& database,
                                                   const UniqueId& unique_id) {
-  return one_entry(std::move(
-      Statement(database, "SELECT node_id, unique_id, at FROM allocations WHERE unique_id = ?")
-          .bind(unique_id)));
+  Statement row(database, "SELECT node_id, unique_id, at FROM allocations WHERE unique_id = ?");
+  return row.bind(unique_id).first([&] { return entry_of(row); });
 }
 
 Result<std::optional<AllocationEntry>> entry_with(const Database& database, NodeId node_id) {
-  return one_entry(std::move(
-      Statement(database, "SELECT node_id, unique_id, at FROM allocations WHERE node_id = ?")
-          .bind(node_id.value())));
+  Statement row(database, "SELECT node_id, unique_id, at FROM allocations WHERE node_id = ?");
+  return row.bind(node_id.value()).first([&] { return entry_of(row); });
 }
 
 Result<NodeIds> all_given(const Database& database) {
-  Statement statement(database, "SELECT node_id FROM allocations");
+  Statement row(database, "SELECT node_id FROM allocations");
   NodeIds given;
-  for (;;) {
-    const auto row = statement.step();
-    if (!row) {
-      return std::unexpected(row.error());
-    }
-    if (!*row) {
-      return given;
-    }
-    given.set(NodeId(static_cast<std::uint8_t>(statement.integer(0))).value());
-  }
+  const auto read = row.each([&] {
+    given.set(NodeId(static_cast<std::uint8_t>(row.integer(0))).value());
+    return true;
+  });
+  return read ? Result<NodeIds>(given) : std::unexpected(read.error());
 }
 
 /// Inserts a row, or replaces the node ID of a unit that has one.
@@ -135,10 +120,8 @@ Result<NodeId> known_or_new(const Database& database, const UniqueId& unique_id,
     return fail(Code::table_full, say<texts::table_full>(choice.first.value(), choice.last.value()),
                 say<texts::table_full_hint>());
   }
-  if (auto stored = store(database, unique_id, id, now); !stored) {
-    return std::unexpected(stored.error());
-  }
-  return id;
+  const auto stored = store(database, unique_id, id, now);
+  return stored ? Result<NodeId>(id) : std::unexpected(stored.error());
 }
 
 Result<void> drop(const Database& database, const UniqueId& unique_id) {
@@ -229,17 +212,13 @@ Result<std::vector<AllocationEntry>> AllocationStore::entries() const {
   if (database == nullptr) {
     return all;
   }
-  Statement statement(*database, "SELECT node_id, unique_id, at FROM allocations ORDER BY node_id");
-  for (;;) {
-    const auto row = statement.step();
-    if (!row) {
-      return std::unexpected(row.error());
-    }
-    if (!*row) {
-      return all;
-    }
-    all.push_back(entry_of(statement));
-  }
+  Statement row(*database, "SELECT node_id, unique_id, at FROM allocations ORDER BY node_id");
+  const auto read = row.each([&] {
+    all.push_back(entry_of(row));
+    return true;
+  });
+  return read ? Result<std::vector<AllocationEntry>>(std::move(all))
+              : std::unexpected(read.error());
 }
 
 Result<std::optional<AllocationEntry>> AllocationStore::find(const UniqueId& unique_id) const {
@@ -275,10 +254,9 @@ Result<void> AllocationStore::enter(std::span<const Wish> wishes, WallTime now, 
 
 Result<bool> AllocationStore::forget(const UniqueId& unique_id) {
   return file_->transact([&](const Database& database) -> Result<bool> {
-    if (auto dropped = drop(database, unique_id); !dropped) {
-      return std::unexpected(dropped.error());
-    }
-    return sqlite3_changes(database.handle()) > 0;
+    const auto dropped = drop(database, unique_id);
+    return dropped ? Result<bool>(sqlite3_changes(database.handle()) > 0)
+                   : std::unexpected(dropped.error());
   });
 }
 

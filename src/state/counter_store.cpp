@@ -47,12 +47,8 @@ struct Request {
 };
 
 /// The number in the first row; empty: there is none.
-Result<std::optional<std::int64_t>> first_number(Statement& statement) {
-  const auto row = statement.step();
-  if (!row) {
-    return std::unexpected(row.error());
-  }
-  return *row ? std::optional(statement.integer(0)) : std::nullopt;
+Result<std::optional<std::int64_t>> first_number(Statement& row) {
+  return row.first([&] { return row.integer(0); });
 }
 
 Result<std::optional<std::int64_t>> value_of_unit(const Request& request, const IdWish& wish) {
@@ -76,11 +72,7 @@ Result<std::optional<std::string>> holder(const Request& request, const IdWish& 
   Statement statement(request.database, "SELECT unique_id FROM assignments WHERE recipe = ? AND "
                                         "parameter = ? AND value = ? LIMIT 1");
   statement.bind(request.recipe).bind(wish.parameter).bind(value);
-  const auto row = statement.step();
-  if (!row) {
-    return std::unexpected(row.error());
-  }
-  return *row ? std::optional(hex(statement.bytes(0))) : std::nullopt;
+  return statement.first([&] { return hex(statement.bytes(0)); });
 }
 
 std::optional<std::int64_t> after(const IdWish& wish, std::int64_t value) {

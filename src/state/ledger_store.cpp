@@ -103,11 +103,7 @@ LedgerRecord record_of(const Statement& row) {
 Result<std::optional<LedgerRecord>> find(const Database& database, const std::string& record_id) {
   Statement statement(database, "SELECT " + column_names() + " FROM ledger WHERE record_id = ?");
   statement.bind(record_id);
-  const auto row = statement.step();
-  if (!row) {
-    return std::unexpected(row.error());
-  }
-  return *row ? std::optional(record_of(statement)) : std::nullopt;
+  return statement.first([&] { return record_of(statement); });
 }
 
 /// The part of add() inside its transaction.
@@ -192,15 +188,7 @@ Result<void> LedgerStore::each(const LedgerQuery& query,
   Statement statement(*database, fmt::format("SELECT {} FROM ledger WHERE {} ORDER BY number",
                                              column_names(), conditions.text()));
   conditions.bind(statement);
-  for (;;) {
-    const auto row = statement.step();
-    if (!row) {
-      return std::unexpected(row.error());
-    }
-    if (!*row || !take(record_of(statement))) {
-      return {};
-    }
-  }
+  return statement.each([&] { return take(record_of(statement)); });
 }
 
 const std::string& LedgerStore::path() const {

@@ -48,10 +48,6 @@ Result<void> put_one(const Database& database, const RomProof& proof) {
       .run();
 }
 
-Result<void> drop_one(const Database& database, const UniqueId& unique_id) {
-  return Statement(database, "DELETE FROM proofs WHERE unique_id = ?").bind(unique_id).run();
-}
-
 /// The proof in a row of rom, started, uptime.
 Result<RomProof> proof_of(const UniqueId& unique_id, const Statement& row,
                           const Database& database) {
@@ -123,7 +119,8 @@ Result<std::optional<RomProof>> ProofStore::find(const UniqueId& unique_id) cons
 Result<void> ProofStore::drop(std::span<const UniqueId> units) {
   return file_->transact([&](const Database& database) -> Result<void> {
     for (const UniqueId& unique_id : units) {
-      if (auto dropped = drop_one(database, unique_id); !dropped) {
+      Statement drop(database, "DELETE FROM proofs WHERE unique_id = ?");
+      if (auto dropped = drop.bind(unique_id).run(); !dropped) {
         return dropped;
       }
     }

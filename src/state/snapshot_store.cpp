@@ -93,9 +93,9 @@ Result<std::optional<SnapshotEntry>> first_of(Statement& statement, const Databa
 
 /// The number after the highest, which is also what SQLite gives the next new row.
 Result<std::int64_t> next_number(const Database& database) {
-  Statement statement(database, "SELECT ifnull(max(number), 0) + 1 FROM snapshots");
-  const auto row = statement.step();
-  return row ? Result<std::int64_t>(statement.integer(0)) : std::unexpected(row.error());
+  Statement row(database, "SELECT ifnull(max(number), 0) + 1 FROM snapshots");
+  const auto read = row.step();
+  return read ? Result<std::int64_t>(row.integer(0)) : std::unexpected(read.error());
 }
 
 /// Stores one entry and returns its number.
@@ -106,18 +106,16 @@ Result<std::int64_t> keep_one(const Database& database, const SnapshotEntry& ent
                                 "(number, run, at, command, unique_id, held, saved, ended) "
                                 "VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
   entry.number == 0 ? statement.bind(std::nullopt) : statement.bind(entry.number);
-  auto kept = statement.bind(entry.run == 0 ? new_run : entry.run)
-                  .bind(entry.at.time_since_epoch().count())
-                  .bind(entry.command)
-                  .bind(entry.unique_id)
-                  .bind(held)
-                  .bind(std::int64_t{entry.saved})
-                  .bind(std::int64_t{entry.ended})
-                  .run();
-  if (!kept) {
-    return std::unexpected(kept.error());
-  }
-  return sqlite3_last_insert_rowid(database.handle());
+  const auto kept = statement.bind(entry.run == 0 ? new_run : entry.run)
+                        .bind(entry.at.time_since_epoch().count())
+                        .bind(entry.command)
+                        .bind(entry.unique_id)
+                        .bind(held)
+                        .bind(std::int64_t{entry.saved})
+                        .bind(std::int64_t{entry.ended})
+                        .run();
+  return kept ? Result<std::int64_t>(sqlite3_last_insert_rowid(database.handle()))
+              : std::unexpected(kept.error());
 }
 
 Result<void> drop_surplus(const Database& database, const UniqueId& unique_id) {
@@ -156,10 +154,9 @@ Result<std::vector<std::int64_t>> keep_all(const Database& database,
       return std::unexpected(dropped.error());
     }
   }
-  if (auto dropped = drop_old(database, now); !dropped) {
-    return std::unexpected(dropped.error());
-  }
-  return numbers;
+  const auto dropped = drop_old(database, now);
+  return dropped ? Result<std::vector<std::int64_t>>(std::move(numbers))
+                 : std::unexpected(dropped.error());
 }
 
 Result<void> settle_one(const Database& database, const Settlement& settlement) {

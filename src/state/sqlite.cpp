@@ -155,18 +155,6 @@ Result<bool> Statement::step() {
   return result == SQLITE_ROW;
 }
 
-Result<void> Statement::run() {
-  for (;;) {
-    const auto row = step();
-    if (!row) {
-      return std::unexpected(row.error());
-    }
-    if (!*row) {
-      return {};
-    }
-  }
-}
-
 bool Statement::is_null(int column) const {
   return sqlite3_column_type(statement_, column) == SQLITE_NULL;
 }

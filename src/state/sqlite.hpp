@@ -12,6 +12,7 @@
 #include <concepts>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -101,8 +102,33 @@ class Statement {
   /// Moves to the next row; false: there is none left.
   [[nodiscard]] Result<bool> step();
 
+  /// Calls `take` on each row until it returns false.
+  template <class Take> [[nodiscard]] Result<void> each(Take take) {
+    for (;;) {
+      const auto row = step();
+      if (!row) {
+        return std::unexpected(row.error());
+      }
+      if (!*row || !take()) {
+        return {};
+      }
+    }
+  }
+
+  /// What `read` makes of the first row; empty: there is none.
+  template <class Read>
+  [[nodiscard]] Result<std::optional<std::invoke_result_t<Read>>> first(Read read) {
+    const auto row = step();
+    if (!row) {
+      return std::unexpected(row.error());
+    }
+    return *row ? std::optional(read()) : std::nullopt;
+  }
+
   /// Runs the statement and ignores its rows.
-  [[nodiscard]] Result<void> run();
+  [[nodiscard]] Result<void> run() {
+    return each([] { return true; });
+  }
 
   [[nodiscard]] bool is_null(int column) const;
   [[nodiscard]] std::int64_t integer(int column) const;

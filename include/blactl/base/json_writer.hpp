@@ -65,6 +65,27 @@ class JsonWriter {
     value(content);
   }
 
+  /// A member that is an array: `write` writes each of `items`.
+  template <class Items, class Write>
+  void array(std::string_view name, const Items& items, const Write& write) {
+    key(name);
+    begin_array();
+    for (const auto& item : items) {
+      write(item);
+    }
+    end_array();
+  }
+
+  /// A member that is an array of objects: `write` writes the members of each.
+  template <class Items, class Write>
+  void objects(std::string_view name, const Items& items, const Write& write) {
+    array(name, items, [&](const auto& item) {
+      begin_object();
+      write(item);
+      end_object();
+    });
+  }
+
  private:
   void open(char bracket);
   void close(char bracket);

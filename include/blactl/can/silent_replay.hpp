@@ -2,6 +2,7 @@
 // A recording without frames, for input that was not received on a bus.
 
 #include "blactl/can/bus.hpp"
+#include "blactl/can/replay_texts.hpp"
 
 #include <string>
 #include <string_view>
@@ -17,10 +18,15 @@ class SilentReplay final : public Bus {
   [[nodiscard]] std::string_view name() const override { return name_; }
 
   /// Errors: usage, always.
-  [[nodiscard]] Result<bool> send(const Frame& frame) override;
+  [[nodiscard]] Result<bool> send(const Frame&) override {
+    return fail(Code::usage, say<texts::file_takes_no_frames>(name_),
+                say<texts::log_takes_no_frames_hint>());
+  }
 
   /// Returns its end, once.
-  [[nodiscard]] std::optional<BusEvent> receive() override;
+  [[nodiscard]] std::optional<BusEvent> receive() override {
+    return std::exchange(told_end_, true) ? std::nullopt : std::optional<BusEvent>(Ended{});
+  }
 
   [[nodiscard]] Result<void> filter(std::span<const Filter>) override { return {}; }
 

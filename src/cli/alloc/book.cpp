@@ -1,11 +1,10 @@
-#include "cli/alloc/book.hpp"
-
 #include "blactl/base/hex.hpp"
 #include "blactl/base/replace_file.hpp"
 #include "blactl/base/rfc3339.hpp"
 #include "blactl/can/loop.hpp"
 #include "blactl/state/allocation_file.hpp"
 
+#include "cli/alloc/actions.hpp"
 #include "cli/alloc/texts.hpp"
 #include "cli/output/table.hpp"
 

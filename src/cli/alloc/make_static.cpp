@@ -1,7 +1,6 @@
-#include "cli/alloc/make_static.hpp"
-
 #include "blactl/fleet/change/static_ids.hpp"
 
+#include "cli/alloc/actions.hpp"
 #include "cli/alloc/texts.hpp"
 #include "cli/alloc/view.hpp"
 #include "cli/change/run.hpp"

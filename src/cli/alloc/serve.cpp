@@ -1,9 +1,8 @@
-#include "cli/alloc/serve.hpp"
-
 #include "blactl/base/hex.hpp"
 #include "blactl/fleet/bus/discovery.hpp"
 #include "blactl/fleet/bus/ticker.hpp"
 
+#include "cli/alloc/actions.hpp"
 #include "cli/alloc/texts.hpp"
 #include "cli/alloc/view.hpp"
 #include "cli/interface/scheme.hpp"

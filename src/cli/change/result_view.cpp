@@ -24,14 +24,12 @@ std::string seconds_text(Duration duration) {
 namespace {
 
 void write_change(JsonWriter& json, const RegisterChange& change) {
-  json.begin_object();
   json.member("address", change.parameter->address.name());
   json.member("name", change.parameter->name);
   json.member("before", change.before);
   json.member("requested", change.requested);
   json.member("after", change.after);
   json.member("status", name(change.status));
-  json.end_object();
 }
 
 void write_servo(JsonWriter& json, const ChangeResult& result) {
@@ -48,15 +46,10 @@ void write_warnings(JsonWriter& json, std::span<const fleet::Warning> warnings) 
   if (warnings.empty()) {
     return;
   }
-  json.key("warnings");
-  json.begin_array();
-  for (const fleet::Warning& warning : warnings) {
-    json.begin_object();
+  json.objects("warnings", warnings, [&](const fleet::Warning& warning) {
     json.member("code", warning.code);
     json.member("text", warning.text);
-    json.end_object();
-  }
-  json.end_array();
+  });
 }
 
 namespace {
@@ -100,12 +93,8 @@ bool is_in_ram_only(const RegisterChange& change) {
 } // namespace
 
 void write_changes(JsonWriter& json, std::span<const RegisterChange> changes) {
-  json.key("changes");
-  json.begin_array();
-  for (const RegisterChange& change : changes) {
-    write_change(json, change);
-  }
-  json.end_array();
+  json.objects("changes", changes,
+               [&](const RegisterChange& change) { write_change(json, change); });
 }
 
 void write_changes(JsonWriter& json, const ChangeResult& result) {
@@ -204,10 +193,7 @@ counts(ResultView view, std::span<const fleet::GoalResult> results, bool is_plan
 }
 
 void write_json(JsonWriter& json, ResultView view, std::span<const ChangeResult> results) {
-  json.key("nodes");
-  json.begin_array();
-  for (const ChangeResult& result : results) {
-    json.begin_object();
+  json.objects("nodes", results, [&](const ChangeResult& result) {
     write_head(json, result.servo);
     if (view == ResultView::changes) {
       write_changes(json, result);
@@ -215,9 +201,7 @@ void write_json(JsonWriter& json, ResultView view, std::span<const ChangeResult>
       write_servo(json, result);
       write_warnings(json, result.warnings);
     }
-    json.end_object();
-  }
-  json.end_array();
+  });
 }
 
 std::string text(ResultView view, std::span<const ChangeResult> results, const Page& page) {

@@ -1,9 +1,7 @@
 // blactl alloc: dynamic node IDs, and their table.
 
-#include "cli/alloc/book.hpp"
-#include "cli/alloc/make_static.hpp"
+#include "cli/alloc/actions.hpp"
 #include "cli/alloc/options.hpp"
-#include "cli/alloc/serve.hpp"
 #include "cli/alloc/texts.hpp"
 #include "cli/commands.hpp"
 

@@ -5,7 +5,6 @@
 #include "blactl/fleet/characterize/characterization.hpp"
 
 #include "cli/change/writing_run.hpp"
-#include "cli/characterize_texts.hpp"
 #include "cli/commands.hpp"
 #include "cli/output/characterize_view.hpp"
 #include "cli/texts.hpp"

@@ -3,9 +3,9 @@
 #include "blactl/bla/profile.hpp"
 
 #include "cli/commands.hpp"
+#include "cli/context.hpp"
 #include "cli/models_texts.hpp"
 #include "cli/output/data_sheet.hpp"
-#include "cli/output/models_json.hpp"
 #include "cli/texts.hpp"
 
 #include <algorithm>

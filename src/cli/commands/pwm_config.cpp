@@ -254,15 +254,11 @@ Report show(const PwmOptions& options, Context& context) {
   }
   report.count_targets();
   report.json = [servos](JsonWriter& json) {
-    json.key("nodes");
-    json.begin_array();
-    for (const auto& [servo, values] : *servos) {
-      json.begin_object();
+    json.objects("nodes", *servos, [&](const auto& one) {
+      const auto& [servo, values] = one;
       write_head(json, servo);
       write_pwm(json, values);
-      json.end_object();
-    }
-    json.end_array();
+    });
   };
   report.text = [servos](const Page& page) {
     std::string out;
@@ -275,10 +271,7 @@ Report show(const PwmOptions& options, Context& context) {
 }
 
 void write_changed(JsonWriter& json, std::span<const ChangeResult> results) {
-  json.key("nodes");
-  json.begin_array();
-  for (const ChangeResult& result : results) {
-    json.begin_object();
+  json.objects("nodes", results, [&](const ChangeResult& result) {
     write_head(json, result.servo);
     write_pwm(json, result.after());
     json.key("before");
@@ -286,9 +279,7 @@ void write_changed(JsonWriter& json, std::span<const ChangeResult> results) {
     write_pwm(json, result.before);
     json.end_object();
     write_changes(json, result);
-    json.end_object();
-  }
-  json.end_array();
+  });
 }
 
 std::string changed_text(std::span<const ChangeResult> results, const Page& page) {

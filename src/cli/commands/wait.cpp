@@ -4,6 +4,7 @@
 #include "blactl/fleet/bus/ticker.hpp"
 
 #include "cli/commands.hpp"
+#include "cli/context.hpp"
 #include "cli/interface/scheme.hpp"
 #include "cli/output/node_head.hpp"
 #include "cli/output/progress_view.hpp"
@@ -34,18 +35,13 @@ constexpr Option wait_options[]{
 using fleet::Arrival;
 
 void write_json(JsonWriter& json, const std::vector<Arrival>& arrivals, Duration after) {
-  json.key("nodes");
-  json.begin_array();
-  for (const Arrival& arrival : arrivals) {
-    json.begin_object();
+  json.objects("nodes", arrivals, [&](const Arrival& arrival) {
     write_head(json, arrival.servo);
     json.member("status", arrival.is_there ? "done" : "failed");
     json.member("node_id_after", arrival.servo.id.value());
     json.key("duration_s");
     json.number(fmt::format("{:.3f}", std::chrono::duration<double>(after).count()));
-    json.end_object();
-  }
-  json.end_array();
+  });
 }
 
 std::string text(const std::vector<Arrival>& arrivals, const Page& page) {

@@ -6,7 +6,7 @@
 #include "blactl/fleet/bus/snapshots.hpp"
 #include "blactl/fleet/live/fault_job.hpp"
 
-#include "cli/alloc/book.hpp"
+#include "cli/alloc/actions.hpp"
 #include "cli/doctor/texts.hpp"
 #include "cli/doctor/view.hpp"
 #include "cli/output/faults_view.hpp"

@@ -105,15 +105,9 @@ Tone tone(bla::Level level) {
 } // namespace
 
 void write_json(JsonWriter& json, const Examination& examination) {
-  json.key("nodes");
-  json.begin_array();
-  for (const fleet::Finding& node :
-       examination.nodes ? examination.nodes->nodes : std::vector<fleet::Finding>()) {
-    json.begin_object();
-    write_head(json, node.servo);
-    json.end_object();
-  }
-  json.end_array();
+  json.objects("nodes",
+               examination.nodes ? examination.nodes->nodes : std::vector<fleet::Finding>(),
+               [&](const fleet::Finding& node) { write_head(json, node.servo); });
   if (examination.adapter) {
     json.key("adapter");
     json.begin_object();
@@ -123,28 +117,17 @@ void write_json(JsonWriter& json, const Examination& examination) {
     examination.adapter->status ? json.value(*examination.adapter->status) : json.value(nullptr);
     json.end_object();
   }
-  json.key("fixed");
-  json.begin_array();
-  for (const Diagnosis& diagnosis : examination.fixed) {
-    json.begin_object();
+  json.objects("fixed", examination.fixed, [&](const Diagnosis& diagnosis) {
     json.member("code", diagnosis.code);
     json.member("text", diagnosis.text);
-    json.end_object();
-  }
-  json.end_array();
-  json.key("findings");
-  json.begin_array();
-  for (const Diagnosis& diagnosis : examination.diagnoses) {
-    json.begin_object();
+  });
+  json.objects("findings", examination.diagnoses, [&](const Diagnosis& diagnosis) {
     json.member("code", diagnosis.code);
     json.member("level", name(diagnosis.level));
-    json.key("node_id");
-    diagnosis.node ? json.value(diagnosis.node->value()) : json.value(nullptr);
+    json.member("node_id", diagnosis.node ? std::optional(diagnosis.node->value()) : std::nullopt);
     json.member("text", diagnosis.text);
     json.member("fix", diagnosis.fix);
-    json.end_object();
-  }
-  json.end_array();
+  });
 }
 
 std::string text(const Examination& examination, const Page& page) {

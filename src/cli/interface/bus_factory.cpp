@@ -36,8 +36,7 @@ Result<std::string> the_only_interface() {
       down = &link;
       continue;
     }
-    up += up.empty() ? "" : ", ";
-    up += link.name;
+    up += (up.empty() ? "" : ", ") + link.name;
   }
   if (!up.empty()) {
     return fail(Code::interface, say<texts::several_interfaces>(up),

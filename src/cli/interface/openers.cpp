@@ -1,4 +1,4 @@
-#include "cli/interface/openers.hpp"
+// How each kind of interface is opened.
 
 #include "blactl/can/mcast.hpp"
 #include "blactl/can/silent_replay.hpp"
@@ -9,9 +9,7 @@
 #include "blactl/sim/scenario/scenario.hpp"
 
 #include "cli/interface/bus_factory.hpp"
-#include "cli/interface/mcast_name.hpp"
-#include "cli/interface/slcan_name.hpp"
-#include "cli/texts.hpp"
+#include "cli/interface/scheme.hpp"
 
 #include <sys/stat.h>
 

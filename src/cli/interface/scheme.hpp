@@ -3,11 +3,11 @@
 // opens it, and a row of `schemes`: the help of -i, its hints, the completions and the factory go
 // by this table.
 
+#include "blactl/base/error.hpp"
 #include "blactl/base/text.hpp"
 #include "blactl/can/replay_texts.hpp"
 
 #include "cli/interface/mcast_name.hpp"
-#include "cli/interface/openers.hpp"
 #include "cli/interface/slcan_name.hpp"
 #include "cli/texts.hpp"
 
@@ -17,6 +17,18 @@
 #include <string_view>
 
 namespace blactl::cli {
+
+struct OpenBus;
+struct OpenRequest;
+
+// Errors: interface, permission, bad_file (scenario, fleet file), usage.
+[[nodiscard]] Result<OpenBus> open_socketcan(const OpenRequest& request);
+[[nodiscard]] Result<OpenBus> open_slcan(const OpenRequest& request);
+[[nodiscard]] Result<OpenBus> open_mcast(const OpenRequest& request);
+[[nodiscard]] Result<OpenBus> open_simulator(const OpenRequest& request);
+[[nodiscard]] Result<OpenBus> open_scenario(const OpenRequest& request);
+[[nodiscard]] Result<OpenBus> open_log(const OpenRequest& request);
+[[nodiscard]] Result<OpenBus> open_fleet_file(const OpenRequest& request);
 
 /// What stands behind a name, as far as commands care.
 enum class Behind : unsigned char {

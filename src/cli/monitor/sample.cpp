@@ -9,7 +9,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -130,9 +132,7 @@ std::string json_sample(WallTime time, const LiveServo& servo, const SampleField
 
 std::string csv_header(const SampleFields& fields) {
   std::vector<std::string> columns{std::string(key(SampleField::time))};
-  for (std::string& column : head_columns()) {
-    columns.push_back(std::move(column));
-  }
+  std::ranges::move(head_columns(), std::back_inserter(columns));
   for (const SampleField field : fields) {
     if (field != SampleField::time) {
       columns.emplace_back(key(field));
@@ -143,9 +143,7 @@ std::string csv_header(const SampleFields& fields) {
 
 std::string csv_sample(WallTime time, const LiveServo& servo, const SampleFields& fields) {
   std::vector<std::string> cells{cell(time, servo, SampleField::time)};
-  for (std::string& text : head_cells(servo.servo)) {
-    cells.push_back(std::move(text));
-  }
+  std::ranges::move(head_cells(servo.servo), std::back_inserter(cells));
   for (const SampleField field : fields) {
     if (field != SampleField::time) {
       cells.push_back(cell(time, servo, field));

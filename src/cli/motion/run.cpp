@@ -5,7 +5,6 @@
 #include "blactl/fleet/bus/unreachable.hpp"
 
 #include "cli/motion/sample.hpp"
-#include "cli/motion/svg.hpp"
 #include "cli/motion/texts.hpp"
 #include "cli/texts.hpp"
 

@@ -10,8 +10,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <iterator>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -79,9 +81,7 @@ std::string json_motion(WallTime time, const MotionPlan& plan, const MotionSampl
 
 std::string csv_motion_header(const MotionPlan& plan) {
   std::vector<std::string> columns{"time"};
-  for (std::string& column : head_columns()) {
-    columns.push_back(std::move(column));
-  }
+  std::ranges::move(head_columns(), std::back_inserter(columns));
   columns.insert(columns.end(), motion_keys.begin(), motion_keys.end());
   columns.push_back(plan.parameter->name);
   return csv_line(columns);
@@ -89,12 +89,8 @@ std::string csv_motion_header(const MotionPlan& plan) {
 
 std::string csv_motion(WallTime time, const MotionPlan& plan, const MotionSample& sample) {
   std::vector<std::string> cells{std::string(UnixTime(time).text())};
-  for (std::string& text : head_cells(plan.servo())) {
-    cells.push_back(std::move(text));
-  }
-  for (std::string& text : numbers(plan, sample)) {
-    cells.push_back(std::move(text));
-  }
+  std::ranges::move(head_cells(plan.servo()), std::back_inserter(cells));
+  std::ranges::move(numbers(plan, sample), std::back_inserter(cells));
   cells.push_back(std::to_string(sample.target));
   return csv_line(cells);
 }

@@ -1,5 +1,6 @@
 #pragma once
-// The samples of a commanded servo, as data: the keys of the contract (section 5, command).
+// The samples of a commanded servo: as data with the keys of the contract (section 5, command), for
+// people, and as a drawing.
 
 #include "blactl/base/time.hpp"
 #include "blactl/fleet/motion/motion_result.hpp"
@@ -25,5 +26,10 @@ namespace blactl::cli {
 /// The end in one line: where the shaft is, how it got there, and what the servo does next.
 [[nodiscard]] std::string motion_summary(const fleet::MotionPlan& plan,
                                          const fleet::MotionResult& result);
+
+/// A drawing in SVG: angle, speed and torque over time, one below the other, with the target and
+/// the limits.
+[[nodiscard]] std::string motion_svg(const fleet::MotionPlan& plan,
+                                     const fleet::MotionResult& result);
 
 } // namespace blactl::cli

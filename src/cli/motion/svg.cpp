@@ -1,10 +1,12 @@
-#include "cli/motion/svg.hpp"
+// A command to a shaft as a drawing of target and motion.
+
+#include "cli/output/svg.hpp"
 
 #include "blactl/bla/value.hpp"
 
+#include "cli/motion/sample.hpp"
 #include "cli/motion/texts.hpp"
 #include "cli/output/node_head.hpp"
-#include "cli/output/svg.hpp"
 
 #include <fmt/format.h>
 

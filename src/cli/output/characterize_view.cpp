@@ -1,8 +1,8 @@
 #include "cli/output/characterize_view.hpp"
 
-#include "cli/characterize_texts.hpp"
 #include "cli/output/node_head.hpp"
 #include "cli/output/table.hpp"
+#include "cli/texts.hpp"
 
 #include <variant>
 
@@ -53,10 +53,7 @@ std::string observations_text(const fleet::Characterization& measured) {
 }
 
 void write_measurements(JsonWriter& json, const fleet::Characterization& measured) {
-  json.key("measurements");
-  json.begin_array();
-  for (const Fact& fact : measured.facts) {
-    json.begin_object();
+  json.objects("measurements", measured.facts, [&](const Fact& fact) {
     json.member("setting", fact.setting);
     json.key("value");
     if (fact.value) {
@@ -66,9 +63,7 @@ void write_measurements(JsonWriter& json, const fleet::Characterization& measure
     }
     json.key("reason");
     fact.value ? json.value(nullptr) : json.value(fact.reason);
-    json.end_object();
-  }
-  json.end_array();
+  });
 }
 
 } // namespace

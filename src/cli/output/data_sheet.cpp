@@ -39,8 +39,7 @@ std::string words_text(const Parameter& parameter) {
   std::string words;
   for (const bla::Choice& choice : parameter.choices) {
     if (choice.raw >= *parameter.min && choice.raw <= *parameter.max) {
-      words += words.empty() ? "" : ", ";
-      words += choice.word;
+      words += (words.empty() ? "" : ", ") + choice.word;
     }
   }
   return words;
@@ -84,8 +83,7 @@ std::string shipped_text(const bla::FirmwareRelease& release, const Profile& pro
   std::string times;
   for (const bla::FirmwareRelease::Shipment& shipment : release.shipments) {
     if (shipment.covers(profile.model)) {
-      times += times.empty() ? "" : ", ";
-      times += say<texts::range_text>(shipment.from, shipment.until);
+      times += (times.empty() ? "" : ", ") + say<texts::range_text>(shipment.from, shipment.until);
       times.erase(times.find_last_not_of(' ') + 1);
     }
   }

@@ -1,6 +1,7 @@
 #pragma once
 // The profiles as a data sheet: for a model, for a parameter, or for all models side by side.
 
+#include "blactl/base/json_writer.hpp"
 #include "blactl/bla/profile.hpp"
 
 #include "cli/output/page.hpp"
@@ -26,5 +27,9 @@ struct Sheet {
 /// differences.
 [[nodiscard]] std::string sheet_text(const Sheet& sheet, const bla::Profiles& profiles,
                                      const Page& page);
+
+/// As JSON (contract, section 5): models[], fault_bits[], firmware[], cross_checks[], members of
+/// the document.
+void write_models(JsonWriter& json, const Sheet& sheet, const bla::Profiles& profiles);
 
 } // namespace blactl::cli

@@ -121,8 +121,7 @@ void write_fault(JsonWriter& json, const FaultState& servo, const Fault& fault) 
   json.member("bit", fault.bit);
   json.member("level", bla::name(fault.level));
   json.member("group", fault.group);
-  json.key("code");
-  fault.known != nullptr ? json.value(fault.known->code) : json.value(nullptr);
+  json.member("code", fault.known != nullptr ? std::optional(fault.known->code) : std::nullopt);
   json.member("latched", is_latched(fault));
   json.member("text", bla::bit_title(fault.known));
   json.member("condition", condition(fault));
@@ -142,26 +141,18 @@ std::string fault_line(const Fault& fault, const Page& page) {
 }
 
 void write_json(JsonWriter& json, std::span<const FaultState> servos, Level level) {
-  json.key("nodes");
-  json.begin_array();
-  for (const FaultState& servo : servos) {
-    json.begin_object();
+  json.objects("nodes", servos, [&](const FaultState& servo) {
     write_head(json, servo.snapshot.servo);
     json.member("health", servo.health ? std::optional(name(*servo.health)) : std::nullopt);
     write_registers(json, servo);
-    json.key("active");
-    json.begin_array();
-    for (const Fault& fault : servo.faults) {
+    json.array("active", servo.faults, [&](const Fault& fault) {
       if (fault.level >= level) {
         json.begin_object();
         write_fault(json, servo, fault);
         json.end_object();
       }
-    }
-    json.end_array();
-    json.end_object();
-  }
-  json.end_array();
+    });
+  });
 }
 
 std::string text(std::span<const FaultState> servos, Level level, const Page& page) {

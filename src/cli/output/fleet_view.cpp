@@ -52,12 +52,8 @@ void write_entry(JsonWriter& json, const EntryDiff& entry) {
   write_head(json, entry.servo);
   json.member("name", entry.name.empty() ? std::nullopt : std::optional(entry.name));
   json.member("status", fleet::name(entry.status));
-  json.key("changes");
-  json.begin_array();
-  for (const Difference& difference : entry.registers) {
-    write_difference(json, difference);
-  }
-  json.end_array();
+  json.array("changes", entry.registers,
+             [&](const Difference& difference) { write_difference(json, difference); });
   json.end_object();
 }
 
@@ -97,12 +93,7 @@ std::string registers_text(const EntryDiff& entry, const std::string& one, const
 } // namespace
 
 void write_json(JsonWriter& json, std::span<const EntryDiff> entries) {
-  json.key("nodes");
-  json.begin_array();
-  for (const EntryDiff& entry : entries) {
-    write_entry(json, entry);
-  }
-  json.end_array();
+  json.array("nodes", entries, [&](const EntryDiff& entry) { write_entry(json, entry); });
 }
 
 std::string text(std::span<const EntryDiff> entries, const std::string& one,

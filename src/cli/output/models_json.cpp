@@ -1,6 +1,8 @@
-#include "cli/output/models_json.hpp"
+// `models` as JSON (contract, section 5).
 
 #include "blactl/bla/cross_check.hpp"
+
+#include "cli/output/data_sheet.hpp"
 
 namespace blactl::cli {
 
@@ -9,20 +11,9 @@ using bla::Profile;
 
 namespace {
 
-/// Calls `write` for each of `items`, as a member.
-template <class Items, class Write>
-void write_all(JsonWriter& json, std::string_view key, const Items& items, const Write& write) {
-  json.key(key);
-  json.begin_array();
-  for (const auto& item : items) {
-    write(item);
-  }
-  json.end_array();
-}
-
 void write_addresses(JsonWriter& json, std::string_view key,
                      std::span<const bla::Address> addresses) {
-  write_all(json, key, addresses, [&](bla::Address address) { json.value(address.name()); });
+  json.array(key, addresses, [&](bla::Address address) { json.value(address.name()); });
 }
 
 void write_parameter(JsonWriter& json, const Parameter& parameter) {
@@ -42,13 +33,11 @@ void write_parameter(JsonWriter& json, const Parameter& parameter) {
   json.member("max", parameter.max);
   json.member("saved", parameter.saved);
   json.member("min_firmware", parameter.min_firmware);
-  write_all(json, "enumeration", parameter.choices, [&](const bla::Choice& choice) {
-    json.begin_object();
+  json.objects("enumeration", parameter.choices, [&](const bla::Choice& choice) {
     json.member("raw", choice.raw);
     json.member("word", choice.word);
     json.member("text_en", choice.text_en);
     json.member("text_ja", choice.text_ja);
-    json.end_object();
   });
   json.member("section", parameter.section);
   write_addresses(json, "see", parameter.see);
@@ -58,7 +47,6 @@ void write_parameter(JsonWriter& json, const Parameter& parameter) {
 }
 
 void write_model(JsonWriter& json, const Profile& profile, const Sheet& sheet) {
-  json.begin_object();
   json.member("model", profile.model);
   json.member("series", profile.series);
   json.member("voltage_class", profile.voltage_class);
@@ -66,15 +54,11 @@ void write_model(JsonWriter& json, const Profile& profile, const Sheet& sheet) {
   json.member("pwm", profile.pwm);
   json.member("model_number", profile.model_number);
   json.member("hardware_version", profile.hardware_version);
-  json.key("parameters");
-  json.begin_array();
-  for (const Parameter& parameter : profile.parameters) {
+  json.array("parameters", profile.parameters, [&](const Parameter& parameter) {
     if (sheet.takes(parameter)) {
       write_parameter(json, parameter);
     }
-  }
-  json.end_array();
-  json.end_object();
+  });
 }
 
 void write_fault_bit(JsonWriter& json, const bla::FaultBit& bit) {
@@ -83,8 +67,7 @@ void write_fault_bit(JsonWriter& json, const bla::FaultBit& bit) {
   json.member("bit", bit.bit);
   json.member("level", bla::name(bit.level));
   json.member("group", bit.group);
-  json.key("code");
-  bit.code.empty() ? json.value(nullptr) : json.value(bit.code);
+  json.member("code", bit.code.empty() ? std::nullopt : std::optional(bit.code));
   json.member("pwm_only", bit.pwm_only);
   json.member("latched", bit.latched);
   json.member("vendor_only", bit.vendor_only);
@@ -98,37 +81,30 @@ void write_fault_bit(JsonWriter& json, const bla::FaultBit& bit) {
 }
 
 void write_release(JsonWriter& json, const bla::FirmwareRelease& release) {
-  json.begin_object();
   json.member("version", release.version);
   using Shipment = bla::FirmwareRelease::Shipment;
-  write_all(json, "shipments", release.shipments, [&](const Shipment& shipment) {
-    json.begin_object();
+  json.objects("shipments", release.shipments, [&](const Shipment& shipment) {
     json.member("models", shipment.models);
     json.member("from", shipment.from);
-    json.key("until");
-    shipment.until.empty() ? json.value(nullptr) : json.value(shipment.until);
-    json.end_object();
+    json.member("until", shipment.until.empty() ? std::nullopt : std::optional(shipment.until));
   });
   json.member("changes_en", release.changes_en);
   json.member("changes_ja", release.changes_ja);
-  json.end_object();
 }
 
 void write_check(JsonWriter& json, const bla::CrossCheck& check) {
-  json.begin_object();
   json.member("code", check.code);
   json.member("kind", name(check.kind));
   write_addresses(json, "addresses", check.of);
   json.member("text_en", std::string_view(check.reason.en));
   json.member("text_ja", std::string_view(check.reason.ja));
-  json.end_object();
 }
 
 } // namespace
 
 void write_models(JsonWriter& json, const Sheet& sheet, const bla::Profiles& profiles) {
-  write_all(json, "models", sheet.models,
-            [&](const Profile* profile) { write_model(json, *profile, sheet); });
+  json.objects("models", sheet.models,
+               [&](const Profile* profile) { write_model(json, *profile, sheet); });
   json.key("fault_bits");
   json.begin_array();
   for (const auto& bits : {profiles.summary_bits(), profiles.fault_bits()}) {
@@ -137,10 +113,10 @@ void write_models(JsonWriter& json, const Sheet& sheet, const bla::Profiles& pro
     }
   }
   json.end_array();
-  write_all(json, "firmware", profiles.firmware(),
-            [&](const bla::FirmwareRelease& release) { write_release(json, release); });
-  write_all(json, "cross_checks", bla::cross_checks(),
-            [&](const bla::CrossCheck& check) { write_check(json, check); });
+  json.objects("firmware", profiles.firmware(),
+               [&](const bla::FirmwareRelease& release) { write_release(json, release); });
+  json.objects("cross_checks", bla::cross_checks(),
+               [&](const bla::CrossCheck& check) { write_check(json, check); });
 }
 
 } // namespace blactl::cli

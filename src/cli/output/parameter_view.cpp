@@ -102,20 +102,11 @@ bool has_room_for_defaults(std::span<const ServoValues> servos, const bla::Profi
 } // namespace
 
 void write_json(JsonWriter& json, std::span<const ServoValues> servos) {
-  json.key("nodes");
-  json.begin_array();
-  for (const ServoValues& servo : servos) {
-    json.begin_object();
+  json.objects("nodes", servos, [&](const ServoValues& servo) {
     write_head(json, servo.snapshot.servo);
-    json.key("params");
-    json.begin_array();
-    for (const Reading& reading : servo.shown) {
-      write_reading(json, servo, reading);
-    }
-    json.end_array();
-    json.end_object();
-  }
-  json.end_array();
+    json.array("params", servo.shown,
+               [&](const Reading& reading) { write_reading(json, servo, reading); });
+  });
 }
 
 std::string csv(std::span<const ServoValues> servos) {

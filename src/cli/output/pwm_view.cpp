@@ -208,23 +208,15 @@ void write_pwm(JsonWriter& json, const bla::Values& values) {
   const auto input = bla::pwm_input(values);
   json.member("input", input ? std::optional(name(*input)) : std::nullopt);
   json.member("fallback_after_ms", bla::pwm_fallback_ms(values));
-  json.key("cut_off_us");
-  json.begin_array();
-  for (const std::int64_t pulse : mapping ? mapping->cut_off_us() : std::vector<std::int64_t>()) {
-    json.value(pulse);
-  }
-  json.end_array();
-  json.key("points");
-  json.begin_array();
-  for (const std::int64_t pulse : mapping ? mapping->points_us() : std::vector<std::int64_t>()) {
-    const auto command = mapping->command(pulse);
-    json.begin_object();
-    json.member("pulse_us", pulse);
-    json.key("command");
-    command ? json.number(number(*mapping, *command)) : json.value(nullptr);
-    json.end_object();
-  }
-  json.end_array();
+  json.array("cut_off_us", mapping ? mapping->cut_off_us() : std::vector<std::int64_t>(),
+             [&](std::int64_t pulse) { json.value(pulse); });
+  json.objects("points", mapping ? mapping->points_us() : std::vector<std::int64_t>(),
+               [&](std::int64_t pulse) {
+                 const auto command = mapping->command(pulse);
+                 json.member("pulse_us", pulse);
+                 json.key("command");
+                 command ? json.number(number(*mapping, *command)) : json.value(nullptr);
+               });
 }
 
 std::string pwm_text(const bla::Values& values, const Page& page) {

@@ -4,12 +4,10 @@ namespace blactl::cli {
 namespace {
 
 void write_error(JsonWriter& json, const Error& error) {
-  json.begin_object();
   json.member("node_id", error.node_id);
   json.member("code", name(error.code));
   json.member("message", error.message);
   json.member("hint", error.hint);
-  json.end_object();
 }
 
 } // namespace
@@ -39,12 +37,8 @@ std::string render_json(const Report& report) {
     json.member(what, count);
   }
   json.end_object();
-  json.key("errors");
-  json.begin_array();
-  for (const Error& error : report.all_errors()) {
-    write_error(json, error);
-  }
-  json.end_array();
+  json.objects("errors", report.all_errors(),
+               [&](const Error& error) { write_error(json, error); });
   json.end_object();
   out += '\n';
   return out;

@@ -47,27 +47,15 @@ void write_info(JsonWriter& json, const Finding& node) {
 }
 
 void write_ids(JsonWriter& json, const char* key, const std::vector<NodeId>& ids) {
-  json.key(key);
-  json.begin_array();
-  for (const NodeId id : ids) {
-    json.value(id.value());
-  }
-  json.end_array();
+  json.array(key, ids, [&](NodeId id) { json.value(id.value()); });
 }
 
 void write_node(JsonWriter& json, const Finding& node) {
-  json.begin_object();
   write_head(json, node.servo);
   json.member("static_node_id", node.servo.static_node_id);
   json.member("model_certain", node.servo.identity.certain());
   write_info(json, node);
-  json.key("warnings");
-  json.begin_array();
-  for (const std::string& warning : node.warnings) {
-    json.value(warning);
-  }
-  json.end_array();
-  json.end_object();
+  json.array("warnings", node.warnings, [&](const std::string& warning) { json.value(warning); });
 }
 
 /// "operational ok", each word in the colour of its meaning.
@@ -112,30 +100,14 @@ std::vector<std::string> row(const Finding& node, const Page& page) {
 
 void write_json(JsonWriter& json, const Findings& findings) {
   const Roster& roster = *findings.roster;
-  json.key("nodes");
-  json.begin_array();
-  for (const Finding& node : findings.nodes) {
-    write_node(json, node);
-  }
-  json.end_array();
-  json.key("pending");
-  json.begin_array();
-  for (const auto& prefix : roster.pending()) {
-    json.begin_object();
-    json.member("unique_id_prefix", hex(prefix));
-    json.end_object();
-  }
-  json.end_array();
-  json.key("conflicts");
-  json.begin_array();
-  for (const Conflict& conflict : findings.conflicts) {
-    json.begin_object();
+  json.objects("nodes", findings.nodes, [&](const Finding& node) { write_node(json, node); });
+  json.objects("pending", roster.pending(),
+               [&](const auto& prefix) { json.member("unique_id_prefix", hex(prefix)); });
+  json.objects("conflicts", findings.conflicts, [&](const Conflict& conflict) {
     json.member("code", name(conflict.code));
     write_ids(json, "node_ids", conflict.nodes);
     json.member("text", conflict.text);
-    json.end_object();
-  }
-  json.end_array();
+  });
   write_ids(json, "allocators", {roster.allocators().begin(), roster.allocators().end()});
   write_ids(json, "commanders", fleet::commanders(roster));
 }

@@ -1,7 +1,7 @@
 #include "cli/output/screen.hpp"
 
 #include "cli/output/page.hpp"
-#include "cli/output/screen_texts.hpp"
+#include "cli/texts.hpp"
 
 #include <sys/ioctl.h>
 #include <unistd.h>

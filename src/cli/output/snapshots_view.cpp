@@ -10,17 +10,12 @@
 namespace blactl::cli {
 
 void write_snapshots(JsonWriter& json, std::span<const state::SnapshotEntry> entries) {
-  json.key("snapshots");
-  json.begin_array();
-  for (const state::SnapshotEntry& entry : entries) {
-    json.begin_object();
+  json.objects("snapshots", entries, [&](const state::SnapshotEntry& entry) {
     json.member("time", rfc3339(entry.at));
     json.member("unique_id", hex(entry.unique_id));
     json.member("command", printable(entry.command));
     json.member("changed_count", entry.held.size());
-    json.end_object();
-  }
-  json.end_array();
+  });
 }
 
 std::string text(std::span<const state::SnapshotEntry> entries, const Page& page) {

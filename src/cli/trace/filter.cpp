@@ -39,8 +39,7 @@ Error unknown_type(std::string_view typed) {
   known.erase(std::ranges::unique(known).begin(), known.end());
   std::string similar;
   for (const std::string_view name : nearest(typed, known)) {
-    similar += similar.empty() ? "" : ", ";
-    similar += name;
+    similar += (similar.empty() ? "" : ", ") + std::string(name);
   }
   return {Code::usage, say<texts::unknown_type>(printable(typed)),
           similar.empty() ? say<texts::unknown_type_hint>() : say<texts::did_you_mean>(similar),

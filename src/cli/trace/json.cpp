@@ -71,8 +71,7 @@ bool JsonTrace::transfer(const Occasion& occasion, const dronecan::Transfer& tra
   JsonWriter json(out_);
   begin_line(json, occasion);
   json.member("kind", name(header.kind));
-  json.key("type");
-  type != nullptr ? json.value(type->name) : json.value(nullptr);
+  json.member("type", type != nullptr ? std::optional(type->name) : std::nullopt);
   json.member("data_type_id", header.data_type_id);
   json.member("priority", header.priority);
   json.member("source", header.source.value());

@@ -7,11 +7,13 @@
 #include "blactl/can/frame.hpp"
 #include "blactl/dronecan/transfer.hpp"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace blactl::cli {
 
@@ -29,10 +31,17 @@ enum class TraceError : std::uint8_t {
 inline constexpr std::size_t trace_errors = 7;
 
 /// The word of the contract: "crc", …, "short".
-[[nodiscard]] std::string_view name(TraceError error);
+[[nodiscard]] inline std::string_view name(TraceError error) {
+  constexpr std::array<std::string_view, trace_errors> words{
+      "crc", "toggle", "missing_start", "transfer_id", "truncated", "timeout", "short"};
+  return words[std::to_underlying(error)];
+}
 
 /// message, request, response.
-[[nodiscard]] std::string_view name(dronecan::Kind kind);
+[[nodiscard]] inline std::string_view name(dronecan::Kind kind) {
+  constexpr std::array<std::string_view, 3> words{"message", "request", "response"};
+  return words[std::to_underlying(kind)];
+}
 
 /// A frame, with its interface and times.
 struct Heard {

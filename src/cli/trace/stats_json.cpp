@@ -151,17 +151,12 @@ void TraceStats::write(JsonWriter& json) const {
   write_time(json, "end", all.end);
   member_number(json, "duration_s", seconds(all.duration));
   json.member("frames", frames);
-  json.key("interfaces");
-  json.begin_array();
-  for (const Bus& bus : buses_) {
-    json.begin_object();
+  json.objects("interfaces", buses_, [&](const Bus& bus) {
     json.member("interface", bus.name);
     json.member("frames", bus.statistics.frames());
     member_number(json, "duration_s", seconds(bus.statistics.load().duration()));
     write_load(json, &bus.statistics.load());
-    json.end_object();
-  }
-  json.end_array();
+  });
 }
 
 } // namespace blactl::cli

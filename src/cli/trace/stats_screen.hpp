@@ -16,19 +16,32 @@ class StatsScreen {
   StatsScreen(TraceStats* stats, const Reporter& reporter) : stats_(stats), reporter_(reporter) {}
 
   /// Starts: the first update is one period from now.
-  void begin(Time now);
+  void begin(Time now) {
+    due_ = stats_ != nullptr && reporter_.has_screen() ? now + period : never;
+  }
 
   /// The time of the next update; never without a screen.
   [[nodiscard]] Time due() const { return due_; }
 
   /// Updates the screen, if it is due. False if the reader has left. Errors: io.
-  [[nodiscard]] Result<bool> advance(Time now);
+  [[nodiscard]] Result<bool> advance(Time now) {
+    if (now < due_) {
+      return true;
+    }
+    due_ = now + period;
+    has_shown_ = true;
+    return reporter_.show(stats_->text(reporter_.page()));
+  }
 
   /// Advances to `now` without traffic; for frames with the caller's clock.
-  void pass(Time now);
+  void pass(Time now) {
+    if (stats_ != nullptr) {
+      stats_->pass(now);
+    }
+  }
 
   /// Makes room for the final output. Errors: io.
-  [[nodiscard]] Result<bool> end();
+  [[nodiscard]] Result<bool> end() { return has_shown_ ? reporter_.show("") : Result<bool>(true); }
 
  private:
   TraceStats* stats_;

@@ -1,7 +1,11 @@
-#include "sim/scenario/allocation_server.hpp"
+// An allocator that is not ours: an autopilot's.
+
+#include "sim/scenario/foreign_role.hpp"
 
 #include <algorithm>
+#include <bitset>
 #include <chrono>
+#include <map>
 #include <utility>
 
 namespace blactl::sim {
@@ -19,18 +23,38 @@ constexpr std::uint8_t whole = 16;
 /// Higher IDs are for tools (DSDL 1.Allocation); the search goes down from here.
 constexpr std::uint8_t highest_given = 125;
 
-} // namespace
-
-AllocationServer::AllocationServer(dronecan::NodeId own_id, Broadcast broadcast)
-    : ForeignRole(std::move(broadcast)) {
-  in_use_.set(own_id.value());
-}
-
-void AllocationServer::hear(const can::Frame& frame) {
-  if (const auto header = dronecan::decode_id(frame.id); header && frame.extended) {
-    in_use_.set(header->source.value());
+/// Follows the standard to the letter, as the allocators of the common libraries do (DroneCAN
+/// specification 6, "Dynamic node ID allocation"). It responds at once and ignores other
+/// allocators: dronecan::Allocator, which waits for others and yields to them, would hide what
+/// blactl must cope with. An ID under which any node was heard is not assigned to another unit.
+class AllocationServer final : public ForeignRole {
+ public:
+  AllocationServer(dronecan::NodeId own_id, Broadcast broadcast)
+      : ForeignRole(std::move(broadcast)) {
+    in_use_.set(own_id.value());
   }
-}
+
+  [[nodiscard]] std::vector<std::uint16_t> subscriptions() const override {
+    return {dronecan::Allocation::type.id};
+  }
+
+  void hear(const can::Frame& frame) override {
+    if (const auto header = dronecan::decode_id(frame.id); header && frame.extended) {
+      in_use_.set(header->source.value());
+    }
+  }
+
+  void receive(const dronecan::Transfer& message) override;
+
+ private:
+  /// Returns 0 if the table is full.
+  [[nodiscard]] std::uint8_t assign(const dronecan::UniqueId& unique_id);
+
+  std::map<dronecan::UniqueId, std::uint8_t> given_;
+  std::bitset<dronecan::NodeId::max + 1> in_use_;
+  dronecan::Allocation collected_; ///< the parts of the unique ID accepted so far
+  Time accepted_at_{};             ///< the time of the last of them
+};
 
 void AllocationServer::receive(const dronecan::Transfer& message) {
   const auto request = dronecan::Allocation::decode(message.payload);
@@ -71,6 +95,13 @@ std::uint8_t AllocationServer::assign(const dronecan::UniqueId& unique_id) {
     }
   }
   return 0;
+}
+
+} // namespace
+
+std::unique_ptr<ForeignRole> make_allocation_server(dronecan::NodeId own_id,
+                                                    ForeignRole::Broadcast broadcast) {
+  return std::make_unique<AllocationServer>(own_id, std::move(broadcast));
 }
 
 } // namespace blactl::sim

@@ -1,4 +1,6 @@
-#include "sim/scenario/esc.hpp"
+// An electronic speed controller: a node with other parameters than a servo.
+
+#include "sim/scenario/foreign_role.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -48,11 +50,26 @@ bool takes(const GetSet::Response& parameter, const GetSet::Value& value) {
   return real == nullptr || within(parameter, *real);
 }
 
-} // namespace
+/// Sends esc.Status, and has parameters of every kind in GetSet, by name and by index from 0. A
+/// value of another kind or out of range leaves the parameter unchanged; nothing is saved to ROM.
+class Esc final : public ForeignRole {
+ public:
+  Esc(const EscSetup& setup, Broadcast broadcast, Time power_on)
+      : ForeignRole(std::move(broadcast)), setup_(setup), parameters_(parameters(setup.index)),
+        next_status_(power_on + setup.period) {}
 
-Esc::Esc(const EscSetup& setup, Broadcast broadcast, Time power_on)
-    : ForeignRole(std::move(broadcast)), setup_(setup), parameters_(parameters(setup.index)),
-      next_status_(power_on + setup.period) {}
+  [[nodiscard]] dronecan::GetSet::Response
+  get_set(const dronecan::GetSet::Request& request) override;
+
+  [[nodiscard]] Time next_deadline() const override { return next_status_; }
+
+  void advance(Time now) override;
+
+ private:
+  EscSetup setup_;
+  std::vector<dronecan::GetSet::Response> parameters_; ///< each as the response to a read
+  Time next_status_;
+};
 
 GetSet::Response Esc::get_set(const GetSet::Request& request) {
   auto found = parameters_.end();
@@ -90,6 +107,13 @@ void Esc::advance(Time now) {
   // Speed and power of a stopped motor: 18 and 7 bits of 0, then 5 bits of index.
   put({0, 0, 0, static_cast<std::uint8_t>(setup_.index << index_shift)});
   broadcast(esc_status, priority, payload.bytes());
+}
+
+} // namespace
+
+std::unique_ptr<ForeignRole> make_esc(const EscSetup& setup, ForeignRole::Broadcast broadcast,
+                                      Time power_on) {
+  return std::make_unique<Esc>(setup, std::move(broadcast), power_on);
 }
 
 } // namespace blactl::sim

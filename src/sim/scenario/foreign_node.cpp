@@ -1,9 +1,6 @@
 #include "blactl/sim/scenario/foreign_node.hpp"
 
-#include "sim/scenario/allocation_server.hpp"
-#include "sim/scenario/babbler.hpp"
-#include "sim/scenario/esc.hpp"
-#include "sim/scenario/gnss_receiver.hpp"
+#include "sim/scenario/foreign_role.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -39,17 +36,16 @@ std::unique_ptr<ForeignRole> ForeignNode::make_role(Time power_on) {
     return send_message(type, priority, payload);
   };
   if (const auto* gnss = std::get_if<GnssSetup>(&setup_.kind)) {
-    return std::make_unique<GnssReceiver>(*gnss, setup_.node_id, std::move(broadcast), power_on);
+    return make_gnss_receiver(*gnss, setup_.node_id, std::move(broadcast), power_on);
   }
   if (const auto* esc = std::get_if<EscSetup>(&setup_.kind)) {
-    return std::make_unique<Esc>(*esc, std::move(broadcast), power_on);
+    return make_esc(*esc, std::move(broadcast), power_on);
   }
   if (const auto* babbler = std::get_if<BabblerSetup>(&setup_.kind)) {
-    return std::make_unique<Babbler>(*babbler, std::move(broadcast), power_on);
+    return make_babbler(*babbler, std::move(broadcast), power_on);
   }
   if (const auto* pilot = std::get_if<AutopilotSetup>(&setup_.kind); pilot && pilot->allocates) {
-    return std::make_unique<AllocationServer>(dronecan::NodeId(setup_.node_id),
-                                              std::move(broadcast));
+    return make_allocation_server(dronecan::NodeId(setup_.node_id), std::move(broadcast));
   }
   return std::make_unique<ForeignRole>(std::move(broadcast));
 }

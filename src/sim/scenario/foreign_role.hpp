@@ -1,13 +1,15 @@
 #pragma once
-// The behaviour of a foreign node beyond that common to all nodes.
+// The behaviour of a foreign node beyond that common to all nodes, and its kinds.
 
 #include "blactl/base/time.hpp"
 #include "blactl/can/frame.hpp"
 #include "blactl/dronecan/transfer.hpp"
 #include "blactl/dronecan/types.hpp"
+#include "blactl/sim/scenario/foreign_setup.hpp"
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -57,5 +59,17 @@ class ForeignRole {
  private:
   Broadcast broadcast_;
 };
+
+// The kinds, each in a source of its own.
+[[nodiscard]] std::unique_ptr<ForeignRole> make_gnss_receiver(const GnssSetup& setup,
+                                                              std::uint64_t seed,
+                                                              ForeignRole::Broadcast broadcast,
+                                                              Time power_on);
+[[nodiscard]] std::unique_ptr<ForeignRole>
+make_esc(const EscSetup& setup, ForeignRole::Broadcast broadcast, Time power_on);
+[[nodiscard]] std::unique_ptr<ForeignRole>
+make_babbler(const BabblerSetup& setup, ForeignRole::Broadcast broadcast, Time power_on);
+[[nodiscard]] std::unique_ptr<ForeignRole> make_allocation_server(dronecan::NodeId own_id,
+                                                                  ForeignRole::Broadcast broadcast);
 
 } // namespace blactl::sim

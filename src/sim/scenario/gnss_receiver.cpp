@@ -1,4 +1,9 @@
-#include "sim/scenario/gnss_receiver.hpp"
+// A satellite receiver: a usual neighbour of servos on an aircraft's bus, and the one with the
+// longest messages.
+
+#include "blactl/sim/node/random.hpp"
+
+#include "sim/scenario/foreign_role.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -27,16 +32,26 @@ constexpr Duration auxiliary_period = 1s;
 constexpr dronecan::Priority fix_priority = dronecan::priority_medium;
 constexpr dronecan::Priority auxiliary_priority = 24;
 
-} // namespace
+/// Sends Fix2 and, once a second, Auxiliary. Only sizes and rates are realistic; the contents are
+/// meaningless.
+class GnssReceiver final : public ForeignRole {
+ public:
+  GnssReceiver(const GnssSetup& setup, std::uint64_t seed, Broadcast broadcast, Time power_on)
+      : ForeignRole(std::move(broadcast)), setup_(setup), random_(seed),
+        next_fix_(power_on + setup.period), next_auxiliary_(power_on + auxiliary_period) {}
 
-GnssReceiver::GnssReceiver(const GnssSetup& setup, std::uint64_t seed, Broadcast broadcast,
-                           Time power_on)
-    : ForeignRole(std::move(broadcast)), setup_(setup), random_(seed),
-      next_fix_(power_on + setup.period), next_auxiliary_(power_on + auxiliary_period) {}
+  [[nodiscard]] Time next_deadline() const override { return std::min(next_fix_, next_auxiliary_); }
 
-Time GnssReceiver::next_deadline() const {
-  return std::min(next_fix_, next_auxiliary_);
-}
+  void advance(Time now) override;
+
+ private:
+  [[nodiscard]] std::vector<std::uint8_t> noise(std::size_t size);
+
+  GnssSetup setup_;
+  Random random_;
+  Time next_fix_;
+  Time next_auxiliary_;
+};
 
 void GnssReceiver::advance(Time now) {
   if (next_fix_ <= now) {
@@ -58,6 +73,13 @@ std::vector<std::uint8_t> GnssReceiver::noise(std::size_t size) {
     byte = static_cast<std::uint8_t>(random_.next());
   }
   return bytes;
+}
+
+} // namespace
+
+std::unique_ptr<ForeignRole> make_gnss_receiver(const GnssSetup& setup, std::uint64_t seed,
+                                                ForeignRole::Broadcast broadcast, Time power_on) {
+  return std::make_unique<GnssReceiver>(setup, seed, std::move(broadcast), power_on);
 }
 
 } // namespace blactl::sim

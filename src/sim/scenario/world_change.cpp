@@ -61,8 +61,7 @@ constexpr std::array magnets{
 template <class Entries, class Text> std::string list(const Entries& entries, Text text) {
   std::string out;
   for (const auto& entry : entries) {
-    out += out.empty() ? "" : ", ";
-    out += text(entry);
+    out += (out.empty() ? "" : ", ") + std::string(text(entry));
   }
   return out;
 }
