@@ -7,7 +7,6 @@
 
 #include <net/if.h>
 
-
 namespace blactl::can {
 namespace {
 

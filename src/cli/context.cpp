@@ -1,10 +1,8 @@
 #include "cli/context.hpp"
 
 #include "blactl/can/replay_texts.hpp"
-#include "blactl/can/simbus.hpp"
 #include "blactl/fleet/bus/texts.hpp"
 #include "blactl/fleet/files/fleet_replay.hpp"
-#include "blactl/state/state_folder.hpp"
 
 #include "cli/interface/bus_factory.hpp"
 #include "cli/interface/scheme.hpp"
@@ -68,8 +66,9 @@ Result<std::optional<LocalNodeId>> Context::take_node_id(bool listens) {
     reporter_.detail(say<texts::no_own_id>());
     return std::nullopt;
   }
-  auto local = place_.interface.empty() ? Result<LocalNodeId>(LocalNodeId::unshared(own_ids()))
-                                        : LocalNodeId::acquire(place_, own_ids());
+  auto local = locks_.place.interface.empty()
+                   ? Result<LocalNodeId>(LocalNodeId::unshared(own_ids()))
+                   : LocalNodeId::acquire(locks_.place, own_ids());
   if (!local) {
     return std::unexpected(local.error());
   }
@@ -99,11 +98,11 @@ void Context::tell(const LocalNodeId& local) const {
   } else if (shared_.local_node_id) {
     reporter_.detail(say<texts::own_id_wanted>(id));
   } else {
-    reporter_.detail(place_.interface.empty() ? say<texts::own_id_private>(id)
-                                              : say<texts::own_id_free>(id));
+    reporter_.detail(locks_.place.interface.empty() ? say<texts::own_id_private>(id)
+                                                    : say<texts::own_id_free>(id));
   }
-  if (!place_.interface.empty() && local.lock_file().empty()) {
-    reporter_.note(say<texts::no_lock_folder>(printable(place_.interface)));
+  if (!locks_.place.interface.empty() && local.lock_file().empty()) {
+    reporter_.note(say<texts::no_lock_folder>(printable(locks_.place.interface)));
   }
   tell_lock(local.lock_file());
 }
@@ -120,24 +119,24 @@ Result<fleet::Session*> Context::open(fleet::Session::Hearing hearing) {
     return std::unexpected(assumed.error());
   }
   assumed_ = *assumed;
-  auto bus = open_bus(shared_.interface, *profiles_, reporter_, inquires_);
+  auto bus = open_bus(shared_.interface, *profiles_, reporter_, wishes_.inquires);
   if (!bus) {
     return std::unexpected(bus.error());
   }
-  place_ = bus->place;
+  locks_.place = bus->place;
   auto local = take_node_id(shared_.listen_only || bus->bus->is_replay());
   if (!local) {
     return std::unexpected(local.error());
   }
-  log_ = bus->log;
-  adapter_ = bus->adapter;
-  if (waits_for_return_ && bus->reopen) {
-    adapter_ = nullptr; // the next one is different
+  layers_.log = bus->log;
+  layers_.adapter = bus->adapter;
+  if (wishes_.waits_for_return && bus->reopen) {
+    layers_.adapter = nullptr; // the next one is different
     bus->bus = std::make_unique<can::ReturningBus>(std::move(bus->bus), std::move(bus->reopen));
   }
-  if (plays_at_pace_ && log_ != nullptr) {
+  if (wishes_.plays_at_pace && layers_.log != nullptr) {
     auto paced = std::make_unique<can::PacedReplay>(std::move(bus->bus));
-    pace_ = paced.get();
+    layers_.pace = paced.get();
     bus->bus = std::move(paced);
   }
   auto recording = recorded(std::move(bus->bus));
@@ -228,16 +227,16 @@ Result<fleet::Session*> Context::open_for_writing(std::string_view command) {
     return std::unexpected(std::move(*refused));
   }
   auto session = open(fleet::Session::Hearing::commands);
-  if (!session || place_.interface.empty()) {
+  if (!session || locks_.place.interface.empty()) {
     return session;
   }
   using state::InterfaceLock;
-  auto lock = InterfaceLock::acquire(place_, InterfaceLock::Right::write);
+  auto lock = InterfaceLock::acquire(locks_.place, InterfaceLock::Right::write);
   if (!lock) {
     return std::unexpected(lock.error());
   }
-  writing_ = std::move(*lock);
-  tell_lock(writing_->file());
+  locks_.writing = std::move(*lock);
+  tell_lock(locks_.writing->file());
   return session;
 }
 
@@ -253,63 +252,21 @@ Result<fleet::Session*> Context::open_for_allocation() {
 }
 
 Result<void> Context::lock_allocation() {
-  if (place_.interface.empty() || allocating_) {
+  if (locks_.place.interface.empty() || locks_.allocating) {
     return {};
   }
   using state::InterfaceLock;
-  auto lock = InterfaceLock::acquire(place_, InterfaceLock::Right::allocate);
+  auto lock = InterfaceLock::acquire(locks_.place, InterfaceLock::Right::allocate);
   if (!lock) {
     return std::unexpected(lock.error());
   }
-  allocating_ = std::move(*lock);
-  tell_lock(allocating_->file());
+  locks_.allocating = std::move(*lock);
+  tell_lock(locks_.allocating->file());
   return {};
 }
 
-namespace {
-
-/// Opens the store for the servos behind `interface`: in memory for a private simulation, which
-/// ends with the process.
-template <class Store> Result<Store> open_store(std::string_view interface, state::Access access) {
-  if (names(interface, Behind::scenario)) {
-    return Store::unshared();
-  }
-  std::string folder = state::state_folder();
-  if (!folder.empty() && names(interface, Behind::simulator)) {
-    folder += "/simulated";
-  }
-  return Store::open(folder, access);
-}
-
-} // namespace
-
-Result<state::AllocationStore> Context::allocations(state::Access access) const {
-  return open_store<state::AllocationStore>(shared_.interface, access);
-}
-
-Result<state::SnapshotStore> Context::snapshots(state::Access access) const {
-  return open_store<state::SnapshotStore>(shared_.interface, access);
-}
-
-Result<fleet::History> Context::history(std::string_view command, state::Access access) const {
-  auto snapshots = open_store<state::SnapshotStore>(shared_.interface, access);
-  if (!snapshots) {
-    return std::unexpected(std::move(snapshots.error()));
-  }
-  // a private simulation has the unique IDs of the one before it, but another ROM
-  const auto name = parse_interface(shared_.interface);
-  const bool is_private = name && name->is(Behind::simulator) && name->rest.empty() &&
-                          !can::SimBus::is_served(can::default_socket_path());
-  auto proofs = is_private ? state::ProofStore::unshared()
-                           : open_store<state::ProofStore>(shared_.interface, access);
-  if (!proofs) {
-    return std::unexpected(std::move(proofs.error()));
-  }
-  return fleet::History(std::string(command), std::move(*snapshots), std::move(*proofs));
-}
-
 Result<std::unique_ptr<can::Bus>> Context::recorded(std::unique_ptr<can::Bus> bus) {
-  if (!record_) {
+  if (!wishes_.record) {
     return bus;
   }
   if (is_fleet_file()) {
@@ -317,19 +274,19 @@ Result<std::unique_ptr<can::Bus>> Context::recorded(std::unique_ptr<can::Bus> bu
                 say<texts::file_without_frames_hint>());
   }
   const auto name = parse_interface(shared_.interface);
-  if (log_ != nullptr && name) {
+  if (layers_.log != nullptr && name) {
     std::error_code error;
     const std::string path = name->rest == "-" ? "/dev/stdin" : name->rest;
-    if (std::filesystem::equivalent(path, *record_, error)) {
-      return fail(Code::usage, say<texts::records_itself>(printable(*record_)),
+    if (std::filesystem::equivalent(path, *wishes_.record, error)) {
+      return fail(Code::usage, say<texts::records_itself>(printable(*wishes_.record)),
                   say<texts::record_unopened_hint>());
     }
   }
-  auto recorder = can::Recorder::open(std::move(bus), *record_);
+  auto recorder = can::Recorder::open(std::move(bus), *wishes_.record);
   if (!recorder) {
     return std::unexpected(recorder.error());
   }
-  recorder_ = recorder->get();
+  layers_.recorder = recorder->get();
   return std::move(*recorder);
 }
 
@@ -350,8 +307,8 @@ void Context::tell_losses(Report& report) const {
   if (session_->unreadable() > 0) {
     reporter_.note(say<texts::unreadable_frames>(session_->unreadable()));
   }
-  if (log_ != nullptr && log_->reader().bad_lines() > 0) {
-    const can::CandumpReader& log = log_->reader();
+  if (layers_.log != nullptr && layers_.log->reader().bad_lines() > 0) {
+    const can::CandumpReader& log = layers_.log->reader();
     reporter_.note(
         say<texts::lines_passed_over>(log.name(), log.bad_lines(), log.first_bad_line()));
   }
@@ -422,8 +379,8 @@ void Context::explain_silence(Report& report) const {
 }
 
 void Context::check_recording(Report& report) const {
-  if (recorder_ != nullptr && recorder_->error()) {
-    report.fail(*recorder_->error());
+  if (layers_.recorder != nullptr && layers_.recorder->error()) {
+    report.fail(*layers_.recorder->error());
   }
 }
 

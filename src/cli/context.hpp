@@ -9,10 +9,7 @@
 #include "blactl/fleet/bus/identification.hpp"
 #include "blactl/fleet/bus/session.hpp"
 #include "blactl/fleet/bus/target.hpp"
-#include "blactl/fleet/change/history.hpp"
-#include "blactl/state/allocation_store.hpp"
 #include "blactl/state/interface_lock.hpp"
-#include "blactl/state/snapshot_store.hpp"
 
 #include "cli/options.hpp"
 #include "cli/output/report.hpp"
@@ -33,7 +30,7 @@ namespace blactl::cli {
 class Context {
  public:
   Context(const Shared& shared, const Reporter& reporter)
-      : shared_(shared), reporter_(reporter), record_(shared.record) {}
+      : shared_(shared), reporter_(reporter), wishes_{.record = shared.record} {}
 
   [[nodiscard]] const Shared& shared() const { return shared_; }
 
@@ -65,19 +62,6 @@ class Context {
   /// Whether this process may allocate node IDs: no other on this machine does.
   [[nodiscard]] bool may_allocate() { return lock_allocation().has_value(); }
 
-  /// The allocation table for the interface: this user's for a real bus; a separate one for
-  /// simulated servos, which would fill it; one in memory for a private simulation. Errors: as
-  /// AllocationStore::open().
-  [[nodiscard]] Result<state::AllocationStore> allocations(state::Access access) const;
-
-  /// The record of changes by `command`, in the same place as the allocation table. The caller
-  /// decides what to do without one. Errors: as SnapshotStore::open().
-  [[nodiscard]] Result<fleet::History> history(std::string_view command,
-                                               state::Access access) const;
-
-  /// The recorded changes. Errors: as SnapshotStore::open().
-  [[nodiscard]] Result<state::SnapshotStore> snapshots(state::Access access) const;
-
   [[nodiscard]] fleet::Session& session() { return *session_; }
 
   /// The signal that ended the session, its opening, or an earlier question; 0: none.
@@ -90,26 +74,26 @@ class Context {
   [[nodiscard]] fleet::Identification::Options identification() const;
 
   /// Records every frame of the session in this file, as --record does. Call before open().
-  void record_to(std::string file) { record_ = std::move(file); }
+  void record_to(std::string file) { wishes_.record = std::move(file); }
 
   /// Asks an adapter for its identification when it is opened. Call before open().
-  void inquire() { inquires_ = true; }
+  void inquire() { wishes_.inquires = true; }
 
   /// Waits for an interface that goes away during the session to return (Session::away()). Call
   /// before open().
-  void wait_for_return() { waits_for_return_ = true; }
+  void wait_for_return() { wishes_.waits_for_return = true; }
 
   /// Plays a log at its own pace. Call before open().
-  void play_at_pace() { plays_at_pace_ = true; }
+  void play_at_pace() { wishes_.plays_at_pace = true; }
 
   /// The log behind the session, if played at its pace; else null.
-  [[nodiscard]] can::PacedReplay* pace() const { return session_ ? pace_ : nullptr; }
+  [[nodiscard]] can::PacedReplay* pace() const { return session_ ? layers_.pace : nullptr; }
 
   /// Whether -i names a fleet file: it has data of servos, but no bus.
   [[nodiscard]] bool is_fleet_file() const;
 
   /// The adapter behind the session; null: none, or no session.
-  [[nodiscard]] can::Slcan* adapter() const { return session_ ? adapter_ : nullptr; }
+  [[nodiscard]] can::Slcan* adapter() const { return session_ ? layers_.adapter : nullptr; }
 
   /// The bus, or with --record a recorder around it. The file is created last, so that earlier
   /// errors leave an existing file untouched. Errors: usage, io.
@@ -133,6 +117,27 @@ class Context {
   void broken(const Error& error, Report& report) const;
 
  private:
+  /// What a command wants of the bus beside the interface itself.
+  struct Wishes {
+    std::optional<std::string> record{}; ///< the file for all frames
+    bool inquires = false;
+    bool waits_for_return = false;
+    bool plays_at_pace = false;
+  };
+
+  /// The layers of the session's bus, if it has them.
+  struct Layers {
+    can::Slcan* adapter = nullptr;           ///< with -i slcan:
+    const can::ReplayBus* log = nullptr;     ///< with -i replay:
+    can::PacedReplay* pace = nullptr;        ///< around it, with play_at_pace()
+    const can::Recorder* recorder = nullptr; ///< around all, with --record
+  };
+
+  struct Locks {
+    state::LockPlace place{}; ///< of the interface
+    std::optional<state::InterfaceLock> writing{}, allocating{};
+  };
+
   /// Our own node ID for this bus; none if nothing is sent. Errors: no_local_node_id.
   [[nodiscard]] Result<std::optional<state::LocalNodeId>> take_node_id(bool listens);
   [[nodiscard]] state::LocalNodeId::Candidates own_ids() const;
@@ -143,21 +148,14 @@ class Context {
 
   const Shared& shared_;
   const Reporter& reporter_;
-  std::optional<std::string> record_; ///< the file for all frames
+  Wishes wishes_;
   std::optional<bla::Profiles> profiles_;
   const bla::Profile* assumed_ = nullptr;
-  state::LockPlace place_; ///< of the interface
-  std::optional<state::InterfaceLock> writing_, allocating_;
+  Locks locks_;
   RequestDetails requests_{reporter_};
   int signal_ = 0; ///< received before there was a session
   std::unique_ptr<fleet::Session> session_;
-  bool inquires_ = false;
-  bool waits_for_return_ = false;
-  bool plays_at_pace_ = false;
-  can::Slcan* adapter_ = nullptr;           ///< the session's bus, with -i slcan:
-  const can::ReplayBus* log_ = nullptr;     ///< the session's bus, with -i replay:
-  can::PacedReplay* pace_ = nullptr;        ///< around it, with play_at_pace()
-  const can::Recorder* recorder_ = nullptr; ///< around the session's bus, with --record
+  Layers layers_;
 };
 
 } // namespace blactl::cli

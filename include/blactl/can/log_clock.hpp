@@ -4,7 +4,6 @@
 #include "blactl/base/time.hpp"
 #include "blactl/can/candump.hpp"
 
-
 namespace blactl::can {
 
 /// The bus clock begins at 0 with the first line that has a stamp. A stamp before the last one

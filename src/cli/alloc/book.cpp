@@ -7,6 +7,7 @@
 #include "cli/alloc/actions.hpp"
 #include "cli/alloc/texts.hpp"
 #include "cli/output/table.hpp"
+#include "cli/stores.hpp"
 
 #include <memory>
 #include <utility>
@@ -27,7 +28,7 @@ Report failed(Error error) {
 }
 
 Result<Entries> entries_of(Context& context) {
-  const auto store = context.allocations(AllocationStore::Access::read);
+  const auto store = open_allocations(context.shared().interface, AllocationStore::Access::read);
   return store ? store->entries() : std::unexpected(store.error());
 }
 
@@ -79,7 +80,7 @@ Report forget_units(const std::vector<std::string>& units, Context& context) {
   if (!report.errors.empty()) {
     return report;
   }
-  auto store = context.allocations(AllocationStore::Access::write);
+  auto store = open_allocations(context.shared().interface, AllocationStore::Access::write);
   if (!store) {
     return failed(std::move(store.error()));
   }
@@ -123,7 +124,7 @@ Report import_allocations(const std::string& file, Context& context) {
   if (!wishes) {
     return failed(wishes.error());
   }
-  auto store = context.allocations(AllocationStore::Access::write);
+  auto store = open_allocations(context.shared().interface, AllocationStore::Access::write);
   if (!store) {
     return failed(std::move(store.error()));
   }

@@ -4,6 +4,7 @@
 #include "cli/alloc/texts.hpp"
 #include "cli/alloc/view.hpp"
 #include "cli/change/run.hpp"
+#include "cli/stores.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -122,7 +123,7 @@ Report make_static(const AllocOptions& options, Context& context) {
   if (!report.errors.empty()) {
     return report;
   }
-  auto table = context.allocations(AllocationStore::Access::write);
+  auto table = open_allocations(context.shared().interface, AllocationStore::Access::write);
   if (!table) {
     report.fail(table.error());
     return report;

@@ -7,6 +7,7 @@
 #include "cli/alloc/view.hpp"
 #include "cli/interface/scheme.hpp"
 #include "cli/output/progress_view.hpp"
+#include "cli/stores.hpp"
 #include "cli/texts.hpp"
 #include "cli/trace/time.hpp"
 
@@ -267,7 +268,7 @@ Report serve_allocations(const AllocOptions& options, Context& context) {
   if (!report.errors.empty()) {
     return report;
   }
-  auto store = context.allocations(AllocationStore::Access::write);
+  auto store = open_allocations(context.shared().interface, AllocationStore::Access::write);
   if (!store) {
     report.fail(store.error());
     return report;

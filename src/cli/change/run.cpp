@@ -7,6 +7,7 @@
 #include "cli/change/event_file.hpp"
 #include "cli/change/texts.hpp"
 #include "cli/change/watch.hpp"
+#include "cli/stores.hpp"
 #include "cli/texts.hpp"
 
 #include <algorithm>
@@ -113,7 +114,7 @@ bool Run::check_table() {
   if (request_.search != Search::everybody) {
     return true;
   }
-  const auto table = context_.allocations(state::Access::write);
+  const auto table = open_allocations(context_.shared().interface, state::Access::write);
   auto refused = table ? std::nullopt : go_without_table(table.error());
   return !refused || stop(std::move(*refused));
 }
@@ -154,7 +155,7 @@ bool Run::let_in() {
     const auto done = request_.let_in();
     return done || broken(done.error());
   }
-  auto table = context_.allocations(state::Access::write);
+  auto table = open_allocations(context_.shared().interface, state::Access::write);
   if (!table) {
     context_.reporter().note(say<texts::ids_not_kept>(table.error().message));
     table = state::AllocationStore::unshared();

@@ -7,6 +7,7 @@
 #include "cli/confirm.hpp"
 #include "cli/interface/scheme.hpp"
 #include "cli/output/progress_view.hpp"
+#include "cli/stores.hpp"
 #include "cli/texts.hpp"
 #include "cli/undo_texts.hpp"
 
@@ -53,7 +54,8 @@ bool WritingRun::open_record(std::string_view command) {
     return true;
   }
   const bool writes = recording_ != Recording::looked_up;
-  auto history = context_.history(command, writes ? state::Access::write : state::Access::read);
+  auto history = open_history(context_.shared().interface, command,
+                              writes ? state::Access::write : state::Access::read);
   if (history) {
     history_ = std::move(*history);
     return true;
@@ -167,7 +169,11 @@ fleet::Manner WritingRun::manner(const RestartTimes& times, bool restarts) {
       .come_back = times.wait,
       .while_driven = context_.shared().while_driven,
       .may_allocate = restarts && context_.may_allocate(),
-      .allocations = [this] { return context_.allocations(state::AllocationStore::Access::write); },
+      .allocations =
+          [this] {
+            return open_allocations(context_.shared().interface,
+                                    state::AllocationStore::Access::write);
+          },
       .not_kept = [this](const Error& reason) { return go_without_table(reason); },
       .progress =
           [this](const fleet::Progress& progress) { context_.reporter().progress(text(progress)); },

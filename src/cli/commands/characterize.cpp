@@ -7,6 +7,7 @@
 #include "cli/change/writing_run.hpp"
 #include "cli/commands.hpp"
 #include "cli/output/characterize_view.hpp"
+#include "cli/stores.hpp"
 #include "cli/texts.hpp"
 
 #include <algorithm>
@@ -106,7 +107,11 @@ void Characterize::measure() {
       .identification = context_.identification(),
       .while_driven = context_.shared().while_driven,
       .may_allocate = context_.may_allocate(),
-      .allocations = [this] { return context_.allocations(state::AllocationStore::Access::write); },
+      .allocations =
+          [this] {
+            return open_allocations(context_.shared().interface,
+                                    state::AllocationStore::Access::write);
+          },
       .progress = [&reporter](const std::string& stage) { reporter.progress(stage); },
       .putting_back = [tell_once] { (*tell_once)(); }};
   conclude(fleet::characterize(context_.session(), context_.known(), before_, manner));

@@ -10,6 +10,7 @@
 #include "cli/change/texts.hpp"
 #include "cli/commands.hpp"
 #include "cli/output/snapshots_view.hpp"
+#include "cli/stores.hpp"
 #include "cli/undo_texts.hpp"
 
 #include <algorithm>
@@ -166,7 +167,7 @@ void Undo::forget_what_never_was(std::span<const fleet::GoalResult> results) {
   if (settlements.empty()) {
     return;
   }
-  if (auto store = context_.snapshots(state::Access::write)) {
+  if (auto store = open_snapshots(context_.shared().interface, state::Access::write)) {
     // on failure it is found again the next time
     [[maybe_unused]] const auto settled = store->settle(settlements);
   }
@@ -193,7 +194,7 @@ Report failure(Error error) {
 }
 
 Report execute(const UndoOptions& options, Context& context) {
-  const auto store = context.snapshots(state::Access::read);
+  const auto store = open_snapshots(context.shared().interface, state::Access::read);
   if (!store) {
     return failure(store.error());
   }

@@ -8,6 +8,7 @@
 #include "cli/doctor/texts.hpp"
 #include "cli/interface/meant_link.hpp"
 #include "cli/output/progress_view.hpp"
+#include "cli/stores.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -35,7 +36,9 @@ Diagnosis as_diagnosis(const Error& error, Level level) {
 void examine_state(const Context& context, Examination& examination) {
   if (const auto writable = state::check_state_folder(state::state_folder()); !writable) {
     examination.diagnoses.push_back(as_diagnosis(writable.error(), Level::warning));
-  } else if (const auto table = context.allocations(state::AllocationStore::Access::read); !table) {
+  } else if (const auto table =
+                 open_allocations(context.shared().interface, state::AllocationStore::Access::read);
+             !table) {
     examination.diagnoses.push_back(as_diagnosis(table.error(), Level::failure));
   }
 }

@@ -1,7 +1,6 @@
 #pragma once
 // Names of data types as shown and typed.
 
-
 #include <cstdint>
 #include <string>
 #include <string_view>

@@ -1,0 +1,27 @@
+#pragma once
+// The stores for the servos behind an interface (contract, section 6): those of this user;
+// simulated servos, which would fill them, have some of their own, and a private simulation has
+// them in memory.
+
+#include "blactl/base/error.hpp"
+#include "blactl/fleet/change/history.hpp"
+#include "blactl/state/allocation_store.hpp"
+#include "blactl/state/snapshot_store.hpp"
+
+#include <string_view>
+
+namespace blactl::cli {
+
+/// The allocation table. Errors: as AllocationStore::open().
+[[nodiscard]] Result<state::AllocationStore> open_allocations(std::string_view interface,
+                                                              state::Access access);
+
+/// The record of what `command` changes. Errors: as SnapshotStore::open().
+[[nodiscard]] Result<fleet::History> open_history(std::string_view interface,
+                                                  std::string_view command, state::Access access);
+
+/// The changes that were recorded. Errors: as SnapshotStore::open().
+[[nodiscard]] Result<state::SnapshotStore> open_snapshots(std::string_view interface,
+                                                          state::Access access);
+
+} // namespace blactl::cli
