@@ -1,7 +1,7 @@
 #include "cli/change/run.hpp"
 
 #include "blactl/fleet/bus/discovery.hpp"
-#include "blactl/fleet/change/let_in.hpp"
+#include "blactl/fleet/change/allocation_service.hpp"
 
 #include "cli/change/entries_view.hpp"
 #include "cli/change/event_file.hpp"

@@ -20,20 +20,18 @@ Step EraseJob::next(const Outcome& outcome) {
   case At::unit: {
     const auto info =
         outcome.answered() ? GetNodeInfo::Response::decode(outcome.payload) : std::nullopt;
+    const bool is_same = info && info->unique_id == servo_.unique_id;
     if (roster_.is_doubled(servo_.id)) {
       error_ = doubled(roster_, servo_.id);
-      return std::nullopt;
-    }
-    if (!info) {
+    } else if (!info) {
       error_ = no_answer(outcome, servo_.id, "GetNodeInfo");
-      return std::nullopt;
-    }
-    const bool is_same = info->unique_id == servo_.unique_id;
-    if (!is_same || roster_.member(servo_.id).boots != servo_.boot) {
+    } else if (!is_same || roster_.member(servo_.id).boots != servo_.boot) {
       error_ =
           Error{Code::state,
                 is_same ? say<texts::restarted_before_erase>(id) : say<texts::another_servo>(id),
                 say<texts::run_again_hint>(), id};
+    }
+    if (error_) {
       return std::nullopt;
     }
     at_ = At::request;

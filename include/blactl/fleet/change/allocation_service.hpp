@@ -11,6 +11,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <span>
 
 namespace blactl::fleet {
 
@@ -135,5 +136,18 @@ class AllocationService final : private dronecan::Service, private dronecan::All
   std::map<UniqueIdPrefix, Time> first_parts_; ///< of requests, with the last time heard
   bool bus_is_known_ = false;
 };
+
+/// Allocates IDs from the table to units that ask, and waits until none asks any more. Not if
+/// another allocator is heard. Errors: those that end a session.
+[[nodiscard]] Result<void> let_in(Session& session, state::AllocationStore& table);
+
+/// The reasons why units have no node ID though they asked for one.
+using NotLetIn = std::map<dronecan::UniqueId, Error>;
+
+/// Allocates only to missing units with a wish: each gets its wanted ID for the time being. Waits
+/// until they are there; the caller judges those still missing. Errors: those that end a session,
+/// and those of the table.
+[[nodiscard]] Result<NotLetIn> let_in(Session& session, state::AllocationStore& table,
+                                      std::span<const state::AllocationStore::Wish> wishes);
 
 } // namespace blactl::fleet
