@@ -100,7 +100,6 @@ void CandumpReader::count_bad() {
   }
 }
 
-/// The next line without its line end.
 std::optional<std::string_view> CandumpReader::take_line() {
   while (!ended_) {
     const std::string_view unread(buffer_.data() + begin_, end_ - begin_);

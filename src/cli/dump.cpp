@@ -1,9 +1,8 @@
-#include "cli/dump.hpp"
-
 #include "blactl/base/json_writer.hpp"
 #include "blactl/bla/cross_check.hpp"
 
 #include "cli/commands.hpp"
+#include "cli/help.hpp"
 #include "cli/interface/scheme.hpp"
 
 #include <array>

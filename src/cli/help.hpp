@@ -16,4 +16,9 @@ namespace blactl::cli {
 /// less than 40.
 [[nodiscard]] std::string help(const Command* command, std::size_t width);
 
+/// The command table as JSON, from which completions and manual are generated:
+/// `{"schema":"blactl-cli/1","version",…,"options":[…],"commands":[…]}`, texts in both languages;
+/// ends with a line break, without hidden options.
+[[nodiscard]] std::string dump_cli();
+
 } // namespace blactl::cli

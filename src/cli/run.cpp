@@ -2,7 +2,6 @@
 
 #include "cli/command_line.hpp"
 #include "cli/context.hpp"
-#include "cli/dump.hpp"
 #include "cli/help.hpp"
 #include "cli/output/reporter.hpp"
 #include "cli/texts.hpp"

@@ -70,7 +70,6 @@ struct Session {
   TransferId expected = 0;
   bool toggle = false;
 
-  // The transfer in progress.
   bool pending = false;
   bool single = false; ///< single-frame transfer: no CRC, the buffer stays unused
   Trust trust = Trust::whole;

@@ -4,12 +4,12 @@
 #include "blactl/fleet/change/guard.hpp"
 #include "blactl/fleet/characterize/findings.hpp"
 
+#include "cli/change/texts.hpp"
 #include "cli/confirm.hpp"
 #include "cli/interface/scheme.hpp"
 #include "cli/output/progress_view.hpp"
 #include "cli/stores.hpp"
 #include "cli/texts.hpp"
-#include "cli/undo_texts.hpp"
 
 #include <utility>
 

@@ -1,7 +1,7 @@
 // blactl characterize: measures on one servo what the specification leaves open.
 
 #include "blactl/base/replace_file.hpp"
-#include "blactl/fleet/bus/snapshots.hpp"
+#include "blactl/fleet/bus/read_job.hpp"
 #include "blactl/fleet/characterize/characterization.hpp"
 
 #include "cli/change/writing_run.hpp"

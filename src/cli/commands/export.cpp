@@ -1,7 +1,7 @@
 // blactl export: the configuration of servos as a file for apply.
 
 #include "blactl/base/replace_file.hpp"
-#include "blactl/fleet/bus/snapshots.hpp"
+#include "blactl/fleet/bus/read_job.hpp"
 #include "blactl/fleet/bus/unreachable.hpp"
 #include "blactl/fleet/files/fleet_file.hpp"
 #include "blactl/fleet/files/params_file.hpp"

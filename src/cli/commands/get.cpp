@@ -1,7 +1,7 @@
 // blactl get: reads parameters.
 
+#include "blactl/fleet/bus/read_job.hpp"
 #include "blactl/fleet/bus/register_choice.hpp"
-#include "blactl/fleet/bus/snapshots.hpp"
 #include "blactl/fleet/bus/unreachable.hpp"
 
 #include "cli/commands.hpp"
@@ -81,7 +81,6 @@ void tell_unknown_defaults(const GetOptions& options, const fleet::Servo& servo,
   }
 }
 
-/// The errors of one servo.
 std::vector<Error> errors(const fleet::Snapshot& snapshot, const fleet::RegisterChoice& choice,
                           const fleet::Roster& roster) {
   const bool is_begun = snapshot.servo.is_servo;

@@ -3,7 +3,7 @@
 #include "blactl/base/replace_file.hpp"
 #include "blactl/bla/assignment.hpp"
 #include "blactl/bla/pwm_mapping.hpp"
-#include "blactl/fleet/bus/snapshots.hpp"
+#include "blactl/fleet/bus/read_job.hpp"
 #include "blactl/fleet/bus/unreachable.hpp"
 
 #include "cli/change/run.hpp"

@@ -11,7 +11,6 @@
 #include "cli/commands.hpp"
 #include "cli/output/snapshots_view.hpp"
 #include "cli/stores.hpp"
-#include "cli/undo_texts.hpp"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,7 +1,7 @@
 #include "cli/doctor/examination.hpp"
 
 #include "blactl/fleet/bus/discovery.hpp"
-#include "blactl/fleet/bus/snapshots.hpp"
+#include "blactl/fleet/bus/read_job.hpp"
 #include "blactl/fleet/bus/ticker.hpp"
 #include "blactl/state/state_folder.hpp"
 

@@ -2,8 +2,8 @@
 
 #include "blactl/base/replace_file.hpp"
 #include "blactl/base/rfc3339.hpp"
+#include "blactl/fleet/bus/read_job.hpp"
 #include "blactl/fleet/bus/register_choice.hpp"
-#include "blactl/fleet/bus/snapshots.hpp"
 #include "blactl/fleet/live/fault_job.hpp"
 
 #include "cli/alloc/actions.hpp"

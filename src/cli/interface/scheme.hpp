@@ -7,11 +7,11 @@
 #include "blactl/base/text.hpp"
 #include "blactl/can/replay_texts.hpp"
 
-#include "cli/interface/mcast_name.hpp"
 #include "cli/interface/slcan_name.hpp"
 #include "cli/texts.hpp"
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -29,6 +29,15 @@ struct OpenRequest;
 [[nodiscard]] Result<OpenBus> open_scenario(const OpenRequest& request);
 [[nodiscard]] Result<OpenBus> open_log(const OpenRequest& request);
 [[nodiscard]] Result<OpenBus> open_fleet_file(const OpenRequest& request);
+
+/// `-i mcast:` (contract, section 2): N[?if=IFACE].
+struct McastName {
+  std::uint8_t bus_number = 0;
+  std::string link{}; ///< the network interface; empty: whichever the machine would take
+};
+
+/// "0?if=lo". The number alone is enough, and so is nothing: bus 0. Errors: usage.
+[[nodiscard]] Result<McastName> parse_mcast(std::string_view text);
 
 /// What stands behind a name, as far as commands care.
 enum class Behind : unsigned char {

@@ -19,7 +19,6 @@ using fleet::LiveField;
 using fleet::LiveServo;
 using Points = std::vector<MonitorHistory::Point>;
 
-/// The scale in front of a graph.
 constexpr std::size_t scale_width = 12;
 
 /// The least height of a graph: a title, and some lines.

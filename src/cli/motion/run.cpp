@@ -1,7 +1,7 @@
 #include "cli/motion/run.hpp"
 
 #include "blactl/base/replace_file.hpp"
-#include "blactl/fleet/bus/snapshots.hpp"
+#include "blactl/fleet/bus/read_job.hpp"
 #include "blactl/fleet/bus/unreachable.hpp"
 
 #include "cli/motion/sample.hpp"

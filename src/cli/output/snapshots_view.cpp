@@ -4,8 +4,8 @@
 #include "blactl/base/rfc3339.hpp"
 #include "blactl/base/text.hpp"
 
+#include "cli/change/texts.hpp"
 #include "cli/output/table.hpp"
-#include "cli/undo_texts.hpp"
 
 namespace blactl::cli {
 

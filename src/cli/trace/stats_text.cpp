@@ -111,7 +111,6 @@ std::string table_text(const BusStatistics& bus, const Page& page) {
   return table.text("", page);
 }
 
-/// The text below the table of a bus.
 std::string bus_text(const TraceStats::Bus& bus) {
   const BusStatistics& all = bus.statistics;
   const auto time = all.load().duration();

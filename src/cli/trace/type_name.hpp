@@ -1,6 +1,8 @@
 #pragma once
 // Names of data types as shown and typed.
 
+#include "blactl/dronecan/types.hpp"
+
 #include <cstdint>
 #include <string>
 #include <string_view>

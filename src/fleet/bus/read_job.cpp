@@ -5,6 +5,7 @@
 #include "blactl/fleet/bus/unreachable.hpp"
 
 #include <algorithm>
+#include <list>
 #include <utility>
 
 namespace blactl::fleet {
@@ -210,6 +211,30 @@ Step ReadJob::give_up(Error error) {
   snapshot_.error = std::move(error);
   snapshot_.readings.clear();
   return std::nullopt;
+}
+
+Snapshots take_snapshots(Session& session, const bla::Profiles& profiles,
+                         std::span<const dronecan::NodeId> servos,
+                         const Identification::Options& options, const ReadJob::Choice& choice,
+                         ReadJob::Proof proof, const ReadJob::More& more) {
+  if (session.is_replay()) {
+    proof = ReadJob::Proof::none;
+  }
+  std::list<ReadJob> jobs;
+  std::vector<dronecan::Job*> group;
+  for (const dronecan::NodeId id : servos) {
+    group.push_back(
+        &jobs.emplace_back(session.records(), id, profiles, options, choice, proof, more));
+  }
+  const auto ran = session.run(group);
+  Snapshots snapshots;
+  for (const ReadJob& job : jobs) {
+    snapshots.servos.push_back(job.snapshot());
+  }
+  if (!ran) {
+    snapshots.broken = ran.error();
+  }
+  return snapshots;
 }
 
 } // namespace blactl::fleet

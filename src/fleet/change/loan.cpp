@@ -2,7 +2,7 @@
 
 #include "blactl/bla/assignment.hpp"
 #include "blactl/bla/value.hpp"
-#include "blactl/fleet/bus/snapshots.hpp"
+#include "blactl/fleet/bus/read_job.hpp"
 #include "blactl/fleet/bus/texts.hpp"
 #include "blactl/fleet/change/history.hpp"
 

@@ -3,7 +3,7 @@
 #include "blactl/base/hex.hpp"
 #include "blactl/bla/assignment.hpp"
 #include "blactl/fleet/bus/discovery.hpp"
-#include "blactl/fleet/bus/snapshots.hpp"
+#include "blactl/fleet/bus/read_job.hpp"
 #include "blactl/fleet/bus/texts.hpp"
 #include "blactl/fleet/bus/unreachable.hpp"
 #include "blactl/fleet/change/guard.hpp"

@@ -2,7 +2,7 @@
 
 #include "blactl/base/hex.hpp"
 #include "blactl/fleet/bus/conflict_texts.hpp"
-#include "blactl/fleet/bus/snapshots.hpp"
+#include "blactl/fleet/bus/read_job.hpp"
 
 #include <algorithm>
 #include <list>

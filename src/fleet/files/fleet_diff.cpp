@@ -1,7 +1,7 @@
 #include "blactl/fleet/files/fleet_diff.hpp"
 
+#include "blactl/fleet/bus/read_job.hpp"
 #include "blactl/fleet/bus/register_choice.hpp"
-#include "blactl/fleet/bus/snapshots.hpp"
 #include "blactl/fleet/bus/unreachable.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "blactl/fleet/motion/motion_run.hpp"
 
-#include "blactl/fleet/bus/snapshots.hpp"
+#include "blactl/fleet/bus/read_job.hpp"
 #include "blactl/fleet/change/guard.hpp"
 
 #include "fleet/motion/motion_texts.hpp"

@@ -2,8 +2,7 @@
 
 #include "blactl/can/simbus_texts.hpp"
 
-#include "sim/bus/backlog.hpp"
-#include "sim/bus/filter.hpp"
+#include "sim/bus/client.hpp"
 
 #include <algorithm>
 #include <chrono>

@@ -1,7 +1,6 @@
 #include "sim/bus/server_client.hpp"
 
-#include "sim/bus/backlog.hpp"
-#include "sim/bus/filter.hpp"
+#include "sim/bus/client.hpp"
 
 #include <sys/socket.h>
 #include <unistd.h>

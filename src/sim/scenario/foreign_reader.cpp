@@ -47,7 +47,6 @@ constexpr Members<ForeignSetup> every_kind{
     {"armed", to<&ForeignSetup::armed>},
 };
 
-// The keys of one kind alone.
 constexpr Members<GnssSetup> gnss{{"rate", rate<&GnssSetup::period, 50>}};
 constexpr Members<EscSetup> esc{
     {"index", integer<&EscSetup::index, 0, 31>},

@@ -3,7 +3,6 @@
 
 #include "catch.hpp"
 #include "cli/interface/bus_factory.hpp"
-#include "cli/interface/mcast_name.hpp"
 #include "cli/interface/scheme.hpp"
 #include "unit/bla/built_in.hpp"
 

@@ -2,7 +2,7 @@
 
 #include "blactl/dronecan/service.hpp"
 #include "blactl/fleet/bus/discovery.hpp"
-#include "blactl/fleet/bus/snapshots.hpp"
+#include "blactl/fleet/bus/read_job.hpp"
 #include "blactl/fleet/change/carry_out.hpp"
 
 #include "support.hpp"

@@ -3,7 +3,7 @@
 
 #include "blactl/dronecan/allocator.hpp"
 #include "blactl/fleet/bus/discovery.hpp"
-#include "blactl/fleet/bus/snapshots.hpp"
+#include "blactl/fleet/bus/read_job.hpp"
 #include "blactl/fleet/change/carry_out.hpp"
 #include "blactl/fleet/characterize/characterization.hpp"
 #include "blactl/sim/scenario/facts.hpp"

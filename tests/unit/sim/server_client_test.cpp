@@ -1,4 +1,4 @@
-#include "sim/bus/backlog.hpp"
+#include "sim/bus/client.hpp"
 #include "sim/bus/server_client.hpp"
 #include "unit/sim/support.hpp"
 

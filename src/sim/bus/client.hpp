@@ -1,9 +1,10 @@
 #pragma once
-// A client's receive filter, applied as the kernel would.
+// The kernel's part for a client of the simulated bus: its receive filter, and its backlog.
 
 #include "blactl/can/bus.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <span>
 
 namespace blactl::sim {
@@ -14,5 +15,11 @@ namespace blactl::sim {
            return frame.extended && !frame.remote && ((frame.id ^ filter.id) & filter.mask) == 0;
          });
 }
+
+/// Frames kept for a client while it does not run, in addition to those in its socket: as many as
+/// can::SocketCan asks the kernel for, 2.5 s of a full bus. Further frames are lost, and reported
+/// as such. The socket alone holds some 280, 37 ms: on a busy machine a process may wait longer
+/// than that.
+constexpr std::size_t backlog_capacity = 20'000;
 
 } // namespace blactl::sim
