@@ -351,7 +351,7 @@ TEST_CASE("wait waits for nothing that is recorded, and tells a mute servo from 
 
 TEST_CASE("erase --save that breaks off before SAVE is done with no servo") {
   int broken = 0;
-  for (int at_ms = 1100; at_ms < 1400; at_ms += 3) {
+  for (int at_ms = 2100; at_ms < 2400; at_ms += 3) {
     const Bench bench;
     const std::string scenario = bench.file(
         "s.json", R"({"schema":"blactl-scenario/1","clock":"virtual","servos":[)"
