@@ -67,10 +67,12 @@ Error doubled(const Roster& roster, dronecan::NodeId id) {
 
 Error silent(const Roster& roster, dronecan::NodeId node) {
   const std::uint8_t id = node.value();
-  return roster.heard(node) && roster.member(node).id_is_known
-             ? Error{Code::timeout, say<texts::node_mute>(id), say<texts::no_answer_hint>(), id}
-             : Error{Code::not_found, say<texts::node_not_found>(id),
-                     say<texts::node_not_found_hint>(), id};
+  const Member member = roster.member(node);
+  if (!roster.heard(node) || !member.id_is_known) {
+    return {Code::not_found, say<texts::node_not_found>(id), say<texts::node_not_found_hint>(), id};
+  }
+  return {Code::timeout, member.info ? say<texts::node_gone>(id) : say<texts::node_mute>(id),
+          say<texts::no_answer_hint>(), id};
 }
 
 } // namespace blactl::fleet

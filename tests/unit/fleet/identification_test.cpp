@@ -193,6 +193,15 @@ TEST_CASE(
     dialogue.pass_registers();
     CHECK(dialogue.identification.servo().is_young);
   }
+  SECTION("one that goes while it is waited for has gone, and is not just mute") {
+    hear_node(dialogue.roster);
+    dialogue.roster.learn(NodeId(11), GetNodeInfo::Response{.unique_id = {1}}, Time{});
+    CHECK(dialogue.next(told(0, 100ms)) == "pause");
+    CHECK(dialogue.next(Script::start()) == "GetNodeInfo");
+    CHECK(dialogue.next(Script::timed_out()) == "nothing");
+    REQUIRE(dialogue.identification.error());
+    CHECK(dialogue.identification.error()->message == "node 11 does not answer any more");
+  }
   SECTION("the wait can be cancelled") {
     CHECK(dialogue.next(told(0, 100ms)) == "pause");
     CHECK(dialogue.next(Script::cancelled()) == "nothing");
