@@ -90,7 +90,6 @@ void write(JsonWriter& json, const Scheme& scheme) {
   json.begin_object();
   json.member("name", scheme.name);
   json.member("operand", operands[static_cast<std::size_t>(scheme.operand)]);
-  json.member("form", scheme.form);
   json.member("example", scheme.example);
   json.end_object();
 }

@@ -55,10 +55,10 @@ enum class Operand : unsigned char { link, serial_port, file, other };
 /// One kind of interface.
 struct Scheme {
   std::string_view name; ///< before the colon
-  Behind behind;
-  Operand operand;
-  std::string_view form;    ///< for the help of -i
-  std::string_view example; ///< for hints
+  Behind behind = Behind::bus;
+  Operand operand = Operand::file;
+  std::string_view form;           ///< for the help of -i
+  std::string_view example = form; ///< for hints
   /// Of files of this kind. Of two schemes of one name, that of the ending is meant.
   std::string_view ending{};
   bool may_be_bare = true; ///< nothing need stand behind the colon
@@ -98,11 +98,9 @@ inline constexpr std::array schemes{
            .behind = Behind::link,
            .operand = Operand::link,
            .form = "can0",
-           .example = "can0",
            .may_be_bare = false,
            .open = open_socketcan},
     Scheme{.name = "slcan",
-           .behind = Behind::bus,
            .operand = Operand::serial_port,
            .form = "slcan:DEV",
            .example = "slcan:/dev/ttyUSB0",
@@ -110,7 +108,6 @@ inline constexpr std::array schemes{
            .check = parsed_by<parse_slcan>,
            .silence = about_bus<texts::silent_slcan_hint>},
     Scheme{.name = "mcast",
-           .behind = Behind::bus,
            .operand = Operand::other,
            .form = "mcast:N",
            .example = "mcast:0",
@@ -119,24 +116,18 @@ inline constexpr std::array schemes{
            .silence = about_bus<texts::silent_mcast_hint>},
     Scheme{.name = "sim",
            .behind = Behind::simulator,
-           .operand = Operand::file,
            .form = "sim:",
-           .example = "sim:",
            .open = open_simulator,
            .silence = about_simulator},
     Scheme{.name = "sim",
            .behind = Behind::scenario,
-           .operand = Operand::file,
            .form = "sim:SCENARIO.json",
-           .example = "sim:SCENARIO.json",
            .ending = ".json",
            .open = open_scenario,
            .silence = about_rest<texts::silent_scenario_hint>},
     Scheme{.name = "replay",
            .behind = Behind::log,
-           .operand = Operand::file,
            .form = "replay:FILE",
-           .example = "replay:FILE",
            .ending = ".log",
            .may_be_bare = false,
            .open = open_log,
@@ -144,9 +135,7 @@ inline constexpr std::array schemes{
            .silence = about_rest<texts::silent_log_hint>},
     Scheme{.name = "file",
            .behind = Behind::fleet_file,
-           .operand = Operand::file,
            .form = "file:FLEET.json",
-           .example = "file:FLEET.json",
            .may_be_bare = false,
            .open = open_fleet_file,
            .refusal = about<texts::file_takes_no_frames>,
