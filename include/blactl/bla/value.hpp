@@ -46,8 +46,8 @@ struct TypedValue {
 [[nodiscard]] std::string_view unit_text(const Parameter& parameter,
                                          std::optional<std::int64_t> pwm_mode = std::nullopt);
 
-/// The text, by name, that parses to exactly this value: "90.0deg", "brake", "1520us", "40"; for
-/// 0x36 without `pwm_mode` "700raw".
+/// The text, by name, that parses to exactly this value of a writable register: "90.0deg", "brake",
+/// "1520us", "40"; for 0x36 without `pwm_mode` "700raw".
 [[nodiscard]] std::string input_text(const Parameter& parameter, std::int64_t raw,
                                      std::optional<std::int64_t> pwm_mode = std::nullopt);
 
