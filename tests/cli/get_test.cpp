@@ -439,7 +439,7 @@ TEST_CASE("Ctrl-C: a servo that was not read completely is not shown, and is an 
       "servos": [{"model": "BLA21-12U-AB", "node_id": 11, "answer_delay": "50ms"}]})");
   Background sim(bench, {"sim", file, "--json"});
   Background get(bench, {"-i", "sim:", "get", "-n", "11", "-j", "-v"}, {}, "own node ID");
-  std::this_thread::sleep_for(std::chrono::milliseconds(1500)); // it is being read
+  std::this_thread::sleep_for(std::chrono::milliseconds(2500)); // it is being read
   const Result ended = get.stop(SIGINT);
   CHECK(ended.status == 130);
   const auto document = json(ended.out);
