@@ -13,6 +13,7 @@
 // the simulator does not use it. (schemas/facts.schema.json)
 
 #include "blactl/base/error.hpp"
+#include "blactl/sim/servo/behaviour.hpp"
 
 #include <filesystem>
 #include <string>
