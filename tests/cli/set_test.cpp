@@ -357,8 +357,9 @@ TEST_CASE("nothing at all is written while the vehicle is armed") {
   Tap tap(bench);
   const Result result =
       bench.run({"-i", "sim:", "set", "-n", "11", "smoothing=off", "--yes", "--while-driven"});
-  check_error(result, 9, "armed",
-              "node 40 says that the vehicle is armed: nothing is written while it is\n  disarm it first");
+  check_error(
+      result, 9, "armed",
+      "node 40 says that the vehicle is armed: nothing is written while it is\n  disarm it first");
   CHECK(tap.writes().empty());
   CHECK(bench.run({"-i", "sim:", "get", "-n", "11", "smoothing"}).status == 0);
 }

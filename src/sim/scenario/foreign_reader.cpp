@@ -27,7 +27,7 @@ void read_servo_ids(json::Object& object, std::string_view key, CommanderSetup& 
   }
 }
 
-constexpr Members<CommanderSetup> commander{
+constexpr Member<CommanderSetup> commander[]{
     {"servo_ids", read_servo_ids},
     {"type", to<&CommanderSetup::type>},
     {"value", number<&CommanderSetup::value, -max_float16, max_float16>},
@@ -41,19 +41,19 @@ void read_commander(json::Object& object, std::string_view key, ForeignSetup& in
   }
 }
 
-constexpr Members<ForeignSetup> every_kind{
+constexpr Member<ForeignSetup> every_kind[]{
     {"serves_get_set", to<&ForeignSetup::serves_get_set>},
     {"commands", read_commander},
     {"armed", to<&ForeignSetup::armed>},
 };
 
-constexpr Members<GnssSetup> gnss{{"rate", rate<&GnssSetup::period, 50>}};
-constexpr Members<EscSetup> esc{
+constexpr Member<GnssSetup> gnss[]{{"rate", rate<&GnssSetup::period, 50>}};
+constexpr Member<EscSetup> esc[]{
     {"index", integer<&EscSetup::index, 0, 31>},
     {"rate", rate<&EscSetup::period, max_rate_hz>},
 };
-constexpr Members<AutopilotSetup> autopilot{{"allocates", to<&AutopilotSetup::allocates>}};
-constexpr Members<BabblerSetup> babbler{
+constexpr Member<AutopilotSetup> autopilot[]{{"allocates", to<&AutopilotSetup::allocates>}};
+constexpr Member<BabblerSetup> babbler[]{
     {"priority", integer<&BabblerSetup::priority, 0, 31>},
     {"load", number<&BabblerSetup::load, 0, 1>},
 };

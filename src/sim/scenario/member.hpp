@@ -1,7 +1,7 @@
 #pragma once
 // One key of a JSON object and the member of a struct that it is for: a table of them is a reader.
 //
-//   constexpr Members<Shaft> members{
+//   constexpr Member<Shaft> members[]{
 //       {"stuck", to<&Shaft::stuck>},
 //       {"delay", up_to_seconds<&Shaft::delay, 10>},
 //   };
@@ -15,8 +15,8 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
-#include <initializer_list>
 #include <limits>
+#include <span>
 #include <string_view>
 #include <type_traits>
 
@@ -28,8 +28,7 @@ template <class T> struct Member {
   void (*read)(json::Object& object, std::string_view key, T& into, json::Faults& faults);
 };
 
-/// A table: a constant of namespace scope.
-template <class T> using Members = std::initializer_list<Member<T>>;
+template <class T> using Members = std::span<const Member<std::type_identity_t<T>>>;
 
 /// Reads the keys of a table.
 template <class T>

@@ -18,7 +18,7 @@ namespace blactl::sim {
 inline constexpr std::int64_t longest_delay = 10, longest_absence = 600,
                               longest_between_bursts = 3600; // s
 
-inline constexpr Members<Behaviour> behaviour_members{
+inline constexpr Member<Behaviour> behaviour_members[]{
     {"out_of_range", word<&Behaviour::out_of_range, "refuse", "clamp", "fail">},
     {"reserved_reads", word<&Behaviour::reserved_reads, "fail", "zero">},
     {"gated_reads", word<&Behaviour::gated_reads, "fail", "zero">},
@@ -58,7 +58,7 @@ inline constexpr Members<Behaviour> behaviour_members{
     {"boot_time", up_to_seconds<&Behaviour::boot_time, longest_delay>},
 };
 
-inline constexpr Members<RestartAfterAnswer> restart_members{
+inline constexpr Member<RestartAfterAnswer> restart_members[]{
     {"to", word<&RestartAfterAnswer::to, "any", "node_info", "read", "write", "opcode", "restart">},
     {"number", integer<&RestartAfterAnswer::number, 1, std::numeric_limits<std::uint32_t>::max()>},
 };
@@ -71,7 +71,7 @@ inline void read_restarts(json::Object& object, std::string_view key, ServoFault
   }
 }
 
-inline constexpr Members<ServoFaults> servo_fault_members{
+inline constexpr Member<ServoFaults> servo_fault_members[]{
     {"lose_responses", to<&ServoFaults::lose_responses>},
     {"mute", to<&ServoFaults::mute>},
     {"no_node_status", to<&ServoFaults::no_node_status>},
@@ -88,14 +88,14 @@ inline constexpr Members<ServoFaults> servo_fault_members{
     {"return_delay", up_to_seconds<&ServoFaults::return_delay, longest_absence>},
 };
 
-inline constexpr Members<SendingFaults> sending_members{
+inline constexpr Member<SendingFaults> sending_members[]{
     {"jitter", up_to_seconds<&SendingFaults::jitter, longest_delay>},
     {"late_answers", number<&SendingFaults::late_answers, 0, 1>},
     {"late_by", up_to_seconds<&SendingFaults::late_by, longest_absence>},
     {"double_answers", number<&SendingFaults::double_answers, 0, 1>},
 };
 
-inline constexpr Members<WireFaults> wire_members{
+inline constexpr Member<WireFaults> wire_members[]{
     {"loss", number<&WireFaults::loss, 0, 1>},
     {"duplication", number<&WireFaults::duplication, 0, 1>},
     {"errors", number<&WireFaults::errors, 0, 1>},

@@ -14,7 +14,7 @@
 namespace blactl::sim {
 namespace {
 
-constexpr Members<Scenario> of_all{
+constexpr Member<Scenario> of_all[]{
     {"clock", word<&Scenario::clock, "real", "virtual">},
     {"seed", integer<&Scenario::seed, 0, json::highest>},
 };

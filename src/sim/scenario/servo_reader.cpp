@@ -24,7 +24,7 @@ constexpr std::int64_t max_uint8 = std::numeric_limits<std::uint8_t>::max();
 constexpr std::int64_t max_uint16 = std::numeric_limits<std::uint16_t>::max();
 constexpr std::int64_t max_uint32 = std::numeric_limits<std::uint32_t>::max();
 
-constexpr Members<ServoSetup> numbers{
+constexpr Member<ServoSetup> numbers[]{
     {"node_id", integer<&ServoSetup::node_id, 0, dronecan::NodeId::max>},
     {"serial_number", integer<&ServoSetup::serial_number, 0, max_uint32>},
     {"servo_id", integer<&ServoSetup::servo_id, 0, max_servo_id>},
