@@ -53,9 +53,9 @@ void CommandWatch::on_command(const Transfer& transfer) {
     return;
   }
   for (const auto& entry : command->commands) {
-    auto& command = commander(transfer.header.source).servo_ids[entry.actuator_id];
-    command.heard.hear(transfer.at);
-    command.type = entry.command_type;
+    auto& known = commander(transfer.header.source).servo_ids[entry.actuator_id];
+    known.heard.hear(transfer.at);
+    known.type = entry.command_type;
   }
 }
 
