@@ -66,8 +66,8 @@ Overrides read_overrides(json::Object parameters, Family& family, bool own, json
   Overrides overrides;
   for (const json::Value* item : parameters.members()) {
     const auto address = find_address(item->key);
-    if (own && has_key(*item, "name") &&
-        !(address && find(family.parameters, *address) != nullptr)) {
+    const bool known = address && find(family.parameters, *address) != nullptr;
+    if (own && has_key(*item, "name") && !known) {
       add_parameter(*item, family.parameters, faults);
     } else if (auto parameter = read_override(*item, family, faults)) {
       overrides.push_back(std::move(*parameter));

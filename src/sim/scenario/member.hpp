@@ -110,7 +110,8 @@ void to(json::Object& object, std::string_view key, Owner<member>& into, json::F
   if constexpr (std::is_integral_v<Value> && !std::is_same_v<Value, bool>) {
     integer<member, 0, std::numeric_limits<Value>::max()>(object, key, into, faults);
   } else if (const auto flag = object.optional_boolean(key)) {
-    into.*member = *flag;
+    const bool given = *flag;
+    into.*member = given;
   }
 }
 
