@@ -18,13 +18,13 @@ import tempfile
 RULES = {
     "sends SAVE": (
         r"opcode\s*=\s*ExecuteOpcode::save\b",
-        {"src/fleet/change/restart_job.cpp"}),
+        {"src/fleet/change/save_restart_job.cpp"}),
     "sends ERASE": (
         r"opcode\s*=\s*ExecuteOpcode::erase\b",
         {"src/fleet/change/erase_job.cpp"}),
     "sends a restart": (
         r"\bRestartNode::Request\b",
-        {"src/fleet/change/restart_job.cpp"}),
+        {"src/fleet/change/save_restart_job.cpp"}),
     "writes registers": (
         r"\bwrite_register\(",
         {"include/blactl/fleet/bus/register_access.hpp", "src/fleet/bus/register_access.cpp",
@@ -34,7 +34,7 @@ RULES = {
          # Measures on a bench, by one write() that asks the same guard.
          "src/fleet/characterize/test_bench.cpp"}),
     "runs a job that changes servos": (
-        r"\b(Write|Erase|Restart|Change)Job\b",
+        r"\b(Write|Erase|SaveRestart|Change)Job\b",
         {"include/blactl/fleet/change/", "src/fleet/change/",
          # The bench measures how servos start.
          "src/fleet/characterize/test_bench.hpp", "src/fleet/characterize/test_bench.cpp",
@@ -53,7 +53,7 @@ RULES = {
         r"(store|table)_?(\.|->)(enter|allocate)\(",
         {"src/fleet/change/allocation_service.cpp", "src/fleet/change/rounds.cpp",
          # What a person wishes or imports, before any servo is asked.
-         "src/cli/alloc/serve.cpp", "src/cli/alloc/book.cpp"}),
+         "src/cli/alloc/serve.cpp", "src/cli/alloc/allocation_table.cpp"}),
 }
 # Floors that meet servos as their users do. sim is the servo, dronecan does not know any.
 FLOORS = ("bla", "cli", "fleet", "state")
@@ -64,7 +64,7 @@ PLANTS = {
     "sends ERASE": "request.opcode = ExecuteOpcode::erase;",
     "sends a restart": "ask(id, RestartNode::type, RestartNode::Request{}.encode(), once);",
     "writes registers": "return write_register(servo.id, address, 900, patience);",
-    "runs a job that changes servos": "RestartJob job(roster, servo, {});",
+    "runs a job that changes servos": "SaveRestartJob job(roster, servo, {});",
     "carries plans out": "auto done = fleet::carry_out(session, profiles, plans, manner);",
     "decides by itself on who has armed the vehicle, or drives": "if (roster.armed_by(now)) {",
     "enters a node ID into the allocation table": "store->enter(wishes, wall);",

@@ -2,6 +2,7 @@
 
 #include "blactl/base/text.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 

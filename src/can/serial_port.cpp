@@ -3,7 +3,6 @@
 #include "blactl/base/system_error.hpp"
 #include "blactl/can/serial_adapters.hpp"
 
-#include "can/device_holder.hpp"
 #include "can/slcan_texts.hpp"
 
 #include <fcntl.h>
@@ -18,8 +17,12 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <charconv>
+#include <filesystem>
+#include <fstream>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <tuple>
 #include <utility>
 
@@ -39,6 +42,56 @@ constexpr std::array<Rate, 21> rates{{
     {2000000, B2000000}, {2500000, B2500000}, {3000000, B3000000}, {3500000, B3500000},
     {4000000, B4000000},
 }};
+
+namespace fs = std::filesystem;
+
+/// Calls `visit` with each entry until it returns true; false for a folder that cannot be read.
+template <class Visit> bool any_entry(const fs::path& folder, Visit visit) {
+  std::error_code error;
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    if (visit(it->path())) {
+      return true;
+    }
+  }
+  return false;
+}
+
+std::optional<pid_t> process_id(const std::string& text) {
+  pid_t pid = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, pid);
+  return error == std::errc() && stop == end ? std::optional(pid) : std::nullopt;
+}
+
+bool has_open(const fs::path& process, dev_t device) {
+  return any_entry(process / "fd", [device](const fs::path& link) {
+    struct stat status{};
+    return stat(link.c_str(), &status) == 0 && S_ISCHR(status.st_mode) && status.st_rdev == device;
+  });
+}
+
+struct DeviceHolder {
+  pid_t pid;
+  std::string name; ///< fit for a terminal
+};
+
+/// Another process that has the character device `device` open, as far as this user may see it
+/// (/proc/PID/fd).
+std::optional<DeviceHolder> device_holder(dev_t device) {
+  std::optional<DeviceHolder> holder;
+  any_entry("/proc", [&](const fs::path& process) {
+    const auto pid = process_id(process.filename().string());
+    if (!pid || *pid == getpid() || !has_open(process, device)) {
+      return false;
+    }
+    std::string name;
+    std::ifstream comm(process / "comm");
+    std::getline(comm, name);
+    holder = {*pid, printable(name)};
+    return true;
+  });
+  return holder;
+}
 
 /// A hint naming the ports that could be meant instead.
 std::string likely() {

@@ -86,7 +86,7 @@ TEST_CASE("set --save keeps it, and the range is that of the profile") {
 }
 
 TEST_CASE("erase sets its default, and save keeps that") {
-  const TwoSeries two({{"rom", {{"my_param", 3}}}});
+  const TwoSeries two(nlohmann::json{{"rom", {{"my_param", 3}}}});
   CHECK(two.fleet.ram("11", "my_param") == 3);
   CHECK(two.fleet.run({"erase", "--keep-ids", "--save", "-n", "11", "-y"}).status == 0);
   CHECK(two.fleet.rom("11", "my_param") == 7);
@@ -173,7 +173,7 @@ TEST_CASE("a file that names the model is checked against it without a bus") {
 }
 
 TEST_CASE("a recipe and a parameter file hold it") {
-  const TwoSeries two({{"rom", {{"0x47", 3}}}});
+  const TwoSeries two(nlohmann::json{{"rom", {{"0x47", 3}}}});
   CHECK(contains(two.fleet.run({"export", "-n", "11", "--recipe"}).out, "\"my_param\": 3"));
   const Result params = two.fleet.run({"export", "-n", "11", "--params"});
   CHECK(contains(params.out, "\n0x47 3\n"));

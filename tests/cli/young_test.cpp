@@ -4,6 +4,7 @@
 #include "scene.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <string>
 
 using namespace blactl::test;
@@ -45,6 +46,9 @@ Scene restarting() {
       .event(240900001, "watchdog_error", "900ms");
 }
 
+/// A hundred servos are much to simulate, for a build with sanitizers above all.
+const Options patient{.timeout = std::chrono::seconds(90)};
+
 } // namespace
 
 TEST_CASE("apply changes a whole fleet that has only just been switched on") {
@@ -52,14 +56,14 @@ TEST_CASE("apply changes a whole fleet that has only just been switched on") {
   CAPTURE(count);
   const Bench bench;
   const Result applied =
-      switched_on(count).run(bench, {"apply", settings(bench, count), "-y", "--json"});
+      switched_on(count).run(bench, {"apply", settings(bench, count), "-y", "--json"}, patient);
   INFO(applied.err);
   CHECK(applied.status == 0);
   CHECK(json(applied.out)["counts"]["changed"] == count);
 }
 
 TEST_CASE("get -n all reads 120 servos that have only just been switched on") {
-  const Result got = switched_on(120).run({"get", "-n", "all", "--json"});
+  const Result got = switched_on(120).run({"get", "-n", "all", "--json"}, patient);
   INFO(got.err);
   CHECK(got.status == 0);
   CHECK(json(got.out)["nodes"].size() == 120);
@@ -72,7 +76,7 @@ TEST_CASE("set --save and save keep what 120 servos hold that have only just bee
   if (std::string_view(command) == "set") {
     arguments.insert(arguments.end(), {"smoothing=off", "--save"});
   }
-  const Result saved = switched_on(120).run(arguments);
+  const Result saved = switched_on(120).run(arguments, patient);
   INFO(saved.err);
   CHECK(saved.status == 0);
 }

@@ -123,8 +123,8 @@ expect_err '[mismatch]'
 sim_end
 
 note "three processes at once: one writes, a second one that wants to is told who, others read"
-sim "$(at 11 '"faults":{"return_delay":"5s"}')" "$(at 12 '"servo_id":1')"
-"$blactl" save -n 11 -y --wait 20 >"$TMPDIR/save.out" 2>&1 &
+sim "$(at 11 '"faults":{"return_delay":"9s"}')" "$(at 12 '"servo_id":1')"
+"$blactl" save -n 11 -y --wait 30 >"$TMPDIR/save.out" 2>&1 &
 writer=$!
 wait_for 20 grep -q '"event":"rom_write"' "$TMPDIR/sim.out"
 run "$blactl" set -n 12 smoothing=off

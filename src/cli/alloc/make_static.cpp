@@ -3,7 +3,7 @@
 #include "cli/alloc/actions.hpp"
 #include "cli/alloc/texts.hpp"
 #include "cli/alloc/view.hpp"
-#include "cli/change/run.hpp"
+#include "cli/change/change_servos.hpp"
 #include "cli/stores.hpp"
 
 #include <algorithm>

@@ -71,9 +71,6 @@ inline constexpr Text alloc_event_static{"has node ID {} for good already, nothi
                                          "ノード ID {} は固定済み (保存不要)"};
 inline constexpr Text alloc_event_makes_way{"makes way: node ID {} for the time being",
                                             "ID 入替えのため、一時的にノード ID {} に移動"};
-inline constexpr Text alloc_not_begun{
-    "uid:{} still has node ID {}: an earlier step failed",
-    "uid:{} のノード ID は {} のままです (先の変更が完了しなかったため)"};
 inline constexpr Text alloc_only_static{"{} needs --static", "{} には --static が必要です"};
 inline constexpr Text alloc_only_static_hint{"for example: blactl alloc --static -n 12 --id 20",
                                              "例: blactl alloc --static -n 12 --id 20"};

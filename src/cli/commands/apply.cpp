@@ -5,7 +5,7 @@
 #include "blactl/fleet/files/fleet_file.hpp"
 #include "blactl/fleet/files/fleet_match.hpp"
 
-#include "cli/change/run.hpp"
+#include "cli/change/change_servos.hpp"
 #include "cli/change/texts.hpp"
 #include "cli/commands.hpp"
 #include "cli/settings_files.hpp"

@@ -4,7 +4,7 @@
 #include "blactl/bla/assignment.hpp"
 
 #include "cli/commands.hpp"
-#include "cli/motion/run.hpp"
+#include "cli/motion/motion_run.hpp"
 #include "cli/motion/texts.hpp"
 
 #include <algorithm>

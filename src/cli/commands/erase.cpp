@@ -1,6 +1,6 @@
 // blactl erase: RAM to factory defaults.
 
-#include "cli/change/run.hpp"
+#include "cli/change/change_servos.hpp"
 #include "cli/commands.hpp"
 
 namespace blactl::cli {

@@ -2,6 +2,7 @@
 
 #include "blactl/base/replace_file.hpp"
 #include "blactl/fleet/bus/read_job.hpp"
+#include "blactl/fleet/bus/target_texts.hpp"
 #include "blactl/fleet/bus/unreachable.hpp"
 #include "blactl/fleet/files/fleet_file.hpp"
 #include "blactl/fleet/files/params_file.hpp"

@@ -3,7 +3,7 @@
 #include "cli/commands.hpp"
 #include "cli/context.hpp"
 #include "cli/monitor/identify.hpp"
-#include "cli/monitor/run.hpp"
+#include "cli/monitor/monitor_run.hpp"
 #include "cli/monitor/sample.hpp"
 #include "cli/monitor/texts.hpp"
 

@@ -6,7 +6,7 @@
 #include "blactl/fleet/bus/read_job.hpp"
 #include "blactl/fleet/bus/unreachable.hpp"
 
-#include "cli/change/run.hpp"
+#include "cli/change/change_servos.hpp"
 #include "cli/commands.hpp"
 #include "cli/output/node_head.hpp"
 #include "cli/output/pwm_view.hpp"

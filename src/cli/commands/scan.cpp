@@ -6,6 +6,7 @@
 #include "blactl/fleet/characterize/findings.hpp"
 
 #include "cli/commands.hpp"
+#include "cli/context.hpp"
 #include "cli/output/progress_view.hpp"
 #include "cli/output/scan_view.hpp"
 #include "cli/texts.hpp"

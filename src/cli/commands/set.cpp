@@ -2,7 +2,7 @@
 
 #include "blactl/bla/assignment.hpp"
 
-#include "cli/change/run.hpp"
+#include "cli/change/change_servos.hpp"
 #include "cli/commands.hpp"
 
 namespace blactl::cli {

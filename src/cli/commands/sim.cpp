@@ -1,11 +1,12 @@
 // blactl sim: simulated servos, as their own bus or on a real interface.
 
 #include "blactl/can/simbus.hpp"
-#include "blactl/sim/bus/interface.hpp"
+#include "blactl/sim/bus/served_interface.hpp"
 #include "blactl/sim/bus/server.hpp"
 #include "blactl/sim/scenario/facts.hpp"
 
 #include "cli/commands.hpp"
+#include "cli/context.hpp"
 #include "cli/interface/bus_factory.hpp"
 #include "cli/interface/scheme.hpp"
 #include "cli/sim/events.hpp"
@@ -214,8 +215,8 @@ void join(const std::string& name, const sim::Scenario& scenario, const bla::Pro
   }
   can::Loop loop(std::move(bus->bus));
   SimEvents events(context.reporter(), loop, sim::Clock::real);
-  sim::Interface interface(loop, scenario,
-                           [&events](const sim::ServoEvent& event) { events.print(event); });
+  sim::ServedInterface interface(loop, scenario,
+                                 [&events](const sim::ServoEvent& event) { events.print(event); });
   LineInput input(loop);
   report.interface = loop.bus().name();
   context.reporter().note(say<texts::sim_serves>(name, scenario.servos.size()));

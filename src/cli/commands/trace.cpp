@@ -8,9 +8,9 @@
 #include "cli/interface/bus_factory.hpp"
 #include "cli/interface/scheme.hpp"
 #include "cli/texts.hpp"
-#include "cli/trace/run.hpp"
 #include "cli/trace/stats.hpp"
 #include "cli/trace/texts.hpp"
+#include "cli/trace/trace_run.hpp"
 #include "cli/trace/tracer.hpp"
 
 #include <array>

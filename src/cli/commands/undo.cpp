@@ -6,7 +6,7 @@
 #include "blactl/base/rfc3339.hpp"
 #include "blactl/state/snapshot_store.hpp"
 
-#include "cli/change/run.hpp"
+#include "cli/change/change_servos.hpp"
 #include "cli/change/texts.hpp"
 #include "cli/commands.hpp"
 #include "cli/output/snapshots_view.hpp"

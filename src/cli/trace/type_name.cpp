@@ -1,5 +1,7 @@
 #include "cli/trace/type_name.hpp"
 
+#include "blactl/dronecan/standard_types.hpp"
+
 #include <algorithm>
 
 namespace blactl::cli {

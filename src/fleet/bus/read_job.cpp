@@ -23,6 +23,8 @@ constexpr int most_silent = 2;
 /// A servo that restarts more often while it is read is given up.
 constexpr int most_passes = 4;
 
+constexpr bla::Width id_width{.bits = 8, .is_signed = false};
+
 /// Whoever is to prove that he ran on must be old enough for that.
 Identification::Options settled(Identification::Options options, ReadJob::Proof proof) {
   options.settled = proof == ReadJob::Proof::moment || proof == ReadJob::Proof::run;
@@ -49,6 +51,8 @@ Step ReadJob::next(const Outcome& outcome) {
   case At::read: return take_reading(outcome);
   case At::presence: return judge_presence(outcome);
   case At::proof: return judge_proof(outcome);
+  case At::servo_id:
+  case At::static_node_id: return take_id(outcome);
   }
   return std::nullopt;
 }
@@ -181,7 +185,7 @@ Step ReadJob::judge_writers(Time now) {
   return read_again(now);
 }
 
-/// It is the same servo: reads everything again.
+/// It is the same servo: reads everything again, its IDs first, which a restart may have changed.
 Step ReadJob::read_again(Time now) {
   ++passes_;
   pass_began_ = now;
@@ -189,8 +193,27 @@ Step ReadJob::read_again(Time now) {
   Servo& servo = snapshot_.servo;
   servo.boot = roster_.member(id_).boots;
   servo.since = now;
+  return read_id(At::servo_id);
+}
+
+Step ReadJob::read_id(At which) {
+  at_ = which;
+  return read_register(
+      id_, which == At::servo_id ? bla::address::servo_id : bla::address::static_node_id,
+      patience_);
+}
+
+Step ReadJob::take_id(const Outcome& outcome) {
+  Servo& servo = snapshot_.servo;
+  const bool is_first = at_ == At::servo_id;
+  const auto raw = register_value(
+      outcome, id_, is_first ? bla::address::servo_id : bla::address::static_node_id, id_width);
+  (is_first ? servo.servo_id : servo.static_node_id) = raw ? std::optional(*raw) : std::nullopt;
+  if (is_first && servo.static_node_id) {
+    return read_id(At::static_node_id);
+  }
   roster_.learn_run(servo);
-  return read_next(now);
+  return read_next(outcome.at);
 }
 
 /// The earliest contents of RAM in this session may matter, however often the servo was identified

@@ -129,6 +129,8 @@ void Roster::learn_run(const Servo& servo) {
   member.info_boot = member.identified_boot = servo.boot;
   member.since = servo.since;
   member.is_young = servo.is_young;
+  member.servo_id = servo.servo_id;
+  member.static_node_id = servo.static_node_id;
 }
 
 void Roster::learn_static_node_id(NodeId id, std::optional<std::int64_t> static_node_id) {

@@ -15,8 +15,8 @@ constexpr unsigned most_statuses_of_one = 14;
 /// Uptime counts whole seconds and its message may be late: two starts closer than this are one.
 constexpr Duration start_tolerance = std::chrono::milliseconds(1500);
 
-/// The tolerance for a response, which may be as late as its timeout. RestartJob lets servos grow
-/// older than this before it restarts them.
+/// The tolerance for a response, which may be as late as its timeout. SaveRestartJob lets servos
+/// grow older than this before it restarts them.
 constexpr Duration answer_tolerance = std::chrono::seconds(2);
 
 } // namespace

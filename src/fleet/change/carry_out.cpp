@@ -6,7 +6,8 @@
 #include "blactl/fleet/bus/texts.hpp"
 #include "blactl/fleet/bus/ticker.hpp"
 #include "blactl/fleet/change/former_ids.hpp"
-#include "blactl/fleet/change/restart_texts.hpp"
+
+#include "fleet/change/texts.hpp"
 
 #include <algorithm>
 #include <chrono>

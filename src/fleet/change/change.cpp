@@ -5,9 +5,9 @@
 #include "blactl/fleet/bus/unreachable.hpp"
 #include "blactl/fleet/change/guard.hpp"
 #include "blactl/fleet/change/history.hpp"
-#include "blactl/fleet/change/restart_texts.hpp"
 
 #include "fleet/change/rounds.hpp"
+#include "fleet/change/texts.hpp"
 
 #include <algorithm>
 #include <iterator>

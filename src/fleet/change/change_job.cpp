@@ -1,7 +1,8 @@
 #include "blactl/fleet/change/change_job.hpp"
 
 #include "blactl/fleet/bus/texts.hpp"
-#include "blactl/fleet/change/restart_texts.hpp"
+
+#include "fleet/change/texts.hpp"
 
 #include <algorithm>
 #include <array>
@@ -130,18 +131,18 @@ bool ChangeJob::brings_unread_rom() const {
   return plan_.restart == RestartKind::restart && !plan_.proves_rom;
 }
 
-std::unique_ptr<RestartJob> ChangeJob::restart() const {
+std::unique_ptr<SaveRestartJob> ChangeJob::restart() const {
   const auto given = bla::find(plan_.expected, bla::address::static_node_id);
-  RestartJob::Options options{.kind = *plan_.restart,
-                              .start = options_.start,
-                              .come_back = options_.come_back,
-                              .patience = options_.identification.patience,
-                              .pace = options_.pace,
-                              .may_be_driven = may_be_driven()};
+  SaveRestartJob::Options options{.kind = *plan_.restart,
+                                  .start = options_.start,
+                                  .come_back = options_.come_back,
+                                  .patience = options_.identification.patience,
+                                  .pace = options_.pace,
+                                  .may_be_driven = may_be_driven()};
   if (given.value_or(0) != 0) {
     options.expected = dronecan::NodeId(static_cast<std::uint8_t>(*given));
   }
-  return std::make_unique<RestartJob>(roster_, servo_, options);
+  return std::make_unique<SaveRestartJob>(roster_, servo_, options);
 }
 
 /// After a save everything is read.

@@ -5,7 +5,8 @@
 #include "blactl/fleet/bus/texts.hpp"
 #include "blactl/fleet/bus/unreachable.hpp"
 #include "blactl/fleet/change/change_job.hpp"
-#include "blactl/fleet/change/restart_texts.hpp"
+
+#include "fleet/change/texts.hpp"
 
 #include <algorithm>
 #include <string>

@@ -5,7 +5,8 @@
 #include "blactl/bla/value.hpp"
 #include "blactl/fleet/bus/conflict_texts.hpp"
 #include "blactl/fleet/bus/texts.hpp"
-#include "blactl/fleet/change/restart_texts.hpp"
+
+#include "fleet/change/texts.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -4,7 +4,8 @@
 #include "blactl/fleet/bus/target_texts.hpp"
 #include "blactl/fleet/bus/texts.hpp"
 #include "blactl/fleet/bus/unreachable.hpp"
-#include "blactl/fleet/change/restart_texts.hpp"
+
+#include "fleet/change/texts.hpp"
 
 #include <algorithm>
 #include <utility>

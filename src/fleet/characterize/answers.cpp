@@ -74,7 +74,7 @@ Result<void> measure_status_fields(TestBench& bench, Notes& notes) {
   if (auto heard = bench.pause(some_status); !heard) {
     return heard;
   }
-  const auto status = bench.ear().status_of(bench.servo().id);
+  const auto status = bench.start_watch().status_of(bench.servo().id);
   if (!status) {
     notes.leave("unused_fields", say<texts::bench_no_status>());
   } else if (std::isnan(status->force) && std::isnan(status->speed) &&

@@ -4,7 +4,7 @@
 #include "blactl/bla/values.hpp"
 #include "blactl/fleet/characterize/characterization.hpp"
 
-#include "fleet/characterize/ear.hpp"
+#include "fleet/characterize/start_watch.hpp"
 
 #include <optional>
 #include <string>

@@ -226,11 +226,11 @@ Result<void> TestBench::give_back_start() {
   if (is_as_started && !refused_) {
     return {};
   }
-  RestartJob job(roster(), servo_,
-                 {.kind = RestartKind::restart,
-                  .come_back = longest_start,
-                  .patience = manner_.identification.patience,
-                  .may_be_driven = may_be_driven()});
+  SaveRestartJob job(roster(), servo_,
+                     {.kind = RestartKind::restart,
+                      .come_back = longest_start,
+                      .patience = manner_.identification.patience,
+                      .may_be_driven = may_be_driven()});
   Stubborn stubborn(job);
   if (auto ran = run(stubborn); !ran) {
     return ran;

@@ -34,18 +34,19 @@ constexpr Duration longest_until_status = 1200ms;
 TestBench::TestBench(Session& session, const bla::Profiles& profiles, const Snapshot& before,
                      const BenchManner& manner)
     : session_(session), profiles_(profiles), manner_(manner), servo_(before.servo),
-      ear_(before.servo.unique_id.value_or(dronecan::UniqueId{})), before_(before.values()) {
+      start_watch_(before.servo.unique_id.value_or(dronecan::UniqueId{})),
+      before_(before.values()) {
   for (const auto& [address, limit] : soft_start_limits) {
     if (const auto raw = bla::find(before_, address)) {
       hidden_[address] = *raw;
       before_.erase(address);
     }
   }
-  session_.attach(ear_);
+  session_.attach(start_watch_);
 }
 
 TestBench::~TestBench() {
-  session_.detach(ear_);
+  session_.detach(start_watch_);
 }
 
 void TestBench::tell(const Text& stage) const {
@@ -286,17 +287,17 @@ Result<dronecan::NodeId> TestBench::leave_and_return(RestartKind kind,
                                                      const std::vector<Address>& at_once) {
   const Patience& patience = manner_.identification.patience;
   restart_.emplace(roster(), servo_,
-                   RestartJob::Options{.kind = kind,
-                                       .come_back = longest_start,
-                                       .patience = patience,
-                                       .may_be_driven = may_be_driven()});
-  ear_.expect(servo_.id, [this] { return restart_->is_sent(); });
+                   SaveRestartJob::Options{.kind = kind,
+                                           .come_back = longest_start,
+                                           .patience = patience,
+                                           .may_be_driven = may_be_driven()});
+  start_watch_.expect(servo_.id, [this] { return restart_->is_sent(); });
   EarlyReads early(
-      servo_.id, servo_.identity.registers(at_once), [this] { return ear_.is_back(); },
+      servo_.id, servo_.identity.registers(at_once), [this] { return start_watch_.is_back(); },
       patience.timeout);
   session_.start(early);
   auto ran = run(*restart_);
-  if (ran && ear_.is_back()) {
+  if (ran && start_watch_.is_back()) {
     ran = run(early);
   } else {
     session_.cancel(early);
@@ -327,13 +328,13 @@ Result<Start> TestBench::restart(RestartKind kind, const std::vector<Address>& a
   }
   // The first response already shows that a servo is back; its own messages are to be heard, too.
   const auto heard = session_.live_until(session_.now() + longest_until_status, [&] {
-    return ear_.start_of(*id).first_status.has_value();
+    return start_watch_.start_of(*id).first_status.has_value();
   });
   const auto known = heard ? recognise(*id) : std::unexpected(heard.error());
   if (!known) {
     return std::unexpected(known.error());
   }
-  Start start = ear_.start_of(servo_.id);
+  Start start = start_watch_.start_of(servo_.id);
   start.asked = restart_->sent_at();
   return start;
 }

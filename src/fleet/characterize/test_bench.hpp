@@ -2,10 +2,10 @@
 // One servo on the bench: reads, writes, restarts, and the restoring of its settings.
 
 #include "blactl/bla/profile.hpp"
-#include "blactl/fleet/change/restart_job.hpp"
+#include "blactl/fleet/change/save_restart_job.hpp"
 #include "blactl/fleet/characterize/characterization.hpp"
 
-#include "fleet/characterize/ear.hpp"
+#include "fleet/characterize/start_watch.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -47,7 +47,7 @@ class TestBench {
 
   [[nodiscard]] const Roster& roster() const { return session_.roster(); }
 
-  [[nodiscard]] const Ear& ear() const { return ear_; }
+  [[nodiscard]] const StartWatch& start_watch() const { return start_watch_; }
 
   /// The initial value; those that a soft start may hide only after rest().
   [[nodiscard]] std::optional<std::int64_t> held(bla::Address address) const {
@@ -161,14 +161,14 @@ class TestBench {
   const bla::Profiles& profiles_;
   const BenchManner& manner_;
   Servo servo_;
-  Ear ear_;
+  StartWatch start_watch_;
   bla::Values before_;             ///< to be restored at the end
   bla::Values rom_;                ///< values in ROM, once known
   bla::Values hidden_;             ///< the initial values that a soft start may have hidden
   bla::Values known_;              ///< last read
   std::set<bla::Address> touched_; ///< since settle()
   bla::Values at_once_;
-  std::optional<RestartJob> restart_; ///< the last one, used by the ear
+  std::optional<SaveRestartJob> restart_; ///< the last one, used by start_watch_
   bool has_changed_ = false;
   bool puts_back_ = false;
   bool is_starting_softly_ = false; ///< as far as known, since the restore

@@ -35,6 +35,12 @@ struct Reader {
     return next(outcome);
   }
 
+  /// It reads all again: its servo ID, then the first register.
+  std::string read_from_the_start(std::int64_t servo_id = 0) {
+    CHECK(text(step) == "read 0x45");
+    return value("0x45", servo_id);
+  }
+
   /// Nothing that was read is shown.
   [[nodiscard]] Code given_up() const {
     CHECK(job.snapshot().readings.empty());
@@ -250,7 +256,8 @@ TEST_CASE("a young servo is asked again when its uptime tells whether it ran on"
     CHECK_FALSE(reader.job.snapshot().has_restarted);
   }
   SECTION("it restarted: all is read once more, and must be proven in the same way") {
-    CHECK(reader.told(unit, 0, 1001ms) == "read 0x38");
+    CHECK(reader.told(unit, 0, 1001ms) == "read 0x45");
+    CHECK(reader.read_from_the_start() == "read 0x38");
     CHECK(reader.value("0x38", 1799) == "read 0x23");
     CHECK(reader.value("0x23", 0) == "GetNodeInfo");
     CHECK(reader.told(unit, 0, 1010ms) == "pause");
@@ -283,7 +290,8 @@ TEST_CASE(
   }
   SECTION("it did not: that is told, and what it holds now is read") {
     CHECK(reader.next(Script::start()) == "GetNodeInfo");
-    CHECK(told(0, 1001ms) == "read 0x38");
+    CHECK(told(0, 1001ms) == "read 0x45");
+    CHECK(reader.read_from_the_start() == "read 0x38");
     CHECK(reader.value("0x38", 900) == "GetNodeInfo");
     CHECK(told(1, 1501ms) == "pause"); // for a twin
     CHECK(reader.next(Script::start()) == "nothing");
@@ -329,7 +337,8 @@ TEST_CASE("where answers are too late for a young servo it is read again when it
     CHECK(reader.told(unit, second, second * 1s + 100ms) == "pause");
     CHECK(reader.next(Script::start()) == "GetNodeInfo");
   }
-  CHECK(reader.told(unit, 7, 7100ms) == "read 0x38");
+  CHECK(reader.told(unit, 7, 7100ms) == "read 0x45");
+  CHECK(reader.read_from_the_start() == "read 0x38");
   CHECK(reader.value("0x38", 901) == "GetNodeInfo");
   SECTION("it ran on") {
     CHECK(reader.told(unit, 7, 7200ms) == "pause"); // for a twin
@@ -338,7 +347,8 @@ TEST_CASE("where answers are too late for a young servo it is read again when it
     CHECK_FALSE(reader.job.snapshot().has_restarted);
   }
   SECTION("it restarted meanwhile") {
-    CHECK(reader.told(unit, 0, 8200ms) == "read 0x38");
+    CHECK(reader.told(unit, 0, 8200ms) == "read 0x45");
+    CHECK(reader.read_from_the_start() == "read 0x38");
     CHECK(reader.value("0x38", 902) == "GetNodeInfo");
     CHECK(reader.told(unit, 1, 8300ms) == "pause"); // for a twin
     CHECK(reader.next(Script::start()) == "nothing");
@@ -364,7 +374,8 @@ TEST_CASE("what another node changed while it was read is read again") {
     other_writes("0x38");
     CHECK(reader.value("0x23", 1) == "GetNodeInfo");
     CHECK(reader.next(reader.script.info(unit)) == "pause");
-    CHECK(reader.next({Outcome::Kind::woken, {}, reader.known.now + 1s}) == "read 0x38");
+    CHECK(reader.next({Outcome::Kind::woken, {}, reader.known.now + 1s}) == "read 0x45");
+    CHECK(reader.read_from_the_start() == "read 0x38");
     CHECK(reader.value("0x38", 0) == "read 0x23");
     CHECK(reader.value("0x23", 1) == "GetNodeInfo");
     CHECK(reader.told(unit, 5000, reader.known.now + 2s - Time{}) == "pause");
@@ -400,13 +411,16 @@ TEST_CASE("after a restart that was heard all is read again, and the servo stays
   CHECK(reader.next(Script::start()) == "read 0x38");
   reader.known.restart();
   CHECK(reader.value("0x38", 900) == "GetNodeInfo");
-  CHECK(reader.next(reader.script.info(unit)) == "read 0x38");
+  CHECK(reader.next(reader.script.info(unit)) == "read 0x45");
+  CHECK(reader.read_from_the_start(7) == "read 0x38");
   CHECK(reader.value("0x38", 1799) == "GetNodeInfo");
   CHECK(reader.next(reader.script.info(unit)) == "pause");
   CHECK(reader.next(Script::start()) == "nothing");
   CHECK(reader.job.snapshot().raw(bla::address::angle_limit_cw) == 1799);
   CHECK(reader.job.snapshot().servo.boot == 1);
+  CHECK(reader.job.snapshot().servo.servo_id == 7);
   CHECK(reader.known.member().is_known());
+  CHECK(reader.known.member().servo().servo_id == 7);
 }
 
 TEST_CASE("a servo that restarts with every reading is given up, and none of them is shown") {
@@ -417,7 +431,8 @@ TEST_CASE("a servo that restarts with every reading is given up, and none of the
     reader.known.now += 10s;
     reader.known.hear_uptime(10);
     CHECK(reader.value("0x38", 900) == "GetNodeInfo");
-    CHECK(reader.next(reader.script.info(unit)) == (pass < 4 ? "read 0x38" : "nothing"));
+    CHECK(reader.next(reader.script.info(unit)) == (pass < 4 ? "read 0x45" : "nothing"));
+    CHECK((pass == 4 || reader.read_from_the_start() == "read 0x38"));
   }
   CHECK(reader.given_up() == Code::state);
 }

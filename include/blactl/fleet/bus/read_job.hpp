@@ -44,7 +44,7 @@ class ReadJob final : public dronecan::Job {
   [[nodiscard]] const Snapshot& snapshot() const { return snapshot_; }
 
  private:
-  enum class At : std::uint8_t { identify, read, presence, proof };
+  enum class At : std::uint8_t { identify, read, presence, proof, servo_id, static_node_id };
 
   [[nodiscard]] dronecan::Step begin(Time now);
   [[nodiscard]] dronecan::Step take_reading(const dronecan::Outcome& outcome);
@@ -55,6 +55,8 @@ class ReadJob final : public dronecan::Job {
   [[nodiscard]] dronecan::Step judge_proof(const dronecan::Outcome& outcome);
   [[nodiscard]] dronecan::Step judge_writers(Time now);
   [[nodiscard]] dronecan::Step read_again(Time now);
+  [[nodiscard]] dronecan::Step read_id(At which);
+  [[nodiscard]] dronecan::Step take_id(const dronecan::Outcome& outcome);
   [[nodiscard]] dronecan::Step give_up(Error error);
   [[nodiscard]] Error told_by(const Error& error) const;
   [[nodiscard]] bool is_about_earlier_run() const;

@@ -129,8 +129,8 @@ class Roster {
   /// Takes a servo from a file as if it had been heard.
   void recall(const Servo& servo);
 
-  /// The servo of this node was recognised after a restart, as `servo`: its earlier identification
-  /// stays valid.
+  /// The servo of this node was recognised after a restart, as `servo`, with the IDs it has now:
+  /// the rest of its earlier identification stays valid.
   void learn_run(const Servo& servo);
 
   /// Takes the static node ID of a node, as read or written.

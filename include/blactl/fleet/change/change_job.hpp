@@ -5,8 +5,8 @@
 #include "blactl/fleet/bus/read_job.hpp"
 #include "blactl/fleet/change/erase_job.hpp"
 #include "blactl/fleet/change/plan.hpp"
-#include "blactl/fleet/change/restart_job.hpp"
 #include "blactl/fleet/change/result.hpp"
+#include "blactl/fleet/change/save_restart_job.hpp"
 #include "blactl/fleet/change/write_job.hpp"
 
 #include <cstdint>
@@ -98,7 +98,7 @@ class ChangeJob final : public dronecan::Job {
   void doubt_changes();
   void tell_saved(const Snapshot& now);
   [[nodiscard]] std::unique_ptr<WriteJob> write() const;
-  [[nodiscard]] std::unique_ptr<RestartJob> restart() const;
+  [[nodiscard]] std::unique_ptr<SaveRestartJob> restart() const;
 
   [[nodiscard]] bool may_be_driven() const { return options_.while_driven || !plan_.moves(); }
 
@@ -121,7 +121,7 @@ class ChangeJob final : public dronecan::Job {
   Time begin_{};
   std::unique_ptr<EraseJob> erase_;
   std::unique_ptr<WriteJob> write_;
-  std::unique_ptr<RestartJob> restart_;
+  std::unique_ptr<SaveRestartJob> restart_;
   std::unique_ptr<ReadJob> read_;
   dronecan::Job* job_ = nullptr; ///< of this stage
   ChangeResult result_;

@@ -7,7 +7,7 @@
 #include "blactl/bla/values.hpp"
 #include "blactl/fleet/bus/snapshot.hpp"
 #include "blactl/fleet/change/register_change.hpp"
-#include "blactl/fleet/change/restart_job.hpp"
+#include "blactl/fleet/change/save_restart_job.hpp"
 
 #include <optional>
 #include <span>

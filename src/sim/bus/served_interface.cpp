@@ -1,4 +1,4 @@
-#include "blactl/sim/bus/interface.hpp"
+#include "blactl/sim/bus/served_interface.hpp"
 
 #include <algorithm>
 #include <variant>
@@ -13,7 +13,7 @@ constexpr std::size_t nobody = static_cast<std::size_t>(-1);
 
 } // namespace
 
-Interface::Interface(can::Loop& loop, const Scenario& scenario, const EventSink& sink)
+ServedInterface::ServedInterface(can::Loop& loop, const Scenario& scenario, const EventSink& sink)
     : loop_(loop), devices_(make_devices(scenario, loop.now(), sink)),
       timeline_(scenario.events, loop.now()) {
   for (std::size_t i = 0; i < devices_.all.size(); ++i) {
@@ -21,7 +21,7 @@ Interface::Interface(can::Loop& loop, const Scenario& scenario, const EventSink&
   }
 }
 
-Time Interface::next_deadline() const {
+Time ServedInterface::next_deadline() const {
   Time next = timeline_.next();
   for (const auto& device : devices_.all) {
     next = std::min(next, device->next_deadline());
@@ -29,7 +29,7 @@ Time Interface::next_deadline() const {
   return next;
 }
 
-void Interface::handle(const can::Event& event) {
+void ServedInterface::handle(const can::Event& event) {
   if (const auto* received = std::get_if<can::Received>(&event)) {
     heard(received->frame, received->at, nobody);
   } else if (const auto* sent = std::get_if<can::Sent>(&event)) {
@@ -57,14 +57,14 @@ void Interface::handle(const can::Event& event) {
   }
 }
 
-void Interface::send(std::size_t device, const can::Frame& frame) {
+void ServedInterface::send(std::size_t device, const can::Frame& frame) {
   if (outgoing_.size() < max_outgoing) {
     outgoing_.push_back({frame, device});
     loop_.send(frame);
   }
 }
 
-void Interface::heard(const can::Frame& frame, Time at, std::size_t sender) {
+void ServedInterface::heard(const can::Frame& frame, Time at, std::size_t sender) {
   for (std::size_t i = 0; i < devices_.all.size(); ++i) {
     if (i != sender) {
       devices_.all[i]->receive(frame, at);

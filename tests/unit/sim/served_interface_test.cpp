@@ -1,4 +1,4 @@
-#include "blactl/sim/bus/interface.hpp"
+#include "blactl/sim/bus/served_interface.hpp"
 
 #include "unit/sim/support.hpp"
 
@@ -79,7 +79,7 @@ struct Rig {
   std::unique_ptr<FakeBus> owned;
   FakeBus& bus;
   can::Loop loop;
-  Interface interface;
+  ServedInterface interface;
 };
 
 } // namespace

@@ -1,4 +1,4 @@
-#include "fleet/characterize/ear.hpp"
+#include "fleet/characterize/start_watch.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -21,7 +21,7 @@ constexpr dronecan::TransferId id_after(dronecan::TransferId id) {
 
 } // namespace
 
-void Ear::receive(const dronecan::Transfer& transfer) {
+void StartWatch::receive(const dronecan::Transfer& transfer) {
   const dronecan::Header& header = transfer.header;
   const bool is_order =
       header.data_type_id == RestartNode::type.id || header.data_type_id == ExecuteOpcode::type.id;
@@ -37,7 +37,7 @@ void Ear::receive(const dronecan::Transfer& transfer) {
 }
 
 /// A sender that restarted begins its transfer IDs and its uptime anew, and sends at other moments.
-bool Ear::has_started(Sender& sender, const dronecan::Transfer& transfer) {
+bool StartWatch::has_started(Sender& sender, const dronecan::Transfer& transfer) {
   constexpr Duration period = std::chrono::milliseconds(100); // of actuator.Status (2.2)
   constexpr Duration tolerance = std::chrono::milliseconds(20);
   const std::uint16_t type = transfer.header.data_type_id;
@@ -57,7 +57,7 @@ bool Ear::has_started(Sender& sender, const dronecan::Transfer& transfer) {
   return is_new;
 }
 
-void Ear::hear_message(const dronecan::Transfer& transfer) {
+void StartWatch::hear_message(const dronecan::Transfer& transfer) {
   Sender& sender = senders_[transfer.header.source];
   const bool is_new = has_started(sender, transfer);
   if (!is_expected() || (!is_new && !sender.first)) {
@@ -73,7 +73,7 @@ void Ear::hear_message(const dronecan::Transfer& transfer) {
   }
 }
 
-void Ear::hear_request(const dronecan::Transfer& transfer) {
+void StartWatch::hear_request(const dronecan::Transfer& transfer) {
   const auto request = transfer.header.data_type_id == Allocation::type.id
                            ? Allocation::decode(transfer.payload)
                            : std::optional<Allocation>();
@@ -85,13 +85,13 @@ void Ear::hear_request(const dronecan::Transfer& transfer) {
   }
 }
 
-void Ear::expect(dronecan::NodeId id, std::function<bool()> is_sent) {
+void StartWatch::expect(dronecan::NodeId id, std::function<bool()> is_sent) {
   id_ = id;
   is_sent_ = std::move(is_sent);
   begin_start();
 }
 
-void Ear::begin_start() {
+void StartWatch::begin_start() {
   answered_ = requested_ = std::nullopt;
   for (auto& [node, sender] : senders_) {
     sender.first = sender.first_status = std::nullopt;
@@ -99,7 +99,7 @@ void Ear::begin_start() {
   }
 }
 
-Start Ear::start_of(dronecan::NodeId id) const {
+Start StartWatch::start_of(dronecan::NodeId id) const {
   Start start{.answered = answered_, .requested = requested_};
   if (const auto sender = senders_.find(id); sender != senders_.end()) {
     start.first = sender->second.first;
@@ -109,7 +109,7 @@ Start Ear::start_of(dronecan::NodeId id) const {
   return start;
 }
 
-std::optional<dronecan::ActuatorStatus> Ear::status_of(dronecan::NodeId id) const {
+std::optional<dronecan::ActuatorStatus> StartWatch::status_of(dronecan::NodeId id) const {
   const auto sender = senders_.find(id);
   return sender != senders_.end() ? sender->second.status : std::nullopt;
 }

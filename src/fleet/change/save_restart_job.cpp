@@ -1,9 +1,10 @@
-#include "blactl/fleet/change/restart_job.hpp"
+#include "blactl/fleet/change/save_restart_job.hpp"
 
 #include "blactl/base/hex.hpp"
 #include "blactl/fleet/bus/texts.hpp"
 #include "blactl/fleet/bus/unreachable.hpp"
-#include "blactl/fleet/change/restart_texts.hpp"
+
+#include "fleet/change/texts.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -37,12 +38,12 @@ std::string_view name(RestartKind kind) {
 
 } // namespace
 
-RestartJob::RestartJob(const Roster& roster, const Servo& servo, Options options)
+SaveRestartJob::SaveRestartJob(const Roster& roster, const Servo& servo, Options options)
     : roster_(roster), servo_(servo), id_(servo.id),
       unique_id_(servo.unique_id.value_or(dronecan::UniqueId{})), since_(servo.since),
       options_(options), guard_(roster, options.may_be_driven) {}
 
-Step RestartJob::next(const Outcome& outcome) {
+Step SaveRestartJob::next(const Outcome& outcome) {
   ended_at_ = outcome.at;
 
   if (outcome.kind == Outcome::Kind::cancelled) {
@@ -75,13 +76,13 @@ Step RestartJob::next(const Outcome& outcome) {
   return std::nullopt;
 }
 
-Step RestartJob::ask_unit() {
+Step SaveRestartJob::ask_unit() {
   at_ = At::unit;
   return ask(id_, GetNodeInfo::type, GetNodeInfo::Request{}.encode(), options_.patience);
 }
 
 /// It must be the same servo, old enough for its restart to show, and its turn.
-Step RestartJob::check_unit(const Outcome& outcome) {
+Step SaveRestartJob::check_unit(const Outcome& outcome) {
   const std::uint8_t id = id_.value();
   if (const auto shared = doubled_id()) {
     return give_up(doubled(roster_, *shared));
@@ -117,7 +118,7 @@ Step RestartJob::check_unit(const Outcome& outcome) {
 }
 
 /// A servo that has not restarted until now is old enough to show a restart after this moment.
-Step RestartJob::judge_proof(const Outcome& outcome) {
+Step SaveRestartJob::judge_proof(const Outcome& outcome) {
   if (Step step = run_proof_->next(outcome); !step.is_end()) {
     return step;
   }
@@ -133,7 +134,7 @@ Step RestartJob::judge_proof(const Outcome& outcome) {
   return ask_unit();
 }
 
-Step RestartJob::request(Time now) {
+Step SaveRestartJob::request(Time now) {
   at_ = At::request;
   boot_ = roster_.member(id_).boots;
   sent_at_ = now;
@@ -155,7 +156,7 @@ Step RestartJob::request(Time now) {
 }
 
 /// The request did not leave; one that did before was not carried out.
-Step RestartJob::hold_off(Time now) {
+Step SaveRestartJob::hold_off(Time now) {
   is_sent_ = has_run_on_ = !may_repeat_;
   if (options_.pace != nullptr) {
     options_.pace->leaving.erase(id_);
@@ -163,7 +164,7 @@ Step RestartJob::hold_off(Time now) {
   return give_up(*guard_.forbids(servo_, now));
 }
 
-bool RestartJob::has_answered_ok(dronecan::Bytes payload) const {
+bool SaveRestartJob::has_answered_ok(dronecan::Bytes payload) const {
   if (options_.kind == RestartKind::save) {
     const auto response = ExecuteOpcode::Response::decode(payload);
     return response && response->ok;
@@ -172,7 +173,7 @@ bool RestartJob::has_answered_ok(dronecan::Bytes payload) const {
   return response && response->ok;
 }
 
-Step RestartJob::judge_answer(const Outcome& outcome) {
+Step SaveRestartJob::judge_answer(const Outcome& outcome) {
   if (outcome.kind == Outcome::Kind::withheld) {
     return hold_off(outcome.at);
   }
@@ -194,7 +195,7 @@ Step RestartJob::judge_answer(const Outcome& outcome) {
 }
 
 /// Without a confirmation, the servo's own uptime decides.
-Step RestartJob::judge_life(const Outcome& outcome) {
+Step SaveRestartJob::judge_life(const Outcome& outcome) {
   if (has_news()) {
     return conclude();
   }
@@ -215,25 +216,25 @@ Step RestartJob::judge_life(const Outcome& outcome) {
 }
 
 /// It was old enough when the request was sent: only without a restart is it older than that.
-bool RestartJob::runs_on(const GetNodeInfo::Response& info, Time now) const {
+bool SaveRestartJob::runs_on(const GetNodeInfo::Response& info, Time now) const {
   return has_run_since(sent_at_, info.status.uptime_s, now);
 }
 
 /// Whether the start given by an uptime is after the request. The servo had run for two seconds
 /// then, so an earlier start lies at least a second before the request.
-bool RestartJob::is_after_request(Time started) const {
+bool SaveRestartJob::is_after_request(Time started) const {
   constexpr Duration between = 500ms;
   return started > sent_at_ - between;
 }
 
 /// An earlier restart may show late, since uptimes are whole seconds: only one after the request
 /// counts.
-bool RestartJob::has_started_anew() const {
+bool SaveRestartJob::has_started_anew() const {
   const auto started = roster_.started(id_);
   return roster_.member(id_).boots != boot_ && (!started || is_after_request(*started));
 }
 
-Step RestartJob::wait_for_return(Time now) {
+Step SaveRestartJob::wait_for_return(Time now) {
   at_ = At::away;
   const Time next = std::max(sent_at_ + settling_time, now + call_period);
   return dronecan::Pause{.until = std::min(next, sent_at_ + options_.come_back),
@@ -241,7 +242,7 @@ Step RestartJob::wait_for_return(Time now) {
 }
 
 /// A servo need not announce by itself that it is back.
-Step RestartJob::call(Time now) {
+Step SaveRestartJob::call(Time now) {
   if (now >= sent_at_ + options_.come_back) {
     has_run_on_ = lives_on();
     return give_up(has_run_on_ ? not_carried_out() : not_back());
@@ -253,7 +254,7 @@ Step RestartJob::call(Time now) {
              {std::min(options_.patience.timeout, sent_at_ + options_.come_back - now), 0});
 }
 
-Step RestartJob::judge_call(const Outcome& outcome) {
+Step SaveRestartJob::judge_call(const Outcome& outcome) {
   const auto info =
       outcome.answered() ? GetNodeInfo::Response::decode(outcome.payload) : std::nullopt;
   // under another node ID the roster knows it by this response
@@ -264,7 +265,7 @@ Step RestartJob::judge_call(const Outcome& outcome) {
 }
 
 /// A node ID shared by the servo, now or later, with another unit.
-std::optional<dronecan::NodeId> RestartJob::doubled_id() const {
+std::optional<dronecan::NodeId> SaveRestartJob::doubled_id() const {
   if (roster_.is_doubled(id_)) {
     return id_;
   }
@@ -276,7 +277,7 @@ std::optional<dronecan::NodeId> RestartJob::doubled_id() const {
 /// Whether another unit is on the servo's future ID: one that has reported another unique ID since,
 /// or has run for longer than the servo can since the request to restart; an earlier holder may
 /// have moved away. For a plain restart the future ID is not certain.
-bool RestartJob::is_another_at(dronecan::NodeId id) const {
+bool SaveRestartJob::is_another_at(dronecan::NodeId id) const {
   constexpr Duration tolerance = 1s; // uptime counts whole seconds
   const Member* member = id != id_ ? roster_.find(id) : nullptr;
   const bool is_heard = is_sent_ && member != nullptr && member->last_heard > sent_at_;
@@ -292,7 +293,7 @@ bool RestartJob::is_another_at(dronecan::NodeId id) const {
 
 /// The servo's node ID after its restart; empty: not back yet. Only its own response counts: a
 /// start heard on its ID may be that of another unit.
-std::optional<dronecan::NodeId> RestartJob::find_returned(bool must_operate) const {
+std::optional<dronecan::NodeId> SaveRestartJob::find_returned(bool must_operate) const {
   for (const auto& [id, member] : roster_.members()) {
     // its ID before earlier restarts is heard no more
     const bool is_restarted =
@@ -306,7 +307,7 @@ std::optional<dronecan::NodeId> RestartJob::find_returned(bool must_operate) con
   return std::nullopt;
 }
 
-Step RestartJob::conclude() {
+Step SaveRestartJob::conclude() {
   if (const auto id = doubled_id()) {
     return give_up(doubled(roster_, *id));
   }
@@ -315,14 +316,14 @@ Step RestartJob::conclude() {
   return std::nullopt;
 }
 
-Step RestartJob::give_up(Error error) {
+Step SaveRestartJob::give_up(Error error) {
   error_ = std::move(error);
   is_over_ = true;
   return std::nullopt;
 }
 
 /// For a servo that goes on running as before.
-Error RestartJob::not_carried_out() const {
+Error SaveRestartJob::not_carried_out() const {
   const std::uint8_t id = id_.value();
   const std::string_view request = name(options_.kind);
   if (is_confirmed_) {
@@ -338,14 +339,14 @@ Error RestartJob::not_carried_out() const {
 
 /// Whether its last uptime, sent or requested, continues that of before. Being heard proves
 /// nothing.
-bool RestartJob::lives_on() const {
+bool SaveRestartJob::lives_on() const {
   const Member* member = roster_.find(id_);
   return member != nullptr && !member->is_another_unit(unique_id_) && !has_restarted_ &&
          !has_started_anew() && member->status && member->status_at > sent_at_ + settling_time &&
          has_run_since(sent_at_, member->status->uptime_s, member->status_at);
 }
 
-Error RestartJob::not_back() const {
+Error SaveRestartJob::not_back() const {
   const std::uint8_t id = id_.value();
   if (const auto back = find_returned(false)) {
     return {Code::not_back, say<texts::back_not_operational>(back->value()),
@@ -370,7 +371,7 @@ Error RestartJob::not_back() const {
 }
 
 /// It is not waited for any longer, but may still come back.
-Error RestartJob::left_waiting() const {
+Error SaveRestartJob::left_waiting() const {
   const std::uint8_t id = id_.value();
   return {Code::interrupted,
           options_.kind == RestartKind::save ? say<texts::save_not_waited_for>(id)

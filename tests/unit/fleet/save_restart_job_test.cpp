@@ -1,4 +1,4 @@
-#include "blactl/fleet/change/restart_job.hpp"
+#include "blactl/fleet/change/save_restart_job.hpp"
 
 #include "support.hpp"
 
@@ -184,7 +184,7 @@ class Bench {
 
  public:
   Servo servo{.id = NodeId(11), .unique_id = dronecan::UniqueId{1}, .since = now, .is_servo = true};
-  RestartJob job;
+  SaveRestartJob job;
   dronecan::Step step = std::nullopt;
   std::map<std::string, int> steps; ///< how often the job did what
 };

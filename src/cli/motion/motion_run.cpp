@@ -1,4 +1,4 @@
-#include "cli/motion/run.hpp"
+#include "cli/motion/motion_run.hpp"
 
 #include "blactl/base/replace_file.hpp"
 #include "blactl/fleet/bus/read_job.hpp"

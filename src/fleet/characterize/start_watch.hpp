@@ -20,9 +20,9 @@ struct Start {
   std::optional<dronecan::Mode> first_mode{}; ///< the mode in it
 };
 
-class Ear final : public dronecan::Service {
+class StartWatch final : public dronecan::Service {
  public:
-  explicit Ear(const dronecan::UniqueId& unique_id) : unique_id_(unique_id) {}
+  explicit StartWatch(const dronecan::UniqueId& unique_id) : unique_id_(unique_id) {}
 
   void receive(const dronecan::Transfer& transfer) override;
 

@@ -1,4 +1,4 @@
-#include "cli/change/run.hpp"
+#include "cli/change/change_servos.hpp"
 
 #include "blactl/fleet/bus/discovery.hpp"
 #include "blactl/fleet/change/allocation_service.hpp"

@@ -1,4 +1,4 @@
-#include "cli/trace/run.hpp"
+#include "cli/trace/trace_run.hpp"
 
 #include "blactl/can/replay_texts.hpp"
 

@@ -1,4 +1,4 @@
-#include "cli/monitor/run.hpp"
+#include "cli/monitor/monitor_run.hpp"
 
 #include "blactl/fleet/bus/unreachable.hpp"
 

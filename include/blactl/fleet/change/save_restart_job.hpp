@@ -33,7 +33,7 @@ struct RestartPace {
 /// only if not is it sent again. The servo is recognised by its unique ID, whatever its new node
 /// ID; units that appear must be asked for theirs (UnitJob). A servo that sends nothing by itself
 /// is asked at its node ID.
-class RestartJob final : public dronecan::Job {
+class SaveRestartJob final : public dronecan::Job {
  public:
   struct Options {
     RestartKind kind = RestartKind::save;
@@ -47,7 +47,7 @@ class RestartJob final : public dronecan::Job {
   };
 
   /// `servo` has a unique ID; `roster` outlives the job.
-  RestartJob(const Roster& roster, const Servo& servo, Options options);
+  SaveRestartJob(const Roster& roster, const Servo& servo, Options options);
 
   [[nodiscard]] dronecan::Step next(const dronecan::Outcome& outcome) override;
 

@@ -18,11 +18,11 @@ namespace blactl::sim {
 /// the wire faults of a scenario do not apply.
 ///
 ///   for (;;) { interface.handle(loop.next(interface.next_deadline())); }
-class Interface {
+class ServedInterface {
  public:
   /// Powers the devices on, on the clock of `loop`, whatever clock the scenario asks for. `loop`
   /// and the scenario's profiles must outlive this. `sink` receives the events of the servos.
-  Interface(can::Loop& loop, const Scenario& scenario, const EventSink& sink = {});
+  ServedInterface(can::Loop& loop, const Scenario& scenario, const EventSink& sink = {});
 
   [[nodiscard]] Time next_deadline() const;
 
