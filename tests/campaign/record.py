@@ -6,6 +6,7 @@ import typing
 LINE = re.compile(r"\((\d+\.\d+)\) \S+ ([0-9A-F]{8})#([0-9A-F]*)")
 OWN_IDS = (127, 126, 9)  # what blactl takes for itself
 RESTART_NODE, EXECUTE_OPCODE, GET_SET, NODE_STATUS = 5, 10, 11, 341
+ARRAY_COMMAND, ARMING_STATUS, FULLY_ARMED, EVERY_SERVO = 1010, 1100, 255, 255
 INTEGER = 1  # the tag of a value that is to be written
 
 
@@ -68,6 +69,20 @@ class Record:
 
     def changes(self):
         return [frame for frame in self.frames if is_change(frame)]
+
+    def armed_at(self):
+        """When the vehicle was first said to be armed."""
+        return self._first(lambda frame: frame.type == ARMING_STATUS and
+                           frame.data[0] == FULLY_ARMED)
+
+    def driven_at(self):
+        """When another node first commanded every servo."""
+        return self._first(lambda frame: frame.type == ARRAY_COMMAND and frame.source not in OWN_IDS
+                           and frame.starts and frame.data[0] == EVERY_SERVO)
+
+    def _first(self, is_meant):
+        return next((frame.time for frame in self.frames
+                     if not frame.is_service and is_meant(frame)), float("inf"))
 
     def answers(self, registers):
         """(time, node ID, register, value) of every answer of GetSet about one of these that came

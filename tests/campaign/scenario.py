@@ -100,6 +100,7 @@ class Episode:
         self._let_apply(random.Random(f"apply {seed}"))
         self._let_undo(random.Random(f"undo {seed}"))
         self._let_move(random.Random(f"move {seed}"))
+        self._let_begin(random.Random(f"begin {seed}"))
 
     def _let_ask(self, chance):
         """Some servos have no node ID, and get one. It is drawn apart: the other episodes, and the
@@ -120,6 +121,14 @@ class Episode:
         again = chance.randint(1, len(self.steps))
         self.steps[again:again] = [[once]]
         self.steps.append([listing])
+
+    def _let_begin(self, chance):
+        """While commands run the vehicle is armed, or another node begins to drive; drawn apart, too."""
+        if chance.random() < 0.85:
+            return
+        self.scenario["foreign"] = [{
+            "kind": "node", "node_id": 104, "begins": f"{chance.randint(1000, 20000)}ms",
+            **chance.choice([{"armed": True}, {"commands": {"servo_ids": [255], "rate": 50}}])}]
 
     def _let_diagnose(self, chance):
         """A look at it all, between other commands or beside one; drawn apart, too."""

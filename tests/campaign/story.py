@@ -4,6 +4,7 @@ Nothing is exempt that a client can know. What it cannot: a restart after the la
 have told of it (Step.restarted_unheard)."""
 
 import truth
+from record import EXECUTE_OPCODE, RESTART_NODE
 
 # Exit statuses of the contract that these commands can end with.
 STATUSES = {0, 1, 2, 3, 4, 5, 6, 9}
@@ -83,11 +84,20 @@ def check_success(outcome, document):
 
 
 def check_refusal(outcome, step):
-    """A second servo under a node ID ends a command also while it is at work."""
-    sent = outcome.record.changes()
+    """A second servo under a node ID ends a command also while it is at work, and so does another
+    node that arms the vehicle or drives."""
+    record = outcome.record
+    sent = record.changes()
     if outcome.status in UNTOUCHED and sent:
-        require(outcome.status == 9 and step.comes_to_another(sent[0].time),
+        is_begun = sent[0].time < min(record.armed_at(), record.driven_at()) < float("inf")
+        require(outcome.status == 9 and (is_begun or step.comes_to_another(sent[0].time)),
                 f"refused with {outcome.status}, but {len(sent)} changes were sent")
+    for frame in sent:
+        since = f"{frame.time - record.armed_at():.3f} s after"
+        require(frame.time < record.armed_at() + truth.TOLERANCE_S, f"sent {since} armed: {frame}")
+        restarts = frame.type in (RESTART_NODE, EXECUTE_OPCODE)
+        is_late = frame.time > record.driven_at() + truth.TOLERANCE_S
+        require(not (restarts and is_late), f"sent to a driven servo: {frame}")
 
 
 def is_meant(outcome, serial, step):

@@ -45,6 +45,9 @@ void ChangeJob::tell_reach() {
     if (has_sent && error && error->code == Code::duplicate_node_id) {
       error->hint = say<texts::doubled_meanwhile_hint>();
     }
+    if (has_sent && error && (error->code == Code::armed || error->code == Code::driven)) {
+      error->message = say<texts::stopped_halfway>(servo_.id.value(), error->message);
+    }
   };
   tell(result_.error);
   for (RegisterChange& change : result_.changes) {

@@ -302,6 +302,23 @@ bool Rounds::is_free(const IdMove& move) const {
   return left != left_.end() && there->last_heard < left->second;
 }
 
+/// Why an ID is not free: a servo of this change did not leave it, or another node has it.
+Error Rounds::why_not_free(const IdMove& move) const {
+  const std::uint8_t from = move.from.value(), to = move.to.value();
+  const bool is_ours = std::ranges::any_of(units_, [&](const UnitChange& unit) {
+    return unit.now == move.to && unit.unique_id != move.unique_id && unit.has_failed();
+  });
+  if (!is_ours) {
+    return {Code::duplicate_node_id, say<texts::id_given_is_kept>(from, to),
+            say<texts::id_given_is_kept_hint>(), from};
+  }
+  const auto unit = std::ranges::find(units_, move.unique_id, &UnitChange::unique_id);
+  return {Code::state,
+          unit->has_made_way ? say<texts::stays_out_of_the_way>(from, to)
+                             : say<texts::id_is_not_left>(from, to),
+          say<texts::run_again_hint>(), from};
+}
+
 /// The steps of the round that can go on: without a failure, and with a free ID.
 Rounds::Round Rounds::ready(const Round& round) {
   Round steps;
@@ -310,10 +327,7 @@ Rounds::Round Rounds::ready(const Round& round) {
       continue;
     }
     if (step.move && !is_free(*step.move)) {
-      const IdMove& move = *step.move;
-      fail(step, {Code::duplicate_node_id,
-                  say<texts::id_given_is_kept>(move.from.value(), move.to.value()),
-                  say<texts::id_given_is_kept_hint>(), move.from.value()});
+      fail(step, why_not_free(*step.move));
       continue;
     }
     steps.push_back(step);

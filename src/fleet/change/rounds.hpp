@@ -95,6 +95,7 @@ class Rounds {
   [[nodiscard]] std::vector<Error> check_ids();
   [[nodiscard]] std::vector<Error> check() const;
   [[nodiscard]] bool is_free(const IdMove& move) const;
+  [[nodiscard]] Error why_not_free(const IdMove& move) const;
   [[nodiscard]] std::optional<dronecan::NodeId> place(const dronecan::UniqueId& unique_id) const;
   [[nodiscard]] Result<void> put_as_they_are();
   [[nodiscard]] Result<void> put(const Round& round);

@@ -15,6 +15,12 @@ inline constexpr Text did_not_tell_ids{
 inline constexpr Text will_make_way{
     "node {} makes way for others: it is saved twice, node ID {} comes in between",
     "ノード {} は ID 入替えのため一時的にノード ID {} を使用します (保存は 2 回)"};
+inline constexpr Text id_is_not_left{
+    "node {} was to get node ID {}, which its holder has not left: nothing was changed",
+    "ノード {} に割り当てるノード ID {} が使用中のままのため、変更していません"};
+inline constexpr Text stays_out_of_the_way{
+    "node {} is saved with this node ID, which was to be temporary: the holder of {} has not left",
+    "ノード {} は一時的なノード ID のまま保存されています (ノード ID {} が使用中のため)"};
 inline constexpr Text id_taken_over{
     "node ID {} was given to uid:{}, which is not on this bus: it is node {}'s from now on",
     "ノード ID {} の割当て先 uid:{} はこのバスにないため、ノード {} に割り当てます"};
@@ -154,6 +160,10 @@ inline constexpr Text unnamed_saved{
 inline constexpr Text unnamed_lost{
     "{} was {} in RAM only: the restart has brought back {}",
     "{} の {} は RAM のみの値でした。再起動により {} に戻りました",
+};
+inline constexpr Text stopped_halfway{
+    "node {} was written in RAM, in part or whole, and is not saved: {}",
+    "ノード {} は RAM への書込みの途中または書込み後に中止し、保存していません: {}",
 };
 inline constexpr Text stopped_by_another{
     "node {} was written in RAM and is not saved: another servo failed",

@@ -24,7 +24,7 @@ ForeignNode::ForeignNode(const ForeignSetup& setup, Time power_on)
       power_on_(power_on), now_(power_on), next_status_(power_on) {
   endpoint_.set_node_id(dronecan::NodeId(setup.node_id));
   if (setup.commands) {
-    next_command_ = power_on;
+    next_command_ = power_on + setup.begins;
   }
 }
 
@@ -68,8 +68,9 @@ void ForeignNode::advance(Time now) {
     send_message(dronecan::NodeStatus::type, priority, node_status().encode().bytes());
     if (setup_.armed) {
       dronecan::ArmingStatus arming;
+      const bool armed = *setup_.armed && power_on_ + setup_.begins <= now;
       arming.status =
-          *setup_.armed ? dronecan::ArmingStatus::fully_armed : dronecan::ArmingStatus::disarmed;
+          armed ? dronecan::ArmingStatus::fully_armed : dronecan::ArmingStatus::disarmed;
       send_message(dronecan::ArmingStatus::type, priority, arming.encode().bytes());
     }
   }

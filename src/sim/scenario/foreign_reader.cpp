@@ -45,6 +45,7 @@ constexpr Member<ForeignSetup> every_kind[]{
     {"serves_get_set", to<&ForeignSetup::serves_get_set>},
     {"commands", read_commander},
     {"armed", to<&ForeignSetup::armed>},
+    {"begins", up_to_seconds<&ForeignSetup::begins, 3600>},
 };
 
 constexpr Member<GnssSetup> gnss[]{{"rate", rate<&GnssSetup::period, 50>}};

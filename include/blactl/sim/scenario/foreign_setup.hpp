@@ -53,6 +53,7 @@ struct ForeignSetup {
   bool serves_get_set = false;
   std::optional<CommanderSetup> commands;
   std::optional<bool> armed; ///< empty: sends no ArmingStatus
+  Duration begins{};         ///< of `commands`, and of being armed, after power-on
   std::variant<PlainSetup, GnssSetup, EscSetup, AutopilotSetup, BabblerSetup> kind;
 };
 
