@@ -158,7 +158,7 @@ _blactl_argument() {
 }
 
 _blactl_options() {
-  echo '-i --interface -n --node -j --json --csv -q --quiet -v --verbose --color --lang -y --yes --timeout --retries --listen-only --local-node-id --while-driven --profile-dir --profile --record -h --help -V --version'
+  echo '-i --interface -n --node -j --json --csv -q --quiet -v --verbose --color --lang -y --yes --timeout --retries --listen-only --local-node-id --while-driven --overwrite-rom --profile-dir --profile --record -h --help -V --version'
   case $1 in
     scan) echo '--listen --expect' ;;
     alloc) echo '--once --count --wait --range --assign --static --id --list --forget --export --import' ;;

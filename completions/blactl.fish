@@ -262,6 +262,7 @@ complete -c blactl -l retries -r -f -d 'how often a request is repeated (default
 complete -c blactl -l listen-only -d 'send nothing, take no node ID'
 complete -c blactl -l local-node-id -r -f -d 'own node ID (default 127, else 126)'
 complete -c blactl -l while-driven -d 'even while another node drives the servo'
+complete -c blactl -l overwrite-rom -d 'save although the servo could not read its ROM'
 complete -c blactl -l profile-dir -r -f -a '(__fish_complete_directories (__blactl_token))' -d 'further model profiles'
 complete -c blactl -l profile -r -f -a '(__blactl_models)' -d 'read as this model if no profile fits'
 complete -c blactl -l record -r -F -d 'write every frame to a candump log'

@@ -45,6 +45,7 @@ constexpr std::array entries{
     Entry{Code::no_local_node_id, "no_local_node_id", 9},
     Entry{Code::no_profile, "no_profile", 9},
     Entry{Code::model_mismatch, "model_mismatch", 9},
+    Entry{Code::rom_unread, "rom_unread", 9},
     Entry{Code::stale_plan, "stale_plan", 9},
     Entry{Code::table_full, "table_full", 9},
     Entry{Code::label_mismatch, "label_mismatch", 9},

@@ -32,13 +32,14 @@ Result<std::string> answer_to(const std::string& question, Context& context) {
 
 } // namespace
 
-Result<void> confirm(std::string_view question, Context& context) {
-  if (context.shared().yes) {
+Result<void> confirm(std::string_view question, Context& context, std::string_view option) {
+  if (context.shared().yes && option.empty()) {
     return {};
   }
-  if (!Reporter::has_terminal()) {
+  if (context.shared().yes || !Reporter::has_terminal()) {
     return fail(Code::not_confirmed, std::string(question) + say<texts::not_confirmed>(),
-                say<texts::not_confirmed_hint>());
+                option.empty() ? say<texts::not_confirmed_hint>()
+                               : say<texts::not_confirmed_by_option_hint>(option));
   }
   const auto answer = answer_to(std::string(question) + say<texts::question_yes_no>(), context);
   if (!answer) {

@@ -7,9 +7,11 @@
 
 namespace blactl::cli {
 
-/// Asks `question` unless --yes was given; an open bus is served meanwhile. Errors: not_confirmed
-/// (no terminal, or any answer but yes), and those of the session.
-[[nodiscard]] Result<void> confirm(std::string_view question, Context& context);
+/// Asks `question` unless --yes was given; an open bus is served meanwhile. `option`: where --yes
+/// is not enough, the option that is. Errors: not_confirmed (no terminal, or any answer but yes),
+/// and those of the session.
+[[nodiscard]] Result<void> confirm(std::string_view question, Context& context,
+                                   std::string_view option = {});
 
 /// Shows `text` to the user at the terminal and waits for Enter; the bus is served meanwhile.
 /// Errors: those of the session.

@@ -33,6 +33,7 @@ struct Shared {
   bool listen_only = false;
   bool yes = false;
   bool while_driven = false;
+  bool overwrite_rom = false;
   fleet::Patience patience{};
   std::optional<std::string> profile_dir{};
   std::optional<std::string> profile{};

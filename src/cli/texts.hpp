@@ -160,6 +160,10 @@ inline constexpr Text not_confirmed{"not confirmed: nothing was written",
 inline constexpr Text not_confirmed_hint{"add --yes to agree beforehand",
                                          "事前に同意するには --yes を付けて下さい"};
 
+inline constexpr Text not_confirmed_by_option_hint{
+    "add {} to agree beforehand: --yes is not enough",
+    "事前に同意するには {} が必要です (--yes では不十分)"};
+
 // -v
 inline constexpr Text from_environment{"{} {}: from {}", "{} {}: {} による指定"};
 inline constexpr Text only_interface{"using {}: the only CAN interface that is up",

@@ -133,7 +133,8 @@ Statement& Statement::bind_real(double value) {
 }
 
 Statement& Statement::bind(std::span<const std::uint8_t> value) {
-  note(sqlite3_bind_blob64(statement_, ++bound_, value.data(), value.size(), nullptr));
+  const void* data = value.empty() ? "" : static_cast<const void*>(value.data()); // null is no blob
+  note(sqlite3_bind_blob64(statement_, ++bound_, data, value.size(), nullptr));
   return *this;
 }
 

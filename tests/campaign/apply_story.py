@@ -129,3 +129,4 @@ def check_rom_writes(outcome, document, step):
         require(count <= most, f"{serial}: {count} ROM writes")
         if told.get(serial, {}).get("status") in {"unchanged", *OTHERS}:
             require(count == 0, f"{serial}: {told[serial]['status']}, but ROM was written")
+    story.check_unread_rom(outcome, step)

@@ -17,7 +17,8 @@ HELD = re.compile(r"held at (-?\d+\.\d) deg")
 AFTERWARDS = re.compile(r"(\d+) ms after the last command .*?\((hold|off|brake)\)")
 ACTIONS = ["hold", "off", "brake"]
 # One of them is said wherever it was commanded.
-ENDS = ("stopped at", "held at", "nothing holds it", "is not known", "nothing more was written")
+ENDS = ("stopped at", "held at", "nothing holds it", "is not known", "nothing more was written",
+        "after the last command")
 OUTPUT, CONTROL, TIMEOUT_ACTION, TIMEOUT = "0x20", "0x25", "0x26", "0x27"
 HOLD = 0
 NOT_ACTIVE = 555555555

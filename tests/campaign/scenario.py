@@ -101,6 +101,7 @@ class Episode:
         self._let_undo(random.Random(f"undo {seed}"))
         self._let_move(random.Random(f"move {seed}"))
         self._let_begin(random.Random(f"begin {seed}"))
+        self._let_start_unread(random.Random(f"unread {seed}"))
 
     def _let_ask(self, chance):
         """Some servos have no node ID, and get one. It is drawn apart: the other episodes, and the
@@ -129,6 +130,22 @@ class Episode:
         self.scenario["foreign"] = [{
             "kind": "node", "node_id": 104, "begins": f"{chance.randint(1000, 20000)}ms",
             **chance.choice([{"armed": True}, {"commands": {"servo_ids": [255], "rate": 50}}])}]
+
+    def _let_start_unread(self, chance):
+        """A ROM that is whole is not read at some starts, and some agree to lose it; drawn apart,
+        too."""
+        if chance.random() < 0.9:
+            return
+        for servo in self.scenario["servos"]:
+            if chance.random() < 0.6:
+                servo.setdefault("rom", {})["angle_limit_cw"] = "77deg"
+                servo.setdefault("faults", {})["rom_unread_starts"] = chance.randint(1, 4)
+        restart = [Command(["restart", "-n", "all", "-y"])]
+        self.steps[:0] = [[Command(["alloc", "--once"])], *[restart] * chance.choice([0, 0, 1])]
+        for step in self.steps:
+            for command in step:
+                if chance.random() < 0.3 and command.words[0] != "alloc":
+                    command.words.append("--overwrite-rom")
 
     def _let_diagnose(self, chance):
         """A look at it all, between other commands or beside one; drawn apart, too."""

@@ -7,7 +7,7 @@ import truth
 from record import EXECUTE_OPCODE, RESTART_NODE
 
 # Exit statuses of the contract that these commands can end with.
-STATUSES = {0, 1, 2, 3, 4, 5, 6, 9}
+STATUSES = {0, 1, 2, 3, 4, 5, 6, 7, 9}
 UNTOUCHED = {2, 7, 9}  # refusals: then nothing was sent that changes a servo
 KILLED = -9
 IDS = ("0x45", "0x46")  # --keep-ids
@@ -149,6 +149,15 @@ def check_rom_writes(outcome, step):
     for serial in step.after:
         count = step.rom_writes(serial)
         require(count <= most, f"{serial}: {count} ROM writes")
+    check_unread_rom(outcome, step)
+
+
+def check_unread_rom(outcome, step):
+    """Nobody saves over it who has not said so."""
+    is_agreed = outcome.command.words[0] == "erase" or "--overwrite-rom" in outcome.command.words
+    for serial in step.after:
+        require(is_agreed or not step.wrote_over_unread_rom(serial),
+                f"{serial}: saved over a ROM that was not read")
 
 
 class Told:

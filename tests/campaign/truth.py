@@ -27,6 +27,16 @@ class Step:
     def rom_writes(self, serial):
         return self.after[serial]["count"] - self.before[serial]["count"]
 
+    def wrote_over_unread_rom(self, serial):
+        """Whether ROM was written by a servo that had not read it, and had not started again."""
+        lost = has_lost_rom(self.before[serial])
+        for line in self._events:
+            if line["serial_number"] == serial and lost:
+                if line["event"] == "rom_write":
+                    return True
+                lost = line["event"] != "restart"
+        return False
+
     def node_ids(self, serial):
         """All that it had."""
         ids = {line["node_id"] for line in self._events if line["serial_number"] == serial}

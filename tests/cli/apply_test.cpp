@@ -533,7 +533,8 @@ TEST_CASE(
       {"schema", "blactl-fleet/1"},
       {"servos",
        {{{"name", "left"}, {"match", {{"serial_number", 7}}}, {"set", {{"smoothing", "on"}}}}}}};
-  const Result healed = fleet.apply(document);
+  CHECK(codes(fleet.apply(document)) == Words{"not_confirmed"});
+  const Result healed = fleet.apply(document, {"--overwrite-rom"});
   INFO(healed.err);
   CHECK(healed.status == 0);
   CHECK(json(healed.out)["nodes"][0]["saved"] == true);

@@ -42,6 +42,7 @@ enum class Code : std::uint8_t {
   no_local_node_id,
   no_profile,
   model_mismatch,
+  rom_unread,
   stale_plan,
   table_full,
   label_mismatch,

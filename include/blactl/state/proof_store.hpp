@@ -21,7 +21,7 @@ class StateFile;
 /// The ROM of one unit at its start: RAM was read completely before anything was written to it.
 struct RomProof {
   dronecan::UniqueId unique_id{};
-  Registers rom{};               ///< all registers that SAVE keeps
+  Registers rom{};               ///< all registers that SAVE keeps; none: it could not be read
   WallTime started{};            ///< by its uptime at the proof
   std::chrono::seconds uptime{}; ///< at the proof
 

@@ -216,7 +216,8 @@ bool Run::prepare(Change& change) {
 
 bool Run::confirm(const Change& change) {
   tell_others();
-  return WritingRun::confirm(request_.dry_run ? std::string() : change.question());
+  return WritingRun::confirm(request_.dry_run ? std::string() : change.question(),
+                             change.overwrites_rom() ? "--overwrite-rom" : "");
 }
 
 /// Notes skipped saves: `saved` is no for a servo that already is as wanted.

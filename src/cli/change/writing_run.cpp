@@ -167,6 +167,7 @@ fleet::Manner WritingRun::manner(const RestartTimes& times, bool restarts) {
       .identification = context_.identification(),
       .stagger = times.stagger,
       .come_back = times.wait,
+      .overwrite_rom = context_.shared().overwrite_rom,
       .while_driven = context_.shared().while_driven,
       .may_allocate = restarts && context_.may_allocate(),
       .allocations =
@@ -184,11 +185,11 @@ fleet::Manner WritingRun::manner(const RestartTimes& times, bool restarts) {
           [this](const Error& error) { tell({say<texts::end_not_recorded>(error.message)}); }};
 }
 
-bool WritingRun::confirm(const std::string& question) {
+bool WritingRun::confirm(const std::string& question, std::string_view option) {
   if (question.empty()) {
     return true;
   }
-  const auto agreed = cli::confirm(question, context_);
+  const auto agreed = cli::confirm(question, context_, option);
   return agreed || fail(agreed.error(), Code::not_confirmed);
 }
 

@@ -78,7 +78,7 @@ class WritingRun {
   [[nodiscard]] fleet::History* history() { return history_ ? &*history_ : nullptr; }
 
   /// An empty question is not asked.
-  [[nodiscard]] bool confirm(const std::string& question);
+  [[nodiscard]] bool confirm(const std::string& question, std::string_view option = {});
 
   bool stop(Error error);
 

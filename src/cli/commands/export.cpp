@@ -81,6 +81,12 @@ std::optional<Error> refuse(const ExportOptions& options, const Context& context
   return replaceable ? std::nullopt : std::optional(replaceable.error());
 }
 
+/// A fleet file does not say whether ROM could be read.
+bool is_unknown_rom_state(const fleet::Reading& reading) {
+  return reading.parameter->address == bla::address::fault_warning && !reading.raw &&
+         reading.raw.error().code == Code::not_recorded;
+}
+
 /// Errors of single servos go to the report.
 std::vector<fleet::Snapshot> read(std::span<const dronecan::NodeId> servos, Context& context,
                                   Report& report) {
@@ -90,7 +96,11 @@ std::vector<fleet::Snapshot> read(std::span<const dronecan::NodeId> servos, Cont
     context.broken(*read.broken, report);
   }
   const fleet::Roster& roster = context.session().roster();
-  for (const fleet::Snapshot& snapshot : read.servos) {
+  for (fleet::Snapshot& snapshot : read.servos) {
+    std::erase_if(snapshot.readings, is_unknown_rom_state);
+    if (const auto unread = fleet::check_rom(snapshot)) {
+      context.reporter().note(unread->message);
+    }
     const bool doubled = roster.is_doubled(snapshot.servo.id);
     report.targets.push_back({.errors = doubled
                                             ? std::vector{fleet::doubled(roster, snapshot.servo.id)}

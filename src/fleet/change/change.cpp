@@ -27,17 +27,6 @@ Wanted wanted(const Goal& goal, Need need) {
                              : goal.wanted;
 }
 
-/// The registers of the goal and, if ROM matters, the one that shows whether ROM could be read.
-Result<std::vector<const bla::Parameter*>> registers_to_read(const Goal& goal, const Servo& servo) {
-  auto needed = registers_needed(goal.wanted, servo);
-  const bool counts = goal.wanted.restart && goal.evidence != Evidence::none;
-  const bla::Parameter* state = counts ? rom_state(servo.identity) : nullptr;
-  if (needed && state != nullptr) {
-    needed->push_back(state);
-  }
-  return needed;
-}
-
 /// From the present to the wanted values.
 std::vector<RegisterChange> changes(const Goal& goal, const Snapshot& held) {
   std::vector<RegisterChange> all;
@@ -127,6 +116,9 @@ ChangeResult merged(ChangeResult earlier, const ChangeResult& last) {
   all.before = std::move(earlier.before);
   all.mode_before = earlier.mode_before;
   all.mode_after = earlier.mode_after;
+  std::ranges::copy_if(last.warnings, std::back_inserter(earlier.warnings), [&](const Warning& w) {
+    return std::ranges::find(earlier.warnings, w.text, &Warning::text) == earlier.warnings.end();
+  });
   all.warnings = std::move(earlier.warnings);
   all.changes = std::move(earlier.changes);
   std::ranges::for_each(all.changes, [&](RegisterChange& each) { learn(each, last); });
@@ -151,7 +143,7 @@ std::vector<Error> Change::prepare(std::vector<Goal> goals) {
 }
 
 std::string Change::question() const {
-  return rounds_ ? rounds_->question() : std::string();
+  return rounds_ ? rounds_->question() + overwritten_ : std::string();
 }
 
 /// RAM that is going to be saved must be unchanged since before this run, unless the run itself
@@ -170,7 +162,7 @@ Result<Change::Snapshots> Change::read(std::span<const std::size_t> goals) {
   }
   auto read = take_snapshots(
       session_, profiles_, nodes, options_.manner.identification,
-      [&](const Servo& servo) { return registers_to_read(*all.at(servo.id), servo); }, proof);
+      [&](const Servo& servo) { return registers_needed(all.at(servo.id)->wanted, servo); }, proof);
   // after a first signal every run of the session is reported as broken; readings remain valid
   if (read.broken && !options_.gives_back) {
     return std::unexpected(*read.broken);
@@ -198,6 +190,31 @@ std::optional<bla::Values> Change::proven_rom(const Goal& goal, const Servo& ser
              : std::nullopt;
 }
 
+/// ROM that could not be read may be whole, and SAVE would replace it by initial values. A restart
+/// may read it; if one did not, the user decides, before this run has changed anything.
+std::optional<Error> Change::refuse_unread_rom(const GoalResult& result, const Snapshot& held,
+                                               Need need) {
+  const bool saves = result.goal.saves() && (need == Need::save || need == Need::write);
+  if (!saves || result.goal.wanted.erase || !check_rom(held)) {
+    return std::nullopt;
+  }
+  const std::uint8_t id = held.servo.id.value();
+  const bool was_tried = options_.manner.proofs != nullptr &&
+                         options_.manner.proofs->is_rom_unread(held.servo, session_);
+  if (!was_tried) {
+    return Error{Code::rom_unread, say<texts::rom_unread>(id), say<texts::rom_unread_hint>(id), id};
+  }
+  if (options_.manner.overwrite_rom) {
+    return std::nullopt;
+  }
+  if (result.change.was_begun) {
+    return Error{Code::rom_unread, say<texts::rom_unread>(id), say<texts::overwrite_rom_hint>(),
+                 id};
+  }
+  overwritten_ += say<texts::question_overwrite_rom>(id);
+  return std::nullopt;
+}
+
 /// Creates tasks for servos with a need.
 std::vector<Error> Change::judge(std::span<const std::size_t> goals, Snapshots snapshots,
                                  std::vector<UnitTask>& tasks) {
@@ -212,6 +229,11 @@ std::vector<Error> Change::judge(std::span<const std::size_t> goals, Snapshots s
     }
     const auto rom = proven_rom(result.goal, held.servo);
     const Need need = need_of(result.goal, held, rom);
+    if (auto error = refuse_unread_rom(result, held, need)) {
+      result.errors.push_back(*error);
+      errors.push_back(std::move(*error));
+      continue;
+    }
     const ChangeResult earlier = std::move(result.change); // to read its ROM
     result = compared(std::move(result.goal), need, held);
     result.change.was_begun = earlier.was_begun;
@@ -266,6 +288,7 @@ std::vector<Error> Change::hear() {
 std::vector<Error> Change::prepare(std::span<const std::size_t> goals) {
   begun_.clear();
   rounds_.reset();
+  overwritten_.clear();
   if (goals.empty()) {
     return {};
   }

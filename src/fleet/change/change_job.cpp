@@ -326,6 +326,7 @@ ChangeJob::Stage ChangeJob::conclude_read_back() {
   // values that RAM held before and does not hold now were not written to ROM
   if (auto unreadable = check_rom(now)) {
     result_.error = std::move(unreadable);
+    result_.rom = unread_rom(now);
   } else if (result_.error && result_.error->code == Code::mismatch) {
     result_.error->hint =
         restart_->is_confirmed() ? say<texts::rom_differs_hint>() : say<texts::run_again_hint>();
@@ -360,12 +361,27 @@ std::optional<RomReading> ChangeJob::rom_reading(const Snapshot& now) const {
   return rom;
 }
 
+/// The start of a servo that holds initial values instead of its ROM.
+std::optional<RomReading> ChangeJob::unread_rom(const Snapshot& now) const {
+  auto rom = rom_reading(now);
+  if (rom) {
+    rom->values.clear();
+  }
+  return rom;
+}
+
 /// Nothing depends on it: unreadable values are not shown.
 void ChangeJob::conclude_read_shown() {
   result_.now = read_->snapshot().values();
   if (brings_unread_rom()) {
+    const Snapshot& now = read_->snapshot();
     result_.servo.servo_id = bla::find(result_.now, bla::address::servo_id);
+    if (const auto unreadable = check_rom(now)) {
+      result_.rom = unread_rom(now);
+      result_.warnings.push_back({"rom_unread", unreadable->message});
+    }
     result_.now.erase(bla::address::servo_id);
+    result_.now.erase(bla::address::fault_warning);
   }
 }
 
@@ -405,7 +421,8 @@ std::unique_ptr<ReadJob> ChangeJob::read_shown() {
         auto parameters = servo.identity.registers(plan_.shown);
         std::erase_if(parameters, [](const auto* each) { return each->is_setting(); });
         if (brings_unread_rom()) {
-          std::ranges::copy(servo.identity.registers(std::array{bla::address::servo_id}),
+          std::ranges::copy(servo.identity.registers(
+                                std::array{bla::address::servo_id, bla::address::fault_warning}),
                             std::back_inserter(parameters));
         }
         return parameters;

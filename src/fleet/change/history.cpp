@@ -158,7 +158,8 @@ Result<void> History::conclude(std::span<const ChangeResult> results, const Sess
   auto settled = settle(results);
   std::vector<state::RomProof> proofs;
   for (const ChangeResult& result : results) {
-    if (result.is_done() && result.rom && result.servo.unique_id) {
+    const bool tells = result.rom && (result.is_done() || result.rom->values.empty());
+    if (tells && result.servo.unique_id) {
       proofs.push_back(proof_of(*result.servo.unique_id, *result.rom, session));
     }
   }
@@ -171,7 +172,7 @@ Result<void> History::conclude(std::span<const ChangeResult> results, const Sess
   return settled ? put : settled;
 }
 
-std::optional<bla::Values> History::proven_rom(const Servo& servo, const Session& session) {
+std::optional<state::RomProof> History::proof(const Servo& servo, const Session& session) {
   const Member member = session.roster().member(servo.id);
   if (!servo.unique_id || !member.is_unit(*servo.unique_id) || !member.status) {
     return std::nullopt;
@@ -187,11 +188,24 @@ std::optional<bla::Values> History::proven_rom(const Servo& servo, const Session
     [[maybe_unused]] const auto put =
         proofs_.put(std::array{state::renewed(**proof, uptime, told)});
   }
+  return *proof;
+}
+
+std::optional<bla::Values> History::proven_rom(const Servo& servo, const Session& session) {
+  const auto proof = this->proof(servo, session);
+  if (!proof || proof->rom.empty()) {
+    return std::nullopt;
+  }
   bla::Values values;
-  for (const auto& [address, raw] : (*proof)->rom) {
+  for (const auto& [address, raw] : proof->rom) {
     values.emplace(bla::Address(address), raw);
   }
   return values;
+}
+
+bool History::is_rom_unread(const Servo& servo, const Session& session) {
+  const auto proof = this->proof(servo, session);
+  return proof && proof->rom.empty();
 }
 
 /// A SAVE that replaces nothing itself makes an earlier change in RAM permanent.

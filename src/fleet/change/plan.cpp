@@ -299,6 +299,9 @@ Result<std::vector<const Parameter*>> registers_needed(const Wanted& wanted, con
       add(registers, parameter);
     }
   }
+  if (wanted.restart == RestartKind::save && !wanted.erase) { // SAVE replaces what was not read
+    add(registers, rom_state(servo.identity));
+  }
   return registers;
 }
 

@@ -161,6 +161,21 @@ inline constexpr Text unnamed_lost{
     "{} was {} in RAM only: the restart has brought back {}",
     "{} の {} は RAM のみの値でした。再起動により {} に戻りました",
 };
+inline constexpr Text rom_unread{
+    "node {} could not read its ROM at its start: saving would replace all that ROM holds by "
+    "initial "
+    "values",
+    "ノード {} は起動時に ROM のデータを読み出せず、初期値で動作しています。保存すると ROM "
+    "の内容が初期値に置き換わります"};
+inline constexpr Text rom_unread_hint{"the next start may read it: blactl restart -n {}",
+                                      "再起動で読み出せる場合があります: blactl restart -n {}"};
+inline constexpr Text question_overwrite_rom{
+    "node {} could not read its ROM, not after a restart either: SAVE replaces all settings in it, "
+    "limits, servo ID and node ID among them, by the initial values it runs on, for good\n",
+    "ノード {} は再起動後も ROM を読み出せません。SAVE により ROM の全設定 (制限値、サーボ "
+    "ID、ノード ID を含む) が現在の初期値に置き換わり、元に戻せません\n"};
+inline constexpr Text overwrite_rom_hint{"add --overwrite-rom to save all the same",
+                                         "それでも保存する場合は --overwrite-rom を付けて下さい"};
 inline constexpr Text stopped_halfway{
     "node {} was written in RAM, in part or whole, and is not saved: {}",
     "ノード {} は RAM への書込みの途中または書込み後に中止し、保存していません: {}",

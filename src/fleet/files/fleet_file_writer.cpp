@@ -106,6 +106,10 @@ std::vector<const bla::Parameter*> registers_to_export(const Servo& servo) {
                                   bla::address::production_day, bla::address::production_hour,
                                   bla::address::production_minute};
   std::ranges::copy(servo.identity.registers(production), std::back_inserter(registers));
+  if (const bla::Parameter* state =
+          rom_state(servo.identity)) { // whether the values are those of ROM
+    registers.push_back(state);
+  }
   return registers;
 }
 

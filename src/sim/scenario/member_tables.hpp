@@ -82,6 +82,7 @@ inline constexpr Member<ServoFaults> servo_fault_members[]{
     {"rom_write_fails", to<&ServoFaults::rom_write_fails>},
     {"stays", to<&ServoFaults::stays>},
     {"never_returns", to<&ServoFaults::never_returns>},
+    {"rom_unread_starts", to<&ServoFaults::rom_unread_starts>},
     {"restart_instead_of_answer", to<&ServoFaults::restart_instead_of_answer>},
     {"restart_after_answer", read_restarts},
     {"power_loss_in_save", up_to_seconds<&ServoFaults::power_loss_in_save, longest_delay>},

@@ -34,6 +34,7 @@ Servo::Servo(const ServoSetup& setup, std::uint64_t seed, Time power_on)
   if (!world().powers()) {
     wake_ = never;
   }
+  load_rom(power_on);
 }
 
 Duration Servo::boot_time() {
@@ -161,6 +162,7 @@ void Servo::end_rom_write(Time now) {
   } else if (!setup_.faults.rom_write_fails) {
     registers_.save();
     rom_is_torn_ = false;
+    setup_.faults.rom_unread_starts = 0;
   }
   ++rom_writes_;
   tell(ServoEvent::Kind::rom_write);
@@ -178,10 +180,7 @@ void Servo::restart(Time now) {
   tell(ServoEvent::Kind::restart);
   motion_.stop(now);
   registers_.restart();
-  if (rom_is_torn_) { // requirement 65
-    registers_.initialize();
-    show_until_restart(fault::rom_unreadable, 0, now);
-  }
+  load_rom(now);
   endpoint_.restart();
   departure_.reset();
   allocatee_.reset();
@@ -189,6 +188,17 @@ void Servo::restart(Time now) {
   phase_ = Phase::boot;
   const Duration absence = boot_time() + setup_.faults.return_delay;
   wake_ = setup_.faults.never_returns ? never : now + absence;
+}
+
+/// Requirement 65.
+void Servo::load_rom(Time now) {
+  if (rom_is_torn_ || setup_.faults.rom_unread_starts > 0) {
+    if (setup_.faults.rom_unread_starts > 0) {
+      --setup_.faults.rom_unread_starts;
+    }
+    registers_.initialize();
+    show_until_restart(fault::rom_unreadable, 0, now);
+  }
 }
 
 /// Bits of 0x1A and 0x1B that show the cause of the restart.

@@ -16,9 +16,10 @@ TEST_CASE("every code has the word and the exit status of the contract") {
       {5, "refused mismatch "},
       {7, "not_confirmed "},
       {8, "faults "},
-      {9, "duplicate_node_id duplicate_servo_id other_allocator armed driven busy "
-          "no_local_node_id no_profile model_mismatch stale_plan table_full label_mismatch "
-          "firmware_too_old several_servos counter_end "},
+      {9,
+       "duplicate_node_id duplicate_servo_id other_allocator armed driven busy "
+       "no_local_node_id no_profile model_mismatch rom_unread stale_plan table_full label_mismatch "
+       "firmware_too_old several_servos counter_end "},
       {130, "interrupted "}};
   std::map<int, std::string> found;
   for (int code = 0; code <= static_cast<int>(Code::interrupted); ++code) {

@@ -253,3 +253,12 @@ TEST_CASE("errors name the record in Japanese too") {
   REQUIRE_FALSE(store);
   CHECK(store.error().message.find("ROM 照合記録ではありません") != std::string::npos);
 }
+
+TEST_CASE("a start that could not read ROM is kept like any other") {
+  const Folder folder;
+  auto store = opened(folder);
+  RomProof unread = proof(1);
+  unread.rom.clear();
+  REQUIRE(put(store, unread));
+  CHECK(found(store, 1) == unread);
+}

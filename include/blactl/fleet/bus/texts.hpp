@@ -95,9 +95,8 @@ inline constexpr Text rom_unreadable{
     "node {} could not read its ROM at its start and holds initial values",
     "ノード {}: 起動時に ROM のデータを読み出せず、初期値で動作しています"};
 inline constexpr Text rom_unreadable_hint{
-    "was the supply cut while it saved? write its values again, then: blactl save -n {}",
-    "保存中に電源が切れた可能性があります。値を書き直してから blactl save -n {} "
-    "を実行して下さい"};
+    "the next start may read it: blactl restart -n {}; was the supply cut while it saved?",
+    "再起動で読み出せる場合があります: blactl restart -n {} (保存中の電源断の可能性あり)"};
 inline constexpr Text another_servo{"node {} is another servo now",
                                     "ノード {} は別のサーボに替わりました"};
 inline constexpr Text opcode_refused_hint{

@@ -29,6 +29,7 @@ struct Manner {
   Duration stagger{};                  ///< between the requests to restart
   std::optional<Duration> come_back{}; ///< empty: 5 s, and 2 s for each that will ask for an ID
   bool stops_at_failure = false;       ///< a failure stops all that are not saved yet
+  bool overwrite_rom = false;          ///< agreed: also ROM that could not be read
   bool while_driven = false;           ///< also changes that move a servo which another node drives
   /// Whether this process may allocate: no other on this machine does so on the interface.
   bool may_allocate = false;

@@ -53,7 +53,8 @@ class Change {
 
   /// Reads the servos, plans each change, and hears the bus; if one refuses none is changed.
   /// Errors, all of them: why a servo could not be read; as make_plan(), plan_id_moves(),
-  /// conflict() and forbidden(); state (a servo has come since, frames were lost); one that ends a
+  /// conflict() and forbidden(); state (a servo has come since, frames were lost); rom_unread (SAVE
+  /// of a servo that could not read its ROM, without a restart of ours since); one that ends a
   /// session is the only one.
   [[nodiscard]] std::vector<Error> prepare(std::vector<Goal> goals);
 
@@ -62,6 +63,10 @@ class Change {
 
   /// The one question before everything; empty: none needed.
   [[nodiscard]] std::string question() const;
+
+  /// Whether the question is about ROM that could not be read and is going to be replaced: a
+  /// general yes is no answer to that.
+  [[nodiscard]] bool overwrites_rom() const { return !overwritten_.empty(); }
 
   /// Asks the guard again, after a question; then brings each servo to its goal. Errors: why it did
   /// not begin or go on; those of single servos are in results().
@@ -76,6 +81,8 @@ class Change {
   [[nodiscard]] Result<Snapshots> read(std::span<const std::size_t> goals);
   [[nodiscard]] std::optional<Error> refuse(const Goal& goal, const Snapshot& held) const;
   [[nodiscard]] std::optional<bla::Values> proven_rom(const Goal& goal, const Servo& servo);
+  [[nodiscard]] std::optional<Error> refuse_unread_rom(const GoalResult& result,
+                                                       const Snapshot& held, Need need);
   [[nodiscard]] std::vector<Error> hear();
   [[nodiscard]] std::vector<Error> prepare(std::span<const std::size_t> goals);
   [[nodiscard]] std::vector<Error> judge(std::span<const std::size_t> goals, Snapshots snapshots,
@@ -96,6 +103,7 @@ class Change {
   std::vector<GoalResult> results_;
   std::vector<std::size_t> begun_; ///< the goals behind the units of rounds_
   std::vector<std::string> notes_;
+  std::string overwritten_; ///< the part of the question about ROM that could not be read
 };
 
 } // namespace blactl::fleet

@@ -88,6 +88,7 @@ class ChangeJob final : public dronecan::Job {
   [[nodiscard]] Stage conclude_read_back();
   void conclude_read_shown();
   [[nodiscard]] std::optional<RomReading> rom_reading(const Snapshot& now) const;
+  [[nodiscard]] std::optional<RomReading> unread_rom(const Snapshot& now) const;
   [[nodiscard]] Time known_since() const;
   [[nodiscard]] std::optional<dronecan::NodeId> other_writer() const;
   void explain_interruption(Stage at);

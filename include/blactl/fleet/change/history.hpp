@@ -56,7 +56,12 @@ class History {
   /// if the record cannot be read.
   [[nodiscard]] std::optional<bla::Values> proven_rom(const Servo& servo, const Session& session);
 
+  /// Whether a restart by this program did not help a servo to read its ROM, and it has not
+  /// restarted since.
+  [[nodiscard]] bool is_rom_unread(const Servo& servo, const Session& session);
+
  private:
+  [[nodiscard]] std::optional<state::RomProof> proof(const Servo& servo, const Session& session);
   [[nodiscard]] Result<std::optional<state::Settlement>>
   made_lasting(const ChangeResult& result) const;
   [[nodiscard]] Result<void> settle(std::span<const ChangeResult> results);

@@ -103,6 +103,7 @@ class Servo final : public Device {
   void depart(Time now);
   void end_rom_write(Time now);
   void restart(Time now);
+  void load_rom(Time now);
   void lose_power(Time now);
   void show_until_restart(std::int64_t warnings, std::int64_t failures, Time now);
   void broadcast(Time now);

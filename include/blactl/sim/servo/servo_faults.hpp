@@ -35,6 +35,8 @@ struct ServoFaults {
   bool rom_write_fails = false; ///< ok, silence, restart and count as usual, but ROM is unchanged
   bool stays = false;           ///< responds ok and writes ROM, but does not restart
   bool never_returns = false;   ///< is dead after its first restart
+  std::uint16_t rom_unread_starts =
+      0; ///< the first so many starts cannot read ROM, unless it is written
   std::uint32_t restart_instead_of_answer = 0; ///< number of the service request, the first is 1
   std::vector<RestartAfterAnswer> restart_after_answer;
   std::optional<Duration> power_loss_in_save{}; ///< once, this long into the ROM write

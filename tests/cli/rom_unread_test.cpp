@@ -1,0 +1,102 @@
+// A servo that could not read its ROM runs on initial values, and its ROM may be whole: nothing
+// saves over it before a restart was tried, and then only who knows.
+
+#include "catch.hpp"
+#include "fleet.hpp"
+#include "scene.hpp"
+
+#include <string>
+#include <vector>
+
+using namespace blactl::test;
+
+namespace {
+
+/// Its ROM holds 90 deg. So many starts do not read it; then it asks for a node ID, and has got
+/// 125.
+class Unread {
+ public:
+  explicit Unread(int starts)
+      : fleet(Scene().servo("BLA21-12U-AB", 11,
+                            {{"rom", {{"angle_limit_cw", "90deg"}}},
+                             {"faults", {{"rom_unread_starts", starts}}}})) {
+    REQUIRE(fleet.run({"alloc", "--once"}).status == 0);
+  }
+
+  Fleet fleet;
+};
+
+constexpr const char* refused =
+    "node 125 could not read its ROM at its start: saving would replace all that ROM holds by "
+    "initial values\n  the next start may read it: blactl restart -n 125";
+
+} // namespace
+
+TEST_CASE("whatever would save is refused while the ROM was not read, also with every yes") {
+  const auto command = GENERATE(Arguments{"save", "-n", "all"},
+                                Arguments{"set", "-n", "all", "smoothing=off", "--save"},
+                                Arguments{"pwm-config", "-n", "all", "--output", "90deg", "--save"},
+                                Arguments{"alloc", "--static", "-n", "all"});
+  Unread servo(5);
+  Arguments agreed = command;
+  agreed.insert(agreed.end(), {"-y", "--overwrite-rom"});
+  check_error(servo.fleet.run(agreed), 9, "rom_unread", refused);
+  CHECK(servo.fleet.rom_writes() == 0);
+}
+
+TEST_CASE("apply does not save over a ROM that was not read") {
+  Unread servo(5);
+  auto document = servo.fleet.exported();
+  document["servos"][0]["set"]["angle_limit_cw"] = "45deg";
+  const Result applied = servo.fleet.apply(document);
+  CHECK(applied.status == 9);
+  CHECK(codes(applied) == std::vector<std::string>{"rom_unread"});
+  CHECK(servo.fleet.rom_writes() == 0);
+}
+
+TEST_CASE("what stays in RAM is written, and ERASE of the ROM needs no further word") {
+  Unread servo(5);
+  CHECK(servo.fleet.run({"set", "-n", "all", "smoothing=off", "-y"}).status == 0);
+  CHECK(servo.fleet.run({"erase", "-n", "all", "--save", "-y"}).status == 0);
+  CHECK(servo.fleet.rom_writes() == 1);
+}
+
+TEST_CASE("the next start reads it: what ROM holds is back, and can be saved") {
+  Unread servo(1);
+  const Result restarted = servo.fleet.run({"restart", "-n", "all", "-y", "--json"});
+  CHECK(restarted.status == 0);
+  CHECK_FALSE(contains(restarted.err, "could not read its ROM"));
+  CHECK(servo.fleet.ram("11", "angle_limit_cw") == 900);
+  CHECK(servo.fleet.run({"set", "-n", "11", "smoothing=off", "--save", "-y"}).status == 0);
+}
+
+TEST_CASE("where a restart did not help, --yes is not enough, and --overwrite-rom agrees") {
+  Unread servo(5);
+  const Result restarted = servo.fleet.run({"restart", "-n", "all", "-y", "--json"});
+  CHECK(restarted.status == 0);
+  CHECK(contains(restarted.err, "could not read its ROM at its start and holds initial values"));
+  CHECK(json(restarted.out)["nodes"][0]["warnings"][0]["code"] == "rom_unread");
+  const Arguments save{"save", "-n", "all", "-y"};
+  const Result unsure = servo.fleet.run(save);
+  CHECK(unsure.status == 7);
+  CHECK(contains(unsure.err, "limits, servo ID and node ID among them"));
+  CHECK(contains(unsure.err, "add --overwrite-rom to agree beforehand"));
+  CHECK(servo.fleet.run({"save", "-n", "all", "-y", "--overwrite-rom"}).status == 0);
+  CHECK(servo.fleet.rom_writes() == 1);
+}
+
+TEST_CASE("a restart that was not ours is no try") {
+  Unread servo(5);
+  REQUIRE(servo.fleet.run({"restart", "-n", "all", "-y"}).status == 0);
+  const std::filesystem::path state = servo.fleet.file_name("other");
+  const Result saved = servo.fleet.run({"save", "-n", "all", "-y", "--overwrite-rom"},
+                                       {.env = {{"BLACTL_STATE_DIR", state.string()}}});
+  CHECK(codes(saved) == std::vector<std::string>{"rom_unread"});
+}
+
+TEST_CASE("export says that the values are not those of the ROM") {
+  const Unread servo(5);
+  const Result exported = servo.fleet.run({"export"});
+  CHECK(exported.status == 0);
+  CHECK(contains(exported.err, "could not read its ROM at its start and holds initial values"));
+}
