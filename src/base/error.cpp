@@ -38,6 +38,7 @@ constexpr std::array entries{
     Entry{Code::faults, "faults", 8},
     Entry{Code::duplicate_node_id, "duplicate_node_id", 9},
     Entry{Code::duplicate_servo_id, "duplicate_servo_id", 9},
+    Entry{Code::duplicate_unique_id, "duplicate_unique_id", 9},
     Entry{Code::other_allocator, "other_allocator", 9},
     Entry{Code::armed, "armed", 9},
     Entry{Code::driven, "driven", 9},

@@ -1,6 +1,7 @@
 #include "cli/read_servos.hpp"
 
 #include "blactl/fleet/bus/discovery.hpp"
+#include "blactl/fleet/bus/unreachable.hpp"
 
 #include "cli/interface/scheme.hpp"
 #include "cli/texts.hpp"
@@ -54,6 +55,14 @@ std::optional<std::vector<dronecan::NodeId>> select_for_reading(std::string_view
     report.fail_target(std::move(error));
   }
   return std::move(selection->ids);
+}
+
+void note_copies(std::span<const fleet::Snapshot> servos, Context& context) {
+  for (const fleet::Snapshot& snapshot : servos) {
+    if (const auto copied = fleet::not_unique(context.session().roster(), snapshot.servo.id)) {
+      context.reporter().note(copied->message);
+    }
+  }
 }
 
 } // namespace blactl::cli

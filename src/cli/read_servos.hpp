@@ -1,10 +1,13 @@
 #pragma once
 // How read-only commands find their servos.
 
+#include "blactl/fleet/bus/snapshot.hpp"
+
 #include "cli/context.hpp"
 #include "cli/output/report.hpp"
 
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -18,5 +21,8 @@ namespace blactl::cli {
 /// session, are in the report. Empty: the report has the reason why nothing can be read.
 [[nodiscard]] std::optional<std::vector<dronecan::NodeId>>
 select_for_reading(std::string_view command, Context& context, Report& report);
+
+/// Notes the servos that their unique IDs do not tell from others.
+void note_copies(std::span<const fleet::Snapshot> servos, Context& context);
 
 } // namespace blactl::cli

@@ -77,6 +77,9 @@ void Allocator::answer() {
   Allocation reply = collected_;
   if (reply.size == whole) {
     collected_ = {};
+    if (is_blank(reply.unique_id)) { // every other such unit would take the same node ID
+      return;
+    }
     const auto id = table_.assign(reply.unique_id, preferred_);
     if (!id || !id->is_unicast() || id == node_.id()) {
       return;

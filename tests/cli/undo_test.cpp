@@ -208,8 +208,12 @@ TEST_CASE("undo after a save puts ROM back, too: what was set before it has beco
 
 TEST_CASE("undo of a unit that there is twice is refused") {
   const nlohmann::json same = {{"unique_id", "00112233445566778899aabbccddeeff"}};
-  Fleet fleet(Scene().servo("BLA21-12U-AB", 11, same).servo("BLA21-12U-AB", 12, same));
-  REQUIRE(fleet.run({"set", "-n", "12", "smoothing=off", "--save", "-y"}).status == 0);
-  check_error(fleet.run({"undo", "-y"}), 2, "usage", "two nodes have the unique ID");
+  nlohmann::json second = same;
+  second["serial_number"] = 2;
+  Fleet fleet(
+      Scene().servo("BLA21-12U-AB", 11, same).servo("BLA21-12U-AB", 12, second).joins(2, "10s"));
+  REQUIRE(fleet.run({"set", "-n", "11", "smoothing=off", "--save", "-y"}).status == 0);
+  REQUIRE(fleet.run({"scan", "--listen", "10"}).status == 9);
+  check_error(fleet.run({"undo", "-y"}), 9, "duplicate_unique_id", "nodes 11, 12 have the same");
   CHECK(fleet.rom_writes() == 1);
 }

@@ -35,6 +35,7 @@ enum class Code : std::uint8_t {
   faults,
   duplicate_node_id,
   duplicate_servo_id,
+  duplicate_unique_id,
   other_allocator,
   armed,
   driven,

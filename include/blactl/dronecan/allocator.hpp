@@ -30,7 +30,8 @@ class AllocationTable {
 };
 
 /// Answers the three parts of an allocation request. Once another allocator is heard, this one
-/// stays silent for good; before its first answer it waits 100 ms for one.
+/// stays silent for good; before its first answer it waits 100 ms for one. A unit without a unique
+/// ID of its own gets none.
 class Allocator final : public Service {
  public:
   /// Both arguments outlive the allocator.

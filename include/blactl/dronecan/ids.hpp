@@ -1,6 +1,7 @@
 #pragma once
 // Numbers of the DroneCAN network: node IDs, data types, priorities.
 
+#include <algorithm>
 #include <array>
 #include <compare>
 #include <cstdint>
@@ -33,6 +34,13 @@ inline constexpr NodeId anonymous{};
 
 /// The 128-bit identity of a unit (GetNodeInfo, dynamic node ID allocation).
 using UniqueId = std::array<std::uint8_t, 16>;
+
+/// Whether it is zeros or ones alone, as in memory that was never written: of no unit its own.
+[[nodiscard]] constexpr bool is_blank(const UniqueId& unique_id) {
+  return std::ranges::all_of(unique_id, [&](std::uint8_t byte) {
+    return byte == unique_id.front() && (byte == 0x00 || byte == 0xFF);
+  });
+}
 
 /// Message broadcast, or one direction of a service.
 enum class Kind : std::uint8_t { message, request, response };

@@ -100,11 +100,6 @@ inline constexpr Text undo_takes_back{"takes back what `{}` changed at {}",
                                       "`{}` による変更 ({}) を元に戻します"};
 inline constexpr Text undo_missing{"unit {}, which `{}` changed, is not on the bus",
                                    "固有 ID {} のサーボ (`{}` で変更) がバス上にありません"};
-inline constexpr Text undo_unit_twice{
-    "two nodes have the unique ID {}: which of them was changed is not known",
-    "固有 ID {} のノードが 2 つあり、どちらの変更か判定できません"};
-inline constexpr Text undo_unit_twice_hint{"connect only the one that is meant",
-                                           "対象のサーボだけを接続して下さい"};
 inline constexpr Text undo_nothing_of_node{"no change of node {} is recorded",
                                            "ノード {} の変更履歴はありません"};
 inline constexpr Text undo_see_list_hint{"what is recorded: blactl undo --list",

@@ -127,7 +127,8 @@ void WritingRun::searched() {
 }
 
 bool WritingRun::hear() {
-  const auto heard = fleet::hear_others(context_.session(), searched_at_);
+  const auto heard =
+      fleet::hear_others(context_.session(), context_.shared().patience, searched_at_);
   tell(heard.notes);
   for (const Error& error : heard.errors) {
     (void)fail(error, Code::state);

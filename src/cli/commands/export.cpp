@@ -81,12 +81,6 @@ std::optional<Error> refuse(const ExportOptions& options, const Context& context
   return replaceable ? std::nullopt : std::optional(replaceable.error());
 }
 
-/// A fleet file does not say whether ROM could be read.
-bool is_unknown_rom_state(const fleet::Reading& reading) {
-  return reading.parameter->address == bla::address::fault_warning && !reading.raw &&
-         reading.raw.error().code == Code::not_recorded;
-}
-
 /// Errors of single servos go to the report.
 std::vector<fleet::Snapshot> read(std::span<const dronecan::NodeId> servos, Context& context,
                                   Report& report) {
@@ -95,9 +89,10 @@ std::vector<fleet::Snapshot> read(std::span<const dronecan::NodeId> servos, Cont
   if (read.broken) {
     context.broken(*read.broken, report);
   }
+  note_copies(read.servos, context);
   const fleet::Roster& roster = context.session().roster();
   for (fleet::Snapshot& snapshot : read.servos) {
-    std::erase_if(snapshot.readings, is_unknown_rom_state);
+    fleet::drop_unrecorded_state(snapshot);
     if (const auto unread = fleet::check_rom(snapshot)) {
       context.reporter().note(unread->message);
     }

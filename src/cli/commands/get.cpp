@@ -119,6 +119,7 @@ Report execute(const GetOptions& options, Context& context) {
   if (snapshots.broken) { // before the servos: those report it as well
     context.broken(*snapshots.broken, report);
   }
+  note_copies(snapshots.servos, context);
   for (fleet::Snapshot& snapshot : snapshots.servos) {
     tell_unknown_defaults(options, snapshot.servo, context.reporter());
     report.targets.push_back({.errors = errors(snapshot, *choice, roster)});

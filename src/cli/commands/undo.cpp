@@ -4,6 +4,7 @@
 
 #include "blactl/base/hex.hpp"
 #include "blactl/base/rfc3339.hpp"
+#include "blactl/fleet/bus/unreachable.hpp"
 #include "blactl/state/snapshot_store.hpp"
 
 #include "cli/change/change_servos.hpp"
@@ -125,10 +126,8 @@ void Undo::of_node(dronecan::NodeId id, const Whom& whom, Goals& goals) {
 
 void Undo::take_back(const fleet::Undoing& change, dronecan::NodeId id, Goals& goals) {
   const SnapshotEntry& entry = change.entry;
-  const auto is_unit = [&](const auto& each) { return each.second.is_unit(entry.unique_id); };
-  if (std::ranges::count_if(context_.session().roster().members(), is_unit) > 1) {
-    goals.errors.push_back({Code::usage, say<texts::undo_unit_twice>(hex(entry.unique_id)),
-                            say<texts::undo_unit_twice_hint>(), id.value()});
+  if (auto copied = fleet::not_unique(context_.session().roster(), id)) {
+    goals.errors.push_back(std::move(*copied));
     return;
   }
   auto wanted = fleet::to_undo(entry, context_.known());

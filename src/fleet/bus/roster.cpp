@@ -31,6 +31,15 @@ std::set<std::string> names_of_settled(const bla::Profiles& profiles) {
   return names;
 }
 
+bool may_be_servo(const Member& member) {
+  return member.is_servo || member.sends_actuator_status();
+}
+
+/// Whether it ran while the other was running already.
+bool ran_beside(const Member& member, const Member& other) {
+  return member.status_at > other.info_start;
+}
+
 } // namespace
 
 Servo Member::servo() const {
@@ -141,8 +150,24 @@ bool Roster::has_moved(const Member& member) const {
   return member.info && std::ranges::any_of(members_, [&](const auto& entry) {
            const Member& other = entry.second;
            return other.id != member.id && other.is_unit(member.info->unique_id) &&
-                  other.info_at > member.last_heard;
+                  other.info_start > member.last_heard;
          });
+}
+
+std::vector<NodeId> Roster::copies(NodeId id) const {
+  std::vector<NodeId> copies;
+  const Member* member = find(id);
+  if (member == nullptr || !member->info || !member->is_unit(member->info->unique_id) ||
+      !may_be_servo(*member)) { // others may all have zeros
+    return copies;
+  }
+  for (const auto& [other_id, other] : members_) {
+    if (other_id != id && may_be_servo(other) && other.is_unit(member->info->unique_id) &&
+        ran_beside(*member, other) && ran_beside(other, *member)) {
+      copies.push_back(other_id);
+    }
+  }
+  return copies;
 }
 
 const Member* Roster::find(NodeId id) const {

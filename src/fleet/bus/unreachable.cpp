@@ -65,6 +65,27 @@ Error doubled(const Roster& roster, dronecan::NodeId id) {
           say<texts::doubled_target_hint>(), id.value()};
 }
 
+std::optional<Error> not_unique(const Roster& roster, dronecan::NodeId id) {
+  const Member* member = roster.find(id);
+  const auto unique_id = member != nullptr ? member->unique_id() : std::nullopt;
+  if (!unique_id) {
+    return std::nullopt;
+  }
+  auto nodes = roster.copies(id);
+  if (!nodes.empty()) {
+    nodes.insert(std::ranges::upper_bound(nodes, id), id);
+    return Error{Code::duplicate_unique_id,
+                 say<texts::doubled_unique_id>(id_list(nodes), hex(*unique_id)),
+                 say<texts::doubled_unique_id_hint>(), id.value()};
+  }
+  if (dronecan::is_blank(*unique_id)) {
+    return Error{Code::duplicate_unique_id,
+                 say<texts::blank_unique_id>(id.value(), hex(*unique_id)),
+                 say<texts::blank_unique_id_hint>(), id.value()};
+  }
+  return std::nullopt;
+}
+
 Error silent(const Roster& roster, dronecan::NodeId node) {
   const std::uint8_t id = node.value();
   const Member member = roster.member(node);

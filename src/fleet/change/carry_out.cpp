@@ -7,6 +7,7 @@
 #include "blactl/fleet/bus/ticker.hpp"
 #include "blactl/fleet/change/former_ids.hpp"
 
+#include "fleet/change/last_look.hpp"
 #include "fleet/change/texts.hpp"
 
 #include <algorithm>
@@ -120,6 +121,23 @@ CarriedOut not_begun(std::span<const Plan> plans, Error reason) {
   return none;
 }
 
+/// Of jobs that have ended, some before others. Errors: as Session::run().
+Result<void> look_back(Session& session, std::list<ChangeJob>& jobs, Patience patience) {
+  std::vector<Servo> servos;
+  for (const ChangeJob& job : jobs) {
+    if (auto servo = job.in_ram_only(); servo && jobs.size() > 1) {
+      servos.push_back(std::move(*servo));
+    }
+  }
+  auto lost = look_last(session, servos, patience);
+  std::size_t looked_at = 0;
+  for (ChangeJob& job : jobs) {
+    const bool is_next = lost && looked_at < servos.size() && job.in_ram_only();
+    job.look_back(is_next ? std::move((*lost)[looked_at++]) : std::nullopt);
+  }
+  return lost ? Result<void>() : std::unexpected(lost.error());
+}
+
 CarriedOut change(Session& session, const bla::Profiles& profiles, std::span<const Plan> plans,
                   const Manner& manner) {
   FormerIds table(session, ids_of(plans), manner.allocations, [&](const Error& reason) {
@@ -152,11 +170,13 @@ CarriedOut change(Session& session, const bla::Profiles& profiles, std::span<con
       manner.progress(progress_of(jobs, session.now() - begin));
     }
   });
-  const auto ran = session.run(group);
+  auto ran = session.run(group);
+  if (const auto looked = look_back(session, jobs, manner.identification.patience); ran) {
+    ran = looked;
+  }
   session.detach(allocator);
   CarriedOut carried_out;
-  for (ChangeJob& job : jobs) {
-    job.look_back();
+  for (const ChangeJob& job : jobs) {
     carried_out.servos.push_back(job.result());
     explain_waiting(plans[carried_out.servos.size() - 1], table, carried_out.servos.back());
   }

@@ -6,6 +6,7 @@
 #include "blactl/fleet/change/guard.hpp"
 #include "blactl/fleet/change/history.hpp"
 
+#include "fleet/change/last_look.hpp"
 #include "fleet/change/rounds.hpp"
 #include "fleet/change/texts.hpp"
 
@@ -280,9 +281,21 @@ std::vector<Error> Change::hear() {
   if (options_.gives_back) { // the bus was heard when it was taken
     return {};
   }
-  auto heard = hear_others(session_, options_.searched);
+  auto heard = hear_others(session_, options_.manner.identification.patience, options_.searched);
   note(heard.notes);
   return std::move(heard.errors);
+}
+
+/// A record of one unit must not pass for another: of a servo left unchanged as well.
+std::vector<Error> Change::refuse_copies(std::span<const std::size_t> goals) {
+  std::vector<Error> errors;
+  for (const std::size_t i : goals) {
+    if (auto error = not_unique(session_.roster(), results_[i].servo().id)) {
+      results_[i].errors.push_back(*error);
+      errors.push_back(std::move(*error));
+    }
+  }
+  return options_.gives_back ? std::vector<Error>() : errors;
 }
 
 std::vector<Error> Change::prepare(std::span<const std::size_t> goals) {
@@ -302,6 +315,9 @@ std::vector<Error> Change::prepare(std::span<const std::size_t> goals) {
     return errors;
   }
   errors = hear();
+  if (errors.empty()) {
+    errors = refuse_copies(goals);
+  }
   if (!errors.empty()) {
     return errors;
   }
@@ -348,13 +364,39 @@ std::vector<Error> Change::carry_out(const MoveHook& moved) {
       errors = write_what_rom_lacks();
     }
   }
-  look_back();
+  if (auto lost = errors.empty() && !begun_.empty() ? look_at_unchanged() : Lost(); lost) {
+    look_back(*lost);
+  } else {
+    errors.push_back(lost.error());
+    look_back({});
+  }
   end_record();
   return errors;
 }
 
+/// Of servos left unchanged while others were changed, those whose ROM does not hold their goals.
+Result<Change::Lost> Change::look_at_unchanged() {
+  std::vector<Servo> servos;
+  for (const GoalResult& result : results_) {
+    if (result.need == Need::nothing && !result.rom_proven) {
+      servos.push_back(result.servo());
+    }
+  }
+  auto looked = look_last(session_, servos, options_.manner.identification.patience);
+  if (!looked) {
+    return std::unexpected(looked.error());
+  }
+  Lost lost;
+  for (std::size_t i = 0; i < servos.size(); ++i) {
+    if ((*looked)[i]) {
+      lost.emplace(servos[i].id, std::move(*(*looked)[i]));
+    }
+  }
+  return lost;
+}
+
 /// Checks that servos left unchanged still hold their goals, as far as heard.
-void Change::look_back() {
+void Change::look_back(const Lost& lost) {
   const Roster& roster = session_.roster();
   for (GoalResult& result : results_) {
     if (result.need != Need::nothing) {
@@ -371,6 +413,8 @@ void Change::look_back() {
     } else if (restarted && !result.rom_proven) { // RAM was reloaded from ROM
       result.errors.push_back(
           {Code::state, say<texts::lost_since>(id), say<texts::run_again_hint>(), id});
+    } else if (const auto found = lost.find(servo.id); found != lost.end()) {
+      result.errors.push_back(found->second);
     }
     result.is_done = result.errors.empty();
   }

@@ -1,6 +1,7 @@
 #include "blactl/fleet/change/change_job.hpp"
 
 #include "blactl/fleet/bus/texts.hpp"
+#include "blactl/fleet/bus/unreachable.hpp"
 
 #include "fleet/change/texts.hpp"
 
@@ -138,6 +139,7 @@ std::unique_ptr<SaveRestartJob> ChangeJob::restart() const {
                                   .come_back = options_.come_back,
                                   .patience = options_.identification.patience,
                                   .pace = options_.pace,
+                                  .since = begin_,
                                   .may_be_driven = may_be_driven()};
   if (given.value_or(0) != 0) {
     options.expected = dronecan::NodeId(static_cast<std::uint8_t>(*given));
@@ -207,6 +209,10 @@ ChangeJob::Stage ChangeJob::conclude_stage(bool cancelled) {
   if (servo_.unique_id && result_.node_id_after &&
       roster_.member(*result_.node_id_after).is_another_unit(*servo_.unique_id)) {
     result_.node_id_after = std::nullopt; // it is somewhere else
+    if (result_.returned && !result_.error) {
+      result_.error = doubled(roster_, *result_.returned);
+      result_.is_verified = result_.saved = false;
+    }
   }
   if (!cancelled) {
     return following;

@@ -42,10 +42,14 @@ void ChangeJob::tell_reach() {
                                            (write_ && write_->has_written()) ||
                                            (restart_ && restart_->is_sent());
   const auto tell = [&](std::optional<Error>& error) {
-    if (has_sent && error && error->code == Code::duplicate_node_id) {
+    const bool is_doubled = error && error->code == Code::duplicate_node_id;
+    const bool is_unsaved =
+        is_doubled && restart_ && !restart_->is_sent() && !roster_.is_doubled(servo_.id);
+    if (has_sent && is_doubled && !is_unsaved) {
       error->hint = say<texts::doubled_meanwhile_hint>();
     }
-    if (has_sent && error && (error->code == Code::armed || error->code == Code::driven)) {
+    if (has_sent && error &&
+        (error->code == Code::armed || error->code == Code::driven || is_unsaved)) {
       error->message = say<texts::stopped_halfway>(servo_.id.value(), error->message);
     }
   };
@@ -103,7 +107,12 @@ std::optional<dronecan::NodeId> ChangeJob::other_writer() const {
   return std::nullopt;
 }
 
-void ChangeJob::look_back() {
+std::optional<Servo> ChangeJob::in_ram_only() const {
+  const bool is_changed = plan_.erase || !result_.changes.empty();
+  return !plan_.restart && is_changed && result_.is_done() ? std::optional(servo_) : std::nullopt;
+}
+
+void ChangeJob::look_back(std::optional<Error> lost) {
   const dronecan::NodeId id = result_.node_id_after.value_or(servo_.id);
   if (!result_.is_done()) {
     const bool has_stayed = !restart_ || !restart_->is_sent() || restart_->has_run_on();
@@ -112,7 +121,7 @@ void ChangeJob::look_back() {
     }
     return;
   }
-  const bool is_in_ram_only = !plan_.restart && (plan_.erase || !result_.changes.empty());
+  const bool is_in_ram_only = in_ram_only().has_value();
   if (roster_.is_doubled(id)) {
     result_.error = doubled(roster_, id);
   } else if (is_in_ram_only && roster_.member(id).boots != servo_.boot) {
@@ -121,6 +130,8 @@ void ChangeJob::look_back() {
   } else if (const auto writer = is_in_ram_only ? other_writer() : std::nullopt; writer) {
     result_.error = Error{Code::state, say<texts::written_by_other>(id.value(), writer->value()),
                           say<texts::other_writer_hint>(), id.value()};
+  } else if (lost) {
+    result_.error = std::move(lost);
   } else {
     return;
   }

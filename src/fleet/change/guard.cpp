@@ -9,12 +9,17 @@
 
 #include "fleet/change/texts.hpp"
 
+#include <list>
+
 namespace blactl::fleet {
 
 std::optional<Error> Guard::forbids(const Servo& servo, Time now) const {
   const std::uint8_t id = servo.id.value();
   if (roster_->is_doubled(servo.id)) {
     return doubled(*roster_, servo.id);
+  }
+  if (auto error = not_unique(*roster_, servo.id)) {
+    return error;
   }
   if (const auto by = roster_->armed_by(now)) {
     return Error{Code::armed, say<texts::armed>(by->value()), say<texts::armed_hint>(), id};
@@ -56,9 +61,30 @@ std::optional<Error> forbidden(const Roster& roster, Time now, const Plan& plan,
   return std::nullopt;
 }
 
-OthersHeard hear_others(Session& session, std::optional<Time> searched) {
+namespace {
+
+/// Asks each servo that nobody has asked yet for its unique ID: it may be that of one to be
+/// changed.
+Result<void> ask_units(Session& session, Patience patience) {
+  std::list<UnitJob> jobs;
+  std::vector<dronecan::Job*> group;
+  for (const auto& [id, member] : session.roster().members()) {
+    if (member.sends_actuator_status() && !member.info && !session.is_replay()) {
+      group.push_back(&jobs.emplace_back(session.records(), id, patience));
+    }
+  }
+  return session.run(group);
+}
+
+} // namespace
+
+OthersHeard hear_others(Session& session, Patience patience, std::optional<Time> searched) {
   OthersHeard heard;
-  if (const auto lived = hear_bus(session); !lived) {
+  auto lived = hear_bus(session);
+  if (lived) {
+    lived = ask_units(session, patience);
+  }
+  if (!lived) {
     heard.errors.push_back(lived.error());
     return heard;
   }

@@ -1,5 +1,7 @@
 #include "blactl/fleet/change/history.hpp"
 
+#include "blactl/fleet/bus/unreachable.hpp"
+
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -174,7 +176,8 @@ Result<void> History::conclude(std::span<const ChangeResult> results, const Sess
 
 std::optional<state::RomProof> History::proof(const Servo& servo, const Session& session) {
   const Member member = session.roster().member(servo.id);
-  if (!servo.unique_id || !member.is_unit(*servo.unique_id) || !member.status) {
+  if (!servo.unique_id || !member.is_unit(*servo.unique_id) || !member.status ||
+      not_unique(session.roster(), servo.id)) {
     return std::nullopt;
   }
   const auto proof = proofs_.find(*servo.unique_id);

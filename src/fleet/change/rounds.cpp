@@ -402,7 +402,7 @@ std::vector<Error> Rounds::carry_out(const Round& round, const Hook& hook) {
   if (!sights) {
     return {sights.error()};
   }
-  for (const Step& step : begun) {
+  for (const Step& step : ready(begun)) { // somebody may have come while they were looked at
     auto planned = plan(step, *sights);
     if (planned) {
       steps.push_back(step);

@@ -99,7 +99,16 @@ Step SaveRestartJob::check_unit(const Outcome& outcome) {
     return dronecan::Pause{.until = outcome.at +
                                     std::chrono::seconds(old_enough_s - info->status.uptime_s)};
   }
+  if (is_expected_id_taken()) {
+    return give_up({Code::duplicate_node_id,
+                    say<texts::id_given_is_kept>(id, options_.expected->value()),
+                    say<texts::id_given_is_kept_hint>(), id});
+  }
   // SAVE keeps the present RAM: it must be unchanged since it was read
+  if (options_.kind == RestartKind::save && roster_.writer_to(id_, since_)) {
+    is_unproven_ = true;
+    return std::nullopt;
+  }
   if (options_.kind == RestartKind::save &&
       !has_run_since(since_, info->status.uptime_s, outcome.at)) {
     at_ = At::proof;
@@ -115,6 +124,20 @@ Step SaveRestartJob::check_unit(const Outcome& outcome) {
         {Code::state, say<texts::stopped_by_another>(id), say<texts::run_again_hint>(), id});
   }
   return request(outcome.at);
+}
+
+bool SaveRestartJob::is_leaving(dronecan::NodeId id) const {
+  return options_.pace != nullptr && options_.pace->leaving.contains(id);
+}
+
+/// The ID was free when the change began.
+bool SaveRestartJob::is_expected_id_taken() const {
+  const bool is_certain = options_.kind == RestartKind::save && options_.expected;
+  if (!is_certain || *options_.expected == id_ || is_leaving(*options_.expected)) {
+    return false;
+  }
+  const Member* there = roster_.find(*options_.expected);
+  return there != nullptr && there->last_heard > options_.since;
 }
 
 /// A servo that has not restarted until now is old enough to show a restart after this moment.
@@ -281,8 +304,7 @@ bool SaveRestartJob::is_another_at(dronecan::NodeId id) const {
   constexpr Duration tolerance = 1s; // uptime counts whole seconds
   const Member* member = id != id_ ? roster_.find(id) : nullptr;
   const bool is_heard = is_sent_ && member != nullptr && member->last_heard > sent_at_;
-  const bool is_leaving = options_.pace != nullptr && options_.pace->leaving.contains(id);
-  if (options_.kind != RestartKind::save || !is_heard || is_leaving) {
+  if (options_.kind != RestartKind::save || !is_heard || is_leaving(id)) {
     return false;
   }
   const bool is_too_old = member->status && member->status_at > sent_at_ &&

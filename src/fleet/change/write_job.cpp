@@ -125,6 +125,9 @@ Step WriteJob::wrote(Time now) {
   RegisterChange& change = changes_[current_];
   change.after = change.requested;
   change.status = ChangeStatus::written;
+  if (change.parameter->address == bla::address::servo_id) {
+    servo_.servo_id = change.requested; // it may obey commands to this one from now on
+  }
   ++current_;
   return go_on(now);
 }

@@ -1,5 +1,6 @@
 #include "blactl/fleet/characterize/findings.hpp"
 
+#include "blactl/base/hex.hpp"
 #include "blactl/bla/defect.hpp"
 #include "blactl/fleet/bus/conflict_texts.hpp"
 #include "blactl/fleet/bus/texts.hpp"
@@ -54,6 +55,14 @@ std::vector<Conflict> find_conflicts(const Roster& roster) {
   for (const NodeId id : roster.doubled()) {
     Error error = doubled(roster, id);
     conflicts.push_back({error.code, {id}, std::move(error.message), std::move(error.hint)});
+  }
+  for (const auto& [id, member] : roster.members()) {
+    auto nodes = roster.copies(id);
+    if (auto error = not_unique(roster, id); !nodes.empty() && id < nodes.front()) {
+      nodes.insert(nodes.begin(), id);
+      conflicts.push_back(
+          {error->code, std::move(nodes), std::move(error->message), std::move(error->hint)});
+    }
   }
   const auto static_id = [](const Member& member) {
     return member.static_node_id.value_or(0) != 0 ? member.static_node_id : std::nullopt;
@@ -117,6 +126,9 @@ std::vector<std::string> warnings(const Member& member) {
   }
   if (!member.is_servo) {
     return out;
+  }
+  if (const auto unique_id = member.unique_id(); unique_id && dronecan::is_blank(*unique_id)) {
+    out.push_back(say<texts::blank_unique_id>(member.id.value(), hex(*unique_id)));
   }
   const bla::Identity& identity = member.identity;
   const auto& readings = identity.readings();

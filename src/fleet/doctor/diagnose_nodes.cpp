@@ -1,7 +1,9 @@
 // The nodes of a bus, individually and together.
 
+#include "blactl/base/hex.hpp"
 #include "blactl/bla/defect.hpp"
 #include "blactl/bla/value.hpp"
+#include "blactl/fleet/bus/conflict_texts.hpp"
 #include "blactl/fleet/doctor/diagnosis.hpp"
 
 #include "fleet/doctor/diagnosis_texts.hpp"
@@ -74,7 +76,7 @@ class NodeExamination {
 
   void conflicts() {
     for (const Conflict& conflict : findings_.conflicts) {
-      const bool is_fatal = conflict.code == Code::duplicate_node_id;
+      const bool is_fatal = conflict.code != Code::duplicate_servo_id;
       add(std::string(name(conflict.code)), is_fatal ? Level::failure : Level::warning,
           conflict.nodes.size() == 1 ? std::optional(conflict.nodes.front()) : std::nullopt,
           conflict.text, conflict.hint);
@@ -141,6 +143,11 @@ class NodeExamination {
     if (servo.identity.model().empty()) {
       add("unknown_model", Level::warning, servo.id, say<texts::node_unknown_model>(id),
           say<texts::node_unknown_model_fix>());
+    }
+    if (servo.unique_id && dronecan::is_blank(*servo.unique_id)) {
+      add("no_unique_id", Level::warning, servo.id,
+          say<texts::blank_unique_id>(id, hex(*servo.unique_id)),
+          say<texts::blank_unique_id_hint>());
     }
     if (bla::may_stall(servo.identity)) {
       add("firmware_defect", Level::notice, servo.id,

@@ -113,6 +113,14 @@ std::vector<const bla::Parameter*> registers_to_export(const Servo& servo) {
   return registers;
 }
 
+void drop_unrecorded_state(Snapshot& snapshot) {
+  const bla::Parameter* state = rom_state(snapshot.servo.identity);
+  std::erase_if(snapshot.readings, [&](const Reading& reading) {
+    return reading.parameter == state && !reading.raw &&
+           reading.raw.error().code == Code::not_recorded;
+  });
+}
+
 std::string fleet_file(std::span<const Snapshot> servos, const FleetFileStyle& style) {
   std::string text;
   JsonWriter json(text, JsonWriter::Layout::pretty);

@@ -17,7 +17,7 @@ TEST_CASE("every code has the word and the exit status of the contract") {
       {7, "not_confirmed "},
       {8, "faults "},
       {9,
-       "duplicate_node_id duplicate_servo_id other_allocator armed driven busy "
+       "duplicate_node_id duplicate_servo_id duplicate_unique_id other_allocator armed driven busy "
        "no_local_node_id no_profile model_mismatch rom_unread stale_plan table_full label_mismatch "
        "firmware_too_old several_servos counter_end "},
       {130, "interrupted "}};

@@ -666,6 +666,19 @@ TEST_CASE("what another node writes after the restart hides what ROM holds") {
   CHECK_FALSE(result.saved);
 }
 
+TEST_CASE("what another node writes between the writes and SAVE is not saved") {
+  Bench bench(set({"reverse=on"}, true));
+  bench.until("write 0x23=1");
+  bench.live(1s);
+  bench.other_writes(at::smoothing, 0);
+  const ChangeResult& result = bench.finish();
+  CHECK(failure(result) == Code::state);
+  CHECK(says(result, "node 40 wrote to node 11"));
+  CHECK_FALSE(result.saved);
+  CHECK_FALSE(result.may_have_saved);
+  CHECK(result.changes.front().status == ChangeStatus::written);
+}
+
 TEST_CASE("a servo that says that it could not read its ROM did not save") {
   Bench bench(save);
   bench.until("pause");

@@ -123,7 +123,11 @@ TEST_CASE("a servo that has another node ID now is one servo") {
   // It goes on under its old ID: two units claim to be this one.
   bus.hear(34);
   CHECK(ids(bus.findings()) == std::vector{34, 61});
-  CHECK(bus.findings().conflicts.size() == 1);
+  const auto conflicts = bus.findings().conflicts;
+  REQUIRE(conflicts.size() == 2);
+  CHECK(conflicts[0].code == Code::duplicate_unique_id);
+  CHECK(conflicts[0].nodes == std::vector{NodeId(34), NodeId(61)});
+  CHECK(conflicts[1].code == Code::duplicate_servo_id);
 }
 
 TEST_CASE("two servos with one static node ID will collide after a restart") {

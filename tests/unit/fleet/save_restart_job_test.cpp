@@ -30,7 +30,14 @@ class Bench {
                           .come_back = 5s,
                           .patience = {500ms, 2},
                           .pace = &pace,
-                          .expected = expected}) {}
+                          .expected = expected,
+                          .since = now}) {}
+
+  /// Another node writes 1 to register `address` of servo 11.
+  void other_writes(bla::Address address) {
+    const dronecan::GetSet::Request request{.index = address.value(), .value = std::int64_t{1}};
+    hear(service(dronecan::Kind::request, dronecan::GetSet::type, 40, 11, request.encode(), id()));
+  }
 
   /// What the job does next, after this outcome of its last step.
   std::string next(Outcome outcome) {
@@ -634,6 +641,28 @@ TEST_CASE("SAVE is sent where the uptime proves that the servo ran on") {
   CHECK(bench.start() == "GetNodeInfo");
   CHECK(bench.info(1, read - 2s) == "ExecuteOpcode");
   CHECK_FALSE(bench.job.is_unproven());
+}
+
+TEST_CASE("what another node has written since is not saved") {
+  Bench bench;
+  bench.now += 10s;
+  CHECK(bench.start() == "GetNodeInfo");
+  bench.other_writes(bla::address::smoothing);
+  CHECK(bench.info(1, bench.boot) == "nothing");
+  CHECK(bench.job.is_unproven());
+  CHECK_FALSE(bench.job.is_sent());
+}
+
+TEST_CASE("no servo is sent to an ID that another unit has taken since the change began") {
+  Bench bench(RestartKind::save, 4s, NodeId(20));
+  CHECK(bench.start() == "pause");
+  bench.now += 2s;
+  bench.hear_status(20, bench.now);
+  CHECK(bench.time_is_over() == "GetNodeInfo");
+  CHECK(bench.info(1, bench.boot) == "nothing");
+  CHECK(bench.error() == Code::duplicate_node_id);
+  CHECK(bench.job.error()->node_id == 11);
+  CHECK_FALSE(bench.job.is_sent());
 }
 
 TEST_CASE("a mere restart needs no proof of what RAM holds") {

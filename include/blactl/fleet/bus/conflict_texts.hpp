@@ -9,6 +9,17 @@ inline constexpr Text doubled_static_id{"nodes {} have the same static node ID {
                                         "ノード {} の固定ノード ID が {} で重複しています"};
 inline constexpr Text doubled_servo_id{"nodes {} have the same servo ID {}",
                                        "ノード {} のサーボ ID が {} で重複しています"};
+inline constexpr Text doubled_unique_id{
+    "nodes {} have the same unique ID {}: blactl would take one for the other",
+    "ノード {} の固有 ID が {} で重複しており、区別できません"};
+inline constexpr Text doubled_unique_id_hint{
+    "connect one of them alone; the manufacturer gives each servo an ID of its own",
+    "1 台だけ接続して下さい。固有 ID は出荷時に個別に割り当てられます"};
+inline constexpr Text blank_unique_id{
+    "node {} has no unique ID of its own ({}): it would not be known again after a restart",
+    "ノード {} には機器個別の固有 ID がありません ({})。再起動後に同一の機器と確認できません"};
+inline constexpr Text blank_unique_id_hint{"it can be read, and nothing else; ask the manufacturer",
+                                           "読出しのみ可能です。メーカーにお問い合わせ下さい"};
 inline constexpr Text doubled_target{"two units use node ID {}",
                                      "ノード ID {} を 2 台が使用しています"};
 inline constexpr Text doubled_units{"two units use node ID {}: {}",

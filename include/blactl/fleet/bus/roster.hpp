@@ -148,8 +148,11 @@ class Roster {
 
   [[nodiscard]] const std::map<dronecan::NodeId, Member>& members() const { return members_; }
 
-  /// Whether its unit has identified itself under another ID since this member was last heard.
+  /// Whether its unit has started since this member was last heard, and is under another ID.
   [[nodiscard]] bool has_moved(const Member& member) const;
+
+  /// Further node IDs whose servos, running at the same time, have the unique ID of this one.
+  [[nodiscard]] std::vector<dronecan::NodeId> copies(dronecan::NodeId id) const;
 
   [[nodiscard]] bool heard(dronecan::NodeId id) const { return heard_[id.value()]; }
 

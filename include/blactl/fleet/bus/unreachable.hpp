@@ -5,6 +5,8 @@
 #include "blactl/fleet/bus/roster.hpp"
 #include "blactl/fleet/bus/target.hpp"
 
+#include <optional>
+
 namespace blactl::fleet {
 
 /// No servo on the bus matches: not_found.
@@ -19,6 +21,10 @@ namespace blactl::fleet {
 /// Two units use this node ID, named by their unique IDs if both are known: duplicate_node_id.
 /// Reads may be answered by either, writes reach both.
 [[nodiscard]] Error doubled(const Roster& roster, dronecan::NodeId id);
+
+/// Why the unique ID of this unit does not tell it from others: another has it as well, or it is
+/// blank: duplicate_unique_id. Empty: it does, as far as known.
+[[nodiscard]] std::optional<Error> not_unique(const Roster& roster, dronecan::NodeId id);
 
 /// No response from this node ID: timeout if it was heard, else not_found.
 [[nodiscard]] Error silent(const Roster& roster, dronecan::NodeId id);

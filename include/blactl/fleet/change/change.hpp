@@ -12,6 +12,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -77,6 +78,7 @@ class Change {
 
  private:
   using Snapshots = std::vector<Snapshot>;
+  using Lost = std::map<dronecan::NodeId, Error>; ///< why they do not hold their goals any more
 
   [[nodiscard]] Result<Snapshots> read(std::span<const std::size_t> goals);
   [[nodiscard]] std::optional<Error> refuse(const Goal& goal, const Snapshot& held) const;
@@ -84,6 +86,7 @@ class Change {
   [[nodiscard]] std::optional<Error> refuse_unread_rom(const GoalResult& result,
                                                        const Snapshot& held, Need need);
   [[nodiscard]] std::vector<Error> hear();
+  [[nodiscard]] std::vector<Error> refuse_copies(std::span<const std::size_t> goals);
   [[nodiscard]] std::vector<Error> prepare(std::span<const std::size_t> goals);
   [[nodiscard]] std::vector<Error> judge(std::span<const std::size_t> goals, Snapshots snapshots,
                                          std::vector<UnitTask>& tasks);
@@ -93,7 +96,8 @@ class Change {
   void conclude();
   void conclude(const UnitChange& unit, GoalResult& result);
   [[nodiscard]] std::vector<Error> write_what_rom_lacks();
-  void look_back();
+  [[nodiscard]] Result<Lost> look_at_unchanged();
+  void look_back(const Lost& lost);
   void end_record();
 
   Session& session_;

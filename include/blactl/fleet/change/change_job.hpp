@@ -47,10 +47,14 @@ class ChangeJob final : public dronecan::Job {
   /// From the request to restart until the servo has been read.
   [[nodiscard]] bool must_finish() const override;
 
+  /// The servo, if what was done is in RAM only: a restart loses it. Empty: it is not, or has
+  /// failed.
+  [[nodiscard]] std::optional<Servo> in_ram_only() const;
+
   /// For a job that has ended before others: checks that its result still holds, as far as heard.
   /// Changes in RAM only are lost by a restart, and another node may have written since; the proof
-  /// may be of another unit on the same ID.
-  void look_back();
+  /// may be of another unit on the same ID. `lost`: of look_last().
+  void look_back(std::optional<Error> lost = {});
 
   /// Whether it was ordered to save or restart, and is not back.
   [[nodiscard]] bool is_away() const { return stage_ == Stage::restart && restart_->is_sent(); }

@@ -2,6 +2,7 @@
 // Refusals because of other nodes on the bus (contract, section 4).
 
 #include "blactl/dronecan/node.hpp"
+#include "blactl/fleet/bus/register_access.hpp"
 #include "blactl/fleet/bus/roster.hpp"
 #include "blactl/fleet/bus/session.hpp"
 
@@ -48,9 +49,11 @@ struct OthersHeard {
   std::vector<Error> errors{};      ///< why nothing may be written
 };
 
-/// Waits until the bus was heard long enough to know the active nodes. `searched`: the time of the
-/// search for the servos; one that came since may be among the selected ones. Errors: state (such a
-/// servo, or lost frames); one that ends a session is the only one.
-[[nodiscard]] OthersHeard hear_others(Session& session, std::optional<Time> searched);
+/// Waits until the bus was heard long enough to know the active nodes, and asks servos that were
+/// not asked yet for their unique ID, with `patience`. `searched`: the time of the search for the
+/// servos; one that came since may be among the selected ones. Errors: state (such a servo, or lost
+/// frames); one that ends a session is the only one.
+[[nodiscard]] OthersHeard hear_others(Session& session, Patience patience,
+                                      std::optional<Time> searched);
 
 } // namespace blactl::fleet

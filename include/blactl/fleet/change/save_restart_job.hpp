@@ -43,6 +43,7 @@ class SaveRestartJob final : public dronecan::Job {
     RestartPace* pace = nullptr; ///< outlives the job; null: no other servo is waited for
     /// The future node ID of the servo, if known.
     std::optional<dronecan::NodeId> expected{};
+    Time since{};               ///< whoever is heard on the future node ID after this is another
     bool may_be_driven = false; ///< also while another node drives the servo
   };
 
@@ -56,11 +57,12 @@ class SaveRestartJob final : public dronecan::Job {
   /// The present node ID of the servo; empty: it is not back.
   [[nodiscard]] std::optional<dronecan::NodeId> returned() const { return returned_; }
 
-  /// Nothing was sent: the servo has restarted, and its settings may differ from those read.
+  /// Nothing was sent: the servo has restarted, or another node wrote to it, and its settings may
+  /// differ from those read.
   [[nodiscard]] bool is_unproven() const { return is_unproven_; }
 
   /// The reason why it is not back, or what is uncertain: timeout, not_back, refused, state,
-  /// no_acknowledge, interrupted; as Guard::forbids().
+  /// duplicate_node_id, no_acknowledge, interrupted; as Guard::forbids().
   [[nodiscard]] const std::optional<Error>& error() const { return error_; }
 
   /// Whether a request has left, or may have left, this machine.
@@ -102,6 +104,8 @@ class SaveRestartJob final : public dronecan::Job {
 
   [[nodiscard]] dronecan::Step ask_unit();
   [[nodiscard]] dronecan::Step check_unit(const dronecan::Outcome& outcome);
+  [[nodiscard]] bool is_leaving(dronecan::NodeId id) const;
+  [[nodiscard]] bool is_expected_id_taken() const;
   [[nodiscard]] dronecan::Step judge_proof(const dronecan::Outcome& outcome);
   [[nodiscard]] dronecan::Step request(Time now);
   [[nodiscard]] dronecan::Step judge_answer(const dronecan::Outcome& outcome);

@@ -15,7 +15,7 @@ namespace blactl::fleet {
 
 /// Nodes that must not be on one bus together as configured.
 struct Conflict {
-  Code code; ///< duplicate_node_id, duplicate_servo_id
+  Code code; ///< duplicate_node_id, duplicate_unique_id, duplicate_servo_id
   std::vector<dronecan::NodeId> nodes;
   std::string text, hint;
 };

@@ -95,8 +95,12 @@ struct FleetFileStyle {
   std::string tool_version{};     ///< of this program
 };
 
-/// The registers of an entry: the configuration, and the date of production.
+/// The registers of an entry: the configuration, the date of production, and whether ROM could be
+/// read.
 [[nodiscard]] std::vector<const bla::Parameter*> registers_to_export(const Servo& servo);
+
+/// A fleet file that stands for servos need not say whether ROM could be read: that is no error.
+void drop_unrecorded_state(Snapshot& snapshot);
 
 /// A file for `apply` that reads well in version control: every setting of these servos, which were
 /// read completely, in their order.

@@ -1,0 +1,52 @@
+// Another unit that comes to a node ID while a servo is on its way there.
+
+#include "catch.hpp"
+#include "fleet.hpp"
+#include "scene.hpp"
+
+#include <string>
+
+using namespace blactl::test;
+
+namespace {
+
+/// Servo 13 gets ID 23 as the last of three, at about 12 s; another unit with that ID is switched
+/// on meanwhile.
+struct Moved {
+  Result result;
+  std::ptrdiff_t rom_writes;
+};
+
+Moved move_to_an_id_that_is_taken(const std::string& at) {
+  Scene scene;
+  nlohmann::ordered_json entries = nlohmann::ordered_json::array();
+  for (const int number : {1, 2, 3}) {
+    scene.servo("BLA21-12U-AB", 10 + number, {{"serial_number", number}, {"servo_id", number}});
+    entries.push_back({{"name", std::to_string(number)},
+                       {"match", {{"serial_number", number}}},
+                       {"set", {{"static_node_id", 20 + number}}}});
+  }
+  scene.servo("BLA21-12U-AB", 23, {{"serial_number", 9}, {"servo_id", 9}}).joins(9, at);
+  Fleet fleet(scene);
+  Moved moved{fleet.apply({{"schema", "blactl-fleet/1"}, {"servos", entries}}, {"--stagger", "4"}),
+              0};
+  moved.rom_writes = fleet.rom_writes();
+  return moved;
+}
+
+} // namespace
+
+TEST_CASE("a servo is not saved for a node ID that another unit has taken meanwhile") {
+  const std::string at = GENERATE("4s", "5500ms", "7s", "8500ms", "10s", "11s");
+  INFO(at);
+  const Moved moved = move_to_an_id_that_is_taken(at);
+  CHECK(moved.result.status == 6);
+  CHECK(codes(moved.result) == std::vector<std::string>{"duplicate_node_id"});
+  CHECK(contains(moved.result.err, "node 13 was written in RAM, in part or whole, and is not "
+                                   "saved: node 13 would get node ID 23"));
+  CHECK(moved.rom_writes == 2);
+  const auto node = json(moved.result.out)["nodes"][2];
+  CHECK(node["status"] == "failed");
+  CHECK(node["saved"] == false);
+  CHECK(node["node_id_after"] == 13);
+}
