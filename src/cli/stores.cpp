@@ -17,14 +17,18 @@ template <class Store> Result<Store> open_store(std::string_view interface, stat
   if (names(interface, Behind::scenario)) {
     return Store::unshared();
   }
+  return Store::open(stores_folder(interface), access);
+}
+
+} // namespace
+
+std::string stores_folder(std::string_view interface) {
   std::string folder = state::state_folder();
   if (!folder.empty() && names(interface, Behind::simulator)) {
     folder += "/simulated";
   }
-  return Store::open(folder, access);
+  return folder;
 }
-
-} // namespace
 
 Result<state::AllocationStore> open_allocations(std::string_view interface, state::Access access) {
   return open_store<state::AllocationStore>(interface, access);

@@ -8,9 +8,14 @@
 #include "blactl/state/allocation_store.hpp"
 #include "blactl/state/snapshot_store.hpp"
 
+#include <string>
 #include <string_view>
 
 namespace blactl::cli {
+
+/// The folder of the stores behind `interface`; empty: this user has none. A private simulation
+/// leaves that of the user alone.
+[[nodiscard]] std::string stores_folder(std::string_view interface);
 
 /// The allocation table. Errors: as AllocationStore::open().
 [[nodiscard]] Result<state::AllocationStore> open_allocations(std::string_view interface,

@@ -2,21 +2,20 @@
 
 #include "blactl/base/hex.hpp"
 
-#include "state/database_file.hpp"
+#include "state/formats.hpp"
 #include "state/sqlite.hpp"
 #include "state/state_file.hpp"
 #include "state/texts.hpp"
 
 #include <algorithm>
 #include <cstdint>
+#include <tuple>
 #include <utility>
 
 namespace blactl::state {
 
 using dronecan::NodeId;
 using dronecan::UniqueId;
-
-namespace {
 
 /// Both IDs are in the table and in its index, so the check of the whole file detects a change.
 /// `at`: microseconds since 1970, UTC.
@@ -33,6 +32,8 @@ const DatabaseFormat& allocations_format() {
       .way_back = texts::allocation_table_back};
   return format;
 }
+
+namespace {
 
 bool may_be_given(NodeId id) {
   return first_dynamic_id <= id && id <= last_dynamic_id;
@@ -58,14 +59,17 @@ NodeId first_free(const AllocationChoice& choice, const NodeIds& used) {
   return {};
 }
 
+/// The node ID in the first column.
+NodeId node_id_of(Statement& row) {
+  return NodeId(
+      static_cast<std::uint8_t>(row.integer(0, first_dynamic_id.value(), last_dynamic_id.value())));
+}
+
 /// The entry in a row of node_id, unique_id, at.
-AllocationEntry entry_of(const Statement& row) {
-  AllocationEntry entry{.node_id = NodeId(static_cast<std::uint8_t>(row.integer(0))),
-                        .at = WallTime(Duration(row.integer(2)))};
-  const auto bytes = row.bytes(1);
-  std::copy_n(bytes.begin(), std::min(bytes.size(), entry.unique_id.size()),
-              entry.unique_id.begin());
-  return entry;
+AllocationEntry entry_of(Statement& row) {
+  return {.node_id = node_id_of(row),
+          .unique_id = row.array<std::tuple_size_v<UniqueId>>(1),
+          .at = WallTime(Duration(row.integer(2)))};
 }
 
 Result<std::optional<AllocationEntry>> entry_with(const Database& database,
@@ -83,7 +87,7 @@ Result<NodeIds> all_given(const Database& database) {
   Statement row(database, "SELECT node_id FROM allocations");
   NodeIds given;
   const auto read = row.each([&] {
-    given.set(NodeId(static_cast<std::uint8_t>(row.integer(0))).value());
+    given.set(node_id_of(row).value());
     return true;
   });
   return read ? Result<NodeIds>(given) : std::unexpected(read.error());

@@ -2,7 +2,7 @@
 
 #include "blactl/base/hex.hpp"
 
-#include "state/database_file.hpp"
+#include "state/formats.hpp"
 #include "state/sqlite.hpp"
 #include "state/state_file.hpp"
 #include "state/texts.hpp"
@@ -12,8 +12,6 @@
 namespace blactl::state {
 
 using dronecan::UniqueId;
-
-namespace {
 
 /// Assignments are ordered by number, not by time: clocks are set back. `counted`: by a counter,
 /// not by a label. The index repeats whole rows, so the check of the file detects any change. `at`:
@@ -37,6 +35,8 @@ const DatabaseFormat& counters_format() {
       .way_back = texts::counters_back};
   return format;
 }
+
+namespace {
 
 /// The arguments of assign() for its transaction.
 struct Request {

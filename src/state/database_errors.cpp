@@ -86,4 +86,11 @@ Error of_system(const DatabaseName& file, int number) {
   }
 }
 
+Error broken_off(const DatabaseName& file, int number) {
+  Error error = of_system(file, number);
+  error.message =
+      say<texts::table_broken_off>(printable(file.path), what(file), system_reason(number));
+  return error;
+}
+
 } // namespace blactl::state::errors

@@ -32,6 +32,8 @@ namespace blactl::state::errors {
 [[nodiscard]] Error moved_away(const DatabaseName& file);
 [[nodiscard]] Error busy(const DatabaseName& file);
 [[nodiscard]] Error denied(const DatabaseName& file, std::string_view reason);
+/// A broken transaction cannot be rolled back, for this errno.
+[[nodiscard]] Error broken_off(const DatabaseName& file, int number);
 [[nodiscard]] Error io(const DatabaseName& file, std::string_view reason);
 /// The error for an errno: io or denied.
 [[nodiscard]] Error of_system(const DatabaseName& file, int number);

@@ -1,8 +1,7 @@
 #include "state/database_file.hpp"
 
-#include "blactl/base/system_error.hpp"
-
 #include "state/database_errors.hpp"
+#include "state/obstacle.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +10,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <filesystem>
 #include <span>
@@ -20,17 +18,20 @@
 namespace blactl::state {
 namespace {
 
-// Files beside a database: the log of write-ahead mode and its index, and that of other modes.
-constexpr std::string_view log_suffix = "-wal";
-constexpr std::array suffixes{log_suffix, std::string_view("-shm"), std::string_view("-journal")};
-
-std::string beside(const std::string& path, std::string_view suffix) {
-  return path + std::string(suffix);
-}
-
 bool has_content(const std::string& path) {
   struct stat info{};
   return lstat(path.c_str(), &info) == 0 && info.st_size > 0;
+}
+
+/// The log beside a database: the journal of a transaction that has not ended, or that of
+/// write-ahead mode, in which older versions left their files; empty: there is none.
+std::string log_of(const std::string& path) {
+  for (const char* suffix : {"-journal", "-wal"}) {
+    if (has_content(path + suffix)) {
+      return path + suffix;
+    }
+  }
+  return {};
 }
 
 /// Checks the header only, before SQLite can create files beside it (Database File Format, 1.3).
@@ -107,9 +108,8 @@ Result<void> expect_one(const Database& database, std::string_view sql, std::str
   }
 }
 
-/// Runs the full check, since PRAGMA quick_check does not compare a table with its index, which
-/// detects a changed byte in an ID. Our databases are small.
-Result<void> check(const Database& database, const DatabaseFormat& format) {
+/// Runs the checks that cost little, however large the file is.
+Result<void> check_form(const Database& database, const DatabaseFormat& format) {
   auto good = check_header(database, format);
   if (good) {
     good = check_version(database, format);
@@ -118,37 +118,28 @@ Result<void> check(const Database& database, const DatabaseFormat& format) {
     good =
         expect_one(database, "SELECT sql FROM sqlite_schema WHERE sql IS NOT NULL", format.schema);
   }
-  if (good) {
-    good = expect_one(database, "PRAGMA integrity_check(1)", "ok");
-  }
   return good;
 }
 
-/// In write-ahead mode (WAL) readers and the writer do not wait for each other. Some network file
-/// systems do not support it.
-Result<void> write_ahead(const Database& database) {
-  Statement statement(database, "PRAGMA journal_mode = WAL");
-  const auto row = statement.step();
-  if (!row) {
-    return std::unexpected(row.error());
-  }
-  return *row && statement.text(0) == "wal"
-             ? Result<void>()
-             : std::unexpected(errors::io(database.name(), system_reason(ENOTSUP)));
+/// Leaves write-ahead mode, in which files of older versions are: SQLite 3.7.0 to 3.51.2 can lose a
+/// committed transaction there when two processes write and checkpoint at once. While another
+/// process has the file open, and where it cannot be written, it stays in that mode and is used so.
+void leave_write_ahead(const Database& database) {
+  [[maybe_unused]] const auto left = database.execute("PRAGMA journal_mode = DELETE");
 }
 
-/// With synchronous = FULL committed data survives a power cut.
+/// With synchronous = EXTRA committed data survives a power cut: the removal of the journal, which
+/// is the commit, is synced too. That comes first, since leave_write_ahead() commits.
 Result<void> set_up(const Database& database, bool writable) {
-  if (!writable) {
-    return database.execute("PRAGMA query_only = ON");
+  const int obstacle = writable ? obstacle_to(database.name().path) : 0;
+  if (obstacle != 0) {
+    return std::unexpected(errors::of_system(database.name(), obstacle));
   }
-  if (database.is_read_only()) {
-    return std::unexpected(database.failure(SQLITE_READONLY));
-  }
-  if (auto set = write_ahead(database); !set) {
+  if (auto set = database.execute("PRAGMA synchronous = EXTRA"); !set) {
     return set;
   }
-  return database.execute("PRAGMA synchronous = FULL");
+  leave_write_ahead(database);
+  return writable ? Result<void>() : database.execute("PRAGMA query_only = ON");
 }
 
 /// Syncs the folder, because the file got its name after SQLite had synced it for the journal.
@@ -169,41 +160,40 @@ Result<void> fill(const std::string& draft, const std::string& path, const Datab
     return std::unexpected(database.error());
   }
   const std::string content =
-      fmt::format("PRAGMA synchronous = FULL; BEGIN; PRAGMA application_id = {}; "
-                  "PRAGMA user_version = {}; {}; COMMIT",
+      fmt::format("PRAGMA journal_mode = MEMORY; PRAGMA synchronous = FULL; BEGIN; "
+                  "PRAGMA application_id = {}; PRAGMA user_version = {}; {}; COMMIT",
                   format.application_id, format.version, format.schema);
-  auto filled = database->execute(content.c_str());
-  if (filled) {
-    filled = write_ahead(*database);
-  }
-  return filled;
+  return database->execute(content.c_str());
 }
 
 /// Refuses a log without its database: a new database would play it back.
 Result<void> check_for_logs_of(const std::string& path, const DatabaseFormat& format) {
-  for (const std::string_view suffix : suffixes) {
-    const std::string log = beside(path, suffix);
-    if (suffix != "-shm" && has_content(log) && !has_content(path)) {
-      return std::unexpected(errors::left_over(name_of(path, format), log));
-    }
-  }
-  return {};
+  const std::string log = log_of(path);
+  return log.empty() || has_content(path)
+             ? Result<void>()
+             : std::unexpected(errors::left_over(name_of(path, format), log));
 }
 
 } // namespace
 
+Result<void> check_all(const Database& database) {
+  return expect_one(database, "PRAGMA integrity_check(1)", "ok");
+}
+
 Result<Database> open_database(const std::string& path, const DatabaseFormat& format, bool writable,
                                std::chrono::milliseconds patience) {
+  const bool was_broken_off = !log_of(path).empty(); // before a read rolls it back
   auto database = Database::open(path, name_of(path, format), patience);
   if (!database) {
     return database;
   }
-  auto usable = check(*database, format);
+  auto usable = check_form(*database, format);
+  if (usable && was_broken_off) {
+    usable = check_all(*database);
+  }
   if (usable) {
     usable = set_up(*database, writable);
   }
-  // Without a log, closing writes nothing and removes the files that SQLite created beside it.
-  database->leave_as_it_is(!usable && has_content(beside(path, log_suffix)));
   if (!usable) {
     return std::unexpected(usable.error());
   }
@@ -226,9 +216,6 @@ Result<void> make_database(const std::string& path, const DatabaseFormat& format
     made = std::unexpected(errors::of_system(name_of(path, format), errno));
   }
   unlink(draft.c_str());
-  for (const std::string_view suffix : suffixes) {
-    unlink(beside(draft, suffix).c_str());
-  }
   return made ? sync_folder_of(path, format) : made;
 }
 

@@ -3,13 +3,16 @@
 #include "blactl/base/rfc3339.hpp"
 
 #include "state/database_errors.hpp"
-#include "state/database_file.hpp"
+#include "state/formats.hpp"
 #include "state/sqlite.hpp"
 #include "state/state_file.hpp"
 #include "state/texts.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -53,6 +56,8 @@ std::string ledger_schema() {
                      definitions, column_names());
 }
 
+} // namespace
+
 const DatabaseFormat& ledger_format() {
   static const DatabaseFormat format{.application_id = 0x626C616C, // "blal"
                                      .version = 1,
@@ -62,6 +67,8 @@ const DatabaseFormat& ledger_format() {
                                      .way_back = texts::ledger_back};
   return format;
 }
+
+namespace {
 
 void bind(Statement& statement, const LedgerRecord& record) {
   for (const LedgerColumn& column : ledger_columns) {
@@ -157,6 +164,30 @@ class Conditions {
   std::vector<std::string> values_;
 };
 
+/// The next records after the one with the number `last`, which becomes that of the last of them;
+/// empty: there are none left. Records are read in blocks, since nobody can commit during a read,
+/// and whoever takes them may be slow.
+Result<std::vector<LedgerRecord>> next_block(const Database& database, const LedgerQuery& query,
+                                             std::int64_t& last) {
+  const Conditions conditions(query);
+  Statement statement(database, fmt::format("SELECT {}, number FROM ledger WHERE {} AND "
+                                            "number > {} ORDER BY number LIMIT 256",
+                                            column_names(), conditions.text(), last));
+  conditions.bind(statement);
+  std::vector<LedgerRecord> records;
+  const auto read = statement.each([&] {
+    records.push_back(record_of(statement));
+    const std::int64_t number = statement.integer(static_cast<int>(ledger_columns.size()));
+    if (number <= last) { // a damaged file would be read for ever
+      statement.reject();
+    }
+    last = number;
+    return true;
+  });
+  return read ? Result<std::vector<LedgerRecord>>(std::move(records))
+              : std::unexpected(read.error());
+}
+
 } // namespace
 
 LedgerStore::LedgerStore(std::unique_ptr<StateFile> file) : file_(std::move(file)) {}
@@ -184,11 +215,16 @@ Result<void> LedgerStore::each(const LedgerQuery& query,
   if (database == nullptr) {
     return {};
   }
-  const Conditions conditions(query);
-  Statement statement(*database, fmt::format("SELECT {} FROM ledger WHERE {} ORDER BY number",
-                                             column_names(), conditions.text()));
-  conditions.bind(statement);
-  return statement.each([&] { return take(record_of(statement)); });
+  std::int64_t last = 0;
+  for (;;) {
+    const auto records = next_block(*database, query, last);
+    if (!records) {
+      return std::unexpected(records.error());
+    }
+    if (records->empty() || !std::ranges::all_of(*records, take)) {
+      return {};
+    }
+  }
 }
 
 const std::string& LedgerStore::path() const {

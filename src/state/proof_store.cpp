@@ -1,7 +1,6 @@
 #include "blactl/state/proof_store.hpp"
 
-#include "state/database_errors.hpp"
-#include "state/database_file.hpp"
+#include "state/formats.hpp"
 #include "state/register_bytes.hpp"
 #include "state/sqlite.hpp"
 #include "state/state_file.hpp"
@@ -14,8 +13,6 @@
 namespace blactl::state {
 
 using dronecan::UniqueId;
-
-namespace {
 
 /// The index repeats whole rows, so the check of the file detects any change. `started`:
 /// microseconds since 1970, UTC, negative if the clock was not set; within bounds for the
@@ -37,6 +34,10 @@ const DatabaseFormat& proofs_format() {
   return format;
 }
 
+namespace {
+
+constexpr std::int64_t last_uptime = 0xFFFFFFFF;
+
 Result<void> put_one(const Database& database, const RomProof& proof) {
   const std::vector<std::uint8_t> rom = bytes_of(proof.rom);
   return Statement(database, "INSERT OR REPLACE INTO proofs (unique_id, rom, started, uptime) "
@@ -49,16 +50,11 @@ Result<void> put_one(const Database& database, const RomProof& proof) {
 }
 
 /// The proof in a row of rom, started, uptime.
-Result<RomProof> proof_of(const UniqueId& unique_id, const Statement& row,
-                          const Database& database) {
-  auto rom = registers_of(row.bytes(0));
-  if (!rom) {
-    return std::unexpected(errors::damaged(database.name(), "rom"));
-  }
-  return RomProof{.unique_id = unique_id,
-                  .rom = std::move(*rom),
-                  .started = WallTime(Duration(row.integer(1))),
-                  .uptime = std::chrono::seconds(row.integer(2))};
+RomProof proof_of(const UniqueId& unique_id, Statement& row) {
+  return {.unique_id = unique_id,
+          .rom = registers_in(row, 0),
+          .started = WallTime(Duration(row.integer(1, -last_time, last_time))),
+          .uptime = std::chrono::seconds(row.integer(2, 0, last_uptime))};
 }
 
 } // namespace
@@ -106,14 +102,7 @@ Result<std::optional<RomProof>> ProofStore::find(const UniqueId& unique_id) cons
     return std::nullopt;
   }
   Statement statement(*database, "SELECT rom, started, uptime FROM proofs WHERE unique_id = ?");
-  const auto row = statement.bind(unique_id).step();
-  if (!row) {
-    return std::unexpected(row.error());
-  }
-  if (!*row) {
-    return std::nullopt;
-  }
-  return proof_of(unique_id, statement, *database);
+  return statement.bind(unique_id).first([&] { return proof_of(unique_id, statement); });
 }
 
 Result<void> ProofStore::drop(std::span<const UniqueId> units) {

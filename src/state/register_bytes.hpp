@@ -3,6 +3,8 @@
 
 #include "blactl/state/registers.hpp"
 
+#include "state/sqlite.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -42,6 +44,15 @@ namespace blactl::state {
     registers.emplace(address, static_cast<std::int64_t>(number));
   }
   return bytes.empty() ? std::optional(std::move(registers)) : std::nullopt;
+}
+
+/// The registers in a column; rejects invalid bytes.
+[[nodiscard]] inline Registers registers_in(Statement& row, int column) {
+  auto registers = registers_of(row.bytes(column));
+  if (!registers) {
+    row.reject();
+  }
+  return std::move(registers).value_or(Registers());
 }
 
 } // namespace blactl::state

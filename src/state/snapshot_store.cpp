@@ -1,21 +1,17 @@
 #include "blactl/state/snapshot_store.hpp"
 
-#include "state/database_errors.hpp"
-#include "state/database_file.hpp"
+#include "state/formats.hpp"
 #include "state/register_bytes.hpp"
 #include "state/sqlite.hpp"
 #include "state/state_file.hpp"
 #include "state/texts.hpp"
 
-#include <algorithm>
-#include <iterator>
+#include <tuple>
 #include <utility>
 
 namespace blactl::state {
 
 using dronecan::UniqueId;
-
-namespace {
 
 /// Changes are ordered by number, not by time: clocks are set back. The index repeats whole rows,
 /// so the check of the file detects any change. `at`: microseconds since 1970, UTC, up to the year
@@ -40,55 +36,33 @@ const DatabaseFormat& snapshots_format() {
   return format;
 }
 
+namespace {
+
 /// A query for the columns that entry_of() reads.
 std::string select(std::string_view rest) {
   return "SELECT number, at, command, unique_id, held, saved, run, ended FROM snapshots " +
          std::string(rest);
 }
 
-Result<SnapshotEntry> entry_of(const Statement& row, const Database& database) {
-  auto held = registers_of(row.bytes(4));
-  if (!held) {
-    return std::unexpected(errors::damaged(database.name(), "held"));
-  }
-  SnapshotEntry entry{.number = row.integer(0),
-                      .run = row.integer(6),
-                      .at = WallTime(Duration(row.integer(1))),
-                      .command = std::string(row.text(2)),
-                      .held = std::move(*held),
-                      .saved = row.integer(5) != 0,
-                      .ended = row.integer(7) != 0};
-  const auto bytes = row.bytes(3);
-  std::copy_n(bytes.begin(), std::min(bytes.size(), entry.unique_id.size()),
-              entry.unique_id.begin());
-  return entry;
+SnapshotEntry entry_of(Statement& row) {
+  return {.number = row.integer(0),
+          .run = row.integer(6),
+          .at = WallTime(Duration(row.integer(1, 0, last_time))),
+          .command = std::string(row.text(2)),
+          .unique_id = row.array<std::tuple_size_v<UniqueId>>(3),
+          .held = registers_in(row, 4),
+          .saved = row.integer(5, 0, 1) != 0,
+          .ended = row.integer(7, 0, 1) != 0};
 }
 
 /// Every row of a statement.
-Result<std::vector<SnapshotEntry>> all_of(Statement& statement, const Database& database) {
+Result<std::vector<SnapshotEntry>> all_of(Statement& statement) {
   std::vector<SnapshotEntry> all;
-  for (;;) {
-    const auto row = statement.step();
-    if (!row) {
-      return std::unexpected(row.error());
-    }
-    if (!*row) {
-      return all;
-    }
-    auto entry = entry_of(statement, database);
-    if (!entry) {
-      return std::unexpected(entry.error());
-    }
-    all.push_back(std::move(*entry));
-  }
-}
-
-Result<std::optional<SnapshotEntry>> first_of(Statement& statement, const Database& database) {
-  auto found = all_of(statement, database);
-  if (!found) {
-    return std::unexpected(found.error());
-  }
-  return found->empty() ? std::nullopt : std::optional(std::move(found->front()));
+  const auto read = statement.each([&] {
+    all.push_back(entry_of(statement));
+    return true;
+  });
+  return read ? Result<std::vector<SnapshotEntry>>(std::move(all)) : std::unexpected(read.error());
 }
 
 /// The number after the highest, which is also what SQLite gives the next new row.
@@ -228,8 +202,7 @@ Result<std::optional<SnapshotEntry>> SnapshotStore::last(const UniqueId& unique_
     return std::nullopt;
   }
   Statement statement(*database, select("WHERE unique_id = ? ORDER BY number DESC LIMIT 1"));
-  statement.bind(unique_id);
-  return first_of(statement, *database);
+  return statement.bind(unique_id).first([&] { return entry_of(statement); });
 }
 
 Result<std::optional<SnapshotEntry>> SnapshotStore::before(const SnapshotEntry& entry) const {
@@ -239,8 +212,9 @@ Result<std::optional<SnapshotEntry>> SnapshotStore::before(const SnapshotEntry& 
   }
   Statement statement(*database,
                       select("WHERE unique_id = ? AND number < ? ORDER BY number DESC LIMIT 1"));
-  statement.bind(entry.unique_id).bind(entry.number);
-  return first_of(statement, *database);
+  return statement.bind(entry.unique_id).bind(entry.number).first([&] {
+    return entry_of(statement);
+  });
 }
 
 Result<std::vector<SnapshotEntry>> SnapshotStore::last_run() const {
@@ -251,7 +225,7 @@ Result<std::vector<SnapshotEntry>> SnapshotStore::last_run() const {
   Statement statement(*database, select("WHERE run = "
                                         "(SELECT run FROM snapshots ORDER BY number DESC LIMIT 1) "
                                         "ORDER BY number"));
-  return all_of(statement, *database);
+  return all_of(statement);
 }
 
 Result<std::vector<SnapshotEntry>> SnapshotStore::entries() const {
@@ -260,7 +234,7 @@ Result<std::vector<SnapshotEntry>> SnapshotStore::entries() const {
     return std::vector<SnapshotEntry>();
   }
   Statement statement(*database, select("ORDER BY number DESC"));
-  return all_of(statement, *database);
+  return all_of(statement);
 }
 
 } // namespace blactl::state

@@ -2,10 +2,9 @@
 
 #include "blactl/base/system_error.hpp"
 
-#include <unistd.h>
+#include "state/obstacle.hpp"
 
 #include <cerrno>
-#include <filesystem>
 
 namespace blactl::state {
 namespace {
@@ -20,11 +19,11 @@ std::string reason_of(sqlite3* handle, int result) {
   return is_of_system && error != 0 ? system_reason(error) : sqlite3_errstr(result);
 }
 
-/// When SQLite cannot create a log it checks whether one exists: errno then names the missing file,
-/// not the real obstacle.
-int reason_not_opened(const std::string& path, int error) {
-  const std::string folder = std::filesystem::path(path).parent_path().string();
-  return error == ENOENT && access(folder.c_str(), W_OK) != 0 ? errno : error;
+/// The errno of a failure to write. SQLite does not say why a file is read-only (0), and looks for
+/// a log that it could not create: then it names the missing file.
+int cause(const std::string& path, int error) {
+  const int found = error == 0 || error == ENOENT ? obstacle_to(path) : 0;
+  return found != 0 ? found : error != 0 ? error : EACCES;
 }
 
 } // namespace
@@ -40,7 +39,8 @@ Result<Database> Database::open(const std::string& path, DatabaseName told_as,
     return std::unexpected(database.failure(result));
   }
   sqlite3_busy_timeout(handle, static_cast<int>(patience.count()));
-  database.leave_as_it_is(true);
+  // Closing must not write the log of an older version (-wal) into a file that may be damaged.
+  sqlite3_db_config(handle, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
   return database;
 }
 
@@ -66,16 +66,6 @@ Result<void> Database::execute(const char* sql) const {
   return {};
 }
 
-/// Fails if the file was moved away or removed: writes to it would be lost for all others.
-Result<void> Database::begin() const {
-  int has_moved = 0;
-  sqlite3_file_control(handle(), main_database, SQLITE_FCNTL_HAS_MOVED, &has_moved);
-  if (has_moved != 0) {
-    return std::unexpected(errors::moved_away(told_as_));
-  }
-  return execute("BEGIN IMMEDIATE");
-}
-
 /// Rolls back unless the failure already ended the transaction.
 void Database::roll_back_if_open() const {
   if (sqlite3_get_autocommit(handle()) == 0) {
@@ -83,17 +73,17 @@ void Database::roll_back_if_open() const {
   }
 }
 
-void Database::leave_as_it_is(bool leave) const {
-  sqlite3_db_config(handle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, leave ? 1 : 0, nullptr);
-}
-
-bool Database::is_read_only() const {
-  return sqlite3_db_readonly(handle(), main_database) == 1;
-}
-
 /// Any code not listed means that the database is not the one we made.
 Error Database::failure(int result) const {
   const std::string reason = reason_of(handle(), result);
+  const int error = sqlite3_system_errno(handle());
+  switch (result) {
+  case SQLITE_CANTOPEN_SYMLINK: return errors::link(told_as_);
+  case SQLITE_READONLY_DBMOVED: return errors::moved_away(told_as_);
+  case SQLITE_READONLY_ROLLBACK: return errors::broken_off(told_as_, cause(told_as_.path, 0));
+  case SQLITE_IOERR_DELETE: return errors::broken_off(told_as_, error); // of the journal
+  default: break;
+  }
   switch (result & 0xFF) {
   case SQLITE_BUSY:
   case SQLITE_LOCKED:
@@ -102,14 +92,10 @@ Error Database::failure(int result) const {
   case SQLITE_IOERR:
   case SQLITE_NOMEM: return errors::io(told_as_, reason);
   case SQLITE_PERM:
-  case SQLITE_AUTH:
-  case SQLITE_READONLY: return errors::denied(told_as_, reason);
-  case SQLITE_CANTOPEN:
-    return result == SQLITE_CANTOPEN_SYMLINK
-               ? errors::link(told_as_)
-               : errors::of_system(
-                     told_as_, reason_not_opened(told_as_.path, sqlite3_system_errno(handle())));
-  default: leave_as_it_is(true); return errors::damaged(told_as_, reason);
+  case SQLITE_AUTH: return errors::denied(told_as_, reason);
+  case SQLITE_READONLY: return errors::denied(told_as_, system_reason(cause(told_as_.path, 0)));
+  case SQLITE_CANTOPEN: return errors::of_system(told_as_, cause(told_as_.path, error));
+  default: return errors::damaged(told_as_, reason);
   }
 }
 
@@ -166,6 +152,14 @@ double Statement::real(int column) const {
 
 std::int64_t Statement::integer(int column) const {
   return sqlite3_column_int64(statement_, column);
+}
+
+std::int64_t Statement::integer(int column, std::int64_t first, std::int64_t last) {
+  const std::int64_t value = integer(column);
+  if (value < first || value > last) {
+    reject();
+  }
+  return value;
 }
 
 std::span<const std::uint8_t> Statement::bytes(int column) const {

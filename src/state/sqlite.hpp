@@ -7,9 +7,11 @@
 
 #include <sqlite3.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -28,7 +30,8 @@ class Database {
   using Header = std::array<std::uint8_t, 100>;
 
   /// Does not read or change the file yet; refuses a symbolic link. `path` is absolute and contains
-  /// no link. `told_as`: the name of the file in errors.
+  /// no link. `told_as`: the name of the file in errors. `patience`: for each wait for another
+  /// process, to read or to write.
   [[nodiscard]] static Result<Database> open(const std::string& path, DatabaseName told_as,
                                              std::chrono::milliseconds patience);
 
@@ -41,7 +44,7 @@ class Database {
   /// Does `work` in one write transaction. Its result is returned only after it is on disk; if it
   /// is an error, or the commit fails, nothing has changed.
   template <class Work> [[nodiscard]] std::invoke_result_t<Work> transact(Work work) const {
-    if (auto begun = begin(); !begun) {
+    if (auto begun = execute("BEGIN IMMEDIATE"); !begun) {
       return std::unexpected(std::move(begun.error()));
     }
     std::invoke_result_t<Work> result = work();
@@ -53,12 +56,6 @@ class Database {
     roll_back_if_open();
     return result;
   }
-
-  /// Whether closing must not change the file, not even by committed transactions in its log
-  /// (-wal). This is the default until called, and after damage was found.
-  void leave_as_it_is(bool leave) const;
-
-  [[nodiscard]] bool is_read_only() const;
 
   /// The error for a result code of SQLite.
   [[nodiscard]] Error failure(int result) const;
@@ -74,7 +71,6 @@ class Database {
 
   Database(sqlite3* handle, DatabaseName told_as) : handle_(handle), told_as_(std::move(told_as)) {}
 
-  [[nodiscard]] Result<void> begin() const;
   void roll_back_if_open() const;
 
   std::unique_ptr<sqlite3, Closer> handle_;
@@ -110,7 +106,7 @@ class Statement {
         return std::unexpected(row.error());
       }
       if (!*row || !take()) {
-        return {};
+        return failed_ == SQLITE_OK ? Result<void>() : std::unexpected(database_.failure(failed_));
       }
     }
   }
@@ -118,11 +114,13 @@ class Statement {
   /// What `read` makes of the first row; empty: there is none.
   template <class Read>
   [[nodiscard]] Result<std::optional<std::invoke_result_t<Read>>> first(Read read) {
-    const auto row = step();
-    if (!row) {
-      return std::unexpected(row.error());
-    }
-    return *row ? std::optional(read()) : std::nullopt;
+    std::optional<std::invoke_result_t<Read>> found;
+    const auto done = each([&] {
+      found = read();
+      return false;
+    });
+    return done ? Result<std::optional<std::invoke_result_t<Read>>>(std::move(found))
+                : std::unexpected(done.error());
   }
 
   /// Runs the statement and ignores its rows.
@@ -130,11 +128,29 @@ class Statement {
     return each([] { return true; });
   }
 
+  /// Rejects the present row as one that was never written: the file is damaged.
+  void reject() { note(SQLITE_CORRUPT); }
+
   [[nodiscard]] bool is_null(int column) const;
   [[nodiscard]] std::int64_t integer(int column) const;
+  /// Rejects a value out of bounds.
+  [[nodiscard]] std::int64_t integer(int column, std::int64_t first, std::int64_t last);
   [[nodiscard]] double real(int column) const;
   /// Valid until the next step.
   [[nodiscard]] std::span<const std::uint8_t> bytes(int column) const;
+
+  /// Rejects bytes of another size.
+  template <std::size_t size> [[nodiscard]] std::array<std::uint8_t, size> array(int column) {
+    std::array<std::uint8_t, size> all{};
+    const auto held = bytes(column);
+    if (held.size() == size) {
+      std::ranges::copy(held, all.begin());
+    } else {
+      reject();
+    }
+    return all;
+  }
+
   [[nodiscard]] std::string_view text(int column) const;
 
  private:

@@ -93,6 +93,10 @@ Result<StateFile> StateFile::unshared(const DatabaseFormat& format) {
   return StateFile({}, format, std::move(*database));
 }
 
+Result<void> StateFile::check() const {
+  return database_ ? check_all(*database_) : Result<void>();
+}
+
 /// The error of SQLite for a file opened read-only.
 Error StateFile::not_writable() const {
   return errors::denied({path_, format_->what, format_->way_back}, sqlite3_errstr(SQLITE_READONLY));

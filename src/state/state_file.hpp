@@ -40,6 +40,9 @@ class StateFile {
     return database_->transact([&] { return work(*database_); });
   }
 
+  /// Reads the whole file, if there is one. Errors: those of Database.
+  [[nodiscard]] Result<void> check() const;
+
   /// The path of the file, even if that does not exist yet; empty: it has none.
   [[nodiscard]] const std::string& path() const { return path_; }
 

@@ -1,11 +1,15 @@
 #include "blactl/state/state_folder.hpp"
 
 #include "state/environment.hpp"
+#include "state/formats.hpp"
+#include "state/obstacle.hpp"
+#include "state/state_file.hpp"
 #include "state/texts.hpp"
 
 #include <pwd.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <filesystem>
 #include <system_error>
 
@@ -44,12 +48,32 @@ Result<void> check_state_folder(const std::string& folder) {
   while (!std::filesystem::exists(nearest, error) && nearest.has_relative_path()) {
     nearest = nearest.parent_path();
   }
-  const bool is_folder = std::filesystem::is_directory(nearest, error);
-  if (!is_folder || access(nearest.c_str(), W_OK | X_OK) != 0) {
-    return fail(Code::permission, say<texts::state_folder_closed>(printable(nearest.string())),
+  const std::string name = printable(nearest.string());
+  switch (std::filesystem::is_directory(nearest, error) ? obstacle_in(nearest.string()) : ENOTDIR) {
+  case 0: return {};
+  case ENOSPC:
+    return fail(Code::io, say<texts::state_folder_full>(name),
+                say<texts::state_folder_full_hint>(name));
+  default:
+    return fail(Code::permission, say<texts::state_folder_closed>(name),
                 say<texts::no_state_folder_hint>());
   }
-  return {};
+}
+
+std::vector<Error> check_state_files(const std::string& folder) {
+  std::vector<Error> found;
+  if (folder.empty() || access((folder + "/.").c_str(), X_OK) != 0) {
+    return found;
+  }
+  for (const DatabaseFormat* format : {&allocations_format(), &counters_format(), &ledger_format(),
+                                       &proofs_format(), &snapshots_format()}) {
+    const auto file = StateFile::open(folder, *format, Access::read, usual_patience);
+    const auto good = file ? file->check() : std::unexpected(file.error());
+    if (!good) {
+      found.push_back(good.error());
+    }
+  }
+  return found;
 }
 
 } // namespace blactl::state

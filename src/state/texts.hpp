@@ -48,6 +48,11 @@ inline constexpr Text no_state_folder{
 inline constexpr Text state_folder_closed{
     "{} is not writable: allocations cannot be kept there",
     "{} に書き込めません。ノード ID の割当てを保存できません"};
+inline constexpr Text state_folder_full{
+    "{} has no room left: allocations cannot be kept there",
+    "{} に空き容量がありません。ノード ID の割当てを保存できません"};
+inline constexpr Text state_folder_full_hint{"see what fills the disk with `df {0}`",
+                                             "`df {0}` で空き容量を確認して下さい"};
 inline constexpr Text no_state_folder_hint{"set BLACTL_STATE_DIR to a folder of your own",
                                            "BLACTL_STATE_DIR に自分のフォルダを設定して下さい"};
 inline constexpr Text table_foreign{"{0} is not a blactl {1}", "{0} は blactl の{1}ではありません"};
@@ -102,8 +107,8 @@ inline constexpr Text table_moved{"the {1} {0} was moved away or removed while i
                                   "{1} {0} が使用中に移動または削除されました"};
 inline constexpr Text table_moved_hint{"nothing was changed; run the command again",
                                        "何も変更していません。コマンドをもう一度実行して下さい"};
-inline constexpr Text table_busy{"another process is writing to the {1} {0}",
-                                 "別のプロセスが{1} {0} に書込み中です"};
+inline constexpr Text table_busy{"another process is using the {1} {0}",
+                                 "別のプロセスが{1} {0} を使用中です"};
 inline constexpr Text table_busy_hint{
     "wait until it ends and try again; `fuser {0}` shows which one it is",
     "その終了を待って、もう一度実行して下さい。プロセスは `fuser {0}` で確認できます"};
@@ -112,6 +117,9 @@ inline constexpr Text table_denied{"the {1} {0} cannot be used ({2})",
 inline constexpr Text table_denied_hint{
     "check the permissions with `ls -la {0}`, or set BLACTL_STATE_DIR to a folder of your own",
     "`ls -la {0}` でアクセス権を確認するか、BLACTL_STATE_DIR に自分のフォルダを設定して下さい"};
+inline constexpr Text table_broken_off{
+    "the last write to the {1} {0} was broken off and cannot be taken back ({2})",
+    "{1} {0} への書込みが中断されており、元に戻せません ({2})"};
 inline constexpr Text table_io{"the {1} {0} cannot be read or written ({2})",
                                "{1} {0} を読み書きできません ({2})"};
 inline constexpr Text table_io_hint{

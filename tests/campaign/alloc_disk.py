@@ -4,14 +4,15 @@
 Usage: tests/net/namespace.sh python3 alloc_disk.py BLACTL
 
 Refused before the first answer on the wire: `alloc`, and `alloc --static`, on a full or read-only
-disk, on a damaged table and on one of a newer version. A `restart` says that, and each servo has
-the ID that it had. A disk with so little room that it gets full on the way: every ID that went over
-the wire is in the table, and the next run ends well.
+disk, on a damaged table and on one of a newer version; `doctor` tells of it. A `restart` says that,
+and each servo has the ID that it had. A disk that gets full on the way: every ID that went over the
+wire is in the table, and the next run ends well.
 
 It mounts small file systems of its own, and so runs in a mount namespace.
 """
 
 import argparse
+import contextlib
 import json
 import os
 import re
@@ -19,6 +20,7 @@ import sqlite3
 import subprocess
 import sys
 import tempfile
+import threading
 
 import bench
 import static_cut
@@ -39,14 +41,41 @@ class Disk:
         os.makedirs(self.path)
         mount("-t", "tmpfs", "-o", "size=512k,mode=0700", "tmpfs", self.path)
 
-    def fill(self, pages_left=0):
+    def fill(self):
         with open(self._filler, "wb", buffering=0) as file:
             try:
                 while True:
                     file.write(bytes(PAGE))
             except OSError:
                 pass
-            file.truncate(file.tell() - pages_left * PAGE)
+
+    def commits(self):
+        """To all files: the change counters of their headers (Database File Format, 1.3.7)."""
+        count = 0
+        for name in os.listdir(self.path):
+            if name.endswith(".db"):
+                with open(os.path.join(self.path, name), "rb") as file:
+                    count += int.from_bytes(file.read(28)[24:], "big")
+        return count
+
+    @contextlib.contextmanager
+    def full_after(self, commits):
+        """It gets full as soon as something has been committed so often."""
+        due, is_over = self.commits() + commits, threading.Event()
+
+        def watch():
+            while self.commits() < due:
+                if is_over.is_set():
+                    return
+            self.fill()
+
+        watcher = threading.Thread(target=watch)
+        watcher.start()
+        try:
+            yield
+        finally:
+            is_over.set()
+            watcher.join()
 
     def free(self):
         if os.path.exists(self._filler):
@@ -59,12 +88,11 @@ class Disk:
         subprocess.run(["umount", self.path], check=True)
 
     def contents(self):
-        """Of the table and its log. An empty log, and the index of none, mean nothing."""
+        """Of the table and its journal. An empty one means nothing."""
         found = {}
         for name in os.listdir(self.path):
             path = os.path.join(self.path, name)
-            is_table = name.startswith("allocations.db") and not name.endswith("-shm")
-            if is_table and os.path.getsize(path) > 0:
+            if name.startswith("allocations.db") and os.path.getsize(path) > 0:
                 with open(path, "rb") as file:
                     found[name] = file.read()
         return found
@@ -142,12 +170,15 @@ def make_newer(disk):
     database.close()
 
 
-# What is done to a table or its disk, and what must come of it: exit status, code and reason.
+# What is done to a table or its disk, and what must come of it: exit status, code and reason, and
+# what doctor calls it.
 BROKEN = {
-    "a full disk": (Disk.fill, 1, "io", "full|No space left"),
-    "a read-only disk": (Disk.make_read_only, 3, "permission", "Read-only file system"),
-    "a damaged table": (damage, 2, "bad_file", "is not a blactl allocation table"),
-    "a newer table": (make_newer, 2, "bad_file", "version 2"),
+    "a full disk": (Disk.fill, "io", 1, "io", "full|No space left"),
+    "a read-only disk": (Disk.make_read_only, "permission", 3, "permission",
+                         "Read-only file system"),
+    "a damaged table": (damage, "state_damaged", 2, "bad_file",
+                        "is not a blactl allocation table"),
+    "a newer table": (make_newer, "state_damaged", 2, "bad_file", "version 2"),
 }
 
 
@@ -162,7 +193,7 @@ def fixed(count):
 
 def refuses(blactl, name, has_table):
     """`alloc`, and `alloc --static`."""
-    make, *due = BROKEN[name]
+    make, finding, *due = BROKEN[name]
     with Place(blactl, scenario(2, 1)) as place:
         if has_table:
             assert place.run("alloc", "--once").status == 0
@@ -178,10 +209,13 @@ def refuses(blactl, name, has_table):
         assert place.disk.contents() == before, "the files are others than before"
         said = listed(blactl, place.folder)
         assert said.returncode != 0 or len(entries(said)) == 2 * has_table, said.stdout
+        found = place.run("doctor").document["findings"]
+        assert finding in [each["code"] for each in found], f"doctor has found {found}"
+        assert place.disk.contents() == before, "doctor has changed the files"
 
 
 def refuses_static(blactl, name, has_table):
-    make, *due = BROKEN[name]
+    make, _, *due = BROKEN[name]
     with Place(blactl, fixed(2)) as place:
         if has_table:
             assert place.run("alloc", "--static", "-n", "11", "-y").status == 0
@@ -209,11 +243,11 @@ def restarts(blactl, name, has_table):
         assert place.disk.contents() == before, "the files are others than before"
 
 
-def gets_full(blactl, pages):
+def gets_full(blactl, commits):
     """How many IDs went over the wire before the disk was full."""
     with Place(blactl, scenario(SERVOS, 1)) as place:
-        place.disk.fill(pages)
-        told, wire = place.heard("alloc", "--once")
+        with place.disk.full_after(commits):
+            told, wire = place.heard("alloc", "--once")
         assert (told.status, codes(told)) in ((0, []), (1, ["io"])), told
         place.disk.free()
         known = place.table()
@@ -230,7 +264,7 @@ def gets_full(blactl, pages):
         return given
 
 
-def gets_full_while_static(blactl, pages):
+def gets_full_while_static(blactl, commits):
     """Three servos rotate their IDs. What was called static is; nobody is on another's ID."""
     with Place(blactl, fixed(3)) as place:
         units = {serial: state["unique_id"]
@@ -239,8 +273,8 @@ def gets_full_while_static(blactl, pages):
         words = ["alloc", "--static", "-y", *(
             word for serial, node_id in wish.items()
             for word in ("--assign", f"{units[serial]}={node_id}"))]
-        place.disk.fill(pages)
-        told = place.run(*words)
+        with place.disk.full_after(commits):
+            told = place.run(*words)
         assert told.status == 0 or (told.status == 1 and "io" in codes(told)), told
         states = place.simulator.dump()[1]
         static_cut.check_no_doubles(states)
@@ -259,15 +293,15 @@ def made_static(told):
             if line.get("event") == "made_static"}
 
 
-def restarts_while_full(blactl, pages):
+def restarts_while_full(blactl, commits):
     """IDs that are not in the table, and are not taken into it, are told of."""
     with Place(blactl, scenario(3, 1)) as place:
         assert place.run("alloc", "--once").status == 0
         for entry in place.table():
             assert place.run("alloc", "--forget", entry).status == 0
         ids = place.ids()
-        place.disk.fill(pages)
-        told = place.run("restart", "-n", "all", "-y")
+        with place.disk.full_after(commits):
+            told = place.run("restart", "-n", "all", "-y")
         assert told.status == 0, told
         assert place.ids() == ids, f"{ids} before, {place.ids()} now"
         place.disk.free()
@@ -281,8 +315,8 @@ def cases():
     for name in BROKEN:
         for has_table in (True, False) if "disk" in name else (True,):
             yield from ((case, name, has_table) for case in (refuses, refuses_static, restarts))
-    for pages in range(4, 30, 2):
-        yield from ((case, pages) for case in SWEPT)
+    for commits in range(SERVOS + 2):
+        yield from ((case, commits) for case in SWEPT)
 
 
 # How many IDs were given before the disk was full, of how many.

@@ -15,7 +15,7 @@ import sys
 from alloc_disk import Place, codes, fixed
 from undo_cut import Task, check_as_before
 
-PAGES = [*range(0, 40, 3), 60, 80]
+COMMITS = range(12)
 
 
 class Three(Task):
@@ -25,7 +25,7 @@ class Three(Task):
         self.count, self.shape = 3, shape
 
 
-def try_with(blactl, shape, pages, is_known):
+def try_with(blactl, shape, commits, is_known):
     """Whether the change was recorded."""
     task = Three(shape)
     with Place(blactl, fixed(3)) as place:
@@ -34,8 +34,8 @@ def try_with(blactl, shape, pages, is_known):
         else:
             place.simulator.settle()
         before = place.simulator.dump()[1]
-        place.disk.fill(pages)
-        told = place.run(*with_uids(task, before, place.folder))
+        with place.disk.full_after(commits):
+            told = place.run(*with_uids(task, before, place.folder))
         after = place.simulator.dump()[1]
         place.disk.free()
         if shape == "set --save":
@@ -88,14 +88,15 @@ def main():
     for shape in ("set --save", "apply", "rotate"):
         for is_known in (False, True):
             recorded = []
-            for pages in PAGES:
+            for commits in COMMITS:
                 try:
-                    recorded.append(try_with(blactl, shape, pages, is_known))
+                    recorded.append(try_with(blactl, shape, commits, is_known))
                 except AssertionError as fault:
                     faults += 1
-                    print(f"{shape}, {pages} pages left, known: {is_known}: {fault}", flush=True)
-            print(f"{shape}: recorded with so many pages left: "
-                  f"{[pages for pages, was in zip(PAGES, recorded) if was]}", flush=True)
+                    print(f"{shape}, full after {commits} commits, known: {is_known}: {fault}",
+                          flush=True)
+            print(f"{shape}: recorded where the disk was full after so many commits: "
+                  f"{[commits for commits, was in zip(COMMITS, recorded) if was]}", flush=True)
             seen.update(recorded)
     print(f"{faults} faults")
     return 1 if faults or seen != {True, False} else 0

@@ -2,6 +2,10 @@
 #include "run.hpp"
 #include "scene.hpp"
 
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -26,6 +30,20 @@ std::vector<std::string> found(const Result& result) {
 }
 
 using Codes = std::vector<std::string>;
+
+std::string scenario_of_one() {
+  return R"({"schema": "blactl-scenario/1", "clock": "virtual",
+             "servos": [{"model": "BLA21-12U-AB", "node_id": 11, "servo_id": 1}]})";
+}
+
+void write_file(const std::filesystem::path& file, const std::string& bytes) {
+  std::filesystem::create_directories(file.parent_path());
+  std::ofstream(file, std::ios::binary) << bytes;
+}
+
+std::ptrdiff_t names_in(const std::filesystem::path& folder) {
+  return std::distance(std::filesystem::directory_iterator(folder), {});
+}
 
 } // namespace
 
@@ -175,6 +193,44 @@ TEST_CASE("doctor judges what this user may keep") {
                                   {.env = {{"BLACTL_STATE_DIR", file}}});
   CHECK(result.status == 8);
   CHECK(found(result) == Codes{"permission"});
+}
+
+TEST_CASE("doctor tells of a state file that is damaged, wherever in it, and of each of them") {
+  const Bench bench;
+  const Background sim(bench, {"sim", bench.file("s.json", scenario_of_one())});
+  const Arguments doctor{"-i", "sim:", "doctor", "-j"};
+  CHECK(bench.run(doctor).status == 0);
+  const std::filesystem::path state = bench.folder() / "state/blactl/simulated";
+  CHECK_FALSE(std::filesystem::exists(state)); // nothing is made by looking
+  REQUIRE(bench.run({"-i", "sim:", "-y", "set", "-n", "11", "reverse=on"}).status == 0);
+  CHECK(bench.run(doctor).status == 0);
+  const auto files = names_in(state);
+  std::string history = content(state / "snapshots.db");
+  history.back() = static_cast<char>(history.back() ^ 1); // no command reads this for itself
+  write_file(state / "snapshots.db", history);
+  write_file(state / "allocations.db", "no database");
+  const Result result = bench.run(doctor);
+  INFO(result.out << result.err);
+  CHECK(result.status == 8);
+  REQUIRE(found(result) == Codes{"state_damaged", "state_damaged"});
+  const auto findings = json(result.out)["findings"];
+  CHECK(findings[0]["level"] == "failure");
+  CHECK(findings[0]["node_id"] == nullptr);
+  CHECK(contains(findings[0]["text"].get<std::string>(), "allocations.db is not a blactl"));
+  CHECK(contains(findings[1]["text"].get<std::string>(), "snapshots.db is damaged"));
+  CHECK(contains(findings[1]["fix"].get<std::string>(), "mv " + state.string()));
+  CHECK(content(state / "snapshots.db") == history);
+  CHECK(names_in(state) == files + 1);
+  const Result japanese = bench.run({"-i", "sim:", "doctor", "--lang", "ja"});
+  CHECK(contains(japanese.out, "snapshots.db が壊れています"));
+  CHECK(contains(japanese.out, "移動して下さい"));
+}
+
+TEST_CASE("what a private simulation does not use, doctor does not judge there") {
+  const Bench bench;
+  write_file(bench.folder() / "state/blactl/allocations.db", "no database");
+  const Result result = bench.run({"-i", "sim:" + numbered_servos().write(bench), "doctor", "-j"});
+  CHECK(result.status == 0);
 }
 
 TEST_CASE("an interface that cannot be opened is an error beside the findings") {

@@ -28,11 +28,11 @@ struct LedgerQuery {
 /// Records in `ledger.db` of a folder: an SQLite database that several stations of a machine use at
 /// once. When a function returns, its result is on disk. Records are never changed or removed.
 ///
-/// A file that is not ours, is damaged or was made by a newer blactl is an error and stays as it
-/// is, byte for byte.
+/// A file that is not ours or was made by a newer blactl is an error, and so is damage where it is
+/// met (check_state_files() meets all of it). It stays as it is, byte for byte.
 ///
 /// Errors of every function: bad_file (not a file of ours, damaged, of a newer blactl), permission,
-/// io (also a full disk: then nothing has changed), busy (another process wrote for longer than our
+/// io (also a full disk: then nothing has changed), busy (another process used it longer than our
 /// patience). A store is used by one thread and must not be carried through a fork().
 class LedgerStore {
  public:
@@ -58,7 +58,8 @@ class LedgerStore {
   /// a different record has its record_id.
   [[nodiscard]] Result<void> add(const LedgerRecord& record);
 
-  /// Calls `take` for each record, in the order of addition, until it returns false.
+  /// Calls `take` for each record, in the order of addition, until it returns false. Others may add
+  /// records meanwhile, which come too.
   [[nodiscard]] Result<void> each(const LedgerQuery& query,
                                   const std::function<bool(const LedgerRecord&)>& take) const;
 

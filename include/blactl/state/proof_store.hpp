@@ -43,11 +43,11 @@ inline constexpr Duration uptime_tolerance = std::chrono::seconds(2);
 /// One proof per unit, in `proofs.db` of a folder: an SQLite database that several processes use at
 /// once. When a function returns, its result is on disk.
 ///
-/// A file that is not ours, is damaged or was made by a newer blactl is an error and stays as it
-/// is, byte for byte.
+/// A file that is not ours or was made by a newer blactl is an error, and so is damage where it is
+/// met (check_state_files() meets all of it). It stays as it is, byte for byte.
 ///
 /// Errors of every function: bad_file (not a file of ours, damaged, of a newer blactl), permission,
-/// io (also a full disk: then nothing has changed), busy (another process wrote for longer than our
+/// io (also a full disk: then nothing has changed), busy (another process used it longer than our
 /// patience). A store is used by one thread and must not be carried through a fork().
 class ProofStore {
  public:

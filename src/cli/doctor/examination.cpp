@@ -7,6 +7,7 @@
 
 #include "cli/doctor/texts.hpp"
 #include "cli/interface/meant_link.hpp"
+#include "cli/interface/scheme.hpp"
 #include "cli/output/progress_view.hpp"
 #include "cli/stores.hpp"
 
@@ -26,20 +27,23 @@ void add(fleet::Diagnoses more, Examination& examination) {
 }
 
 Diagnosis as_diagnosis(const Error& error, Level level) {
-  return {.code = std::string(name(error.code)),
-          .level = level,
-          .text = error.message,
-          .fix = error.hint};
+  // No file of a user is meant.
+  const auto code = error.code == Code::bad_file ? "state_damaged" : name(error.code);
+  return {.code = std::string(code), .level = level, .text = error.message, .fix = error.hint};
 }
 
-/// Checks that state can be stored on this machine.
+/// Checks that state can be stored on this machine, and that all of what is stored can be read.
 void examine_state(const Context& context, Examination& examination) {
-  if (const auto writable = state::check_state_folder(state::state_folder()); !writable) {
+  const std::string_view interface = context.shared().interface;
+  const std::string folder = stores_folder(interface);
+  if (const auto writable = state::check_state_folder(folder); !writable) {
     examination.diagnoses.push_back(as_diagnosis(writable.error(), Level::warning));
-  } else if (const auto table =
-                 open_allocations(context.shared().interface, state::AllocationStore::Access::read);
-             !table) {
-    examination.diagnoses.push_back(as_diagnosis(table.error(), Level::failure));
+  }
+  if (names(interface, Behind::scenario)) {
+    return; // it stores nothing
+  }
+  for (const Error& error : state::check_state_files(folder)) {
+    examination.diagnoses.push_back(as_diagnosis(error, Level::failure));
   }
 }
 

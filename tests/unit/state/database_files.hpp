@@ -10,6 +10,7 @@
 #include <signal.h>
 #include <sqlite3.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -61,6 +62,25 @@ inline void run_sql(const std::filesystem::path& path, const std::string& sql) {
   INFO(sql);
   REQUIRE(sqlite3_exec(handle, sql.c_str(), nullptr, nullptr, nullptr) == SQLITE_OK);
   sqlite3_close(handle);
+}
+
+/// What a process of an older version leaves that is killed: committed to the log of write-ahead
+/// mode (-wal), and not yet in the file.
+inline void leave_in_log(const std::filesystem::path& path, const std::string& sql) {
+  const pid_t pid = fork();
+  REQUIRE(pid >= 0);
+  if (pid == 0) {
+    sqlite3* handle = nullptr;
+    const std::string all = "PRAGMA journal_mode = WAL;" + sql;
+    if (sqlite3_open(path.c_str(), &handle) == SQLITE_OK &&
+        sqlite3_exec(handle, all.c_str(), nullptr, nullptr, nullptr) == SQLITE_OK) {
+      kill(getpid(), SIGKILL);
+    }
+    _exit(1);
+  }
+  int status = 0;
+  REQUIRE(waitpid(pid, &status, 0) == pid);
+  REQUIRE(WIFSIGNALED(status));
 }
 
 /// From here on files of this process cannot grow beyond this: only a child may call it.

@@ -158,6 +158,30 @@ TEST_CASE("who has seen enough gets no more") {
   CHECK(seen == 1);
 }
 
+TEST_CASE("who reads records slowly keeps nobody from adding one") {
+  const Folder folder;
+  LedgerStore store = opened(folder);
+  constexpr int many = 300;
+  for (int i = 0; i < many; ++i) {
+    add(store, record(std::to_string(i)));
+  }
+  const LedgerStore reader = opened(folder, Access::read);
+  std::vector<std::string> seen;
+  REQUIRE(reader.each({.verdict = "pass"}, [&](const LedgerRecord& one) {
+    if (seen.size() == 10) {
+      LedgerStore other =
+          LedgerStore::open((folder.path / "state").string(), Access::write, 20ms).value();
+      CHECK(other.add(record("new")));
+    }
+    seen.push_back(*one.record_id);
+    return true;
+  }));
+  REQUIRE(seen.size() == many + 1);
+  CHECK(std::set(seen.begin(), seen.end()).size() == many + 1);
+  CHECK(seen.front() == "0");
+  CHECK(seen.back() == "new");
+}
+
 TEST_CASE("without a file there are no records, and reading makes none") {
   const Folder folder;
   CHECK(found(opened(folder, Access::read)).empty());
