@@ -30,6 +30,13 @@ constexpr std::array angle_limits{at::angle_limit_cw, at::angle_limit_ccw};
 constexpr std::array present_angle{at::current_angle};
 constexpr std::array present_command{at::command_angle};
 constexpr std::array torque_limits{at::torque_limit_cw, at::torque_limit_ccw};
+constexpr std::array torque_limits_and_switch{at::torque_limit_cw, at::torque_limit_ccw,
+                                              at::speed_torque_control};
+constexpr std::array limits_and_switch{at::speed_limit_cw, at::speed_limit_ccw, at::torque_limit_cw,
+                                       at::torque_limit_ccw, at::speed_torque_control};
+constexpr std::array limits_switch_and_angle{at::speed_limit_cw,       at::speed_limit_ccw,
+                                             at::torque_limit_cw,      at::torque_limit_ccw,
+                                             at::speed_torque_control, at::command_angle};
 constexpr std::array pwm_mapping{at::pwm_neutral, at::pwm_range, at::pwm_output_range,
                                  at::pwm_mode};
 constexpr std::array pulse_range{at::pwm_neutral, at::pwm_range};
@@ -66,7 +73,10 @@ constexpr CrossCheck table[]{
     {"pulled_back", question, angle_limits, present_angle, meets_pulled_back,
      texts::check_pulled_back},
     {"let_go_on", question, angle_limits, present_command, meets_let_go_on, texts::check_let_go_on},
-    {"no_torque", question, torque_limits, nothing_else, meets_zero, texts::check_no_torque},
+    {"no_torque", question, torque_limits_and_switch, torque_limits_and_switch, meets_no_torque,
+     texts::check_no_torque},
+    {"no_torque_later", question, torque_limits, control_switch, meets_no_torque_later,
+     texts::check_no_torque_later},
     {"temperature_trips", question, temperature_limits, temperature, meets_trips,
      texts::check_temperature_trips},
     {"voltage_trips", question, voltage_limits, supply, meets_trips, texts::check_voltage_trips},
@@ -82,6 +92,8 @@ constexpr CrossCheck table[]{
      texts::check_pwm_needs_switch},
     {"pwm_speed_limited", warning, pwm_and_speed, pwm_and_speed, meets_pwm_speed_limited,
      texts::check_pwm_speed_limited},
+    {"limits_without_effect", warning, limits_switch_and_angle, limits_and_switch,
+     meets_limits_without_effect, texts::check_limits_without_effect},
     {"no_motion", warning, ranges_of_motion, angle_limits, meets_no_motion, texts::check_no_motion},
     {"pwm_below_zero", warning, pulse_range, pulse_range, meets_negative_pulse,
      texts::check_pwm_below_zero},

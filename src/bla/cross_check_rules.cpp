@@ -55,6 +55,14 @@ bool maps_beyond(const Proposal& change, std::int64_t mode, Address limit_cw, Ad
           both(change.after, at::pwm_output_range, limit_ccw, is_below));
 }
 
+constexpr std::array switched_limits{at::speed_limit_cw, at::speed_limit_ccw, at::torque_limit_cw,
+                                     at::torque_limit_ccw};
+
+/// Without speed/torque control 0x01, 0x02 and 0x3A-0x3D are ignored (4.18, 4.32, 4.33).
+bool has_control_off(const Proposal& change) {
+  return holds(change.after, at::speed_torque_control, off);
+}
+
 /// The measured value that a protection limit is compared with, and the direction.
 struct Protection {
   Address limit, measured;
@@ -78,7 +86,7 @@ const Protection& protection(Address limit) {
 // Refusals
 
 bool meets_control_off(const Proposal& change) {
-  return holds(change.after, at::speed_torque_control, off);
+  return has_control_off(change);
 }
 
 bool meets_no_stop(const Proposal& change) {
@@ -120,6 +128,19 @@ bool meets_let_go_on(const Proposal& change) {
   return is_wider && is_beyond && *command != not_active;
 }
 
+/// A torque limit is 0 and in effect: it is set to 0, or the switch makes it count.
+bool meets_no_torque(const Proposal& change) {
+  if (change.address != at::speed_torque_control) {
+    return change.requested == 0 && !has_control_off(change);
+  }
+  return change.requested == on && (find(change.after, at::torque_limit_cw).value_or(0) == 0 ||
+                                    find(change.after, at::torque_limit_ccw).value_or(0) == 0);
+}
+
+bool meets_no_torque_later(const Proposal& change) {
+  return change.requested == 0 && has_control_off(change);
+}
+
 /// Limits are inclusive (4.12).
 bool meets_trips(const Proposal& change) {
   const Protection& watched = protection(change.address);
@@ -142,6 +163,15 @@ bool meets_pwm_present(const Proposal& change) {
 
 // Warnings
 
+/// A limit is not as from the factory, so somebody relies on it.
+bool meets_limits_without_effect(const Proposal& change) {
+  return has_control_off(change) && std::ranges::any_of(switched_limits, [&](Address address) {
+           const Parameter* limit = change.servo.parameter(address);
+           const auto held = find(change.after, address);
+           return limit != nullptr && held && held != limit->default_raw;
+         });
+}
+
 bool meets_pwm_cut_off(const Proposal& change) {
   return maps_beyond(change, pwm_angle_mode, at::angle_limit_cw, at::angle_limit_ccw);
 }
@@ -152,7 +182,7 @@ bool meets_pwm_speed_limited(const Proposal& change) {
 
 bool meets_pwm_without_control(const Proposal& change) {
   return has_pwm_input(change.servo) && holds(change.after, at::pwm_mode, pwm_speed_mode) &&
-         holds(change.after, at::speed_torque_control, off);
+         has_control_off(change);
 }
 
 bool meets_no_motion(const Proposal& change) {

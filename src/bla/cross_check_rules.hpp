@@ -11,9 +11,12 @@ namespace blactl::bla {
 [[nodiscard]] bool meets_reversed_limits(const Proposal& change);
 [[nodiscard]] bool meets_pulled_back(const Proposal& change);
 [[nodiscard]] bool meets_let_go_on(const Proposal& change);
+[[nodiscard]] bool meets_no_torque(const Proposal& change);
+[[nodiscard]] bool meets_no_torque_later(const Proposal& change);
 [[nodiscard]] bool meets_trips(const Proposal& change);
 [[nodiscard]] bool meets_protection_ends(const Proposal& change);
 [[nodiscard]] bool meets_pwm_present(const Proposal& change);
+[[nodiscard]] bool meets_limits_without_effect(const Proposal& change);
 [[nodiscard]] bool meets_pwm_cut_off(const Proposal& change);
 [[nodiscard]] bool meets_pwm_speed_limited(const Proposal& change);
 [[nodiscard]] bool meets_pwm_without_control(const Proposal& change);

@@ -231,8 +231,17 @@ inline constexpr Text check_pulled_back{"the shaft is beyond the limit: it runs 
 inline constexpr Text check_let_go_on{
     "a command beyond the old limit is still there: the shaft runs on to it",
     "変更前の制限を超える指令が残っているため、その角度まで動作します"};
-inline constexpr Text check_no_torque{"with a limit of 0 % the servo lets go of the load",
-                                      "制限値が 0 % の場合、負荷を保持できません"};
+inline constexpr Text check_no_torque{"with a torque limit of 0 % the servo lets go of the load",
+                                      "動作トルク制限が 0 % の場合、負荷を保持できません"};
+inline constexpr Text check_no_torque_later{
+    "it has no effect while speed_torque_control (0x25) is off; with it on the servo lets go of "
+    "the load",
+    "speed_torque_control (0x25) が OFF の間は無視されますが、ON にすると負荷を保持できません"};
+inline constexpr Text check_limits_without_effect{
+    "the limits of speed and torque (0x3A-0x3D) have no effect while speed_torque_control (0x25) "
+    "is off; to use them, set speed_torque_control=on",
+    "動作速度制限/動作トルク制限 (0x3A～0x3D) は、speed_torque_control (0x25) が OFF の間は"
+    "無視されます。有効にするには speed_torque_control=on を設定して下さい"};
 inline constexpr Text check_temperature_trips{
     "the present temperature trips the limit at once: the motor is switched off",
     "現在の温度が制限に達しているため、直ちにモータが停止します"};

@@ -183,6 +183,20 @@ TEST_CASE("what the servo is switched to is told with what to type") {
   check_error(refused("angle=45deg", {{"timeout_time", "10ms"}}), 2, "cross_check", "timeout_time");
 }
 
+TEST_CASE("limits of speed and torque that do not hold the shaft are told before it moves") {
+  const auto moved = [](const nlohmann::json& rom) {
+    const Result result = Scene()
+                              .servo("BLA21-12U-AB", 12, {{"rom", rom}})
+                              .run({"command", "angle=45deg", "-n", "12", "-y"});
+    CHECK(result.status == 0);
+    return result.err;
+  };
+  const std::string told = "have no effect while speed_torque_control (0x25) is off";
+  CHECK(contains(moved({{"torque_limit_cw", "40%"}}), told));
+  CHECK_FALSE(contains(moved({{"torque_limit_cw", "40%"}, {"speed_torque_control", "on"}}), told));
+  CHECK_FALSE(contains(moved({{"smoothing", "on"}}), told));
+}
+
 TEST_CASE("a shaft that is stuck is no success") {
   const Bench bench;
   const std::string scenario = bench.file("s.json", R"({"schema":"blactl-scenario/1",

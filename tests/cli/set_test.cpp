@@ -348,6 +348,50 @@ TEST_CASE("what the manufacturer advises to leave at its default is a warning") 
   CHECK(json(set.out)["nodes"][0]["warnings"][0]["code"] == "leave_at_default");
 }
 
+TEST_CASE("limits of speed and torque that have no effect are a warning with what to type") {
+  const Scene scene = Scene()
+                          .servo("BLA21-12U-AB", 11)
+                          .servo("BLA21-12U-AB", 12)
+                          .servo("BLA21-12U-AB", 13, {{"rom", {{"speed_torque_control", "on"}}}});
+  const auto said = [&](Arguments more) {
+    more.insert(more.begin(), {"set", "speed_limit_cw=5rpm", "torque_limit_cw=10%", "--json"});
+    return scene.run(more);
+  };
+  const Result both = said({"-n", "11,12"});
+  CHECK(both.status == 0);
+  for (const auto& node : json(both.out)["nodes"]) {
+    REQUIRE(node["warnings"].size() == 1);
+    CHECK(node["warnings"][0]["code"] == "limits_without_effect");
+    CHECK(both.err ==
+          "blactl: nodes 11, 12: " + node["warnings"][0]["text"].get<std::string>() + '\n');
+  }
+  CHECK(contains(both.err, "have no effect while speed_torque_control (0x25) is off"));
+  CHECK(contains(both.err, "speed_torque_control=on"));
+  CHECK(contains(said({"-n", "11", "--lang", "ja"}).err,
+                 "speed_torque_control (0x25) が OFF の間は無視されます"));
+  const Result in_effect = said({"-n", "13"});
+  CHECK(in_effect.status == 0);
+  CHECK(in_effect.err.empty());
+}
+
+TEST_CASE("a torque limit of 0 is asked with what it does now") {
+  const auto asked = [](const std::string& assignment, const nlohmann::json& rom) {
+    const Result result =
+        Scene().servo("BLA21-12U-AB", 11, {{"rom", rom}}).run({"set", "-n", "11", assignment});
+    CHECK(result.status == 7);
+    return result.err;
+  };
+  const std::string lets_go = "\n    (with a torque limit of 0 % the servo lets go of the load)\n";
+  CHECK(
+      contains(asked("torque_limit_cw=0%", {{"speed_torque_control", "off"}}),
+               "torque_limit_cw 100  (100 %) -> 0  (0 %)\n    (it has no effect while "
+               "speed_torque_control (0x25) is off; with it on the servo lets go of the load)\n"));
+  CHECK(contains(asked("torque_limit_cw=0%", {{"speed_torque_control", "on"}}),
+                 "-> 0  (0 %)" + lets_go));
+  CHECK(contains(asked("speed_torque_control=on", {{"torque_limit_ccw", "0%"}}),
+                 "-> 1  (on)" + lets_go));
+}
+
 // On a bus that has been running: the vehicle said armed before this command began, and will say
 // so again within a second.
 TEST_CASE("nothing at all is written while the vehicle is armed") {

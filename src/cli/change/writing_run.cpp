@@ -11,6 +11,8 @@
 #include "cli/stores.hpp"
 #include "cli/texts.hpp"
 
+#include <algorithm>
+#include <string_view>
 #include <utility>
 
 namespace blactl::cli {
@@ -145,13 +147,32 @@ void WritingRun::tell(const std::vector<std::string>& notes) {
 }
 
 void WritingRun::tell_warnings(std::span<const fleet::GoalResult> results) {
-  std::vector<std::string> notes;
+  struct Told {
+    std::string_view text;
+    std::string ids;
+    bool is_of_several = false;
+  };
+
+  std::vector<Told> all;
   for (const fleet::GoalResult& result : results) {
+    const std::uint8_t id = result.servo().id.value();
     for (const fleet::Warning& warning : result.change.warnings) {
-      notes.push_back(say<texts::about_node>(result.servo().id.value(), warning.text));
+      if (!told_.insert(say<texts::about_node>(id, warning.text)).second) {
+        continue;
+      }
+      const auto same = std::ranges::find(all, warning.text, &Told::text);
+      if (same == all.end()) {
+        all.push_back({warning.text, std::to_string(id)});
+      } else {
+        same->ids += ", " + std::to_string(id);
+        same->is_of_several = true;
+      }
     }
   }
-  tell(notes);
+  for (const Told& each : all) {
+    context_.reporter().note(each.is_of_several ? say<texts::about_nodes>(each.ids, each.text)
+                                                : say<texts::about_node>(each.ids, each.text));
+  }
 }
 
 void WritingRun::tell_others() {

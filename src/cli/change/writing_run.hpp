@@ -58,7 +58,7 @@ class WritingRun {
   /// Prints each note once.
   void tell(const std::vector<std::string>& notes);
 
-  /// Prints each warning of each servo once.
+  /// Prints each warning once, with all servos that it is true of.
   void tell_warnings(std::span<const fleet::GoalResult> results);
 
   /// Notes other active nodes on this bus that do not forbid writing.

@@ -181,9 +181,13 @@ Result<std::vector<Waypoint>> course_of(const CommandWanted& wanted, const Snaps
   return wiggle(before, wanted.duration);
 }
 
-/// The change of 0x00, 0x01 or 0x02, checked as in any command that writes.
+/// The change of 0x00, 0x01 or 0x02, checked as in any command that writes; a value that is held
+/// already is sent as well.
 Result<Plan> judged(const CommandWanted& wanted, Snapshot before, std::int64_t raw,
                     const bla::Profiles& profiles) {
+  std::erase_if(before.readings, [&](const Reading& reading) {
+    return reading.parameter->address == commanded(wanted);
+  });
   if (wanted.target) {
     return make_plan({.assignments = {*wanted.target}}, std::move(before), profiles);
   }

@@ -366,6 +366,18 @@ const std::vector<Case> cases{
     {"low_speed_stall", "command_speed", 10, false},
     {"low_speed_stall", "pwm_mode", 1, false, {}, "BLA34", 1500},
 
+    {"limits_without_effect", "speed_limit_cw", 5, true},
+    {"limits_without_effect", "torque_limit_ccw", -10, true},
+    {"limits_without_effect", "speed_limit_cw", 5, false, {{"speed_torque_control", 1}}},
+    {"limits_without_effect", "speed_limit_cw", 5, false, {}, "BLA21-12U-AB", 1010},
+    {"limits_without_effect", "speed_limit_cw", 300, false}, // as from the factory
+    {"limits_without_effect", "speed_limit_cw", 300, true, {}, "BLA15-06U-A0"},
+    {"limits_without_effect", "speed_torque_control", 0, true, {{"torque_limit_cw", 99}}},
+    {"limits_without_effect", "speed_torque_control", 0, false},
+    {"limits_without_effect", "speed_torque_control", 1, false, {{"torque_limit_cw", 99}}},
+    {"limits_without_effect", "command_angle", 60, true, {{"speed_limit_ccw", -20}}},
+    {"limits_without_effect", "command_angle", 60, false},
+
     {"always_asked", "torque_output", 1, true},
     {"always_asked", "smoothing", 0, false},
     {"pulled_back", "angle_limit_cw", 449, true}, // it is at 45.0 deg
@@ -376,8 +388,16 @@ const std::vector<Case> cases{
      true,
      {{"command_angle", 1550}, {"angle_limit_cw", 1500}}},
     {"let_go_on", "angle_limit_cw", 1600, false},
-    {"no_torque", "torque_limit_cw", 0, true},
-    {"no_torque", "torque_limit_cw", 1, false},
+    {"no_torque", "torque_limit_cw", 0, true, {{"speed_torque_control", 1}}},
+    {"no_torque", "torque_limit_cw", 1, false, {{"speed_torque_control", 1}}},
+    {"no_torque", "torque_limit_cw", 0, false}, // the limits are switched off
+    {"no_torque", "torque_limit_cw", 0, true, {}, "BLA21-12U-AB", 1010}, // it has no switch
+    {"no_torque", "speed_torque_control", 1, true, {{"torque_limit_ccw", 0}}},
+    {"no_torque", "speed_torque_control", 1, false},
+    {"no_torque", "speed_torque_control", 0, false, {{"torque_limit_ccw", 0}}},
+    {"no_torque_later", "torque_limit_ccw", 0, true},
+    {"no_torque_later", "torque_limit_ccw", -1, false},
+    {"no_torque_later", "torque_limit_ccw", 0, false, {{"speed_torque_control", 1}}},
     {"temperature_trips", "temperature_limit_high", 40, true}, // it is at 40 degC
     {"temperature_trips", "temperature_limit_high", 41, false},
     {"temperature_released", "temperature_limit_high", 41, true, {{"fault_warning", 1 << 8}}},

@@ -95,6 +95,22 @@ TEST_CASE("a speed or torque needs its switch, and a timeout that stops it") {
   CHECK(plan(wanted("command_angle=45deg"), {{at::timeout_action, 0}})); // it ends by itself
 }
 
+TEST_CASE("limits that hold nothing are told before the shaft moves") {
+  const auto told = [](const CommandWanted& wanted, const bla::Values& held) {
+    const auto planned = plan(wanted, held);
+    REQUIRE(planned);
+    return std::ranges::any_of(planned->plan.warnings, [](const Warning& each) {
+      return each.code == "limits_without_effect";
+    });
+  };
+  const CommandWanted angle = wanted("command_angle=45deg");
+  CHECK(told(angle, {{at::torque_limit_cw, 10}}));
+  CHECK(told(angle, {{at::torque_limit_cw, 10}, {at::command_angle, 450}})); // it is sent again
+  CHECK(told({}, {{at::speed_limit_ccw, -5}}));                              // a wiggle
+  CHECK_FALSE(told(angle, {}));
+  CHECK_FALSE(told(angle, {{at::torque_limit_cw, 10}, {at::speed_torque_control, 1}}));
+}
+
 TEST_CASE("what a model forbids is never planned") {
   Servo slow = bla21();
   slow.identity = bla::Identity(profiles(), {86, 240900558, 1400, 12050}); // a BLA34

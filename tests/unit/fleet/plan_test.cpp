@@ -269,6 +269,38 @@ TEST_CASE("what the manufacturer advises to leave as it is is warned of, and don
   CHECK(plan_for(back, {{at::speed_p_gain, 5}}).warnings.empty());
 }
 
+TEST_CASE("limits of speed and torque are warned of once while their switch is off") {
+  const Plan plan = plan_for(set({"speed_limit_cw=5rpm", "torque_limit_cw=10%"}));
+  REQUIRE(plan.warnings.size() == 1);
+  CHECK(plan.warnings[0].code == "limits_without_effect");
+  CHECK(plan.warnings[0].text.starts_with("speed_limit_cw=5rpm: "));
+  CHECK(plan.warnings[0].text.find("speed_torque_control=on") != std::string::npos);
+  CHECK(plan_for(set({"speed_limit_cw=5rpm"}), {{at::speed_torque_control, 1}}).warnings.empty());
+  CHECK(plan_for(set({"speed_torque_control=on", "speed_limit_cw=5rpm"})).warnings.empty());
+  const Plan off = plan_for(set({"speed_torque_control=off"}),
+                            {{at::speed_torque_control, 1}, {at::torque_limit_ccw, -10}});
+  REQUIRE(off.warnings.size() == 1);
+  CHECK(off.warnings[0].text.starts_with("speed_torque_control=off: "));
+}
+
+TEST_CASE("the question of a torque limit of 0 tells whether it lets go of the load now") {
+  const bla::Values on{{at::speed_torque_control, 1}};
+  const std::string now = "(with a torque limit of 0 % the servo lets go of the load";
+  const std::string later = "no effect while speed_torque_control (0x25) is off";
+  const Plan held_off = plan_for(set({"torque_limit_cw=0%"}));
+  CHECK(held_off.moves());
+  CHECK(asks(held_off, later));
+  CHECK_FALSE(asks(held_off, now));
+  for (const Plan& lets_go :
+       {plan_for(set({"torque_limit_cw=0%"}), on),
+        plan_for(set({"torque_limit_cw=0%", "speed_torque_control=on"})),
+        plan_for(set({"speed_torque_control=on"}), {{at::torque_limit_ccw, 0}})}) {
+    CHECK(asks(lets_go, now));
+    CHECK_FALSE(asks(lets_go, later));
+  }
+  CHECK_FALSE(asks(plan_for(set({"speed_torque_control=on"})), now));
+}
+
 TEST_CASE("a plan tells which node ID it gives") {
   const bla::Values held{{at::static_node_id, 20}};
   CHECK(plan_for(set({"static_node_id=20"})).given_node_id() == NodeId(20));

@@ -67,6 +67,7 @@ inline constexpr Text written_too_late{
     "あります",
 };
 inline constexpr Text about_node{"node {}: {}", "ノード {}: {}"};
+inline constexpr Text about_nodes{"nodes {}: {}", "ノード {}: {}"};
 inline constexpr Text write_refused{"node {}: {}={}: the servo did not take it and still holds {}",
                                     "ノード {}: {}={}: サーボが受け付けません。値は {} のままです"};
 inline constexpr Text write_mismatch{"node {}: {}={}: the servo holds {} instead",
