@@ -127,11 +127,14 @@ Result<void> allowed_by_some_model(const Profiles& profiles, const Parameter& pa
   std::vector<std::string> ranges;
   for (const Profile& profile : profiles.all()) {
     const Parameter* one = profile.find(parameter.address);
-    if (one == nullptr || !one->min || !one->max || (one->group == Group::pwm && !profile.pwm)) {
+    if (one == nullptr || !one->min || !one->max) {
       continue;
     }
     if (check_range(*one, value.raw)) {
       return {};
+    }
+    if (!profile.takes(*one)) { // nothing to choose from
+      continue;
     }
     std::string range = say<texts::value_one_range>(input_text(*one, *one->min, value.pwm_mode),
                                                     input_text(*one, *one->max, value.pwm_mode));
@@ -161,12 +164,12 @@ Result<void> allowed_by_model(const Profile& model, const Assignment& assignment
                 say<texts::model_lacks>(model.model, parameter.name, parameter.address.name()),
                 say<texts::parameter_list>());
   }
-  if (own->group == Group::pwm && !model.pwm) {
+  auto within = check_range(*own, assignment.value.raw, assignment.value.pwm_mode);
+  if (!within && own->group == Group::pwm && !model.pwm) {
     return fail(Code::unsupported,
                 say<texts::no_pwm_parameter>(model.model, parameter.name, parameter.address.name()),
                 say<texts::no_pwm_input_hint>(model.model));
   }
-  auto within = check_range(*own, assignment.value.raw, assignment.value.pwm_mode);
   if (!within) {
     within.error().message = model.model + ": " + within.error().message;
   }

@@ -184,7 +184,7 @@ Result<void> Identity::may_write(Address address, std::int64_t raw) const {
                 say<texts::parameter_list>());
   }
   auto allowed = never_sent(*general, raw);
-  allowed = allowed ? check_model(*general) : allowed;
+  allowed = allowed ? check_model(*general, raw) : allowed;
   allowed = allowed ? check_support(*general) : allowed;
   return allowed ? check_range(*candidates_.front()->find(address), raw) : allowed;
 }
@@ -204,14 +204,16 @@ Result<void> Identity::check_pwm_input() const {
                                     : Result<void>();
 }
 
-Result<void> Identity::check_takes(const Parameter& parameter) const {
-  if (this->parameter(parameter.address) == nullptr) {
+Result<void> Identity::check_takes(const Parameter& parameter,
+                                   std::optional<std::int64_t> raw) const {
+  const Parameter* own = this->parameter(parameter.address);
+  if (own == nullptr) {
     return fail(Code::unsupported,
                 say<texts::model_lacks>(model(), parameter.name, parameter.address.name()),
                 say<texts::parameter_list>());
   }
   if (parameter.group != Group::pwm || candidates_.empty() ||
-      std::ranges::any_of(candidates_, &Profile::pwm)) {
+      std::ranges::any_of(candidates_, &Profile::pwm) || (raw && check_range(*own, *raw))) {
     return {};
   }
   return fail(Code::unsupported,
@@ -219,13 +221,13 @@ Result<void> Identity::check_takes(const Parameter& parameter) const {
               say<texts::no_pwm_input_hint>(model()));
 }
 
-Result<void> Identity::check_model(const Parameter& parameter) const {
+Result<void> Identity::check_model(const Parameter& parameter, std::int64_t raw) const {
   if (candidates_.empty()) {
     return fail(Code::no_profile,
                 say<texts::model_unknown>(reading(address::model_number, readings_.model_number)),
                 say<texts::model_unknown_hint>());
   }
-  if (auto taken = check_takes(parameter); !taken) {
+  if (auto taken = check_takes(parameter, raw); !taken) {
     return taken;
   }
   const Parameter* first = candidates_.front()->find(parameter.address);

@@ -137,8 +137,9 @@ inline constexpr Text firmware_needed_hint{
 inline constexpr Text model_lacks{"{} has no parameter {} ({})",
                                   "{} にパラメータ {} ({}) はありません"};
 inline constexpr Text no_pwm_input{"{} has no PWM input", "{} に PWM 入力はありません"};
-inline constexpr Text no_pwm_parameter{"{} has no PWM input, and so no {} ({})",
-                                       "{} に PWM 入力はないため、{} ({}) は使用できません"};
+inline constexpr Text no_pwm_parameter{
+    "{} has no PWM input: {} ({}) can only be 0",
+    "{} に PWM 入力はないため、{} ({}) に設定できる値は 0 だけです"};
 inline constexpr Text no_pwm_input_hint{
     "{} is driven over CAN alone; which models have a PWM input: `blactl models`",
     "{} は CAN 通信専用です。PWM 入力対応機種は `blactl models` で確認できます"};

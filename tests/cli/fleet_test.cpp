@@ -1,7 +1,7 @@
 // export and diff: servos as files, and files against servos.
 
 #include "catch.hpp"
-#include "scene.hpp"
+#include "fleet.hpp"
 
 #include <algorithm>
 #include <string>
@@ -60,6 +60,21 @@ TEST_CASE("what was exported is what the servos hold") {
   const Result piped = three_servos().run({"export"});
   REQUIRE(piped.status == 0);
   CHECK(three_servos().run({"diff", "-"}, {.stdin_text = piped.out}).status == 0);
+}
+
+TEST_CASE("a file that names the zeros of a model without PWM input is what the servo holds") {
+  const Fleet fleet(Scene().servo("BLA21-12U-A0", 11));
+  Document document = fleet.exported();
+  document["servos"][0]["match"]["model"] = "BLA21-12U-A0";
+  document["servos"][0]["set"].update(
+      {{"pwm_neutral", "0us"}, {"pwm_range", "0us"}, {"pwm_output_range", "0deg"}, {"0x37", 0}});
+  CHECK(fleet.run({"diff", fleet.file(document)}).status == 0);
+  CHECK(statuses(fleet.apply(document)) == std::vector<std::string>{"unchanged"});
+  const std::string params = fleet.run({"export", "-n", "11", "--params"}).out;
+  CHECK(fleet.run({"diff", fleet.params(params + "0x34 0\n0x35 0\n0x36 0\n0x37 0\n")}).status == 0);
+  document["servos"][0]["set"]["pwm_neutral"] = "1520us";
+  check_error(fleet.run({"apply", fleet.file(document)}), 2, "bad_file",
+              "BLA21-12U-A0 has no PWM input: pwm_neutral (0x34) can only be 0");
 }
 
 TEST_CASE("diff tells each register that differs, and counts the others") {

@@ -457,7 +457,7 @@ TEST_CASE("no firmware gives a model a PWM input") {
                             .run({"get", "-n", "11", "0x34"});
   CHECK(result.status == 2);
   CHECK(contains(result.err,
-                 "node 11: BLA21-12U-A0 has no PWM input, and so no pwm_neutral (0x34)\n"));
+                 "node 11: BLA21-12U-A0 has no PWM input: pwm_neutral (0x34) can only be 0\n"));
   CHECK_FALSE(contains(result.err, "needs firmware"));
 }
 

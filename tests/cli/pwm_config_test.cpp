@@ -100,7 +100,8 @@ TEST_CASE("--dry-run changes nothing and shows both mappings") {
 }
 
 TEST_CASE("a servo without a PWM input is refused") {
-  for (const Arguments& more : {Arguments{}, Arguments{"--preset", "1"}}) {
+  for (const Arguments& more :
+       {Arguments{}, Arguments{"--preset", "1"}, Arguments{"--output", "0deg"}}) {
     Arguments arguments{"pwm-config", "-n", "12"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const Result result = three_servos().run(arguments);

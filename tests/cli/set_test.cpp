@@ -221,7 +221,7 @@ TEST_CASE("what the firmware or the model lacks is refused with the reason") {
     CHECK(with_firmware(1100).run({"set", assignment, "-y"}).status == 0);
   }
   check_error(three_servos().run({"set", "-n", "12", "pwm_neutral=1500us"}), 2, "unsupported",
-              "node 12: BLA15-06U-A0 has no PWM input, and so no pwm_neutral (0x34)\n"
+              "node 12: BLA15-06U-A0 has no PWM input: pwm_neutral (0x34) can only be 0\n"
               "  BLA15-06U-A0 is driven over CAN alone");
 }
 
@@ -523,10 +523,23 @@ TEST_CASE("who answers no gets no advice to agree beforehand") {
   CHECK(contains(pipe.err, "--yes"));
 }
 
+TEST_CASE("a model without PWM input holds 0 for it, and takes it") {
+  const Result zeros = three_servos().run({"set", "-n", "12", "pwm_neutral=0us", "pwm_range=0us",
+                                           "pwm_output_range=0deg", "pwm_mode=angle", "--json"});
+  INFO(zeros.err);
+  CHECK(zeros.status == 0);
+  REQUIRE(changes(zeros).size() == 4);
+  for (const auto& change : changes(zeros)) {
+    CHECK(change["status"] == "unchanged");
+  }
+  check_error(three_servos().run({"set", "-n", "11", "pwm_neutral=0us"}), 2, "out_of_range",
+              "node 11: pwm_neutral=0us: outside of the range 100us to 10000us");
+}
+
 TEST_CASE("a model without PWM input is spoken of as itself") {
   const Result result = three_servos().run({"set", "-n", "12", "pwm_neutral=1520us"});
   CHECK(result.status == 2);
   CHECK(codes(result) == std::vector<std::string>{"unsupported"});
-  CHECK(contains(result.err, "has no PWM input, and so no pwm_neutral (0x34)\n  BLA15-"));
+  CHECK(contains(result.err, "has no PWM input: pwm_neutral (0x34) can only be 0\n  BLA15-"));
   CHECK_FALSE(contains(result.err, "BLA21"));
 }

@@ -70,9 +70,11 @@ class Identity {
   /// unsupported (firmware, no PWM input).
   [[nodiscard]] Result<void> check_pwm_input() const;
 
-  /// Checks that this model has the register and, in the group pwm, accepts it, as far as the model
-  /// is known. Errors: unsupported.
-  [[nodiscard]] Result<void> check_takes(const Parameter& parameter) const;
+  /// Checks that this model has the register and, in the group pwm, accepts values, as far as the
+  /// model is known; without a PWM input `raw` may still be what it holds, 0 (table 3-12). Errors:
+  /// unsupported.
+  [[nodiscard]] Result<void> check_takes(const Parameter& parameter,
+                                         std::optional<std::int64_t> raw = {}) const;
 
   /// Checks that `raw` may be sent to `address` of this servo: never on a guess of the model, never
   /// to a register that firmware or model lack, never outside the range. Errors: no_profile
@@ -81,7 +83,7 @@ class Identity {
   [[nodiscard]] Result<void> may_write(Address address, std::int64_t raw) const;
 
  private:
-  [[nodiscard]] Result<void> check_model(const Parameter& parameter) const;
+  [[nodiscard]] Result<void> check_model(const Parameter& parameter, std::int64_t raw) const;
   [[nodiscard]] Result<void> check_support(const Parameter& parameter) const;
 
   const Profiles* profiles_ = nullptr;

@@ -108,8 +108,8 @@ class Profiles {
   [[nodiscard]] std::vector<const Profile*> matching(std::string_view text) const;
 
   /// Every register that some model has, with the union of the ranges of all models in which it is
-  /// writable: every model refuses values outside. No default if models differ. Ascending by
-  /// address.
+  /// writable: these refuse values outside; models without a PWM input hold 0 in 0x34-0x37. No
+  /// default if models differ. Ascending by address.
   [[nodiscard]] std::span<const Parameter> registers() const { return registers_; }
 
   [[nodiscard]] const Parameter* find(Address address) const;

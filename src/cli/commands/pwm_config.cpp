@@ -4,6 +4,7 @@
 #include "blactl/bla/assignment.hpp"
 #include "blactl/bla/pwm_mapping.hpp"
 #include "blactl/fleet/bus/read_job.hpp"
+#include "blactl/fleet/bus/texts.hpp"
 #include "blactl/fleet/bus/unreachable.hpp"
 
 #include "cli/change/change_servos.hpp"
@@ -223,6 +224,19 @@ Result<std::vector<const bla::Parameter*>> registers_of(const fleet::Servo& serv
   return servo.identity.registers(bla::pwm_registers());
 }
 
+/// Such a servo would take the 0 that it holds (table 3-12), which maps nothing.
+std::vector<Error> refuse_without_input(std::span<const fleet::GoalResult> planned) {
+  std::vector<Error> refused;
+  for (const fleet::GoalResult& result : planned) {
+    const std::uint8_t id = result.servo().id.value();
+    if (const auto possible = result.servo().identity.check_pwm_input(); !possible) {
+      const Error& error = possible.error();
+      refused.push_back({error.code, say<texts::about_node>(id, error.message), error.hint, id});
+    }
+  }
+  return refused;
+}
+
 Report show(const PwmOptions& options, Context& context) {
   Report report{.interface = printable(context.shared().interface)};
   const auto ids = select_for_reading("pwm-config", context, report);
@@ -321,6 +335,7 @@ Report change(const PwmOptions& options, const bla::Profiles& profiles, Context&
     auto refused = refuse_several(options, whom.selected.size());
     return refused ? Goals{.errors = {std::move(*refused)}} : find(whom);
   };
+  request.refuse = refuse_without_input;
   request.ended = [drawn](std::span<const fleet::GoalResult> results) {
     for (const fleet::GoalResult& result : results) {
       drawn->emplace_back(result.servo(), result.change.after());

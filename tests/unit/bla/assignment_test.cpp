@@ -77,8 +77,8 @@ TEST_CASE("only what some model takes gets through") {
   CHECK(code_of("0x2A=121") == "out_of_range");
   CHECK(refused("overcurrent_limit=12.1A").message ==
         "overcurrent_limit=12.1A: outside of the range 0.7A to 12.0A");
-  CHECK(code_of("0x34=99") == "out_of_range"); // 0 is the range of models without PWM input only
-  CHECK(code_of("0x34=0") == "out_of_range");
+  CHECK(code_of("0x34=99") == "out_of_range");
+  CHECK(parse_assignment(built_in(), "0x34=0")); // the range of models without PWM input
   CHECK(parse_assignment(built_in(), "0x34=100"));
   CHECK(code_of("command_speed=301rpm") == "out_of_range");
 }
@@ -145,6 +145,14 @@ TEST_CASE("every fault is told, in the order typed") {
   }
   CHECK(codes == std::vector<std::string>{"unknown_parameter", "usage", "usage", "usage"});
   CHECK(wrong.error()[3].hint == "for example origin=0.0deg");
+}
+
+TEST_CASE("0 is a value of 0x34-0x37: models without a PWM input hold it") {
+  for (const char* zero : {"pwm_neutral=0us", "pwm_range=0us", "pwm_output_range=0deg", "0x37=0"}) {
+    CHECK(parse_assignment(built_in(), zero));
+  }
+  CHECK(code_of("pwm_neutral=1us") == "out_of_range");
+  CHECK(code_of("pwm_neutral=-1us") == "out_of_range");
 }
 
 TEST_CASE("an example is a value that every model takes, or tells the model that takes it") {

@@ -148,19 +148,22 @@ TEST_CASE("nothing is written that the register does not take") {
   CHECK(answer(servo, 0x02, not_active) == "out_of_range");
 }
 
-TEST_CASE("without a PWM input 0x34-0x37 are not written") {
+TEST_CASE("without a PWM input 0x34-0x37 take 0 alone") {
   for (const Profile& profile : built_in().all()) {
     const Identity servo = identify(profile.model_number, profile.hardware_version);
     for (const int address : {0x34, 0x35, 0x36, 0x37}) {
       const std::int64_t raw =
           profile.find(Address(static_cast<std::uint8_t>(address)))->default_raw.value_or(-1);
       INFO(profile.model << ' ' << address);
-      CHECK(answer(servo, static_cast<std::uint8_t>(address), raw) ==
-            (profile.suffix == "AB" ? "yes" : "unsupported"));
+      CHECK(answer(servo, static_cast<std::uint8_t>(address), raw) == "yes");
+      CHECK(answer(servo, static_cast<std::uint8_t>(address), 1) == (!profile.pwm ? "unsupported"
+                                                                     : address < 0x36
+                                                                         ? "out_of_range" // us
+                                                                         : "yes"));
     }
   }
-  CHECK(identify(62, 6'010).may_write(Address(0x34), 0).error().message ==
-        "BLA15-06U-A0 has no PWM input, and so no pwm_neutral (0x34)");
+  CHECK(identify(62, 6'010).may_write(Address(0x34), 1).error().message ==
+        "BLA15-06U-A0 has no PWM input: pwm_neutral (0x34) can only be 0");
 }
 
 TEST_CASE("registers that the firmware lacks are not written") {

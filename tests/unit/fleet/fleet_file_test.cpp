@@ -131,6 +131,19 @@ TEST_CASE(
                         "set":{"voltage_limit_high":"30V"}})"})));
 }
 
+TEST_CASE("a model without PWM input holds 0 in 0x34-0x37: so may its file") {
+  const char* zeros = R"({"pwm_neutral":"0us","pwm_range":0,"0x36":0,"pwm_mode":"angle"})";
+  for (const char* model : {"BLA15", "BLA21-12U-A0"}) {
+    const std::string entry = R"({"name":"a","match":{"model":")" + std::string(model) + R"("}})";
+    CHECK(parsed(file({entry.c_str()}, zeros)));
+  }
+  CHECK(begins(fault(file({R"({"name":"a","match":{"model":"BLA34"},"set":{"pwm_neutral":0}})"})),
+               "3: /servos/0/set/pwm_neutral: BLA34-28U-AB: pwm_neutral=0us: outside of the range "
+               "100us to 10000us"));
+  CHECK(begins(fault(file({R"({"name":"a","match":{"model":"BLA15"},"set":{"pwm_range":9}})"})),
+               "3: /servos/0/set/pwm_range: "));
+}
+
 TEST_CASE("two entries must not mean one servo, nor give one ID to two") {
   const char* one = R"({"name":"a","match":{"serial_number":1},"set":{"servo_id":3}})";
   CHECK(begins(fault(file({one, R"({"name":"a","match":{"serial_number":2}})"})),
