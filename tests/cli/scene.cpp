@@ -33,6 +33,11 @@ Scene& Scene::event(int serial_number, std::string_view happens, std::string_vie
   return *this;
 }
 
+Scene& Scene::clients(std::string_view what, std::string_view at) {
+  document_["events"].push_back({{"at", at}, {"clients", what}});
+  return *this;
+}
+
 Scene& Scene::world(int serial_number, const nlohmann::json& changes, std::string_view at) {
   document_["events"].push_back({{"at", at}, {"servo", serial_number}, {"world", changes}});
   return *this;

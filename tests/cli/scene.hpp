@@ -34,6 +34,9 @@ class Scene {
   /// What is around the servo with this serial number changes after this time: "hand" to "30deg".
   Scene& world(int serial_number, const nlohmann::json& changes, std::string_view at);
 
+  /// The interfaces of all commands are "cut", or "joined" again, after this time.
+  Scene& clients(std::string_view what, std::string_view at);
+
   /// Writes the scenario file and gives its path.
   [[nodiscard]] std::string write(const Bench& bench) const;
 

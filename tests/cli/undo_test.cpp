@@ -134,9 +134,11 @@ TEST_CASE("a change of which nothing is left does not stand in front of the one 
   set(fleet, {"-n", "11", "angle_limit_cw=179.9deg"});
   REQUIRE(undo(fleet).status == 0);
   CHECK(fleet.ram("11", "angle_limit_cw") == 450);
-  REQUIRE(fleet.run({"restart", "-n", "11", "-y"}).status == 0); // all of it is gone
+  const Options elsewhere{.env = {{"BLACTL_STATE_DIR", fleet.file_name("other")}}};
+  const Arguments restart{"restart", "-n", "11", "-y"};
+  REQUIRE(fleet.run(restart, elsewhere).status == 0); // all of it is gone
   set(fleet, {"-n", "11", "smoothing=off", "angle_limit_cw=45deg"});
-  REQUIRE(fleet.run({"restart", "-n", "11", "-y"}).status == 0);
+  REQUIRE(fleet.run(restart, elsewhere).status == 0);
   const Result nothing = undo(fleet);
   CHECK(statuses(nothing) == std::vector<std::string>{"unchanged"});
   const auto snapshots = json(fleet.run({"undo", "--list", "--json"}).out)["snapshots"];
@@ -151,7 +153,7 @@ TEST_CASE("where nothing is recorded, or a servo is missing, undo writes nothing
   check_error(undo(fleet, {"-n", "12"}), 4, "not_found", "no change of node 12 is recorded");
   set(fleet, {"-n", "12,20", "smoothing=off"});
   REQUIRE(fleet.run({"restart", "-n", "20", "-y"}).status == 4);
-  check_error(undo(fleet), 4, "not_found", "which `set` changed, is not on the bus");
+  check_error(undo(fleet), 4, "not_found", "which `restart` changed, is not on the bus");
   CHECK(fleet.ram("12", "smoothing") == 0);
   CHECK(undo(fleet, {"-n", "12"}).status == 0);
   CHECK(fleet.ram("12", "smoothing") == 1);

@@ -1,5 +1,7 @@
 #include "cli/change/entries_view.hpp"
 
+#include "blactl/fleet/change/saved_plan.hpp"
+
 #include "cli/change/result_view.hpp"
 #include "cli/change/texts.hpp"
 #include "cli/output/fleet_view.hpp"
@@ -100,6 +102,7 @@ void write_servo(JsonWriter& json, const GoalResult& result, bool is_plan) {
   if (is_plan) {
     json.member("action", fleet::name(result.need));
     json.member("saves", result.goal.saves());
+    json.member("config_sha256", fleet::settings_sha256(result));
   }
   write_changes(json, result.change.changes);
   json.member("saved", result.change.saved);

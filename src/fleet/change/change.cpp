@@ -51,13 +51,24 @@ void learn(RegisterChange& change, const ChangeResult& last) {
   change.after = same->after;
   change.error = same->error;
   const bool was_made = change.is_planned() && same->status == ChangeStatus::unchanged;
-  change.status = was_made ? ChangeStatus::written : same->status;
+  const bool is_other = same->status == ChangeStatus::written && same->after != change.requested;
+  change.status = is_other   ? ChangeStatus::mismatch
+                  : was_made ? ChangeStatus::written
+                             : same->status;
 }
 
 /// Whether a restart has not shown that ROM holds the goal.
 bool is_unproven(const GoalResult& result, const UnitChange& unit) {
   return result.need == Need::prove && unit.is_done && unit.last &&
          !(unit.last->rom && holds(unit.last->rom->values, result.goal));
+}
+
+/// Of a unit that waits on a temporary ID, where the rounds have broken off.
+Error made_way(const UnitChange& unit, NodeId before) {
+  const std::uint8_t now = unit.now.value();
+  return {Code::state,
+          say<texts::has_made_way>(before.value(), now, unit.static_node_id()->value()),
+          say<texts::run_again_hint>(), now};
 }
 
 bool names(const Goal& goal, bla::Address address) {
@@ -67,9 +78,10 @@ bool names(const Goal& goal, bla::Address address) {
 }
 
 /// Warnings about registers outside of the goal that differ between RAM and ROM: SAVE keeps them, a
-/// restart resets them.
+/// restart resets them, or has done so.
 std::vector<Warning> unnamed(const Goal& goal, const Snapshot& ram, const bla::Values& rom,
-                             Need need) {
+                             Need need, bool is_restarted = false) {
+  const bool is_saved = goal.saves() && need != Need::prove;
   std::vector<Warning> warnings;
   for (const Reading& reading : ram.readings) {
     const bla::Parameter& parameter = *reading.parameter;
@@ -81,9 +93,11 @@ std::vector<Warning> unnamed(const Goal& goal, const Snapshot& ram, const bla::V
     const std::string in_ram = bla::display(parameter, *reading.raw, ram.pwm_mode());
     const std::string in_rom = bla::display(parameter, *kept, ram.pwm_mode());
     warnings.push_back(
-        need == Need::prove
+        is_saved
+            ? Warning{"unnamed_saved", say<texts::unnamed_saved>(parameter.name, in_ram, in_rom)}
+        : is_restarted
             ? Warning{"unnamed_lost", say<texts::unnamed_lost>(parameter.name, in_ram, in_rom)}
-            : Warning{"unnamed_saved", say<texts::unnamed_saved>(parameter.name, in_ram, in_rom)});
+            : Warning{"unnamed_lost", say<texts::unnamed_at_risk>(parameter.name, in_ram, in_rom)});
   }
   return warnings;
 }
@@ -191,6 +205,17 @@ std::optional<bla::Values> Change::proven_rom(const Goal& goal, const Servo& ser
              : std::nullopt;
 }
 
+/// What ROM holds as far as proofs and the record of changes tell, where a restart or SAVE of the
+/// goal makes RAM and ROM equal.
+bla::Values Change::told_rom(const Goal& goal, const Servo& servo) {
+  History* const record = options_.manner.proofs;
+  if (!goal.wanted.restart || goal.wanted.erase || record == nullptr) {
+    return {};
+  }
+  const auto proven = record->proven_rom(servo, session_);
+  return proven ? *proven : record->replaced_in_ram(servo, session_);
+}
+
 /// ROM that could not be read may be whole, and SAVE would replace it by initial values. A restart
 /// may read it; if one did not, the user decides, before this run has changed anything.
 std::optional<Error> Change::refuse_unread_rom(const GoalResult& result, const Snapshot& held,
@@ -229,6 +254,7 @@ std::vector<Error> Change::judge(std::span<const std::size_t> goals, Snapshots s
       continue;
     }
     const auto rom = proven_rom(result.goal, held.servo);
+    const auto told = rom ? *rom : told_rom(result.goal, held.servo);
     const Need need = need_of(result.goal, held, rom);
     if (auto error = refuse_unread_rom(result, held, need)) {
       result.errors.push_back(*error);
@@ -245,8 +271,7 @@ std::vector<Error> Change::judge(std::span<const std::size_t> goals, Snapshots s
       result.rom_proven = true;
     }
     if (need != Need::nothing) {
-      result.change.warnings =
-          rom ? unnamed(result.goal, held, *rom, need) : std::vector<Warning>();
+      result.change.warnings = unnamed(result.goal, held, told, need);
       begun_.push_back(goals[i]);
       tasks.push_back({std::move(held), wanted(result.goal, need)});
     }
@@ -433,8 +458,10 @@ void Change::conclude(const UnitChange& unit, GoalResult& result) {
   }
   const ChangeResult& last = *unit.last;
   result.change = merged(std::move(result.change), last);
-  result.change.saved = last.saved && !unit.has_made_way;
   result.errors = result.change.errors();
+  if (unit.has_made_way && (last.is_done() || !last.may_have_saved)) {
+    result.errors.push_back(made_way(unit, result.goal.id));
+  }
   if (unit.is_done && !result.is_done && !last.rom) {
     const std::uint8_t id = last.servo.id.value();
     result.errors.push_back(
@@ -442,7 +469,8 @@ void Change::conclude(const UnitChange& unit, GoalResult& result) {
   }
   result.rom_proven = result.goal.saves() ? std::optional(result.is_done) : std::nullopt;
   if (result.need == Need::prove && last.rom) {
-    result.change.warnings = unnamed(result.goal, unit.plan.before, last.rom->values, result.need);
+    result.change.warnings =
+        unnamed(result.goal, unit.plan.before, last.rom->values, result.need, true);
   }
 }
 

@@ -155,6 +155,10 @@ void ChangeJob::explain_interruption(Stage at) {
     interrupted(say<texts::erased_not_verified>(id));
   } else if (plan_.erase && is_unsaved) {
     interrupted(say<texts::erased_not_saved>(id));
+  } else if (at == Stage::write) {
+    std::ranges::for_each(result_.changes, [](RegisterChange& change) { change.error.reset(); });
+    interrupted(write_->has_written() ? say<texts::write_broken_off>(id)
+                                      : say<texts::not_begun>(id));
   } else if (is_unsaved && at != Stage::write && !plan_.changes.empty()) {
     interrupted(say<texts::not_saved>(id));
   }

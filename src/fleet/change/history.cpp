@@ -40,10 +40,12 @@ state::RomProof proof_of(const UniqueId& unique_id, const RomReading& rom, const
 
 } // namespace
 
+/// A restart that is to show what ROM holds may replace any of them: History::conclude() leaves
+/// those that it has replaced.
 bla::Values replaced_by(const Plan& plan) {
   const bla::Identity& identity = plan.before.servo.identity;
   bla::Values values;
-  if (plan.erase) {
+  if (plan.erase || plan.proves_rom) {
     values = plan.before.values();
   } else {
     for (const RegisterChange& change : plan.changes) {
@@ -92,6 +94,21 @@ Result<void> History::resume(const UniqueId& unique_id) {
   return {};
 }
 
+/// What a mere restart takes, as far as recorded.
+bla::Values History::taken_from_ram(const Plan& plan) const {
+  if (plan.restart != RestartKind::restart || plan.proves_rom || !plan.before.servo.unique_id) {
+    return {};
+  }
+  bla::Values taken;
+  for (const auto& [address, raw] : replaced_in_ram(*plan.before.servo.unique_id, WallTime{})) {
+    const auto held = plan.before.raw(address);
+    if (held && *held != raw) {
+      taken.emplace(address, *held);
+    }
+  }
+  return taken;
+}
+
 Result<void> History::keep(std::span<const Plan> plans, WallTime now) {
   for (const Plan& plan : plans) {
     const auto& unique_id = plan.before.servo.unique_id;
@@ -104,6 +121,7 @@ Result<void> History::keep(std::span<const Plan> plans, WallTime now) {
   for (const Plan& plan : plans) {
     const auto& unique_id = plan.before.servo.unique_id;
     auto held = stored(replaced_by(plan));
+    held.merge(stored(taken_from_ram(plan)));
     if (!unique_id || held.empty()) {
       continue;
     }
@@ -157,7 +175,10 @@ Result<void> History::take_back(std::span<const UniqueId> units) {
 }
 
 Result<void> History::conclude(std::span<const ChangeResult> results, const Session& session) {
-  auto settled = settle(results);
+  auto settled = leave_what_was_lost(results, session.wall());
+  if (settled) {
+    settled = settle(results);
+  }
   std::vector<state::RomProof> proofs;
   for (const ChangeResult& result : results) {
     const bool tells = result.rom && (result.is_done() || result.rom->values.empty());
@@ -206,6 +227,28 @@ std::optional<bla::Values> History::proven_rom(const Servo& servo, const Session
   return values;
 }
 
+bla::Values History::replaced_in_ram(const Servo& servo, const Session& session) const {
+  const Member member = session.roster().member(servo.id);
+  if (!servo.unique_id || !member.is_unit(*servo.unique_id) || !member.status) {
+    return {};
+  }
+  const WallTime started = session.wall() - (session.now() - member.status_at) -
+                           std::chrono::seconds(member.status->uptime_s);
+  return replaced_in_ram(*servo.unique_id, started);
+}
+
+bla::Values History::replaced_in_ram(const UniqueId& unique_id, WallTime since) const {
+  bla::Values values;
+  auto entry = snapshots_.last(unique_id);
+  while (entry && *entry && !(*entry)->saved && (*entry)->at >= since) {
+    for (const auto& [address, raw] : (*entry)->held) {
+      values.insert_or_assign(bla::Address(address), raw); // the first change replaced that of ROM
+    }
+    entry = snapshots_.before(**entry);
+  }
+  return values;
+}
+
 bool History::is_rom_unread(const Servo& servo, const Session& session) {
   const auto proof = this->proof(servo, session);
   return proof && proof->rom.empty();
@@ -231,6 +274,29 @@ bool History::is_half_undone() const {
          std::ranges::any_of(kept_, [](const auto& each) { return each.second.was_changed; });
 }
 
+/// A restart that has shown what ROM holds replaced nothing else.
+Result<void> History::leave_what_was_lost(std::span<const ChangeResult> results, WallTime now) {
+  std::vector<state::SnapshotEntry> shorter;
+  for (const ChangeResult& result : results) {
+    const auto known = result.servo.unique_id ? kept_.find(*result.servo.unique_id) : kept_.end();
+    if (known == kept_.end() || !result.was_sent || result.may_have_saved || !result.rom) {
+      continue;
+    }
+    state::SnapshotEntry& entry = known->second.entry;
+    const std::size_t size = entry.held.size();
+    std::erase_if(entry.held, [&](const auto& held) {
+      return bla::find(result.rom->values, bla::Address(held.first)) == held.second;
+    });
+    known->second.is_empty = entry.held.empty();
+    if (entry.held.size() != size && !entry.held.empty()) {
+      shorter.push_back(entry);
+    }
+  }
+  const auto kept =
+      shorter.empty() ? Result<std::vector<std::int64_t>>() : snapshots_.keep(shorter, now);
+  return kept ? Result<void>() : std::unexpected(kept.error());
+}
+
 /// Results as planned are already in the store.
 Result<void> History::settle(std::span<const ChangeResult> results) {
   for (const ChangeResult& result : results) {
@@ -252,7 +318,7 @@ Result<void> History::settle(std::span<const ChangeResult> results) {
       continue;
     }
     Kept& kept = known->second;
-    if (!kept.was_changed && !is_half_undone()) {
+    if ((!kept.was_changed || kept.is_empty) && !is_half_undone()) {
       settlements.push_back({kept.entry.number, ChangeEnd::never_begun});
       kept_.erase(known);
       run_ = kept_.empty() ? 0 : run_;

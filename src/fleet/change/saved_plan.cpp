@@ -2,6 +2,7 @@
 
 #include "blactl/base/hex.hpp"
 #include "blactl/base/json_reader.hpp"
+#include "blactl/bla/config_sha256.hpp"
 #include "blactl/bla/value.hpp"
 
 #include "fleet/change/texts.hpp"
@@ -55,6 +56,7 @@ class PlanReader {
       return;
     }
     SavedStep step{.need = read_need(node), .saves = node.boolean("saves")};
+    step.settings_sha256 = node.optional_string("config_sha256").value_or(std::string());
     if (model != nullptr && firmware != nullptr) {
       step.model = json::as_string(*model, faults_).value_or(std::string());
       step.firmware_version = json::as_integer(*firmware, faults_).value_or(0);
@@ -173,10 +175,23 @@ std::string what_changed(const SavedStep& step, const GoalResult& result) {
     out += (out.empty() ? "" : ", ") +
            say<texts::plan_register>(change.parameter->name, shown(before), shown(change.before));
   }
-  return out.empty() && result.need != step.need ? need_changed(result.need) : out;
+  if (!out.empty()) {
+    return out;
+  }
+  if (!step.settings_sha256.empty() && step.settings_sha256 != settings_sha256(result)) {
+    return say<texts::plan_other_settings>();
+  }
+  return result.need != step.need ? need_changed(result.need) : out;
 }
 
 } // namespace
+
+std::string settings_sha256(const GoalResult& result) {
+  bla::Values settings = result.change.before;
+  std::erase_if(settings,
+                [&](const auto& held) { return !result.servo().identity.is_setting(held.first); });
+  return bla::config_sha256(settings);
+}
 
 Result<SavedPlan> read_saved_plan(const std::filesystem::path& file,
                                   const bla::Profiles& profiles) {

@@ -144,6 +144,8 @@ inline constexpr Text plan_is_stale_hint{"look at it, and plan again: blactl app
                                          "確認して計画を作り直して下さい: blactl apply FILE "
                                          "--dry-run --json"};
 inline constexpr Text plan_register{"{} was {}, is {}", "{} は {} でしたが、現在は {} です"};
+inline constexpr Text plan_other_settings{"a setting that the plan does not name has changed",
+                                          "計画にない設定が変わっています"};
 inline constexpr Text plan_rom_proven{"its ROM was proven since", "その後 ROM が確認されました"};
 inline constexpr Text plan_rom_not_proven{"what its ROM holds is not known any more",
                                           "ROM の内容が不明になりました"};
@@ -160,6 +162,10 @@ inline constexpr Text unnamed_saved{
 inline constexpr Text unnamed_lost{
     "{} was {} in RAM only: the restart has brought back {}",
     "{} の {} は RAM のみの値でした。再起動により {} に戻りました",
+};
+inline constexpr Text unnamed_at_risk{
+    "{} is {} in RAM and {} in ROM: the restart brings that back",
+    "{} は RAM が {}、ROM が {} です。再起動により ROM の値に戻ります",
 };
 inline constexpr Text rom_unread{
     "node {} could not read its ROM at its start: saving would replace all that ROM holds by "
@@ -227,8 +233,16 @@ inline constexpr Text defaults_unknown_hint{
     "see what it says of itself: blactl get --group product",
     "機種情報を確認: blactl get --group product",
 };
-inline constexpr Text not_saved{"node {}: ROM was not written",
-                                "ノード {}: ROM に保存していません"};
+inline constexpr Text not_saved{"node {} was written in RAM; ROM was not written",
+                                "ノード {} は RAM に書き込みましたが、ROM には保存していません"};
+inline constexpr Text write_broken_off{
+    "interrupted while node {} was written: RAM may hold a part of it, ROM was not written",
+    "ノード {} への書込み中に中断しました。RAM は一部のみ変更された可能性があり、ROM "
+    "には保存していません"};
+inline constexpr Text has_made_way{
+    "node {} has made way for others: it is saved as node {}, and has not got node ID {} yet",
+    "ノード {} は他のサーボに ID を譲りました。ノード {} として保存済みで、ノード ID {} "
+    "は未設定です"};
 inline constexpr Text restarted_before_erase{"node {} restarted: nothing more was sent to it",
                                              "ノード {} が再起動したため、以後は送信していません"};
 inline constexpr Text opcode_refused{"node {} refused {}", "ノード {} が {} を拒否しました"};

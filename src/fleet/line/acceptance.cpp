@@ -1,6 +1,5 @@
 #include "fleet/line/acceptance.hpp"
 
-#include "blactl/base/sha256.hpp"
 #include "blactl/bla/faults.hpp"
 #include "blactl/bla/value.hpp"
 
@@ -132,14 +131,6 @@ Result<std::vector<bla::Assignment>> settings_for(const Recipe& recipe,
   }
   std::ranges::sort(set, {}, address);
   return set;
-}
-
-std::string config_sha256(const bla::Values& configuration) {
-  std::string lines;
-  for (const auto& [address, raw] : configuration) {
-    lines += fmt::format("{}={}\n", address.name(), raw);
-  }
-  return sha256(lines);
 }
 
 std::string fault_bits(const bla::Values& values, const bla::Profiles& profiles) {

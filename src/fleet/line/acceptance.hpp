@@ -34,10 +34,6 @@ namespace blactl::fleet {
 settings_for(const Recipe& recipe, std::span<const state::IdWish> wishes,
              std::span<const std::int64_t> ids, const bla::Profiles& profiles);
 
-/// The digest of a configuration: SHA-256 over a line "0x2A=120\n" for each of its registers, by
-/// address, with raw numbers.
-[[nodiscard]] std::string config_sha256(const bla::Values& configuration);
-
 /// "0x1A.4;0x19.8": all bits set, the worst level first; empty: none.
 [[nodiscard]] std::string fault_bits(const bla::Values& values, const bla::Profiles& profiles);
 

@@ -1,4 +1,5 @@
 #include "blactl/base/sha256.hpp"
+#include "blactl/bla/config_sha256.hpp"
 
 #include "catch.hpp"
 #include "fleet/line/acceptance.hpp"
@@ -105,8 +106,8 @@ TEST_CASE("IDs are those of the label, else of the counters, else of the recipe"
 
 TEST_CASE("the digest of a configuration can be made again by anybody") {
   const bla::Values values{{bla::Address(0x2A), 120}, {bla::Address(0x39), -1800}};
-  CHECK(config_sha256(values) == sha256("0x2A=120\n0x39=-1800\n"));
-  CHECK(config_sha256({}) == sha256(""));
+  CHECK(bla::config_sha256(values) == sha256("0x2A=120\n0x39=-1800\n"));
+  CHECK(bla::config_sha256({}) == sha256(""));
 }
 
 TEST_CASE("a notice may leave the line, a warning or a failure may not") {

@@ -170,7 +170,9 @@ TEST_CASE("a proof outlives a change in RAM, and ends with the next start") {
         carry_out(*scene.session, profiles(), plans, {.history = &history}).servos[0];
     REQUIRE(restarted.is_done());
     CHECK_FALSE(kept.proof(scene, 11));
-    CHECK(kept.entries().size() == 1);
+    REQUIRE(kept.entries().size() == 2); // what the restart has taken from RAM
+    CHECK(kept.entries()[0].command == "restart");
+    CHECK_FALSE(kept.entries()[0].saved);
   }
 }
 

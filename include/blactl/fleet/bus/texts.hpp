@@ -135,8 +135,9 @@ inline constexpr Text warn_gone{"does not answer any more", "応答しなくな�
 inline constexpr Text warn_unanswered{"did not answer when it was asked last",
                                       "直前の問合せに応答がありませんでした"};
 inline constexpr Text warn_offline{"has not been heard for {} s", "{} 秒間受信していません"};
-inline constexpr Text what_it_holds_hint{"see what it holds: blactl get -n uid:{} --changed",
-                                         "内容を確認: blactl get -n uid:{} --changed"};
+inline constexpr Text what_it_holds_hint{
+    "the same command goes on from here; what it holds: blactl get -n uid:{} --changed",
+    "同じコマンドで続きから実行できます。内容を確認: blactl get -n uid:{} --changed"};
 inline constexpr Text command_is_not_saved{"{} is a command: SAVE does not keep it",
                                            "{} は動作指令であり、SAVE では保存されません"};
 inline constexpr Text command_is_not_saved_hint{"leave --save out, or the command",

@@ -83,6 +83,7 @@ class Change {
   [[nodiscard]] Result<Snapshots> read(std::span<const std::size_t> goals);
   [[nodiscard]] std::optional<Error> refuse(const Goal& goal, const Snapshot& held) const;
   [[nodiscard]] std::optional<bla::Values> proven_rom(const Goal& goal, const Servo& servo);
+  [[nodiscard]] bla::Values told_rom(const Goal& goal, const Servo& servo);
   [[nodiscard]] std::optional<Error> refuse_unread_rom(const GoalResult& result,
                                                        const Snapshot& held, Need need);
   [[nodiscard]] std::vector<Error> hear();

@@ -33,7 +33,8 @@ class History {
   /// which become outdated.
   [[nodiscard]] Result<void> drop_proofs(std::span<const Plan> plans);
 
-  /// Before the first request of a round: records the present settings of the servos changed in it.
+  /// Before the first request of a round: records the present settings of the servos changed in it,
+  /// those that a restart takes from RAM among them.
   /// For one changed in an earlier round the existing record is kept. So it is if apply, undo or
   /// alloc --static were killed or failed, and the same command is repeated: undo goes back to the
   /// state before the first try.
@@ -56,6 +57,10 @@ class History {
   /// if the record cannot be read.
   [[nodiscard]] std::optional<bla::Values> proven_rom(const Servo& servo, const Session& session);
 
+  /// The values that changes of this program in RAM only have replaced since this servo started:
+  /// its ROM holds them, as far as recorded.
+  [[nodiscard]] bla::Values replaced_in_ram(const Servo& servo, const Session& session) const;
+
   /// Whether a restart by this program did not help a servo to read its ROM, and it has not
   /// restarted since.
   [[nodiscard]] bool is_rom_unread(const Servo& servo, const Session& session);
@@ -64,6 +69,11 @@ class History {
   [[nodiscard]] std::optional<state::RomProof> proof(const Servo& servo, const Session& session);
   [[nodiscard]] Result<std::optional<state::Settlement>>
   made_lasting(const ChangeResult& result) const;
+  [[nodiscard]] bla::Values replaced_in_ram(const dronecan::UniqueId& unique_id,
+                                            WallTime since) const;
+  [[nodiscard]] bla::Values taken_from_ram(const Plan& plan) const;
+  [[nodiscard]] Result<void> leave_what_was_lost(std::span<const ChangeResult> results,
+                                                 WallTime now);
   [[nodiscard]] Result<void> settle(std::span<const ChangeResult> results);
   [[nodiscard]] Result<void> resume(const dronecan::UniqueId& unique_id);
   [[nodiscard]] bool is_half_undone() const;
@@ -73,6 +83,7 @@ class History {
     state::SnapshotEntry entry;
     bool was_changed = false; ///< in any round
     bool was_saved = false;
+    bool is_empty = false; ///< a restart has shown that nothing was replaced
   };
 
   std::string command_;
@@ -83,7 +94,8 @@ class History {
   std::set<dronecan::UniqueId> unproven_{}; ///< their proofs were removed
 };
 
-/// The settings that this plan replaces, with their present values; for ERASE all writable ones.
+/// The settings that this plan replaces, with their present values; all writable ones for ERASE and
+/// for a restart that is to show what ROM holds.
 [[nodiscard]] bla::Values replaced_by(const Plan& plan);
 
 } // namespace blactl::fleet

@@ -22,6 +22,7 @@ struct SavedStep {
   bla::Values before{}; ///< of every register of the entry
   std::string model{};
   std::int64_t firmware_version = 0; ///< 0x52
+  std::string settings_sha256{};     ///< as settings_sha256(); empty: not in the plan
 };
 
 struct SavedPlan {
@@ -34,6 +35,9 @@ struct SavedPlan {
     return steps[static_cast<std::size_t>(&entry - fleet.servos.data())];
   }
 };
+
+/// A digest of all settings that were read of this servo for the plan, named or not.
+[[nodiscard]] std::string settings_sha256(const GoalResult& result);
 
 /// "-" reads stdin. Errors: bad_file with all its errors: another document, one that reports
 /// errors, a servo without a unique ID or listed twice, values that no model accepts.

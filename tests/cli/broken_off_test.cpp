@@ -1,0 +1,77 @@
+// An exchange of node IDs that breaks off, wherever that is: what is said of each servo agrees with
+// its memory.
+
+#include "catch.hpp"
+#include "fleet.hpp"
+#include "scene.hpp"
+
+#include <map>
+#include <string>
+
+using namespace blactl::test;
+
+namespace {
+
+/// Servos 1 to 3 exchange their IDs 11 to 13 in a circle; the interface is cut after this time.
+Result exchange(const Fleet& fleet, bool by_apply) {
+  if (!by_apply) {
+    return fleet.run({"alloc", "--static", "--assign", "000000000000000000000000000000a1=12",
+                      "--assign", "000000000000000000000000000000a2=13", "--assign",
+                      "000000000000000000000000000000a3=11", "-y", "--json"});
+  }
+  nlohmann::ordered_json entries = nlohmann::ordered_json::array();
+  for (const int number : {1, 2, 3}) {
+    entries.push_back({{"name", std::to_string(number)},
+                       {"match", {{"serial_number", number}}},
+                       {"set", {{"static_node_id", 11 + number % 3}, {"smoothing", "off"}}}});
+  }
+  return fleet.apply({{"schema", "blactl-fleet/1"}, {"servos", entries}});
+}
+
+Scene cut_at(int after_ms) {
+  Scene scene;
+  for (const int number : {1, 2, 3}) {
+    scene.servo("BLA21-12U-AB", 10 + number,
+                {{"serial_number", number},
+                 {"servo_id", number},
+                 {"unique_id", "000000000000000000000000000000a" + std::to_string(number)}});
+  }
+  return scene.clients("cut", std::to_string(after_ms) + "ms")
+      .clients("joined", std::to_string(after_ms + 300) + "ms");
+}
+
+/// The node ID of each servo, by its serial number.
+std::map<int, int> places(const Fleet& fleet) {
+  std::map<int, int> ids;
+  const auto document = json(fleet.run({"scan", "--json"}).out);
+  for (const auto& node : document["nodes"]) {
+    ids[node["serial_number"].get<int>()] = node["node_id"].get<int>();
+  }
+  return ids;
+}
+
+} // namespace
+
+TEST_CASE("of a servo that has made way nobody says that it is as it was") {
+  const bool by_apply = GENERATE(true, false);
+  int made_way = 0;
+  for (int after_ms = 2'250; after_ms < 5'300; after_ms += 100) {
+    INFO(after_ms);
+    const Fleet fleet(cut_at(after_ms));
+    const Result broken = exchange(fleet, by_apply);
+    INFO(broken.err);
+    CHECK_FALSE(contains(broken.err, "was not finished"));
+    if (broken.status == 0 || places(fleet)[1] != 125) {
+      continue;
+    }
+    CHECK_FALSE(contains(broken.err, "node 11 is as it was"));
+    const bool is_said = contains(broken.err, "node 11 has made way for others: it is saved as "
+                                              "node 125, and has not got node ID 12 yet") ||
+                         contains(broken.err, "SAVE");
+    CHECK(is_said);
+    made_way += contains(broken.err, "made way for others: it is saved as") ? 1 : 0;
+    CHECK(exchange(fleet, by_apply).status == 0);
+    CHECK(places(fleet) == std::map<int, int>{{1, 12}, {2, 13}, {3, 11}});
+  }
+  CHECK(made_way > 3);
+}

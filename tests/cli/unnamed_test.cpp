@@ -1,0 +1,103 @@
+// Settings that nobody named and that stand in RAM only: what a SAVE makes permanent, and what a
+// restart loses, is said before; undo brings it back.
+
+#include "catch.hpp"
+#include "fleet.hpp"
+#include "scene.hpp"
+
+#include <string>
+
+using namespace blactl::test;
+
+namespace {
+
+Scene one_servo() {
+  return Scene().servo("BLA21-12U-AB", 11, {{"serial_number", 7}});
+}
+
+Document wishes(const char* parameter, const char* value) {
+  return {{"schema", "blactl-fleet/1"},
+          {"servos",
+           {{{"name", "left"}, {"match", {{"serial_number", 7}}}, {"set", {{parameter, value}}}}}}};
+}
+
+/// Yesterday's trial.
+void try_out(const Fleet& fleet) {
+  REQUIRE(fleet.run({"set", "-n", "11", "angle_limit_cw=70.0deg"}).status == 0);
+}
+
+nlohmann::json warning(const Result& result) {
+  return json(result.out)["nodes"][0]["warnings"][0];
+}
+
+} // namespace
+
+TEST_CASE("what SAVE makes permanent beside what was named is said before, from the record alone") {
+  const auto command = GENERATE(
+      Arguments{"set", "-n", "11", "smoothing=off", "--save"}, Arguments{"save", "-n", "11"},
+      Arguments{"pwm-config", "-n", "11", "--neutral", "1500us", "--save"});
+  const Fleet fleet(one_servo());
+  try_out(fleet);
+  Arguments whole = command;
+  whole.insert(whole.end(), {"-y", "--json"});
+  const Result saved = fleet.run(whole);
+  INFO(saved.err);
+  CHECK(contains(saved.err, "angle_limit_cw is 70.0 deg in RAM and 179.9 deg in ROM: SAVE keeps"));
+  CHECK(warning(saved)["code"] == "unnamed_saved");
+}
+
+TEST_CASE("a restart says before what it loses, records it, and undo brings it back to RAM") {
+  const Fleet fleet(one_servo());
+  try_out(fleet);
+  const Result restarted = fleet.run({"restart", "-n", "11", "-y", "--json"});
+  CHECK(restarted.status == 0);
+  CHECK(contains(restarted.err,
+                 "angle_limit_cw is 70.0 deg in RAM and 179.9 deg in ROM: the restart brings"));
+  CHECK(warning(restarted)["code"] == "unnamed_lost");
+  CHECK(fleet.ram("11", "angle_limit_cw") == 1799);
+  CHECK(fleet.run({"undo", "-y"}).status == 0);
+  CHECK(fleet.ram("11", "angle_limit_cw") == 700);
+  CHECK(fleet.rom("11", "angle_limit_cw") == 1799);
+}
+
+TEST_CASE("the proving restart of apply says before what it loses, in the plan too") {
+  const Fleet fleet(one_servo());
+  try_out(fleet);
+  const Document same = wishes("smoothing", "on");
+  const Result planned = fleet.apply(same, {"--dry-run"});
+  CHECK(warning(planned)["code"] == "unnamed_lost");
+  const Result proven = fleet.apply(same);
+  CHECK(statuses(proven) == std::vector<std::string>{"unchanged"});
+  CHECK(contains(proven.err, "in ROM: the restart brings that back"));
+  CHECK(fleet.ram("11", "angle_limit_cw") == 1799);
+  CHECK(fleet.run({"undo", "-y"}).status == 0);
+  CHECK(fleet.ram("11", "angle_limit_cw") == 700);
+}
+
+TEST_CASE("a proving restart that loses nothing leaves nothing to undo") {
+  const Fleet fleet(one_servo());
+  REQUIRE(fleet.run({"set", "-n", "11", "reverse=on", "--save", "-y"}).status == 0);
+  REQUIRE(fleet.run({"set", "-n", "11", "reverse=off", "--save", "-y"}).status == 0);
+  const Options without_proof{.env = {{"BLACTL_STATE_DIR", fleet.file_name("other")}}};
+  CHECK(statuses(fleet.apply(wishes("smoothing", "on"), {}, without_proof)) ==
+        std::vector<std::string>{"unchanged"});
+  const Result list = fleet.run({"undo", "--list", "--json"}, without_proof);
+  CHECK(json(list.out)["snapshots"].empty());
+}
+
+TEST_CASE("nothing is said of what a restart has ended already") {
+  const Fleet fleet(one_servo());
+  try_out(fleet);
+  REQUIRE(fleet.run({"restart", "-n", "11", "-y"}).status == 0);
+  const Result saved = fleet.run({"set", "-n", "11", "smoothing=off", "--save", "-y", "--json"});
+  CHECK(saved.status == 0);
+  CHECK(json(saved.out)["nodes"][0]["warnings"].empty());
+}
+
+TEST_CASE("a plan is stale once a setting has changed that it does not name") {
+  const Fleet fleet(one_servo());
+  const Document plan = ordered_json(fleet.apply(wishes("smoothing", "off"), {"--dry-run"}).out);
+  try_out(fleet);
+  check_error(fleet.run({"apply", "--plan", fleet.plan(plan), "-y"}), 9, "stale_plan",
+              "a setting that the plan does not name has changed");
+}
