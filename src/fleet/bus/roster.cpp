@@ -189,7 +189,7 @@ void Roster::hear(const can::Frame& frame, Time at) {
   const std::uint8_t tail = frame.data[frame.size - 1U];
   if (header->kind == Kind::message && header->data_type_id == dronecan::ActuatorStatus::type.id &&
       (tail & tail_start_of_transfer) != 0) {
-    watches_[header->source.value()].count_status(tail % dronecan::transfer_id_modulus, at);
+    watches_[header->source.value()].count_status(frame, at);
   }
   if (!std::exchange(heard_[header->source.value()], true)) {
     heard.first_heard = at;

@@ -19,19 +19,33 @@ constexpr Duration start_tolerance = std::chrono::milliseconds(1500);
 /// grow older than this before it restarts them.
 constexpr Duration answer_tolerance = std::chrono::seconds(2);
 
+/// A frame is sent again as soon as the bus is free. Two servos that were switched on together may
+/// number theirs alike, but not for long at the same moment.
+constexpr Duration repetition_time = std::chrono::milliseconds(2);
+
+dronecan::TransferId transfer_id(const can::Frame& frame) {
+  return frame.size > 0 ? frame.data[frame.size - 1U] % dronecan::transfer_id_modulus : 0;
+}
+
 } // namespace
 
 /// A servo alone on the bus gets no acknowledgement: when another node joins, its waiting frames
 /// come all at once. But one unit numbers its transfers consecutively; if the numbers of two units
 /// mix, at least every second one is out of sequence.
-void UnitWatch::count_status(dronecan::TransferId transfer_id, Time at) {
+void UnitWatch::count_status(const can::Frame& frame, Time at) {
+  const bool is_repeated =
+      frame == last_actuator_status_ && at - last_actuator_status_at_ < repetition_time;
+  const unsigned next = transfer_id(last_actuator_status_) + 1U;
+  last_actuator_status_ = frame;
+  last_actuator_status_at_ = at;
+  if (is_repeated) {
+    return;
+  }
   if (!window_start_ || at - *window_start_ > status_window) {
     window_start_ = at;
     count_ = leaps_ = 0;
   }
-  const unsigned next = (last_actuator_id_ + 1U) % dronecan::transfer_id_modulus;
-  leaps_ += transfer_id != next ? 1U : 0U;
-  last_actuator_id_ = transfer_id;
+  leaps_ += transfer_id(frame) != next % dronecan::transfer_id_modulus ? 1U : 0U;
   ++count_;
   is_too_fast_ = is_too_fast_ || (count_ > most_statuses_of_one && leaps_ * 4 > count_);
 }

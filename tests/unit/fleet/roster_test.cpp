@@ -47,6 +47,12 @@ class Ear {
     actuator_of(actuators_, source, servo_id);
   }
 
+  /// The last one comes twice.
+  void actuator_again(std::uint8_t source) {
+    --actuators_;
+    actuator(source);
+  }
+
   /// Of a second unit, which counts its transfers by itself.
   void twin(std::uint8_t source) { actuator_of(twins_, source, 0); }
 
@@ -213,6 +219,21 @@ TEST_CASE("one servo is not doubled, whatever delays its status has, for hours")
   for (int i = 0; i < 72'000; ++i) {
     ear.now = begin + i * 100ms + random.between(0ms, 90ms);
     ear.actuator(10);
+  }
+  CHECK_FALSE(ear.roster.is_doubled(NodeId(10)));
+}
+
+TEST_CASE("one servo whose frames come twice is no second servo") {
+  Ear ear;
+  sim::Random random(7);
+  for (int i = 0; i < 2'000; ++i) {
+    ear.actuator(10);
+    const Duration gap = random.between(100us, 900us);
+    if (i % 2 == 0) {
+      ear.now += gap;
+      ear.actuator_again(10);
+    }
+    ear.now += 95ms - gap;
   }
   CHECK_FALSE(ear.roster.is_doubled(NodeId(10)));
 }

@@ -3,6 +3,7 @@
 // actuator.Status.
 
 #include "blactl/base/time.hpp"
+#include "blactl/can/frame.hpp"
 #include "blactl/dronecan/transfer.hpp"
 
 #include <array>
@@ -22,8 +23,9 @@ class UnitWatch {
     twin   ///< another unit
   };
 
-  /// The start of a transfer of actuator.Status.
-  void count_status(dronecan::TransferId transfer_id, Time at);
+  /// The first frame of a transfer of actuator.Status. One that comes twice, as where the end of
+  /// its acknowledgement was disturbed, counts once.
+  void count_status(const can::Frame& frame, Time at);
 
   /// Whether two servos send actuator.Status, provided that the sender is a BLA servo.
   [[nodiscard]] bool is_too_fast() const { return is_too_fast_; }
@@ -46,8 +48,9 @@ class UnitWatch {
  private:
   std::optional<Time> window_start_{};
   unsigned count_ = 0;
-  unsigned leaps_ = 0; ///< transfer IDs out of sequence
-  dronecan::TransferId last_actuator_id_ = 0;
+  unsigned leaps_ = 0;                ///< transfer IDs out of sequence
+  can::Frame last_actuator_status_{}; ///< its first frame
+  Time last_actuator_status_at_{};
   bool is_too_fast_ = false;
   std::optional<dronecan::TransferId> last_status_id_{}; ///< of NodeStatus
   std::array<std::optional<Time>, 2> starts_{};
