@@ -38,13 +38,13 @@ const DatabaseFormat& snapshots_format() {
 
 namespace {
 
-/// A query for the columns that entry_of() reads.
+/// A query for the columns that snapshot_in() reads.
 std::string select(std::string_view rest) {
   return "SELECT number, at, command, unique_id, held, saved, run, ended FROM snapshots " +
          std::string(rest);
 }
 
-SnapshotEntry entry_of(Statement& row) {
+SnapshotEntry snapshot_in(Statement& row) {
   return {.number = row.integer(0),
           .run = row.integer(6),
           .at = WallTime(Duration(row.integer(1, 0, last_time))),
@@ -59,7 +59,7 @@ SnapshotEntry entry_of(Statement& row) {
 Result<std::vector<SnapshotEntry>> all_of(Statement& statement) {
   std::vector<SnapshotEntry> all;
   const auto read = statement.each([&] {
-    all.push_back(entry_of(statement));
+    all.push_back(snapshot_in(statement));
     return true;
   });
   return read ? Result<std::vector<SnapshotEntry>>(std::move(all)) : std::unexpected(read.error());
@@ -202,7 +202,7 @@ Result<std::optional<SnapshotEntry>> SnapshotStore::last(const UniqueId& unique_
     return std::nullopt;
   }
   Statement statement(*database, select("WHERE unique_id = ? ORDER BY number DESC LIMIT 1"));
-  return statement.bind(unique_id).first([&] { return entry_of(statement); });
+  return statement.bind(unique_id).first([&] { return snapshot_in(statement); });
 }
 
 Result<std::optional<SnapshotEntry>> SnapshotStore::before(const SnapshotEntry& entry) const {
@@ -213,7 +213,7 @@ Result<std::optional<SnapshotEntry>> SnapshotStore::before(const SnapshotEntry& 
   Statement statement(*database,
                       select("WHERE unique_id = ? AND number < ? ORDER BY number DESC LIMIT 1"));
   return statement.bind(entry.unique_id).bind(entry.number).first([&] {
-    return entry_of(statement);
+    return snapshot_in(statement);
   });
 }
 

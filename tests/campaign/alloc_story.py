@@ -83,7 +83,7 @@ def check_success(events, outcome, step):
     told = {event["unique_id"]: event["node_id"] for event in events if event["event"] in GIVES}
     for serial, state in step.after.items():
         has_read_rom = step.restarts(serial) and state["ram"]["0x46"] != 0  # and needs no other ID
-        if has_read_rom or step.restarted_unheard(serial, outcome.record):
+        if has_read_rom or step.has_copy(serial) or step.restarted_unheard(serial, outcome.record):
             continue
         due = told.get(state["unique_id"], state["node_id"])
         require(state["node_id"] == due, f"{serial} is at {state['node_id']}, told was {due}")

@@ -36,6 +36,8 @@ def check(outcome, step, defaults, alone):
         story.check_others(outcome, step)
         check_doubled(outcome, document, step)
         check_rom_writes(outcome, document, step)
+        if not is_plan(outcome):
+            story.check_copies(outcome, document, step)
 
 
 def is_plan(outcome):

@@ -102,6 +102,7 @@ class Episode:
         self._let_move(random.Random(f"move {seed}"))
         self._let_begin(random.Random(f"begin {seed}"))
         self._let_start_unread(random.Random(f"unread {seed}"))
+        self._let_share_unique_id(random.Random(f"copy {seed}"))
 
     def _let_ask(self, chance):
         """Some servos have no node ID, and get one. It is drawn apart: the other episodes, and the
@@ -146,6 +147,14 @@ class Episode:
             for command in step:
                 if chance.random() < 0.3 and command.words[0] != "alloc":
                     command.words.append("--overwrite-rom")
+
+    def _let_share_unique_id(self, chance):
+        """Some servos have a unique ID that does not tell them from others; drawn apart, too."""
+        if chance.random() < 0.95:
+            return
+        shared = chance.choice(["ab" * 16, "ab" * 16, "00" * 16, "ff" * 16])
+        for servo in chance.sample(self.scenario["servos"], min(2, len(self.serials))):
+            servo["unique_id"] = shared
 
     def _let_diagnose(self, chance):
         """A look at it all, between other commands or beside one; drawn apart, too."""
@@ -255,7 +264,9 @@ class Episode:
     def must_succeed(self, index):
         """Whether nothing is in the way of a step, not even what an earlier one has done: a tool
         that refused everything would never lie."""
-        in_the_way = self.scenario["wire"] or self.scenario["events"] or "foreign" in self.scenario
+        in_the_way = (self.scenario["wire"] or self.scenario["events"] or
+                      "foreign" in self.scenario or
+                      any("unique_id" in servo for servo in self.scenario["servos"]))
         if in_the_way or len(set(self.ids)) < len(self.ids) or any(
                 "faults" in servo or "sending" in servo for servo in self.scenario["servos"]):
             return False

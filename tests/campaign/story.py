@@ -40,6 +40,18 @@ def check(outcome, step, defaults, alone):
         check_doubled(outcome, document, step)
         check_others(outcome, step)
         check_rom_writes(outcome, step)
+        check_copies(outcome, document, step)
+
+
+def check_copies(outcome, document, step):
+    """What is not told from others by its unique ID is not changed."""
+    if outcome.command.words[0] == "get" or outcome.status != 0:
+        return
+    for node in document["nodes"]:
+        serial = node.get("serial_number")
+        is_changed = serial is not None and node.get("status") not in ("skipped", "extra")
+        require(not is_changed or not step.is_one_of_several(serial),
+                f"0, but the unique ID of {serial} is not its own")
 
 
 def check_document(outcome, statuses=frozenset(STATUSES)):
@@ -95,7 +107,9 @@ def check_refusal(outcome, step):
     for frame in sent:
         since = f"{frame.time - record.armed_at():.3f} s after"
         require(frame.time < record.armed_at() + truth.TOLERANCE_S, f"sent {since} armed: {frame}")
-        restarts = frame.type in (RESTART_NODE, EXECUTE_OPCODE)
+        # characterize puts back what it has changed whoever drives
+        restarts = (frame.type in (RESTART_NODE, EXECUTE_OPCODE) and
+                    outcome.command.words[0] != "characterize")
         is_late = frame.time > record.driven_at() + truth.TOLERANCE_S
         require(not (restarts and is_late), f"sent to a driven servo: {frame}")
 

@@ -37,6 +37,26 @@ class Step:
                 lost = line["event"] != "restart"
         return False
 
+    def has_copy(self, serial):
+        """Whether another unit has its unique ID."""
+        return sum(state["unique_id"] == self.after[serial]["unique_id"]
+                   for state in self.after.values()) > 1
+
+    def is_one_of_several(self, serial):
+        """Whether its unique ID does not tell it from others that were there all the time."""
+        own = self.after[serial]["unique_id"]
+        others = [other for other in self.after if other != serial and
+                  self.after[other]["unique_id"] == own and self._is_quiet(other)]
+        return self._is_quiet(serial) and (bool(others) or own in ("00" * 16, "ff" * 16))
+
+    def _is_quiet(self, serial):
+        """It was there under one ID, and nothing was to go wrong that concerns it."""
+        same = self.before[serial]["node_id"] == self.after[serial]["node_id"] != 0
+        servo = next(servo for servo in self._scenario["servos"]
+                     if servo["serial_number"] == serial)
+        return same and not (self._scenario.get("wire") or self._scenario.get("events") or
+                             self.restarts(serial) or "faults" in servo or "sending" in servo)
+
     def node_ids(self, serial):
         """All that it had."""
         ids = {line["node_id"] for line in self._events if line["serial_number"] == serial}
@@ -85,7 +105,8 @@ class Step:
         servo = next(servo for servo in self._scenario["servos"]
                      if servo["serial_number"] == serial)
         return not (self._scenario.get("wire") or self._scenario.get("events") or
-                    "faults" in servo or "sending" in servo or self._scenario.get("foreign"))
+                    "faults" in servo or "sending" in servo or "unique_id" in servo or
+                    self._scenario.get("foreign"))
 
     # What a client can know.
 
