@@ -95,6 +95,8 @@ class Record:
             key, tail = frame.can_id & 0xFFFFFF, frame.data[-1]
             if frame.starts:
                 parts[key] = [frame.data]
+            elif key in parts and frame.data == parts[key][-1]:
+                continue  # it came twice
             elif key in parts and (parts[key][-1][-1] ^ tail) & 0x3F == 0x20:  # only the toggle
                 parts[key].append(frame.data)
             if tail & 0x40 and key in parts:

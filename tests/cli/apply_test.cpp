@@ -533,6 +533,8 @@ TEST_CASE(
       {"schema", "blactl-fleet/1"},
       {"servos",
        {{{"name", "left"}, {"match", {{"serial_number", 7}}}, {"set", {{"smoothing", "on"}}}}}}};
+  CHECK(codes(fleet.apply(document)) == Words{"rom_unread"});
+  REQUIRE(fleet.run({"restart", "-n", "all", "-y"}).status == 0);
   CHECK(codes(fleet.apply(document)) == Words{"not_confirmed"});
   const Result healed = fleet.apply(document, {"--overwrite-rom"});
   INFO(healed.err);

@@ -115,3 +115,11 @@ TEST_CASE("a servo that comes back under another node ID is no copy of itself") 
   }
   CHECK(fleet.run({"scan"}).status == 0);
 }
+
+TEST_CASE("a unit that asks, and whose unique ID another has already, gets no node ID") {
+  const nlohmann::json same = {{"unique_id", "abababababababababababababababab"}};
+  const Scene scene = Scene().servo("BLA21-12U-AB", 11, same).servo("BLA21-12U-AB", 0, same);
+  const Result given = scene.run({"alloc", "--once", "--json"});
+  CHECK(codes(given) == std::vector<std::string>{"duplicate_unique_id"});
+  CHECK(contains(given.out, R"("assigned":0)"));
+}

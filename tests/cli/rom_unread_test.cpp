@@ -85,6 +85,16 @@ TEST_CASE("where a restart did not help, --yes is not enough, and --overwrite-ro
   CHECK(servo.fleet.rom_writes() == 1);
 }
 
+TEST_CASE("the first start that does not read it is no try yet") {
+  const Fleet fleet(
+      Scene().servo("BLA21-12U-AB", 11, {{"faults", {{"power_loss_in_save", "10ms"}}}}));
+  REQUIRE(fleet.run({"save", "-n", "11", "-y"}).status != 0);
+  const Arguments save{"save", "-n", "all", "-y", "--overwrite-rom"};
+  CHECK(codes(fleet.run(save)) == std::vector<std::string>{"rom_unread"});
+  REQUIRE(fleet.run({"restart", "-n", "all", "-y"}).status == 0);
+  CHECK(fleet.run(save).status == 0);
+}
+
 TEST_CASE("a restart that was not ours is no try") {
   Unread servo(5);
   REQUIRE(servo.fleet.run({"restart", "-n", "all", "-y"}).status == 0);

@@ -50,3 +50,23 @@ TEST_CASE("a servo is not saved for a node ID that another unit has taken meanwh
   CHECK(node["saved"] == false);
   CHECK(node["node_id_after"] == 13);
 }
+
+TEST_CASE("a servo that has moved in an earlier round is looked at once more at the end") {
+  const std::string at = GENERATE("2550ms", "3s", "3500ms", "4s", "4500ms");
+  INFO(at);
+  Scene scene;
+  nlohmann::ordered_json entries = nlohmann::ordered_json::array();
+  for (const int number : {1, 2}) {
+    scene.servo("BLA21-12U-AB", 10 + number, {{"serial_number", number}, {"servo_id", number}});
+    entries.push_back({{"name", std::to_string(number)},
+                       {"match", {{"serial_number", number}}},
+                       {"set", {{"static_node_id", 13 - number}}}});
+  }
+  scene.servo("BLA21-12U-AB", 11, {{"serial_number", 9}, {"servo_id", 9}}).joins(9, at);
+  const Fleet fleet(scene);
+  const Result moved = fleet.apply({{"schema", "blactl-fleet/1"}, {"servos", entries}});
+  INFO(moved.err);
+  CHECK(moved.status != 0);
+  CHECK(codes(moved).front() == "duplicate_node_id");
+  CHECK_FALSE(contains(moved.err, "has not left"));
+}

@@ -42,7 +42,8 @@ TEST_CASE("what SAVE makes permanent beside what was named is said before, from 
   whole.insert(whole.end(), {"-y", "--json"});
   const Result saved = fleet.run(whole);
   INFO(saved.err);
-  CHECK(contains(saved.err, "angle_limit_cw is 70.0 deg in RAM and 179.9 deg in ROM: SAVE keeps"));
+  CHECK(contains(saved.err, "angle_limit_cw is 70.0 deg since a change in RAM only, and was 179.9 "
+                            "deg before: SAVE keeps"));
   CHECK(warning(saved)["code"] == "unnamed_saved");
 }
 
@@ -51,8 +52,8 @@ TEST_CASE("a restart says before what it loses, records it, and undo brings it b
   try_out(fleet);
   const Result restarted = fleet.run({"restart", "-n", "11", "-y", "--json"});
   CHECK(restarted.status == 0);
-  CHECK(contains(restarted.err,
-                 "angle_limit_cw is 70.0 deg in RAM and 179.9 deg in ROM: the restart brings"));
+  CHECK(contains(restarted.err, "angle_limit_cw is 70.0 deg since a change in RAM only, and was "
+                                "179.9 deg before: the restart takes it back"));
   CHECK(warning(restarted)["code"] == "unnamed_lost");
   CHECK(fleet.ram("11", "angle_limit_cw") == 1799);
   CHECK(fleet.run({"undo", "-y"}).status == 0);
@@ -68,7 +69,7 @@ TEST_CASE("the proving restart of apply says before what it loses, in the plan t
   CHECK(warning(planned)["code"] == "unnamed_lost");
   const Result proven = fleet.apply(same);
   CHECK(statuses(proven) == std::vector<std::string>{"unchanged"});
-  CHECK(contains(proven.err, "in ROM: the restart brings that back"));
+  CHECK(contains(proven.err, "the restart takes it back"));
   CHECK(fleet.ram("11", "angle_limit_cw") == 1799);
   CHECK(fleet.run({"undo", "-y"}).status == 0);
   CHECK(fleet.ram("11", "angle_limit_cw") == 700);
@@ -100,4 +101,35 @@ TEST_CASE("a plan is stale once a setting has changed that it does not name") {
   try_out(fleet);
   check_error(fleet.run({"apply", "--plan", fleet.plan(plan), "-y"}), 9, "stale_plan",
               "a setting that the plan does not name has changed");
+}
+
+TEST_CASE("what a restart took is not what a later SAVE made permanent") {
+  const Fleet fleet(one_servo());
+  try_out(fleet);
+  REQUIRE(fleet.run({"restart", "-n", "11", "-y"}).status == 0);
+  REQUIRE(fleet.run({"save", "-n", "11", "-y"}).status == 0);
+  CHECK(fleet.run({"undo", "-y"}).status == 0);
+  CHECK(fleet.ram("11", "angle_limit_cw") == 700);
+  CHECK(fleet.rom("11", "angle_limit_cw") == 1799);
+}
+
+TEST_CASE("undo of an apply does not make permanent what its proving restart took from RAM") {
+  const Fleet fleet(one_servo());
+  try_out(fleet);
+  REQUIRE(fleet.run({"set", "-n", "11", "smoothing=off"}).status == 0);
+  REQUIRE(statuses(fleet.apply(wishes("smoothing", "off"))) == std::vector<std::string>{"changed"});
+  REQUIRE(fleet.rom("11", "smoothing") == 0);
+  CHECK(fleet.run({"undo", "-n", "11", "-y"}).status == 0);
+  CHECK(fleet.rom("11", "angle_limit_cw") == 1799);
+  CHECK(fleet.rom("11", "smoothing") == 1);
+}
+
+TEST_CASE("a change in RAM that a later SAVE made permanent is taken back from ROM too") {
+  const Fleet fleet(one_servo());
+  try_out(fleet);
+  REQUIRE(fleet.run({"set", "-n", "11", "smoothing=off", "--save", "-y"}).status == 0);
+  const auto snapshots = json(fleet.run({"undo", "--list", "--json"}).out)["snapshots"];
+  REQUIRE(snapshots.size() == 2);
+  CHECK(fleet.run({"undo", "-y"}).status == 0);
+  CHECK(fleet.rom("11", "smoothing") == 1);
 }

@@ -172,6 +172,13 @@ std::optional<NodeId> AllocationService::assign(const UniqueId& unique_id, NodeI
     return std::nullopt;
   }
   note_request(*unit);
+  if (const auto copy = copy_of(unique_id)) {
+    unit->node_id = *copy;
+    refuse(*unit, Event::conflict,
+           {Code::duplicate_unique_id, say<texts::same_unique_id>(copy->value(), hex(unique_id)),
+            say<texts::same_unique_id_hint>(), copy->value()});
+    return std::nullopt;
+  }
   const auto entry = store_.find(unique_id);
   if (!entry) {
     failure_ = entry.error();
@@ -234,11 +241,6 @@ std::optional<NodeId> AllocationService::keep(AllocatedUnit& unit, NodeId id) {
   switch (holder(id, unit.unique_id)) {
   case Holder::unknown: return std::nullopt; // it asks again, and then more is known
   case Holder::other: refuse(unit, Event::conflict, in_use(unit)); return std::nullopt;
-  case Holder::twin:
-    refuse(unit, Event::conflict,
-           {Code::duplicate_node_id, say<texts::same_unique_id>(id.value(), hex(unit.unique_id)),
-            say<texts::same_unique_id_hint>(), id.value()});
-    return std::nullopt;
   case Holder::nobody: break;
   }
   unit.refused.reset();
@@ -294,7 +296,7 @@ AllocationService::Holder AllocationService::holder(NodeId id, const UniqueId& u
     return Holder::other;
   }
   if (member.info && member.info->unique_id == unique_id) {
-    return is_heard_while_asking(member, unique_id) ? Holder::twin : Holder::nobody;
+    return Holder::nobody;
   }
   const bool is_gone = session_.now() - member.last_heard >= offline_time;
   const bool comes_back = member.static_node_id == id.value();
@@ -304,12 +306,19 @@ AllocationService::Holder AllocationService::holder(NodeId id, const UniqueId& u
   return member.info ? Holder::other : Holder::unknown;
 }
 
-/// A unit that asks has no node ID, so frames under its ID since it began are another's.
-bool AllocationService::is_heard_while_asking(const Member& member,
-                                              const UniqueId& unique_id) const {
+/// A unit that asks has no node ID, so frames of its unique ID since it began are another's.
+std::optional<NodeId> AllocationService::copy_of(const UniqueId& unique_id) const {
   const auto part =
       first_parts_.find(UniqueIdPrefix(unique_id.begin(), unique_id.begin() + first_part_size));
-  return part != first_parts_.end() && member.last_heard > part->second;
+  if (part == first_parts_.end()) {
+    return std::nullopt;
+  }
+  for (const auto& [id, member] : session_.roster().members()) {
+    if (member.is_unit(unique_id) && member.last_heard > part->second) {
+      return id;
+    }
+  }
+  return std::nullopt;
 }
 
 bool AllocationService::is_there(const AllocatedUnit& unit) const {

@@ -191,7 +191,7 @@ std::optional<Error> record(Session& session, std::span<const Plan> plans, const
     return std::nullopt;
   }
   auto refused = judge(manner.history->drop_proofs(plans), session, manner);
-  return refused ? refused : judge(manner.history->keep(plans, session.wall()), session, manner);
+  return refused ? refused : judge(manner.history->keep(plans, session), session, manner);
 }
 
 void record_end(Session& session, std::span<const ChangeResult> results, const Manner& manner) {

@@ -77,15 +77,25 @@ bool names(const Goal& goal, bla::Address address) {
   });
 }
 
+Warning unnamed(const std::string& name, const std::string& ram, const std::string& rom,
+                bool is_saved, bool is_proven) {
+  if (is_saved) {
+    return {"unnamed_saved", is_proven ? say<texts::unnamed_saved>(name, ram, rom)
+                                       : say<texts::recorded_saved>(name, ram, rom)};
+  }
+  return {"unnamed_lost", is_proven ? say<texts::unnamed_at_risk>(name, ram, rom)
+                                    : say<texts::recorded_at_risk>(name, ram, rom)};
+}
+
 /// Warnings about registers outside of the goal that differ between RAM and ROM: SAVE keeps them, a
 /// restart resets them, or has done so.
-std::vector<Warning> unnamed(const Goal& goal, const Snapshot& ram, const bla::Values& rom,
-                             Need need, bool is_restarted = false) {
+std::vector<Warning> unnamed(const Goal& goal, const Snapshot& ram, const ToldRom& rom, Need need,
+                             bool is_restarted = false) {
   const bool is_saved = goal.saves() && need != Need::prove;
   std::vector<Warning> warnings;
   for (const Reading& reading : ram.readings) {
     const bla::Parameter& parameter = *reading.parameter;
-    const auto kept = bla::find(rom, parameter.address);
+    const auto kept = bla::find(rom.values, parameter.address);
     if (!parameter.is_setting() || names(goal, parameter.address) || !reading.raw || !kept ||
         kept == reading.raw) {
       continue;
@@ -93,11 +103,9 @@ std::vector<Warning> unnamed(const Goal& goal, const Snapshot& ram, const bla::V
     const std::string in_ram = bla::display(parameter, *reading.raw, ram.pwm_mode());
     const std::string in_rom = bla::display(parameter, *kept, ram.pwm_mode());
     warnings.push_back(
-        is_saved
-            ? Warning{"unnamed_saved", say<texts::unnamed_saved>(parameter.name, in_ram, in_rom)}
-        : is_restarted
+        is_restarted
             ? Warning{"unnamed_lost", say<texts::unnamed_lost>(parameter.name, in_ram, in_rom)}
-            : Warning{"unnamed_lost", say<texts::unnamed_at_risk>(parameter.name, in_ram, in_rom)});
+            : unnamed(parameter.name, in_ram, in_rom, is_saved, rom.is_proven));
   }
   return warnings;
 }
@@ -205,15 +213,16 @@ std::optional<bla::Values> Change::proven_rom(const Goal& goal, const Servo& ser
              : std::nullopt;
 }
 
-/// What ROM holds as far as proofs and the record of changes tell, where a restart or SAVE of the
-/// goal makes RAM and ROM equal.
-bla::Values Change::told_rom(const Goal& goal, const Servo& servo) {
+/// Empty if nothing makes RAM and ROM equal, or the servo could not read its ROM: what it held
+/// before a change then was not from there.
+ToldRom Change::told_rom(const Goal& goal, const Snapshot& held) {
   History* const record = options_.manner.proofs;
-  if (!goal.wanted.restart || goal.wanted.erase || record == nullptr) {
+  if (!goal.wanted.restart || goal.wanted.erase || record == nullptr || check_rom(held)) {
     return {};
   }
-  const auto proven = record->proven_rom(servo, session_);
-  return proven ? *proven : record->replaced_in_ram(servo, session_);
+  auto proven = record->proven_rom(held.servo, session_);
+  return proven ? ToldRom{.values = std::move(*proven), .is_proven = true}
+                : ToldRom{.values = record->replaced_in_ram(held.servo, session_)};
 }
 
 /// ROM that could not be read may be whole, and SAVE would replace it by initial values. A restart
@@ -254,7 +263,7 @@ std::vector<Error> Change::judge(std::span<const std::size_t> goals, Snapshots s
       continue;
     }
     const auto rom = proven_rom(result.goal, held.servo);
-    const auto told = rom ? *rom : told_rom(result.goal, held.servo);
+    const ToldRom told = told_rom(result.goal, held);
     const Need need = need_of(result.goal, held, rom);
     if (auto error = refuse_unread_rom(result, held, need)) {
       result.errors.push_back(*error);
@@ -425,7 +434,8 @@ void Change::look_back(const Lost& lost) {
   const Roster& roster = session_.roster();
   for (GoalResult& result : results_) {
     if (result.need != Need::nothing) {
-      continue; // checked by its own job
+      look_back(result); // of one round; its own job has checked the rest
+      continue;
     }
     const Servo& servo = result.servo();
     const std::uint8_t id = servo.id.value();
@@ -442,6 +452,16 @@ void Change::look_back(const Lost& lost) {
       result.errors.push_back(found->second);
     }
     result.is_done = result.errors.empty();
+  }
+}
+
+/// Later rounds may have taken long.
+void Change::look_back(GoalResult& result) const {
+  const auto id = result.change.node_id_after;
+  if (result.is_done && id && session_.roster().is_doubled(*id)) {
+    result.errors.push_back(doubled(session_.roster(), *id));
+    result.is_done = result.change.saved = false;
+    result.rom_proven = result.rom_proven ? std::optional(false) : std::nullopt;
   }
 }
 
@@ -470,7 +490,7 @@ void Change::conclude(const UnitChange& unit, GoalResult& result) {
   result.rom_proven = result.goal.saves() ? std::optional(result.is_done) : std::nullopt;
   if (result.need == Need::prove && last.rom) {
     result.change.warnings =
-        unnamed(result.goal, unit.plan.before, last.rom->values, result.need, true);
+        unnamed(result.goal, unit.plan.before, {last.rom->values, true}, result.need, true);
   }
 }
 

@@ -367,9 +367,10 @@ std::optional<RomReading> ChangeJob::rom_reading(const Snapshot& now) const {
   return rom;
 }
 
-/// The start of a servo that holds initial values instead of its ROM.
+/// The start of a servo that holds initial values instead of its ROM, as it did before: the first
+/// time the next start may help.
 std::optional<RomReading> ChangeJob::unread_rom(const Snapshot& now) const {
-  auto rom = rom_reading(now);
+  auto rom = check_rom(plan_.before) ? rom_reading(now) : std::nullopt;
   if (rom) {
     rom->values.clear();
   }

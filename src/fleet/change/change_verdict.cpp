@@ -130,6 +130,11 @@ void ChangeJob::look_back(std::optional<Error> lost) {
   } else if (const auto writer = is_in_ram_only ? other_writer() : std::nullopt; writer) {
     result_.error = Error{Code::state, say<texts::written_by_other>(id.value(), writer->value()),
                           say<texts::other_writer_hint>(), id.value()};
+  } else if (const auto later =
+                 result_.saved ? roster_.writer_to(id, restart_->sent_at()) : std::nullopt;
+             later) {
+    result_.error = Error{Code::state, say<texts::written_by_other>(id.value(), later->value()),
+                          say<texts::other_writer_hint>(), id.value()};
   } else if (lost) {
     result_.error = std::move(lost);
   } else {
@@ -150,7 +155,7 @@ void ChangeJob::explain_interruption(Stage at) {
         Error{Code::interrupted, std::move(message), say<texts::what_it_holds_hint>(uid), id};
   };
   if (at == Stage::read_back && plan_.restart == RestartKind::save) {
-    interrupted(say<texts::saved_not_verified>(id));
+    interrupted(say<texts::saved_not_verified>(id, result_.returned.value_or(servo_.id).value()));
   } else if ((at == Stage::erase && erase_->is_sent()) || at == Stage::read_erased) {
     interrupted(say<texts::erased_not_verified>(id));
   } else if (plan_.erase && is_unsaved) {

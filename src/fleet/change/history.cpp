@@ -6,6 +6,7 @@
 #include <array>
 #include <chrono>
 #include <cstddef>
+#include <utility>
 
 namespace blactl::fleet {
 
@@ -95,12 +96,12 @@ Result<void> History::resume(const UniqueId& unique_id) {
 }
 
 /// What a mere restart takes, as far as recorded.
-bla::Values History::taken_from_ram(const Plan& plan) const {
-  if (plan.restart != RestartKind::restart || plan.proves_rom || !plan.before.servo.unique_id) {
-    return {};
-  }
+bla::Values History::taken_from_ram(const Plan& plan, const Session& session) const {
   bla::Values taken;
-  for (const auto& [address, raw] : replaced_in_ram(*plan.before.servo.unique_id, WallTime{})) {
+  if (plan.restart != RestartKind::restart || plan.proves_rom) {
+    return taken;
+  }
+  for (const auto& [address, raw] : replaced_in_ram(plan.before.servo, session)) {
     const auto held = plan.before.raw(address);
     if (held && *held != raw) {
       taken.emplace(address, *held);
@@ -109,7 +110,8 @@ bla::Values History::taken_from_ram(const Plan& plan) const {
   return taken;
 }
 
-Result<void> History::keep(std::span<const Plan> plans, WallTime now) {
+Result<void> History::keep(std::span<const Plan> plans, const Session& session) {
+  const WallTime now = session.wall();
   for (const Plan& plan : plans) {
     const auto& unique_id = plan.before.servo.unique_id;
     auto resumed = unique_id ? resume(*unique_id) : Result<void>();
@@ -121,7 +123,8 @@ Result<void> History::keep(std::span<const Plan> plans, WallTime now) {
   for (const Plan& plan : plans) {
     const auto& unique_id = plan.before.servo.unique_id;
     auto held = stored(replaced_by(plan));
-    held.merge(stored(taken_from_ram(plan)));
+    held.merge(stored(taken_from_ram(plan, session)));
+    note_lasting(plan, session);
     if (!unique_id || held.empty()) {
       continue;
     }
@@ -132,6 +135,11 @@ Result<void> History::keep(std::span<const Plan> plans, WallTime now) {
             : state::SnapshotEntry{
                   .run = run_, .at = now, .command = command_, .unique_id = *unique_id};
     const std::size_t size = entry.held.size();
+    if (plan.restart == RestartKind::save && known != kept_.end()) { // undo would save them
+      for (const std::uint8_t address : std::exchange(known->second.lost, {})) {
+        entry.held.erase(address);
+      }
+    }
     entry.held.merge(held); // values replaced in an earlier round stay
     const bool saves = entry.saved || plan.restart == RestartKind::save;
     const std::int64_t run = run_ != 0 ? run_ : entry.run;
@@ -227,24 +235,30 @@ std::optional<bla::Values> History::proven_rom(const Servo& servo, const Session
   return values;
 }
 
-bla::Values History::replaced_in_ram(const Servo& servo, const Session& session) const {
+/// The changes in RAM only since its start, the newest first.
+std::vector<state::SnapshotEntry> History::unsaved(const Servo& servo,
+                                                   const Session& session) const {
+  std::vector<state::SnapshotEntry> entries;
   const Member member = session.roster().member(servo.id);
   if (!servo.unique_id || !member.is_unit(*servo.unique_id) || !member.status) {
-    return {};
+    return entries;
   }
   const WallTime started = session.wall() - (session.now() - member.status_at) -
                            std::chrono::seconds(member.status->uptime_s);
-  return replaced_in_ram(*servo.unique_id, started);
+  auto entry = snapshots_.last(*servo.unique_id);
+  while (entry && *entry && !(*entry)->saved && (*entry)->at >= started) {
+    entries.push_back(std::move(**entry));
+    entry = snapshots_.before(entries.back());
+  }
+  return entries;
 }
 
-bla::Values History::replaced_in_ram(const UniqueId& unique_id, WallTime since) const {
+bla::Values History::replaced_in_ram(const Servo& servo, const Session& session) const {
   bla::Values values;
-  auto entry = snapshots_.last(unique_id);
-  while (entry && *entry && !(*entry)->saved && (*entry)->at >= since) {
-    for (const auto& [address, raw] : (*entry)->held) {
+  for (const state::SnapshotEntry& entry : unsaved(servo, session)) {
+    for (const auto& [address, raw] : entry.held) {
       values.insert_or_assign(bla::Address(address), raw); // the first change replaced that of ROM
     }
-    entry = snapshots_.before(**entry);
   }
   return values;
 }
@@ -254,18 +268,14 @@ bool History::is_rom_unread(const Servo& servo, const Session& session) {
   return proof && proof->rom.empty();
 }
 
-/// A SAVE that replaces nothing itself makes an earlier change in RAM permanent.
-Result<std::optional<state::Settlement>> History::made_lasting(const ChangeResult& result) const {
-  if (!result.may_have_saved || !result.servo.unique_id) {
-    return std::nullopt;
+/// SAVE makes earlier changes in RAM permanent.
+void History::note_lasting(const Plan& plan, const Session& session) {
+  if (plan.restart != RestartKind::save || plan.erase || !plan.before.servo.unique_id) {
+    return;
   }
-  const auto last = snapshots_.last(*result.servo.unique_id);
-  if (!last) {
-    return std::unexpected(last.error());
+  for (const state::SnapshotEntry& entry : unsaved(plan.before.servo, session)) {
+    lasting_[*plan.before.servo.unique_id].insert(entry.number);
   }
-  return *last && !(*last)->saved
-             ? std::optional(state::Settlement{(*last)->number, ChangeEnd::saved})
-             : std::nullopt;
 }
 
 /// For an undo that has begun elsewhere: servos it did not begin are not done yet, either.
@@ -288,6 +298,9 @@ Result<void> History::leave_what_was_lost(std::span<const ChangeResult> results,
       return bla::find(result.rom->values, bla::Address(held.first)) == held.second;
     });
     known->second.is_empty = entry.held.empty();
+    for (const auto& [address, raw] : entry.held) {
+      known->second.lost.insert(address);
+    }
     if (entry.held.size() != size && !entry.held.empty()) {
       shorter.push_back(entry);
     }
@@ -309,12 +322,14 @@ Result<void> History::settle(std::span<const ChangeResult> results) {
   std::vector<state::Settlement> settlements;
   for (const ChangeResult& result : results) {
     const auto known = result.servo.unique_id ? kept_.find(*result.servo.unique_id) : kept_.end();
-    if (known == kept_.end()) {
-      if (auto earlier = made_lasting(result); !earlier) {
-        return std::unexpected(earlier.error());
-      } else if (*earlier) {
-        settlements.push_back(**earlier);
+    const auto earlier =
+        result.servo.unique_id ? lasting_.find(*result.servo.unique_id) : lasting_.end();
+    if (result.may_have_saved && earlier != lasting_.end()) {
+      for (const std::int64_t number : std::exchange(earlier->second, {})) {
+        settlements.push_back({number, ChangeEnd::saved});
       }
+    }
+    if (known == kept_.end()) {
       continue;
     }
     Kept& kept = known->second;

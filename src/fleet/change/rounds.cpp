@@ -306,7 +306,8 @@ bool Rounds::is_free(const IdMove& move) const {
 Error Rounds::why_not_free(const IdMove& move) const {
   const std::uint8_t from = move.from.value(), to = move.to.value();
   const bool is_ours = std::ranges::any_of(units_, [&](const UnitChange& unit) {
-    return unit.now == move.to && unit.unique_id != move.unique_id && unit.has_failed();
+    return unit.plan.before.servo.id == move.to && unit.unique_id != move.unique_id &&
+           unit.has_failed();
   });
   if (!is_ours) {
     return {Code::duplicate_node_id, say<texts::id_given_is_kept>(from, to),
@@ -439,7 +440,9 @@ void Rounds::conclude(const Step& step, ChangeResult result, const Hook& hook) {
   unit.has_made_way = step.move && step.move->is_temporary;
   unit.is_done = !unit.has_made_way;
   if (step.move) {
-    left_[step.move->from] = session_.now();
+    // its start on the new ID: what is heard on the old one later is another's
+    const auto started = session_.roster().started(step.move->to);
+    left_[step.move->from] = std::min(session_.now(), started.value_or(session_.now()));
     if (hook) {
       hook(*step.move);
     }

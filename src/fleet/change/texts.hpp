@@ -16,11 +16,16 @@ inline constexpr Text will_make_way{
     "node {} makes way for others: it is saved twice, node ID {} comes in between",
     "ノード {} は ID 入替えのため一時的にノード ID {} を使用します (保存は 2 回)"};
 inline constexpr Text id_is_not_left{
-    "node {} was to get node ID {}, which its holder has not left: nothing was changed",
-    "ノード {} に割り当てるノード ID {} が使用中のままのため、変更していません"};
+    "node {} was to get node ID {}, whose holder has failed and may still have it: nothing was "
+    "changed",
+    "ノード {} に割り当てるノード ID {} "
+    "は、変更に失敗したサーボが使用している可能性があるため、変更して"
+    "いません"};
 inline constexpr Text stays_out_of_the_way{
-    "node {} is saved with this node ID, which was to be temporary: the holder of {} has not left",
-    "ノード {} は一時的なノード ID のまま保存されています (ノード ID {} が使用中のため)"};
+    "node {} is saved with this node ID, which was to be temporary: its holder has failed, and may "
+    "still have node ID {}",
+    "ノード {} は一時的なノード ID のまま保存されています (変更に失敗したサーボがノード ID {} "
+    "を使用している可能性があります)"};
 inline constexpr Text id_taken_over{
     "node ID {} was given to uid:{}, which is not on this bus: it is node {}'s from now on",
     "ノード ID {} の割当て先 uid:{} はこのバスにないため、ノード {} に割り当てます"};
@@ -163,6 +168,15 @@ inline constexpr Text unnamed_lost{
     "{} was {} in RAM only: the restart has brought back {}",
     "{} の {} は RAM のみの値でした。再起動により {} に戻りました",
 };
+inline constexpr Text recorded_saved{
+    "{} is {} since a change in RAM only, and was {} before: SAVE keeps all of RAM, so this too",
+    "{} は RAM のみの変更により {} です (変更前は {})。SAVE は RAM "
+    "全体を保存するため、この値も保存されます",
+};
+inline constexpr Text recorded_at_risk{
+    "{} is {} since a change in RAM only, and was {} before: the restart takes it back",
+    "{} は RAM のみの変更により {} です (変更前は {})。再起動により失われます",
+};
 inline constexpr Text unnamed_at_risk{
     "{} is {} in RAM and {} in ROM: the restart brings that back",
     "{} は RAM が {}、ROM が {} です。再起動により ROM の値に戻ります",
@@ -206,8 +220,8 @@ inline constexpr Text changed_before_save{
     "保存していません",
 };
 inline constexpr Text saved_not_verified{
-    "node {} was sent SAVE and is back, but its values were not read again",
-    "ノード {} は SAVE 後に復帰しましたが、値を再読出ししていません",
+    "node {} was sent SAVE and is back as node {}, but its values were not read again",
+    "ノード {} は SAVE 後にノード {} として復帰しましたが、値を再読出ししていません",
 };
 inline constexpr Text erased_not_verified{
     "node {}: ERASE was sent, and its values were not read again: what its RAM holds is not known",
@@ -233,12 +247,11 @@ inline constexpr Text defaults_unknown_hint{
     "see what it says of itself: blactl get --group product",
     "機種情報を確認: blactl get --group product",
 };
-inline constexpr Text not_saved{"node {} was written in RAM; ROM was not written",
-                                "ノード {} は RAM に書き込みましたが、ROM には保存していません"};
+inline constexpr Text not_saved{"node {} was written in RAM, which is not saved",
+                                "ノード {} は RAM に書き込みましたが、保存していません"};
 inline constexpr Text write_broken_off{
-    "interrupted while node {} was written: RAM may hold a part of it, ROM was not written",
-    "ノード {} への書込み中に中断しました。RAM は一部のみ変更された可能性があり、ROM "
-    "には保存していません"};
+    "interrupted while node {} was written: RAM may hold a part of it, which is not saved",
+    "ノード {} への書込み中に中断しました。RAM は一部のみ変更された可能性があり、保存していません"};
 inline constexpr Text has_made_way{
     "node {} has made way for others: it is saved as node {}, and has not got node ID {} yet",
     "ノード {} は他のサーボに ID を譲りました。ノード {} として保存済みで、ノード ID {} "

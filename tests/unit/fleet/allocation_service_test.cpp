@@ -252,7 +252,7 @@ TEST_CASE("a unit that asks while its ID is heard has a twin, and does not get i
         std::vector{Event::request, Event::assigned, Event::request, Event::conflict});
   const auto refusal = rig.service->refusal(rig.unit());
   REQUIRE(refusal);
-  CHECK(refusal->code == Code::duplicate_node_id);
+  CHECK(refusal->code == Code::duplicate_unique_id);
   CHECK(refusal->message.find("the same unique ID") != std::string::npos);
 }
 

@@ -721,7 +721,7 @@ TEST_CASE("interrupted between writing and SAVE: RAM has it, ROM does not, and t
   CHECK_FALSE(bench.job->must_finish());
   const ChangeResult& result = bench.cancel();
   CHECK(failure(result) == Code::interrupted);
-  CHECK(says(result, erases ? "a SAVE would keep them" : "ROM was not written"));
+  CHECK(says(result, erases ? "a SAVE would keep them" : "is not saved"));
   CHECK_FALSE(says(result, "before anything was sent"));
   CHECK(result.changes[0].status == ChangeStatus::written);
   CHECK(bench.count("SAVE") == 0);
@@ -751,7 +751,7 @@ TEST_CASE("interrupted while it is looked at before SAVE: ROM was not written") 
   CHECK_FALSE(bench.job->must_finish());
   const ChangeResult& result = bench.cancel();
   CHECK(failure(result) == Code::interrupted);
-  CHECK(says(result, "ROM was not written"));
+  CHECK(says(result, "is not saved"));
   CHECK(bench.count("SAVE") == 0);
 }
 

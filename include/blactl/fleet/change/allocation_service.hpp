@@ -98,7 +98,7 @@ class AllocationService final : private dronecan::Service, private dronecan::All
   [[nodiscard]] Result<std::size_t> free_ids() const;
 
  private:
-  enum class Holder : std::uint8_t { nobody, unknown, other, twin };
+  enum class Holder : std::uint8_t { nobody, unknown, other };
 
   void receive(const dronecan::Transfer& transfer) override;
 
@@ -120,8 +120,7 @@ class AllocationService final : private dronecan::Service, private dronecan::All
   void note_request(AllocatedUnit& unit);
   [[nodiscard]] AllocatedUnit* known(const dronecan::UniqueId& unique_id);
   [[nodiscard]] Holder holder(dronecan::NodeId id, const dronecan::UniqueId& unique_id) const;
-  [[nodiscard]] bool is_heard_while_asking(const Member& member,
-                                           const dronecan::UniqueId& unique_id) const;
+  [[nodiscard]] std::optional<dronecan::NodeId> copy_of(const dronecan::UniqueId& unique_id) const;
   [[nodiscard]] bool is_left_out(dronecan::Bytes prefix) const;
   void hear_first_part(dronecan::Bytes prefix, Time at);
 

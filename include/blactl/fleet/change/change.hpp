@@ -21,6 +21,12 @@
 
 namespace blactl::fleet {
 
+/// What ROM holds, as far as proofs and the record of changes tell.
+struct ToldRom {
+  bla::Values values{};
+  bool is_proven = false; ///< else what changes in RAM only have replaced since the start
+};
+
 class Rounds;
 struct UnitChange;
 struct UnitTask;
@@ -83,7 +89,7 @@ class Change {
   [[nodiscard]] Result<Snapshots> read(std::span<const std::size_t> goals);
   [[nodiscard]] std::optional<Error> refuse(const Goal& goal, const Snapshot& held) const;
   [[nodiscard]] std::optional<bla::Values> proven_rom(const Goal& goal, const Servo& servo);
-  [[nodiscard]] bla::Values told_rom(const Goal& goal, const Servo& servo);
+  [[nodiscard]] ToldRom told_rom(const Goal& goal, const Snapshot& held);
   [[nodiscard]] std::optional<Error> refuse_unread_rom(const GoalResult& result,
                                                        const Snapshot& held, Need need);
   [[nodiscard]] std::vector<Error> hear();
@@ -99,6 +105,7 @@ class Change {
   [[nodiscard]] std::vector<Error> write_what_rom_lacks();
   [[nodiscard]] Result<Lost> look_at_unchanged();
   void look_back(const Lost& lost);
+  void look_back(GoalResult& result) const;
   void end_record();
 
   Session& session_;

@@ -38,7 +38,7 @@ class History {
   /// For one changed in an earlier round the existing record is kept. So it is if apply, undo or
   /// alloc --static were killed or failed, and the same command is repeated: undo goes back to the
   /// state before the first try.
-  [[nodiscard]] Result<void> keep(std::span<const Plan> plans, WallTime now);
+  [[nodiscard]] Result<void> keep(std::span<const Plan> plans, const Session& session);
 
   /// After a round: records the result of each servo, and the proofs of those whose configuration
   /// was read, complete and as expected, after a restart.
@@ -67,11 +67,10 @@ class History {
 
  private:
   [[nodiscard]] std::optional<state::RomProof> proof(const Servo& servo, const Session& session);
-  [[nodiscard]] Result<std::optional<state::Settlement>>
-  made_lasting(const ChangeResult& result) const;
-  [[nodiscard]] bla::Values replaced_in_ram(const dronecan::UniqueId& unique_id,
-                                            WallTime since) const;
-  [[nodiscard]] bla::Values taken_from_ram(const Plan& plan) const;
+  void note_lasting(const Plan& plan, const Session& session);
+  [[nodiscard]] bla::Values taken_from_ram(const Plan& plan, const Session& session) const;
+  [[nodiscard]] std::vector<state::SnapshotEntry> unsaved(const Servo& servo,
+                                                          const Session& session) const;
   [[nodiscard]] Result<void> leave_what_was_lost(std::span<const ChangeResult> results,
                                                  WallTime now);
   [[nodiscard]] Result<void> settle(std::span<const ChangeResult> results);
@@ -83,7 +82,8 @@ class History {
     state::SnapshotEntry entry;
     bool was_changed = false; ///< in any round
     bool was_saved = false;
-    bool is_empty = false; ///< a restart has shown that nothing was replaced
+    bool is_empty = false;         ///< a restart has shown that nothing was replaced
+    std::set<std::uint8_t> lost{}; ///< what a restart has taken from RAM
   };
 
   std::string command_;
@@ -92,6 +92,8 @@ class History {
   std::map<dronecan::UniqueId, Kept> kept_;
   std::int64_t run_ = 0;                    ///< of all entries of this command; 0: no record
   std::set<dronecan::UniqueId> unproven_{}; ///< their proofs were removed
+  /// The numbers of changes in RAM that SAVE makes permanent.
+  std::map<dronecan::UniqueId, std::set<std::int64_t>> lasting_{};
 };
 
 /// The settings that this plan replaces, with their present values; all writable ones for ERASE and
