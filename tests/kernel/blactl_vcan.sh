@@ -115,7 +115,7 @@ expect_err '24.0V'
 run "$blactl" set -n 12 pwm_neutral=1500us
 expect_status 2
 expect_err '[unsupported]'
-run "$blactl" set -n 11,12 smoothing=off pwm_mode=angle
+run "$blactl" set -n 11,12 smoothing=off pwm_mode=speed
 expect_status 2
 witness_stop
 expect_writes 0 8B

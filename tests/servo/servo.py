@@ -30,7 +30,8 @@ class Servo:
         self._world = world
         self.chance = random.Random(f"{seed} {setup['serial_number']}")
         self.serial = setup["serial_number"]
-        self.unique_id = hashlib.sha256(str(self.serial).encode()).digest()[:16]
+        own = hashlib.sha256(str(self.serial).encode()).hexdigest()[:32]
+        self.unique_id = bytes.fromhex(setup.get("unique_id", own))
         self.memory = Memory(setup, world.now)
         self.faults = Faults(setup.get("faults", {}))
         self._behaviour = setup.get("behaviour", {})
