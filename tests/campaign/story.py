@@ -107,9 +107,7 @@ def check_refusal(outcome, step):
     for frame in sent:
         since = f"{frame.time - record.armed_at():.3f} s after"
         require(frame.time < record.armed_at() + truth.TOLERANCE_S, f"sent {since} armed: {frame}")
-        # characterize puts back what it has changed whoever drives
-        restarts = (frame.type in (RESTART_NODE, EXECUTE_OPCODE) and
-                    outcome.command.words[0] != "characterize")
+        restarts = frame.type in (RESTART_NODE, EXECUTE_OPCODE)
         is_late = frame.time > record.driven_at() + truth.TOLERANCE_S
         require(not (restarts and is_late), f"sent to a driven servo: {frame}")
 

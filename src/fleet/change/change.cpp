@@ -6,9 +6,11 @@
 #include "blactl/fleet/change/guard.hpp"
 #include "blactl/fleet/change/history.hpp"
 
+#include "fleet/change/goal_results.hpp"
 #include "fleet/change/last_look.hpp"
 #include "fleet/change/rounds.hpp"
 #include "fleet/change/texts.hpp"
+#include "fleet/change/unnamed.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -18,7 +20,6 @@
 
 namespace blactl::fleet {
 
-using bla::Assignment;
 using dronecan::NodeId;
 
 namespace {
@@ -26,35 +27,6 @@ namespace {
 Wanted wanted(const Goal& goal, Need need) {
   return need == Need::prove ? Wanted{.restart = RestartKind::restart, .proves_rom = true}
                              : goal.wanted;
-}
-
-/// From the present to the wanted values.
-std::vector<RegisterChange> changes(const Goal& goal, const Snapshot& held) {
-  std::vector<RegisterChange> all;
-  for (const Assignment& wish : goal.wanted.assignments) {
-    const bla::Parameter* parameter = held.servo.identity.parameter(wish.parameter->address);
-    if (parameter != nullptr) { // else there will be no plan
-      all.push_back(change_from(held.raw(parameter->address), parameter, wish.value.raw));
-    }
-  }
-  return all;
-}
-
-/// Updates a register that an earlier round may have changed, from the last one.
-void learn(RegisterChange& change, const ChangeResult& last) {
-  const auto same = std::ranges::find_if(last.changes, [&](const RegisterChange& each) {
-    return each.parameter->address == change.parameter->address;
-  });
-  if (same == last.changes.end()) {
-    return;
-  }
-  change.after = same->after;
-  change.error = same->error;
-  const bool was_made = change.is_planned() && same->status == ChangeStatus::unchanged;
-  const bool is_other = same->status == ChangeStatus::written && same->after != change.requested;
-  change.status = is_other   ? ChangeStatus::mismatch
-                  : was_made ? ChangeStatus::written
-                             : same->status;
 }
 
 /// Whether a restart has not shown that ROM holds the goal.
@@ -69,83 +41,6 @@ Error made_way(const UnitChange& unit, NodeId before) {
   return {Code::state,
           say<texts::has_made_way>(before.value(), now, unit.static_node_id()->value()),
           say<texts::run_again_hint>(), now};
-}
-
-bool names(const Goal& goal, bla::Address address) {
-  return std::ranges::any_of(goal.wanted.assignments, [&](const Assignment& wish) {
-    return wish.parameter->address == address;
-  });
-}
-
-Warning unnamed(const std::string& name, const std::string& ram, const std::string& rom,
-                bool is_saved, bool is_proven) {
-  if (is_saved) {
-    return {"unnamed_saved", is_proven ? say<texts::unnamed_saved>(name, ram, rom)
-                                       : say<texts::recorded_saved>(name, ram, rom)};
-  }
-  return {"unnamed_lost", is_proven ? say<texts::unnamed_at_risk>(name, ram, rom)
-                                    : say<texts::recorded_at_risk>(name, ram, rom)};
-}
-
-/// Warnings about registers outside of the goal that differ between RAM and ROM: SAVE keeps them, a
-/// restart resets them, or has done so.
-std::vector<Warning> unnamed(const Goal& goal, const Snapshot& ram, const ToldRom& rom, Need need,
-                             bool is_restarted = false) {
-  const bool is_saved = goal.saves() && need != Need::prove;
-  std::vector<Warning> warnings;
-  for (const Reading& reading : ram.readings) {
-    const bla::Parameter& parameter = *reading.parameter;
-    const auto kept = bla::find(rom.values, parameter.address);
-    if (!parameter.is_setting() || names(goal, parameter.address) || !reading.raw || !kept ||
-        kept == reading.raw) {
-      continue;
-    }
-    const std::string in_ram = bla::display(parameter, *reading.raw, ram.pwm_mode());
-    const std::string in_rom = bla::display(parameter, *kept, ram.pwm_mode());
-    warnings.push_back(
-        is_restarted
-            ? Warning{"unnamed_lost", say<texts::unnamed_lost>(parameter.name, in_ram, in_rom)}
-            : unnamed(parameter.name, in_ram, in_rom, is_saved, rom.is_proven));
-  }
-  return warnings;
-}
-
-/// Compares the goal with the present values; a plan may add to it.
-GoalResult compared(Goal goal, Need need, const Snapshot& held) {
-  GoalResult result{.goal = std::move(goal), .need = need};
-  ChangeResult& change = result.change;
-  change.servo = held.servo;
-  change.before = held.values();
-  change.changes = changes(result.goal, held);
-  change.mode_before = change.mode_after = held.pwm_mode();
-  for (const RegisterChange& each : change.changes) {
-    if (each.parameter->address == bla::address::pwm_mode) {
-      change.mode_after = each.requested;
-    }
-  }
-  change.node_id_after = held.servo.id;
-  result.is_done = need == Need::nothing;
-  return result;
-}
-
-/// `earlier`: the same servo, before its last round.
-ChangeResult merged(ChangeResult earlier, const ChangeResult& last) {
-  ChangeResult all = last;
-  all.was_begun = all.was_begun || earlier.was_begun;
-  all.was_sent = all.was_sent || earlier.was_sent;
-  all.may_have_saved = all.may_have_saved || earlier.may_have_saved;
-  all.was_restarted = all.was_restarted || earlier.was_restarted;
-  all.duration += earlier.duration;
-  all.before = std::move(earlier.before);
-  all.mode_before = earlier.mode_before;
-  all.mode_after = earlier.mode_after;
-  std::ranges::copy_if(last.warnings, std::back_inserter(earlier.warnings), [&](const Warning& w) {
-    return std::ranges::find(earlier.warnings, w.text, &Warning::text) == earlier.warnings.end();
-  });
-  all.warnings = std::move(earlier.warnings);
-  all.changes = std::move(earlier.changes);
-  std::ranges::for_each(all.changes, [&](RegisterChange& each) { learn(each, last); });
-  return all;
 }
 
 } // namespace
@@ -213,18 +108,6 @@ std::optional<bla::Values> Change::proven_rom(const Goal& goal, const Servo& ser
              : std::nullopt;
 }
 
-/// Empty if nothing makes RAM and ROM equal, or the servo could not read its ROM: what it held
-/// before a change then was not from there.
-ToldRom Change::told_rom(const Goal& goal, const Snapshot& held) {
-  History* const record = options_.manner.proofs;
-  if (!goal.wanted.restart || goal.wanted.erase || record == nullptr || check_rom(held)) {
-    return {};
-  }
-  auto proven = record->proven_rom(held.servo, session_);
-  return proven ? ToldRom{.values = std::move(*proven), .is_proven = true}
-                : ToldRom{.values = record->replaced_in_ram(held.servo, session_)};
-}
-
 /// ROM that could not be read may be whole, and SAVE would replace it by initial values. A restart
 /// may read it; if one did not, the user decides, before this run has changed anything.
 std::optional<Error> Change::refuse_unread_rom(const GoalResult& result, const Snapshot& held,
@@ -263,7 +146,7 @@ std::vector<Error> Change::judge(std::span<const std::size_t> goals, Snapshots s
       continue;
     }
     const auto rom = proven_rom(result.goal, held.servo);
-    const ToldRom told = told_rom(result.goal, held);
+    const ToldRom told = told_rom(result.goal, held, options_.manner.proofs, session_);
     const Need need = need_of(result.goal, held, rom);
     if (auto error = refuse_unread_rom(result, held, need)) {
       result.errors.push_back(*error);

@@ -139,7 +139,7 @@ std::unique_ptr<SaveRestartJob> ChangeJob::restart() const {
                                   .come_back = options_.come_back,
                                   .patience = options_.identification.patience,
                                   .pace = options_.pace,
-                                  .since = begin_,
+                                  .expected_free_since = begin_,
                                   .may_be_driven = may_be_driven()};
   if (given.value_or(0) != 0) {
     options.expected = dronecan::NodeId(static_cast<std::uint8_t>(*given));

@@ -161,9 +161,13 @@ void ChangeJob::explain_interruption(Stage at) {
   } else if (plan_.erase && is_unsaved) {
     interrupted(say<texts::erased_not_saved>(id));
   } else if (at == Stage::write) {
-    std::ranges::for_each(result_.changes, [](RegisterChange& change) { change.error.reset(); });
+    for (RegisterChange& change : result_.changes) { // what the servo refused stays said
+      if (change.error && change.error->code == Code::interrupted) {
+        change.error.reset();
+      }
+    }
     interrupted(write_->has_written() ? say<texts::write_broken_off>(id)
-                                      : say<texts::not_begun>(id));
+                                      : say<texts::before_next_write>(id));
   } else if (is_unsaved && at != Stage::write && !plan_.changes.empty()) {
     interrupted(say<texts::not_saved>(id));
   }

@@ -12,6 +12,22 @@
 #include <list>
 
 namespace blactl::fleet {
+namespace {
+
+/// Asks each servo that nobody has asked yet for its unique ID: it may be that of one to be
+/// changed.
+Result<void> ask_units(Session& session, Patience patience) {
+  std::list<UnitJob> jobs;
+  std::vector<dronecan::Job*> group;
+  for (const auto& [id, member] : session.roster().members()) {
+    if (member.sends_actuator_status() && !member.info && !session.is_replay()) {
+      group.push_back(&jobs.emplace_back(session.records(), id, patience));
+    }
+  }
+  return session.run(group);
+}
+
+} // namespace
 
 std::optional<Error> Guard::forbids(const Servo& servo, Time now) const {
   const std::uint8_t id = servo.id.value();
@@ -60,23 +76,6 @@ std::optional<Error> forbidden(const Roster& roster, Time now, const Plan& plan,
   }
   return std::nullopt;
 }
-
-namespace {
-
-/// Asks each servo that nobody has asked yet for its unique ID: it may be that of one to be
-/// changed.
-Result<void> ask_units(Session& session, Patience patience) {
-  std::list<UnitJob> jobs;
-  std::vector<dronecan::Job*> group;
-  for (const auto& [id, member] : session.roster().members()) {
-    if (member.sends_actuator_status() && !member.info && !session.is_replay()) {
-      group.push_back(&jobs.emplace_back(session.records(), id, patience));
-    }
-  }
-  return session.run(group);
-}
-
-} // namespace
 
 OthersHeard hear_others(Session& session, Patience patience, std::optional<Time> searched) {
   OthersHeard heard;

@@ -39,6 +39,11 @@ state::RomProof proof_of(const UniqueId& unique_id, const RomReading& rom, const
           .uptime = rom.uptime};
 }
 
+/// When the last uptime of this node was heard.
+WallTime told_at(const Member& member, const Session& session) {
+  return session.wall() - (session.now() - member.status_at);
+}
+
 } // namespace
 
 /// A restart that is to show what ROM holds may replace any of them: History::conclude() leaves
@@ -110,8 +115,33 @@ bla::Values History::taken_from_ram(const Plan& plan, const Session& session) co
   return taken;
 }
 
+/// The record of a servo as this plan changes it; empty: there is none, or it stays as it is.
+std::optional<state::SnapshotEntry> History::entry_of(const Plan& plan, const Session& session) {
+  const auto& unique_id = plan.before.servo.unique_id;
+  auto held = stored(replaced_by(plan));
+  held.merge(stored(taken_from_ram(plan, session)));
+  if (!unique_id || held.empty()) {
+    return std::nullopt;
+  }
+  const auto known = kept_.find(*unique_id);
+  state::SnapshotEntry entry =
+      known != kept_.end()
+          ? known->second.entry
+          : state::SnapshotEntry{
+                .run = run_, .at = session.wall(), .command = command_, .unique_id = *unique_id};
+  const state::SnapshotEntry before = entry;
+  if (plan.restart == RestartKind::save && known != kept_.end()) { // undo would save them
+    for (const std::uint8_t address : std::exchange(known->second.lost, {})) {
+      entry.held.erase(address);
+    }
+  }
+  entry.held.merge(held); // values replaced in an earlier round stay
+  entry.saved = entry.saved || plan.restart == RestartKind::save;
+  entry.run = run_ != 0 ? run_ : entry.run;
+  return entry.number == 0 || entry != before ? std::optional(std::move(entry)) : std::nullopt;
+}
+
 Result<void> History::keep(std::span<const Plan> plans, const Session& session) {
-  const WallTime now = session.wall();
   for (const Plan& plan : plans) {
     const auto& unique_id = plan.before.servo.unique_id;
     auto resumed = unique_id ? resume(*unique_id) : Result<void>();
@@ -121,39 +151,15 @@ Result<void> History::keep(std::span<const Plan> plans, const Session& session) 
   }
   std::vector<state::SnapshotEntry> entries;
   for (const Plan& plan : plans) {
-    const auto& unique_id = plan.before.servo.unique_id;
-    auto held = stored(replaced_by(plan));
-    held.merge(stored(taken_from_ram(plan, session)));
     note_lasting(plan, session);
-    if (!unique_id || held.empty()) {
-      continue;
-    }
-    const auto known = kept_.find(*unique_id);
-    state::SnapshotEntry entry =
-        known != kept_.end()
-            ? known->second.entry
-            : state::SnapshotEntry{
-                  .run = run_, .at = now, .command = command_, .unique_id = *unique_id};
-    const std::size_t size = entry.held.size();
-    if (plan.restart == RestartKind::save && known != kept_.end()) { // undo would save them
-      for (const std::uint8_t address : std::exchange(known->second.lost, {})) {
-        entry.held.erase(address);
-      }
-    }
-    entry.held.merge(held); // values replaced in an earlier round stay
-    const bool saves = entry.saved || plan.restart == RestartKind::save;
-    const std::int64_t run = run_ != 0 ? run_ : entry.run;
-    if (entry.number == 0 || entry.held.size() != size || entry.saved != saves ||
-        entry.run != run) {
-      entry.saved = saves;
-      entry.run = run;
-      entries.push_back(std::move(entry));
+    if (auto entry = entry_of(plan, session)) {
+      entries.push_back(std::move(*entry));
     }
   }
   if (entries.empty()) {
     return {};
   }
-  const auto numbers = snapshots_.keep(entries, now);
+  const auto numbers = snapshots_.keep(entries, session.wall());
   if (!numbers) {
     return std::unexpected(numbers.error());
   }
@@ -211,7 +217,7 @@ std::optional<state::RomProof> History::proof(const Servo& servo, const Session&
   }
   const auto proof = proofs_.find(*servo.unique_id);
   const std::chrono::seconds uptime(member.status->uptime_s);
-  const WallTime told = session.wall() - (session.now() - member.status_at);
+  const WallTime told = told_at(member, session);
   if (!proof || !*proof || !state::holds(**proof, uptime, told)) {
     return std::nullopt;
   }
@@ -243,8 +249,7 @@ std::vector<state::SnapshotEntry> History::unsaved(const Servo& servo,
   if (!servo.unique_id || !member.is_unit(*servo.unique_id) || !member.status) {
     return entries;
   }
-  const WallTime started = session.wall() - (session.now() - member.status_at) -
-                           std::chrono::seconds(member.status->uptime_s);
+  const WallTime started = told_at(member, session) - std::chrono::seconds(member.status->uptime_s);
   auto entry = snapshots_.last(*servo.unique_id);
   while (entry && *entry && !(*entry)->saved && (*entry)->at >= started) {
     entries.push_back(std::move(**entry));

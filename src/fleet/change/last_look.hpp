@@ -1,6 +1,7 @@
 #pragma once
 // The last look at servos whose change is in RAM only.
 
+#include "blactl/fleet/bus/register_access.hpp"
 #include "blactl/fleet/bus/session.hpp"
 
 #include <optional>

@@ -137,7 +137,7 @@ bool SaveRestartJob::is_expected_id_taken() const {
     return false;
   }
   const Member* there = roster_.find(*options_.expected);
-  return there != nullptr && there->last_heard > options_.since;
+  return there != nullptr && there->last_heard > options_.expected_free_since;
 }
 
 /// A servo that has not restarted until now is old enough to show a restart after this moment.

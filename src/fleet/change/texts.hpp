@@ -249,6 +249,8 @@ inline constexpr Text defaults_unknown_hint{
 };
 inline constexpr Text not_saved{"node {} was written in RAM, which is not saved",
                                 "ノード {} は RAM に書き込みましたが、保存していません"};
+inline constexpr Text before_next_write{"interrupted before the next write to node {}",
+                                        "ノード {} への次の書込みの前に中断しました"};
 inline constexpr Text write_broken_off{
     "interrupted while node {} was written: RAM may hold a part of it, which is not saved",
     "ノード {} への書込み中に中断しました。RAM は一部のみ変更された可能性があり、保存していません"};

@@ -230,7 +230,7 @@ Result<void> TestBench::give_back_start() {
                      {.kind = RestartKind::restart,
                       .come_back = longest_start,
                       .patience = manner_.identification.patience,
-                      .may_be_driven = may_be_driven()});
+                      .may_be_driven = manner_.while_driven}); // its load would drop
   Stubborn stubborn(job);
   if (auto ran = run(stubborn); !ran) {
     return ran;

@@ -710,6 +710,15 @@ TEST_CASE("interrupted while it writes: the rest is not tried, nothing is saved"
   CHECK(bench.count("SAVE") == 0);
 }
 
+TEST_CASE("interrupted while it writes: what was refused before stays said") {
+  Bench bench(set({"reverse=on", "angle_limit_cw=90deg"}));
+  bench.stuck.insert(at::reverse);
+  bench.until("write 0x38=900");
+  const ChangeResult& result = bench.cancel();
+  CHECK(failure(result) == Code::refused);
+  CHECK(says(result, "interrupted while node 11 was written"));
+}
+
 TEST_CASE("interrupted between writing and SAVE: RAM has it, ROM does not, and that is told") {
   const bool erases = GENERATE(true, false);
   Bench bench(erases ? erase_keeping_ids : set({"reverse=on"}, true), with_ids);

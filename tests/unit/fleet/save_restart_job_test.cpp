@@ -31,7 +31,7 @@ class Bench {
                           .patience = {500ms, 2},
                           .pace = &pace,
                           .expected = expected,
-                          .since = now}) {}
+                          .expected_free_since = now}) {}
 
   /// Another node writes 1 to register `address` of servo 11.
   void other_writes(bla::Address address) {

@@ -21,12 +21,6 @@
 
 namespace blactl::fleet {
 
-/// What ROM holds, as far as proofs and the record of changes tell.
-struct ToldRom {
-  bla::Values values{};
-  bool is_proven = false; ///< else what changes in RAM only have replaced since the start
-};
-
 class Rounds;
 struct UnitChange;
 struct UnitTask;
@@ -89,7 +83,6 @@ class Change {
   [[nodiscard]] Result<Snapshots> read(std::span<const std::size_t> goals);
   [[nodiscard]] std::optional<Error> refuse(const Goal& goal, const Snapshot& held) const;
   [[nodiscard]] std::optional<bla::Values> proven_rom(const Goal& goal, const Servo& servo);
-  [[nodiscard]] ToldRom told_rom(const Goal& goal, const Snapshot& held);
   [[nodiscard]] std::optional<Error> refuse_unread_rom(const GoalResult& result,
                                                        const Snapshot& held, Need need);
   [[nodiscard]] std::vector<Error> hear();

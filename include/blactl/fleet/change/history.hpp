@@ -68,6 +68,8 @@ class History {
  private:
   [[nodiscard]] std::optional<state::RomProof> proof(const Servo& servo, const Session& session);
   void note_lasting(const Plan& plan, const Session& session);
+  [[nodiscard]] std::optional<state::SnapshotEntry> entry_of(const Plan& plan,
+                                                             const Session& session);
   [[nodiscard]] bla::Values taken_from_ram(const Plan& plan, const Session& session) const;
   [[nodiscard]] std::vector<state::SnapshotEntry> unsaved(const Servo& servo,
                                                           const Session& session) const;

@@ -43,7 +43,7 @@ class SaveRestartJob final : public dronecan::Job {
     RestartPace* pace = nullptr; ///< outlives the job; null: no other servo is waited for
     /// The future node ID of the servo, if known.
     std::optional<dronecan::NodeId> expected{};
-    Time since{};               ///< whoever is heard on the future node ID after this is another
+    Time expected_free_since{}; ///< whoever is heard on that ID after this is another unit
     bool may_be_driven = false; ///< also while another node drives the servo
   };
 
