@@ -183,6 +183,7 @@ void Roster::hear(const can::Frame& frame, Time at) {
   if (!header || !header->source.is_unicast() || header->source == local_) {
     return;
   }
+  hear_request(*header, frame, at);
   Member& heard = known(header->source);
   heard.last_heard = at;
   answers_.receive(*header, frame, at);
@@ -197,6 +198,20 @@ void Roster::hear(const can::Frame& frame, Time at) {
   }
   if (header->kind == Kind::message && header->data_type_id == dronecan::NodeStatus::type.id) {
     hear_status(heard, frame, at);
+  }
+}
+
+void Roster::hear_own(const can::Frame& frame, Time at) {
+  if (const auto header = dronecan::decode_id(frame.id); header && frame.size > 0) {
+    hear_request(*header, frame, at);
+  }
+}
+
+/// A request for GetNodeInfo is one frame.
+void Roster::hear_request(const dronecan::Header& header, const can::Frame& frame, Time at) {
+  if (header.kind == Kind::request && header.data_type_id == dronecan::GetNodeInfo::type.id) {
+    watches_[header.destination.value()].hear_request(
+        header.source, frame.data[frame.size - 1U] % dronecan::transfer_id_modulus, at);
   }
 }
 
@@ -244,7 +259,7 @@ void Roster::receive(const Transfer& transfer) {
       Member& sender = known(header.source);
       sender.status = info->status;
       sender.status_at = transfer.at;
-      take(watches_[header.source.value()].hear_answer(info->status.uptime_s, transfer.at), sender);
+      take(watches_[header.source.value()].hear_answer(info->status.uptime_s, transfer), sender);
       learn(header.source, *info, transfer.at);
     }
   }

@@ -169,6 +169,7 @@ Result<Session::Happened> Session::take(const can::Event& event) {
   }
   if (const auto* sent = std::get_if<can::Sent>(&event)) {
     node_.sent(sent->frame, sent->at);
+    roster_.hear_own(sent->frame, sent->at);
     if (traffic_ != nullptr) {
       traffic_->hear_own(sent->frame, sent->at);
     }

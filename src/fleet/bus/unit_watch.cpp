@@ -15,9 +15,11 @@ constexpr unsigned most_statuses_of_one = 14;
 /// Uptime counts whole seconds and its message may be late: two starts closer than this are one.
 constexpr Duration start_tolerance = std::chrono::milliseconds(1500);
 
-/// The tolerance for a response, which may be as late as its timeout. SaveRestartJob lets servos
-/// grow older than this before it restarts them.
+/// The delay of a response whose request was not heard, and the tolerance for its start.
+constexpr Duration usual_delay = std::chrono::seconds(1);
 constexpr Duration answer_tolerance = std::chrono::seconds(2);
+
+constexpr Duration uptime_step = std::chrono::seconds(1);
 
 /// A frame is sent again as soon as the bus is free. Two servos that were switched on together may
 /// number theirs alike, but not for long at the same moment.
@@ -87,13 +89,23 @@ UnitWatch::Start UnitWatch::hear_repetition(dronecan::TransferId transfer_id,
   return is_repeated ? hear_uptime(uptime_s, at) : Start::known;
 }
 
-UnitWatch::Start UnitWatch::hear_answer(std::uint32_t uptime_s, Time at) {
+/// The longest possible one.
+Duration UnitWatch::delay(const dronecan::Transfer& response) const {
+  const Request& request = requests_[response.transfer_id];
+  const bool was_heard =
+      request.client.is_unicast() && request.client == response.header.destination;
+  return was_heard ? response.at - request.at : usual_delay;
+}
+
+UnitWatch::Start UnitWatch::hear_answer(std::uint32_t uptime_s,
+                                        const dronecan::Transfer& response) {
   const auto known = started();
-  const Time start = at - std::chrono::seconds(uptime_s);
-  if (!known || start - *known > answer_tolerance) {
-    return hear_uptime(uptime_s, at);
+  const Time latest = response.at - std::chrono::seconds(uptime_s);
+  const Time earliest = latest - delay(response) - uptime_step;
+  if (!known || earliest > *known) {
+    return hear_uptime(uptime_s, response.at);
   }
-  return *known - start > answer_tolerance ? Start::twin : Start::known;
+  return *known - latest > answer_tolerance ? Start::twin : Start::known;
 }
 
 } // namespace blactl::fleet

@@ -83,12 +83,18 @@ class Ear {
     hear(message(Allocation::type, source, part.encode(), next()));
   }
 
-  /// The answer of a unit to our GetNodeInfo.
-  void info(std::uint8_t source, std::uint8_t unit, std::uint32_t uptime_s,
-            dronecan::TransferId id) {
+  void ask_info(std::uint8_t client, std::uint8_t server, dronecan::TransferId id) {
+    for (const auto& frame : service(Kind::request, GetNodeInfo::type, client, server, {}, id)) {
+      client == roster.local().value() ? roster.hear_own(frame, now) : roster.hear(frame, now);
+    }
+  }
+
+  /// The answer of a unit to GetNodeInfo.
+  void info(std::uint8_t source, std::uint8_t unit, std::uint32_t uptime_s, dronecan::TransferId id,
+            std::uint8_t client = 127) {
     const GetNodeInfo::Response response{
         .status = {.uptime_s = uptime_s}, .unique_id = {unit}, .name = "servo"};
-    hear(service(Kind::response, GetNodeInfo::type, source, 127, response.encode(), id));
+    hear(service(Kind::response, GetNodeInfo::type, source, client, response.encode(), id));
   }
 
   dronecan::TransferId next() {
@@ -432,6 +438,34 @@ TEST_CASE("an answer that was under way for long is no restart") {
   ear.now += 150ms;
   ear.hear(service(Kind::response, GetNodeInfo::type, 10, 127, info.encode()));
   CHECK(ear.roster.find(NodeId(10))->boots == 0);
+}
+
+TEST_CASE("a late response with an old uptime is no second unit, whoever asked") {
+  const auto client = GENERATE(std::uint8_t{126}, std::uint8_t{127});
+  Ear ear;
+  ear.status(47, 0);
+  ear.now += 700ms;
+  ear.ask_info(client, 47, 3);
+  ear.now += 300ms;
+  ear.status(47, 1);
+  ear.now += 1s;
+  ear.status(47, 2);
+  ear.now += 200ms;
+  ear.info(47, 1, 0, 3, client); // 1.5 s late
+  ear.now += 800ms;
+  ear.status(47, 3);
+  CHECK_FALSE(ear.roster.is_doubled(NodeId(47)));
+  CHECK(ear.roster.member(NodeId(47)).boots == 0);
+}
+
+TEST_CASE("a prompt response with an old uptime is of a unit that has restarted") {
+  Ear ear;
+  ear.status(47, 3);
+  ear.now += 500ms;
+  ear.ask_info(127, 47, 3);
+  ear.now += 10ms;
+  ear.info(47, 1, 0, 3);
+  CHECK(ear.roster.member(NodeId(47)).boots == 1);
 }
 
 TEST_CASE("who asks for a node ID is pending until it has one") {

@@ -118,6 +118,9 @@ class Roster {
   /// one unit can.
   void hear(const can::Frame& frame, Time at);
 
+  /// Takes every frame of ours that has left.
+  void hear_own(const can::Frame& frame, Time at);
+
   void receive(const dronecan::Transfer& transfer);
 
   /// The unit behind `id` responded to GetNodeInfo: earlier facts may be about another unit.
@@ -208,6 +211,7 @@ class Roster {
  private:
   [[nodiscard]] Member& known(dronecan::NodeId id);
   void announce(const Member& member);
+  void hear_request(const dronecan::Header& header, const can::Frame& frame, Time at);
   void hear_status(Member& sender, const can::Frame& frame, Time at);
   void on_status(const dronecan::Transfer& transfer);
   void on_allocation(const dronecan::Transfer& transfer);

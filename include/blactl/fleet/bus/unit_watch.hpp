@@ -38,21 +38,34 @@ class UnitWatch {
   [[nodiscard]] Start hear_repetition(dronecan::TransferId transfer_id, std::uint32_t uptime_s,
                                       Time at);
 
+  /// A request for GetNodeInfo: its response is younger.
+  void hear_request(dronecan::NodeId client, dronecan::TransferId transfer_id, Time at) {
+    requests_[transfer_id] = {client, at};
+  }
+
   /// Takes the uptime of a response, which may have been delayed: its start then looks later than
   /// it was, never earlier.
-  [[nodiscard]] Start hear_answer(std::uint32_t uptime_s, Time at);
+  [[nodiscard]] Start hear_answer(std::uint32_t uptime_s, const dronecan::Transfer& response);
 
   /// The latest possible start of the unit that sent the last uptime; empty: none was received.
   [[nodiscard]] std::optional<Time> started() const { return starts_[last_start_]; }
 
  private:
+  struct Request {
+    dronecan::NodeId client{};
+    Time at{};
+  };
+
+  [[nodiscard]] Duration delay(const dronecan::Transfer& response) const;
+
   std::optional<Time> window_start_{};
   unsigned count_ = 0;
   unsigned leaps_ = 0;                ///< transfer IDs out of sequence
   can::Frame last_actuator_status_{}; ///< its first frame
   Time last_actuator_status_at_{};
   bool is_too_fast_ = false;
-  std::optional<dronecan::TransferId> last_status_id_{}; ///< of NodeStatus
+  std::optional<dronecan::TransferId> last_status_id_{};          ///< of NodeStatus
+  std::array<Request, dronecan::transfer_id_modulus> requests_{}; ///< for GetNodeInfo
   std::array<std::optional<Time>, 2> starts_{};
   std::size_t last_start_ = 0;
   std::uint32_t last_uptime_s_ = 0;
