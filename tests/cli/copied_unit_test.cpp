@@ -123,3 +123,21 @@ TEST_CASE("a unit that asks, and whose unique ID another has already, gets no no
   CHECK(codes(given) == std::vector<std::string>{"duplicate_unique_id"});
   CHECK(contains(given.out, R"("assigned":0)"));
 }
+
+TEST_CASE("a servo is not restarted while a unit with its unique ID asks for a node ID") {
+  const nlohmann::json same = {{"unique_id", "abababababababababababababababab"}};
+  Fleet fleet(Scene().servo("BLA21-12U-AB", 11, same).servo("BLA21-12U-AB", 0, same));
+  const auto command = GENERATE(Arguments{"restart", "-n", "11", "-y"},
+                                Arguments{"set", "-n", "11", "smoothing=off", "--save", "-y"});
+  check_error(fleet.run(command), 9, "duplicate_unique_id",
+              "node 11 and a unit that asks for a node ID have the same unique ID");
+  CHECK(fleet.count("restart") == 0);
+  CHECK(fleet.run({"set", "-n", "11", "smoothing=off", "-y"}).status == 0);
+}
+
+TEST_CASE("a unit that asks, and whose unique ID only begins like that of a servo, is another") {
+  Fleet fleet(Scene()
+                  .servo("BLA21-12U-AB", 11, {{"unique_id", "abababababababababababababababab"}})
+                  .servo("BLA21-12U-AB", 0, {{"unique_id", "abababababab00000000000000000000"}}));
+  CHECK(fleet.run({"restart", "-n", "11", "-y"}).status == 0);
+}

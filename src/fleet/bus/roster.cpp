@@ -311,13 +311,13 @@ void Roster::on_allocation(const Transfer& transfer) {
   if (transfer.header.source.is_unicast()) {
     allocators_.insert(transfer.header.source);
     if (allocation->node_id != 0 && prefix.size() == allocation->unique_id.size()) {
-      std::erase_if(pending_, [&](const UniqueIdPrefix& waiting) {
-        return std::ranges::equal(waiting, std::span(prefix).first(waiting.size()));
+      std::erase_if(pending_, [&](const auto& waiting) {
+        return std::ranges::equal(waiting.first, std::span(prefix).first(waiting.first.size()));
       });
     }
   } else if (allocation->first_part_of_unique_id && !prefix.empty() &&
-             pending_.size() < most_pending) {
-    pending_.insert(prefix);
+             (pending_.size() < most_pending || pending_.contains(prefix))) {
+    pending_.insert_or_assign(prefix, transfer.at);
   }
 }
 
@@ -339,10 +339,11 @@ state::NodeIds Roster::ids_in_use(const dronecan::UniqueId& unit) const {
   return ids;
 }
 
-bool Roster::is_pending(const dronecan::UniqueId& unique_id) const {
-  return std::ranges::any_of(pending_, [&](const UniqueIdPrefix& prefix) {
-    return std::ranges::equal(prefix, std::span(unique_id).first(prefix.size()));
+std::optional<Time> Roster::asked_at(const dronecan::UniqueId& unique_id) const {
+  const auto waiting = std::ranges::find_if(pending_, [&](const auto& entry) {
+    return std::ranges::equal(entry.first, std::span(unique_id).first(entry.first.size()));
   });
+  return waiting != pending_.end() ? std::optional(waiting->second) : std::nullopt;
 }
 
 std::optional<NodeId> Roster::driver_of(const Servo& servo, Time now) const {

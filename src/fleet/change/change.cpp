@@ -6,6 +6,7 @@
 #include "blactl/fleet/change/guard.hpp"
 #include "blactl/fleet/change/history.hpp"
 
+#include "fleet/change/asking_copies.hpp"
 #include "fleet/change/goal_results.hpp"
 #include "fleet/change/last_look.hpp"
 #include "fleet/change/rounds.hpp"
@@ -206,13 +207,18 @@ std::vector<Error> Change::hear() {
 /// A record of one unit must not pass for another: of a servo left unchanged as well.
 std::vector<Error> Change::refuse_copies(std::span<const std::size_t> goals) {
   std::vector<Error> errors;
+  std::vector<NodeId> nodes;
   for (const std::size_t i : goals) {
-    if (auto error = not_unique(session_.roster(), results_[i].servo().id)) {
+    nodes.push_back(results_[i].servo().id);
+    if (auto error = not_unique(session_.roster(), nodes.back())) {
       results_[i].errors.push_back(*error);
       errors.push_back(std::move(*error));
     }
   }
-  return options_.gives_back ? std::vector<Error>() : errors;
+  if (options_.gives_back) {
+    return {};
+  }
+  return errors.empty() && options_.manner.may_allocate ? asking_copies(session_, nodes) : errors;
 }
 
 std::vector<Error> Change::prepare(std::span<const std::size_t> goals) {

@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <ranges>
 #include <set>
 #include <vector>
 
@@ -170,10 +171,16 @@ class Roster {
   /// that others have in 0x46, and our own.
   [[nodiscard]] state::NodeIds ids_in_use(const dronecan::UniqueId& unit) const;
 
-  [[nodiscard]] const std::set<UniqueIdPrefix>& pending() const { return pending_; }
+  /// The units that have asked for a node ID and got none.
+  [[nodiscard]] auto pending() const { return pending_ | std::views::keys; }
 
   /// Whether a unit with this unique ID has asked for a node ID and got none.
-  [[nodiscard]] bool is_pending(const dronecan::UniqueId& unique_id) const;
+  [[nodiscard]] bool is_pending(const dronecan::UniqueId& unique_id) const {
+    return asked_at(unique_id).has_value();
+  }
+
+  /// The last request of such a unit.
+  [[nodiscard]] std::optional<Time> asked_at(const dronecan::UniqueId& unique_id) const;
 
   [[nodiscard]] const std::set<dronecan::NodeId>& allocators() const { return allocators_; }
 
@@ -228,7 +235,7 @@ class Roster {
   dronecan::AnswerWatch answers_;
   std::set<dronecan::NodeId> doubled_;
   std::map<dronecan::NodeId, std::set<dronecan::UniqueId>> units_; ///< of doubled IDs
-  std::set<UniqueIdPrefix> pending_;
+  std::map<UniqueIdPrefix, Time> pending_;                         ///< when each asked last
   std::set<dronecan::NodeId> allocators_;
 };
 
