@@ -31,6 +31,7 @@ import monitor_story
 import scenario
 import story
 import truth
+import unnamed_story
 
 
 FROZEN = os.path.join(os.path.dirname(os.path.abspath(__file__)), "frozen")
@@ -92,16 +93,17 @@ class Campaign:
             try:
                 before = begun(world.dump()[1])
                 power_on = min(state["time"] for state in before.values())
-                given = {}
+                given, unsaved = {}, {}
                 for index, commands in enumerate(episode.steps):
                     told = bench.run_at_once(self.blactl, folder, world, commands, options)
                     events, after = world.dump()
                     step = truth.Step(commands, before, events, after, episode.scenario, power_on,
-                                      given)
+                                      given, unsaved)
                     given = step.given
                     if check:
                         check(told, step)
                         self.check_use(told, episode.must_succeed(index))
+                    unsaved = unnamed_story.unsaved_after(told, step)
                     outcomes += told
                     if any(outcome.status != 0 for outcome in told):
                         world.settle()
@@ -117,7 +119,10 @@ class Campaign:
             if self.verbose:
                 print(outcome)
             try:
-                judge_of(outcome).check(outcome, step, self.defaults, len(outcomes) == 1)
+                is_alone = len(outcomes) == 1
+                judge_of(outcome).check(outcome, step, self.defaults, is_alone)
+                if is_alone and outcome.status != story.KILLED:
+                    unnamed_story.check(outcome, step)
             except FAULTS as fault:
                 self.differ(fault, outcome)
 

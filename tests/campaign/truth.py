@@ -9,12 +9,14 @@ SETTLED_S = 3.0  # after this a servo that has started has sent its first NodeSt
 class Step:
     """One step of an episode: `commands` at once. `before`, `after`: the state of every servo by its serial number;
     `events`: what happened to them between; `scenario`: what was to go wrong after `power_on`;
-    `given`: the node IDs that servos were given before, and then those of this step, too."""
+    `given`: the node IDs that servos were given before, and then those of this step, too;
+    `unsaved`: what commands had written before, in RAM only."""
 
-    def __init__(self, commands, before, events, after, scenario, power_on, given):
+    def __init__(self, commands, before, events, after, scenario, power_on, given, unsaved):
         self._commands = commands
         self.before, self.after = before, after
         self._events, self._scenario, self._power_on = events, scenario, power_on
+        self.unsaved = unsaved
         self.given_before, self.given = given, {**given, **dict(self.allocated())}
         for serial in self.made_static():
             self.given.pop(serial, None)  # the table has that one
