@@ -49,7 +49,8 @@ std::optional<BusEvent> ReplayBus::receive() {
     clock_.pass(*line);
     if (line->kind == LogLine::Kind::frame) {
       has_frames_ = true;
-      return Received{line->frame, clock_.now(), clock_.wall()};
+      return Received{line->frame, clock_.now(), clock_.wall(),
+                      line->stamp != LogLine::Stamp::none};
     }
     if (line->kind == LogLine::Kind::error) {
       take_error_frame(*line);

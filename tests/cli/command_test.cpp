@@ -221,6 +221,13 @@ TEST_CASE("by ArrayCommand a servo moves as by its registers, and only alone on 
   check_error(shared, 9, "duplicate_servo_id", "13");
 }
 
+TEST_CASE("ArrayCommand minds an actuator of another make only where it has the servo's ID") {
+  const Arguments array{"command", "angle=-20deg", "--array", "-n", "12", "-y"};
+  CHECK(two_servos().foreign(20, {{"actuator_id", 30}}).run(array).status == 0);
+  check_error(two_servos().foreign(20, {{"actuator_id", 4}}).run(array), 9, "duplicate_servo_id",
+              "20");
+}
+
 TEST_CASE("a drawing is a file of XML with what was told and done") {
   const Bench bench;
   const std::string file = (bench.folder() / "step.svg").string();

@@ -45,6 +45,18 @@ std::ptrdiff_t names_in(const std::filesystem::path& folder) {
   return std::distance(std::filesystem::directory_iterator(folder), {});
 }
 
+/// A line of a log as candump shows it on a screen without stamps: "can0  1E0181FF   [1]  C0".
+std::string on_screen(const std::string& line) {
+  const std::string frame = line.substr(line.rfind(' ') + 1);
+  const std::size_t hash = frame.find('#');
+  std::string bytes;
+  for (std::size_t i = hash + 1; i < frame.size(); i += 2) {
+    bytes += ' ' + frame.substr(i, 2);
+  }
+  return "  can0  " + frame.substr(0, hash) + "   [" + std::to_string(bytes.size() / 3) + "] " +
+         bytes + '\n';
+}
+
 } // namespace
 
 TEST_CASE("doctor finds nothing on a bus that is well, and says what it looked at") {
@@ -282,4 +294,52 @@ TEST_CASE("--report that cannot be written is refused before anything is asked")
                  "--report", (bench.folder() / "b").string()});
   CHECK(both.status == 2);
   CHECK(codes(both) == std::vector<std::string>{"usage"});
+}
+
+TEST_CASE("doctor finds a node whose NodeStatus comes too rarely") {
+  const char* period = GENERATE("1500ms", "2500ms", "2900ms");
+  Scene scene = numbered_servos();
+  scene.foreign(40, {{"status_period", period}, {"actuator_id", 7}});
+  const Result result = scene.run({"doctor", "--json"});
+  INFO(period << result.out);
+  CHECK(found(result) == Codes{"slow_node_status"});
+  CHECK(contains(result.out, "node 40 sends NodeStatus " + std::string(period).substr(0, 4)));
+}
+
+TEST_CASE("lost frames of NodeStatus are no long period") {
+  Scene scene = numbered_servos();
+  scene.foreign(40).wire({{"loss", 0.3}});
+  CHECK_FALSE(contains(scene.run({"doctor", "--json"}).out, "slow_node_status"));
+}
+
+TEST_CASE("a servo shares its ID with an actuator of another make") {
+  Scene scene = numbered_servos();
+  scene.foreign(40, {{"actuator_id", 2}});
+  const Result examined = scene.run({"doctor", "--json"});
+  CHECK(found(examined) == Codes{"duplicate_servo_id"});
+  CHECK(contains(examined.out, "nodes 12, 40 have the same servo ID 2"));
+  CHECK(contains(examined.out, "blactl set -n 12 servo_id=ID --save"));
+}
+
+TEST_CASE("a log without stamps tells of a restart, and of no second unit") {
+  const Bench bench;
+  const std::string log = (bench.folder() / "bus.log").string();
+  const Scene scene = Scene()
+                          .servo("BLA21-12U-AB", 11, {{"serial_number", 7}, {"servo_id", 1}})
+                          .event(7, "power_off", "3s")
+                          .event(7, "power_on", "4s");
+  CHECK(scene.run(bench, {"trace", "--duration", "12", "--record", log}).status == 0);
+  for (std::size_t every = 2; every < 40; every += 3) { // lines are missing, as on a busy screen
+    std::string screen;
+    std::istringstream lines(content(log));
+    std::size_t number = 0;
+    for (std::string line; std::getline(lines, line);) {
+      screen += ++number % every == 0 ? "" : on_screen(line);
+    }
+    const std::string name = bench.file("screen.log", screen);
+    const Result examined = bench.run({"-i", "replay:" + name, "doctor", "--json"});
+    INFO(every << examined.out << examined.err);
+    CHECK_FALSE(contains(examined.out, "duplicate_node_id"));
+    CHECK(contains(examined.out, "restarted"));
+  }
 }

@@ -16,6 +16,11 @@ Scene& Scene::servo(std::string_view model, int node_id, const nlohmann::json& m
   return *this;
 }
 
+Scene& Scene::wire(const nlohmann::json& faults) {
+  document_["wire"] = faults;
+  return *this;
+}
+
 Scene& Scene::foreign(int node_id, const nlohmann::json& more) {
   nlohmann::json node = {{"kind", "node"}, {"node_id", node_id}};
   node.update(more.is_null() ? nlohmann::json::object() : more);

@@ -25,6 +25,9 @@ class Scene {
   Scene& servo(std::string_view model, int node_id, const nlohmann::json& more = {});
   Scene& foreign(int node_id, const nlohmann::json& more = {});
 
+  /// What the wire does to frames.
+  Scene& wire(const nlohmann::json& faults);
+
   /// The servo with this serial number has no power until then.
   Scene& joins(int serial_number, std::string_view at);
 

@@ -328,6 +328,15 @@ TEST_CASE("a servo ID that another servo has is not given away, 0 excepted") {
   CHECK(three_servos().run({"set", "-n", "11,12", "servo_id=0"}).status == 0);
 }
 
+TEST_CASE("a servo ID that an actuator of another make has is not given away") {
+  const Scene scene = Scene().servo("BLA21-12U-AB", 11).foreign(20, {{"actuator_id", 3}});
+  check_error(scene.run({"set", "-n", "11", "servo_id=3", "-y"}), 9, "duplicate_servo_id",
+              "node 11 would have servo ID 3, which node 20");
+  const Result other = scene.run({"set", "-n", "11", "servo_id=4", "-y"});
+  CHECK(other.status == 0);
+  CHECK_FALSE(contains(other.err, "node 20"));
+}
+
 TEST_CASE("a command is not saved") {
   check_error(three_servos().run({"set", "-n", "11", "command_angle=10deg", "--save", "-y"}), 2,
               "usage", "command_angle is a command: SAVE does not keep it");

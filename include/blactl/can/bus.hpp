@@ -20,6 +20,8 @@ struct Received {
   Frame frame;
   Time at;
   WallTime wall;
+  bool is_timed =
+      true; ///< false: from a line of a log without a stamp; `at` is that of a line before
 };
 
 /// The echo of one of our frames: some node has acknowledged it.

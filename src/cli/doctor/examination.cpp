@@ -89,6 +89,9 @@ void examine_bus(Duration time, Context& context, Examination& examination, Repo
     context.reporter().progress(say<texts::doctor_listens>(whole_seconds(time)));
   });
   auto found = discovery.find_all(time);
+  if (found && fleet::awaits_status(session.roster(), examination.traffic)) {
+    found = session.live_until(session.now() + std::chrono::milliseconds(2500));
+  }
   auto findings = fleet::gather(session.roster(), *targets, context.known(),
                                 fleet::heard_until(session), discovery.gone());
   const auto limits = found ? read_limits(context, findings) : std::vector<fleet::Snapshot>();

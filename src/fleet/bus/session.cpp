@@ -278,6 +278,9 @@ Result<Session::Happened> Session::take_frame(const can::Received& received) {
       traffic_->stamp(received.wall);
     }
   }
+  if (!received.is_timed) {
+    roster_.lose_time();
+  }
   roster_.hear(received.frame, received.at);
   node_.receive(received.frame, received.at);
   heard_anything_ = heard_anything_ || header.has_value();

@@ -24,10 +24,21 @@ void Traffic::hear(const can::Frame& frame, Time at) {
   Sender& sender = senders_[header->source];
   ++sender.frames;
   sender.bits += bits;
-  sender.statuses += header->kind == dronecan::Kind::message &&
-                             header->data_type_id == dronecan::NodeStatus::type.id
-                         ? 1U
-                         : 0U;
+  if (header->kind == dronecan::Kind::message &&
+      header->data_type_id == dronecan::NodeStatus::type.id && frame.size > 0) {
+    take_status(sender, frame, at);
+  }
+}
+
+/// NodeStatus is one frame. Consecutive transfer IDs tell that none was lost.
+void Traffic::take_status(Sender& sender, const can::Frame& frame, Time at) {
+  const dronecan::TransferId id = frame.data[frame.size - 1U] % dronecan::transfer_id_modulus;
+  if (sender.statuses > 0 && id == (sender.status_id + 1U) % dronecan::transfer_id_modulus) {
+    sender.longest_status_period = std::max(sender.longest_status_period, at - sender.status_at);
+  }
+  sender.status_id = id;
+  sender.status_at = at;
+  ++sender.statuses;
 }
 
 void Traffic::hear_own(const can::Frame& frame, Time at) {

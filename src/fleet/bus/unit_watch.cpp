@@ -40,7 +40,7 @@ void UnitWatch::count_status(const can::Frame& frame, Time at) {
   const unsigned next = transfer_id(last_actuator_status_) + 1U;
   last_actuator_status_ = frame;
   last_actuator_status_at_ = at;
-  if (is_repeated) {
+  if (is_repeated || !is_timed_) {
     return;
   }
   if (!window_start_ || at - *window_start_ > status_window) {
@@ -61,6 +61,11 @@ void UnitWatch::count_status(const can::Frame& frame, Time at) {
 UnitWatch::Start UnitWatch::hear_uptime(std::uint32_t uptime_s, Time at) {
   const Time start = at - std::chrono::seconds(uptime_s);
   const std::uint32_t before = std::exchange(last_uptime_s_, uptime_s);
+  if (!is_timed_) {
+    const bool is_first = !starts_[last_start_];
+    starts_[last_start_] = start;
+    return !is_first && uptime_s < before ? Start::anew : Start::known;
+  }
   may_be_late_ = may_be_late_ && uptime_s >= before;
   // a servo that restarts right after its start has two that are close to each other
   const auto distance = [&](const std::optional<Time>& known) {
@@ -99,6 +104,9 @@ Duration UnitWatch::delay(const dronecan::Transfer& response) const {
 
 UnitWatch::Start UnitWatch::hear_answer(std::uint32_t uptime_s,
                                         const dronecan::Transfer& response) {
+  if (!is_timed_) { // it may have been delayed
+    return Start::known;
+  }
   const auto known = started();
   const Time latest = response.at - std::chrono::seconds(uptime_s);
   const Time earliest = latest - delay(response) - uptime_step;

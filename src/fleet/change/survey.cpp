@@ -88,11 +88,13 @@ Result<Survey> survey(Session& session, const bla::Profiles& profiles, std::span
     return std::unexpected(*snapshots.broken);
   }
   for (const Snapshot& snapshot : snapshots.servos) {
-    if (!snapshot.raw(at::servo_id) || !snapshot.raw(at::static_node_id)) {
+    const Member member = session.roster().member(snapshot.servo.id);
+    const auto servo_id = member.is_foreign() ? member.commanded_id() : snapshot.raw(at::servo_id);
+    const auto static_id = snapshot.raw(at::static_node_id);
+    if (!servo_id || !(static_id || member.is_foreign())) {
       found.silent.push_back(snapshot.servo.id);
     }
-    found.servos.push_back({snapshot.servo.id, snapshot.servo.unique_id, snapshot.raw(at::servo_id),
-                            snapshot.raw(at::static_node_id)});
+    found.servos.push_back({snapshot.servo.id, snapshot.servo.unique_id, servo_id, static_id});
   }
   return found;
 }

@@ -20,30 +20,38 @@ using dronecan::NodeId;
 
 namespace {
 
-/// All sharers but one need another ID.
-std::string servo_id_hint(const std::vector<NodeId>& sharers) {
-  const std::vector<NodeId> others(sharers.begin() + 1, sharers.end());
+/// All sharers but one need another ID; an actuator of another make keeps its own.
+std::string servo_id_hint(const Roster& roster, const std::vector<NodeId>& sharers) {
+  std::vector<NodeId> others;
+  std::ranges::copy_if(sharers, std::back_inserter(others),
+                       [&](NodeId id) { return !roster.member(id).is_foreign(); });
+  if (others.size() == sharers.size()) {
+    others.erase(others.begin());
+  }
   const std::uint8_t first = others.front().value();
   return others.size() == 1 ? say<texts::doubled_servo_id_hint>(first)
                             : say<texts::shared_servo_id_hint>(id_list(others), first);
 }
 
-/// Finds servos that share the value of `key`.
+/// Finds nodes that share the value of `key`; not those of other makes alone.
 template <const Text& text>
 void find_shared(const Roster& roster, Code code,
                  const std::function<std::optional<std::int64_t>(const Member&)>& key,
                  std::vector<Conflict>& conflicts) {
   std::map<std::int64_t, std::vector<NodeId>> holders;
   for (const auto& [id, member] : roster.members()) {
-    const bool is_one = member.is_servo && !roster.is_doubled(id) && !roster.has_moved(member);
+    const bool is_one = (member.is_servo || member.is_foreign()) && !roster.is_doubled(id) &&
+                        !roster.has_moved(member);
     if (const auto number = is_one ? key(member) : std::nullopt) {
       holders[*number].push_back(id);
     }
   }
   for (auto& [number, nodes] : holders) {
-    if (nodes.size() > 1) {
+    const bool has_servo =
+        std::ranges::any_of(nodes, [&](NodeId id) { return roster.member(id).is_servo; });
+    if (nodes.size() > 1 && has_servo) {
       std::string said = say<text>(id_list(nodes), number);
-      std::string hint = code == Code::duplicate_servo_id ? servo_id_hint(nodes)
+      std::string hint = code == Code::duplicate_servo_id ? servo_id_hint(roster, nodes)
                                                           : say<texts::doubled_target_hint>();
       conflicts.push_back({code, std::move(nodes), std::move(said), std::move(hint)});
     }
@@ -68,9 +76,8 @@ std::vector<Conflict> find_conflicts(const Roster& roster) {
     return member.static_node_id.value_or(0) != 0 ? member.static_node_id : std::nullopt;
   };
   find_shared<texts::doubled_static_id>(roster, Code::duplicate_node_id, static_id, conflicts);
-  find_shared<texts::doubled_servo_id>(
-      roster, Code::duplicate_servo_id, [](const Member& member) { return member.servo_id; },
-      conflicts);
+  find_shared<texts::doubled_servo_id>(roster, Code::duplicate_servo_id, &Member::commanded_id,
+                                       conflicts);
   return conflicts;
 }
 
@@ -81,7 +88,7 @@ Finding finding(const Member& member, Time now, bool is_gone) {
   Finding found{.servo = member.servo(),
                 .info = member.info,
                 .status = status(member),
-                .is_foreign = member.identified && !member.is_servo && member.info,
+                .is_foreign = member.is_foreign(),
                 .warnings = warnings(member)};
   const Duration silence = now - member.last_heard;
   found.is_offline = silence >= offline_time || (is_gone && silence >= servo_silence);
@@ -178,7 +185,8 @@ std::vector<std::string> notes_before_writing(const Roster& roster) {
   std::vector<std::string> out = others(roster);
   std::vector<Conflict> shared;
   const auto servo_id = [](const Member& member) {
-    return member.servo_id.value_or(0) != 0 ? member.servo_id : std::nullopt;
+    const auto id = member.commanded_id();
+    return id.value_or(0) != 0 ? id : std::nullopt;
   };
   find_shared<texts::doubled_servo_id>(roster, Code::duplicate_servo_id, servo_id, shared);
   std::ranges::transform(shared, std::back_inserter(out), &Conflict::text);

@@ -25,6 +25,9 @@ using dronecan::NodeId;
 /// A node heard for this long without a NodeStatus does not send it; one a second is due.
 constexpr Duration enough_for_status = std::chrono::milliseconds(2500);
 
+/// The longest period of NodeStatus is 1 s (uavcan/protocol/341.NodeStatus); the bus may delay one.
+constexpr Duration slow_status = std::chrono::milliseconds(1300);
+
 constexpr std::uint8_t every_servo = 255;
 
 /// Of ArrayCommand (1010.ArrayCommand.uavcan); PWM came after the BLA servos.
@@ -130,6 +133,11 @@ class NodeExamination {
     if (is_mute && member.last_heard - member.first_heard >= enough_for_status) {
       add("no_node_status", Level::warning, node, say<texts::node_mute_status>(id),
           say<texts::node_mute_status_fix>());
+    } else if (!is_mute && sender->second.longest_status_period > slow_status) {
+      const auto period = std::chrono::duration_cast<std::chrono::milliseconds>(
+          sender->second.longest_status_period);
+      add("slow_node_status", Level::warning, node,
+          say<texts::node_slow_status>(id, period.count()), say<texts::node_slow_status_fix>());
     }
     if (member.boots > 0) {
       add("restarted", Level::warning, node, say<texts::node_restarted>(id),
@@ -297,6 +305,14 @@ Diagnoses diagnose_identifications(const Findings& findings,
     }
   }
   return found;
+}
+
+bool awaits_status(const Roster& roster, const Traffic& traffic) {
+  return std::ranges::any_of(traffic.senders(), [&](const auto& sender) {
+    const Member member = roster.member(sender.first);
+    return sender.second.statuses == 1 &&
+           member.last_heard - member.first_heard >= enough_for_status;
+  });
 }
 
 Diagnoses diagnose_nodes(const Findings& findings, const Traffic& traffic,

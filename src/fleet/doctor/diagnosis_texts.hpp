@@ -99,6 +99,15 @@ inline constexpr Text node_mute_status{
     "ノード {} は NodeStatus を送信していません。他ノードには 3 秒で切断と見なされます"};
 inline constexpr Text node_mute_status_fix{"see what it sends: blactl trace --stats --duration 5",
                                            "送信内容を確認: blactl trace --stats --duration 5"};
+inline constexpr Text node_slow_status{
+    "node {} sends NodeStatus {} ms apart; at most 1000 ms are permitted, and after 3 s without "
+    "one "
+    "it is taken for lost",
+    "ノード {} の NodeStatus の間隔が {} ms です。上限は 1000 ms で、3 秒途切れると切断と"
+    "見なされます"};
+inline constexpr Text node_slow_status_fix{
+    "see how regularly it sends: blactl trace --stats --duration 10; then look at its firmware",
+    "送信間隔を確認 (blactl trace --stats --duration 10) し、ファームウェアを点検して下さい"};
 inline constexpr Text node_restarted{
     "node {} restarted while it was watched: its uptime began anew",
     "ノード {} は監視中に再起動しました (uptime が 0 に戻りました)"};

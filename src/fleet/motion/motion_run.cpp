@@ -50,8 +50,9 @@ std::optional<Error> refuse_servo_id(Session& session, const bla::Profiles& prof
   }
   for (const Snapshot& other : snapshots.servos) {
     const NodeId id = other.servo.id;
-    const auto its = other.raw(at::servo_id);
-    const auto told = session.roster().member(id).actuator_id;
+    const Member member = session.roster().member(id);
+    const auto its = member.is_foreign() ? member.commanded_id() : other.raw(at::servo_id);
+    const auto told = member.actuator_id;
     if (!its || session.roster().is_doubled(id)) {
       return shared(plan, say<texts::motion_servo_id_unknown>(id.value(), servo_id));
     }

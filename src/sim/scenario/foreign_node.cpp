@@ -12,7 +12,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr Duration status_period = 1s; ///< of NodeStatus and ArmingStatus
+constexpr Duration actuator_period = 100ms; ///< of actuator.Status, as of BLA servos
 constexpr dronecan::Priority command_priority = dronecan::priority_medium;
 
 } // namespace
@@ -21,10 +21,14 @@ ForeignNode::ForeignNode(const ForeignSetup& setup, Time power_on)
     : setup_(setup), role_(make_role(power_on)),
       endpoint_(role_->subscriptions(),
                 [this](const dronecan::Transfer& transfer) { handle(transfer); }),
-      power_on_(power_on), now_(power_on), next_status_(power_on) {
+      power_on_(power_on), now_(power_on),
+      next_status_(setup.status_period > Duration::zero() ? power_on : never) {
   endpoint_.set_node_id(dronecan::NodeId(setup.node_id));
   if (setup.commands) {
     next_command_ = power_on + setup.begins;
+  }
+  if (setup.actuator_id) {
+    next_actuator_ = power_on;
   }
 }
 
@@ -57,13 +61,13 @@ void ForeignNode::receive(const can::Frame& frame, Time at) {
 }
 
 Time ForeignNode::next_deadline() const {
-  return std::min({next_status_, next_command_, role_->next_deadline()});
+  return std::min({next_status_, next_command_, next_actuator_, role_->next_deadline()});
 }
 
 void ForeignNode::advance(Time now) {
   now_ = now;
   if (next_status_ <= now) {
-    next_status_ += status_period;
+    next_status_ += setup_.status_period;
     const dronecan::Priority priority = role_->status_priority();
     send_message(dronecan::NodeStatus::type, priority, node_status().encode().bytes());
     if (setup_.armed) {
@@ -81,6 +85,12 @@ void ForeignNode::advance(Time now) {
       array.commands.push_back({id, setup_.commands->type, setup_.commands->value});
     }
     send_message(dronecan::ArrayCommand::type, command_priority, array.encode().bytes());
+  }
+  if (next_actuator_ <= now) {
+    next_actuator_ += actuator_period;
+    const dronecan::ActuatorStatus status{.actuator_id = *setup_.actuator_id};
+    send_message(dronecan::ActuatorStatus::type, dronecan::priority_medium,
+                 status.encode().bytes());
   }
   role_->advance(now);
 }

@@ -46,6 +46,8 @@ constexpr Member<ForeignSetup> every_kind[]{
     {"commands", read_commander},
     {"armed", to<&ForeignSetup::armed>},
     {"begins", up_to_seconds<&ForeignSetup::begins, 3600>},
+    {"actuator_id", integer<&ForeignSetup::actuator_id, 0, 255>},
+    {"status_period", up_to_seconds<&ForeignSetup::status_period, 3600>},
 };
 
 constexpr Member<GnssSetup> gnss[]{{"rate", rate<&GnssSetup::period, 50>}};

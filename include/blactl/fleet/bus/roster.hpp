@@ -11,6 +11,7 @@
 #include "blactl/fleet/bus/unit_watch.hpp"
 #include "blactl/state/allocation_store.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <map>
@@ -62,6 +63,15 @@ struct Member {
   /// Whether it has responded with another one.
   [[nodiscard]] bool is_another_unit(const dronecan::UniqueId& unique_id) const {
     return info && info_boot == boots && info->unique_id != unique_id;
+  }
+
+  /// Whether it has identified itself as another device than a BLA servo.
+  [[nodiscard]] bool is_foreign() const { return identified && !is_servo && info; }
+
+  /// The ID by which ArrayCommand reaches it: 0x45 of a servo, or what an actuator of another make
+  /// sends; empty: unknown.
+  [[nodiscard]] std::optional<std::int64_t> commanded_id() const {
+    return is_foreign() ? std::optional<std::int64_t>(actuator_id) : servo_id;
   }
 
   /// The present knowledge of the unit.
@@ -121,6 +131,9 @@ class Roster {
 
   /// Takes every frame of ours that has left.
   void hear_own(const can::Frame& frame, Time at);
+
+  /// As UnitWatch::lose_time().
+  void lose_time() { std::ranges::for_each(watches_, &UnitWatch::lose_time); }
 
   void receive(const dronecan::Transfer& transfer);
 

@@ -4,7 +4,7 @@
 
 #include "blactl/base/time.hpp"
 #include "blactl/can/bus.hpp"
-#include "blactl/dronecan/ids.hpp"
+#include "blactl/dronecan/transfer.hpp"
 #include "blactl/fleet/bus/bus_load.hpp"
 
 #include <cstdint>
@@ -19,7 +19,10 @@ class Traffic {
   struct Sender {
     std::uint64_t frames = 0;
     std::uint64_t bits = 0;
-    std::uint64_t statuses = 0; ///< NodeStatus, sent once a second by each node
+    std::uint64_t statuses = 0;       ///< NodeStatus, sent once a second by each node
+    Duration longest_status_period{}; ///< between two of them, none lost in between
+    dronecan::TransferId status_id{}; ///< of the last one
+    Time status_at{};
   };
 
   /// Takes a frame of another node.
@@ -72,6 +75,8 @@ class Traffic {
   [[nodiscard]] const std::map<can::FaultKind, std::uint64_t>& faults() const { return faults_; }
 
  private:
+  static void take_status(Sender& sender, const can::Frame& frame, Time at);
+
   std::uint64_t frames_ = 0, own_frames_ = 0, standard_frames_ = 0;
   BusLoad load_;
   WallTime newest_{};

@@ -30,6 +30,10 @@ class UnitWatch {
   /// Whether two servos send actuator.Status, provided that the sender is a BLA servo.
   [[nodiscard]] bool is_too_fast() const { return is_too_fast_; }
 
+  /// The transfers have no times from here on, as in a log without stamps: then only an uptime that
+  /// goes back tells of a restart, and nothing here of a second unit.
+  void lose_time() { is_timed_ = false; }
+
   /// The uptime of a NodeStatus.
   [[nodiscard]] Start hear_uptime(std::uint32_t uptime_s, Time at);
 
@@ -69,6 +73,7 @@ class UnitWatch {
   std::array<std::optional<Time>, 2> starts_{};
   std::size_t last_start_ = 0;
   std::uint32_t last_uptime_s_ = 0;
+  bool is_timed_ = true;
   bool may_be_late_ = false; ///< the latest new start: the uptime has not gone back since
 };
 

@@ -49,6 +49,10 @@ using Diagnoses = std::vector<Diagnosis>;
 [[nodiscard]] Diagnoses diagnose_traffic(const Traffic& traffic,
                                          const std::optional<Error>& silence);
 
+/// Whether a node has sent one NodeStatus in a time in which two are due: a second one tells its
+/// period.
+[[nodiscard]] bool awaits_status(const Roster& roster, const Traffic& traffic);
+
 /// Conflicts, and problems of single nodes. `limits`: the angle limits as read.
 [[nodiscard]] Diagnoses diagnose_nodes(const Findings& findings, const Traffic& traffic,
                                        std::span<const Snapshot> limits);

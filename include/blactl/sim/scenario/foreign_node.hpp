@@ -14,7 +14,8 @@ namespace blactl::sim {
 class ForeignRole;
 
 /// Sends NodeStatus and answers GetNodeInfo; if configured, it answers GetSet, streams
-/// ArrayCommand, and sends ArmingStatus. Its role adds the behaviour of its kind.
+/// ArrayCommand, and sends ArmingStatus and actuator.Status. Its role adds the behaviour of its
+/// kind.
 class ForeignNode final : public Device {
  public:
   ForeignNode(const ForeignSetup& setup, Time power_on);
@@ -40,6 +41,7 @@ class ForeignNode final : public Device {
   Time now_;
   Time next_status_;
   Time next_command_ = never;
+  Time next_actuator_ = never;
 };
 
 } // namespace blactl::sim

@@ -52,8 +52,11 @@ struct ForeignSetup {
   dronecan::UniqueId unique_id{};
   bool serves_get_set = false;
   std::optional<CommanderSetup> commands;
-  std::optional<bool> armed; ///< empty: sends no ArmingStatus
-  Duration begins{};         ///< of `commands`, and of being armed, after power-on
+  std::optional<bool> armed;               ///< empty: sends no ArmingStatus
+  Duration begins{};                       ///< of `commands`, and of being armed, after power-on
+  std::optional<std::uint8_t> actuator_id; ///< empty: sends no actuator.Status
+  Duration status_period =
+      std::chrono::seconds(1); ///< of NodeStatus and ArmingStatus; 0: sends none
   std::variant<PlainSetup, GnssSetup, EscSetup, AutopilotSetup, BabblerSetup> kind;
 };
 

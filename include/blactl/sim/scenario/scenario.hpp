@@ -37,7 +37,9 @@
 //         "name": "org.ardupilot.f405",
 //         "serves_get_set": true,          answers GetSet as a node without parameters
 //         "commands": {"servo_ids": [1, 2], "type": 1, "value": 0.45, "rate": 50},
-//         "armed": false                   sends ArmingStatus
+//         "armed": false,                  sends ArmingStatus
+//         "actuator_id": 3,                sends actuator.Status
+//         "status_period": "1s"            of NodeStatus
 //       },
 //       {"kind": "gnss", "node_id": 31, "rate": 5},         Fix2 and Auxiliary
 //       {"kind": "esc", "node_id": 32, "index": 0, "rate": 50},      with its own parameters
