@@ -196,3 +196,37 @@ TEST_CASE("a recipe is of one servo and has no IDs") {
   check_error(three_servos().run({"export", "--recipe"}), 2, "usage",
               "--recipe makes a file of one servo, not of 3");
 }
+
+TEST_CASE("export asks on a terminal before it replaces a file of something else") {
+  const Fleet fleet(Scene().servo("BLA21-12U-AB", 11));
+  const std::string notes = fleet.bench().file("notes.txt", "do not lose this");
+  const Options no{.answers = {{"[y/N]", "n\n"}}, .terminal = true};
+  CHECK(fleet.run({"export", notes}, no).status == 7);
+  CHECK(content(notes) == "do not lose this");
+  CHECK(fleet.run({"export", notes}, {.answers = {{"[y/N]", "y\n"}}, .terminal = true}).status ==
+        0);
+  CHECK(fleet.run({"export", notes}, {.terminal = true}).status == 0); // of the same servo
+  CHECK(fleet.run({"export", notes}).status == 0);                     // a script is not asked
+}
+
+TEST_CASE("15.0 deg and 150 rpm are not the same, though their number is") {
+  const Fleet fleet(Scene().servo("BLA21-12U-AB", 11));
+  REQUIRE(
+      fleet.run({"set", "-n", "11", "pwm_mode=speed", "pwm_output_range=150rpm", "--save", "-y"})
+          .status == 0);
+  const auto file = [&](const char* range) {
+    Document document = fleet.exported();
+    document["servos"][0]["set"] = {{"pwm_output_range", range}};
+    return fleet.bench().file(std::string(range) + ".json", document.dump());
+  };
+  const std::string angle = file("15.0deg");
+  const std::string speed = file("150rpm");
+  CHECK(fleet.run({"diff", speed}).status == 0);
+  CHECK(fleet.run({"apply", speed, "-y"}).status == 0);
+  const char* why = "this servo has pwm_mode=speed, the unit is rpm";
+  check_error(fleet.run({"diff", angle}), 2, "usage", why);
+  check_error(fleet.run({"apply", angle, "-y"}), 2, "usage", why);
+  check_error(fleet.run({"set", "-n", "11", "pwm_output_range=15.0deg", "--save", "-y"}), 2,
+              "usage", why);
+  CHECK(fleet.run({"diff", angle, speed}).status == 8);
+}

@@ -4,6 +4,7 @@
 #include "blactl/bla/value.hpp"
 #include "blactl/fleet/bus/texts.hpp"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -87,6 +88,25 @@ std::vector<Error> Snapshot::errors() const {
     all.push_back(std::move(*lacking));
   }
   return all;
+}
+
+std::optional<Error> check_unit(std::span<const bla::Assignment> wanted, const Snapshot& before,
+                                const bla::Profiles& profiles) {
+  const auto mode = before.pwm_mode();
+  const auto sets_mode = [](const bla::Assignment& assignment) {
+    return assignment.parameter->address == bla::address::pwm_mode;
+  };
+  if (!mode || std::ranges::any_of(wanted, sets_mode)) {
+    return std::nullopt; // parse_assignments() has compared the two
+  }
+  const std::uint8_t id = before.servo.id.value();
+  for (const bla::Assignment& assignment : wanted) {
+    if (auto fits = bla::check_pwm_unit_of_servo(profiles, assignment, *mode); !fits) {
+      return Error{fits.error().code, say<texts::about_node>(id, fits.error().message),
+                   fits.error().hint, id};
+    }
+  }
+  return std::nullopt;
 }
 
 std::optional<Error> compare(const Snapshot& after, const bla::Values& expected) {

@@ -98,7 +98,8 @@ std::optional<Error> Change::refuse(const Goal& goal, const Snapshot& held) cons
   if (!held.error && goal.unique_id && held.servo.unique_id != goal.unique_id) {
     return Error{Code::state, say<texts::another_servo>(id), say<texts::run_again_hint>(), id};
   }
-  return goal.evidence != Evidence::none ? held.first_error() : std::nullopt;
+  const auto error = goal.evidence != Evidence::none ? held.first_error() : std::nullopt;
+  return error ? error : check_unit(goal.wanted.assignments, held, profiles_);
 }
 
 /// Empty: ROM does not matter, or there is no record.

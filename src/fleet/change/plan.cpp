@@ -55,24 +55,6 @@ Error about(const Servo& servo, Error error) {
   return error;
 }
 
-/// 0x36 in deg or rpm must agree with 0x37; without a 0x37 beside it, with the servo's.
-std::optional<Error> check_unit(const Wanted& wanted, const Snapshot& before,
-                                const bla::Profiles& profiles) {
-  const auto mode = before.raw(at::pwm_mode);
-  const auto sets_mode = [](const Assignment& assignment) {
-    return assignment.parameter->address == at::pwm_mode;
-  };
-  if (!mode || std::ranges::any_of(wanted.assignments, sets_mode)) {
-    return std::nullopt; // parse_assignments() has compared the two
-  }
-  for (const Assignment& assignment : wanted.assignments) {
-    if (auto fits = bla::check_pwm_unit_of_servo(profiles, assignment, *mode); !fits) {
-      return about(before.servo, fits.error());
-    }
-  }
-  return std::nullopt;
-}
-
 /// `held`: the values when the changes are made.
 void plan_changes(const Wanted& wanted, const Values& held, Plan& plan) {
   for (const Assignment& assignment : wanted.assignments) {
@@ -317,7 +299,7 @@ Result<Plan> make_plan(const Wanted& wanted, Snapshot before, const bla::Profile
     return std::unexpected(
         Error{Code::state, say<texts::restarted_while_read>(id), say<texts::run_again_hint>(), id});
   }
-  if (auto misfit = check_unit(wanted, before, profiles)) {
+  if (auto misfit = check_unit(wanted.assignments, before, profiles)) {
     return std::unexpected(std::move(*misfit));
   }
   Plan plan{.before = std::move(before),

@@ -59,12 +59,15 @@ EntryDiff judged(EntryDiff diff) {
   return diff;
 }
 
-EntryDiff compare(const FleetEntry& entry, const Snapshot& held) {
+EntryDiff compare(const FleetEntry& entry, const Snapshot& held, const bla::Profiles& profiles) {
   EntryDiff diff{.name = entry.name, .servo = held.servo, .errors = held.errors()};
   diff.mode_before = held.pwm_mode();
   diff.mode_after = entry.wish(bla::address::pwm_mode);
   if (!diff.mode_after) {
     diff.mode_after = diff.mode_before;
+  }
+  if (auto misfit = check_unit(entry.set, held, profiles)) {
+    diff.errors.push_back(std::move(*misfit));
   }
   for (const Assignment& assignment : entry.set) {
     const auto* own = own_register(*assignment.parameter, held.servo);
@@ -102,11 +105,15 @@ const FleetEntry* counterpart(const FleetEntry& entry, const FleetFile& one,
 EntryDiff compare(const FleetEntry& one, const FleetEntry& other, const bla::Profiles& profiles) {
   const FleetEntry& who = other.name.empty() ? one : other; // not in a parameter file
   EntryDiff diff = without_servo(who, EntryStatus::unchanged, profiles);
-  diff.mode_before = one.wish(bla::address::pwm_mode);
-  diff.mode_after = other.wish(bla::address::pwm_mode);
+  diff.mode_before = one.pwm_mode();
+  diff.mode_after = other.pwm_mode();
   for (const bla::Parameter& parameter : profiles.registers()) {
-    const Difference registers{&parameter, one.wish(parameter.address),
-                               other.wish(parameter.address)};
+    Difference registers{&parameter, one.wish(parameter.address), other.wish(parameter.address)};
+    if (parameter.address == bla::address::pwm_mode && diff.mode_before != diff.mode_after &&
+        diff.mode_before && diff.mode_after) { // by the unit of 0x36, if 0x37 is not there
+      registers.before = diff.mode_before;
+      registers.wished = diff.mode_after;
+    }
     if (registers.before || registers.wished) {
       diff.registers.push_back(registers);
     }
@@ -165,7 +172,7 @@ FleetDiff diff(Session& session, const bla::Profiles& profiles, const FleetMatch
   const Roster& roster = session.roster();
   for (std::size_t i = 0; i < match.pairs.size(); ++i) {
     const FleetMatch::Pair& pair = match.pairs[i];
-    EntryDiff entry = compare(*pair.entry, held.servos[i]);
+    EntryDiff entry = compare(*pair.entry, held.servos[i], profiles);
     if (roster.is_doubled(pair.id)) { // readings may be of either
       entry = {.name = pair.entry->name, .status = EntryStatus::failed, .servo = {.id = pair.id}};
       entry.errors = {doubled(roster, pair.id)};

@@ -243,6 +243,15 @@ std::optional<std::int64_t> FleetEntry::wish(bla::Address address) const {
   return it != set.end() ? std::optional(it->value.raw) : std::nullopt;
 }
 
+std::optional<std::int64_t> FleetEntry::pwm_mode() const {
+  if (const auto mode = wish(bla::address::pwm_mode)) {
+    return mode;
+  }
+  const auto by_unit = std::ranges::find_if(
+      set, [](const Assignment& assignment) { return assignment.value.pwm_mode.has_value(); });
+  return by_unit != set.end() ? by_unit->value.pwm_mode : std::nullopt;
+}
+
 Result<FleetFile> parse_fleet_file(std::string_view text, std::string file,
                                    const bla::Profiles& profiles) {
   return read_document(json::parse(text, std::move(file)), profiles);

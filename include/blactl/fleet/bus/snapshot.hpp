@@ -2,12 +2,14 @@
 // The registers of one servo at one moment: plain data, from any source.
 
 #include "blactl/base/error.hpp"
+#include "blactl/bla/assignment.hpp"
 #include "blactl/bla/parameter.hpp"
 #include "blactl/bla/values.hpp"
 #include "blactl/fleet/bus/servo.hpp"
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace blactl::fleet {
@@ -46,6 +48,12 @@ struct Snapshot {
 /// Compares `after` with the expected values. Errors: mismatch with the registers that differ; the
 /// reason why it is incomplete.
 [[nodiscard]] std::optional<Error> compare(const Snapshot& after, const bla::Values& expected);
+
+/// 0x36 in deg or rpm must agree with 0x37: with the servo's, unless one is wanted beside it.
+/// Errors: usage.
+[[nodiscard]] std::optional<Error> check_unit(std::span<const bla::Assignment> wanted,
+                                              const Snapshot& before,
+                                              const bla::Profiles& profiles);
 
 /// The register that shows after a restart whether ROM could be read (4.12); null: there is none.
 [[nodiscard]] const bla::Parameter* rom_state(const bla::Identity& servo);

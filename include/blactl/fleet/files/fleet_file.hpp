@@ -68,6 +68,9 @@ struct FleetEntry {
 
   /// The value for this register; empty: none.
   [[nodiscard]] std::optional<std::int64_t> wish(bla::Address address) const;
+
+  /// The 0x37 for which 0x36 is meant: the one beside it, or by its unit; empty: unknown.
+  [[nodiscard]] std::optional<std::int64_t> pwm_mode() const;
 };
 
 struct FleetFile {
