@@ -101,11 +101,13 @@ Result<void> drop_surplus(const Database& database, const UniqueId& unique_id) {
       .run();
 }
 
-/// Drops old entries, but not the last one of each servo.
+/// Drops old entries, but not the last one of each servo, nor the one that an unfinished undo is
+/// taking back.
 Result<void> drop_old(const Database& database, WallTime now) {
   return Statement(database, "DELETE FROM snapshots WHERE at < ? AND number < "
                              "(SELECT max(number) FROM snapshots AS newer "
-                             "WHERE newer.unique_id = snapshots.unique_id)")
+                             "WHERE newer.unique_id = snapshots.unique_id "
+                             "AND (newer.command != 'undo' OR newer.ended = 1))")
       .bind((now - oldest_snapshot).time_since_epoch().count())
       .run();
 }

@@ -219,3 +219,33 @@ TEST_CASE("undo of a unit that there is twice is refused") {
   check_error(fleet.run({"undo", "-y"}), 9, "duplicate_unique_id", "nodes 11, 12 have the same");
   CHECK(fleet.rom_writes() == 1);
 }
+
+TEST_CASE("undo of a change that another tool has taken back leaves no record of its own") {
+  Fleet fleet(three_servos());
+  const Options other{.env = {{"BLACTL_STATE_DIR", fleet.file_name("other")}}};
+  set(fleet, {"-n", "11", "angle_p_gain=30", "--save"});
+  set(fleet, {"-n", "11", "smoothing=off", "--save"});
+  REQUIRE(fleet.run({"set", "-n", "11", "smoothing=on", "--save", "-y"}, other).status == 0);
+  CHECK(statuses(undo(fleet)) == std::vector<std::string>{"unchanged"});
+  REQUIRE(fleet.run({"set", "-n", "11", "timeout_time=700ms", "--save", "-y"}, other).status == 0);
+  CHECK(statuses(undo(fleet)) == std::vector<std::string>{"changed"});
+  CHECK(fleet.rom("11", "angle_p_gain") != 30);
+  CHECK(fleet.ram("11", "timeout_time") == 700);
+}
+
+TEST_CASE("undo brings back what a restart took from RAM, where only a proof told of it") {
+  Fleet fleet(three_servos());
+  const Options other{.env = {{"BLACTL_STATE_DIR", fleet.file_name("other")}}};
+  REQUIRE(fleet.run({"save", "-n", "11", "-y"}).status == 0);
+  REQUIRE(fleet.run({"set", "-n", "11", "angle_limit_cw=90deg", "-y"}, other).status == 0);
+  REQUIRE(fleet.run({"restart", "-n", "11", "-y"}).status == 0);
+  CHECK(fleet.ram("11", "angle_limit_cw") == 1799);
+  CHECK(undo(fleet, {"-n", "11"}).status == 0);
+  CHECK(fleet.ram("11", "angle_limit_cw") == 900);
+}
+
+TEST_CASE("a characterize that has put everything back is nothing to undo") {
+  Fleet fleet(Scene().servo("BLA21-12U-AB", 11));
+  REQUIRE(fleet.run({"characterize", "-n", "11", "-y"}).status == 0);
+  check_error(undo(fleet), 4, "not_found", "no change of a servo is recorded");
+}

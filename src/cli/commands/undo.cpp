@@ -94,6 +94,10 @@ void Undo::of_last_run(const Whom& whom, Goals& goals) {
     goals.errors.push_back(changes.error());
     return;
   }
+  if (changes->empty()) { // an unfinished undo, without the change before it
+    goals.errors.push_back({Code::not_found, say<texts::undo_nothing_at_all>(),
+                            say<texts::undo_see_list_hint>(), std::nullopt});
+  }
   for (const fleet::Undoing& change : *changes) {
     const SnapshotEntry& entry = change.entry;
     const auto& members = whom.roster.members();

@@ -190,8 +190,8 @@ std::optional<Error> record(Session& session, std::span<const Plan> plans, const
   if (manner.history == nullptr || session.is_replay()) {
     return std::nullopt;
   }
-  auto refused = judge(manner.history->drop_proofs(plans), session, manner);
-  return refused ? refused : judge(manner.history->keep(plans, session), session, manner);
+  auto refused = judge(manner.history->keep(plans, session), session, manner); // by the proofs
+  return refused ? refused : judge(manner.history->drop_proofs(plans), session, manner);
 }
 
 void record_end(Session& session, std::span<const ChangeResult> results, const Manner& manner) {

@@ -44,6 +44,24 @@ WallTime told_at(const Member& member, const Session& session) {
   return session.wall() - (session.now() - member.status_at);
 }
 
+bla::Values replaced_by(const std::vector<state::SnapshotEntry>& changes) {
+  bla::Values values;
+  for (const state::SnapshotEntry& change : changes) {
+    for (const auto& [address, raw] : change.held) {
+      values.insert_or_assign(bla::Address(address), raw); // the first one replaced that of ROM
+    }
+  }
+  return values;
+}
+
+/// Whether RAM still shows what a plain write has put there. What a restart took may be back.
+bool is_shown(const state::SnapshotEntry& change, const Snapshot& ram) {
+  const bool is_plain = change.command == "set" || change.command == "pwm-config";
+  return is_plain && std::ranges::any_of(change.held, [&](const auto& held) {
+           return ram.raw(bla::Address(held.first)).value_or(held.second) != held.second;
+         });
+}
+
 } // namespace
 
 /// A restart that is to show what ROM holds may replace any of them: History::conclude() leaves
@@ -100,13 +118,16 @@ Result<void> History::resume(const UniqueId& unique_id) {
   return {};
 }
 
-/// What a mere restart takes, as far as recorded.
-bla::Values History::taken_from_ram(const Plan& plan, const Session& session) const {
+/// What a mere restart takes, as far as ROM is known.
+bla::Values History::taken_from_ram(const Plan& plan, const Session& session) {
   bla::Values taken;
   if (plan.restart != RestartKind::restart || plan.proves_rom) {
     return taken;
   }
-  for (const auto& [address, raw] : replaced_in_ram(plan.before.servo, session)) {
+  const Servo& servo = plan.before.servo;
+  const auto proven = proven_rom(servo, session);
+  const bla::Values rom = proven ? *proven : replaced_by(unsaved(servo, session, &plan.before));
+  for (const auto& [address, raw] : rom) {
     const auto held = plan.before.raw(address);
     if (held && *held != raw) {
       taken.emplace(address, *held);
@@ -149,9 +170,11 @@ Result<void> History::keep(std::span<const Plan> plans, const Session& session) 
       return resumed;
     }
   }
+  if (auto lasting = keep_lasting(plans, session); !lasting) {
+    return lasting;
+  }
   std::vector<state::SnapshotEntry> entries;
   for (const Plan& plan : plans) {
-    note_lasting(plan, session);
     if (auto entry = entry_of(plan, session)) {
       entries.push_back(std::move(*entry));
     }
@@ -241,9 +264,10 @@ std::optional<bla::Values> History::proven_rom(const Servo& servo, const Session
   return values;
 }
 
-/// The changes in RAM only since its start, the newest first.
-std::vector<state::SnapshotEntry> History::unsaved(const Servo& servo,
-                                                   const Session& session) const {
+/// The changes in RAM only since its start, the newest first. With `ram`, also those that the clock
+/// puts before its start, which RAM still shows: clocks are set.
+std::vector<state::SnapshotEntry> History::unsaved(const Servo& servo, const Session& session,
+                                                   const Snapshot* ram) const {
   std::vector<state::SnapshotEntry> entries;
   const Member member = session.roster().member(servo.id);
   if (!servo.unique_id || !member.is_unit(*servo.unique_id) || !member.status) {
@@ -251,7 +275,10 @@ std::vector<state::SnapshotEntry> History::unsaved(const Servo& servo,
   }
   const WallTime started = told_at(member, session) - std::chrono::seconds(member.status->uptime_s);
   auto entry = snapshots_.last(*servo.unique_id);
-  while (entry && *entry && !(*entry)->saved && (*entry)->at >= started) {
+  const auto is_in_ram = [&](const state::SnapshotEntry& change) {
+    return change.at >= started || (ram != nullptr && is_shown(change, *ram));
+  };
+  while (entry && *entry && !(*entry)->saved && is_in_ram(**entry)) {
     entries.push_back(std::move(**entry));
     entry = snapshots_.before(entries.back());
   }
@@ -259,13 +286,7 @@ std::vector<state::SnapshotEntry> History::unsaved(const Servo& servo,
 }
 
 bla::Values History::replaced_in_ram(const Servo& servo, const Session& session) const {
-  bla::Values values;
-  for (const state::SnapshotEntry& entry : unsaved(servo, session)) {
-    for (const auto& [address, raw] : entry.held) {
-      values.insert_or_assign(bla::Address(address), raw); // the first change replaced that of ROM
-    }
-  }
-  return values;
+  return replaced_by(unsaved(servo, session));
 }
 
 bool History::is_rom_unread(const Servo& servo, const Session& session) {
@@ -273,20 +294,27 @@ bool History::is_rom_unread(const Servo& servo, const Session& session) {
   return proof && proof->rom.empty();
 }
 
-/// SAVE makes earlier changes in RAM permanent.
-void History::note_lasting(const Plan& plan, const Session& session) {
-  if (plan.restart != RestartKind::save || plan.erase || !plan.before.servo.unique_id) {
-    return;
+/// SAVE makes earlier changes in RAM permanent: until settled they count as saved.
+Result<void> History::keep_lasting(std::span<const Plan> plans, const Session& session) {
+  std::vector<state::Settlement> settlements;
+  for (const Plan& plan : plans) {
+    const Servo& servo = plan.before.servo;
+    if (plan.restart != RestartKind::save || plan.erase || !servo.unique_id) {
+      continue;
+    }
+    for (const state::SnapshotEntry& entry : unsaved(servo, session, &plan.before)) {
+      lasting_[*servo.unique_id].insert(entry.number);
+      settlements.push_back({entry.number, ChangeEnd::saved});
+    }
   }
-  for (const state::SnapshotEntry& entry : unsaved(plan.before.servo, session)) {
-    lasting_[*plan.before.servo.unique_id].insert(entry.number);
-  }
+  return settlements.empty() ? Result<void>() : snapshots_.settle(settlements);
 }
 
 /// For an undo that has begun elsewhere: servos it did not begin are not done yet, either.
 bool History::is_half_undone() const {
-  return command_ == "undo" &&
-         std::ranges::any_of(kept_, [](const auto& each) { return each.second.was_changed; });
+  return command_ == "undo" && std::ranges::any_of(kept_, [](const auto& each) {
+           return each.second.was_changed && !each.second.is_empty;
+         });
 }
 
 /// A restart that has shown what ROM holds replaced nothing else.
@@ -329,16 +357,17 @@ Result<void> History::settle(std::span<const ChangeResult> results) {
     const auto known = result.servo.unique_id ? kept_.find(*result.servo.unique_id) : kept_.end();
     const auto earlier =
         result.servo.unique_id ? lasting_.find(*result.servo.unique_id) : lasting_.end();
-    if (result.may_have_saved && earlier != lasting_.end()) {
-      for (const std::int64_t number : std::exchange(earlier->second, {})) {
-        settlements.push_back({number, ChangeEnd::saved});
+    if (!result.may_have_saved && earlier != lasting_.end()) {
+      for (const std::int64_t number : earlier->second) {
+        settlements.push_back({number, ChangeEnd::not_saved});
       }
     }
+    lasting_.erase(result.servo.unique_id.value_or(UniqueId{}));
     if (known == kept_.end()) {
       continue;
     }
     Kept& kept = known->second;
-    if ((!kept.was_changed || kept.is_empty) && !is_half_undone()) {
+    if (kept.is_empty || (!kept.was_changed && !is_half_undone())) {
       settlements.push_back({kept.entry.number, ChangeEnd::never_begun});
       kept_.erase(known);
       run_ = kept_.empty() ? 0 : run_;

@@ -242,6 +242,20 @@ TEST_CASE("what a command has given back by itself is no change that undo would 
   CHECK(after[1] == before[0]);
 }
 
+TEST_CASE(
+    "what SAVE makes permanent counts as saved before SAVE leaves, and not if it never does") {
+  const Kept kept;
+  const Scene scene(servos());
+  REQUIRE(change(scene, set("angle_limit_cw=90deg"), kept).is_done());
+  History history = kept.history("save");
+  const auto plans = plans_for(scene, save, {11});
+  REQUIRE(history.keep(plans, *scene.session));
+  CHECK(kept.entries().at(0).saved); // where the command is killed now
+  const std::vector<ChangeResult> never{{.servo = plans.front().before.servo}};
+  REQUIRE(history.conclude(never, *scene.session));
+  CHECK_FALSE(kept.entries().at(0).saved);
+}
+
 TEST_CASE("in several rounds of one command the record tells what the first has found") {
   const Kept kept;
   const Scene scene(servos());

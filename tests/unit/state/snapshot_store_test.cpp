@@ -170,6 +170,19 @@ TEST_CASE("after a year a change goes, unless it is the last one of its servo") 
   CHECK(count_of(store, 3) == 1);
 }
 
+TEST_CASE("an undo does not drop the old change that it takes back, until it has ended") {
+  auto store = SnapshotStore::unshared().value();
+  kept(store, entry(1, 1, noon));
+  const WallTime long_after = noon + 2 * oldest_snapshot;
+  SnapshotEntry undo = entry(1, 2, long_after);
+  undo.command = "undo";
+  kept(store, undo, long_after);
+  CHECK(count_of(store, 1) == 2);
+  REQUIRE(store.end(std::vector{unit(1)}, "undo"));
+  kept(store, entry(2, 3, long_after), long_after);
+  CHECK(count_of(store, 1) == 1);
+}
+
 TEST_CASE("a command is kept as it is, whatever is in it") {
   auto store = SnapshotStore::unshared().value();
   SnapshotEntry odd = entry(1);

@@ -67,12 +67,12 @@ class History {
 
  private:
   [[nodiscard]] std::optional<state::RomProof> proof(const Servo& servo, const Session& session);
-  void note_lasting(const Plan& plan, const Session& session);
+  [[nodiscard]] Result<void> keep_lasting(std::span<const Plan> plans, const Session& session);
   [[nodiscard]] std::optional<state::SnapshotEntry> entry_of(const Plan& plan,
                                                              const Session& session);
-  [[nodiscard]] bla::Values taken_from_ram(const Plan& plan, const Session& session) const;
-  [[nodiscard]] std::vector<state::SnapshotEntry> unsaved(const Servo& servo,
-                                                          const Session& session) const;
+  [[nodiscard]] bla::Values taken_from_ram(const Plan& plan, const Session& session);
+  [[nodiscard]] std::vector<state::SnapshotEntry>
+  unsaved(const Servo& servo, const Session& session, const Snapshot* ram = nullptr) const;
   [[nodiscard]] Result<void> leave_what_was_lost(std::span<const ChangeResult> results,
                                                  WallTime now);
   [[nodiscard]] Result<void> settle(std::span<const ChangeResult> results);
