@@ -5,7 +5,9 @@
 
 #include "cli/interface/scheme.hpp"
 
+#include <filesystem>
 #include <string>
+#include <system_error>
 #include <utility>
 
 namespace blactl::cli {
@@ -18,6 +20,36 @@ template <class Store> Result<Store> open_store(std::string_view interface, stat
     return Store::unshared();
   }
   return Store::open(stores_folder(interface), access);
+}
+
+/// Whether a simulation has begun since the last proof: those are of another ROM, with the same
+/// unique IDs and, on a virtual clock, at the same time.
+bool is_newer_than_proofs(std::string_view socket, const std::string& folder) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const auto proven = fs::last_write_time(folder + "/proofs.db", error);
+  if (error) {
+    return false;
+  }
+  const auto began =
+      fs::last_write_time(socket.empty() ? can::default_socket_path() : fs::path(socket), error);
+  return !error && proven < began;
+}
+
+/// A private simulation ends with the process.
+Result<state::ProofStore> open_proofs(std::string_view interface, state::Access access) {
+  const auto name = parse_interface(interface);
+  if (!name || !name->is(Behind::simulator)) {
+    return open_store<state::ProofStore>(interface, access);
+  }
+  const bool is_private = name->rest.empty() && !can::SimBus::is_served(can::default_socket_path());
+  const bool is_new = is_newer_than_proofs(name->rest, stores_folder(interface));
+  if (is_private || (is_new && access == state::Access::read)) {
+    return state::ProofStore::unshared();
+  }
+  auto proofs = open_store<state::ProofStore>(interface, access);
+  const auto cleared = proofs && is_new ? proofs->clear() : Result<void>();
+  return cleared ? std::move(proofs) : std::unexpected(cleared.error());
 }
 
 } // namespace
@@ -44,12 +76,7 @@ Result<fleet::History> open_history(std::string_view interface, std::string_view
   if (!snapshots) {
     return std::unexpected(std::move(snapshots.error()));
   }
-  // a private simulation has the unique IDs of the one before it, but another ROM
-  const auto name = parse_interface(interface);
-  const bool is_private = name && name->is(Behind::simulator) && name->rest.empty() &&
-                          !can::SimBus::is_served(can::default_socket_path());
-  auto proofs =
-      is_private ? state::ProofStore::unshared() : open_store<state::ProofStore>(interface, access);
+  auto proofs = open_proofs(interface, access);
   if (!proofs) {
     return std::unexpected(std::move(proofs.error()));
   }

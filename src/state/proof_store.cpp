@@ -105,6 +105,11 @@ Result<std::optional<RomProof>> ProofStore::find(const UniqueId& unique_id) cons
   return statement.bind(unique_id).first([&] { return proof_of(unique_id, statement); });
 }
 
+Result<void> ProofStore::clear() {
+  return file_->transact(
+      [](const Database& database) { return Statement(database, "DELETE FROM proofs").run(); });
+}
+
 Result<void> ProofStore::drop(std::span<const UniqueId> units) {
   return file_->transact([&](const Database& database) -> Result<void> {
     for (const UniqueId& unique_id : units) {

@@ -555,3 +555,20 @@ TEST_CASE("a unit that shares its node ID is not missing") {
                                 {"set", {{"smoothing", "off"}}}}}}};
   CHECK(codes(fleet.apply(document)) == Words{"duplicate_node_id"});
 }
+
+TEST_CASE("a proof of the last simulation proves nothing in the next one") {
+  const Bench bench;
+  const std::string scenario = Scene().servo("BLA21-12U-AB", 11).write(bench);
+  const std::string file = bench.file("fleet.json", R"({"schema": "blactl-fleet/1", "servos": [
+      {"name": "a", "match": {"node_id": 11}, "set": {"smoothing": "off"}}]})");
+  const Arguments apply{"-i", "sim:", "apply", file, "-y", "--json"};
+  {
+    Background sim(bench, {"sim", scenario, "--json", "--clock", "virtual"});
+    CHECK(statuses(bench.run(apply)) == Words{"changed"});
+    CHECK(statuses(bench.run(apply)) == Words{"unchanged"});
+    (void)sim.stop();
+  }
+  const Background sim(bench, {"sim", scenario, "--json", "--clock", "virtual"});
+  REQUIRE(bench.run({"-i", "sim:", "set", "-n", "11", "smoothing=off", "-y"}).status == 0);
+  CHECK(statuses(bench.run(apply)) == Words{"changed"});
+}

@@ -73,6 +73,9 @@ class ProofStore {
   /// The proof of a unit, to be checked with holds(); empty: its ROM is unknown.
   [[nodiscard]] Result<std::optional<RomProof>> find(const dronecan::UniqueId& unique_id) const;
 
+  /// Removes all proofs.
+  [[nodiscard]] Result<void> clear();
+
   /// Removes the proofs of these units: all or none.
   [[nodiscard]] Result<void> drop(std::span<const dronecan::UniqueId> units);
 
