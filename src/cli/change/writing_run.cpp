@@ -101,13 +101,15 @@ WritingRun::choose(const fleet::Targets& targets,
   return std::move(*selection);
 }
 
-std::optional<dronecan::NodeId> WritingRun::open_for_one(std::string_view command) {
+std::optional<dronecan::NodeId> WritingRun::open_for_one(std::string_view command,
+                                                         Recording recording) {
   const auto targets = context_.targets();
   if (!targets) {
     stop(targets.error());
     return std::nullopt;
   }
-  auto selection = open(command) ? choose(*targets, context_.identification()) : std::nullopt;
+  auto selection =
+      open(command, recording) ? choose(*targets, context_.identification()) : std::nullopt;
   if (!selection) {
     return std::nullopt;
   }

@@ -44,7 +44,8 @@ class WritingRun {
   choose(const fleet::Targets& targets, const fleet::Identification::Options& identification);
 
   /// Opens, and finds the one servo selected. Errors also: usage, if there are several.
-  [[nodiscard]] std::optional<dronecan::NodeId> open_for_one(std::string_view command);
+  [[nodiscard]] std::optional<dronecan::NodeId> open_for_one(std::string_view command,
+                                                             Recording recording = Recording::none);
 
   /// The bus was searched: servos that come later were not selected.
   void searched();

@@ -59,7 +59,7 @@ class Characterize : WritingRun {
 };
 
 bool Characterize::select() {
-  const auto one = open_for_one("characterize");
+  const auto one = open_for_one("characterize", Recording::if_possible);
   id_ = one.value_or(dronecan::NodeId{});
   return one.has_value();
 }
@@ -103,6 +103,7 @@ void Characterize::measure() {
   const auto tell_once = std::make_shared<std::function<void()>>(tell);
   context_.session().on_stopping([tell_once] { (*tell_once)(); });
   reporter.note(say<texts::do_not_cut_supply>());
+  const fleet::Manner recorded = WritingRun::manner({}, true);
   const fleet::BenchManner manner{
       .identification = context_.identification(),
       .while_driven = context_.shared().while_driven,
@@ -113,6 +114,9 @@ void Characterize::measure() {
                                     state::AllocationStore::Access::write);
           },
       .progress = [&reporter](const std::string& stage) { reporter.progress(stage); },
+      .history = history(),
+      .not_recorded = recorded.not_recorded,
+      .end_not_recorded = recorded.end_not_recorded,
       .putting_back = [tell_once] { (*tell_once)(); }};
   conclude(fleet::characterize(context_.session(), context_.known(), before_, manner));
 }

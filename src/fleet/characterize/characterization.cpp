@@ -99,6 +99,26 @@ void write_about(JsonWriter& json, const Characterization& measured, WallTime no
   json.end_object();
 }
 
+/// Until everything is put back, undo can do so. Returns the reason why nothing must be changed.
+std::optional<Error> record(const Session& session, const Snapshot& before,
+                            const BenchManner& manner) {
+  if (manner.history == nullptr) {
+    return std::nullopt;
+  }
+  const Plan all{.before = before, .proves_rom = true};
+  const auto kept = manner.history->keep(std::span(&all, 1), session);
+  return kept || !manner.not_recorded ? std::nullopt : manner.not_recorded(kept.error());
+}
+
+void take_back(const Servo& servo, const BenchManner& manner) {
+  const auto unique_id = servo.unique_id.value_or(dronecan::UniqueId{});
+  const auto taken = manner.history != nullptr ? manner.history->take_back(std::span(&unique_id, 1))
+                                               : Result<void>();
+  if (!taken && manner.end_not_recorded) {
+    manner.end_not_recorded(taken.error());
+  }
+}
+
 } // namespace
 
 Result<std::vector<const bla::Parameter*>> registers_to_characterize(const Servo& servo) {
@@ -139,6 +159,12 @@ std::string question_to_characterize(const Snapshot& before) {
 Characterization characterize(Session& session, const bla::Profiles& profiles,
                               const Snapshot& before, const BenchManner& manner) {
   const Servo& servo = before.servo;
+  if (auto refused = record(session, before, manner)) {
+    Characterization none;
+    none.servo = servo;
+    none.error = std::move(refused);
+    return none;
+  }
   FormerIds ids(session, {{servo.unique_id.value_or(dronecan::UniqueId{}), servo.id}},
                 manner.allocations);
   dronecan::Allocator allocator(session.node(), ids);
@@ -165,6 +191,8 @@ Characterization characterize(Session& session, const bla::Profiles& profiles,
   }
   if (!given) {
     measured.not_put_back = given.error();
+  } else {
+    take_back(servo, manner);
   }
   return measured;
 }

@@ -9,6 +9,7 @@
 #include "blactl/sim/scenario/facts.hpp"
 
 #include "support.hpp"
+#include "unit/state/processes.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -620,6 +621,26 @@ TEST_CASE("a second Ctrl-C ends at once, and says what is left") {
   REQUIRE(measured.not_put_back);
   CHECK(measured.not_put_back->message.find("not put back") != std::string::npos);
   CHECK(rig.session->now() - rig.bus->signalled <= 10ms);
+}
+
+TEST_CASE("what is left is recorded for undo, and nothing where all was put back") {
+  for (const bool is_left : {true, false}) {
+    const state::test::Folder folder;
+    const auto open = [&] { return state::SnapshotStore::open(folder.path, state::Access::write); };
+    History history("characterize", open().value(), state::ProofStore::unshared().value());
+    const Rig rig;
+    const Snapshot looked = rig.look();
+    rig.bus->at = is_left ? rig.bus->sent + 150 : -1;
+    rig.bus->again = is_left ? rig.bus->at + 1 : -1;
+    const auto measured = characterize(*rig.session, profiles(), looked, {.history = &history});
+    CHECK(measured.not_put_back.has_value() == is_left);
+    const auto entries = open()->entries().value();
+    REQUIRE(entries.size() == (is_left ? 1 : 0));
+    for (const auto& entry : entries) {
+      CHECK(entry.held.at(0x38) == looked.raw(bla::address::angle_limit_cw));
+      CHECK_FALSE(entry.saved);
+    }
+  }
 }
 
 TEST_CASE("whenever it restarts by itself it gets back what it held, or that is told") {

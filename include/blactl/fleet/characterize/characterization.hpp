@@ -11,6 +11,7 @@
 #include "blactl/fleet/bus/read_job.hpp"
 #include "blactl/fleet/bus/session.hpp"
 #include "blactl/fleet/bus/snapshot.hpp"
+#include "blactl/fleet/change/history.hpp"
 #include "blactl/state/allocation_store.hpp"
 
 #include <functional>
@@ -76,6 +77,10 @@ struct BenchManner {
   bool may_allocate = false;
   std::function<Result<state::AllocationStore>()> allocations{}; ///< as Manner::allocations
   std::function<void(const std::string&)> progress{};            ///< called with the present stage
+  History* history = nullptr;                                    ///< null: no record
+  /// As Manner::not_recorded and end_not_recorded.
+  std::function<std::optional<Error>(const Error&)> not_recorded{};
+  std::function<void(const Error&)> end_not_recorded{};
   /// Called when, after an interruption or error, changes are being restored.
   std::function<void()> putting_back{};
 };
