@@ -20,6 +20,9 @@ inline constexpr Text export_one_form{"--recipe and --params are two forms of on
 inline constexpr Text export_one_form_hint{"leave one of them out", "いずれか一方を外して下さい"};
 inline constexpr Text export_has_faults{"apply would refuse what was exported: {}",
                                         "出力した内容は apply では受け付けられません: {}"};
+inline constexpr Text export_replaces{
+    "{} is there already, and no export of these servos: it is replaced.\n",
+    "{} は既に存在し、対象サーボのエクスポートではありません。置き換えます。\n"};
 inline constexpr Text export_written{"{} written, servos: {}\n", "{} に {} 台分を書き込みました\n"};
 inline constexpr Text export_not_written{"{} is as it was: not everything was read",
                                          "{} は変更していません (読み出せなかった項目があるため)"};

@@ -480,3 +480,9 @@ TEST_CASE("alloc --static writes to neither of two units on one ID, whichever it
     CHECK(contains(result.err, uid(2)));
   }
 }
+
+TEST_CASE("a table on stdout leaves no place for a report in JSON") {
+  const Bench bench;
+  check_error(bench.run({"-i", "sim:", "alloc", "--export", "-", "--json"}), 2, "usage",
+              "both would be on stdout");
+}

@@ -110,6 +110,10 @@ Report export_allocations(const std::string& file, Context& context) {
     return failed(entries.error());
   }
   std::string content = state::allocation_file(*entries);
+  if (file == "-" && context.reporter().format() == Format::json) {
+    return failed({Code::usage, say<texts::alloc_export_json_needs_file>(),
+                   say<texts::alloc_export_json_needs_file_hint>(), std::nullopt});
+  }
   if (file == "-") {
     return done_with(file, std::move(content));
   }

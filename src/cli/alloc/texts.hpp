@@ -38,6 +38,12 @@ inline constexpr Text alloc_not_in_table{"{} is not in the allocation table",
                                          "{} は割当て表にありません"};
 inline constexpr Text alloc_not_in_table_hint{"see what is: blactl alloc --list",
                                               "一覧: blactl alloc --list"};
+inline constexpr Text alloc_export_json_needs_file{
+    "--json reports on FILE: both would be on stdout",
+    "--json の結果と割当て表がどちらも標準出力になるため、実行できません"};
+inline constexpr Text alloc_export_json_needs_file_hint{
+    "give a file: blactl alloc --export table.json --json; or leave --json out",
+    "ファイルを指定するか (blactl alloc --export table.json --json)、--json を外して下さい"};
 inline constexpr Text alloc_exported{"entries written to {1}: {0}\n",
                                      "{} 件を {} に書き込みました\n"};
 inline constexpr Text alloc_imported{"entries taken over from {1}: {0}\n",

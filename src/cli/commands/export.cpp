@@ -1,5 +1,6 @@
 // blactl export: the configuration of servos as a file for apply.
 
+#include "blactl/base/read_file.hpp"
 #include "blactl/base/replace_file.hpp"
 #include "blactl/fleet/bus/read_job.hpp"
 #include "blactl/fleet/bus/target_texts.hpp"
@@ -9,9 +10,12 @@
 #include "blactl/fleet/files/recipe.hpp"
 
 #include "cli/commands.hpp"
+#include "cli/confirm.hpp"
 #include "cli/fleet_texts.hpp"
 #include "cli/read_servos.hpp"
 
+#include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <span>
@@ -104,8 +108,48 @@ std::vector<fleet::Snapshot> read(std::span<const dronecan::NodeId> servos, Cont
   return std::move(read.servos);
 }
 
+/// Whether `old` was exported from the same servos, or is a file of one servo as this one.
+bool is_export_of(const ExportOptions& options, const std::string& old,
+                  std::span<const fleet::Snapshot> servos, const bla::Profiles& profiles) {
+  if (options.recipe) {
+    return fleet::parse_recipe(old, options.file, profiles).has_value();
+  }
+  if (options.params) {
+    return fleet::parse_params_file(old, options.file, profiles).has_value();
+  }
+  const auto fleet = fleet::parse_fleet_file(old, options.file, profiles);
+  if (!fleet || fleet->servos.size() != servos.size()) {
+    return false;
+  }
+  return std::ranges::all_of(servos, [&](const fleet::Snapshot& servo) {
+    return std::ranges::any_of(fleet->servos, [&](const fleet::FleetEntry& entry) {
+      return entry.match.unique_id && entry.match.unique_id == servo.servo.unique_id;
+    });
+  });
+}
+
+/// On a terminal a file of something else is replaced only after a yes.
+Result<void> may_replace(const ExportOptions& options, std::span<const fleet::Snapshot> servos,
+                         Context& context) {
+  constexpr std::size_t most = 16 << 20;
+  std::error_code error;
+  const bool is_asked = !options.to_stdout() && Reporter::has_terminal() &&
+                        std::filesystem::exists(options.file, error);
+  const auto old = is_asked ? read_file(options.file, most) : Result<std::string>();
+  if (!is_asked || (old && is_export_of(options, *old, servos, context.known()))) {
+    return {};
+  }
+  return confirm(say<texts::export_replaces>(printable(options.file)), context);
+}
+
 /// Shows the content, or writes it to the file.
-void conclude(const ExportOptions& options, std::string content, Report& report) {
+void conclude(const ExportOptions& options, std::string content,
+              std::span<const fleet::Snapshot> servos, Context& context, Report& report) {
+  if (report.all_errors().empty()) {
+    if (auto agreed = may_replace(options, servos, context); !agreed) {
+      report.fail(agreed.error());
+    }
+  }
   const bool was_read = report.all_errors().empty();
   if (!options.to_stdout() && was_read) {
     if (auto written = replace_file(options.file, content); !written) {
@@ -162,7 +206,7 @@ Report execute(const ExportOptions& options, Context& context) {
       !fine && !options.recipe && !options.params) {
     context.reporter().note(say<texts::export_has_faults>(fine.error().message));
   }
-  conclude(options, text, report);
+  conclude(options, text, servos, context, report);
   if (!report.all_errors().empty() && !options.to_stdout()) {
     context.reporter().note(say<texts::export_not_written>(printable(options.file)));
   }
