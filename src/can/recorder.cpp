@@ -65,18 +65,29 @@ Result<bool> Recorder::send(const Frame& frame) {
 }
 
 std::optional<BusEvent> Recorder::receive() {
-  auto event = bus_->receive();
-  if (event) {
-    if (const auto* received = std::get_if<Received>(&*event)) {
-      record(received->frame, received->wall);
-    } else if (const auto* sent = std::get_if<Sent>(&*event)) {
+  while (auto event = bus_->receive()) {
+    if (const auto* sent = std::get_if<Sent>(&*event)) {
       record(sent->frame, sent->wall);
     }
+    const auto* received = std::get_if<Received>(&*event);
+    if (received != nullptr) {
+      record(received->frame, received->wall);
+    }
+    if (received == nullptr || passes(received->frame)) {
+      return event;
+    }
   }
-  return event;
+  return std::nullopt;
 }
 
-Result<void> Recorder::filter(std::span<const Filter>) {
+bool Recorder::passes(const Frame& frame) const {
+  return filters_.empty() || std::ranges::any_of(filters_, [&](const Filter& filter) {
+           return frame.extended && (frame.id & filter.mask) == (filter.id & filter.mask);
+         });
+}
+
+Result<void> Recorder::filter(std::span<const Filter> filters) {
+  filters_.assign(filters.begin(), filters.end());
   return {};
 }
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace blactl::can {
 
@@ -47,7 +48,7 @@ class Recorder final : public Bus {
 
   [[nodiscard]] std::optional<BusEvent> receive() override;
 
-  /// Not forwarded: the log has all frames.
+  /// The log has all frames, so it is not forwarded; what is received is as without a recording.
   [[nodiscard]] Result<void> filter(std::span<const Filter> filters) override;
 
   [[nodiscard]] bool echoes() const override { return bus_->echoes(); }
@@ -76,6 +77,7 @@ class Recorder final : public Bus {
   Recorder(std::unique_ptr<Bus> bus, int descriptor, std::string path);
 
   void record(const Frame& frame, WallTime at);
+  [[nodiscard]] bool passes(const Frame& frame) const;
   void stop(int error);
 
   std::unique_ptr<Bus> bus_;
@@ -84,6 +86,7 @@ class Recorder final : public Bus {
   std::string interface_;
   std::int64_t complete_ = 0; ///< bytes of complete lines
   std::optional<Error> error_;
+  std::vector<Filter> filters_; ///< empty: all
 };
 
 } // namespace blactl::can

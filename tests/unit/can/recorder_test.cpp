@@ -99,12 +99,28 @@ TEST_CASE("on a bus without echoes a frame is written when it was taken") {
   CHECK(file.text() == "(0000001000.000000) fake 1E018AFF#C0\n");
 }
 
-TEST_CASE("a recorder hears everything, and is the bus otherwise") {
+TEST_CASE("a recorder writes down everything, and passes on what the filters want") {
   const ScratchFile file;
   Wire wire;
   const auto recorder = open(wire, file);
-  CHECK(recorder->filter(std::vector<Filter>{{1, 1}}));
+  CHECK(recorder->filter(std::vector<Filter>{{heard.id, 0x1FFFFFFF}}));
   CHECK(wire.filters.empty());
+  Frame other = heard;
+  other.id ^= 1U;
+  for (const Frame& frame : {other, other, heard, other}) {
+    wire.happen(Received{frame, wire.now, WallTime(1436509052s)});
+  }
+  const auto passed = recorder->receive();
+  REQUIRE(passed);
+  CHECK(std::get<Received>(*passed).frame == heard);
+  CHECK_FALSE(recorder->receive());
+  CHECK(std::ranges::count(file.text(), '\n') == 4);
+}
+
+TEST_CASE("a recorder is the bus otherwise") {
+  const ScratchFile file;
+  Wire wire;
+  const auto recorder = open(wire, file);
   CHECK(recorder->name() == "fake");
   CHECK(recorder->echoes());
   CHECK(recorder->descriptor() == -1);
