@@ -24,7 +24,7 @@ bool open_for_reading(std::string_view command, Context& context, Report& report
                  say<texts::listen_only_hint>(), std::nullopt});
     return false;
   }
-  if (auto session = context.open(fleet::Session::Hearing::answers); !session) {
+  if (auto session = context.open(fleet::Session::Hearing::commands); !session) {
     report.fail(session.error());
     return false;
   }

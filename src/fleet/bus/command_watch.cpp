@@ -12,7 +12,7 @@ using dronecan::Transfer;
 
 namespace {
 
-/// ERASE writes all of them; so may a name that is not one of ours.
+/// ERASE and a restart write all of them; so may a name that is not one of ours.
 constexpr std::optional<bla::Address> every_register{};
 constexpr std::uint16_t last_index = 0xFF;
 
@@ -21,7 +21,9 @@ constexpr std::uint16_t last_index = 0xFF;
 void Repeated::hear(Time at, Duration usual) {
   constexpr int periods = 3;
   const bool is_first = lasts_ == Duration::zero();
-  lasts_ = is_first ? usual : std::clamp<Duration>(periods * (at - at_), least, most);
+  const Duration since = is_first ? usual / periods : at - at_;
+  lasts_ = is_first ? usual : std::clamp<Duration>(periods * std::max(since, since_), least, most);
+  since_ = since;
   at_ = at;
 }
 
@@ -34,6 +36,8 @@ void CommandWatch::receive(const Transfer& transfer) {
     on_write(transfer);
   } else if (is(Kind::request, dronecan::ExecuteOpcode::type)) {
     on_opcode(transfer);
+  } else if (is(Kind::request, dronecan::RestartNode::type)) {
+    writes_[header.destination][every_register] = {header.source, transfer.at};
   } else if (is(Kind::message, dronecan::ArrayCommand::type)) {
     on_command(transfer);
   } else if (is(Kind::message, dronecan::ArmingStatus::type)) {
@@ -85,6 +89,10 @@ void CommandWatch::on_write(const Transfer& transfer) {
   const auto& [source, server] = std::pair(transfer.header.source, transfer.header.destination);
   if (is_at(at::command_angle) || is_at(at::command_speed) || is_at(at::command_torque)) {
     commander(source).nodes[server].hear(transfer.at);
+  } else if (is_at(at::initialize) || is_at(at::reboot)) {
+    writes_[server][every_register] = {source, transfer.at};
+  } else if (is_at(at::write_rom)) {
+    saves_[server] = {source, transfer.at};
   } else {
     const auto reg = request->name.empty() ? std::optional(bla::Address(static_cast<std::uint8_t>(
                                                  std::min(request->index, last_index))))
@@ -95,9 +103,18 @@ void CommandWatch::on_write(const Transfer& transfer) {
 
 void CommandWatch::on_opcode(const Transfer& transfer) {
   const auto request = dronecan::ExecuteOpcode::Request::decode(transfer.payload);
+  const Write write{transfer.header.source, transfer.at};
   if (request && request->opcode == dronecan::ExecuteOpcode::erase) {
-    writes_[transfer.header.destination][every_register] = {transfer.header.source, transfer.at};
+    writes_[transfer.header.destination][every_register] = write;
+  } else if (request && request->opcode == dronecan::ExecuteOpcode::save) {
+    saves_[transfer.header.destination] = write;
   }
+}
+
+std::optional<NodeId> CommandWatch::saver_of(NodeId id, Time since) const {
+  const auto save = saves_.find(id);
+  return save != saves_.end() && save->second.at > since ? std::optional(save->second.source)
+                                                         : std::nullopt;
 }
 
 std::optional<NodeId> CommandWatch::armed_by(Time now) const {

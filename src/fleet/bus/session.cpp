@@ -50,9 +50,11 @@ std::vector<can::Filter> filters(Session::Hearing hearing, NodeId local) {
   if (hearing == Session::Hearing::commands) {
     wanted.push_back(message_filter(dronecan::ArrayCommand::type));
     wanted.push_back(message_filter(dronecan::ArmingStatus::type));
-    wanted.push_back(
-        {static_cast<std::uint32_t>(dronecan::GetSet::type.id) << 16 | request | service,
-         0x00FF0000 | request | service});
+    for (const dronecan::DataType* type :
+         {&dronecan::GetSet::type, &dronecan::ExecuteOpcode::type, &dronecan::RestartNode::type}) {
+      wanted.push_back({static_cast<std::uint32_t>(type->id) << 16 | request | service,
+                        0x00FF0000 | request | service});
+    }
   }
   return wanted;
 }

@@ -229,6 +229,10 @@ bool Loan::tell(const Held& held, const Snapshot& now, GivenBack& given) const {
     return true;
   }
   const std::int64_t raw = value(now).value_or(borrowed_.value.raw);
+  if (auto saved = saved_by_another(held, now)) {
+    given.errors.push_back(std::move(*saved));
+    return true;
+  }
   auto why = what_happened(held, now);
   if (raw == held.before) {
     if (held.state != State::untouched) {
@@ -249,6 +253,27 @@ bool Loan::tell(const Held& held, const Snapshot& now, GivenBack& given) const {
   given.errors.push_back(
       error_of(held, say<texts::loan_differs>(reason.message, shown(held.before)), reason));
   return is_left || held.state != State::borrowed;
+}
+
+/// The value lent may be in ROM: another node ordered SAVE, or a restart brought it back.
+std::optional<Error> Loan::saved_by_another(const Held& held, const Snapshot& now) const {
+  const std::uint8_t id = held.servo.id.value();
+  if (held.state == State::untouched || held.before == borrowed_.value.raw) {
+    return std::nullopt;
+  }
+  const std::string& name = borrowed_.parameter->name;
+  const std::string hint = say<texts::loan_rom_back_hint>(name, shown(held.before), id);
+  if (const auto by = session_.roster().saver_of(held.servo.id, since_)) {
+    return Error{
+        Code::state,
+        say<texts::loan_saved_by_another>(id, by->value(), name, shown(borrowed_.value.raw)), hint,
+        id};
+  }
+  if (now.servo.boot != held.servo.boot && value(now) == borrowed_.value.raw) {
+    return Error{Code::state, say<texts::loan_restarted>(id, name, shown(borrowed_.value.raw)),
+                 hint, id};
+  }
+  return std::nullopt;
 }
 
 /// The reason why its torque may not be ours, with its present state.

@@ -35,6 +35,12 @@ inline constexpr Text loan_not_back{"node {}: torque was not put back: {}",
                                     "ノード {}: トルクを元に戻せませんでした: {}"};
 inline constexpr Text loan_back_hint{"to put it back: blactl set {}={} -n {}",
                                      "元に戻すには: blactl set {}={} -n {}"};
+inline constexpr Text loan_rom_back_hint{
+    "to put it back, in ROM too: blactl set {}={} -n {} --save",
+    "ROM も含めて元に戻すには: blactl set {}={} -n {} --save"};
+inline constexpr Text loan_saved_by_another{
+    "node {}: node {} had its values saved meanwhile: its ROM holds {}={}, or may do so",
+    "ノード {}: 途中でノード {} が保存を指示したため、ROM に {}={} が保存された可能性があります"};
 inline constexpr Text loan_not_in_time{"interrupted", "中断されました"};
 inline constexpr Text loan_changed{
     "node {}: {} is {} now, not as a moment ago: nothing was changed",

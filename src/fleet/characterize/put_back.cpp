@@ -37,7 +37,11 @@ Result<void> TestBench::put_back() {
   }
   tell(texts::bench_stage_put_back);
   const auto given = give_back();
-  return given ? given : std::unexpected(not_put_back(given.error()));
+  if (!given) {
+    return std::unexpected(not_put_back(given.error()));
+  }
+  const auto saved = saved_by_other();
+  return saved ? std::unexpected(*saved) : given;
 }
 
 Result<void> TestBench::give_back() {

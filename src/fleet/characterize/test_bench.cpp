@@ -34,8 +34,8 @@ constexpr Duration longest_until_status = 1200ms;
 TestBench::TestBench(Session& session, const bla::Profiles& profiles, const Snapshot& before,
                      const BenchManner& manner)
     : session_(session), profiles_(profiles), manner_(manner), servo_(before.servo),
-      start_watch_(before.servo.unique_id.value_or(dronecan::UniqueId{})),
-      before_(before.values()) {
+      start_watch_(before.servo.unique_id.value_or(dronecan::UniqueId{})), before_(before.values()),
+      begin_(session.now()) {
   for (const auto& [address, limit] : soft_start_limits) {
     if (const auto raw = bla::find(before_, address)) {
       hidden_[address] = *raw;
@@ -127,7 +127,19 @@ Result<void> TestBench::prove_run() {
 
 Error TestBench::restarted_by_itself() const {
   const std::uint8_t id = servo_.id.value();
+  if (auto saved = saved_by_other()) {
+    return std::move(*saved);
+  }
   return {Code::state, say<texts::bench_restarted>(id), say<texts::bench_restarted_hint>(), id};
+}
+
+/// Its SAVE keeps what RAM held at that moment.
+std::optional<Error> TestBench::saved_by_other() const {
+  const std::uint8_t id = servo_.id.value();
+  const auto by = roster().saver_of(servo_.id, begin_);
+  return by ? std::optional(Error{Code::state, say<texts::bench_saved_by_other>(id, by->value()),
+                                  say<texts::bench_saved_by_other_hint>(id), id})
+            : std::nullopt;
 }
 
 /// Checks the conditions that forbid writing, before every change. Changes are restored even while

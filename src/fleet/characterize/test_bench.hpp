@@ -128,6 +128,7 @@ class TestBench {
   [[nodiscard]] Guard guard() const { return {roster(), may_be_driven()}; }
 
   [[nodiscard]] Error restarted_by_itself() const;
+  [[nodiscard]] std::optional<Error> saved_by_other() const;
   [[nodiscard]] std::optional<Error> refuse_restart(RestartKind kind) const;
   [[nodiscard]] Result<dronecan::NodeId> leave_and_return(RestartKind kind,
                                                           const std::vector<bla::Address>& at_once);
@@ -170,6 +171,7 @@ class TestBench {
   bla::Values at_once_;
   std::optional<SaveRestartJob> restart_; ///< the last one, used by start_watch_
   bool has_changed_ = false;
+  Time begin_; ///< of the bench
   bool puts_back_ = false;
   bool is_starting_softly_ = false; ///< as far as known, since the restore
   std::optional<Error> refused_;    ///< the first refusal during the restore

@@ -9,6 +9,15 @@ inline constexpr Text bench_restarted{"node {}: it restarted by itself while it 
                                       "ノード {}: 測定中にサーボが再起動しました"};
 inline constexpr Text bench_restarted_hint{"look at its supply, then run it again",
                                            "電源を確認してからもう一度実行して下さい"};
+inline constexpr Text bench_saved_by_other{
+    "node {1} had the values of node {0} saved while it was measured: its ROM may hold those of "
+    "the "
+    "measurement",
+    "測定中にノード {1} がノード {0} に保存を指示したため、ROM に測定用の値が保存された可能性が"
+    "あります"};
+inline constexpr Text bench_saved_by_other_hint{
+    "RAM holds what it held: make that permanent with blactl save -n {}",
+    "RAM は元の値です。ROM も元に戻すには blactl save -n {} を実行して下さい"};
 inline constexpr Text bench_changed{
     "node {}: {} is {}, not {} as a moment ago: somebody else changes it, or it restarted",
     "ノード {}: {} が先ほどと異なります ({}、直前は {})。他の機器が変更したか、再起動しています"};

@@ -188,6 +188,18 @@ Step MotionJob::recognise() {
   return proof_->next({Outcome::Kind::start, {}, now_});
 }
 
+/// What another node began after the last reading.
+std::optional<Error> MotionJob::disturbed_in_the_end() const {
+  if (auto why = forbidden(); why && why->code == Code::driven) {
+    return why;
+  }
+  const auto writer = roster_.writer_to(servo_.id, looked_at_);
+  return writer
+             ? std::optional(Error{Code::state, say<texts::written_by_other>(id(), writer->value()),
+                                   say<texts::other_writer_hint>(), id()})
+             : std::nullopt;
+}
+
 Step MotionJob::judge_proof(const Outcome& outcome) {
   if (Step step = proof_->next(outcome); !step.is_end()) {
     return step;
@@ -203,6 +215,9 @@ Step MotionJob::judge_proof(const Outcome& outcome) {
   if (phase_ != Phase::ended) {
     auto why = forbidden();
     return why ? give_up(std::move(*why)) : finish();
+  }
+  if (auto why = result_.error ? std::nullopt : disturbed_in_the_end()) {
+    return give_up(std::move(*why));
   }
   result_.is_ended = true;
   if (plan_.is_angle() && !holds(plan_, result_)) {

@@ -53,14 +53,25 @@ void Endpoint::receive(const can::Frame& frame, Time at) {
 std::vector<can::Frame> Endpoint::message(const dronecan::DataType& type,
                                           dronecan::Priority priority,
                                           std::span<const std::uint8_t> payload) {
-  dronecan::TransferId& next = next_transfer_id_[type.id];
-  const dronecan::TransferId id = next;
-  next = static_cast<dronecan::TransferId>((next + 1) % dronecan::transfer_id_modulus);
+  const dronecan::TransferId id = next_id(type.id);
   dronecan::Header header{dronecan::Kind::message, priority, type.id, node_id_, {}, 0};
   if (!node_id_.is_unicast()) {
     header.discriminator = dronecan::discriminator(payload, id);
   }
   return dronecan::segment(header, id, type.signature, payload);
+}
+
+dronecan::TransferId Endpoint::next_id(std::uint16_t data_type_id) {
+  dronecan::TransferId& next = next_transfer_id_[data_type_id];
+  return std::exchange(
+      next, static_cast<dronecan::TransferId>((next + 1) % dronecan::transfer_id_modulus));
+}
+
+std::vector<can::Frame> Endpoint::request(dronecan::NodeId server, const dronecan::DataType& type,
+                                          std::span<const std::uint8_t> payload) {
+  const dronecan::Header header{
+      dronecan::Kind::request, dronecan::priority_medium, type.id, node_id_, server, 0};
+  return dronecan::segment(header, next_id(type.id), type.signature, payload);
 }
 
 std::vector<can::Frame> Endpoint::response(const dronecan::Transfer& request,

@@ -61,7 +61,8 @@ void ForeignNode::receive(const can::Frame& frame, Time at) {
 }
 
 Time ForeignNode::next_deadline() const {
-  return std::min({next_status_, next_command_, next_actuator_, role_->next_deadline()});
+  return std::min(
+      {next_status_, next_command_, next_actuator_, next_order(), role_->next_deadline()});
 }
 
 void ForeignNode::advance(Time now) {
@@ -92,7 +93,44 @@ void ForeignNode::advance(Time now) {
     send_message(dronecan::ActuatorStatus::type, dronecan::priority_medium,
                  status.encode().bytes());
   }
+  while (next_order() <= now) {
+    send_order(setup_.orders[orders_sent_++]);
+  }
   role_->advance(now);
+}
+
+Time ForeignNode::next_order() const {
+  return orders_sent_ < setup_.orders.size() ? power_on_ + setup_.orders[orders_sent_].at : never;
+}
+
+void ForeignNode::send_order(const OrderSetup& order) {
+  using Order = OrderSetup::Order;
+  using dronecan::ExecuteOpcode;
+  const dronecan::NodeId server(order.to);
+  std::vector<can::Frame> frames;
+  switch (order.order) {
+  case Order::erase:
+  case Order::save: {
+    const auto opcode = order.order == Order::save ? ExecuteOpcode::save : ExecuteOpcode::erase;
+    frames = endpoint_.request(server, ExecuteOpcode::type,
+                               ExecuteOpcode::Request{.opcode = opcode}.encode().bytes());
+    break;
+  }
+  case Order::restart:
+    frames = endpoint_.request(server, dronecan::RestartNode::type,
+                               dronecan::RestartNode::Request{}.encode().bytes());
+    break;
+  case Order::initialize:
+    frames = endpoint_.request(
+        server, dronecan::GetSet::type,
+        dronecan::GetSet::Request{.index = 0, .value = std::int64_t{1}, .name = "0x10"}
+            .encode()
+            .bytes());
+    break;
+  }
+  for (const can::Frame& frame : frames) {
+    send(frame);
+  }
 }
 
 void ForeignNode::handle(const dronecan::Transfer& transfer) {

@@ -4,6 +4,7 @@
 #include "sim/scenario/scenario_values.hpp"
 #include "sim/scenario/texts.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <string_view>
 
@@ -41,9 +42,24 @@ void read_commander(json::Object& object, std::string_view key, ForeignSetup& in
   }
 }
 
+constexpr Member<OrderSetup> order[]{
+    {"at", up_to_seconds<&OrderSetup::at, 3600>},
+    {"to", integer<&OrderSetup::to, 1, 127>},
+    {"order", word<&OrderSetup::order, "erase", "save", "restart", "initialize">},
+};
+
+void read_orders(json::Object& object, std::string_view key, ForeignSetup& into,
+                 json::Faults& faults) {
+  for (const json::Value* item : object.optional_array(key)) {
+    read_whole(json::Object(*item, faults), order, into.orders.emplace_back(), faults);
+  }
+  std::ranges::stable_sort(into.orders, {}, &OrderSetup::at);
+}
+
 constexpr Member<ForeignSetup> every_kind[]{
     {"serves_get_set", to<&ForeignSetup::serves_get_set>},
     {"commands", read_commander},
+    {"orders", read_orders},
     {"armed", to<&ForeignSetup::armed>},
     {"begins", up_to_seconds<&ForeignSetup::begins, 3600>},
     {"actuator_id", integer<&ForeignSetup::actuator_id, 0, 255>},

@@ -33,6 +33,7 @@ class Repeated {
 
  private:
   Time at_{};
+  Duration since_{}; ///< the one before: one sent out of turn is no shorter period
   Duration lasts_{}; ///< zero: never heard
 };
 
@@ -71,6 +72,9 @@ class CommandWatch {
   [[nodiscard]] std::optional<dronecan::NodeId>
   writer_to(dronecan::NodeId id, Time since, std::optional<bla::Address> reg = std::nullopt) const;
 
+  /// Another node that ordered SAVE of this one after `since`.
+  [[nodiscard]] std::optional<dronecan::NodeId> saver_of(dronecan::NodeId id, Time since) const;
+
   /// Another node that commanded this servo to move, by a command that `matters`. `actuator_id`:
   /// the servo ID of its actuator.Status.
   [[nodiscard]] std::optional<dronecan::NodeId>
@@ -93,6 +97,7 @@ class CommandWatch {
   std::map<dronecan::NodeId, Repeated> armed_; ///< by nodes that reported it last
   /// The last writes to settings, by server and register; empty: to all registers.
   std::map<dronecan::NodeId, std::map<std::optional<bla::Address>, Write>> writes_;
+  std::map<dronecan::NodeId, Write> saves_; ///< by server
 };
 
 } // namespace blactl::fleet

@@ -222,6 +222,11 @@ class Roster {
     return commands_.writer_to(id, since, reg);
   }
 
+  /// As CommandWatch::saver_of().
+  [[nodiscard]] std::optional<dronecan::NodeId> saver_of(dronecan::NodeId id, Time since) const {
+    return commands_.saver_of(id, since);
+  }
+
   /// Another node that commanded this servo to move after `since`, as far as heard.
   [[nodiscard]] std::optional<dronecan::NodeId> commander_of(const Servo& servo, Time since) const;
 

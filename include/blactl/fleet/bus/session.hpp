@@ -26,8 +26,10 @@ class Session {
  public:
   /// The frames this session receives; a kernel filter drops the others.
   enum class Hearing : std::uint8_t {
-    answers,  ///< services for us, NodeStatus, actuator.Status, Allocation, and frames with our ID
-    commands, ///< also those needed before writing: ArrayCommand, ArmingStatus, GetSet requests
+    answers, ///< services for us, NodeStatus, actuator.Status, Allocation, and frames with our ID
+    /// Also those that command and change servos: ArrayCommand, ArmingStatus, requests for GetSet,
+    /// ExecuteOpcode and RestartNode.
+    commands,
     all,
   };
 

@@ -88,6 +88,7 @@ class Loan {
   [[nodiscard]] bool tell(const Held& held, const Snapshot& now, GivenBack& given) const;
   [[nodiscard]] bool tell_unread(const Held& held, const Error& why, GivenBack& given) const;
   [[nodiscard]] std::optional<Goal> judge(const Snapshot& now, Held& held) const;
+  [[nodiscard]] std::optional<Error> saved_by_another(const Held& held, const Snapshot& now) const;
   [[nodiscard]] std::optional<std::string> what_happened(const Held& held,
                                                          const Snapshot& now) const;
   [[nodiscard]] std::vector<dronecan::NodeId>

@@ -71,6 +71,7 @@ class MotionJob final : public dronecan::Job {
   [[nodiscard]] dronecan::Step go_on();
   [[nodiscard]] dronecan::Step move();
   [[nodiscard]] dronecan::Step end();
+  [[nodiscard]] std::optional<Error> disturbed_in_the_end() const;
   [[nodiscard]] dronecan::Step command(std::int64_t raw);
   [[nodiscard]] dronecan::Step judge_echo(const dronecan::Outcome& outcome);
   [[nodiscard]] dronecan::Step read_back();

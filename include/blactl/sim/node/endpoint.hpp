@@ -38,12 +38,18 @@ class Endpoint {
                                                 dronecan::Priority priority,
                                                 std::span<const std::uint8_t> payload);
 
+  /// The frames of a request of this node.
+  [[nodiscard]] std::vector<can::Frame> request(dronecan::NodeId server,
+                                                const dronecan::DataType& type,
+                                                std::span<const std::uint8_t> payload);
+
   /// The frames of the response to `request`, at the priority of the request.
   [[nodiscard]] std::vector<can::Frame> response(const dronecan::Transfer& request,
                                                  const dronecan::DataType& type,
                                                  std::span<const std::uint8_t> payload) const;
 
  private:
+  [[nodiscard]] dronecan::TransferId next_id(std::uint16_t data_type_id);
   [[nodiscard]] bool wants(const dronecan::Header& header) const;
 
   std::vector<std::uint16_t> subscriptions_;

@@ -13,7 +13,7 @@ namespace blactl::sim {
 
 class ForeignRole;
 
-/// Sends NodeStatus and answers GetNodeInfo; if configured, it answers GetSet, streams
+/// Sends NodeStatus and answers GetNodeInfo; if configured, it answers GetSet, orders, streams
 /// ArrayCommand, and sends ArmingStatus and actuator.Status. Its role adds the behaviour of its
 /// kind.
 class ForeignNode final : public Device {
@@ -27,6 +27,8 @@ class ForeignNode final : public Device {
 
  private:
   [[nodiscard]] std::unique_ptr<ForeignRole> make_role(Time power_on);
+  [[nodiscard]] Time next_order() const;
+  void send_order(const OrderSetup& order);
   void handle(const dronecan::Transfer& transfer);
   void answer(const dronecan::Transfer& request, const dronecan::DataType& type,
               const dronecan::Payload& payload);
@@ -42,6 +44,7 @@ class ForeignNode final : public Device {
   Time next_status_;
   Time next_command_ = never;
   Time next_actuator_ = never;
+  std::size_t orders_sent_ = 0;
 };
 
 } // namespace blactl::sim

@@ -21,6 +21,13 @@ struct CommanderSetup {
   Duration period = std::chrono::milliseconds(20);
 };
 
+/// A request to a servo, as sent by another tool.
+struct OrderSetup {
+  Duration at{}; ///< after power-on
+  std::uint8_t to = 1;
+  enum class Order : std::uint8_t { erase, save, restart, initialize } order = Order::erase;
+};
+
 /// A node with the behaviour common to all nodes, and nothing else.
 struct PlainSetup {};
 
@@ -52,6 +59,7 @@ struct ForeignSetup {
   dronecan::UniqueId unique_id{};
   bool serves_get_set = false;
   std::optional<CommanderSetup> commands;
+  std::vector<OrderSetup> orders;          ///< in the order of time
   std::optional<bool> armed;               ///< empty: sends no ArmingStatus
   Duration begins{};                       ///< of `commands`, and of being armed, after power-on
   std::optional<std::uint8_t> actuator_id; ///< empty: sends no actuator.Status
