@@ -160,7 +160,7 @@ bool Run::let_in() {
     context_.reporter().note(say<texts::ids_not_kept>(table.error().message));
     table = state::AllocationStore::unshared();
   }
-  const auto done = table ? fleet::let_in(context_.session(), *table)
+  const auto done = table ? fleet::let_in(context_.session(), *table, std::move(goals_.missing))
                           : Result<void>(std::unexpected(table.error()));
   return done || broken(done.error());
 }

@@ -15,6 +15,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -28,6 +29,8 @@ struct Goals {
   std::vector<fleet::EntryDiff> others{}; ///< without a goal: missing, left out, extra
   std::vector<Error> errors{};            ///< why nothing may be changed
   bool may_wait = false; ///< missing servos may be among those that request a node ID
+  /// All of those by their unique IDs; empty: some are known otherwise.
+  std::optional<std::vector<dronecan::UniqueId>> missing{};
 };
 
 /// The servos that a command may be about.

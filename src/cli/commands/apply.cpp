@@ -106,6 +106,19 @@ fleet::Goal goal(const fleet::FleetEntry& entry, dronecan::NodeId id, const Mann
           .evidence = manner.trusts_ram ? fleet::Evidence::ram : fleet::Evidence::restart};
 }
 
+/// Their unique IDs; empty: not all entries have one.
+std::optional<std::vector<dronecan::UniqueId>>
+units(std::span<const fleet::FleetEntry* const> entries) {
+  std::vector<dronecan::UniqueId> units;
+  for (const fleet::FleetEntry* entry : entries) {
+    if (!entry->match.unique_id) {
+      return std::nullopt;
+    }
+    units.push_back(*entry->match.unique_id);
+  }
+  return units;
+}
+
 /// The goals for the servos that match entries.
 Goals match(const fleet::FleetFile& file, const Manner& manner, const Whom& whom,
             const bla::Profiles& profiles) {
@@ -120,6 +133,7 @@ Goals match(const fleet::FleetFile& file, const Manner& manner, const Whom& whom
                             say<texts::apply_missing_hint>(), std::nullopt});
   }
   goals.may_wait = !matched.missing.empty();
+  goals.missing = units(matched.missing);
   if (goals.goals.empty() && goals.errors.empty()) {
     goals.errors.push_back({Code::not_found, say<texts::apply_nobody>(printable(file.file)),
                             say<texts::apply_nobody_hint>(printable(file.file)), std::nullopt});

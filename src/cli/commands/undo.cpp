@@ -108,6 +108,8 @@ void Undo::of_last_run(const Whom& whom, Goals& goals) {
       continue;
     }
     goals.may_wait = true;
+    goals.missing = std::move(goals.missing).value_or(std::vector<dronecan::UniqueId>());
+    goals.missing->push_back(entry.unique_id);
     goals.errors.push_back(
         {Code::not_found, say<texts::undo_missing>(hex(entry.unique_id), printable(entry.command)),
          say<texts::apply_missing_hint>(), std::nullopt});

@@ -1,6 +1,7 @@
 #include "blactl/fleet/bus/roster.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <iterator>
 #include <utility>
 
@@ -15,7 +16,11 @@ namespace {
 constexpr std::uint8_t tail_start_of_transfer = 0x80;
 
 /// Bound for the memory that other nodes can make us use.
-constexpr std::size_t most_pending = 256;
+constexpr std::size_t most_pending = 1024;
+
+/// A unit without a node ID repeats its request after 0.6 s to 1 s (1.Allocation.uavcan); one may
+/// be lost.
+constexpr Duration request_period = std::chrono::seconds(2);
 
 /// The identification (table 3-11) and the settings (kept by SAVE, 4.11) of a servo: two values in
 /// responses to one request are of two servos.
@@ -315,9 +320,13 @@ void Roster::on_allocation(const Transfer& transfer) {
         return std::ranges::equal(waiting.first, std::span(prefix).first(waiting.first.size()));
       });
     }
-  } else if (allocation->first_part_of_unique_id && !prefix.empty() &&
-             (pending_.size() < most_pending || pending_.contains(prefix))) {
-    pending_.insert_or_assign(prefix, transfer.at);
+  } else if (allocation->first_part_of_unique_id && !prefix.empty()) {
+    std::erase_if(pending_, [&](const auto& entry) {
+      return !entry.second.is_repeated() && transfer.at - entry.second.last > request_period;
+    });
+    if (pending_.size() < most_pending || pending_.contains(prefix)) {
+      pending_.try_emplace(prefix, transfer.at, transfer.at).first->second.last = transfer.at;
+    }
   }
 }
 
@@ -343,7 +352,7 @@ std::optional<Time> Roster::asked_at(const dronecan::UniqueId& unique_id) const 
   const auto waiting = std::ranges::find_if(pending_, [&](const auto& entry) {
     return std::ranges::equal(entry.first, std::span(unique_id).first(entry.first.size()));
   });
-  return waiting != pending_.end() ? std::optional(waiting->second) : std::nullopt;
+  return waiting != pending_.end() ? std::optional(waiting->second.last) : std::nullopt;
 }
 
 std::optional<NodeId> Roster::driver_of(const Servo& servo, Time now) const {

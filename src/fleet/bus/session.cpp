@@ -294,11 +294,14 @@ Result<void> Session::give_way() {
   const auto is_taken = [this](NodeId id) {
     return roster_.heard(id) && loop_.now() - roster_.member(id).last_heard < offline_time;
   };
+  Result<void> given;
   do {
-    if (auto other = local_->give_way(interface()); !other) {
-      return other;
-    }
-  } while (is_taken(local_->id()));
+    given = local_->give_way(interface());
+  } while (given && is_taken(local_->id()));
+  if (!given) {
+    begin_as_node(); // with the last one: what was changed for the time being is put back
+    return given;
+  }
   if (new_id_) {
     new_id_(*local_);
   }

@@ -34,9 +34,6 @@ constexpr Duration request_period = 2s;
 /// consecutive losses are unlikely.
 constexpr unsigned most_vain_answers = 5;
 
-/// The size of the unique ID in the first part of a request (1.Allocation.uavcan).
-constexpr std::size_t first_part_size = 6;
-
 bool begins_with(const UniqueId& unique_id, Bytes prefix) {
   return std::ranges::equal(Bytes(unique_id).first(prefix.size()), prefix);
 }
@@ -96,12 +93,11 @@ void AllocationService::receive(const dronecan::Transfer& transfer) {
 }
 
 void AllocationService::hear_first_part(Bytes prefix, Time at) {
-  if (!is_left_out(prefix)) {
+  const auto& requests = session_.roster().requests();
+  const auto known = requests.find(UniqueIdPrefix(prefix.begin(), prefix.end()));
+  if (known != requests.end() && known->second.is_repeated() && is_meant(prefix) &&
+      !is_left_out(prefix)) {
     last_request_ = at;
-  }
-  UniqueIdPrefix known(prefix.begin(), prefix.end());
-  if (first_parts_.size() < most_units || first_parts_.contains(known)) {
-    first_parts_[std::move(known)] = at;
   }
 }
 
@@ -112,8 +108,10 @@ std::size_t AllocationService::asking() const {
              this->is_there(entry.second);
     });
   };
-  return static_cast<std::size_t>(std::ranges::count_if(first_parts_, [&](const auto& part) {
-    return session_.now() - part.second < request_period && !is_there(part.first, part.second);
+  const auto& requests = session_.roster().requests();
+  return static_cast<std::size_t>(std::ranges::count_if(requests, [&](const auto& entry) {
+    const auto& [prefix, asking] = entry;
+    return session_.now() - asking.last < request_period && !is_there(prefix, asking.last);
   }));
 }
 
@@ -142,8 +140,13 @@ void AllocationService::watch_for_twins() {
   }
 }
 
+bool AllocationService::is_meant(Bytes prefix) const {
+  return !only_ || std::ranges::any_of(
+                       *only_, [&](const UniqueId& unit) { return begins_with(unit, prefix); });
+}
+
 bool AllocationService::serves(Bytes prefix) const {
-  if (end()) {
+  if (end() || !is_meant(prefix)) {
     return false;
   }
   if (bus_is_known_) {
@@ -167,7 +170,7 @@ AllocatedUnit* AllocationService::known(const UniqueId& unique_id) {
 }
 
 std::optional<NodeId> AllocationService::assign(const UniqueId& unique_id, NodeId preferred) {
-  AllocatedUnit* unit = known(unique_id);
+  AllocatedUnit* unit = is_meant(unique_id) ? known(unique_id) : nullptr;
   if (unit == nullptr || end()) {
     return std::nullopt;
   }
@@ -191,6 +194,7 @@ void AllocationService::note_request(AllocatedUnit& unit) {
   unit.given = is_there(unit) ? 0 : unit.given;
   const bool was_deaf = std::exchange(unit.is_deaf, unit.given >= most_vain_answers);
   unit.asked_at = session_.now();
+  last_request_ = unit.refused || unit.is_deaf ? last_request_ : session_.now();
   if (unit.is_deaf && !was_deaf) {
     hook_(Event::deaf, unit);
   } else if (!unit.refused && !unit.is_deaf) {
@@ -308,13 +312,12 @@ AllocationService::Holder AllocationService::holder(NodeId id, const UniqueId& u
 
 /// A unit that asks has no node ID, so frames of its unique ID since it began are another's.
 std::optional<NodeId> AllocationService::copy_of(const UniqueId& unique_id) const {
-  const auto part =
-      first_parts_.find(UniqueIdPrefix(unique_id.begin(), unique_id.begin() + first_part_size));
-  if (part == first_parts_.end()) {
+  const auto asked = session_.roster().asked_at(unique_id);
+  if (!asked) {
     return std::nullopt;
   }
   for (const auto& [id, member] : session_.roster().members()) {
-    if (member.is_unit(unique_id) && member.last_heard > part->second) {
+    if (member.is_unit(unique_id) && member.last_heard > *asked) {
       return id;
     }
   }
@@ -349,12 +352,16 @@ Result<NodeId> allocate(const Session& session, state::AllocationStore& table,
   return table.allocate(unique_id, choice, session.wall());
 }
 
-Result<void> let_in(Session& session, state::AllocationStore& table) {
+Result<void> let_in(Session& session, state::AllocationStore& table,
+                    std::optional<std::vector<UniqueId>> units) {
   if (!session.roster().allocators().empty()) {
     return {}; // another allocator does it
   }
   AllocationService service(session, table, {}, [](auto, const auto&) {});
   service.bus_is_known();
+  if (units) {
+    service.serve_only(std::move(*units));
+  }
   const Time end = deadline(session, session.roster().pending().size());
   const auto lived = session.live_until(end, [&] {
     const bool all_there = std::ranges::all_of(service.units(), [&](const auto& entry) {

@@ -1,4 +1,5 @@
 #include "blactl/fleet/bus/session.hpp"
+#include "blactl/fleet/change/allocation_service.hpp"
 
 #include "support.hpp"
 #include "unit/can/fake_bus.hpp"
@@ -283,6 +284,18 @@ TEST_CASE("a session whose IDs are both another's ends") {
   REQUIRE_FALSE(lived);
   CHECK(lived.error().code == Code::no_local_node_id);
   CHECK(lived.error().hint.find("--local-node-id") != std::string::npos);
+}
+
+TEST_CASE("a session whose IDs are both taken goes on under the last one, to put things back") {
+  Rig rig;
+  rig.hear(message(dronecan::NodeStatus::type, 126, {}), 10ms);
+  rig.hear(message(dronecan::NodeStatus::type, 127, {}), 500ms);
+  CHECK_FALSE(rig.session->live_until(rig.wire.now + 2s));
+  CHECK(rig.session->node().id() == NodeId(126));
+  Ask ask;
+  rig.session->start(ask); // with transfer IDs that are still there
+  [[maybe_unused]] const auto ran = rig.session->run();
+  CHECK_FALSE(ask.outcomes.empty());
 }
 
 TEST_CASE("an ID that another node is heard to have is not taken in place of our own") {
@@ -570,4 +583,31 @@ TEST_CASE("that anything of DroneCAN was heard is known, of whomever it is") {
                    dronecan::Allocation{.first_part_of_unique_id = true, .size = 6}.encode()));
   REQUIRE(rig.session->live_until(rig.wire.now + 10ms));
   CHECK(rig.session->heard_anything());
+}
+
+TEST_CASE(
+    "requests for node IDs that are never repeated keep no allocator waiting, and are forgotten") {
+  Rig rig;
+  auto store = state::AllocationStore::unshared().value();
+  const AllocationService service(*rig.session, store, {}, [](auto, const auto&) {});
+  const Time begin = service.last_request();
+  const auto ask = [&](std::uint32_t unit, Duration later) {
+    dronecan::Allocation part{.first_part_of_unique_id = true, .size = 6};
+    for (unsigned byte = 0; byte < 4; ++byte) {
+      part.unique_id[byte] = static_cast<std::uint8_t>(unit >> (byte * 8));
+    }
+    rig.hear(message(dronecan::Allocation::type, 0, part.encode(), unit % 32), later);
+  };
+  for (std::uint32_t unit = 1; unit <= 4000; ++unit) { // 400 a second
+    ask(unit, 2500us * unit);
+  }
+  REQUIRE(rig.session->live_until(rig.wire.now + 10100ms));
+  CHECK(service.last_request() == begin);
+  CHECK(rig.session->roster().pending().size() < 1000);
+  ask(5000, 5s);
+  ask(5000, 6s);
+  const Time second = rig.wire.now + 6s;
+  REQUIRE(rig.session->live_until(rig.wire.now + 7s));
+  CHECK(service.last_request() == second);
+  CHECK(rig.session->roster().pending().size() == 1);
 }

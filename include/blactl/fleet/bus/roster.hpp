@@ -81,6 +81,13 @@ struct Member {
 /// An unfinished allocation request: the part of the unique ID heard.
 using UniqueIdPrefix = std::vector<std::uint8_t>;
 
+/// The requests of one unit.
+struct Asking {
+  Time first{}, last{};
+
+  [[nodiscard]] bool is_repeated() const { return first != last; }
+};
+
 /// A node sends NodeStatus at least once a second; after this silence it is offline
 /// (uavcan/protocol/341.NodeStatus).
 inline constexpr Duration offline_time = std::chrono::seconds(3);
@@ -184,8 +191,11 @@ class Roster {
   /// that others have in 0x46, and our own.
   [[nodiscard]] state::NodeIds ids_in_use(const dronecan::UniqueId& unit) const;
 
-  /// The units that have asked for a node ID and got none.
+  /// The units that have asked for a node ID and got none. One that asked once and not again within
+  /// 2 s is no unit: requests come at least once a second.
   [[nodiscard]] auto pending() const { return pending_ | std::views::keys; }
+
+  [[nodiscard]] const std::map<UniqueIdPrefix, Asking>& requests() const { return pending_; }
 
   /// Whether a unit with this unique ID has asked for a node ID and got none.
   [[nodiscard]] bool is_pending(const dronecan::UniqueId& unique_id) const {
@@ -253,7 +263,7 @@ class Roster {
   dronecan::AnswerWatch answers_;
   std::set<dronecan::NodeId> doubled_;
   std::map<dronecan::NodeId, std::set<dronecan::UniqueId>> units_; ///< of doubled IDs
-  std::map<UniqueIdPrefix, Time> pending_;                         ///< when each asked last
+  std::map<UniqueIdPrefix, Asking> pending_;
   std::set<dronecan::NodeId> allocators_;
 };
 

@@ -70,6 +70,9 @@ class AllocationService final : private dronecan::Service, private dronecan::All
   /// The bus was heard for bus_watch_time and silent nodes were looked for: new units are served.
   void bus_is_known() { bus_is_known_ = true; }
 
+  /// Only these units get an ID.
+  void serve_only(std::vector<dronecan::UniqueId> units) { only_ = std::move(units); }
+
   /// The reason why it has stopped. Errors: other_allocator, naming the node; those of the table
   /// (bad_file, permission, io).
   [[nodiscard]] std::optional<Error> end() const;
@@ -86,8 +89,8 @@ class AllocationService final : private dronecan::Service, private dronecan::All
   /// The reason why a unit that is not refused is not there. It has an ID in the table.
   [[nodiscard]] Error absence(const AllocatedUnit& unit) const;
 
-  /// The last request of a unit that may still succeed, so not of refused or deaf ones; without
-  /// one, the start of this service.
+  /// The last request of a unit that may still succeed, so not of refused or deaf ones; one that is
+  /// neither repeated nor complete is nobody's. Without one, the start of this service.
   [[nodiscard]] Time last_request() const { return last_request_; }
 
   /// The number of units asking: recently, and not heard under an ID since. Units whose unique IDs
@@ -122,6 +125,7 @@ class AllocationService final : private dronecan::Service, private dronecan::All
   [[nodiscard]] Holder holder(dronecan::NodeId id, const dronecan::UniqueId& unique_id) const;
   [[nodiscard]] std::optional<dronecan::NodeId> copy_of(const dronecan::UniqueId& unique_id) const;
   [[nodiscard]] bool is_left_out(dronecan::Bytes prefix) const;
+  [[nodiscard]] bool is_meant(dronecan::Bytes prefix) const;
   void hear_first_part(dronecan::Bytes prefix, Time at);
 
   Session& session_;
@@ -132,13 +136,14 @@ class AllocationService final : private dronecan::Service, private dronecan::All
   std::map<dronecan::UniqueId, AllocatedUnit> units_;
   std::optional<Error> failure_; ///< of the table
   Time last_request_;
-  std::map<UniqueIdPrefix, Time> first_parts_; ///< of requests, with the last time heard
   bool bus_is_known_ = false;
+  std::optional<std::vector<dronecan::UniqueId>> only_{}; ///< empty: all units
 };
 
-/// Allocates IDs from the table to units that ask, and waits until none asks any more. Not if
-/// another allocator is heard. Errors: those that end a session.
-[[nodiscard]] Result<void> let_in(Session& session, state::AllocationStore& table);
+/// Allocates IDs from the table to those of `units` that ask (empty: to all), and waits until none
+/// asks any more. Not if another allocator is heard. Errors: those that end a session.
+[[nodiscard]] Result<void> let_in(Session& session, state::AllocationStore& table,
+                                  std::optional<std::vector<dronecan::UniqueId>> units);
 
 /// The reasons why units have no node ID though they asked for one.
 using NotLetIn = std::map<dronecan::UniqueId, Error>;
