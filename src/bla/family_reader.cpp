@@ -172,6 +172,11 @@ FaultBit read_fault_bit(const json::Value& item, json::Faults& faults) {
   bit.action_en = read_text(object, "action_en", faults);
   bit.action_ja = read_text(object, "action_ja", faults);
   bit.values = read_addresses(object, "values", faults);
+  if (object.has("or_values")) {
+    bit.or_condition_en = read_text(object, "or_condition_en", faults);
+    bit.or_condition_ja = read_text(object, "or_condition_ja", faults);
+    bit.or_values = read_addresses(object, "or_values", faults);
+  }
   object.finish();
   if (const auto group = fault_group(bit.bit); !bit.group.empty() && bit.group != group) {
     faults.add(item, say<texts::profile_bit_group>(bit.bit, group));

@@ -19,7 +19,24 @@ std::int64_t summary_mask(Level level) {
   return mask;
 }
 
+/// Whether the measured value is at its limit or beyond; of each pair the first bit is CW.
+bool is_reached(const FaultBit& bit, const Values& values) {
+  const auto measured = find(values, bit.values.front());
+  const auto limit = find(values, bit.values.back());
+  return !measured || !limit || (bit.bit % 2 == 0 ? *measured >= *limit : *measured <= *limit);
+}
+
 } // namespace
+
+Cause cause(const Fault& fault, const Values& values) {
+  if (fault.known == nullptr) {
+    return {};
+  }
+  const FaultBit& bit = *fault.known;
+  return bit.or_values.empty() || bit.values.empty() || is_reached(bit, values)
+             ? Cause{bit.condition_en, bit.condition_ja, bit.values}
+             : Cause{bit.or_condition_en, bit.or_condition_ja, bit.or_values};
+}
 
 std::optional<std::int64_t> fault_register(const Values& values, Address reg) {
   if (const auto read = find(values, reg)) {
@@ -59,12 +76,17 @@ std::vector<Address> fault_details(const Values& values, const Profiles& profile
   if (!wanted.empty()) {
     return wanted;
   }
-  for (const Fault& fault : faults(values, profiles)) {
-    for (const Address address :
-         fault.known != nullptr ? std::span(fault.known->values) : std::span<const Address>()) {
+  const auto want = [&](std::span<const Address> addresses) {
+    for (const Address address : addresses) {
       if (!find(values, address) && std::ranges::find(wanted, address) == wanted.end()) {
         wanted.push_back(address);
       }
+    }
+  };
+  for (const Fault& fault : faults(values, profiles)) {
+    if (fault.known != nullptr) {
+      want(fault.known->values);
+      want(fault.known->or_values);
     }
   }
   return wanted;

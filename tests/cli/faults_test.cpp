@@ -210,3 +210,18 @@ TEST_CASE("every fault fits on 80 columns, in both languages") {
     CHECK(longest_line(without_colour(result.out)) <= 80);
   }
 }
+
+TEST_CASE("faults tells which of the two conditions of an angle limit is true") {
+  const auto shown = [](const nlohmann::json& ram) {
+    const Scene scene = Scene().servo("BLA21-12U-AB", 11, {{"ram", ram}});
+    return scene.run({"faults", "-n", "11"});
+  };
+  const Result beyond = shown({{"0x00", 1200}, {"0x08", 899}, {"0x38", 900}, {"0x19", 256}});
+  INFO(beyond.out << beyond.err);
+  CHECK(contains(beyond.out, "Command Angle above [0x38]"));
+  CHECK(contains(beyond.out, "command_angle 120.0 deg, angle_limit_cw 90.0"));
+  CHECK_FALSE(contains(beyond.out, "89.9"));
+  const Result at = shown({{"0x00", 900}, {"0x08", 900}, {"0x38", 900}, {"0x19", 256}});
+  INFO(at.out << at.err);
+  CHECK(contains(at.out, "current_angle 90.0 deg, angle_limit_cw 90.0 deg"));
+}

@@ -369,3 +369,18 @@ TEST_CASE("monitor waits on an empty bus") {
   CHECK(codes(result) == std::vector<std::string>{"not_found"});
   CHECK(lines_of(result).size() == 1);
 }
+
+TEST_CASE("a named servo that falls silent ends monitor with 4, one that is not named does not") {
+  const Scene scene = Scene()
+                          .servo("BLA21-12U-AB", 11, {{"serial_number", 7}})
+                          .servo("BLA21-12U-AB", 12)
+                          .event(7, "power_off", "3s");
+  const Arguments monitor{"monitor", "--duration", "8", "--json"};
+  CHECK(scene.run(monitor).status == 0);
+  for (const auto& [named, status] :
+       {std::pair("11", 4), std::pair("serial:7", 4), std::pair("11,12", 6)}) { // 6: 12 is there
+    Arguments one = monitor;
+    one.insert(one.end(), {"-n", named});
+    check_error(scene.run(one), status, "timeout", "node 11 does not answer any more");
+  }
+}

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -32,6 +33,15 @@ struct Fault {
     return a.reg == b.reg && a.bit == b.bit;
   }
 };
+
+/// The condition that holds of those that set a bit, and its registers.
+struct Cause {
+  std::string_view condition_en, condition_ja;
+  std::span<const Address> values;
+};
+
+/// By what the servo holds; empty texts: an undocumented bit.
+[[nodiscard]] Cause cause(const Fault& fault, const Values& values);
 
 /// The value of a fault register: as read, or 0 if 0x18 shows that none of its bits is set. Empty:
 /// unknown.

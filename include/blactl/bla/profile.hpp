@@ -31,6 +31,9 @@ struct FaultBit {
   bool vendor_only = false; ///< shown by the vendor's program, absent in the specification
   std::string text_en, text_ja, condition_en, condition_ja, action_en, action_ja;
   std::vector<Address> values; ///< related registers: the measured value and its limit
+  /// What sets it as well, where the measured value is within its limit; empty: nothing.
+  std::string or_condition_en, or_condition_ja;
+  std::vector<Address> or_values;
 };
 
 /// "hardware", "software", "communication", "other": one byte each in every fault register (4.12).

@@ -329,8 +329,11 @@ std::string bits_text(std::span<const bla::FaultBit> bits, bla::Address address)
     out += fmt::format(" [{}]", bit.code);
     out += bit.latched ? say<texts::models_bit_latched>() : std::string();
     out += bit.pwm_only ? say<texts::models_bit_pwm_only>() : std::string();
-    out += fmt::format("\n      {}\n      {}\n", choose(bit.condition_en, bit.condition_ja),
-                       choose(bit.action_en, bit.action_ja));
+    out += fmt::format("\n      {}\n", choose(bit.condition_en, bit.condition_ja));
+    if (!bit.or_values.empty()) {
+      out += fmt::format("      {}\n", choose(bit.or_condition_en, bit.or_condition_ja));
+    }
+    out += fmt::format("      {}\n", choose(bit.action_en, bit.action_ja));
   }
   return out;
 }

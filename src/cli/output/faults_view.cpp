@@ -30,10 +30,9 @@ Tone tone(Level level) {
   return level == Level::notice ? Tone::good : level == Level::warning ? Tone::warning : Tone::bad;
 }
 
-std::string condition(const Fault& fault) {
-  return fault.known != nullptr
-             ? std::string(choose(fault.known->condition_en, fault.known->condition_ja))
-             : std::string();
+std::string condition(const FaultState& servo, const Fault& fault) {
+  const bla::Cause cause = bla::cause(fault, servo.snapshot.values());
+  return std::string(choose(cause.condition_en, cause.condition_ja));
 }
 
 std::string action_text(const Fault& fault) {
@@ -74,7 +73,7 @@ std::string fault_text(const FaultState& servo, const Fault& fault, const Page& 
   const auto line = [&](const std::string& text) {
     out += text.empty() ? "" : "      " + text + '\n';
   };
-  line(condition(fault));
+  line(condition(servo, fault));
   if (const auto values = values_text(servo, fault); !values.empty()) {
     line(has_measured(servo, fault) ? say<texts::fault_now>(values)
                                     : say<texts::fault_settings>(values));
@@ -124,7 +123,7 @@ void write_fault(JsonWriter& json, const FaultState& servo, const Fault& fault) 
   json.member("code", fault.known != nullptr ? std::optional(fault.known->code) : std::nullopt);
   json.member("latched", is_latched(fault));
   json.member("text", bla::bit_title(fault.known));
-  json.member("condition", condition(fault));
+  json.member("condition", condition(servo, fault));
   json.member("action", action_text(fault));
   json.key("values");
   json.begin_object();

@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdint>
 #include <iterator>
 #include <optional>
@@ -151,6 +152,17 @@ std::optional<std::string> register_text(const bla::Profiles& profiles,
                   : std::nullopt;
 }
 
+/// The angle of a BLA servo, which sends degrees / 100 where the data type says rad (errata C10).
+std::string angle_text(const dronecan::Transfer& transfer) {
+  const auto& header = transfer.header;
+  const bool is_one = header.kind == dronecan::Kind::message &&
+                      header.data_type_id == dronecan::ActuatorStatus::type.id;
+  const auto status = is_one ? dronecan::ActuatorStatus::decode(transfer.payload) : std::nullopt;
+  return status && std::isfinite(status->position)
+             ? "  " + say<texts::trace_bla_angle>(fmt::format("{:.1f}", status->position * 100))
+             : std::string();
+}
+
 } // namespace
 
 std::string TextTrace::time_text(WallTime at) const {
@@ -184,6 +196,7 @@ bool TextTrace::transfer(const Occasion& occasion, const dronecan::Transfer& tra
       append_hex(out_, transfer.payload);
     }
   }
+  out_ += angle_text(transfer);
   if (!transfer.crc_checked) {
     out_ += "  " + say<texts::trace_crc_unchecked>();
   }

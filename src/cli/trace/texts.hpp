@@ -31,6 +31,7 @@ inline constexpr Text trace_timeout{"the rest did not come within 2 s",
 inline constexpr Text trace_short{"the payload is too short for its type",
                                   "ペイロードがデータ型より短くなっています"};
 inline constexpr Text trace_no_value{"has no value", "値なし"};
+inline constexpr Text trace_bla_angle{"(BLA servo: {} deg)", "(BLA サーボの場合 {} deg)"};
 inline constexpr Text trace_crc_unchecked{"(CRC not checked)", "(CRC 未確認)"};
 inline constexpr Text column_type{"TYPE", "データ型"};
 inline constexpr Text column_transfers{"COUNT", "転送数"};

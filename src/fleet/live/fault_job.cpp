@@ -19,8 +19,8 @@ using dronecan::Step;
 
 constexpr std::array summary{bla::address::fault_summary};
 
-/// A missing one of the three fault registers makes the faults incomplete; 0x18 and related values
-/// do not.
+/// A missing one of the three fault registers makes the faults incomplete, and so does any that is
+/// refused; else 0x18 and related values do not.
 std::vector<Error> errors_of(const Snapshot& snapshot, const Roster& roster) {
   const dronecan::NodeId id = snapshot.servo.id;
   if (roster.is_doubled(id)) {
@@ -32,7 +32,8 @@ std::vector<Error> errors_of(const Snapshot& snapshot, const Roster& roster) {
     const bool is_missing = std::ranges::find(bla::fault_registers, reading.parameter->address) !=
                                 bla::fault_registers.end() &&
                             !bla::fault_register(values, reading.parameter->address);
-    if (is_missing) {
+    const bool is_refused = !reading.raw && reading.raw.error().code == Code::refused;
+    if (is_missing || is_refused) {
       needed.readings.push_back(reading);
     }
   }
@@ -98,11 +99,12 @@ std::optional<bla::Level> FaultState::worst() const {
 
 std::vector<Reading> FaultState::values_of(const bla::Fault& fault) const {
   std::vector<Reading> values;
-  for (const Reading& reading : snapshot.readings) {
-    const bla::Address address = reading.parameter->address;
-    if (reading.raw && fault.known != nullptr &&
-        std::ranges::find(fault.known->values, address) != fault.known->values.end()) {
-      values.push_back(reading);
+  for (const bla::Address address : bla::cause(fault, snapshot.values()).values) {
+    const auto reading = std::ranges::find_if(snapshot.readings, [&](const Reading& each) {
+      return each.parameter->address == address && each.raw;
+    });
+    if (reading != snapshot.readings.end()) {
+      values.push_back(*reading);
     }
   }
   return values;

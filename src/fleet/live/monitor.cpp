@@ -1,5 +1,7 @@
 #include "blactl/fleet/live/monitor.hpp"
 
+#include "blactl/fleet/bus/target_texts.hpp"
+#include "blactl/fleet/bus/texts.hpp"
 #include "blactl/fleet/bus/unreachable.hpp"
 
 #include <algorithm>
@@ -387,8 +389,16 @@ std::vector<Error> Monitor::missing(Time now) const {
   for (const NodeId id : shared) {
     errors.push_back(doubled(roster, id));
   }
-  if (errors.empty() && targets_.need_search() && servos(now).empty()) {
+  const auto live = servos(now);
+  if (errors.empty() && targets_.need_search() && live.empty()) {
     errors.push_back(no_servo(roster));
+  }
+  for (const LiveServo& servo : live) {
+    if (targets_.given && !targets_.all && servo.is_gone && !servo.is_doubled) {
+      const std::uint8_t id = servo.servo.id.value();
+      errors.push_back(
+          {Code::timeout, say<texts::node_gone>(id), say<texts::no_answer_hint>(), id});
+    }
   }
   return errors;
 }

@@ -91,7 +91,8 @@ class Monitor final : private dronecan::Service {
   /// The servos that are selected and were heard, by node ID, in their state at `now`.
   [[nodiscard]] std::vector<LiveServo> servos(Time now) const;
 
-  /// Errors for selected servos that are not among them: not_found; not_recorded;
+  /// Errors for selected servos that are not among them: not_found; not_recorded; timeout, if a
+  /// named one has fallen silent;
   /// duplicate_node_id, if a servo that was never met may be one of two under an ID. If all are
   /// selected: an error if there is none.
   [[nodiscard]] std::vector<Error> missing(Time now) const;
