@@ -572,3 +572,43 @@ TEST_CASE("a proof of the last simulation proves nothing in the next one") {
   REQUIRE(bench.run({"-i", "sim:", "set", "-n", "11", "smoothing=off", "-y"}).status == 0);
   CHECK(statuses(bench.run(apply)) == Words{"changed"});
 }
+
+TEST_CASE("apply gives a node ID to the missing servo, and to no other that asks") {
+  const std::string unit = "0000000000000000000000000000beef";
+  Fleet fleet(Scene().servo("BLA21-12U-AB", 0).servo("BLA21-12U-AB", 0, {{"unique_id", unit}}));
+  const auto applied = [&](const Document& match) {
+    return fleet.apply(
+        {{"schema", "blactl-fleet/1"},
+         {"servos", {{{"name", "a"}, {"match", match}, {"set", {{"smoothing", "off"}}}}}}});
+  };
+  CHECK(applied({{"unique_id", unit}}).status == 0);
+  CHECK(json(fleet.run({"scan", "--json"}).out)["nodes"].size() == 1);
+  CHECK(applied({{"serial_number", 1}}).status == 4); // it may be anyone
+  CHECK(json(fleet.run({"scan", "--json"}).out)["nodes"].size() == 2);
+}
+
+TEST_CASE("the output is switched off before limits change, and on after them") {
+  const auto order = [](const char* torque) {
+    const Bench bench;
+    const std::string log = (bench.folder() / "set.log").string();
+    const char* before = std::string(torque) == "torque_output=on" ? "off" : "on";
+    const Scene scene = Scene().servo("BLA21-12U-AB", 11,
+                                      {{"ram", {{"0x20", std::string(before) == "off" ? 1 : 0}}}});
+    const Result set = scene.run(bench, {"set", "-n", "11", "angle_limit_cw=90deg", torque,
+                                         "angle_limit_ccw=-90deg", "-y", "--record", log});
+    INFO(set.out << set.err);
+    CHECK(set.status == 0);
+    Words names;
+    for (const auto& line : json_lines(bench.run({"trace", log, "--json"}).out)) {
+      const bool is_write = line.value("kind", "") == "request" && line.contains("fields") &&
+                            line["fields"].contains("value") &&
+                            !line["fields"]["value"].contains("empty");
+      if (is_write) {
+        names.push_back(line["fields"]["name"]);
+      }
+    }
+    return names;
+  };
+  CHECK(order("torque_output=off") == Words{"0x20", "0x38", "0x39"});
+  CHECK(order("torque_output=on") == Words{"0x38", "0x39", "0x20"});
+}

@@ -160,7 +160,7 @@ TEST_CASE("who comes while others are looked for is not left out silently") {
   CHECK(all.status == 1);
   CHECK(codes(all) == std::vector<std::string>{"state"});
   CHECK(contains(all.err, "node 12 has come to the bus"));
-  CHECK(contains(all.err, "they have no node ID: 1"));
+  CHECK(contains(all.err, "they have no node ID: at least 1"));
   CHECK(set("11").status == 0);
 }
 

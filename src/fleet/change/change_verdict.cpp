@@ -116,7 +116,8 @@ void ChangeJob::look_back(std::optional<Error> lost) {
   const dronecan::NodeId id = result_.node_id_after.value_or(servo_.id);
   if (!result_.is_done()) {
     const bool has_stayed = !restart_ || !restart_->is_sent() || restart_->has_run_on();
-    if (has_stayed && (roster_.member(id).boots != servo_.boot || other_writer())) {
+    const bool is_silent = result_.error && result_.error->code == Code::timeout;
+    if (has_stayed && (is_silent || roster_.member(id).boots != servo_.boot || other_writer())) {
       doubt_changes();
     }
     return;

@@ -18,6 +18,10 @@ namespace {
 /// A crystal with a drift of 30 ppm uses a twentieth of the tolerance in this time.
 constexpr std::chrono::hours worth_renewing{1};
 
+/// The longest usual time from the record of a change to its last write: the servo may have
+/// restarted in between.
+constexpr std::chrono::seconds writing_time{10};
+
 state::Registers stored(const bla::Values& values) {
   state::Registers registers;
   for (const auto& [address, raw] : values) {
@@ -54,12 +58,15 @@ bla::Values replaced_by(const std::vector<state::SnapshotEntry>& changes) {
   return values;
 }
 
-/// Whether RAM still shows what a plain write has put there. What a restart took may be back.
+/// Of RAM alone. What a restart took, or what proves ROM, is recorded the other way round.
+bool is_plain_write(const state::SnapshotEntry& change) {
+  return change.command == "set" || change.command == "pwm-config";
+}
+
 bool is_shown(const state::SnapshotEntry& change, const Snapshot& ram) {
-  const bool is_plain = change.command == "set" || change.command == "pwm-config";
-  return is_plain && std::ranges::any_of(change.held, [&](const auto& held) {
-           return ram.raw(bla::Address(held.first)).value_or(held.second) != held.second;
-         });
+  return std::ranges::any_of(change.held, [&](const auto& held) {
+    return ram.raw(bla::Address(held.first)).value_or(held.second) != held.second;
+  });
 }
 
 } // namespace
@@ -276,7 +283,9 @@ std::vector<state::SnapshotEntry> History::unsaved(const Servo& servo, const Ses
   const WallTime started = told_at(member, session) - std::chrono::seconds(member.status->uptime_s);
   auto entry = snapshots_.last(*servo.unique_id);
   const auto is_in_ram = [&](const state::SnapshotEntry& change) {
-    return change.at >= started || (ram != nullptr && is_shown(change, *ram));
+    return change.at >= started ||
+           (is_plain_write(change) &&
+            (change.at + writing_time >= started || (ram != nullptr && is_shown(change, *ram))));
   };
   while (entry && *entry && !(*entry)->saved && is_in_ram(**entry)) {
     entries.push_back(std::move(**entry));

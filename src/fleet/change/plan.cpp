@@ -55,6 +55,14 @@ Error about(const Servo& servo, Error error) {
   return error;
 }
 
+/// The output is switched off before limits change, and on after them. A command may need a switch
+/// that is set with it.
+int turn_of(const RegisterChange& change) {
+  const bool is_switch = change.parameter->address == at::torque_output;
+  const bool is_command = change.parameter->group == bla::Group::command;
+  return is_command ? 3 : !is_switch ? 1 : change.requested == 0 ? 2 : 0; // 0: on (4.13)
+}
+
 /// `held`: the values when the changes are made.
 void plan_changes(const Wanted& wanted, const Values& held, Plan& plan) {
   for (const Assignment& assignment : wanted.assignments) {
@@ -63,10 +71,7 @@ void plan_changes(const Wanted& wanted, const Values& held, Plan& plan) {
                                        plan.before.servo.identity.parameter(address),
                                        assignment.value.raw));
   }
-  // a command may need a switch that is set with it
-  std::ranges::stable_partition(plan.changes, [](const RegisterChange& change) {
-    return change.parameter->group != bla::Group::command;
-  });
+  std::ranges::stable_sort(plan.changes, {}, turn_of);
   plan.mode_before = plan.mode_after = bla::find(held, at::pwm_mode);
   for (const RegisterChange& change : plan.changes) {
     if (change.parameter->address == at::pwm_mode) {

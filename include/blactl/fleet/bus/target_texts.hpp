@@ -64,7 +64,7 @@ inline constexpr Text wait_not_operational{"node {} was heard but not operationa
 inline constexpr Text wait_not_heard{"node {} was not heard within {} s",
                                      "ノード {} は {} 秒以内に見つかりませんでした"};
 inline constexpr Text units_wait_for_id{
-    "left out because they have no node ID: {} (to give them one: `blactl alloc --once`)",
-    "ノード ID のないユニット {} 台は対象外です (割当て: `blactl alloc --once`)"};
+    "left out because they have no node ID: at least {} (to give them one: `blactl alloc --once`)",
+    "ノード ID のないユニット {} 台以上は対象外です (割当て: `blactl alloc --once`)"};
 
 } // namespace blactl::texts
