@@ -98,7 +98,7 @@ sim_end
 
 note "a servo that never comes back ends in 4, and is said to be gone"
 sim "$(at 11 '"faults":{"never_returns":true}')"
-run "$blactl" save -n 11 -y -j
+run "$blactl" save -n 11 -y -j --wait 2
 expect_status 4
 expect_out '"status": "failed"'
 expect_out '"node_id_after": null'
@@ -123,7 +123,7 @@ expect_err '[mismatch]'
 sim_end
 
 note "three processes at once: one writes, a second one that wants to is told who, others read"
-sim "$(at 11 '"faults":{"return_delay":"9s"}')" "$(at 12 '"servo_id":1')"
+sim "$(at 11 '"faults":{"return_delay":"5s"}')" "$(at 12 '"servo_id":1')"
 "$blactl" save -n 11 -y --wait 30 >"$TMPDIR/save.out" 2>&1 &
 writer=$!
 wait_for 20 grep -q '"event":"rom_write"' "$TMPDIR/sim.out"
@@ -133,7 +133,7 @@ expect_err '[busy]'
 expect_err "$writer"
 run "$blactl" save -n 12 -y
 expect_status 9
-"$blactl" wait -n 44 --wait 10 >"$TMPDIR/wait.out" 2>&1 & # for what never comes
+"$blactl" wait -n 44 --wait 5 >"$TMPDIR/wait.out" 2>&1 & # for what never comes
 reader=$!
 wait_for 20 is_held 126
 run "$blactl" get -n 12 smoothing # the two default IDs are taken

@@ -251,8 +251,8 @@ TEST_CASE(
   const auto plans = plans_for(scene, save, {11});
   REQUIRE(history.keep(plans, *scene.session));
   CHECK(kept.entries().at(0).saved); // where the command is killed now
-  const std::vector<ChangeResult> never{{.servo = plans.front().before.servo}};
-  REQUIRE(history.conclude(never, *scene.session));
+  const std::vector<ChangeResult> unsent{{.servo = plans.front().before.servo}};
+  REQUIRE(history.conclude(unsent, *scene.session));
   CHECK_FALSE(kept.entries().at(0).saved);
 }
 
