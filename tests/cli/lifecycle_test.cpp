@@ -564,3 +564,13 @@ TEST_CASE("a servo that was alone on the bus for long is one servo") {
   CHECK(set.status == 0);
   CHECK(set.err.empty());
 }
+
+TEST_CASE("a servo that may still write its ROM is not to be switched off, one that restarts may") {
+  const Scene gone = Scene().servo("BLA21-12U-AB", 11, {{"faults", {{"never_returns", true}}}});
+  const Result saved = gone.run({"save", "-n", "11", "-y"});
+  check_error(saved, 4, "not_back", "leave it powered");
+  CHECK_FALSE(contains(saved.err, "power it off"));
+  const Result restarted = gone.run({"restart", "-n", "11", "-y"});
+  check_error(restarted, 4, "not_back", "power it off and on");
+  CHECK_FALSE(contains(restarted.err, "ROM"));
+}

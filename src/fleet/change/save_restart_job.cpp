@@ -388,7 +388,9 @@ Error SaveRestartJob::not_back() const {
     return {Code::not_back, std::move(message), say<texts::waits_for_id_hint>(), id};
   }
   const auto waited = fmt::format("{}", std::chrono::duration<double>(options_.come_back).count());
-  return {Code::not_back, std::move(message), say<texts::not_back_hint>(waited, hex(unique_id_)),
+  return {Code::not_back, std::move(message),
+          is_save ? say<texts::save_not_back_hint>(waited, hex(unique_id_))
+                  : say<texts::not_back_hint>(waited, hex(unique_id_)),
           id};
 }
 

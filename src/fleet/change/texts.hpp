@@ -303,9 +303,16 @@ inline constexpr Text unconfirmed_not_back{
     "ノード {} は {} に応答せず、通信も途絶えました。実行されたかどうかは不明です",
 };
 inline constexpr Text not_back_hint{
-    "it was given {} s (--wait SEC gives it more) and may still be writing its ROM: leave its "
-    "supply "
-    "on, and type: blactl wait -n uid:{} --wait 60; only then check supply and cable",
+    "it was given {} s (--wait SEC gives it more); check its supply and cable, power it off and "
+    "on, "
+    "then: blactl wait -n uid:{}",
+    "{} 秒待ちました (--wait SEC で延長できます)。電源と配線を確認し、電源を入れ直してから "
+    "blactl wait -n uid:{} を実行して下さい",
+};
+inline constexpr Text save_not_back_hint{
+    "it was given {} s (--wait SEC gives it more) and may still be writing its ROM: leave it "
+    "powered, "
+    "and type: blactl wait -n uid:{} --wait 60; only then check supply and cable",
     "{} 秒待ちました (--wait SEC で延長できます)。ROM 書込み中の可能性があるため電源を切らずに "
     "blactl wait -n uid:{} --wait 60 を実行し、復帰しない場合のみ電源と配線を確認して下さい",
 };
