@@ -96,9 +96,8 @@ expect_writes 0 8B
 
 note "what every model refuses sends not one frame"
 witness_start
-for refused in angle_limit_cw=90 angle_limit_cw=90rpm angle_limit_cw=90.05deg angle_limit_cw=1e3deg \
-  temperature_limit_high=81degC current_angle=0deg model_number=61 0x49=1 0x12=1 0x28=0 0x60=1 \
-  servo_id=255 static_node_id=127 no_such_thing=1 soft_start=yes 'timeout_time=1000 ms'; do
+for refused in angle_limit_cw=90.05deg temperature_limit_high=81degC model_number=61 0x28=0 \
+  static_node_id=127; do
   run "$blactl" set -n 11 "$refused"
   expect_status 2
 done
@@ -129,16 +128,16 @@ witness_stop
 expect_writes 0 8B
 sim_end
 
-note "40 gets in a row, beyond the lap of transfer IDs, against servos that drop repeated ones: not one retry"
+note "34 gets in a row, beyond the lap of transfer IDs, against servos that drop repeated ones: not one retry"
 sim
 sleep 4 # the uptime of a younger servo proves no restart, and all is read twice
 witness_start
-for _ in $(seq 40); do
+for _ in $(seq 34); do
   "$blactl" get -n 11 soft_start >/dev/null || fail "get failed"
 done
 witness_stop
-expect_frames 80 1E018BFF # who is it, and was it the same one to the end
-expect_frames 240 1E0B8BFF # 0x50-0x53, 0x45 and the parameter
+expect_frames 68 1E018BFF # who is it, and was it the same one to the end
+expect_frames 204 1E0B8BFF # 0x50-0x53, 0x45 and the parameter
 
 # frames_of LOG [FILTER]: the frames of a log without their times and interfaces; marks left out.
 frames_of() {
