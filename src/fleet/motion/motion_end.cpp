@@ -31,8 +31,6 @@ constexpr int standing_samples = 3;
 constexpr Duration standing_time = 150ms;
 constexpr std::int64_t most_creep = 5;
 
-constexpr int silent_in_the_end = 6;
-
 /// A servo that restarts more often does so because of the command, or of its supply.
 constexpr int most_restarts_commanded = 2;
 
@@ -54,6 +52,7 @@ Step MotionJob::finish() {
   phase_ = Phase::ending;
   ended_ = now_;
   unanswered_ = standing_ = 0;
+  answered_ = now_; // it has all of its time again
   reading_ = 0;
   sample_ = stood_ = {};
   seen_.reset();
@@ -66,7 +65,7 @@ Step MotionJob::finish() {
 
 /// Repeats the final command until the shaft stands still.
 Step MotionJob::end() {
-  if (unanswered_ >= silent_in_the_end) {
+  if (is_silent()) {
     return give_up(silent_since());
   }
   if (standing_ >= standing_samples && seen_->at - stood_.at >= standing_time) {

@@ -28,8 +28,14 @@ namespace {
 /// Angle, speed and torque take 1.6 ms of the bus: a sixth of it.
 constexpr Duration sample_period = 10ms;
 
+/// A request is given up after this time, or this multiple of the slowest response so far; the time
+/// doubles with each one that stays unanswered. So a lost frame costs little.
+constexpr Duration soon = 20ms;
+constexpr int times_slowest = 4;
+constexpr int most_doublings = 6;
+
 /// After this number of consecutive requests without a response the servo is taken to be gone.
-constexpr int silent_while_moving = 3;
+constexpr int silent_while_moving = 3, silent_in_the_end = 6;
 
 /// The angle that a shaft may have moved since the user's question, in tenths of a degree; and the
 /// angle that a turning one, as after a soft start, goes on to turn in 0.2 s, per rpm.
@@ -49,6 +55,10 @@ MotionJob::MotionJob(const Roster& roster, const MotionPlan& plan, Options optio
 
 Step MotionJob::next(const Outcome& outcome) {
   now_ = options_.now();
+  if (outcome.answered()) {
+    answered_ = now_;
+    slowest_ = std::max(slowest_, outcome.at - outcome.asked);
+  }
   if (outcome.kind == Outcome::Kind::cancelled) {
     return give_up(no_answer(outcome, servo_.id, plan_.parameter->name));
   }
@@ -222,7 +232,16 @@ Step MotionJob::command(std::int64_t raw) {
 Patience MotionJob::once() const {
   constexpr Duration least = 1ms;
   const Duration left = last_command_ + plan_.longest_gap - now_;
-  return {std::max(least, std::min(left, options_.patience.timeout)), 0};
+  const Duration usual = std::max(soon, times_slowest * slowest_) *
+                         (1U << static_cast<unsigned>(std::min(unanswered_, most_doublings)));
+  return {std::max(least, std::min({left, options_.patience.timeout, usual})), 0};
+}
+
+/// No response to several requests, nor in the time that three of them may take.
+bool MotionJob::is_silent() const {
+  constexpr int of_patience = 3;
+  const int most = phase_ == Phase::moving ? silent_while_moving : silent_in_the_end;
+  return unanswered_ >= most && now_ - answered_ >= of_patience * options_.patience.timeout;
 }
 
 /// False: again there was no response. Too many of them end the command.
@@ -243,8 +262,7 @@ Step MotionJob::judge_echo(const Outcome& outcome) {
     return phase_ == Phase::moving ? fail(std::move(unsent)) : give_up(std::move(unsent));
   }
   if (!has_answered(outcome)) {
-    return unanswered_ < silent_while_moving || phase_ != Phase::moving ? go_on()
-                                                                        : fail(silent_since());
+    return go_on_unless_silent();
   }
   const auto echo = value(outcome, plan_.parameter->address);
   if (echo == target_) {
@@ -275,7 +293,11 @@ Step MotionJob::judge_shown(const Outcome& outcome) {
     return fail(not_taken(held, Code::refused));
   }
   result_.is_shown = result_.is_shown || (is_known && held == target_);
-  return unanswered_ < silent_while_moving ? go_on() : fail(silent_since());
+  return go_on_unless_silent();
+}
+
+Step MotionJob::go_on_unless_silent() {
+  return phase_ == Phase::moving && is_silent() ? fail(silent_since()) : go_on();
 }
 
 Error MotionJob::silent_since() const {
@@ -317,8 +339,7 @@ Step MotionJob::take_sample(const Outcome& outcome) {
   if (++reading_ == readings.size()) {
     conclude_sample();
   }
-  return unanswered_ < silent_while_moving || phase_ != Phase::moving ? go_on()
-                                                                      : fail(silent_since());
+  return go_on_unless_silent();
 }
 
 void MotionJob::conclude_sample() {

@@ -9,6 +9,7 @@
 #include "unit/sim/motion_rig.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <functional>
 #include <string>
@@ -188,6 +189,25 @@ TEST_CASE("lost frames and late answers keep no command, and no end, from coming
         CHECK((ended.result.is_ended || ended.result.error));
       }
     }
+  }
+}
+
+TEST_CASE("where one frame in ten is lost it is still seen whether the shaft stands") {
+  for (int seed = 1; seed <= 20; ++seed) {
+    INFO(seed);
+    CommandBench bench(servos() + R"(, "wire": {"loss": 0.1}, "seed": )" + std::to_string(seed));
+    const CommandWanted wanted{.target = assignments({"command_angle=45deg"}).front(),
+                               .duration = 1s};
+    const Patience patience{.retries = 12};
+    const auto needed = [&](const Servo& servo) { return registers_to_command(wanted, servo); };
+    const auto read = take_snapshots(*bench.scene.session, profiles(), std::array{NodeId(11)},
+                                     {.patience = patience}, needed);
+    REQUIRE(read.servos.size() == 1);
+    const auto plan = plan_command(wanted, read.servos.front(), profiles());
+    REQUIRE(plan);
+    const Commanded ended = command(*bench.scene.session, *plan, {.patience = patience});
+    CHECK_FALSE(ended.result.error);
+    CHECK(ended.result.is_ended);
   }
 }
 

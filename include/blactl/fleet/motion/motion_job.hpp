@@ -100,6 +100,8 @@ class MotionJob final : public dronecan::Job {
   [[nodiscard]] bool has_restarted() const;
   [[nodiscard]] Time command_due() const;
   [[nodiscard]] bool has_answered(const dronecan::Outcome& outcome);
+  [[nodiscard]] bool is_silent() const;
+  [[nodiscard]] dronecan::Step go_on_unless_silent();
   [[nodiscard]] Error silent_since() const;
   [[nodiscard]] Error not_taken(std::optional<std::int64_t> held, Code code) const;
   [[nodiscard]] Patience once() const;
@@ -128,6 +130,8 @@ class MotionJob final : public dronecan::Job {
   MotionSample stood_{};               ///< the first of them
   bool has_crept_ = false;             ///< slower than its speed register shows
   int unanswered_ = 0;                 ///< consecutive
+  Time answered_{};                    ///< the last response, or the beginning of the end
+  Duration slowest_{};                 ///< of all responses
   int restarts_ = 0;
   MotionSample sample_{};
   std::size_t reading_ = 0; ///< index of 0x08-0x0A
