@@ -138,6 +138,33 @@ TEST_CASE("two files are compared without a bus, also registers that one of them
   CHECK(contains(text.out, "smoothing"));
 }
 
+TEST_CASE("entries of two files are paired by unit before they are paired by name, each once") {
+  const Bench bench;
+  const auto file = [&](const std::string& name, const std::string& servos) {
+    return bench.file(name, R"({"schema": "blactl-fleet/1", "servos": [)" + servos + "]}");
+  };
+  // The servos of left and right were exchanged, that of the tail was replaced.
+  const std::string before = file("before.json", R"(
+      {"name": "left", "match": {"serial_number": 1}, "set": {"smoothing": "on"}},
+      {"name": "tail", "match": {"serial_number": 3}, "set": {"smoothing": "on"}},
+      {"name": "right", "match": {"serial_number": 2}, "set": {"smoothing": "off"}})");
+  const std::string after = file("after.json", R"(
+      {"name": "right", "match": {"serial_number": 1}, "set": {"smoothing": "on"}},
+      {"name": "left", "match": {"serial_number": 2}, "set": {"smoothing": "off"}},
+      {"name": "tail", "match": {"serial_number": 4}, "set": {"smoothing": "on"}})");
+  CHECK(bench.run({"diff", before, after}).status == 0);
+  // Unit 1 is called left there: nothing is left for the entry that is called so here.
+  const std::string young = file("young.json", R"(
+      {"name": "left", "match": {"serial_number": 5}, "set": {"smoothing": "on"}},
+      {"name": "right", "match": {"serial_number": 1}, "set": {"smoothing": "on"}})");
+  const std::string old = file("old.json", R"(
+      {"name": "left", "match": {"serial_number": 1}, "set": {"smoothing": "on"}})");
+  const auto document = json(bench.run({"diff", young, old, "--json"}).out);
+  REQUIRE(document["nodes"].size() == 2);
+  CHECK(document["nodes"][0]["status"] == "missing");
+  CHECK(document["nodes"][1]["status"] == "unchanged");
+}
+
 TEST_CASE("a fleet file with faults is refused whole, with all of them, and nothing is sent") {
   const Exported exported;
   auto document = ordered_json(content(exported.path));

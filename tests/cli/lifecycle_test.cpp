@@ -219,6 +219,16 @@ TEST_CASE("wait shows how long it waits, and an interrupted one leaves nobody ou
   CHECK(node(waited)["status"] == "done");
 }
 
+TEST_CASE("a wait whose cable is cut is not said to be interrupted") {
+  const Result waited = three_servos().clients("cut", "3s").run({"wait", "-n", "11,99", "-j"});
+  CHECK(waited.status == 3);
+  const auto errors = json(waited.out)["errors"];
+  REQUIRE(errors.size() == 2);
+  CHECK(errors[0]["code"] == "no_acknowledge");
+  CHECK(errors[1]["code"] == "no_acknowledge");
+  CHECK(errors[1]["node_id"] == 99);
+}
+
 TEST_CASE("a servo that waits for a node ID is not said to be absent") {
   const Scene scene = three_servos().servo(
       "BLA21-12U-AB", 0, {{"unique_id", "a1b2c3d4e5f60718293a4b5c6d7e8f90"}, {"servo_id", 9}});

@@ -308,7 +308,7 @@ Arrivals Discovery::wait_for(const Targets& targets, Duration wait) {
   Arrivals arrivals{.servos = those_there(targets), .errors = {}, .broken = {}};
   if (!there) {
     arrivals.broken = there.error();
-    arrivals.errors = not_there_yet(targets);
+    arrivals.errors = not_there_yet(targets, there.error().code);
   } else if (!*there) {
     arrivals.errors = missing(targets, wait);
   }
@@ -328,8 +328,8 @@ std::vector<Arrival> Discovery::those_there(const Targets& targets) const {
   return servos;
 }
 
-/// The errors for those that were waited for when the session ended.
-std::vector<Error> Discovery::not_there_yet(const Targets& targets) const {
+/// The errors for those that were waited for when the session ended for this reason.
+std::vector<Error> Discovery::not_there_yet(const Targets& targets, Code reason) const {
   std::set<NodeId> awaited(targets.ids.begin(), targets.ids.end());
   for (const Member* member : meant(targets)) {
     is_ready(*member) ? awaited.erase(member->id) : awaited.insert(member->id).second;
@@ -337,7 +337,7 @@ std::vector<Error> Discovery::not_there_yet(const Targets& targets) const {
   std::vector<Error> errors;
   errors.reserve(awaited.size());
   for (const NodeId id : awaited) {
-    errors.push_back({Code::interrupted, say<texts::not_there_yet>(id.value()), {}, id.value()});
+    errors.push_back({reason, say<texts::not_there_yet>(id.value()), {}, id.value()});
   }
   return errors;
 }

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <ranges>
+#include <set>
 #include <utility>
 
 namespace blactl::fleet {
@@ -80,26 +82,36 @@ EntryDiff compare(const FleetEntry& entry, const Snapshot& held, const bla::Prof
   return judged(std::move(diff));
 }
 
-/// The counterpart of `entry` of `one`; null: none.
-const FleetEntry* counterpart(const FleetEntry& entry, const FleetFile& one,
-                              const FleetFile& other) {
+/// The entry of another file for each one of a file, as far as there is one.
+using Counterparts = std::map<const FleetEntry*, const FleetEntry*>;
+
+/// What tells units apart comes before what people call them, and no entry has two counterparts.
+Counterparts counterparts(const FleetFile& one, const FleetFile& other) {
   if (one.is_params || other.is_params) { // both have one entry
-    return &other.servos.front();
+    return {{&one.servos.front(), &other.servos.front()}};
   }
-  const auto find = [&](auto same) {
-    const auto it = std::ranges::find_if(other.servos, same);
-    return it != other.servos.end() ? &*it : nullptr;
+  Counterparts found;
+  std::set<const FleetEntry*> taken;
+  const auto pair_by = [&](auto same) {
+    for (const FleetEntry& entry : one.servos) {
+      const auto it = std::ranges::find_if(other.servos, [&](const FleetEntry& each) {
+        return !taken.contains(&each) && same(entry, each);
+      });
+      if (!found.contains(&entry) && it != other.servos.end()) {
+        found.emplace(&entry, &*it);
+        taken.insert(&*it);
+      }
+    }
   };
-  const auto with_same = [&](auto Match::* number) {
-    const auto same = [&](const FleetEntry& each) {
-      return each.match.*number && each.match.*number == entry.match.*number;
+  const auto with_same = [](auto Match::* number) {
+    return [number](const FleetEntry& entry, const FleetEntry& each) {
+      return entry.match.*number && entry.match.*number == each.match.*number;
     };
-    return find(same);
   };
-  const auto* found = with_same(&Match::unique_id);
-  found = found != nullptr ? found : with_same(&Match::serial_number);
-  return found != nullptr ? found
-                          : find([&](const FleetEntry& each) { return each.name == entry.name; });
+  pair_by(with_same(&Match::unique_id));
+  pair_by(with_same(&Match::serial_number));
+  pair_by([](const FleetEntry& entry, const FleetEntry& each) { return entry.name == each.name; });
+  return found;
 }
 
 EntryDiff compare(const FleetEntry& one, const FleetEntry& other, const bla::Profiles& profiles) {
@@ -185,16 +197,14 @@ FleetDiff diff(Session& session, const bla::Profiles& profiles, const FleetMatch
 
 FleetDiff diff(const FleetFile& one, const FleetFile& other, const bla::Profiles& profiles) {
   FleetDiff found;
-  std::vector<const FleetEntry*> paired;
+  const Counterparts pairs = counterparts(one, other);
   for (const FleetEntry& entry : one.servos) {
-    const FleetEntry* partner = counterpart(entry, one, other);
-    if (partner != nullptr) {
-      paired.push_back(partner);
-      found.entries.push_back(compare(entry, *partner, profiles));
-    } else {
-      found.entries.push_back(without_servo(entry, EntryStatus::missing, profiles));
-    }
+    const auto pair = pairs.find(&entry);
+    found.entries.push_back(pair != pairs.end()
+                                ? compare(entry, *pair->second, profiles)
+                                : without_servo(entry, EntryStatus::missing, profiles));
   }
+  const auto paired = std::views::values(pairs);
   for (const FleetEntry& entry : other.servos) {
     if (std::ranges::find(paired, &entry) == paired.end()) {
       found.entries.push_back(without_servo(entry, EntryStatus::extra, profiles));

@@ -92,7 +92,7 @@ class Discovery final : private Roster::Listener {
   [[nodiscard]] bool is_met(const Selector& selector) const;
   [[nodiscard]] bool is_one_of_all(const Targets& targets, const Member& member) const;
   [[nodiscard]] bool is_gone(const Member& member) const;
-  [[nodiscard]] std::vector<Error> not_there_yet(const Targets& targets) const;
+  [[nodiscard]] std::vector<Error> not_there_yet(const Targets& targets, Code reason) const;
   [[nodiscard]] bool seems_ready(const Member& member) const;
   [[nodiscard]] bool is_ready(const Member& member) const;
   [[nodiscard]] bool all_there(const Targets& targets) const;
