@@ -113,7 +113,12 @@ UnitWatch::Start UnitWatch::hear_answer(std::uint32_t uptime_s,
   if (!known || earliest > *known) {
     return hear_uptime(uptime_s, response.at);
   }
-  return *known - latest > answer_tolerance ? Start::twin : Start::known;
+  if (*known - latest > answer_tolerance) {
+    return Start::twin;
+  }
+  starts_[last_start_] =
+      std::min(*known, latest); // the nearer to its start, the sooner another shows
+  return Start::known;
 }
 
 } // namespace blactl::fleet

@@ -458,6 +458,19 @@ TEST_CASE("a late response with an old uptime is no second unit, whoever asked")
   CHECK(ear.roster.member(NodeId(47)).boots == 0);
 }
 
+TEST_CASE("a restart right after another shows where a response told the older age between them") {
+  Ear ear;
+  ear.status(47, 0); // it runs for almost a second already
+  ear.now += 1s;
+  ear.status(47, 1);
+  ear.now += 50ms;
+  ear.ask_info(127, 47, 3);
+  ear.info(47, 2, 0, 3);
+  ear.now += 1250ms; // restarted at once, and heard again only when it is a second old
+  ear.status(47, 1);
+  CHECK(ear.roster.member(NodeId(47)).boots == 1);
+}
+
 TEST_CASE("a prompt response with an old uptime is of a unit that has restarted") {
   Ear ear;
   ear.status(47, 3);
