@@ -164,6 +164,7 @@ FaultBit read_fault_bit(const json::Value& item, json::Faults& faults) {
   bit.code = sums_up ? std::string() : read_name(object, "code", faults);
   bit.pwm_only = object.optional_boolean("pwm_only").value_or(false);
   bit.latched = object.optional_boolean("latched").value_or(false);
+  bit.output_off = object.optional_boolean("output_off").value_or(false);
   bit.vendor_only = object.optional_boolean("vendor_only").value_or(false);
   bit.text_en = read_text(object, "text_en", faults);
   bit.text_ja = read_text(object, "text_ja", faults);

@@ -19,11 +19,15 @@ std::int64_t summary_mask(Level level) {
   return mask;
 }
 
-/// Whether the measured value is at its limit or beyond; of each pair the first bit is CW.
-bool is_reached(const FaultBit& bit, const Values& values) {
+/// How far the measured value is beyond its limit; of each pair the first bit is that above it.
+/// Empty: one of them is not known.
+std::optional<std::int64_t> excess(const FaultBit& bit, const Values& values) {
   const auto measured = find(values, bit.values.front());
   const auto limit = find(values, bit.values.back());
-  return !measured || !limit || (bit.bit % 2 == 0 ? *measured >= *limit : *measured <= *limit);
+  if (!measured || !limit) {
+    return std::nullopt;
+  }
+  return bit.bit % 2 == 0 ? *measured - *limit : *limit - *measured;
 }
 
 } // namespace
@@ -33,9 +37,20 @@ Cause cause(const Fault& fault, const Values& values) {
     return {};
   }
   const FaultBit& bit = *fault.known;
-  return bit.or_values.empty() || bit.values.empty() || is_reached(bit, values)
+  return bit.or_values.empty() || bit.values.empty() || excess(bit, values).value_or(0) >= 0
              ? Cause{bit.condition_en, bit.condition_ja, bit.values}
              : Cause{bit.or_condition_en, bit.or_condition_ja, bit.or_values};
+}
+
+std::optional<bool> holds_output_off(const Fault& fault, const Values& values) {
+  if (fault.known == nullptr || fault.known->vendor_only) {
+    return std::nullopt;
+  }
+  if (!fault.known->output_off || fault.known->values.empty()) {
+    return fault.known->output_off;
+  }
+  const auto beyond = excess(*fault.known, values).value_or(0);
+  return beyond > 0 ? std::optional(true) : std::nullopt; // else it may have come back meanwhile
 }
 
 std::optional<std::int64_t> fault_register(const Values& values, Address reg) {

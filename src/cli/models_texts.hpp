@@ -22,6 +22,7 @@ inline constexpr Text models_unit_month{"unit month", "単位 月"};
 inline constexpr Text models_unit_day{"unit day", "単位 日"};
 inline constexpr Text models_unit_hour{"unit hour", "単位 時"};
 inline constexpr Text models_unit_minute{"unit minute", "単位 分"};
+inline constexpr Text models_bit_output_off{", holds the output off", "、モータ出力 OFF"};
 inline constexpr Text models_bit_latched{", stays until the next start", "、次回起動時まで保持"};
 inline constexpr Text models_bit_pwm_only{", models with a PWM input only",
                                           "、PWM 入力対応機種のみ"};

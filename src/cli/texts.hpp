@@ -313,6 +313,9 @@ inline constexpr Text unknown_bit_action{
     "ファームウェアバージョンとビット番号を添えてメーカーに問い合わせて下さい。"};
 inline constexpr Text fault_now{"now: {}", "現在の値: {}"};
 inline constexpr Text fault_settings{"settings: {}", "設定値: {}"};
+inline constexpr Text fault_output_off{
+    "The output is off. Once it is on again, the earlier command is gone.",
+    "モータ出力 OFF です。ON に戻っても、以前の指令は破棄されています。"};
 inline constexpr Text fault_latched{
     "It shows why the servo last reset or restarted itself, not its present state.",
     "サーボが自ら初期化/再起動した原因で、現在の異常ではありません。"};

@@ -33,8 +33,10 @@ TEST_CASE("faults has exactly the keys of the contract, in their order") {
   REQUIRE(node["active"].size() == 2);
   CHECK(keys(node["active"][0]) == std::vector<std::string>{"register", "bit", "level", "group",
                                                             "code", "latched", "text", "condition",
-                                                            "action", "values"});
+                                                            "action", "values", "output_off"});
   CHECK(node["active"][0]["code"] == "temperature_high");
+  CHECK(node["active"][0]["output_off"] == true);
+  CHECK(node["active"][1]["output_off"] == false);
   CHECK(node["active"][0]["values"].dump() ==
         R"({"current_temperature":25,"temperature_limit_high":20})");
   CHECK(node["active"][1]["code"] == "pwm_missing");
@@ -209,6 +211,22 @@ TEST_CASE("every fault fits on 80 columns, in both languages") {
         hot_servo().run({"faults", "--lang", language}, {.terminal_stdout = true, .columns = 80});
     CHECK(longest_line(without_colour(result.out)) <= 80);
   }
+}
+
+TEST_CASE(
+    "faults tells that the output is off, and that the command is gone, where that is known") {
+  const auto shown = [](const nlohmann::json& ram) {
+    return Scene()
+        .servo("BLA21-12U-AB", 11, {{"ram", ram}})
+        .run({"faults", "-n", "11", "--lang", "en"});
+  };
+  const std::string off = "The output is off. Once it is on again, the earlier command is gone.";
+  CHECK(contains(shown({{"current_voltage", "3.9V"}, {"0x41", 40}}).out, off));
+  CHECK(contains(shown({{"0x1B", 1}}).out, off));
+  CHECK_FALSE(contains(shown({{"0x1B", 1 << 8}}).out, off)); // why it restarted
+  const Result at_limit = shown({{"current_voltage", "4.0V"}, {"0x41", 40}});
+  CHECK(contains(at_limit.out, "voltage_low")); // unproven: what the output does
+  CHECK_FALSE(contains(at_limit.out, off));
 }
 
 TEST_CASE("faults tells which of the two conditions of an angle limit is true") {

@@ -54,7 +54,7 @@ TEST_CASE("models --json has exactly the keys of the contract, in their order") 
     CHECK(keys(bit) == std::vector<std::string>{"register", "bit", "level", "group", "code",
                                                 "pwm_only", "latched", "vendor_only", "text_en",
                                                 "text_ja", "condition_en", "condition_ja",
-                                                "action_en", "action_ja"});
+                                                "action_en", "action_ja", "output_off"});
   }
 }
 
@@ -119,7 +119,7 @@ TEST_CASE("a range names only the words that the model takes") {
 TEST_CASE("models MODEL tells of a fault register what its bits mean and what to do") {
   const Result warnings = run({"models", "BLA21-12U-AB", "0x1A"});
   CHECK(warnings.status == 0);
-  CHECK(contains(warnings.out, "bit 8: Temperature upper limit [temperature_high]\n"
+  CHECK(contains(warnings.out, "bit 8: Temperature upper limit [temperature_high], holds the output off\n"
                                "      [0x0B] Current Temperature at or above [0x3E] Operation "
                                "Temperature Upper Limit\n      Reduce load or check 0x3E"));
   CHECK(contains(warnings.out, "[rom_corrupt], stays until the next start\n"));

@@ -28,6 +28,7 @@ struct FaultBit {
   std::string code;  ///< contract, section 7: "voltage_low"; empty: a bit of 0x18
   bool pwm_only = false;
   bool latched = false;     ///< shows why the servo restarted, stays until the next start
+  bool output_off = false;  ///< its cause holds the motor output off (4.7, 4.8, 4.12)
   bool vendor_only = false; ///< shown by the vendor's program, absent in the specification
   std::string text_en, text_ja, condition_en, condition_ja, action_en, action_ja;
   std::vector<Address> values; ///< related registers: the measured value and its limit

@@ -328,6 +328,7 @@ std::string bits_text(std::span<const bla::FaultBit> bits, bla::Address address)
     out += "  " + fmt::format("bit {}: {}", bit.bit, choose(bit.text_en, bit.text_ja));
     out += fmt::format(" [{}]", bit.code);
     out += bit.latched ? say<texts::models_bit_latched>() : std::string();
+    out += bit.output_off ? say<texts::models_bit_output_off>() : std::string();
     out += bit.pwm_only ? say<texts::models_bit_pwm_only>() : std::string();
     out += fmt::format("\n      {}\n", choose(bit.condition_en, bit.condition_ja));
     if (!bit.or_values.empty()) {

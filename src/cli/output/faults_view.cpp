@@ -78,6 +78,9 @@ std::string fault_text(const FaultState& servo, const Fault& fault, const Page& 
     line(has_measured(servo, fault) ? say<texts::fault_now>(values)
                                     : say<texts::fault_settings>(values));
   }
+  line(bla::holds_output_off(fault, servo.snapshot.values()).value_or(false)
+           ? say<texts::fault_output_off>()
+           : std::string());
   line(is_latched(fault) ? say<texts::fault_latched>() : std::string());
   line(action_text(fault));
   return out;
@@ -132,6 +135,7 @@ void write_fault(JsonWriter& json, const FaultState& servo, const Fault& fault) 
     json.number(bla::value_text(*reading.parameter, *reading.raw));
   }
   json.end_object();
+  json.member("output_off", bla::holds_output_off(fault, servo.snapshot.values()));
 }
 
 std::string fault_line(const Fault& fault, const Page& page) {

@@ -77,6 +77,7 @@ void write_fault_bit(JsonWriter& json, const bla::FaultBit& bit) {
   json.member("condition_ja", bit.condition_ja);
   json.member("action_en", bit.action_en);
   json.member("action_ja", bit.action_ja);
+  json.member("output_off", bit.output_off);
   json.end_object();
 }
 
