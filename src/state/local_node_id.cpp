@@ -182,7 +182,7 @@ Result<void> LocalNodeId::give_way(std::string_view interface) {
   return std::unexpected(Error{is_alone ? Code::duplicate_node_id : Code::no_local_node_id,
                                is_alone ? say<texts::own_id_in_use>(taken.value(), interface)
                                         : say<texts::no_local_node_id>(interface, passed_over()),
-                               say<texts::own_id_in_use_hint>(),
+                               say<texts::own_id_in_use_hint>(taken.value()),
                                is_alone ? std::optional(taken.value()) : std::nullopt});
 }
 

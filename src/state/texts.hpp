@@ -25,8 +25,10 @@ inline constexpr Text node_id_was_foreign{"{} was used by another node before",
 inline constexpr Text own_id_in_use{"node ID {} is used by another node on {}",
                                     "ノード ID {} は {} 上の別のノードが使用しています"};
 inline constexpr Text own_id_in_use_hint{
-    "give a free node ID: --local-node-id ID",
-    "空いているノード ID を指定して下さい: --local-node-id ID"};
+    "give a free node ID: --local-node-id ID; if {0} is a servo, give it another one for good: "
+    "blactl --local-node-id ID set -n {0} static_node_id=N --save",
+    "空いているノード ID を指定して下さい: --local-node-id ID。{0} がサーボの場合は、"
+    "別のノード ID に変更: blactl --local-node-id ID set -n {0} static_node_id=N --save"};
 inline constexpr Text node_id_lock_failed{"{}: {} cannot be opened ({})",
                                           "{}: {} を開けません ({})"};
 

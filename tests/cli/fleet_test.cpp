@@ -204,7 +204,7 @@ TEST_CASE("a fleet file with twenty faults: twenty places are named, and nothing
 TEST_CASE("export leaves the file as it was where not everything was read") {
   const Exported exported;
   const std::string before = content(exported.path);
-  const Scene mute = three_servos().servo("BLA21-12U-AB", 14, {{"faults", {{"drop_every", 1}}}});
+  const Scene mute = three_servos().servo("BLA21-12U-AB", 14, {{"faults", {{"mute", true}}}});
   const Result result = mute.run(exported.bench, {"export", exported.path, "-n", "11,14"});
   CHECK(result.status != 0);
   CHECK(content(exported.path) == before);

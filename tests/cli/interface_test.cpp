@@ -430,6 +430,7 @@ TEST_CASE("where others have both IDs of tools a command ends with 9") {
   CHECK(codes(result) == std::vector<std::string>{"no_local_node_id"});
   CHECK(contains(result.err, "127 is used by another node, 126 is used by another node"));
   CHECK(contains(result.err, "\n  give a free node ID: --local-node-id ID"));
+  CHECK(contains(result.err, "blactl --local-node-id ID set -n 126 static_node_id=N --save"));
 }
 
 TEST_CASE("an ID of ours that somebody has is not spoken with") {

@@ -212,8 +212,10 @@ TEST_CASE("models tells who has it") {
 
 TEST_CASE("a simulated servo of another series has no memory for it") {
   const ProfileFolder profiles;
-  const Result refused = Scene()
-                             .servo("BLA15-06U-A0", 12, {{"rom", {{"my_param", 3}}}})
-                             .run({"scan", "--profile-dir", profiles.bench.folder()});
+  const Bench bench; // a profile folder holds nothing else
+  const std::string file =
+      Scene().servo("BLA15-06U-A0", 12, {{"rom", {{"my_param", 3}}}}).write(bench);
+  const Result refused =
+      bench.run({"-i", "sim:" + file, "scan", "--profile-dir", profiles.bench.folder()});
   check_error(refused, 2, "bad_file", "BLA15-06U-A0");
 }

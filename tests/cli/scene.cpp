@@ -16,6 +16,11 @@ Scene& Scene::servo(std::string_view model, int node_id, const nlohmann::json& m
   return *this;
 }
 
+Scene& Scene::seed(int number) {
+  document_["seed"] = number;
+  return *this;
+}
+
 Scene& Scene::wire(const nlohmann::json& faults) {
   document_["wire"] = faults;
   return *this;
@@ -57,9 +62,13 @@ Result Scene::run(const Arguments& arguments, const Options& options) const {
 }
 
 Result Scene::run(const Bench& bench, const Arguments& arguments, const Options& options) const {
-  Arguments all{"-i", "sim:" + write(bench)};
+  const std::string file = write(bench);
+  Arguments all{"-i", "sim:" + file};
   all.insert(all.end(), arguments.begin(), arguments.end());
-  return bench.run(all, options);
+  Result result = bench.run(all, options);
+  INFO(result.err);
+  CHECK_FALSE(contains(result.err, "[bad_file] " + file));
+  return result;
 }
 
 Scene three_servos() {

@@ -25,6 +25,9 @@ class Scene {
   Scene& servo(std::string_view model, int node_id, const nlohmann::json& more = {});
   Scene& foreign(int node_id, const nlohmann::json& more = {});
 
+  /// Of everything random.
+  Scene& seed(int number);
+
   /// What the wire does to frames.
   Scene& wire(const nlohmann::json& faults);
 
@@ -43,7 +46,8 @@ class Scene {
   /// Writes the scenario file and gives its path.
   [[nodiscard]] std::string write(const Bench& bench) const;
 
-  /// Runs the binary with `-i sim:` this scenario.
+  /// Runs the binary with `-i sim:` this scenario. A scenario that the simulator refuses is a
+  /// failure of the test.
   [[nodiscard]] Result run(const Arguments& arguments, const Options& options = {}) const;
   [[nodiscard]] Result run(const Bench& bench, const Arguments& arguments,
                            const Options& options = {}) const;

@@ -195,7 +195,7 @@ void Roster::hear(const can::Frame& frame, Time at) {
   const std::uint8_t tail = frame.data[frame.size - 1U];
   if (header->kind == Kind::message && header->data_type_id == dronecan::ActuatorStatus::type.id &&
       (tail & tail_start_of_transfer) != 0) {
-    watches_[header->source.value()].count_status(frame, at);
+    watches_[header->source.value()].count_actuator_status(frame, at);
   }
   if (!std::exchange(heard_[header->source.value()], true)) {
     heard.first_heard = at;
@@ -226,7 +226,9 @@ void Roster::hear_status(Member& sender, const can::Frame& frame, Time at) {
   const auto status = dronecan::NodeStatus::decode(dronecan::Bytes(frame.data.data(), size));
   if (status) {
     const dronecan::TransferId id = frame.data[size] % dronecan::transfer_id_modulus;
-    take(watches_[sender.id.value()].hear_repetition(id, status->uptime_s, at), sender);
+    UnitWatch& watch = watches_[sender.id.value()];
+    watch.count_node_status(frame, status->uptime_s, at);
+    take(watch.hear_repetition(id, status->uptime_s, at), sender);
   }
 }
 
@@ -234,7 +236,8 @@ void Roster::hear_status(Member& sender, const can::Frame& frame, Time at) {
 bool Roster::is_too_fast(NodeId id) const {
   const Member* sender = find(id);
   const bool is_foreign = sender != nullptr && sender->identified && !sender->is_servo;
-  return watches_[id.value()].is_too_fast() && !is_foreign;
+  const UnitWatch& watch = watches_[id.value()];
+  return (watch.is_too_fast() && !is_foreign) || watch.has_two_statuses();
 }
 
 bool Roster::is_doubled(NodeId id) const {

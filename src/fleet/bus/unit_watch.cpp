@@ -7,11 +7,6 @@
 namespace blactl::fleet {
 namespace {
 
-/// A BLA servo sends actuator.Status every 100 ms (table 2-2). More than fourteen in a second are
-/// from two servos: one cannot send them even with the worst delays.
-constexpr Duration status_window = std::chrono::seconds(1);
-constexpr unsigned most_statuses_of_one = 14;
-
 /// Uptime counts whole seconds and its message may be late: two starts closer than this are one.
 constexpr Duration start_tolerance = std::chrono::milliseconds(1500);
 
@@ -34,22 +29,36 @@ dronecan::TransferId transfer_id(const can::Frame& frame) {
 /// A servo alone on the bus gets no acknowledgement: when another node joins, its waiting frames
 /// come all at once. But one unit numbers its transfers consecutively; if the numbers of two units
 /// mix, at least every second one is out of sequence.
-void UnitWatch::count_status(const can::Frame& frame, Time at) {
-  const bool is_repeated =
-      frame == last_actuator_status_ && at - last_actuator_status_at_ < repetition_time;
-  const unsigned next = transfer_id(last_actuator_status_) + 1U;
-  last_actuator_status_ = frame;
-  last_actuator_status_at_ = at;
-  if (is_repeated || !is_timed_) {
+void MessageRate::count(const can::Frame& frame, Time at) {
+  const bool is_repeated = frame == last_ && at - last_at_ < repetition_time;
+  const unsigned next = transfer_id(last_) + 1U;
+  last_ = frame;
+  last_at_ = at;
+  if (is_repeated) {
     return;
   }
-  if (!window_start_ || at - *window_start_ > status_window) {
+  if (!window_start_ || at - *window_start_ > window_) {
     window_start_ = at;
     count_ = leaps_ = 0;
   }
   leaps_ += transfer_id(frame) != next % dronecan::transfer_id_modulus ? 1U : 0U;
   ++count_;
-  is_too_fast_ = is_too_fast_ || (count_ > most_statuses_of_one && leaps_ * 4 > count_);
+  is_of_two_ = is_of_two_ || (count_ > most_ && leaps_ * 4 > count_);
+}
+
+void UnitWatch::count_actuator_status(const can::Frame& frame, Time at) {
+  if (is_timed_) {
+    actuator_statuses_.count(frame, at);
+  }
+}
+
+void UnitWatch::count_node_status(const can::Frame& frame, std::uint32_t uptime_s, Time at) {
+  if (uptime_s < std::exchange(counted_uptime_s_, uptime_s)) {
+    node_statuses_.begin_anew();
+  }
+  if (is_timed_) {
+    node_statuses_.count(frame, at);
+  }
 }
 
 /// Every uptime gives the start of its unit. A new start is a restart; a return to the old one

@@ -5,6 +5,7 @@
 #include "blactl/bla/value.hpp"
 #include "blactl/fleet/bus/conflict_texts.hpp"
 #include "blactl/fleet/doctor/diagnosis.hpp"
+#include "blactl/state/local_node_id.hpp"
 
 #include "fleet/doctor/diagnosis_texts.hpp"
 
@@ -161,6 +162,10 @@ class NodeExamination {
       add("firmware_defect", Level::notice, servo.id,
           say<texts::node_may_stall>(bla::firmware_text(*readings.firmware_version), id),
           say<texts::node_may_stall_fix>());
+    }
+    if (state::is_tool_id(servo.id)) {
+      add("tool_node_id", Level::warning, servo.id, say<texts::servo_on_tool_id>(id),
+          say<texts::servo_on_tool_id_fix>(id));
     }
     if (servo.static_node_id.value_or(0) != 0 && *servo.static_node_id != id) {
       add("static_node_id", Level::warning, servo.id,

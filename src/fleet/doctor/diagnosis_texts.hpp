@@ -131,6 +131,12 @@ inline constexpr Text node_static_differs_fix{
     "keep the ID that it has: blactl alloc --static -n {}; or take the new one: blactl restart -n "
     "{}",
     "現在の ID を固定: blactl alloc --static -n {}、新しい ID に切替え: blactl restart -n {}"};
+inline constexpr Text servo_on_tool_id{
+    "node {} is a servo, and 126 and 127 are the node IDs of tools: each of them must evade it",
+    "ノード {} はサーボですが、126・127 は設定ツール用のノード ID のため、ツールと競合します"};
+inline constexpr Text servo_on_tool_id_fix{
+    "give it another one for good: blactl set -n {} static_node_id=N --save",
+    "別のノード ID に変更: blactl set -n {} static_node_id=N --save"};
 inline constexpr Text units_ask_for_id{"units that ask for a node ID and get none: {} or more",
                                        "ノード ID の割当てを待つ機器: {} 台以上"};
 inline constexpr Text units_ask_for_id_fix{"give them one: blactl alloc --once",

@@ -3,6 +3,7 @@
 #include "support.hpp"
 
 #include <algorithm>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -44,7 +45,8 @@ using Codes = std::vector<std::string>;
 /// A roster and what it was told, a frame at a time.
 struct Bus {
   void hear(std::uint8_t id, NodeStatus status = {}) {
-    for (const can::Frame& frame : message(NodeStatus::type, id, status.encode())) {
+    const auto number = static_cast<dronecan::TransferId>(statuses[id]++ % 32U);
+    for (const can::Frame& frame : message(NodeStatus::type, id, status.encode(), number)) {
       roster.hear(frame, now);
       traffic.hear(frame, now);
     }
@@ -88,6 +90,7 @@ struct Bus {
   Roster roster{NodeId(127), profiles()};
   Traffic traffic;
   Time now{1000s};
+  std::map<std::uint8_t, unsigned> statuses; ///< sent by each node
 };
 
 } // namespace

@@ -410,9 +410,9 @@ TEST_CASE(
   for (std::uint32_t second = 0; second < 3; ++second) {
     const auto id = static_cast<dronecan::TransferId>(second);
     ear.status(10, 100 + second, id);
-    ear.now += 200ms;
+    ear.now += 1ms; // as soon as the bus is free
     ear.status(10, (is_two ? 130 : 100) + second, id);
-    ear.now += 800ms;
+    ear.now += 999ms;
   }
   CHECK(ear.roster.is_doubled(NodeId(10)) == is_two);
   CHECK((ear.roster.member(NodeId(10)).boots == 0) == !is_two);
@@ -469,6 +469,39 @@ TEST_CASE("a restart right after another shows where a response told the older a
   ear.now += 1250ms; // restarted at once, and heard again only when it is a second old
   ear.status(47, 1);
   CHECK(ear.roster.member(NodeId(47)).boots == 1);
+}
+
+TEST_CASE("two units that were switched on together show by twice as many NodeStatus") {
+  const auto first_of_other =
+      GENERATE(std::uint8_t{0}, std::uint8_t{7}); // it may number others, too
+  Ear ear;
+  for (std::uint8_t second = 0; second < 4; ++second) {
+    ear.status(47, second, second);
+    ear.now += 300ms;
+    ear.status(47, second, static_cast<std::uint8_t>(second + first_of_other));
+    ear.now += 700ms;
+  }
+  CHECK(ear.roster.is_doubled(NodeId(47)));
+}
+
+TEST_CASE("neither a fast NodeStatus, nor lost ones, nor restarts show a second unit") {
+  Ear ear;
+  for (std::uint8_t i = 0; i < 30; ++i) { // five a second
+    ear.status(46, i / 5U, i);
+    ear.now += 200ms;
+  }
+  for (std::uint8_t i = 0; i < 10; ++i) {
+    ear.status(48, i % 2, i % 2); // restarts as soon as it runs
+    ear.now += i % 2 == 0 ? 1s : 500ms;
+  }
+  for (std::uint8_t i = 0; i < 20; i += 2) {
+    ear.status(47, i, i); // every second one is lost
+    ear.now += 2s;
+  }
+  for (const std::uint8_t id : {std::uint8_t{46}, std::uint8_t{47}, std::uint8_t{48}}) {
+    INFO(+id);
+    CHECK_FALSE(ear.roster.is_doubled(NodeId(id)));
+  }
 }
 
 TEST_CASE("a prompt response with an old uptime is of a unit that has restarted") {

@@ -140,7 +140,9 @@ TEST_CASE("where others have both IDs there is none") {
   CHECK_FALSE(taken.error().node_id);
   CHECK(taken.error().message == "no node ID is free for this process on vcan0: 127 is used by "
                                  "another node, 126 is used by another node");
-  CHECK(taken.error().hint == "give a free node ID: --local-node-id ID");
+  CHECK(taken.error().hint ==
+        "give a free node ID: --local-node-id ID; if 126 is a servo, give it another one for good: "
+        "blactl --local-node-id ID set -n 126 static_node_id=N --save");
 }
 
 TEST_CASE("what another process holds is not given way to") {

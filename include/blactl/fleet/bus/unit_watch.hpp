@@ -7,11 +7,39 @@
 #include "blactl/dronecan/transfer.hpp"
 
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 
 namespace blactl::fleet {
+
+/// Counts the messages of one type under one node ID.
+class MessageRate {
+ public:
+  /// One unit sends at most `most` of them in a window.
+  constexpr MessageRate(Duration window, unsigned most) : window_(window), most_(most) {}
+
+  /// The first frame of one. It counts once if it comes twice, as where the end of its
+  /// acknowledgement was disturbed.
+  void count(const can::Frame& frame, Time at);
+
+  /// The sender has restarted.
+  void begin_anew() { window_start_.reset(); }
+
+  /// Whether two units have sent them.
+  [[nodiscard]] bool is_of_two() const { return is_of_two_; }
+
+ private:
+  Duration window_;
+  unsigned most_;
+  std::optional<Time> window_start_{};
+  unsigned count_ = 0;
+  unsigned leaps_ = 0; ///< transfer IDs out of sequence
+  can::Frame last_{};
+  Time last_at_{};
+  bool is_of_two_ = false;
+};
 
 /// Watches the transfers from one node ID.
 class UnitWatch {
@@ -23,12 +51,17 @@ class UnitWatch {
     twin   ///< another unit
   };
 
-  /// The first frame of a transfer of actuator.Status. One that comes twice, as where the end of
-  /// its acknowledgement was disturbed, counts once.
-  void count_status(const can::Frame& frame, Time at);
+  /// The first frame of a transfer of actuator.Status.
+  void count_actuator_status(const can::Frame& frame, Time at);
+
+  /// A frame of NodeStatus with this uptime.
+  void count_node_status(const can::Frame& frame, std::uint32_t uptime_s, Time at);
 
   /// Whether two servos send actuator.Status, provided that the sender is a BLA servo.
-  [[nodiscard]] bool is_too_fast() const { return is_too_fast_; }
+  [[nodiscard]] bool is_too_fast() const { return actuator_statuses_.is_of_two(); }
+
+  /// Whether two units that started together send NodeStatus.
+  [[nodiscard]] bool has_two_statuses() const { return node_statuses_.is_of_two(); }
 
   /// The transfers have no times from here on, as in a log without stamps: then only an uptime that
   /// goes back tells of a restart, and nothing here of a second unit.
@@ -62,12 +95,12 @@ class UnitWatch {
 
   [[nodiscard]] Duration delay(const dronecan::Transfer& response) const;
 
-  std::optional<Time> window_start_{};
-  unsigned count_ = 0;
-  unsigned leaps_ = 0;                ///< transfer IDs out of sequence
-  can::Frame last_actuator_status_{}; ///< its first frame
-  Time last_actuator_status_at_{};
-  bool is_too_fast_ = false;
+  /// A BLA servo sends actuator.Status every 100 ms (table 2-2): with the worst delays one cannot
+  /// send more than fourteen in a second.
+  MessageRate actuator_statuses_{std::chrono::seconds(1), 14};
+  /// One a second is due, and who sends more of them numbers them consecutively.
+  MessageRate node_statuses_{std::chrono::seconds(3), 4};
+  std::uint32_t counted_uptime_s_ = 0;                            ///< of the last one
   std::optional<dronecan::TransferId> last_status_id_{};          ///< of NodeStatus
   std::array<Request, dronecan::transfer_id_modulus> requests_{}; ///< for GetNodeInfo
   std::array<std::optional<Time>, 2> starts_{};
