@@ -233,6 +233,17 @@ TEST_CASE("undo of a change that another tool has taken back leaves no record of
   CHECK(fleet.ram("11", "timeout_time") == 700);
 }
 
+TEST_CASE("undo of a value whose unit another tool has changed brings back the unit, too") {
+  Fleet fleet(three_servos());
+  const Options other{.env = {{"BLACTL_STATE_DIR", fleet.file_name("other")}}};
+  const std::int64_t before = fleet.ram("11", "pwm_output_range");
+  set(fleet, {"-n", "11", "pwm_output_range=90deg"});
+  REQUIRE(fleet.run({"set", "-n", "11", "0x37=1", "0x36=90rpm", "-y"}, other).status == 0);
+  REQUIRE(undo(fleet, {"-n", "11"}).status == 0);
+  CHECK(fleet.ram("11", "pwm_output_range") == before);
+  CHECK(fleet.ram("11", "pwm_mode") == 0);
+}
+
 TEST_CASE("undo brings back what a restart took from RAM, where only a proof told of it") {
   Fleet fleet(three_servos());
   const Options other{.env = {{"BLACTL_STATE_DIR", fleet.file_name("other")}}};

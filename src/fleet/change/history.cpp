@@ -85,6 +85,14 @@ bla::Values replaced_by(const Plan& plan) {
       }
     }
   }
+  const auto mode = plan.before.pwm_mode();
+  const bool is_of_mode = std::ranges::any_of(values, [&](const auto& held) {
+    const bla::Parameter* parameter = identity.parameter(held.first);
+    return parameter != nullptr && bla::unit_depends_on_mode(*parameter);
+  });
+  if (mode && is_of_mode) { // another tool may change it: then the number is of another unit
+    values.emplace(bla::address::pwm_mode, *mode);
+  }
   std::erase_if(values, [&](const auto& held) {
     const bla::Parameter* parameter = identity.parameter(held.first);
     return !identity.is_setting(held.first) ||
