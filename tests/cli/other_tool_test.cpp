@@ -78,3 +78,61 @@ TEST_CASE("characterize says that another tool has saved what it measured with")
     }
   }
 }
+
+TEST_CASE("a servo that was done in the first step is looked at again in the end") {
+  // 12 holds the file in RAM only: its proving restart shows that, and a second step saves it.
+  int told = 0;
+  for (int at = 4500; at < 10500; at += 500) {
+    const Fleet fleet(with_order("erase", at));
+    REQUIRE(fleet.run({"set", "-n", "12", "angle_p_gain=30", "-y"}).status == 0);
+    const Result apply = fleet.apply(
+        {{"schema", "blactl-fleet/1"},
+         {"servos",
+          {{{"name", "a"}, {"match", {{"servo_id", 1}}}, {"set", {{"smoothing", "off"}}}},
+           {{"name", "b"}, {"match", {{"servo_id", 2}}}, {"set", {{"angle_p_gain", 30}}}}}}});
+    INFO(at << " ms: " << apply.out << apply.err);
+    told += contains(apply.err, "node 90 wrote to node 11 meanwhile") ? 1 : 0;
+    if (apply.status == 0) {
+      CHECK(fleet.ram("11", "smoothing") == 0);
+    }
+  }
+  CHECK(told > 0);
+}
+
+TEST_CASE("what another tool has saved meanwhile is not in RAM only, and undo puts ROM back") {
+  int told = 0;
+  for (int at = 1650; at < 2600; at += 50) {
+    const Fleet fleet(with_order("save", at));
+    const Result set = fleet.run({"set", "-n", "11,12", "smoothing=off", "-y"});
+    INFO(at << " ms: " << set.out << set.err);
+    if (contains(set.err, "node 90 ordered SAVE of node 11 meanwhile")) {
+      ++told;
+      CHECK(fleet.run({"undo", "-n", "11", "-y"}).status == 0);
+      CHECK(fleet.rom("11", "smoothing") == 1);
+    }
+  }
+  CHECK(told > 0);
+}
+
+TEST_CASE("characterize makes nothing permanent that another tool has erased or written") {
+  for (int at = 3000; at < 12000; at += 750) {
+    const Fleet fleet(with_order("erase", at));
+    const Result run = fleet.run({"characterize", "-n", "11", "-y"});
+    INFO(at << " ms: " << run.err);
+    CHECK(fleet.rom("11", "static_node_id") == 11); // the factory's is 0
+  }
+}
+
+TEST_CASE("after another tool's SAVE undo puts back what characterize measured with") {
+  int saved = 0;
+  for (int at = 3000; at < 12000; at += 750) {
+    const Fleet fleet(with_order("save", at));
+    if (contains(fleet.run({"characterize", "-n", "11", "-y"}).err, "blactl undo -n 11")) {
+      ++saved;
+      CHECK(fleet.run({"undo", "-n", "11", "-y"}).status == 0);
+      CHECK(fleet.rom("11", "angle_limit_cw") == 1799);
+      CHECK(fleet.ram("11", "torque_output") == 0);
+    }
+  }
+  CHECK(saved > 0);
+}

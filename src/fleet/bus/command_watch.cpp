@@ -12,7 +12,7 @@ using dronecan::Transfer;
 
 namespace {
 
-/// ERASE and a restart write all of them; so may a name that is not one of ours.
+/// ERASE writes all of them; so may a name that is not one of ours.
 constexpr std::optional<bla::Address> every_register{};
 constexpr std::uint16_t last_index = 0xFF;
 
@@ -37,7 +37,7 @@ void CommandWatch::receive(const Transfer& transfer) {
   } else if (is(Kind::request, dronecan::ExecuteOpcode::type)) {
     on_opcode(transfer);
   } else if (is(Kind::request, dronecan::RestartNode::type)) {
-    writes_[header.destination][every_register] = {header.source, transfer.at};
+    on_restart(transfer);
   } else if (is(Kind::message, dronecan::ArrayCommand::type)) {
     on_command(transfer);
   } else if (is(Kind::message, dronecan::ArmingStatus::type)) {
@@ -89,8 +89,10 @@ void CommandWatch::on_write(const Transfer& transfer) {
   const auto& [source, server] = std::pair(transfer.header.source, transfer.header.destination);
   if (is_at(at::command_angle) || is_at(at::command_speed) || is_at(at::command_torque)) {
     commander(source).nodes[server].hear(transfer.at);
-  } else if (is_at(at::initialize) || is_at(at::reboot)) {
+  } else if (is_at(at::initialize)) {
     writes_[server][every_register] = {source, transfer.at};
+  } else if (is_at(at::reboot)) {
+    restarts_[server] = {source, transfer.at};
   } else if (is_at(at::write_rom)) {
     saves_[server] = {source, transfer.at};
   } else {
@@ -111,6 +113,15 @@ void CommandWatch::on_opcode(const Transfer& transfer) {
   }
 }
 
+/// A node obeys the magic number only.
+void CommandWatch::on_restart(const Transfer& transfer) {
+  using dronecan::RestartNode;
+  const auto request = RestartNode::Request::decode(transfer.payload);
+  if (request && request->magic_number == RestartNode::magic) {
+    restarts_[transfer.header.destination] = {transfer.header.source, transfer.at};
+  }
+}
+
 std::optional<NodeId> CommandWatch::saver_of(NodeId id, Time since) const {
   const auto save = saves_.find(id);
   return save != saves_.end() && save->second.at > since ? std::optional(save->second.source)
@@ -124,6 +135,14 @@ std::optional<NodeId> CommandWatch::armed_by(Time now) const {
 }
 
 std::optional<NodeId> CommandWatch::writer_to(NodeId id, Time since,
+                                              std::optional<bla::Address> reg) const {
+  const auto restart = restarts_.find(id);
+  return restart != restarts_.end() && restart->second.at > since
+             ? std::optional(restart->second.source)
+             : setter_of(id, since, reg);
+}
+
+std::optional<NodeId> CommandWatch::setter_of(NodeId id, Time since,
                                               std::optional<bla::Address> reg) const {
   const auto it = writes_.find(id);
   if (it == writes_.end()) {

@@ -332,7 +332,8 @@ void Change::look_back(const Lost& lost) {
     const bool restarted = roster.member(servo.id).boots != servo.boot;
     if (roster.is_doubled(servo.id)) {
       result.errors.push_back(doubled(roster, servo.id));
-    } else if (const auto writer = roster.writer_to(servo.id, servo.since)) {
+    } else if (const auto writer = result.rom_proven ? roster.setter_of(servo.id, servo.since)
+                                                     : roster.writer_to(servo.id, servo.since)) {
       result.errors.push_back({Code::state, say<texts::written_by_other>(id, writer->value()),
                                say<texts::other_writer_hint>(), id});
     } else if (restarted && !result.rom_proven) { // RAM was reloaded from ROM
@@ -345,14 +346,24 @@ void Change::look_back(const Lost& lost) {
   }
 }
 
-/// Later rounds may have taken long.
+/// Later rounds may have taken long: another unit, or another node's write, may have come since.
 void Change::look_back(GoalResult& result) const {
+  const Roster& roster = session_.roster();
   const auto id = result.change.node_id_after;
-  if (result.is_done && id && session_.roster().is_doubled(*id)) {
-    result.errors.push_back(doubled(session_.roster(), *id));
-    result.is_done = result.change.saved = false;
-    result.rom_proven = result.rom_proven ? std::optional(false) : std::nullopt;
+  if (!result.is_done || !id) {
+    return;
   }
+  if (roster.is_doubled(*id)) {
+    result.errors.push_back(doubled(roster, *id));
+  } else if (const auto by = roster.setter_of(*id, result.change.looked_at)) {
+    result.errors.push_back({Code::state, say<texts::written_by_other>(id->value(), by->value()),
+                             say<texts::other_writer_hint>(), id->value()});
+    result.change.doubt();
+  } else {
+    return;
+  }
+  result.is_done = result.change.saved = result.change.is_verified = false;
+  result.rom_proven = result.rom_proven ? std::optional(false) : std::nullopt;
 }
 
 void Change::conclude() {

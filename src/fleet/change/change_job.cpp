@@ -295,7 +295,7 @@ ChangeJob::Stage ChangeJob::conclude_restart() {
   }
   result_.is_verified = *plan_.restart == RestartKind::restart && !result_.error;
   if (result_.error && restart_->is_sent() && !restart_->has_run_on()) {
-    doubt_changes();
+    result_.doubt();
   }
   if (result_.error || !result_.returned) {
     return Stage::end;
@@ -338,7 +338,7 @@ ChangeJob::Stage ChangeJob::conclude_read_back() {
         restart_->is_confirmed() ? say<texts::rom_differs_hint>() : say<texts::run_again_hint>();
   }
   const std::uint8_t id = now.servo.id.value();
-  if (const auto writer = roster_.writer_to(now.servo.id, restart_->sent_at());
+  if (const auto writer = roster_.setter_of(now.servo.id, restart_->sent_at());
       writer && !result_.error) {
     result_.error = Error{Code::state, say<texts::written_by_other>(id, writer->value()),
                           say<texts::other_writer_hint>(), id};

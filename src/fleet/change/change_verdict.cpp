@@ -27,8 +27,7 @@ void ChangeJob::blame_other_writer(RegisterChange& change) const {
 
 /// Differing values that another node wrote are not the fault of the servo or its ROM.
 void ChangeJob::blame_other_writer() {
-  const bool differs = result_.error && (result_.error->code == Code::mismatch ||
-                                         result_.error->code == Code::state);
+  const bool differs = result_.error && result_.error->code == Code::mismatch;
   const dronecan::NodeId servo = servo_.id;
   if (const auto writer = roster_.writer_to(servo, known_since()); differs && writer) {
     result_.error = Error{Code::state, say<texts::other_writer>(servo.value(), writer->value()),
@@ -61,21 +60,12 @@ void ChangeJob::tell_reach() {
 
 /// Reports the present values of the changed registers, after a failed SAVE.
 void ChangeJob::tell_saved(const Snapshot& now) {
-  doubt_changes();
+  result_.doubt();
   for (RegisterChange& change : result_.changes) {
     if (const auto raw = now.raw(change.parameter->address)) {
       change.after = raw;
       change.status = *raw == change.requested ? ChangeStatus::written : ChangeStatus::mismatch;
     }
-  }
-}
-
-/// The servo restarted, or may have: the changes were in RAM.
-void ChangeJob::doubt_changes() {
-  result_.now.clear();
-  for (RegisterChange& change : result_.changes) {
-    change.after = std::nullopt;
-    change.status = ChangeStatus::failed;
   }
 }
 
@@ -114,17 +104,24 @@ std::optional<Servo> ChangeJob::in_ram_only() const {
 
 void ChangeJob::look_back(std::optional<Error> lost) {
   const dronecan::NodeId id = result_.node_id_after.value_or(servo_.id);
+  if (result_.was_sent && !plan_.restart && roster_.saver_of(id, known_since())) {
+    result_.may_have_saved = true; // not by us: undo puts ROM back, too
+  }
   if (!result_.is_done()) {
     const bool has_stayed = !restart_ || !restart_->is_sent() || restart_->has_run_on();
     const bool is_silent = result_.error && result_.error->code == Code::timeout;
     if (has_stayed && (is_silent || roster_.member(id).boots != servo_.boot || other_writer())) {
-      doubt_changes();
+      result_.doubt();
     }
     return;
   }
   const bool is_in_ram_only = in_ram_only().has_value();
+  const auto saver = is_in_ram_only ? roster_.saver_of(id, known_since()) : std::nullopt;
   if (roster_.is_doubled(id)) {
     result_.error = doubled(roster_, id);
+  } else if (saver) {
+    result_.error = Error{Code::state, say<texts::saved_by_other>(id.value(), saver->value()),
+                          say<texts::run_again_hint>(), id.value()};
   } else if (is_in_ram_only && roster_.member(id).boots != servo_.boot) {
     result_.error = Error{Code::state, say<texts::lost_since>(id.value()),
                           say<texts::run_again_hint>(), id.value()};
@@ -132,7 +129,7 @@ void ChangeJob::look_back(std::optional<Error> lost) {
     result_.error = Error{Code::state, say<texts::written_by_other>(id.value(), writer->value()),
                           say<texts::other_writer_hint>(), id.value()};
   } else if (const auto later =
-                 result_.saved ? roster_.writer_to(id, restart_->sent_at()) : std::nullopt;
+                 result_.saved ? roster_.setter_of(id, restart_->sent_at()) : std::nullopt;
              later) {
     result_.error = Error{Code::state, say<texts::written_by_other>(id.value(), later->value()),
                           say<texts::other_writer_hint>(), id.value()};
@@ -142,7 +139,7 @@ void ChangeJob::look_back(std::optional<Error> lost) {
     return;
   }
   result_.is_verified = result_.saved = false;
-  doubt_changes();
+  result_.doubt();
 }
 
 /// Explains unmet goals if the stage itself cannot.

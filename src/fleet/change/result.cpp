@@ -4,6 +4,14 @@
 
 namespace blactl::fleet {
 
+void ChangeResult::doubt() {
+  now.clear();
+  for (RegisterChange& change : changes) {
+    change.after = std::nullopt;
+    change.status = ChangeStatus::failed;
+  }
+}
+
 std::vector<Error> ChangeResult::errors() const {
   std::vector<Error> all;
   for (const RegisterChange& change : changes) {

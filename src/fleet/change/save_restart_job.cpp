@@ -104,8 +104,8 @@ Step SaveRestartJob::check_unit(const Outcome& outcome) {
                     say<texts::id_given_is_kept>(id, options_.expected->value()),
                     say<texts::id_given_is_kept_hint>(), id});
   }
-  // SAVE keeps the present RAM: it must be unchanged since it was read
-  if (options_.kind == RestartKind::save && roster_.writer_to(id_, since_)) {
+  // SAVE keeps the present RAM: it must be unchanged since it was read, whatever was proven since
+  if (options_.kind == RestartKind::save && roster_.writer_to(id_, servo_.since)) {
     is_unproven_ = true;
     return std::nullopt;
   }

@@ -219,6 +219,11 @@ inline constexpr Text restarted_before_save{
     "saved",
     "ノード {} は SAVE の前に再起動し、保存するはずの値が RAM から失われたため、保存していません",
 };
+inline constexpr Text saved_by_other{
+    "node {1} ordered SAVE of node {0} meanwhile: ROM may hold what was meant for RAM only",
+    "ノード {1} がノード {0} に SAVE を実行したため、RAM のみの変更が ROM "
+    "に保存された可能性があります",
+};
 inline constexpr Text changed_before_save{
     "node {} no longer holds in RAM what was to be saved (it restarted, or another node wrote to "
     "it): nothing was saved",

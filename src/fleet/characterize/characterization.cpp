@@ -119,6 +119,17 @@ void take_back(const Servo& servo, const BenchManner& manner) {
   }
 }
 
+/// Another node's SAVE has made permanent what RAM held then: undo is to put ROM back, too.
+void keep_as_saved(const Session& session, const Servo& servo, const BenchManner& manner) {
+  const ChangeResult saved{.servo = servo, .was_sent = true, .may_have_saved = true};
+  const auto kept = manner.history != nullptr
+                        ? manner.history->conclude(std::span(&saved, 1), session)
+                        : Result<void>();
+  if (!kept && manner.end_not_recorded) {
+    manner.end_not_recorded(kept.error());
+  }
+}
+
 } // namespace
 
 Result<std::vector<const bla::Parameter*>> registers_to_characterize(const Servo& servo) {
@@ -191,7 +202,10 @@ Characterization characterize(Session& session, const bla::Profiles& profiles,
   }
   if (!given) {
     measured.not_put_back = given.error();
-  } else {
+  }
+  if (bench.was_saved_by_other()) {
+    keep_as_saved(session, servo, manner);
+  } else if (given) {
     take_back(servo, manner);
   }
   return measured;

@@ -37,11 +37,16 @@ Result<void> TestBench::put_back() {
   }
   tell(texts::bench_stage_put_back);
   const auto given = give_back();
-  if (!given) {
-    return std::unexpected(not_put_back(given.error()));
+  auto saved = saved_by_other();
+  if (given) {
+    return saved ? std::unexpected(std::move(*saved)) : given;
   }
-  const auto saved = saved_by_other();
-  return saved ? std::unexpected(*saved) : given;
+  Error error = not_put_back(given.error());
+  if (saved) {
+    error.message = say<texts::bench_not_back_and_saved>(error.message, saved->message);
+    error.hint = std::move(saved->hint);
+  }
+  return std::unexpected(std::move(error));
 }
 
 Result<void> TestBench::give_back() {

@@ -35,7 +35,7 @@ TestBench::TestBench(Session& session, const bla::Profiles& profiles, const Snap
                      const BenchManner& manner)
     : session_(session), profiles_(profiles), manner_(manner), servo_(before.servo),
       start_watch_(before.servo.unique_id.value_or(dronecan::UniqueId{})), before_(before.values()),
-      begin_(session.now()) {
+      begin_(session.now()), in_ram_since_(begin_) {
   for (const auto& [address, limit] : soft_start_limits) {
     if (const auto raw = bla::find(before_, address)) {
       hidden_[address] = *raw;
@@ -285,7 +285,7 @@ std::optional<Error> TestBench::refuse_restart(RestartKind kind) const {
   if (auto why = forbidden()) {
     return why;
   }
-  const auto writer = roster().writer_to(servo_.id, servo_.since);
+  const auto writer = roster().writer_to(servo_.id, in_ram_since_);
   if (kind == RestartKind::save && writer) { // the writer's values are not those in ROM
     const std::uint8_t id = servo_.id.value();
     return Error{Code::state, say<texts::other_writer>(id, writer->value()),
@@ -322,7 +322,8 @@ Result<dronecan::NodeId> TestBench::leave_and_return(RestartKind kind,
     return std::unexpected(*restart_->error());
   }
   if (restart_->is_unproven()) { // nothing was sent
-    return std::unexpected(restarted_by_itself());
+    auto why = refuse_restart(kind);
+    return std::unexpected(why ? std::move(*why) : restarted_by_itself());
   }
   return *restart_->returned();
 }
@@ -346,8 +347,9 @@ Result<Start> TestBench::restart(RestartKind kind, const std::vector<Address>& a
   if (!known) {
     return std::unexpected(known.error());
   }
+  in_ram_since_ = restart_->sent_at();
   Start start = start_watch_.start_of(servo_.id);
-  start.asked = restart_->sent_at();
+  start.asked = in_ram_since_;
   return start;
 }
 

@@ -114,6 +114,8 @@ class TestBench {
 
   [[nodiscard]] bool has_changed() const { return has_changed_; }
 
+  [[nodiscard]] bool was_saved_by_other() const { return saved_by_other().has_value(); }
+
   /// Restores the initial settings and the command. Errors also: what could not be restored; one
   /// refused setting does not prevent the others.
   [[nodiscard]] Result<void> put_back();
@@ -171,7 +173,8 @@ class TestBench {
   bla::Values at_once_;
   std::optional<SaveRestartJob> restart_; ///< the last one, used by start_watch_
   bool has_changed_ = false;
-  Time begin_; ///< of the bench
+  Time begin_;        ///< of the bench
+  Time in_ram_since_; ///< what others wrote before was lost in a restart
   bool puts_back_ = false;
   bool is_starting_softly_ = false; ///< as far as known, since the restore
   std::optional<Error> refused_;    ///< the first refusal during the restore

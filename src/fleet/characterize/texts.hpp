@@ -15,9 +15,9 @@ inline constexpr Text bench_saved_by_other{
     "measurement",
     "測定中にノード {1} がノード {0} に保存を指示したため、ROM に測定用の値が保存された可能性が"
     "あります"};
-inline constexpr Text bench_saved_by_other_hint{
-    "RAM holds what it held: make that permanent with blactl save -n {}",
-    "RAM は元の値です。ROM も元に戻すには blactl save -n {} を実行して下さい"};
+inline constexpr Text bench_saved_by_other_hint{"to put RAM and ROM back: blactl undo -n {}",
+                                                "RAM と ROM を元に戻すには: blactl undo -n {}"};
+inline constexpr Text bench_not_back_and_saved{"{}; {}", "{}。{}"};
 inline constexpr Text bench_changed{
     "node {}: {} is {}, not {} as a moment ago: somebody else changes it, or it restarted",
     "ノード {}: {} が先ほどと異なります ({}、直前は {})。他の機器が変更したか、再起動しています"};

@@ -67,8 +67,13 @@ class CommandWatch {
   /// A node whose ArmingStatus reports that the vehicle is armed, and still counts.
   [[nodiscard]] std::optional<dronecan::NodeId> armed_by(Time now) const;
 
-  /// Another node that changed a setting of this one after `since`. Motion commands (0x00-0x02) are
-  /// not settings. With `reg`: this register, or all at once.
+  /// Another node that changed a setting of this one after `since`: ERASE changes all of them, and
+  /// a restart is no change. Motion commands (0x00-0x02) are not settings. With `reg`: this
+  /// register.
+  [[nodiscard]] std::optional<dronecan::NodeId>
+  setter_of(dronecan::NodeId id, Time since, std::optional<bla::Address> reg = std::nullopt) const;
+
+  /// Likewise, or one that ordered a restart, which puts RAM back to ROM.
   [[nodiscard]] std::optional<dronecan::NodeId>
   writer_to(dronecan::NodeId id, Time since, std::optional<bla::Address> reg = std::nullopt) const;
 
@@ -91,13 +96,15 @@ class CommandWatch {
   void on_arming(const dronecan::Transfer& transfer);
   void on_write(const dronecan::Transfer& transfer);
   void on_opcode(const dronecan::Transfer& transfer);
+  void on_restart(const dronecan::Transfer& transfer);
   Commander& commander(dronecan::NodeId source);
 
   std::map<dronecan::NodeId, Commander> commanders_;
   std::map<dronecan::NodeId, Repeated> armed_; ///< by nodes that reported it last
   /// The last writes to settings, by server and register; empty: to all registers.
   std::map<dronecan::NodeId, std::map<std::optional<bla::Address>, Write>> writes_;
-  std::map<dronecan::NodeId, Write> saves_; ///< by server
+  std::map<dronecan::NodeId, Write> saves_;    ///< by server
+  std::map<dronecan::NodeId, Write> restarts_; ///< by server
 };
 
 } // namespace blactl::fleet

@@ -226,6 +226,12 @@ class Roster {
     return watches_[id.value()].started();
   }
 
+  /// As CommandWatch::setter_of().
+  [[nodiscard]] std::optional<dronecan::NodeId>
+  setter_of(dronecan::NodeId id, Time since, std::optional<bla::Address> reg = std::nullopt) const {
+    return commands_.setter_of(id, since, reg);
+  }
+
   /// As CommandWatch::writer_to().
   [[nodiscard]] std::optional<dronecan::NodeId>
   writer_to(dronecan::NodeId id, Time since, std::optional<bla::Address> reg = std::nullopt) const {

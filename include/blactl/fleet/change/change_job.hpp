@@ -100,7 +100,6 @@ class ChangeJob final : public dronecan::Job {
   void blame_other_writer(RegisterChange& change) const;
   void tell_reach();
   [[nodiscard]] std::optional<Error> check_commands(const Snapshot& now) const;
-  void doubt_changes();
   void tell_saved(const Snapshot& now);
   [[nodiscard]] std::unique_ptr<WriteJob> write() const;
   [[nodiscard]] std::unique_ptr<SaveRestartJob> restart() const;

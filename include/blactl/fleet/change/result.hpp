@@ -28,7 +28,7 @@ struct ChangeResult {
   bool was_begun = false;      ///< by a job; false: a plan that is shown
   bool saves = false;          ///< SAVE is part of it: all of RAM goes to ROM
   bool was_sent = false;       ///< a request that changes the servo has left, or may have
-  bool may_have_saved = false; ///< SAVE has left, and is not proven to have failed
+  bool may_have_saved = false; ///< SAVE has left, or another node's, and may have succeeded
   bool was_restarted = false;  ///< SAVE or RestartNode was due, and all before succeeded
   bool is_verified = false;    ///< everything required was proven
   bool saved = false;          ///< ROM was written, and the servo is back with these values
@@ -36,8 +36,12 @@ struct ChangeResult {
   std::optional<dronecan::NodeId> node_id_after{}; ///< empty: unknown, or it is away
   std::optional<RomReading> rom{}; ///< after SAVE, if as expected, and if ROM was to be proven
   std::size_t values_read = 0;     ///< and compared, at the end
+  Time looked_at{};                ///< when all of that was last checked to hold
   Duration duration{};             ///< from the request to restart until it was back
   std::optional<Error> error{};    ///< in addition to those of single changes
+
+  /// What RAM was given may be gone: the servo restarted, or another node wrote.
+  void doubt();
 
   /// All errors, in the order in which they occurred.
   [[nodiscard]] std::vector<Error> errors() const;
