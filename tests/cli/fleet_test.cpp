@@ -236,6 +236,25 @@ TEST_CASE("export asks on a terminal before it replaces a file of something else
   CHECK(fleet.run({"export", notes}).status == 0);                     // a script is not asked
 }
 
+TEST_CASE("export replaces a parameter file of the same servo, and a recipe without counters") {
+  const Fleet fleet(Scene()
+                        .servo("BLA21-12U-AB", 11, {{"servo_id", 1}})
+                        .servo("BLA21-12U-AB", 12, {{"servo_id", 2}}));
+  const Options no{.answers = {{"[y/N]", "n\n"}}, .terminal = true};
+  const std::string params = fleet.file_name("a.param");
+  REQUIRE(fleet.run({"export", params, "--params", "-n", "11"}).status == 0);
+  CHECK(fleet.run({"export", params, "--params", "-n", "11"}, {.terminal = true}).status == 0);
+  const Result other = fleet.run({"export", params, "--params", "-n", "12"}, no);
+  CHECK(other.status == 7);
+  CHECK_FALSE(contains(other.err, "not everything was read"));
+  const std::string recipe = fleet.file_name("a.json");
+  REQUIRE(fleet.run({"export", recipe, "--recipe", "-n", "11"}).status == 0);
+  CHECK(fleet.run({"export", recipe, "--recipe", "-n", "12"}, {.terminal = true}).status == 0);
+  const std::string own = fleet.bench().file("own.json", R"({"schema": "blactl-recipe/1",
+      "name": "BLA21-12U-AB", "model": "BLA21-12U-AB", "set": {"servo_id": {"first": 1}}})");
+  CHECK(fleet.run({"export", own, "--recipe", "-n", "12"}, no).status == 7);
+}
+
 TEST_CASE("15.0 deg and 150 rpm are not the same, though their number is") {
   const Fleet fleet(Scene().servo("BLA21-12U-AB", 11));
   REQUIRE(

@@ -131,9 +131,12 @@ bool Serve::is_coming_up() const {
   });
 }
 
+/// One that has asked once is waited for; who babbles asks once again and again, which must end.
 bool Serve::is_quiet() const {
   const Duration enough = service_.units().empty() ? options_.wait : quiet_time;
-  return session().now() - service_.last_request() >= enough && !is_coming_up();
+  const Duration silence = session().now() - service_.last_request();
+  const bool may_come = service_.may_begin_to_ask() && silence < enough + quiet_time;
+  return silence >= enough && !may_come && !is_coming_up();
 }
 
 /// Whether units keep asking without progress.

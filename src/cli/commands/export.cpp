@@ -108,14 +108,22 @@ std::vector<fleet::Snapshot> read(std::span<const dronecan::NodeId> servos, Cont
   return std::move(read.servos);
 }
 
-/// Whether `old` was exported from the same servos, or is a file of one servo as this one.
-bool is_export_of(const ExportOptions& options, const std::string& old,
+/// "# BLA21-12U-AB 240900001 blactl 0.1.0": of which servo a parameter file is.
+std::string_view first_line(std::string_view text) {
+  return text.substr(0, text.find(" blactl "));
+}
+
+/// Whether `old` was exported from the same servos; a recipe: from one of this model.
+bool is_export_of(const ExportOptions& options, const std::string& old, const std::string& content,
                   std::span<const fleet::Snapshot> servos, const bla::Profiles& profiles) {
   if (options.recipe) {
-    return fleet::parse_recipe(old, options.file, profiles).has_value();
+    const auto recipe = fleet::parse_recipe(old, options.file, profiles);
+    const auto now = fleet::parse_recipe(content, options.file, profiles);
+    return recipe && now && recipe->counters.empty() && recipe->name == now->name &&
+           recipe->model == now->model;
   }
   if (options.params) {
-    return fleet::parse_params_file(old, options.file, profiles).has_value();
+    return first_line(old) == first_line(content);
   }
   const auto fleet = fleet::parse_fleet_file(old, options.file, profiles);
   if (!fleet || fleet->servos.size() != servos.size()) {
@@ -123,20 +131,21 @@ bool is_export_of(const ExportOptions& options, const std::string& old,
   }
   return std::ranges::all_of(servos, [&](const fleet::Snapshot& servo) {
     return std::ranges::any_of(fleet->servos, [&](const fleet::FleetEntry& entry) {
-      return entry.match.unique_id && entry.match.unique_id == servo.servo.unique_id;
+      return entry.match.unique_id && entry.match.unique_id == servo.servo.unique_id &&
+             entry.about.tool_version; // else somebody wrote it by hand
     });
   });
 }
 
 /// On a terminal a file of something else is replaced only after a yes.
-Result<void> may_replace(const ExportOptions& options, std::span<const fleet::Snapshot> servos,
-                         Context& context) {
+Result<void> may_replace(const ExportOptions& options, const std::string& content,
+                         std::span<const fleet::Snapshot> servos, Context& context) {
   constexpr std::size_t most = 16 << 20;
   std::error_code error;
   const bool is_asked = !options.to_stdout() && Reporter::has_terminal() &&
                         std::filesystem::exists(options.file, error);
   const auto old = is_asked ? read_file(options.file, most) : Result<std::string>();
-  if (!is_asked || (old && is_export_of(options, *old, servos, context.known()))) {
+  if (!is_asked || (old && is_export_of(options, *old, content, servos, context.known()))) {
     return {};
   }
   return confirm(say<texts::export_replaces>(printable(options.file)), context);
@@ -146,7 +155,7 @@ Result<void> may_replace(const ExportOptions& options, std::span<const fleet::Sn
 void conclude(const ExportOptions& options, std::string content,
               std::span<const fleet::Snapshot> servos, Context& context, Report& report) {
   if (report.all_errors().empty()) {
-    if (auto agreed = may_replace(options, servos, context); !agreed) {
+    if (auto agreed = may_replace(options, content, servos, context); !agreed) {
       report.fail(agreed.error());
     }
   }
@@ -206,8 +215,9 @@ Report execute(const ExportOptions& options, Context& context) {
       !fine && !options.recipe && !options.params) {
     context.reporter().note(say<texts::export_has_faults>(fine.error().message));
   }
+  const bool was_read = report.all_errors().empty();
   conclude(options, text, servos, context, report);
-  if (!report.all_errors().empty() && !options.to_stdout()) {
+  if (!was_read && !options.to_stdout()) {
     context.reporter().note(say<texts::export_not_written>(printable(options.file)));
   }
   return report;

@@ -95,10 +95,18 @@ void AllocationService::receive(const dronecan::Transfer& transfer) {
 void AllocationService::hear_first_part(Bytes prefix, Time at) {
   const auto& requests = session_.roster().requests();
   const auto known = requests.find(UniqueIdPrefix(prefix.begin(), prefix.end()));
-  if (known != requests.end() && known->second.is_repeated() && is_meant(prefix) &&
-      !is_left_out(prefix)) {
-    last_request_ = at;
+  if (!is_meant(prefix) || is_left_out(prefix)) {
+    return;
   }
+  if (known != requests.end() && known->second.is_repeated()) {
+    last_request_ = at;
+  } else {
+    asked_once_ = at;
+  }
+}
+
+bool AllocationService::may_begin_to_ask() const {
+  return asked_once_ && session_.now() - *asked_once_ < request_period;
 }
 
 std::size_t AllocationService::asking() const {

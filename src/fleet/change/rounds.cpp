@@ -366,6 +366,22 @@ Result<Rounds::Sights> Rounds::look_again(const Round& steps) {
   return sights;
 }
 
+/// Between its two saves somebody else may have changed what it holds: SAVE would make that
+/// permanent.
+std::optional<Error> Rounds::changed_since(const UnitChange& unit, const Snapshot& before) const {
+  const bool is_as_saved =
+      before.error || !unit.last->rom || !compare(before, unit.last->rom->values);
+  if (is_as_saved) {
+    return std::nullopt;
+  }
+  const std::uint8_t id = unit.now.value();
+  const auto writer = session_.roster().setter_of(unit.now, unit.last->looked_at);
+  return Error{Code::state,
+               writer ? say<texts::written_by_other>(id, writer->value())
+                      : say<texts::changed_before_save>(id),
+               writer ? say<texts::other_writer_hint>() : say<texts::run_again_hint>(), id};
+}
+
 /// The plan as made; a new one for a servo that makes way for others, or has done so.
 Result<Plan> Rounds::plan(const Step& step, const Sights& sights) {
   const UnitChange& unit = units_[step.unit];
@@ -384,6 +400,9 @@ Result<Plan> Rounds::plan(const Step& step, const Sights& sights) {
   if (!before.error && before.servo.unique_id != unit.unique_id) {
     return std::unexpected(Error{Code::state, say<texts::another_servo>(unit.now.value()),
                                  say<texts::run_again_hint>(), unit.now.value()});
+  }
+  if (auto error = changed_since(unit, before)) {
+    return std::unexpected(std::move(*error));
   }
   auto plan = make_plan(*wanted, before, profiles_);
   if (plan) {

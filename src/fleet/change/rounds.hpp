@@ -101,6 +101,8 @@ class Rounds {
   [[nodiscard]] Result<void> put(const Round& round);
   [[nodiscard]] Round ready(const Round& round);
   [[nodiscard]] Result<Sights> look_again(const Round& steps);
+  [[nodiscard]] std::optional<Error> changed_since(const UnitChange& unit,
+                                                   const Snapshot& before) const;
   [[nodiscard]] Result<Plan> plan(const Step& step, const Sights& sights);
   [[nodiscard]] std::vector<Error> carry_out_rounds(const Hook& hook);
   [[nodiscard]] std::vector<Error> carry_out(const Round& round, const Hook& hook);

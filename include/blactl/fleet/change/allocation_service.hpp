@@ -93,6 +93,9 @@ class AllocationService final : private dronecan::Service, private dronecan::All
   /// neither repeated nor complete is nobody's. Without one, the start of this service.
   [[nodiscard]] Time last_request() const { return last_request_; }
 
+  /// Whether a unit may just have begun to ask: it was heard once, less than its period ago.
+  [[nodiscard]] bool may_begin_to_ask() const;
+
   /// The number of units asking: recently, and not heard under an ID since. Units whose unique IDs
   /// begin alike count as one.
   [[nodiscard]] std::size_t asking() const;
@@ -136,6 +139,7 @@ class AllocationService final : private dronecan::Service, private dronecan::All
   std::map<dronecan::UniqueId, AllocatedUnit> units_;
   std::optional<Error> failure_; ///< of the table
   Time last_request_;
+  std::optional<Time> asked_once_{}; ///< the last request that was none of a unit known to ask
   bool bus_is_known_ = false;
   std::optional<std::vector<dronecan::UniqueId>> only_{}; ///< empty: all units
 };
