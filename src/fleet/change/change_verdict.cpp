@@ -27,7 +27,9 @@ void ChangeJob::blame_other_writer(RegisterChange& change) const {
 
 /// Differing values that another node wrote are not the fault of the servo or its ROM.
 void ChangeJob::blame_other_writer() {
-  const bool differs = result_.error && result_.error->code == Code::mismatch;
+  const bool differs =
+      result_.error && (result_.error->code == Code::mismatch ||
+                        (stage_ == Stage::look && result_.error->code == Code::state));
   const dronecan::NodeId servo = servo_.id;
   if (const auto writer = roster_.writer_to(servo, known_since()); differs && writer) {
     result_.error = Error{Code::state, say<texts::other_writer>(servo.value(), writer->value()),
