@@ -46,9 +46,11 @@ std::optional<MotionCommand> motion_command(const dronecan::ArrayCommand::Comman
   }
 }
 
-bool addresses(const dronecan::ArrayCommand::Command& command, std::int64_t servo_id) {
+bool addresses(const dronecan::ArrayCommand::Command& command, std::int64_t servo_id,
+               const Behaviour& behaviour) {
   constexpr std::uint8_t every_servo = 255;
-  return command.actuator_id == every_servo || command.actuator_id == servo_id;
+  const bool has_id = command.actuator_id != 0 || behaviour.obeys_servo_id_0;
+  return command.actuator_id == every_servo || (has_id && command.actuator_id == servo_id);
 }
 
 } // namespace blactl::sim

@@ -71,6 +71,7 @@ void Memory::power_on(const ServoSetup& setup) {
   for (const auto& [address, value] : setup.ram) {
     store(address, value);
   }
+  start();
 }
 
 void Memory::save() {
@@ -86,6 +87,13 @@ void Memory::initialize() {
     if (parameter.saved || parameter.group == bla::Group::command) {
       store(parameter.address, parameter.default_raw.value_or(0));
     }
+  }
+}
+
+void Memory::erase() {
+  initialize();
+  if (behaviour_.erase_clears_rom) {
+    save();
   }
 }
 
@@ -110,6 +118,13 @@ std::int64_t Memory::value(Address address) const {
     return summary(value(fault_notice), value(fault_warning), value(fault_failure));
   }
   return values_[address.value()];
+}
+
+std::int64_t Memory::in_effect(Address address) const {
+  const bool waits =
+      address == reverse || address == timeout_time || address == origin || address == servo_id;
+  return waits && behaviour_.settings_wait_for_start ? at_start_[address.value() % count]
+                                                     : value(address);
 }
 
 std::int64_t Memory::rom_value(Address address) const {
@@ -183,6 +198,16 @@ std::optional<std::int64_t> Memory::write(Address address, std::int64_t wanted) 
     store(address, taken);
   }
   return taken;
+}
+
+std::optional<std::int64_t> Memory::from_array(Address address, std::int64_t wanted) const {
+  const bla::Parameter* parameter = existing(address);
+  const bool clamps = behaviour_.array_out_of_range == ArrayOutOfRange::clamp;
+  if (parameter == nullptr || disabled_command(address) ||
+      (!clamps && !in_range(*parameter, wanted))) {
+    return std::nullopt;
+  }
+  return nearest(*parameter, wanted);
 }
 
 void Memory::command(Address address, std::int64_t wanted) {

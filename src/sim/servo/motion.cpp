@@ -30,7 +30,7 @@ bool is_command(Address address) {
 Motion::Motion(const ServoSetup& setup, Memory& registers, Time power_on)
     : registers_(registers), behaviour_(setup.behaviour), has_pwm_input_(has_pwm_input(setup)),
       motor_(motor_of(setup)), world_(world_of(setup)), grid_(power_on) {
-  frame_.set(registers.value(address::reverse) != 0, registers.value(address::origin));
+  frame_.set(is_reversed(), origin_decideg());
   heed_registers();
   shaft_.angle = frame_.shaft_angle(registers.value(address::current_angle));
   shaft_.speed = frame_.sign() * registers.value(address::current_speed) * speed_per_rpm;
@@ -38,6 +38,8 @@ Motion::Motion(const ServoSetup& setup, Memory& registers, Time power_on)
 
 void Motion::start(Time now) {
   advance_to(now);
+  registers_.start();
+  heed_registers();
   runs_ = true;
   stopped_ = false;
   frame_.wrap(shaft_);
@@ -51,13 +53,15 @@ void Motion::start(Time now) {
   look(now);
 }
 
-void Motion::stop(Time now) {
+void Motion::stop(Time now, bool without_supply) {
   advance_to(now);
   runs_ = soft_start_ = false;
   told_commands_.reset();
-  kept_failures_ = 0;
   world_.warnings &= ~fault::restart_warnings;
-  world_.failures &= ~fault::restart_failures;
+  if (without_supply || !behaviour_.restart_keeps_failures) {
+    kept_failures_ = 0;
+    world_.failures &= ~fault::restart_failures;
+  }
 }
 
 void Motion::look(Time now) {
@@ -99,7 +103,8 @@ std::optional<std::int64_t> Motion::write(Address address, std::int64_t value, T
 
 void Motion::command(const MotionCommand& command, Time now) {
   look(now);
-  if (!registers_.takes(command.address, command.value)) {
+  const auto value = registers_.from_array(command.address, command.value);
+  if (!value) {
     return;
   }
   if (behaviour_.array_command_shows) {
@@ -110,7 +115,7 @@ void Motion::command(const MotionCommand& command, Time now) {
                       registers_.value(address::command_torque)};
   }
   const std::int64_t before = registers_.value(command.address);
-  (void)registers_.write(command.address, command.value);
+  registers_.command(command.address, *value);
   timer_.commanded_by_can(now, behaviour_.array_command_feeds_timeout,
                           silences_pwm(command.address));
   obey(command.address, before);
@@ -120,7 +125,7 @@ void Motion::command(const MotionCommand& command, Time now) {
 void Motion::initialize(Time now) {
   look(now);
   const bool was_on = registers_.value(address::torque_output) == 0;
-  registers_.initialize();
+  registers_.erase();
   told_commands_.reset();
   holds_ = false;
   heed_registers();
@@ -139,11 +144,21 @@ void Motion::surround(const World& world, Time now) {
 void Motion::heed_registers() {
   tuning_ = tuning_of(motor_, registers_, soft_start_);
   tuning_.boost_in_dead_band = behaviour_.boost_in_dead_band;
-  registers_.act_with_speed_control(soft_start_);
-  frame_.change(registers_.value(address::reverse) != 0, registers_.value(address::origin), shaft_);
+  registers_.act_with_speed_control(soft_start_ && behaviour_.soft_start_keeps_speed);
+  frame_.change(is_reversed(), origin_decideg(), shaft_);
   if (has_pwm_input_) {
     pulse_ = read_pulse(world_.pulse_us, registers_, behaviour_.pwm_end_points_move);
   }
+}
+
+bool Motion::is_reversed() const {
+  return registers_.in_effect(address::reverse) != 0;
+}
+
+/// 0x44 as an angle of the shaft, CW of the horn notch.
+std::int64_t Motion::origin_decideg() const {
+  const std::int64_t origin = registers_.in_effect(address::origin);
+  return is_reversed() && behaviour_.reverse_turns_origin ? -origin : origin;
 }
 
 void Motion::advance_to(Time now) {

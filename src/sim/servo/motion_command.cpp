@@ -11,7 +11,9 @@ using bla::Address;
 
 /// Obeys an accepted command; `before`: the previous value of the register.
 void Motion::obey(Address address, std::int64_t before) {
-  if (!soft_start_cut_) {
+  const bool goes_on = address == address::torque_output && registers_.value(address) == 0 &&
+                       !behaviour_.output_write_ends_soft_start;
+  if (!soft_start_cut_ && !goes_on) {
     end_soft_start();
   }
   soft_start_cut_ = false;

@@ -142,7 +142,7 @@ std::int64_t Motion::inside_limits(std::int64_t decideg) const {
 }
 
 Duration Motion::timeout() const {
-  return std::chrono::milliseconds(registers_.value(address::timeout_time));
+  return std::chrono::milliseconds(registers_.in_effect(address::timeout_time));
 }
 
 } // namespace blactl::sim

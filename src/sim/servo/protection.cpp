@@ -52,14 +52,17 @@ std::int64_t bits_of(const std::array<Range, size>& ranges, const Memory& regist
   return bits;
 }
 
-/// 4.31: a command beyond a limit is shown as well, although the shaft stays inside.
-std::int64_t commanded_beyond(const Memory& registers) {
+/// 4.31: a command beyond a limit, or at it if Behaviour says so (4.12), is shown as well, although
+/// the shaft stays inside.
+std::int64_t commanded_beyond(const Memory& registers, bool inclusive) {
   const std::int64_t command = registers.value(address::command_angle);
   if (command == bla::not_active) {
     return 0;
   }
-  const bool cw = command > registers.value(address::angle_limit_cw);
-  const bool ccw = command < registers.value(address::angle_limit_ccw);
+  const std::int64_t most = registers.value(address::angle_limit_cw);
+  const std::int64_t least = registers.value(address::angle_limit_ccw);
+  const bool cw = command > most || (inclusive && command == most);
+  const bool ccw = command < least || (inclusive && command == least);
   return (cw ? fault::angle_cw : 0) | (ccw ? fault::angle_ccw : 0);
 }
 
@@ -73,7 +76,7 @@ Faults present_faults(const Memory& registers, const World& world, const Behavio
                       bool soft_start) {
   Faults faults{world.notices, world.warnings, world.failures};
   faults.notice |= bits_of(notices, registers, behaviour.inclusive_limits, soft_start);
-  faults.notice |= commanded_beyond(registers);
+  faults.notice |= commanded_beyond(registers, behaviour.command_at_limit_notifies);
   faults.warning |= bits_of(warnings, registers, behaviour.inclusive_limits);
   faults.warning |= of_magnet(world.magnet, Magnet::weak, fault::magnet_weak);
   faults.warning |= of_magnet(world.magnet, Magnet::strong, fault::magnet_strong);

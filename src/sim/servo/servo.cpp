@@ -97,7 +97,7 @@ void Servo::hear_commands(const dronecan::Transfer& transfer) {
   }
   for (const auto& command : message->commands) {
     const auto wanted = motion_command(command, setup_.behaviour);
-    if (wanted && addresses(command, registers_.value(address::servo_id))) {
+    if (wanted && addresses(command, registers_.in_effect(address::servo_id), setup_.behaviour)) {
       motion_.command(*wanted, now_);
     }
   }
@@ -281,7 +281,7 @@ dronecan::ActuatorStatus Servo::actuator_status(Time now) {
   constexpr std::uint8_t unknown_rating = 127;
   motion_.look(now);
   dronecan::ActuatorStatus status;
-  status.actuator_id = static_cast<std::uint8_t>(registers_.value(address::servo_id));
+  status.actuator_id = static_cast<std::uint8_t>(registers_.in_effect(address::servo_id));
   status.position =
       static_cast<float>(registers_.value(address::current_angle)) / decidegrees_per_unit;
   if (setup_.behaviour.unused_fields == UnusedFields::unknown) {

@@ -167,7 +167,7 @@ void Servo::end_rom_write(Time now) {
   ++rom_writes_;
   tell(ServoEvent::Kind::rom_write);
   if (lost_power || !setup_.faults.stays) {
-    restart(now);
+    restart(now, lost_power);
     return;
   }
   phase_ = Phase::run;
@@ -176,9 +176,9 @@ void Servo::end_rom_write(Time now) {
   next_status_ = std::max(next_status_, now);
 }
 
-void Servo::restart(Time now) {
+void Servo::restart(Time now, bool without_supply) {
   tell(ServoEvent::Kind::restart);
-  motion_.stop(now);
+  motion_.stop(now, without_supply);
   registers_.restart();
   load_rom(now);
   endpoint_.restart();
@@ -222,7 +222,7 @@ void Servo::surround(const World& world, Time now) {
 
 void Servo::lose_power(Time now) {
   rom_is_torn_ = rom_is_torn_ || phase_ == Phase::rom_write;
-  restart(now);
+  restart(now, true);
   wake_ = never;
 }
 

@@ -88,9 +88,9 @@ TEST_CASE("requirement 100: UNITLESS beyond 1 is limited by 0x38 and 0x39, by 18
 
 TEST_CASE("requirements 98, 99: a command is for the servo with its ID, 255 for every one",
           "[requirement-98][requirement-99]") {
-  CHECK(addresses({7, 1, 0}, 7));
-  CHECK_FALSE(addresses({7, 1, 0}, 8));
-  CHECK(addresses({255, 1, 0}, 8));
-  CHECK(addresses({0, 1, 0}, 0));
-  CHECK_FALSE(addresses({0, 1, 0}, 1));
+  CHECK(addresses({7, 1, 0}, 7, {}));
+  CHECK_FALSE(addresses({7, 1, 0}, 8, {}));
+  CHECK(addresses({255, 1, 0}, 8, {}));
+  CHECK(addresses({0, 1, 0}, 0, {}));
+  CHECK_FALSE(addresses({0, 1, 0}, 1, {}));
 }

@@ -1,5 +1,7 @@
 // What the specification leaves open about the shaft: a setting each, and what is likelier.
 
+#include "blactl/sim/servo/array_entry.hpp"
+
 #include "sim/servo/names.hpp"
 #include "unit/sim/motion_rig.hpp"
 
@@ -16,6 +18,22 @@ constexpr std::int64_t on = 0, off = 1, brake = 2;
 /// A calm one with a setting of "behaviour".
 std::string behaving(const char* setting, const char* more = "") {
   return MotionRig::with(fmt::format(R"("behaviour": {{{}}} {})", setting, more));
+}
+
+/// One that starts softly from 150 deg away and holds without commands.
+std::string starting(const char* setting) {
+  return fmt::format(R"("model": "BLA21-12U-AB", "ram": {{"current_angle": "-150deg"}},
+      "rom": {{"timeout_action": "hold"}}, "behaviour": {{{}}})",
+                     setting);
+}
+
+std::int64_t fastest_rpm(MotionRig& rig) {
+  std::int64_t rpm = 0;
+  for (int i = 0; i < 6000; ++i) {
+    rig.run(1ms);
+    rpm = std::max(rpm, rig.rpm());
+  }
+  return rpm;
 }
 
 void load(MotionRig& rig, std::int64_t percent) {
@@ -246,5 +264,172 @@ TEST_CASE("requirement 170: bits that tell of the last restart hold no motor, un
       rig.run(1s);
       CHECK(rig.stands_at(450) == !stop);
     }
+  }
+}
+
+TEST_CASE("requirement 142: 0x20 = ON during a soft start: on at full speed, or on slowly",
+          "[requirement-142][unproven]") {
+  for (const bool ends : {true, false}) {
+    MotionRig rig(starting(ends ? "" : R"("output_write_ends_soft_start": false)"));
+    rig.run(300ms);
+    rig.write(torque_output, on);
+    const std::int64_t rpm = fastest_rpm(rig);
+    CHECK(ends == (rpm > 60));
+    CHECK((ends || rpm <= 31));
+    CHECK(std::abs(rig.angle()) <= 15);
+  }
+  MotionRig other(starting(R"("output_write_ends_soft_start": false, "soft_start_shows": true)"));
+  other.write(torque_output, on);
+  CHECK(other.read(speed_limit_cw) == 30);
+  other.write(torque_output, off); // without output there is nothing to go on
+  CHECK(other.read(speed_limit_cw) == 300);
+}
+
+TEST_CASE("requirement 61: 0x10 leaves ROM, or puts it back to defaults as well",
+          "[requirement-61][requirement-62][unproven]") {
+  for (const bool clears : {false, true}) {
+    MotionRig rig(fmt::format(R"("model": "BLA21-12U-AB", "rom": {{"soft_start": "off",
+        "timeout_action": "hold", "angle_limit_cw": "45deg"}}, "servo_id": 7,
+        "behaviour": {{"erase_clears_rom": {}}})",
+                              clears));
+    rig.motion.initialize(rig.now);
+    CHECK(rig.read(angle_limit_cw) == 1799);
+    CHECK(rig.registers.rom_value(angle_limit_cw) == (clears ? 1799 : 450));
+    rig.restart();
+    CHECK(rig.read(angle_limit_cw) == (clears ? 1799 : 450));
+    CHECK(rig.read(servo_id) == (clears ? 0 : 7));
+  }
+}
+
+TEST_CASE("requirement 98: a command to servo ID 0 is obeyed, or not",
+          "[requirement-98][requirement-176][unproven]") {
+  Behaviour behaviour;
+  for (const bool obeys : {true, false}) {
+    behaviour.obeys_servo_id_0 = obeys;
+    CHECK(addresses({0, 1, 0}, 0, behaviour) == obeys);
+    CHECK(addresses({255, 1, 0}, 0, behaviour));
+    CHECK(addresses({7, 1, 0}, 7, behaviour));
+    CHECK_FALSE(addresses({0, 1, 0}, 7, behaviour));
+  }
+}
+
+TEST_CASE("requirement 49: 0x23, 0x27, 0x44, 0x45 act at once, or from the next start on",
+          "[requirement-49][requirement-127][requirement-128][unproven]") {
+  for (const bool waits : {false, true}) {
+    MotionRig rig(behaving(waits ? R"("settings_wait_for_start": true)" : "",
+                           R"(, "ram": {"current_angle": "60deg", "timeout_action": "off"})"));
+    CHECK(rig.write(origin, 450) == 450);
+    CHECK(rig.read(origin) == 450); // the register tells what was written
+    CHECK(rig.angle() == (waits ? 600 : 150));
+    rig.write(reverse, 1);
+    CHECK(rig.angle() == (waits ? 600 : -150));
+    rig.write(servo_id, 9);
+    CHECK(rig.registers.in_effect(servo_id) == (waits ? 0 : 9));
+    rig.write(timeout_time, 60'000);
+    rig.write(command_angle, rig.angle());
+    load(rig, 5);
+    rig.run(1500ms);
+    CHECK((rig.torque() == 0) == waits); // after the 1000 ms of before
+    load(rig, 0);
+
+    MotionRig saved(behaving(waits ? R"("settings_wait_for_start": true)" : "",
+                             R"(, "ram": {"current_angle": "60deg"})"));
+    saved.write(origin, 450);
+    saved.write(reverse, 1);
+    saved.registers.save();
+    saved.restart();
+    CHECK(saved.angle() == -150);
+  }
+}
+
+TEST_CASE("requirement 170: bits of 0x1B that stay are cleared by a start, or by a loss of supply",
+          "[requirement-167][requirement-170][unproven]") {
+  for (const bool keeps : {false, true}) {
+    MotionRig rig(behaving(keeps ? R"("restart_keeps_failures": true, "failures_latch": true)"
+                                 : R"("failures_latch": true)"));
+    rig.around([](World& world) {
+      world.failures = fault::watchdog;
+      world.driver_stopped = true;
+    });
+    rig.around([](World& world) { world.driver_stopped = false; });
+    const std::int64_t both = fault::watchdog | fault::motor_driver;
+    CHECK(rig.read(fault_failure) == both);
+    rig.restart();
+    CHECK(rig.read(fault_failure) == (keeps ? both : 0));
+    rig.motion.stop(rig.now, true);
+    rig.registers.restart();
+    rig.motion.start(rig.now);
+    CHECK(rig.read(fault_failure) == 0);
+  }
+}
+
+TEST_CASE("requirement 106: ArrayCommand out of range is ignored, or clamped, whatever GetSet does",
+          "[requirement-106][unproven]") {
+  for (const char* get_set : {"refuse", "clamp"}) {
+    for (const bool clamps : {false, true}) {
+      MotionRig rig(behaving(fmt::format(R"("out_of_range": "{}", "array_out_of_range": "{}")",
+                                         get_set, clamps ? "clamp" : "ignore")
+                                 .c_str()));
+      rig.write(speed_torque_control, 1);
+      rig.motion.command({command_speed, 20}, rig.now);
+      rig.motion.command({command_speed, 400}, rig.now);
+      CHECK(rig.read(command_speed) == (clamps ? 300 : 20));
+      rig.motion.command({command_torque, -150}, rig.now);
+      CHECK(rig.read(command_torque) == (clamps ? -100 : bla::not_active));
+      CHECK(rig.read(command_speed) == (clamps ? bla::not_active : 20));
+    }
+  }
+}
+
+TEST_CASE("requirement 128: 0x23 leaves where 0x44 has 0 deg, or turns that round as well",
+          "[requirement-127][requirement-128][unproven]") {
+  for (const bool turns : {false, true}) {
+    MotionRig rig(behaving(turns ? R"("reverse_turns_origin": true)" : "",
+                           R"(, "ram": {"current_angle": "60deg"})"));
+    rig.write(origin, 450);
+    CHECK(rig.angle() == 150);
+    rig.write(reverse, 1);
+    CHECK(rig.angle() == (turns ? -1050 : -150));
+    rig.write(reverse, 0);
+    CHECK(rig.angle() == 150);
+    rig.write(reverse, 1);
+    rig.write(command_angle, 0);
+    rig.run(2s);
+    CHECK(std::abs(rig.shaft_decideg() - (turns ? -450 : 450)) <= 5);
+  }
+}
+
+TEST_CASE("requirement 180: a speed during a soft start is ignored without 0x25, or ends it",
+          "[requirement-180][requirement-117][unproven]") {
+  for (const bool keeps : {false, true}) {
+    for (const Address command : {command_speed, command_torque}) {
+      MotionRig rig(starting(keeps ? R"("soft_start_keeps_speed": true)" : ""));
+      rig.run(300ms);
+      rig.write(command, 20);
+      CHECK((rig.read(command) == 20) == keeps);
+      CHECK((rig.read(command_angle) == bla::not_active) == keeps);
+      CHECK(fastest_rpm(rig) <= 31);
+      CHECK((std::abs(rig.angle()) <= 15) == !keeps); // it went on to 0 deg
+    }
+  }
+}
+
+TEST_CASE("requirement 111: a command at its limit sets no bit of 0x19, or does",
+          "[requirement-111][requirement-165][unproven]") {
+  for (const bool notifies : {false, true}) {
+    MotionRig rig(behaving(notifies ? R"("command_at_limit_notifies": true)" : ""));
+    rig.write(torque_output, off); // the shaft stays at 0 deg
+    rig.write(angle_limit_cw, 450);
+    rig.write(angle_limit_ccw, -300);
+    const auto bits = [&](std::int64_t angle) {
+      rig.write(command_angle, angle);
+      return rig.read(fault_notice) & (fault::angle_cw | fault::angle_ccw);
+    };
+    CHECK(bits(449) == 0);
+    CHECK(bits(450) == (notifies ? fault::angle_cw : 0));
+    CHECK(bits(451) == fault::angle_cw);
+    CHECK(bits(-299) == 0);
+    CHECK(bits(-300) == (notifies ? fault::angle_ccw : 0));
+    CHECK(bits(-301) == fault::angle_ccw);
   }
 }

@@ -80,7 +80,11 @@ TEST_CASE("a scenario says all there is to say") {
                     "keeps_disabled_command": false, "keeps_limited_angle": false,
                     "erase_holds": false, "speed_control_before_1100": true,
                     "inclusive_stops": true, "restart_bits_stop": true,
-                    "pwm_yields_to_all": false},
+                    "pwm_yields_to_all": false, "output_write_ends_soft_start": false,
+                    "erase_clears_rom": true, "obeys_servo_id_0": false,
+                    "settings_wait_for_start": true, "restart_keeps_failures": true,
+                    "array_out_of_range": "clamp", "reverse_turns_origin": true,
+                    "soft_start_keeps_speed": true, "command_at_limit_notifies": true},
       "faults": {"no_node_status": true, "no_actuator_status": true,
                  "restart_after_answer": [{"to": "write", "number": 7}, {}], "lose_responses": 2, "mute": true, "lose_opcode_answers": 3,
                  "ignore_opcodes": 4, "refuse_opcodes": true, "rom_write_fails": true,
@@ -136,6 +140,15 @@ TEST_CASE("a scenario says all there is to say") {
   CHECK(servo.behaviour.inclusive_stops);
   CHECK(servo.behaviour.restart_bits_stop);
   CHECK_FALSE(servo.behaviour.pwm_yields_to_all);
+  CHECK_FALSE(servo.behaviour.output_write_ends_soft_start);
+  CHECK(servo.behaviour.erase_clears_rom);
+  CHECK_FALSE(servo.behaviour.obeys_servo_id_0);
+  CHECK(servo.behaviour.settings_wait_for_start);
+  CHECK(servo.behaviour.restart_keeps_failures);
+  CHECK(servo.behaviour.array_out_of_range == ArrayOutOfRange::clamp);
+  CHECK(servo.behaviour.reverse_turns_origin);
+  CHECK(servo.behaviour.soft_start_keeps_speed);
+  CHECK(servo.behaviour.command_at_limit_notifies);
   CHECK(servo.faults.no_node_status);
   CHECK(servo.faults.no_actuator_status);
   CHECK(servo.faults.restart_after_answer ==

@@ -23,7 +23,8 @@ struct MotionCommand {
 [[nodiscard]] std::optional<MotionCommand>
 motion_command(const dronecan::ArrayCommand::Command& command, const Behaviour& behaviour);
 
-/// Requirements 98, 99: whether a command is for the servo with this 0x45.
-[[nodiscard]] bool addresses(const dronecan::ArrayCommand::Command& command, std::int64_t servo_id);
+/// Requirements 98, 99: whether a command is for the servo with this 0x45. Behaviour: ID 0.
+[[nodiscard]] bool addresses(const dronecan::ArrayCommand::Command& command, std::int64_t servo_id,
+                             const Behaviour& behaviour);
 
 } // namespace blactl::sim

@@ -30,6 +30,17 @@ class Memory {
   /// Whether write() accepts a value, perhaps as the nearest in range; else it changes nothing.
   [[nodiscard]] bool takes(bla::Address address, std::int64_t value) const;
 
+  /// The value that a command of ArrayCommand sets 0x00-0x02 to; empty: none, it is ignored.
+  [[nodiscard]] std::optional<std::int64_t> from_array(bla::Address address,
+                                                       std::int64_t value) const;
+
+  /// The value of a setting that acts: its own, or for 0x23, 0x27, 0x44, 0x45 that of the last
+  /// start (Behaviour::settings_wait_for_start).
+  [[nodiscard]] std::int64_t in_effect(bla::Address address) const;
+
+  /// The servo starts: from now on the present settings are in effect.
+  void start() { at_start_ = values_; }
+
   /// 0x25, or the equivalent of a firmware without it (Behaviour::speed_control_before_1100).
   [[nodiscard]] bool controls_speed() const;
 
@@ -56,6 +67,9 @@ class Memory {
   /// changed.
   void initialize();
 
+  /// ERASE and 0x10: initialize(), and ROM as well if Behaviour says so.
+  void erase();
+
   /// 4.10: reloads from ROM, as after power-on. Readings, fault bits and factory data stay.
   void restart();
 
@@ -73,6 +87,7 @@ class Memory {
   bool acts_with_speed_control_ = false;
   std::array<std::int64_t, count> values_{};
   std::array<std::int64_t, count> rom_{}; ///< saved registers only
+  std::array<std::int64_t, count> at_start_{};
 };
 
 } // namespace blactl::sim

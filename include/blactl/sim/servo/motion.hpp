@@ -31,8 +31,9 @@ class Motion {
   /// start.
   void start(Time now);
 
-  /// The servo goes down: the motor is off. The cause of its last restart by itself is cleared.
-  void stop(Time now);
+  /// The servo goes down: the motor is off. The cause of its last restart by itself is cleared, of
+  /// 0x1B perhaps only if the supply was lost (Behaviour::restart_keeps_failures).
+  void stop(Time now, bool without_supply = false);
 
   /// Brings the readings 0x08-0x0C and 0x18-0x1B up to `now`.
   void look(Time now);
@@ -58,6 +59,8 @@ class Motion {
   // Requests (motion.cpp).
   void advance_to(Time now);
   void heed_registers();
+  [[nodiscard]] bool is_reversed() const;
+  [[nodiscard]] std::int64_t origin_decideg() const;
   void forget_turns();
   void measure();
   bool protect();

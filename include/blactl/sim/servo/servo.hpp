@@ -102,7 +102,7 @@ class Servo final : public Device {
   void operate(dronecan::NodeId id, Time now);
   void depart(Time now);
   void end_rom_write(Time now);
-  void restart(Time now);
+  void restart(Time now, bool without_supply = false);
   void load_rom(Time now);
   void lose_power(Time now);
   void show_until_restart(std::int64_t warnings, std::int64_t failures, Time now);
