@@ -66,17 +66,27 @@ using Measurement = Result<void> (*)(TestBench& bench, Notes& notes);
 
 [[nodiscard]] std::span<const Measurement> measurements_of_answers();
 
-/// Measurements that write to RAM while the output is off.
+/// Measurements that write to RAM while the output is off; the last one switches it on for a
+/// moment.
 [[nodiscard]] std::span<const Measurement> measurements_at_rest();
+
+// Of these, one room each.
+[[nodiscard]] Result<void> measure_array_command(TestBench& bench, Notes& notes);
+[[nodiscard]] Result<void> measure_waiting_settings(TestBench& bench, Notes& notes);
+[[nodiscard]] Result<void> measure_protection(TestBench& bench, Notes& notes);
+
+/// The bit of 0x19 to 0x1B with this code in the profiles.
+[[nodiscard]] std::int64_t bit_of(const TestBench& bench, std::string_view code);
 
 /// Measures starts: each leaves the servo with its ROM settings.
 [[nodiscard]] Result<void> measure_starts(TestBench& bench, Notes& notes);
 
 struct StartsSeen {
   std::vector<Start> restarts{};
-  bla::Values at_once{};       ///< read as soon as it was back from the first start
-  bla::Values rom{};           ///< register values at rest after a start
-  bool is_rom_readable = true; ///< false: nothing was saved
+  bla::Values at_once{}; ///< read as soon as it was back from the first start
+  bla::Values rom{};     ///< register values at rest after a start
+  std::int64_t failures_before = 0, failures_after = 0; ///< 0x1B before and after the restarts
+  bool is_rom_readable = true;                          ///< false: nothing was saved
   std::optional<Start> save{};
 };
 

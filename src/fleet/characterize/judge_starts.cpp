@@ -1,5 +1,7 @@
 // Judges the observed starts of a servo.
 
+#include "blactl/bla/fault_bits.hpp"
+
 #include "fleet/characterize/findings.hpp"
 #include "fleet/characterize/soft_start.hpp"
 #include "fleet/characterize/texts.hpp"
@@ -92,6 +94,14 @@ void judge_soft_start(const Values& seen, const Values& rom, Notes& notes) {
     notes.found("soft_start_shows", shows);
   } else {
     notes.leave("soft_start_shows", say<texts::bench_limits_alike>());
+  }
+}
+
+/// By the bits that tell why it restarted by itself, if it has one: none of these starts was that.
+void judge_failures(const StartsSeen& seen, Notes& notes) {
+  const std::int64_t before = seen.failures_before & bla::fault::restart_failures;
+  if (before != 0) {
+    notes.found("restart_keeps_failures", (seen.failures_after & before) == before);
   }
 }
 
@@ -219,6 +229,7 @@ void judge_starts(StartsSeen seen, Notes& notes) {
   const auto until_status = until_first_status(all);
   judge_first_status(until_status, notes);
   judge_allocation(all.back(), notes);
+  judge_failures(seen, notes);
   judge_start_angle(seen.at_once, notes);
   judge_soft_start(seen.at_once, seen.rom, notes);
   for (Start& start : seen.restarts) {

@@ -22,9 +22,9 @@ constexpr Text needs_pulses{"would take pulses at the PWM input", "PWM 入力へ
 constexpr Text needs_erase{
     "would take an ERASE, after which the shaft may run to 0 deg at full speed",
     "ERASE が必要で、出力軸が全速で 0° へ動く可能性があります"};
-constexpr Text needs_exact_reading{
-    "would take a voltage or temperature that stands exactly at its limit",
-    "電圧または温度を制限値と正確に一致させる必要があります"};
+constexpr Text needs_own_restart{
+    "would take a servo that has restarted by itself (0x1B.8, .9, .11)",
+    "自ら再起動したサーボ (0x1B のビット 8・9・11) が必要です"};
 
 constexpr std::array questions{
     // Responses.
@@ -103,6 +103,33 @@ constexpr std::array questions{
         "inclusive_limits",
         {"a limit itself sets its bit of 0x19", "制限値ちょうどで 0x19 のビットが 1 になる"},
         unfinished},
+    OpenQuestion{"inclusive_stops",
+                 {"the motor stops at a limit of 0x3E to 0x41, not only beyond",
+                  "0x3E～0x41 の制限値ちょうどで停止する"},
+                 unfinished},
+    OpenQuestion{"command_at_limit_notifies",
+                 {"a commanded angle equal to 0x38 sets bit 8 of 0x19",
+                  "指令角度が 0x38 と等しいとき 0x19 のビット 8 が 1 になる"},
+                 unfinished},
+    OpenQuestion{"array_out_of_range",
+                 {"a speed out of range by ArrayCommand: ignored, or brought to the nearest",
+                  "ArrayCommand の範囲外の速度: 無視、または最も近い値に補正"},
+                 unfinished},
+    OpenQuestion{"obeys_servo_id_0",
+                 {"ArrayCommand to servo ID 0 is obeyed", "サーボ ID 0 への ArrayCommand に従う"},
+                 unfinished},
+    OpenQuestion{"settings_wait_for_start",
+                 {"0x23, 0x27, 0x44, 0x45 take effect at the next start, not at once",
+                  "0x23・0x27・0x44・0x45 が直ちにではなく次の起動から有効になる"},
+                 unfinished},
+    OpenQuestion{"reverse_turns_origin",
+                 {"with 0x23 the offset of 0x44 turns round, too",
+                  "0x23 により 0x44 のオフセットの向きも反転する"},
+                 unfinished},
+    OpenQuestion{"restart_keeps_failures",
+                 {"bits of 0x1B outlive a restart, until the supply is off",
+                  "0x1B のビットが再起動後も電源 OFF まで残る"},
+                 needs_own_restart},
     OpenQuestion{
         "soft_start_shows",
         {"reads tell the limits of the soft start", "ソフトスタート中の制限が読出し値に現れる"},
@@ -131,10 +158,10 @@ constexpr std::array questions{
                  {"0x10 and ERASE hold the angle if 0x20 was not on",
                   "0x20 が ON でないときの 0x10・ERASE 後に現在角度を保持する"},
                  needs_erase},
-    OpenQuestion{"inclusive_stops",
-                 {"the motor stops at a limit of 0x3E to 0x41, not only beyond",
-                  "0x3E～0x41 の制限値ちょうどで停止する"},
-                 needs_exact_reading},
+    OpenQuestion{
+        "erase_clears_rom",
+        {"0x10 and ERASE put ROM back to defaults, too", "0x10・ERASE により ROM も初期値に戻る"},
+        needs_erase},
     OpenQuestion{
         "failures_latch",
         {"0x1B.0, .1, .5 stay until the next start", "0x1B のビット 0・1・5 が次の起動まで残る"},
@@ -156,6 +183,14 @@ constexpr std::array questions{
     OpenQuestion{"pwm_yields_to_all",
                  {"PWM waits for 0x02 and 0x20, too", "0x02・0x20 でも PWM 入力が無効になる"},
                  needs_pulses},
+    OpenQuestion{"output_write_ends_soft_start",
+                 {"after 0x20 = on during a soft start the shaft runs on at full speed",
+                  "ソフトスタート中の 0x20 = ON で、以後は全速で動作する"},
+                 needs_motion},
+    OpenQuestion{"soft_start_keeps_speed",
+                 {"a speed during a soft start is accepted while 0x25 is off",
+                  "0x25 が OFF でも、ソフトスタート中の速度指令が有効になる"},
+                 needs_motion},
     OpenQuestion{"soft_start_resumes",
                  {"a soft start cut by a timeout goes on with the next command",
                   "タイムアウトで中断したソフトスタートが次の指令で再開する"},

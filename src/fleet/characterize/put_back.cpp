@@ -55,7 +55,8 @@ Result<void> TestBench::give_back() {
   if (!now) {
     return std::unexpected(now.error());
   }
-  if (is_as_before(*now)) {
+  const bool may_hide_command = has_started_ && !starts_softly(*now);
+  if (is_as_before(*now) && !may_hide_command) {
     return {};
   }
   // With the output off nothing moves until all is restored; and no soft start hides anything.

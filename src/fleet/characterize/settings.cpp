@@ -1,5 +1,5 @@
-// Measurements by writes to RAM while the output is off: nothing moves, and each setting is
-// restored after its measurement.
+// Measurements by writes to RAM while the output is off, or does nothing: nothing moves, and each
+// setting is restored after its measurement.
 
 #include "blactl/dronecan/types.hpp"
 
@@ -24,13 +24,6 @@ constexpr std::int64_t zero_angle = 0;
 
 /// After this time notices and the health show a change.
 constexpr Duration until_shown = std::chrono::milliseconds(50);
-
-/// The bit with this code in the profiles.
-std::int64_t bit_of(const TestBench& bench, std::string_view code) {
-  const auto bits = bench.profiles().fault_bits();
-  const auto found = std::ranges::find(bits, code, &bla::FaultBit::code);
-  return found != bits.end() ? std::int64_t{1} << found->bit : 0;
-}
 
 /// Concludes from the response to a write out of range.
 void conclude_out_of_range(Notes& notes, const Reply& reply, std::int64_t before,
@@ -207,82 +200,49 @@ Result<void> measure_limited_angle(TestBench& bench, Notes& notes) {
   return bench.set(at::command_angle, zero_angle);
 }
 
-/// Whether an ArrayCommand to this servo reaches no other on the bus.
-bool is_alone_with_servo_id(const TestBench& bench, std::int64_t servo_id) {
-  return std::ranges::none_of(bench.roster().members(), [&](const auto& entry) {
-    const auto& [id, member] = entry;
-    return id != bench.servo().id && member.actuator_id == servo_id;
-  });
-}
-
-/// An angle within the limits other than the commanded one.
-std::optional<std::int64_t> free_angle(const TestBench& bench) {
-  constexpr std::int64_t step = 10;
-  const std::int64_t cw = bench.held(at::angle_limit_cw).value_or(0);
-  const std::int64_t ccw = bench.held(at::angle_limit_ccw).value_or(0);
-  return cw >= step ? std::optional(step) : ccw <= -step ? std::optional(-step) : std::nullopt;
-}
-
-/// A command that no register shows: the notice that it is beyond a limit shows whether it was
-/// accepted.
-Result<bool> is_command_noticed(TestBench& bench, std::int64_t angle) {
-  const Address limit = angle > 0 ? at::angle_limit_cw : at::angle_limit_ccw;
-  const std::int64_t bit = bit_of(bench, angle > 0 ? "angle_limit_cw" : "angle_limit_ccw");
-  auto set = bench.set(at::command_angle, zero_angle);
-  set = set ? bench.set(limit, angle / 2) : set;
-  const auto before = set ? bench.read(at::fault_notice) : std::unexpected(set.error());
-  if (!before) {
-    return std::unexpected(before.error());
-  }
-  const auto sent = bench.command_angle(angle);
-  const auto after = sent ? bench.read(at::fault_notice) : std::unexpected(sent.error());
-  if (!after) {
-    return std::unexpected(after.error());
-  }
-  return (*before & bit) == 0 && (*after & bit) != 0;
-}
-
-Result<void> measure_array_command(TestBench& bench, Notes& notes) {
-  constexpr int most_tries = 3; // messages are not retried
-  const std::int64_t servo_id = bench.held(at::servo_id).value_or(0);
-  const auto angle = free_angle(bench);
-  if (!angle || !is_alone_with_servo_id(bench, servo_id)) {
-    notes.leave("array_command_shows", angle ? say<texts::bench_servo_id_shared>(servo_id)
-                                             : say<texts::bench_no_free_angle>());
-    return {};
-  }
-  if (auto set = bench.set(at::command_angle, zero_angle); !set) {
-    return set;
-  }
-  for (int tries = 0; tries < most_tries; ++tries) {
-    const auto sent = bench.command_angle(*angle);
-    const auto held = sent ? bench.read(at::command_angle) : std::unexpected(sent.error());
-    if (!held) {
-      return std::unexpected(held.error());
+/// An angle at a limit that the shaft is well inside of; and, as a check, beyond it.
+Result<void> measure_command_at_limit(TestBench& bench, Notes& notes) {
+  constexpr std::int64_t room = 100;
+  const std::int64_t bit = bit_of(bench, "angle_limit_cw");
+  const auto angle = bench.read(at::current_angle);
+  const std::int64_t limit = std::max(angle.value_or(0), zero_angle) + room;
+  std::array<std::int64_t, 3> notices{};
+  const std::array commanded{zero_angle, limit, limit + room};
+  auto set = angle ? bench.set(at::angle_limit_cw, limit) : std::unexpected(angle.error());
+  for (std::size_t i = 0; i < commanded.size(); ++i) {
+    const auto held =
+        set ? bench.write(at::command_angle, commanded.at(i)) : std::unexpected(set.error());
+    set = held ? bench.pause(until_shown) : std::unexpected(held.error());
+    const auto notice = set ? bench.read(at::fault_notice) : std::unexpected(set.error());
+    if (!notice) {
+      return std::unexpected(notice.error());
     }
-    if (*held == *angle) {
-      notes.found("array_command_shows", true);
-      return bench.set(at::command_angle, zero_angle);
-    }
+    notices.at(i) = *notice & bit;
   }
-  const auto noticed = is_command_noticed(bench, *angle);
-  if (!noticed) {
-    return std::unexpected(noticed.error());
+  const auto there = bench.read(at::current_angle);
+  if (there && (notices[0] != 0 || *there >= limit)) {
+    notes.leave("command_at_limit_notifies", say<texts::bench_notice_before>());
+  } else if (there && notices[1] == 0 && notices[2] == 0) { // a command may become the limit
+    notes.leave("command_at_limit_notifies", say<texts::bench_no_notice_beyond>());
+  } else if (there) {
+    notes.found("command_at_limit_notifies", notices[1] != 0);
   }
-  if (*noticed) {
-    notes.found("array_command_shows", false);
-  } else {
-    notes.leave("array_command_shows", say<texts::bench_command_unseen>());
-  }
-  return bench.set(at::command_angle, zero_angle);
+  return there ? bench.set(at::command_angle, zero_angle) : std::unexpected(there.error());
 }
 
 } // namespace
 
+std::int64_t bit_of(const TestBench& bench, std::string_view code) {
+  const auto bits = bench.profiles().fault_bits();
+  const auto found = std::ranges::find(bits, code, &bla::FaultBit::code);
+  return found != bits.end() ? std::int64_t{1} << found->bit : 0;
+}
+
 std::span<const Measurement> measurements_at_rest() {
-  static constexpr std::array<Measurement, 6> all{measure_out_of_range,  measure_disabled_command,
-                                                  measure_kept_command,  measure_limits,
-                                                  measure_limited_angle, measure_array_command};
+  static constexpr std::array<Measurement, 9> all{
+      measure_out_of_range,     measure_disabled_command, measure_kept_command,
+      measure_limits,           measure_limited_angle,    measure_array_command,
+      measure_command_at_limit, measure_waiting_settings, measure_protection};
   return all;
 }
 

@@ -72,6 +72,11 @@ Result<bool> is_rom_readable(TestBench& bench) {
 
 Result<StartsSeen> see_starts(TestBench& bench) {
   StartsSeen seen;
+  const auto failures = bench.read(at::fault_failure);
+  if (!failures) {
+    return std::unexpected(failures.error());
+  }
+  seen.failures_before = *failures;
   for (int i = 0; i < restarts_measured; ++i) {
     auto start =
         bench.restart(RestartKind::restart, i == 0 ? asked_at_once() : std::vector<Address>());
@@ -83,7 +88,9 @@ Result<StartsSeen> see_starts(TestBench& bench) {
       seen.at_once = bench.at_once();
     }
   }
-  auto rom = bench.rest();
+  const auto after = bench.read(at::fault_failure);
+  auto rom = after ? bench.rest() : std::unexpected(after.error());
+  seen.failures_after = after.value_or(0);
   const auto readable = rom ? is_rom_readable(bench) : std::unexpected(rom.error());
   if (!readable) {
     return std::unexpected(readable.error());

@@ -163,7 +163,7 @@ Result<Values> TestBench::rest() {
   if (!values) {
     return values;
   }
-  is_starting_softly_ = false;
+  is_starting_softly_ = has_started_ = false;
   (*values)[at::torque_output] = *output;
   for (const auto& [address, raw] : std::exchange(hidden_, {})) {
     before_[address] = (*values)[address];
@@ -241,15 +241,16 @@ Result<Reply> TestBench::write_timeout_time(std::int64_t raw) {
                             {manner_.identification.patience.timeout, 0}));
 }
 
-Result<void> TestBench::command_angle(std::int64_t decideg) {
+Result<void> TestBench::command(std::int64_t servo_id, Address address, std::int64_t raw) {
   constexpr Duration until_taken = 50ms;
   if (auto why = forbidden()) {
     return std::unexpected(std::move(*why));
   }
   has_changed_ = true;
-  const auto servo_id = static_cast<std::uint8_t>(held(at::servo_id).value_or(0));
-  session_.node().broadcast(dronecan::ArrayCommand::type, dronecan::priority_medium,
-                            array_command(servo_id, at::command_angle, decideg).encode());
+  known_[address] = raw; // unless it is deaf: the worst is what is to be put back
+  session_.node().broadcast(
+      dronecan::ArrayCommand::type, dronecan::priority_medium,
+      array_command(static_cast<std::uint8_t>(servo_id), address, raw).encode());
   return pause(until_taken);
 }
 
@@ -332,7 +333,7 @@ Result<Start> TestBench::restart(RestartKind kind, const std::vector<Address>& a
   if (auto why = refuse_restart(kind)) {
     return std::unexpected(std::move(*why));
   }
-  has_changed_ = true;
+  has_changed_ = has_started_ = true;
   touched_.clear();
   known_.clear();
   const auto id = leave_and_return(kind, at_once);

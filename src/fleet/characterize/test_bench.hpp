@@ -93,8 +93,9 @@ class TestBench {
   /// Writes once, possibly out of range: to 0x27 only.
   [[nodiscard]] Result<Reply> write_timeout_time(std::int64_t raw);
 
-  /// Sends one ArrayCommand to this servo alone; the output must be off.
-  [[nodiscard]] Result<void> command_angle(std::int64_t decideg);
+  /// Sends one ArrayCommand, possibly out of range, to a servo ID that no other unit has; the
+  /// output must be off.
+  [[nodiscard]] Result<void> command(std::int64_t servo_id, bla::Address address, std::int64_t raw);
 
   /// Restores the settings of the last measurement, except the output.
   [[nodiscard]] Result<void> settle();
@@ -176,6 +177,7 @@ class TestBench {
   Time begin_;        ///< of the bench
   Time in_ram_since_; ///< what others wrote before was lost in a restart
   bool puts_back_ = false;
+  bool has_started_ = false;        ///< since rest(): 0x00 need not show what is held
   bool is_starting_softly_ = false; ///< as far as known, since the restore
   std::optional<Error> refused_;    ///< the first refusal during the restore
 };

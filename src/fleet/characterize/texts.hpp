@@ -54,12 +54,17 @@ inline constexpr Text bench_question{
     "  - it is restarted {} times, and saves once what its ROM holds already: do not cut the "
     "supply\n"
     "  - after each start torque may come on, and the shaft may run slowly to 0 deg\n"
-    "  - timeout_time is written once out of range, and put back\n",
+    "  - torque comes on for a moment more, and holds the shaft where it is\n"
+    "  - timeout_time is written once out of range, and put back; so is a speed, by ArrayCommand "
+    "with the output off\n",
     "ノード {}: サーボの挙動を測定し、終了時にすべて元に戻します:\n"
     "  - 出力が数回 OFF になります。負荷や障害物を取り除いて下さい\n"
     "  - {} 回再起動し、ROM の内容をそのまま 1 回保存します。電源を切らないで下さい\n"
     "  - 起動のたびにトルクが ON になり、出力軸が 0° へ低速で動く可能性があります\n"
-    "  - timeout_time に範囲外の値を 1 回だけ書き込んだ後、元に戻します\n"};
+    "  - その他にトルクが一時的に ON になり、現在位置で保持します\n"
+    "  - timeout_time に範囲外の値を 1 回だけ書き込んだ後、元に戻します。出力 OFF "
+    "の状態で、範囲外の"
+    "速度を ArrayCommand で指令します\n"};
 inline constexpr Text bench_question_angle{
     "  - in the end it is commanded {} again, and goes there at its full speed\n",
     "  - 最後に指令角度 {} を再設定するため、出力軸が全速で動く可能性があります\n"};
@@ -109,6 +114,36 @@ inline constexpr Text bench_servo_id_shared{
 inline constexpr Text bench_command_unseen{
     "it does not show whether ArrayCommand was taken with the output off",
     "出力 OFF で ArrayCommand が受け付けられたか判別できません"};
+inline constexpr Text bench_servo_id_waits{
+    "another servo ID (0x45) is not seen in actuator.Status before the next start",
+    "サーボ ID (0x45) を変更しても、次の起動まで actuator.Status に現れません"};
+inline constexpr Text bench_array_not_shown{"0x01 does not show what ArrayCommand brings",
+                                            "ArrayCommand の指令が 0x01 に現れません"};
+inline constexpr Text bench_no_notice_beyond{"a command beyond 0x38 does not set the bit either",
+                                             "0x38 を超える指令でも該当ビットが 1 になりません"};
+inline constexpr Text bench_shaft_turned{"the shaft was turned meanwhile",
+                                         "測定中に出力軸が動きました"};
+inline constexpr Text bench_acts_at_once{"at once", "直ちに有効"};
+inline constexpr Text bench_acts_later{"at the next start", "次の起動から有効"};
+inline constexpr Text bench_acts_unseen{"not seen", "不明"};
+inline constexpr Text bench_settings_differ{"0x23: {}, 0x44: {}, 0x45: {}",
+                                            "0x23: {}、0x44: {}、0x45: {}"};
+inline constexpr Text bench_count_waits{
+    "0x23 and 0x44 do not take effect together before the next start",
+    "0x23 と 0x44 の両方が有効になるのは次の起動からです"};
+inline constexpr Text bench_other_faults{"a warning or a failure is present",
+                                         "警告または異常が発生しています"};
+inline constexpr Text bench_pulses{"PWM pulses are present: they could move the shaft",
+                                   "PWM 信号が入力されており、出力軸が動く可能性があります"};
+inline constexpr Text bench_limits_out_of_reach{
+    "no limit of temperature or voltage can be put to both sides of its reading",
+    "温度・電圧の制限値を測定値の前後に設定できません"};
+inline constexpr Text bench_reading_unsteady{
+    "temperature, voltage or shaft did not stand still while the limit was at the reading",
+    "制限値を測定値に合わせている間に、温度・電圧または角度が変動しました"};
+inline constexpr Text bench_protection_unseen{
+    "0x00 does not show that a protection has taken the output off and given it back",
+    "保護による出力 OFF と復帰が 0x00 に現れません"};
 inline constexpr Text bench_no_free_angle{"the angle limits leave no room",
                                           "動作角度制限が狭すぎます"};
 inline constexpr Text bench_restarted_by_read{"it restarted", "再起動しました"};

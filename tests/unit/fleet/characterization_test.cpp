@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <random>
 #include <set>
@@ -56,6 +57,10 @@ class Interrupted final : public can::Bus {
   [[nodiscard]] std::string_view name() const override { return bus_->name(); }
 
   [[nodiscard]] Result<bool> send(const can::Frame& frame) override {
+    if (watched) {
+      least = std::min(least, servo().shaft().angle);
+      most = std::max(most, servo().shaft().angle);
+    }
     can::Frame passed = frame;
     if (deafness.misses(frame)) {
       passed.data[1] = 0; // which its CRC tells
@@ -95,6 +100,9 @@ class Interrupted final : public can::Bus {
   [[nodiscard]] const sim::Servo& servo() const { return *bus_->simulator().servos().front(); }
 
   int sent = 0, at = -1, again = -1;
+  bool watched = false; ///< where the shaft is, at each frame
+  std::int64_t least = std::numeric_limits<std::int64_t>::max();
+  std::int64_t most = std::numeric_limits<std::int64_t>::min();
   Time signalled{};
   Deafness deafness;
   std::optional<can::Frame> spoilt; ///< as it was, until its echo
@@ -238,6 +246,10 @@ void check_done(const Characterization& measured) {
   CHECK(measured.is_done());
 }
 
+void check_same(const Rig& rig, const Memory& before) {
+  CHECK(text(without_idle_commands(rig.memory())) == text(without_idle_commands(before)));
+}
+
 /// How a servo must be for its settings to show.
 struct Case {
   std::string setting, value; ///< of "behaviour"
@@ -251,6 +263,10 @@ const std::vector<Case>& cases() {
       {"current_angle": "45deg"})";
   const std::string held_away = R"(, "events": [{"at": "3s", "servo": 240900001,
       "world": {"hand": "120deg"}}])";
+  const std::string aside = R"(, "rom": {"soft_start": "off", "torque_output": "brake",
+      "reverse": "on", "origin": "45deg"}, "ram": {"current_angle": "-60deg"}, "servo_id": 3)";
+  const std::string restarted = R"(, "events": [{"at": "1s", "servo": 240900001,
+      "happens": "watchdog_error"}])";
   const std::string old = R"(, "model": "BLA21-12U-A0", "firmware_version": 1010)";
   static const std::vector<Case> all{
       {"out_of_range", "refuse"},
@@ -285,6 +301,25 @@ const std::vector<Case>& cases() {
       {"keeps_limited_angle", "true"},
       {"keeps_limited_angle", "false"},
       {"speed_control_before_1100", "false", old},
+      {"inclusive_stops", "true"},
+      {"inclusive_stops", "false"},
+      {"command_at_limit_notifies", "true"},
+      {"command_at_limit_notifies", "false"},
+      {"array_out_of_range", "ignore"},
+      {"array_out_of_range", "clamp"},
+      {"obeys_servo_id_0", "true"},
+      {"obeys_servo_id_0", "false"},
+      {"obeys_servo_id_0", "true", R"(, "servo_id": 7)"},
+      {"obeys_servo_id_0", "false", R"(, "servo_id": 7)"},
+      {"settings_wait_for_start", "true"},
+      {"settings_wait_for_start", "false"},
+      {"settings_wait_for_start", "true", aside},
+      {"settings_wait_for_start", "false", aside},
+      {"reverse_turns_origin", "false"},
+      {"reverse_turns_origin", "true", aside},
+      {"reverse_turns_origin", "false", aside},
+      {"restart_keeps_failures", "true", "", restarted},
+      {"restart_keeps_failures", "false", "", restarted},
       {"inclusive_limits", "true"},
       {"inclusive_limits", "false"},
       {"soft_start_shows", "true", "", held_away},
@@ -382,6 +417,87 @@ TEST_CASE("nothing is found that is not so") {
 
 namespace {
 
+/// The first value of each setting is its default, but for these switches.
+std::string default_of(const std::string& key, const nlohmann::json& property) {
+  static const std::set<std::string> on{"index_only_access",
+                                        "ignores_disabled_commands",
+                                        "answers_save_first",
+                                        "array_command_shows",
+                                        "array_command_feeds_timeout",
+                                        "keeps_disabled_command",
+                                        "keeps_limited_angle",
+                                        "erase_holds",
+                                        "inclusive_limits",
+                                        "pwm_end_points_move",
+                                        "pwm_yields_to_all",
+                                        "output_write_ends_soft_start",
+                                        "obeys_servo_id_0"};
+  const auto values = values_of(property);
+  return values.front() != "true" ? values.front() : on.contains(key) ? "true" : "false";
+}
+
+/// Every setting at its default, or at its other value.
+std::map<std::string, std::string> all_settings(bool other) {
+  std::map<std::string, std::string> all;
+  const auto schema = behaviour_schema();
+  for (const auto& [key, property] : schema.items()) {
+    const std::string usual = default_of(key, property);
+    for (const std::string& value : values_of(property)) {
+      if (!value.ends_with("ms") && (value == usual) != other) {
+        all[key] = value;
+      }
+    }
+  }
+  return all;
+}
+
+std::string as_members(const std::map<std::string, std::string>& behaviour) {
+  std::string out;
+  for (const auto& [key, value] : behaviour) {
+    out += fmt::format(R"({}"{}": {})", out.empty() ? "" : ", ", key, literal(value));
+  }
+  return fmt::format(R"("behaviour": {{{}}})", out);
+}
+
+} // namespace
+
+TEST_CASE(
+    "a servo that is in everything as expected, or in nothing, is told right and left alone") {
+  const bool other = GENERATE(false, true);
+  const std::string place =
+      GENERATE(std::string(), std::string(R"(, "servo_id": 5, "rom": {"soft_start": "off",
+          "angle_limit_cw": "90deg", "torque_output": "off"}, "ram": {"current_angle": "30deg",
+          "angle_limit_ccw": "-60deg", "speed_torque_control": "on"})"));
+  const auto behaviour = all_settings(other);
+  const Rig rig(as_members(behaviour) + place);
+  const Memory before = rig.memory();
+  const auto measured = rig.measure();
+  check_done(measured);
+  check_same(rig, before);
+  std::set<std::string> left;
+  for (const Fact& fact : measured.facts) {
+    const auto simulated = behaviour.find(std::string(fact.setting));
+    INFO(fact.setting << " " << words(fact.value) << " " << fact.reason);
+    if (!fact.value) {
+      CHECK(fact.reason.size() > 5);
+      left.insert(std::string(fact.setting));
+    } else if (simulated != behaviour.end()) {
+      CHECK(words(fact.value) == simulated->second);
+    }
+  }
+  for (const auto* setting : {"out_of_range", "notices_warn", "inclusive_limits", "inclusive_stops",
+                              "settings_wait_for_start"}) {
+    INFO(setting);
+    CHECK_FALSE(left.contains(setting));
+  }
+  // Where 0x44 waits for the next start, it does not show whether it turns round.
+  CHECK(left.contains("reverse_turns_origin") == other);
+  // Nor which servo ID is obeyed where 0x45 waits.
+  CHECK(left.contains("obeys_servo_id_0") == other);
+}
+
+namespace {
+
 /// One by chance: every setting, what RAM and ROM hold, a hand on its shaft.
 struct RandomServo {
   std::map<std::string, std::string> behaviour;
@@ -454,10 +570,6 @@ int this_many(int usual, int at_night) {
   return std::getenv("BLACTL_LONG_TESTS") != nullptr ? at_night : usual;
 }
 
-void check_same(const Rig& rig, const Memory& before) {
-  CHECK(text(without_idle_commands(rig.memory())) == text(without_idle_commands(before)));
-}
-
 } // namespace
 
 TEST_CASE("whatever a servo is like and holds, nothing wrong is found and nothing stays changed") {
@@ -511,6 +623,54 @@ TEST_CASE("whatever a servo is like and holds, a Ctrl-C at any moment leaves it 
     interrupted += measured.error ? 1 : 0;
   }
   CHECK(interrupted > servos / 3);
+}
+
+TEST_CASE("a servo whose output is off at its start is not moved at all") {
+  for (const auto* setting : {"inclusive_stops", "boost_in_dead_band", "reverse_turns_origin"}) {
+    INFO(setting);
+    const Rig rig(fmt::format(R"("behaviour": {{"{}": true}}, "rom": {{"soft_start": "off",
+        "torque_output": "off", "speed_torque_control": "on", "angle_boost": "10%",
+        "timeout_time": "1ms"}}, "ram": {{"current_angle": "60deg"}})",
+                              setting));
+    const std::int64_t there = rig.bus->servo().shaft().angle;
+    rig.bus->watched = true;
+    const auto measured = rig.measure();
+    check_done(measured);
+    CHECK(fact(measured, "inclusive_stops").value);
+    CHECK(rig.bus->least == there);
+    CHECK(rig.bus->most == there);
+  }
+}
+
+TEST_CASE("a temperature that does not stand still proves nothing about its limit") {
+  std::string events;
+  for (int i = 0; i < 600; ++i) {
+    events += fmt::format(R"({}{{"at": "{}ms", "servo": 240900001,
+        "world": {{"temperature": "{}degC"}}}})",
+                          i > 0 ? "," : "", 5000 + 55 * i, 25 + i % 2);
+  }
+  for (const bool inclusive : {false, true}) {
+    const Rig rig(fmt::format(R"("behaviour": {{"inclusive_stops": {}}})", inclusive),
+                  fmt::format(R"(, "events": [{}])", events));
+    const Memory before = rig.memory();
+    const auto measured = rig.measure();
+    check_done(measured);
+    const Fact& found = fact(measured, "inclusive_stops");
+    CHECK_FALSE(found.value);
+    CHECK(found.reason.find("did not stand still") != std::string::npos);
+    CHECK(text(rig.memory()) == text(before));
+  }
+}
+
+TEST_CASE("the output does not come on for a measurement where pulses could move the shaft") {
+  const Rig rig(R"("rom": {"soft_start": "off", "torque_output": "off", "timeout_time": "100ms"})",
+                R"(, "events": [{"at": "1s", "servo": 240900001, "world": {"pulse": "1720us"}}])");
+  const std::int64_t there = rig.bus->servo().shaft().angle;
+  rig.bus->watched = true;
+  const auto measured = rig.measure();
+  CHECK_FALSE(measured.not_put_back);
+  CHECK_FALSE(fact(measured, "inclusive_stops").value);
+  CHECK(rig.bus->most == there);
 }
 
 TEST_CASE("times are found as they are simulated") {
