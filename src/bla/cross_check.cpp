@@ -18,6 +18,9 @@ constexpr std::array commands_and_timeout{at::command_speed, at::command_torque,
                                           at::timeout_action};
 constexpr std::array temperature_limits{at::temperature_limit_high, at::temperature_limit_low};
 constexpr std::array voltage_limits{at::voltage_limit_high, at::voltage_limit_low};
+constexpr std::array output{at::torque_output};
+constexpr std::array signs_of_soft_start{at::torque_output, at::soft_start, at::current_angle,
+                                         at::command_angle};
 constexpr std::array temperature{at::current_temperature};
 constexpr std::array temperature_and_warnings{at::current_temperature, at::fault_warning};
 constexpr std::array supply{at::current_voltage};
@@ -70,6 +73,8 @@ constexpr CrossCheck table[]{
 
     {always_asked, question, always_moving, nothing_else, [](const Proposal&) { return true; },
      texts::check_always_asked},
+    {"soft_start_ends", question, output, signs_of_soft_start, meets_soft_start,
+     texts::check_soft_start_ends},
     {"pulled_back", question, angle_limits, present_angle, meets_pulled_back,
      texts::check_pulled_back},
     {"let_go_on", question, angle_limits, present_command, meets_let_go_on, texts::check_let_go_on},

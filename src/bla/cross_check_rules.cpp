@@ -109,6 +109,19 @@ bool meets_reversed_limits(const Proposal& change) {
 
 // Questions: assume the worst of unknown values
 
+/// Its output is on, and it may be on its way from the start to 0 deg, which it has not reached
+/// (4.14). unproven: that a write of 0x20 then lets it run on at full speed.
+bool meets_soft_start(const Proposal& change) {
+  constexpr std::int64_t arrived_decideg = 10;
+  const auto may_be = [&](Address address, std::int64_t raw) {
+    return find(change.before, address).value_or(raw) == raw;
+  };
+  const auto angle = find(change.before, at::current_angle);
+  const bool is_there = angle && *angle >= -arrived_decideg && *angle <= arrived_decideg;
+  return may_be(at::torque_output, torque_on) && may_be(at::soft_start, on) &&
+         may_be(at::command_angle, 0) && !is_there;
+}
+
 /// The new angle limit is inside the present angle.
 bool meets_pulled_back(const Proposal& change) {
   const auto angle = find(change.before, at::current_angle);
@@ -149,11 +162,15 @@ bool meets_trips(const Proposal& change) {
          (watched.is_upper ? *measured >= change.requested : *measured <= change.requested);
 }
 
-/// A protection keeps the motor off now and would not with this limit.
+/// A protection keeps the motor off now and would not with this limit, or may not: what is measured
+/// is at it (4.7: beyond it; 4.12: at it).
 bool meets_protection_ends(const Proposal& change) {
+  const Protection& watched = protection(change.address);
   const auto warnings = find(change.before, at::fault_warning);
-  const bool is_active = !warnings || (*warnings & protection(change.address).warning) != 0;
-  return is_active && !meets_trips(change);
+  const bool is_active = !warnings || (*warnings & watched.warning) != 0;
+  const auto measured = find(change.before, watched.measured);
+  return is_active && measured &&
+         (watched.is_upper ? *measured <= change.requested : *measured >= change.requested);
 }
 
 bool meets_pwm_present(const Proposal& change) {

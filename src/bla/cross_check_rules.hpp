@@ -9,6 +9,7 @@ namespace blactl::bla {
 [[nodiscard]] bool meets_control_off(const Proposal& change);
 [[nodiscard]] bool meets_no_stop(const Proposal& change);
 [[nodiscard]] bool meets_reversed_limits(const Proposal& change);
+[[nodiscard]] bool meets_soft_start(const Proposal& change);
 [[nodiscard]] bool meets_pulled_back(const Proposal& change);
 [[nodiscard]] bool meets_let_go_on(const Proposal& change);
 [[nodiscard]] bool meets_no_torque(const Proposal& change);

@@ -227,6 +227,10 @@ inline constexpr Text check_limits_reversed{
     "上限は下限より大きい値でなければなりません (モータが常に停止します)"};
 inline constexpr Text check_always_asked{"any change can move the shaft or let go of the load",
                                          "変更により出力軸の動作または脱力の可能性があります"};
+inline constexpr Text check_soft_start_ends{
+    "this ends a soft start that is still under way: with the output on the shaft may then run to "
+    "0 deg at full speed",
+    "ソフトスタート中の場合は終了し、出力が ON であれば出力軸が全速で 0° へ動く可能性があります"};
 inline constexpr Text check_pulled_back{"the shaft is beyond the limit: it runs back to it",
                                         "現在角度が制限を超えているため、制限角度まで動作します"};
 inline constexpr Text check_let_go_on{

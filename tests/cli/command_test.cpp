@@ -221,6 +221,18 @@ TEST_CASE("by ArrayCommand a servo moves as by its registers, and only alone on 
   check_error(shared, 9, "duplicate_servo_id", "13");
 }
 
+TEST_CASE("a servo with servo ID 0 may be deaf to ArrayCommand, which is said as the reason") {
+  const auto moved = [](bool obeys) {
+    return Scene()
+        .servo("BLA21-12U-AB", 11, {{"behaviour", {{"obeys_servo_id_0", obeys}}}})
+        .run({"command", "angle=-20deg", "--array", "-n", "11", "-y"});
+  };
+  CHECK(moved(true).status == 0);
+  const Result deaf = moved(false);
+  check_error(deaf, 5, "mismatch", "it was to be at -20.0 deg");
+  CHECK(contains(deaf.err, "blactl set -n 11 servo_id=1"));
+}
+
 TEST_CASE("ArrayCommand minds an actuator of another make only where it has the servo's ID") {
   const Arguments array{"command", "angle=-20deg", "--array", "-n", "12", "-y"};
   CHECK(two_servos().foreign(20, {{"actuator_id", 30}}).run(array).status == 0);

@@ -105,7 +105,8 @@ Result<void> History::drop_proofs(std::span<const Plan> plans) {
   std::vector<UniqueId> units;
   for (const Plan& plan : plans) {
     const auto& unique_id = plan.before.servo.unique_id;
-    if (plan.restart && unique_id && !unproven_.contains(*unique_id)) {
+    // unproven: whether ERASE changes ROM
+    if ((plan.restart || plan.erase) && unique_id && !unproven_.contains(*unique_id)) {
       units.push_back(*unique_id);
     }
   }

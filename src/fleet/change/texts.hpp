@@ -239,8 +239,8 @@ inline constexpr Text erased_not_verified{
     "ノード {}: ERASE を送信しましたが、値を再読出ししていません。RAM の内容は不明です",
 };
 inline constexpr Text erased_not_saved{
-    "node {}: its RAM holds factory defaults, its ROM was not written: a SAVE would keep them",
-    "ノード {}: RAM は初期値です。ROM には保存していません (SAVE すると初期値が保存されます)",
+    "node {}: its RAM holds factory defaults, and nothing was saved: a SAVE would keep them",
+    "ノード {}: RAM は初期値です。保存はしていません (SAVE すると初期値が保存されます)",
 };
 inline constexpr Text question_restart_unknown{
     "node {}: it starts with what its ROM holds, which is not known: torque may come on, and the "
@@ -251,8 +251,10 @@ inline constexpr Text question_restart_unknown{
 inline constexpr Text question_erase_torque{"node {}: torque comes on\n",
                                             "ノード {}: トルクが ON になります\n"};
 inline constexpr Text question_erase_rom{
-    "ROM is not touched: a restart brings back what was saved\n",
-    "ROM は変更しません。再起動すると保存済みの値に戻ります\n",
+    "nothing is saved: a restart should bring back what ROM holds; but the specification also says "
+    "that ROM is erased, and then that is lost\n",
+    "保存はしません。再起動すると ROM の値に戻る見込みですが、仕様書には ROM も初期化されるとの記述"
+    "があり、その場合は保存済みの値が失われます\n",
 };
 inline constexpr Text defaults_unknown_hint{
     "see what it says of itself: blactl get --group product",

@@ -48,9 +48,14 @@ bool has_wiggled(const MotionPlan& plan, const MotionResult& result) {
          }) >= least;
 }
 
-Error differs(const MotionPlan& plan, std::string message) {
+/// unproven: that a servo obeys ArrayCommand to servo ID 0 (tables 2-20 and 2-22 differ).
+Error differs(const MotionPlan& plan, const MotionResult& result, std::string message) {
   const std::uint8_t id = plan.servo().id.value();
-  return {Code::mismatch, std::move(message), say<texts::motion_why_hint>(id), id};
+  const bool may_be_deaf =
+      plan.by_servo_id && plan.plan.before.raw(at::servo_id) == 0 && !result.is_shown;
+  return {Code::mismatch, std::move(message),
+          may_be_deaf ? say<texts::motion_servo_id_0_hint>(id) : say<texts::motion_why_hint>(id),
+          id};
 }
 
 } // namespace
@@ -84,11 +89,12 @@ std::optional<Error> judge_motion(const MotionPlan& plan, const MotionResult& re
   const std::uint8_t id = plan.servo().id.value();
   const std::string target = bla::display(*plan.parameter, plan.last_target());
   if (result.held) { // it had not arrived when its time was over
-    return differs(plan, say<texts::motion_not_reached>(
-                             id, target, bla::display(*plan.parameter, *result.held)));
+    return differs(
+        plan, result,
+        say<texts::motion_not_reached>(id, target, bla::display(*plan.parameter, *result.held)));
   }
   if (plan.wiggles() && !has_wiggled(plan, result)) {
-    return differs(plan, say<texts::motion_not_wiggled>(id));
+    return differs(plan, result, say<texts::motion_not_wiggled>(id));
   }
   const bool is_speed = plan.parameter->address == at::command_speed && plan.last_target() != 0;
   const auto turned = is_speed ? came_to_speed(plan, result) : std::optional(true);
@@ -97,10 +103,10 @@ std::optional<Error> judge_motion(const MotionPlan& plan, const MotionResult& re
                  id};
   }
   if (!*turned) {
-    return differs(plan, say<texts::motion_not_turned>(id, target));
+    return differs(plan, result, say<texts::motion_not_turned>(id, target));
   }
   if (plan.by_servo_id && !plan.is_angle() && !is_speed && !result.is_shown) {
-    return differs(plan, say<texts::motion_array_ignored>(id, target));
+    return differs(plan, result, say<texts::motion_array_ignored>(id, target));
   }
   return std::nullopt;
 }

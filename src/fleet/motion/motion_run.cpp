@@ -31,12 +31,26 @@ Error shared(const MotionPlan& plan, std::string message) {
           plan.servo().id.value()};
 }
 
+/// unproven: whether a new 0x45 counts at once, or from the next start on.
+std::optional<Error> refuse_pending_id(const Roster& roster, NodeId servo, std::int64_t servo_id) {
+  const auto told = roster.member(servo).actuator_id;
+  const std::uint8_t id = servo.value();
+  return told && *told != servo_id
+             ? std::optional(Error{Code::state,
+                                   say<texts::motion_servo_id_later>(id, servo_id, *told),
+                                   say<texts::motion_servo_id_later_hint>(id), id})
+             : std::nullopt;
+}
+
 } // namespace
 
 std::optional<Error> refuse_servo_id(Session& session, const bla::Profiles& profiles,
                                      const MotionPlan& plan,
                                      const Identification::Options& options) {
   const std::int64_t servo_id = plan.plan.before.raw(at::servo_id).value_or(0);
+  if (auto later = refuse_pending_id(session.roster(), plan.servo().id, servo_id)) {
+    return later;
+  }
   const auto others = servos_heard(session.roster(), plan.servo().id);
   const auto ids = [](const Servo& servo) -> Result<std::vector<const bla::Parameter*>> {
     return servo.identity.registers(std::array{at::servo_id});

@@ -48,6 +48,14 @@ inline constexpr Text motion_servo_id_pending{
 inline constexpr Text motion_servo_id_hint{
     "leave --array out: 0x00-0x02 of the node reach just this servo",
     "--array を外して下さい。ノードの 0x00～0x02 への書込みであれば、対象のサーボだけに届きます"};
+inline constexpr Text motion_servo_id_later{
+    "node {}: servo_id (0x45) is {}, but it reports {}: the change may take effect at the next "
+    "start",
+    "ノード {}: servo_id (0x45) は {} ですが、サーボは {} を送信しています。変更は次の起動から"
+    "有効になる可能性があります"};
+inline constexpr Text motion_servo_id_later_hint{
+    "save it, which restarts the servo (blactl save -n {}), or leave --array out",
+    "保存して再起動する (blactl save -n {}) か、--array を外して下さい"};
 inline constexpr Text motion_changed{
     "node {}: {} is {}, not {} as a moment ago: nothing was commanded",
     "ノード {}: {} が先ほどと異なるため ({}、直前は {})、指令していません"};
@@ -145,6 +153,11 @@ inline constexpr Text motion_not_wiggled{"node {}: it was commanded to and fro, 
 inline constexpr Text motion_array_ignored{
     "node {}: {} was sent by ArrayCommand, and nothing shows that it took it",
     "ノード {}: ArrayCommand で {} を送信しましたが、反映を確認できません"};
+inline constexpr Text motion_servo_id_0_hint{
+    "servo ID 0 may not be obeyed: give it another (blactl set -n {} servo_id=1), or leave --array "
+    "out",
+    "サーボ ID 0 への ArrayCommand は無効な可能性があります。別の ID を設定する (blactl set -n {} "
+    "servo_id=1) か、--array を外して下さい"};
 inline constexpr Text motion_not_held{"node {}: it was told to hold {}, and is at {}",
                                       "ノード {}: {} での保持を指令しましたが、現在角度は {} です"};
 inline constexpr Text motion_still_turns{

@@ -380,6 +380,11 @@ const std::vector<Case> cases{
 
     {"always_asked", "torque_output", 1, true},
     {"always_asked", "smoothing", 0, false},
+    {"soft_start_ends", "torque_output", 1, true, {{"command_angle", 0}}}, // it is at 45.0 deg
+    {"soft_start_ends", "torque_output", 1, false, {{"command_angle", 0}, {"current_angle", -10}}},
+    {"soft_start_ends", "torque_output", 1, false, {{"command_angle", 450}}},
+    {"soft_start_ends", "torque_output", 1, false, {{"command_angle", 0}, {"soft_start", 0}}},
+    {"soft_start_ends", "torque_output", 0, false, {{"command_angle", 0}, {"torque_output", 1}}},
     {"pulled_back", "angle_limit_cw", 449, true}, // it is at 45.0 deg
     {"pulled_back", "angle_limit_cw", 450, false},
     {"let_go_on",
@@ -401,6 +406,8 @@ const std::vector<Case> cases{
     {"temperature_trips", "temperature_limit_high", 40, true}, // it is at 40 degC
     {"temperature_trips", "temperature_limit_high", 41, false},
     {"temperature_released", "temperature_limit_high", 41, true, {{"fault_warning", 1 << 8}}},
+    {"temperature_released", "temperature_limit_high", 40, true, {{"fault_warning", 1 << 8}}},
+    {"temperature_released", "temperature_limit_high", 39, false, {{"fault_warning", 1 << 8}}},
     {"temperature_released", "temperature_limit_high", 41, false},
     {"voltage_trips", "voltage_limit_low", 120, true}, // it is at 12.0 V
     {"voltage_trips", "voltage_limit_low", 119, false},

@@ -148,6 +148,17 @@ TEST_CASE("a saved change is recorded as such, and proves all of ROM") {
   CHECK(holds_now(scene, *proof, 11));
 }
 
+TEST_CASE("ERASE ends the proof of ROM, which it may have erased as well") {
+  for (const bool clears : {false, true}) {
+    const Kept kept;
+    const Scene scene(servos(fmt::format(R"(, "behaviour": {{"erase_clears_rom": {}}})", clears)));
+    REQUIRE(change(scene, save, kept, "save").saved);
+    REQUIRE(kept.proof(scene, 11));
+    REQUIRE(change(scene, {.erase = true, .keep_ids = true}, kept, "erase").is_done());
+    CHECK_FALSE(kept.proof(scene, 11));
+  }
+}
+
 TEST_CASE("a proof outlives a change in RAM, and ends with the next start") {
   const Kept kept;
   const Scene scene(servos());

@@ -436,6 +436,22 @@ TEST_CASE("by ArrayCommand nobody else is moved on who tells that servo ID, or r
   CHECK(ended.result.samples.back().after < 6s);
 }
 
+TEST_CASE("no ArrayCommand to a servo ID that takes effect at the next start only") {
+  for (const bool waits : {false, true}) {
+    CommandBench bench(fmt::format(R"("servos": [{{"model": "BLA21-12U-AB", "node_id": 11,
+        "servo_id": 3, "behaviour": {{"settings_wait_for_start": {}}}}}])",
+                                   waits));
+    const auto unsaved = plans_for(bench.scene, {.assignments = assignments({"servo_id=4"})}, {11});
+    REQUIRE_FALSE(carry_out(*bench.scene.session, profiles(), unsaved, {}).broken);
+    bench.scene.live(1100ms);
+    MotionPlan plan = bench.planned("command_angle=45deg");
+    plan.by_servo_id = true;
+    const auto refused = refuse_servo_id(*bench.scene.session, profiles(), plan, {});
+    CHECK(refused.has_value() == waits);
+    CHECK((!waits || refused->message.find("is 4, but it reports 3") != std::string::npos));
+  }
+}
+
 TEST_CASE("ArrayCommand only where nobody else may obey it") {
   const auto refused = [](const std::string& members) {
     CommandBench bench(members);

@@ -29,8 +29,8 @@ class History {
       : command_(std::move(command)), snapshots_(std::move(snapshots)), proofs_(std::move(proofs)) {
   }
 
-  /// Before the first request of a round: removes the proofs of ROM of servos that restart in it,
-  /// which become outdated.
+  /// Before the first request of a round: removes the proofs of ROM of servos that restart or are
+  /// erased in it, which become outdated.
   [[nodiscard]] Result<void> drop_proofs(std::span<const Plan> plans);
 
   /// Before the first request of a round: records the present settings of the servos changed in it,
