@@ -1,254 +1,16 @@
-// A simulated servo on the bench: what is measured is how it is simulated, and it is left as it
-// was, whenever somebody interrupts.
+// A simulated servo on the bench: what is measured is how it is simulated.
 
-#include "blactl/dronecan/allocator.hpp"
-#include "blactl/fleet/bus/discovery.hpp"
-#include "blactl/fleet/bus/read_job.hpp"
-#include "blactl/fleet/change/carry_out.hpp"
-#include "blactl/fleet/characterize/characterization.hpp"
 #include "blactl/sim/scenario/facts.hpp"
 
-#include "support.hpp"
-#include "unit/state/processes.hpp"
+#include "characterization_rig.hpp"
 
-#include <nlohmann/json.hpp>
-
-#include <signal.h>
-
-#include <algorithm>
-#include <cstdlib>
-#include <fstream>
-#include <limits>
-#include <map>
-#include <random>
-#include <set>
-#include <string>
-#include <utility>
-#include <variant>
-#include <vector>
+#include <cmath>
 
 using namespace blactl;
 using namespace blactl::fleet;
 using namespace blactl::fleet::test;
 
 namespace {
-
-/// Writes to one register that never reach the servo: it holds what it held.
-struct Deafness {
-  std::string name;            ///< "0x38"
-  int first = 0, last = 1'000; ///< the writes that it misses; the first is 1
-  int written = 0;
-
-  /// The last frame of such a write, which its name ends; what is only read fits into one frame.
-  [[nodiscard]] bool misses(const can::Frame& frame) {
-    const std::size_t size = frame.size;
-    const bool is_end = size == 3 && (frame.data[2] & 0xC0U) == 0x40U;
-    const bool is_one = is_end && !name.empty() && frame.data[0] == std::uint8_t(name[2]) &&
-                        frame.data[1] == std::uint8_t(name[3]);
-    return is_one && ++written >= first && written <= last;
-  }
-};
-
-/// Passes frames on; the n-th of them, and perhaps a later one, brings a Ctrl-C.
-class Interrupted final : public can::Bus {
- public:
-  explicit Interrupted(std::unique_ptr<sim::PrivateBus> bus) : bus_(std::move(bus)) {}
-
-  [[nodiscard]] std::string_view name() const override { return bus_->name(); }
-
-  [[nodiscard]] Result<bool> send(const can::Frame& frame) override {
-    if (watched) {
-      least = std::min(least, servo().shaft().angle);
-      most = std::max(most, servo().shaft().angle);
-    }
-    can::Frame passed = frame;
-    if (deafness.misses(frame)) {
-      passed.data[1] = 0; // which its CRC tells
-      spoilt = frame;
-    }
-    auto taken = bus_->send(passed);
-    if (taken && *taken && (++sent == at || sent == again)) {
-      raise(SIGINT);
-      signalled = bus_->now();
-    }
-    return taken;
-  }
-
-  [[nodiscard]] std::optional<can::BusEvent> receive() override {
-    auto event = bus_->receive();
-    auto* echo = event ? std::get_if<can::Sent>(&*event) : nullptr;
-    if (echo != nullptr && spoilt && echo->frame.id == spoilt->id && echo->frame.size == 3) {
-      echo->frame = *std::exchange(spoilt, std::nullopt);
-    }
-    return event;
-  }
-
-  [[nodiscard]] Result<void> filter(std::span<const can::Filter> filters) override {
-    return bus_->filter(filters);
-  }
-
-  [[nodiscard]] bool echoes() const override { return true; }
-
-  [[nodiscard]] int descriptor() const override { return -1; }
-
-  [[nodiscard]] Time now() const override { return bus_->now(); }
-
-  [[nodiscard]] WallTime wall() const override { return bus_->wall(); }
-
-  [[nodiscard]] Time idle_until(Time deadline) override { return bus_->idle_until(deadline); }
-
-  [[nodiscard]] const sim::Servo& servo() const { return *bus_->simulator().servos().front(); }
-
-  int sent = 0, at = -1, again = -1;
-  bool watched = false; ///< where the shaft is, at each frame
-  std::int64_t least = std::numeric_limits<std::int64_t>::max();
-  std::int64_t most = std::numeric_limits<std::int64_t>::min();
-  Time signalled{};
-  Deafness deafness;
-  std::optional<can::Frame> spoilt; ///< as it was, until its echo
-
- private:
-  std::unique_ptr<sim::PrivateBus> bus_;
-};
-
-constexpr std::uint8_t dynamic_id = 42;
-
-/// Whoever asks.
-class OneId final : public dronecan::AllocationTable {
- public:
-  [[nodiscard]] bool serves(dronecan::Bytes) const override { return true; }
-
-  [[nodiscard]] std::optional<NodeId> assign(const dronecan::UniqueId&, NodeId) override {
-    return NodeId(dynamic_id);
-  }
-};
-
-/// What a servo holds of what is to be given back.
-struct Memory {
-  std::map<bla::Address, std::int64_t> ram, rom;
-};
-
-std::string text(const Memory& memory) {
-  std::string out;
-  for (const auto& [address, raw] : memory.ram) {
-    out += fmt::format("{}={} ", address.name(), raw);
-  }
-  for (const auto& [address, raw] : memory.rom) {
-    out += fmt::format("rom {}={} ", address.name(), raw);
-  }
-  return out;
-}
-
-/// Where 0x00 rules it makes no difference whether 0x01 and 0x02 are 0 or not active.
-Memory without_idle_commands(Memory memory) {
-  for (const bla::Address address : {bla::address::command_speed, bla::address::command_torque}) {
-    std::int64_t& raw = memory.ram[address];
-    const bool rules = memory.ram.at(bla::address::command_angle) == bla::not_active;
-    raw = !rules && raw == bla::not_active ? 0 : raw;
-  }
-  return memory;
-}
-
-/// One servo, BLA21-12U-AB at 11 unless `members` says otherwise, that has run for some time.
-class Rig {
- public:
-  explicit Rig(const std::string& members = "", const std::string& more = "") {
-    const std::string model =
-        members.find("\"model\"") == std::string::npos ? R"("model": "BLA21-12U-AB", )" : "";
-    const std::string id =
-        members.find("\"node_id\"") == std::string::npos ? R"("node_id": 11)" : "";
-    const std::string comma = id.empty() || members.empty() ? "" : ", ";
-    const auto scenario =
-        sim::parse_scenario(fmt::format(R"({{"schema": "blactl-scenario/1", "clock": "virtual",
-                        "servos": [{{{}{}{}{}}}]{}}})",
-                                        model, id, comma, members, more),
-                            "test.json", profiles());
-    INFO((scenario ? "" : scenario.error().message));
-    REQUIRE(scenario);
-    auto interrupted =
-        std::make_unique<Interrupted>(std::make_unique<sim::PrivateBus>("sim:", *scenario));
-    bus = interrupted.get();
-    auto opened = Session::open(std::move(interrupted), state::LocalNodeId::unshared({}),
-                                Session::Hearing::all, profiles());
-    REQUIRE(opened);
-    session = std::move(*opened);
-    OneId table;
-    dronecan::Allocator allocator(session->node(), table);
-    session->attach(allocator);
-    REQUIRE(session->live_until(session->now() + 5s));
-    session->detach(allocator);
-  }
-
-  [[nodiscard]] Memory memory() const {
-    Memory memory;
-    const sim::Memory& registers = bus->servo().registers();
-    for (std::uint8_t value = 0; value <= 0x46; ++value) {
-      const bla::Address address(value);
-      const bla::Parameter* parameter = registers.existing(address);
-      if (parameter != nullptr && (parameter->saved || parameter->group == bla::Group::command)) {
-        memory.ram[address] = registers.value(address);
-      }
-      if (parameter != nullptr && parameter->saved) {
-        memory.rom[address] = registers.rom_value(address);
-      }
-    }
-    return memory;
-  }
-
-  /// What it holds, as the command looks at it before its question.
-  [[nodiscard]] Snapshot look(std::uint8_t id = 11) const {
-    const std::vector ids{NodeId(id)};
-    auto snapshots = take_snapshots(*session, profiles(), ids, {}, registers_to_characterize);
-    REQUIRE_FALSE(snapshots.broken);
-    INFO((snapshots.servos[0].first_error() ? snapshots.servos[0].first_error()->message : ""));
-    REQUIRE_FALSE(snapshots.servos[0].first_error());
-    return snapshots.servos[0];
-  }
-
-  [[nodiscard]] Characterization measure(std::uint8_t id = 11) const {
-    return characterize(*session, profiles(), look(id), {.may_allocate = true});
-  }
-
-  void set(const char* assignment) const {
-    const Wanted wanted{.assignments = assignments({assignment})};
-    auto plan = make_plan(
-        wanted,
-        take_snapshots(*session, profiles(), std::vector{NodeId(11)}, {},
-                       [&](const Servo& servo) { return registers_needed(wanted, servo); })
-            .servos[0],
-        profiles());
-    REQUIRE(plan);
-    REQUIRE(carry_out(*session, profiles(), std::span(&*plan, 1), {}).servos[0].is_done());
-  }
-
-  Interrupted* bus = nullptr; ///< of the session
-  std::unique_ptr<Session> session;
-};
-
-std::string words(const std::optional<FactValue>& value) {
-  if (!value) {
-    return "not measured";
-  }
-  const auto* flag = std::get_if<bool>(&*value);
-  return flag == nullptr ? std::get<std::string>(*value) : *flag ? "true" : "false";
-}
-
-const Fact& fact(const Characterization& measured, std::string_view setting) {
-  const auto it = std::ranges::find(measured.facts, setting, &Fact::setting);
-  REQUIRE(it != measured.facts.end());
-  return *it;
-}
-
-/// Finished, and everything as it was.
-void check_done(const Characterization& measured) {
-  INFO((measured.error ? measured.error->message : ""));
-  INFO((measured.not_put_back ? measured.not_put_back->message : ""));
-  CHECK(measured.is_done());
-}
-
-void check_same(const Rig& rig, const Memory& before) {
-  CHECK(text(without_idle_commands(rig.memory())) == text(without_idle_commands(before)));
-}
 
 /// How a servo must be for its settings to show.
 struct Case {
@@ -328,31 +90,46 @@ const std::vector<Case>& cases() {
   return all;
 }
 
-std::string literal(const std::string& value) {
-  return value == "true" || value == "false" ? value : "\"" + value + "\"";
+/// The first value of each setting is its default, but for these switches.
+std::string default_of(const std::string& key, const nlohmann::json& property) {
+  static const std::set<std::string> on{"index_only_access",
+                                        "ignores_disabled_commands",
+                                        "answers_save_first",
+                                        "array_command_shows",
+                                        "array_command_feeds_timeout",
+                                        "keeps_disabled_command",
+                                        "keeps_limited_angle",
+                                        "erase_holds",
+                                        "inclusive_limits",
+                                        "pwm_end_points_move",
+                                        "pwm_yields_to_all",
+                                        "output_write_ends_soft_start",
+                                        "obeys_servo_id_0"};
+  const auto values = values_of(property);
+  return values.front() != "true" ? values.front() : on.contains(key) ? "true" : "false";
 }
 
-/// The keys of "behaviour" in a schema that is published, each with what it may be.
-nlohmann::json behaviour_schema() {
-  std::ifstream file(std::string(BLACTL_SCHEMAS) + "/scenario.schema.json");
-  REQUIRE(file);
-  return nlohmann::json::parse(file)["$defs"]["behaviour"]["properties"];
-}
-
-std::vector<std::string> values_of(const nlohmann::json& property) {
-  if (property.contains("enum")) {
-    return property["enum"];
+/// Every setting at its default, or at its other value.
+std::map<std::string, std::string> all_settings(bool other) {
+  std::map<std::string, std::string> all;
+  const auto schema = behaviour_schema();
+  for (const auto& [key, property] : schema.items()) {
+    const std::string usual = default_of(key, property);
+    for (const std::string& value : values_of(property)) {
+      if (!value.ends_with("ms") && (value == usual) != other) {
+        all[key] = value;
+      }
+    }
   }
-  if (property.contains("type")) {
-    return {"true", "false"};
-  }
-  const std::string kind = property["allOf"][0]["$ref"];
-  return kind.ends_with("missing_read") ? std::vector<std::string>{"fail", "zero"}
-                                        : std::vector<std::string>{"30ms", "400ms"};
+  return all;
 }
 
-double milliseconds(const std::string& time) {
-  return std::stod(time) / (time.ends_with("us") ? 1000 : 1);
+std::string as_members(const std::map<std::string, std::string>& behaviour) {
+  std::string out;
+  for (const auto& [key, value] : behaviour) {
+    out += fmt::format(R"({}"{}": {})", out.empty() ? "" : ", ", key, literal(value));
+  }
+  return fmt::format(R"("behaviour": {{{}}})", out);
 }
 
 } // namespace
@@ -415,52 +192,6 @@ TEST_CASE("nothing is found that is not so") {
   }
 }
 
-namespace {
-
-/// The first value of each setting is its default, but for these switches.
-std::string default_of(const std::string& key, const nlohmann::json& property) {
-  static const std::set<std::string> on{"index_only_access",
-                                        "ignores_disabled_commands",
-                                        "answers_save_first",
-                                        "array_command_shows",
-                                        "array_command_feeds_timeout",
-                                        "keeps_disabled_command",
-                                        "keeps_limited_angle",
-                                        "erase_holds",
-                                        "inclusive_limits",
-                                        "pwm_end_points_move",
-                                        "pwm_yields_to_all",
-                                        "output_write_ends_soft_start",
-                                        "obeys_servo_id_0"};
-  const auto values = values_of(property);
-  return values.front() != "true" ? values.front() : on.contains(key) ? "true" : "false";
-}
-
-/// Every setting at its default, or at its other value.
-std::map<std::string, std::string> all_settings(bool other) {
-  std::map<std::string, std::string> all;
-  const auto schema = behaviour_schema();
-  for (const auto& [key, property] : schema.items()) {
-    const std::string usual = default_of(key, property);
-    for (const std::string& value : values_of(property)) {
-      if (!value.ends_with("ms") && (value == usual) != other) {
-        all[key] = value;
-      }
-    }
-  }
-  return all;
-}
-
-std::string as_members(const std::map<std::string, std::string>& behaviour) {
-  std::string out;
-  for (const auto& [key, value] : behaviour) {
-    out += fmt::format(R"({}"{}": {})", out.empty() ? "" : ", ", key, literal(value));
-  }
-  return fmt::format(R"("behaviour": {{{}}})", out);
-}
-
-} // namespace
-
 TEST_CASE(
     "a servo that is in everything as expected, or in nothing, is told right and left alone") {
   const bool other = GENERATE(false, true);
@@ -496,82 +227,6 @@ TEST_CASE(
   CHECK(left.contains("obeys_servo_id_0") == other);
 }
 
-namespace {
-
-/// One by chance: every setting, what RAM and ROM hold, a hand on its shaft.
-struct RandomServo {
-  std::map<std::string, std::string> behaviour;
-  std::string members, scene;
-};
-
-class RandomServos {
- public:
-  explicit RandomServos(unsigned seed) : chance_(seed) {}
-
-  RandomServo next() {
-    RandomServo servo;
-    std::string is_like;
-    for (const auto& [key, property] : schema_.items()) {
-      // Half a second an answer is no bench.
-      const std::string value = key == "answer_delay" ? "2ms" : one_of(values_of(property));
-      servo.behaviour[key] = value;
-      is_like += fmt::format(R"({}"{}": {})", is_like.empty() ? "" : ", ", key, literal(value));
-    }
-    const std::string model = one_of(models_), rom = some_memory(), ram = some_memory();
-    servo.members = fmt::format(
-        R"("model": "{}", "behaviour": {{{}}}, "rom": {{{}}}, "ram": {{{}}}, "servo_id": {})",
-        model, is_like, rom, ram, number(3));
-    servo.scene = one_of(scenes_);
-    return servo;
-  }
-
-  std::size_t number(std::size_t below) {
-    return std::uniform_int_distribution<std::size_t>(0, below - 1)(chance_);
-  }
-
- private:
-  std::string one_of(const std::vector<std::string>& all) { return all[number(all.size())]; }
-
-  std::string some_memory() {
-    std::string out;
-    for (const auto& [name, values] : memory_) {
-      if (number(2) == 0) {
-        out += fmt::format(R"({}"{}": "{}")", out.empty() ? "" : ", ", name, one_of(values));
-      }
-    }
-    return out;
-  }
-
-  std::mt19937 chance_;
-  nlohmann::json schema_ = behaviour_schema();
-  std::vector<std::string> models_{"BLA15-06U-A0", "BLA21-06U-AB", "BLA21-12U-A0",
-                                   "BLA21-28U-AB", "BLA34-12U-AB", "BLA34-28U-AB"};
-  std::vector<std::pair<std::string, std::vector<std::string>>> memory_{
-      {"angle_limit_cw", {"0deg", "45.5deg", "179.9deg", "400deg"}},
-      {"angle_limit_ccw", {"0deg", "-10deg", "-180deg"}},
-      {"torque_output", {"on", "off", "brake"}},
-      {"soft_start", {"on", "off"}},
-      {"reverse", {"on", "off"}},
-      {"timeout_action", {"hold", "off", "brake"}},
-      {"timeout_time", {"1ms", "800ms", "60000ms"}},
-      {"speed_torque_control", {"on", "off"}},
-      {"speed_limit_cw", {"0rpm", "30rpm", "70rpm"}},
-      {"torque_limit_cw", {"0%", "30%", "100%"}},
-      {"origin", {"0deg", "-12.3deg"}},
-      {"extended_angle", {"on", "off"}}};
-  std::vector<std::string> scenes_{
-      "", R"(, "events": [{"at": "2s", "servo": 240900001, "world": {"hand": "-75deg"}}])",
-      R"(, "events": [{"at": "2s", "servo": 240900001, "world": {"hand": "30deg"}},
-          {"at": "3s", "servo": 240900001, "world": {"hand": "free"}}])"};
-};
-
-/// With BLACTL_LONG_TESTS set, for nights.
-int this_many(int usual, int at_night) {
-  return std::getenv("BLACTL_LONG_TESTS") != nullptr ? at_night : usual;
-}
-
-} // namespace
-
 TEST_CASE("whatever a servo is like and holds, nothing wrong is found and nothing stays changed") {
   const int servos = this_many(60, 2000);
   RandomServos chance(20261123);
@@ -601,28 +256,6 @@ TEST_CASE("whatever a servo is like and holds, nothing wrong is found and nothin
     INFO(often << " " << found[often]);
     CHECK(found[often] > servos / 3);
   }
-}
-
-TEST_CASE("whatever a servo is like and holds, a Ctrl-C at any moment leaves it so") {
-  constexpr std::size_t most_frames = 900; // beyond the end of most
-  RandomServos chance(20261124);
-  int interrupted = 0;
-  const int servos = this_many(60, 2000);
-  for (int i = 0; i < servos; ++i) {
-    const RandomServo servo = chance.next();
-    const auto at = static_cast<int>(chance.number(most_frames));
-    INFO(servo.members << servo.scene << " at " << at);
-    const Rig rig(servo.members, servo.scene);
-    const Memory before = rig.memory();
-    const Snapshot looked = rig.look();
-    rig.bus->at = rig.bus->sent + at;
-    const auto measured = characterize(*rig.session, profiles(), looked, {});
-    INFO((measured.not_put_back ? measured.not_put_back->message : ""));
-    CHECK_FALSE(measured.not_put_back);
-    check_same(rig, before);
-    interrupted += measured.error ? 1 : 0;
-  }
-  CHECK(interrupted > servos / 3);
 }
 
 TEST_CASE("a servo whose output is off at its start is not moved at all") {
@@ -706,210 +339,4 @@ TEST_CASE("the facts file holds what was measured, and sim takes it") {
   CHECK(document["about"]["name"] == "jp.co.futaba.bla21");
   CHECK(document["about"]["software"] == "1.40");
   CHECK(document["about"]["model"] == "BLA21-12U-AB");
-}
-
-TEST_CASE("what was only in RAM is given back, and ROM keeps its own") {
-  const Rig rig(R"("rom": {"soft_start": "off"}, "ram": {"angle_limit_cw": "90deg",
-      "torque_output": "brake", "speed_torque_control": "on", "timeout_time": "1500ms"})");
-  const Memory before = rig.memory();
-  CHECK(before.ram.at(bla::address::angle_limit_cw) == 900);
-  check_done(rig.measure());
-  CHECK(text(rig.memory()) == text(before));
-}
-
-TEST_CASE("a servo that was commanded an angle is commanded it again") {
-  const Rig rig;
-  rig.set("command_angle=45deg");
-  const Memory before = rig.memory();
-  CHECK(before.ram.at(bla::address::command_angle) == 450);
-  check_done(rig.measure());
-  CHECK(text(rig.memory()) == text(before));
-}
-
-TEST_CASE("a servo that is commanded to turn is not measured") {
-  const Rig rig(R"("rom": {"speed_torque_control": "on"})");
-  rig.set("command_speed=20rpm");
-  const auto refused = refuse_to_characterize(*rig.session, rig.look(), false);
-  REQUIRE(refused);
-  CHECK(refused->code == Code::cross_check);
-}
-
-TEST_CASE("a Ctrl-C at any moment leaves the servo as it was") {
-  const std::string members = GENERATE(
-      std::string(), std::string(R"("behaviour": {"soft_start_shows": true, "out_of_range": "clamp",
-          "keeps_disabled_command": false, "start_angle": "zero"}, "ram": {"angle_limit_cw": "90deg",
-          "current_angle": "100deg"}, "servo_id": 7)"),
-      std::string(R"("node_id": 0, "behaviour": {"first_node_status": "1s",
-          "answers_save_first": false, "rom_write_time": "300ms"}, "ram": {"reverse": "on"})"));
-  const bool is_dynamic = members.find("\"node_id\"") != std::string::npos;
-  const std::uint8_t id = is_dynamic ? dynamic_id : 11;
-  const auto frames = [&] {
-    const Rig rig(members);
-    (void)rig.look(id);
-    const int begun = rig.bus->sent;
-    check_done(rig.measure(id));
-    return rig.bus->sent - begun;
-  }();
-  CHECK(frames > 200);
-  // By frames of ours: no other moment is another to the servo.
-  const int step = this_many(5, 1);
-  for (int at = 1; at <= frames; at += step) {
-    const Rig rig(members);
-    const Memory before = rig.memory();
-    const Snapshot looked = rig.look(id);
-    rig.bus->at = rig.bus->sent + at;
-    const auto measured = characterize(*rig.session, profiles(), looked, {.may_allocate = true});
-    INFO(members << ": at frame " << at << " of " << frames);
-    INFO((measured.not_put_back ? measured.not_put_back->message : ""));
-    CHECK_FALSE(measured.not_put_back);
-    CHECK(text(rig.memory()) == text(before));
-    if (rig.session->signal() != 0 && measured.error) { // in the end it changes nothing any more
-      CHECK(measured.error->code == Code::interrupted);
-      CHECK(rig.session->now() - rig.bus->signalled <= put_back_time);
-    }
-  }
-}
-
-TEST_CASE("a second Ctrl-C ends at once, and says what is left") {
-  const Rig rig;
-  const Snapshot looked = rig.look();
-  rig.bus->at = rig.bus->sent + 150;
-  rig.bus->again = rig.bus->at + 1;
-  const auto measured = characterize(*rig.session, profiles(), looked, {});
-  REQUIRE(measured.error);
-  CHECK(measured.error->code == Code::interrupted);
-  REQUIRE(measured.not_put_back);
-  CHECK(measured.not_put_back->message.find("not put back") != std::string::npos);
-  CHECK(rig.session->now() - rig.bus->signalled <= 10ms);
-}
-
-TEST_CASE("what is left is recorded for undo, and nothing where all was put back") {
-  for (const bool is_left : {true, false}) {
-    const state::test::Folder folder;
-    const auto open = [&] { return state::SnapshotStore::open(folder.path, state::Access::write); };
-    History history("characterize", open().value(), state::ProofStore::unshared().value());
-    const Rig rig;
-    const Snapshot looked = rig.look();
-    rig.bus->at = is_left ? rig.bus->sent + 150 : -1;
-    rig.bus->again = is_left ? rig.bus->at + 1 : -1;
-    const auto measured = characterize(*rig.session, profiles(), looked, {.history = &history});
-    CHECK(measured.not_put_back.has_value() == is_left);
-    const auto entries = open()->entries().value();
-    REQUIRE(entries.size() == (is_left ? 1 : 0));
-    for (const auto& entry : entries) {
-      CHECK(entry.held.at(0x38) == looked.raw(bla::address::angle_limit_cw));
-      CHECK_FALSE(entry.saved);
-    }
-  }
-}
-
-TEST_CASE("whenever it restarts by itself it gets back what it held, or that is told") {
-  int done = 0, failed = 0;
-  for (int number = 60; number <= 400; number += 9) {
-    INFO("after answer " << number);
-    const Rig rig(fmt::format(R"("behaviour": {{"first_node_status": "1s"}}, "ram":
-        {{"angle_limit_cw": "90deg"}}, "faults": {{"restart_after_answer": [{{"number": {}}}]}})",
-                              number));
-    const Memory before = rig.memory();
-    const Snapshot looked = rig.look();
-    const auto measured = characterize(*rig.session, profiles(), looked, {});
-    CHECK(rig.memory().rom == before.rom);
-    CHECK(words(fact(measured, "answers_save_first").value) != "false"); // it does
-    if (measured.is_done()) {
-      ++done;
-      CHECK(text(rig.memory()) == text(before));
-    } else {
-      ++failed;
-      if (!measured.not_put_back) {
-        CHECK(rig.memory().ram == before.ram);
-      }
-    }
-  }
-  CHECK(done > 0);
-  CHECK(failed > 0);
-}
-
-TEST_CASE("a servo that restarts by itself before SAVE is not said to have saved without a word") {
-  int told = 0;
-  for (int number = 1; number <= 40; ++number) {
-    INFO("after GetNodeInfo " << number);
-    const Rig rig(fmt::format(
-        R"("faults": {{"restart_after_answer": [{{"to": "node_info", "number": {}}}]}})", number));
-    const Snapshot looked = rig.look();
-    const auto measured = characterize(*rig.session, profiles(), looked, {});
-    const Fact& found = fact(measured, "answers_save_first");
-    CHECK(words(found.value) != "false"); // it answers first
-    CHECK_FALSE(measured.not_put_back);
-    told += measured.error || found.reason.find("restarted") != std::string::npos ? 1 : 0;
-  }
-  CHECK(told > 0);
-}
-
-TEST_CASE("a setting that is not given back keeps no other from it, and only it is named") {
-  const Rig rig(R"("ram": {"angle_limit_cw": "90deg", "angle_limit_ccw": "-80deg",
-      "torque_output": "on", "timeout_time": "1500ms"})");
-  const Memory before = rig.memory();
-  const Snapshot looked = rig.look();
-  rig.bus->deafness = {.name = "0x38", .first = 2};
-  const auto measured = characterize(*rig.session, profiles(), looked, {});
-  REQUIRE(measured.error);
-  REQUIRE(measured.not_put_back);
-  INFO(measured.not_put_back->message << " / " << measured.not_put_back->hint);
-  CHECK(measured.not_put_back->message.find("not put back: angle_limit_cw (") != std::string::npos);
-  CHECK(measured.not_put_back->hint == "to put it back: blactl set -n 11 angle_limit_cw=900raw");
-  Memory after = rig.memory();
-  after.ram[bla::address::angle_limit_cw] = 900;
-  CHECK(text(without_idle_commands(after)) == text(without_idle_commands(before)));
-}
-
-TEST_CASE("what ROM gives back when it restarts is put back, although a write was not taken") {
-  const Rig rig(R"("rom": {"angle_limit_cw": "90deg"})");
-  const Memory before = rig.memory();
-  const Snapshot looked = rig.look();
-  rig.bus->deafness = {.name = "0x38", .first = 2};
-  const auto measured = characterize(*rig.session, profiles(), looked, {});
-  CHECK(measured.error);
-  INFO((measured.not_put_back ? measured.not_put_back->message : ""));
-  CHECK_FALSE(measured.not_put_back);
-  check_same(rig, before);
-}
-
-TEST_CASE("what to type to put it back names no command to move") {
-  for (int at = 60; at <= 420; at += 12) {
-    const Rig rig;
-    const Snapshot looked = rig.look();
-    rig.bus->at = rig.bus->sent + at;
-    rig.bus->again = rig.bus->at + 1;
-    const auto measured = characterize(*rig.session, profiles(), looked, {});
-    const std::string hint = measured.not_put_back ? measured.not_put_back->hint : "";
-    INFO("at " << at << ": " << hint);
-    CHECK(hint.find("command_") == std::string::npos);
-    CHECK(hint.find("555") == std::string::npos);
-  }
-}
-
-TEST_CASE("the output stays off where it would turn the shaft, and a restart is what to type") {
-  int kept_off = 0;
-  for (int at = 60; at <= 240; at += 2) {
-    const Rig rig(R"("ram": {"speed_torque_control": "on"})");
-    const Snapshot looked = rig.look();
-    rig.bus->deafness = {.name = "0x01", .first = 3}; // it keeps the speed that it was commanded
-    rig.bus->at = rig.bus->sent + at;
-    const auto measured = characterize(*rig.session, profiles(), looked, {});
-    const auto ram = rig.memory().ram;
-    const std::int64_t speed = ram.at(bla::address::command_speed);
-    const bool turns = speed != 0 && speed != bla::not_active &&
-                       ram.at(bla::address::speed_torque_control) == 1 &&
-                       ram.at(bla::address::torque_output) == 0;
-    INFO("at " << at);
-    CHECK_FALSE(turns);
-    if (measured.not_put_back && speed == 10) {
-      ++kept_off;
-      CHECK(measured.not_put_back->message.find("it would turn: command_speed") !=
-            std::string::npos);
-      CHECK(measured.not_put_back->hint ==
-            "to put it back: blactl restart -n 11 (what was in its RAM only is lost)");
-    }
-  }
-  CHECK(kept_off > 0);
 }
