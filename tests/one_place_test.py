@@ -23,7 +23,7 @@ RULES = {
         r"opcode\s*=\s*ExecuteOpcode::erase\b",
         {"src/fleet/change/erase_job.cpp"}),
     "sends a restart": (
-        r"\bRestartNode::Request\b",
+        r"\bRestartNode::Request\b(?!::decode)",
         {"src/fleet/change/save_restart_job.cpp"}),
     "writes registers": (
         r"\bwrite_register\(",
