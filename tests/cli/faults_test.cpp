@@ -53,6 +53,21 @@ TEST_CASE("faults shows the worst servo first, and what to do") {
   CHECK(result.out.ends_with("  no faults\n"));
 }
 
+TEST_CASE("a bit that no document describes is shown by its number", "[requirement-169]") {
+  const Scene scene = Scene().servo(
+      "BLA15-06U-A0", 11, {{"ram", {{"fault_warning", 0x8000'0000U}, {"fault_failure", 4}}}});
+  const Result text = scene.run({"faults"});
+  CHECK(contains(text.out, "FAILURE  Undocumented bit  [0x1B.2]\n"));
+  CHECK(contains(text.out, "WARNING  Undocumented bit  [0x1A.31]\n"));
+  const auto active = json(scene.run({"faults", "--json"}).out)["nodes"][0]["active"];
+  REQUIRE(active.size() == 2);
+  CHECK(active[0]["bit"] == 2);
+  CHECK(active[1]["bit"] == 31);
+  CHECK(active[1]["code"].is_null());
+  const Result read = scene.run({"get", "fault_warning"});
+  CHECK(contains(read.out, "bit 31: "));
+}
+
 TEST_CASE("what is set is not told as what is measured") {
   const nlohmann::json scenario{
       {"schema", "blactl-scenario/1"},

@@ -62,6 +62,28 @@ TEST_CASE("what was exported is what the servos hold") {
   CHECK(three_servos().run({"diff", "-"}, {.stdin_text = piped.out}).status == 0);
 }
 
+TEST_CASE("export writes all of 0x20 to 0x46 that can be set; IDs are left out of a recipe",
+          "[requirement-83]") {
+  std::vector<std::string> settings;
+  const auto params = ordered_json(three_servos().run({"get", "-n", "11", "--json"}).out);
+  for (const auto& param : params["nodes"][0]["params"]) {
+    const std::string address = param["address"];
+    if (address >= "0x20" && address <= "0x46" && param["access"] == "RW") {
+      settings.push_back(param["name"]);
+    }
+  }
+  CHECK(settings.size() == 34);
+  const auto written = [](const Arguments& more) {
+    Arguments arguments{"export", "-n", "11"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return ordered_json(three_servos().run(arguments).out);
+  };
+  CHECK(keys(written({})["servos"][0]["set"]) == settings);
+  CHECK(settings.back() == "static_node_id");
+  settings.resize(settings.size() - 2); // and the servo ID before it
+  CHECK(keys(written({"--recipe"})["set"]) == settings);
+}
+
 TEST_CASE("a file that names the zeros of a model without PWM input is what the servo holds") {
   const Fleet fleet(Scene().servo("BLA21-12U-A0", 11));
   Document document = fleet.exported();

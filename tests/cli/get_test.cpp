@@ -42,7 +42,7 @@ bool has(const std::vector<std::string>& all, std::string_view one) {
 
 } // namespace
 
-TEST_CASE("get has exactly the keys of the contract, in their order") {
+TEST_CASE("get has exactly the keys of the contract, in their order", "[requirement-72]") {
   const Result result =
       three_servos().run({"get", "-n", "11", "angle_limit_cw", "torque_output", "--json"});
   CHECK(result.status == 0);
@@ -83,7 +83,7 @@ TEST_CASE("get shows the register and what it means") {
   CHECK(result.out.starts_with("node 11  BLA21-12U-AB  serial 240900001  servo ID 0  firmware"));
 }
 
-TEST_CASE("a command that is not active is words and null, never its number") {
+TEST_CASE("a command that is not active is words and null, never its number", "[requirement-115]") {
   // Taking up one kind of command makes the servo end the others.
   const Bench bench;
   const Background sim(bench, {"sim"});
@@ -120,7 +120,7 @@ TEST_CASE("get keeps the order that was asked for") {
   CHECK(addresses(document) == std::vector<std::string>{"0x38", "0x45", "0x20", "0x50"});
 }
 
-TEST_CASE("get without parameters reads what can be read, by address") {
+TEST_CASE("get without parameters reads what can be read, by address", "[requirement-80]") {
   const auto all = addresses(get(three_servos(), {"-n", "11"}));
   CHECK(all.size() == 55);
   CHECK(std::ranges::is_sorted(all));

@@ -397,7 +397,8 @@ TEST_CASE("a profile that replaces a built-in one is announced") {
   CHECK(contains(result.err, "BLA34-12U-AB replaces the built-in profile"));
 }
 
-TEST_CASE("where another node has 127 the command goes on with 126, and one note says so") {
+TEST_CASE("where another node has 127 the command goes on with 126, and one note says so",
+          "[requirement-14]") {
   const Scene scene = three_servos().foreign(127);
   const std::string note = "blactl: own node ID 126: 127 is used by another node\n";
   const Result scan = scene.run({"scan"});

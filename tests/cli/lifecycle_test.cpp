@@ -119,6 +119,31 @@ TEST_CASE("set --save: the value survives the restart") {
   CHECK(rom_writes(sim.stop().out) == 1);
 }
 
+TEST_CASE("before a servo saves it is said not to cut the supply, and at no other time",
+          "[requirement-59]") {
+  const std::string warning = "blactl: do not cut the supply while servos save\n";
+  const Scene scene = Scene().servo("BLA21-12U-AB", 11, {{"faults", {{"ignore_opcodes", 1}}}});
+  for (const Arguments& saving :
+       {Arguments{"save"}, Arguments{"set", "smoothing=off", "--save"},
+        Arguments{"erase", "--save"}, Arguments{"pwm-config", "--neutral", "1600", "--save"},
+        Arguments{"alloc", "--static", "--id", "21"}, Arguments{"characterize"}}) {
+    Arguments arguments = saving;
+    arguments.insert(arguments.end(), {"-n", "11", "-y", "-v"});
+    const Result result = scene.run(arguments);
+    INFO(saving.front() << '\n' << result.err);
+    const std::size_t at = result.err.find(warning);
+    REQUIRE(at != std::string::npos);
+    CHECK(at < result.err.find("ExecuteOpcode"));
+  }
+  for (const Arguments& other : {Arguments{"restart"}, Arguments{"set", "smoothing=off"},
+                                 Arguments{"erase"}, Arguments{"get"}}) {
+    Arguments arguments = other;
+    arguments.insert(arguments.end(), {"-n", "11", "-y"});
+    INFO(other.front());
+    CHECK_FALSE(contains(three_servos().run(arguments).err, "supply"));
+  }
+}
+
 TEST_CASE("what was not saved is gone after a restart") {
   const Bench bench;
   const Background sim(bench, {"sim"});
@@ -432,7 +457,7 @@ TEST_CASE("erase alone changes RAM only; --keep-ids leaves the IDs") {
   CHECK(rom_writes(sim.stop().out) == 0);
 }
 
-TEST_CASE("what moves the shaft or erases is asked first") {
+TEST_CASE("what moves the shaft or erases is asked first", "[requirement-64]") {
   for (const Arguments& command : {Arguments{"save"}, Arguments{"restart"}, Arguments{"erase"},
                                    Arguments{"erase", "--save"}}) {
     Arguments arguments = command;

@@ -1,6 +1,7 @@
 // blactl monitor as a stream: what a pipe gets, and what it costs the bus.
 
 #include "catch.hpp"
+#include "fleet.hpp"
 #include "scene.hpp"
 
 #include <signal.h>
@@ -179,6 +180,23 @@ TEST_CASE("--listen-only sends nothing and shows what servos send by themselves"
   CHECK(bench.run({"trace", log, "--kind", "request"}).out.empty());
 }
 
+TEST_CASE("an angle that actuator.Status rounds is read from its register", "[requirement-109]") {
+  const Fleet fleet(Scene().servo(
+      "BLA21-12U-AB", 11,
+      {{"rom",
+        {{"soft_start", "off"}, {"angle_limit_cw", "2000deg"}, {"timeout_action", "hold"}}}}));
+  REQUIRE(fleet.run({"set", "-n", "11", "command_angle=1234.5deg", "-y"}).status == 0);
+  const auto last_angle = [&fleet](const Arguments& more) {
+    Arguments arguments{"monitor", "--json", "--duration", "10"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return samples_of(lines_of(fleet.run(arguments)), 11).back()["angle_deg"].get<double>();
+  };
+  const double read = last_angle({});
+  CHECK(read == Approx(static_cast<double>(fleet.ram("11", "current_angle")) / 10));
+  CHECK(last_angle({"--listen-only"}) == Approx(1234.4)); // all that a float16 can tell
+  CHECK(read != Approx(1234.4));
+}
+
 TEST_CASE("a recording tells the same as the bus did") {
   const Bench bench;
   const std::string log = (bench.folder() / "bus.log").string();
@@ -222,7 +240,8 @@ TEST_CASE("angles are not asked for where they are not shown") {
   }
 }
 
-TEST_CASE("a servo that loses its supply is stale, then offline, and comes back as itself") {
+TEST_CASE("a servo that loses its supply is stale, then offline, and comes back as itself",
+          "[requirement-26]") {
   const Scene scene = Scene()
                           .servo("BLA21-12U-AB", 11, {{"serial_number", 7}})
                           .event(7, "power_off", "3s")

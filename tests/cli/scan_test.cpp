@@ -45,7 +45,7 @@ TEST_CASE("scan lists every node in ascending order with exactly the keys of the
   CHECK(ids == std::vector{5, 11, 12, 13});
 }
 
-TEST_CASE("scan tells of a servo what its registers hold") {
+TEST_CASE("scan tells of a servo what its registers hold", "[requirement-177]") {
   const Scene scene = Scene().servo("BLA21-12U-AB", 11,
                                     {{"servo_id", 7},
                                      {"serial_number", 240900558},
@@ -108,7 +108,8 @@ TEST_CASE("what scan does not know of a foreign node is null") {
   }
 }
 
-TEST_CASE("scan warns of old firmware, faults and a model that it cannot be sure of") {
+TEST_CASE("scan warns of old firmware, faults and a model that it cannot be sure of",
+          "[requirement-85][requirement-92]") {
   const auto warning = [](const nlohmann::json& servo) {
     return scan(Scene().servo("BLA21-12U-AB", 11, servo))["nodes"][0]["warnings"][0]
         .get<std::string>();
@@ -141,7 +142,7 @@ TEST_CASE("scan shows who waits for a node ID, commands and says armed") {
   CHECK(contains(text.out, "! node 40 says armed\n"));
 }
 
-TEST_CASE("two servos with one node ID are a conflict, and both are listed") {
+TEST_CASE("two servos with one node ID are a conflict, and both are listed", "[requirement-179]") {
   const Scene scene = three_servos().servo("BLA21-12U-AB", 11, {{"servo_id", 4}});
   const Result result = scene.run({"scan", "--json"});
   CHECK(result.status == 9);
@@ -172,7 +173,7 @@ TEST_CASE("two servos with one node ID are a conflict, and both are listed") {
   CHECK(contains(text.out, "! two units use node ID 11: uid:"));
 }
 
-TEST_CASE("two servos with one servo ID are a conflict") {
+TEST_CASE("two servos with one servo ID are a conflict", "[requirement-179]") {
   const Result result = Scene()
                             .servo("BLA21-12U-AB", 11, {{"servo_id", 4}})
                             .servo("BLA21-12U-AB", 12, {{"servo_id", 4}})

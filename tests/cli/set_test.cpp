@@ -190,7 +190,32 @@ TEST_CASE("a static refusal sends not one frame") {
   CHECK(tap.frames() == 0);
 }
 
-TEST_CASE("if one of several servos refuses, none is written") {
+TEST_CASE("nothing lets the boot loader be started: no option, no file", "[requirement-80]") {
+  const Bench bench;
+  const Background sim(bench, {"sim"});
+  Tap tap(bench);
+  const std::string fleet = bench.file("fleet.json", R"({"schema": "blactl-fleet/1", "servos": [
+      {"name": "a", "match": {"node_id": 11}, "set": {"0x49": 1}}]})");
+  const std::string params = bench.file("wing.param", "0x49 1\n");
+  const std::string forbidden = "0x49 starts the boot loader: the specification forbids writing it";
+  for (const auto& [command, reason] :
+       {std::pair(Arguments{"set", "-n", "11", "0x49=1"}, forbidden),
+        std::pair(Arguments{"set", "-n", "11", "bootloader=0", "--save"}, forbidden),
+        std::pair(Arguments{"get", "-n", "11", "0x49"}, std::string("neither read nor written")),
+        std::pair(Arguments{"apply", fleet}, forbidden),
+        std::pair(Arguments{"apply", "-n", "11", params}, std::string("no setting of a BLA"))}) {
+    Arguments arguments = command;
+    arguments.insert(arguments.end(), {"-i", "sim:", "-y", "--while-driven", "--overwrite-rom",
+                                       "--profile", "BLA21-12U-AB"});
+    const Result result = bench.run(arguments);
+    INFO(command.front() << '\n' << result.err);
+    CHECK(result.status == 2);
+    CHECK(contains(result.err, reason));
+  }
+  CHECK(tap.frames() == 0);
+}
+
+TEST_CASE("if one of several servos refuses, none is written", "[requirement-77]") {
   const Bench bench;
   const Background sim(bench, {"sim"});
   Tap tap(bench);
@@ -203,13 +228,13 @@ TEST_CASE("if one of several servos refuses, none is written") {
   CHECK(tap.writes().empty());
 }
 
-TEST_CASE("a value is checked against the servo's own model") {
+TEST_CASE("a value is checked against the servo's own model", "[requirement-77]") {
   check_error(three_servos().run({"set", "-n", "13", "speed_limit_cw=100rpm"}), 2, "out_of_range",
               "node 13: speed_limit_cw=100rpm: outside of the range 0rpm to 80rpm");
   CHECK(three_servos().run({"set", "-n", "11", "speed_limit_cw=100rpm"}).status == 0);
 }
 
-TEST_CASE("what the firmware or the model lacks is refused with the reason") {
+TEST_CASE("what the firmware or the model lacks is refused with the reason", "[requirement-160]") {
   check_error(with_firmware(1100).run({"set", "angle_boost=1%"}), 2, "unsupported",
               "node 11: angle_boost (0x2F) needs firmware 1.200, this servo has 1.100\n"
               "  `blactl models BLA21-12U-AB` shows which firmware has which features");
@@ -240,7 +265,8 @@ TEST_CASE("the unit of the PWM output range must be that of the PWM mode") {
   CHECK(contains(wrong.err, "node 11: pwm_output_range=60rpm: this servo has pwm_mode="));
 }
 
-TEST_CASE("a servo that does not take the value ends with 5 and what it holds instead") {
+TEST_CASE("a servo that does not take the value ends with 5 and what it holds instead",
+          "[requirement-73]") {
   const Result refused = impostor("refuse").run({"set", "overcurrent_limit=6.5A", "-j"});
   check_error(refused, 5, "refused",
               "node 11: overcurrent_limit=6.5 A: the servo did not take it and still holds 2.1 A\n"

@@ -63,6 +63,30 @@ TEST_CASE("what every servo refuses is refused at once, with the code of the con
   CHECK(code_of("firmware_version=nonsense") == "read_only");
 }
 
+TEST_CASE("no register that can only be read, and no reserved address, is ever assigned",
+          "[requirement-79]") {
+  const auto check = [](std::initializer_list<std::pair<int, int>> ranges, const char* code) {
+    for (const auto& [first, last] : ranges) {
+      for (int address = first; address <= last; ++address) {
+        CHECK(code_of(Address(static_cast<std::uint8_t>(address)).name() + "=0") == code);
+      }
+    }
+  };
+  check({{0x08, 0x0C}, {0x18, 0x1B}, {0x50, 0x53}, {0x58, 0x5C}}, "read_only");
+  check({{0x03, 0x07},
+         {0x0D, 0x0F},
+         {0x13, 0x17},
+         {0x1C, 0x1F},
+         {0x28, 0x29},
+         {0x2B, 0x2B},
+         {0x42, 0x43},
+         {0x47, 0x48},
+         {0x4A, 0x4F},
+         {0x54, 0x57},
+         {0x5D, 0x5F}},
+        "unsupported");
+}
+
 TEST_CASE("operations lead to their commands") {
   CHECK(refused("initialize=1").code == Code::unsupported);
   CHECK(refused("initialize=1").hint == "use `blactl erase`");
@@ -94,7 +118,8 @@ TEST_CASE("a gap between the ranges of the models is outside of all of them") {
         "the models take 7.4V to 12.0V, 12.0V to 24.0V, 28.0V to 50.0V or 28.0V to 40.0V");
 }
 
-TEST_CASE("the node IDs of tools and the dummy of 0x00-0x02 are never assigned") {
+TEST_CASE("the node IDs of tools and the dummy of 0x00-0x02 are never assigned",
+          "[requirement-115]") {
   CHECK(code_of("static_node_id=126") == "out_of_range");
   CHECK(code_of("0x46=127") == "out_of_range");
   CHECK(code_of("static_node_id=128") == "out_of_range");

@@ -19,7 +19,7 @@ bool stalls(const char* name, std::optional<std::int64_t> firmware) {
 
 } // namespace
 
-TEST_CASE("BLA15 and BLA21 before firmware 1.400 may stall at low speed") {
+TEST_CASE("BLA15 and BLA21 before firmware 1.400 may stall at low speed", "[requirement-92]") {
   for (const char* name : {"BLA15-12U-A0", "BLA21-12U-AB"}) {
     INFO(name);
     CHECK(stalls(name, 1000));

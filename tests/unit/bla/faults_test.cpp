@@ -58,7 +58,7 @@ TEST_CASE("the worst faults come first") {
                                       "pwm_missing"});
 }
 
-TEST_CASE("a bit that no document describes is a fault without a code") {
+TEST_CASE("a bit that no document describes is a fault without a code", "[requirement-169]") {
   const auto found = faults({{address::fault_failure, 1 << 31 | 1 << 2}}, built_in());
   REQUIRE(found.size() == 2);
   CHECK(found[0].bit == 2);
@@ -69,7 +69,7 @@ TEST_CASE("a bit that no document describes is a fault without a code") {
   CHECK(found[1].level == Level::failure);
 }
 
-TEST_CASE("0x18 tells which of the others need to be read") {
+TEST_CASE("0x18 tells which of the others need to be read", "[requirement-168]") {
   const auto details = [](std::int64_t summary) {
     return fault_details({{address::fault_summary, summary}}, built_in());
   };

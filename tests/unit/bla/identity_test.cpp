@@ -35,7 +35,8 @@ const Profile& model(std::string_view name) {
 
 } // namespace
 
-TEST_CASE("each model is known with certainty by its own numbers") {
+TEST_CASE("each model is known with certainty by its own numbers",
+          "[requirement-85][requirement-86]") {
   for (const Profile& profile : built_in().all()) {
     const Identity identity = identify(profile.model_number, profile.hardware_version);
     CHECK(identity.profile() == &profile);
@@ -46,7 +47,8 @@ TEST_CASE("each model is known with certainty by its own numbers") {
   }
 }
 
-TEST_CASE("a hardware version of a later production period still tells class and suffix") {
+TEST_CASE("a hardware version of a later production period still tells class and suffix",
+          "[requirement-86]") {
   const Identity suffix_open = identify(61, 12'011);
   CHECK(suffix_open.profile() == nullptr);
   CHECK_FALSE(suffix_open.certain());
@@ -82,7 +84,8 @@ TEST_CASE("an unknown voltage class refuses what hangs on it") {
   CHECK(answer(identify(61, std::nullopt), 0x38, 900) == "yes");
 }
 
-TEST_CASE("where candidates differ, a register is shown with the range of all models") {
+TEST_CASE("where candidates differ, a register is shown with the range of all models",
+          "[requirement-85]") {
   const Identity open = identify(61, 24'050);
   CHECK(open.parameter(Address(0x2A)) == built_in().find(Address(0x2A)));
   CHECK(open.parameter(Address(0x2C)) == model("BLA21-06U-AB").find(Address(0x2C)));
@@ -132,7 +135,7 @@ TEST_CASE("--profile fills what is open for reading, and contradicts nothing") {
   CHECK(refused.error().message == "the servo is BLA21-12U-AB, not BLA21-28U-AB");
 }
 
-TEST_CASE("nothing is written that the register does not take") {
+TEST_CASE("nothing is written that the register does not take", "[requirement-79]") {
   const Identity servo = identify(61, 12'050);
   CHECK(answer(servo, 0x38, 1799) == "yes");
   CHECK(answer(servo, 0x38, -1) == "out_of_range");
@@ -148,7 +151,7 @@ TEST_CASE("nothing is written that the register does not take") {
   CHECK(answer(servo, 0x02, not_active) == "out_of_range");
 }
 
-TEST_CASE("without a PWM input 0x34-0x37 take 0 alone") {
+TEST_CASE("without a PWM input 0x34-0x37 take 0 alone", "[requirement-160]") {
   for (const Profile& profile : built_in().all()) {
     const Identity servo = identify(profile.model_number, profile.hardware_version);
     for (const int address : {0x34, 0x35, 0x36, 0x37}) {
@@ -166,7 +169,7 @@ TEST_CASE("without a PWM input 0x34-0x37 take 0 alone") {
         "BLA15-06U-A0 has no PWM input: pwm_neutral (0x34) can only be 0");
 }
 
-TEST_CASE("registers that the firmware lacks are not written") {
+TEST_CASE("registers that the firmware lacks are not written", "[requirement-90][requirement-91]") {
   const auto written = [](std::optional<std::int64_t> version) {
     std::string all;
     const Identity servo = identify(61, 12'050, version);
@@ -209,7 +212,7 @@ Addresses configuration_of(const Identity& identity) {
 } // namespace
 
 TEST_CASE("the configuration is what SAVE keeps and can be read and written, by address",
-          "[requirement-82]") {
+          "[requirement-82][requirement-80][requirement-83]") {
   // Tables 3-5 to 3-8: no gaps of the reserved addresses, nothing below 0x20, not 0x49.
   CHECK(configuration_of(identify(61, 12050)) ==
         Addresses{0x20, 0x21, 0x22, 0x23, 0x24, 0x25, 0x26, 0x27, 0x2A, 0x2C, 0x2D, 0x2E,

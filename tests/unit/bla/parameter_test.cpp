@@ -34,7 +34,8 @@ TEST_CASE("groups have the words of the contract") {
   CHECK_FALSE(find_group(""));
 }
 
-TEST_CASE("a register's number is the low bits of what the servo sends, sign-extended") {
+TEST_CASE("a register's number is the low bits of what the servo sends, sign-extended",
+          "[requirement-76]") {
   constexpr Width int8{8, true};
   constexpr Width uint8{8, false};
   constexpr Width int16{16, true};

@@ -131,7 +131,7 @@ TEST_CASE("levels have the words of the contract") {
   CHECK(name(Level::failure) == "failure");
 }
 
-TEST_CASE("firmware versions are shown as the specification writes them") {
+TEST_CASE("firmware versions are shown as the specification writes them", "[requirement-91]") {
   CHECK(firmware_text(1400) == "1.400");
   CHECK(firmware_text(1010) == "1.010");
   CHECK(firmware_text(12005) == "12.005");

@@ -267,7 +267,7 @@ TEST_CASE("0x36 is shown by 0x37, else as the register's number") {
   CHECK(input_text(range, 700, 1) == "700rpm");
 }
 
-TEST_CASE("555,555,555 in 0x00-0x02 is never shown as a number") {
+TEST_CASE("555,555,555 in 0x00-0x02 is never shown as a number", "[requirement-115]") {
   for (const char* parameter : {"command_angle", "command_speed", "command_torque"}) {
     const Parameter& command = test::parameter(parameter);
     CHECK(display(command, not_active) == "not active");

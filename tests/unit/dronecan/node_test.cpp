@@ -187,7 +187,7 @@ TEST_CASE("a question goes out at once, and its answer ends the job") {
   CHECK(bench.sent().empty());
 }
 
-TEST_CASE("a read and a write of a register are these frames") {
+TEST_CASE("a read and a write of a register are these frames", "[requirement-68]") {
   Bench bench;
   Talk read({ask_register(11, "0x38")});
   Talk write({ask_register(12, "0x38", std::int64_t{900})});
@@ -319,7 +319,7 @@ TEST_CASE("a late answer to an earlier try is no answer") {
   CHECK(talk.outcomes == Kinds{start, answered});
 }
 
-TEST_CASE("what is not the answer to this question is no answer") {
+TEST_CASE("what is not the answer to this question is no answer", "[requirement-12]") {
   Bench bench;
   Talk talk({ask_register(10, "0x38")});
   bench.node.start(talk, bench.now);

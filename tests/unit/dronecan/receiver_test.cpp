@@ -91,7 +91,7 @@ TEST_CASE("transfer IDs may jump") {
   CHECK(ear.heard.size() == 6);
 }
 
-TEST_CASE("senders, destinations and types do not disturb each other") {
+TEST_CASE("senders, destinations and types do not disturb each other", "[requirement-13]") {
   std::vector<std::vector<can::Frame>> transfers;
   for (std::uint8_t node = 1; node <= 100; ++node) {
     transfers.push_back(transfer(message_from(node), 7, 30, node));

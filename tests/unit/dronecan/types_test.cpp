@@ -2,6 +2,8 @@
 #include "fields.hpp"
 #include "support.hpp"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -81,7 +83,7 @@ template <class Type> void fuzz() {
 
 } // namespace
 
-TEST_CASE("any bytes are decoded or refused") {
+TEST_CASE("any bytes are decoded or refused", "[requirement-19]") {
   SECTION("NodeStatus") {
     fuzz<NodeStatus>();
   }
@@ -184,13 +186,35 @@ TEST_CASE("node information keeps certificate and name apart") {
   CHECK(GetNodeInfo::Response::decode(largest.encode().bytes()) == largest);
 }
 
+TEST_CASE("fields that a servo does not use may hold anything", "[requirement-18]") {
+  for (const std::uint8_t filling : std::to_array<std::uint8_t>({0x00, 0x5A, 0xFF})) {
+    GetNodeInfo::Response servo = info;
+    servo.certificate.clear(); // its length is a field in use
+    auto bytes = unhex(encoded(servo));
+    bytes[4] = static_cast<std::uint8_t>((bytes[4] & 0xF8U) | (filling & 0x07U)); // sub_mode
+    std::fill(bytes.begin() + 5, bytes.begin() + 7, filling);                     // vendor status
+    std::fill(bytes.begin() + 9, bytes.begin() + 22, filling); // flags, VCS commit, image CRC
+    const auto read = GetNodeInfo::Response::decode(bytes);
+    REQUIRE(read);
+    CHECK(read->status.uptime_s == 1);
+    CHECK(read->status.health == Health::error);
+    CHECK(read->status.mode == Mode::maintenance);
+    CHECK(read->software_major == 1);
+    CHECK(read->software_minor == 2);
+    CHECK(read->hardware_major == 4);
+    CHECK(read->hardware_minor == 5);
+    CHECK(read->unique_id == info.unique_id);
+    CHECK(read->name == info.name);
+  }
+}
+
 TEST_CASE("a certificate that says it is longer than the payload is refused") {
   auto bytes = unhex(encoded(info));
   bytes[40] = 200;
   CHECK_FALSE(GetNodeInfo::Response::decode(bytes));
 }
 
-TEST_CASE("arrays beyond their limit are refused") {
+TEST_CASE("arrays beyond their limit are refused", "[requirement-19]") {
   const auto long_name = [](std::string_view head, std::size_t size) {
     auto bytes = unhex(head);
     bytes.insert(bytes.end(), size, 'n');

@@ -20,7 +20,8 @@ std::string servo_11(const char* more) {
 
 } // namespace
 
-TEST_CASE("0x18 that shows no bit of a level tells what its register holds, unread") {
+TEST_CASE("0x18 that shows no bit of a level tells what its register holds, unread",
+          "[requirement-168]") {
   Scene scene(servo_11(""));
   scene.grow_old();
   const auto states = read_faults(*scene.session, profiles(), node_11, {});

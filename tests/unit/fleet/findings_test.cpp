@@ -195,7 +195,7 @@ TEST_CASE("another allocator and servos of one servo ID other than 0 are notes f
                                  "nodes 11, 12 have the same servo ID 4"});
 }
 
-TEST_CASE("a node that has gone silent is offline") {
+TEST_CASE("a node that has gone silent is offline", "[requirement-26]") {
   Bus bus;
   bus.servo(11, 1);
   bus.now += 2999ms;

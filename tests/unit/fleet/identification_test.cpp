@@ -81,7 +81,7 @@ void hear_node(Roster& roster) {
 
 } // namespace
 
-TEST_CASE("a servo is asked for its unique ID, 0x50-0x53 and 0x45, each once") {
+TEST_CASE("a servo is asked for its unique ID, 0x50-0x53 and 0x45, each once", "[requirement-14]") {
   Scene scene(one_servo);
   const Servo servo = scene.identify(11);
   CHECK(scene.member(11).is_known());

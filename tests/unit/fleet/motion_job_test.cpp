@@ -161,7 +161,8 @@ TEST_CASE("what was sampled is the trajectory of the servo, to the resolution of
   CHECK(moving >= 10); // on the way, not only at its ends
 }
 
-TEST_CASE("no command waits longer than half of the servo's timeout, whatever is not answered") {
+TEST_CASE("no command waits longer than half of the servo's timeout, whatever is not answered",
+          "[requirement-149]") {
   // Answers are 30 ms late: reads block the way of commands.
   const std::string slow = R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11,
       "behaviour": {"answer_delay": "30ms"},

@@ -39,7 +39,7 @@ bool contains(const std::string& text, const std::string& part) {
 
 } // namespace
 
-TEST_CASE("commands are repeated at less than half of the servo's timeout") {
+TEST_CASE("commands are repeated at less than half of the servo's timeout", "[requirement-149]") {
   for (const std::int64_t timeout_ms : {50, 60, 100, 250, 1000, 60'000}) {
     const auto planned = plan(wanted("command_angle=45deg"), {{at::timeout_time, timeout_ms}});
     REQUIRE(planned);

@@ -256,7 +256,8 @@ TEST_CASE("speed and torque are refused while the servo does not take them, and 
   CHECK(try_plan(set({"command_angle=10deg"}), off));
 }
 
-TEST_CASE("what the manufacturer advises to leave as it is is warned of, and done") {
+TEST_CASE("what the manufacturer advises to leave as it is is warned of, and done",
+          "[requirement-175]") {
   const Plan plan = plan_for(set({"speed_p_gain=5", "reverse=on"}));
   CHECK(plan.acts());
   REQUIRE(plan.warnings.size() == 1);
@@ -267,6 +268,11 @@ TEST_CASE("what the manufacturer advises to leave as it is is warned of, and don
   REQUIRE(usual);
   const auto back = set({fmt::format("speed_p_gain={}", *usual)});
   CHECK(plan_for(back, {{at::speed_p_gain, 5}}).warnings.empty());
+  for (const char* other : {"0x31=5", "0x32=5", "0x33=5"}) {
+    const auto warnings = plan_for(set({other})).warnings;
+    REQUIRE(warnings.size() == 1);
+    CHECK(warnings[0].code == "leave_at_default");
+  }
 }
 
 TEST_CASE("limits of speed and torque are warned of once while their switch is off") {
@@ -399,7 +405,7 @@ TEST_CASE("a save is asked by what it saves, not by what was there before") {
   CHECK(asks(plan_for(set({"torque_output=on"}, true), torque_off), "its output drops"));
 }
 
-TEST_CASE("ERASE is always asked, with the IDs that it takes or keeps") {
+TEST_CASE("ERASE is always asked, with the IDs that it takes or keeps", "[requirement-64]") {
   const bla::Values held{{at::servo_id, 7}, {at::static_node_id, 11}};
   const Plan all = plan_for(erase, held);
   CHECK(asks(all, "servo_id 7 -> 0, static_node_id 11 -> 0"));

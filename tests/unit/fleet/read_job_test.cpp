@@ -146,7 +146,7 @@ TEST_CASE("who does not answer is not read") {
   CHECK(job.snapshot().readings.empty());
 }
 
-TEST_CASE("a register that the servo refuses does not hinder the others") {
+TEST_CASE("a register that the servo refuses does not hinder the others", "[requirement-72]") {
   Scene scene(R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11}])");
   ReadJob job(scene.roster(), NodeId(11), profiles(), {},
               [](const Servo& servo) -> Result<std::vector<const bla::Parameter*>> {
@@ -175,7 +175,7 @@ TEST_CASE("a register that is not answered does not hinder the others") {
   CHECK_FALSE(job.snapshot().raw(bla::address::angle_limit_cw));
 }
 
-TEST_CASE("what is read is narrowed to the width of its register") {
+TEST_CASE("what is read is narrowed to the width of its register", "[requirement-76]") {
   Scene scene(one_servo);
   scene.grow_old();
   scene.identify(11);

@@ -14,7 +14,7 @@ constexpr bla::Width int16{.bits = 16};
 
 } // namespace
 
-TEST_CASE("registers are read and written by name, as patiently as asked for") {
+TEST_CASE("registers are read and written by name, as patiently as asked for", "[requirement-68]") {
   const auto read = read_register(server, angle_limit_cw, {.timeout = 70ms, .retries = 5});
   CHECK(text(read) == "read 0x38");
   CHECK(read.server == server);
@@ -40,7 +40,7 @@ TEST_CASE("an answer bears the register's name, or says nothing at all") {
   CHECK_FALSE(question.accepts({}));
 }
 
-TEST_CASE("only an integer is a register's value") {
+TEST_CASE("only an integer is a register's value", "[requirement-72]") {
   Script script;
   const auto value = [&](GetSet::Value held) {
     return register_value(script.value("0x38", std::move(held)), server, angle_limit_cw, int16);

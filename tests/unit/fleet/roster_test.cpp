@@ -337,7 +337,7 @@ TEST_CASE("two nodes with one ID show by uptimes that interleave") {
   CHECK(ear.roster.is_doubled(NodeId(10)));
 }
 
-TEST_CASE("restarts are counted and are no doubled ID") {
+TEST_CASE("restarts are counted and are no doubled ID", "[requirement-25]") {
   Ear ear;
   for (std::uint32_t run = 0; run < 20; ++run) {
     for (std::uint32_t uptime = 0; uptime < 5 + run; ++uptime) {
@@ -346,6 +346,17 @@ TEST_CASE("restarts are counted and are no doubled ID") {
     }
     CHECK(ear.roster.find(NodeId(10))->boots == run);
   }
+  CHECK_FALSE(ear.roster.is_doubled(NodeId(10)));
+}
+
+TEST_CASE("who is younger than a silence has restarted; who is as old as before it has not",
+          "[requirement-25]") {
+  const auto [uptime, boots] = GENERATE(std::pair(165U, 0U), std::pair(120U, 1U));
+  Ear ear;
+  ear.status(10, 105);
+  ear.now += 60s;
+  ear.status(10, uptime); // not less than before, in either case
+  CHECK(ear.roster.find(NodeId(10))->boots == boots);
   CHECK_FALSE(ear.roster.is_doubled(NodeId(10)));
 }
 

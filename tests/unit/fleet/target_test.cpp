@@ -100,7 +100,8 @@ TEST_CASE("a foreign target cannot write to the terminal") {
   CHECK(parse_targets("\x1b[2J").error().message.find('\x1b') == std::string::npos);
 }
 
-TEST_CASE("a servo is meant by its ID, unique ID, serial number, servo ID and model") {
+TEST_CASE("a servo is meant by its ID, unique ID, serial number, servo ID and model",
+          "[requirement-177]") {
   const Member member = servo(11);
   for (const char* list : {"11",
                            "10-12",

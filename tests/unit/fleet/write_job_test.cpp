@@ -170,7 +170,7 @@ TEST_CASE("a servo that keeps its old value refused") {
   CHECK(job.changes()[1].status == ChangeStatus::written); // the others are written all the same
 }
 
-TEST_CASE("a servo that holds another value than was written is a mismatch") {
+TEST_CASE("a servo that holds another value than was written is a mismatch", "[requirement-73]") {
   Scene scene(R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11,
                              "ram": {"torque_limit_cw": "50%"},
                              "behaviour": {"out_of_range": "clamp"}}])");
@@ -385,7 +385,8 @@ TEST_CASE("a servo that restarts with every write is given up") {
   CHECK(job.changes()[1].status == ChangeStatus::planned);
 }
 
-TEST_CASE("the value that is read back is narrowed to the width of its register") {
+TEST_CASE("the value that is read back is narrowed to the width of its register",
+          "[requirement-76]") {
   Bench bench;
   WriteJob job = bench.job({change("angle_limit_ccw", -900, -1799)});
   CHECK(bench.begin(job) == "write 0x39=-900");
