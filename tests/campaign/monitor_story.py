@@ -26,7 +26,7 @@ def check(outcome, step, defaults, alone):
     last = {}
     lines = [json.loads(line) for line in outcome.out.splitlines()[:-1]]
     require(lines or outcome.status != 0, "0, but of no servo")
-    require(not lines or outcome.status != 4, "4, but lines of a servo")
+    require(not lines or outcome.status != 4 or lines[-1]["stale"], "4, but lines of a servo")
     check_values(outcome, lines)
     for line in lines:
         if line["serial_number"] is not None:

@@ -20,6 +20,8 @@ class Step:
         self.given_before, self.given = given, {**given, **dict(self.allocated())}
         for serial in self.made_static():
             self.given.pop(serial, None)  # the table has that one
+        if any(wishes_ids(command.words) for command in commands):
+            self.given = {}  # the table may hold what was wished for a servo that did not get it
 
     def restarts(self, serial):
         """The times."""
@@ -185,6 +187,11 @@ class Step:
     def _faults(self, serial):
         return next(servo.get("faults", {}) for servo in self._scenario["servos"]
                     if servo["serial_number"] == serial)
+
+
+def wishes_ids(words):
+    """Whether a command may enter other node IDs into the allocation table."""
+    return words[0] in ("apply", "undo") or "--static" in words
 
 
 def has_lost_rom(state):

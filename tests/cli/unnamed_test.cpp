@@ -47,6 +47,16 @@ TEST_CASE("what SAVE makes permanent beside what was named is said before, from 
   CHECK(warning(saved)["code"] == "unnamed_saved");
 }
 
+TEST_CASE("what characterize has put back is in RAM only as before, though the servo restarted") {
+  const Fleet fleet(one_servo());
+  try_out(fleet);
+  REQUIRE(fleet.run({"characterize", "-n", "11", "-y"}).status == 0);
+  CHECK(fleet.ram("11", "angle_limit_cw") == 700);
+  const Result saved = fleet.run({"set", "-n", "11", "smoothing=off", "--save", "-y", "--json"});
+  CHECK(warning(saved)["code"] == "unnamed_saved");
+  CHECK(contains(saved.err, "angle_limit_cw is 70.0 deg since a change in RAM only"));
+}
+
 TEST_CASE("a restart says before what it loses, records it, and undo brings it back to RAM") {
   const Fleet fleet(one_servo());
   try_out(fleet);

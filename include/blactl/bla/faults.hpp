@@ -43,9 +43,9 @@ struct Cause {
 /// By what the servo holds; empty texts: an undocumented bit.
 [[nodiscard]] Cause cause(const Fault& fault, const Values& values);
 
-/// Whether it holds the motor output off: a measured value beyond its limit (4.7, 4.8), or a failure
-/// that is present (4.12). Empty: unknown. At its limit a value sets the bit, and what the output
-/// does then is unproven.
+/// Whether it holds the motor output off: a measured value beyond its limit (4.7, 4.8), or a
+/// failure that is present (4.12). Empty: unknown. At its limit a value sets the bit, and what the
+/// output does then is unproven.
 [[nodiscard]] std::optional<bool> holds_output_off(const Fault& fault, const Values& values);
 
 /// The value of a fault register: as read, or 0 if 0x18 shows that none of its bits is set. Empty:

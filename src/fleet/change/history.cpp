@@ -280,8 +280,6 @@ std::optional<bla::Values> History::proven_rom(const Servo& servo, const Session
   return values;
 }
 
-/// The changes in RAM only since its start, the newest first. With `ram`, also those that the clock
-/// puts before its start, which RAM still shows: clocks are set.
 std::vector<state::SnapshotEntry> History::unsaved(const Servo& servo, const Session& session,
                                                    const Snapshot* ram) const {
   std::vector<state::SnapshotEntry> entries;
@@ -301,6 +299,15 @@ std::vector<state::SnapshotEntry> History::unsaved(const Servo& servo, const Ses
     entry = snapshots_.before(entries.back());
   }
   return entries;
+}
+
+Result<void> History::renew(std::vector<state::SnapshotEntry> changes, const Session& session) {
+  for (state::SnapshotEntry& change : changes) {
+    change.at = session.wall();
+  }
+  const auto kept = changes.empty() ? Result<std::vector<std::int64_t>>()
+                                    : snapshots_.keep(changes, session.wall());
+  return kept ? Result<void>() : std::unexpected(kept.error());
 }
 
 bla::Values History::replaced_in_ram(const Servo& servo, const Session& session) const {

@@ -110,10 +110,17 @@ std::optional<Error> record(const Session& session, const Snapshot& before,
   return kept || !manner.not_recorded ? std::nullopt : manner.not_recorded(kept.error());
 }
 
-void take_back(const Servo& servo, const BenchManner& manner) {
+/// `in_ram`: the changes in RAM only that it holds again.
+void take_back(const Session& session, const Servo& servo, std::vector<state::SnapshotEntry> in_ram,
+               const BenchManner& manner) {
+  if (manner.history == nullptr) {
+    return;
+  }
   const auto unique_id = servo.unique_id.value_or(dronecan::UniqueId{});
-  const auto taken = manner.history != nullptr ? manner.history->take_back(std::span(&unique_id, 1))
-                                               : Result<void>();
+  auto taken = manner.history->take_back(std::span(&unique_id, 1));
+  if (taken) {
+    taken = manner.history->renew(std::move(in_ram), session);
+  }
   if (!taken && manner.end_not_recorded) {
     manner.end_not_recorded(taken.error());
   }
@@ -170,6 +177,8 @@ std::string question_to_characterize(const Snapshot& before) {
 Characterization characterize(Session& session, const bla::Profiles& profiles,
                               const Snapshot& before, const BenchManner& manner) {
   const Servo& servo = before.servo;
+  auto in_ram = manner.history != nullptr ? manner.history->unsaved(servo, session, &before)
+                                          : std::vector<state::SnapshotEntry>();
   if (auto refused = record(session, before, manner)) {
     Characterization none;
     none.servo = servo;
@@ -206,7 +215,7 @@ Characterization characterize(Session& session, const bla::Profiles& profiles,
   if (bench.was_saved_by_other()) {
     keep_as_saved(session, servo, manner);
   } else if (given) {
-    take_back(servo, manner);
+    take_back(session, servo, std::move(in_ram), manner);
   }
   return measured;
 }

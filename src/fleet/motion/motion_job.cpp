@@ -200,12 +200,10 @@ Step MotionJob::move() {
 }
 
 /// Late responses leave time for either a command or a read: they take turns, as far as the servo's
-/// timeout allows.
+/// timeout allows. Where it is read where to end, the last command is repeated only before that.
 Time MotionJob::command_due() const {
-  if (phase_ == Phase::ending && !has_end_) {
-    return never;
-  }
-  return last_command_ + (reads_first_ ? plan_.longest_gap : plan_.period);
+  const bool reads = reads_first_ || (phase_ == Phase::ending && !has_end_);
+  return last_command_ + (reads ? plan_.longest_gap : plan_.period);
 }
 
 Step MotionJob::command(std::int64_t raw) {

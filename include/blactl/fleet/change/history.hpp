@@ -53,6 +53,15 @@ class History {
   /// the last one again.
   [[nodiscard]] Result<void> take_back(std::span<const dronecan::UniqueId> units);
 
+  /// The changes of a servo in RAM only since its start, the newest first. With `ram`, also those
+  /// that the clock puts before its start, which RAM still shows: clocks are set.
+  [[nodiscard]] std::vector<state::SnapshotEntry>
+  unsaved(const Servo& servo, const Session& session, const Snapshot* ram = nullptr) const;
+
+  /// Restarts have lost these changes, and RAM was given them again: they are of its present run.
+  [[nodiscard]] Result<void> renew(std::vector<state::SnapshotEntry> changes,
+                                   const Session& session);
+
   /// The contents of this servo's ROM, if proven and it has not restarted since; else empty, also
   /// if the record cannot be read.
   [[nodiscard]] std::optional<bla::Values> proven_rom(const Servo& servo, const Session& session);
@@ -71,8 +80,6 @@ class History {
   [[nodiscard]] std::optional<state::SnapshotEntry> entry_of(const Plan& plan,
                                                              const Session& session);
   [[nodiscard]] bla::Values taken_from_ram(const Plan& plan, const Session& session);
-  [[nodiscard]] std::vector<state::SnapshotEntry>
-  unsaved(const Servo& servo, const Session& session, const Snapshot* ram = nullptr) const;
   [[nodiscard]] Result<void> leave_what_was_lost(std::span<const ChangeResult> results,
                                                  WallTime now);
   [[nodiscard]] Result<void> settle(std::span<const ChangeResult> results);
