@@ -93,13 +93,14 @@ class Campaign:
             try:
                 before = begun(world.dump()[1])
                 power_on = min(state["time"] for state in before.values())
-                given, unsaved = {}, {}
+                given, unsaved, earlier = {}, {}, []
                 for index, commands in enumerate(episode.steps):
                     told = bench.run_at_once(self.blactl, folder, world, commands, options)
                     events, after = world.dump()
                     step = truth.Step(commands, before, events, after, episode.scenario, power_on,
-                                      given, unsaved)
+                                      given, unsaved, earlier)
                     given = step.given
+                    earlier = earlier + events
                     if check:
                         check(told, step)
                         self.check_use(told, episode.must_succeed(index))

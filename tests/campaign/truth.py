@@ -10,13 +10,15 @@ class Step:
     """One step of an episode: `commands` at once. `before`, `after`: the state of every servo by its serial number;
     `events`: what happened to them between; `scenario`: what was to go wrong after `power_on`;
     `given`: the node IDs that servos were given before, and then those of this step, too;
-    `unsaved`: what commands had written before, in RAM only."""
+    `unsaved`: what commands had written before, in RAM only; `earlier`: what happened before."""
 
-    def __init__(self, commands, before, events, after, scenario, power_on, given, unsaved):
+    def __init__(self, commands, before, events, after, scenario, power_on, given, unsaved,
+                 earlier):
         self._commands = commands
         self.before, self.after = before, after
         self._events, self._scenario, self._power_on = events, scenario, power_on
         self.unsaved = unsaved
+        self._earlier = earlier
         self.given_before, self.given = given, {**given, **dict(self.allocated())}
         for serial in self.made_static():
             self.given.pop(serial, None)  # the table has that one
@@ -182,6 +184,10 @@ class Step:
         if any(name in faults for name in ("restart_after_answer", "restart_instead_of_answer",
                                            "power_loss_in_save", "return_delay")):
             times += [time + delay for time in self.restarts(serial)]
+        if delay:  # it may be away from an earlier step on
+            times += [line["time"] + delay for line in self._earlier
+                      if line["event"] == "restart" and line["serial_number"] == serial and
+                      line["time"] + delay > start]
         return times
 
     def _faults(self, serial):

@@ -99,6 +99,29 @@ TEST_CASE("a servo that was done in the first step is looked at again in the end
   CHECK(told > 0);
 }
 
+TEST_CASE("apply --no-save looks again at a servo that held the file already") {
+  int told = 0;
+  for (int at = 1100; at < 1170; at += 10) {
+    const Fleet fleet(Scene()
+                          .servo("BLA21-12U-AB", 11,
+                                 {{"servo_id", 1}, {"serial_number", 1}, {"ram", {{"0x22", 0}}}})
+                          .servo("BLA21-12U-AB", 12, {{"servo_id", 2}, {"serial_number", 2}})
+                          .event(1, "clock_error", std::to_string(at) + "ms"));
+    const Result apply = fleet.apply(
+        {{"schema", "blactl-fleet/1"},
+         {"servos",
+          {{{"name", "a"}, {"match", {{"serial_number", 1}}}, {"set", {{"smoothing", "off"}}}},
+           {{"name", "b"}, {"match", {{"serial_number", 2}}}, {"set", {{"smoothing", "off"}}}}}}},
+        {"--no-save"});
+    INFO(at << " ms: " << apply.err);
+    told += contains(apply.err, "node 11 has restarted since") ? 1 : 0;
+    if (apply.status == 0) {
+      CHECK(fleet.ram("11", "smoothing") == 0);
+    }
+  }
+  CHECK(told > 0);
+}
+
 TEST_CASE("what another tool has saved meanwhile is not in RAM only, and undo puts ROM back") {
   int told = 0;
   for (int at = 1650; at < 2600; at += 50) {
