@@ -29,7 +29,7 @@ dronecan::TransferId transfer_id(const can::Frame& frame) {
 /// A servo alone on the bus gets no acknowledgement: when another node joins, its waiting frames
 /// come all at once. But one unit numbers its transfers consecutively; if the numbers of two units
 /// mix, at least every second one is out of sequence.
-void MessageRate::count(const can::Frame& frame, Time at) {
+void MessageRate::count(const can::Frame& frame, Time at, bool may_leap) {
   const bool is_repeated = frame == last_ && at - last_at_ < repetition_time;
   const unsigned next = transfer_id(last_) + 1U;
   last_ = frame;
@@ -41,7 +41,7 @@ void MessageRate::count(const can::Frame& frame, Time at) {
     window_start_ = at;
     count_ = leaps_ = 0;
   }
-  leaps_ += transfer_id(frame) != next % dronecan::transfer_id_modulus ? 1U : 0U;
+  leaps_ += may_leap && transfer_id(frame) != next % dronecan::transfer_id_modulus ? 1U : 0U;
   ++count_;
   is_of_two_ = is_of_two_ || (count_ > most_ && leaps_ * 4 > count_);
 }
@@ -53,11 +53,12 @@ void UnitWatch::count_actuator_status(const can::Frame& frame, Time at) {
 }
 
 void UnitWatch::count_node_status(const can::Frame& frame, std::uint32_t uptime_s, Time at) {
-  if (uptime_s < std::exchange(counted_uptime_s_, uptime_s)) {
+  const std::uint32_t before = std::exchange(counted_uptime_s_, uptime_s);
+  if (uptime_s < before) {
     node_statuses_.begin_anew();
   }
   if (is_timed_) {
-    node_statuses_.count(frame, at);
+    node_statuses_.count(frame, at, uptime_s == before);
   }
 }
 

@@ -506,8 +506,8 @@ TEST_CASE("neither a fast NodeStatus, nor lost ones, nor restarts show a second 
     ear.now += i % 2 == 0 ? 1s : 500ms;
   }
   for (std::uint8_t i = 0; i < 20; i += 2) {
-    ear.status(47, i, i); // every second one is lost
-    ear.now += 2s;
+    ear.status(47, i, i);                              // every second one is lost
+    ear.now += i < 10 ? Duration(2s) : Duration(10ms); // and the rest was read late
   }
   for (const std::uint8_t id : {std::uint8_t{46}, std::uint8_t{47}, std::uint8_t{48}}) {
     INFO(+id);

@@ -21,8 +21,9 @@ class MessageRate {
   constexpr MessageRate(Duration window, unsigned most) : window_(window), most_(most) {}
 
   /// The first frame of one. It counts once if it comes twice, as where the end of its
-  /// acknowledgement was disturbed.
-  void count(const can::Frame& frame, Time at);
+  /// acknowledgement was disturbed. `may_leap`: a transfer ID out of sequence is another unit's,
+  /// and does not come of losses.
+  void count(const can::Frame& frame, Time at, bool may_leap = true);
 
   /// The sender has restarted.
   void begin_anew() { window_start_.reset(); }
@@ -98,7 +99,8 @@ class UnitWatch {
   /// A BLA servo sends actuator.Status every 100 ms (table 2-2): with the worst delays one cannot
   /// send more than fourteen in a second.
   MessageRate actuator_statuses_{std::chrono::seconds(1), 14};
-  /// One a second is due, and who sends more of them numbers them consecutively.
+  /// One a second is due; who sends more of them in the same second of its uptime numbers them
+  /// consecutively.
   MessageRate node_statuses_{std::chrono::seconds(3), 4};
   std::uint32_t counted_uptime_s_ = 0;                            ///< of the last one
   std::optional<dronecan::TransferId> last_status_id_{};          ///< of NodeStatus
