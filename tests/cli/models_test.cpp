@@ -119,9 +119,10 @@ TEST_CASE("a range names only the words that the model takes") {
 TEST_CASE("models MODEL tells of a fault register what its bits mean and what to do") {
   const Result warnings = run({"models", "BLA21-12U-AB", "0x1A"});
   CHECK(warnings.status == 0);
-  CHECK(contains(warnings.out, "bit 8: Temperature upper limit [temperature_high], holds the output off\n"
-                               "      [0x0B] Current Temperature at or above [0x3E] Operation "
-                               "Temperature Upper Limit\n      Reduce load or check 0x3E"));
+  CHECK(contains(warnings.out,
+                 "bit 8: Temperature upper limit [temperature_high], holds the output off\n"
+                 "      [0x0B] Current Temperature at or above [0x3E] Operation "
+                 "Temperature Upper Limit\n      Reduce load or check 0x3E"));
   CHECK(contains(warnings.out, "[rom_corrupt], stays until the next start\n"));
   CHECK(contains(run({"models", "all", "0x19"}).out, "[pwm_missing], models with a PWM input"));
   CHECK(contains(run({"models", "all", "0x1B"}).out, "bit 9: Watchdog [watchdog]"));
