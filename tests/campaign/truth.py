@@ -9,7 +9,8 @@ SETTLED_S = 3.0  # after this a servo that has started has sent its first NodeSt
 class Step:
     """One step of an episode: `commands` at once. `before`, `after`: the state of every servo by its serial number;
     `events`: what happened to them between; `scenario`: what was to go wrong after `power_on`;
-    `given`: the node IDs that servos were given before, and then those of this step, too;
+    `given`: what the allocation table may say of each servo that was given a node ID, before this
+    step and after it: that ID, or one that a fleet file wished for it since;
     `unsaved`: what commands had written before, in RAM only; `earlier`: what happened before."""
 
     def __init__(self, commands, before, events, after, scenario, power_on, given, unsaved,
@@ -19,11 +20,13 @@ class Step:
         self._events, self._scenario, self._power_on = events, scenario, power_on
         self.unsaved = unsaved
         self._earlier = earlier
-        self.given_before, self.given = given, {**given, **dict(self.allocated())}
+        self.given_before = given
+        self.given = {**given, **{serial: {node_id} for serial, node_id in self.allocated()}}
         for serial in self.made_static():
             self.given.pop(serial, None)  # the table has that one
-        if any(wishes_ids(command.words) for command in commands):
-            self.given = {}  # the table may hold what was wished for a servo that did not get it
+        for serial, node_id in wished_ids(commands):
+            if serial in self.given:
+                self.given[serial] = self.given[serial] | {node_id}
 
     def restarts(self, serial):
         """The times."""
@@ -195,9 +198,11 @@ class Step:
                     if servo["serial_number"] == serial)
 
 
-def wishes_ids(words):
-    """Whether a command may enter other node IDs into the allocation table."""
-    return words[0] in ("apply", "undo") or "--static" in words
+def wished_ids(commands):
+    """(serial, node ID) of the fleet files of these commands."""
+    return [(entry["match"]["serial_number"], entry["set"]["static_node_id"])
+            for command in commands for entry in command.entries()
+            if "static_node_id" in entry["set"]]
 
 
 def has_lost_rom(state):
