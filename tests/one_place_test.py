@@ -41,7 +41,7 @@ RULES = {
          "src/fleet/characterize/put_back.cpp"}),
     "carries plans out": (
         r"\bfleet::carry_out\(",
-        {"src/fleet/change/rounds.cpp"}),
+        {"src/fleet/change/carry_out_rounds.cpp"}),
     "decides by itself on who has armed the vehicle, or drives": (
         r"\b(armed_by|driver_of)\(",
         {"include/blactl/fleet/bus/command_watch.hpp", "src/fleet/bus/command_watch.cpp",
@@ -51,7 +51,7 @@ RULES = {
          "src/fleet/change/change_job.cpp"}),
     "enters a node ID into the allocation table": (
         r"(store|table)_?(\.|->)(enter|allocate)\(",
-        {"src/fleet/change/allocation_service.cpp", "src/fleet/change/rounds.cpp",
+        {"src/fleet/change/allocation_service.cpp", "src/fleet/change/carry_out_rounds.cpp",
          # What a person wishes or imports, before any servo is asked.
          "src/cli/alloc/serve.cpp", "src/cli/alloc/allocation_table.cpp"}),
 }

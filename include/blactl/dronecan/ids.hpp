@@ -5,6 +5,7 @@
 #include <array>
 #include <compare>
 #include <cstdint>
+#include <span>
 #include <string_view>
 
 namespace blactl::dronecan {
@@ -40,6 +41,13 @@ using UniqueId = std::array<std::uint8_t, 16>;
   return std::ranges::all_of(unique_id, [&](std::uint8_t byte) {
     return byte == unique_id.front() && (byte == 0x00 || byte == 0xFF);
   });
+}
+
+/// Whether a unique ID begins with these bytes: a request for a node ID tells it in parts.
+[[nodiscard]] constexpr bool begins_with(const UniqueId& unique_id,
+                                         std::span<const std::uint8_t> beginning) {
+  return beginning.size() <= unique_id.size() &&
+         std::ranges::equal(std::span(unique_id).first(beginning.size()), beginning);
 }
 
 /// Message broadcast, or one direction of a service.

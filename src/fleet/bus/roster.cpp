@@ -320,7 +320,7 @@ void Roster::on_allocation(const Transfer& transfer) {
     allocators_.insert(transfer.header.source);
     if (allocation->node_id != 0 && prefix.size() == allocation->unique_id.size()) {
       std::erase_if(pending_, [&](const auto& waiting) {
-        return std::ranges::equal(waiting.first, std::span(prefix).first(waiting.first.size()));
+        return dronecan::begins_with(allocation->unique_id, waiting.first);
       });
     }
   } else if (allocation->first_part_of_unique_id && !prefix.empty()) {
@@ -352,9 +352,8 @@ state::NodeIds Roster::ids_in_use(const dronecan::UniqueId& unit) const {
 }
 
 std::optional<Time> Roster::asked_at(const dronecan::UniqueId& unique_id) const {
-  const auto waiting = std::ranges::find_if(pending_, [&](const auto& entry) {
-    return std::ranges::equal(entry.first, std::span(unique_id).first(entry.first.size()));
-  });
+  const auto waiting = std::ranges::find_if(
+      pending_, [&](const auto& entry) { return dronecan::begins_with(unique_id, entry.first); });
   return waiting != pending_.end() ? std::optional(waiting->second.last) : std::nullopt;
 }
 

@@ -2,6 +2,8 @@
 
 #include "blactl/fleet/bus/texts.hpp"
 
+#include "fleet/bus/hearing.hpp"
+
 #include <signal.h>
 
 #include <algorithm>
@@ -22,41 +24,6 @@ dronecan::UniqueId own_unique_id(NodeId id) {
   dronecan::UniqueId unique_id{'b', 'l', 'a', 'c', 't', 'l'};
   unique_id.back() = id.value();
   return unique_id;
-}
-
-can::Filter message_filter(const dronecan::DataType& type) {
-  constexpr std::uint32_t type_and_kind = 0x00FFFF80;
-  return {static_cast<std::uint32_t>(type.id) << 8, type_and_kind};
-}
-
-std::vector<can::Filter> filters(Session::Hearing hearing, NodeId local) {
-  if (hearing == Session::Hearing::all) {
-    return {};
-  }
-  constexpr std::uint32_t service = 0x80;
-  constexpr std::uint32_t request = 0x8000;
-  constexpr std::uint32_t to_us = 0x7F80;
-  constexpr std::uint32_t source = 0x7F;
-  constexpr std::uint32_t anonymous_type = 0x3FF;
-  std::vector<can::Filter> wanted{
-      {static_cast<std::uint32_t>(local.value()) << 8 | service, to_us},
-      {local.value(), source},
-      message_filter(dronecan::NodeStatus::type),
-      message_filter(dronecan::ActuatorStatus::type),
-      message_filter(dronecan::Allocation::type),
-      // an anonymous request has only two bits for its type (specification 4.1)
-      {static_cast<std::uint32_t>(dronecan::Allocation::type.id) << 8, anonymous_type},
-  };
-  if (hearing == Session::Hearing::commands) {
-    wanted.push_back(message_filter(dronecan::ArrayCommand::type));
-    wanted.push_back(message_filter(dronecan::ArmingStatus::type));
-    for (const dronecan::DataType* type :
-         {&dronecan::GetSet::type, &dronecan::ExecuteOpcode::type, &dronecan::RestartNode::type}) {
-      wanted.push_back({static_cast<std::uint32_t>(type->id) << 16 | request | service,
-                        0x00FF0000 | request | service});
-    }
-  }
-  return wanted;
 }
 
 /// The initial node ID: with one that is not for tools it only listens at first.

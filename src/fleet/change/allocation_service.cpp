@@ -34,10 +34,6 @@ constexpr Duration request_period = 2s;
 /// consecutive losses are unlikely.
 constexpr unsigned most_vain_answers = 5;
 
-bool begins_with(const UniqueId& unique_id, Bytes prefix) {
-  return std::ranges::equal(Bytes(unique_id).first(prefix.size()), prefix);
-}
-
 /// For a unit to get an ID and to be heard under it: allocation takes about 1 s, one unit after the
 /// other.
 constexpr Duration least_time = 5s;
@@ -112,7 +108,7 @@ bool AllocationService::may_begin_to_ask() const {
 std::size_t AllocationService::asking() const {
   const auto is_there = [this](const UniqueIdPrefix& prefix, Time asked) {
     return std::ranges::any_of(units_, [&](const auto& entry) {
-      return begins_with(entry.first, prefix) && entry.second.asked_at >= asked &&
+      return dronecan::begins_with(entry.first, prefix) && entry.second.asked_at >= asked &&
              this->is_there(entry.second);
     });
   };
@@ -127,7 +123,8 @@ std::size_t AllocationService::asking() const {
 bool AllocationService::is_left_out(Bytes prefix) const {
   return std::ranges::any_of(units_, [&](const auto& entry) {
     const AllocatedUnit& unit = entry.second;
-    return (unit.refused || (unit.is_deaf && !is_there(unit))) && begins_with(entry.first, prefix);
+    return (unit.refused || (unit.is_deaf && !is_there(unit))) &&
+           dronecan::begins_with(entry.first, prefix);
   });
 }
 
@@ -149,8 +146,9 @@ void AllocationService::watch_for_twins() {
 }
 
 bool AllocationService::is_meant(Bytes prefix) const {
-  return !only_ || std::ranges::any_of(
-                       *only_, [&](const UniqueId& unit) { return begins_with(unit, prefix); });
+  return !only_ || std::ranges::any_of(*only_, [&](const UniqueId& unit) {
+    return dronecan::begins_with(unit, prefix);
+  });
 }
 
 bool AllocationService::serves(Bytes prefix) const {
@@ -162,7 +160,7 @@ bool AllocationService::serves(Bytes prefix) const {
   }
   const auto entries = store_.entries();
   return entries && std::ranges::any_of(*entries, [&](const state::AllocationEntry& entry) {
-           return begins_with(entry.unique_id, prefix);
+           return dronecan::begins_with(entry.unique_id, prefix);
          });
 }
 

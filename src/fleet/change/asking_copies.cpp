@@ -27,7 +27,7 @@ class UniqueIds final : public dronecan::AllocationTable {
 
   [[nodiscard]] bool serves(dronecan::Bytes prefix) const override {
     return std::ranges::any_of(awaited_, [&](const UniqueId& unique_id) {
-      return std::ranges::equal(dronecan::Bytes(unique_id).first(prefix.size()), prefix);
+      return dronecan::begins_with(unique_id, prefix);
     });
   }
 

@@ -107,7 +107,7 @@ std::optional<Servo> ChangeJob::in_ram_only() const {
 void ChangeJob::look_back(std::optional<Error> lost) {
   const dronecan::NodeId id = result_.node_id_after.value_or(servo_.id);
   if (result_.was_sent && !plan_.restart && roster_.saver_of(id, known_since())) {
-    result_.may_have_saved = true; // not by us: undo puts ROM back, too
+    result_.may_have_saved = true; // by that node: undo is to put ROM back, too
   }
   if (!result_.is_done()) {
     const bool has_stayed = !restart_ || !restart_->is_sent() || restart_->has_run_on();

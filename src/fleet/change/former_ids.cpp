@@ -18,7 +18,7 @@ using dronecan::UniqueId;
 
 bool FormerIds::serves(dronecan::Bytes prefix) const {
   return std::ranges::any_of(ids_ | std::views::keys, [&](const UniqueId& unique_id) {
-    return std::ranges::equal(std::span(unique_id).first(prefix.size()), prefix);
+    return dronecan::begins_with(unique_id, prefix);
   });
 }
 

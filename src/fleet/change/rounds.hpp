@@ -87,6 +87,7 @@ class Rounds {
   using Round = std::vector<Step>;
   using Sights = std::map<std::size_t, Snapshot>; ///< by unit
 
+  // Planning (rounds.cpp).
   [[nodiscard]] std::vector<Error> make_plans(std::vector<UnitTask> tasks);
   [[nodiscard]] std::vector<Error> make_rounds();
   [[nodiscard]] Result<void> learn_ids();
@@ -94,6 +95,9 @@ class Rounds {
   void note_takeovers(const std::vector<state::AllocationEntry>& absent);
   [[nodiscard]] std::vector<Error> check_ids();
   [[nodiscard]] std::vector<Error> check() const;
+  [[nodiscard]] std::vector<Plan> plans() const;
+
+  // Carrying out (carry_out_rounds.cpp).
   [[nodiscard]] bool is_free(const IdMove& move) const;
   [[nodiscard]] Error why_not_free(const IdMove& move) const;
   [[nodiscard]] std::optional<dronecan::NodeId> place(const dronecan::UniqueId& unique_id) const;

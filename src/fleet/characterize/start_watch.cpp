@@ -77,9 +77,9 @@ void StartWatch::hear_request(const dronecan::Transfer& transfer) {
   const auto request = transfer.header.data_type_id == Allocation::type.id
                            ? Allocation::decode(transfer.payload)
                            : std::optional<Allocation>();
-  const bool is_ours = request && request->first_part_of_unique_id &&
-                       std::ranges::equal(std::span(request->unique_id).first(request->size),
-                                          std::span(unique_id_).first(request->size));
+  const bool is_ours =
+      request && request->first_part_of_unique_id &&
+      dronecan::begins_with(unique_id_, std::span(request->unique_id).first(request->size));
   if (is_ours && is_expected()) {
     requested_ = requested_.value_or(transfer.at);
   }

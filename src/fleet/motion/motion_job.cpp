@@ -200,7 +200,7 @@ Step MotionJob::move() {
 }
 
 /// Late responses leave time for either a command or a read: they take turns, as far as the servo's
-/// timeout allows. Where it is read where to end, the last command is repeated only before that.
+/// timeout allows. While the angle to end at is still being read, reads have precedence.
 Time MotionJob::command_due() const {
   const bool reads = reads_first_ || (phase_ == Phase::ending && !has_end_);
   return last_command_ + (reads ? plan_.longest_gap : plan_.period);

@@ -33,7 +33,7 @@ class Repeated {
 
  private:
   Time at_{};
-  Duration since_{}; ///< the one before: one sent out of turn is no shorter period
+  Duration since_{}; ///< the period before: a message sent out of turn does not shorten it
   Duration lasts_{}; ///< zero: never heard
 };
 
@@ -67,9 +67,8 @@ class CommandWatch {
   /// A node whose ArmingStatus reports that the vehicle is armed, and still counts.
   [[nodiscard]] std::optional<dronecan::NodeId> armed_by(Time now) const;
 
-  /// Another node that changed a setting of this one after `since`: ERASE changes all of them, and
-  /// a restart is no change. Motion commands (0x00-0x02) are not settings. With `reg`: this
-  /// register.
+  /// Another node that changed a setting of this one after `since`. ERASE changes all of them; a
+  /// restart does not count, nor do motion commands (0x00-0x02). With `reg`: only this register.
   [[nodiscard]] std::optional<dronecan::NodeId>
   setter_of(dronecan::NodeId id, Time since, std::optional<bla::Address> reg = std::nullopt) const;
 

@@ -191,8 +191,8 @@ class Roster {
   /// that others have in 0x46, and our own.
   [[nodiscard]] state::NodeIds ids_in_use(const dronecan::UniqueId& unit) const;
 
-  /// The units that have asked for a node ID and got none. One that asked once and not again within
-  /// 2 s is no unit: requests come at least once a second.
+  /// The units that have asked for a node ID and got none. A single request that is not repeated
+  /// within 2 s does not count: a unit asks at least once a second.
   [[nodiscard]] auto pending() const { return pending_ | std::views::keys; }
 
   [[nodiscard]] const std::map<UniqueIdPrefix, Asking>& requests() const { return pending_; }

@@ -21,8 +21,8 @@ class MessageRate {
   constexpr MessageRate(Duration window, unsigned most) : window_(window), most_(most) {}
 
   /// The first frame of one. It counts once if it comes twice, as where the end of its
-  /// acknowledgement was disturbed. `may_leap`: a transfer ID out of sequence is another unit's,
-  /// and does not come of losses.
+  /// acknowledgement was disturbed. `may_leap`: a transfer ID out of sequence shows another unit;
+  /// false: it may also come from lost frames.
   void count(const can::Frame& frame, Time at, bool may_leap = true);
 
   /// The sender has restarted.

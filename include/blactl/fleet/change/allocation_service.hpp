@@ -139,7 +139,7 @@ class AllocationService final : private dronecan::Service, private dronecan::All
   std::map<dronecan::UniqueId, AllocatedUnit> units_;
   std::optional<Error> failure_; ///< of the table
   Time last_request_;
-  std::optional<Time> asked_once_{}; ///< the last request that was none of a unit known to ask
+  std::optional<Time> asked_once_{}; ///< the last request of a unit that had not asked before
   bool bus_is_known_ = false;
   std::optional<std::vector<dronecan::UniqueId>> only_{}; ///< empty: all units
 };

@@ -58,7 +58,8 @@ class History {
   [[nodiscard]] std::vector<state::SnapshotEntry>
   unsaved(const Servo& servo, const Session& session, const Snapshot* ram = nullptr) const;
 
-  /// Restarts have lost these changes, and RAM was given them again: they are of its present run.
+  /// Restarts have lost these changes, and they were written to RAM again: from now on they belong
+  /// to the servo's present run.
   [[nodiscard]] Result<void> renew(std::vector<state::SnapshotEntry> changes,
                                    const Session& session);
 

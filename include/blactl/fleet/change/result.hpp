@@ -40,7 +40,7 @@ struct ChangeResult {
   Duration duration{};             ///< from the request to restart until it was back
   std::optional<Error> error{};    ///< in addition to those of single changes
 
-  /// What RAM was given may be gone: the servo restarted, or another node wrote.
+  /// The written values may be gone: the servo restarted, or another node wrote to it.
   void doubt();
 
   /// All errors, in the order in which they occurred.
