@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstddef>
 #include <filesystem>
 #include <span>
 #include <string_view>
@@ -73,7 +74,8 @@ Result<void> check_header(const Database& database, const DatabaseFormat& format
   return {};
 }
 
-Result<void> check_version(const Database& database, const DatabaseFormat& format) {
+/// The version of the file, from 1 to that of `format`.
+Result<std::size_t> version_of(const Database& database, const DatabaseFormat& format) {
   Statement statement(database, "PRAGMA user_version");
   const auto row = statement.step();
   if (!row) {
@@ -87,7 +89,7 @@ Result<void> check_version(const Database& database, const DatabaseFormat& forma
     return std::unexpected(
         errors::damaged(database.name(), fmt::format("user_version {}", version)));
   }
-  return {};
+  return static_cast<std::size_t>(version);
 }
 
 /// Runs a statement that must return one row with the expected text; anything else is damage.
@@ -108,17 +110,44 @@ Result<void> expect_one(const Database& database, std::string_view sql, std::str
   }
 }
 
-/// Runs the checks that cost little, however large the file is.
-Result<void> check_form(const Database& database, const DatabaseFormat& format) {
-  auto good = check_header(database, format);
-  if (good) {
-    good = check_version(database, format);
+Result<void> check_schema(const Database& database, std::string_view schema) {
+  return expect_one(database, "SELECT sql FROM sqlite_schema WHERE sql IS NOT NULL", schema);
+}
+
+/// Runs the checks that cost little, however large the file is. Returns the version of the file.
+Result<std::size_t> check_form(const Database& database, const DatabaseFormat& format) {
+  if (auto header = check_header(database, format); !header) {
+    return std::unexpected(header.error());
   }
-  if (good) {
-    good =
-        expect_one(database, "SELECT sql FROM sqlite_schema WHERE sql IS NOT NULL", format.schema);
+  auto version = version_of(database, format);
+  if (!version) {
+    return version;
   }
-  return good;
+  const bool is_older = *version <= format.older.size();
+  const auto good =
+      check_schema(database, is_older ? format.older[*version - 1].schema : format.schema);
+  return good ? version : std::unexpected(good.error());
+}
+
+/// Brings a file to the present version, all of it or nothing.
+Result<void> upgrade(const Database& database, const DatabaseFormat& format) {
+  if (auto good = check_all(database); !good) {
+    return good;
+  }
+  return database.transact([&]() -> Result<void> {
+    const auto found = version_of(database, format); // another process may have been faster
+    if (!found) {
+      return std::unexpected(found.error());
+    }
+    for (std::size_t version = *found; version <= format.older.size(); ++version) {
+      const std::string step = fmt::format("{}; PRAGMA user_version = {}",
+                                           format.older[version - 1].upgrade, version + 1);
+      if (auto done = database.execute(step.c_str()); !done) {
+        return done;
+      }
+    }
+    return check_schema(database, format.schema);
+  });
 }
 
 /// Leaves write-ahead mode, in which files of older versions are: SQLite 3.7.0 to 3.51.2 can lose a
@@ -187,9 +216,13 @@ Result<Database> open_database(const std::string& path, const DatabaseFormat& fo
   if (!database) {
     return database;
   }
-  auto usable = check_form(*database, format);
+  const auto version = check_form(*database, format);
+  auto usable = version ? Result<void>() : std::unexpected(version.error());
   if (usable && was_broken_off) {
     usable = check_all(*database);
+  }
+  if (usable && *version <= format.older.size()) {
+    usable = upgrade(*database, format);
   }
   if (usable) {
     usable = set_up(*database, writable);

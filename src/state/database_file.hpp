@@ -8,21 +8,30 @@
 #include <chrono>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace blactl::state {
 
+/// A version of a format that older programs have left.
+struct OlderFormat {
+  std::string schema;  ///< as DatabaseFormat::schema
+  std::string upgrade; ///< statements that make the next version of it
+};
+
 /// The format of one kind of database.
 struct DatabaseFormat {
-  std::int32_t application_id; ///< distinguishes our files from other programs'; not 0
-  std::int32_t version;        ///< of the schema, from 1
-  std::string schema;          ///< the one statement that creates it, as SQLite keeps it
-  std::string file;            ///< its name in the state folder
-  Text what, way_back;         ///< as DatabaseName
+  std::int32_t application_id;      ///< distinguishes our files from other programs'; not 0
+  std::int32_t version;             ///< of the schema, from 1
+  std::string schema;               ///< the one statement that creates it, as SQLite keeps it
+  std::string file;                 ///< its name in the state folder
+  Text what, way_back;              ///< as DatabaseName
+  std::vector<OlderFormat> older{}; ///< versions 1 to version - 1, in order
 };
 
 /// Opens an existing file, for writing or read-only. Checks its form first: a file that is not ours
 /// is not touched, one that is damaged or newer is left as it is. A transaction that was broken off
-/// is rolled back, also for reading, and then the whole file is checked.
+/// is rolled back, also for reading, and then the whole file is checked. So is an older version,
+/// which is brought to the present one, also for reading.
 [[nodiscard]] Result<Database> open_database(const std::string& path, const DatabaseFormat& format,
                                              bool writable, std::chrono::milliseconds patience);
 

@@ -13,26 +13,52 @@ namespace blactl::state {
 
 using dronecan::UniqueId;
 
+namespace {
+
 /// Changes are ordered by number, not by time: clocks are set back. The index repeats whole rows,
 /// so the check of the file detects any change. `at`: microseconds since 1970, UTC, up to the year
 /// 9999.
+constexpr const char* schema =
+    "CREATE TABLE snapshots ("
+    "number INTEGER PRIMARY KEY, "
+    "run INTEGER NOT NULL, "
+    "at INTEGER NOT NULL CHECK (at BETWEEN 0 AND 253402300799999999), "
+    "command TEXT NOT NULL, "
+    "unique_id BLOB NOT NULL CHECK (length(unique_id) = 16), "
+    "held BLOB NOT NULL, "
+    "written BLOB NOT NULL, "
+    "saved INTEGER NOT NULL CHECK (saved IN (0, 1)), "
+    "ended INTEGER NOT NULL CHECK (ended IN (0, 1)), "
+    "UNIQUE (unique_id, number, run, at, command, held, written, saved, ended)) STRICT";
+
+/// Version 1 did not record what was written.
+OlderFormat first_version() {
+  return {.schema = "CREATE TABLE snapshots ("
+                    "number INTEGER PRIMARY KEY, "
+                    "run INTEGER NOT NULL, "
+                    "at INTEGER NOT NULL CHECK (at BETWEEN 0 AND 253402300799999999), "
+                    "command TEXT NOT NULL, "
+                    "unique_id BLOB NOT NULL CHECK (length(unique_id) = 16), "
+                    "held BLOB NOT NULL, "
+                    "saved INTEGER NOT NULL CHECK (saved IN (0, 1)), "
+                    "ended INTEGER NOT NULL CHECK (ended IN (0, 1)), "
+                    "UNIQUE (unique_id, number, run, at, command, held, saved, ended)) STRICT",
+          .upgrade = "ALTER TABLE snapshots RENAME TO older; " + std::string(schema) +
+                     "; INSERT INTO snapshots "
+                     "SELECT number, run, at, command, unique_id, held, x'', saved, ended "
+                     "FROM older; DROP TABLE older"};
+}
+
+} // namespace
+
 const DatabaseFormat& snapshots_format() {
-  static const DatabaseFormat format{
-      .application_id = 0x626C6173, // "blas"
-      .version = 1,
-      .schema = "CREATE TABLE snapshots ("
-                "number INTEGER PRIMARY KEY, "
-                "run INTEGER NOT NULL, "
-                "at INTEGER NOT NULL CHECK (at BETWEEN 0 AND 253402300799999999), "
-                "command TEXT NOT NULL, "
-                "unique_id BLOB NOT NULL CHECK (length(unique_id) = 16), "
-                "held BLOB NOT NULL, "
-                "saved INTEGER NOT NULL CHECK (saved IN (0, 1)), "
-                "ended INTEGER NOT NULL CHECK (ended IN (0, 1)), "
-                "UNIQUE (unique_id, number, run, at, command, held, saved, ended)) STRICT",
-      .file = "snapshots.db",
-      .what = texts::change_history,
-      .way_back = texts::change_history_back};
+  static const DatabaseFormat format{.application_id = 0x626C6173, // "blas"
+                                     .version = 2,
+                                     .schema = schema,
+                                     .file = "snapshots.db",
+                                     .what = texts::change_history,
+                                     .way_back = texts::change_history_back,
+                                     .older = {first_version()}};
   return format;
 }
 
@@ -40,7 +66,7 @@ namespace {
 
 /// A query for the columns that snapshot_in() reads.
 std::string select(std::string_view rest) {
-  return "SELECT number, at, command, unique_id, held, saved, run, ended FROM snapshots " +
+  return "SELECT number, at, command, unique_id, held, saved, run, ended, written FROM snapshots " +
          std::string(rest);
 }
 
@@ -51,6 +77,7 @@ SnapshotEntry snapshot_in(Statement& row) {
           .command = std::string(row.text(2)),
           .unique_id = row.array<std::tuple_size_v<UniqueId>>(3),
           .held = registers_in(row, 4),
+          .written = registers_in(row, 8),
           .saved = row.integer(5, 0, 1) != 0,
           .ended = row.integer(7, 0, 1) != 0};
 }
@@ -76,15 +103,18 @@ Result<std::int64_t> next_number(const Database& database) {
 Result<std::int64_t> keep_one(const Database& database, const SnapshotEntry& entry,
                               std::int64_t new_run) {
   const std::vector<std::uint8_t> held = bytes_of(entry.held);
-  Statement statement(database, "INSERT OR REPLACE INTO snapshots "
-                                "(number, run, at, command, unique_id, held, saved, ended) "
-                                "VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
+  const std::vector<std::uint8_t> written = bytes_of(entry.written);
+  Statement statement(database,
+                      "INSERT OR REPLACE INTO snapshots "
+                      "(number, run, at, command, unique_id, held, written, saved, ended) "
+                      "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)");
   entry.number == 0 ? statement.bind(std::nullopt) : statement.bind(entry.number);
   const auto kept = statement.bind(entry.run == 0 ? new_run : entry.run)
                         .bind(entry.at.time_since_epoch().count())
                         .bind(entry.command)
                         .bind(entry.unique_id)
                         .bind(held)
+                        .bind(written)
                         .bind(std::int64_t{entry.saved})
                         .bind(std::int64_t{entry.ended})
                         .run();

@@ -28,9 +28,10 @@ struct SnapshotEntry {
   WallTime at{};         ///< just before the change
   std::string command{}; ///< "set"; from a file, so foreign bytes
   dronecan::UniqueId unique_id{};
-  Registers held{};   ///< the values that the change replaces
-  bool saved = false; ///< saved to ROM; until settled, whether it is to be saved
-  bool ended = false; ///< its command was completed; else perhaps only in part
+  Registers held{};    ///< the values that the change replaces
+  Registers written{}; ///< those that it writes in their place, as far as it names them
+  bool saved = false;  ///< saved to ROM; until settled, whether it is to be saved
+  bool ended = false;  ///< its command was completed; else perhaps only in part
 
   friend bool operator==(const SnapshotEntry&, const SnapshotEntry&) = default;
 };

@@ -58,15 +58,48 @@ bla::Values replaced_by(const std::vector<state::SnapshotEntry>& changes) {
   return values;
 }
 
-/// Of RAM alone. What a restart took, or what proves ROM, is recorded the other way round.
-bool is_plain_write(const state::SnapshotEntry& change) {
-  return change.command == "set" || change.command == "pwm-config";
+/// The values that a change of RAM alone writes: after a restart they are in ROM as well, or gone.
+state::Registers written_by(const Plan& plan, const state::Registers& held) {
+  state::Registers written;
+  if (plan.restart) {
+    return written;
+  }
+  for (const RegisterChange& change : plan.changes) {
+    if (change.is_planned() && held.contains(change.parameter->address.value())) {
+      written.emplace(change.parameter->address.value(), change.requested);
+    }
+  }
+  if (plan.erase) {
+    for (const auto& [address, raw] : held) {
+      if (const auto initial = bla::find(plan.expected, bla::Address(address))) {
+        written.emplace(address, *initial);
+      }
+    }
+  }
+  return written;
 }
 
-bool is_shown(const state::SnapshotEntry& change, const Snapshot& ram) {
-  return std::ranges::any_of(change.held, [&](const auto& held) {
-    return ram.raw(bla::Address(held.first)).value_or(held.second) != held.second;
-  });
+/// Whether RAM holds a value that this change has put there; empty: no register of it was read.
+std::optional<bool> is_shown(const state::SnapshotEntry& change, const Snapshot& ram) {
+  std::optional<bool> shown;
+  for (const auto& [address, written] : change.written) {
+    const auto before = change.held.find(address);
+    const auto now = ram.raw(bla::Address(address));
+    if (now && before != change.held.end() && before->second != written) {
+      shown = shown.value_or(false) || *now == written;
+    }
+  }
+  return shown;
+}
+
+/// A clock that was set, or a restart between the record and the write, puts a change before the
+/// start of the servo: then RAM itself tells, if `ram` is known.
+bool is_in_ram(const state::SnapshotEntry& change, WallTime started, const Snapshot* ram) {
+  if (change.at >= started || change.written.empty()) {
+    return change.at >= started;
+  }
+  const auto shown = ram != nullptr ? is_shown(change, *ram) : std::nullopt;
+  return shown.value_or(change.at + writing_time >= started);
 }
 
 } // namespace
@@ -171,6 +204,10 @@ std::optional<state::SnapshotEntry> History::entry_of(const Plan& plan, const Se
     for (const std::uint8_t address : std::exchange(known->second.lost, {})) {
       entry.held.erase(address);
     }
+  }
+  entry.written = plan.restart ? state::Registers() : std::move(entry.written);
+  for (const auto& [address, raw] : written_by(plan, held)) {
+    entry.written.insert_or_assign(address, raw);
   }
   entry.held.merge(held); // values replaced in an earlier round stay
   entry.saved = entry.saved || plan.restart == RestartKind::save;
@@ -289,12 +326,7 @@ std::vector<state::SnapshotEntry> History::unsaved(const Servo& servo, const Ses
   }
   const WallTime started = told_at(member, session) - std::chrono::seconds(member.status->uptime_s);
   auto entry = snapshots_.last(*servo.unique_id);
-  const auto is_in_ram = [&](const state::SnapshotEntry& change) {
-    return change.at >= started ||
-           (is_plain_write(change) &&
-            (change.at + writing_time >= started || (ram != nullptr && is_shown(change, *ram))));
-  };
-  while (entry && *entry && !(*entry)->saved && is_in_ram(**entry)) {
+  while (entry && *entry && !(*entry)->saved && is_in_ram(**entry, started, ram)) {
     entries.push_back(std::move(**entry));
     entry = snapshots_.before(entries.back());
   }

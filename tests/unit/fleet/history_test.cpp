@@ -460,6 +460,34 @@ TEST_CASE("what was erased comes back") {
   CHECK(read(scene, 11, "static_node_id") == 11);
 }
 
+TEST_CASE("whether a change from before the start is in RAM, RAM itself tells") {
+  const Kept kept;
+  const Scene scene(servos());
+  scene.live(3s);
+  const Snapshot ram = scene.read(11, registers({"angle_limit_cw"})); // 1799
+  const Member member = scene.member(11);
+  const WallTime started = scene.session->wall() - (scene.session->now() - member.status_at) -
+                           std::chrono::seconds(member.status->uptime_s);
+  const auto is_unsaved = [&](Duration before_start, const state::Registers& held,
+                              const state::Registers& written, const Snapshot* snapshot) {
+    auto store = SnapshotStore::open(kept.folder(), Access::write);
+    REQUIRE(store->keep(std::vector{SnapshotEntry{.at = started - before_start,
+                                                  .command = "set",
+                                                  .unique_id = *ram.servo.unique_id,
+                                                  .held = held,
+                                                  .written = written}},
+                        scene.session->wall()));
+    return !kept.history().unsaved(ram.servo, *scene.session, snapshot).empty();
+  };
+  CHECK(is_unsaved(1h, {{0x38, 900}}, {{0x38, 1799}}, &ram));
+  CHECK_FALSE(is_unsaved(1h, {{0x38, 900}}, {{0x38, 450}}, &ram)); // another tool's, since
+  CHECK_FALSE(is_unsaved(5s, {{0x38, 900}}, {{0x38, 450}}, &ram));
+  CHECK_FALSE(is_unsaved(1h, {{0x38, 900}}, {{0x38, 1799}}, nullptr));
+  CHECK(is_unsaved(5s, {{0x38, 900}}, {{0x38, 450}}, nullptr)); // perhaps written after the start
+  CHECK(is_unsaved(5s, {{0x22, 1}}, {{0x22, 0}}, &ram));        // not read
+  CHECK_FALSE(is_unsaved(1h, {{0x38, 900}}, {}, &ram));         // what a restart took
+}
+
 TEST_CASE("a file that was tampered with moves nothing") {
   for (const int address : {0x00, 0x02, 0x10, 0x12, 0x1F, 0x47, 0x49, 0x51, 0xFF}) {
     const auto refused = to_undo({.held = {{static_cast<std::uint8_t>(address), 1}}}, profiles());

@@ -30,6 +30,7 @@ SnapshotEntry entry(int number, std::int64_t value = 900, WallTime at = noon) {
           .command = "set",
           .unique_id = unit(number),
           .held = {{0x38, value}, {0x39, -1799}},
+          .written = {{0x38, value + 1}},
           .saved = true};
 }
 
@@ -210,7 +211,7 @@ TEST_CASE("a file that is no history of ours is refused by its name, and stays a
   const Folder folder;
   const auto [content, message] = GENERATE(
       std::pair("what is this", "not a blactl change history"),
-      std::pair("PRAGMA user_version = 2", "has version 2; this blactl knows version 1"),
+      std::pair("PRAGMA user_version = 3", "has version 3; this blactl knows version 2"),
       std::pair("UPDATE snapshots SET held = x'38'", "is damaged"),
       std::pair("PRAGMA ignore_check_constraints = 1; UPDATE snapshots SET saved = 2",
                 "is damaged"),
@@ -231,6 +232,60 @@ TEST_CASE("a file that is no history of ours is refused by its name, and stays a
   INFO(result.error().message);
   CHECK(result.error().message.find(message) != std::string::npos);
   CHECK(result.error().hint.find("mv " + file_of(folder).string()) != std::string::npos);
+  CHECK(bytes_of(file_of(folder)) == before);
+}
+
+namespace {
+
+/// A file as the first version of this program left it, with the entry of unit 1.
+void make_first_version(const std::filesystem::path& path) {
+  std::filesystem::create_directories(path.parent_path());
+  run_sql(path, "PRAGMA application_id = 1651270003; PRAGMA user_version = 1; "
+                "CREATE TABLE snapshots ("
+                "number INTEGER PRIMARY KEY, "
+                "run INTEGER NOT NULL, "
+                "at INTEGER NOT NULL CHECK (at BETWEEN 0 AND 253402300799999999), "
+                "command TEXT NOT NULL, "
+                "unique_id BLOB NOT NULL CHECK (length(unique_id) = 16), "
+                "held BLOB NOT NULL, "
+                "saved INTEGER NOT NULL CHECK (saved IN (0, 1)), "
+                "ended INTEGER NOT NULL CHECK (ended IN (0, 1)), "
+                "UNIQUE (unique_id, number, run, at, command, held, saved, ended)) STRICT; "
+                "INSERT INTO snapshots VALUES (7, 7, 1000000, 'set', "
+                "x'0100A5A5A5A5A5A5A5A5A5A5A5A5A5A5', x'380000000000000384', 1, 0)");
+}
+
+} // namespace
+
+TEST_CASE("a history of an older version is brought to the present one, also for reading") {
+  const Folder folder;
+  make_first_version(file_of(folder));
+  for (const Access access : {GENERATE(Access::read, Access::write), Access::write}) {
+    auto store = opened(folder, access);
+    CHECK(all(store) == std::vector{SnapshotEntry{.number = 7,
+                                                  .run = 7,
+                                                  .at = WallTime(1s),
+                                                  .command = "set",
+                                                  .unique_id = unit(1),
+                                                  .held = {{0x38, 900}},
+                                                  .saved = true}});
+  }
+  auto store = opened(folder);
+  CHECK(kept(store, entry(2)).number == 8);
+  CHECK(check_state_files(file_of(folder).parent_path().string()).empty());
+}
+
+TEST_CASE("one of an older version that is damaged stays as it is, byte for byte") {
+  const Folder folder;
+  make_first_version(file_of(folder));
+  const auto* damage = GENERATE("DROP TABLE snapshots", "CREATE TABLE other (a)",
+                                "PRAGMA ignore_check_constraints = 1; "
+                                "UPDATE snapshots SET saved = 2");
+  run_sql(file_of(folder), damage);
+  const std::string before = bytes_of(file_of(folder));
+  const auto store = try_open(folder, GENERATE(Access::read, Access::write));
+  REQUIRE_FALSE(store);
+  CHECK(store.error().code == Code::bad_file);
   CHECK(bytes_of(file_of(folder)) == before);
 }
 
