@@ -8,6 +8,23 @@ using namespace blactl::test;
 
 namespace {
 
+/// Node 90 writes soft_start=off to node 11, ten times a second from power-on on; at some moment
+/// another value.
+Scene with_writer(int differs_at_ms = -1) {
+  nlohmann::json orders = nlohmann::json::array();
+  for (int at = 0; at < 20000; at += 100) {
+    orders.push_back({{"at", std::to_string(at) + "ms"},
+                      {"to", 11},
+                      {"order", "write"},
+                      {"address", 0x21},
+                      {"value", at == differs_at_ms ? 1 : 0}});
+  }
+  return Scene()
+      .servo("BLA21-12U-AB", 11, {{"servo_id", 1}, {"ram", {{"soft_start", "off"}}}})
+      .servo("BLA21-12U-AB", 12, {{"servo_id", 2}, {"behaviour", {{"answer_delay", "40ms"}}}})
+      .foreign(90, {{"orders", orders}});
+}
+
 /// Node 90 orders this of node 11, after so many milliseconds.
 Scene with_order(const char* order, int at_ms) {
   return Scene()
@@ -158,4 +175,34 @@ TEST_CASE("after another tool's SAVE undo puts back what characterize measured w
     }
   }
   CHECK(saved > 0);
+}
+
+TEST_CASE("what another tool writes again and again changes nothing, and is in nobody's way") {
+  const Fleet fleet(with_writer());
+  const Arguments arguments = GENERATE(
+      Arguments{"get", "-n", "all", "--all"}, Arguments{"export", "-n", "all"},
+      Arguments{"faults", "-n", "all"}, Arguments{"set", "-n", "all", "angle_limit_cw=45deg", "-y"},
+      Arguments{"set", "-n", "all", "soft_start=off", "-y"});
+  const Result run = fleet.run(arguments);
+  INFO(arguments.front() << ": " << run.out << run.err);
+  CHECK(run.status == 0);
+}
+
+TEST_CASE("one other value among those that another tool repeats is a change") {
+  int told = 0;
+  for (int at = 900; at < 2600; at += 100) {
+    const Fleet fleet(with_writer(at));
+    const Result set = fleet.run({"set", "-n", "all", "soft_start=off", "-y"});
+    INFO(at << " ms: " << set.out << set.err);
+    told += contains(set.err, "node 90") ? 1 : 0;
+  }
+  CHECK(told > 0);
+}
+
+TEST_CASE("what another tool repeats undoes a change of the same register") {
+  const Fleet fleet(with_writer());
+  const Result set = fleet.run({"set", "-n", "all", "soft_start=on", "-y"});
+  INFO(set.out << set.err);
+  CHECK(set.status != 0);
+  CHECK(contains(set.err, "node 90"));
 }

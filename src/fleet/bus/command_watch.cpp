@@ -16,6 +16,17 @@ namespace {
 constexpr std::optional<bla::Address> every_register{};
 constexpr std::uint16_t last_index = 0xFF;
 
+bool is_at(const dronecan::GetSet::Request& request, bla::Address address) {
+  // a name takes precedence over an index, which is the address
+  return request.name.empty() ? request.index == address.value() : request.name == address.name();
+}
+
+std::optional<bla::Address> register_of(const dronecan::GetSet::Request& request) {
+  return request.name.empty() ? std::optional(bla::Address(
+                                    static_cast<std::uint8_t>(std::min(request.index, last_index))))
+                              : bla::find_address(request.name);
+}
+
 } // namespace
 
 void Repeated::hear(Time at, Duration usual) {
@@ -80,26 +91,63 @@ void CommandWatch::on_write(const Transfer& transfer) {
   if (!request || std::holds_alternative<dronecan::GetSet::Empty>(request->value)) {
     return;
   }
-  // a name takes precedence over an index, which is the address
-  const auto is_at = [&](bla::Address address) {
-    return request->name.empty() ? request->index == address.value()
-                                 : request->name == address.name();
-  };
   namespace at = bla::address;
   const auto& [source, server] = std::pair(transfer.header.source, transfer.header.destination);
-  if (is_at(at::command_angle) || is_at(at::command_speed) || is_at(at::command_torque)) {
+  if (is_at(*request, at::command_angle) || is_at(*request, at::command_speed) ||
+      is_at(*request, at::command_torque)) {
     commander(source).nodes[server].hear(transfer.at);
-  } else if (is_at(at::initialize)) {
+  } else if (is_at(*request, at::initialize)) {
     writes_[server][every_register] = {source, transfer.at};
-  } else if (is_at(at::reboot)) {
+  } else if (is_at(*request, at::reboot)) {
     restarts_[server] = {source, transfer.at};
-  } else if (is_at(at::write_rom)) {
+  } else if (is_at(*request, at::write_rom)) {
     saves_[server] = {source, transfer.at};
   } else {
-    const auto reg = request->name.empty() ? std::optional(bla::Address(static_cast<std::uint8_t>(
-                                                 std::min(request->index, last_index))))
-                                           : bla::find_address(request->name);
-    writes_[server][reg] = {source, transfer.at};
+    write(transfer, register_of(*request), request->value);
+  }
+}
+
+/// Of a value that was heard twice the servo may still have lost one.
+void CommandWatch::write(const Transfer& transfer, Register reg,
+                         const dronecan::GetSet::Value& value) {
+  constexpr int times_to_be_sure = 2;
+  const NodeId server = transfer.header.destination;
+  Repetition& known = repetitions_[server][reg];
+  const bool goes_on = reg != every_register && known.times > 0 && known.value == value &&
+                       known.last > disturbed(server, reg);
+  known = {.value = value, .last = transfer.at, .times = goes_on ? known.times + 1 : 1};
+  if (known.times <= times_to_be_sure) {
+    writes_[server][reg] = {transfer.header.source, transfer.at};
+  }
+}
+
+/// The time of that write; before all others: there was none.
+Time CommandWatch::last(const Writes& writes, NodeId server, Register reg) {
+  const auto of_server = writes.find(server);
+  if (of_server == writes.end()) {
+    return Time::min();
+  }
+  const auto write = of_server->second.find(reg);
+  return write != of_server->second.end() ? write->second.at : Time::min();
+}
+
+/// When something else may have changed this register, beside writes of others to it.
+Time CommandWatch::disturbed(NodeId server, Register reg) const {
+  const auto restart = restarts_.find(server);
+  return std::max({last(writes_, server, every_register), last(own_, server, every_register),
+                   last(own_, server, reg),
+                   restart != restarts_.end() ? restart->second.at : Time::min()});
+}
+
+void CommandWatch::ask(const dronecan::Request& request, Time at) {
+  if (request.type == &dronecan::ExecuteOpcode::type ||
+      request.type == &dronecan::RestartNode::type) {
+    own_[request.server][every_register].at = at;
+  } else if (request.type == &dronecan::GetSet::type) {
+    const auto sent = dronecan::GetSet::Request::decode(request.payload.bytes());
+    if (sent && !std::holds_alternative<dronecan::GetSet::Empty>(sent->value)) {
+      own_[request.server][register_of(*sent)].at = at;
+    }
   }
 }
 

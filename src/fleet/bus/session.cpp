@@ -56,6 +56,7 @@ Session::Session(std::unique_ptr<can::Bus> bus, std::optional<state::LocalNodeId
              .withdraw = [this](auto frames) { loop_.withdraw(frames); },
              .asked =
                  [this](const dronecan::Request& request, int tries) {
+                   roster_.ask(request, loop_.now());
                    if (traffic_ != nullptr && request.retries > 0) { // probes are not counted
                      traffic_->ask(request.server);
                    }

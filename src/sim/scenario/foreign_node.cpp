@@ -103,6 +103,12 @@ Time ForeignNode::next_order() const {
   return orders_sent_ < setup_.orders.size() ? power_on_ + setup_.orders[orders_sent_].at : never;
 }
 
+std::vector<can::Frame> ForeignNode::write(dronecan::NodeId server, bla::Address address,
+                                           std::int64_t value) {
+  const dronecan::GetSet::Request request{.index = 0, .value = value, .name = address.name()};
+  return endpoint_.request(server, dronecan::GetSet::type, request.encode().bytes());
+}
+
 void ForeignNode::send_order(const OrderSetup& order) {
   using Order = OrderSetup::Order;
   using dronecan::ExecuteOpcode;
@@ -120,13 +126,8 @@ void ForeignNode::send_order(const OrderSetup& order) {
     frames = endpoint_.request(server, dronecan::RestartNode::type,
                                dronecan::RestartNode::Request{}.encode().bytes());
     break;
-  case Order::initialize:
-    frames = endpoint_.request(
-        server, dronecan::GetSet::type,
-        dronecan::GetSet::Request{.index = 0, .value = std::int64_t{1}, .name = "0x10"}
-            .encode()
-            .bytes());
-    break;
+  case Order::initialize: frames = write(server, bla::address::initialize, 1); break;
+  case Order::write: frames = write(server, bla::Address(order.address), order.value); break;
   }
   for (const can::Frame& frame : frames) {
     send(frame);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <string_view>
 
 namespace blactl::sim {
@@ -13,6 +14,8 @@ namespace {
 
 constexpr std::int64_t max_rate_hz = 1000;
 constexpr std::int64_t max_float16 = 65504;
+constexpr std::int64_t min_register = std::numeric_limits<std::int32_t>::min();
+constexpr std::int64_t max_register = std::numeric_limits<std::uint32_t>::max();
 
 void read_servo_ids(json::Object& object, std::string_view key, CommanderSetup& into,
                     json::Faults& faults) {
@@ -45,7 +48,9 @@ void read_commander(json::Object& object, std::string_view key, ForeignSetup& in
 constexpr Member<OrderSetup> order[]{
     {"at", up_to_seconds<&OrderSetup::at, 3600>},
     {"to", integer<&OrderSetup::to, 1, 127>},
-    {"order", word<&OrderSetup::order, "erase", "save", "restart", "initialize">},
+    {"order", word<&OrderSetup::order, "erase", "save", "restart", "initialize", "write">},
+    {"address", to<&OrderSetup::address>},
+    {"value", integer<&OrderSetup::value, min_register, max_register>},
 };
 
 void read_orders(json::Object& object, std::string_view key, ForeignSetup& into,

@@ -4,6 +4,7 @@
 
 #include "blactl/base/time.hpp"
 #include "blactl/bla/address.hpp"
+#include "blactl/dronecan/node.hpp"
 #include "blactl/dronecan/transfer.hpp"
 #include "blactl/dronecan/types.hpp"
 #include "blactl/fleet/bus/servo.hpp"
@@ -55,6 +56,10 @@ class CommandWatch {
   /// Takes every transfer of other nodes.
   void receive(const dronecan::Transfer& transfer);
 
+  /// Takes every request of this node when it is sent: what it changes, another one may change
+  /// back.
+  void ask(const dronecan::Request& request, Time at);
+
   [[nodiscard]] const std::map<dronecan::NodeId, Commander>& commanders() const {
     return commanders_;
   }
@@ -68,7 +73,8 @@ class CommandWatch {
   [[nodiscard]] std::optional<dronecan::NodeId> armed_by(Time now) const;
 
   /// Another node that changed a setting of this one after `since`. ERASE changes all of them; a
-  /// restart does not count, nor do motion commands (0x00-0x02). With `reg`: only this register.
+  /// restart does not count, nor do motion commands (0x00-0x02), nor a value that is written again
+  /// and again while nothing else is heard to change it. With `reg`: only this register.
   [[nodiscard]] std::optional<dronecan::NodeId>
   setter_of(dronecan::NodeId id, Time since, std::optional<bla::Address> reg = std::nullopt) const;
 
@@ -88,22 +94,38 @@ class CommandWatch {
  private:
   struct Write {
     dronecan::NodeId source{};
-    Time at{};
+    Time at{}; ///< of the last that may have changed something
   };
+
+  /// The same value, written again and again.
+  struct Repetition {
+    dronecan::GetSet::Value value{};
+    Time last{};
+    int times = 0;
+  };
+
+  /// A register; empty: all of them.
+  using Register = std::optional<bla::Address>;
 
   void on_command(const dronecan::Transfer& transfer);
   void on_arming(const dronecan::Transfer& transfer);
   void on_write(const dronecan::Transfer& transfer);
   void on_opcode(const dronecan::Transfer& transfer);
   void on_restart(const dronecan::Transfer& transfer);
+  void write(const dronecan::Transfer& transfer, Register reg,
+             const dronecan::GetSet::Value& value);
+  using Writes = std::map<dronecan::NodeId, std::map<Register, Write>>; ///< by server
+  [[nodiscard]] static Time last(const Writes& writes, dronecan::NodeId server, Register reg);
+  [[nodiscard]] Time disturbed(dronecan::NodeId server, Register reg) const;
   Commander& commander(dronecan::NodeId source);
 
   std::map<dronecan::NodeId, Commander> commanders_;
   std::map<dronecan::NodeId, Repeated> armed_; ///< by nodes that reported it last
-  /// The last writes to settings, by server and register; empty: to all registers.
-  std::map<dronecan::NodeId, std::map<std::optional<bla::Address>, Write>> writes_;
-  std::map<dronecan::NodeId, Write> saves_;    ///< by server
-  std::map<dronecan::NodeId, Write> restarts_; ///< by server
+  Writes writes_;                              ///< to settings
+  std::map<dronecan::NodeId, std::map<Register, Repetition>> repetitions_; ///< by server
+  Writes own_;                                                             ///< of this node
+  std::map<dronecan::NodeId, Write> saves_;                                ///< by server
+  std::map<dronecan::NodeId, Write> restarts_;                             ///< by server
 };
 
 } // namespace blactl::fleet

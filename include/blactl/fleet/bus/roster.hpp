@@ -144,6 +144,9 @@ class Roster {
 
   void receive(const dronecan::Transfer& transfer);
 
+  /// As CommandWatch::ask().
+  void ask(const dronecan::Request& request, Time at) { commands_.ask(request, at); }
+
   /// The unit behind `id` responded to GetNodeInfo: earlier facts may be about another unit.
   void learn(dronecan::NodeId id, const dronecan::GetNodeInfo::Response& info, Time at);
 

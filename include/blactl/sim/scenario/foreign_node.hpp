@@ -1,11 +1,13 @@
 #pragma once
 // A node on the simulated bus that is not a BLA servo: an autopilot, a satellite receiver.
 
+#include "blactl/bla/address.hpp"
 #include "blactl/dronecan/types.hpp"
 #include "blactl/sim/node/device.hpp"
 #include "blactl/sim/node/endpoint.hpp"
 #include "blactl/sim/scenario/foreign_setup.hpp"
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -29,6 +31,8 @@ class ForeignNode final : public Device {
   [[nodiscard]] std::unique_ptr<ForeignRole> make_role(Time power_on);
   [[nodiscard]] Time next_order() const;
   void send_order(const OrderSetup& order);
+  [[nodiscard]] std::vector<can::Frame> write(dronecan::NodeId server, bla::Address address,
+                                              std::int64_t value);
   void handle(const dronecan::Transfer& transfer);
   void answer(const dronecan::Transfer& request, const dronecan::DataType& type,
               const dronecan::Payload& payload);

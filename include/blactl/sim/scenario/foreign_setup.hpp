@@ -25,7 +25,9 @@ struct CommanderSetup {
 struct OrderSetup {
   Duration at{}; ///< after power-on
   std::uint8_t to = 1;
-  enum class Order : std::uint8_t { erase, save, restart, initialize } order = Order::erase;
+  enum class Order : std::uint8_t { erase, save, restart, initialize, write } order = Order::erase;
+  std::uint8_t address = 0; ///< of the register to write
+  std::int64_t value = 0;   ///< for it
 };
 
 /// A node with the behaviour common to all nodes, and nothing else.

@@ -37,7 +37,8 @@
 //         "name": "org.ardupilot.f405",
 //         "serves_get_set": true,          answers GetSet as a node without parameters
 //         "commands": {"servo_ids": [1, 2], "type": 1, "value": 0.45, "rate": 50},
-//         "orders": [{"at": "2s", "to": 11, "order": "erase"}],   or save, restart, initialize
+//         "orders": [{"at": "2s", "to": 11, "order": "erase"},    or save, restart, initialize
+//                    {"at": "3s", "to": 11, "order": "write", "address": 56, "value": 900}],
 //         "armed": false,                  sends ArmingStatus
 //         "actuator_id": 3,                sends actuator.Status
 //         "status_period": "1s"            of NodeStatus
