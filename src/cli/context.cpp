@@ -4,7 +4,6 @@
 #include "blactl/fleet/bus/texts.hpp"
 #include "blactl/fleet/files/fleet_replay.hpp"
 
-#include "cli/interface/bus_factory.hpp"
 #include "cli/interface/scheme.hpp"
 #include "cli/texts.hpp"
 
@@ -119,7 +118,7 @@ Result<fleet::Session*> Context::open(fleet::Session::Hearing hearing) {
     return std::unexpected(assumed.error());
   }
   assumed_ = *assumed;
-  auto bus = open_bus(shared_.interface, *profiles_, reporter_, wishes_.inquires);
+  auto bus = open_bare();
   if (!bus) {
     return std::unexpected(bus.error());
   }
@@ -168,6 +167,17 @@ Result<fleet::Session*> Context::open(fleet::Session::Hearing hearing) {
     reporter_.note(session_->opening_note());
   }
   return session_.get();
+}
+
+Result<OpenBus> Context::open_bare() {
+  const auto known = profiles();
+  if (!known) {
+    return std::unexpected(known.error());
+  }
+  return opener_({.text = shared_.interface,
+                  .profiles = **known,
+                  .reporter = reporter_,
+                  .inquires = wishes_.inquires});
 }
 
 /// The session responds from the contents of the file.

@@ -11,6 +11,7 @@
 #include "blactl/fleet/bus/target.hpp"
 #include "blactl/state/interface_lock.hpp"
 
+#include "cli/interface/bus_factory.hpp"
 #include "cli/options.hpp"
 #include "cli/output/report.hpp"
 #include "cli/output/reporter.hpp"
@@ -29,8 +30,9 @@ namespace blactl::cli {
 
 class Context {
  public:
-  Context(const Shared& shared, const Reporter& reporter)
-      : shared_(shared), reporter_(reporter), wishes_{.record = shared.record} {}
+  Context(const Shared& shared, const Reporter& reporter, BusOpener opener)
+      : shared_(shared), reporter_(reporter), opener_(std::move(opener)),
+        wishes_{.record = shared.record} {}
 
   [[nodiscard]] const Shared& shared() const { return shared_; }
 
@@ -58,6 +60,9 @@ class Context {
 
   /// Opens the interface to allocate node IDs, and to receive from all nodes. Further errors: busy.
   [[nodiscard]] Result<fleet::Session*> open_for_allocation();
+
+  /// The bus of -i, without a session. Errors: as open_bus().
+  [[nodiscard]] Result<OpenBus> open_bare();
 
   /// Whether this process may allocate node IDs: no other on this machine does.
   [[nodiscard]] bool may_allocate() { return lock_allocation().has_value(); }
@@ -148,6 +153,7 @@ class Context {
 
   const Shared& shared_;
   const Reporter& reporter_;
+  BusOpener opener_;
   Wishes wishes_;
   std::optional<bla::Profiles> profiles_;
   const bla::Profile* assumed_ = nullptr;

@@ -39,12 +39,12 @@ int refuse(std::span<const std::string> arguments, std::vector<Error> faults) {
   return Reporter(peek(arguments).output).finish(report);
 }
 
-int carry_out(const Invocation& invocation, const Reporter& reporter) {
+int carry_out(const Invocation& invocation, const Reporter& reporter, const BusOpener& opener) {
   for (const Origin& origin : invocation.shared.from_environment) {
     reporter.detail(
         say<texts::from_environment>(origin.option, printable(origin.value), origin.variable));
   }
-  Context context(invocation.shared, reporter);
+  Context context(invocation.shared, reporter, opener);
   const Command& command = *invocation.command;
   Report report = command.action.run(invocation.options.get(), context);
   report.command = command.name;
@@ -64,7 +64,7 @@ int fail_in_silence() {
   return exit_status(Code::internal);
 }
 
-int understand_and_run(std::span<const std::string> arguments) {
+int understand_and_run(std::span<const std::string> arguments, const BusOpener& opener) {
   set_language(peek_language(arguments));
   // before the parser is built: scripts ask for it often
   if (arguments.size() == 1 && (arguments[0] == "--version" || arguments[0] == "-V")) {
@@ -84,7 +84,7 @@ int understand_and_run(std::span<const std::string> arguments) {
   if (invocation->shared.dump_cli) {
     return print(reporter, dump_cli());
   }
-  return carry_out(*invocation, reporter);
+  return carry_out(*invocation, reporter, opener);
 }
 
 } // namespace
@@ -106,8 +106,8 @@ int guarded(std::span<const std::string> arguments, const std::function<int()>& 
   }
 }
 
-int run(std::span<const std::string> arguments) {
-  return guarded(arguments, [&] { return understand_and_run(arguments); });
+int run(std::span<const std::string> arguments, const BusOpener& opener) {
+  return guarded(arguments, [&] { return understand_and_run(arguments, opener); });
 }
 
 } // namespace blactl::cli

@@ -209,7 +209,7 @@ void join(const std::string& name, const sim::Scenario& scenario, const bla::Pro
     return report.fail({Code::usage, say<texts::wire_is_real>(printable(name)),
                         say<texts::wire_is_real_hint>(), std::nullopt});
   }
-  auto bus = open_bus(name, profiles, context.reporter());
+  auto bus = open_bus({.text = name, .profiles = profiles, .reporter = context.reporter()});
   if (!bus) {
     return report.fail(bus.error());
   }

@@ -142,9 +142,7 @@ struct Source {
   std::unique_ptr<can::Bus> bus{};
 };
 
-/// `profiles` are needed for a bus only.
-Result<Source> open_source(const TraceOptions& options, const bla::Profiles* profiles,
-                           Context& context) {
+Result<Source> open_source(const TraceOptions& options, Context& context) {
   const Shared& shared = context.shared();
   if (const auto path = log_path(options, shared.interface)) {
     if (shared.record) {
@@ -154,7 +152,7 @@ Result<Source> open_source(const TraceOptions& options, const bla::Profiles* pro
     auto log = open_log(*path, options.file.empty());
     return log ? Result<Source>(Source{.log = std::move(*log)}) : std::unexpected(log.error());
   }
-  auto opened = open_bus(shared.interface, *profiles, context.reporter());
+  auto opened = context.open_bare();
   if (!opened) {
     return std::unexpected(opened.error());
   }
@@ -165,7 +163,7 @@ Result<Source> open_source(const TraceOptions& options, const bla::Profiles* pro
 /// `profiles`: null for a log as JSON.
 void run_trace(const TraceOptions& options, TraceFilter filter, const bla::Profiles* profiles,
                Context& context, Report& report) {
-  auto source = open_source(options, profiles, context);
+  auto source = open_source(options, context);
   if (!source) {
     return report.fail(source.error());
   }

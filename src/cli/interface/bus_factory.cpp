@@ -50,21 +50,23 @@ Result<std::string> the_only_interface() {
 
 } // namespace
 
-Result<OpenBus> open_bus(std::string_view text, const bla::Profiles& profiles,
-                         const Reporter& reporter, bool inquires) {
-  if (text.empty()) {
+Result<OpenBus> open_bus(const OpenRequest& request) {
+  OpenRequest named = request;
+  if (request.text.empty()) {
     auto name = the_only_interface();
     if (!name) {
       return std::unexpected(name.error());
     }
-    reporter.detail(say<texts::only_interface>(*name));
-    return open_socketcan({text, std::move(*name), profiles, reporter});
+    request.reporter.detail(say<texts::only_interface>(*name));
+    named.rest = std::move(*name);
+    return open_socketcan(named);
   }
-  auto name = parse_interface(text);
+  auto name = parse_interface(request.text);
   if (!name) {
     return std::unexpected(name.error());
   }
-  return name->scheme->open({text, std::move(name->rest), profiles, reporter, inquires});
+  named.rest = std::move(name->rest);
+  return name->scheme->open(named);
 }
 
 } // namespace blactl::cli

@@ -12,6 +12,7 @@
 
 #include "cli/output/reporter.hpp"
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -34,19 +35,21 @@ struct OpenBus {
 /// What is to be opened.
 struct OpenRequest {
   std::string_view text;         ///< as typed
-  std::string rest;              ///< of it, behind the colon
   const bla::Profiles& profiles; ///< this and the next outlive the bus
   const Reporter& reporter;
   bool inquires = false; ///< an adapter is asked what it is
+  std::string rest{};    ///< of `text`, behind the colon
 };
 
 /// Where lock files of a network interface lie.
 [[nodiscard]] state::LockPlace lock_place(std::string link);
 
-/// Opens the interface named by `text`; empty: the only CAN interface that is up. Errors: interface
-/// with the list of interfaces, permission, bad_file (scenario, fleet file), usage. `profiles` and
-/// `reporter` outlive the bus. `inquires`: asks an adapter for its identification.
-[[nodiscard]] Result<OpenBus> open_bus(std::string_view text, const bla::Profiles& profiles,
-                                       const Reporter& reporter, bool inquires = false);
+/// Opens the interface named by `request.text`; empty: the only CAN interface that is up; `rest` is
+/// filled in here. Errors: interface with the list of interfaces, permission, bad_file (scenario,
+/// fleet file), usage.
+[[nodiscard]] Result<OpenBus> open_bus(const OpenRequest& request);
+
+/// Such a function: whoever runs commands in its own process may bring its own bus.
+using BusOpener = std::function<Result<OpenBus>(const OpenRequest&)>;
 
 } // namespace blactl::cli

@@ -73,14 +73,22 @@ class PrivateBus::Inbox final : public Medium::Listener {
 
 PrivateBus::PrivateBus(std::string name, const Scenario& scenario)
     : name_(std::move(name)), clock_(scenario.clock),
-      simulator_(scenario, scenario.clock == Clock::simulated ? Time{} : Bus::now()),
+      simulator_(std::make_shared<Simulator>(
+          scenario, scenario.clock == Clock::simulated ? Time{} : Bus::now())),
       inbox_(std::make_unique<Inbox>(*this)),
-      port_(simulator_.attach(*inbox_, own_queue_capacity)) {}
+      port_(simulator_->attach(*inbox_, own_queue_capacity)) {}
 
-PrivateBus::~PrivateBus() = default;
+PrivateBus::PrivateBus(std::string name, std::shared_ptr<Simulator> simulator)
+    : name_(std::move(name)), clock_(Clock::simulated), simulator_(std::move(simulator)),
+      inbox_(std::make_unique<Inbox>(*this)),
+      port_(simulator_->attach(*inbox_, own_queue_capacity)) {}
+
+PrivateBus::~PrivateBus() {
+  simulator_->detach(port_);
+}
 
 Time PrivateBus::now() const {
-  return clock_ == Clock::real ? Bus::now() : simulator_.now();
+  return clock_ == Clock::real ? Bus::now() : simulator_->now();
 }
 
 WallTime PrivateBus::wall() const {
@@ -88,12 +96,12 @@ WallTime PrivateBus::wall() const {
 }
 
 Result<bool> PrivateBus::send(const can::Frame& frame) {
-  simulator_.advance_to(now());
-  return simulator_.send(port_, frame);
+  simulator_->advance_to(now());
+  return simulator_->send(port_, frame);
 }
 
 std::optional<can::BusEvent> PrivateBus::receive() {
-  simulator_.advance_to(now());
+  simulator_->advance_to(now());
   return inbox_->pop();
 }
 
@@ -108,14 +116,14 @@ Result<void> PrivateBus::filter(std::span<const can::Filter> filters) {
 
 Time PrivateBus::idle_until(Time deadline) {
   if (clock_ == Clock::real) {
-    return std::min(deadline, simulator_.next_event());
+    return std::min(deadline, simulator_->next_event());
   }
-  const Time longest = simulator_.now() + longest_step;
+  const Time longest = simulator_->now() + longest_step;
   const Time end = std::min(deadline, longest);
-  while (inbox_->empty() && simulator_.now() < end) {
-    simulator_.advance_to(std::min(end, simulator_.next_event()));
+  while (inbox_->empty() && simulator_->now() < end) {
+    simulator_->advance_to(std::min(end, simulator_->next_event()));
   }
-  return simulator_.now();
+  return simulator_->now();
 }
 
 } // namespace blactl::sim

@@ -33,7 +33,8 @@ std::string kind(std::string_view text) {
 }
 
 Result<OpenBus> open(std::string_view text) {
-  return open_bus(text, test::built_in(), Reporter({}));
+  const Reporter reporter({});
+  return open_bus({.text = text, .profiles = test::built_in(), .reporter = reporter});
 }
 
 } // namespace

@@ -10,12 +10,15 @@
 
 namespace blactl::sim {
 
-/// The servos power on when it is made, and are gone with it. On the scenario's virtual clock time
-/// passes only in idle_until(), and then at once.
+/// The servos power on when it is made, and are gone with it, unless they are given. On the
+/// scenario's virtual clock time passes only in idle_until(), and then at once.
 class PrivateBus final : public can::Bus {
  public:
   /// `name`: as given by the user. The scenario's profiles must outlive this.
   PrivateBus(std::string name, const Scenario& scenario);
+
+  /// On a virtual clock, beside others that come later: the servos live on.
+  PrivateBus(std::string name, std::shared_ptr<Simulator> simulator);
   ~PrivateBus() override;
 
   [[nodiscard]] std::string_view name() const override { return name_; }
@@ -36,14 +39,14 @@ class PrivateBus final : public can::Bus {
   [[nodiscard]] Time idle_until(Time deadline) override;
 
   /// For tests: the state of the servos.
-  [[nodiscard]] const Simulator& simulator() const { return simulator_; }
+  [[nodiscard]] const Simulator& simulator() const { return *simulator_; }
 
  private:
   class Inbox;
 
   std::string name_;
   Clock clock_;
-  Simulator simulator_;
+  std::shared_ptr<Simulator> simulator_;
   std::unique_ptr<Inbox> inbox_;
   Medium::PortId port_;
 };
