@@ -453,11 +453,9 @@ def trouble(chance, serial):
 
 
 class Frozen:
-    """An episode from a file."""
+    """An episode as it was written down."""
 
-    def __init__(self, path):
-        with open(path, encoding="utf-8") as file:
-            kept = json.load(file)
+    def __init__(self, kept):
         self.scenario = kept["scenario"]
         for index, servo in enumerate(self.scenario["servos"]):
             servo.setdefault("serial_number", FIRST_SERIAL + index)

@@ -1,0 +1,61 @@
+#pragma once
+// Episodes, played and judged, and what came of them.
+
+#include "episode.hpp"
+#include "step.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace blactl::campaign {
+
+/// What became of commands, by kind of fault where it was alone.
+struct Ends {
+  std::uint64_t good = 0;     ///< 0
+  std::uint64_t needless = 0; ///< of a good command, not 0
+};
+
+struct Counts {
+  std::uint64_t episodes = 0, runs = 0, repeated = 0;
+  std::uint64_t servo_seconds = 0;             ///< of simulated time, over all servos
+  std::map<std::string, std::uint64_t> ends;   ///< exit status with its errors
+  std::map<std::string, std::uint64_t> faults; ///< episodes in which that kind was switched on
+  std::map<std::string, Ends> alone;           ///< by kind of fault; "": none
+  std::uint64_t lies = 0, stuck = 0;           ///< false words; commands that did not converge
+  std::uint64_t crashes = 0;                   ///< jobs that did not end by themselves
+
+  Counts& operator+=(const Counts& other);
+};
+
+class Campaign {
+ public:
+  /// `folder`: for files of the episodes. `tell`: receives every difference, and with `is_verbose`
+  /// every command.
+  Campaign(std::filesystem::path folder, std::function<void(const std::string&)> tell,
+           bool is_verbose)
+      : folder_(std::move(folder)), tell_(std::move(tell)), is_verbose_(is_verbose) {}
+
+  void play(const Episode& episode);
+
+  [[nodiscard]] const Counts& counts() const { return counts_; }
+
+  [[nodiscard]] bool has_found() const { return counts_.lies > 0; }
+
+ private:
+  [[nodiscard]] Step run(World& world, const Episode& episode, const Command& command,
+                         std::vector<sim::ServoEvent>& earlier);
+  void count(const Step& step, bool must_succeed);
+  void repeat(World& world, const Episode& episode);
+  void differ(const Episode& episode, const Step& step, const std::string& what);
+
+  std::filesystem::path folder_;
+  std::function<void(const std::string&)> tell_;
+  bool is_verbose_;
+  Counts counts_;
+};
+
+} // namespace blactl::campaign

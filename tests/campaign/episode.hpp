@@ -1,0 +1,34 @@
+#pragma once
+// What one run of the campaign consists of, all from its seed: servos, what goes wrong, commands.
+
+#include "world.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace blactl::campaign {
+
+struct Episode {
+  std::uint64_t seed = 0;
+  nlohmann::json scenario;
+  std::vector<Command> steps; ///< one after the other
+  /// The kinds of faults that this seed switches on: a random subset, often one alone. None:
+  /// nothing goes wrong.
+  std::set<std::string> faults;
+
+  [[nodiscard]] bool has(const std::string& fault) const { return faults.contains(fault); }
+};
+
+/// All kinds of faults that there are.
+[[nodiscard]] std::vector<std::string> fault_kinds();
+
+[[nodiscard]] Episode make_episode(std::uint64_t seed);
+
+/// As a file of frozen/, which campaign.py plays on the binary.
+[[nodiscard]] nlohmann::json frozen(const Episode& episode);
+
+} // namespace blactl::campaign

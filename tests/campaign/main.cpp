@@ -1,0 +1,145 @@
+// The campaign in one process a job: episodes by seed, played on simulated servos, judged by their
+// memory. Exit status 1 if something was found.
+
+#include "campaign.hpp"
+#include "results.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+using namespace blactl::campaign;
+
+namespace {
+
+struct Options {
+  std::uint64_t seed = 1;
+  std::uint64_t episodes = 1000;
+  unsigned jobs = 1;
+  bool verbose = false;
+  bool frozen = false; ///< prints the episodes, a line each, for campaign.py
+  bool until_found = false;
+  std::string results{};
+};
+
+/// Commands run in this process, and nothing of the caller may get into them.
+void prepare(const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  for (const char* variable : {"BLACTL_STATE", "BLACTL_INTERFACE", "BLACTL_LANG", "NO_COLOR"}) {
+    unsetenv(variable);
+  }
+  setenv("LC_ALL", "C.UTF-8", 1);
+  const int nothing = open("/dev/null", O_RDONLY | O_CLOEXEC);
+  dup2(nothing, STDIN_FILENO);
+}
+
+std::uint64_t watched = 0;
+
+/// An episode takes some milliseconds: one that takes a minute hangs.
+void watch(std::uint64_t seed) {
+  constexpr unsigned patience_s = 60;
+  watched = seed;
+  struct sigaction action{};
+  action.sa_handler = [](int) { // NOLINT: the macro casts
+    std::fprintf(stderr, "episode %llu: hangs\n", static_cast<unsigned long long>(watched));
+    _exit(3);
+  };
+  sigaction(SIGALRM, &action, nullptr);
+  alarm(patience_s);
+}
+
+/// Every `jobs`-th seed from that of this job.
+Counts play(const Options& options, unsigned job, const std::filesystem::path& folder) {
+  prepare(folder);
+  Campaign campaign(
+      folder / "episode",
+      [](const std::string& text) {
+        std::fputs((text + "\n").c_str(), stdout);
+        std::fflush(stdout);
+      },
+      options.verbose);
+  for (std::uint64_t i = job; i < options.episodes; i += options.jobs) {
+    watch(options.seed + i);
+    campaign.play(make_episode(options.seed + i));
+    if (options.until_found && campaign.has_found()) {
+      break;
+    }
+  }
+  alarm(0);
+  std::filesystem::remove_all(folder);
+  return campaign.counts();
+}
+
+/// A process each: commands use what a process has once.
+Counts play_all(const Options& options) {
+  const std::filesystem::path memory = "/dev/shm";
+  const std::filesystem::path base =
+      (std::filesystem::exists(memory) ? memory : std::filesystem::temp_directory_path()) /
+      fmt::format("blactl-campaign-{}", getpid());
+  if (options.jobs == 1) {
+    return play(options, 0, base);
+  }
+  std::vector<pid_t> children;
+  for (unsigned job = 0; job < options.jobs; ++job) {
+    const std::filesystem::path folder = base.string() + fmt::format("-{}", job);
+    children.push_back(fork());
+    if (children.back() == 0) {
+      const Counts counts = play(options, job, folder);
+      std::ofstream(folder.string() + ".json") << to_json(counts).dump();
+      _exit(0);
+    }
+  }
+  Counts all;
+  for (unsigned job = 0; job < options.jobs; ++job) {
+    int status = 0;
+    waitpid(children[job], &status, 0);
+    const std::string file = base.string() + fmt::format("-{}.json", job);
+    if (status != 0) {
+      all.crashes += 1;
+    } else {
+      all += from_json(nlohmann::json::parse(std::ifstream(file)));
+      std::filesystem::remove(file);
+    }
+  }
+  return all;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  CLI::App app("Random episodes, everything that can go wrong, and what commands say of it");
+  app.add_option("--seed", options.seed, "the first episode");
+  app.add_option("--episodes", options.episodes, "how many");
+  app.add_option("--jobs", options.jobs, "processes")->check(CLI::Range(1, 256));
+  app.add_option("--results", options.results, "writes this Markdown file");
+  app.add_flag("--until-found", options.until_found, "ends with the first difference");
+  app.add_flag("--verbose", options.verbose, "prints every command");
+  app.add_flag("--frozen", options.frozen, "prints the episodes for campaign.py");
+  CLI11_PARSE(app, argc, argv);
+  if (options.frozen) {
+    for (std::uint64_t i = 0; i < options.episodes; ++i) {
+      std::puts(frozen(make_episode(options.seed + i)).dump().c_str());
+    }
+    return 0;
+  }
+  const Counts counts = play_all(options);
+  const std::string text = summary(counts, options.seed);
+  std::fputs(text.c_str(), stdout);
+  if (!options.results.empty()) {
+    std::ofstream(options.results) << text;
+  }
+  return counts.lies + counts.stuck + counts.crashes == 0 ? 0 : 1;
+}

@@ -1,0 +1,132 @@
+#include "step.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <string_view>
+
+namespace blactl::campaign {
+
+using nlohmann::json;
+
+namespace {
+
+/// From the order to the end of a ROM write.
+constexpr Duration longest_save = std::chrono::seconds(1);
+
+} // namespace
+
+Duration time_in(const json& text) {
+  if (text.is_number()) {
+    return Duration(text.get<std::int64_t>());
+  }
+  const std::string word = text.get<std::string>();
+  std::int64_t number = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+  const std::string_view unit = end;
+  return unit == "s"    ? Duration(std::chrono::seconds(number))
+         : unit == "ms" ? Duration(std::chrono::milliseconds(number))
+                        : Duration(number);
+}
+
+const json& Step::setup(std::int64_t serial) const {
+  return *std::ranges::find_if(episode.scenario["servos"], [&](const json& servo) {
+    return servo["serial_number"].get<std::int64_t>() == serial;
+  });
+}
+
+std::set<std::uint8_t> Step::node_ids(std::int64_t serial) const {
+  std::set<std::uint8_t> ids{before.at(serial).node_id, after.at(serial).node_id};
+  for (const sim::ServoEvent& event : events) {
+    if (event.serial_number == serial) {
+      ids.insert(event.node_id.value());
+    }
+  }
+  ids.erase(0);
+  return ids;
+}
+
+std::vector<Time> Step::restarts(std::int64_t serial) const {
+  std::vector<Time> times;
+  for (const sim::ServoEvent& event : events) {
+    if (event.serial_number == serial && event.kind == sim::ServoEvent::Kind::restart) {
+      times.push_back(event.at);
+    }
+  }
+  return times;
+}
+
+bool Step::means(std::int64_t serial) const {
+  if (command.verb() == "doctor" || (command.verb() == "alloc" && !command.has("--static"))) {
+    return false;
+  }
+  if (!command.fleet.is_null()) {
+    return std::ranges::any_of(command.fleet["servos"], [&](const json& entry) {
+      return entry["match"]["serial_number"].get<std::int64_t>() == serial;
+    });
+  }
+  const auto at = std::ranges::find(command.words, "-n");
+  const std::string target = at != command.words.end() ? *(at + 1) : "all";
+  if (target == "all" || target == "serial:" + std::to_string(serial)) {
+    return true;
+  }
+  const auto ids = node_ids(serial);
+  return std::ranges::any_of(ids, [&](std::uint8_t id) { return target == std::to_string(id); });
+}
+
+Duration Step::lateness(std::int64_t serial) const {
+  const json& servo = setup(serial);
+  return servo.contains("sending") && servo["sending"].contains("late_by")
+             ? time_in(servo["sending"]["late_by"])
+             : Duration::zero();
+}
+
+bool Step::changed_unheard(std::int64_t serial) const {
+  const Time last = outcome.record.last_told_by(node_ids(serial));
+  const Time known = last - tolerance - lateness(serial);
+  const auto is_unheard = [&](Time at) { return at > known && at <= end + tolerance; };
+  return std::ranges::any_of(restarts(serial), is_unheard) ||
+         std::ranges::any_of(accidents(serial), is_unheard) || has_other_writer(serial);
+}
+
+bool Step::has_other_writer(std::int64_t serial) const {
+  if (!episode.scenario.contains("foreign")) {
+    return false;
+  }
+  const auto ids = node_ids(serial);
+  for (const json& node : episode.scenario["foreign"]) {
+    for (const json& order : node.value("orders", json::array())) {
+      const Time at = Time{} + time_in(order["at"]);
+      if (ids.contains(order["to"].get<std::uint8_t>()) && at > begin - longest_save &&
+          at < end + tolerance) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+bool Step::is_doubled(std::int64_t serial) const {
+  return std::ranges::any_of(after, [&](const auto& other) {
+    const ServoState& own = after.at(serial);
+    return other.first != serial && (other.second.unique_id == own.unique_id ||
+                                     (other.second.node_id == own.node_id && own.node_id != 0) ||
+                                     (before.at(other.first).node_id == before.at(serial).node_id &&
+                                      before.at(serial).node_id != 0));
+  });
+}
+
+std::vector<Time> Step::accidents(std::int64_t serial) const {
+  std::vector<Time> times;
+  for (const json& event : episode.scenario.value("events", json::array())) {
+    if (!event.contains("servo") || event["servo"].get<std::int64_t>() == serial) {
+      times.push_back(Time{} + time_in(event["at"]));
+    }
+  }
+  if (setup(serial).contains("faults")) {
+    const auto restarted = restarts(serial);
+    times.insert(times.end(), restarted.begin(), restarted.end());
+  }
+  return times;
+}
+
+} // namespace blactl::campaign

@@ -1,0 +1,61 @@
+#pragma once
+// One command of an episode, and what happened in the servos while it ran.
+
+#include "episode.hpp"
+
+#include <cstdint>
+#include <set>
+#include <vector>
+
+namespace blactl::campaign {
+
+/// A client's clock against a servo's; less than the shortest start takes.
+inline constexpr Duration tolerance = std::chrono::milliseconds(30);
+
+/// After this a servo that has started has sent its first NodeStatus, and some more.
+inline constexpr Duration settled = std::chrono::seconds(3);
+
+struct Step {
+  const Episode& episode;
+  const Command& command;
+  Outcome outcome;
+  States before, after;
+  Time begin, end;
+  std::vector<sim::ServoEvent> events;
+  std::vector<sim::ServoEvent> earlier; ///< of the steps before
+
+  /// All node IDs that a servo had.
+  [[nodiscard]] std::set<std::uint8_t> node_ids(std::int64_t serial) const;
+
+  /// When it restarted.
+  [[nodiscard]] std::vector<Time> restarts(std::int64_t serial) const;
+
+  [[nodiscard]] std::uint32_t rom_writes(std::int64_t serial) const {
+    return after.at(serial).rom_writes - before.at(serial).rom_writes;
+  }
+
+  /// Whether -n, or the fleet file, takes it in.
+  [[nodiscard]] bool means(std::int64_t serial) const;
+
+  /// Whether RAM may be another than what the command could know in its last moment: the servo
+  /// restarted, or another tool changed it, when nothing of it could be heard any more.
+  [[nodiscard]] bool changed_unheard(std::int64_t serial) const;
+
+  /// Whether another tool may have written to it while the command ran.
+  [[nodiscard]] bool has_other_writer(std::int64_t serial) const;
+
+  /// Whether it shares its node ID with another, or its unique ID.
+  [[nodiscard]] bool is_doubled(std::int64_t serial) const;
+
+  /// When something may come to it, or go, that is no order of the command.
+  [[nodiscard]] std::vector<Time> accidents(std::int64_t serial) const;
+
+ private:
+  [[nodiscard]] Duration lateness(std::int64_t serial) const;
+  [[nodiscard]] const nlohmann::json& setup(std::int64_t serial) const;
+};
+
+/// The time in "500ms" or "3s" of a scenario.
+[[nodiscard]] Duration time_in(const nlohmann::json& text);
+
+} // namespace blactl::campaign

@@ -1,0 +1,218 @@
+#include "world.hpp"
+
+#include "blactl/base/hex.hpp"
+#include "blactl/bla/profile.hpp"
+#include "blactl/sim/bus/private_bus.hpp"
+#include "blactl/sim/scenario/scenario.hpp"
+
+#include "capture.hpp"
+#include "cli/run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <tuple>
+#include <utility>
+
+namespace blactl::campaign {
+namespace {
+
+constexpr std::uint8_t fault_warning = 0x1A, servo_id = 0x45, static_node_id = 0x46;
+
+const bla::Profiles& profiles() {
+  static const bla::Profiles loaded = bla::Profiles::load({}).value();
+  return loaded;
+}
+
+/// A bus that writes down what passes, as --record does.
+class Witness final : public can::Bus {
+ public:
+  Witness(std::unique_ptr<can::Bus> bus, Record& record) : bus_(std::move(bus)), record_(record) {}
+
+  [[nodiscard]] std::string_view name() const override { return bus_->name(); }
+
+  [[nodiscard]] Result<bool> send(const can::Frame& frame) override { return bus_->send(frame); }
+
+  [[nodiscard]] Result<void> filter(std::span<const can::Filter> filters) override {
+    return bus_->filter(filters);
+  }
+
+  [[nodiscard]] bool echoes() const override { return bus_->echoes(); }
+
+  [[nodiscard]] std::string bus_off_hint() const override { return bus_->bus_off_hint(); }
+
+  [[nodiscard]] int descriptor() const override { return bus_->descriptor(); }
+
+  [[nodiscard]] Time now() const override { return bus_->now(); }
+
+  [[nodiscard]] WallTime wall() const override { return bus_->wall(); }
+
+  [[nodiscard]] Time idle_until(Time deadline) override { return bus_->idle_until(deadline); }
+
+  [[nodiscard]] std::optional<can::BusEvent> receive() override {
+    auto event = bus_->receive();
+    if (event) {
+      if (const auto* received = std::get_if<can::Received>(&*event)) {
+        record_.add(received->frame, received->at);
+      } else if (const auto* sent = std::get_if<can::Sent>(&*event)) {
+        record_.add(sent->frame, sent->at);
+      }
+    }
+    return event;
+  }
+
+ private:
+  std::unique_ptr<can::Bus> bus_;
+  Record& record_;
+};
+
+nlohmann::json document_in(const std::string& out) {
+  auto whole = nlohmann::json::parse(out, nullptr, false);
+  if (!whole.is_discarded()) {
+    return whole;
+  }
+  const auto end = out.find_last_not_of('\n');
+  const auto begin = end == std::string::npos ? end : out.rfind('\n', end);
+  auto last = begin == std::string::npos
+                  ? nlohmann::json()
+                  : nlohmann::json::parse(out.substr(begin + 1), nullptr, false);
+  return last.is_discarded() ? nlohmann::json() : last;
+}
+
+} // namespace
+
+bool Command::has(std::string_view word) const {
+  return std::ranges::find(words, word) != words.end();
+}
+
+std::string Command::text() const {
+  std::string text = "blactl";
+  for (const std::string& word : words) {
+    text += " " + word;
+  }
+  return text;
+}
+
+bool ServoState::has_lost_rom() const {
+  const auto warnings = ram.find(fault_warning);
+  return warnings != ram.end() && (warnings->second >> 15 & 1) != 0;
+}
+
+World::World(const nlohmann::json& scenario, std::filesystem::path folder)
+    : scenario_(scenario), folder_(std::move(folder)) {
+  power_on(scenario_, Time{});
+}
+
+World::~World() = default;
+
+void World::power_on(const nlohmann::json& scenario, Time at) {
+  auto parsed = sim::parse_scenario(scenario.dump(), "episode", profiles());
+  if (!parsed) {
+    throw std::invalid_argument(parsed.error().message);
+  }
+  simulator_ = std::make_shared<sim::Simulator>(
+      *parsed, at, [this](const sim::ServoEvent& event) { events_.push_back(event); });
+}
+
+Outcome World::run(const Command& command) {
+  Outcome outcome;
+  std::vector<std::string> arguments{"-i", "sim:world", "--json"};
+  arguments.insert(arguments.end(), command.words.begin(), command.words.end());
+  if (!command.fleet.is_null()) {
+    std::ofstream(folder_ / command.words.at(1)) << command.fleet.dump();
+  }
+  std::filesystem::current_path(folder_);
+  const auto opener = [&](const cli::OpenRequest& request) -> Result<cli::OpenBus> {
+    return cli::OpenBus{.bus = std::make_unique<Witness>(std::make_unique<sim::PrivateBus>(
+                                                             std::string(request.text), simulator_),
+                                                         outcome.record),
+                        .place = {.interface = "sim:world", .folder = folder_.string()}};
+  };
+  {
+    const Capture capture;
+    outcome.status = cli::run(arguments, opener);
+    std::tie(outcome.out, outcome.err) = capture.taken();
+  }
+  outcome.document = document_in(outcome.out);
+  return outcome;
+}
+
+void World::pass(Duration time) {
+  simulator_->advance_to(simulator_->now() + time);
+}
+
+/// The registers of the scenario's own keys have no place in "rom".
+nlohmann::json World::rom_of(const sim::Servo& servo) {
+  nlohmann::json rom = nlohmann::json::object();
+  for (const auto& [address, value] : state_of(servo).rom) {
+    const std::string name = bla::Address(address).name();
+    if (address != servo_id && address != static_node_id) {
+      rom[name] = value;
+    }
+  }
+  return rom;
+}
+
+void World::repair() {
+  nlohmann::json servos = nlohmann::json::array();
+  for (const nlohmann::json& before : scenario_["servos"]) {
+    const sim::Servo& servo =
+        **std::ranges::find(simulator_->servos(), before["serial_number"].get<std::int64_t>(),
+                            &sim::Servo::serial_number);
+    servos.push_back({{"model", before["model"]},
+                      {"serial_number", before["serial_number"]},
+                      {"unique_id", hex(servo.unique_id())},
+                      {"node_id", servo.registers().rom_value(bla::Address(static_node_id))},
+                      {"servo_id", servo.registers().rom_value(bla::Address(servo_id))},
+                      {"rom", rom_of(servo)}});
+  }
+  scenario_ = {{"schema", scenario_["schema"]},
+               {"clock", "virtual"},
+               {"seed", scenario_["seed"]},
+               {"servos", servos}};
+  power_on(scenario_, simulator_->now() + std::chrono::seconds(5));
+}
+
+ServoState World::state_of(const sim::Servo& servo) {
+  constexpr unsigned end = 0x60;
+  ServoState state{.unique_id = hex(servo.unique_id()),
+                   .node_id = servo.node_id().value(),
+                   .ram = {},
+                   .rom = {},
+                   .rom_writes = servo.rom_writes()};
+  for (unsigned address = 0; address < end; ++address) {
+    const auto number = static_cast<std::uint8_t>(address);
+    const bla::Parameter* parameter = servo.registers().existing(bla::Address(number));
+    if (parameter != nullptr && parameter->readable()) {
+      state.ram.emplace(number, servo.registers().value(parameter->address));
+    }
+    if (parameter != nullptr && parameter->readable() && parameter->saved) {
+      state.rom.emplace(number, servo.registers().rom_value(parameter->address));
+    }
+  }
+  return state;
+}
+
+States World::states() {
+  States all;
+  for (sim::Servo* servo : simulator_->servos()) {
+    servo->look(simulator_->now());
+    all.emplace(servo->serial_number(), state_of(*servo));
+  }
+  return all;
+}
+
+std::vector<sim::ServoEvent> World::take_events() {
+  return std::exchange(events_, {});
+}
+
+Time World::now() const {
+  return simulator_->now();
+}
+
+} // namespace blactl::campaign
