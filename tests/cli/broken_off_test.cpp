@@ -75,3 +75,25 @@ TEST_CASE("of a servo that has made way nobody says that it is as it was") {
   }
   CHECK(made_way > 3);
 }
+
+TEST_CASE("an erase that was to keep the IDs and breaks off keeps them when it is repeated") {
+  int broken_off = 0;
+  for (int after_ms = 1'050; after_ms < 3'000; after_ms += 40) {
+    const Fleet fleet(cut_at(after_ms));
+    const Arguments erase{"erase", "-n", "11,12", "--keep-ids", "--save", "-y"};
+    const Result first = fleet.run(erase);
+    INFO(after_ms << " ms: " << first.err);
+    for (int times = 0; fleet.run({"scan", "--listen", "1"}).status == 3 && times < 20; ++times) {
+      // until the interface is back
+    }
+    broken_off += first.status != 0 && fleet.ram("11", "static_node_id") == 0 ? 1 : 0;
+    const Result again = fleet.run(erase);
+    INFO(again.out << again.err);
+    CHECK(again.status == 0);
+    for (const auto* id : {"11", "12"}) {
+      CHECK(fleet.rom(id, "static_node_id") == std::stoi(id));
+      CHECK(fleet.rom(id, "servo_id") == std::stoi(id) - 10);
+    }
+  }
+  CHECK(broken_off > 0);
+}

@@ -1,5 +1,7 @@
 // blactl erase: RAM to factory defaults.
 
+#include "blactl/fleet/change/history.hpp"
+
 #include "cli/change/change_servos.hpp"
 #include "cli/commands.hpp"
 
@@ -27,8 +29,8 @@ constexpr Option erase_options[]{
 
 Report execute(const EraseOptions& options, Context& context) {
   const auto restart = options.save ? std::optional(fleet::RestartKind::save) : std::nullopt;
-  auto request =
-      request_for_all("erase", {.erase = true, .keep_ids = options.keep_ids, .restart = restart});
+  auto request = request_for_all(options.keep_ids ? fleet::erase_keeping_ids : "erase",
+                                 {.erase = true, .keep_ids = options.keep_ids, .restart = restart});
   request.times = options.times;
   return change_servos(request, context);
 }

@@ -178,8 +178,10 @@ CarriedOut change(Session& session, const bla::Profiles& profiles, std::span<con
   CarriedOut carried_out;
   for (const ChangeJob& job : jobs) {
     carried_out.servos.push_back(job.result());
-    carried_out.servos.back().looked_at = session.now();
-    explain_waiting(plans[carried_out.servos.size() - 1], table, carried_out.servos.back());
+    ChangeResult& last = carried_out.servos.back();
+    last.looked_at = session.now();
+    last.boots = session.roster().member(last.node_id_after.value_or(last.servo.id)).boots;
+    explain_waiting(plans[carried_out.servos.size() - 1], table, last);
   }
   carried_out.broken = ran ? check_sent(session) : std::optional(ran.error());
   return carried_out;

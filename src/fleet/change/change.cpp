@@ -167,7 +167,11 @@ std::vector<Error> Change::judge(std::span<const std::size_t> goals, Snapshots s
     if (need != Need::nothing) {
       result.change.warnings = unnamed(result.goal, held, told, need);
       begun_.push_back(goals[i]);
-      tasks.push_back({std::move(held), wanted(result.goal, need)});
+      Wanted next = wanted(result.goal, need);
+      if (next.keep_ids && options_.manner.history != nullptr) {
+        next.lost_ids = options_.manner.history->lost_ids(held, session_);
+      }
+      tasks.push_back({std::move(held), std::move(next)});
     }
   }
   return errors;
@@ -353,9 +357,20 @@ void Change::look_back(GoalResult& result) const {
   if (!result.is_done || !id) {
     return;
   }
+  const Time since = result.change.looked_at;
+  const bool is_in_ram_only = result.change.was_sent && !result.change.may_have_saved;
   if (roster.is_doubled(*id)) {
     result.errors.push_back(doubled(roster, *id));
-  } else if (const auto by = roster.setter_of(*id, result.change.looked_at)) {
+  } else if (const auto saver = is_in_ram_only ? roster.saver_of(*id, since) : std::nullopt) {
+    result.errors.push_back({Code::state, say<texts::saved_by_other>(id->value(), saver->value()),
+                             say<texts::run_again_hint>(), id->value()});
+    result.change.doubt();
+  } else if (is_in_ram_only && roster.member(*id).boots != result.change.boots) {
+    result.errors.push_back({Code::state, say<texts::lost_since>(id->value()),
+                             say<texts::run_again_hint>(), id->value()});
+    result.change.doubt();
+  } else if (const auto by =
+                 is_in_ram_only ? roster.writer_to(*id, since) : roster.setter_of(*id, since)) {
     result.errors.push_back({Code::state, say<texts::written_by_other>(id->value(), by->value()),
                              say<texts::other_writer_hint>(), id->value()});
     result.change.doubt();

@@ -32,7 +32,8 @@ state::Registers stored(const bla::Values& values) {
 
 /// Commands that complete an unfinished run when repeated.
 bool is_repeated_as_a_whole(std::string_view command) {
-  return command == "apply" || command == "undo" || command == "alloc --static";
+  return command == "apply" || command == "undo" || command == "alloc --static" ||
+         command == erase_keeping_ids;
 }
 
 /// For a unit whose configuration was read after its restart.
@@ -46,6 +47,15 @@ state::RomProof proof_of(const UniqueId& unique_id, const RomReading& rom, const
 /// When the last uptime of this node was heard.
 WallTime told_at(const Member& member, const Session& session) {
   return session.wall() - (session.now() - member.status_at);
+}
+
+/// When this unit started; empty: it has not told its uptime.
+std::optional<WallTime> start_of(const Servo& servo, const Session& session) {
+  const Member member = session.roster().member(servo.id);
+  return servo.unique_id && member.is_unit(*servo.unique_id) && member.status
+             ? std::optional(told_at(member, session) -
+                             std::chrono::seconds(member.status->uptime_s))
+             : std::nullopt;
 }
 
 bla::Values replaced_by(const std::vector<state::SnapshotEntry>& changes) {
@@ -320,13 +330,12 @@ std::optional<bla::Values> History::proven_rom(const Servo& servo, const Session
 std::vector<state::SnapshotEntry> History::unsaved(const Servo& servo, const Session& session,
                                                    const Snapshot* ram) const {
   std::vector<state::SnapshotEntry> entries;
-  const Member member = session.roster().member(servo.id);
-  if (!servo.unique_id || !member.is_unit(*servo.unique_id) || !member.status) {
+  const auto started = start_of(servo, session);
+  if (!started) {
     return entries;
   }
-  const WallTime started = told_at(member, session) - std::chrono::seconds(member.status->uptime_s);
   auto entry = snapshots_.last(*servo.unique_id);
-  while (entry && *entry && !(*entry)->saved && is_in_ram(**entry, started, ram)) {
+  while (entry && *entry && !(*entry)->saved && is_in_ram(**entry, *started, ram)) {
     entries.push_back(std::move(**entry));
     entry = snapshots_.before(entries.back());
   }
@@ -342,8 +351,26 @@ Result<void> History::renew(std::vector<state::SnapshotEntry> changes, const Ses
   return kept ? Result<void>() : std::unexpected(kept.error());
 }
 
-bla::Values History::replaced_in_ram(const Servo& servo, const Session& session) const {
-  return replaced_by(unsaved(servo, session));
+bla::Values History::replaced_in_ram(const Snapshot& ram, const Session& session) const {
+  return replaced_by(unsaved(ram.servo, session, &ram));
+}
+
+bla::Values History::lost_ids(const Snapshot& ram, const Session& session) const {
+  bla::Values lost;
+  const auto started = start_of(ram.servo, session);
+  const auto last = started ? snapshots_.last(*ram.servo.unique_id)
+                            : Result<std::optional<state::SnapshotEntry>>();
+  if (!last || !*last || (*last)->ended || (*last)->command != erase_keeping_ids ||
+      (*last)->at < *started) {
+    return lost;
+  }
+  for (const bla::Address address : {bla::address::servo_id, bla::address::static_node_id}) {
+    const auto held = (*last)->held.find(address.value());
+    if (held != (*last)->held.end() && ram.raw(address) == 0) {
+      lost.emplace(address, held->second);
+    }
+  }
+  return lost;
 }
 
 bool History::is_rom_unread(const Servo& servo, const Session& session) {

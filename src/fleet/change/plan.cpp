@@ -141,9 +141,10 @@ std::vector<Warning> warnings_of(const Plan& plan) {
 
 /// --keep-ids: writes 0x45 and 0x46 back into RAM, unless other values are wanted. A 0 is 0 after
 /// ERASE anyway.
-void plan_kept_ids(Plan& plan) {
+void plan_kept_ids(const Values& lost_ids, Plan& plan) {
   for (const Address address : {at::servo_id, at::static_node_id}) {
-    const auto kept = plan.before.raw(address);
+    const auto lost = bla::find(lost_ids, address);
+    const auto kept = lost ? lost : plan.before.raw(address);
     const Parameter* parameter = plan.before.servo.identity.parameter(address);
     const bool is_given = std::ranges::any_of(plan.changes, [&](const RegisterChange& change) {
       return change.parameter->address == address;
@@ -322,7 +323,7 @@ Result<Plan> make_plan(const Wanted& wanted, Snapshot before, const bla::Profile
   }
   plan_changes(wanted, wanted.erase ? plan.expected : plan.before.values(), plan);
   if (wanted.erase && wanted.keep_ids) {
-    plan_kept_ids(plan);
+    plan_kept_ids(wanted.lost_ids, plan);
   }
   if (auto refused = check_together(plan)) {
     return std::unexpected(std::move(*refused));

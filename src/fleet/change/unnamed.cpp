@@ -35,7 +35,7 @@ ToldRom told_rom(const Goal& goal, const Snapshot& held, History* record, const 
   }
   auto proven = record->proven_rom(held.servo, session);
   return proven ? ToldRom{.values = std::move(*proven), .is_proven = true}
-                : ToldRom{.values = record->replaced_in_ram(held.servo, session)};
+                : ToldRom{.values = record->replaced_in_ram(held, session)};
 }
 
 std::vector<Warning> unnamed(const Goal& goal, const Snapshot& ram, const ToldRom& rom, Need need,

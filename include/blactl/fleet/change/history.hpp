@@ -16,9 +16,13 @@
 #include <set>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace blactl::fleet {
+
+/// The name of an erase that keeps the IDs, as typed.
+inline constexpr std::string_view erase_keeping_ids = "erase --keep-ids";
 
 /// The record of one command, over all of its rounds. Errors of its functions are those of the
 /// stores: the record is incomplete then, with no other effect.
@@ -69,7 +73,11 @@ class History {
 
   /// The values that changes of this program in RAM only have replaced since this servo started:
   /// its ROM holds them, as far as recorded.
-  [[nodiscard]] bla::Values replaced_in_ram(const Servo& servo, const Session& session) const;
+  [[nodiscard]] bla::Values replaced_in_ram(const Snapshot& ram, const Session& session) const;
+
+  /// The IDs that an ERASE by this program has taken from RAM, was to keep, and did not write back:
+  /// it broke off.
+  [[nodiscard]] bla::Values lost_ids(const Snapshot& ram, const Session& session) const;
 
   /// Whether a restart by this program did not help a servo to read its ROM, and it has not
   /// restarted since.

@@ -21,6 +21,8 @@ struct Wanted {
   std::vector<bla::Assignment> assignments{};
   bool erase = false;
   bool keep_ids = false; ///< 0x45 and 0x46 survive ERASE
+  /// Those that an earlier ERASE was to keep, and took from RAM when it broke off.
+  bla::Values lost_ids{};
   std::optional<RestartKind> restart{};
   bool proves_rom = false; ///< after a plain restart the configuration is read: the contents of ROM
   std::vector<bla::Address> also_read{}; ///< shown in addition to the changes

@@ -37,6 +37,7 @@ struct ChangeResult {
   std::optional<RomReading> rom{}; ///< after SAVE, if as expected, and if ROM was to be proven
   std::size_t values_read = 0;     ///< and compared, at the end
   Time looked_at{};                ///< when all of that was last checked to hold
+  std::uint32_t boots = 0;         ///< Member::boots at that time
   Duration duration{};             ///< from the request to restart until it was back
   std::optional<Error> error{};    ///< in addition to those of single changes
 
