@@ -113,8 +113,11 @@ std::string text_motion(const MotionPlan& plan, const MotionSample& sample) {
 std::string motion_summary(const MotionPlan& plan, const fleet::MotionResult& result) {
   const std::uint8_t id = plan.servo().id.value();
   const std::string where = place(plan, result);
+  constexpr std::int64_t brake = 2; // 4.13
+  const bool is_braked = result.output == brake && !result.protection;
   std::string text =
-      !fleet::holds(plan, result) ? say<texts::motion_loose>(id, where)
+      !fleet::holds(plan, result) && is_braked ? say<texts::motion_braked>(id, where)
+      : !fleet::holds(plan, result)            ? say<texts::motion_loose>(id, where)
       : plan.is_angle()
           ? say<texts::motion_held>(
                 id, bla::display(*plan.parameter, result.held.value_or(plan.last_target())), where)

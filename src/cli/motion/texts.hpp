@@ -29,6 +29,9 @@ inline constexpr Text motion_held{"node {}: held at {} (the shaft is at {})",
                                   "ノード {}: {} で保持しています (現在角度 {})"};
 inline constexpr Text motion_loose{"node {}: the shaft is at {}, and nothing holds it",
                                    "ノード {}: 現在角度 {}、出力軸は保持されていません"};
+inline constexpr Text motion_braked{
+    "node {}: the shaft is at {}, and a brake alone holds it",
+    "ノード {}: 現在角度 {}、出力軸はブレーキのみで保持されています"};
 inline constexpr Text motion_settled{"reached after {} s, overshoot {}",
                                      "到達時間 {} 秒、オーバーシュート {}"};
 inline constexpr Text motion_stopped{"node {}: stopped at {}", "ノード {}: {} で停止しました"};

@@ -1,5 +1,6 @@
 // Brings a commanded servo to its end, for any reason.
 
+#include "blactl/bla/faults.hpp"
 #include "blactl/bla/value.hpp"
 #include "blactl/fleet/bus/texts.hpp"
 #include "blactl/fleet/change/guard.hpp"
@@ -139,7 +140,9 @@ Error MotionJob::not_standing() const {
 Step MotionJob::read_settings() {
   at_ = At::settings;
   result_.output.reset();
+  result_.protection.reset();
   result_.timeout.clear();
+  faults_.clear();
   return read_register(servo_.id, end_registers.front(), options_.patience);
 }
 
@@ -158,9 +161,56 @@ Step MotionJob::judge_setting(const Outcome& outcome) {
   if (++told < end_registers.size()) {
     return read_register(servo_.id, end_registers.at(told), options_.patience);
   }
+  at_ = At::faults;
+  asked_ = at::fault_summary;
+  return read_register(servo_.id, asked_, options_.patience);
+}
+
+/// The next register that the faults found so far ask for.
+Step MotionJob::read_faults() {
+  for (const Address address : bla::fault_details(faults_, roster_.profiles())) {
+    if (servo_.identity.parameter(address) != nullptr) {
+      asked_ = address;
+      return read_register(servo_.id, asked_, options_.patience);
+    }
+  }
+  return prove();
+}
+
+Step MotionJob::judge_fault(const Outcome& outcome) {
+  const auto raw = value(outcome, asked_);
+  if (!raw) {
+    return give_up(no_answer(outcome, servo_.id, servo_.identity.parameter(asked_)->name));
+  }
+  faults_.insert_or_assign(asked_, *raw);
+  return read_faults();
+}
+
+Step MotionJob::prove() {
+  for (const bla::Fault& fault : bla::faults(faults_, roster_.profiles())) {
+    if (!result_.protection && bla::holds_output_off(fault, faults_) == true) {
+      result_.protection = fault;
+    }
+  }
   at_ = At::proof;
   proof_.emplace(roster_, servo_, servo_.since, options_.patience);
   return proof_->next({Outcome::Kind::start, {}, now_});
+}
+
+/// Without output nothing is held, and nothing that was commanded is done, however well its
+/// registers show the command.
+void MotionJob::judge_output() {
+  if (result_.protection) {
+    const bla::FaultBit& bit = *result_.protection->known;
+    add_error({Code::state, say<texts::motion_protected>(id(), choose(bit.text_en, bit.text_ja)),
+               say<texts::motion_why_hint>(id()), id()});
+  } else if (plan_.is_angle() && !holds(plan_, result_)) {
+    const bla::Parameter& output = *servo_.identity.parameter(at::torque_output);
+    add_error(
+        {Code::state,
+         say<texts::motion_not_holding>(id(), output.name, bla::display(output, *result_.output)),
+         say<texts::motion_not_holding_hint>(output.name, id()), id()});
+  }
 }
 
 /// It restarted: checks that it is the same unit, before anything is written to it again.
@@ -219,13 +269,7 @@ Step MotionJob::judge_proof(const Outcome& outcome) {
     return give_up(std::move(*why));
   }
   result_.is_ended = true;
-  if (plan_.is_angle() && !holds(plan_, result_)) {
-    const bla::Parameter& output = *servo_.identity.parameter(at::torque_output);
-    add_error(
-        {Code::state,
-         say<texts::motion_not_holding>(id(), output.name, bla::display(output, *result_.output)),
-         say<texts::motion_not_holding_hint>(output.name, id()), id()});
-  }
+  judge_output();
   return std::nullopt;
 }
 

@@ -73,6 +73,7 @@ Step MotionJob::next(const Outcome& outcome) {
   case At::shown: return judge_shown(outcome);
   case At::read: return take_sample(outcome);
   case At::settings: return judge_setting(outcome);
+  case At::faults: return judge_fault(outcome);
   case At::proof: break;
   }
   return judge_proof(outcome);

@@ -17,9 +17,9 @@ namespace {
 
 /// In tenths of a degree.
 std::int64_t tolerance(const MotionPlan& plan) {
-  constexpr std::int64_t least = 10, beside_dead_band = 5;
+  constexpr std::int64_t least = 10, most = 50, beside_dead_band = 5;
   const auto dead_band = plan.plan.before.raw(at::angle_dead_band);
-  return std::max(least, dead_band.value_or(0) + beside_dead_band);
+  return std::clamp(dead_band.value_or(0) + beside_dead_band, least, most);
 }
 
 /// In the second half of its time most samples show at least half of the speed; the noise of a
@@ -61,7 +61,7 @@ Error differs(const MotionPlan& plan, const MotionResult& result, std::string me
 } // namespace
 
 bool holds(const MotionPlan& plan, const MotionResult& result) {
-  return result.output == plan.plan.before.raw(at::torque_output);
+  return !result.protection && result.output == plan.plan.before.raw(at::torque_output);
 }
 
 std::int64_t between(std::int64_t angle, std::int64_t other) {

@@ -144,6 +144,9 @@ inline constexpr Text motion_still_moves{
     "ノード {}: 停止を指令しましたが、出力軸がまだ動いています (現在角度 {})"};
 inline constexpr Text motion_not_holding{"node {}: {} is {} now: nothing holds the shaft",
                                          "ノード {}: {} が {} のため、出力軸は保持されていません"};
+inline constexpr Text motion_protected{
+    "node {}: {}: this holds its output off, and what was commanded has no effect",
+    "ノード {}: {} のため出力が OFF になっており、指令は効いていません"};
 inline constexpr Text motion_not_holding_hint{"to hold it where it is: blactl set {}=on -n {}",
                                               "現在位置で保持するには: blactl set {}=on -n {}"};
 inline constexpr Text motion_cut_hint{"{}; to stop it: cut its supply",

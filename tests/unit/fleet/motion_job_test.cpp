@@ -472,3 +472,25 @@ TEST_CASE("ArrayCommand only where nobody else may obey it") {
       {"model": "BLA21-12U-AB", "node_id": 0, "servo_id": 4}])";
   CHECK(refused(waiting)->code == Code::duplicate_servo_id);
 }
+
+TEST_CASE("what a protection has switched off is not held, and not done") {
+  const char* motion = GENERATE("command_angle=45deg", "command_torque=20%", "command_speed=30rpm");
+  CommandBench bench(
+      servos(R"({"at": "12s", "servo": 1, "world": {"voltage": "30V"}})")); // its limit is 20 V
+  const MotionPlan plan = bench.planned(motion, 3s);
+  const Commanded ended = bench.run(plan);
+  INFO(motion << ": " << (ended.result.error ? ended.result.error->message : "no error"));
+  REQUIRE(ended.result.protection);
+  CHECK(ended.result.protection->known->code == "voltage_high");
+  CHECK_FALSE(holds(plan, ended.result));
+  REQUIRE(ended.result.error);
+  CHECK(ended.result.error->message.find("holds its output off") != std::string::npos);
+}
+
+TEST_CASE("a wide dead band does not make an angle reached that is far away") {
+  CommandBench bench(R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11, "serial_number": 1,
+                        "rom": {"soft_start": "off", "angle_dead_band": "30deg"}}])");
+  const MotionPlan plan = bench.planned("command_angle=20deg");
+  CHECK_FALSE(is_at(plan, 0, 200));
+  CHECK(is_at(plan, 155, 200));
+}

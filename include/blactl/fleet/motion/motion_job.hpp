@@ -58,6 +58,7 @@ class MotionJob final : public dronecan::Job {
     shown,    ///< reads the register back
     read,     ///< reads a sample
     settings, ///< reads the servo's behaviour after the commands
+    faults,   ///< reads whether a protection holds its output off
     proof,    ///< proves that the servo is the same, or has not restarted
   };
   enum class Phase : std::uint8_t { moving, ending, ended };
@@ -88,6 +89,10 @@ class MotionJob final : public dronecan::Job {
   [[nodiscard]] Error not_standing() const;
   [[nodiscard]] dronecan::Step read_settings();
   [[nodiscard]] dronecan::Step judge_setting(const dronecan::Outcome& outcome);
+  [[nodiscard]] dronecan::Step read_faults();
+  [[nodiscard]] dronecan::Step judge_fault(const dronecan::Outcome& outcome);
+  [[nodiscard]] dronecan::Step prove();
+  void judge_output();
   [[nodiscard]] dronecan::Step recognise();
   [[nodiscard]] dronecan::Step judge_proof(const dronecan::Outcome& outcome);
   [[nodiscard]] dronecan::Step fail(Error error);
@@ -136,6 +141,8 @@ class MotionJob final : public dronecan::Job {
   MotionSample sample_{};
   std::size_t reading_ = 0; ///< index of 0x08-0x0A
   Time sample_due_{};
+  bla::Values faults_{}; ///< fault registers at the end, and what details them
+  bla::Address asked_;   ///< the next of them
   std::optional<RunProof> proof_;
   MotionResult result_;
 };

@@ -1,6 +1,7 @@
 #pragma once
 // The behaviour of a servo while it was commanded, compared with the command.
 
+#include "blactl/bla/faults.hpp"
 #include "blactl/fleet/motion/motion_plan.hpp"
 
 #include <cstddef>
@@ -22,16 +23,17 @@ struct MotionSample {
 /// The result of a command.
 struct MotionResult {
   std::vector<MotionSample> samples{};
-  std::size_t commands = 0;             ///< sent, not counting those of the end
-  Time began{};                         ///< the time of the first one
-  std::optional<std::int64_t> held{};   ///< the angle held instead of the target
-  bool is_cut = false;                  ///< ended early
-  bool is_shown = false;                ///< the register showed the command
-  bool has_restarted = false;           ///< during the command
-  bool is_ended = false;                ///< ended: its register and its shaft show it
-  bla::Values timeout{};                ///< 0x26 and 0x27 at the end
-  std::optional<std::int64_t> output{}; ///< 0x20 at the end
-  std::optional<Error> error{};         ///< why it did not go as planned, or did not end
+  std::size_t commands = 0;               ///< sent, not counting those of the end
+  Time began{};                           ///< the time of the first one
+  std::optional<std::int64_t> held{};     ///< the angle held instead of the target
+  bool is_cut = false;                    ///< ended early
+  bool is_shown = false;                  ///< the register showed the command
+  bool has_restarted = false;             ///< during the command
+  bool is_ended = false;                  ///< ended: its register and its shaft show it
+  bla::Values timeout{};                  ///< 0x26 and 0x27 at the end
+  std::optional<std::int64_t> output{};   ///< 0x20 at the end
+  std::optional<bla::Fault> protection{}; ///< what holds the output off at the end
+  std::optional<Error> error{};           ///< why it did not go as planned, or did not end
 
   [[nodiscard]] bool has_commanded() const { return commands > 0; }
 };
@@ -40,14 +42,14 @@ struct MotionResult {
 /// command the output goes off".
 [[nodiscard]] std::string after_commands(const MotionPlan& plan, const MotionResult& result);
 
-/// Whether its output is still on at the end, so that an angle is held.
+/// Whether its output is still on at the end, and no protection holds it off: an angle is held.
 [[nodiscard]] bool holds(const MotionPlan& plan, const MotionResult& result);
 
 /// The distance of two values of 0x08, in tenths of a degree: 179.9 and -180.0 are one apart.
 [[nodiscard]] std::int64_t between(std::int64_t angle, std::int64_t other);
 
 /// Whether the shaft counts as being at an angle. unproven: within 1 deg, or its dead band and half
-/// a degree.
+/// a degree, 5 deg at most.
 [[nodiscard]] bool is_at(const MotionPlan& plan, std::int64_t angle, std::int64_t target);
 
 /// Compares the motion of the shaft with the command; empty: it agrees, as far as can be seen.
