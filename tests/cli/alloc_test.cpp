@@ -131,7 +131,7 @@ TEST_CASE("what is assigned by hand is given; what is forgotten is free") {
   const Result moved =
       bench.run({"-i", "sim:", "alloc", "--assign", "uid:" + uid + "=21", "--count", "1"});
   CHECK(moved.status == 0);
-  CHECK(contains(moved.out, "gets node ID 21, as always"));
+  CHECK(contains(moved.out, "gets node ID 21, as the table says"));
   CHECK(bench.run({"-i", "sim:", "alloc", "--forget", uid}).status == 0);
   CHECK(entries(bench).empty());
   const Result gone = bench.run({"-i", "sim:", "alloc", "--forget", uid});

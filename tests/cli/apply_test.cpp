@@ -612,3 +612,17 @@ TEST_CASE("the output is switched off before limits change, and on after them") 
   CHECK(order("torque_output=off") == Words{"0x20", "0x38", "0x39"});
   CHECK(order("torque_output=on") == Words{"0x38", "0x39", "0x20"});
 }
+
+TEST_CASE("a servo that the command itself has given an ID is not left out") {
+  const Fleet fleet(Scene()
+                        .servo("BLA21-12U-AB", 11, {{"servo_id", 1}, {"serial_number", 1}})
+                        .servo("BLA21-12U-AB", 0, {{"servo_id", 2}, {"serial_number", 2}}));
+  const Result applied = fleet.apply(
+      {{"schema", "blactl-fleet/1"},
+       {"servos",
+        {{{"name", "a"}, {"match", {{"serial_number", 1}}}, {"set", {{"smoothing", "off"}}}},
+         {{"name", "b"}, {"match", {{"serial_number", 2}}}, {"set", {{"smoothing", "off"}}}}}}});
+  INFO(applied.err);
+  CHECK(applied.status == 0);
+  CHECK_FALSE(contains(applied.err, "left out"));
+}

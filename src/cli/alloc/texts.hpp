@@ -70,7 +70,8 @@ inline constexpr Text alloc_wish_taken{"uid:{} gets node ID {} when it asks",
 inline constexpr Text alloc_event_request{"asks for a node ID", "割当てを要求"};
 inline constexpr Text alloc_event_assigned{"gets node ID {}, new in the table",
                                            "ノード ID {} を新規割当て"};
-inline constexpr Text alloc_event_kept{"gets node ID {}, as always", "ノード ID {} を再割当て"};
+inline constexpr Text alloc_event_kept{"gets node ID {}, as the table says",
+                                       "ノード ID {} を再割当て"};
 inline constexpr Text alloc_event_made_static{"has node ID {} for good, proven after its restart",
                                               "ノード ID {} を固定 (再起動後に確認済み)"};
 inline constexpr Text alloc_event_static{"has node ID {} for good already, nothing was saved",

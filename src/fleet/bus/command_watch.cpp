@@ -134,19 +134,19 @@ Time CommandWatch::last(const Writes& writes, NodeId server, Register reg) {
 /// When something else may have changed this register, beside writes of others to it.
 Time CommandWatch::disturbed(NodeId server, Register reg) const {
   const auto restart = restarts_.find(server);
-  return std::max({last(writes_, server, every_register), last(own_, server, every_register),
-                   last(own_, server, reg),
+  return std::max({last(writes_, server, every_register), last(others_, server, every_register),
+                   last(others_, server, reg),
                    restart != restarts_.end() ? restart->second.at : Time::min()});
 }
 
 void CommandWatch::ask(const dronecan::Request& request, Time at) {
   if (request.type == &dronecan::ExecuteOpcode::type ||
       request.type == &dronecan::RestartNode::type) {
-    own_[request.server][every_register].at = at;
+    others_[request.server][every_register].at = at;
   } else if (request.type == &dronecan::GetSet::type) {
     const auto sent = dronecan::GetSet::Request::decode(request.payload.bytes());
     if (sent && !std::holds_alternative<dronecan::GetSet::Empty>(sent->value)) {
-      own_[request.server][register_of(*sent)].at = at;
+      others_[request.server][register_of(*sent)].at = at;
     }
   }
 }

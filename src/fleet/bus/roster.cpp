@@ -265,6 +265,7 @@ void Roster::receive(const Transfer& transfer) {
     if (const auto info = dronecan::GetNodeInfo::Response::decode(transfer.payload);
         info && header.source.is_unicast()) {
       Member& sender = known(header.source);
+      greet(sender, transfer.at);
       sender.status = info->status;
       sender.status_at = transfer.at;
       take(watches_[header.source.value()].hear_answer(info->status.uptime_s, transfer), sender);
@@ -293,9 +294,17 @@ void Roster::on_status(const Transfer& transfer) {
     return;
   }
   Member& sender = known(transfer.header.source);
+  greet(sender, transfer.at);
   sender.status = *status;
   sender.status_at = transfer.at;
   take(watches_[sender.id.value()].hear_uptime(status->uptime_s, transfer.at), sender);
+}
+
+/// What was written to this node ID before concerned somebody else, or nobody.
+void Roster::greet(const Member& sender, Time at) {
+  if (!sender.status) {
+    commands_.begin(sender.id, at);
+  }
 }
 
 /// Takes the result of an uptime for a node.
@@ -304,9 +313,28 @@ void Roster::take(UnitWatch::Start start, Member& sender) {
     doubled_.insert(sender.id);
   } else if (start == UnitWatch::Start::anew) {
     ++sender.boots;
+    commands_.begin(sender.id, sender.status_at);
     answers_.forget(sender.id);
     announce(sender);
   }
+}
+
+void Roster::give(const dronecan::UniqueId& unit, Time at) {
+  for (auto& [prefix, asking] : pending_) {
+    if (dronecan::begins_with(unit, prefix)) {
+      asking.given = at;
+    }
+  }
+}
+
+std::vector<UniqueIdPrefix> Roster::pending() const {
+  std::vector<UniqueIdPrefix> waiting;
+  for (const auto& [prefix, asking] : pending_) {
+    if (asking.last > asking.given) {
+      waiting.push_back(prefix);
+    }
+  }
+  return waiting;
 }
 
 void Roster::on_allocation(const Transfer& transfer) {
@@ -328,7 +356,8 @@ void Roster::on_allocation(const Transfer& transfer) {
       return !entry.second.is_repeated() && transfer.at - entry.second.last > request_period;
     });
     if (pending_.size() < most_pending || pending_.contains(prefix)) {
-      pending_.try_emplace(prefix, transfer.at, transfer.at).first->second.last = transfer.at;
+      pending_.try_emplace(prefix, Asking{transfer.at, transfer.at}).first->second.last =
+          transfer.at;
     }
   }
 }

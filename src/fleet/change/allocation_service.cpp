@@ -255,6 +255,7 @@ std::optional<NodeId> AllocationService::keep(AllocatedUnit& unit, NodeId id) {
   }
   unit.refused.reset();
   ++unit.given;
+  session_.records().give(unit.unique_id, session_.now());
   if (!unit.is_deaf) {
     hook_(Event::kept, unit);
   }
@@ -272,6 +273,7 @@ std::optional<NodeId> AllocationService::give(AllocatedUnit& unit, NodeId prefer
     unit.is_new = true;
     unit.refused.reset();
     ++unit.given;
+    session_.records().give(unit.unique_id, session_.now());
     hook_(Event::assigned, unit);
     return *id;
   }

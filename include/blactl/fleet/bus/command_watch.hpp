@@ -60,6 +60,9 @@ class CommandWatch {
   /// back.
   void ask(const dronecan::Request& request, Time at);
 
+  /// A unit begins to be there, or starts: what was repeated before is new to it.
+  void begin(dronecan::NodeId id, Time at) { others_[id][std::nullopt].at = at; }
+
   [[nodiscard]] const std::map<dronecan::NodeId, Commander>& commanders() const {
     return commanders_;
   }
@@ -123,9 +126,9 @@ class CommandWatch {
   std::map<dronecan::NodeId, Repeated> armed_; ///< by nodes that reported it last
   Writes writes_;                              ///< to settings
   std::map<dronecan::NodeId, std::map<Register, Repetition>> repetitions_; ///< by server
-  Writes own_;                                                             ///< of this node
-  std::map<dronecan::NodeId, Write> saves_;                                ///< by server
-  std::map<dronecan::NodeId, Write> restarts_;                             ///< by server
+  Writes others_; ///< whatever else may have changed registers: writes of this node, starts
+  std::map<dronecan::NodeId, Write> saves_;    ///< by server
+  std::map<dronecan::NodeId, Write> restarts_; ///< by server
 };
 
 } // namespace blactl::fleet

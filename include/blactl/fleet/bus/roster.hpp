@@ -16,7 +16,6 @@
 #include <cstdint>
 #include <map>
 #include <optional>
-#include <ranges>
 #include <set>
 #include <vector>
 
@@ -84,6 +83,7 @@ using UniqueIdPrefix = std::vector<std::uint8_t>;
 /// The requests of one unit.
 struct Asking {
   Time first{}, last{};
+  Time given = Time::min(); ///< when this node gave it one; before all: it did not
 
   [[nodiscard]] bool is_repeated() const { return first != last; }
 };
@@ -144,6 +144,9 @@ class Roster {
 
   void receive(const dronecan::Transfer& transfer);
 
+  /// This node has given a node ID to this unit, as other allocators do.
+  void give(const dronecan::UniqueId& unit, Time at);
+
   /// As CommandWatch::ask().
   void ask(const dronecan::Request& request, Time at) { commands_.ask(request, at); }
 
@@ -196,7 +199,7 @@ class Roster {
 
   /// The units that have asked for a node ID and got none. A single request that is not repeated
   /// within 2 s does not count: a unit asks at least once a second.
-  [[nodiscard]] auto pending() const { return pending_ | std::views::keys; }
+  [[nodiscard]] std::vector<UniqueIdPrefix> pending() const;
 
   [[nodiscard]] const std::map<UniqueIdPrefix, Asking>& requests() const { return pending_; }
 
@@ -259,6 +262,7 @@ class Roster {
   void hear_status(Member& sender, const can::Frame& frame, Time at);
   void on_status(const dronecan::Transfer& transfer);
   void on_allocation(const dronecan::Transfer& transfer);
+  void greet(const Member& sender, Time at);
   void take(UnitWatch::Start start, Member& sender);
   [[nodiscard]] bool is_too_fast(dronecan::NodeId id) const;
 
