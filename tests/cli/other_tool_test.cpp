@@ -206,3 +206,24 @@ TEST_CASE("what another tool repeats undoes a change of the same register") {
   CHECK(set.status != 0);
   CHECK(contains(set.err, "node 90"));
 }
+
+TEST_CASE("one write of another tool while the servo is read does not keep it from being saved") {
+  for (int at = 900; at < 2600; at += 100) {
+    const Fleet fleet(Scene()
+                          .servo("BLA21-12U-AB", 11, {{"servo_id", 1}})
+                          .foreign(90, {{"orders",
+                                         {{{"at", std::to_string(at) + "ms"},
+                                           {"to", 11},
+                                           {"order", "write"},
+                                           {"address", 0x22},
+                                           {"value", 1}}}}}));
+    const Result set = fleet.run({"set", "-n", "11", "reverse=on", "--save", "-y"});
+    INFO(at << " ms: " << set.out << set.err);
+    CHECK_FALSE(contains(set.err, "restarts again and again"));
+    if (set.status == 0) {
+      CHECK(fleet.rom("11", "reverse") == 1);
+    } else { // a restart takes its time: it wrote before ROM could be proven
+      CHECK(contains(set.err, "node 90"));
+    }
+  }
+}

@@ -310,6 +310,7 @@ ChangeJob::Stage ChangeJob::conclude_look() {
   auto difference = compare(now, plan_.expected);
   if (!difference) {
     servo_ = now.servo;
+    servo_.since = read_->began(); // what was written before, has been read since
     return Stage::restart;
   }
   const bool has_restarted = now.has_restarted || now.servo.boot != servo_.boot;

@@ -43,6 +43,9 @@ class ReadJob final : public dronecan::Job {
   /// repeatedly), duplicate_node_id.
   [[nodiscard]] const Snapshot& snapshot() const { return snapshot_; }
 
+  /// When the reading of these values began: nobody is known to have changed them since.
+  [[nodiscard]] Time began() const { return pass_began_; }
+
  private:
   enum class At : std::uint8_t { identify, read, presence, proof, servo_id, static_node_id };
 
