@@ -1,6 +1,7 @@
 // Who else is on the bus: what `scan` says of it in time, and whom nothing is written to.
 
 #include "catch.hpp"
+#include "fleet.hpp"
 #include "scene.hpp"
 
 #include <algorithm>
@@ -108,4 +109,19 @@ TEST_CASE("who else acts on the bus is a note where it forbids nothing") {
   }
   CHECK_FALSE(contains(result.err, "servo ID 0"));
   CHECK(scene.run({"save", "-n", "13", "-y"}).status == 0);
+}
+
+TEST_CASE(
+    "a file that means one of two servos under one node ID is told of both, not that it is away") {
+  const Fleet fleet(Scene()
+                        .servo("BLA21-12U-AB", 11, {{"serial_number", 1}})
+                        .servo("BLA21-12U-AB", 11, {{"serial_number", 2}}));
+  const auto match = GENERATE(Document{{"node_id", 11}}, Document{{"serial_number", 1}});
+  const Result applied = fleet.apply(
+      {{"schema", "blactl-fleet/1"},
+       {"servos", {{{"name", "a"}, {"match", match}, {"set", {{"smoothing", "off"}}}}}}});
+  INFO(applied.err);
+  CHECK(applied.status == 9);
+  CHECK(contains(applied.err, "duplicate_node_id"));
+  CHECK_FALSE(contains(applied.err, "no servo for"));
 }

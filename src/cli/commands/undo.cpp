@@ -107,6 +107,14 @@ void Undo::of_last_run(const Whom& whom, Goals& goals) {
       take_back(change, there->first, goals);
       continue;
     }
+    const auto& doubled = whom.roster.doubled();
+    const auto shared = std::ranges::find_if(doubled, [&](dronecan::NodeId id) {
+      return whom.roster.units(id).contains(entry.unique_id);
+    });
+    if (shared != doubled.end()) {
+      goals.errors.push_back(fleet::doubled(whom.roster, *shared));
+      continue;
+    }
     goals.may_wait = true;
     goals.missing = std::move(goals.missing).value_or(std::vector<dronecan::UniqueId>());
     goals.missing->push_back(entry.unique_id);

@@ -124,10 +124,14 @@ class Matching {
     }
   }
 
-  /// The node ID that the wanted unit shares with another one.
+  /// The node ID that the wanted unit shares with another one, or may share: of two under one ID
+  /// only the unique IDs are known.
   [[nodiscard]] std::optional<NodeId> shared_by(const Match& match) const {
     for (const NodeId id : roster_.doubled()) {
-      if (match.unique_id && roster_.units(id).contains(*match.unique_id)) {
+      const bool is_meant = match.unique_id ? roster_.units(id).contains(*match.unique_id)
+                            : match.node_id ? match.node_id == id
+                                            : match.means_one();
+      if (is_meant) {
         return id;
       }
     }
