@@ -130,6 +130,32 @@ TEST_CASE("why a servo restarted by itself is told as a memory") {
   CHECK(contains(result.out, "not its present state"));
 }
 
+TEST_CASE("faults --watch tells of restarts, and of who falls silent and answers again") {
+  const Bench bench;
+  const auto event = [](const char* at, const char* what) {
+    return nlohmann::json{{"at", at}, {"servo", 7}, {"happens", what}};
+  };
+  const nlohmann::json scenario{
+      {"schema", "blactl-scenario/1"},
+      {"servos", {{{"model", "BLA15-06U-A0"}, {"node_id", 11}, {"serial_number", 7}}}},
+      {"events", {event("3s", "clock_error"), event("5s", "power_off"), event("12s", "power_on")}}};
+  const Background sim(bench, {"sim", bench.file("s.json", scenario.dump())});
+  Background watch(bench, {"-i", "sim:", "faults", "--watch", "-j", "-n", "11"}, {}, "restarted");
+  watch.expect("gone");
+  watch.expect("back");
+  watch.expect("restarted");
+  const Result watched = watch.stop(SIGINT);
+  std::vector<std::string> events;
+  for (const auto& line : json_lines(watched.out)) {
+    if (line.contains("event") && !line.contains("code")) {
+      CHECK(line["node_id"] == 11);
+      CHECK(line["serial_number"] == 7);
+      events.push_back(line["event"]);
+    }
+  }
+  CHECK(events == std::vector<std::string>{"restarted", "gone", "back", "restarted"});
+}
+
 TEST_CASE("faults --watch tells what is there, what comes and what goes, a line each") {
   const Bench bench;
   const nlohmann::json servo{{"model", "BLA15-06U-A0"},

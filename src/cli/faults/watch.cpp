@@ -47,6 +47,18 @@ std::string word(Happened happened) {
   return say<texts::fault_went>();
 }
 
+/// The event of a servo: it restarted, does not answer any more, answers again.
+enum class Life : std::uint8_t { restarted, gone, back };
+
+std::string_view name(Life life) {
+  switch (life) {
+  case Life::restarted: return "restarted";
+  case Life::gone: return "gone";
+  case Life::back: break;
+  }
+  return "back";
+}
+
 class Watch {
  public:
   Watch(bla::Level shown, Context& context, Report& report)
@@ -60,15 +72,18 @@ class Watch {
  private:
   [[nodiscard]] bool take(FaultState now);
   [[nodiscard]] bool tell(Happened happened, const FaultState& servo, const Fault& fault);
+  [[nodiscard]] bool tell(Life life, const FaultState& servo);
+  [[nodiscard]] bool tell_restart(const FaultState& now);
   [[nodiscard]] bool redraw();
   [[nodiscard]] bool check(const Result<bool>& printed);
-  void tell_silence(const FaultState& now);
+  [[nodiscard]] bool tell_silence(const FaultState& now);
 
   bla::Level shown_;
   Context& context_;
   Report& report_;
   std::map<NodeId, FaultState> last_; ///< the last reads of each servo
   std::set<NodeId> silent_;
+  std::map<NodeId, std::uint32_t> boots_; ///< as last told
 };
 
 /// False: the reader of stdout has left.
@@ -105,24 +120,57 @@ bool Watch::tell(Happened happened, const FaultState& servo, const Fault& fault)
       '\n'));
 }
 
+/// People read of silence among the notes.
+bool Watch::tell(Life life, const FaultState& servo) {
+  if (context_.reporter().format() == Format::json) {
+    std::string line;
+    JsonWriter json(line);
+    json.begin_object();
+    json.key("time");
+    json.number(UnixTime(context_.session().wall()).text());
+    write_head(json, servo.snapshot.servo);
+    json.member("event", name(life));
+    json.end_object();
+    return check(context_.reporter().stream(line + '\n'));
+  }
+  if (life == Life::restarted && !context_.reporter().has_screen()) {
+    return check(context_.reporter().stream(
+        say<texts::servo_restarted>(UnixTime(context_.session().wall()).text(),
+                                    servo.snapshot.servo.id.value()) +
+        '\n'));
+  }
+  return true;
+}
+
 /// A servo that does not respond keeps its last known faults.
-void Watch::tell_silence(const FaultState& now) {
-  if (context_.reporter().has_screen()) {
-    return; // the list shows it
-  }
+bool Watch::tell_silence(const FaultState& now) {
   const NodeId id = now.snapshot.servo.id;
-  if (now.errors.empty()) {
-    if (silent_.erase(id) > 0) {
-      context_.reporter().note(say<texts::answers_again>(id.value()));
-    }
-  } else if (silent_.insert(id).second) {
-    context_.reporter().note(now.errors.front().message);
+  const bool has_answered = now.errors.empty();
+  const bool is_news = has_answered ? silent_.erase(id) > 0 : silent_.insert(id).second;
+  if (!is_news) {
+    return true;
   }
+  if (!context_.reporter().has_screen()) { // the list shows it
+    context_.reporter().note(has_answered ? say<texts::answers_again>(id.value())
+                                          : now.errors.front().message);
+  }
+  const auto before = last_.find(id);
+  return tell(has_answered ? Life::back : Life::gone,
+              has_answered || before == last_.end() ? now : before->second);
+}
+
+bool Watch::tell_restart(const FaultState& now) {
+  const NodeId id = now.snapshot.servo.id;
+  const std::uint32_t boots = context_.session().roster().member(id).boots;
+  const auto [known, is_first] = boots_.emplace(id, boots);
+  return is_first || std::exchange(known->second, boots) == boots || tell(Life::restarted, now);
 }
 
 /// Compares one read of a servo with the one before.
 bool Watch::take(FaultState now) {
-  tell_silence(now);
+  if (!tell_silence(now) || (now.errors.empty() && !tell_restart(now))) {
+    return false;
+  }
   const NodeId id = now.snapshot.servo.id;
   auto before = last_.find(id);
   const auto& unit = now.snapshot.servo.unique_id;
