@@ -248,11 +248,11 @@ inline constexpr Text check_limits_without_effect{
     "動作速度制限/動作トルク制限 (0x3A～0x3D) は、speed_torque_control (0x25) が OFF の間は"
     "無視されます。有効にするには speed_torque_control=on を設定して下さい"};
 inline constexpr Text check_temperature_trips{
-    "the present temperature trips the limit at once: the motor is switched off",
-    "現在の温度が制限に達しているため、直ちにモータが停止します"};
+    "the present temperature is at the limit or beyond it: the motor may be switched off at once",
+    "現在の温度が制限に達しているため、直ちにモータが停止することがあります"};
 inline constexpr Text check_voltage_trips{
-    "the present voltage trips the limit at once: the motor is switched off",
-    "現在の電圧が制限に達しているため、直ちにモータが停止します"};
+    "the present voltage is at the limit or beyond it: the motor may be switched off at once",
+    "現在の電圧が制限に達しているため、直ちにモータが停止することがあります"};
 inline constexpr Text check_protection_released{
     "the protection that holds the motor off ends: torque comes back",
     "モータを停止させている保護が解除され、トルクが復帰します"};

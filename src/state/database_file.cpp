@@ -114,11 +114,8 @@ Result<void> check_schema(const Database& database, std::string_view schema) {
   return expect_one(database, "SELECT sql FROM sqlite_schema WHERE sql IS NOT NULL", schema);
 }
 
-/// Runs the checks that cost little, however large the file is. Returns the version of the file.
-Result<std::size_t> check_form(const Database& database, const DatabaseFormat& format) {
-  if (auto header = check_header(database, format); !header) {
-    return std::unexpected(header.error());
-  }
+/// Version and schema, of one moment: another process may upgrade the file in between.
+Result<std::size_t> check_content(const Database& database, const DatabaseFormat& format) {
   auto version = version_of(database, format);
   if (!version) {
     return version;
@@ -127,6 +124,19 @@ Result<std::size_t> check_form(const Database& database, const DatabaseFormat& f
   const auto good =
       check_schema(database, is_older ? format.older[*version - 1].schema : format.schema);
   return good ? version : std::unexpected(good.error());
+}
+
+/// Runs the checks that cost little, however large the file is. Returns the version of the file.
+Result<std::size_t> check_form(const Database& database, const DatabaseFormat& format) {
+  if (auto header = check_header(database, format); !header) {
+    return std::unexpected(header.error());
+  }
+  if (auto begun = database.execute("BEGIN"); !begun) {
+    return std::unexpected(begun.error());
+  }
+  auto version = check_content(database, format);
+  const auto ended = database.execute("COMMIT");
+  return version && !ended ? std::unexpected(ended.error()) : version;
 }
 
 /// Brings a file to the present version, all of it or nothing.

@@ -211,11 +211,13 @@ Report execute(const ExportOptions& options, Context& context) {
   const auto time =
       context.is_fleet_file() ? std::nullopt : std::optional(context.session().wall());
   const std::string text = content(options, servos, time);
-  if (const auto fine = fleet::parse_fleet_file(text, options.file, context.known());
-      !fine && !options.recipe && !options.params) {
-    context.reporter().note(say<texts::export_has_faults>(fine.error().message));
-  }
   const bool was_read = report.all_errors().empty();
+  if (was_read && !options.recipe && !options.params) {
+    const auto fine = fleet::parse_fleet_file(text, options.file, context.known());
+    if (!fine) {
+      context.reporter().note(say<texts::export_has_faults>(fine.error().message));
+    }
+  }
   conclude(options, text, servos, context, report);
   if (!was_read && !options.to_stdout()) {
     context.reporter().note(say<texts::export_not_written>(printable(options.file)));
