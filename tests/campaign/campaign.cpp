@@ -20,29 +20,6 @@ using namespace std::chrono_literals;
 /// What a command may take of simulated time where nothing goes wrong.
 constexpr Duration longest = 60s;
 
-/// A folder that ends with this.
-class Folder {
- public:
-  explicit Folder(std::filesystem::path path) : path_(std::move(path)) {
-    std::filesystem::remove_all(path_);
-    std::filesystem::create_directories(path_);
-    for (const char* variable : {"XDG_STATE_HOME", "XDG_RUNTIME_DIR", "HOME"}) {
-      setenv(variable, path_.c_str(), 1);
-    }
-  }
-
-  ~Folder() {
-    std::filesystem::current_path("/");
-    std::filesystem::remove_all(path_);
-  }
-
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-
- private:
-  std::filesystem::path path_;
-};
-
 std::string end_of(const Outcome& outcome) {
   std::set<std::string> codes;
   if (outcome.document.contains("errors")) {
@@ -77,6 +54,36 @@ void check_effort(const Step& step, bool is_there_already) {
 
 } // namespace
 
+Folder::Folder(std::filesystem::path path) : path_(std::move(path)) {
+  std::filesystem::remove_all(path_);
+  std::filesystem::create_directories(path_);
+  for (const char* variable : {"XDG_STATE_HOME", "XDG_RUNTIME_DIR", "HOME"}) {
+    setenv(variable, path_.c_str(), 1);
+  }
+}
+
+Folder::~Folder() {
+  std::filesystem::current_path("/");
+  std::filesystem::remove_all(path_);
+}
+
+Step take_step(World& world, const Episode& episode, const Command& command,
+               Disturbance* disturbance) {
+  Step step{.episode = episode,
+            .command = command,
+            .outcome = {},
+            .before = world.states(),
+            .after = {},
+            .begin = world.now(),
+            .end = {},
+            .events = {}};
+  step.outcome = world.run(command, disturbance);
+  step.after = world.states();
+  step.end = world.now();
+  step.events = world.take_events();
+  return step;
+}
+
 Counts& Counts::operator+=(const Counts& other) {
   episodes += other.episodes;
   runs += other.runs;
@@ -84,6 +91,9 @@ Counts& Counts::operator+=(const Counts& other) {
   servo_seconds += other.servo_seconds;
   lies += other.lies;
   stuck += other.stuck;
+  alarms += other.alarms;
+  deaf += other.deaf;
+  crashes += other.crashes;
   for (const auto& [end, count] : other.ends) {
     ends[end] += count;
   }
@@ -97,22 +107,8 @@ Counts& Counts::operator+=(const Counts& other) {
   return *this;
 }
 
-Step Campaign::run(World& world, const Episode& episode, const Command& command,
-                   std::vector<sim::ServoEvent>& earlier) {
-  Step step{.episode = episode,
-            .command = command,
-            .outcome = {},
-            .before = world.states(),
-            .after = {},
-            .begin = world.now(),
-            .end = {},
-            .events = {},
-            .earlier = earlier};
-  step.outcome = world.run(command);
-  step.after = world.states();
-  step.end = world.now();
-  step.events = world.take_events();
-  earlier.insert(earlier.end(), step.events.begin(), step.events.end());
+Step Campaign::run(World& world, const Episode& episode, const Command& command) {
+  Step step = take_step(world, episode, command);
   counts_.runs += 1;
   counts_.ends[end_of(step.outcome)] += 1;
   counts_.servo_seconds +=
@@ -145,7 +141,6 @@ void Campaign::count(const Step& step, bool must_succeed) {
 void Campaign::play(const Episode& episode) {
   const Folder folder(folder_);
   World world(episode.scenario, folder_);
-  std::vector<sim::ServoEvent> earlier;
   counts_.episodes += 1;
   for (const std::string& fault : episode.faults) {
     counts_.faults[fault] += 1;
@@ -153,7 +148,7 @@ void Campaign::play(const Episode& episode) {
   bool ids_are_known = std::ranges::none_of(
       episode.scenario["servos"], [](const json& servo) { return servo["node_id"] == 0; });
   for (const Command& command : episode.steps) {
-    const Step step = run(world, episode, command, earlier);
+    const Step step = run(world, episode, command);
     const bool must_succeed = command.is_right && ids_are_known && is_sound(episode);
     count(step, must_succeed);
     try {
@@ -161,6 +156,7 @@ void Campaign::play(const Episode& episode) {
       if (must_succeed && episode.faults.empty() && step.outcome.status != 0) {
         throw Lie("nothing was in its way");
       }
+      test_alarm(step);
     } catch (const std::exception& fault) {
       counts_.lies += 1;
       differ(episode, step, fault.what());
@@ -175,6 +171,30 @@ void Campaign::play(const Episode& episode) {
     }
   }
   repeat(world, episode);
+}
+
+/// On every 100th seed a servo is made to lie: it confirmed a value, and holds another one.
+void Campaign::test_alarm(const Step& step) {
+  constexpr std::uint64_t seeds = 100;
+  const bool is_plain = step.outcome.status == 0 && step.command.verb() == "set" &&
+                        step.episode.faults.empty() && step.outcome.document["nodes"].size() > 0;
+  if (step.episode.seed % seeds != 0 || !is_plain) {
+    return;
+  }
+  const json& node = step.outcome.document["nodes"][0];
+  const auto address = static_cast<std::uint8_t>(
+      std::stoul(node["changes"][0]["address"].get<std::string>(), nullptr, 16));
+  Step lie = step;
+  ServoState& state = lie.after.at(node["serial_number"].get<std::int64_t>());
+  state.ram[address] += 1;
+  state.rom[address] += 1;
+  counts_.alarms += 1;
+  try {
+    judge(lie);
+    counts_.deaf += 1;
+    differ(step.episode, step, "a servo that lied was not noticed");
+  } catch (const Lie&) { // as it should be
+  }
 }
 
 /// Everything that went wrong has ended: the last command converges.
@@ -193,12 +213,11 @@ void Campaign::repeat(World& world, const Episode& episode) {
     servo.erase("faults");
     servo.erase("sending");
   }
-  std::vector<sim::ServoEvent> earlier;
   const auto states = world.states();
   const bool has_dynamic =
       std::ranges::any_of(states, [](const auto& servo) { return servo.second.rom.at(0x46) == 0; });
   if (has_dynamic) {
-    [[maybe_unused]] const Step given = run(world, calm, {.words = {"alloc", "--once"}}, earlier);
+    [[maybe_unused]] const Step given = run(world, calm, {.words = {"alloc", "--once"}});
   }
   Command command = last;
   const auto target = std::ranges::find(command.words, "-n");
@@ -207,7 +226,7 @@ void Campaign::repeat(World& world, const Episode& episode) {
     *(target + 1) = "all"; // its ID may be another one now
   }
   for (int time = 0; time < 2; ++time) {
-    const Step step = run(world, calm, command, earlier);
+    const Step step = run(world, calm, command);
     counts_.repeated += 1;
     try {
       judge(step);

@@ -26,10 +26,27 @@ struct Counts {
   std::map<std::string, std::uint64_t> faults; ///< episodes in which that kind was switched on
   std::map<std::string, Ends> alone;           ///< by kind of fault; "": none
   std::uint64_t lies = 0, stuck = 0;           ///< false words; commands that did not converge
-  std::uint64_t crashes = 0;                   ///< jobs that did not end by themselves
+  std::uint64_t alarms = 0, deaf = 0; ///< servos made to lie, on every 100th seed; not noticed
+  std::uint64_t crashes = 0;          ///< jobs that did not end by themselves
 
   Counts& operator+=(const Counts& other);
 };
+
+/// A folder for the files of one world, which commands take for the user's own; it ends with this.
+class Folder {
+ public:
+  explicit Folder(std::filesystem::path path);
+  ~Folder();
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// One command, and what happened meanwhile.
+[[nodiscard]] Step take_step(World& world, const Episode& episode, const Command& command,
+                             Disturbance* disturbance = nullptr);
 
 class Campaign {
  public:
@@ -46,10 +63,10 @@ class Campaign {
   [[nodiscard]] bool has_found() const { return counts_.lies > 0; }
 
  private:
-  [[nodiscard]] Step run(World& world, const Episode& episode, const Command& command,
-                         std::vector<sim::ServoEvent>& earlier);
+  [[nodiscard]] Step run(World& world, const Episode& episode, const Command& command);
   void count(const Step& step, bool must_succeed);
   void repeat(World& world, const Episode& episode);
+  void test_alarm(const Step& step);
   void differ(const Episode& episode, const Step& step, const std::string& what);
 
   std::filesystem::path folder_;

@@ -3,6 +3,7 @@
 
 #include "campaign.hpp"
 #include "results.hpp"
+#include "sweep.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -18,9 +19,11 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace blactl::campaign;
+using nlohmann::json;
 
 namespace {
 
@@ -32,6 +35,7 @@ struct Options {
   bool frozen = false; ///< prints the episodes, a line each, for campaign.py
   bool until_found = false;
   std::string results{};
+  std::size_t sweep = 0; ///< every so manieth place; 0: no sweep
 };
 
 /// Commands run in this process, and nothing of the caller may get into them.
@@ -60,16 +64,14 @@ void watch(std::uint64_t seed) {
   alarm(patience_s);
 }
 
+void tell(const std::string& text) {
+  std::fputs((text + "\n").c_str(), stdout);
+  std::fflush(stdout);
+}
+
 /// Every `jobs`-th seed from that of this job.
-Counts play(const Options& options, unsigned job, const std::filesystem::path& folder) {
-  prepare(folder);
-  Campaign campaign(
-      folder / "episode",
-      [](const std::string& text) {
-        std::fputs((text + "\n").c_str(), stdout);
-        std::fflush(stdout);
-      },
-      options.verbose);
+json play(const Options& options, unsigned job, const std::filesystem::path& folder) {
+  Campaign campaign(folder / "episode", tell, options.verbose);
   for (std::uint64_t i = job; i < options.episodes; i += options.jobs) {
     watch(options.seed + i);
     campaign.play(make_episode(options.seed + i));
@@ -78,42 +80,73 @@ Counts play(const Options& options, unsigned job, const std::filesystem::path& f
     }
   }
   alarm(0);
-  std::filesystem::remove_all(folder);
-  return campaign.counts();
+  return to_json(campaign.counts());
 }
 
-/// A process each: commands use what a process has once.
-Counts play_all(const Options& options) {
+/// Those of the commands whose turn it is.
+json sweep(const Options& options, unsigned job, const std::filesystem::path& folder) {
+  Sweep all(folder / "case", options.sweep, tell);
+  all.play(job, options.jobs);
+  return to_json(all.swept());
+}
+
+/// In a process each, since commands use what a process has once; a crash gives null.
+std::vector<json> in_jobs(const Options& options) {
+  const auto work = [&](unsigned job, const std::filesystem::path& folder) {
+    prepare(folder);
+    json told = options.sweep > 0 ? sweep(options, job, folder) : play(options, job, folder);
+    std::filesystem::remove_all(folder);
+    return told;
+  };
   const std::filesystem::path memory = "/dev/shm";
-  const std::filesystem::path base =
-      (std::filesystem::exists(memory) ? memory : std::filesystem::temp_directory_path()) /
-      fmt::format("blactl-campaign-{}", getpid());
+  const std::string base =
+      ((std::filesystem::exists(memory) ? memory : std::filesystem::temp_directory_path()) /
+       fmt::format("blactl-campaign-{}", getpid()))
+          .string();
   if (options.jobs == 1) {
-    return play(options, 0, base);
+    return {work(0, base)};
   }
   std::vector<pid_t> children;
   for (unsigned job = 0; job < options.jobs; ++job) {
-    const std::filesystem::path folder = base.string() + fmt::format("-{}", job);
+    const std::string folder = base + fmt::format("-{}", job);
     children.push_back(fork());
     if (children.back() == 0) {
-      const Counts counts = play(options, job, folder);
-      std::ofstream(folder.string() + ".json") << to_json(counts).dump();
+      const json told = work(job, folder);
+      std::ofstream(folder + ".json") << told.dump();
       _exit(0);
     }
   }
-  Counts all;
+  std::vector<json> all;
   for (unsigned job = 0; job < options.jobs; ++job) {
     int status = 0;
     waitpid(children[job], &status, 0);
-    const std::string file = base.string() + fmt::format("-{}.json", job);
-    if (status != 0) {
-      all.crashes += 1;
-    } else {
-      all += from_json(nlohmann::json::parse(std::ifstream(file)));
-      std::filesystem::remove(file);
-    }
+    const std::string file = base + fmt::format("-{}.json", job);
+    all.push_back(status == 0 ? json::parse(std::ifstream(file)) : json());
+    std::filesystem::remove(file);
   }
   return all;
+}
+
+/// What was found, as text, and whether that is nothing.
+std::pair<std::string, bool> judged(const Options& options, const std::vector<json>& told) {
+  if (options.sweep > 0) {
+    SweptByKind all;
+    bool crashed = false;
+    for (const json& one : told) {
+      crashed = crashed || one.is_null();
+      all.merge(swept_in(one));
+    }
+    return {summary(all), !crashed && lies_in(all) == 0};
+  }
+  Counts all;
+  for (const json& one : told) {
+    if (one.is_null()) {
+      all.crashes += 1;
+    } else {
+      all += counts_in(one);
+    }
+  }
+  return {summary(all, options.seed), all.lies + all.crashes + all.deaf == 0};
 }
 
 } // namespace
@@ -125,6 +158,9 @@ int main(int argc, char** argv) {
   app.add_option("--episodes", options.episodes, "how many");
   app.add_option("--jobs", options.jobs, "processes")->check(CLI::Range(1, 256));
   app.add_option("--results", options.results, "writes this Markdown file");
+  app.add_option(
+      "--sweep", options.sweep,
+      "instead of episodes: every so manieth frame and call of each command, one by one");
   app.add_flag("--until-found", options.until_found, "ends with the first difference");
   app.add_flag("--verbose", options.verbose, "prints every command");
   app.add_flag("--frozen", options.frozen, "prints the episodes for campaign.py");
@@ -135,11 +171,10 @@ int main(int argc, char** argv) {
     }
     return 0;
   }
-  const Counts counts = play_all(options);
-  const std::string text = summary(counts, options.seed);
+  const auto [text, is_good] = judged(options, in_jobs(options));
   std::fputs(text.c_str(), stdout);
   if (!options.results.empty()) {
     std::ofstream(options.results) << text;
   }
-  return counts.lies + counts.stuck + counts.crashes == 0 ? 0 : 1;
+  return is_good ? 0 : 1;
 }

@@ -24,10 +24,12 @@ json to_json(const Counts& counts) {
           {"alone", alone},
           {"lies", counts.lies},
           {"stuck", counts.stuck},
+          {"alarms", counts.alarms},
+          {"deaf", counts.deaf},
           {"crashes", counts.crashes}};
 }
 
-Counts from_json(const json& told) {
+Counts counts_in(const json& told) {
   Counts counts{.episodes = told["episodes"],
                 .runs = told["runs"],
                 .repeated = told["repeated"],
@@ -37,11 +39,49 @@ Counts from_json(const json& told) {
                 .alone = {},
                 .lies = told["lies"],
                 .stuck = told["stuck"],
+                .alarms = told["alarms"],
+                .deaf = told["deaf"],
                 .crashes = told["crashes"]};
   for (const auto& [fault, ends] : told["alone"].items()) {
     counts.alone[fault] = {.good = ends[0], .needless = ends[1]};
   }
   return counts;
+}
+
+json to_json(const SweptByKind& swept) {
+  json all = json::array();
+  for (const auto& [key, one] : swept) {
+    all.push_back({key.first, key.second, one.places, one.runs, one.good, one.lies});
+  }
+  return all;
+}
+
+SweptByKind swept_in(const json& told) {
+  SweptByKind swept;
+  for (const json& one : told) {
+    swept[{one[0], one[1]}] = {.places = one[2], .runs = one[3], .good = one[4], .lies = one[5]};
+  }
+  return swept;
+}
+
+std::size_t lies_in(const SweptByKind& swept) {
+  std::size_t lies = 0;
+  for (const auto& [key, one] : swept) {
+    lies += one.lies;
+  }
+  return lies;
+}
+
+std::string summary(const SweptByKind& swept) {
+  std::size_t runs = 0;
+  std::string text = "| Command | What goes wrong | Places | Runs | Ended 0 | False words |\n"
+                     "|---|---|---:|---:|---:|---:|\n";
+  for (const auto& [key, one] : swept) {
+    runs += one.runs;
+    text += fmt::format("| {} | {} | {} | {} | {} | {} |\n", key.first, key.second, one.places,
+                        one.runs, one.good, one.lies);
+  }
+  return text + fmt::format("\n{} runs, {} false words\n", runs, lies_in(swept));
 }
 
 namespace {
@@ -82,9 +122,11 @@ std::string summary(const Counts& counts, std::uint64_t first) {
   const auto runs = static_cast<double>(std::max<std::uint64_t>(counts.runs, 1));
   std::string text = fmt::format(
       "{} runs in {} episodes from seed {}; {:.0f} hours of simulated servos\n"
-      "False words: {}. Crashes: {}. Not converged: {} of {} repetitions after the faults.\n",
+      "False words: {}. Crashes: {}. Not converged: {} of {} repetitions after the faults.\n"
+      "Servos made to lie: {}, not noticed: {}.\n",
       counts.runs, counts.episodes, first, static_cast<double>(counts.servo_seconds) / 3600,
-      counts.lies - counts.stuck, counts.crashes, counts.stuck, counts.repeated);
+      counts.lies - counts.stuck, counts.crashes, counts.stuck, counts.repeated, counts.alarms,
+      counts.deaf);
   if (counts.lies == 0) {
     text += fmt::format("None in {} runs: below {:.1f} in a million at 95 %.\n", counts.runs,
                         rule_of_three * 1e6 / runs);

@@ -66,11 +66,12 @@ bool Step::means(std::int64_t serial) const {
   }
   const auto at = std::ranges::find(command.words, "-n");
   const std::string target = at != command.words.end() ? *(at + 1) : "all";
-  if (target == "all" || target == "serial:" + std::to_string(serial)) {
-    return true;
-  }
+  const auto names = [&](const std::string& word) {
+    return ("," + target + ",").find("," + word + ",") != std::string::npos;
+  };
   const auto ids = node_ids(serial);
-  return std::ranges::any_of(ids, [&](std::uint8_t id) { return target == std::to_string(id); });
+  return target == "all" || names("serial:" + std::to_string(serial)) ||
+         std::ranges::any_of(ids, [&](std::uint8_t id) { return names(std::to_string(id)); });
 }
 
 Duration Step::lateness(std::int64_t serial) const {

@@ -22,7 +22,6 @@ struct Step {
   States before, after;
   Time begin, end;
   std::vector<sim::ServoEvent> events;
-  std::vector<sim::ServoEvent> earlier; ///< of the steps before
 
   /// All node IDs that a servo had.
   [[nodiscard]] std::set<std::uint8_t> node_ids(std::int64_t serial) const;

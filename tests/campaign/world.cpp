@@ -5,6 +5,7 @@
 #include "blactl/sim/bus/private_bus.hpp"
 #include "blactl/sim/scenario/scenario.hpp"
 
+#include "buses.hpp"
 #include "capture.hpp"
 #include "cli/run.hpp"
 
@@ -28,48 +29,6 @@ const bla::Profiles& profiles() {
   static const bla::Profiles loaded = bla::Profiles::load({}).value();
   return loaded;
 }
-
-/// A bus that writes down what passes, as --record does.
-class Witness final : public can::Bus {
- public:
-  Witness(std::unique_ptr<can::Bus> bus, Record& record) : bus_(std::move(bus)), record_(record) {}
-
-  [[nodiscard]] std::string_view name() const override { return bus_->name(); }
-
-  [[nodiscard]] Result<bool> send(const can::Frame& frame) override { return bus_->send(frame); }
-
-  [[nodiscard]] Result<void> filter(std::span<const can::Filter> filters) override {
-    return bus_->filter(filters);
-  }
-
-  [[nodiscard]] bool echoes() const override { return bus_->echoes(); }
-
-  [[nodiscard]] std::string bus_off_hint() const override { return bus_->bus_off_hint(); }
-
-  [[nodiscard]] int descriptor() const override { return bus_->descriptor(); }
-
-  [[nodiscard]] Time now() const override { return bus_->now(); }
-
-  [[nodiscard]] WallTime wall() const override { return bus_->wall(); }
-
-  [[nodiscard]] Time idle_until(Time deadline) override { return bus_->idle_until(deadline); }
-
-  [[nodiscard]] std::optional<can::BusEvent> receive() override {
-    auto event = bus_->receive();
-    if (event) {
-      if (const auto* received = std::get_if<can::Received>(&*event)) {
-        record_.add(received->frame, received->at);
-      } else if (const auto* sent = std::get_if<can::Sent>(&*event)) {
-        record_.add(sent->frame, sent->at);
-      }
-    }
-    return event;
-  }
-
- private:
-  std::unique_ptr<can::Bus> bus_;
-  Record& record_;
-};
 
 nlohmann::json document_in(const std::string& out) {
   auto whole = nlohmann::json::parse(out, nullptr, false);
@@ -119,7 +78,7 @@ void World::power_on(const nlohmann::json& scenario, Time at) {
       *parsed, at, [this](const sim::ServoEvent& event) { events_.push_back(event); });
 }
 
-Outcome World::run(const Command& command) {
+Outcome World::run(const Command& command, Disturbance* disturbance) {
   Outcome outcome;
   std::vector<std::string> arguments{"-i", "sim:world", "--json"};
   arguments.insert(arguments.end(), command.words.begin(), command.words.end());
@@ -128,14 +87,21 @@ Outcome World::run(const Command& command) {
   }
   std::filesystem::current_path(folder_);
   const auto opener = [&](const cli::OpenRequest& request) -> Result<cli::OpenBus> {
-    return cli::OpenBus{.bus = std::make_unique<Witness>(std::make_unique<sim::PrivateBus>(
-                                                             std::string(request.text), simulator_),
-                                                         outcome.record),
+    std::unique_ptr<can::Bus> bus =
+        std::make_unique<sim::PrivateBus>(std::string(request.text), simulator_);
+    if (disturbance != nullptr) {
+      bus = std::make_unique<DisturbedBus>(std::move(bus), *disturbance);
+    }
+    return cli::OpenBus{.bus = std::make_unique<Witness>(std::move(bus), outcome.record),
                         .place = {.interface = "sim:world", .folder = folder_.string()}};
   };
   {
     const Capture capture;
+    const bool is_of_calls =
+        disturbance != nullptr && disturbance->kind == Disturbance::Kind::call_failed;
+    fail_calls(is_of_calls ? disturbance : nullptr);
     outcome.status = cli::run(arguments, opener);
+    fail_calls(nullptr);
     std::tie(outcome.out, outcome.err) = capture.taken();
   }
   outcome.document = document_in(outcome.out);

@@ -5,6 +5,7 @@
 #include "blactl/sim/bus/simulator.hpp"
 #include "blactl/sim/servo/event.hpp"
 
+#include "disturbance.hpp"
 #include "record.hpp"
 
 #include <nlohmann/json.hpp>
@@ -62,8 +63,8 @@ class World {
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
-  /// Runs a command to its end, with --json.
-  [[nodiscard]] Outcome run(const Command& command);
+  /// Runs a command to its end, with --json. `disturbance`: of it; null: none.
+  [[nodiscard]] Outcome run(const Command& command, Disturbance* disturbance = nullptr);
 
   /// Lets time pass: what was sent before a command broke off happens all the same.
   void pass(Duration time);
