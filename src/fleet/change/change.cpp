@@ -347,6 +347,9 @@ void Change::look_back(const Lost& lost) {
       result.errors.push_back(found->second);
     }
     result.is_done = result.errors.empty();
+    if (!result.is_done) {
+      result.change.doubt();
+    }
   }
 }
 
