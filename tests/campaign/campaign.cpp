@@ -1,5 +1,6 @@
 #include "campaign.hpp"
 
+#include "claims.hpp"
 #include "judge.hpp"
 
 #include <fmt/format.h>
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -37,6 +39,21 @@ std::string end_of(const Outcome& outcome) {
 /// Whether an episode's servos are told from each other at all.
 bool is_sound(const Episode& episode) {
   return !episode.has("one_node_id") && !episode.has("one_unique_id");
+}
+
+/// It changes IDs, but in a way that nothing forbids.
+bool is_feasible(const Command& command) {
+  const std::string& verb = command.verb();
+  return (verb == "apply" && !command.has("--dry-run") && !command.has("--no-save")) ||
+         verb == "erase";
+}
+
+bool share_servo_id(const States& states) {
+  std::set<std::int64_t> seen;
+  return std::ranges::any_of(states, [&](const auto& servo) {
+    const std::int64_t id = servo.second.rom.at(0x45);
+    return id != 0 && !seen.insert(id).second;
+  });
 }
 
 /// It ends soon, and what is there already is not saved again.
@@ -138,7 +155,31 @@ void Campaign::count(const Step& step, bool must_succeed) {
   (step.outcome.status == 0 ? ends.good : ends.needless) += 1;
 }
 
-void Campaign::play(const Episode& episode) {
+/// When the program changes something where nothing goes wrong, and some moments before.
+std::vector<Time> Campaign::rehearse(const Episode& episode) {
+  const Folder folder(folder_);
+  const Episode calm = calmed(episode);
+  World world(calm.scenario, folder_);
+  std::vector<Time> moments;
+  for (const Command& command : calm.steps) {
+    const Outcome outcome = world.run(command);
+    for (const OnWire& frame : outcome.record.changes()) {
+      moments.push_back(frame.at);
+    }
+    const auto& frames = outcome.record.frames();
+    for (std::size_t quarter = 1; quarter < 4 && !frames.empty();
+         ++quarter) { // as it listens, reads
+      moments.push_back(frames[frames.size() * quarter / 4].at);
+    }
+  }
+  return moments;
+}
+
+void Campaign::play(const Episode& drawn) {
+  Episode episode = drawn;
+  if (is_aimed(episode)) {
+    aim(episode, rehearse(episode));
+  }
   const Folder folder(folder_);
   World world(episode.scenario, folder_);
   counts_.episodes += 1;
@@ -147,13 +188,20 @@ void Campaign::play(const Episode& episode) {
   }
   bool ids_are_known = std::ranges::none_of(
       episode.scenario["servos"], [](const json& servo) { return servo["node_id"] == 0; });
+  std::optional<Step> last;
   for (const Command& command : episode.steps) {
     const Step step = run(world, episode, command);
     const bool must_succeed = command.is_right && ids_are_known && is_sound(episode);
     count(step, must_succeed);
     try {
       judge(step);
-      if (must_succeed && episode.faults.empty() && step.outcome.status != 0) {
+      if (last) {
+        check_undo(*last, step);
+      }
+      const bool is_calm = episode.faults.empty();
+      const bool must = (must_succeed && is_harmless(episode)) ||
+                        (is_calm && is_feasible(command) && ids_are_known);
+      if (must && step.outcome.status != 0) {
         throw Lie("nothing was in its way");
       }
       test_alarm(step);
@@ -169,7 +217,9 @@ void Campaign::play(const Episode& episode) {
       world.pass(2s); // what was sent before it broke off happens all the same
       [[maybe_unused]] const auto late = world.take_events();
     }
+    last.emplace(step);
   }
+  list(world, episode);
   repeat(world, episode);
 }
 
@@ -197,6 +247,22 @@ void Campaign::test_alarm(const Step& step) {
   }
 }
 
+/// Where nothing went wrong, the allocation table is as the servos are.
+void Campaign::list(World& world, const Episode& episode) {
+  if (!episode.faults.empty()) {
+    return;
+  }
+  const Command command{.words = {"alloc", "--list"}};
+  const Step step = run(world, episode, command);
+  try {
+    judge(step);
+    check_table(step);
+  } catch (const std::exception& fault) {
+    counts_.lies += 1;
+    differ(episode, step, fault.what());
+  }
+}
+
 /// Everything that went wrong has ended: the last command converges.
 void Campaign::repeat(World& world, const Episode& episode) {
   const Command& last = episode.steps.back();
@@ -204,20 +270,15 @@ void Campaign::repeat(World& world, const Episode& episode) {
     return;
   }
   world.repair();
-  Episode calm = episode;
-  calm.faults.clear();
-  calm.scenario.erase("events");
-  calm.scenario.erase("wire");
-  calm.scenario.erase("foreign");
-  for (json& servo : calm.scenario["servos"]) {
-    servo.erase("faults");
-    servo.erase("sending");
-  }
+  const Episode calm = calmed(episode);
   const auto states = world.states();
   const bool has_dynamic =
       std::ranges::any_of(states, [](const auto& servo) { return servo.second.rom.at(0x46) == 0; });
   if (has_dynamic) {
     [[maybe_unused]] const Step given = run(world, calm, {.words = {"alloc", "--once"}});
+  }
+  if (share_servo_id(states)) { // one was away when its ID was given to another, with a warning
+    return;
   }
   Command command = last;
   const auto target = std::ranges::find(command.words, "-n");

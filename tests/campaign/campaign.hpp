@@ -64,7 +64,9 @@ class Campaign {
 
  private:
   [[nodiscard]] Step run(World& world, const Episode& episode, const Command& command);
+  [[nodiscard]] std::vector<Time> rehearse(const Episode& episode);
   void count(const Step& step, bool must_succeed);
+  void list(World& world, const Episode& episode);
   void repeat(World& world, const Episode& episode);
   void test_alarm(const Step& step);
   void differ(const Episode& episode, const Step& step, const std::string& what);

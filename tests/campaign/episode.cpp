@@ -2,10 +2,13 @@
 
 #include "chance.hpp"
 #include "limits.hpp"
+#include "settings.hpp"
+#include "step.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <functional>
 #include <map>
 #include <utility>
@@ -20,20 +23,6 @@ constexpr std::int64_t first_serial = 240900001;
 const std::vector<std::string> models{
     "BLA15-06U-A0", "BLA15-12U-A0", "BLA21-06U-A0", "BLA21-06U-AB", "BLA21-12U-A0",
     "BLA21-12U-AB", "BLA21-28U-A0", "BLA21-28U-AB", "BLA34-12U-AB", "BLA34-28U-AB"};
-
-/// Values that every model takes, for registers that neither drive the shaft nor change IDs.
-const std::map<std::string, std::vector<std::string>> settings{
-    {"angle_limit_cw", {"90deg", "45.5deg", "120deg", "175.5deg"}},
-    {"angle_limit_ccw", {"-90deg", "-10.1deg", "-175.5deg"}},
-    {"smoothing", {"on", "off"}},
-    {"reverse", {"on", "off"}},
-    {"soft_start", {"on", "off"}},
-    {"timeout_time", {"500ms", "1500ms"}},
-    {"timeout_action", {"hold", "off", "brake"}},
-    {"torque_output", {"off", "on"}},
-    {"angle_dead_band", {"0.1deg", "0.5deg"}},
-    {"angle_p_gain", {"30", "100"}},
-};
 
 struct Draft {
   Episode& episode;
@@ -162,7 +151,7 @@ const std::map<std::string, Plant>& plants() {
       {"jitter", [](const Draft& d) { d.some_servo()["sending"]["jitter"] = "10ms"; }},
       {"loss",
        [](const Draft& d) {
-         d.episode.scenario["wire"]["loss"] = d.chance.one_of<double>({0.001, 0.01, 0.05});
+         d.episode.scenario["wire"]["loss"] = d.chance.one_of<double>({0.001, 0.01, 0.05, 0.1});
        }},
       {"duplication", [](const Draft& d) { d.episode.scenario["wire"]["duplication"] = 0.01; }},
       {"errors", [](const Draft& d) { d.episode.scenario["wire"]["errors"] = 0.01; }},
@@ -270,6 +259,9 @@ json make_servos(Chance& chance) {
   for (std::int64_t id = 10; id < 60; ++id) {
     ids.push_back(id);
   }
+  for (std::int64_t id = 120; id <= 125; ++id) { // where dynamic IDs and temporary ones begin
+    ids.push_back(id);
+  }
   ids = chance.some_of(ids, count);
   for (std::size_t i = 0; i < count; ++i) {
     json servo{{"model", chance.one_of(models)},
@@ -295,8 +287,8 @@ class Commands {
     std::vector<Command> steps;
     for (std::int64_t i = chance_.whole(1, 4); i > 0; --i) {
       steps.push_back(one());
-      if (chance_.comes(0.15)) {
-        steps.push_back(steps.back()); // once more
+      if (chance_.comes(0.25)) {
+        steps.push_back(once_more(steps.back()));
       }
     }
     return steps;
@@ -320,9 +312,11 @@ class Commands {
   }
 
   [[nodiscard]] std::string setting() {
-    auto it = settings.begin();
-    std::advance(it, chance_.whole(0, static_cast<std::int64_t>(settings.size()) - 1));
-    return it->first + "=" + chance_.one_of(it->second);
+    auto it = settings().begin();
+    std::advance(it, chance_.whole(0, static_cast<std::int64_t>(settings().size()) - 1));
+    auto value = it->second.values.begin();
+    std::advance(value, chance_.whole(0, static_cast<std::int64_t>(it->second.values.size()) - 1));
+    return it->first + "=" + value->first;
   }
 
   /// A value at a limit of the tables, or the first beyond it.
@@ -364,8 +358,23 @@ class Commands {
     return {.words =
                 chance_.one_of<std::vector<std::string>>({{"doctor"},
                                                           {"faults", "-n", "all"},
-                                                          {"export", "all.json", "--force"},
+                                                          {"export", "all.json", "-y"},
                                                           {"characterize", "-n", target(), "-y"}})};
+  }
+
+  /// As it was, or what was in RAM alone is to be saved, or only looked at.
+  [[nodiscard]] Command once_more(Command command) {
+    if (command.verb() == "set" && !command.has("--save") && chance_.comes(0.5)) {
+      command.words.emplace_back("--save");
+    }
+    if (command.verb() == "apply" && chance_.comes(0.5)) {
+      std::erase(command.words, "--no-save");
+      if (chance_.comes(0.3) && !command.has("--dry-run")) {
+        command.words.emplace_back("--dry-run");
+        command.is_right = false; // 8
+      }
+    }
+    return command;
   }
 
   [[nodiscard]] Command set() {
@@ -382,13 +391,21 @@ class Commands {
       command = {.words = {"set", "-n",
                            fmt::format("serial:{}", servo["serial_number"].get<std::int64_t>()),
                            "-y", at_limit(servo["model"])}};
+      if (chance_.comes(0.1)) { // both at the value that both may have
+        command.words.back() = "0x3E=20";
+        command.words.emplace_back("0x3F=20");
+      }
     }
     if (chance_.comes(0.1)) {
-      command.words.push_back("servo_id=" + std::to_string(chance_.whole(101, 104)));
+      command.words.push_back("servo_id=" +
+                              std::to_string(chance_.one_of<std::int64_t>({1, 2, 101, 102})));
       command.is_right = false;
     }
     if (chance_.comes(0.1)) {
-      command.words.push_back("static_node_id=" + std::to_string(chance_.whole(61, 64)));
+      const std::int64_t held = some_servo()["node_id"];
+      command.words.push_back("static_node_id=" + std::to_string(chance_.comes(0.3) && held != 0
+                                                                     ? held
+                                                                     : chance_.whole(61, 64)));
       command.is_right = false;
     }
     add(command, "--save", 0.5);
@@ -456,7 +473,7 @@ class Commands {
     Command command{.words = {"apply", "fleet.json", "-y"},
                     .fleet = {{"schema", "blactl-fleet/1"}, {"servos", entries}},
                     .is_right = ids == 0 || ids == 3};
-    add(command, "--no-save", 0.15);
+    add(command, "--no-save", 0.25);
     add(command, "--trust-ram", 0.15);
     add(command, "--stagger", 0.1, "0.5");
     if (chance_.comes(0.1)) {
@@ -488,6 +505,16 @@ class Commands {
   const json& servos_;
   Chance& chance_;
 };
+
+/// Beside servos that ask, another may be where the first of them would go.
+void take_first_dynamic_id(json& servos, Chance& chance) {
+  const auto has_id = [](const json& servo) { return servo["node_id"] != 0; };
+  const auto found = std::ranges::find_if(servos, has_id);
+  if (found != servos.end() && !std::ranges::all_of(servos, has_id) && chance.comes(0.3) &&
+      std::ranges::none_of(servos, [](const json& servo) { return servo["node_id"] == 125; })) {
+    (*found)["node_id"] = 125;
+  }
+}
 
 /// What no client can tell apart, whatever it asks, is left out.
 void spare_the_undecidable(Episode& episode) {
@@ -535,6 +562,7 @@ Episode make_episode(std::uint64_t seed) {
         servo["node_id"] = 0;
       }
     }
+    take_first_dynamic_id(episode.scenario["servos"], asking);
     episode.steps.insert(episode.steps.begin(), {.words = {"alloc", "--once"}});
   }
   Chance faults(seed, "faults");
@@ -548,6 +576,64 @@ Episode make_episode(std::uint64_t seed) {
     plants().at(kind)({episode, own});
   }
   return episode;
+}
+
+bool is_harmless(const Episode& episode) {
+  static const std::set<std::string> harmless{
+      "babbler",        "double_answers", "duplication",         "errors",
+      "ignore_opcodes", "jitter",         "lose_opcode_answers", "no_node_status",
+      "other_nodes",    "slow_rom",       "strange_answers"};
+  const bool are_few = std::ranges::none_of(episode.scenario["servos"], [](const json& servo) {
+    return servo.contains("faults") && servo["faults"].value("ignore_opcodes", 0) > 1;
+  });
+  return are_few && std::ranges::includes(harmless, episode.faults);
+}
+
+bool is_aimed(const Episode& episode) {
+  const json& scenario = episode.scenario;
+  return Chance(episode.seed, "is aimed").comes(0.4) &&
+         (scenario.contains("events") || scenario.contains("foreign"));
+}
+
+Episode calmed(Episode episode) {
+  episode.faults.clear();
+  for (const char* key : {"events", "wire", "foreign"}) {
+    episode.scenario.erase(key);
+  }
+  for (json& servo : episode.scenario["servos"]) {
+    servo.erase("faults");
+    servo.erase("sending");
+  }
+  return episode;
+}
+
+void aim(Episode& episode, const std::vector<Time>& moments) {
+  if (moments.empty()) {
+    return;
+  }
+  Chance chance(episode.seed, "aim");
+  const auto in_ms = [](Duration time) {
+    return std::chrono::duration_cast<std::chrono::milliseconds>(time).count();
+  };
+  const auto moment = [&] { return in_ms(chance.one_of(moments) - Time{}) + chance.whole(-5, 20); };
+  if (episode.scenario.contains("events")) { // what belongs together stays so far apart
+    json& events = episode.scenario["events"];
+    const auto one =
+        static_cast<std::size_t>(chance.whole(0, static_cast<std::int64_t>(events.size()) - 1));
+    const std::int64_t shift = moment() - in_ms(time_in(events[one]["at"]));
+    for (json& event : events) {
+      event["at"] = ms(std::max<std::int64_t>(0, in_ms(time_in(event["at"])) + shift));
+    }
+  }
+  if (episode.scenario.contains("foreign")) {
+    for (json& node : episode.scenario["foreign"]) {
+      if (node.contains("begins")) {
+        node["begins"] = ms(std::max<std::int64_t>(0, moment()));
+      } else if (node.contains("orders") && node["orders"].size() == 1) {
+        node["orders"][0]["at"] = ms(std::max<std::int64_t>(0, moment()));
+      }
+    }
+  }
 }
 
 json frozen(const Episode& episode) {

@@ -28,6 +28,19 @@ struct Episode {
 
 [[nodiscard]] Episode make_episode(std::uint64_t seed);
 
+/// Whether a patient client gets everything right in spite of what goes wrong.
+[[nodiscard]] bool is_harmless(const Episode& episode);
+
+/// Whether what goes wrong is to come just when the program changes something, as seen in a play
+/// where nothing goes wrong.
+[[nodiscard]] bool is_aimed(const Episode& episode);
+
+/// The same episode, in which nothing goes wrong.
+[[nodiscard]] Episode calmed(Episode episode);
+
+/// Moves what goes wrong at a time to one of these moments.
+void aim(Episode& episode, const std::vector<Time>& moments);
+
 /// As a file of frozen/, which campaign.py plays on the binary.
 [[nodiscard]] nlohmann::json frozen(const Episode& episode);
 

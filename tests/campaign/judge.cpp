@@ -1,5 +1,6 @@
 #include "judge.hpp"
 
+#include "claims.hpp"
 #include "limits.hpp"
 
 #include <fmt/format.h>
@@ -404,6 +405,7 @@ void judge(const Step& step) {
     }
   }
   check_success(step, all_reached, told.size());
+  check_claims(step);
 }
 
 } // namespace blactl::campaign

@@ -163,7 +163,8 @@ int main(int argc, char** argv) {
       "instead of episodes: every so manieth frame and call of each command, one by one");
   app.add_flag("--until-found", options.until_found, "ends with the first difference");
   app.add_flag("--verbose", options.verbose, "prints every command");
-  app.add_flag("--frozen", options.frozen, "prints the episodes for campaign.py");
+  app.add_flag("--frozen", options.frozen,
+               "prints the episodes for campaign.py, before what goes wrong is aimed");
   CLI11_PARSE(app, argc, argv);
   if (options.frozen) {
     for (std::uint64_t i = 0; i < options.episodes; ++i) {

@@ -82,14 +82,37 @@ Duration Step::lateness(std::int64_t serial) const {
 }
 
 bool Step::changed_unheard(std::int64_t serial) const {
-  const Time last = outcome.record.last_told_by(node_ids(serial));
+  const auto ids = node_ids(serial);
+  const Time last = outcome.record.last_told_by(ids);
   const Time known = last - tolerance - lateness(serial);
   const auto is_unheard = [&](Time at) { return at > known && at <= end + tolerance; };
+  // an ID that goes from one to another: who was heard last under it is not certain
+  const bool is_passed_on = std::ranges::any_of(after, [&](const auto& other) {
+    const auto others = node_ids(other.first);
+    return other.first != serial &&
+           std::ranges::any_of(others, [&](std::uint8_t id) { return ids.contains(id); });
+  });
   return std::ranges::any_of(restarts(serial), is_unheard) ||
-         std::ranges::any_of(accidents(serial), is_unheard) || has_other_writer(serial);
+         std::ranges::any_of(accidents(serial),
+                             [&](Time at) {
+                               return is_unheard(at) ||
+                                      (is_passed_on && at > begin && at <= end + tolerance);
+                             }) ||
+         has_writer_after(serial, hears_all() ? known - longest_save : begin - longest_save);
+}
+
+/// Whether the client hears what other nodes send to servos.
+bool Step::hears_all() const {
+  const json all = episode.scenario.value("events", json::array());
+  return !episode.scenario.contains("wire") &&
+         std::ranges::none_of(all, [](const json& event) { return event.contains("clients"); });
 }
 
 bool Step::has_other_writer(std::int64_t serial) const {
+  return has_writer_after(serial, begin - longest_save);
+}
+
+bool Step::has_writer_after(std::int64_t serial, Time earliest) const {
   if (!episode.scenario.contains("foreign")) {
     return false;
   }
@@ -97,8 +120,7 @@ bool Step::has_other_writer(std::int64_t serial) const {
   for (const json& node : episode.scenario["foreign"]) {
     for (const json& order : node.value("orders", json::array())) {
       const Time at = Time{} + time_in(order["at"]);
-      if (ids.contains(order["to"].get<std::uint8_t>()) && at > begin - longest_save &&
-          at < end + tolerance) {
+      if (ids.contains(order["to"].get<std::uint8_t>()) && at > earliest && at < end + tolerance) {
         return true;
       }
     }
@@ -109,10 +131,12 @@ bool Step::has_other_writer(std::int64_t serial) const {
 bool Step::is_doubled(std::int64_t serial) const {
   return std::ranges::any_of(after, [&](const auto& other) {
     const ServoState& own = after.at(serial);
-    return other.first != serial && (other.second.unique_id == own.unique_id ||
-                                     (other.second.node_id == own.node_id && own.node_id != 0) ||
-                                     (before.at(other.first).node_id == before.at(serial).node_id &&
-                                      before.at(serial).node_id != 0));
+    const ServoState& its = other.second;
+    const std::uint8_t own_before = before.at(serial).node_id;
+    const bool both_answer = own.node_id != 0 && its.node_id != 0;
+    return other.first != serial &&
+           ((both_answer && (its.unique_id == own.unique_id || its.node_id == own.node_id)) ||
+            (own_before != 0 && before.at(other.first).node_id == own_before));
   });
 }
 

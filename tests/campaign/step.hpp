@@ -50,6 +50,8 @@ struct Step {
   [[nodiscard]] std::vector<Time> accidents(std::int64_t serial) const;
 
  private:
+  [[nodiscard]] bool hears_all() const;
+  [[nodiscard]] bool has_writer_after(std::int64_t serial, Time earliest) const;
   [[nodiscard]] Duration lateness(std::int64_t serial) const;
   [[nodiscard]] const nlohmann::json& setup(std::int64_t serial) const;
 };
