@@ -18,6 +18,19 @@ namespace {
 
 Disturbance* active = nullptr; // of the only thread
 
+} // namespace
+
+void fail_calls(Disturbance* disturbance) {
+  active = disturbance;
+}
+
+} // namespace blactl::campaign
+
+#ifndef BLACTL_SANITIZED
+
+namespace blactl::campaign {
+namespace {
+
 /// Whether a call to this file fails now.
 bool fails(int descriptor, int error) {
   if (active == nullptr || descriptor == STDOUT_FILENO || descriptor == STDERR_FILENO) {
@@ -37,14 +50,7 @@ template <class Function> Function* next(const char* name) {
 }
 
 } // namespace
-
-void fail_calls(Disturbance* disturbance) {
-  active = disturbance;
-}
-
 } // namespace blactl::campaign
-
-#ifndef BLACTL_SANITIZED
 
 using blactl::campaign::fails;
 using blactl::campaign::next;
