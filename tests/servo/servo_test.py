@@ -68,9 +68,9 @@ class Case(scenario.Frozen):
     the servo restarts after one of these answers, each in an episode of its own."""
 
     def __init__(self, path, number=None):
-        super().__init__(path)
         with open(path, encoding="utf-8") as file:
             self._given = json.load(file)
+        super().__init__(self._given)
         self.name, self.statuses = os.path.basename(path), self._given.get("status")
         if number is not None:
             self.name += f" {number}"
