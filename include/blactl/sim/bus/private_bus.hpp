@@ -20,6 +20,8 @@ class PrivateBus final : public can::Bus {
   /// On a virtual clock, beside others that come later: the servos live on.
   PrivateBus(std::string name, std::shared_ptr<Simulator> simulator);
   ~PrivateBus() override;
+  PrivateBus(const PrivateBus&) = delete;
+  PrivateBus& operator=(const PrivateBus&) = delete;
 
   [[nodiscard]] std::string_view name() const override { return name_; }
 
