@@ -1,10 +1,6 @@
 #include "blactl/fleet/change/history.hpp"
 
-#include "blactl/fleet/bus/unreachable.hpp"
-
 #include <algorithm>
-#include <array>
-#include <chrono>
 #include <cstddef>
 #include <utility>
 
@@ -14,13 +10,6 @@ using dronecan::UniqueId;
 using state::ChangeEnd;
 
 namespace {
-
-/// A crystal with a drift of 30 ppm uses a twentieth of the tolerance in this time.
-constexpr std::chrono::hours worth_renewing{1};
-
-/// The longest usual time from the record of a change to its last write: the servo may have
-/// restarted in between.
-constexpr std::chrono::seconds writing_time{10};
 
 state::Registers stored(const bla::Values& values) {
   state::Registers registers;
@@ -44,30 +33,6 @@ state::RomProof proof_of(const UniqueId& unique_id, const RomReading& rom, const
           .uptime = rom.uptime};
 }
 
-/// When the last uptime of this node was heard.
-WallTime told_at(const Member& member, const Session& session) {
-  return session.wall() - (session.now() - member.status_at);
-}
-
-/// When this unit started; empty: it has not told its uptime.
-std::optional<WallTime> start_of(const Servo& servo, const Session& session) {
-  const Member member = session.roster().member(servo.id);
-  return servo.unique_id && member.is_unit(*servo.unique_id) && member.status
-             ? std::optional(told_at(member, session) -
-                             std::chrono::seconds(member.status->uptime_s))
-             : std::nullopt;
-}
-
-bla::Values replaced_by(const std::vector<state::SnapshotEntry>& changes) {
-  bla::Values values;
-  for (const state::SnapshotEntry& change : changes) {
-    for (const auto& [address, raw] : change.held) {
-      values.insert_or_assign(bla::Address(address), raw); // the first one replaced that of ROM
-    }
-  }
-  return values;
-}
-
 /// The values that a change of RAM alone writes: after a restart they are in ROM as well, or gone.
 state::Registers written_by(const Plan& plan, const state::Registers& held) {
   state::Registers written;
@@ -87,29 +52,6 @@ state::Registers written_by(const Plan& plan, const state::Registers& held) {
     }
   }
   return written;
-}
-
-/// Whether RAM holds a value that this change has put there; empty: no register of it was read.
-std::optional<bool> is_shown(const state::SnapshotEntry& change, const Snapshot& ram) {
-  std::optional<bool> shown;
-  for (const auto& [address, written] : change.written) {
-    const auto before = change.held.find(address);
-    const auto now = ram.raw(bla::Address(address));
-    if (now && before != change.held.end() && before->second != written) {
-      shown = shown.value_or(false) || *now == written;
-    }
-  }
-  return shown;
-}
-
-/// A clock that was set, or a restart between the record and the write, puts a change before the
-/// start of the servo: then RAM itself tells, if `ram` is known.
-bool is_in_ram(const state::SnapshotEntry& change, WallTime started, const Snapshot* ram) {
-  if (change.at >= started || change.written.empty()) {
-    return change.at >= started;
-  }
-  const auto shown = ram != nullptr ? is_shown(change, *ram) : std::nullopt;
-  return shown.value_or(change.at + writing_time >= started);
 }
 
 } // namespace
@@ -160,8 +102,10 @@ Result<void> History::drop_proofs(std::span<const Plan> plans) {
   return dropped;
 }
 
-/// Resumes after an earlier try of this command that ended half way.
-Result<void> History::resume(const UniqueId& unique_id) {
+/// Resumes after an earlier try of this command that ended half way. What an ERASE has taken from
+/// RAM, a restart has brought back.
+Result<void> History::resume(const Servo& servo, const Session& session) {
+  const UniqueId& unique_id = *servo.unique_id;
   if (!is_repeated_as_a_whole(command_) || kept_.contains(unique_id)) {
     return {};
   }
@@ -169,7 +113,10 @@ Result<void> History::resume(const UniqueId& unique_id) {
   if (!last) {
     return std::unexpected(last.error());
   }
-  if (*last && !(*last)->ended && (*last)->command == command_) {
+  const auto started = start_of(servo, session);
+  const bool is_over =
+      command_ == erase_keeping_ids && *last && (!started || (*last)->at < *started);
+  if (*last && !(*last)->ended && (*last)->command == command_ && !is_over) {
     run_ = std::max(run_, (*last)->run);
     const bool was_saved = (*last)->saved;
     kept_[unique_id] = {.entry = std::move(**last), .was_changed = true, .was_saved = was_saved};
@@ -185,7 +132,7 @@ bla::Values History::taken_from_ram(const Plan& plan, const Session& session) {
   }
   const Servo& servo = plan.before.servo;
   const auto proven = proven_rom(servo, session);
-  const bla::Values rom = proven ? *proven : replaced_by(unsaved(servo, session, &plan.before));
+  const bla::Values rom = proven ? *proven : replaced_in_ram(plan.before, session);
   for (const auto& [address, raw] : rom) {
     const auto held = plan.before.raw(address);
     if (held && *held != raw) {
@@ -215,7 +162,9 @@ std::optional<state::SnapshotEntry> History::entry_of(const Plan& plan, const Se
       entry.held.erase(address);
     }
   }
-  entry.written = plan.restart ? state::Registers() : std::move(entry.written);
+  if (plan.restart) {
+    entry.written.clear();
+  }
   for (const auto& [address, raw] : written_by(plan, held)) {
     entry.written.insert_or_assign(address, raw);
   }
@@ -227,8 +176,8 @@ std::optional<state::SnapshotEntry> History::entry_of(const Plan& plan, const Se
 
 Result<void> History::keep(std::span<const Plan> plans, const Session& session) {
   for (const Plan& plan : plans) {
-    const auto& unique_id = plan.before.servo.unique_id;
-    auto resumed = unique_id ? resume(*unique_id) : Result<void>();
+    const Servo& servo = plan.before.servo;
+    auto resumed = servo.unique_id ? resume(servo, session) : Result<void>();
     if (!resumed) {
       return resumed;
     }
@@ -293,89 +242,6 @@ Result<void> History::conclude(std::span<const ChangeResult> results, const Sess
     }
   }
   return settled ? put : settled;
-}
-
-std::optional<state::RomProof> History::proof(const Servo& servo, const Session& session) {
-  const Member member = session.roster().member(servo.id);
-  if (!servo.unique_id || !member.is_unit(*servo.unique_id) || !member.status ||
-      not_unique(session.roster(), servo.id)) {
-    return std::nullopt;
-  }
-  const auto proof = proofs_.find(*servo.unique_id);
-  const std::chrono::seconds uptime(member.status->uptime_s);
-  const WallTime told = told_at(member, session);
-  if (!proof || !*proof || !state::holds(**proof, uptime, told)) {
-    return std::nullopt;
-  }
-  if (uptime - (*proof)->uptime > worth_renewing) {
-    // on failure it expires sooner
-    [[maybe_unused]] const auto put =
-        proofs_.put(std::array{state::renewed(**proof, uptime, told)});
-  }
-  return *proof;
-}
-
-std::optional<bla::Values> History::proven_rom(const Servo& servo, const Session& session) {
-  const auto proof = this->proof(servo, session);
-  if (!proof || proof->rom.empty()) {
-    return std::nullopt;
-  }
-  bla::Values values;
-  for (const auto& [address, raw] : proof->rom) {
-    values.emplace(bla::Address(address), raw);
-  }
-  return values;
-}
-
-std::vector<state::SnapshotEntry> History::unsaved(const Servo& servo, const Session& session,
-                                                   const Snapshot* ram) const {
-  std::vector<state::SnapshotEntry> entries;
-  const auto started = start_of(servo, session);
-  if (!started) {
-    return entries;
-  }
-  auto entry = snapshots_.last(*servo.unique_id);
-  while (entry && *entry && !(*entry)->saved && is_in_ram(**entry, *started, ram)) {
-    entries.push_back(std::move(**entry));
-    entry = snapshots_.before(entries.back());
-  }
-  return entries;
-}
-
-Result<void> History::renew(std::vector<state::SnapshotEntry> changes, const Session& session) {
-  for (state::SnapshotEntry& change : changes) {
-    change.at = session.wall();
-  }
-  const auto kept = changes.empty() ? Result<std::vector<std::int64_t>>()
-                                    : snapshots_.keep(changes, session.wall());
-  return kept ? Result<void>() : std::unexpected(kept.error());
-}
-
-bla::Values History::replaced_in_ram(const Snapshot& ram, const Session& session) const {
-  return replaced_by(unsaved(ram.servo, session, &ram));
-}
-
-bla::Values History::lost_ids(const Snapshot& ram, const Session& session) const {
-  bla::Values lost;
-  const auto started = start_of(ram.servo, session);
-  const auto last = started ? snapshots_.last(*ram.servo.unique_id)
-                            : Result<std::optional<state::SnapshotEntry>>();
-  if (!last || !*last || (*last)->ended || (*last)->command != erase_keeping_ids ||
-      (*last)->at < *started) {
-    return lost;
-  }
-  for (const bla::Address address : {bla::address::servo_id, bla::address::static_node_id}) {
-    const auto held = (*last)->held.find(address.value());
-    if (held != (*last)->held.end() && ram.raw(address) == 0) {
-      lost.emplace(address, held->second);
-    }
-  }
-  return lost;
-}
-
-bool History::is_rom_unread(const Servo& servo, const Session& session) {
-  const auto proof = this->proof(servo, session);
-  return proof && proof->rom.empty();
 }
 
 /// SAVE makes earlier changes in RAM permanent: until settled they count as saved.

@@ -446,6 +446,25 @@ TEST_CASE("an undo that did not end goes on when it is typed again, and then is 
   }
 }
 
+TEST_CASE("an erase that broke off before a restart is over: the next one is a change of its own") {
+  const Kept kept;
+  const Scene scene(servos());
+  const Wanted erase{.erase = true, .keep_ids = true};
+  const std::string command(erase_keeping_ids);
+  killed(scene, erase, kept, command);
+  if (const bool restarts = GENERATE(false, true); restarts) {
+    REQUIRE(change(scene, restart, kept, "restart").is_done());
+    scene.live(3s);
+    REQUIRE(change(scene, set("angle_limit_cw=90deg"), kept).is_done());
+    scene.live(3s);
+    REQUIRE(change(scene, erase, kept, command).is_done());
+    CHECK(kept.entries().front().held.at(0x38) == 900);
+  } else {
+    REQUIRE(change(scene, erase, kept, command).is_done());
+    CHECK(kept.entries().size() == 1);
+  }
+}
+
 TEST_CASE("what was erased comes back") {
   const Kept kept;
   const Scene scene(servos(R"(, "servo_id": 5)"));

@@ -92,7 +92,8 @@ class History {
   [[nodiscard]] Result<void> leave_what_was_lost(std::span<const ChangeResult> results,
                                                  WallTime now);
   [[nodiscard]] Result<void> settle(std::span<const ChangeResult> results);
-  [[nodiscard]] Result<void> resume(const dronecan::UniqueId& unique_id);
+  [[nodiscard]] Result<void> resume(const Servo& servo, const Session& session);
+  [[nodiscard]] static std::optional<WallTime> start_of(const Servo& servo, const Session& session);
   [[nodiscard]] bool is_half_undone() const;
 
   /// The entry of one servo, and its certain state.
