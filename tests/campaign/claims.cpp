@@ -1,7 +1,7 @@
 #include "claims.hpp"
 
-#include "judge.hpp"
 #include "settings.hpp"
+#include "told.hpp"
 
 #include <fmt/format.h>
 
@@ -18,17 +18,8 @@ namespace {
 using nlohmann::json;
 using namespace std::chrono_literals;
 
-constexpr std::uint8_t servo_id = 0x45, static_node_id = 0x46;
-
-void require(bool truth, const std::string& what) {
-  if (!truth) {
-    throw Lie(what);
-  }
-}
-
-std::uint8_t address_in(const std::string& text) {
-  return static_cast<std::uint8_t>(std::stoul(text, nullptr, 16));
-}
+/// The nodes of the document by serial number.
+using Servos = std::map<std::int64_t, const json*>;
 
 std::int64_t value_in(const Registers& registers, std::uint8_t address) {
   const auto found = registers.find(address);
@@ -37,29 +28,6 @@ std::int64_t value_in(const Registers& registers, std::uint8_t address) {
 
 bool is_calm(const Step& step) {
   return step.episode.faults.empty();
-}
-
-bool is_reached(const json& node) {
-  const std::string status = node.value("status", "");
-  if (!status.empty()) {
-    return status == "done" || status == "changed" || status == "unchanged";
-  }
-  return node.contains("changes") && std::ranges::all_of(node["changes"], [](const json& change) {
-           return change["status"] == "written" || change["status"] == "unchanged";
-         });
-}
-
-/// The nodes of the document by serial number.
-std::map<std::int64_t, const json*> told(const Step& step) {
-  std::map<std::int64_t, const json*> nodes;
-  if (step.outcome.document.contains("nodes")) {
-    for (const json& node : step.outcome.document["nodes"]) {
-      if (node.contains("serial_number") && !node["serial_number"].is_null()) {
-        nodes.emplace(node["serial_number"].get<std::int64_t>(), &node);
-      }
-    }
-  }
-  return nodes;
 }
 
 /// Register numbers that the command names for this servo.
@@ -97,7 +65,7 @@ void check_wishes(const Step& step, std::int64_t serial, const json& node) {
   }
   Registers wished = wishes(step.command, serial);
   for (const json& change : node["changes"]) {
-    const std::uint8_t address = address_in(change["address"].get<std::string>());
+    const std::uint8_t address = address_in(change["address"]);
     if (const auto wish = wished.find(address); wish != wished.end()) {
       const auto requested = change["requested"].get<std::int64_t>();
       require(requested == wish->second,
@@ -109,7 +77,7 @@ void check_wishes(const Step& step, std::int64_t serial, const json& node) {
 }
 
 /// Nobody who is meant is left out without a word.
-void check_all_told(const Step& step, const std::map<std::int64_t, const json*>& nodes) {
+void check_all_told(const Step& step, const Servos& nodes) {
   const std::string& verb = step.command.verb();
   if (step.outcome.status != 0) {
     return;
@@ -138,7 +106,7 @@ void check_given_ids(const Step& step, std::int64_t serial, const json& node) {
     return;
   }
   for (const json& change : node["changes"]) {
-    const std::uint8_t address = address_in(change["address"].get<std::string>());
+    const std::uint8_t address = address_in(change["address"]);
     const auto value = change["requested"].get<std::int64_t>();
     if (value == 0 || change["status"] != "written") {
       continue;
@@ -190,8 +158,7 @@ bool is_restart(const OnWire& frame) {
 
 /// --stagger: so long from one servo to the next.
 void check_stagger(const Step& step) {
-  const bool moves = step.command.fleet.dump().find("static_node_id") != std::string::npos;
-  if (!step.command.has("--stagger") || moves) { // from round to round it is not kept
+  if (!step.command.has("--stagger")) {
     return;
   }
   constexpr Duration distance = 500ms - tolerance;
@@ -258,7 +225,7 @@ void check_plan(const Step& step) {
 }
 
 /// The numbers that a script reads first.
-void check_counts(const Step& step, const std::map<std::int64_t, const json*>& nodes) {
+void check_counts(const Step& step, const Servos& nodes) {
   const json counts = step.outcome.document.value("counts", json::object());
   std::int64_t written = 0;
   std::map<std::string, std::int64_t> statuses;
@@ -287,7 +254,7 @@ void check_limits(const Step& step, std::int64_t serial, const json& node) {
   }
   const Registers& ram = step.after.at(serial).ram;
   for (const json& change : node["changes"]) {
-    const std::uint8_t address = address_in(change["address"].get<std::string>());
+    const std::uint8_t address = address_in(change["address"]);
     for (const auto& [high, low] : pairs) {
       require((address != high && address != low) || value_in(ram, high) > value_in(ram, low),
               fmt::format("{}: {:#04x} is not above {:#04x}", serial, high, low));
@@ -351,7 +318,8 @@ void check_put_back(const Step& step) {
 } // namespace
 
 void check_claims(const Step& step) {
-  const auto nodes = told(step);
+  const auto listed = told_servos(step);
+  const Servos nodes(listed.begin(), listed.end());
   check_all_told(step, nodes);
   check_distinct(step);
   check_stagger(step);

@@ -1,6 +1,7 @@
 // save, erase, restart, wait and set --save of the built binary on simulated servos.
 
 #include "catch.hpp"
+#include "fleet.hpp"
 #include "scene.hpp"
 #include "tap.hpp"
 
@@ -9,6 +10,7 @@
 #include <csignal>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 using namespace blactl::test;
@@ -572,6 +574,31 @@ TEST_CASE("--stagger keeps the distance between servos") {
   REQUIRE(times.size() == 3);
   CHECK(times[1] - times[0] > 2.4); // each servo takes its own time to answer and to write
   CHECK(times[2] - times[1] > 2.4);
+}
+
+TEST_CASE("--stagger keeps the distance also where node IDs are exchanged in several rounds") {
+  const Bench bench;
+  Background sim(bench, {"sim", three_servos().write(bench), "--json"});
+  Document entries = Document::array();
+  for (const auto& [servo_id, then] : {std::pair(1, 12), std::pair(2, 11)}) {
+    entries.push_back({{"name", std::to_string(servo_id)},
+                       {"match", {{"servo_id", servo_id}}},
+                       {"set", {{"static_node_id", then}}}});
+  }
+  const Document fleet{{"schema", "blactl-fleet/1"}, {"servos", entries}};
+  const Result applied = bench.run(
+      {"-i", "sim:", "apply", bench.file("fleet.json", fleet.dump()), "-y", "--stagger", "3"});
+  INFO(applied.err);
+  REQUIRE(applied.status == 0);
+  std::vector<double> times;
+  for (const auto& event : json_lines(sim.stop().out)) {
+    if (event.value("event", "") == "rom_write") {
+      times.push_back(event["time"]);
+    }
+  }
+  REQUIRE(times.size() == 3);
+  CHECK(times[1] - times[0] > 2.9);
+  CHECK(times[2] - times[1] > 2.9);
 }
 
 TEST_CASE("one process at a time writes on an interface; a killed one leaves no trace") {

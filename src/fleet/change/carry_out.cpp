@@ -153,7 +153,9 @@ CarriedOut change(Session& session, const bla::Profiles& profiles, std::span<con
   if (std::ranges::any_of(plans, [](const Plan& plan) { return plan.restart.has_value(); })) {
     recogniser.recognise();
   }
-  RestartPace pace{.distance = manner.stagger, .stops_at_failure = manner.stops_at_failure};
+  RestartPace pace{.distance = manner.stagger,
+                   .next = manner.next_restart != nullptr ? *manner.next_restart : Time{},
+                   .stops_at_failure = manner.stops_at_failure};
   ChangeJob::Options options{.identification = manner.identification,
                              .come_back = manner.come_back.value_or(come_back_time(plans)),
                              .pace = &pace,
@@ -175,6 +177,9 @@ CarriedOut change(Session& session, const bla::Profiles& profiles, std::span<con
     ran = looked;
   }
   session.detach(allocator);
+  if (manner.next_restart != nullptr) {
+    *manner.next_restart = pace.next;
+  }
   CarriedOut carried_out;
   for (const ChangeJob& job : jobs) {
     carried_out.servos.push_back(job.result());

@@ -27,6 +27,7 @@ struct Progress {
 struct Manner {
   Identification::Options identification{};
   Duration stagger{};                  ///< between the requests to restart
+  Time* next_restart = nullptr;        ///< when the next one may be sent, from round to round
   std::optional<Duration> come_back{}; ///< empty: 5 s, and 2 s for each that will ask for an ID
   bool stops_at_failure = false;       ///< a failure stops all that are not saved yet
   bool overwrite_rom = false;          ///< agreed: also ROM that could not be read

@@ -104,6 +104,7 @@ class Change {
   Session& session_;
   const bla::Profiles& profiles_;
   Options options_;
+  Time next_restart_{}; ///< Manner::next_restart
   std::unique_ptr<Rounds> rounds_;
   std::vector<GoalResult> results_;
   std::vector<std::size_t> begun_; ///< the goals behind the units of rounds_

@@ -1,0 +1,206 @@
+// Carries out a prepared change, looks back on it, and proves what was only believed.
+
+#include "blactl/fleet/bus/texts.hpp"
+#include "blactl/fleet/bus/unreachable.hpp"
+#include "blactl/fleet/change/change.hpp"
+#include "blactl/fleet/change/history.hpp"
+
+#include "fleet/change/goal_results.hpp"
+#include "fleet/change/last_look.hpp"
+#include "fleet/change/rounds.hpp"
+#include "fleet/change/texts.hpp"
+#include "fleet/change/unnamed.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace blactl::fleet {
+
+using dronecan::NodeId;
+
+namespace {
+
+/// Whether a restart has not shown that ROM holds the goal.
+bool is_unproven(const GoalResult& result, const UnitChange& unit) {
+  return result.need == Need::prove && unit.is_done && unit.last &&
+         !(unit.last->rom && holds(unit.last->rom->values, result.goal));
+}
+
+/// Of a unit that waits on a temporary ID, where the rounds have broken off.
+Error made_way(const UnitChange& unit, NodeId before) {
+  const std::uint8_t now = unit.now.value();
+  return {Code::state,
+          say<texts::has_made_way>(before.value(), now, unit.static_node_id()->value()),
+          say<texts::run_again_hint>(), now};
+}
+
+} // namespace
+
+std::vector<Error> Change::carry_out(const MoveHook& moved) {
+  std::vector<Error> errors;
+  if (!begun_.empty()) {
+    errors = rounds_->carry_out(moved);
+    conclude();
+    const bool has_failed = std::ranges::any_of(rounds_->units(), &UnitChange::has_failed);
+    if (errors.empty() && !(has_failed && options_.stops_at_failure)) {
+      errors = write_what_rom_lacks();
+    }
+  }
+  if (auto lost = errors.empty() && !begun_.empty() ? look_at_unchanged() : Lost(); lost) {
+    look_back(*lost);
+  } else {
+    errors.push_back(lost.error());
+    look_back({});
+  }
+  end_record();
+  return errors;
+}
+
+/// Of servos left unchanged while others were changed, those whose ROM does not hold their goals.
+Result<Change::Lost> Change::look_at_unchanged() {
+  std::vector<Servo> servos;
+  for (const GoalResult& result : results_) {
+    if (result.need == Need::nothing && !result.rom_proven) {
+      servos.push_back(result.servo());
+    }
+  }
+  auto looked = look_last(session_, servos, options_.manner.identification.patience);
+  if (!looked) {
+    return std::unexpected(looked.error());
+  }
+  Lost lost;
+  for (std::size_t i = 0; i < servos.size(); ++i) {
+    if ((*looked)[i]) {
+      lost.emplace(servos[i].id, std::move(*(*looked)[i]));
+    }
+  }
+  return lost;
+}
+
+/// Checks that servos left unchanged still hold their goals, as far as heard.
+void Change::look_back(const Lost& lost) {
+  const Roster& roster = session_.roster();
+  for (GoalResult& result : results_) {
+    if (result.need != Need::nothing) {
+      look_back(result); // of one round; its own job has checked the rest
+      continue;
+    }
+    const Servo& servo = result.servo();
+    const std::uint8_t id = servo.id.value();
+    const bool restarted = roster.member(servo.id).boots != servo.boot;
+    if (roster.is_doubled(servo.id)) {
+      result.errors.push_back(doubled(roster, servo.id));
+    } else if (const auto writer = result.rom_proven ? roster.setter_of(servo.id, servo.since)
+                                                     : roster.writer_to(servo.id, servo.since)) {
+      result.errors.push_back({Code::state, say<texts::written_by_other>(id, writer->value()),
+                               say<texts::other_writer_hint>(), id});
+    } else if (restarted && !result.rom_proven) { // RAM was reloaded from ROM
+      result.errors.push_back(
+          {Code::state, say<texts::lost_since>(id), say<texts::run_again_hint>(), id});
+    } else if (const auto found = lost.find(servo.id); found != lost.end()) {
+      result.errors.push_back(found->second);
+    }
+    result.is_done = result.errors.empty();
+    if (!result.is_done) {
+      result.change.doubt();
+    }
+  }
+}
+
+/// Later rounds may have taken long: another unit, or another node's write, may have come since.
+void Change::look_back(GoalResult& result) const {
+  const Roster& roster = session_.roster();
+  const auto id = result.change.node_id_after;
+  if (!result.is_done || !id) {
+    return;
+  }
+  const Time since = result.change.looked_at;
+  const bool is_in_ram_only = result.change.was_sent && !result.change.may_have_saved;
+  if (roster.is_doubled(*id)) {
+    result.errors.push_back(doubled(roster, *id));
+  } else if (const auto saver = is_in_ram_only ? roster.saver_of(*id, since) : std::nullopt) {
+    result.errors.push_back({Code::state, say<texts::saved_by_other>(id->value(), saver->value()),
+                             say<texts::run_again_hint>(), id->value()});
+    result.change.doubt();
+  } else if (is_in_ram_only && roster.member(*id).boots != result.change.boots) {
+    result.errors.push_back({Code::state, say<texts::lost_since>(id->value()),
+                             say<texts::run_again_hint>(), id->value()});
+    result.change.doubt();
+  } else if (const auto by =
+                 is_in_ram_only ? roster.writer_to(*id, since) : roster.setter_of(*id, since)) {
+    result.errors.push_back({Code::state, say<texts::written_by_other>(id->value(), by->value()),
+                             say<texts::other_writer_hint>(), id->value()});
+    result.change.doubt();
+  } else {
+    return;
+  }
+  result.is_done = result.change.saved = result.change.is_verified = false;
+  result.rom_proven = result.rom_proven ? std::optional(false) : std::nullopt;
+}
+
+void Change::conclude() {
+  for (std::size_t i = 0; i < begun_.size(); ++i) {
+    conclude(rounds_->units()[i], results_[begun_[i]]);
+  }
+}
+
+void Change::conclude(const UnitChange& unit, GoalResult& result) {
+  result.is_done = unit.is_done && !is_unproven(result, unit);
+  if (!unit.last) {
+    return;
+  }
+  const ChangeResult& last = *unit.last;
+  result.change = merged(std::move(result.change), last);
+  result.errors = result.change.errors();
+  if (unit.has_made_way && (last.is_done() || !last.may_have_saved)) {
+    result.errors.push_back(made_way(unit, result.goal.id));
+  }
+  if (unit.is_done && !result.is_done && !last.rom) {
+    const std::uint8_t id = last.servo.id.value();
+    result.errors.push_back(
+        {Code::state, say<texts::restarts_while_read>(id), say<texts::restarts_again_hint>(), id});
+  }
+  result.rom_proven = result.goal.saves() ? std::optional(result.is_done) : std::nullopt;
+  if (result.need == Need::prove && last.rom) {
+    result.change.warnings =
+        unnamed(result.goal, unit.plan.before, {last.rom->values, true}, result.need, true);
+  }
+}
+
+/// Writes goals that a restart has shown to be missing in ROM.
+std::vector<Error> Change::write_what_rom_lacks() {
+  std::vector<std::size_t> lacking;
+  for (std::size_t i = 0; i < begun_.size(); ++i) {
+    GoalResult& result = results_[begun_[i]];
+    if (is_unproven(result, rounds_->units()[i])) {
+      result.goal.id = result.change.node_id_after.value_or(result.goal.id);
+      lacking.push_back(begun_[i]);
+    }
+  }
+  if (lacking.empty()) {
+    return {};
+  }
+  auto errors = prepare(lacking);
+  if (errors.empty() && !begun_.empty()) {
+    errors = rounds_->carry_out({});
+    conclude();
+  }
+  return errors;
+}
+
+/// A completed change is not continued when the command is repeated.
+void Change::end_record() {
+  std::vector<dronecan::UniqueId> units;
+  for (const GoalResult& result : results_) {
+    if (result.is_done && result.servo().unique_id) {
+      units.push_back(*result.servo().unique_id);
+    }
+  }
+  const Manner& manner = options_.manner;
+  const auto ended = manner.history != nullptr ? manner.history->end(units) : Result<void>();
+  if (!ended && manner.end_not_recorded) {
+    manner.end_not_recorded(ended.error());
+  }
+}
+
+} // namespace blactl::fleet
