@@ -26,38 +26,24 @@ using fleet::FaultState;
 
 constexpr Duration interval = std::chrono::milliseconds(500);
 
-/// The event of a fault: present when the watch began, came, went.
-enum class Happened : std::uint8_t { present, came, went };
+/// The event of a fault: present when the watch began, came, went; or of a servo: it restarted,
+/// does not answer any more, answers again.
+enum class Event : std::uint8_t { present, came, went, restarted, gone, back };
 
-std::string_view name(Happened happened) {
-  switch (happened) {
-  case Happened::present: return "present";
-  case Happened::came: return "came";
-  case Happened::went: break;
-  }
-  return "went";
-}
+struct EventName {
+  std::string_view word;
+  std::string (*text)(); ///< for people, who read of silence among the notes; null: none
+};
 
-std::string word(Happened happened) {
-  switch (happened) {
-  case Happened::present: return say<texts::fault_present>();
-  case Happened::came: return say<texts::fault_came>();
-  case Happened::went: break;
-  }
-  return say<texts::fault_went>();
-}
-
-/// The event of a servo: it restarted, does not answer any more, answers again.
-enum class Life : std::uint8_t { restarted, gone, back };
-
-std::string_view name(Life life) {
-  switch (life) {
-  case Life::restarted: return "restarted";
-  case Life::gone: return "gone";
-  case Life::back: break;
-  }
-  return "back";
-}
+/// In the order of Event.
+constexpr EventName event_names[]{
+    {"present", [] { return say<texts::fault_present>(); }},
+    {"came", [] { return say<texts::fault_came>(); }},
+    {"went", [] { return say<texts::fault_went>(); }},
+    {"restarted", [] { return say<texts::servo_restarted>(); }},
+    {"gone", nullptr},
+    {"back", nullptr},
+};
 
 class Watch {
  public:
@@ -71,8 +57,7 @@ class Watch {
 
  private:
   [[nodiscard]] bool take(FaultState now);
-  [[nodiscard]] bool tell(Happened happened, const FaultState& servo, const Fault& fault);
-  [[nodiscard]] bool tell(Life life, const FaultState& servo);
+  [[nodiscard]] bool tell(Event event, const FaultState& servo, const Fault* fault = nullptr);
   [[nodiscard]] bool tell_restart(const FaultState& now);
   [[nodiscard]] bool redraw();
   [[nodiscard]] bool check(const Result<bool>& printed);
@@ -94,8 +79,11 @@ bool Watch::check(const Result<bool>& printed) {
   return printed.value_or(false);
 }
 
-bool Watch::tell(Happened happened, const FaultState& servo, const Fault& fault) {
-  if (fault.level < shown_) {
+/// `fault`: null for an event of the servo itself.
+bool Watch::tell(Event event, const FaultState& servo, const Fault* fault) {
+  const EventName& name = event_names[std::to_underlying(event)];
+  const UnixTime time(context_.session().wall());
+  if (fault != nullptr && fault->level < shown_) {
     return true;
   }
   if (context_.reporter().format() == Format::json) {
@@ -103,43 +91,23 @@ bool Watch::tell(Happened happened, const FaultState& servo, const Fault& fault)
     JsonWriter json(line);
     json.begin_object();
     json.key("time");
-    json.number(UnixTime(context_.session().wall()).text());
+    json.number(time.text());
     write_head(json, servo.snapshot.servo);
-    json.member("event", name(happened));
-    write_fault(json, servo, fault);
+    json.member("event", name.word);
+    if (fault != nullptr) {
+      write_fault(json, servo, *fault);
+    }
     json.end_object();
     return check(context_.reporter().stream(line + '\n'));
   }
-  if (context_.reporter().has_screen()) {
+  if (context_.reporter().has_screen() || name.text == nullptr) {
     return true; // the list shows it
   }
-  return check(context_.reporter().stream(
-      say<texts::fault_event>(UnixTime(context_.session().wall()).text(),
-                              servo.snapshot.servo.id.value(), word(happened),
-                              fault_line(fault, context_.reporter().page())) +
-      '\n'));
-}
-
-/// People read of silence among the notes.
-bool Watch::tell(Life life, const FaultState& servo) {
-  if (context_.reporter().format() == Format::json) {
-    std::string line;
-    JsonWriter json(line);
-    json.begin_object();
-    json.key("time");
-    json.number(UnixTime(context_.session().wall()).text());
-    write_head(json, servo.snapshot.servo);
-    json.member("event", name(life));
-    json.end_object();
-    return check(context_.reporter().stream(line + '\n'));
-  }
-  if (life == Life::restarted && !context_.reporter().has_screen()) {
-    return check(context_.reporter().stream(
-        say<texts::servo_restarted>(UnixTime(context_.session().wall()).text(),
-                                    servo.snapshot.servo.id.value()) +
-        '\n'));
-  }
-  return true;
+  std::string line = say<texts::fault_event>(
+      time.text(), servo.snapshot.servo.id.value(), name.text(),
+      fault != nullptr ? fault_line(*fault, context_.reporter().page()) : std::string());
+  line.erase(line.find_last_not_of(' ') + 1);
+  return check(context_.reporter().stream(line + '\n'));
 }
 
 /// A servo that does not respond keeps its last known faults.
@@ -155,7 +123,7 @@ bool Watch::tell_silence(const FaultState& now) {
                                           : now.errors.front().message);
   }
   const auto before = last_.find(id);
-  return tell(has_answered ? Life::back : Life::gone,
+  return tell(has_answered ? Event::back : Event::gone,
               has_answered || before == last_.end() ? now : before->second);
 }
 
@@ -163,7 +131,7 @@ bool Watch::tell_restart(const FaultState& now) {
   const NodeId id = now.snapshot.servo.id;
   const std::uint32_t boots = context_.session().roster().member(id).boots;
   const auto [known, is_first] = boots_.emplace(id, boots);
-  return is_first || std::exchange(known->second, boots) == boots || tell(Life::restarted, now);
+  return is_first || std::exchange(known->second, boots) == boots || tell(Event::restarted, now);
 }
 
 /// Compares one read of a servo with the one before.
@@ -191,12 +159,12 @@ bool Watch::take(FaultState now) {
   bool goes_on = true;
   for (const Fault& fault : now.faults) {
     if (std::ranges::find(had, fault) == had.end()) {
-      goes_on = goes_on && tell(is_first ? Happened::present : Happened::came, now, fault);
+      goes_on = goes_on && tell(is_first ? Event::present : Event::came, now, &fault);
     }
   }
   for (const Fault& fault : had) {
     if (std::ranges::find(now.faults, fault) == now.faults.end()) {
-      goes_on = goes_on && tell(Happened::went, now, fault);
+      goes_on = goes_on && tell(Event::went, now, &fault);
     }
   }
   last_.insert_or_assign(id, std::move(now));
