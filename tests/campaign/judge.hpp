@@ -3,15 +3,9 @@
 // client can know.
 
 #include "step.hpp"
-
-#include <stdexcept>
+#include "told.hpp"
 
 namespace blactl::campaign {
-
-/// A false word, or an order that must not have been sent.
-class Lie : public std::runtime_error {
-  using runtime_error::runtime_error;
-};
 
 /// Throws Lie.
 void judge(const Step& step);

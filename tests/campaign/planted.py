@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
 """Bugs planted in a copy of the sources, each of which the campaign must find.
 
+  planted.py --check
   planted.py FOLDER [NAME...] [--episodes N] [--seed S] [--jobs N] [--list FILE] [--results FILE]
 
 FOLDER gets the copy and its build. Every bug of planted.json is a place in the sources: what stands
 there, which must be found just once, and what stands there instead while the bug is switched on: one
 build holds them all. An entry without "instead" switches its statement off. For each bug the campaign
-runs until it finds something. Exit status 1: a bug was not found.
+runs until it finds something. Exit status 1: a bug was not found. --check only looks whether each has
+its place in the sources.
 """
 
 import argparse
@@ -116,15 +118,22 @@ def table(results):
 
 def main():
     parser = argparse.ArgumentParser(usage=__doc__)
-    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("folder", type=pathlib.Path, nargs="?")
     parser.add_argument("names", nargs="*")
     parser.add_argument("--episodes", type=int, default=10000)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--list", type=pathlib.Path, default=HERE / "planted.json")
+    parser.add_argument("--check", action="store_true")
     parser.add_argument("--results", type=pathlib.Path)
     given = parser.parse_args()
     bugs = json.loads(given.list.read_text())
+    if given.check:
+        for bug in bugs:
+            planted((ROOT / bug["file"]).read_text(), bug)
+        return 0
+    if given.folder is None:
+        parser.error("no FOLDER")
     folder = given.folder.resolve()
     folder.mkdir(parents=True, exist_ok=True)
     make_sources(folder, bugs)

@@ -47,11 +47,10 @@ struct Deafness {
 };
 
 /// Passes frames on; the n-th of them, and perhaps a later one, brings a Ctrl-C.
-class Interrupted final : public can::Bus {
+class Interrupted final : public blactl::test::BusAround {
  public:
-  explicit Interrupted(std::unique_ptr<sim::PrivateBus> bus) : bus_(std::move(bus)) {}
-
-  [[nodiscard]] std::string_view name() const override { return bus_->name(); }
+  explicit Interrupted(std::unique_ptr<sim::PrivateBus> bus)
+      : Interrupted(bus->simulator(), std::move(bus)) {}
 
   [[nodiscard]] Result<bool> send(const can::Frame& frame) override {
     if (watched) {
@@ -63,16 +62,16 @@ class Interrupted final : public can::Bus {
       passed.data[1] = 0; // which its CRC tells
       spoilt = frame;
     }
-    auto taken = bus_->send(passed);
+    auto taken = BusAround::send(passed);
     if (taken && *taken && (++sent == at || sent == again)) {
       raise(SIGINT);
-      signalled = bus_->now();
+      signalled = now();
     }
     return taken;
   }
 
   [[nodiscard]] std::optional<can::BusEvent> receive() override {
-    auto event = bus_->receive();
+    auto event = BusAround::receive();
     auto* echo = event ? std::get_if<can::Sent>(&*event) : nullptr;
     if (echo != nullptr && spoilt && echo->frame.id == spoilt->id && echo->frame.size == 3) {
       echo->frame = *std::exchange(spoilt, std::nullopt);
@@ -80,21 +79,7 @@ class Interrupted final : public can::Bus {
     return event;
   }
 
-  [[nodiscard]] Result<void> filter(std::span<const can::Filter> filters) override {
-    return bus_->filter(filters);
-  }
-
-  [[nodiscard]] bool echoes() const override { return true; }
-
-  [[nodiscard]] int descriptor() const override { return -1; }
-
-  [[nodiscard]] Time now() const override { return bus_->now(); }
-
-  [[nodiscard]] WallTime wall() const override { return bus_->wall(); }
-
-  [[nodiscard]] Time idle_until(Time deadline) override { return bus_->idle_until(deadline); }
-
-  [[nodiscard]] const sim::Servo& servo() const { return *bus_->simulator().servos().front(); }
+  [[nodiscard]] const sim::Servo& servo() const { return *simulator_.servos().front(); }
 
   int sent = 0, at = -1, again = -1;
   bool watched = false; ///< where the shaft is, at each frame
@@ -105,7 +90,10 @@ class Interrupted final : public can::Bus {
   std::optional<can::Frame> spoilt; ///< as it was, until its echo
 
  private:
-  std::unique_ptr<sim::PrivateBus> bus_;
+  Interrupted(const sim::Simulator& simulator, std::unique_ptr<sim::PrivateBus>&& bus)
+      : BusAround(std::move(bus)), simulator_(simulator) {}
+
+  const sim::Simulator& simulator_;
 };
 
 inline constexpr std::uint8_t dynamic_id = 42;

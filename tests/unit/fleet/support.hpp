@@ -15,6 +15,7 @@
 #include "blactl/sim/scenario/scenario.hpp"
 #include "blactl/state/local_node_id.hpp"
 
+#include "bus_around.hpp"
 #include "catch.hpp"
 
 #include <fmt/format.h>
@@ -76,40 +77,21 @@ inline std::vector<can::Frame> service(dronecan::Kind kind, const dronecan::Data
   return dronecan::segment(header, id, type.signature, payload.bytes());
 }
 
-/// Passes everything on to another bus and writes down what was sent.
-class Tap final : public can::Bus {
+/// Writes down what was sent.
+class Tap final : public blactl::test::BusAround {
  public:
   Tap(std::unique_ptr<can::Bus> bus, std::vector<can::Frame>& sent)
-      : bus_(std::move(bus)), sent_(sent) {}
-
-  [[nodiscard]] std::string_view name() const override { return bus_->name(); }
+      : BusAround(std::move(bus)), sent_(sent) {}
 
   [[nodiscard]] Result<bool> send(const can::Frame& frame) override {
-    auto taken = bus_->send(frame);
+    auto taken = BusAround::send(frame);
     if (taken && *taken) {
       sent_.push_back(frame);
     }
     return taken;
   }
 
-  [[nodiscard]] std::optional<can::BusEvent> receive() override { return bus_->receive(); }
-
-  [[nodiscard]] Result<void> filter(std::span<const can::Filter> filters) override {
-    return bus_->filter(filters);
-  }
-
-  [[nodiscard]] bool echoes() const override { return bus_->echoes(); }
-
-  [[nodiscard]] int descriptor() const override { return bus_->descriptor(); }
-
-  [[nodiscard]] Time now() const override { return bus_->now(); }
-
-  [[nodiscard]] WallTime wall() const override { return bus_->wall(); }
-
-  [[nodiscard]] Time idle_until(Time deadline) override { return bus_->idle_until(deadline); }
-
  private:
-  std::unique_ptr<can::Bus> bus_;
   std::vector<can::Frame>& sent_;
 };
 
