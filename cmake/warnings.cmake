@@ -11,7 +11,10 @@ endif()
 add_library(blactl-sanitizers INTERFACE)
 if(BLACTL_SANITIZE)
   target_compile_options(blactl-sanitizers INTERFACE
-    -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
+    # A fifth of the compile time, and nothing to find: the address sanitizer sees the first two as
+    # well, and no base class is cast to a derived one.
+    -fno-sanitize=null,object-size,vptr)
   target_link_options(blactl-sanitizers INTERFACE -fsanitize=address,undefined)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     # GCC 12 sees uninitialised memory in std::regex and std::variant that is not, once it

@@ -55,7 +55,7 @@ std::map<int, int> places(const Fleet& fleet) {
 TEST_CASE("of a servo that has made way nobody says that it is as it was") {
   const bool by_apply = GENERATE(true, false);
   int made_way = 0;
-  for (int after_ms = 2'250; after_ms < 5'300; after_ms += 100) {
+  for (int after_ms = 2'250; after_ms < 5'300; after_ms += 200) {
     INFO(after_ms);
     const Fleet fleet(cut_at(after_ms));
     const Result broken = exchange(fleet, by_apply);
@@ -78,7 +78,7 @@ TEST_CASE("of a servo that has made way nobody says that it is as it was") {
 
 TEST_CASE("an erase that was to keep the IDs and breaks off keeps them when it is repeated") {
   int broken_off = 0;
-  for (int after_ms = 1'050; after_ms < 3'000; after_ms += 40) {
+  for (int after_ms = 1'050; after_ms < 3'000; after_ms += 150) {
     const Fleet fleet(cut_at(after_ms));
     const Arguments erase{"erase", "-n", "11,12", "--keep-ids", "--save", "-y"};
     const Result first = fleet.run(erase);
