@@ -254,3 +254,14 @@ TEST_CASE("characterize that is interrupted puts back what it changed and says s
   CHECK(contains(ended.err, "what was changed has been put back"));
   CHECK(settings(ram()) == before);
 }
+
+TEST_CASE("characterize moves no servo that is switched on meanwhile") {
+  // the second time just before commands to servo ID 0, which is what a new servo has
+  const auto* at = GENERATE("2s", "3.4s");
+  const Scene scene = Scene()
+                          .servo("BLA21-12U-AB", 11, {{"serial_number", 1}, {"servo_id", 3}})
+                          .servo("BLA21-12U-AB", 12, {{"serial_number", 2}})
+                          .joins(2, at);
+  check_error(scene.run({"characterize", "-n", "11", "-y"}), 9, "duplicate_servo_id",
+              "node 12 appeared, restarted or reports servo ID");
+}

@@ -35,7 +35,7 @@ TestBench::TestBench(Session& session, const bla::Profiles& profiles, const Snap
                      const BenchManner& manner)
     : session_(session), profiles_(profiles), manner_(manner), servo_(before.servo),
       start_watch_(before.servo.unique_id.value_or(dronecan::UniqueId{})), before_(before.values()),
-      begin_(session.now()), in_ram_since_(begin_) {
+      bystanders_(session.roster()), begin_(session.now()), in_ram_since_(begin_) {
   for (const auto& [address, limit] : soft_start_limits) {
     if (const auto raw = bla::find(before_, address)) {
       hidden_[address] = *raw;
@@ -245,6 +245,12 @@ Result<void> TestBench::command(std::int64_t servo_id, Address address, std::int
   constexpr Duration until_taken = 50ms;
   if (auto why = forbidden()) {
     return std::unexpected(std::move(*why));
+  }
+  if (const auto other = bystanders_.obeys(roster(), servo_, servo_id)) {
+    const std::uint8_t id = servo_.id.value();
+    return std::unexpected(Error{Code::duplicate_servo_id,
+                                 say<texts::bench_bystander>(id, other->value(), servo_id),
+                                 say<texts::bench_bystander_hint>(), id});
   }
   has_changed_ = true;
   known_[address] = raw; // unless it is deaf: the worst is what is to be put back

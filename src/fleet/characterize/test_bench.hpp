@@ -2,6 +2,7 @@
 // One servo on the bench: reads, writes, restarts, and the restoring of its settings.
 
 #include "blactl/bla/profile.hpp"
+#include "blactl/fleet/bus/bystanders.hpp"
 #include "blactl/fleet/change/save_restart_job.hpp"
 #include "blactl/fleet/characterize/characterization.hpp"
 
@@ -171,6 +172,7 @@ class TestBench {
   bla::Values hidden_;             ///< the initial values that a soft start may have hidden
   bla::Values known_;              ///< last read
   std::set<bla::Address> touched_; ///< since settle()
+  Bystanders bystanders_;          ///< since the beginning
   bla::Values at_once_;
   std::optional<SaveRestartJob> restart_; ///< the last one, used by start_watch_
   bool has_changed_ = false;

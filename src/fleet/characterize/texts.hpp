@@ -21,6 +21,13 @@ inline constexpr Text bench_not_back_and_saved{"{}; {}", "{}。{}"};
 inline constexpr Text bench_changed{
     "node {}: {} is {}, not {} as a moment ago: somebody else changes it, or it restarted",
     "ノード {}: {} が先ほどと異なります ({}、直前は {})。他の機器が変更したか、再起動しています"};
+inline constexpr Text bench_bystander{
+    "node {}: node {} appeared, restarted or reports servo ID {}: it might obey the ArrayCommands "
+    "that measure this one",
+    "ノード {}: ノード {} の出現、再起動、またはサーボ ID {} の送信がありました。測定用の "
+    "ArrayCommand に従う可能性があります"};
+inline constexpr Text bench_bystander_hint{"measure with the servo alone on the bus",
+                                           "測定するサーボだけをバスに接続して下さい"};
 inline constexpr Text bench_set_refused{"node {}: {} did not take {}, it holds {}",
                                         "ノード {}: {} に {} を設定できません (現在値 {})"};
 inline constexpr Text bench_moves{

@@ -4,7 +4,6 @@
 #include "blactl/fleet/bus/array_command.hpp"
 #include "blactl/fleet/bus/texts.hpp"
 #include "blactl/fleet/change/guard.hpp"
-#include "blactl/state/local_node_id.hpp"
 
 #include "fleet/motion/motion_texts.hpp"
 
@@ -47,11 +46,7 @@ constexpr std::array readings{at::current_angle, at::current_speed, at::current_
 
 MotionJob::MotionJob(const Roster& roster, const MotionPlan& plan, Options options)
     : roster_(roster), plan_(plan), options_(std::move(options)), servo_(plan.servo()),
-      conditions_(plan.conditions()) {
-  for (const auto& [id, member] : roster_.members()) {
-    others_[id] = member.boots;
-  }
-}
+      conditions_(plan.conditions()), others_(roster) {}
 
 Step MotionJob::next(const Outcome& outcome) {
   now_ = options_.now();
@@ -151,26 +146,9 @@ std::optional<Error> MotionJob::disturbed() const {
   return std::nullopt;
 }
 
-/// An ArrayCommand reaches all servos. One that reports its servo ID obeys it, and one that came or
-/// restarted since may have it.
 std::optional<NodeId> MotionJob::newcomer() const {
-  if (!plan_.by_servo_id) {
-    return std::nullopt;
-  }
-  std::optional<NodeId> suspect;
-  for (const auto& [id, member] : roster_.members()) {
-    if (id == servo_.id || state::is_tool_id(id)) {
-      continue;
-    }
-    if (member.actuator_id == plan_.plan.before.raw(at::servo_id)) {
-      return id;
-    }
-    const auto before = others_.find(id);
-    if (before == others_.end() || before->second != member.boots) {
-      suspect = id;
-    }
-  }
-  return suspect;
+  const auto servo_id = plan_.plan.before.raw(at::servo_id);
+  return plan_.by_servo_id && servo_id ? others_.obeys(roster_, servo_, *servo_id) : std::nullopt;
 }
 
 bool MotionJob::has_restarted() const {

@@ -1,6 +1,7 @@
 #pragma once
 // Commands one servo for a limited time, watches it meanwhile, and brings it to a defined end.
 
+#include "blactl/fleet/bus/bystanders.hpp"
 #include "blactl/fleet/bus/roster.hpp"
 #include "blactl/fleet/bus/run_proof.hpp"
 #include "blactl/fleet/motion/motion_plan.hpp"
@@ -9,7 +10,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <optional>
 
 namespace blactl::fleet {
@@ -121,10 +121,10 @@ class MotionJob final : public dronecan::Job {
   Servo servo_; ///< as last recognised
   Phase phase_ = Phase::moving;
   At at_ = At::begin;
-  Time now_{};                                         ///< when the next step is decided
-  bla::Values conditions_;                             ///< still to be read
-  Time looked_at_{};                                   ///< the time they were read
-  std::map<dronecan::NodeId, std::uint32_t> others_{}; ///< restarts of those present at the start
+  Time now_{};             ///< when the next step is decided
+  bla::Values conditions_; ///< still to be read
+  Time looked_at_{};       ///< the time they were read
+  Bystanders others_;      ///< since the start
   std::int64_t target_ = 0;
   Time last_command_{};
   bool reads_first_ = false;           ///< a read is due before the next command
