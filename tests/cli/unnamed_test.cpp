@@ -105,6 +105,24 @@ TEST_CASE("nothing is said of what a restart has ended already") {
   CHECK(json(saved.out)["nodes"][0]["warnings"].empty());
 }
 
+TEST_CASE("a trial that was taken back is not in RAM only, whatever has restarted since") {
+  const Fleet fleet(one_servo());
+  try_out(fleet);
+  SECTION("by undo") {
+    REQUIRE(fleet.run({"undo", "-y"}).status == 0);
+  }
+  SECTION("by hand") {
+    REQUIRE(fleet.run({"set", "-n", "11", "angle_limit_cw=179.9deg"}).status == 0);
+  }
+  REQUIRE(fleet.run({"restart", "-n", "11", "-y"}).status == 0);
+  const Result saved = fleet.run({"save", "-n", "11", "-y", "--json"});
+  INFO(saved.err);
+  CHECK(saved.status == 0);
+  CHECK(json(saved.out)["nodes"][0]["warnings"].empty());
+  CHECK(fleet.run({"undo", "-y"}).status == 0);
+  CHECK(fleet.rom("11", "angle_limit_cw") == 1799); // it never held anything else
+}
+
 TEST_CASE("a plan is stale once a setting has changed that it does not name") {
   const Fleet fleet(one_servo());
   const Document plan = ordered_json(fleet.apply(wishes("smoothing", "off"), {"--dry-run"}).out);

@@ -3,8 +3,13 @@
 #include "blactl/fleet/bus/unreachable.hpp"
 #include "blactl/fleet/change/history.hpp"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
+#include <cstdint>
+#include <iterator>
+#include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -19,27 +24,46 @@ constexpr std::chrono::hours worth_renewing{1};
 /// restarted in between.
 constexpr std::chrono::seconds writing_time{10};
 
-/// Whether RAM holds a value that this change has put there; empty: no register of it was read.
-std::optional<bool> is_shown(const state::SnapshotEntry& change, const Snapshot& ram) {
+using Entries = std::vector<state::SnapshotEntry>;
+
+/// Whether `later` found a value that `earlier` had written: the servo did not restart in between.
+bool follows(const state::SnapshotEntry& later, const state::SnapshotEntry& earlier) {
+  return std::ranges::any_of(later.held, [&](const auto& held) {
+    const auto written = earlier.written.find(held.first);
+    return written != earlier.written.end() && written->second == held.second;
+  });
+}
+
+/// Whether RAM holds a value that these changes, the newest first, have put there in the end;
+/// empty: no register of them was read. One that they have put back shows nothing.
+std::optional<bool> are_shown(const Entries& changes, const Snapshot& ram) {
+  std::map<std::uint8_t, std::int64_t> written, replaced;
+  for (const state::SnapshotEntry& change : changes) {
+    written.insert(change.written.begin(), change.written.end());
+    for (const auto& [address, raw] : change.held) {
+      replaced.insert_or_assign(address, raw);
+    }
+  }
   std::optional<bool> shown;
-  for (const auto& [address, written] : change.written) {
-    const auto before = change.held.find(address);
+  for (const auto& [address, raw] : written) {
+    const auto before = replaced.find(address);
     const auto now = ram.raw(bla::Address(address));
-    if (now && before != change.held.end() && before->second != written) {
-      shown = shown.value_or(false) || *now == written;
+    if (now && before != replaced.end()) {
+      shown = shown.value_or(false) || (*now == raw && before->second != raw);
     }
   }
   return shown;
 }
 
-/// A clock that was set, or a restart between the record and the write, puts a change before the
+/// A clock that was set, or a restart between the record and the write, puts changes before the
 /// start of the servo: then RAM itself tells, if `ram` is known.
-bool is_in_ram(const state::SnapshotEntry& change, WallTime started, const Snapshot* ram) {
-  if (change.at >= started || change.written.empty()) {
-    return change.at >= started;
+bool are_in_ram(const Entries& changes, WallTime started, const Snapshot* ram) {
+  const state::SnapshotEntry& newest = changes.front();
+  if (newest.written.empty()) {
+    return false;
   }
-  const auto shown = ram != nullptr ? is_shown(change, *ram) : std::nullopt;
-  return shown.value_or(change.at + writing_time >= started);
+  const auto shown = ram != nullptr ? are_shown(changes, *ram) : std::nullopt;
+  return shown.value_or(newest.at + writing_time >= started);
 }
 
 /// When the last uptime of this node was heard.
@@ -108,9 +132,19 @@ std::vector<state::SnapshotEntry> History::unsaved(const Servo& servo, const Ses
     return entries;
   }
   auto entry = snapshots_.last(*servo.unique_id);
-  while (entry && *entry && !(*entry)->saved && is_in_ram(**entry, *started, ram)) {
-    entries.push_back(std::move(**entry));
-    entry = snapshots_.before(entries.back());
+  while (entry && *entry && !(*entry)->saved) {
+    Entries changes{std::move(**entry)};
+    entry = snapshots_.before(changes.back());
+    if (changes.front().at < *started) {
+      while (entry && *entry && !(*entry)->saved && follows(changes.back(), **entry)) {
+        changes.push_back(std::move(**entry));
+        entry = snapshots_.before(changes.back());
+      }
+      if (!are_in_ram(changes, *started, ram)) {
+        break;
+      }
+    }
+    std::ranges::move(changes, std::back_inserter(entries));
   }
   return entries;
 }
