@@ -300,8 +300,9 @@ AllocationService::Holder AllocationService::holder(NodeId id, const UniqueId& u
   if (id == session_.node().id()) {
     return Holder::other;
   }
-  if (!roster.heard(id)) {
-    return Holder::nobody;
+  if (!roster.heard(id)) { // who sends once a second needs that time to be heard
+    const bool is_early = session_.now() - session_.opened() < bus_watch_time;
+    return is_early ? Holder::unknown : Holder::nobody;
   }
   const Member member = roster.member(id);
   if (roster.is_doubled(id)) {
