@@ -265,6 +265,21 @@ TEST_CASE("the unit of the PWM output range must be that of the PWM mode") {
   CHECK(contains(wrong.err, "node 11: pwm_output_range=60rpm: this servo has pwm_mode="));
 }
 
+TEST_CASE("a servo that restarts at the write with other settings in ROM is not written to again") {
+  const auto arguments =
+      GENERATE(Arguments{"set", "-n", "11", "pwm_output_range=90deg", "-y"},
+               Arguments{"set", "-n", "11", "pwm_output_range=90deg", "--save", "-y"},
+               Arguments{"pwm-config", "-n", "11", "--output", "90deg", "-y"});
+  const Scene scene = Scene().servo(
+      "BLA21-12U-AB", 11,
+      {{"rom",
+        {{"pwm_mode", "speed"}, {"pwm_output_range", "150rpm"}, {"speed_torque_control", "on"}}},
+       {"ram", {{"0x37", 0}, {"0x36", 700}}},
+       {"faults", {{"restart_after_answer", {{{"to", "write"}, {"number", 1}}}}}}});
+  check_error(scene.run(arguments), 1, "state",
+              "restarted while it was written to: pwm_mode is speed now, and was angle");
+}
+
 TEST_CASE("a servo that does not take the value ends with 5 and what it holds instead",
           "[requirement-73]") {
   const Result refused = impostor("refuse").run({"set", "overcurrent_limit=6.5A", "-j"});

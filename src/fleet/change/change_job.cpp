@@ -150,9 +150,28 @@ std::unique_ptr<SaveRestartJob> ChangeJob::restart() const {
 /// After a save everything is read.
 std::unique_ptr<WriteJob> ChangeJob::write() const {
   const bool is_read_later = plan_.restart == RestartKind::save;
-  return std::make_unique<WriteJob>(
-      roster_, servo_, plan_.changes, options_.identification.patience,
-      is_read_later ? WriteJob::Echo::suffices : WriteJob::Echo::is_checked, may_be_driven());
+  const auto echo = is_read_later ? WriteJob::Echo::suffices : WriteJob::Echo::is_checked;
+  return std::make_unique<WriteJob>(roster_, servo_, plan_.changes,
+                                    WriteJob::Options{.patience = options_.identification.patience,
+                                                      .echo = echo,
+                                                      .may_be_driven = may_be_driven(),
+                                                      .premises = premises()});
+}
+
+/// The settings by which the plan was judged, besides those that it changes. After ERASE they are
+/// others, and a restart then ends the change.
+std::vector<WriteJob::Premise> ChangeJob::premises() const {
+  std::vector<WriteJob::Premise> premises;
+  for (const auto& [address, raw] : plan_.erase ? bla::Values() : plan_.before.values()) {
+    const bla::Parameter* parameter = servo_.identity.parameter(address);
+    const bool is_changed = std::ranges::any_of(plan_.changes, [&](const RegisterChange& change) {
+      return change.parameter->address == address;
+    });
+    if (parameter != nullptr && parameter->is_setting() && !is_changed) {
+      premises.push_back({parameter, raw});
+    }
+  }
+  return premises;
 }
 
 /// Begins a stage; one without requests ends at once.
@@ -273,6 +292,9 @@ ChangeJob::Stage ChangeJob::conclude_write() {
         Error{Code::state, say<texts::erased_no_more>(id), say<texts::run_again_hint>(), id};
   }
   result_.is_verified = !result_.error && !has_failed(result_.changes);
+  if (result_.is_verified && servo_.boot != plan_.before.servo.boot) {
+    result_.warnings.push_back({"restarted", say<texts::restarted_while_written>(id)});
+  }
   return result_.is_verified ? after_write() : Stage::end;
 }
 

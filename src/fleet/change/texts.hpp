@@ -166,6 +166,17 @@ inline constexpr Text restarts_again{
     "node {} restarts again and again while it is written to",
     "ノード {} は書込み中に何度も再起動しています",
 };
+inline constexpr Text premise_lost{
+    "node {} restarted while it was written to: {} is {} now, and was {} when the change was "
+    "checked",
+    "ノード {} は書込み中に再起動しました。{} は現在 {} ですが、変更の確認時は {} でした",
+};
+inline constexpr Text restarted_while_written{
+    "node {} restarted while it was written to, and was written to again: what else only RAM held "
+    "is lost",
+    "ノード {} は書込み中に再起動したため、再度書き込みました。RAM "
+    "のみにあった他の変更は失われています",
+};
 inline constexpr Text unnamed_saved{
     "{} is {} in RAM and {} in ROM: SAVE keeps all of RAM, so this too",
     "{} は RAM が {}、ROM が {} です。SAVE は RAM 全体を保存するため、この値も保存されます",

@@ -29,9 +29,9 @@ bool is_held(const RegisterChange& change) {
 } // namespace
 
 WriteJob::WriteJob(const Roster& roster, Servo servo, std::vector<RegisterChange> changes,
-                   Patience patience, Echo echo, bool may_be_driven)
-    : roster_(roster), servo_(std::move(servo)), changes_(std::move(changes)), patience_(patience),
-      echo_(echo), guard_(roster, may_be_driven) {}
+                   Options options)
+    : roster_(roster), servo_(std::move(servo)), changes_(std::move(changes)),
+      options_(std::move(options)), guard_(roster, options_.may_be_driven) {}
 
 Step WriteJob::next(const Outcome& outcome) {
   switch (at_) {
@@ -40,6 +40,7 @@ Step WriteJob::next(const Outcome& outcome) {
   case At::write: return after_write(outcome);
   case At::read: return after_read(outcome);
   case At::proof: return judge_proof(outcome);
+  case At::premise: return judge_premise(outcome);
   }
   return std::nullopt;
 }
@@ -51,7 +52,7 @@ Step WriteJob::begin(Time now) {
     return go_on(now);
   }
   at_ = At::unit;
-  return ask(servo_.id, GetNodeInfo::type, GetNodeInfo::Request{}.encode(), patience_);
+  return ask(servo_.id, GetNodeInfo::type, GetNodeInfo::Request{}.encode(), options_.patience);
 }
 
 Step WriteJob::judge_unit(const Outcome& outcome) {
@@ -86,9 +87,14 @@ Step WriteJob::go_on(Time now) {
   }
   at_ = At::write;
   is_lost_ = false;
-  return guard_.guarded(write_register(servo_.id, changes_[current_].parameter->address,
-                                       changes_[current_].requested, patience_),
-                        servo_);
+  auto request = guard_.guarded(write_register(servo_.id, changes_[current_].parameter->address,
+                                               changes_[current_].requested, options_.patience),
+                                servo_);
+  // after a restart another servo may be there; nor is it repeated to that
+  request.may_leave = [this, allowed = std::move(request.may_leave)](Time at) {
+    return servo_.boot == boots() && allowed(at);
+  };
+  return request;
 }
 
 Step WriteJob::after_write(const Outcome& outcome) {
@@ -102,20 +108,24 @@ Step WriteJob::after_write(const Outcome& outcome) {
   RegisterChange& change = changes_[current_];
   const bla::Parameter& parameter = *change.parameter;
   const auto echo = register_value(outcome, servo_.id, parameter.address, parameter.width);
-  if (echo_ == Echo::suffices && echo == change.requested) {
+  if (options_.echo == Echo::suffices && echo == change.requested) {
     return wrote(outcome.at);
   }
   // whatever the response, or if it was lost: reading the register shows its value
   is_lost_ = !outcome.answered();
   at_ = At::read;
-  return read_register(servo_.id, parameter.address, patience_);
+  return read_register(servo_.id, parameter.address, options_.patience);
 }
 
 /// Does not make this change and those after it.
 Step WriteJob::hold_off(Time now) {
   RegisterChange& change = changes_[current_];
+  auto why = guard_.forbids(servo_, now);
+  if (!why) { // it has restarted meanwhile
+    return prove(now);
+  }
   change.status = ChangeStatus::failed;
-  change.error = guard_.forbids(servo_, now);
+  change.error = std::move(why);
   current_ = changes_.size();
   return std::ranges::any_of(changes_, is_held) ? prove(now) : Step(std::nullopt);
 }
@@ -156,7 +166,7 @@ Step WriteJob::after_read(const Outcome& outcome) {
 
 Step WriteJob::prove(Time now) {
   at_ = At::proof;
-  run_proof_.emplace(roster_, servo_, servo_.since, patience_);
+  run_proof_.emplace(roster_, servo_, servo_.since, options_.patience);
   return run_proof_->next({Outcome::Kind::start, {}, now});
 }
 
@@ -167,7 +177,7 @@ Step WriteJob::judge_proof(const Outcome& outcome) {
   const std::uint8_t id = servo_.id.value();
   switch (run_proof_->verdict()) {
   case RunProof::Verdict::failed: return give_up(unproven(), told_by(*run_proof_->error()));
-  case RunProof::Verdict::restarted: return write_again(outcome.at);
+  case RunProof::Verdict::restarted: return check_premises(outcome.at);
   case RunProof::Verdict::too_late:
     return give_up(unproven(), {Code::state, say<texts::written_too_late>(id),
                                 say<texts::run_again_hint>(), id});
@@ -193,16 +203,53 @@ Error WriteJob::told_by(const Error& error) const {
   return error;
 }
 
-/// The restart has reloaded ROM: the values are to be written again.
-Step WriteJob::write_again(Time now) {
+/// The restart has reloaded ROM: the values are to be written again, but with other settings beside
+/// them they may mean something else, or be forbidden.
+Step WriteJob::check_premises(Time now) {
   const std::uint8_t id = servo_.id.value();
   if (++restarts_ > most_restarts) {
     return give_up(unproven(), {Code::state, say<texts::restarts_again>(id),
                                 say<texts::restarts_again_hint>(), id});
   }
-  is_doubtful_ = false;
   servo_.boot = boots();
   servo_.since = now;
+  premise_ = 0;
+  return next_premise(now);
+}
+
+Step WriteJob::next_premise(Time now) {
+  if (premise_ == options_.premises.size()) {
+    return write_again(now);
+  }
+  at_ = At::premise;
+  return read_register(servo_.id, options_.premises[premise_].parameter->address,
+                       options_.patience);
+}
+
+Step WriteJob::judge_premise(const Outcome& outcome) {
+  const std::uint8_t id = servo_.id.value();
+  const auto& [setting, expected] = options_.premises[premise_];
+  const bla::Parameter& parameter = *setting;
+  const auto raw = register_value(outcome, servo_.id, parameter.address, parameter.width);
+  if (!raw) {
+    return give_up(unproven(), told_by(raw.error()));
+  }
+  if (*raw != expected) {
+    return give_up(unproven(),
+                   {Code::state,
+                    say<texts::premise_lost>(id, parameter.name, bla::display(parameter, *raw),
+                                             bla::display(parameter, expected)),
+                    say<texts::run_again_hint>(), id});
+  }
+  if (servo_.boot != boots()) {
+    return prove(outcome.at);
+  }
+  ++premise_;
+  return next_premise(outcome.at);
+}
+
+Step WriteJob::write_again(Time now) {
+  is_doubtful_ = false;
   if (!doubt_unchanged()) {
     return std::nullopt;
   }

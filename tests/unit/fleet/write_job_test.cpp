@@ -89,16 +89,16 @@ TEST_CASE("a change is written and read again") {
 TEST_CASE("where all is read after a restart, an answer that shows the value suffices") {
   Scene scene(servo_11);
   scene.grow_old();
-  WriteJob job(scene.roster(), scene.identify(11), {change("angle_limit_cw", 900, 1799)}, {},
-               WriteJob::Echo::suffices);
+  WriteJob job(scene.roster(), scene.identify(11), {change("angle_limit_cw", 900, 1799)},
+               {.echo = WriteJob::Echo::suffices});
   scene.sent.clear();
   scene.run(job);
   CHECK(job.changes()[0].status == ChangeStatus::written);
   CHECK(job.changes()[0].after == 900);
   CHECK(scene.sent.size() == 1 + 3 + 1);
   // One that shows another value, or none, does not.
-  WriteJob refused(scene.roster(), scene.identify(11), {change("angle_p_gain", 1000, 40)}, {},
-                   WriteJob::Echo::suffices);
+  WriteJob refused(scene.roster(), scene.identify(11), {change("angle_p_gain", 1000, 40)},
+                   {.echo = WriteJob::Echo::suffices});
   scene.sent.clear();
   scene.run(refused);
   CHECK(refused.changes()[0].status == ChangeStatus::failed);
@@ -255,6 +255,19 @@ TEST_CASE("armed in the middle: nothing more is written, and what was written is
   CHECK(job.changes()[1].error->code == Code::armed);
 }
 
+TEST_CASE("a write is not repeated to whoever has started on that node ID since") {
+  Bench bench;
+  WriteJob job = bench.job({change("reverse", 1, 0)});
+  CHECK(text(job.next(Script::start())) == "GetNodeInfo");
+  const dronecan::Step step = job.next(bench.script.info(1));
+  CHECK(text(step) == "write 0x23=1");
+  REQUIRE(step.request());
+  CHECK(step.request()->may_leave({}));
+  bench.restart();
+  CHECK_FALSE(step.request()->may_leave({}));
+  CHECK(text(job.next(Script::withheld())) == "GetNodeInfo"); // who is there?
+}
+
 TEST_CASE("armed before the first write: nothing was written") {
   Bench bench;
   WriteJob job = bench.job({change("reverse", 1, 0)});
@@ -323,6 +336,29 @@ TEST_CASE("what a restart took from the RAM is written again") {
   CHECK(bench.proven(job) == "nothing");
   CHECK(job.changes()[0].status == ChangeStatus::written);
   CHECK(job.changes()[1].status == ChangeStatus::written);
+}
+
+TEST_CASE("nothing is written again where the restart has brought other settings back") {
+  Bench bench;
+  WriteJob job(bench.roster, bench.servo, {change("pwm_output_range", 900, 700)},
+               {.premises = {{change("pwm_mode", 0, 0).parameter, 0}}});
+  CHECK(bench.begin(job) == "write 0x36=900");
+  bench.restart();
+  CHECK(text(job.next(Script::timed_out())) == "read 0x36");
+  CHECK(text(job.next(bench.script.value("0x36", std::int64_t{150}))) == "GetNodeInfo");
+  CHECK(text(job.next(bench.script.info(1))) == "read 0x37");
+  SECTION("they are as they were") {
+    CHECK(text(job.next(bench.script.value("0x37", std::int64_t{0}))) == "write 0x36=900");
+  }
+  SECTION("they are not") {
+    CHECK(text(job.next(bench.script.value("0x37", std::int64_t{1}))) == "nothing");
+    CHECK(job.changes()[0].status == ChangeStatus::failed);
+    CHECK(job.changes()[0].error->code == Code::state);
+  }
+  SECTION("nobody knows") {
+    CHECK(text(job.next(Script::timed_out())) == "nothing");
+    CHECK(job.changes()[0].error->code == Code::timeout);
+  }
 }
 
 TEST_CASE("a servo that restarted behind the last write is written to again") {

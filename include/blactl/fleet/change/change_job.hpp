@@ -102,6 +102,7 @@ class ChangeJob final : public dronecan::Job {
   [[nodiscard]] std::optional<Error> check_commands(const Snapshot& now) const;
   void tell_saved(const Snapshot& now);
   [[nodiscard]] std::unique_ptr<WriteJob> write() const;
+  [[nodiscard]] std::vector<WriteJob::Premise> premises() const;
   [[nodiscard]] std::unique_ptr<SaveRestartJob> restart() const;
 
   [[nodiscard]] bool may_be_driven() const { return options_.while_driven || !plan_.moves(); }

@@ -2,6 +2,7 @@
 // Writes registers of one identified servo and verifies each by its response, or by reading it
 // again.
 
+#include "blactl/bla/parameter.hpp"
 #include "blactl/dronecan/node.hpp"
 #include "blactl/fleet/bus/register_access.hpp"
 #include "blactl/fleet/bus/roster.hpp"
@@ -21,8 +22,9 @@ namespace blactl::fleet {
 /// (requirement 73): then, or if the whole servo is not read afterwards, the register is read again
 /// after the write. At the end, and before a refusal is believed, the servo must prove that it has
 /// not restarted, also if all values were unchanged, as they were read some time ago. Values
-/// written before a restart are written again, as they were in RAM only. If the guard forbids a
-/// write, no more are sent, and those that were made are proven.
+/// written before a restart are written again, as they were in RAM only, provided that the values
+/// on which the plan was judged have come back from ROM as they were. If the guard forbids a write,
+/// no more are sent, and those that were made are proven.
 class WriteJob final : public dronecan::Job {
  public:
   /// The proof of a write whose response shows the requested value.
@@ -31,9 +33,21 @@ class WriteJob final : public dronecan::Job {
     suffices,   ///< the response: everything is read after the following restart
   };
 
-  /// `roster` outlives the job. `may_be_driven`: also while another node drives the servo.
-  WriteJob(const Roster& roster, Servo servo, std::vector<RegisterChange> changes,
-           Patience patience, Echo echo = Echo::is_checked, bool may_be_driven = false);
+  /// A setting by which the changes were judged; not one of them.
+  struct Premise {
+    const bla::Parameter* parameter = nullptr;
+    std::int64_t raw = 0;
+  };
+
+  struct Options {
+    Patience patience{};
+    Echo echo = Echo::is_checked;
+    bool may_be_driven = false; ///< also while another node drives the servo
+    std::vector<Premise> premises{};
+  };
+
+  /// `roster` outlives the job.
+  WriteJob(const Roster& roster, Servo servo, std::vector<RegisterChange> changes, Options options);
 
   [[nodiscard]] dronecan::Step next(const dronecan::Outcome& outcome) override;
 
@@ -46,7 +60,7 @@ class WriteJob final : public dronecan::Job {
   [[nodiscard]] const Servo& servo() const { return servo_; }
 
  private:
-  enum class At : std::uint8_t { begin, unit, write, read, proof };
+  enum class At : std::uint8_t { begin, unit, write, read, proof, premise };
 
   [[nodiscard]] dronecan::Step begin(Time now);
   [[nodiscard]] dronecan::Step go_on(Time now);
@@ -57,6 +71,9 @@ class WriteJob final : public dronecan::Job {
   [[nodiscard]] dronecan::Step wrote(Time now);
   [[nodiscard]] dronecan::Step hold_off(Time now);
   [[nodiscard]] dronecan::Step after_read(const dronecan::Outcome& outcome);
+  [[nodiscard]] dronecan::Step check_premises(Time now);
+  [[nodiscard]] dronecan::Step next_premise(Time now);
+  [[nodiscard]] dronecan::Step judge_premise(const dronecan::Outcome& outcome);
   [[nodiscard]] dronecan::Step write_again(Time now);
   [[nodiscard]] bool doubt_unchanged();
   void judge();
@@ -69,8 +86,7 @@ class WriteJob final : public dronecan::Job {
   const Roster& roster_;
   Servo servo_;
   std::vector<RegisterChange> changes_;
-  Patience patience_;
-  Echo echo_;
+  Options options_;
   Guard guard_;
   At at_ = At::begin;
   std::size_t current_ = 0; ///< the change being written or checked
@@ -78,6 +94,7 @@ class WriteJob final : public dronecan::Job {
   bool is_lost_ = false;     ///< no response to the write of this change
   bool is_doubtful_ = false; ///< the register differs from the written value
   int restarts_ = 0;         ///< seen while writing
+  std::size_t premise_ = 0;  ///< being read again after a restart
   std::optional<RunProof> run_proof_;
 };
 
