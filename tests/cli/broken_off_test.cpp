@@ -78,7 +78,7 @@ TEST_CASE("of a servo that has made way nobody says that it is as it was") {
 
 TEST_CASE("an erase that was to keep the IDs and breaks off keeps them when it is repeated") {
   int broken_off = 0;
-  for (int after_ms = 1'050; after_ms < 3'000; after_ms += 150) {
+  for (int after_ms = 1'330; after_ms < 2'250; after_ms += 40) {
     const Fleet fleet(cut_at(after_ms));
     const Arguments erase{"erase", "-n", "11,12", "--keep-ids", "--save", "-y"};
     const Result first = fleet.run(erase);
