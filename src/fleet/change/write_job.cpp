@@ -121,8 +121,8 @@ Step WriteJob::after_write(const Outcome& outcome) {
 Step WriteJob::hold_off(Time now) {
   RegisterChange& change = changes_[current_];
   auto why = guard_.forbids(servo_, now);
-  if (!why) { // it has restarted meanwhile
-    return prove(now);
+  if (!why) { // it has restarted, or what forbade it has ended
+    return go_on(now);
   }
   change.status = ChangeStatus::failed;
   change.error = std::move(why);
