@@ -12,8 +12,8 @@ add_library(blactl-sanitizers INTERFACE)
 if(BLACTL_SANITIZE)
   target_compile_options(blactl-sanitizers INTERFACE
     -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
-    # A fifth of the compile time, and nothing to find: the address sanitizer sees the first two as
-    # well, and no base class is cast to a derived one.
+    # These take a fifth of the compile time. The address sanitizer sees what is accessed through a
+    # null pointer or beyond an object; no base class is cast to a derived one.
     -fno-sanitize=null,object-size,vptr)
   target_link_options(blactl-sanitizers INTERFACE -fsanitize=address,undefined)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")

@@ -48,7 +48,7 @@ RULES = {
          "include/blactl/fleet/bus/roster.hpp", "src/fleet/bus/roster.cpp",
          "src/fleet/change/guard.cpp",
          # Not whether to write: whether 0x00 to 0x02 are still what ERASE has made them.
-         "src/fleet/change/change_job.cpp"}),
+         "src/fleet/change/change_readings.cpp"}),
     "enters a node ID into the allocation table": (
         r"(store|table)_?(\.|->)(enter|allocate)\(",
         {"src/fleet/change/allocation_service.cpp", "src/fleet/change/carry_out_rounds.cpp",

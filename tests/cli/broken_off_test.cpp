@@ -55,7 +55,7 @@ std::map<int, int> places(const Fleet& fleet) {
 TEST_CASE("of a servo that has made way nobody says that it is as it was") {
   const bool by_apply = GENERATE(true, false);
   int made_way = 0;
-  for (int after_ms = 2'250; after_ms < 5'300; after_ms += 200) {
+  for (int after_ms = 2'250; after_ms < 5'300; after_ms += 100) {
     INFO(after_ms);
     const Fleet fleet(cut_at(after_ms));
     const Result broken = exchange(fleet, by_apply);

@@ -280,6 +280,16 @@ TEST_CASE("a servo that restarts at the write with other settings in ROM is not 
               "restarted while it was written to: pwm_mode is speed now, and was angle");
 }
 
+TEST_CASE("a servo that restarts at the write with the same settings in ROM is written to again") {
+  const Scene scene =
+      Scene().servo("BLA21-12U-AB", 11,
+                    {{"faults", {{"restart_after_answer", {{{"to", "write"}, {"number", 1}}}}}}});
+  const Result got = scene.run({"set", "-n", "11", "angle_limit_cw=90deg", "-y", "--json"});
+  CHECK(got.status == 0);
+  CHECK(json(got.out)["nodes"][0]["warnings"][0]["code"] == "restarted");
+  CHECK(contains(got.err, "node 11: restarted while it was written to, and was written to again"));
+}
+
 TEST_CASE("a servo that does not take the value ends with 5 and what it holds instead",
           "[requirement-73]") {
   const Result refused = impostor("refuse").run({"set", "overcurrent_limit=6.5A", "-j"});

@@ -172,10 +172,10 @@ inline constexpr Text premise_lost{
     "ノード {} は書込み中に再起動しました。{} は現在 {} ですが、変更の確認時は {} でした",
 };
 inline constexpr Text restarted_while_written{
-    "node {} restarted while it was written to, and was written to again: what else only RAM held "
-    "is lost",
-    "ノード {} は書込み中に再起動したため、再度書き込みました。RAM "
-    "のみにあった他の変更は失われています",
+    "restarted while it was written to, and was written to again: any other change that was in RAM "
+    "only is lost",
+    "書込み中に再起動したため、再度書き込みました。他に RAM のみの変更があった場合、その変更は失わ"
+    "れています",
 };
 inline constexpr Text unnamed_saved{
     "{} is {} in RAM and {} in ROM: SAVE keeps all of RAM, so this too",

@@ -90,7 +90,7 @@ Step WriteJob::go_on(Time now) {
   auto request = guard_.guarded(write_register(servo_.id, changes_[current_].parameter->address,
                                                changes_[current_].requested, options_.patience),
                                 servo_);
-  // after a restart another servo may be there; nor is it repeated to that
+  // what has started there since may be another servo: no repetition must reach it either
   request.may_leave = [this, allowed = std::move(request.may_leave)](Time at) {
     return servo_.boot == boots() && allowed(at);
   };
@@ -121,7 +121,7 @@ Step WriteJob::after_write(const Outcome& outcome) {
 Step WriteJob::hold_off(Time now) {
   RegisterChange& change = changes_[current_];
   auto why = guard_.forbids(servo_, now);
-  if (!why) { // it has restarted, or what forbade it has ended
+  if (!why) { // it has restarted
     return go_on(now);
   }
   change.status = ChangeStatus::failed;

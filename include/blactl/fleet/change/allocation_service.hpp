@@ -39,7 +39,8 @@ struct AllocatedUnit {
 /// Every ID is in the table before it goes over the wire.
 ///
 /// Until bus_is_known() only units of the table are served, as other nodes have had no time to be
-/// heard. It ends by itself when another allocator is heard, or the table cannot be used.
+/// heard; and those not before the present holder of their ID had it (bus_watch_time). It ends by
+/// itself when another allocator is heard, or the table cannot be used.
 class AllocationService final : private dronecan::Service, private dronecan::AllocationTable {
  public:
   enum class Event : std::uint8_t {
