@@ -175,9 +175,9 @@ done
 sim
 
 note "garbage, foreign frames and floods on the bus disturb nobody"
-cangen vcan0 -g 1 -e -I 1003F363 -L r -D r -n 3000 & # as if node 99 sent garbage
+cangen vcan0 -g 2 -e -I 1003F363 -L r -D r -n 3000 & # as if node 99 sent garbage
 flood=$!
-cangen vcan0 -g 1 -e -I 1E0BFF8D -L r -D r -n 3000 & # and node 13 answered what nobody asked
+cangen vcan0 -g 2 -e -I 1E0BFF8D -L r -D r -n 3000 & # and node 13 answered what nobody asked
 answers=$!
 run "$blactl" get -n 11,12 angle_limit_cw
 expect_status 0

@@ -92,7 +92,7 @@ expect_frames 1 '1E0A8B(FF|FE)'
 sim_end
 
 note "three processes at once: one writes, a second one that wants to is told who, others read"
-sim "$(at 11 '"faults":{"return_delay":"5s"}')" "$(at 12 '"servo_id":1')"
+sim "$(at 11 '"faults":{"return_delay":"12s"}')" "$(at 12 '"servo_id":1')"
 "$blactl" save -n 11 -y --wait 30 >"$TMPDIR/save.out" 2>&1 &
 writer=$!
 wait_for 20 grep -q '"event":"rom_write"' "$TMPDIR/sim.out"
@@ -102,7 +102,7 @@ expect_err '[busy]'
 expect_err "$writer"
 run "$blactl" save -n 12 -y
 expect_status 9
-"$blactl" wait -n 44 --wait 5 >"$TMPDIR/wait.out" 2>&1 & # for what never comes
+"$blactl" wait -n 44 --wait 10 >"$TMPDIR/wait.out" 2>&1 & # for what never comes
 reader=$!
 wait_for 20 is_held 126
 run "$blactl" get -n 12 smoothing # the two default IDs are taken

@@ -16,10 +16,7 @@ std::vector<WriteJob::Premise> ChangeJob::premises() const {
   std::vector<WriteJob::Premise> premises;
   for (const auto& [address, raw] : plan_.erase ? bla::Values() : plan_.before.values()) {
     const bla::Parameter* parameter = servo_.identity.parameter(address);
-    const bool is_changed = std::ranges::any_of(plan_.changes, [&](const RegisterChange& change) {
-      return change.parameter->address == address;
-    });
-    if (parameter != nullptr && parameter->is_setting() && !is_changed) {
+    if (parameter != nullptr && parameter->is_setting() && plan_.change_of(address) == nullptr) {
       premises.push_back({parameter, raw});
     }
   }

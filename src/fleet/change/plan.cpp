@@ -146,10 +146,7 @@ void plan_kept_ids(const Values& lost_ids, Plan& plan) {
     const auto lost = bla::find(lost_ids, address);
     const auto kept = lost ? lost : plan.before.raw(address);
     const Parameter* parameter = plan.before.servo.identity.parameter(address);
-    const bool is_given = std::ranges::any_of(plan.changes, [&](const RegisterChange& change) {
-      return change.parameter->address == address;
-    });
-    if (kept.value_or(0) != 0 && parameter != nullptr && !is_given) {
+    if (kept.value_or(0) != 0 && parameter != nullptr && plan.change_of(address) == nullptr) {
       plan.changes.push_back({.parameter = parameter, .requested = *kept, .before = 0});
     }
   }
@@ -236,12 +233,20 @@ std::optional<std::int64_t> value_given(const Plan& plan, Address address) {
   if (plan.restart == RestartKind::save) {
     return bla::find(plan.expected, address);
   }
-  const auto change = std::ranges::find_if(
-      plan.changes, [&](const RegisterChange& each) { return each.parameter->address == address; });
-  return change != plan.changes.end() ? std::optional(change->requested) : std::nullopt;
+  const RegisterChange* change = plan.change_of(address);
+  return change != nullptr ? std::optional(change->requested) : std::nullopt;
 }
 
 } // namespace
+
+const RegisterChange* Plan::change_of(Address address) const {
+  for (const RegisterChange& change : changes) {
+    if (change.parameter->address == address) {
+      return &change;
+    }
+  }
+  return nullptr;
+}
 
 bool Plan::acts() const {
   return erase || restart || std::ranges::any_of(changes, &RegisterChange::is_planned);

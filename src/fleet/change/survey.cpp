@@ -40,10 +40,8 @@ std::optional<std::int64_t> after(std::span<const Plan> plans, const Survey::Nei
   if (plan == plans.end()) {
     return in_ram;
   }
-  for (const RegisterChange& change : plan->changes) {
-    if (change.parameter->address == address) {
-      return change.requested;
-    }
+  if (const RegisterChange* change = plan->change_of(address)) {
+    return change->requested;
   }
   return plan->erase && !plan->keep_ids ? std::optional<std::int64_t>(0) : in_ram;
 }

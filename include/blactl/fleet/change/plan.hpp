@@ -59,6 +59,9 @@ struct Plan {
   /// The new permanent servo ID, if not 0; empty: none.
   [[nodiscard]] std::optional<std::int64_t> given_servo_id() const;
 
+  /// What it does to a register; null: it leaves it as it is.
+  [[nodiscard]] const RegisterChange* change_of(bla::Address address) const;
+
   /// Whether requests will be sent that change the servo.
   [[nodiscard]] bool acts() const;
 
