@@ -4,6 +4,7 @@
 
 #include "dronecan/tail.hpp"
 
+#include <algorithm>
 #include <span>
 
 namespace blactl::dronecan {
@@ -44,7 +45,12 @@ void AnswerWatch::receive(const Header& header, const can::Frame& frame, Time at
   const Tail tail = Tail::decode(frame.data[frame.size - 1U]);
   Assembly& assembly = assemblies_[{header.source, header.data_type_id}];
   if (tail.start) {
+    if (is_another(assembly, header, frame, at)) {
+      report_(header.source, {});
+    }
     assembly.transfer_id = tail.transfer_id;
+    assembly.client = header.destination;
+    assembly.start = at;
     assembly.toggle = false;
     assembly.bytes.clear();
   } else if (assembly.bytes.empty() || tail.transfer_id != assembly.transfer_id ||
@@ -60,6 +66,18 @@ void AnswerWatch::receive(const Header& header, const can::Frame& frame, Time at
     complete(assembly, *type, header, at);
     assembly.bytes.clear();
   }
+}
+
+bool AnswerWatch::is_another(const Assembly& begun, const Header& header, const can::Frame& frame,
+                             Time at) {
+  const auto data = frame.payload().first(frame.size - 1U);
+  const bool is_same_question =
+      !begun.bytes.empty() && begun.client == header.destination &&
+      begun.transfer_id == Tail::decode(frame.data[frame.size - 1U]).transfer_id &&
+      at - begun.start < Receiver::transfer_timeout;
+  return is_same_question &&
+         !std::ranges::equal(
+             data, std::span(begun.bytes).first(std::min(data.size(), begun.bytes.size())));
 }
 
 void AnswerWatch::forget(NodeId server) {

@@ -92,6 +92,31 @@ TEST_CASE("no command writes to a node ID that two units have, and each refuses 
   CHECK(writes_to(bench, log, 12) == 1); // such a transfer is seen where there is one
 }
 
+TEST_CASE("a servo and another node on its node ID are a conflict to every command") {
+  const Bench bench;
+  for (int seed = 1; seed <= 4; ++seed) {
+    const Scene scene = Scene().seed(seed).servo("BLA34-28U-AB", 11).foreign(11);
+    for (const Arguments& command : {Arguments{"scan"},
+                                     {"get", "angle_limit_cw"},
+                                     {"get", "-n", "11"},
+                                     {"faults", "-n", "all"},
+                                     {"set", "smoothing=off", "-y"},
+                                     {"set", "-n", "serial:99", "smoothing=off", "-y"},
+                                     {"save", "-n", "all", "-y"},
+                                     {"erase", "-n", "11", "-y"},
+                                     {"wait", "-n", "all"},
+                                     {"wait", "-n", "11", "--wait", "2"},
+                                     {"export", "-"},
+                                     {"command", "angle=10deg", "-y"},
+                                     {"alloc", "--static", "-n", "all", "-y"}}) {
+      const Result result = scene.run(bench, command);
+      INFO("seed " << seed << " " << command.front() << ": " << result.out << result.err);
+      CHECK(result.status == 9);
+      CHECK(contains(result.err, "two units use node ID 11"));
+    }
+  }
+}
+
 TEST_CASE("who else acts on the bus is a note where it forbids nothing") {
   const Scene scene =
       Scene()

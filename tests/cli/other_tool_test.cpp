@@ -39,7 +39,7 @@ Scene with_order(const char* order, int at_ms) {
 TEST_CASE("a change in RAM is not done where another tool has undone it meanwhile") {
   const auto* order = GENERATE("erase", "initialize", "restart");
   int done = 0;
-  for (int at = 1050; at < 1700; at += 50) {
+  for (int at = 1050; at < 1700; at += 90) {
     const Fleet fleet(with_order(order, at));
     const Result set = fleet.run({"set", "-n", "11,12", "angle_limit_cw=45deg", "-y", "--json"});
     INFO(order << " at " << at << " ms: " << set.out << set.err);
@@ -56,7 +56,7 @@ TEST_CASE("a change in RAM is not done where another tool has undone it meanwhil
 
 TEST_CASE("nothing is saved over what another tool has erased") {
   const auto* order = GENERATE("erase", "initialize");
-  for (int at = 1050; at < 1700; at += 50) {
+  for (int at = 1050; at < 1700; at += 90) {
     const Fleet fleet(with_order(order, at));
     const Result set =
         fleet.run({"set", "-n", "11,12", "angle_limit_cw=45deg", "--save", "-y", "--json"});
@@ -141,7 +141,7 @@ TEST_CASE("apply --no-save looks again at a servo that held the file already") {
 
 TEST_CASE("what another tool has saved meanwhile is not in RAM only, and undo puts ROM back") {
   int told = 0;
-  for (int at = 1650; at < 2600; at += 50) {
+  for (int at = 1650; at < 2600; at += 90) {
     const Fleet fleet(with_order("save", at));
     const Result set = fleet.run({"set", "-n", "11,12", "smoothing=off", "-y"});
     INFO(at << " ms: " << set.out << set.err);
@@ -155,7 +155,7 @@ TEST_CASE("what another tool has saved meanwhile is not in RAM only, and undo pu
 }
 
 TEST_CASE("characterize makes nothing permanent that another tool has erased or written") {
-  for (int at = 3000; at < 12000; at += 750) {
+  for (int at = 3000; at < 12000; at += 1300) {
     const Fleet fleet(with_order("erase", at));
     const Result run = fleet.run({"characterize", "-n", "11", "-y"});
     INFO(at << " ms: " << run.err);
@@ -165,7 +165,7 @@ TEST_CASE("characterize makes nothing permanent that another tool has erased or 
 
 TEST_CASE("after another tool's SAVE undo puts back what characterize measured with") {
   int saved = 0;
-  for (int at = 3000; at < 12000; at += 750) {
+  for (int at = 3000; at < 12000; at += 1300) {
     const Fleet fleet(with_order("save", at));
     if (contains(fleet.run({"characterize", "-n", "11", "-y"}).err, "blactl undo -n 11")) {
       ++saved;
@@ -190,7 +190,7 @@ TEST_CASE("what another tool writes again and again changes nothing, and is in n
 
 TEST_CASE("one other value among those that another tool repeats is a change") {
   int told = 0;
-  for (int at = 900; at < 2600; at += 100) {
+  for (int at = 900; at < 2600; at += 200) {
     const Fleet fleet(with_writer(at));
     const Result set = fleet.run({"set", "-n", "all", "soft_start=off", "-y"});
     INFO(at << " ms: " << set.out << set.err);
@@ -208,7 +208,7 @@ TEST_CASE("what another tool repeats undoes a change of the same register") {
 }
 
 TEST_CASE("one write of another tool while the servo is read does not keep it from being saved") {
-  for (int at = 900; at < 2600; at += 100) {
+  for (int at = 900; at < 2600; at += 200) {
     const Fleet fleet(Scene()
                           .servo("BLA21-12U-AB", 11, {{"servo_id", 1}})
                           .foreign(90, {{"orders",

@@ -21,10 +21,11 @@ namespace blactl::dronecan {
 /// repetition of the first, and drops it (4.1). This one reassembles every response to GetNodeInfo
 /// and GetSet, and reports two with one transfer ID that cannot come from one unit: their unique
 /// IDs differ, or their values of a parameter that changes only by request. Responses whose frames
-/// interleave are not read; no receiver accepts those.
+/// interleave are not read; no receiver accepts those. That they begin otherwise is enough, because
+/// no unit begins an answer again before it has ended.
 class AnswerWatch {
  public:
-  /// The unique IDs of the two units, or none if parameters gave them away.
+  /// The unique IDs of the two units, or none if something else gave them away.
   using Report = std::function<void(NodeId, const std::set<UniqueId>&)>;
 
   /// `settled`: names of parameters that never change by themselves, unlike measured values.
@@ -53,11 +54,17 @@ class AnswerWatch {
   struct Assembly {
     TransferId transfer_id = 0;
     bool toggle = false; ///< of the next frame
-    std::vector<std::uint8_t> bytes{};
+    NodeId client{};
+    Time start{};
+    std::vector<std::uint8_t> bytes{}; ///< empty: no answer is under way
     /// The answers by transfer ID: a second one may come after answers to later requests.
     std::array<Answer, transfer_id_modulus> answers{};
   };
 
+  /// Whether this first frame of an answer is not of the unit that has begun one to the same
+  /// question.
+  [[nodiscard]] static bool is_another(const Assembly& begun, const Header& header,
+                                       const can::Frame& frame, Time at);
   void complete(Assembly& assembly, const DataType& type, const Header& header, Time at);
   /// Transfer IDs soon wrap: the client's next ones are not those answered before.
   static void forget_last_lap(Assembly& assembly, NodeId client);

@@ -39,6 +39,12 @@ Error not_ready(const Member& member, bool is_gone, const std::string& seconds) 
              : Error{Code::timeout, say<texts::node_mute>(id), say<texts::no_answer_hint>(), id};
 }
 
+/// What was looked for may be one of two units on an ID, which cannot be read.
+Error unless_shared(const Roster& roster, Error error) {
+  const auto shared = roster.doubled();
+  return shared.empty() ? std::move(error) : doubled(roster, *shared.begin());
+}
+
 } // namespace
 
 Discovery::Discovery(Session& session, const bla::Profiles& profiles,
@@ -138,8 +144,9 @@ Result<Selection> Discovery::select(const Targets& targets, Duration listen) {
       return std::unexpected(ran.error());
     }
     for (auto& error : identifications()) {
-      // with a selector it may be another's
-      if (error && targets.selectors.empty() && !is_bystander(*error)) {
+      // with a selector it may be another's, and who is chosen is told of when it is read
+      if (error && targets.selectors.empty() && !is_bystander(*error) &&
+          error->code != Code::duplicate_node_id) {
         selection.errors.push_back(std::move(*error));
       }
     }
@@ -167,15 +174,14 @@ Result<Selection> Discovery::select(const Targets& targets, Duration listen) {
     }
   }
   for (const Selector& selector : targets.selectors) {
-    const auto shared = session_.roster().doubled(); // it may be one of those
     if (!is_met(selector)) {
-      selection.errors.push_back(shared.empty() ? nothing_matches(session_.roster(), selector)
-                                                : doubled(session_.roster(), *shared.begin()));
+      selection.errors.push_back(
+          unless_shared(session_.roster(), nothing_matches(session_.roster(), selector)));
     }
   }
   selection.ids.assign(chosen.begin(), chosen.end());
   if (chosen.empty() && selection.errors.empty()) {
-    selection.errors.push_back(no_servo(session_.roster()));
+    selection.errors.push_back(unless_shared(session_.roster(), no_servo(session_.roster())));
   }
   return selection;
 }
@@ -361,11 +367,12 @@ std::vector<Error> Discovery::missing(const Targets& targets, Duration wait) con
   }
   for (const Selector& selector : targets.selectors) {
     if (!is_met(selector)) {
-      errors.push_back(nothing_matches(session_.roster(), selector));
+      errors.push_back(
+          unless_shared(session_.roster(), nothing_matches(session_.roster(), selector)));
     }
   }
   if (members.empty() && errors.empty()) {
-    errors.push_back(no_servo(session_.roster()));
+    errors.push_back(unless_shared(session_.roster(), no_servo(session_.roster())));
   }
   return errors;
 }

@@ -89,6 +89,9 @@ std::optional<Error> not_unique(const Roster& roster, dronecan::NodeId id) {
 Error silent(const Roster& roster, dronecan::NodeId node) {
   const std::uint8_t id = node.value();
   const Member member = roster.member(node);
+  if (roster.is_doubled(node)) { // two that answer at once cannot be read
+    return doubled(roster, node);
+  }
   if (!roster.heard(node) || !member.id_is_known) {
     return {Code::not_found, say<texts::node_not_found>(id), say<texts::node_not_found_hint>(), id};
   }
