@@ -249,12 +249,13 @@ void check_writes(const Step& step) {
   }
 }
 
-/// Armed and driven end what is under way.
+/// Armed and driven end what is under way. Each write of characterize serves to move the servo.
 void check_guard(const Step& step) {
   const Record& record = step.outcome.record;
+  const bool is_bench = step.command.verb() == "characterize";
   for (const OnWire& frame : record.changes()) {
     require(frame.at - tolerance < record.armed_at(), "a change was sent to an armed vehicle");
-    require(!frame.is_order() || frame.at - tolerance < record.driven_at(),
+    require(!(frame.is_order() || is_bench) || frame.at - tolerance < record.driven_at(),
             "an order was sent to a driven servo");
   }
 }

@@ -136,6 +136,23 @@ TEST_CASE("what another node begins while a command runs ends it before the next
   CHECK(ended_early > 0);
 }
 
+TEST_CASE("characterize leaves a servo as it is once another node drives it") {
+  int ended_early = 0;
+  for (int after_ms = 1'500; after_ms < 15'000; after_ms += 1'350) {
+    INFO(after_ms);
+    const Ended ended = run({"characterize", "-n", "11", "-y", "--json"},
+                            {{"commands", {{"servo_ids", {1}}, {"rate", 50}}}}, after_ms);
+    INFO(ended.result.out << ended.result.err);
+    CHECK(ended.sent.after == 0);
+    if (ended.result.status != 0) {
+      CHECK(ended.result.status == 9);
+      CHECK(contains(ended.result.out, R"("code": "driven")"));
+      ended_early += ended.sent.before > 0 ? 1 : 0;
+    }
+  }
+  CHECK(ended_early > 3);
+}
+
 TEST_CASE("where the vehicle is armed between the writes and SAVE, the end says what is in RAM") {
   const Arguments save_slowly{"set",       "-n", "all", "smoothing=off", "--save",
                               "--stagger", "2",  "-y",  "--json"};

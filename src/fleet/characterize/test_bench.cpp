@@ -142,8 +142,8 @@ std::optional<Error> TestBench::saved_by_other() const {
             : std::nullopt;
 }
 
-/// Checks the conditions that forbid writing, before every change. Changes are restored even while
-/// another node drives the servo.
+/// Checks the conditions that forbid writing, before every change, putting back too: a servo
+/// that another node drives is left as it is.
 std::optional<Error> TestBench::forbidden() const {
   if (auto why = guard().forbids(servo_, session_.now())) {
     return why;
@@ -309,7 +309,7 @@ Result<dronecan::NodeId> TestBench::leave_and_return(RestartKind kind,
                    SaveRestartJob::Options{.kind = kind,
                                            .come_back = longest_start,
                                            .patience = patience,
-                                           .may_be_driven = may_be_driven()});
+                                           .may_be_driven = manner_.while_driven});
   start_watch_.expect(servo_.id, [this] { return restart_->is_sent(); });
   EarlyReads early(
       servo_.id, servo_.identity.registers(at_once), [this] { return start_watch_.is_back(); },

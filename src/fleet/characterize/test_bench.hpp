@@ -126,10 +126,7 @@ class TestBench {
   [[nodiscard]] Result<void> run(dronecan::Job& job);
   [[nodiscard]] std::optional<Error> forbidden() const;
 
-  /// What was changed is put back also while somebody drives the servo.
-  [[nodiscard]] bool may_be_driven() const { return manner_.while_driven || puts_back_; }
-
-  [[nodiscard]] Guard guard() const { return {roster(), may_be_driven()}; }
+  [[nodiscard]] Guard guard() const { return {roster(), manner_.while_driven}; }
 
   [[nodiscard]] Error restarted_by_itself() const;
   [[nodiscard]] std::optional<Error> saved_by_other() const;
