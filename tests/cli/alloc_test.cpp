@@ -353,7 +353,9 @@ TEST_CASE("alloc --static makes the IDs that servos have permanent, or gives one
   CHECK(all.status == 0);
   CHECK(made_static(all).empty()); // they have them by their ROM, as a restart shows
   CHECK(made_static(all, "kept") == Made{{"01", 11}, {"02", 12}, {"03", 13}});
-  CHECK(json_lines(all.out).back()["counts"]["made_static"] == 3);
+  const auto counts = json_lines(all.out).back()["counts"];
+  CHECK(counts["made_static"] == 0);
+  CHECK(counts["kept"] == 3);
   const Result one =
       named_servos().run({"alloc", "--static", "-n", "12", "--id", "50", "-y", "-j"});
   CHECK(one.status == 0);
@@ -403,6 +405,33 @@ TEST_CASE("alloc --static keeps its IDs in the table, where no other unit gets t
   CHECK(taken.status == 0);
   CHECK(contains(taken.err, "node ID 30 was given to uid:" + uid(9)));
   CHECK(entries(bench).back()["unique_id"] == uid(2));
+}
+
+TEST_CASE(
+    "the table tells the IDs that servos have: kept ones, and where one does not take another") {
+  const Bench bench;
+  Scene scene = named_servos().servo(
+      "BLA21-12U-AB", 14,
+      {{"serial_number", 4}, {"unique_id", uid(4)}, {"faults", {{"rom_write_fails", true}}}});
+  const Background sim(bench, {"sim", scene.write(bench)});
+  CHECK(bench.run({"-i", "sim:", "alloc", "--static", "-n", "12", "-y"}).status == 0);
+  const auto kept = entries(bench);
+  REQUIRE(kept.size() == 1);
+  CHECK(kept[0]["node_id"] == 12);
+  CHECK(kept[0]["unique_id"] == uid(2));
+  const Result failed = bench.run({"-i", "sim:", "alloc", "--static", "--assign", uid(4) + "=12",
+                                   "--assign", uid(2) + "=14", "-y"});
+  INFO(failed.out << failed.err);
+  CHECK(failed.status != 0);
+  const auto servos = json(bench.run({"-i", "sim:", "scan", "-j"}).out)["nodes"];
+  const auto table = entries(bench);
+  CHECK(table.size() == 2);
+  for (const auto& entry : table) {
+    INFO(entry.dump());
+    CHECK(std::ranges::any_of(servos, [&](const nlohmann::json& servo) {
+      return servo["node_id"] == entry["node_id"] && servo["unique_id"] == entry["unique_id"];
+    }));
+  }
 }
 
 TEST_CASE("alloc --static refuses before anything is written") {

@@ -72,7 +72,7 @@ class StaticWishes {
 /// Prints a line for every move, and for every servo that already has its ID.
 class Stream {
  public:
-  explicit Stream(Context& context) : context_(context) {}
+  Stream(AllocationStore& table, Context& context) : table_(table), context_(context) {}
 
   void moved(const fleet::IdMove& move) {
     if (!move.is_temporary) {
@@ -81,16 +81,24 @@ class Stream {
     print(move);
   }
 
+  /// The IDs that servos had already enter the table here, those that were given have done so.
   void ended(std::span<const fleet::GoalResult> results) {
+    Wishes kept;
     for (const fleet::GoalResult& result : results) {
       const auto& unit = result.goal.unique_id;
       if (result.is_done && unit && !moved_.contains(*unit)) {
+        kept.push_back({*unit, result.servo().id});
         print(StaticUnit{*unit, result.servo().id});
       }
     }
+    if (const auto entered =
+            table_.enter(kept, context_.session().wall(), AllocationStore::Former::yields);
+        !entered) {
+      failure_ = entered.error();
+    }
   }
 
-  /// The error of writing to stdout; empty: none.
+  /// The error of writing to stdout or to the table; empty: none.
   [[nodiscard]] const std::optional<Error>& failure() const { return failure_; }
 
  private:
@@ -104,6 +112,7 @@ class Stream {
     }
   }
 
+  AllocationStore& table_;
   Context& context_;
   std::set<dronecan::UniqueId> moved_;
   std::optional<Error> failure_;
@@ -129,7 +138,7 @@ Report make_static(const AllocOptions& options, Context& context) {
     return report;
   }
   StaticWishes ids(options, std::move(*wishes), *table, context);
-  Stream stream(context);
+  Stream stream(*table, context);
   report = change_servos({.command = "alloc --static",
                           .search = Search::everybody,
                           .needs_targets = options.assign.empty(),

@@ -187,7 +187,13 @@ counts(ResultView view, std::span<const fleet::GoalResult> results, bool is_plan
   case ResultView::entries:
     return {{"changed", has_status(fleet::EntryStatus::changed)},
             {"unchanged", has_status(fleet::EntryStatus::unchanged)}};
-  case ResultView::moves: return {{"made_static", count(&fleet::GoalResult::is_done)}};
+  case ResultView::moves: {
+    const auto is_kept = [](const auto& result) {
+      return result.need == fleet::Need::nothing || result.need == fleet::Need::prove;
+    };
+    const auto kept = count([&](const auto& each) { return each.is_done && is_kept(each); });
+    return {{"made_static", count(&fleet::GoalResult::is_done) - kept}, {"kept", kept}};
+  }
   }
   return {};
 }

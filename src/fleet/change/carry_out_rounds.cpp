@@ -51,10 +51,22 @@ std::vector<Error> Rounds::carry_out(const Hook& hook) {
   return errors;
 }
 
+/// The table ends with the IDs that the servos have, also where they did not take what was
+/// promised.
 std::vector<Error> Rounds::carry_out_rounds(const Hook& hook) {
   if (const auto put = put_as_they_are(); !put) {
     return {put.error()};
   }
+  auto errors = carry_out_each(hook);
+  const auto put =
+      std::ranges::any_of(units_, &UnitChange::has_failed) ? put_as_they_are() : Result<void>();
+  if (!put) {
+    errors.push_back(put.error());
+  }
+  return errors;
+}
+
+std::vector<Error> Rounds::carry_out_each(const Hook& hook) {
   for (const Round& round : rounds_) {
     auto errors = carry_out(round, hook);
     const bool stops =

@@ -109,6 +109,7 @@ class Rounds {
                                                    const Snapshot& before) const;
   [[nodiscard]] Result<Plan> plan(const Step& step, const Sights& sights);
   [[nodiscard]] std::vector<Error> carry_out_rounds(const Hook& hook);
+  [[nodiscard]] std::vector<Error> carry_out_each(const Hook& hook);
   [[nodiscard]] std::vector<Error> carry_out(const Round& round, const Hook& hook);
   void conclude(const Step& step, ChangeResult result, const Hook& hook);
   void fail(const Step& step, Error error);
