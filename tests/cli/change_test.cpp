@@ -154,3 +154,20 @@ TEST_CASE("the head of a node has the servo ID that a restart has brought back")
   CHECK(restarted.status == 0);
   CHECK(json(restarted.out)["nodes"][0]["servo_id"] == 1);
 }
+
+TEST_CASE("what ROM brings back may forbid a change: that is no mistake of the user") {
+  const Bench bench;
+  const Scene scene =
+      Scene().servo("BLA21-12U-AB", 11,
+                    {{"rom", {{"pwm_mode", "speed"}, {"speed_torque_control", "on"}}},
+                     {"ram", {{"pwm_mode", "angle"}, {"pwm_output_range", "90deg"}}}});
+  const nlohmann::json file{
+      {"schema", "blactl-fleet/1"},
+      {"servos",
+       {{{"name", "a"}, {"match", {{"node_id", 11}}}, {"set", {{"pwm_output_range", "90deg"}}}}}}};
+  const Result result = scene.run(bench, {"apply", bench.file("fleet.json", file.dump()), "-y"});
+  INFO(result.err);
+  CHECK(result.status == 1); // not 2: a restart has been sent
+  CHECK(codes(result) == std::vector<std::string>{"state"});
+  CHECK(contains(result.err, "this servo has pwm_mode=speed"));
+}

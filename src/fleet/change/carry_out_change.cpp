@@ -181,10 +181,33 @@ std::vector<Error> Change::write_what_rom_lacks() {
     return {};
   }
   auto errors = prepare(lacking);
-  if (errors.empty() && !begun_.empty()) {
+  if (!errors.empty()) {
+    return refusals_after_restart(std::move(errors));
+  }
+  if (!begun_.empty()) {
     errors = rounds_->carry_out({});
     conclude();
   }
+  return errors;
+}
+
+/// What ROM has brought back forbids the goal: the state is in the way, the user has made no
+/// mistake. Those of one servo are in its result; the others are returned.
+std::vector<Error> Change::refusals_after_restart(std::vector<Error> errors) {
+  constexpr int refused_before_anything_was_sent = 2; // contract, section 3
+  const auto settle = [](Error& error) {
+    if (exit_status(error.code) == refused_before_anything_was_sent) {
+      error.code = Code::state;
+    }
+  };
+  for (GoalResult& result : results_) {
+    std::ranges::for_each(result.errors, settle);
+    std::erase_if(errors, [&](const Error& error) {
+      return std::ranges::find(result.errors, error.message, &Error::message) !=
+             result.errors.end();
+    });
+  }
+  std::ranges::for_each(errors, settle);
   return errors;
 }
 

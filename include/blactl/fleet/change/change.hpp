@@ -96,6 +96,7 @@ class Change {
   void conclude();
   void conclude(const UnitChange& unit, GoalResult& result);
   [[nodiscard]] std::vector<Error> write_what_rom_lacks();
+  [[nodiscard]] std::vector<Error> refusals_after_restart(std::vector<Error> errors);
   [[nodiscard]] Result<Lost> look_at_unchanged();
   void look_back(const Lost& lost);
   void look_back(GoalResult& result) const;
