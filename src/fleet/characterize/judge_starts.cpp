@@ -105,32 +105,42 @@ void judge_failures(const StartsSeen& seen, Notes& notes) {
   }
 }
 
-/// The median: a single start with a missed frame does not count.
-std::optional<Duration> middle(std::vector<Duration> times) {
+/// The median: a single start with a missed frame does not count. Empty: most starts differ from
+/// it, and so may the next.
+std::optional<Duration> usual(std::vector<Duration> times) {
+  constexpr Duration alike = 20ms; // starts vary by more than a millisecond
+  if (times.empty()) {
+    return std::nullopt;
+  }
   std::ranges::sort(times);
-  return times.empty() ? std::nullopt : std::optional(times[times.size() / 2]);
+  const Duration middle = times[times.size() / 2];
+  const auto near = static_cast<std::size_t>(std::ranges::count_if(
+      times, [&](Duration time) { return std::chrono::abs(time - middle) <= alike; }));
+  return 2 * near > times.size() ? std::optional(middle) : std::nullopt;
 }
 
-std::optional<Duration> until_first_status(std::span<const Start> starts) {
+std::vector<Duration> until_first_status(std::span<const Start> starts) {
   std::vector<Duration> times;
   for (const Start& start : starts) {
     if (start.first && start.first_status) {
       times.push_back(*start.first_status - *start.first);
     }
   }
-  return middle(times);
+  return times;
 }
 
-void judge_first_status(std::optional<Duration> time, Notes& notes) {
+void judge_first_status(const std::vector<Duration>& times, Notes& notes) {
+  const auto time = usual(times);
   if (time && *time <= 1s) {
     notes.found("first_node_status", milliseconds(*time));
   } else {
-    notes.leave("first_node_status", say<texts::bench_start_unheard>());
+    notes.leave("first_node_status", times.empty() || time ? say<texts::bench_start_unheard>()
+                                                           : say<texts::bench_starts_vary>());
   }
 }
 
 /// The first frame of a start may look like the next one of the previous run. Its NodeStatus does
-/// not, and comes with the same delay as in other starts.
+/// not, and comes with the same delay as in other starts. `until_status` empty: it does not.
 void correct(Start& start, std::optional<Duration> until_status) {
   if (start.first && start.first_status && until_status) {
     start.first = std::min(*start.first, *start.first_status - *until_status);
@@ -154,7 +164,7 @@ void judge_allocation(const Start& last, Notes& notes) {
   }
 }
 
-/// The median of the starts; empty: a servo that requests a node ID first does not show it.
+/// As usual; empty: starts vary, or a servo that requests a node ID first does not show it.
 std::optional<Duration> judge_boot(std::span<const Start> starts, Notes& notes) {
   std::vector<Duration> times;
   std::string all;
@@ -169,9 +179,13 @@ std::optional<Duration> judge_boot(std::span<const Start> starts, Notes& notes) 
     all += (all.empty() ? "" : ", ") + milliseconds(*silence);
   }
   notes.observe(say<texts::bench_seen_starts>(), all);
-  const auto usual = middle(times);
-  notes.found("boot_time", milliseconds(*usual));
-  return usual;
+  const auto boot = usual(times);
+  if (boot) {
+    notes.found("boot_time", milliseconds(*boot));
+  } else {
+    notes.leave("boot_time", say<texts::bench_starts_vary>());
+  }
+  return boot;
 }
 
 /// A save is silent for longer than a restart. One that got no response and is not longer may never
@@ -205,6 +219,7 @@ void judge_save(const Start& save, std::optional<Duration> boot, Notes& notes) {
     notes.found("rom_write_time", milliseconds(std::max(Duration{}, *silence - *boot)));
   } else {
     notes.leave("rom_write_time", save.requested ? say<texts::bench_asks_for_id>()
+                                  : silence      ? say<texts::bench_starts_vary>()
                                                  : say<texts::bench_start_unheard>());
   }
 }
@@ -226,8 +241,9 @@ void judge_starts(StartsSeen seen, Notes& notes) {
   if (seen.save) {
     all.push_back(*seen.save);
   }
-  const auto until_status = until_first_status(all);
-  judge_first_status(until_status, notes);
+  const auto until_statuses = until_first_status(all);
+  const auto until_status = usual(until_statuses);
+  judge_first_status(until_statuses, notes);
   judge_allocation(all.back(), notes);
   judge_failures(seen, notes);
   judge_start_angle(seen.at_once, notes);

@@ -177,6 +177,7 @@ inline constexpr Text bench_save_unproven{
     "応答がなく、無通信時間も再起動時と変わりません。自ら再起動した可能性があります"};
 inline constexpr Text bench_start_unheard{"its first frames were not heard",
                                           "最初のフレームを受信できませんでした"};
+inline constexpr Text bench_starts_vary{"it differs from start to start", "起動のたびに異なります"};
 
 // Observations beside the settings.
 
