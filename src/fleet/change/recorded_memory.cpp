@@ -56,7 +56,7 @@ std::optional<bool> are_shown(const Entries& changes, const Snapshot& ram) {
 }
 
 /// A clock that was set, or a restart between the record and the write, puts changes before the
-/// start of the servo: then RAM itself tells, if `ram` is known.
+/// start of the servo, or into the future: then RAM itself tells, if `ram` is known.
 bool are_in_ram(const Entries& changes, WallTime started, const Snapshot* ram) {
   const state::SnapshotEntry& newest = changes.front();
   if (newest.written.empty()) {
@@ -135,7 +135,9 @@ std::vector<state::SnapshotEntry> History::unsaved(const Servo& servo, const Ses
   while (entry && *entry && !(*entry)->saved) {
     Entries changes{std::move(**entry)};
     entry = snapshots_.before(changes.back());
-    if (changes.front().at < *started) {
+    const bool is_of_this_run = changes.front().at >= *started;
+    const bool is_in_future = changes.front().at > session.wall(); // the clock was set back
+    if (!is_of_this_run || is_in_future) {
       while (entry && *entry && !(*entry)->saved && follows(changes.back(), **entry)) {
         changes.push_back(std::move(**entry));
         entry = snapshots_.before(changes.back());

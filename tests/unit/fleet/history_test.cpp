@@ -505,6 +505,8 @@ TEST_CASE("whether a change from before the start is in RAM, RAM itself tells") 
   CHECK(is_unsaved(5s, {{0x38, 900}}, {{0x38, 450}}, nullptr)); // perhaps written after the start
   CHECK(is_unsaved(5s, {{0x22, 1}}, {{0x22, 0}}, &ram));        // not read
   CHECK_FALSE(is_unsaved(1h, {{0x38, 900}}, {}, &ram));         // what a restart took
+  CHECK(is_unsaved(-1s, {{0x38, 900}}, {{0x38, 450}}, &ram));   // another tool's, in this run
+  CHECK_FALSE(is_unsaved(-1h, {{0x38, 900}}, {{0x38, 450}}, &ram)); // the clock was set back
 }
 
 TEST_CASE("a file that was tampered with moves nothing") {
