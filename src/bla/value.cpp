@@ -73,7 +73,7 @@ std::optional<Number> split(std::string_view text) {
     }
     text.remove_prefix(number.fraction.size());
   }
-  number.unit = text;
+  number.unit = text == "°" ? name(Unit::deg) : text;
   number.whole.remove_prefix(std::min(number.whole.find_first_not_of('0'), number.whole.size()));
   number.fraction = number.fraction.substr(0, number.fraction.find_last_not_of('0') + 1);
   return number;

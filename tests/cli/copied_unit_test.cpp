@@ -83,6 +83,22 @@ TEST_CASE("apply does not take the proof of one unit for that of its copy") {
   CHECK(codes(applied) == std::vector<std::string>{"duplicate_unique_id"});
 }
 
+TEST_CASE("an entry that means a unit by the unique ID that two have is a conflict") {
+  const Bench bench;
+  const nlohmann::json file{{"schema", "blactl-fleet/1"},
+                            {"servos",
+                             {{{"name", "a"},
+                               {"match", {{"unique_id", "abababababababababababababababab"}}},
+                               {"set", {{"smoothing", "off"}}}}}}};
+  const std::string path = bench.file("fleet.json", file.dump());
+  for (const Arguments& command : {Arguments{"apply", path, "-y"}, {"diff", path}}) {
+    const Result result = twins().run(bench, command);
+    INFO(result.err);
+    CHECK(result.status == 9);
+    CHECK(contains(result.err, two_of_one));
+  }
+}
+
 TEST_CASE("reading goes on beside a unique ID of zeros or ones, with a note; writing does not") {
   const char digit = GENERATE('0', 'f');
   const std::string note = "node 10 has no unique ID of its own (" + std::string(32, digit) + ")";

@@ -114,6 +114,12 @@ class Matching {
       (narrows() ? match_.left_out : match_.missing).push_back(&entry);
       return;
     }
+    auto copies = meant.size() > 1 && entry.match.unique_id ? not_unique(roster_, meant.front())
+                                                            : std::nullopt;
+    if (copies) {
+      match_.errors.push_back(std::move(*copies));
+      return;
+    }
     if (meant.size() > 1 && entry.match.means_one()) {
       refuse(say<texts::fleet_entry_means_several>(entry.name, id_list(meant)),
              say<texts::fleet_entry_means_several_hint>());

@@ -44,6 +44,8 @@ TEST_CASE("values with a unit are exact") {
   CHECK(by_name("angle_limit_cw", "90deg") == "900");
   CHECK(by_name("angle_limit_cw", "179.9deg") == "1799");
   CHECK(by_name("angle_limit_cw", "179.90deg") == "1799");
+  CHECK(by_name("angle_limit_cw", "90°") == "900");
+  CHECK(by_name("angle_limit_cw", "-22.5°") == by_name("angle_limit_cw", "-22.5deg"));
   CHECK(by_name("angle_limit_cw", "0179.9000000000000000000000000deg") == "1799");
   CHECK(by_name("angle_limit_ccw", "-45.5deg") == "-455");
   CHECK(by_name("angle_limit_ccw", "-0.0deg") == "0");
@@ -144,10 +146,10 @@ TEST_CASE("what a register cannot hold exactly is refused with the neighbours") 
 
 TEST_CASE("numbers have one form and no other") {
   for (const char* text :
-       {"",         "-",        "+90deg",   "+90",        "--90deg", ".5deg",  "5.deg", "5.",
-        "-.5deg",   "90 deg",   " 90deg",   "90deg ",     "1e2deg",  "1e2",    "0x10",  "0x10raw",
-        "1,000deg", "1_000deg", "1'000deg", "90.1.1deg",  "deg",     "raw",    "inf",   "nan",
-        "NaN",      "90d eg",   "９０deg",  "90\xC2\xB0", "90deg\n", "1/2deg", "90\xFF"}) {
+       {"",         "-",        "+90deg",   "+90",       "--90deg", ".5deg",  "5.deg", "5.",
+        "-.5deg",   "90 deg",   " 90deg",   "90deg ",    "1e2deg",  "1e2",    "0x10",  "0x10raw",
+        "1,000deg", "1_000deg", "1'000deg", "90.1.1deg", "deg",     "raw",    "inf",   "nan",
+        "NaN",      "90d eg",   "９０deg",  "90\xC2",    "90deg\n", "1/2deg", "90\xFF"}) {
     INFO(text);
     CHECK(code_of("angle_limit_cw", text) == "usage");
     CHECK(code_of("angle_p_gain", text) == "usage");
