@@ -38,7 +38,7 @@ std::string end_of(const Outcome& outcome) {
 
 /// Whether an episode's servos are told from each other at all.
 bool is_sound(const Episode& episode) {
-  return !episode.has("one_node_id") && !episode.has("one_unique_id");
+  return !episode.has("one_node_id") && !episode.has("node_on_id") && !episode.has("one_unique_id");
 }
 
 /// It changes IDs, but in a way that nothing forbids.

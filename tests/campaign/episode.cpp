@@ -235,6 +235,15 @@ const std::map<std::string, Plant>& plants() {
          json& servos = d.episode.scenario["servos"];
          servos.back()["node_id"] = servos.front()["node_id"];
        }},
+      {"node_on_id",
+       [](const Draft& d) { d.foreign({{"kind", "node"}, {"node_id", d.some_node()}}); }},
+      {"ram_unlike_rom",
+       [](const Draft& d) {
+         json& servo = d.some_servo();
+         servo["rom"].update({{"speed_torque_control", "on"}, {"angle_limit_cw", "30deg"}});
+         servo["ram"].update({{"speed_torque_control", "off"}, {"angle_limit_cw", "100deg"}});
+         servo["faults"]["restart_after_answer"] = restarts(d.chance);
+       }},
   };
   return all;
 }
@@ -529,7 +538,7 @@ void spare_the_undecidable(Episode& episode) {
     episode.faults.erase("stays");
   }
   // One of two under a node ID whose answers are lost, and one that is alone.
-  if (episode.has("one_node_id")) {
+  if (has_any_of({"one_node_id", "node_on_id"})) {
     for (const auto* silence : {"mute", "lose_responses", "never_returns", "no_node_status"}) {
       episode.faults.erase(silence);
     }

@@ -128,16 +128,26 @@ bool Step::has_writer_after(std::int64_t serial, Time earliest) const {
   return false;
 }
 
-bool Step::is_doubled(std::int64_t serial) const {
-  return std::ranges::any_of(after, [&](const auto& other) {
-    const ServoState& own = after.at(serial);
-    const ServoState& its = other.second;
-    const std::uint8_t own_before = before.at(serial).node_id;
-    const bool both_answer = own.node_id != 0 && its.node_id != 0;
-    return other.first != serial &&
-           ((both_answer && (its.unique_id == own.unique_id || its.node_id == own.node_id)) ||
-            (own_before != 0 && before.at(other.first).node_id == own_before));
+/// Another node has its ID.
+bool Step::shares_with_foreign(std::int64_t serial) const {
+  const auto foreign = episode.scenario.value("foreign", json::array());
+  return std::ranges::any_of(foreign, [&](const json& node) {
+    const int id = node["node_id"];
+    return id == before.at(serial).node_id || id == after.at(serial).node_id;
   });
+}
+
+bool Step::is_doubled(std::int64_t serial) const {
+  return shares_with_foreign(serial) || std::ranges::any_of(after, [&](const auto& other) {
+           const ServoState& own = after.at(serial);
+           const ServoState& its = other.second;
+           const std::uint8_t own_before = before.at(serial).node_id;
+           const bool both_answer = own.node_id != 0 && its.node_id != 0;
+           return other.first != serial &&
+                  ((both_answer &&
+                    (its.unique_id == own.unique_id || its.node_id == own.node_id)) ||
+                   (own_before != 0 && before.at(other.first).node_id == own_before));
+         });
 }
 
 std::vector<Time> Step::accidents(std::int64_t serial) const {

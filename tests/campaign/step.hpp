@@ -45,6 +45,7 @@ struct Step {
 
   /// Whether it shares its node ID with another, or its unique ID.
   [[nodiscard]] bool is_doubled(std::int64_t serial) const;
+  [[nodiscard]] bool shares_with_foreign(std::int64_t serial) const;
 
   /// When something may come to it, or go, that is no order of the command.
   [[nodiscard]] std::vector<Time> accidents(std::int64_t serial) const;
