@@ -327,6 +327,17 @@ void check_doubled(const Step& step, std::int64_t serial, const Told& told) {
           fmt::format("0, but {} is one of two", serial));
 }
 
+/// A servo and another node on its ID, and nothing else: that is what commands say of it.
+void check_conflict(const Step& step) {
+  const bool is_plain = step.episode.has("node_on_id") && step.episode.faults.size() == 1;
+  if (!is_plain || !step.outcome.document.contains("errors")) {
+    return;
+  }
+  for (const json& error : step.outcome.document["errors"]) {
+    require(error["code"] != "timeout", "told of a node that it does not answer, but two do");
+  }
+}
+
 /// An ID is one unit's.
 void check_allocation(const Step& step) {
   if (step.command.verb() != "alloc" || !step.command.has("--list") || step.outcome.status != 0) {
@@ -349,6 +360,7 @@ void judge(const Step& step) {
   check_writes(step);
   check_others(step);
   check_rom_writes(step);
+  check_conflict(step);
   check_allocation(step);
   bool all_reached = true;
   const auto told = told_servos(step);
