@@ -51,7 +51,7 @@ bool is_feasible(const Command& command) {
 bool share_servo_id(const States& states) {
   std::set<std::int64_t> seen;
   return std::ranges::any_of(states, [&](const auto& servo) {
-    const std::int64_t id = servo.second.rom.at(0x45);
+    const std::int64_t id = servo.second.rom.at(servo_id);
     return id != 0 && !seen.insert(id).second;
   });
 }
@@ -273,7 +273,7 @@ void Campaign::repeat(World& world, const Episode& episode) {
   const Episode calm = calmed(episode);
   const auto states = world.states();
   const bool has_dynamic =
-      std::ranges::any_of(states, [](const auto& servo) { return servo.second.rom.at(0x46) == 0; });
+      std::ranges::any_of(states, [](const auto& servo) { return servo.second.rom.at(static_node_id) == 0; });
   if (has_dynamic) {
     [[maybe_unused]] const Step given = run(world, calm, {.words = {"alloc", "--once"}});
   }

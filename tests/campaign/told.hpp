@@ -18,8 +18,6 @@ class Lie : public std::runtime_error {
   using runtime_error::runtime_error;
 };
 
-inline constexpr std::uint8_t servo_id = 0x45, static_node_id = 0x46;
-
 /// Throws Lie unless `truth`.
 void require(bool truth, const std::string& what);
 

@@ -23,7 +23,7 @@
 namespace blactl::campaign {
 namespace {
 
-constexpr std::uint8_t fault_warning = 0x1A, servo_id = 0x45, static_node_id = 0x46;
+constexpr std::uint8_t fault_warning = 0x1A;
 
 const bla::Profiles& profiles() {
   static const bla::Profiles loaded = bla::Profiles::load({}).value();

@@ -20,6 +20,8 @@
 
 namespace blactl::campaign {
 
+inline constexpr std::uint8_t servo_id = 0x45, static_node_id = 0x46;
+
 using Registers = std::map<std::uint8_t, std::int64_t>;
 
 /// A command line.
