@@ -260,3 +260,29 @@ TEST_CASE("a characterize that has put everything back is nothing to undo") {
   REQUIRE(fleet.run({"characterize", "-n", "11", "-y"}).status == 0);
   check_error(undo(fleet), 4, "not_found", "no change of a servo is recorded");
 }
+
+TEST_CASE("undo puts nothing into ROM that was in RAM only") {
+  const Fleet fleet(Scene().servo("BLA21-12U-AB", 11, {{"rom", {{"angle_p_gain", 60}}}}));
+  const auto value_in_rom = [&] {
+    CHECK(fleet.run({"restart", "-n", "11", "-y"}).status == 0);
+    return fleet.ram("11", "angle_p_gain");
+  };
+  const auto does = [&](const Arguments& command) {
+    const Result result = fleet.run(command);
+    INFO(command.front() << ": " << result.err);
+    CHECK(result.status == 0);
+  };
+  does({"set", "-n", "11", "angle_p_gain=9", "-y"});
+  SECTION("a trial that was taken back before SAVE") {
+    does({"set", "-n", "11", "angle_p_gain=60", "-y"});
+    does({"save", "-n", "11", "-y"});
+    does({"undo", "-y"});
+    CHECK(value_in_rom() == 60);
+  }
+  SECTION("a trial after a trial") {
+    does({"set", "-n", "11", "angle_p_gain=7", "-y"});
+    does({"save", "-n", "11", "-y"});
+    does({"undo", "-y"});
+    CHECK(value_in_rom() == 60);
+  }
+}

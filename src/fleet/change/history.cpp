@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <utility>
 
 namespace blactl::fleet {
@@ -52,6 +53,20 @@ state::Registers written_by(const Plan& plan, const state::Registers& held) {
     }
   }
   return written;
+}
+
+/// An earlier change in RAM as SAVE leaves it: what it replaced in ROM. Empty: ROM stays as it is.
+std::optional<state::SnapshotEntry> lasting(state::SnapshotEntry change, const Plan& plan,
+                                            const state::Registers& rom) {
+  bool lasts = false;
+  for (auto& [address, raw] : change.held) {
+    const auto replaced = rom.find(address);
+    raw = replaced != rom.end() ? replaced->second : raw;
+    const auto saved = bla::find(plan.expected, bla::Address(address));
+    lasts = lasts || saved != raw;
+  }
+  change.saved = true;
+  return lasts ? std::optional(std::move(change)) : std::nullopt;
 }
 
 } // namespace
@@ -226,7 +241,7 @@ Result<void> History::take_back(std::span<const UniqueId> units) {
 Result<void> History::conclude(std::span<const ChangeResult> results, const Session& session) {
   auto settled = leave_what_was_lost(results, session.wall());
   if (settled) {
-    settled = settle(results);
+    settled = settle(results, session.wall());
   }
   std::vector<state::RomProof> proofs;
   for (const ChangeResult& result : results) {
@@ -246,18 +261,23 @@ Result<void> History::conclude(std::span<const ChangeResult> results, const Sess
 
 /// SAVE makes earlier changes in RAM permanent: until settled they count as saved.
 Result<void> History::keep_lasting(std::span<const Plan> plans, const Session& session) {
-  std::vector<state::Settlement> settlements;
+  std::vector<state::SnapshotEntry> changed;
   for (const Plan& plan : plans) {
     const Servo& servo = plan.before.servo;
     if (plan.restart != RestartKind::save || plan.erase || !servo.unique_id) {
       continue;
     }
-    for (const state::SnapshotEntry& entry : unsaved(servo, session, &plan.before)) {
-      lasting_[*servo.unique_id].insert(entry.number);
-      settlements.push_back({entry.number, ChangeEnd::saved});
+    const auto rom = stored(replaced_in_ram(plan.before, session));
+    for (state::SnapshotEntry& change : unsaved(servo, session, &plan.before)) {
+      if (auto kept = lasting(change, plan, rom)) {
+        changed.push_back(std::move(*kept));
+        lasting_[*servo.unique_id].push_back(std::move(change));
+      }
     }
   }
-  return settlements.empty() ? Result<void>() : snapshots_.settle(settlements);
+  const auto kept = changed.empty() ? Result<std::vector<std::int64_t>>()
+                                    : snapshots_.keep(changed, session.wall());
+  return kept ? Result<void>() : std::unexpected(kept.error());
 }
 
 /// For an undo that has begun elsewhere: servos it did not begin are not done yet, either.
@@ -294,7 +314,7 @@ Result<void> History::leave_what_was_lost(std::span<const ChangeResult> results,
 }
 
 /// Results as planned are already in the store.
-Result<void> History::settle(std::span<const ChangeResult> results) {
+Result<void> History::settle(std::span<const ChangeResult> results, WallTime wall) {
   for (const ChangeResult& result : results) {
     const auto known = result.servo.unique_id ? kept_.find(*result.servo.unique_id) : kept_.end();
     if (known != kept_.end()) {
@@ -302,15 +322,14 @@ Result<void> History::settle(std::span<const ChangeResult> results) {
       known->second.was_saved = known->second.was_saved || result.may_have_saved;
     }
   }
+  std::vector<state::SnapshotEntry> as_before;
   std::vector<state::Settlement> settlements;
   for (const ChangeResult& result : results) {
     const auto known = result.servo.unique_id ? kept_.find(*result.servo.unique_id) : kept_.end();
     const auto earlier =
         result.servo.unique_id ? lasting_.find(*result.servo.unique_id) : lasting_.end();
     if (!result.may_have_saved && earlier != lasting_.end()) {
-      for (const std::int64_t number : earlier->second) {
-        settlements.push_back({number, ChangeEnd::not_saved});
-      }
+      std::ranges::move(earlier->second, std::back_inserter(as_before));
     }
     lasting_.erase(result.servo.unique_id.value_or(UniqueId{}));
     if (known == kept_.end()) {
@@ -327,7 +346,10 @@ Result<void> History::settle(std::span<const ChangeResult> results) {
           {kept.entry.number, kept.was_saved ? ChangeEnd::saved : ChangeEnd::not_saved});
     }
   }
-  return settlements.empty() ? Result<void>() : snapshots_.settle(settlements);
+  auto settled = settlements.empty() ? Result<void>() : snapshots_.settle(settlements);
+  const auto kept =
+      as_before.empty() ? Result<std::vector<std::int64_t>>() : snapshots_.keep(as_before, wall);
+  return kept || !settled ? settled : std::unexpected(kept.error());
 }
 
 } // namespace blactl::fleet

@@ -55,15 +55,15 @@ std::optional<bool> are_shown(const Entries& changes, const Snapshot& ram) {
   return shown;
 }
 
-/// A clock that was set, or a restart between the record and the write, puts changes before the
-/// start of the servo, or into the future: then RAM itself tells, if `ram` is known.
+/// A restart between the record and the write puts changes before the start of the servo, and a
+/// clock that was set back puts them into the future: then RAM itself tells, if `ram` is known.
+/// From an earlier run of the servo there is nothing in RAM that ROM does not hold.
 bool are_in_ram(const Entries& changes, WallTime started, const Snapshot* ram) {
   const state::SnapshotEntry& newest = changes.front();
-  if (newest.written.empty()) {
+  if (newest.written.empty() || newest.at + writing_time < started) {
     return false;
   }
-  const auto shown = ram != nullptr ? are_shown(changes, *ram) : std::nullopt;
-  return shown.value_or(newest.at + writing_time >= started);
+  return (ram != nullptr ? are_shown(changes, *ram) : std::nullopt).value_or(true);
 }
 
 /// When the last uptime of this node was heard.
@@ -160,8 +160,10 @@ Result<void> History::renew(std::vector<state::SnapshotEntry> changes, const Ses
   return kept ? Result<void>() : std::unexpected(kept.error());
 }
 
+/// Empty also where the record is full: earlier changes may have left it.
 bla::Values History::replaced_in_ram(const Snapshot& ram, const Session& session) const {
-  return replaced_by(unsaved(ram.servo, session, &ram));
+  const auto changes = unsaved(ram.servo, session, &ram);
+  return changes.size() < state::most_snapshots ? replaced_by(changes) : bla::Values();
 }
 
 bla::Values History::lost_ids(const Snapshot& ram, const Session& session) const {

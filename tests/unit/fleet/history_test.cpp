@@ -498,8 +498,9 @@ TEST_CASE("whether a change from before the start is in RAM, RAM itself tells") 
                         scene.session->wall()));
     return !kept.history().unsaved(ram.servo, *scene.session, snapshot).empty();
   };
-  CHECK(is_unsaved(1h, {{0x38, 900}}, {{0x38, 1799}}, &ram));
-  CHECK_FALSE(is_unsaved(1h, {{0x38, 900}}, {{0x38, 450}}, &ram)); // another tool's, since
+  CHECK(is_unsaved(5s, {{0x38, 900}}, {{0x38, 1799}}, &ram));
+  CHECK_FALSE(is_unsaved(1h, {{0x38, 900}}, {{0x38, 1799}}, &ram)); // ROM has brought it back
+  CHECK_FALSE(is_unsaved(1h, {{0x38, 900}}, {{0x38, 450}}, &ram));  // another tool's, since
   CHECK_FALSE(is_unsaved(5s, {{0x38, 900}}, {{0x38, 450}}, &ram));
   CHECK_FALSE(is_unsaved(1h, {{0x38, 900}}, {{0x38, 1799}}, nullptr));
   CHECK(is_unsaved(5s, {{0x38, 900}}, {{0x38, 450}}, nullptr)); // perhaps written after the start

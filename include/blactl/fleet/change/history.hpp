@@ -91,7 +91,7 @@ class History {
   [[nodiscard]] bla::Values taken_from_ram(const Plan& plan, const Session& session);
   [[nodiscard]] Result<void> leave_what_was_lost(std::span<const ChangeResult> results,
                                                  WallTime now);
-  [[nodiscard]] Result<void> settle(std::span<const ChangeResult> results);
+  [[nodiscard]] Result<void> settle(std::span<const ChangeResult> results, WallTime wall);
   [[nodiscard]] Result<void> resume(const Servo& servo, const Session& session);
   [[nodiscard]] static std::optional<WallTime> start_of(const Servo& servo, const Session& session);
   [[nodiscard]] bool is_half_undone() const;
@@ -111,8 +111,9 @@ class History {
   std::map<dronecan::UniqueId, Kept> kept_;
   std::int64_t run_ = 0;                    ///< of all entries of this command; 0: no record
   std::set<dronecan::UniqueId> unproven_{}; ///< their proofs were removed
-  /// The numbers of changes in RAM that SAVE makes permanent.
-  std::map<dronecan::UniqueId, std::set<std::int64_t>> lasting_{};
+
+  /// Changes in RAM that SAVE makes permanent, as they were before.
+  std::map<dronecan::UniqueId, std::vector<state::SnapshotEntry>> lasting_{};
 };
 
 /// The settings that this plan replaces, with their present values; all writable ones for ERASE and
