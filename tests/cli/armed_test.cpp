@@ -168,3 +168,15 @@ TEST_CASE("where the vehicle is armed between the writes and SAVE, the end says 
         "node 13 was written in RAM, in part or whole, and is not saved: node 40 says that the "
         "vehicle is armed: nothing is written while it is");
 }
+
+TEST_CASE("a restart that brings back a servo ID which another node commands is refused") {
+  const Bench bench;
+  const Scene scene = Scene()
+                          .servo("BLA21-12U-AB", 11, {{"servo_id", 3}})
+                          .foreign(other, {{"commands", {{"servo_ids", {3}}, {"rate", 20}}}});
+  const Background sim(bench, {"sim", scene.write(bench)});
+  REQUIRE(bench.run({"-i", "sim:", "set", "-n", "11", "servo_id=7", "-y"}).status == 0);
+  const Result back = bench.run({"-i", "sim:", "restart", "-n", "11", "-y"});
+  check_error(back, 9, "driven", "node 40 commands servo ID 3, which node 11 would have then");
+  CHECK(bench.run({"-i", "sim:", "restart", "-n", "11", "-y", "--while-driven"}).status == 0);
+}

@@ -225,4 +225,15 @@ CommandWatch::commander_of(const Servo& servo, std::optional<std::uint8_t> actua
   return std::nullopt;
 }
 
+std::optional<NodeId> CommandWatch::commander_of_id(std::int64_t servo_id, Time now) const {
+  for (const auto& [source, commander] : commanders_) {
+    const auto command = std::ranges::find(commander.servo_ids, servo_id,
+                                           [](const auto& entry) { return entry.first; });
+    if (command != commander.servo_ids.end() && command->second.heard.counts(now)) {
+      return source;
+    }
+  }
+  return std::nullopt;
+}
+
 } // namespace blactl::fleet

@@ -27,6 +27,26 @@ Result<void> ask_units(Session& session, Patience patience) {
   return session.run(group);
 }
 
+/// A value in RAM is judged by the settings beside it: one that another node has changed since they
+/// were read may forbid it. Before SAVE all of them are read again.
+std::optional<Error> changed_since_read(const Roster& roster, const Plan& plan) {
+  const Servo& servo = plan.before.servo;
+  const std::uint8_t id = servo.id.value();
+  if (plan.restart || plan.erase) {
+    return std::nullopt;
+  }
+  for (const auto& [address, raw] : plan.before.values()) {
+    const auto writer = servo.identity.is_setting(address)
+                            ? roster.setter_of(servo.id, servo.since, address)
+                            : std::nullopt;
+    if (writer) {
+      return Error{Code::state, say<texts::written_by_other>(id, writer->value()),
+                   say<texts::run_again_hint>(), id};
+    }
+  }
+  return std::nullopt;
+}
+
 } // namespace
 
 std::optional<Error> Guard::forbids(const Servo& servo, Time now) const {
@@ -45,6 +65,18 @@ std::optional<Error> Guard::forbids(const Servo& servo, Time now) const {
                  id};
   }
   return std::nullopt;
+}
+
+std::optional<Error> Guard::forbids_servo_id(const Servo& servo, std::int64_t given,
+                                             Time now) const {
+  const auto driver = may_be_driven_ || servo.servo_id == given
+                          ? std::nullopt
+                          : roster_->commander_of_id(given, now);
+  const std::uint8_t id = servo.id.value();
+  return driver ? std::optional(Error{Code::driven,
+                                      say<texts::id_is_driven>(driver->value(), given, id),
+                                      say<texts::driven_hint>(), id})
+                : std::nullopt;
 }
 
 dronecan::Request Guard::guarded(dronecan::Request request, const Servo& servo) const {
@@ -68,6 +100,14 @@ std::optional<Error> forbidden(const Roster& roster, Time now, const Plan& plan,
                  id};
   }
   if (auto why = Guard(roster, while_driven || !plan.moves()).forbids(servo, now)) {
+    return why;
+  }
+  for (const std::int64_t given : plan.next_servo_ids()) {
+    if (auto why = Guard(roster, while_driven).forbids_servo_id(servo, given, now)) {
+      return why;
+    }
+  }
+  if (auto why = changed_since_read(roster, plan)) {
     return why;
   }
   if (const auto given = plan.given_node_id(); given && *given == roster.local()) {

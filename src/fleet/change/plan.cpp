@@ -272,6 +272,20 @@ std::optional<std::int64_t> Plan::given_servo_id() const {
   return given.value_or(0) != 0 ? given : std::nullopt;
 }
 
+std::vector<std::int64_t> Plan::next_servo_ids() const {
+  std::vector<std::int64_t> ids;
+  if (erase) {
+    ids.push_back(0);
+  }
+  for (const auto id : {value_given(*this, at::servo_id),
+                        restart == RestartKind::restart ? rom_servo_id : std::nullopt}) {
+    if (id) {
+      ids.push_back(*id);
+    }
+  }
+  return ids;
+}
+
 Result<std::vector<const Parameter*>> registers_needed(const Wanted& wanted, const Servo& servo) {
   for (const Assignment& assignment : wanted.assignments) {
     const auto allowed =
@@ -318,6 +332,7 @@ Result<Plan> make_plan(const Wanted& wanted, Snapshot before, const bla::Profile
             .keep_ids = wanted.keep_ids,
             .restart = wanted.restart,
             .proves_rom = wanted.proves_rom,
+            .rom_servo_id = wanted.rom_servo_id,
             .shown = wanted.also_read};
   if (wanted.erase) {
     auto defaults = plan.before.servo.identity.factory_defaults();

@@ -167,6 +167,7 @@ std::vector<Error> Rounds::check_ids() {
   if (!survey) {
     return {survey.error()};
   }
+  surveyed_ = session_.now();
   for (const NodeId id : survey->silent) {
     notes_.push_back(say<texts::did_not_tell_ids>(id.value()));
   }
@@ -187,6 +188,8 @@ std::vector<Error> Rounds::check() const {
     if (auto error =
             forbidden(session_.roster(), session_.now(), unit.plan, options_.manner.while_driven)) {
       errors.push_back(std::move(*error));
+    } else if (auto newcomer = newcomer_conflict(session_.roster(), surveyed_, unit.plan)) {
+      errors.push_back(std::move(*newcomer));
     }
   }
   return errors;

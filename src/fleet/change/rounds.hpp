@@ -121,6 +121,7 @@ class Rounds {
   std::vector<UnitChange> units_;
   std::vector<Round> rounds_;
   std::vector<std::string> notes_;
+  Time surveyed_ = never;                 ///< when the IDs of the others were asked
   std::map<dronecan::NodeId, Time> left_; ///< IDs from which a unit has moved, and when
 };
 

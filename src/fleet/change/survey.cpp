@@ -46,10 +46,18 @@ std::optional<std::int64_t> after(std::span<const Plan> plans, const Survey::Nei
   return plan->erase && !plan->keep_ids ? std::optional<std::int64_t>(0) : in_ram;
 }
 
-Error taken(const Plan& plan, NodeId given, const dronecan::UniqueId& holder) {
+Error taken(const Plan& plan, NodeId given, const std::optional<dronecan::UniqueId>& holder) {
   const std::uint8_t id = plan.before.servo.id.value();
-  return {Code::duplicate_node_id, say<texts::id_given_is_taken>(id, given.value(), hex(holder)),
+  return {Code::duplicate_node_id,
+          holder ? say<texts::id_given_is_taken>(id, given.value(), hex(*holder))
+                 : say<texts::id_given_is_kept>(id, given.value()),
           say<texts::node_id_in_use_hint>(), id};
+}
+
+Error servo_id_taken(std::uint8_t id, std::int64_t servo_id, NodeId holder) {
+  return {Code::duplicate_servo_id,
+          say<texts::servo_id_given_is_taken>(id, servo_id, holder.value()),
+          say<texts::servo_id_taken_hint>(), id};
 }
 
 } // namespace
@@ -68,8 +76,8 @@ Result<Survey> survey(Session& session, const bla::Profiles& profiles, std::span
     if (session.roster().heard(id) && (member.is_servo || member.sends_actuator_status())) {
       servos.push_back(id);
     }
-    if (member.info && session.roster().heard(id)) {
-      found.holders[id] = member.info->unique_id;
+    if (session.roster().heard(id)) {
+      found.holders[id] = member.unique_id();
     }
   }
   const auto ids = [](const Servo& servo) -> Result<std::vector<const bla::Parameter*>> {
@@ -128,9 +136,18 @@ std::optional<Error> servo_id_conflict(const Survey& survey, std::span<const Pla
   for (const Survey::Neighbour& other : survey.servos) {
     const bool is_another = servo_id && other.id != plan.before.servo.id;
     if (is_another && after(plans, other, at::servo_id, other.servo_id) == servo_id) {
-      return Error{Code::duplicate_servo_id,
-                   say<texts::servo_id_given_is_taken>(id, *servo_id, other.id.value()),
-                   say<texts::servo_id_taken_hint>(), id};
+      return servo_id_taken(id, *servo_id, other.id);
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<Error> newcomer_conflict(const Roster& roster, Time surveyed, const Plan& plan) {
+  const auto servo_id = plan.given_servo_id();
+  for (const auto& [id, member] : roster.members()) {
+    const bool is_new = id != plan.before.servo.id && member.first_heard > surveyed;
+    if (is_new && servo_id && member.actuator_id == servo_id) {
+      return servo_id_taken(plan.before.servo.id.value(), *servo_id, id);
     }
   }
   return std::nullopt;

@@ -91,6 +91,31 @@ TEST_CASE("while another node drives the servo it is not moved, unless that is w
   }
 }
 
+TEST_CASE("no servo gets a servo ID that another node commands") {
+  const Watched bus(R"(, "foreign": [{"kind": "node", "node_id": 30,
+                                      "commands": {"servo_ids": [0, 7]}}])");
+  CHECK_FALSE(bus.forbids("servo_id=5"));
+  CHECK(bus.forbids("servo_id=7")->code == Code::driven);
+  CHECK_FALSE(bus.forbids("servo_id=7", true));
+  CHECK(bus.forbids(bus.plan(erase))->code == Code::driven); // 0, the default
+  CHECK_FALSE(bus.forbids(bus.plan(restart)));
+  Wanted brings_back = restart;
+  brings_back.rom_servo_id = 7;
+  CHECK(bus.forbids(bus.plan(brings_back))->code == Code::driven);
+  CHECK_FALSE(bus.forbids(bus.plan(brings_back), true));
+}
+
+TEST_CASE("a value in RAM is not written beside settings that another node has changed") {
+  const Watched bus(R"(, "foreign": [{"kind": "node", "node_id": 30, "orders": [{"at": "900ms",
+      "to": 11, "order": "write", "address": 38, "value": 0}]}])");
+  const auto forbids = [&](const char* assignment, const bla::Values& held) {
+    return bus.forbids(bus.plan({.assignments = assignments({assignment})}, held));
+  };
+  CHECK(forbids("command_speed=30rpm", {{at::timeout_action, 1}, {at::speed_torque_control, 1}})
+            ->code == Code::state);
+  CHECK_FALSE(forbids("smoothing=off", {{at::smoothing, 1}}));
+}
+
 TEST_CASE("nothing is written to a doubled node ID") {
   const Watched bus;
   bus.scene.roster().mark_doubled(NodeId(11), {0x11, 1}, {0x11, 2});

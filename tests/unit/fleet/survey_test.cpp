@@ -25,7 +25,7 @@ Wanted wanted(const char* assignment) {
 struct Heard {
   /// A servo that is there, with these IDs in RAM.
   void servo(std::uint8_t id, std::int64_t servo_id, std::int64_t static_node_id) {
-    survey.holders[NodeId(id)] = {id};
+    survey.holders[NodeId(id)] = dronecan::UniqueId{id};
     survey.servos.push_back({NodeId(id), dronecan::UniqueId{id}, servo_id, static_node_id});
   }
 
@@ -109,13 +109,20 @@ TEST_CASE("who gives an ID asks its holder, and all servos for theirs in RAM") {
 TEST_CASE("the holder of a node ID that is given is named") {
   Heard heard;
   heard.servo(11, 0, 0);
-  heard.survey.holders[NodeId(30)] = {0xAB, 0xCD};
+  heard.survey.holders[NodeId(30)] = dronecan::UniqueId{0xAB, 0xCD};
   const auto error = heard.conflict(plan_for(wanted("static_node_id=30")));
   REQUIRE(error);
   CHECK(error->code == Code::duplicate_node_id);
   CHECK(error->node_id == 11);
   CHECK(error->message.find("uid:abcd") != std::string::npos);
   CHECK_FALSE(error->hint.empty());
+}
+
+TEST_CASE("an ID whose holder is mute is taken all the same") {
+  Heard heard;
+  heard.survey.holders[NodeId(30)] = std::nullopt;
+  CHECK(code(heard.conflict(plan_for(wanted("static_node_id=30")))) == Code::duplicate_node_id);
+  CHECK_FALSE(heard.conflict(plan_for(wanted("static_node_id=31"))));
 }
 
 TEST_CASE("the unit itself may answer at the ID that it is given") {

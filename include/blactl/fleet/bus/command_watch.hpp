@@ -94,6 +94,10 @@ class CommandWatch {
   commander_of(const Servo& servo, std::optional<std::uint8_t> actuator_id,
                const std::function<bool(const Repeated&)>& matters) const;
 
+  /// Another node whose ArrayCommand to this servo ID counts now, whoever has it.
+  [[nodiscard]] std::optional<dronecan::NodeId> commander_of_id(std::int64_t servo_id,
+                                                                Time now) const;
+
  private:
   struct Write {
     dronecan::NodeId source{};

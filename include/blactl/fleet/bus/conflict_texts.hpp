@@ -57,6 +57,9 @@ inline constexpr Text armed{
 inline constexpr Text armed_hint{"disarm it first", "先に DISARM して下さい"};
 inline constexpr Text driven{"node {} commands node {}: not while it does",
                              "ノード {} がノード {} に動作指令を送信中のため実行しません"};
+inline constexpr Text id_is_driven{
+    "node {} commands servo ID {}, which node {} would have then: not while it does",
+    "ノード {} がサーボ ID {} に動作指令を送信中で、ノード {} がその ID になるため実行しません"};
 inline constexpr Text driven_hint{"stop it, or add --while-driven",
                                   "停止させるか、--while-driven を付けて下さい"};
 inline constexpr Text node_id_is_ours_hint{

@@ -252,6 +252,12 @@ class Roster {
   /// Another node that commanded this servo to move after `since`, as far as heard.
   [[nodiscard]] std::optional<dronecan::NodeId> commander_of(const Servo& servo, Time since) const;
 
+  /// As CommandWatch::commander_of_id().
+  [[nodiscard]] std::optional<dronecan::NodeId> commander_of_id(std::int64_t servo_id,
+                                                                Time now) const {
+    return commands_.commander_of_id(servo_id, now);
+  }
+
   /// The node that drives this servo now, as far as heard.
   [[nodiscard]] std::optional<dronecan::NodeId> driver_of(const Servo& servo, Time now) const;
 

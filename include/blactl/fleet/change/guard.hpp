@@ -27,6 +27,11 @@ class Guard {
   /// duplicate_node_id, armed, driven.
   [[nodiscard]] std::optional<Error> forbids(const Servo& servo, Time now) const;
 
+  /// The reason why the servo may not get this servo ID now; empty: it may. Error: driven (another
+  /// node commands that ID, and the servo would obey at once).
+  [[nodiscard]] std::optional<Error> forbids_servo_id(const Servo& servo, std::int64_t given,
+                                                      Time now) const;
+
   /// The same request, which leaves only while nothing forbids it, and is withheld otherwise.
   /// `servo` outlives the request.
   [[nodiscard]] dronecan::Request guarded(dronecan::Request request, const Servo& servo) const;

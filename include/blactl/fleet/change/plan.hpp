@@ -25,7 +25,8 @@ struct Wanted {
   bla::Values lost_ids{};
   std::optional<RestartKind> restart{};
   bool proves_rom = false; ///< after a plain restart the configuration is read: the contents of ROM
-  std::vector<bla::Address> also_read{}; ///< shown in addition to the changes
+  std::optional<std::int64_t> rom_servo_id{}; ///< that a plain restart brings back, as far as known
+  std::vector<bla::Address> also_read{};      ///< shown in addition to the changes
 
   /// Whether it concerns whole servos, not single registers.
   [[nodiscard]] bool is_about_whole_servo() const { return assignments.empty(); }
@@ -45,8 +46,9 @@ struct Plan {
   bool keep_ids = false;
   std::vector<RegisterChange> changes{};
   std::optional<RestartKind> restart{};
-  bool proves_rom = false;           ///< as in Wanted
-  std::vector<bla::Address> shown{}; ///< Wanted::also_read
+  bool proves_rom = false;                    ///< as in Wanted
+  std::optional<std::int64_t> rom_servo_id{}; ///< likewise
+  std::vector<bla::Address> shown{};          ///< Wanted::also_read
   /// The configuration afterwards; empty if unknown or not needed: a plain restart loads ROM.
   bla::Values expected{};
   /// 0x37 before and after, on which the unit of 0x36 depends; empty if not read.
@@ -58,6 +60,9 @@ struct Plan {
 
   /// The new permanent servo ID, if not 0; empty: none.
   [[nodiscard]] std::optional<std::int64_t> given_servo_id() const;
+
+  /// The servo IDs that it will have in the meantime and in the end, as far as known.
+  [[nodiscard]] std::vector<std::int64_t> next_servo_ids() const;
 
   /// What it does to a register; null: it leaves it as it is.
   [[nodiscard]] const RegisterChange* change_of(bla::Address address) const;

@@ -21,8 +21,9 @@ struct Survey {
     std::optional<std::int64_t> servo_id{}, static_node_id{}; ///< in RAM
   };
 
-  std::map<dronecan::NodeId, dronecan::UniqueId> holders; ///< of the node IDs that plans assign
-  std::vector<Neighbour> servos;                          ///< all servos heard
+  /// Of the node IDs that plans assign; empty: it did not tell its own.
+  std::map<dronecan::NodeId, std::optional<dronecan::UniqueId>> holders;
+  std::vector<Neighbour> servos;        ///< all servos heard
   std::vector<dronecan::NodeId> silent; ///< of those, the ones that did not respond
 };
 
@@ -40,5 +41,9 @@ struct Survey {
 /// The same check for the servo ID only.
 [[nodiscard]] std::optional<Error> servo_id_conflict(const Survey& survey,
                                                      std::span<const Plan> plans, const Plan& plan);
+
+/// Likewise, of a servo that was first heard after the survey, by the servo ID that it sends.
+[[nodiscard]] std::optional<Error> newcomer_conflict(const Roster& roster, Time surveyed,
+                                                     const Plan& plan);
 
 } // namespace blactl::fleet
