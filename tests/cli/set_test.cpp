@@ -269,6 +269,7 @@ TEST_CASE("a servo that restarts at the write with other settings in ROM is not 
   const auto arguments =
       GENERATE(Arguments{"set", "-n", "11", "pwm_output_range=90deg", "-y"},
                Arguments{"set", "-n", "11", "pwm_output_range=90deg", "--save", "-y"},
+               Arguments{"set", "-n", "11", "pwm_mode=angle", "pwm_output_range=90deg", "-y"},
                Arguments{"pwm-config", "-n", "11", "--output", "90deg", "-y"});
   const Scene scene = Scene().servo(
       "BLA21-12U-AB", 11,
@@ -278,6 +279,18 @@ TEST_CASE("a servo that restarts at the write with other settings in ROM is not 
        {"faults", {{"restart_after_answer", {{{"to", "write"}, {"number", 1}}}}}}});
   check_error(scene.run(arguments), 1, "state",
               "restarted while it was written to: pwm_mode is speed now, and was angle");
+}
+
+TEST_CASE("a value that was equal and not sent is unchanged also where SAVE fails") {
+  const Scene scene =
+      Scene().servo("BLA21-12U-AB", 11,
+                    {{"faults", {{"restart_after_answer", {{{"to", "opcode"}, {"number", 1}}}}}}});
+  const Result got =
+      scene.run({"set", "-n", "11", "smoothing=on", "0x2C=10", "--save", "-y", "--json"});
+  INFO(got.out);
+  const auto changed = json(got.out)["nodes"][0]["changes"];
+  REQUIRE(changed.size() == 2);
+  CHECK(changed[0]["status"] == "unchanged");
 }
 
 TEST_CASE("a servo that restarts at the write with the same settings in ROM is written to again") {

@@ -153,6 +153,7 @@ std::unique_ptr<WriteJob> ChangeJob::write() const {
                                     WriteJob::Options{.patience = options_.identification.patience,
                                                       .echo = echo,
                                                       .may_be_driven = may_be_driven(),
+                                                      .while_driven = options_.while_driven,
                                                       .premises = premises()});
 }
 

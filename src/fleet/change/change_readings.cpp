@@ -10,13 +10,15 @@
 
 namespace blactl::fleet {
 
-/// The settings by which the plan was judged, besides those that it changes. After ERASE they are
+/// The settings by which the plan was judged, besides those that it writes. After ERASE they are
 /// others, and a restart then ends the change.
 std::vector<WriteJob::Premise> ChangeJob::premises() const {
   std::vector<WriteJob::Premise> premises;
   for (const auto& [address, raw] : plan_.erase ? bla::Values() : plan_.before.values()) {
     const bla::Parameter* parameter = servo_.identity.parameter(address);
-    if (parameter != nullptr && parameter->is_setting() && plan_.change_of(address) == nullptr) {
+    const RegisterChange* change = plan_.change_of(address);
+    const bool is_written = change != nullptr && change->is_planned();
+    if (parameter != nullptr && parameter->is_setting() && !is_written) {
       premises.push_back({parameter, raw});
     }
   }

@@ -30,10 +30,11 @@ void ChangeJob::blame_other_writer() {
   const bool differs =
       result_.error && (result_.error->code == Code::mismatch ||
                         (stage_ == Stage::look && result_.error->code == Code::state));
-  const dronecan::NodeId servo = servo_.id;
-  if (const auto writer = roster_.writer_to(servo, known_since()); differs && writer) {
-    result_.error = Error{Code::state, say<texts::other_writer>(servo.value(), writer->value()),
-                          say<texts::other_writer_hint>(), servo.value()};
+  for (const dronecan::NodeId id : {servo_.id, result_.returned.value_or(servo_.id)}) {
+    if (const auto writer = roster_.writer_to(id, known_since()); differs && writer) {
+      result_.error = Error{Code::state, say<texts::other_writer>(id.value(), writer->value()),
+                            say<texts::other_writer_hint>(), id.value()};
+    }
   }
 }
 
@@ -65,8 +66,12 @@ void ChangeJob::tell_saved(const Snapshot& now) {
   result_.doubt();
   for (RegisterChange& change : result_.changes) {
     if (const auto raw = now.raw(change.parameter->address)) {
+      const RegisterChange* planned = plan_.change_of(change.parameter->address);
+      const bool was_sent = planned == nullptr || planned->is_planned();
       change.after = raw;
-      change.status = *raw == change.requested ? ChangeStatus::written : ChangeStatus::mismatch;
+      change.status = *raw != change.requested ? ChangeStatus::mismatch
+                      : was_sent               ? ChangeStatus::written
+                                               : ChangeStatus::unchanged;
     }
   }
 }

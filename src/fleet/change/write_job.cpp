@@ -87,14 +87,23 @@ Step WriteJob::go_on(Time now) {
   }
   at_ = At::write;
   is_lost_ = false;
+  // an unheard restart, or another unit on this ID, must be noticed before a repetition
+  const Patience once{.timeout = options_.patience.timeout, .retries = 0};
   auto request = guard_.guarded(write_register(servo_.id, changes_[current_].parameter->address,
-                                               changes_[current_].requested, options_.patience),
+                                               changes_[current_].requested, once),
                                 servo_);
-  // what has started there since may be another servo: no repetition must reach it either
   request.may_leave = [this, allowed = std::move(request.may_leave)](Time at) {
-    return servo_.boot == boots() && allowed(at);
+    return servo_.boot == boots() && allowed(at) && !forbids_servo_id(at);
   };
   return request;
+}
+
+/// Whether the next write would give it a servo ID that another node commands.
+std::optional<Error> WriteJob::forbids_servo_id(Time now) const {
+  const RegisterChange& change = changes_[current_];
+  return change.parameter->address == bla::address::servo_id
+             ? Guard(roster_, options_.while_driven).forbids_servo_id(servo_, change.requested, now)
+             : std::nullopt;
 }
 
 Step WriteJob::after_write(const Outcome& outcome) {
@@ -121,6 +130,7 @@ Step WriteJob::after_write(const Outcome& outcome) {
 Step WriteJob::hold_off(Time now) {
   RegisterChange& change = changes_[current_];
   auto why = guard_.forbids(servo_, now);
+  why = why ? why : forbids_servo_id(now);
   if (!why) { // it has restarted
     return go_on(now);
   }
@@ -130,8 +140,13 @@ Step WriteJob::hold_off(Time now) {
   return std::ranges::any_of(changes_, is_held) ? prove(now) : Step(std::nullopt);
 }
 
-/// The register holds the requested value.
 Step WriteJob::wrote(Time now) {
+  take_written();
+  return go_on(now);
+}
+
+/// The register holds the requested value.
+void WriteJob::take_written() {
   RegisterChange& change = changes_[current_];
   change.after = change.requested;
   change.status = ChangeStatus::written;
@@ -139,7 +154,7 @@ Step WriteJob::wrote(Time now) {
     servo_.servo_id = change.requested; // it may obey commands to this one from now on
   }
   ++current_;
-  return go_on(now);
+  tries_ = 0;
 }
 
 Step WriteJob::after_read(const Outcome& outcome) {
@@ -155,11 +170,11 @@ Step WriteJob::after_read(const Outcome& outcome) {
     ++current_;
     return go_on(outcome.at);
   }
-  if (*raw == change.requested) {
+  if (*raw == change.requested && !is_lost_) {
     return wrote(outcome.at);
   }
   change.after = *raw;
-  // a restart between the write and this response looks the same
+  // a restart between the write and this response looks the same, and so may another unit
   is_doubtful_ = true;
   return prove(outcome.at);
 }
@@ -186,9 +201,25 @@ Step WriteJob::judge_proof(const Outcome& outcome) {
   if (!is_doubtful_) {
     return std::nullopt;
   }
+  if (changes_[current_].after == changes_[current_].requested) {
+    is_doubtful_ = false;
+    take_written();
+    const bool is_last = std::ranges::none_of(changes_, &RegisterChange::is_planned);
+    return is_last ? Step(std::nullopt) : go_on(outcome.at);
+  }
+  if (may_try_again()) {
+    is_doubtful_ = false;
+    return go_on(outcome.at);
+  }
   judge();
   ++current_;
   return go_on(outcome.at);
+}
+
+/// A write that was lost, now that the servo is known to have run on.
+bool WriteJob::may_try_again() {
+  const RegisterChange& change = changes_[current_];
+  return is_lost_ && change.after == change.before && tries_++ < options_.patience.retries;
 }
 
 /// A servo that has been written to is in doubt.
@@ -262,12 +293,14 @@ Step WriteJob::write_again(Time now) {
   return go_on(now);
 }
 
-/// A value that was equal in RAM may differ in ROM; writing it was never agreed to. False: there is
-/// nothing left to write.
+/// A value that was equal in RAM may differ in ROM, if it is no premise; writing it was never
+/// agreed to. False: there is nothing left to write.
 bool WriteJob::doubt_unchanged() {
   const std::uint8_t id = servo_.id.value();
   for (RegisterChange& change : changes_) {
-    if (change.status == ChangeStatus::unchanged) {
+    const bool is_proven = std::ranges::find(options_.premises, change.parameter,
+                                             &Premise::parameter) != options_.premises.end();
+    if (change.status == ChangeStatus::unchanged && !is_proven) {
       change.status = ChangeStatus::failed;
       change.after = std::nullopt;
       change.error = Error{Code::state, say<texts::unchanged_no_more>(id, change.parameter->name),

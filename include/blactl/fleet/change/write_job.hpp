@@ -43,6 +43,7 @@ class WriteJob final : public dronecan::Job {
     Patience patience{};
     Echo echo = Echo::is_checked;
     bool may_be_driven = false; ///< also while another node drives the servo
+    bool while_driven = false;  ///< also a servo ID that another node commands
     std::vector<Premise> premises{};
   };
 
@@ -69,7 +70,10 @@ class WriteJob final : public dronecan::Job {
   [[nodiscard]] dronecan::Step judge_proof(const dronecan::Outcome& outcome);
   [[nodiscard]] dronecan::Step after_write(const dronecan::Outcome& outcome);
   [[nodiscard]] dronecan::Step wrote(Time now);
+  void take_written();
   [[nodiscard]] dronecan::Step hold_off(Time now);
+  [[nodiscard]] bool may_try_again();
+  [[nodiscard]] std::optional<Error> forbids_servo_id(Time now) const;
   [[nodiscard]] dronecan::Step after_read(const dronecan::Outcome& outcome);
   [[nodiscard]] dronecan::Step check_premises(Time now);
   [[nodiscard]] dronecan::Step next_premise(Time now);
@@ -91,6 +95,7 @@ class WriteJob final : public dronecan::Job {
   At at_ = At::begin;
   std::size_t current_ = 0; ///< the change being written or checked
   bool has_written_ = false;
+  int tries_ = 0;            ///< of this change, beyond the first
   bool is_lost_ = false;     ///< no response to the write of this change
   bool is_doubtful_ = false; ///< the register differs from the written value
   int restarts_ = 0;         ///< seen while writing
