@@ -95,3 +95,14 @@ TEST_CASE("a servo that restarts before its uptime can tell that is told to have
   CHECK(got.status == 0);
   CHECK(json(got.out)["nodes"][0]["params"][0]["raw"] == 1799);
 }
+
+TEST_CASE("servos that are just being switched on are waited for, before a bus counts as empty") {
+  for (const Arguments& command : {Arguments{"get", "servo_id"},
+                                   {"get", "-n", "all", "servo_id"},
+                                   {"restart", "-n", "model:BLA21-12U-AB", "-y"}}) {
+    const Result got =
+        Scene().servo("BLA21-12U-AB", 11, {{"serial_number", 1}}).joins(1, "300ms").run(command);
+    INFO(got.err);
+    CHECK(got.status == 0);
+  }
+}

@@ -128,10 +128,21 @@ bool Discovery::is_met(const Selector& selector) const {
   });
 }
 
+/// A bus without servos, and one that has just been switched on, are told apart by time alone.
+Result<void> Discovery::hear_servos(const Targets& targets, Duration listen) {
+  const Time begin = session_.now();
+  auto lived = session_.live_until(begin + listen);
+  const bool is_empty = targets.ids.empty() && !session_.is_replay() &&
+                        std::ranges::none_of(session_.roster().members(), [](const auto& entry) {
+                          return entry.second.sends_actuator_status();
+                        });
+  return lived && is_empty ? session_.live_until(begin + std::max(listen, bus_watch_time)) : lived;
+}
+
 Result<Selection> Discovery::select(const Targets& targets, Duration listen) {
   Selection selection;
   if (targets.need_search()) {
-    if (auto lived = session_.live_until(session_.now() + listen); !lived) {
+    if (auto lived = hear_servos(targets, listen); !lived) {
       return std::unexpected(lived.error());
     }
     for (const auto& [id, member] : session_.roster().members()) {

@@ -25,6 +25,9 @@ using namespace std::chrono_literals;
 /// Uptime counts whole seconds: from this on a restart shows for certain.
 constexpr std::uint32_t old_enough_s = 2;
 
+/// One that was young so often restarts by itself.
+constexpr int most_pauses = 4;
+
 /// The time for a servo to carry out a request whose response was lost, before it is checked. The
 /// vendor's updater waits as long (facts, section 6).
 constexpr Duration settling_time = 1500ms;
@@ -95,6 +98,10 @@ Step SaveRestartJob::check_unit(const Outcome& outcome) {
     return give_up({Code::state, say<texts::another_servo>(id), say<texts::run_again_hint>(), id});
   }
   if (info->status.uptime_s < old_enough_s) {
+    if (++pauses_ > most_pauses) {
+      return give_up(
+          {Code::state, say<texts::never_grows_old>(id), say<texts::restarts_again_hint>(), id});
+    }
     at_ = At::young;
     return dronecan::Pause{.until = outcome.at +
                                     std::chrono::seconds(old_enough_s - info->status.uptime_s)};

@@ -162,6 +162,10 @@ inline constexpr Text plan_rom_not_proven{"what its ROM holds is not known any m
                                           "ROM の内容が不明になりました"};
 
 // Messages about saving, erasing and restarting.
+inline constexpr Text never_grows_old{
+    "node {} restarts again and again: nothing was sent that saves or restarts it",
+    "ノード {} が何度も再起動しているため、保存も再起動も指示していません",
+};
 inline constexpr Text restarts_again{
     "node {} restarts again and again while it is written to",
     "ノード {} は書込み中に何度も再起動しています",

@@ -300,6 +300,23 @@ TEST_CASE("a servo whose restart would not show is given time to grow old") {
   CHECK(bench.info(1, young) == "ExecuteOpcode");
 }
 
+TEST_CASE("a servo that restarts again and again is not waited for without end") {
+  Bench bench(RestartKind::restart);
+  std::string said = bench.start();
+  int pauses = 0;
+  while (said == "GetNodeInfo" && pauses < 10) {
+    said = bench.info(1, bench.now - 1s);
+    if (said == "pause") {
+      ++pauses;
+      said = bench.time_is_over();
+    }
+  }
+  CHECK(pauses == 4);
+  CHECK(said == "nothing");
+  REQUIRE(bench.job.error());
+  CHECK(bench.job.error()->code == Code::state);
+}
+
 TEST_CASE("what is not certainly the servo that is meant gets no request") {
   Bench bench;
   CHECK(bench.start() == "GetNodeInfo");

@@ -140,6 +140,7 @@ class SaveRestartJob final : public dronecan::Job {
   Options options_;
   Guard guard_;
   At at_ = At::begin;
+  int pauses_ = 0;         ///< of a servo that was too young
   std::uint32_t boot_ = 0; ///< of the servo at the time of the request
   Time first_sent_at_{}, sent_at_{}, ended_at_{};
   bool is_sent_ = false;
