@@ -23,6 +23,9 @@ namespace {
 constexpr int probes_at_a_time = 8;
 constexpr Duration probe_timeout = std::chrono::milliseconds(60);
 
+/// Before this time nothing of ours is sent that nobody would acknowledge on an empty bus.
+constexpr Duration empty_bus_time = std::chrono::milliseconds(900);
+
 bool is_operational(const Member& member) {
   return member.is_known() && member.status && member.status->mode == dronecan::Mode::operational;
 }
@@ -136,7 +139,7 @@ Result<void> Discovery::hear_servos(const Targets& targets, Duration listen) {
                         std::ranges::none_of(session_.roster().members(), [](const auto& entry) {
                           return entry.second.sends_actuator_status();
                         });
-  return lived && is_empty ? session_.live_until(begin + std::max(listen, bus_watch_time)) : lived;
+  return lived && is_empty ? session_.live_until(begin + std::max(listen, empty_bus_time)) : lived;
 }
 
 Result<Selection> Discovery::select(const Targets& targets, Duration listen) {

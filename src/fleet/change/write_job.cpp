@@ -8,6 +8,7 @@
 #include "fleet/change/texts.hpp"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 namespace blactl::fleet {
@@ -262,6 +263,9 @@ Step WriteJob::judge_premise(const Outcome& outcome) {
   const auto& [setting, expected] = options_.premises[premise_];
   const bla::Parameter& parameter = *setting;
   const auto raw = register_value(outcome, servo_.id, parameter.address, parameter.width);
+  if (!raw || *raw != expected) {
+    doubt_unread(parameter, raw ? std::optional(*raw) : std::nullopt);
+  }
   if (!raw) {
     return give_up(unproven(), told_by(raw.error()));
   }
@@ -277,6 +281,20 @@ Step WriteJob::judge_premise(const Outcome& outcome) {
   }
   ++premise_;
   return next_premise(outcome.at);
+}
+
+/// Of equal values only those read before this one, which is the last, are known since the restart.
+void WriteJob::doubt_unread(const bla::Parameter& last, std::optional<std::int64_t> raw) {
+  const auto read = std::span(options_.premises).first(premise_);
+  for (RegisterChange& change : changes_) {
+    const bool is_known =
+        std::ranges::find(read, change.parameter, &Premise::parameter) != read.end();
+    if (change.status == ChangeStatus::unchanged && !is_known) {
+      const bool is_last = change.parameter == &last && raw;
+      change.status = is_last ? ChangeStatus::mismatch : ChangeStatus::failed;
+      change.after = is_last ? raw : std::nullopt;
+    }
+  }
 }
 
 Step WriteJob::write_again(Time now) {

@@ -388,6 +388,31 @@ TEST_CASE("a write that was lost is sent again once the servo is known to have r
   }
 }
 
+TEST_CASE("equal values that a restart has changed are not told as unchanged") {
+  Bench bench;
+  const RegisterChange mode = change("pwm_mode", 0, 0), torque = change("torque_output", 0, 0);
+  WriteJob job(bench.roster, bench.servo, {torque, mode, change("pwm_output_range", 900, 700)},
+               {.premises = {{torque.parameter, 0}, {mode.parameter, 0}}});
+  CHECK(bench.begin(job) == "write 0x36=900");
+  bench.restart();
+  CHECK(text(job.next(Script::timed_out())) == "read 0x36");
+  CHECK(text(job.next(bench.script.value("0x36", std::int64_t{150}))) == "GetNodeInfo");
+  CHECK(text(job.next(bench.script.info(1))) == "read 0x20");
+  SECTION("one of them") {
+    CHECK(text(job.next(bench.script.value("0x20", std::int64_t{0}))) == "read 0x37");
+    CHECK(text(job.next(bench.script.value("0x37", std::int64_t{1}))) == "nothing");
+    CHECK(job.changes()[0].status == ChangeStatus::unchanged);
+    CHECK(job.changes()[1].status == ChangeStatus::mismatch);
+    CHECK(job.changes()[1].after == 1);
+  }
+  SECTION("those that were not read since are in doubt") {
+    CHECK(text(job.next(Script::timed_out())) == "nothing");
+    CHECK(job.changes()[0].status == ChangeStatus::failed);
+    CHECK(job.changes()[1].status == ChangeStatus::failed);
+    CHECK_FALSE(job.changes()[1].after);
+  }
+}
+
 TEST_CASE("no write repeats itself") {
   Bench bench;
   WriteJob job = bench.job({change("smoothing", 1, 0)});

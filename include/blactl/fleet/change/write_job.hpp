@@ -71,6 +71,7 @@ class WriteJob final : public dronecan::Job {
   [[nodiscard]] dronecan::Step after_write(const dronecan::Outcome& outcome);
   [[nodiscard]] dronecan::Step wrote(Time now);
   void take_written();
+  void doubt_unread(const bla::Parameter& last, std::optional<std::int64_t> raw);
   [[nodiscard]] dronecan::Step hold_off(Time now);
   [[nodiscard]] bool may_try_again();
   [[nodiscard]] std::optional<Error> forbids_servo_id(Time now) const;
