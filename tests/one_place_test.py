@@ -52,6 +52,8 @@ RULES = {
     "enters a node ID into the allocation table": (
         r"(store|table)_?(\.|->)(enter|allocate)\(",
         {"src/fleet/change/allocation_service.cpp", "src/fleet/change/carry_out_rounds.cpp",
+         # IDs that were found as wished.
+         "src/fleet/change/static_ids.cpp",
          # What a person wishes or imports, before any servo is asked.
          "src/cli/alloc/serve.cpp", "src/cli/alloc/allocation_table.cpp"}),
 }

@@ -272,8 +272,8 @@ void Campaign::repeat(World& world, const Episode& episode) {
   world.repair();
   const Episode calm = calmed(episode);
   const auto states = world.states();
-  const bool has_dynamic =
-      std::ranges::any_of(states, [](const auto& servo) { return servo.second.rom.at(static_node_id) == 0; });
+  const bool has_dynamic = std::ranges::any_of(
+      states, [](const auto& servo) { return servo.second.rom.at(static_node_id) == 0; });
   if (has_dynamic) {
     [[maybe_unused]] const Step given = run(world, calm, {.words = {"alloc", "--once"}});
   }

@@ -91,9 +91,7 @@ class Stream {
         print(StaticUnit{*unit, result.servo().id});
       }
     }
-    if (const auto entered =
-            table_.enter(kept, context_.session().wall(), AllocationStore::Former::yields);
-        !entered) {
+    if (const auto entered = fleet::enter_kept(table_, kept, context_.session().wall()); !entered) {
       failure_ = entered.error();
     }
   }

@@ -82,4 +82,8 @@ StaticGoals static_goals(const Roster& roster, const bla::Profiles& profiles,
   return found;
 }
 
+Result<void> enter_kept(state::AllocationStore& table, std::span<const Wish> kept, WallTime now) {
+  return table.enter(kept, now, state::AllocationStore::Former::yields);
+}
+
 } // namespace blactl::fleet

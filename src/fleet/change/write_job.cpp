@@ -263,13 +263,12 @@ Step WriteJob::judge_premise(const Outcome& outcome) {
   const auto& [setting, expected] = options_.premises[premise_];
   const bla::Parameter& parameter = *setting;
   const auto raw = register_value(outcome, servo_.id, parameter.address, parameter.width);
-  if (!raw || *raw != expected) {
-    doubt_unread(parameter, raw ? std::optional(*raw) : std::nullopt);
-  }
   if (!raw) {
+    doubt_unread(parameter, std::nullopt);
     return give_up(unproven(), told_by(raw.error()));
   }
   if (*raw != expected) {
+    doubt_unread(parameter, *raw);
     return give_up(unproven(),
                    {Code::state,
                     say<texts::premise_lost>(id, parameter.name, bla::display(parameter, *raw),

@@ -29,4 +29,10 @@ struct StaticGoals {
                                        std::vector<state::AllocationStore::Wish> wishes,
                                        const NotLetIn& not_let_in);
 
+/// Enters the IDs that units have as wished already; those that are given are entered on the way.
+/// Errors: as AllocationStore::enter().
+[[nodiscard]] Result<void> enter_kept(state::AllocationStore& table,
+                                      std::span<const state::AllocationStore::Wish> kept,
+                                      WallTime now);
+
 } // namespace blactl::fleet
