@@ -42,12 +42,6 @@ Error not_ready(const Member& member, bool is_gone, const std::string& seconds) 
              : Error{Code::timeout, say<texts::node_mute>(id), say<texts::no_answer_hint>(), id};
 }
 
-/// What was looked for may be one of two units on an ID, which cannot be read.
-Error unless_shared(const Roster& roster, Error error) {
-  const auto shared = roster.doubled();
-  return shared.empty() ? std::move(error) : doubled(roster, *shared.begin());
-}
-
 } // namespace
 
 Discovery::Discovery(Session& session, const bla::Profiles& profiles,

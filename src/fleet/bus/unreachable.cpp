@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 namespace blactl::fleet {
 namespace {
@@ -63,6 +64,11 @@ Error doubled(const Roster& roster, dronecan::NodeId id) {
           units.empty() ? say<texts::doubled_target>(id.value())
                         : say<texts::doubled_units>(id.value(), named),
           say<texts::doubled_target_hint>(), id.value()};
+}
+
+Error unless_shared(const Roster& roster, Error error) {
+  const auto shared = roster.doubled();
+  return shared.empty() ? std::move(error) : doubled(roster, *shared.begin());
 }
 
 std::optional<Error> not_unique(const Roster& roster, dronecan::NodeId id) {

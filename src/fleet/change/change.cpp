@@ -158,7 +158,9 @@ std::vector<Error> Change::judge(std::span<const std::size_t> goals, Snapshots s
       if (next.keep_ids && options_.manner.history != nullptr) {
         next.lost_ids = options_.manner.history->lost_ids(held, session_);
       }
-      next.rom_servo_id = bla::find(told.values, bla::address::servo_id);
+      if (next.restart == RestartKind::restart) {
+        next.rom_servo_id = bla::find(told.values, bla::address::servo_id);
+      }
       tasks.push_back({std::move(held), std::move(next)});
     }
   }

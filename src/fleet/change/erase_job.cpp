@@ -12,6 +12,12 @@ using dronecan::GetNodeInfo;
 using dronecan::Outcome;
 using dronecan::Step;
 
+namespace {
+
+constexpr std::int64_t erased_servo_id = 0; // the default of 0x45
+
+} // namespace
+
 Step EraseJob::next(const Outcome& outcome) {
   const std::uint8_t id = servo_.id.value();
   switch (at_) {
@@ -41,7 +47,7 @@ Step EraseJob::next(const Outcome& outcome) {
     return guard_.guarded(ask(servo_.id, ExecuteOpcode::type,
                               ExecuteOpcode::Request{.opcode = ExecuteOpcode::erase}.encode(),
                               once),
-                          servo_);
+                          servo_, erased_servo_id);
   }
   case At::request: break;
   }
@@ -54,7 +60,7 @@ Step EraseJob::next(const Outcome& outcome) {
     }
   } else if (outcome.kind == Outcome::Kind::withheld) {
     is_withheld_ = true;
-    error_ = guard_.forbids(servo_, outcome.at);
+    error_ = guard_.forbids(servo_, outcome.at, erased_servo_id);
   } else if (outcome.kind != Outcome::Kind::timed_out) {
     error_ = no_answer(outcome, servo_.id, "ERASE");
   }

@@ -49,7 +49,8 @@ std::optional<Error> changed_since_read(const Roster& roster, const Plan& plan) 
 
 } // namespace
 
-std::optional<Error> Guard::forbids(const Servo& servo, Time now) const {
+std::optional<Error> Guard::forbids(const Servo& servo, Time now,
+                                    std::optional<std::int64_t> next_servo_id) const {
   const std::uint8_t id = servo.id.value();
   if (roster_->is_doubled(servo.id)) {
     return doubled(*roster_, servo.id);
@@ -64,23 +65,21 @@ std::optional<Error> Guard::forbids(const Servo& servo, Time now) const {
     return Error{Code::driven, say<texts::driven>(driver->value(), id), say<texts::driven_hint>(),
                  id};
   }
+  const bool may_become_driven = may_become_driven_ || !next_servo_id;
+  if (const auto driver = may_become_driven || servo.servo_id == next_servo_id
+                              ? std::nullopt
+                              : roster_->commander_of_id(*next_servo_id, now)) {
+    return Error{Code::driven, say<texts::id_is_driven>(driver->value(), *next_servo_id, id),
+                 say<texts::driven_hint>(), id};
+  }
   return std::nullopt;
 }
 
-std::optional<Error> Guard::forbids_servo_id(const Servo& servo, std::int64_t given,
-                                             Time now) const {
-  const auto driver = may_be_driven_ || servo.servo_id == given
-                          ? std::nullopt
-                          : roster_->commander_of_id(given, now);
-  const std::uint8_t id = servo.id.value();
-  return driver ? std::optional(Error{Code::driven,
-                                      say<texts::id_is_driven>(driver->value(), given, id),
-                                      say<texts::driven_hint>(), id})
-                : std::nullopt;
-}
-
-dronecan::Request Guard::guarded(dronecan::Request request, const Servo& servo) const {
-  request.may_leave = [guard = *this, &servo](Time now) { return !guard.forbids(servo, now); };
+dronecan::Request Guard::guarded(dronecan::Request request, const Servo& servo,
+                                 std::optional<std::int64_t> next_servo_id) const {
+  request.may_leave = [guard = *this, &servo, next_servo_id](Time now) {
+    return !guard.forbids(servo, now, next_servo_id);
+  };
   return request;
 }
 
@@ -99,11 +98,12 @@ std::optional<Error> forbidden(const Roster& roster, Time now, const Plan& plan,
     return Error{Code::state, say<texts::restarted_before_write>(id), say<texts::run_again_hint>(),
                  id};
   }
-  if (auto why = Guard(roster, while_driven || !plan.moves()).forbids(servo, now)) {
+  const Guard guard(roster, while_driven || !plan.moves(), while_driven);
+  if (auto why = guard.forbids(servo, now)) {
     return why;
   }
-  for (const std::int64_t given : plan.next_servo_ids()) {
-    if (auto why = Guard(roster, while_driven).forbids_servo_id(servo, given, now)) {
+  for (const std::int64_t next : plan.next_servo_ids()) {
+    if (auto why = guard.forbids(servo, now, next)) {
       return why;
     }
   }

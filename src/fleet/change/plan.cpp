@@ -277,8 +277,7 @@ std::vector<std::int64_t> Plan::next_servo_ids() const {
   if (erase) {
     ids.push_back(0);
   }
-  for (const auto id : {value_given(*this, at::servo_id),
-                        restart == RestartKind::restart ? rom_servo_id : std::nullopt}) {
+  for (const auto id : {value_given(*this, at::servo_id), rom_servo_id}) {
     if (id) {
       ids.push_back(*id);
     }

@@ -182,7 +182,7 @@ Step SaveRestartJob::request(Time now) {
                                   ExecuteOpcode::Request{.opcode = ExecuteOpcode::save}.encode(),
                                   once)
                             : ask(id_, RestartNode::type, RestartNode::Request{}.encode(), once),
-                        servo_);
+                        servo_, options_.next_servo_id);
 }
 
 /// The request did not leave; one that did before was not carried out.
@@ -191,7 +191,7 @@ Step SaveRestartJob::hold_off(Time now) {
   if (options_.pace != nullptr) {
     options_.pace->leaving.erase(id_);
   }
-  return give_up(*guard_.forbids(servo_, now));
+  return give_up(*guard_.forbids(servo_, now, options_.next_servo_id));
 }
 
 bool SaveRestartJob::has_answered_ok(dronecan::Bytes payload) const {

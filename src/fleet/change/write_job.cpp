@@ -32,7 +32,7 @@ bool is_held(const RegisterChange& change) {
 WriteJob::WriteJob(const Roster& roster, Servo servo, std::vector<RegisterChange> changes,
                    Options options)
     : roster_(roster), servo_(std::move(servo)), changes_(std::move(changes)),
-      options_(std::move(options)), guard_(roster, options_.may_be_driven) {}
+      options_(std::move(options)), guard_(roster, options_.may_be_driven, options_.while_driven) {}
 
 Step WriteJob::next(const Outcome& outcome) {
   switch (at_) {
@@ -92,19 +92,24 @@ Step WriteJob::go_on(Time now) {
   const Patience once{.timeout = options_.patience.timeout, .retries = 0};
   auto request = guard_.guarded(write_register(servo_.id, changes_[current_].parameter->address,
                                                changes_[current_].requested, once),
-                                servo_);
+                                servo_, next_servo_id());
   request.may_leave = [this, allowed = std::move(request.may_leave)](Time at) {
-    return servo_.boot == boots() && allowed(at) && !forbids_servo_id(at);
+    return servo_.boot == boots() && allowed(at);
   };
   return request;
 }
 
-/// Whether the next write would give it a servo ID that another node commands.
-std::optional<Error> WriteJob::forbids_servo_id(Time now) const {
+/// If the next write gives it one.
+std::optional<std::int64_t> WriteJob::next_servo_id() const {
   const RegisterChange& change = changes_[current_];
-  return change.parameter->address == bla::address::servo_id
-             ? Guard(roster_, options_.while_driven).forbids_servo_id(servo_, change.requested, now)
-             : std::nullopt;
+  return change.parameter->address == bla::address::servo_id ? std::optional(change.requested)
+                                                             : std::nullopt;
+}
+
+/// To the next change.
+void WriteJob::move_on() {
+  ++current_;
+  tries_ = 0;
 }
 
 Step WriteJob::after_write(const Outcome& outcome) {
@@ -130,9 +135,8 @@ Step WriteJob::after_write(const Outcome& outcome) {
 /// Does not make this change and those after it.
 Step WriteJob::hold_off(Time now) {
   RegisterChange& change = changes_[current_];
-  auto why = guard_.forbids(servo_, now);
-  why = why ? why : forbids_servo_id(now);
-  if (!why) { // it has restarted
+  auto why = guard_.forbids(servo_, now, next_servo_id());
+  if (!why) { // it has restarted, or what forbade it has ended
     return go_on(now);
   }
   change.status = ChangeStatus::failed;
@@ -154,8 +158,7 @@ void WriteJob::take_written() {
   if (change.parameter->address == bla::address::servo_id) {
     servo_.servo_id = change.requested; // it may obey commands to this one from now on
   }
-  ++current_;
-  tries_ = 0;
+  move_on();
 }
 
 Step WriteJob::after_read(const Outcome& outcome) {
@@ -168,7 +171,7 @@ Step WriteJob::after_read(const Outcome& outcome) {
   if (!raw) {
     change.status = ChangeStatus::failed;
     change.error = raw.error();
-    ++current_;
+    move_on();
     return go_on(outcome.at);
   }
   if (*raw == change.requested && !is_lost_) {
@@ -213,7 +216,7 @@ Step WriteJob::judge_proof(const Outcome& outcome) {
     return go_on(outcome.at);
   }
   judge();
-  ++current_;
+  move_on();
   return go_on(outcome.at);
 }
 

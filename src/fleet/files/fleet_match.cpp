@@ -91,11 +91,10 @@ class Matching {
       match_.pairs.push_back({&file.servos.front(), there.front()});
     } else if (narrows()) { // reported by check_named()
       match_.left_out.push_back(&file.servos.front());
-    } else if (const auto shared = roster_.doubled(); !shared.empty()) { // it may be one of those
-      match_.errors.push_back(doubled(roster_, *shared.begin()));
     } else {
-      match_.errors.push_back({Code::not_found, say<texts::no_servo_found>(),
-                               say<texts::no_servo_found_hint>(), std::nullopt});
+      match_.errors.push_back(
+          unless_shared(roster_, {Code::not_found, say<texts::no_servo_found>(),
+                                  say<texts::no_servo_found_hint>(), std::nullopt}));
     }
   }
 
@@ -114,15 +113,14 @@ class Matching {
       (narrows() ? match_.left_out : match_.missing).push_back(&entry);
       return;
     }
-    auto copies = meant.size() > 1 && entry.match.unique_id ? not_unique(roster_, meant.front())
-                                                            : std::nullopt;
-    if (copies) {
-      match_.errors.push_back(std::move(*copies));
-      return;
-    }
     if (meant.size() > 1 && entry.match.means_one()) {
-      refuse(say<texts::fleet_entry_means_several>(entry.name, id_list(meant)),
-             say<texts::fleet_entry_means_several_hint>());
+      auto copies = entry.match.unique_id ? not_unique(roster_, meant.front()) : std::nullopt;
+      if (copies) {
+        match_.errors.push_back(std::move(*copies));
+      } else {
+        refuse(say<texts::fleet_entry_means_several>(entry.name, id_list(meant)),
+               say<texts::fleet_entry_means_several_hint>());
+      }
       return;
     }
     for (const NodeId id : meant) {

@@ -1,5 +1,7 @@
 #include "blactl/fleet/bus/unreachable.hpp"
+#include "blactl/fleet/change/erase_job.hpp"
 #include "blactl/fleet/change/guard.hpp"
+#include "blactl/fleet/change/save_restart_job.hpp"
 
 #include "support.hpp"
 
@@ -103,6 +105,41 @@ TEST_CASE("no servo gets a servo ID that another node commands") {
   brings_back.rom_servo_id = 7;
   CHECK(bus.forbids(bus.plan(brings_back))->code == Code::driven);
   CHECK_FALSE(bus.forbids(bus.plan(brings_back), true));
+}
+
+TEST_CASE("what gives a servo ID is withheld as long as another node commands it") {
+  const Watched bus(R"(, "foreign": [{"kind": "node", "node_id": 30, "begins": "3s",
+                                      "commands": {"servo_ids": [0, 7]}}])");
+  const auto leaves = [&](const Guard& guard, std::int64_t next) {
+    return guard.guarded({}, bus.servo, next).may_leave(bus.scene.session->now());
+  };
+  const Guard guard(bus.scene.roster(), false);
+  CHECK(leaves(guard, 0));
+  CHECK(leaves(guard, 7));
+  bus.scene.live(3s); // it begins while the command runs
+  CHECK_FALSE(leaves(guard, 0));
+  CHECK_FALSE(leaves(guard, 7));
+  CHECK(leaves(guard, 3)); // its own
+  CHECK(leaves(Guard(bus.scene.roster(), false, true), 7));
+  CHECK_FALSE(leaves(Guard(bus.scene.roster(), true, false), 7));
+}
+
+TEST_CASE("no servo is erased, or restarted, into a servo ID that another node commands") {
+  const Watched bus(R"(, "foreign": [{"kind": "node", "node_id": 30,
+                                      "commands": {"servo_ids": [0, 7]}}])");
+  EraseJob erases(bus.scene.roster(), bus.servo, {});
+  bus.scene.run(erases);
+  CHECK_FALSE(erases.is_sent());
+  REQUIRE(erases.error());
+  CHECK(erases.error()->code == Code::driven);
+  bus.scene.live(2s);
+  SaveRestartJob restarts(
+      bus.scene.roster(), bus.servo,
+      {.kind = RestartKind::restart, .come_back = 5s, .patience = {}, .next_servo_id = 7});
+  bus.scene.run(restarts);
+  CHECK_FALSE(restarts.is_sent());
+  REQUIRE(restarts.error());
+  CHECK(restarts.error()->code == Code::driven);
 }
 
 TEST_CASE("a value in RAM is not written beside settings that another node has changed") {

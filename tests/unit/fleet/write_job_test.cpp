@@ -388,6 +388,22 @@ TEST_CASE("a write that was lost is sent again once the servo is known to have r
   }
 }
 
+TEST_CASE("each change has its own tries") {
+  Bench bench;
+  WriteJob job = bench.job({change("reverse", 1, 0), change("smoothing", 0, 1)});
+  std::string said = bench.begin(job);
+  std::vector<std::string> writes;
+  while (said.starts_with("write")) { // none of them arrives
+    writes.push_back(said.substr(0, 10));
+    CHECK(text(job.next(Script::timed_out())).starts_with("read"));
+    const bool is_first = said.starts_with("write 0x23");
+    CHECK(bench.value(job, is_first ? "0x23" : "0x22", is_first ? 0 : 1) == "GetNodeInfo");
+    said = bench.proven(job);
+  }
+  const std::string one = "write 0x23", other = "write 0x22";
+  CHECK(writes == std::vector{one, one, one, other, other, other});
+}
+
 TEST_CASE("equal values that a restart has changed are not told as unchanged") {
   Bench bench;
   const RegisterChange mode = change("pwm_mode", 0, 0), torque = change("torque_output", 0, 0);

@@ -22,11 +22,16 @@ namespace blactl::fleet {
 /// Reads may be answered by either, writes reach both.
 [[nodiscard]] Error doubled(const Roster& roster, dronecan::NodeId id);
 
+/// Of something that was looked for in vain: it may be one of two units on an ID, which cannot be
+/// read. Then that is the error, as doubled().
+[[nodiscard]] Error unless_shared(const Roster& roster, Error error);
+
 /// Why the unique ID of this unit does not tell it from others: another has it as well, or it is
 /// blank: duplicate_unique_id. Empty: it does, as far as known.
 [[nodiscard]] std::optional<Error> not_unique(const Roster& roster, dronecan::NodeId id);
 
-/// No response from this node ID: timeout if it was heard, else not_found.
+/// No response from this node ID: duplicate_node_id if two units use it, timeout if it was heard,
+/// else not_found.
 [[nodiscard]] Error silent(const Roster& roster, dronecan::NodeId id);
 
 } // namespace blactl::fleet

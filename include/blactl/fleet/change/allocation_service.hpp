@@ -38,9 +38,9 @@ struct AllocatedUnit {
 /// During its lifetime, units that ask for a node ID get one: that of the table, else a free one.
 /// Every ID is in the table before it goes over the wire.
 ///
-/// Until bus_is_known() only units of the table are served, as other nodes have had no time to be
-/// heard; and those not before the present holder of their ID had it (bus_watch_time). It ends by
-/// itself when another allocator is heard, or the table cannot be used.
+/// Other nodes need time to be heard: until bus_is_known() only units of the table are served, and
+/// these not before bus_watch_time, for another unit may have their ID now. It ends by itself when
+/// another allocator is heard, or the table cannot be used.
 class AllocationService final : private dronecan::Service, private dronecan::AllocationTable {
  public:
   enum class Event : std::uint8_t {

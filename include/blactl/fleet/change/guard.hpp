@@ -20,25 +20,28 @@ struct Plan;
 class Guard {
  public:
   /// `roster` outlives this. `may_be_driven`: also while another node drives the servo.
-  Guard(const Roster& roster, bool may_be_driven)
-      : roster_(&roster), may_be_driven_(may_be_driven) {}
+  Guard(const Roster& roster, bool may_be_driven) : Guard(roster, may_be_driven, may_be_driven) {}
 
-  /// The reason why nothing may be sent to this servo now; empty: it may. Errors:
-  /// duplicate_node_id, armed, driven.
-  [[nodiscard]] std::optional<Error> forbids(const Servo& servo, Time now) const;
+  /// `may_become_driven`: also where it gets a servo ID that another node commands.
+  Guard(const Roster& roster, bool may_be_driven, bool may_become_driven)
+      : roster_(&roster), may_be_driven_(may_be_driven), may_become_driven_(may_become_driven) {}
 
-  /// The reason why the servo may not get this servo ID now; empty: it may. Error: driven (another
-  /// node commands that ID, and the servo would obey at once).
-  [[nodiscard]] std::optional<Error> forbids_servo_id(const Servo& servo, std::int64_t given,
-                                                      Time now) const;
+  /// The reason why nothing may be sent to this servo now; empty: it may. `next_servo_id`: the one
+  /// that the servo obeys afterwards; empty: the present one, as far as known. Errors:
+  /// duplicate_node_id, duplicate_unique_id, armed, driven.
+  [[nodiscard]] std::optional<Error>
+  forbids(const Servo& servo, Time now,
+          std::optional<std::int64_t> next_servo_id = std::nullopt) const;
 
   /// The same request, which leaves only while nothing forbids it, and is withheld otherwise.
   /// `servo` outlives the request.
-  [[nodiscard]] dronecan::Request guarded(dronecan::Request request, const Servo& servo) const;
+  [[nodiscard]] dronecan::Request
+  guarded(dronecan::Request request, const Servo& servo,
+          std::optional<std::int64_t> next_servo_id = std::nullopt) const;
 
  private:
   const Roster* roster_;
-  bool may_be_driven_;
+  bool may_be_driven_, may_become_driven_;
 };
 
 /// The reason why this plan must not be carried out now, as far as the bus was heard; empty: it

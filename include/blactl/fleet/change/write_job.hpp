@@ -74,7 +74,8 @@ class WriteJob final : public dronecan::Job {
   void doubt_unread(const bla::Parameter& last, std::optional<std::int64_t> raw);
   [[nodiscard]] dronecan::Step hold_off(Time now);
   [[nodiscard]] bool may_try_again();
-  [[nodiscard]] std::optional<Error> forbids_servo_id(Time now) const;
+  [[nodiscard]] std::optional<std::int64_t> next_servo_id() const;
+  void move_on();
   [[nodiscard]] dronecan::Step after_read(const dronecan::Outcome& outcome);
   [[nodiscard]] dronecan::Step check_premises(Time now);
   [[nodiscard]] dronecan::Step next_premise(Time now);
