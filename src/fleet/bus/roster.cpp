@@ -18,10 +18,6 @@ constexpr std::uint8_t tail_start_of_transfer = 0x80;
 /// Bound for the memory that other nodes can make us use.
 constexpr std::size_t most_pending = 1024;
 
-/// A unit without a node ID repeats its request after 0.6 s to 1 s (1.Allocation.uavcan); one may
-/// be lost.
-constexpr Duration request_period = std::chrono::seconds(2);
-
 /// The identification (table 3-11) and the settings (kept by SAVE, 4.11) of a servo: two values in
 /// responses to one request are of two servos.
 std::set<std::string> names_of_settled(const bla::Profiles& profiles) {

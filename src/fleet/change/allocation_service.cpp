@@ -27,9 +27,6 @@ using namespace std::chrono_literals;
 /// More units than node IDs, so that those without one are stored, too.
 constexpr std::size_t most_units = 256;
 
-/// A unit without a node ID repeats its request after 0.6 s to 1 s; one request may be lost.
-constexpr Duration request_period = 2s;
-
 /// A unit that asks again after this number of responses does not accept its ID: so many
 /// consecutive losses are unlikely.
 constexpr unsigned most_vain_answers = 5;

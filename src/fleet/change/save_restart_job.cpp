@@ -26,7 +26,7 @@ using namespace std::chrono_literals;
 constexpr std::uint32_t old_enough_s = 2;
 
 /// One that was young so often restarts by itself.
-constexpr int most_pauses = 4;
+constexpr int most_times_young = 4;
 
 /// The time for a servo to carry out a request whose response was lost, before it is checked. The
 /// vendor's updater waits as long (facts, section 6).
@@ -98,7 +98,7 @@ Step SaveRestartJob::check_unit(const Outcome& outcome) {
     return give_up({Code::state, say<texts::another_servo>(id), say<texts::run_again_hint>(), id});
   }
   if (info->status.uptime_s < old_enough_s) {
-    if (++pauses_ > most_pauses) {
+    if (++pauses_ > most_times_young) {
       return give_up(
           {Code::state, say<texts::never_grows_old>(id), say<texts::restarts_again_hint>(), id});
     }

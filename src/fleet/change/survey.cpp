@@ -4,6 +4,8 @@
 #include "blactl/fleet/bus/conflict_texts.hpp"
 #include "blactl/fleet/bus/read_job.hpp"
 
+#include "fleet/change/texts.hpp"
+
 #include <algorithm>
 #include <list>
 

@@ -24,7 +24,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::int64_t output_on = 0, output_off = 1; // 4.13
+constexpr std::int64_t torque_output_on = 0, torque_output_off = 1; // 4.13
 
 /// NodeStatus comes once a second (2.2).
 constexpr Duration longest_until_status = 1200ms;
@@ -158,7 +158,8 @@ Result<Values> TestBench::rest() {
     return std::unexpected(output.error());
   }
   // Written even if off: a command ends a soft start, and shows the real value of 0x00.
-  const auto off = set(at::torque_output, *output == output_on ? output_off : *output);
+  const auto off =
+      set(at::torque_output, *output == torque_output_on ? torque_output_off : *output);
   auto values = off ? read_all() : std::unexpected(off.error());
   if (!values) {
     return values;

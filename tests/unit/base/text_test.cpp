@@ -4,11 +4,9 @@
 
 using namespace blactl;
 
-namespace blactl::texts {
-inline constexpr Text test_text{"{} of {}", "{1} 個中 {0} 個"};
-}
-
 namespace {
+
+constexpr Text test_text{"{} of {}", "{1} 個中 {0} 個"};
 
 class Japanese {
  public:
@@ -23,10 +21,10 @@ class Japanese {
 } // namespace
 
 TEST_CASE("texts are said in the language of the process") {
-  CHECK(say<texts::test_text>(2, "8") == "2 of 8");
+  CHECK(say<test_text>(2, "8") == "2 of 8");
   CHECK(choose("en", "ja") == "en");
   const Japanese japanese;
-  CHECK(say<texts::test_text>(2, "8") == "8 個中 2 個");
+  CHECK(say<test_text>(2, "8") == "8 個中 2 個");
   CHECK(choose("en", "ja") == "ja");
   CHECK(choose("en", "") == "en");
 }

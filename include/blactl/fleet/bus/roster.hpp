@@ -21,6 +21,10 @@
 
 namespace blactl::fleet {
 
+/// A unit without a node ID repeats its request after 0.6 s to 1 s (1.Allocation.uavcan); one may
+/// be lost.
+inline constexpr Duration request_period = std::chrono::seconds(2);
+
 /// One node ID on the bus and the facts about its unit.
 struct Member {
   dronecan::NodeId id{};
