@@ -138,8 +138,10 @@ void check_distinct(const Step& step) {
     }
     return 0;
   };
-  const auto in_rom = [](const ServoState& servo) { return value_in(servo.rom, static_node_id); };
   const auto on_bus = [](const ServoState& servo) { return std::int64_t{servo.node_id}; };
+  const auto in_rom = [](const ServoState& servo) { // who has no node ID cannot be asked
+    return servo.node_id == 0 ? 0 : value_in(servo.rom, static_node_id);
+  };
   if (shared(step.before, in_rom) == 0) {
     const std::int64_t id = shared(step.after, in_rom);
     require(id == 0, fmt::format("two servos have {} in ROM now", id));

@@ -188,7 +188,12 @@ class Told {
     }
     const bool keeps = step_.command.has("--keep-ids");
     for (const std::uint8_t address : {servo_id, static_node_id}) {
-      const std::int64_t due = keeps ? step_.before.at(serial_).ram.at(address) : 0;
+      const ServoState& before = step_.before.at(serial_);
+      const std::int64_t held = keeps ? before.ram.at(address) : 0;
+      const std::int64_t in_rom = before.rom.at(address);
+      // one that broke off has left 0 in RAM: then ROM's is brought back
+      const bool is_brought_back = keeps && held == 0 && after_.ram.at(address) == in_rom;
+      const std::int64_t due = is_brought_back ? in_rom : held;
       require_held("RAM", after_.ram, address, due);
       if (saved) {
         require_held("ROM", after_.rom, address, due);
