@@ -40,6 +40,7 @@ Step WriteJob::next(const Outcome& outcome) {
   case At::unit: return judge_unit(outcome);
   case At::write: return after_write(outcome);
   case At::read: return after_read(outcome);
+  case At::look: return judge_look(outcome);
   case At::proof: return judge_proof(outcome);
   case At::premise: return judge_premise(outcome);
   }
@@ -84,7 +85,7 @@ Step WriteJob::go_on(Time now) {
     return prove(now);
   }
   if (current_ == changes_.size()) {
-    return std::ranges::any_of(changes_, is_held) ? prove(now) : Step(std::nullopt);
+    return next_look(now);
   }
   at_ = At::write;
   is_lost_ = false;
@@ -123,7 +124,7 @@ Step WriteJob::after_write(const Outcome& outcome) {
   RegisterChange& change = changes_[current_];
   const bla::Parameter& parameter = *change.parameter;
   const auto echo = register_value(outcome, servo_.id, parameter.address, parameter.width);
-  if (options_.echo == Echo::suffices && echo == change.requested) {
+  if (echo == change.requested) {
     return wrote(outcome.at);
   }
   // whatever the response, or if it was lost: reading the register shows its value
@@ -142,7 +143,7 @@ Step WriteJob::hold_off(Time now) {
   change.status = ChangeStatus::failed;
   change.error = std::move(why);
   current_ = changes_.size();
-  return std::ranges::any_of(changes_, is_held) ? prove(now) : Step(std::nullopt);
+  return next_look(now);
 }
 
 Step WriteJob::wrote(Time now) {
@@ -178,9 +179,47 @@ Step WriteJob::after_read(const Outcome& outcome) {
     return wrote(outcome.at);
   }
   change.after = *raw;
-  // a restart between the write and this response looks the same, and so may another unit
-  is_doubtful_ = true;
-  return prove(outcome.at);
+  return doubt(current_, outcome.at);
+}
+
+/// A restart between the write and the response looks the same, and so may another unit.
+Step WriteJob::doubt(std::size_t change, Time now) {
+  doubted_ = change;
+  return prove(now);
+}
+
+/// Reads what was written; at the end, the proof.
+Step WriteJob::next_look(Time now) {
+  const bool looks = options_.echo == Echo::is_checked;
+  while (looked_ < changes_.size() &&
+         !(looks && changes_[looked_].status == ChangeStatus::written)) {
+    ++looked_;
+  }
+  if (looked_ == changes_.size()) {
+    return std::ranges::any_of(changes_, is_held) ? prove(now) : Step(std::nullopt);
+  }
+  at_ = At::look;
+  return read_register(servo_.id, changes_[looked_].parameter->address, options_.patience);
+}
+
+Step WriteJob::judge_look(const Outcome& outcome) {
+  RegisterChange& change = changes_[looked_];
+  const auto raw =
+      register_value(outcome, servo_.id, change.parameter->address, change.parameter->width);
+  if (outcome.kind == Outcome::Kind::cancelled || outcome.kind == Outcome::Kind::not_sent) {
+    return give_up(looked_, raw.error());
+  }
+  if (!raw) {
+    change.status = ChangeStatus::failed;
+    change.after = std::nullopt;
+    change.error = raw.error();
+  } else if (*raw != change.requested) {
+    change.after = *raw;
+    is_lost_ = false;
+    return doubt(looked_, outcome.at);
+  }
+  ++looked_;
+  return next_look(outcome.at);
 }
 
 Step WriteJob::prove(Time now) {
@@ -202,28 +241,25 @@ Step WriteJob::judge_proof(const Outcome& outcome) {
                                 say<texts::run_again_hint>(), id});
   case RunProof::Verdict::ran_on: break;
   }
-  if (!is_doubtful_) {
+  if (!doubted_) {
     return std::nullopt;
   }
-  if (changes_[current_].after == changes_[current_].requested) {
-    is_doubtful_ = false;
+  const std::size_t doubted = *std::exchange(doubted_, std::nullopt);
+  if (changes_[doubted].after == changes_[doubted].requested) {
     take_written();
-    const bool is_last = std::ranges::none_of(changes_, &RegisterChange::is_planned);
-    return is_last ? Step(std::nullopt) : go_on(outcome.at);
+  } else if (!may_try_again()) {
+    judge(changes_[doubted]);
+    if (current_ == doubted) {
+      move_on();
+    }
   }
-  if (may_try_again()) {
-    is_doubtful_ = false;
-    return go_on(outcome.at);
-  }
-  judge();
-  move_on();
   return go_on(outcome.at);
 }
 
 /// A write that was lost, now that the servo is known to have run on.
 bool WriteJob::may_try_again() {
-  const RegisterChange& change = changes_[current_];
-  return is_lost_ && change.after == change.before && tries_++ < options_.patience.retries;
+  return is_lost_ && changes_[current_].after == changes_[current_].before &&
+         tries_++ < options_.patience.retries;
 }
 
 /// A servo that has been written to is in doubt.
@@ -300,7 +336,7 @@ void WriteJob::doubt_unread(const bla::Parameter& last, std::optional<std::int64
 }
 
 Step WriteJob::write_again(Time now) {
-  is_doubtful_ = false;
+  doubted_.reset();
   if (!doubt_unchanged()) {
     return std::nullopt;
   }
@@ -309,7 +345,7 @@ Step WriteJob::write_again(Time now) {
       change.status = ChangeStatus::planned;
     }
   }
-  current_ = 0;
+  current_ = looked_ = 0;
   return go_on(now);
 }
 
@@ -333,9 +369,7 @@ bool WriteJob::doubt_unchanged() {
 }
 
 /// No restart explains why the register differs.
-void WriteJob::judge() {
-  is_doubtful_ = false;
-  RegisterChange& change = changes_[current_];
+void WriteJob::judge(RegisterChange& change) const {
   const bla::Parameter& parameter = *change.parameter;
   const std::uint8_t id = servo_.id.value();
   const std::string wanted = bla::display(parameter, change.requested);
@@ -362,7 +396,7 @@ std::size_t WriteJob::unproven() const {
     const auto it = std::ranges::find(changes_, status, &RegisterChange::status);
     return static_cast<std::size_t>(it - changes_.begin());
   };
-  const std::size_t made = is_doubtful_ ? current_ : first(ChangeStatus::written);
+  const std::size_t made = doubted_ ? *doubted_ : first(ChangeStatus::written);
   const std::size_t next = made < changes_.size() ? made : current_;
   return next < changes_.size() ? next : first(ChangeStatus::unchanged);
 }

@@ -19,8 +19,9 @@ namespace blactl::fleet {
 
 /// Sends the planned changes in order, once the servo has proven to be the same unit; registers
 /// that already have the value become `unchanged`. A response may show a clamped or refused value
-/// (requirement 73): then, or if the whole servo is not read afterwards, the register is read again
-/// after the write. At the end, and before a refusal is believed, the servo must prove that it has
+/// (requirement 73): then the register is read at once. If the whole servo is not read afterwards,
+/// each register that was written is read behind the last write, for that may have changed others
+/// as well. At the end, and before a refusal is believed, the servo must prove that it has
 /// not restarted, also if all values were unchanged, as they were read some time ago. Values
 /// written before a restart are written again, as they were in RAM only, provided that the values
 /// on which the plan was judged have come back from ROM as they were. If the guard forbids a write,
@@ -61,7 +62,7 @@ class WriteJob final : public dronecan::Job {
   [[nodiscard]] const Servo& servo() const { return servo_; }
 
  private:
-  enum class At : std::uint8_t { begin, unit, write, read, proof, premise };
+  enum class At : std::uint8_t { begin, unit, write, read, look, proof, premise };
 
   [[nodiscard]] dronecan::Step begin(Time now);
   [[nodiscard]] dronecan::Step go_on(Time now);
@@ -77,12 +78,15 @@ class WriteJob final : public dronecan::Job {
   [[nodiscard]] std::optional<std::int64_t> next_servo_id() const;
   void move_on();
   [[nodiscard]] dronecan::Step after_read(const dronecan::Outcome& outcome);
+  [[nodiscard]] dronecan::Step doubt(std::size_t change, Time now);
+  [[nodiscard]] dronecan::Step next_look(Time now);
+  [[nodiscard]] dronecan::Step judge_look(const dronecan::Outcome& outcome);
   [[nodiscard]] dronecan::Step check_premises(Time now);
   [[nodiscard]] dronecan::Step next_premise(Time now);
   [[nodiscard]] dronecan::Step judge_premise(const dronecan::Outcome& outcome);
   [[nodiscard]] dronecan::Step write_again(Time now);
   [[nodiscard]] bool doubt_unchanged();
-  void judge();
+  void judge(RegisterChange& change) const;
   [[nodiscard]] std::size_t unproven() const;
   [[nodiscard]] Error told_by(const Error& error) const;
   [[nodiscard]] dronecan::Step give_up(std::size_t blamed, Error error);
@@ -97,11 +101,12 @@ class WriteJob final : public dronecan::Job {
   At at_ = At::begin;
   std::size_t current_ = 0; ///< the change being written or checked
   bool has_written_ = false;
-  int tries_ = 0;            ///< of this change, beyond the first
-  bool is_lost_ = false;     ///< no response to the write of this change
-  bool is_doubtful_ = false; ///< the register differs from the written value
-  int restarts_ = 0;         ///< seen while writing
-  std::size_t premise_ = 0;  ///< being read again after a restart
+  int tries_ = 0;                      ///< of this change, beyond the first
+  bool is_lost_ = false;               ///< no response to the write of this change
+  std::optional<std::size_t> doubted_; ///< the change whose register differs from what was written
+  int restarts_ = 0;                   ///< seen while writing
+  std::size_t looked_ = 0;  ///< the change whose register is being read behind the last write
+  std::size_t premise_ = 0; ///< being read again after a restart
   std::optional<RunProof> run_proof_;
 };
 
