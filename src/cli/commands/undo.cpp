@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <set>
@@ -84,7 +85,7 @@ class Undo {
   const SnapshotStore& store_;
   Context& context_;
   std::set<std::string> told_;
-  std::map<dronecan::UniqueId, std::int64_t> numbers_{}; ///< of the changes being undone
+  std::map<dronecan::UniqueId, std::vector<std::int64_t>> numbers_{}; ///< of the changes undone
 };
 
 /// Without -n: all servos changed by the last command, wherever they are now.
@@ -155,7 +156,7 @@ void Undo::take_back(const fleet::Undoing& change, dronecan::NodeId id, Goals& g
     context_.reporter().note(note);
   }
   if (!change.goes_on) {
-    numbers_[entry.unique_id] = entry.number;
+    numbers_[entry.unique_id] = change.numbers;
   }
   if (options_.no_save) {
     wanted->restart.reset();
@@ -173,7 +174,9 @@ void Undo::forget_what_never_was(std::span<const fleet::GoalResult> results) {
         result.servo().unique_id ? numbers_.find(*result.servo().unique_id) : numbers_.end();
     const bool is_as_it_was = result.is_done && !result.change.saved && !result.has_differences();
     if (number != numbers_.end() && is_as_it_was && !options_.no_save) {
-      settlements.push_back({number->second, state::ChangeEnd::never_begun});
+      std::ranges::transform(number->second, std::back_inserter(settlements), [](auto each) {
+        return state::Settlement{each, state::ChangeEnd::never_begun};
+      });
     }
   }
   if (settlements.empty()) {

@@ -61,7 +61,9 @@ std::optional<state::SnapshotEntry> lasting(state::SnapshotEntry change, const P
   bool lasts = false;
   for (auto& [address, raw] : change.held) {
     const auto replaced = rom.find(address);
-    raw = replaced != rom.end() ? replaced->second : raw;
+    const auto written = change.written.find(address);
+    const bool is_changed = written == change.written.end() || written->second != raw;
+    raw = is_changed && replaced != rom.end() ? replaced->second : raw;
     const auto saved = bla::find(plan.expected, bla::Address(address));
     lasts = lasts || saved != raw;
   }
@@ -161,6 +163,11 @@ bla::Values History::taken_from_ram(const Plan& plan, const Session& session) {
 std::optional<state::SnapshotEntry> History::entry_of(const Plan& plan, const Session& session) {
   const auto& unique_id = plan.before.servo.unique_id;
   auto held = stored(replaced_by(plan));
+  if (plan.erase) { // IDs that are kept, or brought back after one that broke off
+    for (const RegisterChange& change : plan.changes) {
+      held.insert_or_assign(change.parameter->address.value(), change.requested);
+    }
+  }
   held.merge(stored(taken_from_ram(plan, session)));
   if (!unique_id || held.empty()) {
     return std::nullopt;

@@ -10,6 +10,7 @@
 #include <iterator>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -69,6 +70,19 @@ bool are_in_ram(const Entries& changes, WallTime started, const Snapshot* ram) {
 /// When the last uptime of this node was heard.
 WallTime told_at(const Member& member, const Session& session) {
   return session.wall() - (session.now() - member.status_at);
+}
+
+/// Of these IDs, those that an ERASE has taken, as RAM shows.
+bla::Values taken_by(const state::SnapshotEntry& erase, const std::set<bla::Address>& ids,
+                     const Snapshot& ram) {
+  bla::Values taken;
+  for (const bla::Address id : ids) {
+    const auto held = erase.held.find(id.value());
+    if (held != erase.held.end() && ram.raw(id) == 0) {
+      taken.emplace(id, held->second);
+    }
+  }
+  return taken;
 }
 
 bla::Values replaced_by(const std::vector<state::SnapshotEntry>& changes) {
@@ -167,21 +181,21 @@ bla::Values History::replaced_in_ram(const Snapshot& ram, const Session& session
 }
 
 bla::Values History::lost_ids(const Snapshot& ram, const Session& session) const {
-  bla::Values lost;
   const auto started = start_of(ram.servo, session);
-  const auto last = started ? snapshots_.last(*ram.servo.unique_id)
-                            : Result<std::optional<state::SnapshotEntry>>();
-  if (!last || !*last || (*last)->ended || (*last)->command != erase_keeping_ids ||
-      (*last)->at < *started) {
-    return lost;
-  }
-  for (const bla::Address address : {bla::address::servo_id, bla::address::static_node_id}) {
-    const auto held = (*last)->held.find(address.value());
-    if (held != (*last)->held.end() && ram.raw(address) == 0) {
-      lost.emplace(address, held->second);
+  auto entry = started ? snapshots_.last(*ram.servo.unique_id)
+                       : Result<std::optional<state::SnapshotEntry>>();
+  std::set<bla::Address> lost{bla::address::servo_id, bla::address::static_node_id};
+  while (entry && *entry && (*entry)->at >= *started) {
+    const state::SnapshotEntry& change = **entry;
+    if (change.command == erase_keeping_ids) {
+      return change.ended ? bla::Values() : taken_by(change, lost, ram);
     }
+    for (const auto& [address, raw] : change.held) { // given on purpose since
+      lost.erase(bla::Address(address));
+    }
+    entry = snapshots_.before(change);
   }
-  return lost;
+  return {};
 }
 
 bool History::is_rom_unread(const Servo& servo, const Session& session) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 #include <string>
 #include <utility>
 
@@ -32,18 +33,44 @@ bool is_unfinished_undo(const state::SnapshotEntry& entry) {
   return entry.command == "undo" && !entry.ended;
 }
 
+/// All that the command of this entry did to its unit, as one: it may have been repeated, with
+/// other wishes, until it succeeded.
+Result<Undoing> whole(const state::SnapshotStore& store, state::SnapshotEntry entry) {
+  Undoing whole{.entry = std::move(entry)};
+  whole.numbers.push_back(whole.entry.number);
+  for (auto earlier = store.before(whole.entry);; earlier = store.before(**earlier)) {
+    if (!earlier) {
+      return std::unexpected(std::move(earlier.error()));
+    }
+    if (!*earlier || (*earlier)->run != whole.entry.run) {
+      return whole;
+    }
+    for (const auto& [address, raw] : (*earlier)->held) {
+      whole.entry.held.insert_or_assign(address, raw);
+    }
+    whole.entry.saved = whole.entry.saved || (*earlier)->saved;
+    whole.numbers.push_back((*earlier)->number);
+  }
+}
+
 /// The change to undo in place of this entry, if that is an undo which did not end.
 Result<std::optional<Undoing>> meant_by(const state::SnapshotStore& store,
                                         state::SnapshotEntry entry) {
   if (!is_unfinished_undo(entry)) {
-    return Undoing{.entry = std::move(entry)};
+    return whole(store, std::move(entry));
   }
   auto before = store.before(entry);
   if (!before) {
     return std::unexpected(std::move(before.error()));
   }
-  return *before ? std::optional(Undoing{.entry = std::move(**before), .goes_on = true})
-                 : std::nullopt;
+  if (!*before) {
+    return std::nullopt;
+  }
+  auto undoing = whole(store, std::move(**before));
+  if (undoing) {
+    undoing->goes_on = true;
+  }
+  return undoing;
 }
 
 } // namespace
@@ -65,6 +92,13 @@ Result<std::vector<Undoing>> last_changes(const state::SnapshotStore& store) {
   if (std::ranges::any_of(*entries, is_unfinished_undo)) {
     std::erase_if(*entries, std::not_fn(is_unfinished_undo));
   }
+  std::map<dronecan::UniqueId, std::int64_t> newest;
+  for (const state::SnapshotEntry& entry : *entries) {
+    newest[entry.unique_id] = std::max(newest[entry.unique_id], entry.number);
+  }
+  std::erase_if(*entries, [&newest](const state::SnapshotEntry& entry) {
+    return entry.number != newest.at(entry.unique_id); // of an earlier try, see whole()
+  });
   std::vector<Undoing> changes;
   for (state::SnapshotEntry& entry : *entries) {
     auto change = meant_by(store, std::move(entry));

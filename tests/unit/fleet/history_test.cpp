@@ -410,6 +410,28 @@ TEST_CASE("an apply that did not end and comes again is one change") {
   CHECK(kept.entries().size() == 5);
 }
 
+TEST_CASE("an apply that is repeated with other wishes is one change of each servo") {
+  const Kept kept;
+  const Scene scene(servos());
+  History first = kept.history("apply");
+  const auto tried = change(scene, set("angle_limit_cw=90deg"), first, {11, 12});
+  end(first, tried.servos[0].servo.unique_id); // the other one is not as it was wished
+  History second = kept.history("apply");
+  REQUIRE(change(scene, set("angle_limit_cw=45deg"), second, {11, 12}).servos[0].is_done());
+  const auto store = SnapshotStore::open(kept.folder(), Access::read);
+  REQUIRE(kept.entries().size() == 3);
+  for (const auto& changes :
+       {last_changes(*store).value(),
+        std::vector{**last_change(*store, *tried.servos[0].servo.unique_id)}}) {
+    for (const Undoing& change : changes) {
+      const bool is_first = change.entry.unique_id == tried.servos[0].servo.unique_id;
+      CHECK(change.entry.held == state::Registers{{0x38, 1799}});
+      CHECK(change.numbers.size() == (is_first ? 2 : 1));
+    }
+  }
+  CHECK(last_changes(*store)->size() == 2);
+}
+
 TEST_CASE("an undo that did not end goes on when it is typed again, and then is one change") {
   const Kept kept;
   const Scene scene(servos());
@@ -463,6 +485,34 @@ TEST_CASE("an erase that broke off before a restart is over: the next one is a c
     REQUIRE(change(scene, erase, kept, command).is_done());
     CHECK(kept.entries().size() == 1);
   }
+}
+
+TEST_CASE("IDs that an erase has lost are known as long as nobody gives others") {
+  const Kept kept;
+  const Scene scene(servos(R"(, "servo_id": 5)"));
+  const bool gives_another = GENERATE(false, true);
+  killed(scene, {.erase = true, .keep_ids = true}, kept, std::string(erase_keeping_ids));
+  const Wanted none{.assignments = assignments({"servo_id=0", "static_node_id=0"})};
+  REQUIRE(carry_out(*scene.session, profiles(), plans_for(scene, none, {11}), {})
+              .servos[0]
+              .is_done()); // as it broke off
+  REQUIRE(change(scene, set(gives_another ? "servo_id=9" : "smoothing=off"), kept).is_done());
+  const Snapshot ram = scene.read(11, registers({"servo_id", "static_node_id"}));
+  const bla::Values lost = kept.history("erase").lost_ids(ram, *scene.session);
+  CHECK(bla::find(lost, at::servo_id) == (gives_another ? std::nullopt : std::optional(5)));
+  CHECK(bla::find(lost, at::static_node_id) == 11);
+}
+
+TEST_CASE("undo of an erase leaves the IDs that it kept") {
+  const Kept kept;
+  const Scene scene(servos(R"(, "servo_id": 5)"));
+  REQUIRE(change(scene, restart, kept, "restart").is_done());
+  scene.live(3s);
+  REQUIRE(change(scene, set("servo_id=7"), kept).is_done());
+  const Wanted erase{.erase = true, .keep_ids = true};
+  REQUIRE(change(scene, erase, kept, std::string(erase_keeping_ids)).is_done());
+  REQUIRE(change(scene, save, kept, "save").is_done());
+  CHECK(kept.entries().front().held.at(0x45) == 7);
 }
 
 TEST_CASE("what was erased comes back") {

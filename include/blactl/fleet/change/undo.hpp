@@ -6,6 +6,7 @@
 #include "blactl/fleet/change/plan.hpp"
 #include "blactl/state/snapshot_store.hpp"
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -18,8 +19,9 @@ namespace blactl::fleet {
                                      const bla::Profiles& profiles);
 
 struct Undoing {
-  state::SnapshotEntry entry;
-  bool goes_on = false; ///< an undo of it has begun and did not end
+  state::SnapshotEntry entry;          ///< of a command that was repeated: of all its tries
+  std::vector<std::int64_t> numbers{}; ///< of these tries
+  bool goes_on = false;                ///< an undo of it has begun and did not end
 };
 
 /// The last change of this unit; empty: none is known. For an undo that did not end, the change
