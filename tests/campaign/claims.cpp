@@ -131,16 +131,20 @@ void check_distinct(const Step& step) {
   const auto shared = [](const States& states, auto id_of) -> std::int64_t {
     std::set<std::int64_t> seen;
     for (const auto& [serial, state] : states) {
-      const std::int64_t id = id_of(state);
+      const std::int64_t id = id_of(serial, state);
       if (id != 0 && !seen.insert(id).second) {
         return id;
       }
     }
     return 0;
   };
-  const auto on_bus = [](const ServoState& servo) { return std::int64_t{servo.node_id}; };
-  const auto in_rom = [](const ServoState& servo) { // who has no node ID cannot be asked
-    return servo.node_id == 0 ? 0 : value_in(servo.rom, static_node_id);
+  const auto on_bus = [](std::int64_t, const ServoState& servo) {
+    return std::int64_t{servo.node_id};
+  };
+  const auto in_rom = [&step](std::int64_t serial, const ServoState& servo) {
+    const bool can_be_asked =
+        step.before.at(serial).node_id != 0 || step.after.at(serial).node_id != 0;
+    return can_be_asked ? value_in(servo.rom, static_node_id) : 0;
   };
   if (shared(step.before, in_rom) == 0) {
     const std::int64_t id = shared(step.after, in_rom);

@@ -160,7 +160,8 @@ bla::Values History::taken_from_ram(const Plan& plan, const Session& session) {
 }
 
 /// The record of a servo as this plan changes it; empty: there is none, or it stays as it is.
-std::optional<state::SnapshotEntry> History::entry_of(const Plan& plan, const Session& session) {
+std::optional<state::SnapshotEntry> History::entry_of(const Plan& plan, const Roms& roms,
+                                                      const Session& session) {
   const auto& unique_id = plan.before.servo.unique_id;
   auto held = stored(replaced_by(plan));
   if (plan.erase) { // IDs that are kept, or brought back after one that broke off
@@ -171,6 +172,13 @@ std::optional<state::SnapshotEntry> History::entry_of(const Plan& plan, const Se
   held.merge(stored(taken_from_ram(plan, session)));
   if (!unique_id || held.empty()) {
     return std::nullopt;
+  }
+  state::Registers in_ram;
+  const auto rom = roms.find(*unique_id);
+  for (auto& [address, raw] : held) { // undo puts nothing into ROM that was in RAM only
+    if (rom != roms.end() && rom->second.contains(address)) {
+      in_ram.emplace(address, std::exchange(raw, rom->second.at(address)));
+    }
   }
   const auto known = kept_.find(*unique_id);
   state::SnapshotEntry entry =
@@ -190,6 +198,8 @@ std::optional<state::SnapshotEntry> History::entry_of(const Plan& plan, const Se
   for (const auto& [address, raw] : written_by(plan, held)) {
     entry.written.insert_or_assign(address, raw);
   }
+  std::erase_if(in_ram, [&](const auto& each) { return entry.held.contains(each.first); });
+  in_ram_[*unique_id].merge(in_ram);
   entry.held.merge(held); // values replaced in an earlier round stay
   entry.saved = entry.saved || plan.restart == RestartKind::save;
   entry.run = run_ != 0 ? run_ : entry.run;
@@ -204,12 +214,13 @@ Result<void> History::keep(std::span<const Plan> plans, const Session& session) 
       return resumed;
     }
   }
-  if (auto lasting = keep_lasting(plans, session); !lasting) {
+  const Roms roms = roms_before(plans, session);
+  if (auto lasting = keep_lasting(plans, roms, session); !lasting) {
     return lasting;
   }
   std::vector<state::SnapshotEntry> entries;
   for (const Plan& plan : plans) {
-    if (auto entry = entry_of(plan, session)) {
+    if (auto entry = entry_of(plan, roms, session)) {
       entries.push_back(std::move(*entry));
     }
   }
@@ -266,15 +277,27 @@ Result<void> History::conclude(std::span<const ChangeResult> results, const Sess
   return settled ? put : settled;
 }
 
+/// What the ROM of each servo to be saved holds where it differs from RAM, as far as recorded.
+History::Roms History::roms_before(std::span<const Plan> plans, const Session& session) const {
+  Roms roms;
+  for (const Plan& plan : plans) {
+    if (plan.restart == RestartKind::save && plan.before.servo.unique_id) {
+      roms.emplace(*plan.before.servo.unique_id, stored(replaced_in_ram(plan.before, session)));
+    }
+  }
+  return roms;
+}
+
 /// SAVE makes earlier changes in RAM permanent: until settled they count as saved.
-Result<void> History::keep_lasting(std::span<const Plan> plans, const Session& session) {
+Result<void> History::keep_lasting(std::span<const Plan> plans, const Roms& roms,
+                                   const Session& session) {
   std::vector<state::SnapshotEntry> changed;
   for (const Plan& plan : plans) {
     const Servo& servo = plan.before.servo;
     if (plan.restart != RestartKind::save || plan.erase || !servo.unique_id) {
       continue;
     }
-    const auto rom = stored(replaced_in_ram(plan.before, session));
+    const state::Registers& rom = roms.at(*servo.unique_id);
     for (state::SnapshotEntry& change : unsaved(servo, session, &plan.before)) {
       if (auto kept = lasting(change, plan, rom)) {
         changed.push_back(std::move(*kept));
@@ -347,6 +370,13 @@ Result<void> History::settle(std::span<const ChangeResult> results, WallTime wal
       settlements.push_back({kept.entry.number, ChangeEnd::never_begun});
       kept_.erase(known);
       run_ = kept_.empty() ? 0 : run_;
+    } else if (const auto trials = in_ram_.find(kept.entry.unique_id);
+               !kept.was_saved && kept.entry.saved && trials != in_ram_.end()) {
+      kept.entry.saved = false;
+      for (const auto& [address, raw] : trials->second) { // RAM alone was changed
+        kept.entry.held.insert_or_assign(address, raw);
+      }
+      as_before.push_back(kept.entry);
     } else if (kept.entry.saved != kept.was_saved) {
       kept.entry.saved = kept.was_saved;
       settlements.push_back(

@@ -503,6 +503,24 @@ TEST_CASE("IDs that an erase has lost are known as long as nobody gives others")
   CHECK(bla::find(lost, at::static_node_id) == 11);
 }
 
+TEST_CASE("a saved change is taken back to what ROM held, one that was not saved to RAM's value") {
+  const Kept kept;
+  const Scene scene(servos());
+  REQUIRE(change(scene, set("angle_limit_cw=90deg"), kept).is_done());
+  const bool is_armed = GENERATE(false, true); // then SAVE is withheld
+  History history = kept.history();
+  const auto plans = plans_for(scene, set("angle_limit_cw=45deg", true), {11});
+  REQUIRE_FALSE(record(*scene.session, plans, {.history = &history}));
+  CHECK(kept.entries().front().held == state::Registers{{0x38, 1799}});
+  auto done = carry_out(*scene.session, profiles(), plans, {});
+  if (is_armed) {
+    done.servos[0].may_have_saved = false;
+  }
+  REQUIRE(history.conclude(done.servos, *scene.session));
+  CHECK(kept.entries().front().held == state::Registers{{0x38, is_armed ? 900 : 1799}});
+  CHECK(kept.entries().front().saved == !is_armed);
+}
+
 TEST_CASE("undo of an erase leaves the IDs that it kept") {
   const Kept kept;
   const Scene scene(servos(R"(, "servo_id": 5)"));

@@ -85,8 +85,12 @@ class History {
 
  private:
   [[nodiscard]] std::optional<state::RomProof> proof(const Servo& servo, const Session& session);
-  [[nodiscard]] Result<void> keep_lasting(std::span<const Plan> plans, const Session& session);
-  [[nodiscard]] std::optional<state::SnapshotEntry> entry_of(const Plan& plan,
+  using Roms = std::map<dronecan::UniqueId, state::Registers>;
+
+  [[nodiscard]] Roms roms_before(std::span<const Plan> plans, const Session& session) const;
+  [[nodiscard]] Result<void> keep_lasting(std::span<const Plan> plans, const Roms& roms,
+                                          const Session& session);
+  [[nodiscard]] std::optional<state::SnapshotEntry> entry_of(const Plan& plan, const Roms& roms,
                                                              const Session& session);
   [[nodiscard]] bla::Values taken_from_ram(const Plan& plan, const Session& session);
   [[nodiscard]] Result<void> leave_what_was_lost(std::span<const ChangeResult> results,
@@ -111,6 +115,9 @@ class History {
   std::map<dronecan::UniqueId, Kept> kept_;
   std::int64_t run_ = 0;                    ///< of all entries of this command; 0: no record
   std::set<dronecan::UniqueId> unproven_{}; ///< their proofs were removed
+
+  /// Where an entry holds what ROM held before a save: what RAM did.
+  Roms in_ram_{};
 
   /// Changes in RAM that SAVE makes permanent, as they were before.
   std::map<dronecan::UniqueId, std::vector<state::SnapshotEntry>> lasting_{};
