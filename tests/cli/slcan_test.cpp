@@ -42,7 +42,7 @@ std::unique_ptr<can::Bus> servos_of(std::string_view text) {
 }
 
 /// Servo 11, a BLA21.
-std::unique_ptr<can::Bus> one_servo() {
+std::unique_ptr<can::Bus> bus_of_one_servo() {
   return servos_of(R"({
     "schema": "blactl-scenario/1", "clock": "real",
     "servos": [{"model": "BLA21-12U-AB", "node_id": 11}]
@@ -109,7 +109,7 @@ TEST_CASE("slcan: parameters are read and written through every kind of adapter"
   };
   for (const auto& [dialect, options] : cases) {
     const Bench bench;
-    SlcanAdapter adapter(dialect, one_servo());
+    SlcanAdapter adapter(dialect, bus_of_one_servo());
     INFO(adapter.path() + options + " " + std::to_string(&dialect - &cases.front().first));
     const std::string name = interface(adapter, options);
     const Result set = bench.run(patient(name, {"set", "-n", "11", "angle_limit_cw=90deg"}));
@@ -139,7 +139,7 @@ TEST_CASE("slcan: one job of eight servos ends as on the simulated bus") {
 
 TEST_CASE("slcan: servos are found however long the adapter took to open") {
   const Bench bench;
-  SlcanAdapter adapter(can::test::canable(), one_servo());
+  SlcanAdapter adapter(can::test::canable(), bus_of_one_servo());
   const Result scan = bench.run(patient(interface(adapter), {"scan", "-j"}));
   INFO(scan.err);
   CHECK(scan.status == 0);
@@ -152,7 +152,7 @@ TEST_CASE("slcan: servos are found however long the adapter took to open") {
 
 TEST_CASE("slcan: an adapter with a fixed bit rate is noted, unless -q") {
   const Bench bench;
-  SlcanAdapter adapter(can::test::fixed_rate(), one_servo());
+  SlcanAdapter adapter(can::test::fixed_rate(), bus_of_one_servo());
   const Result told = bench.run(patient(interface(adapter), {"get", "-n", "11", "servo_id"}));
   CHECK(told.status == 0);
   CHECK(contains(told.err, "its bit rate is presumably fixed"));
@@ -163,7 +163,7 @@ TEST_CASE("slcan: an adapter with a fixed bit rate is noted, unless -q") {
 
 TEST_CASE("slcan: an adapter that refuses everything is exit 3 with a way out") {
   const Bench bench;
-  const SlcanAdapter adapter(can::test::stubborn(), one_servo());
+  const SlcanAdapter adapter(can::test::stubborn(), bus_of_one_servo());
   const Result result = bench.run(patient(interface(adapter), {"scan"}));
   CHECK(result.status == 3);
   CHECK(codes(result) == std::vector<std::string>{"interface"});
@@ -218,7 +218,7 @@ TEST_CASE("slcan: doctor tells what an adapter says of itself, and what it has c
   const Bench bench;
   Dialect dialect = can::test::lawicel();
   dialect.to_status = "F24\r";
-  const SlcanAdapter adapter(dialect, one_servo());
+  const SlcanAdapter adapter(dialect, bus_of_one_servo());
   const Result doctor = bench.run(patient(interface(adapter), {"doctor", "-j"}));
   INFO(doctor.out << doctor.err);
   CHECK(doctor.status == 8);
@@ -233,13 +233,13 @@ TEST_CASE("slcan: doctor tells what an adapter says of itself, and what it has c
 
 TEST_CASE("slcan: doctor names the adapter; one that tells nothing lacks nothing") {
   const Bench bench;
-  const SlcanAdapter known(can::test::ardupilot(), one_servo());
+  const SlcanAdapter known(can::test::ardupilot(), bus_of_one_servo());
   const Result told = bench.run(patient(interface(known), {"doctor"}));
   INFO(told.out << told.err);
   CHECK(told.status == 0);
   CHECK(contains(told.out, interface(known) + ", version 1010, serial number 0123"));
   CHECK(contains(told.out, ", status 00"));
-  const SlcanAdapter silent(can::test::canable(), one_servo());
+  const SlcanAdapter silent(can::test::canable(), bus_of_one_servo());
   const Result nothing = bench.run(patient(interface(silent), {"doctor"}));
   INFO(nothing.out << nothing.err);
   CHECK(nothing.status == 0);
@@ -261,7 +261,7 @@ TEST_CASE("slcan: doctor hears MAVLink and text, beside the error that nothing c
 
 TEST_CASE("slcan: a port in use names the program and its process") {
   const Bench bench;
-  SlcanAdapter adapter(can::test::lawicel(), one_servo());
+  SlcanAdapter adapter(can::test::lawicel(), bus_of_one_servo());
   Background first(bench, patient(interface(adapter), {"-v", "scan", "--listen", "60"}), {}, "");
   adapter.wait_for([](const auto& lines) { return std::ranges::any_of(lines, is_frame); });
   // By another name, and for a command that sends nothing.
@@ -283,7 +283,7 @@ TEST_CASE("slcan: a port in use names the program and its process") {
 
 TEST_CASE("slcan: an adapter pulled out in the middle of a command ends it, exit 3") {
   const Bench bench;
-  auto adapter = std::make_unique<SlcanAdapter>(can::test::lawicel(), one_servo());
+  auto adapter = std::make_unique<SlcanAdapter>(can::test::lawicel(), bus_of_one_servo());
   const std::string path = adapter->path();
   Background command(bench, patient(interface(*adapter), {"scan", "--listen", "60"}), {}, "");
   adapter->wait_for([](const auto& lines) { return std::ranges::any_of(lines, is_frame); });
@@ -298,7 +298,7 @@ TEST_CASE("slcan: monitor waits for an adapter that was pulled out, and opens it
   const Bench bench;
   const auto port = bench.folder() / "adapter";
   const auto plug_in = [&](Dialect dialect) {
-    auto adapter = std::make_unique<SlcanAdapter>(std::move(dialect), one_servo());
+    auto adapter = std::make_unique<SlcanAdapter>(std::move(dialect), bus_of_one_servo());
     std::filesystem::remove(port);
     std::filesystem::create_symlink(adapter->path(), port);
     return adapter;
