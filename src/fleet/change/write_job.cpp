@@ -192,7 +192,7 @@ Step WriteJob::doubt(std::size_t change, Time now) {
 Step WriteJob::next_look(Time now) {
   const bool looks = options_.echo == Echo::is_checked;
   while (looked_ < changes_.size() &&
-         !(looks && changes_[looked_].status == ChangeStatus::written)) {
+         (!looks || changes_[looked_].status != ChangeStatus::written)) {
     ++looked_;
   }
   if (looked_ == changes_.size()) {
