@@ -199,7 +199,9 @@ std::optional<state::SnapshotEntry> History::entry_of(const Plan& plan, const Ro
     entry.written.insert_or_assign(address, raw);
   }
   std::erase_if(in_ram, [&](const auto& each) { return entry.held.contains(each.first); });
-  in_ram_[*unique_id].merge(in_ram);
+  if (!in_ram.empty()) {
+    in_ram_[*unique_id].merge(in_ram);
+  }
   entry.held.merge(held); // values replaced in an earlier round stay
   entry.saved = entry.saved || plan.restart == RestartKind::save;
   entry.run = run_ != 0 ? run_ : entry.run;

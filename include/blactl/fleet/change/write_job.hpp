@@ -20,12 +20,12 @@ namespace blactl::fleet {
 /// Sends the planned changes in order, once the servo has proven to be the same unit; registers
 /// that already have the value become `unchanged`. A response may show a clamped or refused value
 /// (requirement 73): then the register is read at once. If the whole servo is not read afterwards,
-/// each register that was written is read behind the last write, for that may have changed others
-/// as well. At the end, and before a refusal is believed, the servo must prove that it has
-/// not restarted, also if all values were unchanged, as they were read some time ago. Values
-/// written before a restart are written again, as they were in RAM only, provided that the values
-/// on which the plan was judged have come back from ROM as they were. If the guard forbids a write,
-/// no more are sent, and those that were made are proven.
+/// each register that was written is read after the last write, which may have changed others. At
+/// the end, and before a refusal is believed, the servo must prove that it has not restarted, also
+/// if all values were unchanged, as they were read some time ago. Values written before a restart
+/// are written again, as they were in RAM only, provided that the values on which the plan was
+/// judged have come back from ROM as they were. If the guard forbids a write, no more are sent, and
+/// those that were made are proven.
 class WriteJob final : public dronecan::Job {
  public:
   /// The proof of a write whose response shows the requested value.
@@ -105,7 +105,7 @@ class WriteJob final : public dronecan::Job {
   bool is_lost_ = false;               ///< no response to the write of this change
   std::optional<std::size_t> doubted_; ///< the change whose register differs from what was written
   int restarts_ = 0;                   ///< seen while writing
-  std::size_t looked_ = 0;  ///< the change whose register is being read behind the last write
+  std::size_t looked_ = 0;  ///< the change whose register is being read after the last write
   std::size_t premise_ = 0; ///< being read again after a restart
   std::optional<RunProof> run_proof_;
 };
