@@ -108,7 +108,10 @@ TEST_CASE("node IDs that were exchanged are exchanged back in one undo") {
   for (const auto* id : {"static_node_id", "servo_id"}) {
     std::swap(document["servos"][0]["set"][id], document["servos"][1]["set"][id]);
   }
-  REQUIRE(fleet.apply(document).status == 0);
+  const Result exchanged = fleet.apply(document);
+  REQUIRE(exchanged.status == 0);
+  CHECK(json(exchanged.out)["nodes"][0]["node_id"] == 11); // not the ID in between
+  CHECK(json(exchanged.out)["nodes"][1]["node_id"] == 12);
   const Result undone = undo(fleet);
   INFO(undone.err);
   CHECK(undone.status == 0);
