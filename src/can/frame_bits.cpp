@@ -67,7 +67,11 @@ std::size_t FrameBits::first_difference(const FrameBits& other) const {
 }
 
 std::size_t frame_length(const Frame& frame) {
-  return FrameBits(frame).size() + trailer_bits;
+  return frame_length(FrameBits(frame));
+}
+
+std::size_t frame_length(const FrameBits& bits) {
+  return bits.size() + trailer_bits;
 }
 
 std::uint32_t arbitration_field(const Frame& frame) {

@@ -19,18 +19,32 @@ namespace blactl::cli {
 
 using state::LocalNodeId;
 
+namespace {
+
+/// Read once a process: that takes most of the time of a command.
+const Result<bla::Profiles>& built_in_profiles() {
+  static const Result<bla::Profiles> loaded = bla::Profiles::load(std::nullopt);
+  return loaded;
+}
+
+} // namespace
+
 Result<const bla::Profiles*> Context::profiles() {
-  if (!profiles_) {
-    auto loaded = bla::Profiles::load(shared_.profile_dir);
-    if (!loaded) {
-      return std::unexpected(loaded.error());
-    }
-    profiles_ = std::move(*loaded);
-    for (const std::string& model : profiles_->replaced()) {
-      reporter_.note(say<texts::profile_replaced>(model));
-    }
+  if (profiles_ != nullptr) {
+    return profiles_;
   }
-  return &*profiles_;
+  if (shared_.profile_dir) {
+    loaded_ = bla::Profiles::load(shared_.profile_dir);
+  }
+  const Result<bla::Profiles>& profiles = loaded_ ? *loaded_ : built_in_profiles();
+  if (!profiles) {
+    return std::unexpected(profiles.error());
+  }
+  profiles_ = &*profiles;
+  for (const std::string& model : profiles_->replaced()) {
+    reporter_.note(say<texts::profile_replaced>(model));
+  }
+  return profiles_;
 }
 
 Result<const bla::Profile*> Context::assumed_profile() {

@@ -155,7 +155,8 @@ class Context {
   const Reporter& reporter_;
   BusOpener opener_;
   Wishes wishes_;
-  std::optional<bla::Profiles> profiles_;
+  std::optional<Result<bla::Profiles>> loaded_{}; ///< from a folder
+  const bla::Profiles* profiles_ = nullptr;
   const bla::Profile* assumed_ = nullptr;
   Locks locks_;
   RequestDetails requests_{reporter_};

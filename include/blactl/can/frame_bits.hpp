@@ -37,6 +37,7 @@ inline constexpr std::size_t intermission_bits = 3;
 /// The length of the frame: stuffed part, CRC delimiter, acknowledgement, end of frame. An extended
 /// frame of 8 bytes has 128 to 157 bits here, without the intermission.
 [[nodiscard]] std::size_t frame_length(const Frame& frame);
+[[nodiscard]] std::size_t frame_length(const FrameBits& bits);
 
 /// The bits that decide arbitration: identifier, RTR and IDE in bus order. The lower value wins.
 [[nodiscard]] std::uint32_t arbitration_field(const Frame& frame);

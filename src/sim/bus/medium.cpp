@@ -132,7 +132,7 @@ void Medium::start(Time at) {
 void Medium::begin(const can::Frame& frame, std::vector<PortId> senders,
                    const std::vector<PortId>& rivals, Time at) {
   const can::FrameBits own(frame);
-  std::size_t length = can::frame_length(frame);
+  std::size_t length = can::frame_length(own);
   bool destroyed = false;
   for (const PortId rival : rivals) {
     const Port& port = ports_.at(rival);
