@@ -29,23 +29,28 @@ constexpr const char* schema =
     "written BLOB NOT NULL, "
     "saved INTEGER NOT NULL CHECK (saved IN (0, 1)), "
     "ended INTEGER NOT NULL CHECK (ended IN (0, 1)), "
-    "UNIQUE (unique_id, number, run, at, command, held, written, saved, ended)) STRICT";
+    "settled INTEGER CHECK (settled BETWEEN 0 AND 253402300799999999), "
+    "UNIQUE (unique_id, number, run, at, command, held, written, saved, ended, settled)) STRICT";
 
-/// Version 1 did not record what was written.
-OlderFormat first_version() {
+/// Version 1 did not record what was written, nor either when the outcome was recorded.
+OlderFormat older_version(bool has_written) {
+  const std::string written = has_written ? "written" : "x''";
   return {.schema = "CREATE TABLE snapshots ("
                     "number INTEGER PRIMARY KEY, "
                     "run INTEGER NOT NULL, "
                     "at INTEGER NOT NULL CHECK (at BETWEEN 0 AND 253402300799999999), "
                     "command TEXT NOT NULL, "
                     "unique_id BLOB NOT NULL CHECK (length(unique_id) = 16), "
-                    "held BLOB NOT NULL, "
+                    "held BLOB NOT NULL, " +
+                    std::string(has_written ? "written BLOB NOT NULL, " : "") +
                     "saved INTEGER NOT NULL CHECK (saved IN (0, 1)), "
                     "ended INTEGER NOT NULL CHECK (ended IN (0, 1)), "
-                    "UNIQUE (unique_id, number, run, at, command, held, saved, ended)) STRICT",
+                    "UNIQUE (unique_id, number, run, at, command, held, " +
+                    std::string(has_written ? "written, " : "") + "saved, ended)) STRICT",
           .upgrade = "ALTER TABLE snapshots RENAME TO older; " + std::string(schema) +
-                     "; INSERT INTO snapshots "
-                     "SELECT number, run, at, command, unique_id, held, x'', saved, ended "
+                     "; INSERT INTO snapshots SELECT number, run, at, command, unique_id, held, " +
+                     written +
+                     ", saved, ended, CASE saved WHEN 1 THEN at END "
                      "FROM older; DROP TABLE older"};
 }
 
@@ -53,12 +58,12 @@ OlderFormat first_version() {
 
 const DatabaseFormat& snapshots_format() {
   static const DatabaseFormat format{.application_id = 0x626C6173, // "blas"
-                                     .version = 2,
+                                     .version = 3,
                                      .schema = schema,
                                      .file = "snapshots.db",
                                      .what = texts::change_history,
                                      .way_back = texts::change_history_back,
-                                     .older = {first_version()}};
+                                     .older = {older_version(false), older_version(true)}};
   return format;
 }
 
@@ -66,7 +71,8 @@ namespace {
 
 /// A query for the columns that snapshot_in() reads.
 std::string select(std::string_view rest) {
-  return "SELECT number, at, command, unique_id, held, saved, run, ended, written FROM snapshots " +
+  return "SELECT number, at, command, unique_id, held, saved, run, ended, written, "
+         "settled FROM snapshots " +
          std::string(rest);
 }
 
@@ -79,7 +85,10 @@ SnapshotEntry snapshot_in(Statement& row) {
           .held = registers_in(row, 4),
           .written = registers_in(row, 8),
           .saved = row.integer(5, 0, 1) != 0,
-          .ended = row.integer(7, 0, 1) != 0};
+          .ended = row.integer(7, 0, 1) != 0,
+          .settled = row.is_null(9)
+                         ? std::nullopt
+                         : std::optional(WallTime(Duration(row.integer(9, 0, last_time))))};
 }
 
 /// Every row of a statement.
@@ -106,18 +115,20 @@ Result<std::int64_t> keep_one(const Database& database, const SnapshotEntry& ent
   const std::vector<std::uint8_t> written = bytes_of(entry.written);
   Statement statement(database,
                       "INSERT OR REPLACE INTO snapshots "
-                      "(number, run, at, command, unique_id, held, written, saved, ended) "
-                      "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)");
+                      "(number, run, at, command, unique_id, held, written, saved, ended, settled) "
+                      "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   entry.number == 0 ? statement.bind(std::nullopt) : statement.bind(entry.number);
-  const auto kept = statement.bind(entry.run == 0 ? new_run : entry.run)
-                        .bind(entry.at.time_since_epoch().count())
-                        .bind(entry.command)
-                        .bind(entry.unique_id)
-                        .bind(held)
-                        .bind(written)
-                        .bind(std::int64_t{entry.saved})
-                        .bind(std::int64_t{entry.ended})
-                        .run();
+  statement.bind(entry.run == 0 ? new_run : entry.run)
+      .bind(entry.at.time_since_epoch().count())
+      .bind(entry.command)
+      .bind(entry.unique_id)
+      .bind(held)
+      .bind(written)
+      .bind(std::int64_t{entry.saved})
+      .bind(std::int64_t{entry.ended});
+  entry.settled ? statement.bind(entry.settled->time_since_epoch().count())
+                : statement.bind(std::nullopt);
+  const auto kept = statement.run();
   return kept ? Result<std::int64_t>(sqlite3_last_insert_rowid(database.handle()))
               : std::unexpected(kept.error());
 }
@@ -171,8 +182,9 @@ Result<void> settle_one(const Database& database, const Settlement& settlement) 
         .bind(settlement.number)
         .run();
   }
-  return Statement(database, "UPDATE snapshots SET saved = ? WHERE number = ?")
+  return Statement(database, "UPDATE snapshots SET saved = ?, settled = ? WHERE number = ?")
       .bind(std::int64_t{settlement.end == ChangeEnd::saved})
+      .bind(settlement.at.time_since_epoch().count())
       .bind(settlement.number)
       .run();
 }

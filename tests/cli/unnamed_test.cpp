@@ -47,6 +47,16 @@ TEST_CASE("what SAVE makes permanent beside what was named is said before, from 
   CHECK(warning(saved)["code"] == "unnamed_saved");
 }
 
+TEST_CASE("an erase that keeps the IDs says before that it saves those that RAM alone holds") {
+  const Fleet fleet(one_servo());
+  REQUIRE(fleet.run({"set", "-n", "11", "servo_id=7", "-y"}).status == 0);
+  const Result erased = fleet.run({"erase", "-n", "11", "--keep-ids", "--save", "-y", "--json"});
+  INFO(erased.err);
+  CHECK(erased.status == 0);
+  CHECK(warning(erased)["code"] == "unnamed_saved");
+  CHECK(contains(erased.err, "servo_id is 7 since a change in RAM only"));
+}
+
 TEST_CASE("what characterize has put back is in RAM only as before, though the servo restarted") {
   const Fleet fleet(one_servo());
   try_out(fleet);

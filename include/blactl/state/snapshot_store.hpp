@@ -32,6 +32,7 @@ struct SnapshotEntry {
   Registers written{}; ///< those that it writes in their place, as far as it names them
   bool saved = false;  ///< saved to ROM; until settled, whether it is to be saved
   bool ended = false;  ///< its command was completed; else perhaps only in part
+  std::optional<WallTime> settled{}; ///< when its outcome was recorded; empty: killed before
 
   friend bool operator==(const SnapshotEntry&, const SnapshotEntry&) = default;
 };
@@ -46,6 +47,7 @@ enum class ChangeEnd : std::uint8_t {
 struct Settlement {
   std::int64_t number = 0; ///< of the entry
   ChangeEnd end = ChangeEnd::not_saved;
+  WallTime at{}; ///< now; unused for one that was never begun
 };
 
 /// How many changes of one servo are kept, and for how long. The last one of a servo is always

@@ -122,5 +122,6 @@ inline constexpr Text undo_column_count{"SETTINGS", "項目数"};
 inline constexpr Text undo_column_saved{"CHANGED IN", "書込み先"};
 inline constexpr Text undo_in_ram{"RAM", "RAM"};
 inline constexpr Text undo_in_rom{"RAM and ROM", "RAM と ROM"};
+inline constexpr Text undo_perhaps_in_rom{"RAM, ROM not known", "RAM (ROM は不明)"};
 
 } // namespace blactl::texts

@@ -9,6 +9,17 @@
 
 namespace blactl::cli {
 
+namespace {
+
+std::string memory_of(const state::SnapshotEntry& entry) {
+  if (!entry.saved) {
+    return say<texts::undo_in_ram>();
+  }
+  return entry.settled ? say<texts::undo_in_rom>() : say<texts::undo_perhaps_in_rom>();
+}
+
+} // namespace
+
 void write_snapshots(JsonWriter& json, std::span<const state::SnapshotEntry> entries) {
   json.objects("snapshots", entries, [&](const state::SnapshotEntry& entry) {
     json.member("time", rfc3339(entry.at));
@@ -27,8 +38,7 @@ std::string text(std::span<const state::SnapshotEntry> entries, const Page& page
                say<texts::undo_column_saved>()});
   for (const state::SnapshotEntry& entry : entries) {
     table.add({rfc3339(entry.at), hex(entry.unique_id), printable(entry.command),
-               std::to_string(entry.held.size()),
-               entry.saved ? say<texts::undo_in_rom>() : say<texts::undo_in_ram>()});
+               std::to_string(entry.held.size()), memory_of(entry)});
   }
   return table.text("", page);
 }

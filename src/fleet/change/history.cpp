@@ -68,6 +68,7 @@ std::optional<state::SnapshotEntry> lasting(state::SnapshotEntry change, const P
     lasts = lasts || saved != raw;
   }
   change.saved = true;
+  change.settled.reset();
   return lasts ? std::optional(std::move(change)) : std::nullopt;
 }
 
@@ -205,7 +206,11 @@ std::optional<state::SnapshotEntry> History::entry_of(const Plan& plan, const Ro
   entry.held.merge(held); // values replaced in an earlier round stay
   entry.saved = entry.saved || plan.restart == RestartKind::save;
   entry.run = run_ != 0 ? run_ : entry.run;
-  return entry.number == 0 || entry != before ? std::optional(std::move(entry)) : std::nullopt;
+  if (entry.number != 0 && entry == before) {
+    return std::nullopt;
+  }
+  entry.settled.reset();
+  return entry;
 }
 
 Result<void> History::keep(std::span<const Plan> plans, const Session& session) {
@@ -345,7 +350,54 @@ Result<void> History::leave_what_was_lost(std::span<const ChangeResult> results,
   return kept ? Result<void>() : std::unexpected(kept.error());
 }
 
-/// Results as planned are already in the store.
+/// What is known after a round.
+struct History::Settled {
+  std::vector<state::Settlement> ends{};
+  std::vector<state::SnapshotEntry> entries{}; ///< to be kept anew
+};
+
+/// The entries of one servo, after a round that has ended like this.
+void History::settle(const ChangeResult& result, WallTime wall, Settled& settled) {
+  if (!result.servo.unique_id) {
+    return;
+  }
+  const UniqueId& unique_id = *result.servo.unique_id;
+  if (auto earlier = lasting_.extract(unique_id)) {
+    for (state::SnapshotEntry& change : earlier.mapped()) {
+      if (result.may_have_saved) {
+        settled.ends.push_back({change.number, ChangeEnd::saved, wall});
+      } else {
+        settled.entries.push_back(std::move(change));
+      }
+    }
+  }
+  const auto known = kept_.find(unique_id);
+  if (known == kept_.end()) {
+    return;
+  }
+  Kept& kept = known->second;
+  if (kept.is_empty || (!kept.was_changed && !is_half_undone())) {
+    settled.ends.push_back({.number = kept.entry.number, .end = ChangeEnd::never_begun});
+    kept_.erase(known);
+    run_ = kept_.empty() ? 0 : run_;
+    return;
+  }
+  const auto trials = in_ram_.find(unique_id);
+  const bool is_of_ram = kept.entry.saved && !kept.was_saved && trials != in_ram_.end();
+  kept.entry.saved = kept.was_saved;
+  kept.entry.settled = wall;
+  if (is_of_ram) { // RAM alone was changed
+    for (const auto& [address, raw] : trials->second) {
+      kept.entry.held.insert_or_assign(address, raw);
+    }
+    settled.entries.push_back(kept.entry);
+  } else {
+    settled.ends.push_back({.number = kept.entry.number,
+                            .end = kept.was_saved ? ChangeEnd::saved : ChangeEnd::not_saved,
+                            .at = wall});
+  }
+}
+
 Result<void> History::settle(std::span<const ChangeResult> results, WallTime wall) {
   for (const ChangeResult& result : results) {
     const auto known = result.servo.unique_id ? kept_.find(*result.servo.unique_id) : kept_.end();
@@ -354,41 +406,14 @@ Result<void> History::settle(std::span<const ChangeResult> results, WallTime wal
       known->second.was_saved = known->second.was_saved || result.may_have_saved;
     }
   }
-  std::vector<state::SnapshotEntry> as_before;
-  std::vector<state::Settlement> settlements;
+  Settled settled;
   for (const ChangeResult& result : results) {
-    const auto known = result.servo.unique_id ? kept_.find(*result.servo.unique_id) : kept_.end();
-    const auto earlier =
-        result.servo.unique_id ? lasting_.find(*result.servo.unique_id) : lasting_.end();
-    if (!result.may_have_saved && earlier != lasting_.end()) {
-      std::ranges::move(earlier->second, std::back_inserter(as_before));
-    }
-    lasting_.erase(result.servo.unique_id.value_or(UniqueId{}));
-    if (known == kept_.end()) {
-      continue;
-    }
-    Kept& kept = known->second;
-    if (kept.is_empty || (!kept.was_changed && !is_half_undone())) {
-      settlements.push_back({kept.entry.number, ChangeEnd::never_begun});
-      kept_.erase(known);
-      run_ = kept_.empty() ? 0 : run_;
-    } else if (const auto trials = in_ram_.find(kept.entry.unique_id);
-               !kept.was_saved && kept.entry.saved && trials != in_ram_.end()) {
-      kept.entry.saved = false;
-      for (const auto& [address, raw] : trials->second) { // RAM alone was changed
-        kept.entry.held.insert_or_assign(address, raw);
-      }
-      as_before.push_back(kept.entry);
-    } else if (kept.entry.saved != kept.was_saved) {
-      kept.entry.saved = kept.was_saved;
-      settlements.push_back(
-          {kept.entry.number, kept.was_saved ? ChangeEnd::saved : ChangeEnd::not_saved});
-    }
+    settle(result, wall, settled);
   }
-  auto settled = settlements.empty() ? Result<void>() : snapshots_.settle(settlements);
-  const auto kept =
-      as_before.empty() ? Result<std::vector<std::int64_t>>() : snapshots_.keep(as_before, wall);
-  return kept || !settled ? settled : std::unexpected(kept.error());
+  auto ended = settled.ends.empty() ? Result<void>() : snapshots_.settle(settled.ends);
+  const auto kept = settled.entries.empty() ? Result<std::vector<std::int64_t>>()
+                                            : snapshots_.keep(settled.entries, wall);
+  return kept || !ended ? ended : std::unexpected(kept.error());
 }
 
 } // namespace blactl::fleet

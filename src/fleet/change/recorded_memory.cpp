@@ -21,11 +21,19 @@ namespace {
 /// A crystal with a drift of 30 ppm uses a twentieth of the tolerance in this time.
 constexpr std::chrono::hours worth_renewing{1};
 
-/// The longest usual time from the record of a change to its last write: the servo may have
-/// restarted in between.
+/// The longest usual time from the record of a change to its last write, where nobody recorded how
+/// it ended: the servo may have restarted in between.
 constexpr std::chrono::seconds writing_time{10};
 
+/// An uptime in whole seconds lets a start look later by as much.
+constexpr std::chrono::seconds uptime_step{1};
+
 using Entries = std::vector<state::SnapshotEntry>;
+
+/// No write of it came later.
+WallTime last_write(const state::SnapshotEntry& change) {
+  return change.settled ? *change.settled + uptime_step : change.at + writing_time;
+}
 
 /// Whether `later` found a value that `earlier` had written: the servo did not restart in between.
 bool follows(const state::SnapshotEntry& later, const state::SnapshotEntry& earlier) {
@@ -61,7 +69,7 @@ std::optional<bool> are_shown(const Entries& changes, const Snapshot& ram) {
 /// From an earlier run of the servo there is nothing in RAM that ROM does not hold.
 bool are_in_ram(const Entries& changes, WallTime started, const Snapshot* ram) {
   const state::SnapshotEntry& newest = changes.front();
-  if (newest.written.empty() || newest.at + writing_time < started) {
+  if (newest.written.empty() || last_write(newest) < started) {
     return false;
   }
   return (ram != nullptr ? are_shown(changes, *ram) : std::nullopt).value_or(true);
@@ -138,6 +146,18 @@ std::optional<bla::Values> History::proven_rom(const Servo& servo, const Session
   return values;
 }
 
+/// As far as known: one to be saved whose command was killed may be in RAM only.
+bool History::is_in_rom(const state::SnapshotEntry& change) const {
+  const auto known = kept_.find(change.unique_id);
+  const auto lasting = lasting_.find(change.unique_id);
+  const bool is_of_this_command =
+      (known != kept_.end() && known->second.entry.number == change.number) ||
+      (lasting != lasting_.end() &&
+       std::ranges::find(lasting->second, change.number, &state::SnapshotEntry::number) !=
+           lasting->second.end());
+  return change.saved && (change.settled || is_of_this_command);
+}
+
 std::vector<state::SnapshotEntry> History::unsaved(const Servo& servo, const Session& session,
                                                    const Snapshot* ram) const {
   std::vector<state::SnapshotEntry> entries;
@@ -146,13 +166,13 @@ std::vector<state::SnapshotEntry> History::unsaved(const Servo& servo, const Ses
     return entries;
   }
   auto entry = snapshots_.last(*servo.unique_id);
-  while (entry && *entry && !(*entry)->saved) {
+  while (entry && *entry && !is_in_rom(**entry)) {
     Entries changes{std::move(**entry)};
     entry = snapshots_.before(changes.back());
     const bool is_of_this_run = changes.front().at >= *started;
     const bool is_in_future = changes.front().at > session.wall(); // the clock was set back
     if (!is_of_this_run || is_in_future) {
-      while (entry && *entry && !(*entry)->saved && follows(changes.back(), **entry)) {
+      while (entry && *entry && !is_in_rom(**entry) && follows(changes.back(), **entry)) {
         changes.push_back(std::move(**entry));
         entry = snapshots_.before(changes.back());
       }
@@ -168,6 +188,7 @@ std::vector<state::SnapshotEntry> History::unsaved(const Servo& servo, const Ses
 Result<void> History::renew(std::vector<state::SnapshotEntry> changes, const Session& session) {
   for (state::SnapshotEntry& change : changes) {
     change.at = session.wall();
+    change.settled = change.settled ? std::optional(change.at) : std::nullopt;
   }
   const auto kept = changes.empty() ? Result<std::vector<std::int64_t>>()
                                     : snapshots_.keep(changes, session.wall());

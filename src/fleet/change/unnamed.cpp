@@ -5,6 +5,7 @@
 #include "fleet/change/texts.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <string>
 #include <utility>
 
@@ -17,25 +18,63 @@ bool names(const Goal& goal, bla::Address address) {
   });
 }
 
+/// How it is known what ROM holds of a register.
+enum class Source : std::uint8_t { proof, record, record_of_broken_off };
+
+bool is_id(bla::Address address) {
+  return address == bla::address::servo_id || address == bla::address::static_node_id;
+}
+
 Warning unnamed(const std::string& name, const std::string& ram, const std::string& rom,
-                bool is_saved, bool is_proven) {
-  if (is_saved) {
-    return {"unnamed_saved", is_proven ? say<texts::unnamed_saved>(name, ram, rom)
-                                       : say<texts::recorded_saved>(name, ram, rom)};
+                bool is_saved, Source source) {
+  const char* code = is_saved ? "unnamed_saved" : "unnamed_lost";
+  switch (source) {
+  case Source::proof:
+    return {code, is_saved ? say<texts::unnamed_saved>(name, ram, rom)
+                           : say<texts::unnamed_at_risk>(name, ram, rom)};
+  case Source::record_of_broken_off:
+    return {code, is_saved ? say<texts::broken_off_saved>(name, ram, rom)
+                           : say<texts::broken_off_at_risk>(name, ram, rom)};
+  case Source::record: break;
   }
-  return {"unnamed_lost", is_proven ? say<texts::unnamed_at_risk>(name, ram, rom)
-                                    : say<texts::recorded_at_risk>(name, ram, rom)};
+  return {code, is_saved ? say<texts::recorded_saved>(name, ram, rom)
+                         : say<texts::recorded_at_risk>(name, ram, rom)};
+}
+
+Source source_of(const ToldRom& rom, bla::Address address) {
+  return rom.is_proven                      ? Source::proof
+         : rom.broken_off.contains(address) ? Source::record_of_broken_off
+                                            : Source::record;
+}
+
+ToldRom recorded_rom(const Snapshot& held, const History& record, const Session& session) {
+  ToldRom told{.values = record.replaced_in_ram(held, session)};
+  for (const state::SnapshotEntry& change : record.unsaved(held.servo, session, &held)) {
+    for (const auto& [address, raw] : change.held) {
+      if (change.saved) {
+        told.broken_off.insert(bla::Address(address));
+      }
+    }
+  }
+  return told;
 }
 
 } // namespace
 
 ToldRom told_rom(const Goal& goal, const Snapshot& held, History* record, const Session& session) {
-  if (!goal.wanted.restart || goal.wanted.erase || record == nullptr || check_rom(held)) {
+  const bool resets_all = goal.wanted.erase && !goal.wanted.keep_ids;
+  if (!goal.wanted.restart || resets_all || record == nullptr || check_rom(held)) {
     return {};
   }
   auto proven = record->proven_rom(held.servo, session);
-  return proven ? ToldRom{.values = std::move(*proven), .is_proven = true}
-                : ToldRom{.values = record->replaced_in_ram(held, session)};
+  ToldRom told = proven ? ToldRom{.values = std::move(*proven), .is_proven = true}
+                        : recorded_rom(held, *record, session);
+  if (goal.wanted.erase) { // the others are reset, and so are IDs that one before has lost
+    const bla::Values lost = record->lost_ids(held, session);
+    std::erase_if(told.values,
+                  [&](const auto& rom) { return !is_id(rom.first) || bla::find(lost, rom.first); });
+  }
+  return told;
 }
 
 std::vector<Warning> unnamed(const Goal& goal, const Snapshot& ram, const ToldRom& rom, Need need,
@@ -54,7 +93,7 @@ std::vector<Warning> unnamed(const Goal& goal, const Snapshot& ram, const ToldRo
     warnings.push_back(
         is_restarted
             ? Warning{"unnamed_lost", say<texts::unnamed_lost>(parameter.name, in_ram, in_rom)}
-            : unnamed(parameter.name, in_ram, in_rom, is_saved, rom.is_proven));
+            : unnamed(parameter.name, in_ram, in_rom, is_saved, source_of(rom, parameter.address)));
   }
   return warnings;
 }

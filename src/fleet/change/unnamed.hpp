@@ -1,11 +1,13 @@
 #pragma once
 // Settings that a change does not name, and that RAM and ROM hold differently.
 
+#include "blactl/bla/parameter.hpp"
 #include "blactl/bla/values.hpp"
 #include "blactl/fleet/bus/session.hpp"
 #include "blactl/fleet/bus/snapshot.hpp"
 #include "blactl/fleet/change/goal.hpp"
 
+#include <set>
 #include <vector>
 
 namespace blactl::fleet {
@@ -16,6 +18,7 @@ class History;
 struct ToldRom {
   bla::Values values{};
   bool is_proven = false; ///< else what changes in RAM only have replaced since the start
+  std::set<bla::Address> broken_off{}; ///< changed to be saved: whether that came about is unknown
 };
 
 /// Empty if nothing makes RAM and ROM equal, there is no record (null), or the servo could not read

@@ -16,19 +16,26 @@ namespace {
 
 constexpr WallTime morning{std::chrono::sys_days{std::chrono::year{2026} / 11 / 22} + 8h + 15min};
 
-std::array<state::SnapshotEntry, 2> changes() {
+std::array<state::SnapshotEntry, 3> changes() {
   return {state::SnapshotEntry{.number = 8,
                                .at = morning + 1500ms,
                                .command = "alloc --static",
                                .unique_id = {0xC3},
                                .held = {{0x46, 0}},
-                               .saved = true},
+                               .saved = true,
+                               .settled = morning + 3s},
           state::SnapshotEntry{.number = 7,
                                .at = morning,
                                .command = "set\x1b[31m",
                                .unique_id = {0xC4},
                                .held = {{0x38, 1}, {0x39, 2}},
-                               .saved = false}};
+                               .saved = false},
+          state::SnapshotEntry{.number = 6,
+                               .at = morning - 1s,
+                               .command = "apply",
+                               .unique_id = {0xC4},
+                               .held = {{0x38, 1}},
+                               .saved = true}};
 }
 
 } // namespace
@@ -44,7 +51,10 @@ TEST_CASE("recorded changes are told in the keys of the contract") {
                R"("command":"alloc --static","changed_count":1},)"
                R"({"time":"2026-11-22T08:15:00Z",)"
                R"("unique_id":"c4000000000000000000000000000000",)"
-               R"("command":"set\\x1b[31m","changed_count":2}]})");
+               R"("command":"set\\x1b[31m","changed_count":2},)"
+               R"({"time":"2026-11-22T08:14:59Z",)"
+               R"("unique_id":"c4000000000000000000000000000000",)"
+               R"("command":"apply","changed_count":1}]})");
 }
 
 TEST_CASE("people see when, what, how much, and whether ROM was changed") {
@@ -53,7 +63,9 @@ TEST_CASE("people see when, what, how much, and whether ROM was changed") {
         "CHANGED IN\n"
         "2026-11-22T08:15:01Z  c3000000000000000000000000000000  alloc --static  1         "
         "RAM and ROM\n"
-        "2026-11-22T08:15:00Z  c4000000000000000000000000000000  set\\x1b[31m     2         RAM\n");
+        "2026-11-22T08:15:00Z  c4000000000000000000000000000000  set\\x1b[31m     2         RAM\n"
+        "2026-11-22T08:14:59Z  c4000000000000000000000000000000  apply           1         "
+        "RAM, ROM not known\n");
   CHECK(cli::text({}, cli::Page()) == "no change is recorded\n");
   set_language(Language::japanese);
   CHECK(cli::text({}, cli::Page()) == "変更履歴は空です\n");

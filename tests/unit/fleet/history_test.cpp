@@ -4,6 +4,7 @@
 #include "blactl/fleet/change/history.hpp"
 #include "blactl/fleet/change/undo.hpp"
 
+#include "fleet/change/unnamed.hpp"
 #include "support.hpp"
 #include "unit/state/processes.hpp"
 
@@ -519,6 +520,45 @@ TEST_CASE("a saved change is taken back to what ROM held, one that was not saved
   REQUIRE(history.conclude(done.servos, *scene.session));
   CHECK(kept.entries().front().held == state::Registers{{0x38, is_armed ? 900 : 1799}});
   CHECK(kept.entries().front().saved == !is_armed);
+}
+
+TEST_CASE("a change that was to be saved, and was killed before, is in RAM only till a restart") {
+  const Kept kept;
+  const Scene scene(servos());
+  REQUIRE(kept.history().keep(plans_for(scene, set("angle_limit_cw=90deg", true), {11}),
+                              *scene.session));
+  CHECK_FALSE(kept.entries().front().settled);
+  const auto unrecorded = [&](const Wanted& wanted) {
+    REQUIRE(carry_out(*scene.session, profiles(), plans_for(scene, wanted, {11}), {})
+                .servos[0]
+                .is_done());
+    const Snapshot ram = scene.read(11, registers({"angle_limit_cw"}));
+    return kept.history().replaced_in_ram(ram, *scene.session);
+  };
+  CHECK(unrecorded(set("angle_limit_cw=90deg")) == bla::Values{{at::angle_limit_cw, 1799}});
+  const Goal goal{.id = dronecan::NodeId(11), .wanted = set("smoothing=off", true)};
+  const Snapshot ram = scene.read(11, registers({"angle_limit_cw", "smoothing"}));
+  History history = kept.history();
+  const auto warnings =
+      unnamed(goal, ram, told_rom(goal, ram, &history, *scene.session), Need::write);
+  REQUIRE(warnings.size() == 1);
+  CHECK(warnings[0].code == "unnamed_saved");
+  CHECK(warnings[0].text.find("since a change that was broken off") != std::string::npos);
+  scene.live(3s);
+  CHECK(unrecorded(restart).empty());
+}
+
+TEST_CASE("a change in RAM is no longer so once another tool has saved it, however soon") {
+  const Kept kept;
+  const Scene scene(servos());
+  scene.live(3s);
+  REQUIRE(change(scene, set("angle_limit_cw=90deg"), kept).is_done());
+  scene.live(1500ms);
+  REQUIRE(
+      carry_out(*scene.session, profiles(), plans_for(scene, save, {11}), {}).servos[0].is_done());
+  scene.live(1100ms);
+  const Snapshot ram = scene.read(11, registers({"angle_limit_cw"}));
+  CHECK(kept.history().unsaved(ram.servo, *scene.session, &ram).empty());
 }
 
 TEST_CASE("undo of an erase leaves the IDs that it kept") {

@@ -106,11 +106,13 @@ TEST_CASE("what became of a change is settled afterwards; one that was not begun
   const auto before = kept(store, entry(1, 1));
   const auto numbers = store.keep(std::array{entry(1, 2), entry(2), entry(3)}, noon).value();
   REQUIRE(store.settle(std::array{Settlement{numbers[0], ChangeEnd::never_begun},
-                                  Settlement{numbers[1], ChangeEnd::not_saved},
-                                  Settlement{numbers[2], ChangeEnd::saved}}));
+                                  Settlement{numbers[1], ChangeEnd::not_saved, noon + 1s},
+                                  Settlement{numbers[2], ChangeEnd::saved, noon + 2s}}));
   CHECK(store.last(unit(1)) == before);
   CHECK_FALSE(store.last(unit(2)).value()->saved);
   CHECK(store.last(unit(3)).value()->saved);
+  CHECK(store.last(unit(2)).value()->settled == noon + 1s);
+  CHECK(store.last(unit(3)).value()->settled == noon + 2s);
 }
 
 TEST_CASE("the last command is all that it changed, in however many rounds") {
@@ -211,7 +213,7 @@ TEST_CASE("a file that is no history of ours is refused by its name, and stays a
   const Folder folder;
   const auto [content, message] = GENERATE(
       std::pair("what is this", "not a blactl change history"),
-      std::pair("PRAGMA user_version = 3", "has version 3; this blactl knows version 2"),
+      std::pair("PRAGMA user_version = 4", "has version 4; this blactl knows version 3"),
       std::pair("UPDATE snapshots SET held = x'38'", "is damaged"),
       std::pair("PRAGMA ignore_check_constraints = 1; UPDATE snapshots SET saved = 2",
                 "is damaged"),
@@ -237,29 +239,34 @@ TEST_CASE("a file that is no history of ours is refused by its name, and stays a
 
 namespace {
 
-/// A file as the first version of this program left it, with the entry of unit 1.
-void make_first_version(const std::filesystem::path& path) {
+/// A file as an older version of this program left it, with the entry of unit 1.
+void make_older_version(const std::filesystem::path& path, bool is_first) {
   std::filesystem::create_directories(path.parent_path());
-  run_sql(path, "PRAGMA application_id = 1651270003; PRAGMA user_version = 1; "
-                "CREATE TABLE snapshots ("
-                "number INTEGER PRIMARY KEY, "
-                "run INTEGER NOT NULL, "
-                "at INTEGER NOT NULL CHECK (at BETWEEN 0 AND 253402300799999999), "
-                "command TEXT NOT NULL, "
-                "unique_id BLOB NOT NULL CHECK (length(unique_id) = 16), "
-                "held BLOB NOT NULL, "
-                "saved INTEGER NOT NULL CHECK (saved IN (0, 1)), "
-                "ended INTEGER NOT NULL CHECK (ended IN (0, 1)), "
-                "UNIQUE (unique_id, number, run, at, command, held, saved, ended)) STRICT; "
-                "INSERT INTO snapshots VALUES (7, 7, 1000000, 'set', "
-                "x'0100A5A5A5A5A5A5A5A5A5A5A5A5A5A5', x'380000000000000384', 1, 0)");
+  run_sql(path, "PRAGMA application_id = 1651270003; PRAGMA user_version = " +
+                    std::string(is_first ? "1" : "2") +
+                    "; CREATE TABLE snapshots ("
+                    "number INTEGER PRIMARY KEY, "
+                    "run INTEGER NOT NULL, "
+                    "at INTEGER NOT NULL CHECK (at BETWEEN 0 AND 253402300799999999), "
+                    "command TEXT NOT NULL, "
+                    "unique_id BLOB NOT NULL CHECK (length(unique_id) = 16), "
+                    "held BLOB NOT NULL, " +
+                    std::string(is_first ? "" : "written BLOB NOT NULL, ") +
+                    "saved INTEGER NOT NULL CHECK (saved IN (0, 1)), "
+                    "ended INTEGER NOT NULL CHECK (ended IN (0, 1)), "
+                    "UNIQUE (unique_id, number, run, at, command, held, " +
+                    std::string(is_first ? "" : "written, ") +
+                    "saved, ended)) STRICT; "
+                    "INSERT INTO snapshots VALUES (7, 7, 1000000, 'set', "
+                    "x'0100A5A5A5A5A5A5A5A5A5A5A5A5A5A5', x'380000000000000384', " +
+                    std::string(is_first ? "" : "x'', ") + "1, 0)");
 }
 
 } // namespace
 
 TEST_CASE("a history of an older version is brought to the present one, also for reading") {
   const Folder folder;
-  make_first_version(file_of(folder));
+  make_older_version(file_of(folder), GENERATE(true, false));
   for (const Access access : {GENERATE(Access::read, Access::write), Access::write}) {
     auto store = opened(folder, access);
     CHECK(all(store) == std::vector{SnapshotEntry{.number = 7,
@@ -268,7 +275,8 @@ TEST_CASE("a history of an older version is brought to the present one, also for
                                                   .command = "set",
                                                   .unique_id = unit(1),
                                                   .held = {{0x38, 900}},
-                                                  .saved = true}});
+                                                  .saved = true,
+                                                  .settled = WallTime(1s)}});
   }
   auto store = opened(folder);
   CHECK(kept(store, entry(2)).number == 8);
@@ -277,7 +285,7 @@ TEST_CASE("a history of an older version is brought to the present one, also for
 
 TEST_CASE("one of an older version that is damaged stays as it is, byte for byte") {
   const Folder folder;
-  make_first_version(file_of(folder));
+  make_older_version(file_of(folder), GENERATE(true, false));
   const auto* damage = GENERATE("DROP TABLE snapshots", "CREATE TABLE other (a)",
                                 "PRAGMA ignore_check_constraints = 1; "
                                 "UPDATE snapshots SET saved = 2");

@@ -95,10 +95,13 @@ class History {
   [[nodiscard]] bla::Values taken_from_ram(const Plan& plan, const Session& session);
   [[nodiscard]] Result<void> leave_what_was_lost(std::span<const ChangeResult> results,
                                                  WallTime now);
+  struct Settled;
+  void settle(const ChangeResult& result, WallTime wall, Settled& settled);
   [[nodiscard]] Result<void> settle(std::span<const ChangeResult> results, WallTime wall);
   [[nodiscard]] Result<void> resume(const Servo& servo, const Session& session);
   [[nodiscard]] static std::optional<WallTime> start_of(const Servo& servo, const Session& session);
   [[nodiscard]] bool is_half_undone() const;
+  [[nodiscard]] bool is_in_rom(const state::SnapshotEntry& change) const;
 
   /// The entry of one servo, and its certain state.
   struct Kept {
