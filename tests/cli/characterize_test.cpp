@@ -255,6 +255,23 @@ TEST_CASE("characterize that is interrupted puts back what it changed and says s
   CHECK(settings(ram()) == before);
 }
 
+TEST_CASE("characterize moves no servo that tells its servo ID by its register alone") {
+  const Bench bench;
+  const Background sim(
+      bench, {"sim",
+              Scene()
+                  .servo("BLA21-12U-AB", 11, {{"serial_number", 1}, {"servo_id", 3}})
+                  .servo("BLA21-12U-AB", 12,
+                         {{"serial_number", 2}, {"faults", {{"no_actuator_status", true}}}})
+                  .write(bench),
+              "--clock", "virtual"});
+  const Result measured = bench.run({"-i", "sim:", "characterize", "-n", "11", "-y"});
+  INFO(measured.err);
+  CHECK(measured.status == 0);
+  const Result other = bench.run({"-i", "sim:", "get", "-n", "12", "command_angle", "--json"});
+  CHECK(contains(other.out, "\"raw\": 0"));
+}
+
 TEST_CASE("characterize moves no servo that is switched on meanwhile") {
   // the second time just before commands to servo ID 0, which is what a new servo has
   const auto* at = GENERATE("2s", "3.4s");

@@ -219,6 +219,11 @@ TEST_CASE("by ArrayCommand a servo moves as by its registers, and only alone on 
                             .servo("BLA15-06U-A0", 13, {{"servo_id", 4}})
                             .run({"command", "angle=-20deg", "--array", "-n", "12", "-y"});
   check_error(shared, 9, "duplicate_servo_id", "13");
+  const Result unheard =
+      two_servos()
+          .servo("BLA15-06U-A0", 13, {{"servo_id", 4}, {"faults", {{"no_actuator_status", true}}}})
+          .run({"command", "angle=-20deg", "--array", "-n", "12", "-y"});
+  check_error(unheard, 9, "duplicate_servo_id", "13");
 }
 
 TEST_CASE("a servo with servo ID 0 may be deaf to ArrayCommand, which is said as the reason") {

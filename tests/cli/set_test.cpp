@@ -387,6 +387,11 @@ TEST_CASE("a node ID that another servo will have after a restart is not given a
 TEST_CASE("a servo ID that another servo has is not given away, 0 excepted") {
   check_error(three_servos().run({"set", "-n", "11", "servo_id=3"}), 9, "duplicate_servo_id",
               "node 11 would have servo ID 3, which node ");
+  const Scene unheard =
+      Scene()
+          .servo("BLA21-12U-AB", 11)
+          .servo("BLA21-12U-AB", 12, {{"servo_id", 3}, {"faults", {{"no_actuator_status", true}}}});
+  check_error(unheard.run({"set", "-n", "11", "servo_id=3"}), 9, "duplicate_servo_id", "node 12");
   check_error(three_servos().run({"set", "-n", "11,12", "servo_id=9"}), 9, "duplicate_servo_id",
               "one servo ID for 2 servos");
   CHECK(three_servos().run({"set", "-n", "11,12", "servo_id=0"}).status == 0);

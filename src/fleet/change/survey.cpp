@@ -7,7 +7,9 @@
 #include "fleet/change/texts.hpp"
 
 #include <algorithm>
+#include <array>
 #include <list>
+#include <utility>
 
 namespace blactl::fleet {
 
@@ -35,7 +37,7 @@ std::optional<Error> ask_holders(Session& session, std::span<const Plan> plans,
 }
 
 /// The value of a servo after the plans: as planned, else as in its RAM.
-std::optional<std::int64_t> after(std::span<const Plan> plans, const Survey::Neighbour& servo,
+std::optional<std::int64_t> after(std::span<const Plan> plans, const Neighbour& servo,
                                   bla::Address address, std::optional<std::int64_t> in_ram) {
   const auto plan = std::ranges::find_if(
       plans, [&](const Plan& each) { return each.before.servo.id == servo.id; });
@@ -62,7 +64,51 @@ Error servo_id_taken(std::uint8_t id, std::int64_t servo_id, NodeId holder) {
           say<texts::servo_id_taken_hint>(), id};
 }
 
+Result<std::vector<Snapshot>> read_ids(Session& session, const bla::Profiles& profiles,
+                                       const Identification::Options& options,
+                                       Unidentified unidentified, std::optional<NodeId> except) {
+  const Roster& roster = session.roster();
+  std::vector<NodeId> nodes;
+  for (const auto& [id, member] : roster.members()) {
+    const bool may_be_servo = member.is_servo || member.sends_actuator_status() ||
+                              (unidentified == Unidentified::asked && !member.identified);
+    if (id != except && roster.heard(id) && may_be_servo) {
+      nodes.push_back(id);
+    }
+  }
+  const auto ids = [](const Servo& servo) -> Result<std::vector<const bla::Parameter*>> {
+    return servo.identity.registers(std::array{at::servo_id, at::static_node_id});
+  };
+  auto snapshots = take_snapshots(session, profiles, nodes, options, ids);
+  if (snapshots.broken) {
+    return std::unexpected(*snapshots.broken);
+  }
+  return std::move(snapshots.servos);
+}
+
 } // namespace
+
+Result<std::vector<Neighbour>> neighbours(Session& session, const bla::Profiles& profiles,
+                                          const Identification::Options& options,
+                                          Unidentified unidentified, std::optional<NodeId> except) {
+  const auto snapshots = read_ids(session, profiles, options, unidentified, except);
+  if (!snapshots) {
+    return std::unexpected(snapshots.error());
+  }
+  std::vector<Neighbour> found;
+  for (const Snapshot& snapshot : *snapshots) {
+    const Member member = session.roster().member(snapshot.servo.id);
+    if (member.is_servo || member.sends_actuator_status()) {
+      found.push_back(
+          {.id = snapshot.servo.id,
+           .unique_id = snapshot.servo.unique_id,
+           .servo_id = member.is_foreign() ? member.commanded_id() : snapshot.raw(at::servo_id),
+           .static_node_id = snapshot.raw(at::static_node_id),
+           .is_foreign = member.is_foreign()});
+    }
+  }
+  return found;
+}
 
 Result<Survey> survey(Session& session, const bla::Profiles& profiles, std::span<const Plan> plans,
                       const Identification::Options& options) {
@@ -73,36 +119,25 @@ Result<Survey> survey(Session& session, const bla::Profiles& profiles, std::span
   if (auto broken = ask_holders(session, plans, options)) {
     return std::unexpected(std::move(*broken));
   }
-  std::vector<NodeId> servos;
   for (const auto& [id, member] : session.roster().members()) {
-    if (session.roster().heard(id) && (member.is_servo || member.sends_actuator_status())) {
-      servos.push_back(id);
-    }
     if (session.roster().heard(id)) {
       found.holders[id] = member.unique_id();
     }
   }
-  const auto ids = [](const Servo& servo) -> Result<std::vector<const bla::Parameter*>> {
-    std::vector<const bla::Parameter*> both;
-    for (const bla::Address address : {at::servo_id, at::static_node_id}) {
-      if (const auto* parameter = servo.identity.parameter(address)) {
-        both.push_back(parameter);
-      }
-    }
-    return both;
-  };
-  const auto snapshots = take_snapshots(session, profiles, servos, options, ids);
-  if (snapshots.broken) {
-    return std::unexpected(*snapshots.broken);
+  const bool gives_servo_id = std::ranges::any_of(plans, [](const Plan& plan) {
+    const RegisterChange* change = plan.change_of(at::servo_id);
+    return change != nullptr && change->is_planned();
+  });
+  auto servos = neighbours(session, profiles, options,
+                           gives_servo_id ? Unidentified::asked : Unidentified::left_out);
+  if (!servos) {
+    return std::unexpected(std::move(servos.error()));
   }
-  for (const Snapshot& snapshot : snapshots.servos) {
-    const Member member = session.roster().member(snapshot.servo.id);
-    const auto servo_id = member.is_foreign() ? member.commanded_id() : snapshot.raw(at::servo_id);
-    const auto static_id = snapshot.raw(at::static_node_id);
-    if (!servo_id || !(static_id || member.is_foreign())) {
-      found.silent.push_back(snapshot.servo.id);
+  found.servos = std::move(*servos);
+  for (const Neighbour& servo : found.servos) {
+    if (!servo.servo_id || !(servo.static_node_id || servo.is_foreign)) {
+      found.silent.push_back(servo.id);
     }
-    found.servos.push_back({snapshot.servo.id, snapshot.servo.unique_id, servo_id, static_id});
   }
   return found;
 }
@@ -117,7 +152,7 @@ std::optional<Error> conflict(const Survey& survey, std::span<const Plan> plans,
       return taken(plan, *node_id, holder->second);
     }
   }
-  for (const Survey::Neighbour& other : survey.servos) {
+  for (const Neighbour& other : survey.servos) {
     if (other.id == servo.id) {
       continue;
     }
@@ -135,7 +170,7 @@ std::optional<Error> servo_id_conflict(const Survey& survey, std::span<const Pla
                                        const Plan& plan) {
   const std::uint8_t id = plan.before.servo.id.value();
   const auto servo_id = plan.given_servo_id();
-  for (const Survey::Neighbour& other : survey.servos) {
+  for (const Neighbour& other : survey.servos) {
     const bool is_another = servo_id && other.id != plan.before.servo.id;
     if (is_another && after(plans, other, at::servo_id, other.servo_id) == servo_id) {
       return servo_id_taken(id, *servo_id, other.id);

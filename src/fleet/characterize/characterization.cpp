@@ -9,6 +9,7 @@
 #include "blactl/fleet/change/former_ids.hpp"
 #include "blactl/fleet/change/guard.hpp"
 #include "blactl/fleet/change/plan.hpp"
+#include "blactl/fleet/change/survey.hpp"
 
 #include "fleet/characterize/findings.hpp"
 #include "fleet/characterize/test_bench.hpp"
@@ -177,13 +178,14 @@ std::string question_to_characterize(const Snapshot& before) {
 Characterization characterize(Session& session, const bla::Profiles& profiles,
                               const Snapshot& before, const BenchManner& manner) {
   const Servo& servo = before.servo;
+  auto others = neighbours(session, profiles, manner.identification, Unidentified::asked, servo.id);
+  if (!others) {
+    return {.servo = servo, .error = std::move(others.error())};
+  }
   auto in_ram = manner.history != nullptr ? manner.history->unsaved(servo, session, &before)
                                           : std::vector<state::SnapshotEntry>();
   if (auto refused = record(session, before, manner)) {
-    Characterization none;
-    none.servo = servo;
-    none.error = std::move(refused);
-    return none;
+    return {.servo = servo, .error = std::move(refused)};
   }
   FormerIds ids(session, {{servo.unique_id.value_or(dronecan::UniqueId{}), servo.id}},
                 manner.allocations);
@@ -196,7 +198,7 @@ Characterization characterize(Session& session, const bla::Profiles& profiles,
   recogniser.recognise();
   session.set_grace(put_back_time);
   Notes notes;
-  TestBench bench(session, profiles, before, manner);
+  TestBench bench(session, profiles, before, manner, std::move(*others));
   const auto ended = measure_all(bench, notes);
   if (!ended && bench.has_changed() && manner.putting_back) {
     manner.putting_back();

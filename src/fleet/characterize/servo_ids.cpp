@@ -11,11 +11,16 @@ namespace blactl::fleet {
 namespace at = bla::address;
 
 bool is_free_servo_id(const TestBench& bench, std::int64_t servo_id) {
-  return std::ranges::none_of(bench.roster().members(), [&](const auto& entry) {
-    const auto& [id, member] = entry;
-    return id != bench.servo().id &&
-           (member.actuator_id == servo_id || member.commanded_id() == servo_id);
-  });
+  return std::ranges::none_of(bench.roster().members(),
+                              [&](const auto& entry) {
+                                const auto& [id, member] = entry;
+                                return id != bench.servo().id &&
+                                       (member.actuator_id == servo_id ||
+                                        member.commanded_id() == servo_id);
+                              }) &&
+         std::ranges::none_of(bench.neighbours(), [&](const Neighbour& other) {
+           return !other.servo_id || other.servo_id == servo_id;
+         });
 }
 
 std::optional<std::int64_t> free_servo_id(const TestBench& bench) {

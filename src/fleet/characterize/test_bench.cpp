@@ -32,10 +32,11 @@ constexpr Duration longest_until_status = 1200ms;
 } // namespace
 
 TestBench::TestBench(Session& session, const bla::Profiles& profiles, const Snapshot& before,
-                     const BenchManner& manner)
-    : session_(session), profiles_(profiles), manner_(manner), servo_(before.servo),
-      start_watch_(before.servo.unique_id.value_or(dronecan::UniqueId{})), before_(before.values()),
-      bystanders_(session.roster()), begin_(session.now()), in_ram_since_(begin_) {
+                     const BenchManner& manner, std::vector<Neighbour> neighbours)
+    : session_(session), profiles_(profiles), manner_(manner), neighbours_(std::move(neighbours)),
+      servo_(before.servo), start_watch_(before.servo.unique_id.value_or(dronecan::UniqueId{})),
+      before_(before.values()), bystanders_(session.roster()), begin_(before.servo.since),
+      in_ram_since_(begin_) {
   for (const auto& [address, limit] : soft_start_limits) {
     if (const auto raw = bla::find(before_, address)) {
       hidden_[address] = *raw;

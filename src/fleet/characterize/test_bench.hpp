@@ -4,6 +4,7 @@
 #include "blactl/bla/profile.hpp"
 #include "blactl/fleet/bus/bystanders.hpp"
 #include "blactl/fleet/change/save_restart_job.hpp"
+#include "blactl/fleet/change/survey.hpp"
 #include "blactl/fleet/characterize/characterization.hpp"
 
 #include "fleet/characterize/start_watch.hpp"
@@ -33,9 +34,10 @@ struct Reply {
 /// refused where the servo must respond. Before a write it records the old value, for put_back().
 class TestBench {
  public:
-  /// All references outlive this. `before`: the servo's initial values.
+  /// All references outlive this. `before`: the servo's initial values; `neighbours`: the others on
+  /// the bus.
   TestBench(Session& session, const bla::Profiles& profiles, const Snapshot& before,
-            const BenchManner& manner);
+            const BenchManner& manner, std::vector<Neighbour> neighbours);
   ~TestBench();
   TestBench(const TestBench&) = delete;
   TestBench(TestBench&&) = delete;
@@ -49,6 +51,8 @@ class TestBench {
   [[nodiscard]] const Roster& roster() const { return session_.roster(); }
 
   [[nodiscard]] const StartWatch& start_watch() const { return start_watch_; }
+
+  [[nodiscard]] const std::vector<Neighbour>& neighbours() const { return neighbours_; }
 
   /// The initial value; those that a soft start may hide only after rest().
   [[nodiscard]] std::optional<std::int64_t> held(bla::Address address) const {
@@ -162,6 +166,7 @@ class TestBench {
   Session& session_;
   const bla::Profiles& profiles_;
   const BenchManner& manner_;
+  std::vector<Neighbour> neighbours_;
   Servo servo_;
   StartWatch start_watch_;
   bla::Values before_;             ///< to be restored at the end

@@ -1,7 +1,7 @@
 #include "blactl/fleet/motion/motion_run.hpp"
 
-#include "blactl/fleet/bus/read_job.hpp"
 #include "blactl/fleet/change/guard.hpp"
+#include "blactl/fleet/change/survey.hpp"
 
 #include "fleet/motion/motion_texts.hpp"
 
@@ -14,17 +14,6 @@ namespace at = bla::address;
 using dronecan::NodeId;
 
 namespace {
-
-/// The servos that obey ArrayCommand, as far as heard.
-std::vector<NodeId> servos_heard(const Roster& roster, NodeId except) {
-  std::vector<NodeId> ids;
-  for (const auto& [id, member] : roster.members()) {
-    if (id != except && roster.heard(id) && (member.is_servo || member.sends_actuator_status())) {
-      ids.push_back(id);
-    }
-  }
-  return ids;
-}
 
 Error shared(const MotionPlan& plan, std::string message) {
   return {Code::duplicate_servo_id, std::move(message), say<texts::motion_servo_id_hint>(),
@@ -51,28 +40,22 @@ std::optional<Error> refuse_servo_id(Session& session, const bla::Profiles& prof
   if (auto later = refuse_pending_id(session.roster(), plan.servo().id, servo_id)) {
     return later;
   }
-  const auto others = servos_heard(session.roster(), plan.servo().id);
-  const auto ids = [](const Servo& servo) -> Result<std::vector<const bla::Parameter*>> {
-    return servo.identity.registers(std::array{at::servo_id});
-  };
-  const auto snapshots = take_snapshots(session, profiles, others, options, ids);
-  if (snapshots.broken) {
-    return snapshots.broken;
+  const auto others = neighbours(session, profiles, options, Unidentified::asked, plan.servo().id);
+  if (!others) {
+    return others.error();
   }
   if (!session.roster().pending().empty()) {
     return shared(plan, say<texts::motion_servo_id_pending>(servo_id));
   }
-  for (const Snapshot& other : snapshots.servos) {
-    const NodeId id = other.servo.id;
-    const Member member = session.roster().member(id);
-    const auto its = member.is_foreign() ? member.commanded_id() : other.raw(at::servo_id);
-    const auto told = member.actuator_id;
-    if (!its || session.roster().is_doubled(id)) {
-      return shared(plan, say<texts::motion_servo_id_unknown>(id.value(), servo_id));
+  for (const Neighbour& other : *others) {
+    const auto told = session.roster().member(other.id).actuator_id;
+    if (!other.servo_id || session.roster().is_doubled(other.id)) {
+      return shared(plan, say<texts::motion_servo_id_unknown>(other.id.value(), servo_id));
     }
-    if (*its == servo_id || told == servo_id) { // it is not known which of the two it obeys
-      return shared(
-          plan, say<texts::motion_servo_id_shared>(plan.servo().id.value(), id.value(), servo_id));
+    if (other.servo_id == servo_id ||
+        told == servo_id) { // it is not known which of the two it obeys
+      return shared(plan, say<texts::motion_servo_id_shared>(plan.servo().id.value(),
+                                                             other.id.value(), servo_id));
     }
   }
   return std::nullopt;

@@ -13,14 +13,26 @@
 
 namespace blactl::fleet {
 
+/// Another servo, or an actuator of another make, and its IDs in RAM; empty: it did not tell them.
+struct Neighbour {
+  dronecan::NodeId id{};
+  std::optional<dronecan::UniqueId> unique_id{};
+  std::optional<std::int64_t> servo_id{}; ///< by which ArrayCommand reaches it
+  std::optional<std::int64_t> static_node_id{};
+  bool is_foreign = false; ///< of another make
+};
+
+/// Nodes that send no actuator.Status, and that nobody has identified. Asking what they are costs a
+/// second and more where one does not answer; where servo IDs matter, it may be a servo.
+enum class Unidentified : std::uint8_t { asked, left_out };
+
+/// All of them that were heard, asked for their IDs. Errors: those that end a session.
+[[nodiscard]] Result<std::vector<Neighbour>>
+neighbours(Session& session, const bla::Profiles& profiles, const Identification::Options& options,
+           Unidentified unidentified, std::optional<dronecan::NodeId> except = std::nullopt);
+
 /// The IDs of the units on the bus.
 struct Survey {
-  struct Neighbour {
-    dronecan::NodeId id{};
-    std::optional<dronecan::UniqueId> unique_id{};
-    std::optional<std::int64_t> servo_id{}, static_node_id{}; ///< in RAM
-  };
-
   /// Of the node IDs that plans assign; empty: it did not tell its own.
   std::map<dronecan::NodeId, std::optional<dronecan::UniqueId>> holders;
   std::vector<Neighbour> servos;        ///< all servos heard

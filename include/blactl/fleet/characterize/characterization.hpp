@@ -55,8 +55,8 @@ struct NodeInfo {
 };
 
 struct Characterization {
-  Servo servo;             ///< as it is now
-  std::vector<Fact> facts; ///< one for each open question, in the same order
+  Servo servo;               ///< as it is now
+  std::vector<Fact> facts{}; ///< one for each open question, in the same order
   std::vector<Observation> observations{};
   std::optional<NodeInfo> info{};
   /// The reason why it was not finished.
