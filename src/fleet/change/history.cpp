@@ -34,12 +34,9 @@ state::RomProof proof_of(const UniqueId& unique_id, const RomReading& rom, const
           .uptime = rom.uptime};
 }
 
-/// The values that a change of RAM alone writes: after a restart they are in ROM as well, or gone.
+/// The values that a change writes to RAM.
 state::Registers written_by(const Plan& plan, const state::Registers& held) {
   state::Registers written;
-  if (plan.restart) {
-    return written;
-  }
   for (const RegisterChange& change : plan.changes) {
     if (change.is_planned() && held.contains(change.parameter->address.value())) {
       written.emplace(change.parameter->address.value(), change.requested);
@@ -53,6 +50,19 @@ state::Registers written_by(const Plan& plan, const state::Registers& held) {
     }
   }
   return written;
+}
+
+/// Whether ROM may hold what a try that was killed was to save: not if the servo has not restarted
+/// since, nor if it did so with what it held before.
+bool was_perhaps_saved(const state::SnapshotEntry& tried, const Snapshot& ram,
+                       const std::optional<WallTime>& started) {
+  if (!tried.saved || tried.settled || !started) {
+    return tried.saved;
+  }
+  return tried.at < *started &&
+         std::ranges::any_of(
+             tried.held,
+             [&](const auto& held) { return ram.raw(bla::Address(held.first)) != held.second; });
 }
 
 /// An earlier change in RAM as SAVE leaves it: what it replaced in ROM. Empty: ROM stays as it is.
@@ -122,8 +132,8 @@ Result<void> History::drop_proofs(std::span<const Plan> plans) {
 
 /// Resumes after an earlier try of this command that ended half way. What an ERASE has taken from
 /// RAM, a restart has brought back.
-Result<void> History::resume(const Servo& servo, const Session& session) {
-  const UniqueId& unique_id = *servo.unique_id;
+Result<void> History::resume(const Snapshot& ram, const Session& session) {
+  const UniqueId& unique_id = *ram.servo.unique_id;
   if (!is_repeated_as_a_whole(command_) || kept_.contains(unique_id)) {
     return {};
   }
@@ -131,13 +141,16 @@ Result<void> History::resume(const Servo& servo, const Session& session) {
   if (!last) {
     return std::unexpected(last.error());
   }
-  const auto started = start_of(servo, session);
+  const auto started = start_of(ram.servo, session);
   const bool is_over =
       command_ == erase_keeping_ids && *last && (!started || (*last)->at < *started);
   if (*last && !(*last)->ended && (*last)->command == command_ && !is_over) {
     run_ = std::max(run_, (*last)->run);
-    const bool was_saved = (*last)->saved;
-    kept_[unique_id] = {.entry = std::move(**last), .was_changed = true, .was_saved = was_saved};
+    const bool was_saved = was_perhaps_saved(**last, ram, started);
+    kept_[unique_id] = {.entry = std::move(**last),
+                        .was_changed = true,
+                        .was_saved = was_saved,
+                        .is_another_try = true};
   }
   return {};
 }
@@ -177,7 +190,8 @@ std::optional<state::SnapshotEntry> History::entry_of(const Plan& plan, const Ro
   state::Registers in_ram;
   const auto rom = roms.find(*unique_id);
   for (auto& [address, raw] : held) { // undo puts nothing into ROM that was in RAM only
-    if (rom != roms.end() && rom->second.contains(address)) {
+    const bool is_kept = plan.erase && plan.change_of(bla::Address(address)) != nullptr;
+    if (!is_kept && rom != roms.end() && rom->second.contains(address)) {
       in_ram.emplace(address, std::exchange(raw, rom->second.at(address)));
     }
   }
@@ -193,9 +207,6 @@ std::optional<state::SnapshotEntry> History::entry_of(const Plan& plan, const Ro
       entry.held.erase(address);
     }
   }
-  if (plan.restart) {
-    entry.written.clear();
-  }
   for (const auto& [address, raw] : written_by(plan, held)) {
     entry.written.insert_or_assign(address, raw);
   }
@@ -206,17 +217,21 @@ std::optional<state::SnapshotEntry> History::entry_of(const Plan& plan, const Ro
   entry.held.merge(held); // values replaced in an earlier round stay
   entry.saved = entry.saved || plan.restart == RestartKind::save;
   entry.run = run_ != 0 ? run_ : entry.run;
-  if (entry.number != 0 && entry == before) {
+  const bool is_another_try = known != kept_.end() && known->second.is_another_try;
+  const bool begins_again = is_another_try || entry.settled;
+  if (entry.number != 0 && entry == before && !begins_again) {
     return std::nullopt;
   }
+  entry.at = begins_again ? session.wall() : entry.at; // it may have restarted since the last try
   entry.settled.reset();
+  entry.number = is_another_try ? 0 : entry.number; // other commands may have come in between
   return entry;
 }
 
 Result<void> History::keep(std::span<const Plan> plans, const Session& session) {
   for (const Plan& plan : plans) {
     const Servo& servo = plan.before.servo;
-    auto resumed = servo.unique_id ? resume(servo, session) : Result<void>();
+    auto resumed = servo.unique_id ? resume(plan.before, session) : Result<void>();
     if (!resumed) {
       return resumed;
     }
@@ -239,12 +254,17 @@ Result<void> History::keep(std::span<const Plan> plans, const Session& session) 
     return std::unexpected(numbers.error());
   }
   run_ = run_ != 0 ? run_ : numbers->front();
+  std::vector<state::Settlement> replaced;
   for (std::size_t i = 0; i < entries.size(); ++i) {
     entries[i].number = (*numbers)[i];
     entries[i].run = run_;
-    kept_[entries[i].unique_id].entry = std::move(entries[i]);
+    Kept& kept = kept_[entries[i].unique_id];
+    if (std::exchange(kept.is_another_try, false)) {
+      replaced.push_back({.number = kept.entry.number, .end = ChangeEnd::never_begun});
+    }
+    kept.entry = std::move(entries[i]);
   }
-  return {};
+  return replaced.empty() ? Result<void>() : snapshots_.settle(replaced);
 }
 
 Result<void> History::end(std::span<const UniqueId> units) {
@@ -362,8 +382,12 @@ void History::settle(const ChangeResult& result, WallTime wall, Settled& settled
     return;
   }
   const UniqueId& unique_id = *result.servo.unique_id;
+  const bool is_known = result.saved || !result.may_have_saved;
   if (auto earlier = lasting_.extract(unique_id)) {
     for (state::SnapshotEntry& change : earlier.mapped()) {
+      if (!is_known) {
+        continue; // as they are
+      }
       if (result.may_have_saved) {
         settled.ends.push_back({change.number, ChangeEnd::saved, wall});
       } else {
@@ -384,7 +408,13 @@ void History::settle(const ChangeResult& result, WallTime wall, Settled& settled
   }
   const auto trials = in_ram_.find(unique_id);
   const bool is_of_ram = kept.entry.saved && !kept.was_saved && trials != in_ram_.end();
-  kept.entry.saved = kept.was_saved;
+  const bool was_planned = std::exchange(kept.entry.saved, kept.was_saved) == kept.was_saved;
+  if (!is_known) { // until the servo restarts
+    if (!was_planned) {
+      settled.entries.push_back(kept.entry);
+    }
+    return;
+  }
   kept.entry.settled = wall;
   if (is_of_ram) { // RAM alone was changed
     for (const auto& [address, raw] : trials->second) {

@@ -69,7 +69,7 @@ std::optional<bool> are_shown(const Entries& changes, const Snapshot& ram) {
 /// From an earlier run of the servo there is nothing in RAM that ROM does not hold.
 bool are_in_ram(const Entries& changes, WallTime started, const Snapshot* ram) {
   const state::SnapshotEntry& newest = changes.front();
-  if (newest.written.empty() || last_write(newest) < started) {
+  if (newest.saved || newest.written.empty() || last_write(newest) < started) {
     return false;
   }
   return (ram != nullptr ? are_shown(changes, *ram) : std::nullopt).value_or(true);

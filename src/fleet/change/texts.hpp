@@ -198,17 +198,18 @@ inline constexpr Text recorded_at_risk{
     "{} is {} since a change in RAM only, and was {} before: the restart takes it back",
     "{} は RAM のみの変更により {} です (変更前は {})。再起動により失われます",
 };
-inline constexpr Text broken_off_saved{
-    "{} is {} since a change that was broken off, and was {} before: SAVE keeps all of RAM, so "
-    "this "
-    "too",
-    "{} は中断された変更により {} です (変更前は {})。SAVE は RAM 全体を保存するため、この値も保存"
-    "されます",
+inline constexpr Text perhaps_saved{
+    "{} is {} since a change that is not known to be saved, and was {} before: SAVE keeps all of "
+    "RAM, so this too",
+    "{} は保存されたか不明な変更により {} です (変更前は {})。SAVE は RAM 全体を保存するため、"
+    "この値も保存されます",
 };
-inline constexpr Text broken_off_at_risk{
-    "{} is {} since a change that was broken off, and was {} before: the restart takes it back "
-    "unless it was saved",
-    "{} は中断された変更により {} です (変更前は {})。保存されていなければ、再起動により失われます",
+inline constexpr Text perhaps_at_risk{
+    "{} is {} since a change that is not known to be saved, and was {} before: the restart takes "
+    "it "
+    "back unless it was saved",
+    "{} は保存されたか不明な変更により {} です (変更前は {})。保存されていなければ、再起動により"
+    "失われます",
 };
 inline constexpr Text unnamed_at_risk{
     "{} is {} in RAM and {} in ROM: the restart brings that back",

@@ -19,7 +19,7 @@ bool names(const Goal& goal, bla::Address address) {
 }
 
 /// How it is known what ROM holds of a register.
-enum class Source : std::uint8_t { proof, record, record_of_broken_off };
+enum class Source : std::uint8_t { proof, record, uncertain_record };
 
 bool is_id(bla::Address address) {
   return address == bla::address::servo_id || address == bla::address::static_node_id;
@@ -32,9 +32,9 @@ Warning unnamed(const std::string& name, const std::string& ram, const std::stri
   case Source::proof:
     return {code, is_saved ? say<texts::unnamed_saved>(name, ram, rom)
                            : say<texts::unnamed_at_risk>(name, ram, rom)};
-  case Source::record_of_broken_off:
-    return {code, is_saved ? say<texts::broken_off_saved>(name, ram, rom)
-                           : say<texts::broken_off_at_risk>(name, ram, rom)};
+  case Source::uncertain_record:
+    return {code, is_saved ? say<texts::perhaps_saved>(name, ram, rom)
+                           : say<texts::perhaps_at_risk>(name, ram, rom)};
   case Source::record: break;
   }
   return {code, is_saved ? say<texts::recorded_saved>(name, ram, rom)
@@ -42,9 +42,9 @@ Warning unnamed(const std::string& name, const std::string& ram, const std::stri
 }
 
 Source source_of(const ToldRom& rom, bla::Address address) {
-  return rom.is_proven                      ? Source::proof
-         : rom.broken_off.contains(address) ? Source::record_of_broken_off
-                                            : Source::record;
+  return rom.is_proven                         ? Source::proof
+         : rom.perhaps_saved.contains(address) ? Source::uncertain_record
+                                               : Source::record;
 }
 
 ToldRom recorded_rom(const Snapshot& held, const History& record, const Session& session) {
@@ -52,7 +52,7 @@ ToldRom recorded_rom(const Snapshot& held, const History& record, const Session&
   for (const state::SnapshotEntry& change : record.unsaved(held.servo, session, &held)) {
     for (const auto& [address, raw] : change.held) {
       if (change.saved) {
-        told.broken_off.insert(bla::Address(address));
+        told.perhaps_saved.insert(bla::Address(address));
       }
     }
   }

@@ -18,7 +18,7 @@ class History;
 struct ToldRom {
   bla::Values values{};
   bool is_proven = false; ///< else what changes in RAM only have replaced since the start
-  std::set<bla::Address> broken_off{}; ///< changed to be saved: whether that came about is unknown
+  std::set<bla::Address> perhaps_saved{}; ///< whether these changes were saved is not known
 };
 
 /// Empty if nothing makes RAM and ROM equal, there is no record (null), or the servo could not read

@@ -401,14 +401,28 @@ TEST_CASE("an apply that did not end and comes again is one change") {
   REQUIRE(change(scene, set("reverse=on"), again).servos[0].is_done());
   auto entries = kept.entries();
   REQUIRE(entries.size() == 3);
-  CHECK(entries[1].held == state::Registers{{0x23, 0}, {0x38, 1799}});
+  CHECK(entries[0].held == state::Registers{{0x23, 0}, {0x38, 1799}});
   CHECK(entries[1].run == entries[0].run); // undo takes both servos back
-  CHECK_FALSE(entries[1].ended);
+  CHECK_FALSE(entries[0].ended);
   // Another command, and one after the end, are changes of their own.
-  end(again, entries[1].unique_id);
+  end(again, entries[0].unique_id);
   REQUIRE(change(scene, set("smoothing=off"), kept, "apply").is_done());
   REQUIRE(change(scene, set("soft_start=off"), kept).is_done());
   CHECK(kept.entries().size() == 5);
+}
+
+TEST_CASE("an apply that comes again after another command is the last one") {
+  const Kept kept;
+  const Scene scene(servos());
+  killed(scene, set("angle_limit_cw=90deg"), kept, "apply", {12});
+  REQUIRE(change(scene, set("smoothing=off"), kept).is_done());
+  History again = kept.history("apply");
+  REQUIRE(change(scene, set("angle_limit_cw=45deg"), again, {12}).servos[0].is_done());
+  const auto last = last_changes(SnapshotStore::open(kept.folder(), Access::read).value()).value();
+  REQUIRE(last.size() == 1);
+  CHECK(last[0].entry.command == "apply");
+  CHECK(last[0].entry.held == state::Registers{{0x38, 1799}});
+  CHECK(kept.entries().size() == 2);
 }
 
 TEST_CASE("an apply that is repeated with other wishes is one change of each servo") {
@@ -543,9 +557,84 @@ TEST_CASE("a change that was to be saved, and was killed before, is in RAM only 
       unnamed(goal, ram, told_rom(goal, ram, &history, *scene.session), Need::write);
   REQUIRE(warnings.size() == 1);
   CHECK(warnings[0].code == "unnamed_saved");
-  CHECK(warnings[0].text.find("since a change that was broken off") != std::string::npos);
+  CHECK(warnings[0].text.find("since a change that is not known to be saved") != std::string::npos);
   scene.live(3s);
   CHECK(unrecorded(restart).empty());
+}
+
+TEST_CASE("a repeated apply counts as saved only where the first try may have been") {
+  const Kept kept;
+  const Scene scene(servos());
+  const auto carry = [&](const Wanted& wanted) { // with no record: as before a kill
+    const auto plans = plans_for(scene, wanted, {11});
+    REQUIRE(carry_out(*scene.session, profiles(), plans, {}).servos[0].is_done());
+    scene.live(3s);
+  };
+  const auto begin = [&] {
+    REQUIRE(kept.history("apply").keep(plans_for(scene, set("angle_limit_cw=90deg", true), {11}),
+                                       *scene.session));
+  };
+  begin();
+  carry(set("angle_limit_cw=90deg"));
+  SECTION("repeated in RAM only") {
+    History again = kept.history("apply");
+    REQUIRE(change(scene, set("angle_limit_cw=80deg"), again).servos[0].is_done());
+    CHECK_FALSE(kept.entries().front().saved);
+    CHECK(kept.entries().front().held == state::Registers{{0x38, 1799}});
+  }
+  SECTION("repeated after a restart, and killed again") {
+    carry(restart);
+    begin();
+    carry(set("angle_limit_cw=90deg"));
+    const Snapshot ram = scene.read(11, registers({"angle_limit_cw"}));
+    CHECK(kept.history().replaced_in_ram(ram, *scene.session) ==
+          bla::Values{{at::angle_limit_cw, 1799}});
+  }
+  SECTION("repeated after its SAVE") {
+    carry(save);
+    History again = kept.history("apply");
+    REQUIRE(change(scene, set("angle_limit_cw=80deg"), again).servos[0].is_done());
+    CHECK(kept.entries().front().saved);
+  }
+}
+
+TEST_CASE("a SAVE of which nothing is known leaves the change unsettled") {
+  const Kept kept;
+  const Scene scene(servos());
+  History history = kept.history();
+  const auto plans = plans_for(scene, set("angle_limit_cw=90deg", true), {11});
+  REQUIRE(history.keep(plans, *scene.session));
+  ChangeResult result = as_planned(plans[0]);
+  result.was_sent = result.may_have_saved = true;
+  result.saved = false;
+  REQUIRE(history.conclude(std::vector{result}, *scene.session));
+  CHECK(kept.entries().front().saved);
+  CHECK_FALSE(kept.entries().front().settled);
+}
+
+TEST_CASE("values that were written again after a restart, and not saved, are in RAM only") {
+  const Kept kept;
+  const Scene scene(servos(R"(, "faults": {"ignore_opcodes": 9,
+      "restart_after_answer": [{"to": "write", "number": 1}]})"));
+  scene.live(3s);
+  CHECK_FALSE(change(scene, set("angle_limit_cw=90deg", true), kept).is_done());
+  const Snapshot ram = scene.read(11, registers({"angle_limit_cw"}));
+  REQUIRE(ram.raw(at::angle_limit_cw) == 900);
+  CHECK(kept.history().replaced_in_ram(ram, *scene.session) ==
+        bla::Values{{at::angle_limit_cw, 1799}});
+}
+
+TEST_CASE("a trial that a killed save has made permanent is in ROM") {
+  const Kept kept;
+  const Scene scene(servos());
+  scene.live(3s);
+  REQUIRE(change(scene, set("angle_limit_cw=90deg"), kept).is_done());
+  const auto plans = plans_for(scene, save, {11});
+  REQUIRE(kept.history("save").keep(plans, *scene.session));
+  REQUIRE(carry_out(*scene.session, profiles(), plans, {}).servos[0].is_done());
+  scene.live(1100ms);
+  const Snapshot ram = scene.read(11, registers({"angle_limit_cw"}));
+  CHECK(kept.history().unsaved(ram.servo, *scene.session, &ram).empty());
 }
 
 TEST_CASE("a change in RAM is no longer so once another tool has saved it, however soon") {

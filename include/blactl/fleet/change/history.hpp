@@ -98,7 +98,7 @@ class History {
   struct Settled;
   void settle(const ChangeResult& result, WallTime wall, Settled& settled);
   [[nodiscard]] Result<void> settle(std::span<const ChangeResult> results, WallTime wall);
-  [[nodiscard]] Result<void> resume(const Servo& servo, const Session& session);
+  [[nodiscard]] Result<void> resume(const Snapshot& ram, const Session& session);
   [[nodiscard]] static std::optional<WallTime> start_of(const Servo& servo, const Session& session);
   [[nodiscard]] bool is_half_undone() const;
   [[nodiscard]] bool is_in_rom(const state::SnapshotEntry& change) const;
@@ -108,6 +108,7 @@ class History {
     state::SnapshotEntry entry;
     bool was_changed = false; ///< in any round
     bool was_saved = false;
+    bool is_another_try = false;   ///< the entry is of one that ended half way
     bool is_empty = false;         ///< a restart has shown that nothing was replaced
     std::set<std::uint8_t> lost{}; ///< what a restart has taken from RAM
   };
