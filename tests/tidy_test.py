@@ -91,21 +91,20 @@ def expect(ran, status, findings, *said):
 def planted_defects(origin, folder):
     tree = Tree(origin, folder, SOURCES)
     everything = NOT_OF_THE_ANALYZER + OF_THE_ANALYZER
-    expect(tree.tidy("--analyze-all"), 1, everything, "analyzer: all 6 files\n")
+    expect(tree.tidy("--all"), 1, everything, "6 of 6 files: all\n", "analyzer: 6 files\n")
     expect(tree.tidy(), 1, everything, "nothing tells what changed")
 
     tree.git("init", "-q")
     tree.git("add", ".")
     tree.git("commit", "-qm", "all")
-    expect(tree.tidy("--since", "HEAD"), 1, NOT_OF_THE_ANALYZER, "analyzer: 0 of 6 files")
+    expect(tree.tidy("--since", "HEAD"), 0, [], "looks at 0 of 6 files")
     tree.write("src/base/null.cpp", SOURCES["src/base/null.cpp"] + "\n")
-    expect(tree.tidy("--since", "HEAD"), 1, NOT_OF_THE_ANALYZER + OF_THE_ANALYZER[1:2],
-           "analyzer: 1 of 6 files")
+    expect(tree.tidy("--since", "HEAD"), 1, OF_THE_ANALYZER[1:2], "looks at 1 of 6 files")
     tree.write("src/base/names.hpp", SOURCES["src/base/names.hpp"] + "\n")
-    expect(tree.tidy("--since", "HEAD"), 1, NOT_OF_THE_ANALYZER + OF_THE_ANALYZER[1:],
-           "analyzer: 4 of 6 files")
+    changed = NOT_OF_THE_ANALYZER[1:] + OF_THE_ANALYZER[1:]
+    expect(tree.tidy("--since", "HEAD"), 1, changed, "looks at 4 of 6 files", "analyzer: 4 files")
     tree.git("commit", "-qam", "two of them")
-    expect(tree.tidy(), 1, NOT_OF_THE_ANALYZER + OF_THE_ANALYZER[1:], "analyzer: 4 of 6 files")
+    expect(tree.tidy(), 1, changed, "looks at 4 of 6 files: what changed since")
     expect(tree.tidy("--since", "nothing"), 1, [], "git does not know the commit nothing")
     checks = (tree.root / ".clang-tidy").read_text()
     tree.write(".clang-tidy", checks.replace("-*,\n", "-*,\n  misc-include-cleaner,\n", 1))
@@ -115,14 +114,15 @@ def planted_defects(origin, folder):
 def many_files(origin, folder):
     """Of a large change not more is analyzed than there is time for, and that is told."""
     tree = Tree(origin, folder, {f"src/base/f{number}.cpp": "" for number in range(30)})
-    expect(tree.tidy(), 0, [], "analyzer: 8 of 30 files", "22 are left for")
+    expect(tree.tidy(), 0, [], "looks at 30 of 30", "analyzer: 8 files; 22 are left for")
     tree.git("init", "-q")
     tree.git("add", ".")
     tree.git("commit", "-qm", "all")
     tree.write("src/base/f29.cpp", SOURCES["src/base/null.cpp"])
     tree.write(".clang-tidy", (tree.root / ".clang-tidy").read_text() + "\n")
     expect(tree.tidy("--since", "HEAD"), 1,
-           [("src/base/f29.cpp:8:", "clang-analyzer-core.NullDereference")], "analyzer: 8 of 30 files")
+           [("src/base/f29.cpp:8:", "clang-analyzer-core.NullDereference")],
+           "30 of 30 files: the checks changed", "analyzer: 8 files; 22")
 
 
 def clashes(origin, folder):
@@ -130,7 +130,7 @@ def clashes(origin, folder):
     tree = Tree(origin, folder, {
         f"src/{name}/{number}.cpp": SAME_NAME.format(FOLDER=name, NUMBER=number)
         for name, number in (("base", 1), ("sim", 2), ("sim", 3))})
-    expect(tree.tidy("--analyze-all"), 1,
+    expect(tree.tidy("--all"), 1,
            [("src/sim/3.cpp:4:", "clang-diagnostic-error")], "must be unique")
 
 
