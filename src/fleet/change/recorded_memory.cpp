@@ -26,13 +26,13 @@ constexpr std::chrono::hours worth_renewing{1};
 constexpr std::chrono::seconds writing_time{10};
 
 /// An uptime in whole seconds lets a start look later by as much.
-constexpr std::chrono::seconds uptime_step{1};
+constexpr std::chrono::seconds whole_second{1};
 
 using Entries = std::vector<state::SnapshotEntry>;
 
 /// No write of it came later.
 WallTime last_write(const state::SnapshotEntry& change) {
-  return change.settled ? *change.settled + uptime_step : change.at + writing_time;
+  return change.settled ? *change.settled + whole_second : change.at + writing_time;
 }
 
 /// Whether `later` found a value that `earlier` had written: the servo did not restart in between.

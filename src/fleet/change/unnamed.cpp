@@ -21,7 +21,7 @@ bool names(const Goal& goal, bla::Address address) {
 /// How it is known what ROM holds of a register.
 enum class Source : std::uint8_t { proof, record, uncertain_record };
 
-bool is_id(bla::Address address) {
+bool survives_erase(bla::Address address) {
   return address == bla::address::servo_id || address == bla::address::static_node_id;
 }
 
@@ -71,8 +71,9 @@ ToldRom told_rom(const Goal& goal, const Snapshot& held, History* record, const 
                         : recorded_rom(held, *record, session);
   if (goal.wanted.erase) { // the others are reset, and so are IDs that one before has lost
     const bla::Values lost = record->lost_ids(held, session);
-    std::erase_if(told.values,
-                  [&](const auto& rom) { return !is_id(rom.first) || bla::find(lost, rom.first); });
+    std::erase_if(told.values, [&](const auto& rom) {
+      return !survives_erase(rom.first) || bla::find(lost, rom.first);
+    });
   }
   return told;
 }
