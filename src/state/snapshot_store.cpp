@@ -32,7 +32,7 @@ constexpr const char* schema =
     "settled INTEGER CHECK (settled BETWEEN 0 AND 253402300799999999), "
     "UNIQUE (unique_id, number, run, at, command, held, written, saved, ended, settled)) STRICT";
 
-/// Version 1 did not record what was written, nor either when the outcome was recorded.
+/// Neither of them recorded when an outcome was known, and version 1 not even what was written.
 OlderFormat older_version(bool has_written) {
   const std::string written = has_written ? "written" : "x''";
   return {.schema = "CREATE TABLE snapshots ("
@@ -153,9 +153,19 @@ Result<void> drop_old(const Database& database, WallTime now) {
       .run();
 }
 
+Result<void> remove(const Database& database, std::int64_t number) {
+  return Statement(database, "DELETE FROM snapshots WHERE number = ?").bind(number).run();
+}
+
 /// The part of keep() inside its transaction.
 Result<std::vector<std::int64_t>> keep_all(const Database& database,
-                                           std::span<const SnapshotEntry> entries, WallTime now) {
+                                           std::span<const SnapshotEntry> entries, WallTime now,
+                                           std::span<const std::int64_t> former) {
+  for (const std::int64_t number : former) {
+    if (auto removed = remove(database, number); !removed) {
+      return std::unexpected(removed.error());
+    }
+  }
   const auto new_run = next_number(database);
   if (!new_run) {
     return std::unexpected(new_run.error());
@@ -178,9 +188,7 @@ Result<std::vector<std::int64_t>> keep_all(const Database& database,
 
 Result<void> settle_one(const Database& database, const Settlement& settlement) {
   if (settlement.end == ChangeEnd::never_begun) {
-    return Statement(database, "DELETE FROM snapshots WHERE number = ?")
-        .bind(settlement.number)
-        .run();
+    return remove(database, settlement.number);
   }
   return Statement(database, "UPDATE snapshots SET saved = ?, settled = ? WHERE number = ?")
       .bind(std::int64_t{settlement.end == ChangeEnd::saved})
@@ -207,9 +215,10 @@ Result<SnapshotStore> SnapshotStore::unshared() {
 }
 
 Result<std::vector<std::int64_t>> SnapshotStore::keep(std::span<const SnapshotEntry> entries,
-                                                      WallTime now) {
+                                                      WallTime now,
+                                                      std::span<const std::int64_t> former) {
   return file_->transact(
-      [&](const Database& database) { return keep_all(database, entries, now); });
+      [&](const Database& database) { return keep_all(database, entries, now, former); });
 }
 
 Result<void> SnapshotStore::settle(std::span<const Settlement> settlements) {

@@ -32,7 +32,7 @@ struct SnapshotEntry {
   Registers written{}; ///< those that it writes in their place, as far as it names them
   bool saved = false;  ///< saved to ROM; until settled, whether it is to be saved
   bool ended = false;  ///< its command was completed; else perhaps only in part
-  std::optional<WallTime> settled{}; ///< when its outcome was recorded; empty: killed before
+  std::optional<WallTime> settled{}; ///< when its outcome was known; empty: not yet, or never
 
   friend bool operator==(const SnapshotEntry&, const SnapshotEntry&) = default;
 };
@@ -83,10 +83,12 @@ class SnapshotStore {
   SnapshotStore& operator=(SnapshotStore&&) noexcept;
   ~SnapshotStore();
 
-  /// Stores all entries or none; those with a number replace the entry of that number. Then drops
-  /// entries that are too old or too many. Returns the numbers, in order.
+  /// Stores all entries or none; those with a number replace the entry of that number. Removes
+  /// those with the numbers `former`: new ones take their places as the last changes of their
+  /// servos. Then drops entries that are too old or too many. Returns the numbers, in order.
   [[nodiscard]] Result<std::vector<std::int64_t>> keep(std::span<const SnapshotEntry> entries,
-                                                       WallTime now);
+                                                       WallTime now,
+                                                       std::span<const std::int64_t> former = {});
 
   /// Records the outcome of these entries: all or none.
   [[nodiscard]] Result<void> settle(std::span<const Settlement> settlements);

@@ -57,7 +57,7 @@ GoalResult compared(Goal goal, Need need, const Snapshot& held) {
 
 ChangeResult merged(ChangeResult earlier, const ChangeResult& last) {
   ChangeResult all = last;
-  all.servo.id = earlier.servo.id; // that in between is nobody's name for it
+  all.servo.id = earlier.servo.id; // not the temporary one of an exchange
   all.was_begun = all.was_begun || earlier.was_begun;
   all.was_sent = all.was_sent || earlier.was_sent;
   all.may_have_saved = all.may_have_saved || earlier.may_have_saved;

@@ -224,7 +224,7 @@ std::optional<state::SnapshotEntry> History::entry_of(const Plan& plan, const Ro
   }
   entry.at = begins_again ? session.wall() : entry.at; // it may have restarted since the last try
   entry.settled.reset();
-  entry.number = is_another_try ? 0 : entry.number; // other commands may have come in between
+  entry.number = is_another_try ? 0 : entry.number; // see former_numbers()
   return entry;
 }
 
@@ -249,22 +249,32 @@ Result<void> History::keep(std::span<const Plan> plans, const Session& session) 
   if (entries.empty()) {
     return {};
   }
-  const auto numbers = snapshots_.keep(entries, session.wall());
+  const auto numbers = snapshots_.keep(entries, session.wall(), former_numbers(entries));
   if (!numbers) {
     return std::unexpected(numbers.error());
   }
   run_ = run_ != 0 ? run_ : numbers->front();
-  std::vector<state::Settlement> replaced;
   for (std::size_t i = 0; i < entries.size(); ++i) {
     entries[i].number = (*numbers)[i];
     entries[i].run = run_;
     Kept& kept = kept_[entries[i].unique_id];
-    if (std::exchange(kept.is_another_try, false)) {
-      replaced.push_back({.number = kept.entry.number, .end = ChangeEnd::never_begun});
-    }
+    kept.is_another_try = false;
     kept.entry = std::move(entries[i]);
   }
-  return replaced.empty() ? Result<void>() : snapshots_.settle(replaced);
+  return {};
+}
+
+/// Of the tries that these entries continue: other commands may have come in between.
+std::vector<std::int64_t>
+History::former_numbers(std::span<const state::SnapshotEntry> entries) const {
+  std::vector<std::int64_t> numbers;
+  for (const state::SnapshotEntry& entry : entries) {
+    const auto known = kept_.find(entry.unique_id);
+    if (known != kept_.end() && known->second.is_another_try) {
+      numbers.push_back(known->second.entry.number);
+    }
+  }
+  return numbers;
 }
 
 Result<void> History::end(std::span<const UniqueId> units) {

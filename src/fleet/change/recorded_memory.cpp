@@ -196,9 +196,24 @@ Result<void> History::renew(std::vector<state::SnapshotEntry> changes, const Ses
 }
 
 /// Empty also where the record is full: earlier changes may have left it.
-bla::Values History::replaced_in_ram(const Snapshot& ram, const Session& session) const {
+ToldRom History::recorded_rom(const Snapshot& ram, const Session& session) const {
   const auto changes = unsaved(ram.servo, session, &ram);
-  return changes.size() < state::most_snapshots ? replaced_by(changes) : bla::Values();
+  if (changes.size() >= state::most_snapshots) {
+    return {};
+  }
+  ToldRom rom{.values = replaced_by(changes)};
+  for (const state::SnapshotEntry& change : changes) {
+    for (const auto& [address, raw] : change.held) {
+      if (change.saved) {
+        rom.perhaps_saved.insert(bla::Address(address));
+      }
+    }
+  }
+  return rom;
+}
+
+bla::Values History::replaced_in_ram(const Snapshot& ram, const Session& session) const {
+  return recorded_rom(ram, session).values;
 }
 
 bla::Values History::lost_ids(const Snapshot& ram, const Session& session) const {

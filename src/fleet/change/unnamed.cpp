@@ -1,7 +1,5 @@
 #include "fleet/change/unnamed.hpp"
 
-#include "blactl/fleet/change/history.hpp"
-
 #include "fleet/change/texts.hpp"
 
 #include <algorithm>
@@ -47,18 +45,6 @@ Source source_of(const ToldRom& rom, bla::Address address) {
                                                : Source::record;
 }
 
-ToldRom recorded_rom(const Snapshot& held, const History& record, const Session& session) {
-  ToldRom told{.values = record.replaced_in_ram(held, session)};
-  for (const state::SnapshotEntry& change : record.unsaved(held.servo, session, &held)) {
-    for (const auto& [address, raw] : change.held) {
-      if (change.saved) {
-        told.perhaps_saved.insert(bla::Address(address));
-      }
-    }
-  }
-  return told;
-}
-
 } // namespace
 
 ToldRom told_rom(const Goal& goal, const Snapshot& held, History* record, const Session& session) {
@@ -68,7 +54,7 @@ ToldRom told_rom(const Goal& goal, const Snapshot& held, History* record, const 
   }
   auto proven = record->proven_rom(held.servo, session);
   ToldRom told = proven ? ToldRom{.values = std::move(*proven), .is_proven = true}
-                        : recorded_rom(held, *record, session);
+                        : record->recorded_rom(held, session);
   if (goal.wanted.erase) { // the others are reset, and so are IDs that one before has lost
     const bla::Values lost = record->lost_ids(held, session);
     std::erase_if(told.values, [&](const auto& rom) {

@@ -1,25 +1,14 @@
 #pragma once
 // Settings that a change does not name, and that RAM and ROM hold differently.
 
-#include "blactl/bla/parameter.hpp"
-#include "blactl/bla/values.hpp"
 #include "blactl/fleet/bus/session.hpp"
 #include "blactl/fleet/bus/snapshot.hpp"
 #include "blactl/fleet/change/goal.hpp"
+#include "blactl/fleet/change/history.hpp"
 
-#include <set>
 #include <vector>
 
 namespace blactl::fleet {
-
-class History;
-
-/// What ROM holds, as far as proofs and the record of changes tell.
-struct ToldRom {
-  bla::Values values{};
-  bool is_proven = false; ///< else what changes in RAM only have replaced since the start
-  std::set<bla::Address> perhaps_saved{}; ///< whether these changes were saved is not known
-};
 
 /// Empty if nothing makes RAM and ROM equal, there is no record (null), or the servo could not read
 /// its ROM: what it held before a change was not from there then.

@@ -11,16 +11,16 @@ namespace blactl::fleet {
 namespace at = bla::address;
 
 bool is_free_servo_id(const TestBench& bench, std::int64_t servo_id) {
-  return std::ranges::none_of(bench.roster().members(),
-                              [&](const auto& entry) {
-                                const auto& [id, member] = entry;
-                                return id != bench.servo().id &&
-                                       (member.actuator_id == servo_id ||
-                                        member.commanded_id() == servo_id);
-                              }) &&
-         std::ranges::none_of(bench.neighbours(), [&](const Neighbour& other) {
-           return !other.servo_id || other.servo_id == servo_id;
-         });
+  const auto hears = [&](const auto& entry) {
+    const auto& [id, member] = entry;
+    return id != bench.servo().id &&
+           (member.actuator_id == servo_id || member.commanded_id() == servo_id);
+  };
+  const auto may_hold = [&](const Neighbour& other) {
+    return other.servo_id.value_or(servo_id) == servo_id;
+  };
+  return std::ranges::none_of(bench.roster().members(), hears) &&
+         std::ranges::none_of(bench.neighbours(), may_hold);
 }
 
 std::optional<std::int64_t> free_servo_id(const TestBench& bench) {

@@ -52,8 +52,8 @@ std::optional<Error> refuse_servo_id(Session& session, const bla::Profiles& prof
     if (!other.servo_id || session.roster().is_doubled(other.id)) {
       return shared(plan, say<texts::motion_servo_id_unknown>(other.id.value(), servo_id));
     }
-    if (other.servo_id == servo_id ||
-        told == servo_id) { // it is not known which of the two it obeys
+    // it is not known which of the two it obeys
+    if (other.servo_id == servo_id || told == servo_id) {
       return shared(plan, say<texts::motion_servo_id_shared>(plan.servo().id.value(),
                                                              other.id.value(), servo_id));
     }

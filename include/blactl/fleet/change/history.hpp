@@ -24,6 +24,13 @@ namespace blactl::fleet {
 /// The name of an erase that keeps the IDs, as typed.
 inline constexpr std::string_view erase_keeping_ids = "erase --keep-ids";
 
+/// What ROM holds, as far as proofs and the record of changes tell.
+struct ToldRom {
+  bla::Values values{};
+  bool is_proven = false; ///< else what changes in RAM only have replaced since the start
+  std::set<bla::Address> perhaps_saved{}; ///< whether these changes were saved is not known
+};
+
 /// The record of one command, over all of its rounds. Errors of its functions are those of the
 /// stores: the record is incomplete then, with no other effect.
 class History {
@@ -75,6 +82,9 @@ class History {
   /// its ROM holds them, as far as recorded.
   [[nodiscard]] bla::Values replaced_in_ram(const Snapshot& ram, const Session& session) const;
 
+  /// The same, and which of them may be saved by now.
+  [[nodiscard]] ToldRom recorded_rom(const Snapshot& ram, const Session& session) const;
+
   /// The IDs that an ERASE by this program has taken from RAM, was to keep, and did not write back:
   /// it broke off.
   [[nodiscard]] bla::Values lost_ids(const Snapshot& ram, const Session& session) const;
@@ -101,6 +111,8 @@ class History {
   [[nodiscard]] Result<void> resume(const Snapshot& ram, const Session& session);
   [[nodiscard]] static std::optional<WallTime> start_of(const Servo& servo, const Session& session);
   [[nodiscard]] bool is_half_undone() const;
+  [[nodiscard]] std::vector<std::int64_t>
+  former_numbers(std::span<const state::SnapshotEntry> entries) const;
   [[nodiscard]] bool is_in_rom(const state::SnapshotEntry& change) const;
 
   /// The entry of one servo, and its certain state.
