@@ -64,4 +64,9 @@ inline constexpr Address production_hour{0x5B}, production_minute{0x5C};
 inline constexpr std::array command_registers{address::command_angle, address::command_speed,
                                               address::command_torque};
 
+/// Whether no two servos on a bus may hold the same value of it: servo ID, static node ID.
+[[nodiscard]] constexpr bool is_id(Address address) {
+  return address == address::servo_id || address == address::static_node_id;
+}
+
 } // namespace blactl::bla

@@ -19,10 +19,6 @@ bool names(const Goal& goal, bla::Address address) {
 /// How it is known what ROM holds of a register.
 enum class Source : std::uint8_t { proof, record, uncertain_record };
 
-bool survives_erase(bla::Address address) {
-  return address == bla::address::servo_id || address == bla::address::static_node_id;
-}
-
 Warning unnamed(const std::string& name, const std::string& ram, const std::string& rom,
                 bool is_saved, Source source) {
   const char* code = is_saved ? "unnamed_saved" : "unnamed_lost";
@@ -55,10 +51,10 @@ ToldRom told_rom(const Goal& goal, const Snapshot& held, History* record, const 
   auto proven = record->proven_rom(held.servo, session);
   ToldRom told = proven ? ToldRom{.values = std::move(*proven), .is_proven = true}
                         : record->recorded_rom(held, session);
-  if (goal.wanted.erase) { // the others are reset, and so are IDs that one before has lost
+  if (goal.wanted.erase) { // keeps the IDs, and gives back those that one before has lost
     const bla::Values lost = record->lost_ids(held, session);
     std::erase_if(told.values, [&](const auto& rom) {
-      return !survives_erase(rom.first) || bla::find(lost, rom.first);
+      return !bla::is_id(rom.first) || bla::find(lost, rom.first);
     });
   }
   return told;

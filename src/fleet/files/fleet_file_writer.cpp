@@ -58,16 +58,12 @@ void write_value(JsonWriter& json, const bla::Parameter& parameter, std::int64_t
   is_number ? json.number(text) : json.value(text);
 }
 
-bool is_id(bla::Address address) {
-  return address == bla::address::servo_id || address == bla::address::static_node_id;
-}
-
 void write_set(JsonWriter& json, const Snapshot& servo, bool with_ids) {
   json.key("set");
   json.begin_object();
   for (const Reading& reading : servo.readings) {
     const bla::Address address = reading.parameter->address;
-    if (reading.parameter->is_setting() && reading.raw && (with_ids || !is_id(address))) {
+    if (reading.parameter->is_setting() && reading.raw && (with_ids || !bla::is_id(address))) {
       write_value(json, *reading.parameter, *reading.raw, servo.pwm_mode());
     }
   }

@@ -11,8 +11,6 @@
 
 namespace blactl::fleet {
 
-namespace at = bla::address;
-
 namespace {
 
 /// A counter and its place in the file.
@@ -20,10 +18,6 @@ struct CounterSetting {
   Counter counter;
   const json::Value* where = nullptr;
 };
-
-bool is_counted(bla::Address address) {
-  return address == at::servo_id || address == at::static_node_id;
-}
 
 /// Empty: invalid, with an error.
 std::optional<Counter> read_counter(const json::Value& member, const bla::Profiles& profiles,
@@ -44,7 +38,7 @@ std::optional<Counter> read_counter(const json::Value& member, const bla::Profil
     return std::nullopt;
   }
   counter.parameter = parameter->parameter;
-  if (!is_counted(counter.parameter->address)) {
+  if (!bla::is_id(counter.parameter->address)) {
     faults.add(member, say<texts::recipe_counter_of>(counter.parameter->name));
     return std::nullopt;
   }
