@@ -60,6 +60,9 @@ function(blactl_unity target)
     if(NOT name MATCHES "^(src|tests)/")
       continue() # what is generated is by itself too
     endif()
+    if("OWN_NAMESPACES" IN_LIST ARGN AND NOT name MATCHES "_(test|bench)\\.cpp$")
+      continue() # defines what tests share
+    endif()
     file(SIZE ${path} length)
     if(NOT room STREQUAL last OR have GREATER BLACTL_UNITY_BYTES)
       set(last ${room})
