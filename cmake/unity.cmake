@@ -5,7 +5,8 @@
 # are local to a file must be unique there: scripts/tidy tells which are not.
 #
 # blactl_unity(target OWN_NAMESPACES): for tests. Each file is in a namespace of its own, so its names
-# are its own too; what it includes is included before, outside of it.
+# are its own too; what it includes is included before, outside of it. Other files than tests are
+# compiled by themselves.
 
 # More files a unit cost fewer headers, but leave a processor without work at the end.
 set(BLACTL_UNITY_BYTES 150000 CACHE STRING "Source in a unit, about")

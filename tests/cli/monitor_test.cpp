@@ -273,6 +273,21 @@ TEST_CASE("of two servos under one node ID nothing is told but that") {
   CHECK(codes(result) == std::vector<std::string>{"duplicate_node_id"});
 }
 
+TEST_CASE("when one of two servos under one node ID is taken off, monitor shows the other") {
+  const Scene scene = Scene()
+                          .servo("BLA21-12U-AB", 11, {{"serial_number", 1}})
+                          .servo("BLA21-12U-AB", 11, {{"serial_number", 2}})
+                          .event(2, "power_off", "8s");
+  const Result result = scene.run({"monitor", "--json", "--duration", "30"});
+  INFO(result.err);
+  CHECK(result.status == 0);
+  const Lines samples = samples_of(lines_of(result), 11);
+  CHECK(samples.at(14)["serial_number"] == nullptr);
+  CHECK(samples.at(14)["stale"] == true);
+  CHECK(samples.back()["serial_number"] == 1);
+  CHECK(samples.back()["stale"] == false);
+}
+
 TEST_CASE("a selector may mean one of two servos under one node ID") {
   const Scene scene = Scene()
                           .servo("BLA21-12U-AB", 11, {{"serial_number", 1}})

@@ -35,8 +35,9 @@ watch() {
   wait_for 20 test -s "$TMPDIR/$name.log" # a servo was heard: it listens
 }
 
-# monitored NODE VOLTS: monitor has told all of this servo.
+# monitored NODE VOLTS: monitor has told all of this servo. fail shows what it told last.
 monitored() {
+  command_line="monitor" status="runs" out=$(tail -n 3 "$TMPDIR/monitor.out") err=""
   grep -q '"node_id":'"$1"',.*"angle_deg":0.0,.*"voltage_v":'"$2"',.*"stale":false' \
     "$TMPDIR/monitor.out"
 }
@@ -55,7 +56,7 @@ for name in trace stats monitor; do # it may read late: this machine has one pro
   wait_for 20 grep -q ' 7FF#77' "$TMPDIR/$name.log"
 done
 # On a slow machine the servos' own frames were so late that each looks like two units, which are
-# not asked: that is over when nothing has contradicted for some time.
+# not asked: that is over when nothing has contradicted for ten seconds.
 wait_for 60 monitored 11 12.0
 wait_for 20 monitored 12 7.4
 wait_for 20 monitored 13 28.0

@@ -61,13 +61,13 @@ Roster::Roster(NodeId local, const bla::Profiles& profiles)
     : local_(local), profiles_(profiles),
       answers_(names_of_settled(profiles),
                [this](NodeId id, const std::set<dronecan::UniqueId>& units) {
-                 doubled_.insert(id);
+                 doubled_[id] = known(id).last_heard;
                  units_[id].insert(units.begin(), units.end());
                }) {}
 
 void Roster::mark_doubled(NodeId id, const dronecan::UniqueId& one,
                           const dronecan::UniqueId& other) {
-  doubled_.insert(id);
+  doubled_[id] = known(id).last_heard;
   units_[id].insert({one, other});
 }
 
@@ -228,26 +228,39 @@ void Roster::hear_status(Member& sender, const can::Frame& frame, Time at) {
   }
 }
 
-/// An actuator of another make may send its status as fast as it likes.
-bool Roster::is_too_fast(NodeId id) const {
+/// When it last showed. An actuator of another make may send its status as fast as it likes.
+std::optional<Time> Roster::doubled_at(NodeId id) const {
   const Member* sender = find(id);
   const bool is_foreign = sender != nullptr && sender->identified && !sender->is_servo;
   const UnitWatch& watch = watches_[id.value()];
-  return (watch.is_too_fast() && !is_foreign) || watch.has_two_statuses();
+  const auto told = doubled_.find(id);
+  return std::max({told != doubled_.end() ? std::optional(told->second) : std::nullopt,
+                   is_foreign ? std::nullopt : watch.too_fast_at(), watch.two_statuses_at()});
 }
 
 bool Roster::is_doubled(NodeId id) const {
-  return doubled_.contains(id) || is_too_fast(id);
+  return doubled_at(id).has_value();
 }
 
 std::set<NodeId> Roster::doubled() const {
-  std::set<NodeId> all = doubled_;
+  std::set<NodeId> all;
   for (const auto& [id, member] : members_) {
-    if (is_too_fast(id)) {
+    if (is_doubled(id)) {
       all.insert(id);
     }
   }
   return all;
+}
+
+void Roster::forget_doubled(Time since) {
+  for (const NodeId id : doubled()) {
+    if (doubled_at(id) < since) {
+      doubled_.erase(id);
+      units_.erase(id);
+      watches_[id.value()].begin_anew();
+      begin_unit(known(id));
+    }
+  }
 }
 
 void Roster::receive(const Transfer& transfer) {
@@ -306,13 +319,18 @@ void Roster::greet(const Member& sender, Time at) {
 /// Takes the result of an uptime for a node.
 void Roster::take(UnitWatch::Start start, Member& sender) {
   if (start == UnitWatch::Start::twin) {
-    doubled_.insert(sender.id);
+    doubled_[sender.id] = sender.last_heard;
   } else if (start == UnitWatch::Start::anew) {
-    ++sender.boots;
-    commands_.begin(sender.id, sender.status_at);
-    answers_.forget(sender.id);
-    announce(sender);
+    begin_unit(sender);
   }
+}
+
+/// Another unit, or another run of it: what is known was told by the one before.
+void Roster::begin_unit(Member& member) {
+  ++member.boots;
+  commands_.begin(member.id, member.status_at);
+  answers_.forget(member.id);
+  announce(member);
 }
 
 void Roster::give(const dronecan::UniqueId& unit, Time at) {

@@ -43,7 +43,15 @@ void MessageRate::count(const can::Frame& frame, Time at, bool may_leap) {
   }
   leaps_ += may_leap && transfer_id(frame) != next % dronecan::transfer_id_modulus ? 1U : 0U;
   ++count_;
-  is_of_two_ = is_of_two_ || (count_ > most_ && leaps_ * 4 > count_);
+  if (count_ > most_ && leaps_ * 4 > count_) {
+    of_two_at_ = at;
+  }
+}
+
+void UnitWatch::begin_anew() {
+  const bool was_timed = is_timed_;
+  *this = {};
+  is_timed_ = was_timed;
 }
 
 void UnitWatch::count_actuator_status(const can::Frame& frame, Time at) {

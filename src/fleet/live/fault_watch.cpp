@@ -45,6 +45,7 @@ Time FaultWatch::next_due() const {
 Result<std::vector<FaultState>> FaultWatch::next() {
   std::vector<FaultState> states;
   while (states.empty()) {
+    session_.records().forget_doubled(session_.now() - doubt_time);
     begin();
     const auto lived = session_.live_until(next_due(), [this] {
       return std::ranges::any_of(looks_, [this](const Look& look) { return has_ended(look); });

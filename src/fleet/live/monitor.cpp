@@ -102,6 +102,9 @@ void Monitor::advance(Time now) {
   const bool is_first = due_ == Time::min(); // start of a recording: nothing was heard before
   const bool is_late = is_first || now >= due_ + options_.period;
   due_ = (is_late ? now : due_) + options_.period;
+  if (!is_first) {
+    session_.records().forget_doubled(now - doubt_time);
+  }
   plan_rounds();
   if (!is_first && options_.sample) {
     options_.sample(now);

@@ -44,6 +44,27 @@ TEST_CASE("a servo that does not answer holds up no look at another") {
   CHECK(told);
 }
 
+TEST_CASE("when one of two servos under one node ID is taken off, the watch reads the other") {
+  const Scene scene(R"("servos": [{"model": "BLA15-06U-A0", "node_id": 11, "serial_number": 1},
+                                  {"model": "BLA15-06U-A0", "node_id": 11, "serial_number": 2}],
+                       "events": [{"at": "8s", "servo": 2, "happens": "power_off"}])");
+  const Time begin = scene.session->now();
+  scene.grow_old();
+  FaultWatch watch(*scene.session, profiles(), std::array{NodeId(11)}, {}, 500ms);
+  std::optional<Code> first;
+  std::optional<Code> last;
+  while (scene.session->now() - begin < 30s) {
+    const auto seen = watch.next();
+    REQUIRE(seen);
+    REQUIRE(seen->size() == 1);
+    const auto& errors = seen->front().errors;
+    last = errors.empty() ? std::nullopt : std::optional(errors.front().code);
+    first = first ? first : last;
+  }
+  CHECK(first == Code::duplicate_node_id);
+  CHECK(last == std::nullopt);
+}
+
 TEST_CASE("a watch that ends leaves no look behind") {
   const Scene scene = scene_with_a_mute_servo();
   {

@@ -274,6 +274,24 @@ TEST_CASE("two servos show whatever their counters have in common") {
   CHECK(ear.roster.is_doubled(NodeId(10)));
 }
 
+TEST_CASE("a shared ID counts as shared until nothing has shown it for a time") {
+  Ear ear;
+  for (int i = 0; i < 10; ++i) {
+    ear.actuator(10);
+    ear.now += 40ms;
+    ear.twin(10);
+    ear.now += 60ms;
+  }
+  const Time last = ear.now;
+  const unsigned boots = ear.roster.find(NodeId(10))->boots;
+  ear.roster.forget_doubled(last - 1s);
+  CHECK(ear.roster.is_doubled(NodeId(10)));
+  ear.roster.forget_doubled(last + 1ms);
+  CHECK_FALSE(ear.roster.is_doubled(NodeId(10)));
+  CHECK(ear.roster.doubled().empty());
+  CHECK(ear.roster.find(NodeId(10))->boots == boots + 1); // who is left has to be identified
+}
+
 TEST_CASE("an actuator of another make may send its status as fast as it likes") {
   Ear ear;
   for (int i = 0; i < 50; ++i) {

@@ -100,6 +100,10 @@ inline constexpr Duration offline_time = std::chrono::seconds(3);
 /// heard.
 inline constexpr Duration bus_watch_time = std::chrono::milliseconds(1100);
 
+/// Who watches on and on takes a shared ID for that of one unit again when nothing has shown two
+/// for this time.
+inline constexpr Duration doubt_time = std::chrono::seconds(10);
+
 /// The nodes on the bus. The session enters what is heard, and jobs enter the responses; all others
 /// only read it.
 class Roster {
@@ -194,6 +198,11 @@ class Roster {
   [[nodiscard]] bool is_doubled(dronecan::NodeId id) const;
   [[nodiscard]] std::set<dronecan::NodeId> doubled() const;
 
+  /// Forgets the shared IDs of which nothing has shown since then that they are shared: the unit
+  /// that is left has to be identified, as after a restart. For who watches on and on; who changes
+  /// servos does not forget.
+  void forget_doubled(Time since);
+
   /// The unique IDs of the units that use this ID, if two were received; else none.
   [[nodiscard]] std::set<dronecan::UniqueId> units(dronecan::NodeId id) const;
 
@@ -274,7 +283,8 @@ class Roster {
   void on_allocation(const dronecan::Transfer& transfer);
   void greet(const Member& sender, Time at);
   void take(UnitWatch::Start start, Member& sender);
-  [[nodiscard]] bool is_too_fast(dronecan::NodeId id) const;
+  [[nodiscard]] std::optional<Time> doubled_at(dronecan::NodeId id) const;
+  void begin_unit(Member& member);
 
   dronecan::NodeId local_;
   const bla::Profiles& profiles_;
@@ -284,7 +294,7 @@ class Roster {
   std::array<UnitWatch, 128> watches_{};
   CommandWatch commands_;
   dronecan::AnswerWatch answers_;
-  std::set<dronecan::NodeId> doubled_;
+  std::map<dronecan::NodeId, Time> doubled_;                       ///< when that last showed
   std::map<dronecan::NodeId, std::set<dronecan::UniqueId>> units_; ///< of doubled IDs
   std::map<UniqueIdPrefix, Asking> pending_;
   std::set<dronecan::NodeId> allocators_;

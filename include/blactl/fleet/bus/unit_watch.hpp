@@ -28,8 +28,8 @@ class MessageRate {
   /// The sender has restarted.
   void begin_anew() { window_start_.reset(); }
 
-  /// Whether two units have sent them.
-  [[nodiscard]] bool is_of_two() const { return is_of_two_; }
+  /// When two units were last seen to send them; empty: never.
+  [[nodiscard]] std::optional<Time> of_two_at() const { return of_two_at_; }
 
  private:
   Duration window_;
@@ -39,7 +39,7 @@ class MessageRate {
   unsigned leaps_ = 0; ///< transfer IDs out of sequence
   can::Frame last_{};
   Time last_at_{};
-  bool is_of_two_ = false;
+  std::optional<Time> of_two_at_{};
 };
 
 /// Watches the transfers from one node ID.
@@ -58,11 +58,15 @@ class UnitWatch {
   /// A frame of NodeStatus with this uptime.
   void count_node_status(const can::Frame& frame, std::uint32_t uptime_s, Time at);
 
-  /// Whether two servos send actuator.Status, provided that the sender is a BLA servo.
-  [[nodiscard]] bool is_too_fast() const { return actuator_statuses_.is_of_two(); }
+  /// When two servos were last seen to send actuator.Status, provided that the sender is a BLA
+  /// servo; empty: never.
+  [[nodiscard]] std::optional<Time> too_fast_at() const { return actuator_statuses_.of_two_at(); }
 
-  /// Whether two units that started together send NodeStatus.
-  [[nodiscard]] bool has_two_statuses() const { return node_statuses_.is_of_two(); }
+  /// The same of two units that started together, by their NodeStatus.
+  [[nodiscard]] std::optional<Time> two_statuses_at() const { return node_statuses_.of_two_at(); }
+
+  /// Forgets what was heard.
+  void begin_anew();
 
   /// The transfers have no times from here on, as in a log without stamps: then only an uptime that
   /// goes back tells of a restart, and nothing here of a second unit.
