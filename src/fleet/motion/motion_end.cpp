@@ -61,7 +61,11 @@ Step MotionJob::finish() {
   sample_due_ = now_;
   reads_first_ = false;
   has_end_ = !plan_.is_angle();
-  return has_end_ ? command(0) : end();
+  if (has_end_) {
+    target_ = 0;
+    last_command_ = now_ - plan_.longest_gap; // due at once
+  }
+  return go_on();
 }
 
 /// Repeats the final command until the shaft stands still.
@@ -287,7 +291,7 @@ void MotionJob::add_error(Error error) {
 Step MotionJob::give_up(Error error) {
   const bool is_left = error.code == Code::armed || error.code == Code::driven;
   const bool has_met_another =
-      error.code == Code::duplicate_node_id || (proof_ && proof_->has_met_another());
+      error.code == Code::duplicate_node_id || is_another_ || (proof_ && proof_->has_met_another());
   if (result_.has_commanded() && has_met_another) {
     result_.has_restarted = false;
     result_.error.reset();

@@ -36,6 +36,13 @@ constexpr int most_doublings = 6;
 /// After this number of consecutive requests without a response the servo is taken to be gone.
 constexpr int silent_while_moving = 3, silent_in_the_end = 6;
 
+/// Another unit on its node ID may have been switched on in a silence that is longer than this
+/// (unproven), and than the servo takes to answer: it sends actuator.Status ten times a second.
+constexpr Duration longest_silence = 50ms;
+
+/// No command goes out until it has answered, so it is asked often.
+constexpr int tries_who = 3;
+
 /// The angle that a shaft may have moved since the user's question, in tenths of a degree; and the
 /// angle that a turning one, as after a soft start, goes on to turn in 0.2 s, per rpm.
 constexpr std::int64_t most_moved = 20, moved_per_rpm = 12;
@@ -69,6 +76,7 @@ Step MotionJob::next(const Outcome& outcome) {
   case At::read: return take_sample(outcome);
   case At::settings: return judge_setting(outcome);
   case At::faults: return judge_fault(outcome);
+  case At::who: return judge_who(outcome);
   case At::proof: break;
   }
   return judge_proof(outcome);
@@ -84,7 +92,7 @@ Step MotionJob::judge_unit(const Outcome& outcome) {
     return give_up(
         {Code::state, say<texts::another_servo>(id()), say<texts::run_again_hint>(), id()});
   }
-  looked_at_ = now_;
+  looked_at_ = heard_ = now_;
   return look();
 }
 
@@ -155,6 +163,16 @@ bool MotionJob::has_restarted() const {
   return roster_.member(servo_.id).boots != servo_.boot;
 }
 
+/// Another unit that has taken its place shows by its NodeStatus only up to a second later.
+bool MotionJob::may_be_another() {
+  const Member* member = roster_.find(servo_.id);
+  const Time heard = member != nullptr ? member->last_heard : now_;
+  const Time before = std::exchange(heard_, heard);
+  is_unsure_ = is_unsure_ ||
+               std::max(heard - before, now_ - heard) > std::max(longest_silence, usual_time());
+  return is_unsure_;
+}
+
 Step MotionJob::go_on() {
   if (auto why = forbidden()) {
     return give_up(std::move(*why));
@@ -162,7 +180,24 @@ Step MotionJob::go_on() {
   if (has_restarted()) {
     return recognise();
   }
+  if (may_be_another()) {
+    at_ = At::who;
+    return read_register(servo_.id, at::serial_number, {patient_time(tries_who), 0});
+  }
   return phase_ == Phase::moving ? move() : end();
+}
+
+/// Nothing is written to it until it has told its serial number, which is shorter than GetNodeInfo:
+/// frames may get lost.
+Step MotionJob::judge_who(const Outcome& outcome) {
+  if (!has_answered(outcome)) {
+    return phase_ == Phase::ending && is_silent() ? give_up(silent_since()) : go_on_unless_silent();
+  }
+  is_unsure_ = false;
+  is_another_ = value(outcome, at::serial_number) != servo_.identity.readings().serial_number;
+  return is_another_ ? give_up({Code::state, say<texts::another_servo>(id()),
+                                say<texts::run_again_hint>(), id()})
+                     : go_on();
 }
 
 Step MotionJob::move() {
@@ -205,13 +240,22 @@ Step MotionJob::command(std::int64_t raw) {
   return write_register(servo_.id, address, raw, once()); // forbidden() was asked in this step
 }
 
+/// In this time it responds, unless a frame was lost.
+Duration MotionJob::usual_time() const {
+  return std::max(soon, times_slowest * slowest_);
+}
+
+/// The time for a request: it doubles with each such number of them that stay unanswered.
+Duration MotionJob::patient_time(int unanswered) const {
+  const auto doublings = static_cast<unsigned>(std::min(unanswered_ / unanswered, most_doublings));
+  return std::min(options_.patience.timeout, usual_time() * (1U << doublings));
+}
+
 /// One request, answered or given up in time for the next command.
 Patience MotionJob::once() const {
   constexpr Duration least = 1ms;
   const Duration left = last_command_ + plan_.longest_gap - now_;
-  const Duration usual = std::max(soon, times_slowest * slowest_) *
-                         (1U << static_cast<unsigned>(std::min(unanswered_, most_doublings)));
-  return {std::max(least, std::min({left, options_.patience.timeout, usual})), 0};
+  return {std::max(least, std::min(left, patient_time(1))), 0};
 }
 
 /// No response to several requests, nor in the time that three of them may take.

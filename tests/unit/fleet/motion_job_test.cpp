@@ -207,6 +207,7 @@ TEST_CASE("where one frame in ten is lost it is still seen whether the shaft sta
     const auto plan = plan_command(wanted, read.servos.front(), profiles());
     REQUIRE(plan);
     const Commanded ended = command(*bench.scene.session, *plan, {.patience = patience});
+    INFO((ended.result.error ? ended.result.error->message : ""));
     CHECK_FALSE(ended.result.error);
     CHECK(ended.result.is_ended);
   }
@@ -415,6 +416,31 @@ TEST_CASE("a shaft that nothing holds is not said to be held") {
     CHECK(ended.result.error->message.find("torque_output is off") != std::string::npos);
   }
   CHECK(bench.read("torque_output") == 1);
+}
+
+TEST_CASE(
+    "another servo that comes to the node ID is not commanded, however late it says its name") {
+  const auto gap = GENERATE(60, 200, 400, 750);
+  INFO(gap);
+  const auto at_ms = [](int ms) { return std::to_string(ms) + "ms"; };
+  CommandBench bench(R"("servos": [
+      {"model": "BLA21-12U-AB", "node_id": 11, "serial_number": 1,
+       "rom": {"soft_start": "off", "speed_torque_control": "on"}},
+      {"model": "BLA21-12U-AB", "node_id": 11, "serial_number": 2,
+       "rom": {"soft_start": "off", "speed_torque_control": "on"},
+       "behaviour": {"first_node_status": "950ms"}}], "events": [
+      {"at": "0s", "servo": 2, "happens": "power_off"},
+      {"at": "11s", "servo": 1, "happens": "power_off"},
+      {"at": ")" + at_ms(11000 + gap) +
+                     R"(", "servo": 2, "happens": "power_on"}])");
+  const Commanded ended = bench.run(bench.planned("command_speed=30rpm", 10s));
+  CHECK(ended.result.has_commanded());
+  REQUIRE(ended.result.error);
+  CHECK(ended.result.error->code == Code::state);
+  CHECK(ended.result.error->message.find("another servo") != std::string::npos);
+  CHECK_FALSE(ended.result.is_ended);
+  bench.scene.grow_old(); // it has told its name
+  CHECK(bench.read("current_angle") == 0);
 }
 
 TEST_CASE("by ArrayCommand nobody else is moved on who tells that servo ID, or restarted") {

@@ -58,6 +58,7 @@ class MotionJob final : public dronecan::Job {
     shown,    ///< reads the register back
     read,     ///< reads a sample
     settings, ///< reads the servo's behaviour after the commands
+    who,      ///< asks after a silence whether it is the same unit
     faults,   ///< reads whether a protection holds its output off
     proof,    ///< proves that the servo is the same, or has not restarted
   };
@@ -94,6 +95,7 @@ class MotionJob final : public dronecan::Job {
   [[nodiscard]] dronecan::Step prove();
   void judge_output();
   [[nodiscard]] dronecan::Step recognise();
+  [[nodiscard]] dronecan::Step judge_who(const dronecan::Outcome& outcome);
   [[nodiscard]] dronecan::Step judge_proof(const dronecan::Outcome& outcome);
   [[nodiscard]] dronecan::Step fail(Error error);
   [[nodiscard]] dronecan::Step give_up(Error error);
@@ -103,6 +105,9 @@ class MotionJob final : public dronecan::Job {
   [[nodiscard]] std::optional<Error> disturbed() const;
   [[nodiscard]] std::optional<dronecan::NodeId> newcomer() const;
   [[nodiscard]] bool has_restarted() const;
+  [[nodiscard]] bool may_be_another();
+  [[nodiscard]] Duration usual_time() const;
+  [[nodiscard]] Duration patient_time(int unanswered) const;
   [[nodiscard]] Time command_due() const;
   [[nodiscard]] bool has_answered(const dronecan::Outcome& outcome);
   [[nodiscard]] bool is_silent() const;
@@ -127,6 +132,9 @@ class MotionJob final : public dronecan::Job {
   Bystanders others_;      ///< since the start
   std::int64_t target_ = 0;
   Time last_command_{};
+  Time heard_{};                       ///< its last frame, at the step before
+  bool is_unsure_ = false;             ///< it may be another unit
+  bool is_another_ = false;            ///< it is
   bool reads_first_ = false;           ///< a read is due before the next command
   Time ended_{};                       ///< the time its end began
   bool has_end_ = false;               ///< the final command is known
