@@ -107,6 +107,7 @@ const std::map<std::string, Plant>& plants() {
        [](const Draft& d) { d.fault("lose_opcode_answers", d.chance.whole(1, 3)); }},
       {"ignore_opcodes", [](const Draft& d) { d.fault("ignore_opcodes", d.chance.whole(1, 3)); }},
       {"refuse_opcodes", [](const Draft& d) { d.fault("refuse_opcodes", true); }},
+      {"deny_opcodes", [](const Draft& d) { d.fault("deny_opcodes", true); }},
       {"rom_write_fails", [](const Draft& d) { d.fault("rom_write_fails", true); }},
       {"stays", [](const Draft& d) { d.fault("stays", true); }},
       {"never_returns", [](const Draft& d) { d.fault("never_returns", true); }},

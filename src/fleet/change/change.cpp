@@ -146,6 +146,7 @@ std::vector<Error> Change::judge(std::span<const std::size_t> goals, Snapshots s
     result = compared(std::move(result.goal), need, held);
     result.change.was_begun = earlier.was_begun;
     result.change.was_sent = earlier.was_sent;
+    result.change.may_have_changed = earlier.may_have_changed;
     result.change.was_restarted = earlier.was_restarted;
     result.change.duration = earlier.duration;
     if (result.is_done && result.goal.saves() && result.goal.evidence != Evidence::ram) {

@@ -226,12 +226,29 @@ ChangeJob::Stage ChangeJob::conclude_stage(bool cancelled) {
 
 ChangeJob::Stage ChangeJob::conclude_erase() {
   result_.error = erase_->error();
+  was_erased_ = erase_->is_sent();
   return result_.error ? Stage::end : Stage::read_erased;
+}
+
+/// The settings are as before the ERASE that the servo refused.
+bool ChangeJob::is_as_before() const {
+  bla::Values before = plan_.expected;
+  for (auto& [address, raw] : before) {
+    raw = plan_.before.raw(address).value_or(raw);
+  }
+  return !compare(read_->snapshot(), before);
 }
 
 /// If the registers show that a request without a response was not carried out, it is sent again.
 ChangeJob::Stage ChangeJob::conclude_read_erased() {
   take_reading(read_->snapshot());
+  if (erase_->is_refused() && is_as_before()) {
+    was_erased_ = false;
+    const std::uint8_t id = servo_.id.value();
+    result_.error = Error{Code::refused, say<texts::opcode_refused>(id, "ERASE"),
+                          say<texts::opcode_refused_hint>(id), id};
+    return Stage::end;
+  }
   result_.error = compare(read_->snapshot(), expected_after_erase(plan_));
   if (!result_.error) {
     result_.error = check_commands(read_->snapshot());
@@ -242,7 +259,8 @@ ChangeJob::Stage ChangeJob::conclude_read_erased() {
     servo_ = read_->snapshot().servo;
     return after_erase();
   }
-  const bool ignored = result_.error->code == Code::mismatch && !erase_->is_confirmed();
+  const bool ignored =
+      result_.error->code == Code::mismatch && !erase_->is_confirmed() && !erase_->is_refused();
   if (ignored && std::exchange(may_erase_again_, false)) {
     return Stage::erase;
   }

@@ -54,10 +54,7 @@ Step EraseJob::next(const Outcome& outcome) {
   if (outcome.answered()) {
     const auto response = ExecuteOpcode::Response::decode(outcome.payload);
     is_confirmed_ = response && response->ok;
-    if (!is_confirmed_) {
-      error_ = Error{Code::refused, say<texts::opcode_refused>(id, "ERASE"),
-                     say<texts::opcode_refused_hint>(id), id};
-    }
+    is_refused_ = !is_confirmed_;
   } else if (outcome.kind == Outcome::Kind::withheld) {
     is_withheld_ = true;
     error_ = guard_.forbids(servo_, outcome.at, erased_servo_id);

@@ -60,6 +60,7 @@ ChangeResult merged(ChangeResult earlier, const ChangeResult& last) {
   all.servo.id = earlier.servo.id; // not the temporary one of an exchange
   all.was_begun = all.was_begun || earlier.was_begun;
   all.was_sent = all.was_sent || earlier.was_sent;
+  all.may_have_changed = all.may_have_changed || earlier.may_have_changed;
   all.may_have_saved = all.may_have_saved || earlier.may_have_saved;
   all.was_restarted = all.was_restarted || earlier.was_restarted;
   all.duration += earlier.duration;

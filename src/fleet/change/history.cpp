@@ -442,7 +442,7 @@ Result<void> History::settle(std::span<const ChangeResult> results, WallTime wal
   for (const ChangeResult& result : results) {
     const auto known = result.servo.unique_id ? kept_.find(*result.servo.unique_id) : kept_.end();
     if (known != kept_.end()) {
-      known->second.was_changed = known->second.was_changed || result.was_sent;
+      known->second.was_changed = known->second.was_changed || result.may_have_changed;
       known->second.was_saved = known->second.was_saved || result.may_have_saved;
     }
   }

@@ -208,23 +208,19 @@ Step SaveRestartJob::judge_answer(const Outcome& outcome) {
     return hold_off(outcome.at);
   }
   if (outcome.answered()) {
-    if (!has_answered_ok(outcome.payload)) {
-      const std::uint8_t id = id_.value();
-      has_run_on_ = true;
-      return give_up({Code::refused, say<texts::opcode_refused>(id, name(options_.kind)),
-                      say<texts::opcode_refused_hint>(id), id});
+    is_confirmed_ = has_answered_ok(outcome.payload);
+    is_refused_ = !is_confirmed_;
+    if (is_confirmed_) {
+      return has_news() ? conclude() : wait_for_return(outcome.at);
     }
-    is_confirmed_ = true;
-    return has_news() ? conclude() : wait_for_return(outcome.at);
-  }
-  if (outcome.kind == Outcome::Kind::not_sent) {
+  } else if (outcome.kind == Outcome::Kind::not_sent) {
     has_left_ = false; // it may still leave the kernel's queue
   }
   at_ = At::settling;
   return dronecan::Pause{.until = sent_at_ + settling_time, .ready = [this] { return has_news(); }};
 }
 
-/// Without a confirmation, the servo's own uptime decides.
+/// Without a confirmation, and after a refusal too, the servo's own uptime decides.
 Step SaveRestartJob::judge_life(const Outcome& outcome) {
   if (has_news()) {
     return conclude();
@@ -238,7 +234,7 @@ Step SaveRestartJob::judge_life(const Outcome& outcome) {
     has_restarted_ = true;
     return has_news() ? conclude() : wait_for_return(outcome.at);
   }
-  if (has_left_ && std::exchange(may_repeat_, false)) {
+  if (has_left_ && !is_refused_ && std::exchange(may_repeat_, false)) {
     return request(outcome.at);
   }
   has_run_on_ = true;
@@ -358,6 +354,10 @@ Error SaveRestartJob::not_carried_out() const {
   if (is_confirmed_) {
     return {Code::state, say<texts::did_not_restart>(id, request), say<texts::run_again_hint>(),
             id};
+  }
+  if (is_refused_) {
+    return {Code::refused, say<texts::opcode_refused>(id, request),
+            say<texts::opcode_refused_hint>(id), id};
   }
   if (!has_left_) {
     return {Code::no_acknowledge, say<texts::not_sent>(id, request),

@@ -129,7 +129,8 @@ void take_back(const Session& session, const Servo& servo, std::vector<state::Sn
 
 /// Another node's SAVE has made permanent what RAM held then: undo is to put ROM back, too.
 void keep_as_saved(const Session& session, const Servo& servo, const BenchManner& manner) {
-  const ChangeResult saved{.servo = servo, .was_sent = true, .may_have_saved = true};
+  const ChangeResult saved{
+      .servo = servo, .was_sent = true, .may_have_changed = true, .may_have_saved = true};
   const auto kept = manner.history != nullptr
                         ? manner.history->conclude(std::span(&saved, 1), session)
                         : Result<void>();

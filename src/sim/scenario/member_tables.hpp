@@ -88,6 +88,7 @@ inline constexpr Member<ServoFaults> servo_fault_members[]{
     {"lose_opcode_answers", to<&ServoFaults::lose_opcode_answers>},
     {"ignore_opcodes", to<&ServoFaults::ignore_opcodes>},
     {"refuse_opcodes", to<&ServoFaults::refuse_opcodes>},
+    {"deny_opcodes", to<&ServoFaults::deny_opcodes>},
     {"rom_write_fails", to<&ServoFaults::rom_write_fails>},
     {"stays", to<&ServoFaults::stays>},
     {"never_returns", to<&ServoFaults::never_returns>},

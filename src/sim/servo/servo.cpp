@@ -224,7 +224,7 @@ void Servo::serve_order(Order order, const dronecan::Transfer& request,
   if (faults.lose_opcode_answers > 0) {
     --faults.lose_opcode_answers;
   } else if (answers) {
-    answer(request, type, done);
+    answer(request, type, faults.deny_opcodes ? refused : done);
   }
   obey(order, answers);
 }

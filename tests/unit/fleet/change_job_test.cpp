@@ -555,6 +555,16 @@ TEST_CASE("a servo that refuses ERASE is left alone") {
   CHECK(bench.writes().empty());
 }
 
+TEST_CASE("a servo that answers ERASE with a refusal and carries it out is found out") {
+  Bench bench(erase, with_ids);
+  bench.until("ERASE");
+  bench.agrees = false;
+  bench.ram = *bla21().identity.factory_defaults();
+  const ChangeResult& result = bench.finish();
+  CHECK(result.is_done());
+  CHECK(result.may_have_changed);
+}
+
 TEST_CASE("an ERASE without an answer is judged by the registers") {
   Bench bench(erase, with_ids);
   bench.until("ERASE");

@@ -605,7 +605,7 @@ TEST_CASE("a SAVE of which nothing is known leaves the change unsettled") {
   const auto plans = plans_for(scene, set("angle_limit_cw=90deg", true), {11});
   REQUIRE(history.keep(plans, *scene.session));
   ChangeResult result = as_planned(plans[0]);
-  result.was_sent = result.may_have_saved = true;
+  result.was_sent = result.may_have_changed = result.may_have_saved = true;
   result.saved = false;
   REQUIRE(history.conclude(std::vector{result}, *scene.session));
   CHECK(kept.entries().front().saved);
@@ -715,4 +715,17 @@ TEST_CASE("a file that was tampered with moves nothing") {
   }
   CHECK(to_undo({.held = {{0x3C, 999}}}, profiles()).error().code == Code::out_of_range);
   CHECK(to_undo({.held = {{0x46, 127}}}, profiles()).error().code == Code::out_of_range);
+}
+
+TEST_CASE("what a servo refused is no change that undo would look for") {
+  const Wanted wanted =
+      GENERATE(as<Wanted>{}, Wanted{.erase = true, .keep_ids = true},
+               Wanted{.restart = RestartKind::restart}, Wanted{.restart = RestartKind::save});
+  const Kept kept;
+  const Scene scene(servos(R"(, "ram": {"angle_d_gain": 9}, "faults": {"refuse_opcodes": true})"));
+  const ChangeResult result = change(scene, wanted, kept, "erase");
+  REQUIRE(result.error);
+  CHECK(result.error->code == Code::refused);
+  CHECK_FALSE(result.may_have_changed);
+  CHECK(kept.entries().empty());
 }

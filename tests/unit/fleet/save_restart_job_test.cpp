@@ -350,10 +350,27 @@ TEST_CASE("what is not certainly the servo that is meant gets no request") {
 TEST_CASE("a servo that refuses is not asked twice") {
   Bench bench(GENERATE(RestartKind::save, RestartKind::restart));
   bench.send();
-  CHECK(bench.answer_ok(false) == "nothing");
+  const Time sent = bench.now;
+  CHECK(bench.answer_ok(false) == "pause");
+  CHECK(bench.time_is_over() == "GetNodeInfo");
+  CHECK(bench.info(1, sent - 100s) == "nothing"); // it has run on
   CHECK(bench.error() == Code::refused);
   CHECK(bench.job.returned() == std::nullopt);
   CHECK_FALSE(bench.job.must_finish());
+}
+
+TEST_CASE("a servo that refuses and restarts all the same is followed") {
+  Bench bench(GENERATE(RestartKind::save, RestartKind::restart));
+  bench.send();
+  const Time sent = bench.now;
+  CHECK(bench.answer_ok(false) == "pause");
+  CHECK(bench.job.must_finish());
+  bench.now = sent + 700ms;
+  bench.recognize(11, 1, sent + 200ms);
+  CHECK(bench.wake() == "nothing");
+  CHECK(bench.job.returned() == NodeId(11));
+  CHECK(bench.job.may_have_happened());
+  CHECK_FALSE(bench.job.error());
 }
 
 TEST_CASE("a lost answer: the servo that is seen to restart is not asked again") {

@@ -85,6 +85,7 @@ class ChangeJob final : public dronecan::Job {
   [[nodiscard]] dronecan::Step enter(Stage stage, Time now);
   [[nodiscard]] Stage conclude_stage(bool cancelled);
   [[nodiscard]] Stage conclude_erase();
+  [[nodiscard]] bool is_as_before() const;
   [[nodiscard]] Stage conclude_read_erased();
   [[nodiscard]] Stage conclude_write();
   [[nodiscard]] Stage conclude_restart();
@@ -122,6 +123,7 @@ class ChangeJob final : public dronecan::Job {
   Stage stage_ = Stage::begin;
   Servo servo_; ///< as last recognised, before our restart
   bool may_erase_again_ = true;
+  bool was_erased_ = false; ///< as far as known
   int looks_ = 0;
   Time begin_{};
   std::unique_ptr<EraseJob> erase_;

@@ -24,11 +24,13 @@ class EraseJob final : public dronecan::Job {
 
   [[nodiscard]] bool is_confirmed() const { return is_confirmed_; }
 
+  [[nodiscard]] bool is_refused() const { return is_refused_; }
+
   /// Whether the request left this machine, or may have.
   [[nodiscard]] bool is_sent() const { return at_ == At::request && !is_withheld_; }
 
-  /// Set if the request certainly did not leave this machine, or the servo refused it; empty also
-  /// if the response was lost. Errors: refused, no_acknowledge, interrupted, state; as
+  /// Set if the request certainly did not leave this machine; else the registers tell whether it
+  /// was carried out, whatever the servo answered. Errors: no_acknowledge, interrupted, state; as
   /// Guard::forbids().
   [[nodiscard]] const std::optional<Error>& error() const { return error_; }
 
@@ -42,6 +44,7 @@ class EraseJob final : public dronecan::Job {
   At at_ = At::begin;
   bool is_withheld_ = false;
   bool is_confirmed_ = false;
+  bool is_refused_ = false;
   std::optional<Error> error_;
 };
 

@@ -25,13 +25,14 @@ struct ChangeResult {
   std::vector<RegisterChange> changes{};
   std::optional<std::int64_t> mode_before{}, mode_after{}; ///< as in Plan
   std::vector<Warning> warnings{};                         ///< as in Plan
-  bool was_begun = false;      ///< by a job; false: a plan that is shown
-  bool saves = false;          ///< SAVE is part of it: all of RAM goes to ROM
-  bool was_sent = false;       ///< a request that changes the servo has left, or may have
-  bool may_have_saved = false; ///< SAVE has left, or another node's, and may have succeeded
-  bool was_restarted = false;  ///< SAVE or RestartNode was due, and all before succeeded
-  bool is_verified = false;    ///< everything required was proven
-  bool saved = false;          ///< ROM was written, and the servo is back with these values
+  bool was_begun = false;        ///< by a job; false: a plan that is shown
+  bool saves = false;            ///< SAVE is part of it: all of RAM goes to ROM
+  bool was_sent = false;         ///< a request that changes the servo has left, or may have
+  bool may_have_changed = false; ///< and was carried out, as far as known
+  bool may_have_saved = false;   ///< SAVE has left, or another node's, and may have succeeded
+  bool was_restarted = false;    ///< SAVE or RestartNode was due, and all before succeeded
+  bool is_verified = false;      ///< everything required was proven
+  bool saved = false;            ///< ROM was written, and the servo is back with these values
   std::optional<dronecan::NodeId> returned{};      ///< its node ID after the restart
   std::optional<dronecan::NodeId> node_id_after{}; ///< empty: unknown, or it is away
   std::optional<RomReading> rom{}; ///< after SAVE, if as expected, and if ROM was to be proven

@@ -150,6 +150,7 @@ class SaveRestartJob final : public dronecan::Job {
   bool may_repeat_ = true;
   bool is_over_ = false;
   bool is_unproven_ = false;
+  bool is_refused_ = false;
   bool has_run_on_ = false;
   bool has_restarted_ = false;  ///< shown by its uptime, the roster may have missed it
   bool calls_expected_ = false; ///< which one it called last

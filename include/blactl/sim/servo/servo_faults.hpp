@@ -32,6 +32,7 @@ struct ServoFaults {
   std::uint32_t lose_opcode_answers = 0; ///< this many first orders are obeyed without a response
   std::uint32_t ignore_opcodes = 0; ///< this many first orders are neither carried out nor answered
   bool refuse_opcodes = false;      ///< all get a response with ok=false, or a failure of GetSet
+  bool deny_opcodes = false;        ///< the same response, and all are carried out
   bool rom_write_fails = false; ///< ok, silence, restart and count as usual, but ROM is unchanged
   bool stays = false;           ///< responds ok and writes ROM, but does not restart
   bool never_returns = false;   ///< is dead after its first restart
