@@ -5,7 +5,6 @@
 #include "blactl/fleet/bus/texts.hpp"
 #include "blactl/fleet/bus/unreachable.hpp"
 #include "blactl/fleet/change/guard.hpp"
-#include "blactl/fleet/change/survey.hpp"
 
 #include "fleet/change/id_holders.hpp"
 #include "fleet/change/texts.hpp"
@@ -159,6 +158,56 @@ void Rounds::note_takeovers(const std::vector<state::AllocationEntry>& absent) {
   }
 }
 
+/// The node IDs that a servo which could not read its ROM may have there, as far as recorded.
+Result<std::set<NodeId>> Rounds::known_ids(const Neighbour& unread) {
+  std::set<NodeId> ids;
+  const auto table = this->table();
+  const auto entries =
+      table ? (*table)->entries()
+            : Result<std::vector<state::AllocationEntry>>(std::unexpected(table.error()));
+  if (!entries) {
+    return std::unexpected(entries.error());
+  }
+  for (const state::AllocationEntry& entry : *entries) {
+    if (entry.unique_id == unread.unique_id) {
+      ids.insert(entry.node_id);
+    }
+  }
+  if (const auto* proofs = options_.manner.proofs; proofs != nullptr && unread.unique_id) {
+    if (const auto last = proofs->last_static_node_id(*unread.unique_id)) {
+      ids.insert(*last);
+    }
+  }
+  return ids;
+}
+
+/// A servo that could not read its ROM holds no ID; its next start may bring one back.
+std::vector<Error> Rounds::check_unread(const Survey& survey, std::span<const Plan> plans) {
+  std::vector<Error> errors;
+  for (const Neighbour& other : survey.servos) {
+    const bool stays = std::ranges::none_of(
+        plans, [&](const Plan& plan) { return plan.before.servo.id == other.id; });
+    if (!stays || !other.is_rom_unread || !other.unique_id) {
+      continue;
+    }
+    notes_.push_back(say<texts::ids_in_unread_rom>(other.id.value()));
+    const auto known = known_ids(other);
+    if (!known) {
+      return {known.error()};
+    }
+    for (const Plan& plan : plans) {
+      if (const auto given = plan.given_node_id(); given && known->contains(*given)) {
+        const std::uint8_t id = plan.before.servo.id.value();
+        errors.push_back({Code::duplicate_node_id,
+                          say<texts::id_given_is_held>(id, given->value(), other.id.value(),
+                                                       hex(*other.unique_id)),
+                          say<texts::rom_unread_hint>(other.id.value()), id});
+      }
+    }
+  }
+  return errors;
+}
+
 /// Checks that no other servo has the assigned servo IDs, or the static node IDs that are only
 /// written to RAM: those that are saved are checked by the rounds.
 std::vector<Error> Rounds::check_ids() {
@@ -171,7 +220,7 @@ std::vector<Error> Rounds::check_ids() {
   for (const NodeId id : survey->silent) {
     notes_.push_back(say<texts::did_not_tell_ids>(id.value()));
   }
-  std::vector<Error> errors;
+  auto errors = check_unread(*survey, plans);
   for (const Plan& plan : plans) {
     auto error = plan.restart == RestartKind::save ? servo_id_conflict(*survey, plans, plan)
                                                    : conflict(*survey, plans, plan);

@@ -8,12 +8,15 @@
 #include "blactl/fleet/change/carry_out.hpp"
 #include "blactl/fleet/change/id_moves.hpp"
 #include "blactl/fleet/change/plan.hpp"
+#include "blactl/fleet/change/survey.hpp"
 #include "blactl/state/allocation_store.hpp"
 
 #include <cstddef>
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -94,6 +97,8 @@ class Rounds {
   [[nodiscard]] Result<state::AllocationStore*> table();
   void note_takeovers(const std::vector<state::AllocationEntry>& absent);
   [[nodiscard]] std::vector<Error> check_ids();
+  [[nodiscard]] std::vector<Error> check_unread(const Survey& survey, std::span<const Plan> plans);
+  [[nodiscard]] Result<std::set<dronecan::NodeId>> known_ids(const Neighbour& unread);
   [[nodiscard]] std::vector<Error> check() const;
   [[nodiscard]] std::vector<Plan> plans() const;
 

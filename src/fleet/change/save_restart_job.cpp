@@ -209,9 +209,12 @@ Step SaveRestartJob::judge_answer(const Outcome& outcome) {
   }
   if (outcome.answered()) {
     is_confirmed_ = has_answered_ok(outcome.payload);
-    is_refused_ = !is_confirmed_;
     if (is_confirmed_) {
       return has_news() ? conclude() : wait_for_return(outcome.at);
+    }
+    is_refused_ = true;
+    if (options_.pace != nullptr) {
+      options_.pace->has_failed = true; // others need not wait for the proof
     }
   } else if (outcome.kind == Outcome::Kind::not_sent) {
     has_left_ = false; // it may still leave the kernel's queue

@@ -77,7 +77,8 @@ Result<std::vector<Snapshot>> read_ids(Session& session, const bla::Profiles& pr
     }
   }
   const auto ids = [](const Servo& servo) -> Result<std::vector<const bla::Parameter*>> {
-    return servo.identity.registers(std::array{at::servo_id, at::static_node_id});
+    return servo.identity.registers(
+        std::array{at::servo_id, at::static_node_id, at::fault_warning});
   };
   auto snapshots = take_snapshots(session, profiles, nodes, options, ids);
   if (snapshots.broken) {
@@ -104,7 +105,8 @@ Result<std::vector<Neighbour>> neighbours(Session& session, const bla::Profiles&
            .unique_id = snapshot.servo.unique_id,
            .servo_id = member.is_foreign() ? member.commanded_id() : snapshot.raw(at::servo_id),
            .static_node_id = snapshot.raw(at::static_node_id),
-           .is_foreign = member.is_foreign()});
+           .is_foreign = member.is_foreign(),
+           .is_rom_unread = check_rom(snapshot).has_value()});
     }
   }
   return found;

@@ -12,6 +12,10 @@ inline constexpr Text came_since{
 inline constexpr Text did_not_tell_ids{
     "node {} did not say which IDs it has: a conflict with it cannot be ruled out",
     "ノード {} の ID を読み出せないため、重複の有無は確認できません"};
+inline constexpr Text ids_in_unread_rom{
+    "node {} could not read its ROM: a conflict with the IDs that it holds there cannot be ruled "
+    "out",
+    "ノード {} は起動時に ROM を読み出せなかったため、ROM 内の ID との重複の有無は確認できません"};
 inline constexpr Text will_make_way{
     "node {} makes way for others: it is saved twice, node ID {} comes in between",
     "ノード {} は ID 入替えのため一時的にノード ID {} を使用します (保存は 2 回)"};

@@ -89,6 +89,11 @@ class History {
   /// it broke off.
   [[nodiscard]] bla::Values lost_ids(const Snapshot& ram, const Session& session) const;
 
+  /// The static node ID that the ROM of this unit held when that was last proven; empty: none, or
+  /// never proven.
+  [[nodiscard]] std::optional<dronecan::NodeId>
+  last_static_node_id(const dronecan::UniqueId& unit) const;
+
   /// Whether a restart by this program did not help a servo to read its ROM, and it has not
   /// restarted since.
   [[nodiscard]] bool is_rom_unread(const Servo& servo, const Session& session);

@@ -19,7 +19,8 @@ struct Neighbour {
   std::optional<dronecan::UniqueId> unique_id{};
   std::optional<std::int64_t> servo_id{}; ///< by which ArrayCommand reaches it
   std::optional<std::int64_t> static_node_id{};
-  bool is_foreign = false; ///< of another make
+  bool is_foreign = false;    ///< of another make
+  bool is_rom_unread = false; ///< it runs on initial values, its IDs in ROM may be others
 };
 
 /// Nodes that send no actuator.Status, and that nobody has identified. Asking what they are costs a
