@@ -163,8 +163,9 @@ std::vector<NodeId> Roster::copies(NodeId id) const {
     return copies;
   }
   for (const auto& [other_id, other] : members_) {
-    if (other_id != id && may_be_servo(other) && other.is_unit(member->info->unique_id) &&
-        ran_beside(*member, other) && ran_beside(other, *member)) {
+    const bool is_one = may_be_servo(other) && other.is_unit(member->info->unique_id) &&
+                        ran_beside(*member, other) && ran_beside(other, *member);
+    if (other_id != id && (is_one || units(other_id).contains(member->info->unique_id))) {
       copies.push_back(other_id);
     }
   }

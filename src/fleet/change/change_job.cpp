@@ -16,8 +16,10 @@ using dronecan::Step;
 namespace {
 
 bool has_failed(const std::vector<RegisterChange>& changes) {
-  return std::ranges::any_of(changes,
-                             [](const RegisterChange& change) { return change.error.has_value(); });
+  return std::ranges::any_of(changes, [](const RegisterChange& change) {
+    return change.error || change.status == ChangeStatus::failed ||
+           change.status == ChangeStatus::mismatch;
+  });
 }
 
 /// The values after ERASE; the IDs are written again after it.

@@ -390,7 +390,7 @@ void WriteJob::judge(RegisterChange& change) const {
 }
 
 /// The index of the change that gets the error if the servo is not proven to be the same: the one
-/// in doubt, else the first written, else the next one.
+/// in doubt, else the first written, else the next one, else the first.
 std::size_t WriteJob::unproven() const {
   const auto first = [this](ChangeStatus status) {
     const auto it = std::ranges::find(changes_, status, &RegisterChange::status);
@@ -398,7 +398,8 @@ std::size_t WriteJob::unproven() const {
   };
   const std::size_t made = doubted_ ? *doubted_ : first(ChangeStatus::written);
   const std::size_t next = made < changes_.size() ? made : current_;
-  return next < changes_.size() ? next : first(ChangeStatus::unchanged);
+  const std::size_t held = next < changes_.size() ? next : first(ChangeStatus::unchanged);
+  return held < changes_.size() ? held : 0;
 }
 
 /// This change failed, the remaining ones are not tried, and earlier writes are not proven.
@@ -411,8 +412,11 @@ Step WriteJob::give_up(std::size_t blamed, Error error) {
   }
   if (blamed < changes_.size()) {
     RegisterChange& change = changes_[blamed];
-    change.status = ChangeStatus::failed;
-    change.after = std::nullopt;
+    const bool was_read = change.status == ChangeStatus::mismatch && !change.error;
+    if (!was_read) {
+      change.status = ChangeStatus::failed;
+      change.after = std::nullopt;
+    }
     change.error = std::move(error);
   }
   return std::nullopt;

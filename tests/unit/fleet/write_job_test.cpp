@@ -447,6 +447,24 @@ TEST_CASE("equal values that a restart has changed are not told as unchanged") {
   }
 }
 
+TEST_CASE("where all was equal, and a restart has changed it, that is an error") {
+  Bench bench;
+  const RegisterChange torque = change("torque_output", 1, 1);
+  WriteJob job(bench.roster, bench.servo, {torque, change("angle_p_gain", 30, 30)},
+               {.premises = {{torque.parameter, 1}}});
+  CHECK(text(job.next(Script::start())) == "GetNodeInfo");
+  bench.restart();
+  CHECK(text(job.next(bench.script.info(1))) == "read 0x20");
+  const auto [told, status] =
+      GENERATE(std::pair(0, ChangeStatus::mismatch), std::pair(-1, ChangeStatus::failed));
+  CHECK(text(job.next(told < 0 ? Script::timed_out() : bench.script.value("0x20", told))) ==
+        "nothing");
+  CHECK(job.changes()[0].status == status);
+  CHECK(job.changes()[1].status == ChangeStatus::failed);
+  REQUIRE(job.changes()[0].error);
+  CHECK(job.changes()[0].error->code == (told < 0 ? Code::timeout : Code::state));
+}
+
 TEST_CASE("no write repeats itself") {
   Bench bench;
   WriteJob job = bench.job({change("smoothing", 1, 0)});
