@@ -384,8 +384,10 @@ void check_undo(const Step& change, const Step& undo) {
       continue; // what RAM held alone is lost
     }
     for (const auto& [address, rom] : before.rom) {
-      const std::int64_t due = before.ram.at(address);
-      if (due == changed.ram.at(address)) {
+      // what was saved goes back to what ROM held, if the record knows of a trial in RAM
+      const bool is_back_to_rom = was_saved && undone.ram.at(address) == rom;
+      const std::int64_t due = is_back_to_rom ? rom : before.ram.at(address);
+      if (before.ram.at(address) == changed.ram.at(address)) {
         continue;
       }
       require(undone.ram.at(address) == due,
