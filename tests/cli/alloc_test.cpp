@@ -1,4 +1,5 @@
 #include "catch.hpp"
+#include "fleet.hpp"
 #include "run.hpp"
 #include "scene.hpp"
 #include "tap.hpp"
@@ -514,4 +515,21 @@ TEST_CASE("a table on stdout leaves no place for a report in JSON") {
   const Bench bench;
   check_error(bench.run({"-i", "sim:", "alloc", "--export", "-", "--json"}), 2, "usage",
               "both would be on stdout");
+}
+
+TEST_CASE("an ID that was to be taken over, and was not, is its former unit's again") {
+  const Fleet fleet(Scene().servo("BLA21-12U-AB", 12,
+                                  {{"serial_number", 1}, {"faults", {{"refuse_opcodes", true}}}}));
+  const std::string away = "00112233445566778899aabbccddeeff";
+  Document table{{"schema", "blactl-allocations/1"}, {"entries", Document::array()}};
+  table["entries"].push_back({{"unique_id", away}, {"node_id", 20}});
+  REQUIRE(fleet.run({"alloc", "--import", fleet.file(table)}).status == 0);
+  const Result failed = fleet.run({"alloc", "--static", "-n", "12", "--id", "20", "-y"});
+  CHECK(codes(failed) == std::vector<std::string>{"refused"});
+  bool is_promised = false;
+  const auto list = json(fleet.run({"alloc", "--list", "-j"}).out);
+  for (const auto& entry : list["entries"]) {
+    is_promised = is_promised || (entry["unique_id"] == away && entry["node_id"] == 20);
+  }
+  CHECK(is_promised);
 }

@@ -117,16 +117,11 @@ TEST_CASE("the node ID that such a servo may have in its ROM is not given away u
           .servo("BLA21-12U-AB", 11, {{"serial_number", 1}, {"faults", {{"rom_unread_starts", 5}}}})
           .servo("BLA21-12U-AB", 15, {{"serial_number", 2}}));
   REQUIRE(fleet.run({"alloc", "--once"}).status == 0); // 1 has 125
-  const Arguments wish{"set", "-n", "15", "static_node_id=11", "--dry-run"};
-  const Result told = fleet.run(wish);
-  CHECK(told.status == 8);
-  CHECK(contains(told.err, "node 125 could not read its ROM: a conflict with the IDs"));
-  const std::string unit = json(fleet.run({"get", "-n", "125", "-j"}).out)["nodes"][0]["unique_id"];
-  REQUIRE(fleet.run({"alloc", "--forget", unit}).status == 0);
-  const Document table{{"schema", "blactl-allocations/1"},
-                       {"entries", {{{"unique_id", unit}, {"node_id", 11}}}}};
-  REQUIRE(fleet.run({"alloc", "--import", fleet.file(table)}).status == 0);
-  const Result of_its_own = fleet.run(wish);
-  CHECK(codes(of_its_own) == std::vector<std::string>{"duplicate_node_id"});
-  CHECK(contains(of_its_own.err, "blactl restart -n 125"));
+  const Result refused = fleet.run({"set", "-n", "15", "static_node_id=11", "-y"});
+  CHECK(codes(refused) == std::vector<std::string>{"rom_unread"});
+  CHECK(contains(refused.err, "node 125 may have in its ROM"));
+  CHECK(contains(refused.err, "blactl restart -n 125"));
+  const Result noted = fleet.run({"set", "-n", "15", "servo_id=9", "-y"});
+  CHECK(noted.status == 0);
+  CHECK(contains(noted.err, "node 125 could not read its ROM: a conflict with the servo ID"));
 }

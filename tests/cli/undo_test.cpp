@@ -306,3 +306,33 @@ TEST_CASE("undo puts nothing into ROM that was in RAM only") {
     CHECK(value_in_rom() == 60);
   }
 }
+
+TEST_CASE(
+    "undo takes back an apply that succeeded at the second try, and nothing done in between") {
+  const Fleet fleet(
+      Scene()
+          .servo("BLA21-12U-AB", 11, {{"serial_number", 1}, {"faults", {{"ignore_opcodes", 2}}}})
+          .servo("BLA21-12U-AB", 12, {{"serial_number", 2}})
+          .servo("BLA21-12U-AB", 13, {{"serial_number", 3}}));
+  Document wanted = fleet.exported();
+  wanted["servos"].erase(2);
+  for (auto& servo : wanted["servos"]) {
+    servo["set"]["angle_p_gain"] = 33;
+  }
+  REQUIRE(fleet.apply(wanted).status == 6);
+  REQUIRE(fleet.run({"set", "-n", "13", "angle_p_gain=60", "--save", "-y"}).status == 0);
+  SECTION("both of its servos") {
+    REQUIRE(fleet.apply(wanted).status == 0);
+    REQUIRE(fleet.run({"undo", "-y"}).status == 0);
+    CHECK(fleet.rom("11", "angle_p_gain") != 33);
+    CHECK(fleet.rom("12", "angle_p_gain") != 33);
+  }
+  SECTION("but not one that another command has changed since") {
+    REQUIRE(fleet.run({"set", "-n", "12", "angle_p_gain=44", "--save", "-y"}).status == 0);
+    REQUIRE(fleet.apply(wanted, {"-n", "11"}).status == 0);
+    REQUIRE(fleet.run({"undo", "-y"}).status == 0);
+    CHECK(fleet.rom("11", "angle_p_gain") != 33);
+    CHECK(fleet.rom("12", "angle_p_gain") == 44);
+  }
+  CHECK(fleet.rom("13", "angle_p_gain") == 60);
+}

@@ -182,6 +182,19 @@ std::optional<NodeId> CommandWatch::armed_by(Time now) const {
   return armed == armed_.end() ? std::nullopt : std::optional(armed->first);
 }
 
+std::optional<NodeId> CommandWatch::giver_of(bla::Address reg, std::int64_t value, NodeId except,
+                                             Time since) const {
+  for (const auto& [server, registers] : repetitions_) {
+    const auto given = registers.find(reg);
+    const auto* raw =
+        given != registers.end() ? std::get_if<std::int64_t>(&given->second.value) : nullptr;
+    if (server != except && raw != nullptr && *raw == value && given->second.last > since) {
+      return server;
+    }
+  }
+  return std::nullopt;
+}
+
 std::optional<NodeId> CommandWatch::writer_to(NodeId id, Time since,
                                               std::optional<bla::Address> reg) const {
   const auto restart = restarts_.find(id);

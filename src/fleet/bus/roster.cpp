@@ -187,6 +187,7 @@ void Roster::hear(const can::Frame& frame, Time at) {
   }
   hear_request(*header, frame, at);
   Member& heard = known(header->source);
+  heard.back_at = at - heard.last_heard > longest_pause ? at : heard.back_at;
   heard.last_heard = at;
   answers_.receive(*header, frame, at);
   const std::uint8_t tail = frame.data[frame.size - 1U];

@@ -41,10 +41,8 @@ std::vector<Error> Rounds::carry_out(const Hook& hook) {
     return errors;
   }
   const std::vector<Plan> plans = this->plans();
-  if (auto refused = record(session_, plans, options_.manner)) {
-    return {std::move(*refused)};
-  }
-  auto errors = carry_out_rounds(hook);
+  auto refused = record(session_, plans, options_.manner);
+  auto errors = refused ? std::vector{std::move(*refused)} : carry_out_rounds(hook);
   std::vector<ChangeResult> never_begun;
   std::ranges::transform(plans, std::back_inserter(never_begun), as_planned);
   record_end(session_, never_begun, options_.manner);
@@ -58,12 +56,30 @@ std::vector<Error> Rounds::carry_out_rounds(const Hook& hook) {
     return {put.error()};
   }
   auto errors = carry_out_each(hook);
-  const auto put =
-      std::ranges::any_of(units_, &UnitChange::has_failed) ? put_as_they_are() : Result<void>();
+  const bool has_failed = !errors.empty() || std::ranges::any_of(units_, &UnitChange::has_failed);
+  auto put = has_failed ? put_as_they_are() : Result<void>();
+  put = put && has_failed ? give_back() : put;
   if (!put) {
     errors.push_back(put.error());
   }
   return errors;
+}
+
+/// IDs that were to be taken over from units that are away, and were not, are theirs again.
+Result<void> Rounds::give_back() {
+  std::vector<Wish> entries;
+  for (const state::AllocationEntry& former : absent_) {
+    const auto unit =
+        std::ranges::find(units_, std::optional(former.node_id), &UnitChange::static_node_id);
+    const bool stays = unit != units_.end() && unit->now != former.node_id &&
+                       !(unit->last && unit->last->may_have_saved);
+    if (stays) {
+      entries.push_back({former.unique_id, former.node_id});
+    }
+  }
+  return entries.empty()
+             ? Result<void>()
+             : table_->enter(entries, session_.wall(), state::AllocationStore::Former::keeps);
 }
 
 std::vector<Error> Rounds::carry_out_each(const Hook& hook) {

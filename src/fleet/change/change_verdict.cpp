@@ -43,7 +43,7 @@ void ChangeJob::tell_reach() {
   const bool has_sent = result_.was_sent = (erase_ && erase_->is_sent()) ||
                                            (write_ && write_->has_written()) ||
                                            (restart_ && restart_->is_sent());
-  result_.may_have_changed = was_erased_ || (write_ && write_->has_written()) ||
+  result_.may_have_changed = was_erased_ || (write_ && write_->may_have_changed()) ||
                              (restart_ && restart_->may_have_happened());
   const auto tell = [&](std::optional<Error>& error) {
     const bool is_doubled = error && error->code == Code::duplicate_node_id;

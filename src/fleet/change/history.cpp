@@ -145,7 +145,7 @@ Result<void> History::resume(const Snapshot& ram, const Session& session) {
   const bool is_over =
       command_ == erase_keeping_ids && *last && (!started || (*last)->at < *started);
   if (*last && !(*last)->ended && (*last)->command == command_ && !is_over) {
-    run_ = std::max(run_, (*last)->run);
+    run_ = joined_ = std::max(run_, (*last)->run);
     const bool was_saved = was_perhaps_saved(**last, ram, started);
     kept_[unique_id] = {.entry = std::move(**last),
                         .was_changed = true,
@@ -184,7 +184,8 @@ std::optional<state::SnapshotEntry> History::entry_of(const Plan& plan, const Ro
     }
   }
   held.merge(stored(taken_from_ram(plan, session)));
-  if (!unique_id || held.empty()) {
+  const bool goes_on = unique_id && plan.restart == RestartKind::save && is_another_try(*unique_id);
+  if (!unique_id || (held.empty() && !goes_on)) {
     return std::nullopt;
   }
   state::Registers in_ram;
@@ -217,14 +218,13 @@ std::optional<state::SnapshotEntry> History::entry_of(const Plan& plan, const Ro
   entry.held.merge(held); // values replaced in an earlier round stay
   entry.saved = entry.saved || plan.restart == RestartKind::save;
   entry.run = run_ != 0 ? run_ : entry.run;
-  const bool is_another_try = known != kept_.end() && known->second.is_another_try;
-  const bool begins_again = is_another_try || entry.settled;
+  const bool begins_again = is_another_try(*unique_id) || entry.settled;
   if (entry.number != 0 && entry == before && !begins_again) {
     return std::nullopt;
   }
   entry.at = begins_again ? session.wall() : entry.at; // it may have restarted since the last try
   entry.settled.reset();
-  entry.number = is_another_try ? 0 : entry.number; // see former_numbers()
+  entry.number = is_another_try(*unique_id) ? 0 : entry.number; // see former_numbers()
   return entry;
 }
 
@@ -264,14 +264,19 @@ Result<void> History::keep(std::span<const Plan> plans, const Session& session) 
   return {};
 }
 
+/// Whether the record of this unit is that of an earlier run of the command.
+bool History::is_another_try(const UniqueId& unit) const {
+  const auto known = kept_.find(unit);
+  return known != kept_.end() && known->second.is_another_try;
+}
+
 /// Of the tries that these entries continue: other commands may have come in between.
 std::vector<std::int64_t>
 History::former_numbers(std::span<const state::SnapshotEntry> entries) const {
   std::vector<std::int64_t> numbers;
   for (const state::SnapshotEntry& entry : entries) {
-    const auto known = kept_.find(entry.unique_id);
-    if (known != kept_.end() && known->second.is_another_try) {
-      numbers.push_back(known->second.entry.number);
+    if (is_another_try(entry.unique_id)) {
+      numbers.push_back(kept_.at(entry.unique_id).entry.number);
     }
   }
   return numbers;
@@ -413,7 +418,7 @@ void History::settle(const ChangeResult& result, WallTime wall, Settled& settled
   if (kept.is_empty || (!kept.was_changed && !is_half_undone())) {
     settled.ends.push_back({.number = kept.entry.number, .end = ChangeEnd::never_begun});
     kept_.erase(known);
-    run_ = kept_.empty() ? 0 : run_;
+    run_ = kept_.empty() ? joined_ : run_;
     return;
   }
   const auto trials = in_ram_.find(unique_id);

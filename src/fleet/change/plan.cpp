@@ -58,6 +58,12 @@ Error about(const Servo& servo, Error error) {
 /// The output is switched off before limits change, and on after them. A command may need a switch
 /// that is set with it.
 int turn_of(const RegisterChange& change) {
+  const Address address = change.parameter->address;
+  const bool stops = (address == at::command_speed || address == at::command_torque) &&
+                     change.requested == 0 && change.is_planned();
+  if (stops) { // whatever else is to be written, it does not turn on meanwhile
+    return -1;
+  }
   const bool is_switch = change.parameter->address == at::torque_output;
   const bool is_command = change.parameter->group == bla::Group::command;
   return is_command ? 3 : !is_switch ? 1 : change.requested == 0 ? 2 : 0; // 0: on (4.13)
@@ -141,15 +147,19 @@ std::vector<Warning> warnings_of(const Plan& plan) {
 
 /// --keep-ids: writes 0x45 and 0x46 back into RAM, unless other values are wanted. A 0 is 0 after
 /// ERASE anyway.
-void plan_kept_ids(const Values& lost_ids, Plan& plan) {
+Result<void> plan_kept_ids(const Values& lost_ids, Plan& plan) {
   for (const Address address : {at::servo_id, at::static_node_id}) {
     const auto lost = bla::find(lost_ids, address);
     const auto kept = lost ? lost : plan.before.raw(address);
     const Parameter* parameter = plan.before.servo.identity.parameter(address);
     if (kept.value_or(0) != 0 && parameter != nullptr && plan.change_of(address) == nullptr) {
+      if (auto allowed = plan.before.servo.identity.may_write(address, *kept); !allowed) {
+        return std::unexpected(about(plan.before.servo, std::move(allowed.error())));
+      }
       plan.changes.push_back({.parameter = parameter, .requested = *kept, .before = 0});
     }
   }
+  return {};
 }
 
 /// The final configuration, as far as it will be proven.
@@ -342,7 +352,9 @@ Result<Plan> make_plan(const Wanted& wanted, Snapshot before, const bla::Profile
   }
   plan_changes(wanted, wanted.erase ? plan.expected : plan.before.values(), plan);
   if (wanted.erase && wanted.keep_ids) {
-    plan_kept_ids(wanted.lost_ids, plan);
+    if (auto kept = plan_kept_ids(wanted.lost_ids, plan); !kept) {
+      return std::unexpected(std::move(kept.error()));
+    }
   }
   if (auto refused = check_together(plan)) {
     return std::unexpected(std::move(*refused));

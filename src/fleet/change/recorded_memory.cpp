@@ -234,17 +234,6 @@ bla::Values History::lost_ids(const Snapshot& ram, const Session& session) const
   return {};
 }
 
-std::optional<dronecan::NodeId> History::last_static_node_id(const dronecan::UniqueId& unit) const {
-  const auto proof = proofs_.find(unit);
-  if (!proof || !*proof) {
-    return std::nullopt;
-  }
-  const auto held = (*proof)->rom.find(bla::address::static_node_id.value());
-  return held != (*proof)->rom.end() && held->second > 0 && held->second <= dronecan::NodeId::max
-             ? std::optional(dronecan::NodeId(static_cast<std::uint8_t>(held->second)))
-             : std::nullopt;
-}
-
 bool History::is_rom_unread(const Servo& servo, const Session& session) {
   const auto proof = this->proof(servo, session);
   return proof && proof->rom.empty();

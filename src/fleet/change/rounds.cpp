@@ -125,7 +125,8 @@ std::vector<Error> Rounds::make_rounds() {
       return planned.error();
     }
     moves = std::move(*planned);
-    note_takeovers(ids->absent);
+    absent_ = ids->absent;
+    note_takeovers();
   }
   rounds_.assign(std::max<std::size_t>(moves.size(), 1), {});
   for (std::size_t i = 0; i < units_.size(); ++i) {
@@ -146,39 +147,16 @@ std::vector<Error> Rounds::make_rounds() {
 }
 
 /// A user's wish takes the ID of a unit that is away.
-void Rounds::note_takeovers(const std::vector<state::AllocationEntry>& absent) {
+void Rounds::note_takeovers() {
   for (const UnitChange& unit : units_) {
-    const auto former = std::ranges::find(absent, unit.static_node_id(), [](const auto& entry) {
+    const auto former = std::ranges::find(absent_, unit.static_node_id(), [](const auto& entry) {
       return std::optional(entry.node_id);
     });
-    if (former != absent.end()) {
+    if (former != absent_.end()) {
       notes_.push_back(say<texts::id_taken_over>(former->node_id.value(), hex(former->unique_id),
                                                  unit.now.value()));
     }
   }
-}
-
-/// The node IDs that a servo which could not read its ROM may have there, as far as recorded.
-Result<std::set<NodeId>> Rounds::known_ids(const Neighbour& unread) {
-  std::set<NodeId> ids;
-  const auto table = this->table();
-  const auto entries =
-      table ? (*table)->entries()
-            : Result<std::vector<state::AllocationEntry>>(std::unexpected(table.error()));
-  if (!entries) {
-    return std::unexpected(entries.error());
-  }
-  for (const state::AllocationEntry& entry : *entries) {
-    if (entry.unique_id == unread.unique_id) {
-      ids.insert(entry.node_id);
-    }
-  }
-  if (const auto* proofs = options_.manner.proofs; proofs != nullptr && unread.unique_id) {
-    if (const auto last = proofs->last_static_node_id(*unread.unique_id)) {
-      ids.insert(*last);
-    }
-  }
-  return ids;
 }
 
 /// A servo that could not read its ROM holds no ID; its next start may bring one back.
@@ -187,22 +165,19 @@ std::vector<Error> Rounds::check_unread(const Survey& survey, std::span<const Pl
   for (const Neighbour& other : survey.servos) {
     const bool stays = std::ranges::none_of(
         plans, [&](const Plan& plan) { return plan.before.servo.id == other.id; });
-    if (!stays || !other.is_rom_unread || !other.unique_id) {
+    if (!stays || !other.is_rom_unread) {
       continue;
     }
-    notes_.push_back(say<texts::ids_in_unread_rom>(other.id.value()));
-    const auto known = known_ids(other);
-    if (!known) {
-      return {known.error()};
-    }
     for (const Plan& plan : plans) {
-      if (const auto given = plan.given_node_id(); given && known->contains(*given)) {
+      if (const auto given = plan.given_node_id()) {
         const std::uint8_t id = plan.before.servo.id.value();
-        errors.push_back({Code::duplicate_node_id,
-                          say<texts::id_given_is_held>(id, given->value(), other.id.value(),
-                                                       hex(*other.unique_id)),
-                          say<texts::rom_unread_hint>(other.id.value()), id});
+        errors.push_back({Code::rom_unread,
+                          say<texts::id_in_unread_rom>(id, given->value(), other.id.value()),
+                          say<texts::id_in_unread_rom_hint>(other.id.value()), id});
       }
+    }
+    if (errors.empty()) {
+      notes_.push_back(say<texts::servo_id_in_unread_rom>(other.id.value()));
     }
   }
   return errors;

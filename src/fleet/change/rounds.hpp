@@ -15,7 +15,6 @@
 #include <functional>
 #include <map>
 #include <optional>
-#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -95,10 +94,9 @@ class Rounds {
   [[nodiscard]] std::vector<Error> make_rounds();
   [[nodiscard]] Result<void> learn_ids();
   [[nodiscard]] Result<state::AllocationStore*> table();
-  void note_takeovers(const std::vector<state::AllocationEntry>& absent);
+  void note_takeovers();
   [[nodiscard]] std::vector<Error> check_ids();
   [[nodiscard]] std::vector<Error> check_unread(const Survey& survey, std::span<const Plan> plans);
-  [[nodiscard]] Result<std::set<dronecan::NodeId>> known_ids(const Neighbour& unread);
   [[nodiscard]] std::vector<Error> check() const;
   [[nodiscard]] std::vector<Plan> plans() const;
 
@@ -107,6 +105,7 @@ class Rounds {
   [[nodiscard]] Error why_not_free(const IdMove& move) const;
   [[nodiscard]] std::optional<dronecan::NodeId> place(const dronecan::UniqueId& unique_id) const;
   [[nodiscard]] Result<void> put_as_they_are();
+  [[nodiscard]] Result<void> give_back();
   [[nodiscard]] Result<void> put(const Round& round);
   [[nodiscard]] Round ready(const Round& round);
   [[nodiscard]] Result<Sights> look_again(const Round& steps);
@@ -125,6 +124,7 @@ class Rounds {
   std::optional<state::AllocationStore> table_; ///< opened when an ID is assigned
   std::vector<UnitChange> units_;
   std::vector<Round> rounds_;
+  std::vector<state::AllocationEntry> absent_; ///< promised to units that are away
   std::vector<std::string> notes_;
   Time surveyed_ = never;                 ///< when the IDs of the others were asked
   std::map<dronecan::NodeId, Time> left_; ///< IDs from which a unit has moved, and when

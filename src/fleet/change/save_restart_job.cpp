@@ -137,14 +137,16 @@ bool SaveRestartJob::is_leaving(dronecan::NodeId id) const {
   return options_.pace != nullptr && options_.pace->leaving.contains(id);
 }
 
-/// The ID was free when the change began.
+/// The ID was free when the change began: since then a unit was heard there, or another node has
+/// given it to another servo.
 bool SaveRestartJob::is_expected_id_taken() const {
   const bool is_certain = options_.kind == RestartKind::save && options_.expected;
   if (!is_certain || *options_.expected == id_ || is_leaving(*options_.expected)) {
     return false;
   }
   const Member* there = roster_.find(*options_.expected);
-  return there != nullptr && there->last_heard > options_.expected_free_since;
+  return (there != nullptr && there->last_heard > options_.expected_free_since) ||
+         roster_.giver_of(*options_.expected, id_, options_.expected_free_since);
 }
 
 /// A servo that has not restarted until now is old enough to show a restart after this moment.
@@ -213,8 +215,9 @@ Step SaveRestartJob::judge_answer(const Outcome& outcome) {
       return has_news() ? conclude() : wait_for_return(outcome.at);
     }
     is_refused_ = true;
-    if (options_.pace != nullptr) {
-      options_.pace->has_failed = true; // others need not wait for the proof
+    if (options_.pace != nullptr &&
+        options_.pace->stops_at_failure) { // others wait for the verdict
+      options_.pace->next = sent_at_ + settling_time + options_.patience.timeout;
     }
   } else if (outcome.kind == Outcome::Kind::not_sent) {
     has_left_ = false; // it may still leave the kernel's queue

@@ -12,10 +12,22 @@ inline constexpr Text came_since{
 inline constexpr Text did_not_tell_ids{
     "node {} did not say which IDs it has: a conflict with it cannot be ruled out",
     "ノード {} の ID を読み出せないため、重複の有無は確認できません"};
-inline constexpr Text ids_in_unread_rom{
-    "node {} could not read its ROM: a conflict with the IDs that it holds there cannot be ruled "
-    "out",
-    "ノード {} は起動時に ROM を読み出せなかったため、ROM 内の ID との重複の有無は確認できません"};
+inline constexpr Text servo_id_in_unread_rom{
+    "node {} could not read its ROM: a conflict with the servo ID that it holds there cannot be "
+    "ruled out",
+    "ノード {} は起動時に ROM を読み出せなかったため、ROM 内のサーボ ID "
+    "との重複の有無は確認できません"};
+inline constexpr Text id_in_unread_rom{"node {} would get node ID {}, which node {} may have in "
+                                       "its ROM: it could not read that at its "
+                                       "start",
+                                       "ノード {} に設定されるノード ID {} は、起動時に ROM "
+                                       "を読み出せなかったノード {} の ROM 内の ID "
+                                       "と重複する可能性があります"};
+inline constexpr Text id_in_unread_rom_hint{
+    "the next start may read it: blactl restart -n {0}; or take it off, or clear it: blactl erase "
+    "--save -n {0}",
+    "再起動で読み出せる場合があります: blactl restart -n {0}。または、取り外すか、消去して下さい: "
+    "blactl erase --save -n {0}"};
 inline constexpr Text will_make_way{
     "node {} makes way for others: it is saved twice, node ID {} comes in between",
     "ノード {} は ID 入替えのため一時的にノード ID {} を使用します (保存は 2 回)"};

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <string>
 #include <utility>
@@ -91,6 +92,13 @@ Result<std::vector<Undoing>> last_changes(const state::SnapshotStore& store) {
   }
   if (std::ranges::any_of(*entries, is_unfinished_undo)) {
     std::erase_if(*entries, std::not_fn(is_unfinished_undo));
+  }
+  for (auto entry = entries->begin(); entry != entries->end();) { // changed by others since
+    const auto last = store.last(entry->unique_id);
+    if (!last) {
+      return std::unexpected(last.error());
+    }
+    entry = *last && (*last)->run != entry->run ? entries->erase(entry) : std::next(entry);
   }
   std::map<dronecan::UniqueId, std::int64_t> newest;
   for (const state::SnapshotEntry& entry : *entries) {

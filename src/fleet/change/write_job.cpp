@@ -70,6 +70,14 @@ Step WriteJob::judge_unit(const Outcome& outcome) {
   return go_on(outcome.at);
 }
 
+bool WriteJob::may_have_changed() const {
+  return has_written_ && std::ranges::any_of(changes_, [](const RegisterChange& change) {
+           const bool was_refused = change.status == ChangeStatus::failed && change.after &&
+                                    change.after == change.before;
+           return change.status != ChangeStatus::unchanged && !change.is_planned() && !was_refused;
+         });
+}
+
 /// Makes the next write; at the end, or after a restart, the proof.
 Step WriteJob::go_on(Time now) {
   while (current_ < changes_.size() && !changes_[current_].is_planned()) {
@@ -87,6 +95,9 @@ Step WriteJob::go_on(Time now) {
   if (current_ == changes_.size()) {
     return next_look(now);
   }
+  if (is_given_elsewhere()) {
+    return hold_off(now);
+  }
   at_ = At::write;
   is_lost_ = false;
   // an unheard restart, or another unit on this ID, must be noticed before a repetition
@@ -98,6 +109,15 @@ Step WriteJob::go_on(Time now) {
     return servo_.boot == boots() && allowed(at);
   };
   return request;
+}
+
+/// Whether another node has given the node ID of the next write to another servo meanwhile.
+bool WriteJob::is_given_elsewhere() const {
+  const RegisterChange& change = changes_[current_];
+  const bool gives_id = change.parameter->address == bla::address::static_node_id &&
+                        change.requested > 0 && change.requested <= dronecan::NodeId::max;
+  return gives_id && roster_.giver_of(dronecan::NodeId(static_cast<std::uint8_t>(change.requested)),
+                                      servo_.id, servo_.since);
 }
 
 /// If the next write gives it one.
@@ -137,6 +157,11 @@ Step WriteJob::after_write(const Outcome& outcome) {
 Step WriteJob::hold_off(Time now) {
   RegisterChange& change = changes_[current_];
   auto why = guard_.forbids(servo_, now, next_servo_id());
+  if (!why && is_given_elsewhere()) {
+    const std::uint8_t id = servo_.id.value();
+    why = Error{Code::duplicate_node_id, say<texts::id_given_is_kept>(id, change.requested),
+                say<texts::id_given_is_kept_hint>(), id};
+  }
   if (!why) { // it has restarted, or what forbade it has ended
     return go_on(now);
   }

@@ -36,7 +36,7 @@ TestBench::TestBench(Session& session, const bla::Profiles& profiles, const Snap
     : session_(session), profiles_(profiles), manner_(manner), neighbours_(std::move(neighbours)),
       servo_(before.servo), start_watch_(before.servo.unique_id.value_or(dronecan::UniqueId{})),
       before_(before.values()), bystanders_(session.roster()), begin_(before.servo.since),
-      in_ram_since_(begin_) {
+      met_at_(session.now()), in_ram_since_(begin_) {
   for (const auto& [address, limit] : soft_start_limits) {
     if (const auto raw = bla::find(before_, address)) {
       hidden_[address] = *raw;
@@ -201,6 +201,43 @@ std::optional<Error> TestBench::differs_from(const Values& now, const Values& ex
   return std::nullopt;
 }
 
+/// A unit that has taken its place tells so by its NodeStatus up to a second later only.
+Result<void> TestBench::meet() {
+  const Member member = roster().member(servo_.id);
+  const Time now = session_.now();
+  if (member.back_at <= met_at_ && now - member.last_heard <= longest_pause) {
+    return {};
+  }
+  const auto told = read(at::serial_number);
+  if (!told) {
+    return std::unexpected(told.error());
+  }
+  met_at_ = now;
+  const std::uint8_t id = servo_.id.value();
+  return *told == servo_.identity.readings().serial_number
+             ? Result<void>()
+             : std::unexpected(Error{Code::state, say<texts::another_servo>(id),
+                                     say<texts::run_again_hint>(), id});
+}
+
+/// Each try on its own: who answers to a repetition may be another unit.
+Result<Reply> TestBench::send_write(Address address, std::int64_t raw) {
+  const Patience once{manner_.identification.patience.timeout, 0};
+  for (int tries = 0;; ++tries) {
+    if (auto met = meet(); !met) {
+      return std::unexpected(std::move(met.error()));
+    }
+    if (auto why = forbidden()) {
+      return std::unexpected(std::move(*why));
+    }
+    auto reply = ask(guard().guarded(write_register(servo_.id, address, raw, once), servo_));
+    const bool is_lost = reply && reply->kind == dronecan::Outcome::Kind::timed_out;
+    if (!is_lost || tries == manner_.identification.patience.retries) {
+      return reply;
+    }
+  }
+}
+
 Result<std::int64_t> TestBench::write(Address address, std::int64_t raw) {
   if (auto why = forbidden()) {
     return std::unexpected(std::move(*why));
@@ -212,8 +249,7 @@ Result<std::int64_t> TestBench::write(Address address, std::int64_t raw) {
   if (servo_.identity.is_setting(address) && address != at::torque_output) {
     touched_.insert(address);
   }
-  const auto reply = ask(guard().guarded(
-      write_register(servo_.id, address, raw, manner_.identification.patience), servo_));
+  const auto reply = send_write(address, raw);
   // a read is authoritative, whatever the response said
   return reply ? read(address) : std::unexpected(reply.error());
 }
@@ -287,6 +323,7 @@ Result<void> TestBench::recognise(dronecan::NodeId id) {
                                  say<texts::run_again_hint>(), id.value()});
   }
   servo_ = found;
+  met_at_ = session_.now();
   return {};
 }
 

@@ -89,6 +89,10 @@ class TestBench {
 
   [[nodiscard]] const bla::Values& before() const { return before_; }
 
+  /// Checks that it is still the same unit, by its serial number, if it was silent in between.
+  /// Errors: state; as read().
+  [[nodiscard]] Result<void> meet();
+
   /// Writes a value that the model allows, and returns the register's value afterwards.
   [[nodiscard]] Result<std::int64_t> write(bla::Address address, std::int64_t raw);
 
@@ -128,6 +132,7 @@ class TestBench {
 
  private:
   [[nodiscard]] Result<void> run(dronecan::Job& job);
+  [[nodiscard]] Result<Reply> send_write(bla::Address address, std::int64_t raw);
   [[nodiscard]] std::optional<Error> forbidden() const;
 
   [[nodiscard]] Guard guard() const { return {roster(), manner_.while_driven}; }
@@ -179,6 +184,7 @@ class TestBench {
   std::optional<SaveRestartJob> restart_; ///< the last one, used by start_watch_
   bool has_changed_ = false;
   Time begin_;        ///< of the bench
+  Time met_at_;       ///< last known to be the same unit
   Time in_ram_since_; ///< what others wrote before was lost in a restart
   bool puts_back_ = false;
   bool has_started_ = false;        ///< since rest(): 0x00 need not show what is held

@@ -39,6 +39,7 @@ constexpr int silent_while_moving = 3, silent_in_the_end = 6;
 /// Another unit on its node ID may have been switched on in a silence that is longer than this
 /// (unproven), and than the servo takes to answer: it sends actuator.Status ten times a second.
 constexpr Duration longest_silence = 50ms;
+constexpr int times_latest = 2;
 
 /// No command goes out until it has answered, so it is asked often.
 constexpr int tries_who = 3;
@@ -59,7 +60,8 @@ Step MotionJob::next(const Outcome& outcome) {
   now_ = options_.now();
   if (outcome.answered()) {
     answered_ = now_;
-    slowest_ = std::max(slowest_, outcome.at - outcome.asked);
+    latest_ = outcome.at - outcome.asked;
+    slowest_ = std::max(slowest_, latest_);
   }
   if (outcome.kind == Outcome::Kind::cancelled) {
     return give_up(no_answer(outcome, servo_.id, plan_.parameter->name));
@@ -168,8 +170,8 @@ bool MotionJob::may_be_another() {
   const Member* member = roster_.find(servo_.id);
   const Time heard = member != nullptr ? member->last_heard : now_;
   const Time before = std::exchange(heard_, heard);
-  is_unsure_ = is_unsure_ ||
-               std::max(heard - before, now_ - heard) > std::max(longest_silence, usual_time());
+  is_unsure_ = is_unsure_ || std::max(heard - before, now_ - heard) >
+                                 std::max<Duration>(longest_silence, times_latest * latest_);
   return is_unsure_;
 }
 

@@ -220,6 +220,19 @@ TEST_CASE("kept IDs are written again after ERASE; what is 0 is 0 by itself") {
   CHECK(plan_for(erase_keeping_ids).changes.empty());
 }
 
+TEST_CASE("a static node ID that must not be written is not kept over an ERASE") {
+  const auto id = GENERATE(126, 127);
+  CHECK(refusal(erase_keeping_ids, {{at::static_node_id, id}}) == Code::out_of_range);
+}
+
+TEST_CASE("what stops a shaft is written first") {
+  const Plan plan =
+      plan_for(set({"timeout_action=hold", "command_speed=0rpm", "torque_output=on"}),
+               {{at::command_speed, 20}, {at::torque_output, 1}, {at::speed_torque_control, 1}});
+  REQUIRE(plan.changes.size() == 3);
+  CHECK(plan.changes[0].parameter->address == at::command_speed);
+}
+
 TEST_CASE("values wanted of a servo that is erased first are judged by what ERASE leaves") {
   Wanted wanted = set({"angle_limit_cw=90deg", "reverse=off", "servo_id=5"}, true);
   wanted.erase = wanted.keep_ids = true;

@@ -168,6 +168,43 @@ TEST_CASE("a servo that keeps its old value refused") {
   CHECK(job.changes()[0].error->node_id == 11);
   CHECK(job.changes()[0].after == 100);
   CHECK(job.changes()[1].status == ChangeStatus::written); // the others are written all the same
+  CHECK(job.may_have_changed());
+}
+
+TEST_CASE("where all was refused nothing has changed") {
+  Scene scene(servo_11);
+  WriteJob job(scene.roster(), scene.identify(11), {change("torque_limit_cw", 200, 100)}, {});
+  scene.run(job);
+  CHECK(job.changes()[0].error->code == Code::refused);
+  CHECK(job.has_written());
+  CHECK_FALSE(job.may_have_changed());
+}
+
+TEST_CASE("a node ID that another node gives to another servo meanwhile is not written") {
+  Bench bench;
+  const auto other_gives = [&](std::uint8_t server, std::int64_t id) {
+    dronecan::Transfer heard;
+    heard.header = {.kind = dronecan::Kind::request,
+                    .data_type_id = GetSet::type.id,
+                    .source = NodeId(40),
+                    .destination = NodeId(server)};
+    heard.payload = GetSet::Request{.value = std::int64_t{id}, .name = "0x46"}.encode().bytes();
+    heard.at = bench.servo.since + 1ms;
+    bench.roster.receive(heard);
+  };
+  WriteJob job = bench.job({change("static_node_id", 20, 11)});
+  const auto [server, id, is_written] =
+      GENERATE(std::tuple(12, 20, false), std::tuple(12, 21, true));
+  other_gives(static_cast<std::uint8_t>(server), id);
+  const std::string said = bench.begin(job);
+  if (is_written) {
+    CHECK(said == "write 0x46=20");
+  } else {
+    CHECK(said == "nothing");
+    REQUIRE(job.changes()[0].error);
+    CHECK(job.changes()[0].error->code == Code::duplicate_node_id);
+    CHECK_FALSE(job.has_written());
+  }
 }
 
 TEST_CASE("a servo that holds another value than was written is a mismatch", "[requirement-73]") {

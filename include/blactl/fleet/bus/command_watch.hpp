@@ -75,6 +75,10 @@ class CommandWatch {
   /// A node whose ArmingStatus reports that the vehicle is armed, and still counts.
   [[nodiscard]] std::optional<dronecan::NodeId> armed_by(Time now) const;
 
+  /// Another servo than `except` to which another node wrote this value last, after `since`.
+  [[nodiscard]] std::optional<dronecan::NodeId> giver_of(bla::Address reg, std::int64_t value,
+                                                         dronecan::NodeId except, Time since) const;
+
   /// Another node that changed a setting of this one after `since`. ERASE changes all of them; a
   /// restart does not count, nor do motion commands (0x00-0x02), nor a value that is written again
   /// and again while nothing else is heard to change it. With `reg`: only this register.

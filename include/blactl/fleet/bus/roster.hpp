@@ -29,6 +29,7 @@ inline constexpr Duration request_period = std::chrono::seconds(2);
 struct Member {
   dronecan::NodeId id{};
   Time first_heard{}, last_heard{};
+  Time back_at{}; ///< its first frame after a silence in which another unit may have come
   std::optional<dronecan::NodeStatus> status{}; ///< the newest, from NodeStatus or a response
   Time status_at{};
   std::optional<std::uint8_t> actuator_id{}; ///< from actuator.Status: only servos send it
@@ -99,6 +100,10 @@ inline constexpr Duration offline_time = std::chrono::seconds(3);
 /// The listening time after which commanders, armed vehicles, shared IDs and used IDs have been
 /// heard.
 inline constexpr Duration bus_watch_time = std::chrono::milliseconds(1100);
+
+/// A servo sends actuator.Status every 100 ms (table 2-2): another unit that is switched on in its
+/// place keeps silent for longer (unproven).
+inline constexpr Duration longest_pause = std::chrono::milliseconds(150);
 
 /// Who watches on and on takes a shared ID for that of one unit again when nothing has shown two
 /// for this time.
@@ -243,6 +248,12 @@ class Roster {
   /// The latest possible start of this node's unit, by its last uptime; empty: none was received.
   [[nodiscard]] std::optional<Time> started(dronecan::NodeId id) const {
     return watches_[id.value()].started();
+  }
+
+  /// As CommandWatch::giver_of(), with a static node ID.
+  [[nodiscard]] std::optional<dronecan::NodeId>
+  giver_of(dronecan::NodeId given, dronecan::NodeId except, Time since) const {
+    return commands_.giver_of(bla::address::static_node_id, given.value(), except, since);
   }
 
   /// As CommandWatch::setter_of().

@@ -89,11 +89,6 @@ class History {
   /// it broke off.
   [[nodiscard]] bla::Values lost_ids(const Snapshot& ram, const Session& session) const;
 
-  /// The static node ID that the ROM of this unit held when that was last proven; empty: none, or
-  /// never proven.
-  [[nodiscard]] std::optional<dronecan::NodeId>
-  last_static_node_id(const dronecan::UniqueId& unit) const;
-
   /// Whether a restart by this program did not help a servo to read its ROM, and it has not
   /// restarted since.
   [[nodiscard]] bool is_rom_unread(const Servo& servo, const Session& session);
@@ -116,6 +111,7 @@ class History {
   [[nodiscard]] Result<void> resume(const Snapshot& ram, const Session& session);
   [[nodiscard]] static std::optional<WallTime> start_of(const Servo& servo, const Session& session);
   [[nodiscard]] bool is_half_undone() const;
+  [[nodiscard]] bool is_another_try(const dronecan::UniqueId& unit) const;
   [[nodiscard]] std::vector<std::int64_t>
   former_numbers(std::span<const state::SnapshotEntry> entries) const;
   [[nodiscard]] bool is_in_rom(const state::SnapshotEntry& change) const;
@@ -135,6 +131,7 @@ class History {
   state::ProofStore proofs_;
   std::map<dronecan::UniqueId, Kept> kept_;
   std::int64_t run_ = 0;                    ///< of all entries of this command; 0: no record
+  std::int64_t joined_ = 0;                 ///< of an earlier try that is continued; 0: none
   std::set<dronecan::UniqueId> unproven_{}; ///< their proofs were removed
 
   /// Where an entry holds what ROM held before a save: what RAM did.

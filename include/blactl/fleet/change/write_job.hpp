@@ -58,6 +58,10 @@ class WriteJob final : public dronecan::Job {
   /// Whether a write has left, or may have.
   [[nodiscard]] bool has_written() const { return has_written_; }
 
+  /// Whether one of them may have been carried out: not if the servo is known to hold what it held
+  /// before.
+  [[nodiscard]] bool may_have_changed() const;
+
   /// The servo as last recognised.
   [[nodiscard]] const Servo& servo() const { return servo_; }
 
@@ -76,6 +80,7 @@ class WriteJob final : public dronecan::Job {
   [[nodiscard]] dronecan::Step hold_off(Time now);
   [[nodiscard]] bool may_try_again();
   [[nodiscard]] std::optional<std::int64_t> next_servo_id() const;
+  [[nodiscard]] bool is_given_elsewhere() const;
   void move_on();
   [[nodiscard]] dronecan::Step after_read(const dronecan::Outcome& outcome);
   [[nodiscard]] dronecan::Step doubt(std::size_t change, Time now);

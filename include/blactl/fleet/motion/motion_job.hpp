@@ -144,7 +144,7 @@ class MotionJob final : public dronecan::Job {
   bool has_crept_ = false;             ///< slower than its speed register shows
   int unanswered_ = 0;                 ///< consecutive
   Time answered_{};                    ///< the last response, or the beginning of the end
-  Duration slowest_{};                 ///< of all responses
+  Duration slowest_{}, latest_{};      ///< of the responses
   int restarts_ = 0;
   MotionSample sample_{};
   std::size_t reading_ = 0; ///< index of 0x08-0x0A
