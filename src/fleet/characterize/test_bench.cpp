@@ -201,7 +201,7 @@ std::optional<Error> TestBench::differs_from(const Values& now, const Values& ex
   return std::nullopt;
 }
 
-/// A unit that has taken its place tells so by its NodeStatus up to a second later only.
+/// Another unit that has taken its place shows by its NodeStatus only up to a second later.
 Result<void> TestBench::meet() {
   const Member member = roster().member(servo_.id);
   const Time now = session_.now();
