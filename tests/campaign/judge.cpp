@@ -320,22 +320,12 @@ void check_success(const Step& step, bool all_reached, std::size_t told) {
   require(all_reached, "0, but not everything is done");
 }
 
-/// Whether another unit of its unique ID cannot tell it, because a foreign node is on its node ID.
-bool has_hidden_copy(const Step& step, std::int64_t serial) {
-  const ServoState& own = step.after.at(serial);
-  return std::ranges::any_of(step.after, [&](const auto& other) {
-    return other.first != serial && other.second.unique_id == own.unique_id &&
-           other.second.node_id != own.node_id && step.shares_with_foreign(other.first);
-  });
-}
-
 /// Two units of one unique ID, there all the time, are not changed.
 void check_doubled(const Step& step, std::int64_t serial, const Told& told) {
   const bool was_quiet = step.accidents(serial).empty() && step.restarts(serial).empty() &&
                          step.begin > Time{} + settled;
-  if (!step.is_doubled(serial) || has_hidden_copy(step, serial) || !was_quiet ||
-      only_looks(step.command) || step.episode.scenario.contains("wire") ||
-      step.episode.has("no_node_status")) {
+  if (!step.shows_doubled(serial) || !was_quiet || only_looks(step.command) ||
+      step.episode.scenario.contains("wire") || step.episode.has("no_node_status")) {
     return;
   }
   require(!told.is_reached() || step.outcome.status != 0,

@@ -137,16 +137,35 @@ bool Step::shares_with_foreign(std::int64_t serial) const {
   });
 }
 
-bool Step::is_doubled(std::int64_t serial) const {
+bool Step::shares_node_id(std::int64_t serial) const {
   return shares_with_foreign(serial) || std::ranges::any_of(after, [&](const auto& other) {
-           const ServoState& own = after.at(serial);
-           const ServoState& its = other.second;
+           const std::uint8_t own = after.at(serial).node_id;
            const std::uint8_t own_before = before.at(serial).node_id;
-           const bool both_answer = own.node_id != 0 && its.node_id != 0;
            return other.first != serial &&
-                  ((both_answer &&
-                    (its.unique_id == own.unique_id || its.node_id == own.node_id)) ||
+                  ((own != 0 && other.second.node_id == own) ||
                    (own_before != 0 && before.at(other.first).node_id == own_before));
+         });
+}
+
+std::vector<std::int64_t> Step::copies(std::int64_t serial) const {
+  std::vector<std::int64_t> copies;
+  const ServoState& own = after.at(serial);
+  for (const auto& [other, its] : after) {
+    const bool both_answer = own.node_id != 0 && its.node_id != 0;
+    if (other != serial && both_answer && its.unique_id == own.unique_id) {
+      copies.push_back(other);
+    }
+  }
+  return copies;
+}
+
+bool Step::is_doubled(std::int64_t serial) const {
+  return shares_node_id(serial) || !copies(serial).empty();
+}
+
+bool Step::shows_doubled(std::int64_t serial) const {
+  return shares_node_id(serial) || !std::ranges::all_of(copies(serial), [this](std::int64_t copy) {
+           return shares_with_foreign(copy); // two answers at once are not read
          });
 }
 

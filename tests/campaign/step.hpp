@@ -45,6 +45,16 @@ struct Step {
 
   /// Whether it shares its node ID with another, or its unique ID.
   [[nodiscard]] bool is_doubled(std::int64_t serial) const;
+
+  /// The same as far as it can be heard: a unit on the node ID of a foreign node cannot tell its
+  /// unique ID.
+  [[nodiscard]] bool shows_doubled(std::int64_t serial) const;
+
+  [[nodiscard]] bool shares_node_id(std::int64_t serial) const;
+
+  /// Others with its unique ID.
+  [[nodiscard]] std::vector<std::int64_t> copies(std::int64_t serial) const;
+
   [[nodiscard]] bool shares_with_foreign(std::int64_t serial) const;
 
   /// When something may come to it, or go, that is no order of the command.

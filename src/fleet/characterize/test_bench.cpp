@@ -220,7 +220,7 @@ Result<void> TestBench::meet() {
                                      say<texts::run_again_hint>(), id});
 }
 
-/// Each try on its own: who answers to a repetition may be another unit.
+/// One request a try, each after meet(): a repetition could reach another unit.
 Result<Reply> TestBench::send_write(Address address, std::int64_t raw) {
   const Patience once{manner_.identification.patience.timeout, 0};
   for (int tries = 0;; ++tries) {

@@ -189,8 +189,8 @@ Step MotionJob::go_on() {
   return phase_ == Phase::moving ? move() : end();
 }
 
-/// Nothing is written to it until it has told its serial number, which is shorter than GetNodeInfo:
-/// frames may get lost.
+/// Nothing is written until it has told its serial number. That answer has fewer frames than
+/// GetNodeInfo, and frames may get lost.
 Step MotionJob::judge_who(const Outcome& outcome) {
   if (!has_answered(outcome)) {
     return phase_ == Phase::ending && is_silent() ? give_up(silent_since()) : go_on_unless_silent();

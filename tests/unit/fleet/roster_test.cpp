@@ -56,6 +56,16 @@ class Ear {
   /// Of a second unit, which counts its transfers by itself.
   void twin(std::uint8_t source) { actuator_of(twins_, source, 0); }
 
+  /// Two units, `gap` apart, and then a rest.
+  void both(std::uint8_t source, int times, Duration gap, Duration rest) {
+    for (int i = 0; i < times; ++i) {
+      actuator(source);
+      now += gap;
+      twin(source);
+      now += rest;
+    }
+  }
+
   void arming(std::uint8_t source, std::uint8_t status) {
     hear(message(ArmingStatus::type, source, ArmingStatus{status}.encode(), next()));
   }
@@ -207,12 +217,7 @@ TEST_CASE("a servo tells its servo ID in actuator.Status") {
 
 TEST_CASE("two servos with one ID show by the rate of actuator.Status") {
   Ear ear;
-  for (int i = 0; i < 10; ++i) {
-    ear.actuator(10);
-    ear.now += 40ms;
-    ear.twin(10);
-    ear.now += 60ms;
-  }
+  ear.both(10, 10, 40ms, 60ms);
   CHECK(ear.roster.is_doubled(NodeId(10)));
   CHECK(ear.roster.doubled() == std::set{NodeId(10)});
   CHECK_FALSE(ear.roster.is_doubled(NodeId(11)));
@@ -265,23 +270,13 @@ TEST_CASE("two servos show whatever their counters have in common") {
     ear.actuator(10);
     ear.now += 100ms;
   }
-  for (int i = 0; i < 10; ++i) {
-    ear.actuator(10);
-    ear.now += 20ms;
-    ear.twin(10);
-    ear.now += 80ms;
-  }
+  ear.both(10, 10, 20ms, 80ms);
   CHECK(ear.roster.is_doubled(NodeId(10)));
 }
 
 TEST_CASE("a shared ID counts as shared until nothing has shown it for a time") {
   Ear ear;
-  for (int i = 0; i < 10; ++i) {
-    ear.actuator(10);
-    ear.now += 40ms;
-    ear.twin(10);
-    ear.now += 60ms;
-  }
+  ear.both(10, 10, 40ms, 60ms);
   const Time last = ear.now;
   const unsigned boots = ear.roster.find(NodeId(10))->boots;
   ear.roster.forget_doubled(last - 1s);
@@ -294,12 +289,7 @@ TEST_CASE("a shared ID counts as shared until nothing has shown it for a time") 
 
 TEST_CASE("an actuator of another make may send its status as fast as it likes") {
   Ear ear;
-  for (int i = 0; i < 50; ++i) {
-    ear.actuator(10);
-    ear.now += 20ms;
-    ear.twin(10);
-    ear.now += 20ms;
-  }
+  ear.both(10, 50, 20ms, 20ms);
   CHECK(ear.roster.is_doubled(NodeId(10))); // it may be two servos, as far as known
   ear.roster.learn(servo_at(10), std::nullopt);
   CHECK_FALSE(ear.roster.is_doubled(NodeId(10)));
@@ -929,12 +919,7 @@ TEST_CASE("doubled units without names stay without") {
 TEST_CASE("the statuses of a servo are counted from its first one, whenever it comes") {
   Ear ear;
   ear.now = Time{900ms}; // the clock has just started
-  for (int i = 0; i < 7; ++i) {
-    ear.actuator(10);
-    ear.now += 71ms;
-    ear.twin(10);
-    ear.now += 71ms;
-  }
+  ear.both(10, 7, 71ms, 71ms);
   CHECK_FALSE(ear.roster.is_doubled(NodeId(10)));
   ear.actuator(10); // within the same second
   CHECK(ear.roster.is_doubled(NodeId(10)));

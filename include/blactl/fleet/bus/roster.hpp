@@ -105,8 +105,8 @@ inline constexpr Duration bus_watch_time = std::chrono::milliseconds(1100);
 /// place keeps silent for longer (unproven).
 inline constexpr Duration longest_pause = std::chrono::milliseconds(150);
 
-/// Who watches on and on takes a shared ID for that of one unit again when nothing has shown two
-/// for this time.
+/// Commands that keep watching read a shared ID again when nothing has shown two units there for
+/// this time.
 inline constexpr Duration doubt_time = std::chrono::seconds(10);
 
 /// The nodes on the bus. The session enters what is heard, and jobs enter the responses; all others
@@ -203,9 +203,9 @@ class Roster {
   [[nodiscard]] bool is_doubled(dronecan::NodeId id) const;
   [[nodiscard]] std::set<dronecan::NodeId> doubled() const;
 
-  /// Forgets the shared IDs of which nothing has shown since then that they are shared: the unit
-  /// that is left has to be identified, as after a restart. For who watches on and on; who changes
-  /// servos does not forget.
+  /// Forgets the shared IDs on which nothing has shown two units since then. The unit that is left
+  /// has to be identified, as after a restart. For commands that keep watching: those that change
+  /// servos do not forget.
   void forget_doubled(Time since);
 
   /// The unique IDs of the units that use this ID, if two were received; else none.

@@ -1,0 +1,122 @@
+// What the record says of a change once its outcome is known.
+
+#include "blactl/fleet/change/history.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace blactl::fleet {
+
+using dronecan::UniqueId;
+using state::ChangeEnd;
+
+/// For an undo that has begun elsewhere: servos it did not begin are not done yet, either.
+bool History::is_half_undone() const {
+  return command_ == "undo" && std::ranges::any_of(kept_, [](const auto& each) {
+           return each.second.was_changed && !each.second.is_empty;
+         });
+}
+
+/// A restart that has shown what ROM holds replaced nothing else.
+Result<void> History::leave_what_was_lost(std::span<const ChangeResult> results, WallTime now) {
+  std::vector<state::SnapshotEntry> shorter;
+  for (const ChangeResult& result : results) {
+    const auto known = result.servo.unique_id ? kept_.find(*result.servo.unique_id) : kept_.end();
+    if (known == kept_.end() || !result.was_sent || result.may_have_saved || !result.rom) {
+      continue;
+    }
+    state::SnapshotEntry& entry = known->second.entry;
+    const std::size_t size = entry.held.size();
+    std::erase_if(entry.held, [&](const auto& held) {
+      return bla::find(result.rom->values, bla::Address(held.first)) == held.second;
+    });
+    known->second.is_empty = entry.held.empty();
+    for (const auto& [address, raw] : entry.held) {
+      known->second.lost.insert(address);
+    }
+    if (entry.held.size() != size && !entry.held.empty()) {
+      shorter.push_back(entry);
+    }
+  }
+  const auto kept =
+      shorter.empty() ? Result<std::vector<std::int64_t>>() : snapshots_.keep(shorter, now);
+  return kept ? Result<void>() : std::unexpected(kept.error());
+}
+
+/// What is known after a round.
+struct History::Settled {
+  std::vector<state::Settlement> ends{};
+  std::vector<state::SnapshotEntry> entries{}; ///< to be kept anew
+};
+
+/// The entries of one servo, after a round that has ended like this.
+void History::settle(const ChangeResult& result, WallTime wall, Settled& settled) {
+  if (!result.servo.unique_id) {
+    return;
+  }
+  const UniqueId& unique_id = *result.servo.unique_id;
+  const bool is_known = result.saved || !result.may_have_saved;
+  if (auto earlier = lasting_.extract(unique_id)) {
+    for (state::SnapshotEntry& change : earlier.mapped()) {
+      if (!is_known) {
+        continue; // as they are
+      }
+      if (result.may_have_saved) {
+        settled.ends.push_back({change.number, ChangeEnd::saved, wall});
+      } else {
+        settled.entries.push_back(std::move(change));
+      }
+    }
+  }
+  const auto known = kept_.find(unique_id);
+  if (known == kept_.end()) {
+    return;
+  }
+  Kept& kept = known->second;
+  if (kept.is_empty || (!kept.was_changed && !is_half_undone())) {
+    settled.ends.push_back({.number = kept.entry.number, .end = ChangeEnd::never_begun});
+    kept_.erase(known);
+    run_ = kept_.empty() ? joined_ : run_;
+    return;
+  }
+  const auto trials = in_ram_.find(unique_id);
+  const bool is_of_ram = kept.entry.saved && !kept.was_saved && trials != in_ram_.end();
+  const bool was_planned = std::exchange(kept.entry.saved, kept.was_saved) == kept.was_saved;
+  if (!is_known) { // until the servo restarts
+    if (!was_planned) {
+      settled.entries.push_back(kept.entry);
+    }
+    return;
+  }
+  kept.entry.settled = wall;
+  if (is_of_ram) { // RAM alone was changed
+    for (const auto& [address, raw] : trials->second) {
+      kept.entry.held.insert_or_assign(address, raw);
+    }
+    settled.entries.push_back(kept.entry);
+  } else {
+    settled.ends.push_back({.number = kept.entry.number,
+                            .end = kept.was_saved ? ChangeEnd::saved : ChangeEnd::not_saved,
+                            .at = wall});
+  }
+}
+
+Result<void> History::settle(std::span<const ChangeResult> results, WallTime wall) {
+  for (const ChangeResult& result : results) {
+    const auto known = result.servo.unique_id ? kept_.find(*result.servo.unique_id) : kept_.end();
+    if (known != kept_.end()) {
+      known->second.was_changed = known->second.was_changed || result.may_have_changed;
+      known->second.was_saved = known->second.was_saved || result.may_have_saved;
+    }
+  }
+  Settled settled;
+  for (const ChangeResult& result : results) {
+    settle(result, wall, settled);
+  }
+  auto ended = settled.ends.empty() ? Result<void>() : snapshots_.settle(settled.ends);
+  const auto kept = settled.entries.empty() ? Result<std::vector<std::int64_t>>()
+                                            : snapshots_.keep(settled.entries, wall);
+  return kept || !ended ? ended : std::unexpected(kept.error());
+}
+
+} // namespace blactl::fleet
