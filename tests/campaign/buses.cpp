@@ -33,6 +33,9 @@ std::optional<can::BusEvent> Witness::receive() {
 }
 
 Result<bool> DisturbedBus::send(const can::Frame& frame) {
+  if (disturbance_.kind == Kind::computer_off && disturbance_.has_struck()) {
+    throw Killed();
+  }
   const bool is_about_sent =
       disturbance_.kind == Kind::request_lost || disturbance_.kind == Kind::killed;
   if (!is_about_sent || !disturbance_.strikes()) {

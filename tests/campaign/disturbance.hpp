@@ -1,5 +1,6 @@
 #pragma once
-// One thing that goes wrong at a certain moment of a command: the k-th frame, the k-th system call.
+// One thing that goes wrong at a certain moment of a command: the k-th frame, the k-th system call,
+// the k-th write to a database.
 
 #include <cstddef>
 #include <cstdint>
@@ -18,12 +19,15 @@ struct Disturbance {
     frame_late,      ///< by 0.3 s
     frame_of_other,  ///< it comes under another node's ID
     call_failed,     ///< a system call
+    computer_off,    ///< its power is cut at a write or sync of a database
   };
 
   Kind kind = Kind::none;
   std::size_t number = 0; ///< of the frame or the call, from 1
   bool lasts = false;     ///< every one from then on
   std::size_t seen = 0;   ///< counts, whatever the kind
+
+  [[nodiscard]] bool has_struck() const { return seen >= number; }
 
   /// Counts one, and tells whether it is meant.
   [[nodiscard]] bool strikes() {
@@ -44,6 +48,7 @@ struct Disturbance {
   case Kind::frame_late: return "frame late";
   case Kind::frame_of_other: return "frame of another";
   case Kind::call_failed: return "system call failed";
+  case Kind::computer_off: return "computer off";
   }
   return {};
 }

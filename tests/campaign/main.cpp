@@ -36,6 +36,7 @@ struct Options {
   bool until_found = false;
   std::string results{};
   std::size_t sweep = 0; ///< every so manieth place; 0: no sweep
+  std::string only{};    ///< one kind of disturbance
 };
 
 /// Commands run in this process, and nothing of the caller may get into them.
@@ -85,7 +86,7 @@ json play(const Options& options, unsigned job, const std::filesystem::path& fol
 
 /// Those of the commands whose turn it is.
 json sweep(const Options& options, unsigned job, const std::filesystem::path& folder) {
-  Sweep all(folder / "case", options.sweep, tell);
+  Sweep all(folder / "case", options.sweep, options.only, tell);
   all.play(job, options.jobs);
   return to_json(all.swept());
 }
@@ -161,6 +162,7 @@ int main(int argc, char** argv) {
   app.add_option(
       "--sweep", options.sweep,
       "instead of episodes: every so manieth frame and call of each command, one by one");
+  app.add_option("--only", options.only, "of the sweep: one kind, as \"computer off\"");
   app.add_flag("--until-found", options.until_found, "ends with the first difference");
   app.add_flag("--verbose", options.verbose, "prints every command");
   app.add_flag("--frozen", options.frozen,

@@ -1,12 +1,15 @@
 #include "sweep.hpp"
 
 #include "campaign.hpp"
+#include "claims.hpp"
 #include "judge.hpp"
+#include "told.hpp"
 
 #include <fmt/format.h>
 
 #include <chrono>
 #include <exception>
+#include <string_view>
 
 namespace blactl::campaign {
 
@@ -21,6 +24,7 @@ struct Sweep::Case {
   std::vector<Command> before;
   Command command;
   bool is_repeatable = true;
+  bool is_undoable = false; ///< `undo` brings back all that was before
   std::vector<int> node_ids{11, 12, 13};
 };
 
@@ -58,25 +62,45 @@ Episode episode_of(const std::vector<int>& node_ids) {
           .faults = {}};
 }
 
-/// What stays: settings, and who has which node ID.
-bool are_same(const States& one, const States& other) {
-  for (const auto& [serial, state] : one) {
-    const ServoState& second = other.at(serial);
-    if (state.rom != second.rom || state.node_id != second.node_id) {
-      return false;
-    }
-    for (const auto& [address, value] : state.rom) {
-      if (state.ram.at(address) != second.ram.at(address)) {
-        return false;
-      }
+/// Settings, and who has which node ID.
+void require_same(const States& due, const States& states, std::string_view what) {
+  for (const auto& [serial, state] : due) {
+    const ServoState& found = states.at(serial);
+    require(state.node_id == 0 || state.node_id == found.node_id, // 0: it has just started
+            fmt::format("{}: {} is at {}, not {}", what, serial, found.node_id, state.node_id));
+    for (const auto& [address, rom] : state.rom) {
+      const std::int64_t ram = state.ram.at(address);
+      require(ram == found.ram.at(address) && rom == found.rom.at(address),
+              fmt::format("{}: {:#04x} of {} is {} in RAM and {} in ROM, not {} and {}", what,
+                          address, serial, found.ram.at(address), found.rom.at(address), ram, rom));
     }
   }
-  return true;
 }
 
 constexpr Kind kinds[]{Kind::request_lost,   Kind::killed,          Kind::frame_lost,
                        Kind::frame_doubled,  Kind::frame_corrupted, Kind::frame_late,
-                       Kind::frame_of_other, Kind::call_failed};
+                       Kind::frame_of_other, Kind::call_failed,     Kind::computer_off};
+
+bool ends_command(Kind kind) {
+  return kind == Kind::killed || kind == Kind::computer_off;
+}
+
+/// The computer is on again: every ID that was given is in the table, and what was changed can be
+/// taken back.
+void check_stores(World& world, const Step& cut, bool is_undoable) {
+  const Command list_all{.words = {"alloc", "--list"}};
+  const Step list = take_step(world, cut.episode, list_all);
+  require(list.outcome.status == 0, "the allocation table cannot be read any more");
+  if (cut.command.verb() == "alloc" && cut.command.has("--once")) {
+    check_table(list);
+  }
+  if (is_undoable && !cut.outcome.record.changes().empty()) {
+    const Command take_back{.words = {"undo", "-y"}};
+    const Step undo = take_step(world, cut.episode, take_back);
+    require(undo.outcome.status == 0, "undo knows nothing of it: " + undo.outcome.err);
+    require_same(cut.before, undo.after, "undo has not brought everything back");
+  }
+}
 
 } // namespace
 
@@ -84,32 +108,39 @@ std::vector<Sweep::Case> Sweep::cases() {
   const Command in_ram = words({"set", "-n", "all", "smoothing=off", "timeout_time=500ms", "-y"});
   const Command saved = words({"set", "-n", "11,12", "reverse=on", "--save", "-y"});
   return {
-      {.name = "set", .before = {}, .command = in_ram},
-      {.name = "set --save", .before = {}, .command = saved},
+      {.name = "set", .before = {}, .command = in_ram, .is_undoable = true},
+      {.name = "set --save", .before = {}, .command = saved, .is_undoable = true},
       {.name = "set static_node_id --save",
        .before = {},
-       .command = words({"set", "-n", "serial:240900001", "static_node_id=30", "--save", "-y"})},
+       .command = words({"set", "-n", "serial:240900001", "static_node_id=30", "--save", "-y"}),
+       .is_undoable = true},
       {.name = "save", .before = {in_ram}, .command = words({"save", "-n", "all", "-y"})},
       {.name = "erase --save",
        .before = {saved},
-       .command = words({"erase", "-n", "11,12", "--save", "--keep-ids", "-y"})},
+       .command = words({"erase", "-n", "11,12", "--save", "--keep-ids", "-y"}),
+       .is_undoable = true},
       {.name = "restart", .before = {}, .command = words({"restart", "-n", "all", "-y"})},
       {.name = "pwm-config --save",
        .before = {},
-       .command = words({"pwm-config", "-n", "11", "--neutral", "1500us", "--save", "-y"})},
+       .command = words({"pwm-config", "-n", "11", "--neutral", "1500us", "--save", "-y"}),
+       .is_undoable = true},
       {.name = "apply",
        .before = {},
-       .command = apply({{"smoothing", "off"}}, {{"angle_limit_cw", "90deg"}})},
+       .command = apply({{"smoothing", "off"}}, {{"angle_limit_cw", "90deg"}}),
+       .is_undoable = true},
       {.name = "apply, IDs exchanged",
        .before = {},
        .command = apply({{"static_node_id", 12}, {"smoothing", "off"}},
-                        {{"static_node_id", 11}, {"reverse", "on"}})},
+                        {{"static_node_id", 11}, {"reverse", "on"}}),
+       .is_undoable = true},
       {.name = "apply --no-save",
        .before = {},
-       .command = apply({{"smoothing", "off"}}, {{"reverse", "on"}}, {"--no-save"})},
+       .command = apply({{"smoothing", "off"}}, {{"reverse", "on"}}, {"--no-save"}),
+       .is_undoable = true},
       {.name = "alloc --static",
        .before = {},
-       .command = words({"alloc", "--static", "-n", "serial:240900001", "--id", "30", "-y"})},
+       .command = words({"alloc", "--static", "-n", "serial:240900001", "--id", "30", "-y"}),
+       .is_undoable = true},
       {.name = "undo", .before = {saved}, .command = words({"undo", "-y"}), .is_repeatable = false},
       {.name = "alloc --once",
        .before = {},
@@ -138,6 +169,9 @@ void Sweep::play(unsigned job, unsigned jobs) {
 
 void Sweep::play(const Case& one) {
   for (const Kind kind : kinds) {
+    if (!only_.empty() && only_ != name(kind)) {
+      continue;
+    }
     Disturbance counting{.kind = kind, .number = static_cast<std::size_t>(-1)};
     States goal;
     {
@@ -151,7 +185,7 @@ void Sweep::play(const Case& one) {
       goal = step.after;
     }
     for (const bool lasts : {false, true}) {
-      if (lasts && kind == Kind::killed) {
+      if (lasts && ends_command(kind)) {
         continue;
       }
       Swept& swept =
@@ -177,30 +211,27 @@ void Sweep::disturb(const Case& one, Disturbance disturbance, const States& goal
   const Step step = take_step(world, episode, one.command, &disturbance);
   swept.runs += 1;
   swept.good += step.outcome.status == 0 ? 1 : 0;
-  const auto differ = [&](const Step& told, const std::string& why) {
-    swept.lies += 1;
-    tell_(fmt::format("{}: {}: {}\n  {}\n  exit status {}\n  {}\n{}", one.name, what, why,
-                      told.command.text(), told.outcome.status, told.outcome.document.dump(),
-                      told.outcome.err));
-  };
   try {
-    if (disturbance.kind != Kind::killed) {
+    if (!ends_command(disturbance.kind)) {
       judge(step);
     }
     world.pass(4s);
     [[maybe_unused]] const auto late = world.take_events();
+    if (disturbance.kind == Kind::computer_off) {
+      check_stores(world, step, one.is_undoable);
+    }
     if (!one.is_repeatable) {
       return;
     }
     const Step again = take_step(world, episode, one.command);
     judge(again);
-    if (again.outcome.status != 0) {
-      differ(again, "does not converge");
-    } else if (!are_same(goal, again.after)) {
-      differ(again, "the same command has another result");
-    }
+    require(again.outcome.status == 0, "does not converge: " + again.outcome.err);
+    require_same(goal, again.after, "the same command has another result");
   } catch (const std::exception& lie) {
-    differ(step, lie.what());
+    swept.lies += 1;
+    tell_(fmt::format("{}: {}: {}\n  {}\n  exit status {}\n  {}\n{}", one.name, what, lie.what(),
+                      step.command.text(), step.outcome.status, step.outcome.document.dump(),
+                      step.outcome.err));
   }
 }
 

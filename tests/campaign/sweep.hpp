@@ -29,10 +29,11 @@ using SweptByKind = std::map<std::pair<std::string, std::string>, Swept>;
 
 class Sweep {
  public:
-  /// `step`: every so manieth place; `tell`: receives every difference.
-  Sweep(std::filesystem::path folder, std::size_t step,
+  /// `step`: every so manieth place; `only`: of this kind, empty: of all; `tell`: receives every
+  /// difference.
+  Sweep(std::filesystem::path folder, std::size_t step, std::string only,
         std::function<void(const std::string&)> tell)
-      : folder_(std::move(folder)), step_(step), tell_(std::move(tell)) {}
+      : folder_(std::move(folder)), step_(step), only_(std::move(only)), tell_(std::move(tell)) {}
 
   /// Plays those of the cases whose turn it is: of `jobs` jobs this is number `job`.
   void play(unsigned job, unsigned jobs);
@@ -48,6 +49,7 @@ class Sweep {
 
   std::filesystem::path folder_;
   std::size_t step_;
+  std::string only_;
   std::function<void(const std::string&)> tell_;
   SweptByKind swept_;
 };

@@ -8,6 +8,7 @@
 #include "buses.hpp"
 #include "capture.hpp"
 #include "cli/run.hpp"
+#include "disk.hpp"
 
 #include <fmt/format.h>
 
@@ -95,14 +96,23 @@ Outcome World::run(const Command& command, Disturbance* disturbance) {
     return cli::OpenBus{.bus = std::make_unique<Witness>(std::move(bus), outcome.record),
                         .place = {.interface = "sim:world", .folder = folder_.string()}};
   };
+  const auto is = [&](Disturbance::Kind kind) {
+    return disturbance != nullptr && disturbance->kind == kind;
+  };
+  std::optional<Disk> disk;
+  if (is(Disturbance::Kind::computer_off)) {
+    disk.emplace(*disturbance);
+  }
   {
     const Capture capture;
-    const bool is_of_calls =
-        disturbance != nullptr && disturbance->kind == Disturbance::Kind::call_failed;
+    const bool is_of_calls = is(Disturbance::Kind::call_failed);
     fail_calls(is_of_calls ? disturbance : nullptr);
     outcome.status = cli::run(arguments, opener);
     fail_calls(nullptr);
     std::tie(outcome.out, outcome.err) = capture.taken();
+  }
+  if (disk && disturbance->has_struck()) {
+    disk->come_back(Chance(disturbance->number, "disk"));
   }
   outcome.document = document_in(outcome.out);
   return outcome;
