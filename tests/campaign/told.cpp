@@ -30,6 +30,16 @@ bool is_reached(const json& node) {
   return node.contains("changes") && std::ranges::all_of(node["changes"], is_held);
 }
 
+namespace {
+
+/// Whether another node on its ID can have answered in its place, while the servo was away or its
+/// frames were lost, and nothing came of that.
+bool may_be_taken_for_other(const Step& step, std::int64_t serial, const json& node) {
+  return step.shares_with_foreign(serial) && step.episode.faults.size() > 1 && !is_reached(node);
+}
+
+} // namespace
+
 std::vector<std::pair<std::int64_t, const json*>> told_servos(const Step& step) {
   std::vector<std::pair<std::int64_t, const json*>> told;
   if (!step.outcome.document.contains("nodes")) {
@@ -41,7 +51,8 @@ std::vector<std::pair<std::int64_t, const json*>> told_servos(const Step& step) 
     }
     const auto serial = node["serial_number"].get<std::int64_t>();
     require(step.after.contains(serial), fmt::format("there is no servo {}", serial));
-    require(node["unique_id"].is_null() || node["unique_id"] == step.after.at(serial).unique_id,
+    require(node["unique_id"].is_null() || node["unique_id"] == step.after.at(serial).unique_id ||
+                may_be_taken_for_other(step, serial, node),
             fmt::format("another unique ID of {}", serial));
     told.emplace_back(serial, &node);
   }
