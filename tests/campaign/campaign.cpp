@@ -85,7 +85,7 @@ Folder::~Folder() {
 }
 
 Step take_step(World& world, const Episode& episode, const Command& command,
-               Disturbance* disturbance) {
+               std::span<Disturbance> disturbances) {
   Step step{.episode = episode,
             .command = command,
             .outcome = {},
@@ -94,7 +94,7 @@ Step take_step(World& world, const Episode& episode, const Command& command,
             .begin = world.now(),
             .end = {},
             .events = {}};
-  step.outcome = world.run(command, disturbance);
+  step.outcome = world.run(command, disturbances);
   step.after = world.states();
   step.end = world.now();
   step.events = world.take_events();

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -46,7 +47,7 @@ class Folder {
 
 /// One command, and what happened meanwhile.
 [[nodiscard]] Step take_step(World& world, const Episode& episode, const Command& command,
-                             Disturbance* disturbance = nullptr);
+                             std::span<Disturbance> disturbances = {});
 
 class Campaign {
  public:

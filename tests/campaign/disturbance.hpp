@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string_view>
 
 namespace blactl::campaign {
@@ -23,14 +24,20 @@ struct Disturbance {
   };
 
   Kind kind = Kind::none;
-  std::size_t number = 0; ///< of the frame or the call, from 1
-  bool lasts = false;     ///< every one from then on
-  std::size_t seen = 0;   ///< counts, whatever the kind
+  std::size_t number = 0;             ///< of the frame or the call, from 1
+  bool lasts = false;                 ///< every one from then on
+  std::size_t seen = 0;               ///< counts, whatever the kind
+  const Disturbance* first = nullptr; ///< it counts from when that one has struck; null: at once
+
+  static constexpr std::size_t no_number = std::numeric_limits<std::size_t>::max();
 
   [[nodiscard]] bool has_struck() const { return seen >= number; }
 
   /// Counts one, and tells whether it is meant.
   [[nodiscard]] bool strikes() {
+    if (first != nullptr && !first->has_struck()) {
+      return false;
+    }
     ++seen;
     return lasts ? seen >= number : seen == number;
   }

@@ -84,10 +84,10 @@ json play(const Options& options, unsigned job, const std::filesystem::path& fol
   return to_json(campaign.counts());
 }
 
-/// Those of the commands whose turn it is.
 json sweep(const Options& options, unsigned job, const std::filesystem::path& folder) {
-  Sweep all(folder / "case", options.sweep, options.only, tell);
-  all.play(job, options.jobs);
+  Sweep all(folder / "case",
+            {.step = options.sweep, .only = options.only, .job = job, .jobs = options.jobs}, tell);
+  all.play();
   return to_json(all.swept());
 }
 
@@ -135,7 +135,7 @@ std::pair<std::string, bool> judged(const Options& options, const std::vector<js
     bool crashed = false;
     for (const json& one : told) {
       crashed = crashed || one.is_null();
-      all.merge(swept_in(one));
+      add(all, swept_in(one));
     }
     return {summary(all), !crashed && lies_in(all) == 0};
   }
@@ -162,7 +162,8 @@ int main(int argc, char** argv) {
   app.add_option(
       "--sweep", options.sweep,
       "instead of episodes: every so manieth frame and call of each command, one by one");
-  app.add_option("--only", options.only, "of the sweep: one kind, as \"computer off\"");
+  app.add_option("--only", options.only,
+                 "of the sweep: one kind, as \"computer off\", or \"two of these\"");
   app.add_flag("--until-found", options.until_found, "ends with the first difference");
   app.add_flag("--verbose", options.verbose, "prints every command");
   app.add_flag("--frozen", options.frozen,

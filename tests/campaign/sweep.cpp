@@ -1,12 +1,14 @@
 #include "sweep.hpp"
 
 #include "campaign.hpp"
+#include "chance.hpp"
 #include "claims.hpp"
 #include "judge.hpp"
 #include "told.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <exception>
 #include <string_view>
@@ -81,6 +83,9 @@ constexpr Kind kinds[]{Kind::request_lost,   Kind::killed,          Kind::frame_
                        Kind::frame_doubled,  Kind::frame_corrupted, Kind::frame_late,
                        Kind::frame_of_other, Kind::call_failed,     Kind::computer_off};
 
+/// In the table beside the kinds.
+constexpr std::string_view pairs = "two of these";
+
 bool ends_command(Kind kind) {
   return kind == Kind::killed || kind == Kind::computer_off;
 }
@@ -103,6 +108,16 @@ void check_stores(World& world, const Step& cut, bool is_undoable) {
 }
 
 } // namespace
+
+void add(SweptByKind& all, const SweptByKind& more) {
+  for (const auto& [key, one] : more) {
+    Swept& sum = all[key];
+    sum.places = one.places;
+    sum.runs += one.runs;
+    sum.good += one.good;
+    sum.lies += one.lies;
+  }
+}
 
 std::vector<Sweep::Case> Sweep::cases() {
   const Command in_ram = words({"set", "-n", "all", "smoothing=off", "timeout_time=500ms", "-y"});
@@ -158,81 +173,129 @@ std::vector<Sweep::Case> Sweep::cases() {
   };
 }
 
-void Sweep::play(unsigned job, unsigned jobs) {
-  unsigned turn = 0;
-  for (const Case& one : cases()) {
-    if (turn++ % jobs == job) {
-      play(one);
-    }
-  }
-}
-
-void Sweep::play(const Case& one) {
-  for (const Kind kind : kinds) {
-    if (!only_.empty() && only_ != name(kind)) {
-      continue;
-    }
-    Disturbance counting{.kind = kind, .number = static_cast<std::size_t>(-1)};
-    States goal;
-    {
-      const Folder folder(folder_);
-      const Episode episode = episode_of(one.node_ids);
-      World world(episode.scenario, folder_);
-      for (const Command& command : one.before) {
-        [[maybe_unused]] const Outcome done = world.run(command);
-      }
-      const Step step = take_step(world, episode, one.command, &counting);
-      goal = step.after;
-    }
-    for (const bool lasts : {false, true}) {
-      if (lasts && ends_command(kind)) {
-        continue;
-      }
-      Swept& swept =
-          swept_[{one.name, fmt::format("{}{}", name(kind), lasts ? ", from then on" : "")}];
-      swept.places = counting.seen;
-      for (std::size_t number = 1; number <= counting.seen; number += step_) {
-        disturb(one, {.kind = kind, .number = number, .lasts = lasts}, goal, swept);
-      }
-    }
-  }
-}
-
-void Sweep::disturb(const Case& one, Disturbance disturbance, const States& goal, Swept& swept) {
-  const Folder folder(folder_);
-  const Episode episode = episode_of(one.node_ids);
-  World world(episode.scenario, folder_);
+/// On fresh servos, after what is done before it.
+Step Sweep::begin(World& world, const Episode& episode, const Case& one,
+                  std::span<Disturbance> disturbances) {
   for (const Command& command : one.before) {
     [[maybe_unused]] const Outcome done = world.run(command);
   }
   [[maybe_unused]] const auto earlier = world.take_events();
-  const std::string what = fmt::format("{} number {}{}", name(disturbance.kind), disturbance.number,
-                                       disturbance.lasts ? " and all from then on" : "");
-  const Step step = take_step(world, episode, one.command, &disturbance);
+  return take_step(world, episode, one.command, disturbances);
+}
+
+void Sweep::play() {
+  for (const Case& one : cases()) {
+    for (const Kind kind : kinds) {
+      if (options_.only.empty() || options_.only == name(kind)) {
+        play_each(one, kind);
+      }
+    }
+    if (options_.only.empty() || options_.only == pairs) {
+      play_pairs(one);
+    }
+  }
+}
+
+/// What follows where nothing goes wrong.
+Sweep::Calm Sweep::play_calm(const Case& one, Kind kind) const {
+  Disturbance counting{.kind = kind, .number = Disturbance::no_number};
+  const Folder folder(folder_);
+  const Episode episode = episode_of(one.node_ids);
+  World world(episode.scenario, folder_);
+  return {.goal = begin(world, episode, one, std::span(&counting, 1)).after,
+          .places = counting.seen};
+}
+
+void Sweep::play_each(const Case& one, Kind kind) {
+  const auto [goal, places] = play_calm(one, kind);
+  for (const bool lasts : {false, true}) {
+    if (lasts && ends_command(kind)) {
+      continue;
+    }
+    Swept& swept =
+        swept_[{one.name, fmt::format("{}{}", name(kind), lasts ? ", from then on" : "")}];
+    swept.places = places;
+    for (std::size_t number = 1; number <= places; number += options_.step) {
+      if (is_own_turn()) {
+        disturb(one, {{.kind = kind, .number = number, .lasts = lasts}}, goal, swept);
+      }
+    }
+  }
+}
+
+/// The second while the command recovers from the first.
+void Sweep::play_pairs(const Case& one) {
+  constexpr std::size_t most = 400;
+  constexpr std::int64_t recovery = 40; // in frames
+  const std::vector<Kind> firsts{Kind::request_lost, Kind::frame_lost, Kind::frame_doubled,
+                                 Kind::frame_late, Kind::frame_of_other};
+  std::vector<Kind> seconds = firsts;
+  seconds.insert(seconds.end(), {Kind::killed, Kind::call_failed, Kind::computer_off});
+  Swept& swept = swept_[{one.name, std::string(pairs)}];
+  swept.places = most;
+  std::map<Kind, Calm> calm;
+  for (const Kind kind : firsts) {
+    calm.emplace(kind, play_calm(one, kind));
+  }
+  for (std::size_t i = 0; i < most; i += options_.step) {
+    Chance chance(i, one.name);
+    const Kind first = chance.one_of(firsts), second = chance.one_of(seconds);
+    const auto& [goal, places] = calm.at(first);
+    const Disturbance early{
+        .kind = first,
+        .number = static_cast<std::size_t>(chance.whole(1, static_cast<std::int64_t>(places)))};
+    const Disturbance late{.kind = second,
+                           .number = static_cast<std::size_t>(chance.whole(1, recovery))};
+    if (is_own_turn()) {
+      disturb(one, {early, late}, goal, swept);
+    }
+  }
+}
+
+void Sweep::disturb(const Case& one, std::vector<Disturbance> disturbances, const States& goal,
+                    Swept& swept) {
+  std::string what;
+  for (std::size_t i = 0; i < disturbances.size(); ++i) {
+    disturbances[i].first = i > 0 ? &disturbances[i - 1] : nullptr;
+    what += fmt::format("{}{} number {}{}", i > 0 ? ", then " : "", name(disturbances[i].kind),
+                        disturbances[i].number, disturbances[i].lasts ? " and all later ones" : "");
+  }
+  const Folder folder(folder_);
+  const Episode episode = episode_of(one.node_ids);
+  World world(episode.scenario, folder_);
+  const Step step = begin(world, episode, one, disturbances);
   swept.runs += 1;
   swept.good += step.outcome.status == 0 ? 1 : 0;
   try {
-    if (!ends_command(disturbance.kind)) {
-      judge(step);
-    }
-    world.pass(4s);
-    [[maybe_unused]] const auto late = world.take_events();
-    if (disturbance.kind == Kind::computer_off) {
-      check_stores(world, step, one.is_undoable);
-    }
-    if (!one.is_repeatable) {
-      return;
-    }
-    const Step again = take_step(world, episode, one.command);
-    judge(again);
-    require(again.outcome.status == 0, "does not converge: " + again.outcome.err);
-    require_same(goal, again.after, "the same command has another result");
+    check(world, one, disturbances, step, goal);
   } catch (const std::exception& lie) {
     swept.lies += 1;
     tell_(fmt::format("{}: {}: {}\n  {}\n  exit status {}\n  {}\n{}", one.name, what, lie.what(),
                       step.command.text(), step.outcome.status, step.outcome.document.dump(),
                       step.outcome.err));
   }
+}
+
+void Sweep::check(World& world, const Case& one, std::span<const Disturbance> disturbances,
+                  const Step& step, const States& goal) {
+  const auto is_ended = [](const Disturbance& one_of_them) {
+    return ends_command(one_of_them.kind) && one_of_them.has_struck();
+  };
+  if (std::ranges::none_of(disturbances, is_ended)) {
+    judge(step);
+  }
+  world.pass(4s);
+  [[maybe_unused]] const auto late = world.take_events();
+  if (disturbances.back().kind == Kind::computer_off) {
+    check_stores(world, step, one.is_undoable);
+  }
+  if (!one.is_repeatable) {
+    return;
+  }
+  const Step again = take_step(world, step.episode, one.command);
+  judge(again);
+  require(again.outcome.status == 0, "does not converge: " + again.outcome.err);
+  require_same(goal, again.after, "the same command has another result");
 }
 
 } // namespace blactl::campaign

@@ -1,15 +1,17 @@
 #pragma once
-// Every single fault before random ones: for each changing command the k-th frame and the k-th
-// system call, once and from then on.
+// Every single fault before random ones: for each changing command the k-th frame, the k-th system
+// call and the k-th write to a database, once and from then on; and a sample of pairs.
 
 #include "disturbance.hpp"
 #include "episode.hpp"
+#include "step.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,30 +29,51 @@ struct Swept {
 /// By command and kind.
 using SweptByKind = std::map<std::pair<std::string, std::string>, Swept>;
 
+/// The runs of another job.
+void add(SweptByKind& all, const SweptByKind& more);
+
 class Sweep {
  public:
-  /// `step`: every so manieth place; `only`: of this kind, empty: of all; `tell`: receives every
-  /// difference.
-  Sweep(std::filesystem::path folder, std::size_t step, std::string only,
-        std::function<void(const std::string&)> tell)
-      : folder_(std::move(folder)), step_(step), only_(std::move(only)), tell_(std::move(tell)) {}
+  struct Options {
+    std::size_t step = 1; ///< every so manieth place
+    std::string only{};   ///< one kind of disturbance, or pairs of them; empty: all
+    unsigned job = 0, jobs = 1;
+  };
 
-  /// Plays those of the cases whose turn it is: of `jobs` jobs this is number `job`.
-  void play(unsigned job, unsigned jobs);
+  /// `tell`: receives every difference.
+  Sweep(std::filesystem::path folder, Options options, std::function<void(const std::string&)> tell)
+      : folder_(std::move(folder)), options_(std::move(options)), tell_(std::move(tell)) {}
+
+  /// Plays those whose turn it is: of `jobs` jobs this is number `job`.
+  void play();
 
   [[nodiscard]] const SweptByKind& swept() const { return swept_; }
 
  private:
   struct Case;
 
+  struct Calm {
+    States goal;
+    std::size_t places = 0;
+  };
+
   [[nodiscard]] static std::vector<Case> cases();
-  void play(const Case& one);
-  void disturb(const Case& one, Disturbance disturbance, const States& goal, Swept& swept);
+  [[nodiscard]] static Step begin(World& world, const Episode& episode, const Case& one,
+                                  std::span<Disturbance> disturbances);
+  static void check(World& world, const Case& one, std::span<const Disturbance> disturbances,
+                    const Step& step, const States& goal);
+  [[nodiscard]] Calm play_calm(const Case& one, Disturbance::Kind kind) const;
+  void play_each(const Case& one, Disturbance::Kind kind);
+  void play_pairs(const Case& one);
+  void disturb(const Case& one, std::vector<Disturbance> disturbances, const States& goal,
+               Swept& swept);
+
+  [[nodiscard]] bool is_own_turn() { return turn_++ % options_.jobs == options_.job; }
 
   std::filesystem::path folder_;
-  std::size_t step_;
-  std::string only_;
+  Options options_;
   std::function<void(const std::string&)> tell_;
+  std::size_t turn_ = 0;
   SweptByKind swept_;
 };
 

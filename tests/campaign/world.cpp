@@ -79,7 +79,7 @@ void World::power_on(const nlohmann::json& scenario, Time at) {
       *parsed, at, [this](const sim::ServoEvent& event) { events_.push_back(event); });
 }
 
-Outcome World::run(const Command& command, Disturbance* disturbance) {
+Outcome World::run(const Command& command, std::span<Disturbance> disturbances) {
   Outcome outcome;
   std::vector<std::string> arguments{"-i", "sim:world", "--json"};
   arguments.insert(arguments.end(), command.words.begin(), command.words.end());
@@ -90,29 +90,30 @@ Outcome World::run(const Command& command, Disturbance* disturbance) {
   const auto opener = [&](const cli::OpenRequest& request) -> Result<cli::OpenBus> {
     std::unique_ptr<can::Bus> bus =
         std::make_unique<sim::PrivateBus>(std::string(request.text), simulator_);
-    if (disturbance != nullptr) {
-      bus = std::make_unique<DisturbedBus>(std::move(bus), *disturbance);
+    for (Disturbance& disturbance : disturbances) {
+      bus = std::make_unique<DisturbedBus>(std::move(bus), disturbance);
     }
     return cli::OpenBus{.bus = std::make_unique<Witness>(std::move(bus), outcome.record),
                         .place = {.interface = "sim:world", .folder = folder_.string()}};
   };
-  const auto is = [&](Disturbance::Kind kind) {
-    return disturbance != nullptr && disturbance->kind == kind;
+  const auto of = [&](Disturbance::Kind kind) {
+    const auto found = std::ranges::find(disturbances, kind, &Disturbance::kind);
+    return found != disturbances.end() ? &*found : nullptr;
   };
+  Disturbance* const cut = of(Disturbance::Kind::computer_off);
   std::optional<Disk> disk;
-  if (is(Disturbance::Kind::computer_off)) {
-    disk.emplace(*disturbance);
+  if (cut != nullptr) {
+    disk.emplace(*cut);
   }
   {
     const Capture capture;
-    const bool is_of_calls = is(Disturbance::Kind::call_failed);
-    fail_calls(is_of_calls ? disturbance : nullptr);
+    fail_calls(of(Disturbance::Kind::call_failed));
     outcome.status = cli::run(arguments, opener);
     fail_calls(nullptr);
     std::tie(outcome.out, outcome.err) = capture.taken();
   }
-  if (disk && disturbance->has_struck()) {
-    disk->come_back(Chance(disturbance->number, "disk"));
+  if (disk && cut->has_struck()) {
+    disk->come_back(Chance(cut->number, "disk"));
   }
   outcome.document = document_in(outcome.out);
   return outcome;

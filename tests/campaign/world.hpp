@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -65,8 +66,8 @@ class World {
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
-  /// Runs a command to its end, with --json. `disturbance`: of it; null: none.
-  [[nodiscard]] Outcome run(const Command& command, Disturbance* disturbance = nullptr);
+  /// Runs a command to its end, with --json. `disturbances`: of it; one at most is not of frames.
+  [[nodiscard]] Outcome run(const Command& command, std::span<Disturbance> disturbances = {});
 
   /// Lets time pass: what was sent before a command broke off happens all the same.
   void pass(Duration time);
