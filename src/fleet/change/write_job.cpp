@@ -213,11 +213,11 @@ Step WriteJob::doubt(std::size_t change, Time now) {
   return prove(now);
 }
 
-/// Reads what was written; at the end, the proof.
+/// Reads what was written, and what was held already, as another write may have changed it; at the
+/// end, the proof.
 Step WriteJob::next_look(Time now) {
-  const bool looks = options_.echo == Echo::is_checked;
-  while (looked_ < changes_.size() &&
-         (!looks || changes_[looked_].status != ChangeStatus::written)) {
+  const bool looks = options_.echo == Echo::is_checked && has_written_;
+  while (looked_ < changes_.size() && (!looks || !is_held(changes_[looked_]))) {
     ++looked_;
   }
   if (looked_ == changes_.size()) {
@@ -272,6 +272,8 @@ Step WriteJob::judge_proof(const Outcome& outcome) {
   const std::size_t doubted = *std::exchange(doubted_, std::nullopt);
   if (changes_[doubted].after == changes_[doubted].requested) {
     take_written();
+  } else if (changes_[doubted].status == ChangeStatus::unchanged) {
+    write_after_others(doubted);
   } else if (!may_try_again()) {
     judge(changes_[doubted]);
     if (current_ == doubted) {
@@ -279,6 +281,14 @@ Step WriteJob::judge_proof(const Outcome& outcome) {
     }
   }
   return go_on(outcome.at);
+}
+
+/// One of the writes has changed a value that was held already.
+void WriteJob::write_after_others(std::size_t change) {
+  changes_[change].status = ChangeStatus::planned;
+  current_ = change;
+  tries_ = 0;
+  looked_ = 0;
 }
 
 /// A write that was lost, now that the servo is known to have run on.
@@ -366,8 +376,10 @@ Step WriteJob::write_again(Time now) {
     return std::nullopt;
   }
   for (RegisterChange& change : changes_) {
-    if (change.status == ChangeStatus::written) {
+    const bool was_refused = change.error && change.after; // what it held then is lost, too
+    if (change.status == ChangeStatus::written || was_refused) {
       change.status = ChangeStatus::planned;
+      change.error.reset();
     }
   }
   current_ = looked_ = 0;

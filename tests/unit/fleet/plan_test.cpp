@@ -233,6 +233,17 @@ TEST_CASE("what stops a shaft is written first") {
   CHECK(plan.changes[0].parameter->address == at::command_speed);
 }
 
+TEST_CASE("the command that a servo discards as its output goes on is written after that") {
+  const Plan plan = plan_for(set({"command_angle=40deg", "torque_output=on"}),
+                             {{at::command_angle, 400}, {at::torque_output, 1}});
+  REQUIRE(plan.changes.size() == 2);
+  CHECK(plan.changes[1].parameter->address == at::command_angle);
+  CHECK(plan.changes[1].is_planned());
+  const Plan on = plan_for(set({"command_angle=40deg", "torque_output=on"}),
+                           {{at::command_angle, 400}, {at::torque_output, 0}});
+  CHECK_FALSE(on.acts());
+}
+
 TEST_CASE("values wanted of a servo that is erased first are judged by what ERASE leaves") {
   Wanted wanted = set({"angle_limit_cw=90deg", "reverse=off", "servo_id=5"}, true);
   wanted.erase = wanted.keep_ids = true;

@@ -119,7 +119,7 @@ TEST_CASE("a value that is held already is not sent") {
   CHECK(job.changes()[1].status == ChangeStatus::written);
   CHECK(job.changes()[2].status == ChangeStatus::unchanged);
   CHECK(writes(scene) == 1);
-  CHECK(scene.sent.size() == 1 + 3 + 1 + 1);
+  CHECK(scene.sent.size() == 1 + 3 + 3 + 1); // all three are read again
 }
 
 TEST_CASE("nothing to change writes nothing, and is proven all the same") {
@@ -292,6 +292,33 @@ TEST_CASE("what a later write changes of an earlier one is seen") {
   CHECK(job.changes()[0].error->code == Code::refused);
   CHECK(job.changes()[0].after == 0);
   CHECK(job.changes()[1].status == ChangeStatus::written);
+}
+
+TEST_CASE("what a write changes of a value that was held already is written after it") {
+  Bench bench;
+  WriteJob job = bench.job({change("pwm_output_range", 70, 70), change("pwm_mode", 1, 0)});
+  CHECK(bench.begin(job) == "write 0x37=1");
+  CHECK(bench.value(job, "0x37", 1) == "read 0x36");
+  CHECK(bench.value(job, "0x36", 300) == "GetNodeInfo");
+  CHECK(bench.proven(job) == "write 0x36=70");
+  SECTION("and looked at like the others") {
+    CHECK(bench.value(job, "0x36", 70) == "read 0x36");
+    CHECK(bench.value(job, "0x36", 70) == "read 0x37");
+    CHECK(bench.value(job, "0x37", 1) == "GetNodeInfo");
+    CHECK(bench.proven(job) == "nothing");
+    CHECK(job.changes()[0].status == ChangeStatus::written);
+    CHECK(job.changes()[1].status == ChangeStatus::written);
+  }
+  SECTION("once: then the two do not go together") {
+    CHECK(bench.value(job, "0x36", 300) == "read 0x36");
+    CHECK(bench.value(job, "0x36", 300) == "GetNodeInfo");
+    CHECK(bench.proven(job) == "read 0x37");
+    CHECK(bench.value(job, "0x37", 1) == "GetNodeInfo");
+    CHECK(bench.proven(job) == "nothing");
+    CHECK(job.changes()[0].status == ChangeStatus::mismatch);
+    CHECK(job.changes()[0].after == 300);
+    CHECK(job.changes()[1].status == ChangeStatus::written);
+  }
 }
 
 TEST_CASE("armed in the middle: nothing more is written, and what was written is proven") {
@@ -649,7 +676,8 @@ TEST_CASE("a servo that has only just started is asked again when its uptime tel
   CHECK(bench.begin(job) == "write 0x23=1");
   CHECK(bench.value(job, "0x23", 1) == "write 0x45=5");
   CHECK(bench.value(job, "0x45", 5) == "read 0x23");
-  CHECK(bench.value(job, "0x23", 1) == "read 0x45");
+  CHECK(bench.value(job, "0x23", 1) == "read 0x38");
+  CHECK(bench.value(job, "0x38", 900) == "read 0x45");
   CHECK(bench.value(job, "0x45", 5) == "GetNodeInfo");
   SECTION("it ran on") {
     CHECK(bench.young(job, 1) == "nothing");

@@ -20,7 +20,8 @@ namespace blactl::fleet {
 /// Sends the planned changes in order, once the servo has proven to be the same unit; registers
 /// that already have the value become `unchanged`. A response may show a clamped or refused value
 /// (requirement 73): then the register is read at once. If the whole servo is not read afterwards,
-/// each register that was written is read after the last write, which may have changed others. At
+/// each named register is read after the last write, which may have changed others; one that was
+/// held already is written then. At
 /// the end, and before a refusal is believed, the servo must prove that it has not restarted, also
 /// if all values were unchanged, as they were read some time ago. Values written before a restart
 /// are written again, as they were in RAM only, provided that the values on which the plan was
@@ -78,6 +79,7 @@ class WriteJob final : public dronecan::Job {
   void take_written();
   void doubt_unread(const bla::Parameter& last, std::optional<std::int64_t> raw);
   [[nodiscard]] dronecan::Step hold_off(Time now);
+  void write_after_others(std::size_t change);
   [[nodiscard]] bool may_try_again();
   [[nodiscard]] std::optional<std::int64_t> next_servo_id() const;
   [[nodiscard]] bool is_given_elsewhere() const;
