@@ -275,6 +275,26 @@ TEST_CASE("undo brings back what a restart took from RAM, where only a proof tol
   CHECK(fleet.ram("11", "angle_limit_cw") == 900);
 }
 
+TEST_CASE("undo of a saved change brings back what a proof knows of ROM, not another tool's trial") {
+  Fleet fleet(three_servos());
+  const Options other{.env = {{"BLACTL_STATE_DIR", fleet.file_name("other")}}};
+  REQUIRE(fleet.run({"save", "-n", "11", "-y"}).status == 0);
+  REQUIRE(fleet.run({"set", "-n", "11", "angle_limit_cw=90deg", "-y"}, other).status == 0);
+  REQUIRE(fleet.run({"set", "-n", "11", "angle_limit_cw=45deg", "--save", "-y"}).status == 0);
+  CHECK(undo(fleet, {"-n", "11"}).status == 0);
+  CHECK(fleet.ram("11", "angle_limit_cw") == 1799);
+  CHECK(fleet.rom("11", "angle_limit_cw") == 1799);
+}
+
+TEST_CASE("undo of a saved change takes back a named value that RAM alone had held before it") {
+  Fleet fleet(three_servos());
+  set(fleet, {"-n", "11", "angle_limit_cw=45deg"});
+  set(fleet, {"-n", "11", "angle_limit_cw=45deg", "reverse=on", "--save"});
+  CHECK(undo(fleet, {"-n", "11"}).status == 0);
+  CHECK(fleet.ram("11", "reverse") == 0);
+  CHECK(fleet.rom("11", "angle_limit_cw") == 1799);
+}
+
 TEST_CASE("a characterize that has put everything back is nothing to undo") {
   Fleet fleet(Scene().servo("BLA21-12U-AB", 11));
   REQUIRE(fleet.run({"characterize", "-n", "11", "-y"}).status == 0);

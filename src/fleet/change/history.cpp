@@ -130,6 +130,10 @@ Result<void> History::drop_proofs(std::span<const Plan> plans) {
   return dropped;
 }
 
+Result<void> History::doubt_rom(std::span<const UniqueId> units) {
+  return units.empty() ? Result<void>() : proofs_.drop(units);
+}
+
 /// Resumes after an earlier try of this command that ended half way. What an ERASE has taken from
 /// RAM, a restart has brought back.
 Result<void> History::resume(const Snapshot& ram, const Session& session) {
@@ -161,10 +165,7 @@ bla::Values History::taken_from_ram(const Plan& plan, const Session& session) {
   if (plan.restart != RestartKind::restart || plan.proves_rom) {
     return taken;
   }
-  const Servo& servo = plan.before.servo;
-  const auto proven = proven_rom(servo, session);
-  const bla::Values rom = proven ? *proven : replaced_in_ram(plan.before, session);
-  for (const auto& [address, raw] : rom) {
+  for (const auto& [address, raw] : known_rom(plan.before, session)) {
     const auto held = plan.before.raw(address);
     if (held && *held != raw) {
       taken.emplace(address, *held);
@@ -190,6 +191,14 @@ std::optional<state::SnapshotEntry> History::entry_of(const Plan& plan, const Ro
   }
   state::Registers in_ram;
   const auto rom = roms.find(*unique_id);
+  for (const RegisterChange& change : plan.changes) { // what RAM holds already goes to ROM
+    const std::uint8_t address = change.parameter->address.value();
+    const bool is_kept = rom != roms.end() && !plan.erase && !change.is_planned() &&
+                         rom->second.contains(address) && change.parameter->is_setting();
+    if (is_kept && rom->second.at(address) != change.requested) {
+      held.emplace(address, change.requested);
+    }
+  }
   for (auto& [address, raw] : held) { // undo puts nothing into ROM that was in RAM only
     const bool is_kept = plan.erase && plan.change_of(bla::Address(address)) != nullptr;
     if (!is_kept && rom != roms.end() && rom->second.contains(address)) {
@@ -319,12 +328,12 @@ Result<void> History::conclude(std::span<const ChangeResult> results, const Sess
   return settled ? put : settled;
 }
 
-/// What the ROM of each servo to be saved holds where it differs from RAM, as far as recorded.
-History::Roms History::roms_before(std::span<const Plan> plans, const Session& session) const {
+/// What the ROM of each servo to be saved holds, as far as known.
+History::Roms History::roms_before(std::span<const Plan> plans, const Session& session) {
   Roms roms;
   for (const Plan& plan : plans) {
     if (plan.restart == RestartKind::save && plan.before.servo.unique_id) {
-      roms.emplace(*plan.before.servo.unique_id, stored(replaced_in_ram(plan.before, session)));
+      roms.emplace(*plan.before.servo.unique_id, stored(known_rom(plan.before, session)));
     }
   }
   return roms;

@@ -212,8 +212,9 @@ ToldRom History::recorded_rom(const Snapshot& ram, const Session& session) const
   return rom;
 }
 
-bla::Values History::replaced_in_ram(const Snapshot& ram, const Session& session) const {
-  return recorded_rom(ram, session).values;
+bla::Values History::known_rom(const Snapshot& ram, const Session& session) {
+  auto proven = proven_rom(ram.servo, session);
+  return proven ? std::move(*proven) : recorded_rom(ram, session).values;
 }
 
 bla::Values History::lost_ids(const Snapshot& ram, const Session& session) const {

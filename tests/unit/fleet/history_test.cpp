@@ -547,7 +547,7 @@ TEST_CASE("a change that was to be saved, and was killed before, is in RAM only 
                 .servos[0]
                 .is_done());
     const Snapshot ram = scene.read(11, registers({"angle_limit_cw"}));
-    return kept.history().replaced_in_ram(ram, *scene.session);
+    return kept.history().known_rom(ram, *scene.session);
   };
   CHECK(unrecorded(set("angle_limit_cw=90deg")) == bla::Values{{at::angle_limit_cw, 1799}});
   const Goal goal{.id = dronecan::NodeId(11), .wanted = set("smoothing=off", true)};
@@ -587,7 +587,7 @@ TEST_CASE("a repeated apply counts as saved only where the first try may have be
     begin();
     carry(set("angle_limit_cw=90deg"));
     const Snapshot ram = scene.read(11, registers({"angle_limit_cw"}));
-    CHECK(kept.history().replaced_in_ram(ram, *scene.session) ==
+    CHECK(kept.history().known_rom(ram, *scene.session) ==
           bla::Values{{at::angle_limit_cw, 1799}});
   }
   SECTION("repeated after its SAVE") {
@@ -620,7 +620,7 @@ TEST_CASE("values that were written again after a restart, and not saved, are in
   CHECK_FALSE(change(scene, set("angle_limit_cw=90deg", true), kept).is_done());
   const Snapshot ram = scene.read(11, registers({"angle_limit_cw"}));
   REQUIRE(ram.raw(at::angle_limit_cw) == 900);
-  CHECK(kept.history().replaced_in_ram(ram, *scene.session) ==
+  CHECK(kept.history().known_rom(ram, *scene.session) ==
         bla::Values{{at::angle_limit_cw, 1799}});
 }
 

@@ -64,6 +64,9 @@ class History {
   /// the last one again.
   [[nodiscard]] Result<void> take_back(std::span<const dronecan::UniqueId> units);
 
+  /// The ROM of these units is not known any more.
+  [[nodiscard]] Result<void> doubt_rom(std::span<const dronecan::UniqueId> units);
+
   /// The changes of a servo in RAM only since its start, the newest first. With `ram`, also those
   /// that the clock puts before its start, which RAM still shows: clocks are set.
   [[nodiscard]] std::vector<state::SnapshotEntry>
@@ -79,11 +82,11 @@ class History {
   [[nodiscard]] std::optional<bla::Values> proven_rom(const Servo& servo, const Session& session);
 
   /// The values that changes of this program in RAM only have replaced since this servo started:
-  /// its ROM holds them, as far as recorded.
-  [[nodiscard]] bla::Values replaced_in_ram(const Snapshot& ram, const Session& session) const;
-
-  /// The same, and which of them may be saved by now.
+  /// its ROM holds them, as far as recorded; and which of them may be saved by now.
   [[nodiscard]] ToldRom recorded_rom(const Snapshot& ram, const Session& session) const;
+
+  /// What its ROM holds, as far as proven, else as far as recorded.
+  [[nodiscard]] bla::Values known_rom(const Snapshot& ram, const Session& session);
 
   /// The IDs that an ERASE by this program has taken from RAM, was to keep, and did not write back:
   /// it broke off.
@@ -97,7 +100,7 @@ class History {
   [[nodiscard]] std::optional<state::RomProof> proof(const Servo& servo, const Session& session);
   using Roms = std::map<dronecan::UniqueId, state::Registers>;
 
-  [[nodiscard]] Roms roms_before(std::span<const Plan> plans, const Session& session) const;
+  [[nodiscard]] Roms roms_before(std::span<const Plan> plans, const Session& session);
   [[nodiscard]] Result<void> keep_lasting(std::span<const Plan> plans, const Roms& roms,
                                           const Session& session);
   [[nodiscard]] std::optional<state::SnapshotEntry> entry_of(const Plan& plan, const Roms& roms,
