@@ -150,3 +150,30 @@ TEST_CASE(
   CHECK(contains(applied.err, "duplicate_node_id"));
   CHECK_FALSE(contains(applied.err, "no servo for"));
 }
+
+TEST_CASE("a servo ID that another servo's ROM holds is not given, nor brought back by a restart") {
+  const Fleet fleet(three_servos());
+  const auto ids = [&](const char* node, const char* value, bool saves) {
+    Arguments arguments{"set", "-n", node, std::string("servo_id=") + value, "-y"};
+    if (saves) {
+      arguments.emplace_back("--save");
+    }
+    return fleet.run(arguments);
+  };
+  REQUIRE(ids("12", "9", true).status == 0);
+  REQUIRE(ids("12", "5", false).status == 0);
+  check_error(ids("11", "9", true), 9, "duplicate_servo_id",
+              "node 11 would have servo ID 9, which node 12 has in its ROM");
+  SECTION("a restart that would bring it back") {
+    const Options other{.env = {{"BLACTL_STATE_DIR", fleet.file_name("other")}}};
+    REQUIRE(fleet.run({"set", "-n", "11", "servo_id=9", "--save", "-y"}, other).status == 0);
+    check_error(fleet.run({"restart", "-n", "12", "-y"}), 9, "duplicate_servo_id",
+                "node 12 would have servo ID 9, which node 11 has");
+    CHECK(fleet.run({"save", "-n", "12", "-y"}).status == 0);
+    CHECK(fleet.run({"restart", "-n", "12", "-y"}).status == 0);
+  }
+  SECTION("once the other is saved it is free") {
+    REQUIRE(fleet.run({"save", "-n", "12", "-y"}).status == 0);
+    CHECK(ids("11", "9", true).status == 0);
+  }
+}

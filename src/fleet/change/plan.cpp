@@ -69,6 +69,19 @@ int turn_of(const RegisterChange& change) {
   return is_command ? 3 : !is_switch ? 1 : change.requested == 0 ? 2 : 0; // 0: on (4.13)
 }
 
+/// As the output goes on, the servo discards the command that it was given before (4.13).
+void renew_commands(std::vector<RegisterChange>& changes) {
+  const bool goes_on = std::ranges::any_of(changes, [](const RegisterChange& change) {
+    return change.parameter->address == at::torque_output && change.requested == 0 &&
+           change.is_planned();
+  });
+  for (RegisterChange& change : changes) {
+    if (goes_on && change.parameter->group == bla::Group::command) {
+      change.status = ChangeStatus::planned;
+    }
+  }
+}
+
 /// `held`: the values when the changes are made.
 void plan_changes(const Wanted& wanted, const Values& held, Plan& plan) {
   for (const Assignment& assignment : wanted.assignments) {
@@ -77,6 +90,7 @@ void plan_changes(const Wanted& wanted, const Values& held, Plan& plan) {
                                        plan.before.servo.identity.parameter(address),
                                        assignment.value.raw));
   }
+  renew_commands(plan.changes);
   std::ranges::stable_sort(plan.changes, {}, turn_of);
   plan.mode_before = plan.mode_after = bla::find(held, at::pwm_mode);
   for (const RegisterChange& change : plan.changes) {
@@ -278,7 +292,9 @@ std::optional<dronecan::NodeId> Plan::given_node_id() const {
 }
 
 std::optional<std::int64_t> Plan::given_servo_id() const {
-  const auto given = value_given(*this, at::servo_id);
+  const bool brings_other =
+      restart == RestartKind::restart && rom_servo_id != before.raw(at::servo_id);
+  const auto given = brings_other ? rom_servo_id : value_given(*this, at::servo_id);
   return given.value_or(0) != 0 ? given : std::nullopt;
 }
 

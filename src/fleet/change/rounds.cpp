@@ -187,7 +187,8 @@ std::vector<Error> Rounds::check_unread(const Survey& survey, std::span<const Pl
 /// written to RAM: those that are saved are checked by the rounds.
 std::vector<Error> Rounds::check_ids() {
   const std::vector<Plan> plans = this->plans();
-  const auto survey = fleet::survey(session_, profiles_, plans, options_.manner.identification);
+  const auto survey = fleet::survey(session_, profiles_, plans, options_.manner.identification,
+                                    options_.manner.proofs);
   if (!survey) {
     return {survey.error()};
   }

@@ -3,6 +3,7 @@
 #include "blactl/base/hex.hpp"
 #include "blactl/fleet/bus/conflict_texts.hpp"
 #include "blactl/fleet/bus/read_job.hpp"
+#include "blactl/fleet/change/history.hpp"
 
 #include "fleet/change/texts.hpp"
 
@@ -20,6 +21,12 @@ namespace {
 
 bool gives_id(const Plan& plan) {
   return plan.given_node_id() || plan.given_servo_id();
+}
+
+bool gives_new_servo_id(const Plan& plan) {
+  const RegisterChange* change = plan.change_of(at::servo_id);
+  return (change != nullptr && change->is_planned()) ||
+         (plan.given_servo_id() && plan.restart == RestartKind::restart);
 }
 
 /// Asks the holders of the assigned node IDs, including silent units.
@@ -48,6 +55,13 @@ std::optional<std::int64_t> after(std::span<const Plan> plans, const Neighbour& 
     return change->requested;
   }
   return plan->erase && !plan->keep_ids ? std::optional<std::int64_t>(0) : in_ram;
+}
+
+/// Whether no plan changes its ROM.
+bool stays(std::span<const Plan> plans, const Neighbour& servo) {
+  return std::ranges::none_of(plans, [&](const Plan& plan) {
+    return plan.before.servo.id == servo.id && plan.restart == RestartKind::save;
+  });
 }
 
 Error taken(const Plan& plan, NodeId given, const std::optional<dronecan::UniqueId>& holder) {
@@ -87,6 +101,21 @@ Result<std::vector<Snapshot>> read_ids(Session& session, const bla::Profiles& pr
   return std::move(snapshots.servos);
 }
 
+/// What one node tells of its IDs; empty: it is no actuator.
+std::optional<Neighbour> neighbour(const Session& session, const Snapshot& snapshot) {
+  const Member member = session.roster().member(snapshot.servo.id);
+  if (!member.is_servo && !member.sends_actuator_status()) {
+    return std::nullopt;
+  }
+  return Neighbour{.id = snapshot.servo.id,
+                   .unique_id = snapshot.servo.unique_id,
+                   .servo_id =
+                       member.is_foreign() ? member.commanded_id() : snapshot.raw(at::servo_id),
+                   .static_node_id = snapshot.raw(at::static_node_id),
+                   .is_foreign = member.is_foreign(),
+                   .is_rom_unread = check_rom(snapshot).has_value()};
+}
+
 } // namespace
 
 Result<std::vector<Neighbour>> neighbours(Session& session, const bla::Profiles& profiles,
@@ -98,22 +127,15 @@ Result<std::vector<Neighbour>> neighbours(Session& session, const bla::Profiles&
   }
   std::vector<Neighbour> found;
   for (const Snapshot& snapshot : *snapshots) {
-    const Member member = session.roster().member(snapshot.servo.id);
-    if (member.is_servo || member.sends_actuator_status()) {
-      found.push_back(
-          {.id = snapshot.servo.id,
-           .unique_id = snapshot.servo.unique_id,
-           .servo_id = member.is_foreign() ? member.commanded_id() : snapshot.raw(at::servo_id),
-           .static_node_id = snapshot.raw(at::static_node_id),
-           .is_foreign = member.is_foreign(),
-           .is_rom_unread = check_rom(snapshot).has_value()});
+    if (auto one = neighbour(session, snapshot)) {
+      found.push_back(std::move(*one));
     }
   }
   return found;
 }
 
 Result<Survey> survey(Session& session, const bla::Profiles& profiles, std::span<const Plan> plans,
-                      const Identification::Options& options) {
+                      const Identification::Options& options, History* record) {
   Survey found;
   if (std::ranges::none_of(plans, gives_id)) {
     return found;
@@ -126,20 +148,25 @@ Result<Survey> survey(Session& session, const bla::Profiles& profiles, std::span
       found.holders[id] = member.unique_id();
     }
   }
-  const bool gives_servo_id = std::ranges::any_of(plans, [](const Plan& plan) {
-    const RegisterChange* change = plan.change_of(at::servo_id);
-    return change != nullptr && change->is_planned();
-  });
-  auto servos = neighbours(session, profiles, options,
-                           gives_servo_id ? Unidentified::asked : Unidentified::left_out);
-  if (!servos) {
-    return std::unexpected(std::move(servos.error()));
+  const bool gives_servo_id = std::ranges::any_of(plans, gives_new_servo_id);
+  const auto snapshots =
+      read_ids(session, profiles, options,
+               gives_servo_id ? Unidentified::asked : Unidentified::left_out, std::nullopt);
+  if (!snapshots) {
+    return std::unexpected(snapshots.error());
   }
-  found.servos = std::move(*servos);
-  for (const Neighbour& servo : found.servos) {
-    if (!servo.servo_id || !(servo.static_node_id || servo.is_foreign)) {
-      found.silent.push_back(servo.id);
+  for (const Snapshot& snapshot : *snapshots) {
+    auto servo = neighbour(session, snapshot);
+    if (!servo) {
+      continue;
     }
+    if (!servo->servo_id || !(servo->static_node_id || servo->is_foreign)) {
+      found.silent.push_back(servo->id);
+    }
+    if (record != nullptr && !servo->is_rom_unread) {
+      servo->rom_servo_id = bla::find(record->known_rom(snapshot, session), at::servo_id);
+    }
+    found.servos.push_back(std::move(*servo));
   }
   return found;
 }
@@ -173,9 +200,16 @@ std::optional<Error> servo_id_conflict(const Survey& survey, std::span<const Pla
   const std::uint8_t id = plan.before.servo.id.value();
   const auto servo_id = plan.given_servo_id();
   for (const Neighbour& other : survey.servos) {
-    const bool is_another = servo_id && other.id != plan.before.servo.id;
-    if (is_another && after(plans, other, at::servo_id, other.servo_id) == servo_id) {
+    if (!servo_id || other.id == plan.before.servo.id) {
+      continue;
+    }
+    if (after(plans, other, at::servo_id, other.servo_id) == servo_id) {
       return servo_id_taken(id, *servo_id, other.id);
+    }
+    if (gives_new_servo_id(plan) && stays(plans, other) && other.rom_servo_id == servo_id) {
+      return Error{Code::duplicate_servo_id,
+                   say<texts::servo_id_given_is_in_rom>(id, *servo_id, other.id.value()),
+                   say<texts::servo_id_given_is_in_rom_hint>(other.id.value()), id};
     }
   }
   return std::nullopt;

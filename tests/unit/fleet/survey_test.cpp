@@ -60,7 +60,7 @@ void give(const Scene& scene, std::uint8_t id, std::int64_t static_node_id) {
 }
 
 Survey ask_all(const Scene& scene, const std::vector<Plan>& plans) {
-  auto asked = survey(*scene.session, profiles(), plans, {});
+  auto asked = survey(*scene.session, profiles(), plans, {}, nullptr);
   REQUIRE(asked);
   return *asked;
 }
@@ -192,7 +192,7 @@ TEST_CASE("a session that ends in between leaves no survey") {
   const Scene scene(bus);
   const Plan plan = plan_for(wanted("static_node_id=30"), {}, scene.identify(11));
   REQUIRE(raise(SIGINT) == 0);
-  const auto asked = survey(*scene.session, profiles(), std::vector{plan}, {});
+  const auto asked = survey(*scene.session, profiles(), std::vector{plan}, {}, nullptr);
   REQUIRE_FALSE(asked);
   CHECK(asked.error().code == Code::interrupted);
 }

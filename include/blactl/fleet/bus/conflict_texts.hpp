@@ -36,6 +36,13 @@ inline constexpr Text servo_id_given_is_taken{
     "node {} would have servo ID {}, which node {} has",
     "ノード {} のサーボ ID {} はノード {} と重複します",
 };
+inline constexpr Text servo_id_given_is_in_rom{
+    "node {} would have servo ID {}, which node {} has in its ROM, and gets with its next restart",
+    "ノード {} のサーボ ID {} は、ノード {} の ROM 内の ID (再起動後の ID) と重複します",
+};
+inline constexpr Text servo_id_given_is_in_rom_hint{
+    "if that one is to keep what it has in RAM: blactl save -n {}",
+    "相手の RAM の ID を維持する場合: blactl save -n {}"};
 inline constexpr Text servo_id_taken_hint{"see who has which: blactl get -n all servo_id",
                                           "各サーボの ID を確認: blactl get -n all servo_id"};
 inline constexpr Text servo_id_for_several{

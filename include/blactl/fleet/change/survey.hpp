@@ -13,13 +13,16 @@
 
 namespace blactl::fleet {
 
+class History;
+
 /// Another servo, or an actuator of another make, and its IDs in RAM; empty: it did not tell them.
 struct Neighbour {
   dronecan::NodeId id{};
   std::optional<dronecan::UniqueId> unique_id{};
   std::optional<std::int64_t> servo_id{}; ///< by which ArrayCommand reaches it
   std::optional<std::int64_t> static_node_id{};
-  bool is_foreign = false;    ///< of another make
+  std::optional<std::int64_t> rom_servo_id{}; ///< that its next restart brings, as far as known
+  bool is_foreign = false;                    ///< of another make
   bool is_rom_unread = false; ///< it runs on initial values, its IDs in ROM may be others
 };
 
@@ -41,10 +44,11 @@ struct Survey {
 };
 
 /// Asks for the holders of the node IDs that the plans assign, and all servos for their IDs in RAM.
-/// Plans that assign none cost nothing. Errors: those that end a session.
+/// Plans that assign none cost nothing. `record` knows what their ROM holds; null: nobody does.
+/// Errors: those that end a session.
 [[nodiscard]] Result<Survey> survey(Session& session, const bla::Profiles& profiles,
                                     std::span<const Plan> plans,
-                                    const Identification::Options& options);
+                                    const Identification::Options& options, History* record);
 
 /// The reason why `plan` must not be carried out together with the others. Errors:
 /// duplicate_node_id, duplicate_servo_id.
