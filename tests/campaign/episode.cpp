@@ -176,8 +176,8 @@ const std::map<std::string, Plant>& plants() {
       {"upset",
        [](const Draft& d) {
          d.event({{"servo", d.some_servo()["serial_number"]},
-                  {"happens",
-                   d.chance.one_of<std::string>({"clock_error", "watchdog_error", "ram_error"})}},
+                  {"happens", d.chance.one_of<std::string>(
+                                  {"clock_error", "watchdog_error", "ram_error", "rom_error"})}},
                  d.chance.whole(100, 6000));
        }},
       {"cut",

@@ -626,3 +626,28 @@ TEST_CASE("a servo that the command itself has given an ID is not left out") {
   CHECK(applied.status == 0);
   CHECK_FALSE(contains(applied.err, "left out"));
 }
+
+TEST_CASE("0x36 in deg is not held where ROM counts it in rpm, whatever number it holds") {
+  const Fleet fleet(Scene().servo(
+      "BLA21-12U-AB", 11,
+      {{"serial_number", 1}, {"rom", {{"pwm_mode", "speed"}, {"pwm_output_range", "700raw"}}}}));
+  const bool is_proven = GENERATE(false, true);
+  if (is_proven) {
+    REQUIRE(fleet.run({"save", "-n", "11", "-y"}).status == 0);
+  }
+  REQUIRE(fleet.run({"set", "-n", "11", "pwm_mode=angle", "-y"}).status == 0);
+  const Result applied = fleet.apply({{"schema", "blactl-fleet/1"},
+                                      {"servos",
+                                       {{{"name", "1"},
+                                         {"match", {{"serial_number", 1}}},
+                                         {"set", {{"pwm_output_range", "70deg"}}}}}}});
+  INFO(applied.err);
+  if (is_proven) { // it is saved with the rest of RAM, which is told
+    CHECK(applied.status == 0);
+    CHECK(contains(applied.err, "pwm_mode"));
+    CHECK(fleet.rom("11", "pwm_mode") == 0);
+  } else {
+    CHECK(applied.status == 1);
+    CHECK(codes(applied) == std::vector<std::string>{"state"});
+  }
+}

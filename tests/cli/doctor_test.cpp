@@ -85,6 +85,13 @@ TEST_CASE("doctor's document has the nodes' heads and the findings with the keys
   CHECK(document["findings"][1]["node_id"] == 13);
 }
 
+TEST_CASE("doctor does not say that all is well with a servo that is not there") {
+  const std::string absent = GENERATE("55", "11,55", "serial:999", "uid:ffff");
+  const Result result = numbered_servos().run({"doctor", "-n", absent, "--json"});
+  CHECK(result.status == 4);
+  CHECK(codes(result) == std::vector<std::string>{"not_found"});
+}
+
 TEST_CASE("doctor names conflicts, the worst first, and who has no node ID") {
   Scene scene = numbered_servos();
   scene.servo("BLA21-12U-AB", 12, {{"serial_number", 9}, {"servo_id", 3}});

@@ -125,3 +125,26 @@ TEST_CASE("the node ID that such a servo may have in its ROM is not given away u
   CHECK(noted.status == 0);
   CHECK(contains(noted.err, "node 125 could not read its ROM: a conflict with the servo ID"));
 }
+
+TEST_CASE("a servo that was proven, and could not read its ROM at a later start, is not done") {
+  const std::string at = GENERATE("2500ms", "3s", "4s");
+  Scene scene;
+  nlohmann::ordered_json entries = nlohmann::ordered_json::array();
+  for (const int number : {1, 2}) {
+    const nlohmann::json delay = {{"return_delay", number == 2 ? "4s" : "0s"}};
+    scene.servo("BLA21-12U-AB", 10 + number, {{"serial_number", number}, {"faults", delay}});
+    entries.push_back({{"name", std::to_string(number)},
+                       {"match", {{"serial_number", number}}},
+                       {"set", {{"angle_limit_cw", "90deg"}}}});
+  }
+  const Fleet fleet(scene.event(1, "rom_error", at));
+  const bool is_apply = GENERATE(false, true);
+  const Result result =
+      is_apply ? fleet.apply({{"schema", "blactl-fleet/1"}, {"servos", entries}})
+               : fleet.run({"set", "-n", "all", "angle_limit_cw=90deg", "--save", "-y", "--json"});
+  INFO(at << " " << result.err);
+  CHECK(result.status != 0);
+  const auto nodes = json(result.out)["nodes"];
+  CHECK(nodes[0]["saved"] == false);
+  CHECK(nodes[1]["saved"] == true);
+}

@@ -105,6 +105,9 @@ void examine_bus(Duration time, Context& context, Examination& examination, Repo
     if (!context.is_fleet_file()) {
       add(fleet::diagnose_traffic(examination.traffic, session.silence()), examination);
     }
+    for (Error& error : discovery.absent(*targets)) {
+      report.fail(std::move(error));
+    }
     if (const auto asked = ask_status(context); !asked) {
       context.broken(asked.error(), report);
     }

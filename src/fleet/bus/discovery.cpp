@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <list>
 #include <set>
 #include <utility>
@@ -125,6 +126,28 @@ bool Discovery::is_met(const Selector& selector) const {
   });
 }
 
+/// The selectors that match nobody.
+std::vector<Error> Discovery::unmet(const Targets& targets) const {
+  std::vector<Error> errors;
+  for (const Selector& selector : targets.selectors) {
+    if (!is_met(selector)) {
+      errors.push_back(
+          unless_shared(session_.roster(), nothing_matches(session_.roster(), selector)));
+    }
+  }
+  return errors;
+}
+
+std::vector<Error> Discovery::absent(const Targets& targets) const {
+  std::vector<Error> errors = unmet(targets);
+  for (const NodeId id : targets.ids) {
+    if (!session_.roster().heard(id)) {
+      errors.push_back(session_.is_replay() ? unrecorded(id) : silent(session_.roster(), id));
+    }
+  }
+  return errors;
+}
+
 /// A bus without servos, and one that has just been switched on, are told apart by time alone.
 Result<void> Discovery::hear_servos(const Targets& targets, Duration listen) {
   const Time begin = session_.now();
@@ -181,12 +204,7 @@ Result<Selection> Discovery::select(const Targets& targets, Duration listen) {
       chosen.insert(id);
     }
   }
-  for (const Selector& selector : targets.selectors) {
-    if (!is_met(selector)) {
-      selection.errors.push_back(
-          unless_shared(session_.roster(), nothing_matches(session_.roster(), selector)));
-    }
-  }
+  std::ranges::move(unmet(targets), std::back_inserter(selection.errors));
   selection.ids.assign(chosen.begin(), chosen.end());
   if (chosen.empty() && selection.errors.empty()) {
     selection.errors.push_back(unless_shared(session_.roster(), no_servo(session_.roster())));
@@ -373,12 +391,7 @@ std::vector<Error> Discovery::missing(const Targets& targets, Duration wait) con
                         say<texts::node_not_found_hint>(), id.value()});
     }
   }
-  for (const Selector& selector : targets.selectors) {
-    if (!is_met(selector)) {
-      errors.push_back(
-          unless_shared(session_.roster(), nothing_matches(session_.roster(), selector)));
-    }
-  }
+  std::ranges::move(unmet(targets), std::back_inserter(errors));
   if (members.empty() && errors.empty()) {
     errors.push_back(unless_shared(session_.roster(), no_servo(session_.roster())));
   }

@@ -121,21 +121,66 @@ CarriedOut not_begun(std::span<const Plan> plans, Error reason) {
   return none;
 }
 
-/// Of jobs that have ended, some before others. Errors: as Session::run().
-Result<void> look_back(Session& session, std::list<ChangeJob>& jobs, Patience patience) {
+/// Of servos that were saved before others, those that have restarted since. Errors: as
+/// Session::run().
+Result<void> read_restarted(Session& session, std::list<ChangeJob>& jobs) {
+  std::vector<dronecan::Job*> group;
+  for (ChangeJob& job : jobs) {
+    if (job.has_restarted_since()) {
+      job.read_again();
+      group.push_back(&job);
+    }
+  }
+  return session.run(group);
+}
+
+using Lost = std::map<const ChangeJob*, Error>;
+
+/// Looks at the servos that `which` gives of the jobs. Errors: as Session::run().
+template <class Which>
+Result<void> look(Session& session, const std::list<ChangeJob>& jobs, Patience patience,
+                  LastLook look, Which which, Lost& lost) {
+  std::vector<const ChangeJob*> asked;
   std::vector<Servo> servos;
   for (const ChangeJob& job : jobs) {
-    if (auto servo = job.in_ram_only(); servo && jobs.size() > 1) {
+    if (auto servo = which(job)) {
+      asked.push_back(&job);
       servos.push_back(std::move(*servo));
     }
   }
-  auto lost = look_last(session, servos, patience);
-  std::size_t looked_at = 0;
-  for (ChangeJob& job : jobs) {
-    const bool is_next = lost && looked_at < servos.size() && job.in_ram_only();
-    job.look_back(is_next ? std::move((*lost)[looked_at++]) : std::nullopt);
+  auto looked = look_last(session, servos, patience, look);
+  if (!looked) {
+    return std::unexpected(looked.error());
   }
-  return lost ? Result<void>() : std::unexpected(lost.error());
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    if ((*looked)[i]) {
+      lost.emplace(asked[i], std::move(*(*looked)[i]));
+    }
+  }
+  return {};
+}
+
+/// Of jobs that have ended, some before others. Errors: as Session::run().
+Result<void> look_back(Session& session, std::list<ChangeJob>& jobs, Patience patience) {
+  Lost lost;
+  const auto in_ram = [&](const ChangeJob& job) {
+    return jobs.size() > 1 ? job.in_ram_only() : std::nullopt;
+  };
+  const auto in_rom = [before = session.now() - long_ago](const ChangeJob& job) {
+    return job.proven_before(before);
+  };
+  auto looked = look(session, jobs, patience, LastLook::run, in_ram, lost);
+  if (looked) {
+    looked = look(session, jobs, patience, LastLook::unit, in_rom, lost);
+  }
+  if (looked) {
+    looked = read_restarted(session, jobs);
+  }
+  for (ChangeJob& job : jobs) {
+    const auto found = lost.find(&job);
+    job.look_back(found != lost.end() ? std::optional(found->second) : std::nullopt);
+  }
+  return looked;
 }
 
 CarriedOut change(Session& session, const bla::Profiles& profiles, std::span<const Plan> plans,

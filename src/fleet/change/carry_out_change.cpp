@@ -46,7 +46,7 @@ std::vector<Error> Change::carry_out(const MoveHook& moved) {
       errors = write_what_rom_lacks();
     }
   }
-  if (auto lost = errors.empty() && !begun_.empty() ? look_at_unchanged() : Lost(); lost) {
+  if (auto lost = errors.empty() && !begun_.empty() ? look_last() : Lost(); lost) {
     look_back(*lost);
   } else {
     errors.push_back(lost.error());
@@ -56,25 +56,104 @@ std::vector<Error> Change::carry_out(const MoveHook& moved) {
   return errors;
 }
 
+/// Other servos took their time: what has come to those that were done before them.
+Result<Change::Lost> Change::look_last() {
+  Lost lost;
+  auto looked = look_at_unchanged(lost);
+  if (looked) {
+    looked = look_at_proven(lost);
+  }
+  if (looked) {
+    looked = look_at_restarted(lost);
+  }
+  return looked ? Result<Lost>(std::move(lost)) : std::unexpected(looked.error());
+}
+
+Result<void> Change::look(std::span<const Servo> servos, LastLook look, Lost& lost) {
+  auto looked = fleet::look_last(session_, servos, options_.manner.identification.patience, look);
+  if (!looked) {
+    return std::unexpected(looked.error());
+  }
+  for (std::size_t i = 0; i < servos.size(); ++i) {
+    if ((*looked)[i]) {
+      lost.emplace(servos[i].id, std::move(*(*looked)[i]));
+    }
+  }
+  return {};
+}
+
 /// Of servos left unchanged while others were changed, those whose ROM does not hold their goals.
-Result<Change::Lost> Change::look_at_unchanged() {
+Result<void> Change::look_at_unchanged(Lost& lost) {
   std::vector<Servo> servos;
   for (const GoalResult& result : results_) {
     if (result.need == Need::nothing && !result.rom_proven) {
       servos.push_back(result.servo());
     }
   }
-  auto looked = look_last(session_, servos, options_.manner.identification.patience);
-  if (!looked) {
-    return std::unexpected(looked.error());
-  }
-  Lost lost;
-  for (std::size_t i = 0; i < servos.size(); ++i) {
-    if ((*looked)[i]) {
-      lost.emplace(servos[i].id, std::move(*(*looked)[i]));
+  return look(servos, LastLook::run, lost);
+}
+
+/// Of servos whose ROM was proven long ago, those that are away.
+Result<void> Change::look_at_proven(Lost& lost) {
+  std::vector<Servo> servos;
+  for (const GoalResult& result : results_) {
+    const bool is_unchanged = result.need == Need::nothing;
+    const Time last = is_unchanged ? result.servo().since : result.change.looked_at;
+    const auto id = is_unchanged ? std::optional(result.servo().id) : result.change.node_id_after;
+    if (result.is_done && result.rom_proven.value_or(false) && id &&
+        last < session_.now() - long_ago) {
+      servos.push_back(result.servo());
+      servos.back().id = *id;
     }
   }
-  return lost;
+  return look(servos, LastLook::unit, lost);
+}
+
+/// Of a servo whose ROM is proven: since that proof, as far as heard.
+bool Change::has_restarted_since(const GoalResult& result) const {
+  const bool is_unchanged = result.need == Need::nothing;
+  const auto id = is_unchanged ? std::optional(result.servo().id) : result.change.node_id_after;
+  if (!result.is_done || !result.rom_proven.value_or(false) || !id) {
+    return false;
+  }
+  const Member member = session_.roster().member(*id);
+  const std::uint32_t boots = is_unchanged ? result.servo().boot : result.change.boots;
+  const bool may_lack_rom =
+      is_unchanged && member.status && member.status->health != dronecan::Health::ok;
+  return member.boots != boots || session_.roster().has_moved(member) || may_lack_rom;
+}
+
+/// It may not have been able to read its ROM, or has another.
+Result<void> Change::look_at_restarted(Lost& lost) {
+  std::vector<std::size_t> goals;
+  for (std::size_t i = 0; i < results_.size(); ++i) {
+    GoalResult& result = results_[i];
+    if (has_restarted_since(result)) {
+      result.goal.id = result.change.node_id_after.value_or(result.goal.id);
+      goals.push_back(i);
+    }
+  }
+  const auto read = this->read(goals);
+  if (!read) {
+    return std::unexpected(read.error());
+  }
+  std::vector<dronecan::UniqueId> doubtful;
+  for (std::size_t i = 0; i < goals.size(); ++i) {
+    const Snapshot& held = (*read)[i];
+    const Goal& goal = results_[goals[i]].goal;
+    auto why = refuse(goal, held);
+    why = why ? why : check_rom(held);
+    if (!why && !holds(held.values(), goal)) {
+      const std::uint8_t id = goal.id.value();
+      why = Error{Code::state, say<texts::lost_since>(id), say<texts::run_again_hint>(), id};
+    }
+    if (why) {
+      lost.emplace(goal.id, std::move(*why));
+      doubtful.push_back(*results_[goals[i]].servo().unique_id);
+    }
+  }
+  return options_.manner.history != nullptr ? options_.manner.history->doubt_rom(doubtful)
+                                            : Result<void>();
 }
 
 /// Checks that servos left unchanged still hold their goals, as far as heard.
@@ -82,7 +161,7 @@ void Change::look_back(const Lost& lost) {
   const Roster& roster = session_.roster();
   for (GoalResult& result : results_) {
     if (result.need != Need::nothing) {
-      look_back(result); // of one round; its own job has checked the rest
+      look_back(result, lost); // of one round; its own job has checked the rest
       continue;
     }
     const Servo& servo = result.servo();
@@ -108,7 +187,7 @@ void Change::look_back(const Lost& lost) {
 }
 
 /// Later rounds may have taken long: another unit, or another node's write, may have come since.
-void Change::look_back(GoalResult& result) const {
+void Change::look_back(GoalResult& result, const Lost& lost) const {
   const Roster& roster = session_.roster();
   const auto id = result.change.node_id_after;
   if (!result.is_done || !id) {
@@ -130,6 +209,9 @@ void Change::look_back(GoalResult& result) const {
                  is_in_ram_only ? roster.writer_to(*id, since) : roster.setter_of(*id, since)) {
     result.errors.push_back({Code::state, say<texts::written_by_other>(id->value(), by->value()),
                              say<texts::other_writer_hint>(), id->value()});
+    result.change.doubt();
+  } else if (const auto found = lost.find(*id); found != lost.end()) {
+    result.errors.push_back(found->second);
     result.change.doubt();
   } else {
     return;

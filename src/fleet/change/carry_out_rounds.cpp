@@ -247,6 +247,9 @@ Result<Plan> Rounds::plan(const Step& step, const Sights& sights) {
                                  say<texts::run_again_hint>(), unit.now.value()});
   }
   if (auto error = changed_since(unit, before)) {
+    ChangeResult& last = *units_[step.unit].last;
+    last.doubt();
+    last.saved = false;
     return std::unexpected(std::move(*error));
   }
   auto plan = make_plan(*wanted, before, profiles_);

@@ -107,7 +107,7 @@ void ChangeJob::tell_failure() const {
 }
 
 ChangeJob::Stage ChangeJob::first_stage() const {
-  return plan_.erase ? Stage::erase : after_erase();
+  return reads_again_ ? Stage::read_back : plan_.erase ? Stage::erase : after_erase();
 }
 
 ChangeJob::Stage ChangeJob::after_erase() const {
@@ -354,6 +354,8 @@ ChangeJob::Stage ChangeJob::conclude_look() {
 ChangeJob::Stage ChangeJob::conclude_read_back() {
   const Snapshot& now = read_->snapshot();
   take_reading(now);
+  const Member member = roster_.member(now.servo.id);
+  health_ = member.status ? std::optional(member.status->health) : std::nullopt;
   result_.values_read = plan_.expected.size();
   result_.error = compare(now, plan_.expected);
   // values that RAM held before and does not hold now were not written to ROM

@@ -111,6 +111,30 @@ std::optional<Servo> ChangeJob::in_ram_only() const {
   return !plan_.restart && is_changed && result_.is_done() ? std::optional(servo_) : std::nullopt;
 }
 
+bool ChangeJob::is_proven() const {
+  return result_.is_done() && result_.returned && result_.rom && !result_.rom->values.empty();
+}
+
+std::optional<Servo> ChangeJob::proven_before(Time time) const {
+  return is_proven() && read_->began() < time ? std::optional(read_->snapshot().servo)
+                                              : std::nullopt;
+}
+
+bool ChangeJob::has_restarted_since() const {
+  if (!is_proven()) {
+    return false;
+  }
+  const Member member = roster_.member(*result_.returned);
+  return member.boots != read_->snapshot().servo.boot || roster_.has_moved(member) ||
+         (member.status && member.status->health != health_);
+}
+
+void ChangeJob::read_again() {
+  stage_ = Stage::begin;
+  reads_again_ = true;
+  result_.rom.reset();
+}
+
 void ChangeJob::look_back(std::optional<Error> lost) {
   const dronecan::NodeId id = result_.node_id_after.value_or(servo_.id);
   if (result_.was_sent && !plan_.restart && roster_.saver_of(id, known_since())) {

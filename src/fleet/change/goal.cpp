@@ -48,8 +48,10 @@ Result<std::vector<Goal>> goals_for_all(const Wanted& wanted, Evidence evidence,
 }
 
 bool holds(const bla::Values& values, const Goal& goal) {
+  const auto mode = bla::find(values, bla::address::pwm_mode); // of it hangs the unit of 0x36
   return std::ranges::all_of(goal.wanted.assignments, [&](const Assignment& wish) {
-    return bla::find(values, wish.parameter->address) == wish.value.raw;
+    const bool is_of_unit = !mode || !wish.value.pwm_mode || mode == wish.value.pwm_mode;
+    return is_of_unit && bla::find(values, wish.parameter->address) == wish.value.raw;
   });
 }
 

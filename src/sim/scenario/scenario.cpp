@@ -93,8 +93,8 @@ TimedEvent ScenarioReader::event(const json::Value& value, const std::vector<Ser
 }
 
 std::optional<Mishap> ScenarioReader::mishap(json::Object& object) {
-  const auto word = object.optional_word(
-      "happens", {"power_off", "power_on", "clock_error", "watchdog_error", "ram_error"});
+  const auto word = object.optional_word("happens", {"power_off", "power_on", "clock_error",
+                                                     "watchdog_error", "ram_error", "rom_error"});
   const auto found = std::ranges::find(mishaps, word.value_or(""),
                                        [](const auto& mishap) { return mishap.first; });
   return found != mishaps.end() ? std::optional(found->second) : std::nullopt;

@@ -239,6 +239,14 @@ void Servo::upset(Upset cause, Time now) {
                      now);
 }
 
+void Servo::miss_rom(Time now) {
+  now_ = now;
+  if (phase_ == Phase::run) {
+    ++setup_.faults.rom_unread_starts;
+    restart(now);
+  }
+}
+
 void Servo::suffer(Mishap mishap, Time now) {
   World around = world();
   switch (mishap) {
@@ -250,6 +258,7 @@ void Servo::suffer(Mishap mishap, Time now) {
   case Mishap::clock_error: upset(Upset::clock, now); break;
   case Mishap::watchdog_error: upset(Upset::watchdog, now); break;
   case Mishap::ram_error: upset(Upset::memory, now); break;
+  case Mishap::rom_error: miss_rom(now); break;
   }
 }
 

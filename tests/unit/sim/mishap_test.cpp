@@ -67,6 +67,20 @@ TEST_CASE("requirement 167: events restart the CPU, and 0x1B tells why until the
   }
 }
 
+TEST_CASE("a start that could not read ROM runs on initial values, the next one reads it") {
+  Rig rig(R"("model": "BLA21-12U-AB", "node_id": 11, "rom": {"angle_limit_cw": "90deg"})");
+  CHECK(rig.read("0x38") == 900);
+  rig.servo.suffer(Mishap::rom_error, rig.bench.now());
+  const auto value = [&](std::uint8_t address) {
+    return rig.servo.registers().value(bla::Address(address));
+  };
+  CHECK(value(0x38) == 1799);
+  CHECK(value(0x1A) == fault::rom_unreadable);
+  rig.servo.suffer(Mishap::power_off, rig.bench.now());
+  rig.servo.suffer(Mishap::power_on, rig.bench.now());
+  CHECK(value(0x38) == 900);
+}
+
 TEST_CASE("requirement 170: after a restart by itself the motor turns", "[requirement-170]") {
   Rig rig(bla21);
   rig.servo.suffer(Mishap::watchdog_error, rig.bench.now());

@@ -77,6 +77,10 @@ class Discovery final : private Roster::Listener {
   /// Nodes that were there, and did not respond to their last request.
   [[nodiscard]] const std::set<dronecan::NodeId>& gone() const { return gone_; }
 
+  /// Those of the targets that were not heard. Errors: not_found; not_recorded; duplicate_node_id,
+  /// where one may be among units that share an ID.
+  [[nodiscard]] std::vector<Error> absent(const Targets& targets) const;
+
   /// The end of each identification; empty: success.
   [[nodiscard]] std::vector<std::optional<Error>> identifications() const;
 
@@ -91,6 +95,7 @@ class Discovery final : private Roster::Listener {
   [[nodiscard]] bool is_bystander(const Error& error) const;
   [[nodiscard]] Result<void> hear_servos(const Targets& targets, Duration listen);
   [[nodiscard]] bool is_met(const Selector& selector) const;
+  [[nodiscard]] std::vector<Error> unmet(const Targets& targets) const;
   [[nodiscard]] bool is_one_of_all(const Targets& targets, const Member& member) const;
   [[nodiscard]] bool is_gone(const Member& member) const;
   [[nodiscard]] std::vector<Error> not_there_yet(const Targets& targets, Code reason) const;

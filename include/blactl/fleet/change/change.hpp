@@ -21,6 +21,7 @@
 
 namespace blactl::fleet {
 
+enum class LastLook : std::uint8_t;
 class Rounds;
 struct UnitChange;
 struct UnitTask;
@@ -97,9 +98,14 @@ class Change {
   void conclude(const UnitChange& unit, GoalResult& result);
   [[nodiscard]] std::vector<Error> write_what_rom_lacks();
   [[nodiscard]] std::vector<Error> refusals_after_restart(std::vector<Error> errors);
-  [[nodiscard]] Result<Lost> look_at_unchanged();
+  [[nodiscard]] Result<Lost> look_last();
+  [[nodiscard]] Result<void> look(std::span<const Servo> servos, LastLook look, Lost& lost);
+  [[nodiscard]] Result<void> look_at_unchanged(Lost& lost);
+  [[nodiscard]] Result<void> look_at_proven(Lost& lost);
+  [[nodiscard]] Result<void> look_at_restarted(Lost& lost);
+  [[nodiscard]] bool has_restarted_since(const GoalResult& result) const;
   void look_back(const Lost& lost);
-  void look_back(GoalResult& result) const;
+  void look_back(GoalResult& result, const Lost& lost) const;
   void end_record();
 
   Session& session_;

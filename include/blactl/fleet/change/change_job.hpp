@@ -51,6 +51,16 @@ class ChangeJob final : public dronecan::Job {
   /// failed.
   [[nodiscard]] std::optional<Servo> in_ram_only() const;
 
+  /// The servo, if its ROM was proven before this time.
+  [[nodiscard]] std::optional<Servo> proven_before(Time time) const;
+
+  /// For a job that has ended before others: whether the servo has restarted since its ROM was
+  /// proven, as far as heard. Its ROM may be another now, or may not have been read.
+  [[nodiscard]] bool has_restarted_since() const;
+
+  /// Such a job, run once more, reads the servo again.
+  void read_again();
+
   /// For a job that has ended before others: checks that its result still holds, as far as heard.
   /// Changes in RAM only are lost by a restart, and another node may have written since; the proof
   /// may be of another unit on the same ID. `lost`: of look_last().
@@ -106,6 +116,8 @@ class ChangeJob final : public dronecan::Job {
   [[nodiscard]] std::vector<WriteJob::Premise> premises() const;
   [[nodiscard]] std::unique_ptr<SaveRestartJob> restart() const;
 
+  [[nodiscard]] bool is_proven() const;
+
   [[nodiscard]] bool may_be_driven() const { return options_.while_driven || !plan_.moves(); }
 
   [[nodiscard]] Stage after_erase() const;
@@ -124,6 +136,8 @@ class ChangeJob final : public dronecan::Job {
   Servo servo_; ///< as last recognised, before our restart
   bool may_erase_again_ = true;
   bool was_erased_ = false; ///< as far as known
+  bool reads_again_ = false;
+  std::optional<dronecan::Health> health_; ///< as it was read: that of a start without ROM differs
   int looks_ = 0;
   Time begin_{};
   std::unique_ptr<EraseJob> erase_;

@@ -62,8 +62,8 @@
 // those of ServoFaults, "sending" those of SendingFaults, "wire" those of WireFaults; in
 // "restart_after_answer" both keys are optional: "to" defaults to "any", "number" to 1. An event
 // names its servo by the serial number; "world" has the keys of parse_world_change(), "happens" is
-// power_off, power_on, clock_error, watchdog_error or ram_error (Mishap), and at least one of the
-// two is required. Every kind of foreign node has the keys of "node", too. A firmware that the
+// power_off, power_on, clock_error, watchdog_error, ram_error or rom_error (Mishap), and at least
+// one of the two is required. Every kind of foreign node has the keys of "node", too. A firmware that the
 // model never had (chapter 5) gives a warning. schemas/scenario.schema.json describes all of this
 // for editors.
 

@@ -51,6 +51,7 @@ class Servo final : public Device {
 
   /// Restarts by itself and shows the cause until the next start.
   void upset(Upset cause, Time now);
+  void miss_rom(Time now);
 
   /// Applies an event of a scenario.
   void suffer(Mishap mishap, Time now);
