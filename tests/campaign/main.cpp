@@ -86,7 +86,12 @@ json play(const Options& options, unsigned job, const std::filesystem::path& fol
 
 json sweep(const Options& options, unsigned job, const std::filesystem::path& folder) {
   Sweep all(folder / "case",
-            {.step = options.sweep, .only = options.only, .job = job, .jobs = options.jobs}, tell);
+            {.step = options.sweep,
+             .only = options.only,
+             .job = job,
+             .jobs = options.jobs,
+             .begins = [] { watch(0); }},
+            tell);
   all.play();
   return to_json(all.swept());
 }

@@ -260,6 +260,7 @@ void Sweep::disturb(const Case& one, std::vector<Disturbance> disturbances, cons
     what += fmt::format("{}{} number {}{}", i > 0 ? ", then " : "", name(disturbances[i].kind),
                         disturbances[i].number, disturbances[i].lasts ? " and all later ones" : "");
   }
+  options_.begins();
   const Folder folder(folder_);
   const Episode episode = episode_of(one.node_ids);
   World world(episode.scenario, folder_);

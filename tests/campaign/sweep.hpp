@@ -38,6 +38,7 @@ class Sweep {
     std::size_t step = 1; ///< every so manieth place
     std::string only{};   ///< one kind of disturbance, or pairs of them; empty: all
     unsigned job = 0, jobs = 1;
+    std::function<void()> begins; ///< called before each run
   };
 
   /// `tell`: receives every difference.

@@ -127,7 +127,7 @@ std::optional<dronecan::NodeId> WritingRun::open_for_one(std::string_view comman
 }
 
 void WritingRun::searched() {
-  searched_at_ = context_.session().now();
+  searched_at_ = context_.session().roster().last_heard();
 }
 
 bool WritingRun::hear() {

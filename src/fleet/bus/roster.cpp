@@ -204,6 +204,14 @@ void Roster::hear(const can::Frame& frame, Time at) {
   }
 }
 
+Time Roster::last_heard() const {
+  Time last{};
+  for (const auto& [id, member] : members_) {
+    last = std::max(last, member.last_heard);
+  }
+  return last;
+}
+
 void Roster::hear_own(const can::Frame& frame, Time at) {
   if (const auto header = dronecan::decode_id(frame.id); header && frame.size > 0) {
     hear_request(*header, frame, at);

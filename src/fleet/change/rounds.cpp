@@ -192,7 +192,7 @@ std::vector<Error> Rounds::check_ids() {
   if (!survey) {
     return {survey.error()};
   }
-  surveyed_ = session_.now();
+  surveyed_ = session_.roster().last_heard();
   for (const NodeId id : survey->silent) {
     notes_.push_back(say<texts::did_not_tell_ids>(id.value()));
   }

@@ -194,11 +194,7 @@ std::vector<std::string> notes_before_writing(const Roster& roster) {
 }
 
 Time heard_until(const Session& session) {
-  Time last{};
-  for (const auto& [id, member] : session.roster().members()) {
-    last = std::max(last, member.last_heard);
-  }
-  return session.is_replay() ? last : session.now();
+  return session.is_replay() ? session.roster().last_heard() : session.now();
 }
 
 Findings gather(const Roster& roster, const Targets& targets, const bla::Profiles& profiles,

@@ -165,10 +165,11 @@ bool MotionJob::has_restarted() const {
   return roster_.member(servo_.id).boots != servo_.boot;
 }
 
-/// Another unit that has taken its place shows by its NodeStatus only up to a second later.
+/// Another unit that has taken its place shows by its NodeStatus only up to a second later. A
+/// process that reads its frames late has not heard a silence: what it was told last, counts.
 bool MotionJob::may_be_another() {
   const Member* member = roster_.find(servo_.id);
-  const Time heard = member != nullptr ? member->last_heard : now_;
+  const Time heard = std::max(told_who_, member != nullptr ? member->last_heard : now_);
   const Time before = std::exchange(heard_, heard);
   is_unsure_ = is_unsure_ || std::max(heard - before, now_ - heard) >
                                  std::max<Duration>(longest_silence, times_latest * latest_);
@@ -196,6 +197,7 @@ Step MotionJob::judge_who(const Outcome& outcome) {
     return phase_ == Phase::ending && is_silent() ? give_up(silent_since()) : go_on_unless_silent();
   }
   is_unsure_ = false;
+  told_who_ = heard_ = now_;
   is_another_ = value(outcome, at::serial_number) != servo_.identity.readings().serial_number;
   return is_another_ ? give_up({Code::state, say<texts::another_servo>(id()),
                                 say<texts::run_again_hint>(), id()})

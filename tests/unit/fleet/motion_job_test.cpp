@@ -108,6 +108,17 @@ TEST_CASE("an angle is commanded, reached and held") {
   CHECK(response.overshoot_decideg <= 10);
 }
 
+TEST_CASE("a process that reads all of its frames late comes to an end") {
+  CommandBench bench;
+  const MotionPlan plan = bench.planned("command_angle=45deg", 500ms);
+  MotionJob job(bench.scene.roster(), plan,
+                {.now = [&] { return bench.scene.session->now() + 300ms; }});
+  const Time begin = bench.scene.session->now();
+  bench.scene.run(job);
+  CHECK(job.result().has_commanded());
+  CHECK(bench.scene.session->now() - begin < 10s);
+}
+
 TEST_CASE("a speed and a torque end with 0, and the shaft stands") {
   for (const char* motion : {"command_speed=-60rpm", "command_torque=20%"}) {
     CommandBench bench;

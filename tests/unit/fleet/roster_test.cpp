@@ -185,6 +185,17 @@ TEST_CASE("a node becomes a member by any frame of it, and is announced once") {
   CHECK(ear.roster.heard(NodeId(10)));
 }
 
+TEST_CASE("what was heard last is a frame of another node, however much later it is now") {
+  Ear ear;
+  CHECK(ear.roster.last_heard() == Time{});
+  ear.now = Time{3s};
+  ear.status(12, 3);
+  ear.now = Time{2s};
+  ear.status(11, 2);
+  ear.now = Time{9s};
+  CHECK(ear.roster.last_heard() == Time{3s});
+}
+
 TEST_CASE("who was only asked for is no node that was heard") {
   Ear ear;
   const Witness witness(ear.roster);

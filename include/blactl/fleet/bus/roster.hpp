@@ -199,6 +199,10 @@ class Roster {
 
   [[nodiscard]] bool heard(dronecan::NodeId id) const { return heard_[id.value()]; }
 
+  /// The time of the last frame of any other node. What has come by then was heard, however late
+  /// this process reads.
+  [[nodiscard]] Time last_heard() const;
+
   /// Whether two units use this ID, as far as heard.
   [[nodiscard]] bool is_doubled(dronecan::NodeId id) const;
   [[nodiscard]] std::set<dronecan::NodeId> doubled() const;

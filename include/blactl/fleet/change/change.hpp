@@ -34,8 +34,8 @@ class Change {
     Manner manner{};
     bool stops_at_failure = false; ///< nothing begins after a round with a failed servo
     bool knows_ids = false;        ///< the bus was searched, with the static node IDs
-    /// The time of the search for the selected servos: nodes that came since may be among them.
-    /// Empty: they were named.
+    /// The time of the last frame heard in the search for the selected servos: nodes that came
+    /// since may be among them. Empty: they were named.
     std::optional<Time> searched{};
     /// The return of a loan: the bus was heard before, and one that refuses does not prevent the
     /// others.

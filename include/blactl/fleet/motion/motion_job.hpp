@@ -134,6 +134,7 @@ class MotionJob final : public dronecan::Job {
   Time last_command_{};
   Time heard_{};                       ///< its last frame, at the step before
   bool is_unsure_ = false;             ///< it may be another unit
+  Time told_who_{};                    ///< when it last told its serial number
   bool is_another_ = false;            ///< it is
   bool reads_first_ = false;           ///< a read is due before the next command
   Time ended_{};                       ///< the time its end began
