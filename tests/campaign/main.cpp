@@ -88,6 +88,7 @@ json sweep(const Options& options, unsigned job, const std::filesystem::path& fo
   Sweep all(folder / "case",
             {.step = options.sweep,
              .only = options.only,
+             .until_found = options.until_found,
              .job = job,
              .jobs = options.jobs,
              .begins = [] { watch(0); }},

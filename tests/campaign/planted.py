@@ -2,12 +2,13 @@
 """Bugs planted in a copy of the sources, each of which the campaign must find.
 
   planted.py --check
-  planted.py FOLDER [NAME...] [--episodes N] [--seed S] [--jobs N] [--list FILE] [--results FILE]
+  planted.py FOLDER [NAME...] [--sweep N] [--episodes N] [--seed S] [--jobs N] [--list FILE]
+             [--results FILE]
 
 FOLDER gets the copy and its build. Every bug of planted.json is a place in the sources: what stands
 there, which must be found just once, and what stands there instead while the bug is switched on: one
-build holds them all. An entry without "instead" switches its statement off. For each bug the campaign
-runs until it finds something. Exit status 1: a bug was not found. --check only looks whether each has
+build holds them all. An entry without "instead" switches its statement off. For each bug every
+N-th single fault of each command is tried, then random episodes, until something is found. Exit status 1: a bug was not found. --check only looks whether each has
 its place in the sources.
 """
 
@@ -91,27 +92,34 @@ def build(folder):
             fail(ran.stdout[-8000:] + ran.stderr[-2000:])
 
 
-def search(folder, bug, given):
-    """(bug, runs until something was found or None, what, seconds)"""
-    begin = time.monotonic()
-    ran = subprocess.run(
-        [folder / "build/ci/tests/campaign", "--seed", str(given.seed), "--episodes",
-         str(given.episodes), "--until-found"], capture_output=True, text=True, check=False,
-        env={**os.environ, "PLANTED": bug["name"]})
+def play(folder, bug, words):
+    """(runs, what was found or None)"""
+    ran = subprocess.run([folder / "build/ci/tests/campaign", "--until-found", *words],
+                         capture_output=True, text=True, check=False,
+                         env={**os.environ, "PLANTED": bug["name"]})
     runs = re.search(r"^(\d+) runs", ran.stdout, re.MULTILINE)
-    what = re.search(r"^episode (\d+): (.*)", ran.stdout + ran.stderr, re.MULTILINE)
+    what = re.search(r"^(?:episode \d+|case [^:]*): (.*)", ran.stdout + ran.stderr, re.MULTILINE)
+    found = what[1] if what else None
     if ran.returncode not in (0, 1):
-        what_found = f"ended with {ran.returncode}" + (f": {what[2]}" if what else "")
-    else:
-        what_found = what[2] if what else None
-    count = int(runs[1]) if runs else None
-    return bug, count, what_found, time.monotonic() - begin
+        found = f"ended with {ran.returncode}" + (f": {found}" if found else "")
+    return int(runs[1]) if runs else 0, found
+
+
+def search(folder, bug, given):
+    """(bug, runs until something was found, what or None, seconds): single faults, then episodes"""
+    begin = time.monotonic()
+    runs, what = play(folder, bug, ["--sweep", str(given.sweep)])
+    if what is None:
+        more, what = play(folder, bug,
+                          ["--seed", str(given.seed), "--episodes", str(given.episodes)])
+        runs += more
+    return bug, runs, what, time.monotonic() - begin
 
 
 def table(results):
     lines = ["| Planted bug | Found after | What was found |", "|---|---:|---|"]
     for bug, runs, what, _ in results:
-        after = "**not found**" if what is None else f"{runs} runs" if runs else "-"
+        after = "**not found**" if what is None else f"{runs} runs"
         lines.append(f"| {bug['what']} | {after} | {(what or '').replace('|', '/')} |")
     return "\n".join(lines) + "\n"
 
@@ -122,6 +130,7 @@ def main():
     parser.add_argument("names", nargs="*")
     parser.add_argument("--episodes", type=int, default=10000)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--sweep", type=int, default=40)
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--list", type=pathlib.Path, default=HERE / "planted.json")
     parser.add_argument("--check", action="store_true")

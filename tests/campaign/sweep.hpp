@@ -37,6 +37,7 @@ class Sweep {
   struct Options {
     std::size_t step = 1; ///< every so manieth place
     std::string only{};   ///< one kind of disturbance, or pairs of them; empty: all
+    bool until_found = false;
     unsigned job = 0, jobs = 1;
     std::function<void()> begins; ///< called before each run
   };
@@ -69,12 +70,15 @@ class Sweep {
   void disturb(const Case& one, std::vector<Disturbance> disturbances, const States& goal,
                Swept& swept);
 
+  [[nodiscard]] bool is_over() const { return options_.until_found && has_found_; }
+
   [[nodiscard]] bool is_own_turn() { return turn_++ % options_.jobs == options_.job; }
 
   std::filesystem::path folder_;
   Options options_;
   std::function<void(const std::string&)> tell_;
   std::size_t turn_ = 0;
+  bool has_found_ = false;
   SweptByKind swept_;
 };
 
