@@ -7,9 +7,9 @@
 
 FOLDER gets the copy and its build. Every bug of planted.json is a place in the sources: what stands
 there, which must be found just once, and what stands there instead while the bug is switched on: one
-build holds them all. An entry without "instead" switches its statement off. For each bug every
-N-th single fault of each command is tried, then random episodes, until something is found. Exit status 1: a bug was not found. --check only looks whether each has
-its place in the sources.
+build holds them all. An entry without "instead" switches its statement off. For each bug every N-th
+single fault of each command is tried, then random episodes, until something is found. Exit status 1:
+a bug was not found. --check only looks whether each has its place in the sources.
 """
 
 import argparse
