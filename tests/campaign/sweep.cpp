@@ -19,17 +19,6 @@ using nlohmann::json;
 using namespace std::chrono_literals;
 using Kind = Disturbance::Kind;
 
-/// A command, what was done before it, and whether the same memories follow from it whenever it
-/// is repeated.
-struct Sweep::Case {
-  std::string name;
-  std::vector<Command> before;
-  Command command;
-  bool is_repeatable = true;
-  bool is_undoable = false; ///< `undo` brings back all that was before
-  std::vector<int> node_ids{11, 12, 13};
-};
-
 namespace {
 
 Command words(std::vector<std::string> all) {
@@ -44,24 +33,6 @@ Command apply(const json& first, const json& second, std::vector<std::string> mo
   command.words.insert(command.words.end(), more.begin(), more.end());
   command.fleet = {{"schema", "blactl-fleet/1"}, {"servos", entries}};
   return command;
-}
-
-Episode episode_of(const std::vector<int>& node_ids) {
-  json servos = json::array();
-  const std::vector<std::string> models{"BLA21-12U-AB", "BLA15-06U-A0", "BLA34-28U-AB"};
-  for (std::size_t i = 0; i < node_ids.size(); ++i) {
-    servos.push_back({{"model", models[i]},
-                      {"node_id", node_ids[i]},
-                      {"serial_number", 240900001 + i},
-                      {"servo_id", i + 1}});
-  }
-  return {.seed = 0,
-          .scenario = {{"schema", "blactl-scenario/1"},
-                       {"clock", "virtual"},
-                       {"seed", 1},
-                       {"servos", servos}},
-          .steps = {},
-          .faults = {}};
 }
 
 /// Settings, and who has which node ID.
@@ -115,6 +86,25 @@ void check_stores(World& world, const Step& cut, bool is_undoable) {
 }
 
 } // namespace
+
+/// Servos with these node IDs, and nothing that goes wrong.
+Episode Sweep::episode_of(const std::vector<int>& node_ids) {
+  json servos = json::array();
+  const std::vector<std::string> models{"BLA21-12U-AB", "BLA15-06U-A0", "BLA34-28U-AB"};
+  for (std::size_t i = 0; i < node_ids.size(); ++i) {
+    servos.push_back({{"model", models[i]},
+                      {"node_id", node_ids[i]},
+                      {"serial_number", 240900001 + i},
+                      {"servo_id", i + 1}});
+  }
+  return {.seed = 0,
+          .scenario = {{"schema", "blactl-scenario/1"},
+                       {"clock", "virtual"},
+                       {"seed", 1},
+                       {"servos", servos}},
+          .steps = {},
+          .faults = {}};
+}
 
 void add(SweptByKind& all, const SweptByKind& more) {
   for (const auto& [key, one] : more) {
@@ -200,6 +190,7 @@ void Sweep::play() {
     if (options_.only.empty() || options_.only == pairs) {
       play_pairs(one);
     }
+    play_moments(one);
   }
 }
 
@@ -272,16 +263,22 @@ void Sweep::disturb(const Case& one, std::vector<Disturbance> disturbances, cons
   const Episode episode = episode_of(one.node_ids);
   World world(episode.scenario, folder_);
   const Step step = begin(world, episode, one, disturbances);
+  judged(one, what, step, swept, [&] { check(world, one, disturbances, step, goal); });
+}
+
+/// Counts a run, and tells what `check` finds.
+void Sweep::judged(const Case& one, const std::string& what, const Step& step, Swept& swept,
+                   const std::function<void()>& check) {
   swept.runs += 1;
   swept.good += step.outcome.status == 0 ? 1 : 0;
   try {
-    check(world, one, disturbances, step, goal);
+    check();
   } catch (const std::exception& lie) {
     swept.lies += 1;
     has_found_ = true;
-    tell_(fmt::format("case {}: {}: {}\n  {}\n  exit status {}\n  {}\n{}", one.name, what, lie.what(),
-                      step.command.text(), step.outcome.status, step.outcome.document.dump(),
-                      step.outcome.err));
+    tell_(fmt::format("case {}: {}: {}\n  {}\n  exit status {}\n  {}\n{}", one.name, what,
+                      lie.what(), step.command.text(), step.outcome.status,
+                      step.outcome.document.dump(), step.outcome.err));
   }
 }
 

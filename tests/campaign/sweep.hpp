@@ -52,7 +52,16 @@ class Sweep {
   [[nodiscard]] const SweptByKind& swept() const { return swept_; }
 
  private:
-  struct Case;
+  /// A command, what was done before it, and whether the same memories follow from it whenever it
+  /// is repeated.
+  struct Case {
+    std::string name;
+    std::vector<Command> before;
+    Command command;
+    bool is_repeatable = true;
+    bool is_undoable = false; ///< `undo` brings back all that was before
+    std::vector<int> node_ids{11, 12, 13};
+  };
 
   struct Calm {
     States goal;
@@ -60,6 +69,7 @@ class Sweep {
   };
 
   [[nodiscard]] static std::vector<Case> cases();
+  [[nodiscard]] static Episode episode_of(const std::vector<int>& node_ids);
   [[nodiscard]] static Step begin(World& world, const Episode& episode, const Case& one,
                                   std::span<Disturbance> disturbances);
   static void check(World& world, const Case& one, std::span<const Disturbance> disturbances,
@@ -67,6 +77,10 @@ class Sweep {
   [[nodiscard]] Calm play_calm(const Case& one, Disturbance::Kind kind) const;
   void play_each(const Case& one, Disturbance::Kind kind);
   void play_pairs(const Case& one);
+  void play_moments(const Case& one);
+  void play_moment(const Case& one, const Episode& episode, const std::string& what, Swept& swept);
+  void judged(const Case& one, const std::string& what, const Step& step, Swept& swept,
+              const std::function<void()>& check);
   void disturb(const Case& one, std::vector<Disturbance> disturbances, const States& goal,
                Swept& swept);
 

@@ -1,0 +1,134 @@
+// What happens to servos, and what other nodes do, just at the k-th frame of a command.
+
+#include "campaign.hpp"
+#include "chance.hpp"
+#include "judge.hpp"
+#include "sweep.hpp"
+#include "told.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <set>
+#include <utility>
+
+namespace blactl::campaign {
+namespace {
+
+using nlohmann::json;
+using namespace std::chrono_literals;
+
+constexpr std::int64_t first_servo = 240900001;
+constexpr const char* much_later = "1000s";
+
+/// Adds it to a scenario, at this time.
+using Plant = std::function<void(json& scenario, const std::string& at)>;
+
+struct Happening {
+  std::string name;
+  Plant plant;
+};
+
+Plant event(const char* happens) {
+  return [happens](json& scenario, const std::string& at) {
+    scenario["events"].push_back({{"at", at}, {"servo", first_servo}, {"happens", happens}});
+  };
+}
+
+Plant order(json what) {
+  return [what = std::move(what)](json& scenario, const std::string& at) {
+    json one = what;
+    one["at"] = at;
+    one["to"] = std::max<int>(1, scenario["servos"][0]["node_id"]);
+    scenario["foreign"].push_back(
+        {{"kind", "node"}, {"node_id", 91}, {"orders", json::array({one})}});
+  };
+}
+
+Plant node(json what) {
+  return [what = std::move(what)](json& scenario, const std::string& at) {
+    json one = what;
+    one.update({{"kind", "node"}, {"node_id", 91}, {"begins", at}});
+    scenario["foreign"].push_back(one);
+  };
+}
+
+const std::vector<Happening>& happenings() {
+  static const std::vector<Happening> all{
+      {"restart", event("watchdog_error")},
+      {"restart without ROM", event("rom_error")},
+      {"power off", event("power_off")},
+      {"other writes", order({{"order", "write"}, {"address", 0x38}, {"value", 450}})},
+      {"other saves", order({{"order", "save"}})},
+      {"other erases", order({{"order", "erase"}})},
+      {"other restarts", order({{"order", "restart"}})},
+      {"armed", node({{"armed", true}})},
+      {"driven", node({{"commands", {{"servo_ids", json::array({255})}, {"rate", 50}}}})},
+  };
+  return all;
+}
+
+/// Just before each frame of the command, where nothing happens.
+std::vector<Time> moments_of(const Record& record) {
+  constexpr Duration before = 50us;
+  std::set<Time> times;
+  for (const OnWire& frame : record.frames()) {
+    times.insert(frame.at - before);
+  }
+  return {times.begin(), times.end()};
+}
+
+} // namespace
+
+void Sweep::play_moments(const Case& one) {
+  for (const Happening& happening : happenings()) {
+    if (!options_.only.empty() && options_.only != happening.name) {
+      continue;
+    }
+    const auto with = [&](const std::string& at) {
+      Episode episode = episode_of(one.node_ids);
+      episode.faults.insert(happening.name);
+      happening.plant(episode.scenario, at);
+      return episode;
+    };
+    std::vector<Time> moments;
+    {
+      const Folder folder(folder_);
+      const Episode quiet = with(much_later);
+      World world(quiet.scenario, folder_);
+      moments = moments_of(begin(world, quiet, one, {}).outcome.record);
+    }
+    Swept& swept = swept_[{one.name, happening.name}];
+    swept.places = moments.size();
+    for (std::size_t i = 0; i < moments.size(); i += options_.step) {
+      if (is_own_turn() && !is_over()) {
+        const std::string at = fmt::format("{}us", (moments[i] - Time{}).count());
+        play_moment(one, with(at), fmt::format("{} at {}", happening.name, at), swept);
+      }
+    }
+  }
+}
+
+void Sweep::play_moment(const Case& one, const Episode& episode, const std::string& what,
+                        Swept& swept) {
+  options_.begins();
+  const Folder folder(folder_);
+  World world(episode.scenario, folder_);
+  const Step step = begin(world, episode, one, {});
+  judged(one, what, step, swept, [&] {
+    judge(step);
+    if (!one.is_repeatable) {
+      return;
+    }
+    world.pass(4s);
+    world.repair();
+    const Episode calm = calmed(episode);
+    const Step again = take_step(world, calm, one.command);
+    judge(again);
+    require(again.outcome.status == 0, "does not converge: " + again.outcome.err);
+  });
+}
+
+} // namespace blactl::campaign
