@@ -23,6 +23,9 @@ constexpr int most_silent = 2;
 /// A servo that restarts more often while it is read is given up.
 constexpr int most_passes = 4;
 
+/// Where requests have to be repeated more often, frames get lost.
+constexpr int most_repeats = 4;
+
 constexpr bla::Width id_width{.bits = 8, .is_signed = false};
 
 /// Whoever is to prove that he ran on must be old enough for that.
@@ -94,11 +97,31 @@ Step ReadJob::take_reading(const Outcome& outcome) {
   if (roster_.is_doubled(id_) && proof_ != Proof::none) {
     return give_up(doubled(roster_, id_));
   }
+  if (may_have_restarted(outcome)) {
+    return read_again_after_silence(outcome.at);
+  }
+  asked_last_ = outcome.at;
   if (silent_ == most_silent) {
     at_ = At::presence;
     return ask(id_, GetNodeInfo::type, GetNodeInfo::Request{}.encode(), patience_);
   }
   return read_next(outcome.at);
+}
+
+/// A request that had to be repeated may have come while the servo started, and its uptime cannot
+/// tell yet: what was read before is of another run then.
+bool ReadJob::may_have_restarted(const Outcome& outcome) {
+  const bool was_repeated = outcome.asked - asked_last_ >= patience_.timeout;
+  was_silent_ = was_silent_ || !outcome.answered() || was_repeated;
+  return proof_ == Proof::unit && outcome.answered() && was_silent_ && repeats_ < most_repeats;
+}
+
+/// It is no proof of a restart.
+Step ReadJob::read_again_after_silence(Time now) {
+  was_silent_ = false;
+  ++repeats_;
+  --passes_;
+  return read_again(now);
 }
 
 bool ReadJob::has_next() {
@@ -115,6 +138,9 @@ bool ReadJob::has_next() {
 Step ReadJob::read_next(Time now) {
   if (!has_next()) {
     return proof_ == Proof::none ? Step(std::nullopt) : prove(now);
+  }
+  if (at_ != At::read) {
+    asked_last_ = now;
   }
   at_ = At::read;
   return read_register(id_, wanted_[snapshot_.readings.size()]->address, patience_);
@@ -149,7 +175,10 @@ Step ReadJob::judge_proof(const Outcome& outcome) {
   }
   const std::uint8_t id = id_.value();
   switch (run_proof_->verdict()) {
-  case RunProof::Verdict::ran_on: return judge_writers(outcome.at);
+  case RunProof::Verdict::ran_on:
+    return proof_ == Proof::unit && was_silent_ && repeats_ < most_repeats
+               ? read_again_after_silence(outcome.at)
+               : judge_writers(outcome.at);
   case RunProof::Verdict::failed: return give_up(told_by(*run_proof_->error()));
   case RunProof::Verdict::too_late:
     if (passes_ == most_passes || is_about_earlier_run()) {

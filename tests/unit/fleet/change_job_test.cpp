@@ -700,8 +700,10 @@ TEST_CASE("a servo that says that it could not read its ROM did not save") {
 
 TEST_CASE("a servo that is back and cannot be read is not proven to be saved") {
   Bench bench(save);
-  bench.until("read 0x38");
-  bench.time_out();
+  for (int times = 0; times < 5; ++times) { // one lost answer is no reason
+    bench.until("read 0x38");
+    bench.time_out();
+  }
   const ChangeResult& result = bench.finish();
   CHECK(failure(result) == Code::timeout);
   CHECK(result.returned == NodeId(11));

@@ -406,6 +406,23 @@ TEST_CASE("after SAVE it is enough that it is one servo, however young") {
   }
 }
 
+TEST_CASE("after SAVE all is read again where a request was lost: the servo may have restarted") {
+  Reader reader({"angle_limit_cw", "reverse"}, ReadJob::Proof::unit);
+  CHECK(reader.next(Script::start()) == "read 0x38");
+  const auto late = [&](const char* name, std::int64_t value, Duration asked) {
+    Outcome outcome = reader.script.value(name, value);
+    outcome.asked = Time{} + asked;
+    outcome.at = outcome.asked + 1ms;
+    return reader.next(outcome);
+  };
+  CHECK(late("0x38", 900, 0ms) == "read 0x23");
+  CHECK(late("0x23", 0, 501ms) == "read 0x45");
+  CHECK(late("0x45", 0, 502ms) == "read 0x38");
+  CHECK(late("0x38", 1799, 503ms) == "read 0x23");
+  CHECK(late("0x23", 0, 504ms) == "GetNodeInfo");
+  CHECK(reader.job.snapshot().raw(bla::address::angle_limit_cw) == 1799);
+}
+
 TEST_CASE("after a restart that was heard all is read again, and the servo stays known") {
   Reader reader({"angle_limit_cw"});
   CHECK(reader.next(Script::start()) == "read 0x38");

@@ -24,7 +24,7 @@ class ReadJob final : public dronecan::Job {
   /// The part that must be proven.
   enum class Proof : std::uint8_t {
     none,   ///< on a recording nothing can be asked
-    unit,   ///< the same servo: after SAVE a further restart changes nothing
+    unit,   ///< the same servo, and values of one run, as far as lost requests tell
     moment, ///< consistent values of one servo; a young servo takes a second for this
     run,    ///< also no restart since it was first heard: RAM is to be saved
   };
@@ -52,6 +52,8 @@ class ReadJob final : public dronecan::Job {
   [[nodiscard]] dronecan::Step begin(Time now);
   [[nodiscard]] dronecan::Step take_reading(const dronecan::Outcome& outcome);
   [[nodiscard]] dronecan::Step read_next(Time now);
+  [[nodiscard]] bool may_have_restarted(const dronecan::Outcome& outcome);
+  [[nodiscard]] dronecan::Step read_again_after_silence(Time now);
   [[nodiscard]] bool has_next();
   [[nodiscard]] dronecan::Step prove(Time now);
   [[nodiscard]] dronecan::Step judge_presence(const dronecan::Outcome& outcome);
@@ -74,8 +76,11 @@ class ReadJob final : public dronecan::Job {
   Proof proof_;
   At at_ = At::identify;
   std::vector<const bla::Parameter*> wanted_;
-  int silent_ = 0; ///< consecutive registers
-  int passes_ = 1; ///< over all registers
+  int silent_ = 0;          ///< consecutive registers
+  int passes_ = 1;          ///< over all registers
+  int repeats_ = 0;         ///< of requests that made it read again
+  bool was_silent_ = false; ///< a request of this pass was repeated, or not answered
+  Time asked_last_{};       ///< when the present request was due
   Time pass_began_{};
   std::optional<RunProof> run_proof_;
   Snapshot snapshot_;

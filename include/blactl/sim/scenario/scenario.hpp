@@ -63,9 +63,9 @@
 // "restart_after_answer" both keys are optional: "to" defaults to "any", "number" to 1. An event
 // names its servo by the serial number; "world" has the keys of parse_world_change(), "happens" is
 // power_off, power_on, clock_error, watchdog_error, ram_error or rom_error (Mishap), and at least
-// one of the two is required. Every kind of foreign node has the keys of "node", too. A firmware that the
-// model never had (chapter 5) gives a warning. schemas/scenario.schema.json describes all of this
-// for editors.
+// one of the two is required. Every kind of foreign node has the keys of "node", too. A firmware
+// that the model never had (chapter 5) gives a warning. schemas/scenario.schema.json describes all
+// of this for editors.
 
 #include "blactl/base/error.hpp"
 #include "blactl/bla/profile.hpp"
