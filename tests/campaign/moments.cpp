@@ -29,6 +29,7 @@ using Plant = std::function<void(json& scenario, const std::string& at)>;
 struct Happening {
   std::string name;
   Plant plant;
+  bool is_over = true; ///< with the command: another node's order may have taken the servo's IDs
 };
 
 Plant event(const char* happens) {
@@ -60,10 +61,10 @@ const std::vector<Happening>& happenings() {
       {"restart", event("watchdog_error")},
       {"restart without ROM", event("rom_error")},
       {"power off", event("power_off")},
-      {"other writes", order({{"order", "write"}, {"address", 0x38}, {"value", 450}})},
-      {"other saves", order({{"order", "save"}})},
-      {"other erases", order({{"order", "erase"}})},
-      {"other restarts", order({{"order", "restart"}})},
+      {"other writes", order({{"order", "write"}, {"address", 0x38}, {"value", 450}}), false},
+      {"other saves", order({{"order", "save"}}), false},
+      {"other erases", order({{"order", "erase"}}), false},
+      {"other restarts", order({{"order", "restart"}}), false},
       {"armed", node({{"armed", true}})},
       {"driven", node({{"commands", {{"servo_ids", json::array({255})}, {"rate", 50}}}})},
   };
@@ -105,21 +106,22 @@ void Sweep::play_moments(const Case& one) {
     for (std::size_t i = 0; i < moments.size(); i += options_.step) {
       if (is_own_turn() && !is_over()) {
         const std::string at = fmt::format("{}us", (moments[i] - Time{}).count());
-        play_moment(one, with(at), fmt::format("{} at {}", happening.name, at), swept);
+        const std::string what = fmt::format("{} at {}", happening.name, at);
+        play_moment(one, with(at), what, happening.is_over && one.is_repeatable, swept);
       }
     }
   }
 }
 
 void Sweep::play_moment(const Case& one, const Episode& episode, const std::string& what,
-                        Swept& swept) {
+                        bool must_converge, Swept& swept) {
   options_.begins();
   const Folder folder(folder_);
   World world(episode.scenario, folder_);
   const Step step = begin(world, episode, one, {});
   judged(one, what, step, swept, [&] {
     judge(step);
-    if (!one.is_repeatable) {
+    if (!must_converge) {
       return;
     }
     world.pass(4s);

@@ -78,7 +78,8 @@ class Sweep {
   void play_each(const Case& one, Disturbance::Kind kind);
   void play_pairs(const Case& one);
   void play_moments(const Case& one);
-  void play_moment(const Case& one, const Episode& episode, const std::string& what, Swept& swept);
+  void play_moment(const Case& one, const Episode& episode, const std::string& what,
+                   bool must_converge, Swept& swept);
   void judged(const Case& one, const std::string& what, const Step& step, Swept& swept,
               const std::function<void()>& check);
   void disturb(const Case& one, std::vector<Disturbance> disturbances, const States& goal,
