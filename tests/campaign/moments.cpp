@@ -24,21 +24,21 @@ constexpr std::int64_t first_servo = 240900001;
 constexpr const char* much_later = "1000s";
 
 /// Adds it to a scenario, at this time.
-using Plant = std::function<void(json& scenario, const std::string& at)>;
+using AddAt = std::function<void(json& scenario, const std::string& at)>;
 
 struct Happening {
   std::string name;
-  Plant plant;
+  AddAt add;
   bool is_over = true; ///< with the command: another node's order may have taken the servo's IDs
 };
 
-Plant event(const char* happens) {
+AddAt event(const char* happens) {
   return [happens](json& scenario, const std::string& at) {
     scenario["events"].push_back({{"at", at}, {"servo", first_servo}, {"happens", happens}});
   };
 }
 
-Plant order(json what) {
+AddAt order(json what) {
   return [what = std::move(what)](json& scenario, const std::string& at) {
     json one = what;
     one["at"] = at;
@@ -48,7 +48,7 @@ Plant order(json what) {
   };
 }
 
-Plant node(json what) {
+AddAt node(json what) {
   return [what = std::move(what)](json& scenario, const std::string& at) {
     json one = what;
     one.update({{"kind", "node"}, {"node_id", 91}, {"begins", at}});
@@ -91,7 +91,7 @@ void Sweep::play_moments(const Case& one) {
     const auto with = [&](const std::string& at) {
       Episode episode = episode_of(one.node_ids);
       episode.faults.insert(happening.name);
-      happening.plant(episode.scenario, at);
+      happening.add(episode.scenario, at);
       return episode;
     };
     std::vector<Time> moments;

@@ -275,7 +275,8 @@ TEST_CASE("undo brings back what a restart took from RAM, where only a proof tol
   CHECK(fleet.ram("11", "angle_limit_cw") == 900);
 }
 
-TEST_CASE("undo of a saved change brings back what a proof knows of ROM, not another tool's trial") {
+TEST_CASE(
+    "undo of a saved change brings back what a proof knows of ROM, not another tool's trial") {
   Fleet fleet(three_servos());
   const Options other{.env = {{"BLACTL_STATE_DIR", fleet.file_name("other")}}};
   REQUIRE(fleet.run({"save", "-n", "11", "-y"}).status == 0);

@@ -587,8 +587,7 @@ TEST_CASE("a repeated apply counts as saved only where the first try may have be
     begin();
     carry(set("angle_limit_cw=90deg"));
     const Snapshot ram = scene.read(11, registers({"angle_limit_cw"}));
-    CHECK(kept.history().known_rom(ram, *scene.session) ==
-          bla::Values{{at::angle_limit_cw, 1799}});
+    CHECK(kept.history().known_rom(ram, *scene.session) == bla::Values{{at::angle_limit_cw, 1799}});
   }
   SECTION("repeated after its SAVE") {
     carry(save);
@@ -620,8 +619,7 @@ TEST_CASE("values that were written again after a restart, and not saved, are in
   CHECK_FALSE(change(scene, set("angle_limit_cw=90deg", true), kept).is_done());
   const Snapshot ram = scene.read(11, registers({"angle_limit_cw"}));
   REQUIRE(ram.raw(at::angle_limit_cw) == 900);
-  CHECK(kept.history().known_rom(ram, *scene.session) ==
-        bla::Values{{at::angle_limit_cw, 1799}});
+  CHECK(kept.history().known_rom(ram, *scene.session) == bla::Values{{at::angle_limit_cw, 1799}});
 }
 
 TEST_CASE("a trial that a killed save has made permanent is in ROM") {
