@@ -128,7 +128,7 @@ Result<std::vector<Neighbour>> neighbours(Session& session, const bla::Profiles&
   std::vector<Neighbour> found;
   for (const Snapshot& snapshot : *snapshots) {
     if (auto one = neighbour(session, snapshot)) {
-      found.push_back(std::move(*one));
+      found.push_back(*one);
     }
   }
   return found;
@@ -166,7 +166,7 @@ Result<Survey> survey(Session& session, const bla::Profiles& profiles, std::span
     if (record != nullptr && !servo->is_rom_unread) {
       servo->rom_servo_id = bla::find(record->known_rom(snapshot, session), at::servo_id);
     }
-    found.servos.push_back(std::move(*servo));
+    found.servos.push_back(*servo);
   }
   return found;
 }
