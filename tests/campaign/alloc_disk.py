@@ -336,11 +336,15 @@ def main():
         except AssertionError as fault:
             faults += 1
             print(f"{case.__name__} {words}: {fault}", flush=True)
-    in_between = [any(0 < count < SWEPT[case] for count in given[case]) for case in SWEPT]
+    # the disk gets full a moment later on a busy machine: once more
+    in_between = {case: any(0 < count < SWEPT[case] for count in given[case]) for case in SWEPT}
+    for case in [case for case in SWEPT if not in_between[case]]:
+        given[case] += [case(blactl, commits) for commits in range(SERVOS + 2)]
+        in_between[case] = any(0 < count < SWEPT[case] for count in given[case])
     for case, counts in given.items():
         print(f"{case.__name__}: of {SWEPT[case]} IDs before the disk was full: {counts}")
     print(f"{faults} faults")
-    return 1 if faults or not all(in_between) else 0
+    return 1 if faults or not all(in_between.values()) else 0
 
 
 if __name__ == "__main__":
