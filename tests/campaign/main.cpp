@@ -35,7 +35,7 @@ struct Options {
   bool frozen = false; ///< prints the episodes, a line each, for campaign.py
   bool until_found = false;
   std::string results{};
-  std::size_t sweep = 0; ///< every so manieth place; 0: no sweep
+  std::size_t sweep = 0; ///< every n-th place; 0: no sweep
   std::string only{};    ///< one kind of disturbance
 };
 
@@ -167,7 +167,7 @@ int main(int argc, char** argv) {
   app.add_option("--results", options.results, "writes this Markdown file");
   app.add_option(
       "--sweep", options.sweep,
-      "instead of episodes: every so manieth frame and call of each command, one by one");
+      "instead of episodes: every n-th frame, call and moment of each command, one by one");
   app.add_option("--only", options.only,
                  "of the sweep: one kind, as \"computer off\", or \"two of these\"");
   app.add_flag("--until-found", options.until_found, "ends with the first difference");

@@ -35,7 +35,7 @@ void add(SweptByKind& all, const SweptByKind& more);
 class Sweep {
  public:
   struct Options {
-    std::size_t step = 1; ///< every so manieth place
+    std::size_t step = 1; ///< every n-th place
     std::string only{};   ///< one kind of disturbance, or pairs of them; empty: all
     bool until_found = false;
     unsigned job = 0, jobs = 1;

@@ -113,7 +113,11 @@ Step ReadJob::take_reading(const Outcome& outcome) {
 bool ReadJob::may_have_restarted(const Outcome& outcome) {
   const bool was_repeated = outcome.asked - asked_last_ >= patience_.timeout;
   was_silent_ = was_silent_ || !outcome.answered() || was_repeated;
-  return proof_ == Proof::unit && outcome.answered() && was_silent_ && repeats_ < most_repeats;
+  return outcome.answered() && is_in_doubt();
+}
+
+bool ReadJob::is_in_doubt() const {
+  return proof_ == Proof::unit && was_silent_ && repeats_ < most_repeats;
 }
 
 /// It is no proof of a restart.
@@ -176,9 +180,7 @@ Step ReadJob::judge_proof(const Outcome& outcome) {
   const std::uint8_t id = id_.value();
   switch (run_proof_->verdict()) {
   case RunProof::Verdict::ran_on:
-    return proof_ == Proof::unit && was_silent_ && repeats_ < most_repeats
-               ? read_again_after_silence(outcome.at)
-               : judge_writers(outcome.at);
+    return is_in_doubt() ? read_again_after_silence(outcome.at) : judge_writers(outcome.at);
   case RunProof::Verdict::failed: return give_up(told_by(*run_proof_->error()));
   case RunProof::Verdict::too_late:
     if (passes_ == most_passes || is_about_earlier_run()) {

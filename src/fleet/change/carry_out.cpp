@@ -134,53 +134,31 @@ Result<void> read_restarted(Session& session, std::list<ChangeJob>& jobs) {
   return session.run(group);
 }
 
-using Lost = std::map<const ChangeJob*, Error>;
-
-/// Looks at the servos that `which` gives of the jobs. Errors: as Session::run().
-template <class Which>
-Result<void> look(Session& session, const std::list<ChangeJob>& jobs, Patience patience,
-                  LastLook look, Which which, Lost& lost) {
-  std::vector<const ChangeJob*> asked;
-  std::vector<Servo> servos;
-  for (const ChangeJob& job : jobs) {
-    if (auto servo = which(job)) {
-      asked.push_back(&job);
-      servos.push_back(std::move(*servo));
-    }
-  }
-  auto looked = look_last(session, servos, patience, look);
-  if (!looked) {
-    return std::unexpected(looked.error());
-  }
-  for (std::size_t i = 0; i < asked.size(); ++i) {
-    if ((*looked)[i]) {
-      lost.emplace(asked[i], std::move(*(*looked)[i]));
-    }
-  }
-  return {};
-}
-
 /// Of jobs that have ended, some before others. Errors: as Session::run().
 Result<void> look_back(Session& session, std::list<ChangeJob>& jobs, Patience patience) {
-  Lost lost;
-  const auto in_ram = [&](const ChangeJob& job) {
-    return jobs.size() > 1 ? job.in_ram_only() : std::nullopt;
-  };
-  const auto in_rom = [before = session.now() - long_ago](const ChangeJob& job) {
-    return job.proven_before(before);
-  };
-  auto looked = look(session, jobs, patience, LastLook::run, in_ram, lost);
-  if (looked) {
-    looked = look(session, jobs, patience, LastLook::unit, in_rom, lost);
+  std::vector<Servo> in_ram, in_rom;
+  for (const ChangeJob& job : jobs) {
+    if (auto servo = jobs.size() > 1 ? job.in_ram_only() : std::nullopt) {
+      in_ram.push_back(std::move(*servo));
+    }
+    if (auto servo = job.proven_before(session.now() - long_ago)) {
+      in_rom.push_back(std::move(*servo));
+    }
   }
-  if (looked) {
-    looked = read_restarted(session, jobs);
+  auto lost = look_last(session, in_ram, patience, LastLook::run);
+  if (auto away = lost ? look_last(session, in_rom, patience, LastLook::unit) : lost; away) {
+    lost->merge(*away);
+  } else {
+    lost = std::unexpected(away.error());
   }
+  const auto read = lost ? read_restarted(session, jobs) : std::unexpected(lost.error());
   for (ChangeJob& job : jobs) {
-    const auto found = lost.find(&job);
-    job.look_back(found != lost.end() ? std::optional(found->second) : std::nullopt);
+    const ChangeResult& result = job.result();
+    const auto why = lost ? lost->extract(result.node_id_after.value_or(result.servo.id))
+                          : std::map<NodeId, Error>::node_type();
+    job.look_back(why ? std::optional(why.mapped()) : std::nullopt);
   }
-  return looked;
+  return read;
 }
 
 CarriedOut change(Session& session, const bla::Profiles& profiles, std::span<const Plan> plans,
@@ -230,7 +208,9 @@ CarriedOut change(Session& session, const bla::Profiles& profiles, std::span<con
     carried_out.servos.push_back(job.result());
     ChangeResult& last = carried_out.servos.back();
     last.looked_at = session.now();
-    last.boots = session.roster().member(last.node_id_after.value_or(last.servo.id)).boots;
+    const Member member = session.roster().member(last.node_id_after.value_or(last.servo.id));
+    last.boots = member.boots;
+    last.health = member.health();
     explain_waiting(plans[carried_out.servos.size() - 1], table, last);
   }
   carried_out.broken = ran ? check_sent(session) : std::optional(ran.error());

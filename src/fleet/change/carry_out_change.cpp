@@ -56,45 +56,32 @@ std::vector<Error> Change::carry_out(const MoveHook& moved) {
   return errors;
 }
 
-/// Other servos took their time: what has come to those that were done before them.
+/// What has become of servos that were done before others.
 Result<Change::Lost> Change::look_last() {
-  Lost lost;
-  auto looked = look_at_unchanged(lost);
-  if (looked) {
-    looked = look_at_proven(lost);
+  const Patience patience = options_.manner.identification.patience;
+  auto lost = fleet::look_last(session_, left_unchanged(), patience, LastLook::run);
+  auto away = lost ? fleet::look_last(session_, proven_long_ago(), patience, LastLook::unit) : lost;
+  auto other = away ? look_at_restarted() : away;
+  if (!other) {
+    return other;
   }
-  if (looked) {
-    looked = look_at_restarted(lost);
-  }
-  return looked ? Result<Lost>(std::move(lost)) : std::unexpected(looked.error());
+  lost->merge(*away);
+  lost->merge(*other);
+  return lost;
 }
 
-Result<void> Change::look(std::span<const Servo> servos, LastLook look, Lost& lost) {
-  auto looked = fleet::look_last(session_, servos, options_.manner.identification.patience, look);
-  if (!looked) {
-    return std::unexpected(looked.error());
-  }
-  for (std::size_t i = 0; i < servos.size(); ++i) {
-    if ((*looked)[i]) {
-      lost.emplace(servos[i].id, std::move(*(*looked)[i]));
-    }
-  }
-  return {};
-}
-
-/// Of servos left unchanged while others were changed, those whose ROM does not hold their goals.
-Result<void> Change::look_at_unchanged(Lost& lost) {
+/// While others were changed; it is not known that their ROM holds their goals.
+std::vector<Servo> Change::left_unchanged() const {
   std::vector<Servo> servos;
   for (const GoalResult& result : results_) {
     if (result.need == Need::nothing && !result.rom_proven) {
       servos.push_back(result.servo());
     }
   }
-  return look(servos, LastLook::run, lost);
+  return servos;
 }
 
-/// Of servos whose ROM was proven long ago, those that are away.
-Result<void> Change::look_at_proven(Lost& lost) {
+std::vector<Servo> Change::proven_long_ago() const {
   std::vector<Servo> servos;
   for (const GoalResult& result : results_) {
     const bool is_unchanged = result.need == Need::nothing;
@@ -106,7 +93,7 @@ Result<void> Change::look_at_proven(Lost& lost) {
       servos.back().id = *id;
     }
   }
-  return look(servos, LastLook::unit, lost);
+  return servos;
 }
 
 /// Of a servo whose ROM is proven: since that proof, as far as heard.
@@ -116,15 +103,14 @@ bool Change::has_restarted_since(const GoalResult& result) const {
   if (!result.is_done || !result.rom_proven.value_or(false) || !id) {
     return false;
   }
-  const Member member = session_.roster().member(*id);
-  const std::uint32_t boots = is_unchanged ? result.servo().boot : result.change.boots;
-  const bool may_lack_rom =
-      is_unchanged && member.status && member.status->health != dronecan::Health::ok;
-  return member.boots != boots || session_.roster().has_moved(member) || may_lack_rom;
+  return is_unchanged
+             ? may_have_restarted(session_.roster(), *id, result.servo().boot, dronecan::Health::ok)
+             : may_have_restarted(session_.roster(), *id, result.change.boots,
+                                  result.change.health);
 }
 
-/// It may not have been able to read its ROM, or has another.
-Result<void> Change::look_at_restarted(Lost& lost) {
+/// They may not have been able to read their ROM, or have another.
+Result<Change::Lost> Change::look_at_restarted() {
   std::vector<std::size_t> goals;
   for (std::size_t i = 0; i < results_.size(); ++i) {
     GoalResult& result = results_[i];
@@ -137,6 +123,7 @@ Result<void> Change::look_at_restarted(Lost& lost) {
   if (!read) {
     return std::unexpected(read.error());
   }
+  Lost lost;
   std::vector<dronecan::UniqueId> doubtful;
   for (std::size_t i = 0; i < goals.size(); ++i) {
     const Snapshot& held = (*read)[i];
@@ -152,8 +139,10 @@ Result<void> Change::look_at_restarted(Lost& lost) {
       doubtful.push_back(*results_[goals[i]].servo().unique_id);
     }
   }
-  return options_.manner.history != nullptr ? options_.manner.history->doubt_rom(doubtful)
-                                            : Result<void>();
+  const auto doubted = options_.manner.history != nullptr
+                           ? options_.manner.history->doubt_rom(doubtful)
+                           : Result<void>();
+  return doubted ? Result<Lost>(std::move(lost)) : std::unexpected(doubted.error());
 }
 
 /// Checks that servos left unchanged still hold their goals, as far as heard.

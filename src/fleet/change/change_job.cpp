@@ -354,8 +354,7 @@ ChangeJob::Stage ChangeJob::conclude_look() {
 ChangeJob::Stage ChangeJob::conclude_read_back() {
   const Snapshot& now = read_->snapshot();
   take_reading(now);
-  const Member member = roster_.member(now.servo.id);
-  health_ = member.status ? std::optional(member.status->health) : std::nullopt;
+  health_ = roster_.member(now.servo.id).health();
   result_.values_read = plan_.expected.size();
   result_.error = compare(now, plan_.expected);
   // values that RAM held before and does not hold now were not written to ROM

@@ -6,6 +6,7 @@
 #include "blactl/fleet/bus/unreachable.hpp"
 #include "blactl/fleet/change/change_job.hpp"
 
+#include "fleet/change/last_look.hpp"
 #include "fleet/change/texts.hpp"
 
 #include <algorithm>
@@ -121,12 +122,8 @@ std::optional<Servo> ChangeJob::proven_before(Time time) const {
 }
 
 bool ChangeJob::has_restarted_since() const {
-  if (!is_proven()) {
-    return false;
-  }
-  const Member member = roster_.member(*result_.returned);
-  return member.boots != read_->snapshot().servo.boot || roster_.has_moved(member) ||
-         (member.status && member.status->health != health_);
+  return is_proven() &&
+         may_have_restarted(roster_, *result_.returned, read_->snapshot().servo.boot, health_);
 }
 
 void ChangeJob::read_again() {

@@ -48,7 +48,7 @@ Result<std::vector<Goal>> goals_for_all(const Wanted& wanted, Evidence evidence,
 }
 
 bool holds(const bla::Values& values, const Goal& goal) {
-  const auto mode = bla::find(values, bla::address::pwm_mode); // of it hangs the unit of 0x36
+  const auto mode = bla::find(values, bla::address::pwm_mode); // the unit of 0x36 depends on it
   return std::ranges::all_of(goal.wanted.assignments, [&](const Assignment& wish) {
     const bool is_of_unit = !mode || !wish.value.pwm_mode || mode == wish.value.pwm_mode;
     return is_of_unit && bla::find(values, wish.parameter->address) == wish.value.raw;

@@ -4,8 +4,13 @@
 #include "blactl/fleet/bus/texts.hpp"
 
 #include <list>
+#include <utility>
+#include <vector>
 
 namespace blactl::fleet {
+
+using dronecan::NodeId;
+
 namespace {
 
 std::optional<Error> lost(const RunProof& proof, const Servo& servo, LastLook look) {
@@ -26,21 +31,31 @@ std::optional<Error> lost(const RunProof& proof, const Servo& servo, LastLook lo
 
 } // namespace
 
-Result<std::vector<std::optional<Error>>> look_last(Session& session, std::span<const Servo> servos,
-                                                    Patience patience, LastLook look) {
+bool may_have_restarted(const Roster& roster, NodeId id, std::uint32_t boots,
+                        std::optional<dronecan::Health> health) {
+  const Member member = roster.member(id);
+  return member.boots != boots || roster.has_moved(member) ||
+         (member.status && health && member.status->health != health);
+}
+
+Result<std::map<NodeId, Error>> look_last(Session& session, std::span<const Servo> servos,
+                                          Patience patience, LastLook look) {
   std::list<RunProof> proofs;
   std::vector<dronecan::Job*> group;
   for (const Servo& servo : servos) {
-    group.push_back(&proofs.emplace_back(
-        session.roster(), servo, look == LastLook::run ? std::optional(servo.since) : std::nullopt,
-        patience));
+    const auto since = look == LastLook::run ? std::optional(servo.since) : std::nullopt;
+    group.push_back(&proofs.emplace_back(session.roster(), servo, since, patience));
   }
   if (const auto ran = session.run(group); !ran) {
     return std::unexpected(ran.error());
   }
-  std::vector<std::optional<Error>> all;
+  std::map<NodeId, Error> all;
+  auto servo = servos.begin();
   for (const RunProof& proof : proofs) {
-    all.push_back(lost(proof, servos[all.size()], look));
+    if (auto why = lost(proof, *servo, look)) {
+      all.emplace(servo->id, std::move(*why));
+    }
+    ++servo;
   }
   return all;
 }

@@ -6,9 +6,9 @@
 
 #include <chrono>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
-#include <vector>
 
 namespace blactl::fleet {
 
@@ -21,10 +21,15 @@ enum class LastLook : std::uint8_t {
 /// A servo that was proven less than this time ago needs no last look at its ROM.
 inline constexpr Duration long_ago = std::chrono::seconds(1);
 
-/// Why a servo does not hold any more what was proven while others were still at work: of each its
-/// error, state (it has restarted, or cannot prove that it has not; another servo is in its place),
-/// timeout or duplicate_node_id; empty: it shows what it must. Errors: as Session::run().
-[[nodiscard]] Result<std::vector<std::optional<Error>>>
+/// Whether the servo on this node ID may have restarted, as far as heard, since it had this number
+/// of boots and this health, empty: unknown. The health of a start without ROM differs.
+[[nodiscard]] bool may_have_restarted(const Roster& roster, dronecan::NodeId id,
+                                      std::uint32_t boots, std::optional<dronecan::Health> health);
+
+/// Those that do not hold any more what was proven while others were still at work: state (it has
+/// restarted, or cannot prove that it has not; another servo is in its place), timeout or
+/// duplicate_node_id. Errors: as Session::run().
+[[nodiscard]] Result<std::map<dronecan::NodeId, Error>>
 look_last(Session& session, std::span<const Servo> servos, Patience patience, LastLook look);
 
 } // namespace blactl::fleet

@@ -423,6 +423,23 @@ TEST_CASE("what a restart took from the RAM is written again") {
   CHECK(job.changes()[1].status == ChangeStatus::written);
 }
 
+TEST_CASE("what a servo held when it refused a value is not told of it after a restart") {
+  Bench bench;
+  WriteJob job = bench.job({change("angle_limit_cw", 900, 1799), change("reverse", 1, 0)});
+  CHECK(bench.begin(job) == "write 0x38=900");
+  CHECK(bench.value(job, "0x38", 1799) == "read 0x38");
+  CHECK(bench.value(job, "0x38", 1799) == "GetNodeInfo");
+  CHECK(bench.proven(job) == "write 0x23=1");
+  CHECK(job.changes()[0].error->code == Code::refused);
+  bench.restart();
+  CHECK(bench.value(job, "0x23", 1) == "GetNodeInfo");
+  CHECK(text(job.next(bench.script.info(1))) == "write 0x38=900");
+  CHECK(bench.value(job, "0x38", 1500) == "read 0x38");
+  CHECK(bench.value(job, "0x38", 1500) == "GetNodeInfo");
+  CHECK(bench.proven(job) == "write 0x23=1");
+  CHECK(job.changes()[0].after == 1500);
+}
+
 TEST_CASE("nothing is written again where the restart has brought other settings back") {
   Bench bench;
   WriteJob job(bench.roster, bench.servo, {change("pwm_output_range", 900, 700)},

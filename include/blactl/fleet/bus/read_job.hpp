@@ -53,6 +53,7 @@ class ReadJob final : public dronecan::Job {
   [[nodiscard]] dronecan::Step take_reading(const dronecan::Outcome& outcome);
   [[nodiscard]] dronecan::Step read_next(Time now);
   [[nodiscard]] bool may_have_restarted(const dronecan::Outcome& outcome);
+  [[nodiscard]] bool is_in_doubt() const;
   [[nodiscard]] dronecan::Step read_again_after_silence(Time now);
   [[nodiscard]] bool has_next();
   [[nodiscard]] dronecan::Step prove(Time now);

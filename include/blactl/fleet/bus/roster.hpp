@@ -56,6 +56,11 @@ struct Member {
     return info ? std::optional(info->unique_id) : told_unique_id;
   }
 
+  /// As it last told it.
+  [[nodiscard]] std::optional<dronecan::Health> health() const {
+    return status ? std::optional(status->health) : std::nullopt;
+  }
+
   /// Identified, and not restarted since.
   [[nodiscard]] bool is_known() const { return identified && identified_boot == boots; }
 

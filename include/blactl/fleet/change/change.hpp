@@ -21,7 +21,6 @@
 
 namespace blactl::fleet {
 
-enum class LastLook : std::uint8_t;
 class Rounds;
 struct UnitChange;
 struct UnitTask;
@@ -99,10 +98,9 @@ class Change {
   [[nodiscard]] std::vector<Error> write_what_rom_lacks();
   [[nodiscard]] std::vector<Error> refusals_after_restart(std::vector<Error> errors);
   [[nodiscard]] Result<Lost> look_last();
-  [[nodiscard]] Result<void> look(std::span<const Servo> servos, LastLook look, Lost& lost);
-  [[nodiscard]] Result<void> look_at_unchanged(Lost& lost);
-  [[nodiscard]] Result<void> look_at_proven(Lost& lost);
-  [[nodiscard]] Result<void> look_at_restarted(Lost& lost);
+  [[nodiscard]] std::vector<Servo> left_unchanged() const;
+  [[nodiscard]] std::vector<Servo> proven_long_ago() const;
+  [[nodiscard]] Result<Lost> look_at_restarted();
   [[nodiscard]] bool has_restarted_since(const GoalResult& result) const;
   void look_back(const Lost& lost);
   void look_back(GoalResult& result, const Lost& lost) const;

@@ -137,7 +137,7 @@ class ChangeJob final : public dronecan::Job {
   bool may_erase_again_ = true;
   bool was_erased_ = false; ///< as far as known
   bool reads_again_ = false;
-  std::optional<dronecan::Health> health_; ///< as it was read: that of a start without ROM differs
+  std::optional<dronecan::Health> health_; ///< as it was read
   int looks_ = 0;
   Time begin_{};
   std::unique_ptr<EraseJob> erase_;

@@ -39,8 +39,9 @@ struct ChangeResult {
   std::size_t values_read = 0;     ///< and compared, at the end
   Time looked_at{};                ///< when all of that was last checked to hold
   std::uint32_t boots = 0;         ///< Member::boots at that time
-  Duration duration{};             ///< from the request to restart until it was back
-  std::optional<Error> error{};    ///< in addition to those of single changes
+  std::optional<dronecan::Health> health{}; ///< likewise; empty: it has not told it
+  Duration duration{};                      ///< from the request to restart until it was back
+  std::optional<Error> error{};             ///< in addition to those of single changes
 
   /// The written values may be gone: the servo restarted, or another node wrote to it.
   void doubt();
