@@ -43,7 +43,7 @@ constexpr Option faults_options[]{
 };
 
 bool has_found(const FaultState& servo, Level level) {
-  return servo.worst() >= std::optional(level);
+  return std::max(servo.worst(), servo.unexplained_health()) >= std::optional(level);
 }
 
 void list(const std::vector<dronecan::NodeId>& ids, const FaultsOptions& options, Context& context,

@@ -99,7 +99,11 @@ std::string servo_text(const FaultState& servo, Level level, const Page& page) {
     fault.level >= level ? out += fault_text(servo, fault, page) : std::string();
     hidden += static_cast<std::size_t>(fault.level < level);
   }
-  if (servo.faults.empty() && servo.errors.empty()) {
+  if (const auto worse = servo.unexplained_health()) {
+    out += "  " +
+           page.paint(tone(*worse), say<texts::health_unexplained>(dronecan::name(*servo.health))) +
+           '\n';
+  } else if (servo.faults.empty() && servo.errors.empty()) {
     out += "  " + page.paint(Tone::good, say<texts::no_faults>()) + '\n';
   } else if (hidden > 0) {
     out += "  " + say<texts::faults_hidden>(hidden, level_word(level)) + '\n';

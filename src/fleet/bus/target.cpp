@@ -111,6 +111,19 @@ bool add_selector(std::string_view item, Targets& targets) {
   }
 }
 
+/// The units that a selector matches, each with its node ID.
+std::map<dronecan::UniqueId, dronecan::NodeId>
+units_meant(const Selector& selector, const Roster& roster, const bla::Profiles& profiles) {
+  std::map<dronecan::UniqueId, dronecan::NodeId> meant;
+  for (const auto& [id, member] : roster.members()) {
+    if (const auto unique_id = member.unique_id();
+        unique_id && selector.matches(member, profiles)) {
+      meant.try_emplace(*unique_id, id);
+    }
+  }
+  return meant;
+}
+
 } // namespace
 
 bool Selector::matches(const Member& member, const bla::Profiles& profiles) const {
@@ -147,20 +160,23 @@ bool Targets::mean(const Member& member, const bla::Profiles& profiles) const {
 
 std::optional<Error> Targets::ambiguity(const Roster& roster, const bla::Profiles& profiles) const {
   for (const Selector& selector : selectors) {
-    std::map<dronecan::UniqueId, dronecan::NodeId> meant;
-    for (const auto& [id, member] : roster.members()) {
-      if (selector.key == Selector::Key::unique_id && selector.matches(member, profiles)) {
-        meant.try_emplace(*member.unique_id(), id);
-      }
+    const bool is_serial = selector.key == Selector::Key::serial_number;
+    if (!is_serial && selector.key != Selector::Key::unique_id) {
+      continue;
     }
-    if (meant.size() > 1) {
-      std::string listed;
-      for (const auto& [unique_id, id] : meant) {
-        listed += fmt::format("{}{} ({})", listed.empty() ? "" : ", ", hex(unique_id), id.value());
-      }
-      return Error{Code::usage, say<texts::ambiguous_target>(selector.text, listed),
-                   say<texts::ambiguous_target_hint>(), std::nullopt};
+    const auto meant = units_meant(selector, roster, profiles);
+    if (meant.size() < 2) {
+      continue;
     }
+    std::string listed;
+    for (const auto& [unique_id, id] : meant) {
+      listed += fmt::format("{}{} ({})", listed.empty() ? "" : ", ", hex(unique_id), id.value());
+    }
+    return is_serial
+               ? Error{Code::usage, say<texts::doubled_serial_target>(selector.text, listed),
+                       say<texts::several_servos_hint>(meant.begin()->second.value()), std::nullopt}
+               : Error{Code::usage, say<texts::ambiguous_target>(selector.text, listed),
+                       say<texts::ambiguous_target_hint>(), std::nullopt};
   }
   return std::nullopt;
 }

@@ -17,6 +17,20 @@ bool History::is_half_undone() const {
          });
 }
 
+namespace {
+
+/// Whether a restart has brought back what this change wrote, and nobody knows of a SAVE since: one
+/// of its tries has saved it.
+bool is_shown_in_rom(const state::SnapshotEntry& change, const RomReading& rom) {
+  return std::ranges::any_of(change.written, [&](const auto& written) {
+    const auto held = change.held.find(written.first);
+    return held != change.held.end() && held->second != written.second &&
+           bla::find(rom.values, bla::Address(written.first)) == written.second;
+  });
+}
+
+} // namespace
+
 /// A restart that has shown what ROM holds replaced nothing else.
 Result<void> History::leave_what_was_lost(std::span<const ChangeResult> results, WallTime now) {
   std::vector<state::SnapshotEntry> shorter;
@@ -106,7 +120,8 @@ Result<void> History::settle(std::span<const ChangeResult> results, WallTime wal
     const auto known = result.servo.unique_id ? kept_.find(*result.servo.unique_id) : kept_.end();
     if (known != kept_.end()) {
       known->second.was_changed = known->second.was_changed || result.may_have_changed;
-      known->second.was_saved = known->second.was_saved || result.may_have_saved;
+      known->second.was_saved = known->second.was_saved || result.may_have_saved ||
+                                (result.rom && is_shown_in_rom(known->second.entry, *result.rom));
     }
   }
   Settled settled;

@@ -97,6 +97,13 @@ std::optional<bla::Level> FaultState::worst() const {
   return faults.empty() ? std::nullopt : std::optional(faults.front().level);
 }
 
+std::optional<bla::Level> FaultState::unexplained_health() const {
+  if (!errors.empty() || !faults.empty() || !health || *health == dronecan::Health::ok) {
+    return std::nullopt;
+  }
+  return *health == dronecan::Health::warning ? Level::warning : Level::failure;
+}
+
 std::vector<Reading> FaultState::values_of(const bla::Fault& fault) const {
   std::vector<Reading> values;
   for (const bla::Address address : bla::cause(fault, snapshot.values()).values) {

@@ -104,3 +104,16 @@ TEST_CASE("every fault bit, alone and beside every other, is told within 80 colu
     set_language(Language::english);
   }
 }
+
+TEST_CASE("a servo whose NodeStatus reports what no register shows is not told to have no faults") {
+  FaultState servo = servo_with({});
+  servo.health = dronecan::Health::ok;
+  CHECK_FALSE(servo.unexplained_health());
+  CHECK(holds_words(in_one(faults_text(servo)), "no faults"));
+  servo.health = dronecan::Health::warning;
+  CHECK(servo.unexplained_health() == bla::Level::warning);
+  servo.health = dronecan::Health::critical;
+  CHECK(servo.unexplained_health() == bla::Level::failure);
+  CHECK_FALSE(holds_words(in_one(faults_text(servo)), "no faults"));
+  CHECK(holds_words(in_one(faults_text(servo)), "its health is critical"));
+}

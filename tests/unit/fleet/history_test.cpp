@@ -530,6 +530,7 @@ TEST_CASE("a saved change is taken back to what ROM held, one that was not saved
   auto done = carry_out(*scene.session, profiles(), plans, {});
   if (is_armed) {
     done.servos[0].may_have_saved = false;
+    done.servos[0].rom.reset(); // no restart has shown anything
   }
   REQUIRE(history.conclude(done.servos, *scene.session));
   CHECK(kept.entries().front().held == state::Registers{{0x38, is_armed ? 900 : 1799}});
@@ -595,6 +596,27 @@ TEST_CASE("a repeated apply counts as saved only where the first try may have be
     REQUIRE(change(scene, set("angle_limit_cw=80deg"), again).servos[0].is_done());
     CHECK(kept.entries().front().saved);
   }
+}
+
+TEST_CASE("a repetition that finds what was written in ROM has been saved by an earlier try") {
+  const Kept kept;
+  const Scene scene(servos());
+  const auto begin = [&] {
+    REQUIRE(kept.history("apply").keep(plans_for(scene, set("angle_limit_cw=90deg", true), {11}),
+                                       *scene.session));
+  };
+  begin();
+  REQUIRE(carry_out(*scene.session, profiles(),
+                    plans_for(scene, set("angle_limit_cw=90deg", true), {11}), {})
+              .servos[0]
+              .is_done());
+  scene.live(3s);
+  begin(); // killed before its restart has shown anything
+  History again = kept.history("apply");
+  const Wanted proof{.restart = RestartKind::restart, .proves_rom = true};
+  REQUIRE(change(scene, proof, again).servos[0].is_done());
+  CHECK(kept.entries().front().saved);
+  CHECK(kept.entries().front().held == state::Registers{{0x38, 1799}});
 }
 
 TEST_CASE("a SAVE of which nothing is known leaves the change unsettled") {

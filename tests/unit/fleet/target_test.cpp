@@ -162,7 +162,7 @@ TEST_CASE("a selector never picks a model by a guess") {
   CHECK_FALSE(means("model:BLA21-12U", member));
 }
 
-TEST_CASE("the beginning of a unique ID must mean one unit") {
+TEST_CASE("the beginning of a unique ID, or a serial number, must mean one unit") {
   Roster roster(NodeId(127), profiles());
   for (const std::uint8_t id : {std::uint8_t{11}, std::uint8_t{12}}) {
     Member member = servo(id);
@@ -181,5 +181,13 @@ TEST_CASE("the beginning of a unique ID must mean one unit") {
                           "001122ab00000000000000000000000c (12)");
   CHECK_FALSE(ambiguity("uid:001122ab00000000000000000000000b"));
   CHECK_FALSE(ambiguity("uid:ff"));
+  const auto serial = ambiguity("serial:240900558");
+  REQUIRE(serial);
+  CHECK(serial->code == Code::usage);
+  CHECK(serial->message == "-n serial:240900558: several servos have this serial number: "
+                           "001122ab00000000000000000000000b (11), "
+                           "001122ab00000000000000000000000c (12)");
+  CHECK(serial->hint == "say which: -n 11");
+  CHECK_FALSE(ambiguity("serial:240900559"));
   CHECK_FALSE(ambiguity("model:BLA21"));
 }

@@ -36,8 +36,8 @@ struct Targets {
   /// Whether the list selects this member: by its ID, or as an identified servo.
   [[nodiscard]] bool mean(const Member& member, const bla::Profiles& profiles) const;
 
-  /// The error for a beginning of a unique ID that matches several units: usage, with the list of
-  /// them.
+  /// The error for a beginning of a unique ID or a serial number, which mean one unit, that matches
+  /// several: usage, with the list of them.
   [[nodiscard]] std::optional<Error> ambiguity(const Roster& roster,
                                                const bla::Profiles& profiles) const;
 

@@ -56,6 +56,8 @@ inline constexpr Text ambiguous_target{"-n {}: several servos have a unique ID t
                                        "-n {}: 固有 ID の先頭が一致するサーボが複数あります: {}"};
 inline constexpr Text ambiguous_target_hint{"type more of its digits",
                                             "固有 ID をより多くの桁で指定して下さい"};
+inline constexpr Text doubled_serial_target{"-n {}: several servos have this serial number: {}",
+                                            "-n {}: 同じ製造番号のサーボが複数あります: {}"};
 inline constexpr Text several_servos{"several servos are on the bus: {}",
                                      "バス上に複数のサーボがあります: {}"};
 inline constexpr Text several_servos_hint{"say which: -n {}", "-n {} のように指定して下さい"};

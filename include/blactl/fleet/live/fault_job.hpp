@@ -26,6 +26,10 @@ struct FaultState {
   /// The worst level; empty: no bit is known to be set.
   [[nodiscard]] std::optional<bla::Level> worst() const;
 
+  /// The level that NodeStatus reports although all registers were read without a bit (Table 2-18
+  /// has no such state); empty: the registers explain it, or it reports none.
+  [[nodiscard]] std::optional<bla::Level> unexplained_health() const;
+
   /// The registers related to a fault, as far as they were read.
   [[nodiscard]] std::vector<Reading> values_of(const bla::Fault& fault) const;
 };
