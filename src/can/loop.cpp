@@ -203,6 +203,9 @@ std::optional<Event> Loop::poll_once(Time deadline) {
   if (ppoll(fds.data(), count, wake == never ? nullptr : &timeout, nullptr) <= 0) {
     return std::nullopt;
   }
+  if (fds[0].revents != 0) {
+    return from_signals();
+  }
   // Round robin, so that a busy descriptor does not starve the others.
   const std::size_t n = count - first_watched;
   for (std::size_t i = 0; i < n; ++i) {
@@ -216,10 +219,10 @@ std::optional<Event> Loop::poll_once(Time deadline) {
 }
 
 Event Loop::next(Time deadline) {
+  if (auto event = from_signals()) { // on a busy bus nothing is waited for
+    return *event;
+  }
   for (;;) {
-    if (auto event = from_signals()) {
-      return *event;
-    }
     if (pump_again_at() <= now()) {
       pump();
     }

@@ -296,6 +296,31 @@ TEST_CASE("undo of a saved change takes back a named value that RAM alone had he
   CHECK(fleet.rom("11", "angle_limit_cw") == 1799);
 }
 
+TEST_CASE("undo takes back a SAVE that found its values in RAM already") {
+  Fleet fleet(three_servos());
+  const auto values_in_rom = [&] {
+    CHECK(fleet.run({"restart", "-n", "11,12", "-y"}).status == 0);
+    return std::pair(fleet.ram("11", "angle_p_gain"), fleet.ram("12", "angle_p_gain"));
+  };
+  const auto before = values_in_rom();
+  SECTION("after a trial of its own, and for another servo, too") {
+    set(fleet, {"-n", "11", "angle_p_gain=9"});
+    set(fleet, {"-n", "11,12", "angle_p_gain=9", "--save"});
+  }
+  SECTION("of a trial that another computer has made") {
+    set(fleet, {"-n", "11,12", "angle_p_gain=8", "--save"});
+    set(fleet, {"-n", "11", "angle_p_gain=" + std::to_string(before.first), "--save"});
+    set(fleet, {"-n", "12", "angle_p_gain=" + std::to_string(before.second), "--save"});
+    const Options other{.env = {{"BLACTL_STATE_DIR", fleet.file_name("other")}}};
+    REQUIRE(fleet.run({"set", "-n", "11", "angle_p_gain=9", "-y"}, other).status == 0);
+    const bool is_named = GENERATE(true, false);
+    is_named ? set(fleet, {"-n", "11,12", "angle_p_gain=9", "--save"})
+             : static_cast<void>(fleet.run({"save", "-n", "11", "-y"}));
+  }
+  CHECK(undo(fleet).status == 0);
+  CHECK(values_in_rom() == before);
+}
+
 TEST_CASE("a characterize that has put everything back is nothing to undo") {
   Fleet fleet(Scene().servo("BLA21-12U-AB", 11));
   REQUIRE(fleet.run({"characterize", "-n", "11", "-y"}).status == 0);

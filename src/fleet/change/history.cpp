@@ -52,6 +52,27 @@ state::Registers written_by(const Plan& plan, const state::Registers& held) {
   return written;
 }
 
+/// What RAM holds already, and SAVE brings into ROM: of the named settings; where none is named, of
+/// all but those whose changes are recorded, which SAVE makes permanent.
+state::Registers replaced_in_rom(const Plan& plan, const state::Registers& rom,
+                                 std::span<const state::SnapshotEntry> recorded) {
+  state::Registers replaced;
+  const bla::Identity& identity = plan.before.servo.identity;
+  for (const auto& [number, raw] : plan.erase ? state::Registers() : rom) {
+    const bla::Address address(number);
+    const RegisterChange* change = plan.change_of(address);
+    const bool is_recorded = std::ranges::any_of(
+        recorded, [&](const state::SnapshotEntry& entry) { return entry.held.contains(number); });
+    const bool is_meant =
+        change != nullptr ? !change->is_planned() : plan.changes.empty() && !is_recorded;
+    const auto held = plan.before.raw(address);
+    if (is_meant && held && *held != raw && identity.is_setting(address)) {
+      replaced.emplace(number, *held);
+    }
+  }
+  return replaced;
+}
+
 /// Whether ROM may hold what a try that was killed was to save: not if the servo has not restarted
 /// since, nor if it did so with what it held before.
 bool was_perhaps_saved(const state::SnapshotEntry& tried, const Snapshot& ram,
@@ -185,20 +206,18 @@ std::optional<state::SnapshotEntry> History::entry_of(const Plan& plan, const Ro
     }
   }
   held.merge(stored(taken_from_ram(plan, session)));
+  const auto rom = unique_id ? roms.find(*unique_id) : roms.end();
+  if (rom != roms.end()) {
+    using Entries = std::span<const state::SnapshotEntry>;
+    const auto lasting = lasting_.find(*unique_id);
+    held.merge(replaced_in_rom(plan, rom->second,
+                               lasting != lasting_.end() ? Entries(lasting->second) : Entries()));
+  }
   const bool goes_on = unique_id && plan.restart == RestartKind::save && is_another_try(*unique_id);
   if (!unique_id || (held.empty() && !goes_on)) {
     return std::nullopt;
   }
   state::Registers in_ram;
-  const auto rom = roms.find(*unique_id);
-  for (const RegisterChange& change : plan.changes) { // what RAM holds already goes to ROM
-    const std::uint8_t address = change.parameter->address.value();
-    const bool is_kept = rom != roms.end() && !plan.erase && !change.is_planned() &&
-                         rom->second.contains(address) && change.parameter->is_setting();
-    if (is_kept && rom->second.at(address) != change.requested) {
-      held.emplace(address, change.requested);
-    }
-  }
   for (auto& [address, raw] : held) { // undo puts nothing into ROM that was in RAM only
     const bool is_kept = plan.erase && plan.change_of(bla::Address(address)) != nullptr;
     if (!is_kept && rom != roms.end() && rom->second.contains(address)) {

@@ -29,6 +29,19 @@ bool is_shown_in_rom(const state::SnapshotEntry& change, const RomReading& rom) 
   });
 }
 
+/// Adds named values that were held already, until another write of the command changed them.
+bool take_in_changed(const ChangeResult& result, state::SnapshotEntry& entry) {
+  bool has_more = false;
+  for (const RegisterChange& change : result.changes) {
+    const bool is_other = change.status == ChangeStatus::written ||
+                          (change.status == ChangeStatus::mismatch && change.after != change.before);
+    if (is_other && change.before && change.parameter->is_setting()) {
+      has_more |= entry.held.emplace(change.parameter->address.value(), *change.before).second;
+    }
+  }
+  return has_more;
+}
+
 } // namespace
 
 /// A restart that has shown what ROM holds replaced nothing else.
@@ -96,8 +109,9 @@ void History::settle(const ChangeResult& result, WallTime wall, Settled& settled
   const auto trials = in_ram_.find(unique_id);
   const bool is_of_ram = kept.entry.saved && !kept.was_saved && trials != in_ram_.end();
   const bool was_planned = std::exchange(kept.entry.saved, kept.was_saved) == kept.was_saved;
+  const bool has_more = kept.was_changed && take_in_changed(result, kept.entry);
   if (!is_known) { // until the servo restarts
-    if (!was_planned) {
+    if (!was_planned || has_more) {
       settled.entries.push_back(kept.entry);
     }
     return;
@@ -107,6 +121,8 @@ void History::settle(const ChangeResult& result, WallTime wall, Settled& settled
     for (const auto& [address, raw] : trials->second) {
       kept.entry.held.insert_or_assign(address, raw);
     }
+  }
+  if (is_of_ram || has_more) {
     settled.entries.push_back(kept.entry);
   } else {
     settled.ends.push_back({.number = kept.entry.number,

@@ -633,6 +633,25 @@ TEST_CASE("a SAVE of which nothing is known leaves the change unsettled") {
   CHECK_FALSE(kept.entries().front().settled);
 }
 
+TEST_CASE("a named value that the servo changed at another write was changed, too") {
+  const Kept kept;
+  const Scene scene(servos());
+  History history = kept.history();
+  const Wanted wanted{.assignments = assignments({"angle_limit_cw=90deg", "smoothing=on"})};
+  const auto plans = plans_for(scene, wanted, {11});
+  REQUIRE(history.keep(plans, *scene.session));
+  ChangeResult result = as_planned(plans[0]);
+  result.was_sent = result.may_have_changed = true;
+  const bool is_written_again = GENERATE(true, false);
+  RegisterChange& smoothing = result.changes.at(1);
+  REQUIRE(smoothing.status == ChangeStatus::unchanged);
+  smoothing.status = is_written_again ? ChangeStatus::written : ChangeStatus::mismatch;
+  smoothing.after = is_written_again ? 1 : 0;
+  REQUIRE(history.conclude(std::vector{result}, *scene.session));
+  CHECK(kept.entries().front().held == state::Registers{{0x38, 1799}, {0x22, 1}});
+  CHECK(kept.entries().front().settled);
+}
+
 TEST_CASE("values that were written again after a restart, and not saved, are in RAM only") {
   const Kept kept;
   const Scene scene(servos(R"(, "faults": {"ignore_opcodes": 9,
