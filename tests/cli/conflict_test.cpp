@@ -177,3 +177,12 @@ TEST_CASE("a servo ID that another servo's ROM holds is not given, nor brought b
     CHECK(ids("11", "9", true).status == 0);
   }
 }
+
+TEST_CASE("a servo ID that is heard from a node that does not answer is not given") {
+  const Result result =
+      Scene()
+          .servo("BLA21-12U-AB", 11)
+          .servo("BLA21-12U-AB", 12, {{"servo_id", 9}, {"faults", {{"mute", true}}}})
+          .run({"set", "-n", "11", "servo_id=9", "--save", "-y"});
+  check_error(result, 9, "duplicate_servo_id", "node 11 would have servo ID 9, which node 12 has");
+}

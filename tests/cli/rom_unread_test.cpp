@@ -36,6 +36,7 @@ TEST_CASE("whatever would save is refused while the ROM was not read, also with 
   const auto command = GENERATE(Arguments{"save", "-n", "all"},
                                 Arguments{"set", "-n", "all", "smoothing=off", "--save"},
                                 Arguments{"pwm-config", "-n", "all", "--output", "90deg", "--save"},
+                                Arguments{"erase", "-n", "all", "--save", "--keep-ids"},
                                 Arguments{"alloc", "--static", "-n", "all"});
   Unread servo(5);
   Arguments agreed = command;

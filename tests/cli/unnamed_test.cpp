@@ -47,6 +47,33 @@ TEST_CASE("what SAVE makes permanent beside what was named is said before, from 
   CHECK(warning(saved)["code"] == "unnamed_saved");
 }
 
+TEST_CASE("a static node ID that the servo would be on if ROM had it needs no record to be told of") {
+  const Fleet fleet(one_servo());
+  const Options other{.env = {{"BLACTL_STATE_DIR", fleet.file_name("other")}}};
+  REQUIRE(fleet.run({"set", "-n", "11", "static_node_id=20", "-y"}, other).status == 0);
+  const Result saved = fleet.run({"set", "-n", "11", "smoothing=off", "--save", "-y", "--json"});
+  INFO(saved.err);
+  CHECK(saved.status == 0);
+  CHECK(warning(saved)["code"] == "unnamed_saved");
+  CHECK(contains(saved.err, "static_node_id is 20 in RAM only: SAVE keeps all of RAM"));
+}
+
+TEST_CASE("what the proving restart of apply has lost is told though ROM is written after it") {
+  const Fleet fleet(one_servo());
+  const Options other{.env = {{"BLACTL_STATE_DIR", fleet.file_name("other")}}};
+  for (const Arguments& command : {Arguments{"set", "-n", "11", "smoothing=off", "--save", "-y"},
+                                   Arguments{"set", "-n", "11", "smoothing=on", "-y"},
+                                   Arguments{"set", "-n", "11", "angle_p_gain=9", "-y"}}) {
+    REQUIRE(fleet.run(command, other).status == 0);
+  }
+  const Result applied = fleet.apply(wishes("smoothing", "on"));
+  INFO(applied.err);
+  CHECK(applied.status == 0);
+  CHECK(json(applied.out)["nodes"][0]["saved"] == true);
+  CHECK(warning(applied)["code"] == "unnamed_lost");
+  CHECK(contains(applied.err, "angle_p_gain was 9 in RAM only: the restart has brought back"));
+}
+
 TEST_CASE("an erase that keeps the IDs says before that it saves those that RAM alone holds") {
   const Fleet fleet(one_servo());
   REQUIRE(fleet.run({"set", "-n", "11", "servo_id=7", "-y"}).status == 0);

@@ -29,6 +29,14 @@ Wanted wanted(const Goal& goal, Need need) {
                              : goal.wanted;
 }
 
+/// What the restart that was to show ROM has taken from RAM.
+std::vector<Warning> lost_by(ChangeResult proof) {
+  std::erase_if(proof.warnings, [&](const Warning& warning) {
+    return !proof.was_begun || warning.code != "unnamed_lost";
+  });
+  return std::move(proof.warnings);
+}
+
 } // namespace
 
 Change::Change(Session& session, const bla::Profiles& profiles, Options options)
@@ -102,7 +110,8 @@ std::optional<bla::Values> Change::proven_rom(const Goal& goal, const Servo& ser
 std::optional<Error> Change::refuse_unread_rom(const GoalResult& result, const Snapshot& held,
                                                Need need) {
   const bool saves = result.goal.saves() && (need == Need::save || need == Need::write);
-  if (!saves || result.goal.wanted.erase || !check_rom(held)) {
+  const bool keeps_nothing = result.goal.wanted.erase && !result.goal.wanted.keep_ids;
+  if (!saves || keeps_nothing || !check_rom(held)) {
     return std::nullopt;
   }
   const std::uint8_t id = held.servo.id.value();
@@ -142,18 +151,20 @@ std::vector<Error> Change::judge(std::span<const std::size_t> goals, Snapshots s
       errors.push_back(std::move(*error));
       continue;
     }
-    const ChangeResult earlier = std::move(result.change); // to read its ROM
+    ChangeResult earlier = std::move(result.change); // to read its ROM
     result = compared(std::move(result.goal), need, held);
     result.change.was_begun = earlier.was_begun;
     result.change.was_sent = earlier.was_sent;
     result.change.may_have_changed = earlier.may_have_changed;
     result.change.was_restarted = earlier.was_restarted;
     result.change.duration = earlier.duration;
+    result.change.warnings = lost_by(std::move(earlier));
     if (result.is_done && result.goal.saves() && result.goal.evidence != Evidence::ram) {
       result.rom_proven = true;
     }
     if (need != Need::nothing) {
-      result.change.warnings = unnamed(result.goal, held, told, need);
+      std::ranges::move(unnamed(result.goal, held, told, need),
+                        std::back_inserter(result.change.warnings));
       begun_.push_back(goals[i]);
       Wanted next = wanted(result.goal, need);
       if (next.keep_ids && options_.manner.history != nullptr) {

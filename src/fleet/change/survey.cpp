@@ -163,6 +163,9 @@ Result<Survey> survey(Session& session, const bla::Profiles& profiles, std::span
     if (!servo->servo_id || !(servo->static_node_id || servo->is_foreign)) {
       found.silent.push_back(servo->id);
     }
+    if (!servo->servo_id) { // it does not answer, but it sends the ID ten times a second
+      servo->servo_id = session.roster().member(servo->id).actuator_id;
+    }
     if (record != nullptr && !servo->is_rom_unread) {
       servo->rom_servo_id = bla::find(record->known_rom(snapshot, session), at::servo_id);
     }

@@ -10,7 +10,7 @@ inline constexpr Text came_since{
     "node {} has come to the bus since the servos were looked for: nothing was written",
     "サーボの検索後にノード {} がバスに加わったため、書込みを行っていません"};
 inline constexpr Text did_not_tell_ids{
-    "node {} did not say which IDs it has: a conflict with it cannot be ruled out",
+    "node {} does not answer which IDs it has: a conflict with it cannot be ruled out",
     "ノード {} の ID を読み出せないため、重複の有無は確認できません"};
 inline constexpr Text servo_id_in_unread_rom{
     "node {} could not read its ROM: a conflict with the servo ID that it holds there cannot be "
@@ -230,6 +230,15 @@ inline constexpr Text perhaps_at_risk{
 inline constexpr Text unnamed_at_risk{
     "{} is {} in RAM and {} in ROM: the restart brings that back",
     "{} は RAM が {}、ROM が {} です。再起動により ROM の値に戻ります",
+};
+inline constexpr Text pending_id_saved{
+    "{} is {} in RAM only: SAVE keeps all of RAM, so this too, and the servo starts under that ID",
+    "{} の {} は RAM のみの値です。SAVE は RAM 全体を保存するため、この値も保存され、次回はその ID "
+    "で起動します",
+};
+inline constexpr Text pending_id_at_risk{
+    "{} is {} in RAM only: the restart takes it back",
+    "{} の {} は RAM のみの値です。再起動により失われます",
 };
 inline constexpr Text rom_unread{
     "node {} could not read its ROM at its start: saving would replace all that ROM holds by "

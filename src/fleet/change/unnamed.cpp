@@ -41,6 +41,22 @@ Source source_of(const ToldRom& rom, bla::Address address) {
                                                : Source::record;
 }
 
+/// A servo that started with this static node ID would be on it: no record is needed to tell that it
+/// is in RAM only.
+std::optional<Warning> pending_id(const Goal& goal, const Snapshot& ram, const ToldRom& rom,
+                                  bool is_saved) {
+  constexpr bla::Address address = bla::address::static_node_id;
+  const auto id = ram.raw(address);
+  if (!id || *id == 0 || *id == ram.servo.id.value() || names(goal, address) ||
+      bla::find(rom.values, address)) {
+    return std::nullopt;
+  }
+  const std::string& name = ram.servo.identity.parameter(address)->name;
+  return Warning{is_saved ? "unnamed_saved" : "unnamed_lost",
+                 is_saved ? say<texts::pending_id_saved>(name, *id)
+                          : say<texts::pending_id_at_risk>(name, *id)};
+}
+
 } // namespace
 
 ToldRom told_rom(const Goal& goal, const Snapshot& held, History* record, const Session& session) {
@@ -77,6 +93,11 @@ std::vector<Warning> unnamed(const Goal& goal, const Snapshot& ram, const ToldRo
         is_restarted
             ? Warning{"unnamed_lost", say<texts::unnamed_lost>(parameter.name, in_ram, in_rom)}
             : unnamed(parameter.name, in_ram, in_rom, is_saved, source_of(rom, parameter.address)));
+  }
+  const bool keeps_id = !goal.wanted.erase || goal.wanted.keep_ids;
+  if (auto pending = keeps_id && !is_restarted ? pending_id(goal, ram, rom, is_saved)
+                                               : std::optional<Warning>()) {
+    warnings.push_back(std::move(*pending));
   }
   return warnings;
 }
