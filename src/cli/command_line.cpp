@@ -331,6 +331,19 @@ std::vector<Error> Parser::faults_beside_unknown_command(Arguments arguments, Co
 
 } // namespace
 
+std::vector<std::string> spelled_out(std::span<const std::string> arguments) {
+  std::vector<std::string> all(arguments.begin(), arguments.end());
+  const auto at = all.begin() + static_cast<std::ptrdiff_t>(first_word(all, all_commands()));
+  if (all.empty()) {
+    all.emplace_back("--help");
+  } else if (at != all.end() && (*at == "help" || *at == "version")) {
+    const std::string option = "--" + *at;
+    all.erase(at);
+    all.push_back(option);
+  }
+  return all;
+}
+
 const Command* peek_command(std::span<const std::string> arguments) {
   const std::size_t at = first_word(arguments, all_commands());
   return at < arguments.size() ? find_command(arguments[at]) : nullptr;

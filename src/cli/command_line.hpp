@@ -21,6 +21,10 @@ struct Invocation {
   std::shared_ptr<const void> options{}; ///< for the command's action
 };
 
+/// `blactl` alone, `help [COMMAND]` and `version` are other words for --help, COMMAND --help and
+/// --version.
+[[nodiscard]] std::vector<std::string> spelled_out(std::span<const std::string> arguments);
+
 /// The shared options that are needed before parsing: with --json every failure of a command line
 /// prints a document, coloured by --color.
 [[nodiscard]] Shared peek(std::span<const std::string> arguments);

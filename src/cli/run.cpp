@@ -107,7 +107,7 @@ int guarded(std::span<const std::string> arguments, const std::function<int()>& 
 }
 
 int run(std::span<const std::string> arguments, const BusOpener& opener) {
-  return guarded(arguments, [&] { return understand_and_run(arguments, opener); });
+  return guarded(arguments, [&] { return understand_and_run(spelled_out(arguments), opener); });
 }
 
 } // namespace blactl::cli

@@ -270,7 +270,7 @@ Result<void> Discovery::look_for_twins(const std::vector<const Member*>& members
 std::vector<const Member*> Discovery::meant(const Targets& targets) const {
   std::vector<const Member*> members;
   for (const auto& [id, member] : session_.roster().members()) {
-    if (targets.mean(member, profiles_) && session_.roster().heard(id) &&
+    if (targets.mean(member, profiles_) && !member.is_foreign() && session_.roster().heard(id) &&
         !session_.roster().has_moved(member)) {
       members.push_back(&member);
     }
@@ -295,8 +295,10 @@ bool Discovery::is_ready(const Member& member) const {
 
 bool Discovery::all_there(const Targets& targets) const {
   const auto members = meant(targets);
-  const auto heard = [this](NodeId id) { return session_.roster().heard(id); };
-  return !members.empty() && std::ranges::all_of(targets.ids, heard) &&
+  const auto may_be_there = [this](NodeId id) {
+    return session_.roster().heard(id) && !session_.roster().member(id).is_foreign();
+  };
+  return !members.empty() && std::ranges::all_of(targets.ids, may_be_there) &&
          std::ranges::all_of(targets.selectors,
                              [this](const Selector& selector) { return is_met(selector); }) &&
          std::ranges::all_of(members,
@@ -389,6 +391,8 @@ std::vector<Error> Discovery::missing(const Targets& targets, Duration wait) con
     if (!session_.roster().heard(id)) {
       errors.push_back({Code::not_found, say<texts::wait_not_heard>(id.value(), seconds),
                         say<texts::node_not_found_hint>(), id.value()});
+    } else if (const Member& member = session_.roster().member(id); member.is_foreign()) {
+      errors.push_back(not_a_servo(id, member.info->name));
     }
   }
   std::ranges::move(unmet(targets), std::back_inserter(errors));

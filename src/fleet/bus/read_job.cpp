@@ -68,9 +68,7 @@ Step ReadJob::begin(Time now) {
   snapshot_.servo = identification_.servo();
   const std::uint8_t id = id_.value();
   if (!snapshot_.servo.is_servo) {
-    snapshot_.error =
-        Error{Code::not_found, say<texts::not_a_servo>(id, printable(snapshot_.servo.name)),
-              say<texts::node_not_found_hint>(), id};
+    snapshot_.error = not_a_servo(id_, snapshot_.servo.name);
     return std::nullopt;
   }
   auto wanted = choice_(snapshot_.servo);

@@ -23,6 +23,11 @@ bool is_pending(const Roster& roster, const Selector& selector) {
 
 } // namespace
 
+Error not_a_servo(dronecan::NodeId id, std::string_view name) {
+  return {Code::not_found, say<texts::not_a_servo>(id.value(), printable(name)),
+          say<texts::node_not_found_hint>(), id.value()};
+}
+
 Error nothing_matches(const Roster& roster, const Selector& selector) {
   if (is_pending(roster, selector)) {
     return {Code::not_found, say<texts::target_waits_for_id>(printable(selector.text)),

@@ -356,7 +356,8 @@ std::vector<LiveServo> Monitor::servos(Time now) const {
   std::vector<LiveServo> out;
   for (const auto& [id, member] : session_.roster().members()) {
     const auto node = nodes_.find(id);
-    if (node != nodes_.end() && session_.roster().heard(id) && is_meant(member, node->second) &&
+    if (node != nodes_.end() && session_.roster().heard(id) && !member.is_foreign() &&
+        is_meant(member, node->second) &&
         !session_.roster().has_moved(member)) {
       out.push_back(live(member, node->second, now));
     }
@@ -378,6 +379,8 @@ std::vector<Error> Monitor::missing(Time now) const {
   for (const NodeId id : targets_.ids) {
     if (!roster.heard(id)) {
       errors.push_back(session_.is_replay() ? unrecorded(id) : silent(roster, id));
+    } else if (const Member& member = roster.member(id); member.is_foreign()) {
+      errors.push_back(not_a_servo(id, member.info->name));
     }
   }
   std::set<NodeId> shared; // an unmet one may be one of those

@@ -261,6 +261,15 @@ TEST_CASE("who does not come in time is told, each for itself") {
         Codes{{Code::timeout, 12}, {Code::not_found, 55}, {Code::not_found, 0}});
 }
 
+TEST_CASE("another device on the node ID is not the servo that is waited for") {
+  const Scene scene(two_servos_and_a_node);
+  Discovery discovery(*scene.session, profiles(), {});
+  const Arrivals arrivals = discovery.wait_for(targets("11,30"), 2s);
+  CHECK(there(arrivals) == Ids{11});
+  CHECK(arrivals.servos.size() == 1);
+  CHECK(codes(arrivals.errors) == Codes{{Code::not_found, 30}});
+}
+
 TEST_CASE("two units on one ID are not the servo that is waited for") {
   const Scene scene(one_servo);
   scene.roster().mark_doubled(NodeId(11), {1}, {2});

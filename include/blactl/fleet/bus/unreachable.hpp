@@ -6,8 +6,12 @@
 #include "blactl/fleet/bus/target.hpp"
 
 #include <optional>
+#include <string_view>
 
 namespace blactl::fleet {
+
+/// The error for a node that has identified itself as another device: not_found.
+[[nodiscard]] Error not_a_servo(dronecan::NodeId id, std::string_view name);
 
 /// No servo on the bus matches: not_found.
 [[nodiscard]] Error nothing_matches(const Roster& roster, const Selector& selector);
