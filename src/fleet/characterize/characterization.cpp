@@ -40,6 +40,16 @@ std::optional<Error> refuse_motion(const Servo& servo, const bla::Values& now) {
   return std::nullopt;
 }
 
+/// What an earlier one that was killed has left in RAM. `in_ram`: the newest change first.
+std::optional<Error> refuse_leftover(const Servo& servo,
+                                     std::span<const state::SnapshotEntry> in_ram) {
+  if (in_ram.empty() || in_ram.front().command != "characterize") {
+    return std::nullopt;
+  }
+  const std::uint8_t id = servo.id.value();
+  return Error{Code::state, say<texts::bench_left>(id), say<texts::bench_left_hint>(id), id};
+}
+
 /// RAM is to be restored at the end: its contents must be known, and be the same as before.
 Result<void> measure_at_rest(TestBench& bench, Notes& notes) {
   bench.tell(texts::bench_stage_settings);
@@ -185,7 +195,9 @@ Characterization characterize(Session& session, const bla::Profiles& profiles,
   }
   auto in_ram = manner.history != nullptr ? manner.history->unsaved(servo, session, &before)
                                           : std::vector<state::SnapshotEntry>();
-  if (auto refused = record(session, before, manner)) {
+  auto refused = refuse_leftover(servo, in_ram);
+  refused = refused ? refused : record(session, before, manner);
+  if (refused) {
     return {.servo = servo, .error = std::move(refused)};
   }
   FormerIds ids(session, {{servo.unique_id.value_or(dronecan::UniqueId{}), servo.id}},

@@ -123,6 +123,26 @@ TEST_CASE("what is left is recorded for undo, and nothing where all was put back
   }
 }
 
+TEST_CASE("a servo that holds what a killed characterize has set is not measured") {
+  const state::test::Folder folder;
+  const auto history = [&] {
+    return History("characterize",
+                   state::SnapshotStore::open(folder.path, state::Access::write).value(),
+                   state::ProofStore::unshared().value());
+  };
+  const Rig rig;
+  const Snapshot looked = rig.look();
+  const Plan all{.before = looked, .proves_rom = true};
+  REQUIRE(history().keep(std::span(&all, 1), *rig.session));
+  History record = history();
+  const int sent = rig.bus->sent;
+  const auto measured = characterize(*rig.session, profiles(), looked, {.history = &record});
+  REQUIRE(measured.error);
+  CHECK(measured.error->code == Code::state);
+  CHECK(measured.error->hint == "put it back first: blactl undo -n 11");
+  CHECK(rig.bus->sent - sent < 10); // others are asked for their IDs
+}
+
 TEST_CASE("whenever it restarts by itself it gets back what it held, or that is told") {
   int done = 0, failed = 0;
   for (int number = 60; number <= 400; number += 9) {
