@@ -651,3 +651,20 @@ TEST_CASE("0x36 in deg is not held where ROM counts it in rpm, whatever number i
     CHECK(codes(applied) == std::vector<std::string>{"state"});
   }
 }
+
+TEST_CASE("a node ID that apply itself has brought up is no newcomer before its second round") {
+  const Fleet fleet(three_servos());
+  const Options other{.env = {{"BLACTL_STATE_DIR", fleet.file_name("other")}}};
+  const auto does = [&](const Arguments& command) {
+    const Result result = fleet.run(command, other);
+    INFO(result.err);
+    REQUIRE(result.status == 0);
+  };
+  does({"set", "-n", "11", "static_node_id=44", "-y"});
+  does({"set", "-n", "12", "smoothing=off", "-y"});
+  const Result applied = fleet.apply(fleet.exported());
+  INFO(applied.err);
+  CHECK(applied.status == 0);
+  CHECK(fleet.rom("44", "static_node_id") == 44);
+  CHECK(fleet.rom("12", "smoothing") == 0);
+}

@@ -206,7 +206,14 @@ std::vector<Error> Change::hear() {
   if (options_.gives_back) { // the bus was heard when it was taken
     return {};
   }
-  auto heard = hear_others(session_, options_.manner.identification.patience, options_.searched);
+  std::vector<dronecan::UniqueId> own;
+  for (const GoalResult& result : results_) {
+    if (const auto& unit = result.servo().unique_id; unit && result.change.was_begun) {
+      own.push_back(*unit);
+    }
+  }
+  auto heard =
+      hear_others(session_, options_.manner.identification.patience, options_.searched, own);
   note(heard.notes);
   return std::move(heard.errors);
 }

@@ -117,7 +117,8 @@ std::optional<Error> forbidden(const Roster& roster, Time now, const Plan& plan,
   return std::nullopt;
 }
 
-OthersHeard hear_others(Session& session, Patience patience, std::optional<Time> searched) {
+OthersHeard hear_others(Session& session, Patience patience, std::optional<Time> searched,
+                        std::span<const dronecan::UniqueId> own) {
   OthersHeard heard;
   auto lived = hear_bus(session);
   if (lived) {
@@ -129,7 +130,9 @@ OthersHeard hear_others(Session& session, Patience patience, std::optional<Time>
   }
   const Roster& roster = session.roster();
   for (const auto& [id, member] : roster.members()) {
-    if (searched && member.first_heard > *searched && member.sends_actuator_status()) {
+    const auto unit = member.unique_id();
+    const bool is_own = unit && std::ranges::find(own, *unit) != own.end();
+    if (searched && member.first_heard > *searched && member.sends_actuator_status() && !is_own) {
       heard.errors.push_back({Code::state, say<texts::came_since>(id.value()),
                               say<texts::run_again_hint>(), id.value()});
     }

@@ -7,6 +7,7 @@
 #include "blactl/fleet/bus/session.hpp"
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -59,9 +60,11 @@ struct OthersHeard {
 
 /// Waits until the bus was heard long enough to know the active nodes, and asks servos that were
 /// not asked yet for their unique ID, with `patience`. `searched`: the time of the last frame heard
-/// in the search for the servos; one that came since may be among the selected ones. Errors: state
+/// in the search for the servos; one that came since may be among the selected ones, unless it is
+/// one of `own`, which this command has restarted. Errors: state
 /// (such a servo, or lost frames); one that ends a session is the only one.
 [[nodiscard]] OthersHeard hear_others(Session& session, Patience patience,
-                                      std::optional<Time> searched);
+                                      std::optional<Time> searched,
+                                      std::span<const dronecan::UniqueId> own = {});
 
 } // namespace blactl::fleet
