@@ -68,6 +68,20 @@ bool is_small(const Disturbance& disturbance) {
           disturbance.kind == Kind::frame_doubled || disturbance.kind == Kind::frame_corrupted);
 }
 
+/// What the command changed can be taken back; a trial in RAM only that it saved goes with it.
+void check_undo(World& world, const Step& changed) {
+  const Command take_back{.words = {"undo", "-y"}};
+  const Step undo = take_step(world, changed.episode, take_back);
+  require(undo.outcome.status == 0, "cannot be taken back: " + undo.outcome.err);
+  States due = changed.before;
+  for (auto& [serial, state] : due) {
+    for (const auto& [address, rom] : state.rom) {
+      state.ram[address] = rom;
+    }
+  }
+  require_same(due, undo.after, "undo has not brought everything back");
+}
+
 /// The computer is on again: every ID that was given is in the table, and what was changed can be
 /// taken back.
 void check_stores(World& world, const Step& cut, bool is_undoable) {
@@ -78,10 +92,7 @@ void check_stores(World& world, const Step& cut, bool is_undoable) {
     check_table(list);
   }
   if (is_undoable && !cut.outcome.record.changes().empty()) {
-    const Command take_back{.words = {"undo", "-y"}};
-    const Step undo = take_step(world, cut.episode, take_back);
-    require(undo.outcome.status == 0, "undo knows nothing of it: " + undo.outcome.err);
-    require_same(cut.before, undo.after, "undo has not brought everything back");
+    check_undo(world, cut);
   }
 }
 
@@ -122,6 +133,10 @@ std::vector<Sweep::Case> Sweep::cases() {
   return {
       {.name = "set", .before = {}, .command = in_ram, .is_undoable = true},
       {.name = "set --save", .before = {}, .command = saved, .is_undoable = true},
+      {.name = "set --save of a trial",
+       .before = {words({"set", "-n", "11", "reverse=on", "-y"})},
+       .command = saved,
+       .is_undoable = true},
       {.name = "set static_node_id --save",
        .before = {},
        .command = words({"set", "-n", "serial:240900001", "static_node_id=30", "--save", "-y"}),
@@ -305,6 +320,13 @@ void Sweep::check(World& world, const Case& one, std::span<const Disturbance> di
   judge(again);
   require(again.outcome.status == 0, "does not converge: " + again.outcome.err);
   require_same(goal, again.after, "the same command has another result");
+  const bool is_recorded = std::ranges::none_of(disturbances, [](const Disturbance& disturbance) {
+    return disturbance.kind == Kind::call_failed; // commands go on without a record
+  });
+  const bool is_last = again.outcome.record.changes().empty();
+  if (one.is_undoable && step.outcome.status == 0 && is_recorded && is_last) {
+    check_undo(world, step);
+  }
 }
 
 } // namespace blactl::campaign
