@@ -47,7 +47,8 @@ TEST_CASE("what SAVE makes permanent beside what was named is said before, from 
   CHECK(warning(saved)["code"] == "unnamed_saved");
 }
 
-TEST_CASE("a static node ID that the servo would be on if ROM had it needs no record to be told of") {
+TEST_CASE(
+    "a static node ID that the servo would be on if ROM had it needs no record to be told of") {
   const Fleet fleet(one_servo());
   const Options other{.env = {{"BLACTL_STATE_DIR", fleet.file_name("other")}}};
   REQUIRE(fleet.run({"set", "-n", "11", "static_node_id=20", "-y"}, other).status == 0);

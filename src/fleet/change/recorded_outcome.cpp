@@ -33,8 +33,9 @@ bool is_shown_in_rom(const state::SnapshotEntry& change, const RomReading& rom) 
 bool take_in_changed(const ChangeResult& result, state::SnapshotEntry& entry) {
   bool has_more = false;
   for (const RegisterChange& change : result.changes) {
-    const bool is_other = change.status == ChangeStatus::written ||
-                          (change.status == ChangeStatus::mismatch && change.after != change.before);
+    const bool is_other =
+        change.status == ChangeStatus::written ||
+        (change.status == ChangeStatus::mismatch && change.after != change.before);
     if (is_other && change.before && change.parameter->is_setting()) {
       has_more |= entry.held.emplace(change.parameter->address.value(), *change.before).second;
     }

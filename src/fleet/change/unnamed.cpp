@@ -41,8 +41,8 @@ Source source_of(const ToldRom& rom, bla::Address address) {
                                                : Source::record;
 }
 
-/// A servo that started with this static node ID would be on it: no record is needed to tell that it
-/// is in RAM only.
+/// A servo that started with this static node ID would be on it: no record is needed to tell that
+/// it is in RAM only.
 std::optional<Warning> pending_id(const Goal& goal, const Snapshot& ram, const ToldRom& rom,
                                   bool is_saved) {
   constexpr bla::Address address = bla::address::static_node_id;

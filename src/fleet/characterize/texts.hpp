@@ -33,7 +33,8 @@ inline constexpr Text bench_set_refused{"node {}: {} did not take {}, it holds {
 inline constexpr Text bench_left{
     "node {} holds what a characterize that was broken off has set: it would be measured under "
     "these settings",
-    "ノード {} には、中断された characterize の設定が残っています。このままでは測定条件が変わります"};
+    "ノード {} には、中断された characterize "
+    "の設定が残っています。このままでは測定条件が変わります"};
 inline constexpr Text bench_left_hint{"put it back first: blactl undo -n {}",
                                       "先に元に戻して下さい: blactl undo -n {}"};
 inline constexpr Text bench_moves{

@@ -357,8 +357,7 @@ std::vector<LiveServo> Monitor::servos(Time now) const {
   for (const auto& [id, member] : session_.roster().members()) {
     const auto node = nodes_.find(id);
     if (node != nodes_.end() && session_.roster().heard(id) && !member.is_foreign() &&
-        is_meant(member, node->second) &&
-        !session_.roster().has_moved(member)) {
+        is_meant(member, node->second) && !session_.roster().has_moved(member)) {
       out.push_back(live(member, node->second, now));
     }
   }
