@@ -53,6 +53,7 @@ constexpr std::array ranges_of_motion{at::pwm_output_range, at::angle_limit_cw,
                                       at::angle_limit_ccw};
 constexpr std::array dead_bands{at::angle_dead_band};
 constexpr std::array timeout_time{at::timeout_time};
+constexpr std::array servo_ids{at::servo_id};
 constexpr std::array speed_control{at::speed_p_gain, at::speed_i_gain, at::speed_dead_band,
                                    at::speed_i_limit};
 constexpr std::array start_switches{at::torque_output, at::soft_start};
@@ -106,6 +107,7 @@ constexpr CrossCheck table[]{
     {"near_supply", warning, voltage_limits, supply, meets_near_supply, texts::check_near_supply},
     {"timeout_short", warning, timeout_time, nothing_else, meets_short_timeout,
      texts::check_timeout_short},
+    {"servo_id_of_all", warning, servo_ids, nothing_else, meets_zero, texts::check_servo_id_of_all},
     {"leave_at_default", warning, speed_control, nothing_else, meets_not_default,
      texts::check_leave_at_default},
     {"hard_start", warning, start_switches, start_switches, meets_hard_start,

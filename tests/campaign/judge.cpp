@@ -258,10 +258,14 @@ void check_writes(const Step& step) {
 void check_guard(const Step& step) {
   const Record& record = step.outcome.record;
   const bool is_bench = step.command.verb() == "characterize";
+  const Duration late = step.hears_all() ? on_its_way : tolerance;
   for (const OnWire& frame : record.changes()) {
-    require(frame.at - tolerance < record.armed_at(), "a change was sent to an armed vehicle");
-    require(!(frame.is_order() || is_bench) || frame.at - tolerance < record.driven_at(),
-            "an order was sent to a driven servo");
+    require(frame.at - late < record.armed_at(),
+            fmt::format("a change was sent to an armed vehicle {} us after that was heard",
+                        (frame.at - record.armed_at()).count()));
+    require(!(frame.is_order() || is_bench) || frame.at - late < record.driven_at(),
+            fmt::format("an order was sent to a driven servo {} us after that was heard",
+                        (frame.at - record.driven_at()).count()));
   }
 }
 

@@ -30,6 +30,7 @@ struct Happening {
   std::string name;
   AddAt add;
   bool is_over = true; ///< with the command: another node's order may have taken the servo's IDs
+  bool is_undoable = false; ///< whatever becomes of the command, `undo` puts the servos back
 };
 
 AddAt event(const char* happens) {
@@ -48,10 +49,10 @@ AddAt order(json what) {
   };
 }
 
-AddAt node(json what) {
-  return [what = std::move(what)](json& scenario, const std::string& at) {
+AddAt node(json what, int node_id = 91) {
+  return [what = std::move(what), node_id](json& scenario, const std::string& at) {
     json one = what;
-    one.update({{"kind", "node"}, {"node_id", 91}, {"begins", at}});
+    one.update({{"kind", "node"}, {"node_id", node_id}, {"begins", at}});
     scenario["foreign"].push_back(one);
   };
 }
@@ -62,10 +63,13 @@ const std::vector<Happening>& happenings() {
       {"restart without ROM", event("rom_error")},
       {"power off", event("power_off")},
       {"other writes", order({{"order", "write"}, {"address", 0x38}, {"value", 450}}), false},
-      {"other saves", order({{"order", "save"}}), false},
+      {"other writes the same", order({{"order", "write"}, {"address", 0x22}, {"value", 1}}),
+       false},
+      {"other saves", order({{"order", "save"}}), false, true},
       {"other erases", order({{"order", "erase"}}), false},
       {"other restarts", order({{"order", "restart"}}), false},
       {"armed", node({{"armed", true}})},
+      {"node comes to 30", node(json::object(), 30), false},
       {"driven", node({{"commands", {{"servo_ids", json::array({255})}, {"rate", 50}}}})},
   };
   return all;
@@ -81,6 +85,26 @@ std::vector<Time> moments_of(const Record& record) {
   return {times.begin(), times.end()};
 }
 
+/// Every n-th of them, and more of those close to what changes a servo.
+std::vector<Time> chosen(const std::vector<Time>& moments, const Record& record, std::size_t n) {
+  constexpr Duration close = 5ms;
+  constexpr std::size_t denser = 8;
+  const auto changes = record.changes();
+  std::vector<Time> those;
+  std::size_t passed = 0;
+  for (const Time moment : moments) {
+    const bool is_close = std::ranges::any_of(changes, [&](const OnWire& change) {
+      return moment > change.at - close && moment < change.at + close;
+    });
+    passed += is_close ? denser : 1;
+    if (passed >= n) {
+      those.push_back(moment);
+      passed = 0;
+    }
+  }
+  return those;
+}
+
 } // namespace
 
 void Sweep::play_moments(const Case& one) {
@@ -94,34 +118,43 @@ void Sweep::play_moments(const Case& one) {
       happening.add(episode.scenario, at);
       return episode;
     };
+    Swept& swept = swept_[{one.name, happening.name}];
     std::vector<Time> moments;
     {
       const Folder folder(folder_);
       const Episode quiet = with(much_later);
       World world(quiet.scenario, folder_);
-      moments = moments_of(begin(world, quiet, one, {}).outcome.record);
+      const Record record = begin(world, quiet, one, {}).outcome.record;
+      moments = moments_of(record);
+      swept.places = moments.size();
+      moments = chosen(moments, record, options_.step);
     }
-    Swept& swept = swept_[{one.name, happening.name}];
-    swept.places = moments.size();
-    for (std::size_t i = 0; i < moments.size(); i += options_.step) {
+    for (const Time moment : moments) {
       if (is_own_turn() && !is_over()) {
-        const std::string at = fmt::format("{}us", (moments[i] - Time{}).count());
-        const std::string what = fmt::format("{} at {}", happening.name, at);
-        play_moment(one, with(at), what, happening.is_over && one.is_repeatable, swept);
+        const std::string at = fmt::format("{}us", (moment - Time{}).count());
+        play_moment(one, with(at),
+                    {.what = fmt::format("{} at {}", happening.name, at),
+                     .must_converge = happening.is_over && one.is_repeatable,
+                     .is_undone = happening.is_undoable && one.is_undoable},
+                    swept);
       }
     }
   }
 }
 
-void Sweep::play_moment(const Case& one, const Episode& episode, const std::string& what,
-                        bool must_converge, Swept& swept) {
+void Sweep::play_moment(const Case& one, const Episode& episode, const Moment& moment,
+                        Swept& swept) {
   options_.begins();
   const Folder folder(folder_);
   World world(episode.scenario, folder_);
   const Step step = begin(world, episode, one, {});
-  judged(one, what, step, swept, [&] {
+  judged(one, moment.what, step, swept, [&] {
     judge(step);
-    if (!must_converge) {
+    if (moment.is_undone && !step.outcome.record.changes().empty()) {
+      world.pass(4s);
+      check_undo(world, step);
+    }
+    if (!moment.must_converge) {
       return;
     }
     world.pass(4s);

@@ -101,7 +101,6 @@ bool Step::changed_unheard(std::int64_t serial) const {
          has_writer_after(serial, hears_all() ? known - longest_save : begin - longest_save);
 }
 
-/// Whether the client hears what other nodes send to servos.
 bool Step::hears_all() const {
   const json all = episode.scenario.value("events", json::array());
   return !episode.scenario.contains("wire") &&

@@ -12,6 +12,10 @@ namespace blactl::campaign {
 /// A client's clock against a servo's; less than the shortest start takes.
 inline constexpr Duration tolerance = std::chrono::milliseconds(30);
 
+/// What this client has sent when it hears a frame on a wire without faults, at most: the frames
+/// that are on their way already.
+inline constexpr Duration on_its_way = std::chrono::milliseconds(4);
+
 /// After this a servo that has started has sent its first NodeStatus, and some more.
 inline constexpr Duration settled = std::chrono::seconds(3);
 
@@ -60,8 +64,10 @@ struct Step {
   /// When something may come to it, or go, that is no order of the command.
   [[nodiscard]] std::vector<Time> accidents(std::int64_t serial) const;
 
- private:
+  /// Whether the client hears what other nodes send to servos.
   [[nodiscard]] bool hears_all() const;
+
+ private:
   [[nodiscard]] bool has_writer_after(std::int64_t serial, Time earliest) const;
   [[nodiscard]] Duration lateness(std::int64_t serial) const;
   [[nodiscard]] const nlohmann::json& setup(std::int64_t serial) const;

@@ -68,34 +68,6 @@ bool is_small(const Disturbance& disturbance) {
           disturbance.kind == Kind::frame_doubled || disturbance.kind == Kind::frame_corrupted);
 }
 
-/// What the command changed can be taken back; a trial in RAM only that it saved goes with it.
-void check_undo(World& world, const Step& changed) {
-  const Command take_back{.words = {"undo", "-y"}};
-  const Step undo = take_step(world, changed.episode, take_back);
-  require(undo.outcome.status == 0, "cannot be taken back: " + undo.outcome.err);
-  States due = changed.before;
-  for (auto& [serial, state] : due) {
-    for (const auto& [address, rom] : state.rom) {
-      state.ram[address] = rom;
-    }
-  }
-  require_same(due, undo.after, "undo has not brought everything back");
-}
-
-/// The computer is on again: every ID that was given is in the table, and what was changed can be
-/// taken back.
-void check_stores(World& world, const Step& cut, bool is_undoable) {
-  const Command list_all{.words = {"alloc", "--list"}};
-  const Step list = take_step(world, cut.episode, list_all);
-  require(list.outcome.status == 0, "the allocation table cannot be read any more");
-  if (cut.command.verb() == "alloc" && cut.command.has("--once")) {
-    check_table(list);
-  }
-  if (is_undoable && !cut.outcome.record.changes().empty()) {
-    check_undo(world, cut);
-  }
-}
-
 } // namespace
 
 /// Servos with these node IDs, and nothing that goes wrong.
@@ -141,10 +113,21 @@ std::vector<Sweep::Case> Sweep::cases() {
        .before = {},
        .command = words({"set", "-n", "serial:240900001", "static_node_id=30", "--save", "-y"}),
        .is_undoable = true},
+      {.name = "set beside a trial",
+       .before = {words({"set", "-n", "11", "smoothing=off", "-y"})},
+       .command = in_ram},
+      {.name = "set --save, just restarted",
+       .before = {words({"restart", "-n", "all", "-y"})},
+       .command = saved,
+       .is_undoable = true},
       {.name = "save", .before = {in_ram}, .command = words({"save", "-n", "all", "-y"})},
       {.name = "erase --save",
        .before = {saved},
        .command = words({"erase", "-n", "11,12", "--save", "--keep-ids", "-y"}),
+       .is_undoable = true},
+      {.name = "erase --keep-ids",
+       .before = {saved},
+       .command = words({"erase", "-n", "11,12", "--keep-ids", "-y"}),
        .is_undoable = true},
       {.name = "restart", .before = {}, .command = words({"restart", "-n", "all", "-y"})},
       {.name = "pwm-config --save",
@@ -294,6 +277,34 @@ void Sweep::judged(const Case& one, const std::string& what, const Step& step, S
     tell_(fmt::format("case {}: {}: {}\n  {}\n  exit status {}\n  {}\n{}", one.name, what,
                       lie.what(), step.command.text(), step.outcome.status,
                       step.outcome.document.dump(), step.outcome.err));
+  }
+}
+
+/// What the command changed can be taken back; a trial in RAM only that it saved goes with it.
+void Sweep::check_undo(World& world, const Step& changed) {
+  const Command take_back{.words = {"undo", "-y"}};
+  const Step undo = take_step(world, changed.episode, take_back);
+  require(undo.outcome.status == 0, "cannot be taken back: " + undo.outcome.err);
+  States due = changed.before;
+  for (auto& [serial, state] : due) {
+    for (const auto& [address, rom] : state.rom) {
+      state.ram[address] = rom;
+    }
+  }
+  require_same(due, undo.after, "undo has not brought everything back");
+}
+
+/// The computer is on again: every ID that was given is in the table, and what was changed can be
+/// taken back.
+void Sweep::check_stores(World& world, const Step& cut, bool is_undoable) {
+  const Command list_all{.words = {"alloc", "--list"}};
+  const Step list = take_step(world, cut.episode, list_all);
+  require(list.outcome.status == 0, "the allocation table cannot be read any more");
+  if (cut.command.verb() == "alloc" && cut.command.has("--once")) {
+    check_table(list);
+  }
+  if (is_undoable && !cut.outcome.record.changes().empty()) {
+    check_undo(world, cut);
   }
 }
 

@@ -75,11 +75,19 @@ class Sweep {
   static void check(World& world, const Case& one, std::span<const Disturbance> disturbances,
                     const Step& step, const States& goal);
   [[nodiscard]] Calm play_calm(const Case& one, Disturbance::Kind kind) const;
+  static void check_undo(World& world, const Step& changed);
+  static void check_stores(World& world, const Step& cut, bool is_undoable);
   void play_each(const Case& one, Disturbance::Kind kind);
   void play_pairs(const Case& one);
   void play_moments(const Case& one);
-  void play_moment(const Case& one, const Episode& episode, const std::string& what,
-                   bool must_converge, Swept& swept);
+
+  struct Moment {
+    std::string what;
+    bool must_converge = false;
+    bool is_undone = false;
+  };
+
+  void play_moment(const Case& one, const Episode& episode, const Moment& moment, Swept& swept);
   void judged(const Case& one, const std::string& what, const Step& step, Swept& swept,
               const std::function<void()>& check);
   void disturb(const Case& one, std::vector<Disturbance> disturbances, const States& goal,

@@ -132,7 +132,7 @@ TEST_CASE("warnings of a plan are on stderr, and in JSON, not on stdout") {
   CHECK(contains(document.err, said));
 }
 
-TEST_CASE("who did not say which IDs it has is named by every command that gives one") {
+TEST_CASE("who does not answer which IDs it has is named by every command that gives one") {
   const Arguments change =
       GENERATE(Arguments{"set", "-n", "11", "static_node_id=40", "--save", "-y"},
                Arguments{"set", "-n", "11", "servo_id=9", "-y"},
@@ -144,7 +144,7 @@ TEST_CASE("who did not say which IDs it has is named by every command that gives
   const Result changed = scene.run(change);
   INFO(changed.err);
   CHECK(changed.status == 0);
-  CHECK(contains(changed.err, "node 12 did not say which IDs it has"));
+  CHECK(contains(changed.err, "node 12 gave no answer about its IDs"));
 }
 
 TEST_CASE("the head of a node has the servo ID that a restart has brought back") {

@@ -72,7 +72,7 @@ TEST_CASE("a bus-off is told with what ends it on this kind of interface") {
 
 TEST_CASE("a command line that is not understood is refused with the way on") {
   const std::vector<Refusal> refusals{
-      {{}, "usage", "no command given", "see blactl --help"},
+      {{"-q"}, "usage", "no command given", "see blactl --help"},
       {{"scna"}, "usage", "there is no command 'scna'", "did you mean scan?"},
       {{"frobnicate"}, "usage", "there is no command 'frobnicate'", "see blactl --help"},
       {{"get", "--frob"}, "usage", "unknown option: --frob", "see blactl get --help"},

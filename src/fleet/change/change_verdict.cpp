@@ -134,7 +134,10 @@ void ChangeJob::read_again() {
 
 void ChangeJob::look_back(std::optional<Error> lost) {
   const dronecan::NodeId id = result_.node_id_after.value_or(servo_.id);
-  if (result_.was_sent && !plan_.restart && roster_.saver_of(id, known_since())) {
+  const auto is_saved_by_other = [&](dronecan::NodeId under) {
+    return roster_.saver_of(under, known_since()).has_value();
+  };
+  if (result_.was_sent && (is_saved_by_other(id) || is_saved_by_other(plan_.before.servo.id))) {
     result_.may_have_saved = true; // by that node: undo is to put ROM back, too
   }
   if (!result_.is_done()) {

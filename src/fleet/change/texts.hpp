@@ -10,7 +10,7 @@ inline constexpr Text came_since{
     "node {} has come to the bus since the servos were looked for: nothing was written",
     "サーボの検索後にノード {} がバスに加わったため、書込みを行っていません"};
 inline constexpr Text did_not_tell_ids{
-    "node {} does not answer which IDs it has: a conflict with it cannot be ruled out",
+    "node {} gave no answer about its IDs: a conflict with it cannot be ruled out",
     "ノード {} の ID を読み出せないため、重複の有無は確認できません"};
 inline constexpr Text servo_id_in_unread_rom{
     "node {} could not read its ROM: a conflict with the servo ID that it holds there cannot be "

@@ -61,6 +61,15 @@ bool contradicts_itself(const FaultState& state) {
   });
 }
 
+/// A register has bits that 0x18 has not: on a recording either may be the older reading.
+bool shows_more_than_summary(const FaultState& state) {
+  const auto values = state.snapshot.values();
+  return bla::find(values, bla::address::fault_summary) &&
+         std::ranges::any_of(bla::fault_registers, [&](bla::Address reg) {
+           return !bla::is_summed_up(values, reg) && bla::find(values, reg).value_or(0) != 0;
+         });
+}
+
 /// Its NodeStatus reports more than the registers, which were read at different times.
 bool is_surpassed(const FaultState& state) {
   const bool warns = state.health && *state.health != dronecan::Health::ok;
@@ -121,7 +130,7 @@ FaultJob::FaultJob(Session& session, const bla::Profiles& profiles, NodeId id,
                    const Identification::Options& options)
     : session_(session), profiles_(profiles), options_(options) {
   state_.snapshot.servo.id = id;
-  look(summary);
+  session.is_replay() ? look(bla::all_fault_registers) : look(summary);
 }
 
 /// `first`: the registers that are read in any case.
@@ -152,11 +161,13 @@ Step FaultJob::judge(Time now) {
     }
     return std::nullopt;
   }
-  if (!is_surpassed(state_)) {
+  if (session_.is_replay()) {
+    if (is_surpassed(state_) || shows_more_than_summary(state_)) {
+      doubt(state_);
+    }
     return std::nullopt;
   }
-  if (session_.is_replay()) {
-    doubt(state_);
+  if (!is_surpassed(state_)) {
     return std::nullopt;
   }
   is_second_ = true;

@@ -346,6 +346,8 @@ const std::vector<Case> cases{
     {"near_supply", "voltage_limit_low", 116, true},
     {"near_supply", "voltage_limit_low", 115, false},
 
+    {"servo_id_of_all", "servo_id", 0, true},
+    {"servo_id_of_all", "servo_id", 1, false},
     {"timeout_short", "timeout_time", 99, true},
     {"timeout_short", "timeout_time", 100, false},
 

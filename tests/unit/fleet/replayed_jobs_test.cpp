@@ -134,10 +134,10 @@ TEST_CASE("a job on a recording is answered from all of it, what comes later inc
 }
 
 TEST_CASE("what a recording tells of faults only later is not known, where none were found") {
-  const auto faults = [](dronecan::Health health, std::int64_t warnings) {
+  const auto faults = [](dronecan::Health health, std::int64_t warnings, bool is_summed_up = true) {
     Writer writer;
     writer.identify();
-    writer.answer("0x18", warnings != 0 ? 0x200 : 0);
+    writer.answer("0x18", warnings != 0 && is_summed_up ? 0x200 : 0);
     writer.answer("0x1A", warnings);
     writer.say(dronecan::NodeStatus::type, dronecan::NodeStatus{.health = health}.encode());
     const auto session = writer.play();
@@ -161,6 +161,10 @@ TEST_CASE("what a recording tells of faults only later is not known, where none 
   CHECK(found.faults.size() == 1); // the last one known
   CHECK_FALSE(found.fault_register(at::fault_failure));
   CHECK(faults(dronecan::Health::warning, 0x100).errors.empty());
+  const FaultState later = faults(dronecan::Health::ok, 0x100, false); // it came after 0x18
+  REQUIRE(later.errors.size() == 1);
+  CHECK(later.errors.front().code == Code::not_recorded);
+  CHECK(later.fault_register(at::fault_warning) == 0x100);
 }
 
 TEST_CASE("a session on a recording lives until its end, whatever the deadline") {

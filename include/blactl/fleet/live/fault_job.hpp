@@ -35,8 +35,8 @@ struct FaultState {
 };
 
 /// Reads 0x18, and if it shows faults the registers behind it. If NodeStatus reports more than
-/// that, all four registers are read once more; on a recording the faults are not_recorded then,
-/// unless some were found.
+/// that, all four registers are read once more. On a recording all four are looked for; where they
+/// contradict each other, or NodeStatus, the present faults are not_recorded.
 class FaultJob final : public dronecan::Job {
  public:
   /// `session` outlives the job, `profiles` its state too.
