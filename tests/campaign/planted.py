@@ -7,7 +7,8 @@
 
 FOLDER gets the copy and its build. Every bug of planted.json is a place in the sources: what stands
 there, which must be found just once, and what stands there instead while the bug is switched on: one
-build holds them all. An entry without "instead" switches its statement off. For each bug every N-th
+build holds them all. An entry without "instead" switches its statement off; one that a second check
+would find out has that in "and": users meet the bug only without both. For each bug every N-th
 single fault of each command is tried, then random episodes, until something is found. Exit status 1:
 a bug was not found. --check only looks whether each has its place in the sources.
 """
@@ -53,13 +54,20 @@ def planted(text, bug):
     return text.replace(found, switched)
 
 
+def places(bugs):
+    """Every place of every bug."""
+    for bug in bugs:
+        for place in [bug, *bug.get("and", [])]:
+            yield {**place, "name": bug["name"]}
+
+
 def make_sources(folder, bugs):
     """A copy of the tree; files that did not change keep their times, so that little is built."""
     listed = subprocess.run(["git", "-C", ROOT, "ls-files", "--cached", "--others",
                              "--exclude-standard"], capture_output=True, text=True, check=True)
     by_file = {}
-    for bug in bugs:
-        by_file.setdefault(bug["file"], []).append(bug)
+    for place in places(bugs):
+        by_file.setdefault(place["file"], []).append(place)
     for name in listed.stdout.splitlines():
         source, target = ROOT / name, folder / name
         if not source.is_file():
@@ -138,8 +146,8 @@ def main():
     given = parser.parse_args()
     bugs = json.loads(given.list.read_text())
     if given.check:
-        for bug in bugs:
-            planted((ROOT / bug["file"]).read_text(), bug)
+        for place in places(bugs):
+            planted((ROOT / place["file"]).read_text(), place)
         return 0
     if given.folder is None:
         parser.error("no FOLDER")

@@ -54,6 +54,9 @@ constexpr Kind kinds[]{Kind::request_lost,   Kind::killed,          Kind::frame_
                        Kind::frame_doubled,  Kind::frame_corrupted, Kind::frame_late,
                        Kind::frame_of_other, Kind::call_failed,     Kind::computer_off};
 
+/// Of each kind, however far apart the places are.
+constexpr std::size_t least_runs = 5;
+
 /// In the table beside the kinds.
 constexpr std::string_view pairs = "two of these";
 
@@ -211,7 +214,10 @@ void Sweep::play_each(const Case& one, Kind kind) {
     Swept& swept =
         swept_[{one.name, fmt::format("{}{}", name(kind), lasts ? ", from then on" : "")}];
     swept.places = places;
-    for (std::size_t number = 1; number <= places; number += options_.step) {
+    const std::size_t step = std::min(options_.step, std::max<std::size_t>(places / least_runs, 1));
+    Chance chance(places, one.name + std::string(name(kind)));
+    const auto first = static_cast<std::size_t>(chance.whole(1, static_cast<std::int64_t>(step)));
+    for (std::size_t number = first; number <= places; number += step) {
       if (is_own_turn() && !is_over()) {
         disturb(one, {{.kind = kind, .number = number, .lasts = lasts}}, goal, swept);
       }

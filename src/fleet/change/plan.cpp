@@ -331,9 +331,8 @@ Result<std::vector<const Parameter*>> registers_needed(const Wanted& wanted, con
       add(registers, parameter);
     }
   }
-  if (wanted.restart &&
-      (!wanted.erase ||
-       wanted.keep_ids)) { // SAVE replaces what was not read, a restart may read it
+  const bool keeps_rom = !wanted.erase || wanted.keep_ids;
+  if (wanted.restart && keeps_rom) { // SAVE replaces what was not read, a restart may read it
     add(registers, rom_state(servo.identity));
   }
   return registers;

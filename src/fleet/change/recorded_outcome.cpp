@@ -19,8 +19,7 @@ bool History::is_half_undone() const {
 
 namespace {
 
-/// Whether a restart has brought back what this change wrote, and nobody knows of a SAVE since: one
-/// of its tries has saved it.
+/// Whether a restart has brought back what this change wrote: one of its tries has saved it.
 bool is_shown_in_rom(const state::SnapshotEntry& change, const RomReading& rom) {
   return std::ranges::any_of(change.written, [&](const auto& written) {
     const auto held = change.held.find(written.first);
@@ -36,7 +35,9 @@ bool take_in_changed(const ChangeResult& result, state::SnapshotEntry& entry) {
     const bool is_other =
         change.status == ChangeStatus::written ||
         (change.status == ChangeStatus::mismatch && change.after != change.before);
-    if (is_other && change.before && change.parameter->is_setting()) {
+    const bool can_go_back = change.before && change.parameter->is_setting() &&
+                             result.servo.identity.check_takes(*change.parameter).has_value();
+    if (is_other && can_go_back) {
       has_more |= entry.held.emplace(change.parameter->address.value(), *change.before).second;
     }
   }

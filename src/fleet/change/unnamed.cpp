@@ -95,9 +95,10 @@ std::vector<Warning> unnamed(const Goal& goal, const Snapshot& ram, const ToldRo
             : unnamed(parameter.name, in_ram, in_rom, is_saved, source_of(rom, parameter.address)));
   }
   const bool keeps_id = !goal.wanted.erase || goal.wanted.keep_ids;
-  if (auto pending = keeps_id && !is_restarted ? pending_id(goal, ram, rom, is_saved)
-                                               : std::optional<Warning>()) {
-    warnings.push_back(std::move(*pending));
+  if (goal.wanted.restart && keeps_id && !is_restarted) {
+    if (auto pending = pending_id(goal, ram, rom, is_saved)) {
+      warnings.push_back(std::move(*pending));
+    }
   }
   return warnings;
 }
