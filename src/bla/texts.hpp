@@ -284,7 +284,7 @@ inline constexpr Text check_timeout_short{
     "shorter than 100 ms: a few commands that come late are taken for a loss of communication",
     "100 ms 未満では、指令の遅れを通信途絶と判定する可能性があります"};
 inline constexpr Text check_servo_id_of_all{
-    "0 is the factory's: a command to 0 may move every servo that has it",
+    "0 is the factory setting: a command to 0 may move every servo that has it",
     "0 は工場出荷時の値です。0 宛の指令で、同じ値の全サーボが動作する可能性があります"};
 inline constexpr Text check_leave_at_default{"the manufacturer advises to leave it at its default",
                                              "メーカーは初期値のままとすることを推奨しています"};

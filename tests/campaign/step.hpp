@@ -12,8 +12,8 @@ namespace blactl::campaign {
 /// A client's clock against a servo's; less than the shortest start takes.
 inline constexpr Duration tolerance = std::chrono::milliseconds(30);
 
-/// What this client has sent when it hears a frame on a wire without faults, at most: the frames
-/// that are on their way already.
+/// On a wire without faults, frames that this client had queued before it heard another one may
+/// follow it for so long, at most.
 inline constexpr Duration on_its_way = std::chrono::milliseconds(4);
 
 /// After this a servo that has started has sent its first NodeStatus, and some more.

@@ -48,7 +48,7 @@ TEST_CASE("what SAVE makes permanent beside what was named is said before, from 
 }
 
 TEST_CASE(
-    "a static node ID that the servo would be on if ROM had it needs no record to be told of") {
+    "a static node ID that the servo would be on if ROM had it is reported without a record") {
   const Fleet fleet(one_servo());
   const Options other{.env = {{"BLACTL_STATE_DIR", fleet.file_name("other")}}};
   REQUIRE(fleet.run({"set", "-n", "11", "static_node_id=20", "-y"}, other).status == 0);

@@ -29,12 +29,10 @@ Wanted wanted(const Goal& goal, Need need) {
                              : goal.wanted;
 }
 
-/// What the restart that was to show ROM has taken from RAM.
-std::vector<Warning> lost_by(ChangeResult proof) {
-  std::erase_if(proof.warnings, [&](const Warning& warning) {
-    return !proof.was_begun || warning.code != "unnamed_lost";
-  });
-  return std::move(proof.warnings);
+/// Of the warnings of an earlier round, those of what its restart has taken from RAM.
+std::vector<Warning> losses(std::vector<Warning> warnings) {
+  std::erase_if(warnings, [](const Warning& warning) { return warning.code != "unnamed_lost"; });
+  return warnings;
 }
 
 } // namespace
@@ -158,7 +156,7 @@ std::vector<Error> Change::judge(std::span<const std::size_t> goals, Snapshots s
     result.change.may_have_changed = earlier.may_have_changed;
     result.change.was_restarted = earlier.was_restarted;
     result.change.duration = earlier.duration;
-    result.change.warnings = lost_by(std::move(earlier));
+    result.change.warnings = losses(std::move(earlier.warnings));
     if (result.is_done && result.goal.saves() && result.goal.evidence != Evidence::ram) {
       result.rom_proven = true;
     }

@@ -30,11 +30,10 @@ inline constexpr Text bench_bystander_hint{"measure with the servo alone on the 
                                            "測定するサーボだけをバスに接続して下さい"};
 inline constexpr Text bench_set_refused{"node {}: {} did not take {}, it holds {}",
                                         "ノード {}: {} に {} を設定できません (現在値 {})"};
-inline constexpr Text bench_left{
-    "node {} holds what a characterize that was broken off has set: it would be measured under "
-    "these settings",
-    "ノード {} には、中断された characterize "
-    "の設定が残っています。このままでは測定条件が変わります"};
+inline constexpr Text bench_left{"node {} still holds what an interrupted characterize has set: "
+                                 "these settings would be measured",
+                                 "ノード {} には、中断された characterize "
+                                 "の設定が残っています。このままでは測定条件が変わります"};
 inline constexpr Text bench_left_hint{"put it back first: blactl undo -n {}",
                                       "先に元に戻して下さい: blactl undo -n {}"};
 inline constexpr Text bench_moves{

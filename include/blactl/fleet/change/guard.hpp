@@ -61,8 +61,8 @@ struct OthersHeard {
 /// Waits until the bus was heard long enough to know the active nodes, and asks servos that were
 /// not asked yet for their unique ID, with `patience`. `searched`: the time of the last frame heard
 /// in the search for the servos; one that came since may be among the selected ones, unless it is
-/// one of `own`, which this command has restarted. Errors: state
-/// (such a servo, or lost frames); one that ends a session is the only one.
+/// one of `own`, which this command has restarted. Errors: state (such a servo, or lost frames);
+/// one that ends a session is the only one.
 [[nodiscard]] OthersHeard hear_others(Session& session, Patience patience,
                                       std::optional<Time> searched,
                                       std::span<const dronecan::UniqueId> own = {});
