@@ -49,11 +49,17 @@ AddAt order(json what) {
   };
 }
 
-AddAt node(json what, int node_id = 91) {
-  return [what = std::move(what), node_id](json& scenario, const std::string& at) {
+AddAt node(json what) {
+  return [what = std::move(what)](json& scenario, const std::string& at) {
     json one = what;
-    one.update({{"kind", "node"}, {"node_id", node_id}, {"begins", at}});
+    one.update({{"kind", "node"}, {"node_id", 91}, {"begins", at}});
     scenario["foreign"].push_back(one);
+  };
+}
+
+AddAt comes(int node_id) {
+  return [node_id](json& scenario, const std::string& at) {
+    scenario["foreign"].push_back({{"kind", "node"}, {"node_id", node_id}, {"joins", at}});
   };
 }
 
@@ -69,7 +75,7 @@ const std::vector<Happening>& happenings() {
       {"other erases", order({{"order", "erase"}}), false},
       {"other restarts", order({{"order", "restart"}}), false},
       {"armed", node({{"armed", true}})},
-      {"node comes to 30", node(json::object(), 30), false},
+      {"node comes to 30", comes(30), false},
       {"driven", node({{"commands", {{"servo_ids", json::array({255})}, {"rate", 50}}}})},
   };
   return all;

@@ -105,8 +105,13 @@ void add(SweptByKind& all, const SweptByKind& more) {
 std::vector<Sweep::Case> Sweep::cases() {
   const Command in_ram = words({"set", "-n", "all", "smoothing=off", "timeout_time=500ms", "-y"});
   const Command saved = words({"set", "-n", "11,12", "reverse=on", "--save", "-y"});
+  // so many that something can come between two of one servo
+  const Command many =
+      words({"set", "-n", "11,12", "smoothing=off", "soft_start=off", "timeout_time=500ms",
+             "angle_p_gain=30", "angle_d_gain=20", "speed_p_gain=20", "speed_i_gain=2",
+             "speed_dead_band=100", "speed_i_limit=20000", "temperature_limit_high=70degC", "-y"});
   return {
-      {.name = "set", .before = {}, .command = in_ram, .is_undoable = true},
+      {.name = "set", .before = {}, .command = many, .is_undoable = true},
       {.name = "set --save", .before = {}, .command = saved, .is_undoable = true},
       {.name = "set --save of a trial",
        .before = {words({"set", "-n", "11", "reverse=on", "-y"})},

@@ -32,7 +32,7 @@ Devices make_devices(const Scenario& scenario, Time power_on, const EventSink& s
     }
   }
   for (const ForeignSetup& setup : scenario.foreign) {
-    devices.all.push_back(std::make_unique<ForeignNode>(setup, power_on));
+    devices.all.push_back(std::make_unique<ForeignNode>(setup, power_on + setup.joins));
   }
   return devices;
 }

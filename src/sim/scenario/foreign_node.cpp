@@ -24,6 +24,9 @@ ForeignNode::ForeignNode(const ForeignSetup& setup, Time power_on)
       power_on_(power_on), now_(power_on),
       next_status_(setup.status_period > Duration::zero() ? power_on : never) {
   endpoint_.set_node_id(dronecan::NodeId(setup.node_id));
+  if (setup.armed.value_or(false) && setup.begins > Duration::zero()) {
+    arms_ = power_on + setup.begins;
+  }
   if (setup.commands) {
     next_command_ = power_on + setup.begins;
   }
@@ -55,6 +58,9 @@ std::unique_ptr<ForeignRole> ForeignNode::make_role(Time power_on) {
 }
 
 void ForeignNode::receive(const can::Frame& frame, Time at) {
+  if (at < power_on_) {
+    return;
+  }
   now_ = at;
   role_->hear(frame);
   endpoint_.receive(frame, at);
@@ -62,7 +68,7 @@ void ForeignNode::receive(const can::Frame& frame, Time at) {
 
 Time ForeignNode::next_deadline() const {
   return std::min(
-      {next_status_, next_command_, next_actuator_, next_order(), role_->next_deadline()});
+      {next_status_, arms_, next_command_, next_actuator_, next_order(), role_->next_deadline()});
 }
 
 void ForeignNode::advance(Time now) {
@@ -72,12 +78,12 @@ void ForeignNode::advance(Time now) {
     const dronecan::Priority priority = role_->status_priority();
     send_message(dronecan::NodeStatus::type, priority, node_status().encode().bytes());
     if (setup_.armed) {
-      dronecan::ArmingStatus arming;
-      const bool armed = *setup_.armed && power_on_ + setup_.begins <= now;
-      arming.status =
-          armed ? dronecan::ArmingStatus::fully_armed : dronecan::ArmingStatus::disarmed;
-      send_message(dronecan::ArmingStatus::type, priority, arming.encode().bytes());
+      send_arming();
     }
+  }
+  if (arms_ <= now) {
+    arms_ = never;
+    send_arming();
   }
   if (next_command_ <= now) {
     next_command_ += setup_.commands->period;
@@ -97,6 +103,13 @@ void ForeignNode::advance(Time now) {
     send_order(setup_.orders[orders_sent_++]);
   }
   role_->advance(now);
+}
+
+void ForeignNode::send_arming() {
+  const bool is_armed = *setup_.armed && power_on_ + setup_.begins <= now_;
+  const dronecan::ArmingStatus arming{.status = is_armed ? dronecan::ArmingStatus::fully_armed
+                                                         : dronecan::ArmingStatus::disarmed};
+  send_message(dronecan::ArmingStatus::type, role_->status_priority(), arming.encode().bytes());
 }
 
 Time ForeignNode::next_order() const {

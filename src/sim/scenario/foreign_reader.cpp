@@ -66,6 +66,7 @@ constexpr Member<ForeignSetup> every_kind[]{
     {"commands", read_commander},
     {"orders", read_orders},
     {"armed", to<&ForeignSetup::armed>},
+    {"joins", up_to_seconds<&ForeignSetup::joins, 3600>},
     {"begins", up_to_seconds<&ForeignSetup::begins, 3600>},
     {"actuator_id", integer<&ForeignSetup::actuator_id, 0, 255>},
     {"status_period", up_to_seconds<&ForeignSetup::status_period, 3600>},

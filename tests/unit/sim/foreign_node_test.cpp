@@ -213,6 +213,15 @@ TEST_CASE("an autopilot is disarmed unless told otherwise, and commands what it 
   CHECK(armed.hear(0ms).at(1).second == std::vector<std::uint8_t>{255});
 }
 
+TEST_CASE("a node that is armed later tells so at once") {
+  Rig rig(R"("kind": "autopilot", "armed": true, "begins": "300ms")");
+  const auto is_armed = [](const auto& message) {
+    return message.first == dronecan::ArmingStatus::type.id && message.second.front() == 255;
+  };
+  CHECK(std::ranges::none_of(rig.hear(299ms), is_armed));
+  CHECK(std::ranges::any_of(rig.hear(2ms), is_armed));
+}
+
 TEST_CASE("an autopilot that allocates gives every servo an ID of its own, from 125 down") {
   std::string servos;
   for (int i = 0; i < 8; ++i) {

@@ -374,3 +374,10 @@ TEST_CASE("a client's bus-off loses what it wanted to send") {
   simulator.advance_to(Time{} + 3s);
   CHECK(ear.count == 1);
 }
+
+TEST_CASE("a node that joins later is silent before") {
+  const Scenario later =
+      scenario(R"("foreign": [{"kind": "node", "node_id": 30, "joins": "500ms"}])");
+  CHECK(run(later, 499ms).empty());
+  CHECK(run(later, 501ms).size() == 1);
+}

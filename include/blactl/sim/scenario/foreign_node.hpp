@@ -20,6 +20,7 @@ class ForeignRole;
 /// kind.
 class ForeignNode final : public Device {
  public:
+  /// Silent and deaf before `power_on`.
   ForeignNode(const ForeignSetup& setup, Time power_on);
   ~ForeignNode() override;
 
@@ -30,6 +31,7 @@ class ForeignNode final : public Device {
  private:
   [[nodiscard]] std::unique_ptr<ForeignRole> make_role(Time power_on);
   [[nodiscard]] Time next_order() const;
+  void send_arming();
   void send_order(const OrderSetup& order);
   [[nodiscard]] std::vector<can::Frame> write(dronecan::NodeId server, bla::Address address,
                                               std::int64_t value);
@@ -46,6 +48,7 @@ class ForeignNode final : public Device {
   Time power_on_;
   Time now_;
   Time next_status_;
+  Time arms_ = never; ///< tells so at once
   Time next_command_ = never;
   Time next_actuator_ = never;
   std::size_t orders_sent_ = 0;

@@ -63,7 +63,8 @@ struct ForeignSetup {
   std::optional<CommanderSetup> commands;
   std::vector<OrderSetup> orders;          ///< in the order of time
   std::optional<bool> armed;               ///< empty: sends no ArmingStatus
-  Duration begins{};                       ///< of `commands`, and of being armed, after power-on
+  Duration joins{};                        ///< when it is switched on, after power-on
+  Duration begins{};                       ///< of `commands`, and of being armed, after that
   std::optional<std::uint8_t> actuator_id; ///< empty: sends no actuator.Status
   Duration status_period =
       std::chrono::seconds(1); ///< of NodeStatus and ArmingStatus; 0: sends none
