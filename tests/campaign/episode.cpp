@@ -1,6 +1,5 @@
 #include "episode.hpp"
 
-#include "chance.hpp"
 #include "limits.hpp"
 #include "settings.hpp"
 #include "step.hpp"
@@ -556,6 +555,11 @@ std::vector<std::string> fault_kinds() {
   return kinds;
 }
 
+void plant(Episode& episode, const std::string& kind, Chance& chance) {
+  episode.faults.insert(kind);
+  plants().at(kind)({episode, chance});
+}
+
 Episode make_episode(std::uint64_t seed) {
   Episode episode{.seed = seed, .scenario = {}, .steps = {}, .faults = {}};
   Chance servos(seed, "servos");
@@ -581,9 +585,9 @@ Episode make_episode(std::uint64_t seed) {
     episode.faults.insert(kind);
   }
   spare_the_undecidable(episode);
-  for (const std::string& kind : episode.faults) {
+  for (const std::string& kind : std::set(episode.faults)) {
     Chance own(seed, kind);
-    plants().at(kind)({episode, own});
+    plant(episode, kind, own);
   }
   return episode;
 }

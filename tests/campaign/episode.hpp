@@ -1,6 +1,7 @@
 #pragma once
 // What one run of the campaign consists of, all from its seed: servos, what goes wrong, commands.
 
+#include "chance.hpp"
 #include "world.hpp"
 
 #include <nlohmann/json.hpp>
@@ -25,6 +26,9 @@ struct Episode {
 
 /// All kinds of faults that there are.
 [[nodiscard]] std::vector<std::string> fault_kinds();
+
+/// Adds one of them, as `chance` draws it.
+void plant(Episode& episode, const std::string& kind, Chance& chance);
 
 [[nodiscard]] Episode make_episode(std::uint64_t seed);
 

@@ -30,7 +30,8 @@ struct Happening {
   std::string name;
   AddAt add;
   bool is_over = true; ///< with the command: another node's order may have taken the servo's IDs
-  bool is_undoable = false; ///< whatever becomes of the command, `undo` puts the servos back
+  bool is_undoable = false;  ///< whatever becomes of the command, `undo` puts the servos back
+  bool is_made_good = false; ///< while RAM is written
 };
 
 AddAt event(const char* happens) {
@@ -65,7 +66,7 @@ AddAt comes(int node_id) {
 
 const std::vector<Happening>& happenings() {
   static const std::vector<Happening> all{
-      {"restart", event("watchdog_error")},
+      {.name = "restart", .add = event("watchdog_error"), .is_made_good = true},
       {"restart without ROM", event("rom_error")},
       {"power off", event("power_off")},
       {"other writes", order({{"order", "write"}, {"address", 0x38}, {"value", 450}}), false},
@@ -126,6 +127,7 @@ void Sweep::play_moments(const Case& one) {
     };
     Swept& swept = swept_[{one.name, happening.name}];
     std::vector<Time> moments;
+    Time first_change{}, last_change{};
     {
       const Folder folder(folder_);
       const Episode quiet = with(much_later);
@@ -134,15 +136,22 @@ void Sweep::play_moments(const Case& one) {
       moments = moments_of(record);
       swept.places = moments.size();
       moments = chosen(moments, record, options_.step);
+      if (const auto changes = record.changes(); !changes.empty()) {
+        first_change = changes.front().at;
+        last_change = changes.back().at;
+      }
     }
+    const bool is_made_good = one.is_written_again && happening.is_made_good;
     for (const Time moment : moments) {
       if (is_own_turn() && !is_over()) {
         const std::string at = fmt::format("{}us", (moment - Time{}).count());
-        play_moment(one, with(at),
-                    {.what = fmt::format("{} at {}", happening.name, at),
-                     .must_converge = happening.is_over && one.is_repeatable,
-                     .is_undone = happening.is_undoable && one.is_undoable},
-                    swept);
+        play_moment(
+            one, with(at),
+            {.what = fmt::format("{} at {}", happening.name, at),
+             .must_converge = happening.is_over && one.is_repeatable,
+             .is_undone = happening.is_undoable && one.is_undoable,
+             .must_end_well = is_made_good && moment > first_change && moment < last_change},
+            swept);
       }
     }
   }
@@ -156,6 +165,8 @@ void Sweep::play_moment(const Case& one, const Episode& episode, const Moment& m
   const Step step = begin(world, episode, one, {});
   judged(one, moment.what, step, swept, [&] {
     judge(step);
+    require(!moment.must_end_well || step.outcome.status == 0,
+            "a restart while it writes is not made good");
     if (moment.is_undone && !step.outcome.record.changes().empty()) {
       world.pass(4s);
       check_undo(world, step);

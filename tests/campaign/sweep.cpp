@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <set>
 #include <string_view>
 
 namespace blactl::campaign {
@@ -71,6 +72,12 @@ bool is_small(const Disturbance& disturbance) {
           disturbance.kind == Kind::frame_doubled || disturbance.kind == Kind::frame_corrupted);
 }
 
+/// Whether each servo has its IDs once it is over.
+bool leaves_servos_apart(const std::string& kind) {
+  static const std::set<std::string> others{"node_on_id", "one_node_id", "one_unique_id"};
+  return !kind.starts_with("other_") && !others.contains(kind);
+}
+
 } // namespace
 
 /// Servos with these node IDs, and nothing that goes wrong.
@@ -111,7 +118,7 @@ std::vector<Sweep::Case> Sweep::cases() {
              "angle_p_gain=30", "angle_d_gain=20", "speed_p_gain=20", "speed_i_gain=2",
              "speed_dead_band=100", "speed_i_limit=20000", "temperature_limit_high=70degC", "-y"});
   return {
-      {.name = "set", .before = {}, .command = many, .is_undoable = true},
+      {.name = "set", .before = {}, .command = many, .is_undoable = true, .is_written_again = true},
       {.name = "set --save", .before = {}, .command = saved, .is_undoable = true},
       {.name = "set --save of a trial",
        .before = {words({"set", "-n", "11", "reverse=on", "-y"})},
@@ -188,6 +195,7 @@ Step Sweep::begin(World& world, const Episode& episode, const Case& one,
 
 void Sweep::play() {
   for (const Case& one : cases()) {
+    play_faults(one);
     for (const Kind kind : kinds) {
       if (options_.only.empty() || options_.only == name(kind)) {
         play_each(one, kind);
@@ -255,6 +263,30 @@ void Sweep::play_pairs(const Case& one) {
                            .number = static_cast<std::size_t>(chance.whole(1, recovery))};
     if (is_own_turn() && !is_over()) {
       disturb(one, {early, late}, goal, swept);
+    }
+  }
+}
+
+/// Each kind of fault of the episodes, alone.
+void Sweep::play_faults(const Case& one) {
+  constexpr std::size_t most = 40;
+  for (const std::string& kind : fault_kinds()) {
+    if (!options_.only.empty() && options_.only != kind) {
+      continue;
+    }
+    Swept& swept = swept_[{one.name, kind}];
+    swept.places = most;
+    for (std::size_t i = 0; i < most; i += options_.step) {
+      if (!is_own_turn() || is_over()) {
+        continue;
+      }
+      Episode episode = episode_of(one.node_ids);
+      Chance chance(i, one.name + kind);
+      plant(episode, kind, chance);
+      play_moment(one, episode,
+                  {.what = fmt::format("{} number {}", kind, i),
+                   .must_converge = one.is_repeatable && leaves_servos_apart(kind)},
+                  swept);
     }
   }
 }

@@ -59,7 +59,8 @@ class Sweep {
     std::vector<Command> before;
     Command command;
     bool is_repeatable = true;
-    bool is_undoable = false; ///< `undo` brings back all that was before
+    bool is_undoable = false;      ///< `undo` brings back all that was before
+    bool is_written_again = false; ///< what a restart in the middle has dropped
     std::vector<int> node_ids{11, 12, 13};
   };
 
@@ -79,12 +80,14 @@ class Sweep {
   static void check_stores(World& world, const Step& cut, bool is_undoable);
   void play_each(const Case& one, Disturbance::Kind kind);
   void play_pairs(const Case& one);
+  void play_faults(const Case& one);
   void play_moments(const Case& one);
 
   struct Moment {
     std::string what;
     bool must_converge = false;
     bool is_undone = false;
+    bool must_end_well = false;
   };
 
   void play_moment(const Case& one, const Episode& episode, const Moment& moment, Swept& swept);
