@@ -371,6 +371,8 @@ void Roster::on_allocation(const Transfer& transfer) {
   if (transfer.header.source.is_unicast()) {
     allocators_.insert(transfer.header.source);
     if (allocation->node_id != 0 && prefix.size() == allocation->unique_id.size()) {
+      allotments_[NodeId(allocation->node_id)] = {allocation->unique_id, transfer.header.source,
+                                                  transfer.at};
       std::erase_if(pending_, [&](const auto& waiting) {
         return dronecan::begins_with(allocation->unique_id, waiting.first);
       });
@@ -384,6 +386,16 @@ void Roster::on_allocation(const Transfer& transfer) {
           transfer.at;
     }
   }
+}
+
+/// A unit that has been given one is heard within the time of a request.
+std::optional<NodeId> Roster::giver_of(NodeId given, NodeId except, Time since) const {
+  const auto allotted = allotments_.find(given);
+  if (allotted != allotments_.end() && allotted->second.at + request_period > since &&
+      !member(except).is_unit(allotted->second.unit)) {
+    return allotted->second.by;
+  }
+  return commands_.giver_of(bla::address::static_node_id, given.value(), except, since);
 }
 
 state::NodeIds Roster::ids_in_use(const dronecan::UniqueId& unit) const {

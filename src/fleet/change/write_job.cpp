@@ -91,7 +91,7 @@ Step WriteJob::go_on(Time now) {
   if (current_ == changes_.size()) {
     return next_look(now);
   }
-  if (is_given_elsewhere()) {
+  if (not_any_more()) {
     return hold_off(now);
   }
   at_ = At::write;
@@ -102,18 +102,31 @@ Step WriteJob::go_on(Time now) {
                                                changes_[current_].requested, once),
                                 servo_, next_servo_id());
   request.may_leave = [this, allowed = std::move(request.may_leave)](Time at) {
-    return servo_.boot == boots() && allowed(at);
+    return servo_.boot == boots() && !not_any_more() && allowed(at);
   };
   return request;
 }
 
-/// Whether another node has given the node ID of the next write to another servo meanwhile.
-bool WriteJob::is_given_elsewhere() const {
+/// Why the next write was right when the plan was made, and is not now: another node has changed
+/// what it was judged by, or has given its node ID to another servo.
+std::optional<Error> WriteJob::not_any_more() const {
+  const std::uint8_t id = servo_.id.value();
   const RegisterChange& change = changes_[current_];
   const bool gives_id = change.parameter->address == bla::address::static_node_id &&
                         change.requested > 0 && change.requested <= dronecan::NodeId::max;
-  return gives_id && roster_.giver_of(dronecan::NodeId(static_cast<std::uint8_t>(change.requested)),
-                                      servo_.id, servo_.since);
+  if (gives_id && roster_.giver_of(dronecan::NodeId(static_cast<std::uint8_t>(change.requested)),
+                                   servo_.id, servo_.since)) {
+    return Error{Code::duplicate_node_id, say<texts::id_given_is_kept>(id, change.requested),
+                 say<texts::id_given_is_kept_hint>(), id};
+  }
+  for (const Premise& premise : options_.premises) {
+    if (const auto writer =
+            roster_.setter_of(servo_.id, servo_.since, premise.parameter->address)) {
+      return Error{Code::state, say<texts::written_by_other>(id, writer->value()),
+                   say<texts::run_again_hint>(), id};
+    }
+  }
+  return std::nullopt;
 }
 
 /// If the next write gives it one.
@@ -153,11 +166,7 @@ Step WriteJob::after_write(const Outcome& outcome) {
 Step WriteJob::hold_off(Time now) {
   RegisterChange& change = changes_[current_];
   auto why = guard_.forbids(servo_, now, next_servo_id());
-  if (!why && is_given_elsewhere()) {
-    const std::uint8_t id = servo_.id.value();
-    why = Error{Code::duplicate_node_id, say<texts::id_given_is_kept>(id, change.requested),
-                say<texts::id_given_is_kept_hint>(), id};
-  }
+  why = why ? why : not_any_more();
   if (!why) { // it has restarted, or what forbade it has ended
     return go_on(now);
   }

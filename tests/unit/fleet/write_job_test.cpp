@@ -207,6 +207,57 @@ TEST_CASE("a node ID that another node gives to another servo meanwhile is not w
   }
 }
 
+TEST_CASE("a node ID that an allocator gives to another unit meanwhile is not written") {
+  Bench bench;
+  const auto [unit, is_written] = GENERATE(std::pair(std::uint8_t{13}, false), // another's
+                                           std::pair(std::uint8_t{1}, true));  // its own
+  const dronecan::Allocation given{.node_id = 20, .size = 16, .unique_id = {unit}};
+  const auto payload = given.encode();
+  bench.roster.receive({.header = {.kind = dronecan::Kind::message,
+                                   .data_type_id = dronecan::Allocation::type.id,
+                                   .source = NodeId(40)},
+                        .payload = payload.bytes(),
+                        .at = bench.servo.since + 1ms});
+  WriteJob job = bench.job({change("static_node_id", 20, 11)});
+  CHECK((bench.begin(job) == "write 0x46=20") == is_written);
+  if (!is_written) {
+    REQUIRE(job.changes()[0].error);
+    CHECK(job.changes()[0].error->code == Code::duplicate_node_id);
+  }
+}
+
+TEST_CASE("a value is not written once another node has changed what it was judged by") {
+  Bench bench;
+  WriteJob job(bench.roster, bench.servo,
+               {change("smoothing", 0, 1), change("pwm_output_range", 600, 700)},
+               {.premises = {{change("pwm_mode", 0, 0).parameter, 0}}});
+  CHECK(bench.begin(job) == "write 0x22=0");
+  const dronecan::Step second = job.next(bench.script.value("0x22", std::int64_t{0}));
+  CHECK(text(second) == "write 0x36=600");
+  REQUIRE(second.request());
+  const auto [name, is_premise] =
+      GENERATE(std::pair("0x37", true), std::pair("0x27", false)); // no other setting matters
+  dronecan::Transfer heard;
+  heard.header = {.kind = dronecan::Kind::request,
+                  .data_type_id = GetSet::type.id,
+                  .source = NodeId(40),
+                  .destination = bench.servo.id};
+  const auto payload = GetSet::Request{.value = std::int64_t{1}, .name = name}.encode();
+  heard.payload = payload.bytes();
+  heard.at = bench.servo.since + 1ms;
+  bench.roster.receive(heard);
+  CHECK(second.request()->may_leave({}) == !is_premise);
+  if (is_premise) {
+    CHECK(text(job.next(Script::withheld())) == "read 0x22");
+    CHECK(bench.value(job, "0x22", 0) == "GetNodeInfo");
+    CHECK(bench.proven(job) == "nothing");
+    CHECK(job.changes()[0].status == ChangeStatus::written);
+    CHECK(job.changes()[1].status == ChangeStatus::failed);
+    REQUIRE(job.changes()[1].error);
+    CHECK(job.changes()[1].error->code == Code::state);
+  }
+}
+
 TEST_CASE("a servo that holds another value than was written is a mismatch", "[requirement-73]") {
   Scene scene(R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11,
                              "ram": {"torque_limit_cw": "50%"},

@@ -259,11 +259,10 @@ class Roster {
     return watches_[id.value()].started();
   }
 
-  /// As CommandWatch::giver_of(), with a static node ID.
-  [[nodiscard]] std::optional<dronecan::NodeId>
-  giver_of(dronecan::NodeId given, dronecan::NodeId except, Time since) const {
-    return commands_.giver_of(bla::address::static_node_id, given.value(), except, since);
-  }
+  /// As CommandWatch::giver_of(), with a static node ID; also an allocator that has just given it
+  /// to another unit than that of `except`.
+  [[nodiscard]] std::optional<dronecan::NodeId> giver_of(dronecan::NodeId given,
+                                                         dronecan::NodeId except, Time since) const;
 
   /// As CommandWatch::setter_of().
   [[nodiscard]] std::optional<dronecan::NodeId>
@@ -295,6 +294,13 @@ class Roster {
   [[nodiscard]] std::optional<dronecan::NodeId> driver_of(const Servo& servo, Time now) const;
 
  private:
+  /// A node ID that another allocator has given.
+  struct Allotment {
+    dronecan::UniqueId unit{};
+    dronecan::NodeId by{};
+    Time at{};
+  };
+
   [[nodiscard]] Member& known(dronecan::NodeId id);
   void announce(const Member& member);
   void hear_request(const dronecan::Header& header, const can::Frame& frame, Time at);
@@ -318,6 +324,7 @@ class Roster {
   std::map<dronecan::NodeId, std::set<dronecan::UniqueId>> units_; ///< of doubled IDs
   std::map<UniqueIdPrefix, Asking> pending_;
   std::set<dronecan::NodeId> allocators_;
+  std::map<dronecan::NodeId, Allotment> allotments_; ///< by the ID that was given
 };
 
 } // namespace blactl::fleet

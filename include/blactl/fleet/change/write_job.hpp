@@ -35,7 +35,8 @@ class WriteJob final : public dronecan::Job {
     suffices,   ///< the response: everything is read after the following restart
   };
 
-  /// A setting by which the changes were judged; not one of them.
+  /// A setting by which the changes were judged; not one of them. Once another node has written to
+  /// it nothing more is sent.
   struct Premise {
     const bla::Parameter* parameter = nullptr;
     std::int64_t raw = 0;
@@ -82,7 +83,7 @@ class WriteJob final : public dronecan::Job {
   void write_after_others(std::size_t change);
   [[nodiscard]] bool may_try_again();
   [[nodiscard]] std::optional<std::int64_t> next_servo_id() const;
-  [[nodiscard]] bool is_given_elsewhere() const;
+  [[nodiscard]] std::optional<Error> not_any_more() const;
   void move_on();
   [[nodiscard]] dronecan::Step after_read(const dronecan::Outcome& outcome);
   [[nodiscard]] dronecan::Step doubt(std::size_t change, Time now);
