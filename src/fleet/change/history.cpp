@@ -73,17 +73,28 @@ state::Registers replaced_in_rom(const Plan& plan, const state::Registers& rom,
   return replaced;
 }
 
-/// Whether ROM may hold what a try that was killed was to save: not if the servo has not restarted
-/// since, nor if it did so with what it held before.
+/// Whether ROM may hold what a try that broke off has written: not if the servo has not restarted
+/// since, nor if it did so with what it held before. Where it was not saved, another node may have
+/// done that.
 bool was_perhaps_saved(const state::SnapshotEntry& tried, const Snapshot& ram,
                        const std::optional<WallTime>& started) {
-  if (!tried.saved || tried.settled || !started) {
+  if ((tried.saved && tried.settled) || !started) {
     return tried.saved;
   }
-  return tried.at < *started &&
-         std::ranges::any_of(
-             tried.held,
-             [&](const auto& held) { return ram.raw(bla::Address(held.first)) != held.second; });
+  const auto differs = [&](const auto& held) {
+    return ram.raw(bla::Address(held.first)) != held.second;
+  };
+  const auto is_shown = [&](const auto& written) {
+    const auto held = tried.held.find(written.first);
+    return held != tried.held.end() && held->second != written.second &&
+           ram.raw(bla::Address(written.first)) == written.second;
+  };
+  if (tried.saved) {
+    return tried.at < *started && std::ranges::any_of(tried.held, differs);
+  }
+  const bool is_erased = tried.command == erase_keeping_ids && !taken_ids(tried, ram).empty();
+  return last_write(tried) < *started &&
+         (is_erased || std::ranges::any_of(tried.written, is_shown));
 }
 
 /// An earlier change in RAM as SAVE leaves it: what it replaced in ROM. Empty: ROM stays as it is.
@@ -156,7 +167,7 @@ Result<void> History::doubt_rom(std::span<const UniqueId> units) {
 }
 
 /// Resumes after an earlier try of this command that ended half way. What an ERASE has taken from
-/// RAM, a restart has brought back.
+/// RAM, a restart has brought back, if nobody has saved it.
 Result<void> History::resume(const Snapshot& ram, const Session& session) {
   const UniqueId& unique_id = *ram.servo.unique_id;
   if (!is_repeated_as_a_whole(command_) || kept_.contains(unique_id)) {
@@ -167,8 +178,8 @@ Result<void> History::resume(const Snapshot& ram, const Session& session) {
     return std::unexpected(last.error());
   }
   const auto started = start_of(ram.servo, session);
-  const bool is_over =
-      command_ == erase_keeping_ids && *last && (!started || (*last)->at < *started);
+  const bool is_over = command_ == erase_keeping_ids && *last &&
+                       (!started || (*last)->at < *started) && taken_ids(**last, ram).empty();
   if (*last && !(*last)->ended && (*last)->command == command_ && !is_over) {
     run_ = joined_ = std::max(run_, (*last)->run);
     const bool was_saved = was_perhaps_saved(**last, ram, started);
@@ -193,6 +204,19 @@ bla::Values History::taken_from_ram(const Plan& plan, const Session& session) {
     }
   }
   return taken;
+}
+
+/// What ROM holds of the values in RAM that a plan replaces: another node may save it meanwhile.
+void History::keep_rom(const Plan& plan, const state::Registers& held, const Session& session) {
+  if (plan.restart == RestartKind::save) {
+    return;
+  }
+  for (const auto& [address, raw] : known_rom(plan.before, session)) {
+    const bool is_kept = plan.erase && plan.change_of(address) != nullptr;
+    if (!is_kept && held.contains(address.value())) {
+      in_rom_[*plan.before.servo.unique_id].emplace(address.value(), raw);
+    }
+  }
 }
 
 /// The record of a servo as this plan changes it; empty: there is none, or it stays as it is.
@@ -224,6 +248,7 @@ std::optional<state::SnapshotEntry> History::entry_of(const Plan& plan, const Ro
       in_ram.emplace(address, std::exchange(raw, rom->second.at(address)));
     }
   }
+  keep_rom(plan, held, session);
   const auto known = kept_.find(*unique_id);
   state::SnapshotEntry entry =
       known != kept_.end()

@@ -21,19 +21,7 @@ namespace {
 /// A crystal with a drift of 30 ppm uses a twentieth of the tolerance in this time.
 constexpr std::chrono::hours worth_renewing{1};
 
-/// The longest usual time from the record of a change to its last write, where nobody recorded how
-/// it ended: the servo may have restarted in between.
-constexpr std::chrono::seconds writing_time{10};
-
-/// An uptime in whole seconds lets a start look later by as much.
-constexpr std::chrono::seconds whole_second{1};
-
 using Entries = std::vector<state::SnapshotEntry>;
-
-/// No write of it came later.
-WallTime last_write(const state::SnapshotEntry& change) {
-  return change.settled ? *change.settled + whole_second : change.at + writing_time;
-}
 
 /// Whether `later` found a value that `earlier` had written: the servo did not restart in between.
 bool follows(const state::SnapshotEntry& later, const state::SnapshotEntry& earlier) {
@@ -104,6 +92,16 @@ bla::Values replaced_by(const std::vector<state::SnapshotEntry>& changes) {
 }
 
 } // namespace
+
+WallTime last_write(const state::SnapshotEntry& change) {
+  constexpr std::chrono::seconds writing_time{10}; // usual, where nobody recorded how it ended
+  constexpr std::chrono::seconds whole_second{1};  // an uptime lets a start look later by as much
+  return change.settled ? *change.settled + whole_second : change.at + writing_time;
+}
+
+bla::Values taken_ids(const state::SnapshotEntry& erase, const Snapshot& ram) {
+  return taken_by(erase, {bla::address::servo_id, bla::address::static_node_id}, ram);
+}
 
 /// Empty: it has not told its uptime.
 std::optional<WallTime> History::start_of(const Servo& servo, const Session& session) {
@@ -219,10 +217,11 @@ bla::Values History::known_rom(const Snapshot& ram, const Session& session) {
 
 bla::Values History::lost_ids(const Snapshot& ram, const Session& session) const {
   const auto started = start_of(ram.servo, session);
+  bool is_last = true; // a restart has not brought them back
   auto entry = started ? snapshots_.last(*ram.servo.unique_id)
                        : Result<std::optional<state::SnapshotEntry>>();
   std::set<bla::Address> lost{bla::address::servo_id, bla::address::static_node_id};
-  while (entry && *entry && (*entry)->at >= *started) {
+  while (entry && *entry && (is_last || (*entry)->at >= *started)) {
     const state::SnapshotEntry& change = **entry;
     if (change.command == erase_keeping_ids) {
       return change.ended ? bla::Values() : taken_by(change, lost, ram);
@@ -231,6 +230,7 @@ bla::Values History::lost_ids(const Snapshot& ram, const Session& session) const
       lost.erase(bla::Address(address));
     }
     entry = snapshots_.before(change);
+    is_last = false;
   }
   return {};
 }

@@ -110,8 +110,15 @@ void History::settle(const ChangeResult& result, WallTime wall, Settled& settled
   }
   const auto trials = in_ram_.find(unique_id);
   const bool is_of_ram = kept.entry.saved && !kept.was_saved && trials != in_ram_.end();
+  const auto others = in_rom_.find(unique_id);
+  const bool is_of_rom = !kept.entry.saved && kept.was_saved && others != in_rom_.end();
   const bool was_planned = std::exchange(kept.entry.saved, kept.was_saved) == kept.was_saved;
   const bool has_more = kept.was_changed && take_in_changed(result, kept.entry);
+  if (is_of_rom) { // another node has saved it
+    for (const auto& [address, raw] : others->second) {
+      kept.entry.held.insert_or_assign(address, raw);
+    }
+  }
   if (!is_known) { // until the servo restarts
     if (!was_planned || has_more) {
       settled.entries.push_back(kept.entry);
@@ -124,7 +131,7 @@ void History::settle(const ChangeResult& result, WallTime wall, Settled& settled
       kept.entry.held.insert_or_assign(address, raw);
     }
   }
-  if (is_of_ram || has_more) {
+  if (is_of_ram || is_of_rom || has_more) {
     settled.entries.push_back(kept.entry);
   } else {
     settled.ends.push_back({.number = kept.entry.number,

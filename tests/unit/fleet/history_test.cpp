@@ -518,6 +518,29 @@ TEST_CASE("IDs that an erase has lost are known as long as nobody gives others")
   CHECK(bla::find(lost, at::static_node_id) == 11);
 }
 
+TEST_CASE("an erase that broke off goes on where another node has saved it, and it has restarted") {
+  const Kept kept;
+  const Scene scene(servos(R"(, "servo_id": 5)"));
+  const Wanted erase{.erase = true, .keep_ids = true};
+  const std::string command(erase_keeping_ids);
+  killed(scene, erase, kept, command);
+  const auto unrecorded = [&](const Wanted& wanted) {
+    REQUIRE(carry_out(*scene.session, profiles(), plans_for(scene, wanted, {11}), {})
+                .servos[0]
+                .is_done());
+  };
+  unrecorded(set("servo_id=0")); // as it broke off
+  scene.live(15s);
+  unrecorded(save);
+  scene.live(3s);
+  const Snapshot ram = scene.read(11, registers({"servo_id", "static_node_id"}));
+  CHECK(kept.history("erase").lost_ids(ram, *scene.session) == bla::Values{{at::servo_id, 5}});
+  REQUIRE(change(scene, erase, kept, command).is_done());
+  REQUIRE(kept.entries().size() == 1);
+  CHECK(kept.entries().front().held.at(0x45) == 5);
+  CHECK(kept.entries().front().saved); // by the other node
+}
+
 TEST_CASE("a saved change is taken back to what ROM held, one that was not saved to RAM's value") {
   const Kept kept;
   const Scene scene(servos());
@@ -714,6 +737,23 @@ TEST_CASE("a SAVE of another node in the middle of a change that was to be saved
     }
   }
   CHECK(was_cut);
+}
+
+TEST_CASE("a change in RAM that another node saves meanwhile is taken back to what ROM held") {
+  const Kept kept;
+  const Scene scene(servos());
+  REQUIRE(change(scene, save, kept).is_done());
+  REQUIRE(change(scene, set("angle_limit_cw=90deg"), kept).is_done());
+  History history = kept.history();
+  const auto plans = plans_for(scene, set("angle_limit_cw=45deg"), {11});
+  REQUIRE(history.keep(plans, *scene.session));
+  CHECK(kept.entries().front().held == state::Registers{{0x38, 900}});
+  auto done = carry_out(*scene.session, profiles(), plans, {});
+  const bool is_saved = GENERATE(true, false);
+  done.servos[0].may_have_saved = is_saved;
+  REQUIRE(history.conclude(done.servos, *scene.session));
+  CHECK(kept.entries().front().held == state::Registers{{0x38, is_saved ? 1799 : 900}});
+  CHECK(kept.entries().front().saved == is_saved);
 }
 
 TEST_CASE("undo of an erase leaves the IDs that it kept") {

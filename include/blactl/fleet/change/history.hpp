@@ -100,6 +100,7 @@ class History {
   [[nodiscard]] std::optional<state::RomProof> proof(const Servo& servo, const Session& session);
   using Roms = std::map<dronecan::UniqueId, state::Registers>;
 
+  void keep_rom(const Plan& plan, const state::Registers& held, const Session& session);
   [[nodiscard]] Roms roms_before(std::span<const Plan> plans, const Session& session);
   [[nodiscard]] Result<void> keep_lasting(std::span<const Plan> plans, const Roms& roms,
                                           const Session& session);
@@ -137,12 +138,18 @@ class History {
   std::int64_t joined_ = 0;                 ///< of an earlier try that is continued; 0: none
   std::set<dronecan::UniqueId> unproven_{}; ///< their proofs were removed
 
-  /// Where an entry holds what ROM held before a save: what RAM did.
-  Roms in_ram_{};
+  /// Where an entry holds what ROM held before a save: what RAM did; else the other way about.
+  Roms in_ram_{}, in_rom_{};
 
   /// Changes in RAM that SAVE makes permanent, as they were before.
   std::map<dronecan::UniqueId, std::vector<state::SnapshotEntry>> lasting_{};
 };
+
+/// No write of this change came later: the servo may have restarted between record and write.
+[[nodiscard]] WallTime last_write(const state::SnapshotEntry& change);
+
+/// The IDs that an ERASE has taken, as RAM shows.
+[[nodiscard]] bla::Values taken_ids(const state::SnapshotEntry& erase, const Snapshot& ram);
 
 /// The settings that this plan replaces, with their present values; all writable ones for ERASE and
 /// for a restart that is to show what ROM holds.
