@@ -42,10 +42,6 @@ constexpr Option faults_options[]{
      .store = into<&FaultsOptions::watch>},
 };
 
-bool has_found(const FaultState& servo, Level level) {
-  return std::max(servo.worst(), servo.unexplained_health()) >= std::optional(level);
-}
-
 void list(const std::vector<dronecan::NodeId>& ids, const FaultsOptions& options, Context& context,
           Report& report) {
   auto read = fleet::read_faults(context.session(), context.known(), ids, context.identification());

@@ -13,6 +13,7 @@
 #include <iterator>
 #include <map>
 #include <set>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -62,12 +63,13 @@ class Watch {
   [[nodiscard]] bool redraw();
   [[nodiscard]] bool check(const Result<bool>& printed);
   [[nodiscard]] bool tell_silence(const FaultState& now);
+  void tell_refusal(FaultState& now, std::span<const Fault> had);
 
   bla::Level shown_;
   Context& context_;
   Report& report_;
   std::map<NodeId, FaultState> last_; ///< the last reads of each servo
-  std::set<NodeId> silent_;
+  std::set<NodeId> silent_, refusing_;
   std::map<NodeId, std::uint32_t> boots_; ///< as last told
 };
 
@@ -110,10 +112,17 @@ bool Watch::tell(Event event, const FaultState& servo, const Fault* fault) {
   return check(context_.reporter().stream(line + '\n'));
 }
 
+/// One that refuses a register is there; one with another error may be.
+bool has_answered(const FaultState& now) {
+  return now.errors.empty() || std::ranges::all_of(now.errors, [](const Error& error) {
+           return error.code == Code::refused;
+         });
+}
+
 /// A servo that does not respond keeps its last known faults.
 bool Watch::tell_silence(const FaultState& now) {
   const NodeId id = now.snapshot.servo.id;
-  const bool has_answered = now.errors.empty();
+  const bool has_answered = cli::has_answered(now);
   const bool is_news = has_answered ? silent_.erase(id) > 0 : silent_.insert(id).second;
   if (!is_news) {
     return true;
@@ -134,9 +143,22 @@ bool Watch::tell_restart(const FaultState& now) {
   return is_first || std::exchange(known->second, boots) == boots || tell(Event::restarted, now);
 }
 
+/// What it refuses to tell is said once; what was known of that stays.
+void Watch::tell_refusal(FaultState& now, std::span<const Fault> had) {
+  if (now.errors.empty()) {
+    refusing_.erase(now.snapshot.servo.id);
+    return;
+  }
+  if (refusing_.insert(now.snapshot.servo.id).second && !context_.reporter().has_screen()) {
+    context_.reporter().note(now.errors.front().message);
+  }
+  std::ranges::copy_if(had, std::back_inserter(now.faults),
+                       [&](const Fault& fault) { return !now.fault_register(fault.reg); });
+}
+
 /// Compares one read of a servo with the one before.
 bool Watch::take(FaultState now) {
-  if (!tell_silence(now) || (now.errors.empty() && !tell_restart(now))) {
+  if (!tell_silence(now) || (has_answered(now) && !tell_restart(now))) {
     return false;
   }
   const NodeId id = now.snapshot.servo.id;
@@ -151,11 +173,14 @@ bool Watch::take(FaultState now) {
   }
   // faults in registers that were unreadable before count as present
   const bool is_first = before == last_.end() || before->second.snapshot.readings.empty();
-  if (!now.errors.empty() && !is_first) {
+  if (!has_answered(now) && !is_first) {
     before->second.errors = std::move(now.errors);
     return true;
   }
   const auto had = is_first ? std::vector<Fault>() : before->second.faults;
+  if (has_answered(now)) {
+    tell_refusal(now, had);
+  }
   bool goes_on = true;
   for (const Fault& fault : now.faults) {
     if (std::ranges::find(had, fault) == had.end()) {
@@ -206,8 +231,7 @@ void watch_faults(std::span<const NodeId> servos, bla::Level shown, bla::Level c
     goes_on = watch.take(std::move(*seen)) && !session.is_replay();
   }
   for (const auto& [id, servo] : watch.last()) {
-    report.targets.push_back(
-        {.errors = servo.errors, .has_found = servo.worst() >= std::optional(counted)});
+    report.targets.push_back({.errors = servo.errors, .has_found = has_found(servo, counted)});
   }
 }
 

@@ -12,6 +12,9 @@ inline constexpr Text came_since{
 inline constexpr Text did_not_tell_ids{
     "node {} gave no answer about its IDs: a conflict with it cannot be ruled out",
     "ノード {} の ID を読み出せないため、重複の有無は確認できません"};
+inline constexpr Text judged_by_changed{
+    "node {0}: {1} was not written, as node {2} wrote to {3} meanwhile",
+    "ノード {0}: ノード {2} が {3} に書き込んだため、{1} は書き込んでいません"};
 inline constexpr Text servo_id_in_unread_rom{
     "node {} could not read its ROM: a conflict with the servo ID that it holds there cannot be "
     "ruled out",

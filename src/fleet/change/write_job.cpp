@@ -122,7 +122,9 @@ std::optional<Error> WriteJob::not_any_more() const {
   for (const Premise& premise : options_.premises) {
     if (const auto writer =
             roster_.setter_of(servo_.id, servo_.since, premise.parameter->address)) {
-      return Error{Code::state, say<texts::written_by_other>(id, writer->value()),
+      return Error{Code::state,
+                   say<texts::judged_by_changed>(id, change.parameter->name, writer->value(),
+                                                 premise.parameter->name),
                    say<texts::run_again_hint>(), id};
     }
   }

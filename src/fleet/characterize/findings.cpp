@@ -90,6 +90,11 @@ Finding finding(const Member& member, Time now, bool is_gone) {
                 .status = status(member),
                 .is_foreign = member.is_foreign(),
                 .warnings = warnings(member)};
+  if (member.info && member.info_boot != member.boots) { // another unit may have come
+    found = {.servo = {.id = member.id, .is_servo = member.is_servo},
+             .status = found.status,
+             .warnings = {say<texts::warn_not_asked>()}};
+  }
   const Duration silence = now - member.last_heard;
   found.is_offline = silence >= offline_time || (is_gone && silence >= servo_silence);
   if (silence >= offline_time) {

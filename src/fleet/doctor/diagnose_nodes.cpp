@@ -149,7 +149,7 @@ class NodeExamination {
   void servo(const Servo& servo) {
     const std::uint8_t id = servo.id.value();
     const auto& readings = servo.identity.readings();
-    if (servo.identity.model().empty()) {
+    if (servo.identity.model().empty() && servo.unique_id) { // else nobody asked
       add("unknown_model", Level::warning, servo.id, say<texts::node_unknown_model>(id),
           say<texts::node_unknown_model_fix>());
     }

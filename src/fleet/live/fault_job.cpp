@@ -79,9 +79,25 @@ bool is_surpassed(const FaultState& state) {
           (fails && state.worst() < std::optional(Level::failure)));
 }
 
+/// Its NodeStatus reports less than a register, which it held before.
+bool is_outlived(const FaultState& state, bla::Address reg) {
+  using dronecan::Health;
+  const bool is_of_failures = reg == bla::address::fault_failure;
+  const bool is_of_warnings = reg == bla::address::fault_warning;
+  const bool is_over = state.health == Health::ok
+                           ? is_of_failures || is_of_warnings
+                           : state.health == Health::warning && is_of_failures;
+  return is_over && bla::find(state.snapshot.values(), reg).value_or(0) != 0;
+}
+
+bool is_outlived(const FaultState& state) {
+  return std::ranges::any_of(bla::fault_registers,
+                             [&](bla::Address reg) { return is_outlived(state, reg); });
+}
+
 /// A log cannot be asked again: if a servo reports more later, the value of 0x18 is unknown, and so
-/// are the registers without faults.
-void doubt(FaultState& state) {
+/// are the registers without faults; if it reports less, so are those with faults.
+void doubt(FaultState& state, const bla::Profiles& profiles) {
   const std::uint8_t id = state.snapshot.servo.id.value();
   const Error error{Code::not_recorded, say<texts::faults_not_recorded>(id),
                     say<texts::faults_not_recorded_hint>(), id};
@@ -89,10 +105,11 @@ void doubt(FaultState& state) {
     const bla::Address address = reading.parameter->address;
     const bool is_empty = reading.raw == 0 && std::ranges::find(bla::fault_registers, address) !=
                                                   bla::fault_registers.end();
-    if (is_empty || address == bla::address::fault_summary) {
+    if (is_empty || is_outlived(state, address) || address == bla::address::fault_summary) {
       reading.raw = std::unexpected(error);
     }
   }
+  state.faults = bla::faults(state.snapshot.values(), profiles);
   state.errors.push_back(error);
 }
 
@@ -107,10 +124,12 @@ std::optional<bla::Level> FaultState::worst() const {
 }
 
 std::optional<bla::Level> FaultState::unexplained_health() const {
-  if (!errors.empty() || !faults.empty() || !health || *health == dronecan::Health::ok) {
+  if (!errors.empty() || !health || *health == dronecan::Health::ok) {
     return std::nullopt;
   }
-  return *health == dronecan::Health::warning ? Level::warning : Level::failure;
+  const Level told = *health == dronecan::Health::warning ? Level::warning : Level::failure;
+  const bool is_explained = told == Level::failure ? worst() == told : worst().has_value();
+  return is_explained ? std::nullopt : std::optional(told);
 }
 
 std::vector<Reading> FaultState::values_of(const bla::Fault& fault) const {
@@ -124,6 +143,10 @@ std::vector<Reading> FaultState::values_of(const bla::Fault& fault) const {
     }
   }
   return values;
+}
+
+bool has_found(const FaultState& servo, Level level) {
+  return std::max(servo.worst(), servo.unexplained_health()) >= std::optional(level);
 }
 
 FaultJob::FaultJob(Session& session, const bla::Profiles& profiles, NodeId id,
@@ -162,8 +185,8 @@ Step FaultJob::judge(Time now) {
     return std::nullopt;
   }
   if (session_.is_replay()) {
-    if (is_surpassed(state_) || shows_more_than_summary(state_)) {
-      doubt(state_);
+    if (is_surpassed(state_) || is_outlived(state_) || shows_more_than_summary(state_)) {
+      doubt(state_, profiles_);
     }
     return std::nullopt;
   }

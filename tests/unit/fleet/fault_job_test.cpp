@@ -31,6 +31,24 @@ TEST_CASE("0x18 that shows no bit of a level tells what its register holds, unre
   CHECK_FALSE(states.servos[0].snapshot.raw(at::fault_warning));
 }
 
+TEST_CASE("an error that NodeStatus reports is not explained by a warning, a warning by a notice") {
+  using bla::Level;
+  using dronecan::Health;
+  const auto unexplained = [](Health health, std::optional<Level> worst) {
+    FaultState state{.snapshot = {}, .faults = {}, .health = health, .errors = {}};
+    if (worst) {
+      state.faults.push_back({.reg = at::fault_warning, .level = *worst, .group = {}});
+    }
+    return state.unexplained_health();
+  };
+  CHECK(unexplained(Health::error, Level::warning) == Level::failure);
+  CHECK(unexplained(Health::error, {}) == Level::failure);
+  CHECK_FALSE(unexplained(Health::critical, Level::failure));
+  CHECK(unexplained(Health::warning, {}) == Level::warning);
+  CHECK_FALSE(unexplained(Health::warning, Level::notice)); // unproven: whether notices warn
+  CHECK_FALSE(unexplained(Health::ok, Level::warning));
+}
+
 TEST_CASE("where NodeStatus tells of more than 0x18 did, all four registers are read") {
   Scene scene(servo_11(R"(, "behaviour": {"notices_warn": true}, "ram": {"fault_notice": 256})"));
   scene.grow_old();

@@ -130,6 +130,24 @@ TEST_CASE("a servo that has another node ID now is one servo") {
   CHECK(conflicts[1].code == Code::duplicate_servo_id);
 }
 
+TEST_CASE("who has restarted and was not asked since is not told by what was there before") {
+  Bus bus;
+  bus.servo(11, 5);
+  bus.now += 10s;
+  bus.hear(11, {.uptime_s = 60});
+  bus.now += 2s;
+  bus.hear(11, {.uptime_s = 1}); // a restart, or another unit
+  const Findings findings = bus.findings();
+  REQUIRE(findings.nodes.size() == 1);
+  const Finding& node = findings.nodes[0];
+  CHECK(node.servo.is_servo);
+  CHECK_FALSE(node.servo.unique_id);
+  CHECK(node.servo.identity.model().empty());
+  CHECK_FALSE(node.info);
+  CHECK(node.status);
+  CHECK(node.warnings.size() == 1);
+}
+
 TEST_CASE("two servos with one static node ID will collide after a restart") {
   Bus bus;
   bus.servo(11, 1, 20);

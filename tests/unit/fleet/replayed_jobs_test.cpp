@@ -161,7 +161,12 @@ TEST_CASE("what a recording tells of faults only later is not known, where none 
   CHECK(found.faults.size() == 1); // the last one known
   CHECK_FALSE(found.fault_register(at::fault_failure));
   CHECK(faults(dronecan::Health::warning, 0x100).errors.empty());
-  const FaultState later = faults(dronecan::Health::ok, 0x100, false); // it came after 0x18
+  const FaultState over = faults(dronecan::Health::ok, 0x100);
+  REQUIRE(over.errors.size() == 1);
+  CHECK(over.errors.front().code == Code::not_recorded);
+  CHECK_FALSE(over.fault_register(at::fault_warning));
+  CHECK(over.faults.empty());
+  const FaultState later = faults(dronecan::Health::warning, 0x100, false); // it came after 0x18
   REQUIRE(later.errors.size() == 1);
   CHECK(later.errors.front().code == Code::not_recorded);
   CHECK(later.fault_register(at::fault_warning) == 0x100);

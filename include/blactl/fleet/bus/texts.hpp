@@ -122,8 +122,8 @@ inline constexpr Text written_while_read{
 inline constexpr Text faults_flicker{"node {}: its faults come and go while they are read",
                                      "ノード {}: 読出し中に異常の発生と解消を繰り返しています"};
 inline constexpr Text faults_not_recorded{
-    "node {}: it reports faults that the registers in the recording do not show",
-    "ノード {}: 異常が通知されていますが、記録されたレジスタの値に現れていません"};
+    "node {}: what it reports of faults is not what the registers in the recording show",
+    "ノード {}: 通知された状態と、記録されたレジスタの異常が一致していません"};
 inline constexpr Text faults_not_recorded_hint{"record them: blactl faults --record FILE",
                                                "記録するには: blactl faults --record FILE"};
 inline constexpr Text other_writer_hint{"stop it, then run the command again",
@@ -131,6 +131,8 @@ inline constexpr Text other_writer_hint{"stop it, then run the command again",
 inline constexpr Text not_read_completely{
     "node {} was not read completely: none of its values is shown",
     "ノード {} の読出しは途中で終了したため、表示しません"};
+inline constexpr Text warn_not_asked{"has restarted, and did not say since who it is",
+                                     "再起動後、ユニーク ID は不明です"};
 inline constexpr Text warn_gone{"does not answer any more", "応答しなくなりました"};
 inline constexpr Text warn_unanswered{"did not answer when it was asked last",
                                       "直前の問合せに応答がありませんでした"};

@@ -26,13 +26,17 @@ struct FaultState {
   /// The worst level; empty: no bit is known to be set.
   [[nodiscard]] std::optional<bla::Level> worst() const;
 
-  /// The level that NodeStatus reports although all registers were read without a bit (Table 2-18
-  /// has no such state); empty: the registers explain it, or it reports none.
+  /// The level that NodeStatus reports although all registers were read without a bit of it (Table
+  /// 2-18 has no such state); empty: the registers explain it, or it reports none. unproven: a
+  /// notice explains a warning.
   [[nodiscard]] std::optional<bla::Level> unexplained_health() const;
 
   /// The registers related to a fault, as far as they were read.
   [[nodiscard]] std::vector<Reading> values_of(const bla::Fault& fault) const;
 };
+
+/// Whether a fault of at least this level is known, or reported by NodeStatus.
+[[nodiscard]] bool has_found(const FaultState& servo, bla::Level level);
 
 /// Reads 0x18, and if it shows faults the registers behind it. If NodeStatus reports more than
 /// that, all four registers are read once more. On a recording all four are looked for; where they
