@@ -159,20 +159,33 @@ Result<void> Discovery::hear_servos(const Targets& targets, Duration listen) {
   return lived && is_empty ? session_.live_until(begin + std::max(listen, empty_bus_time)) : lived;
 }
 
+/// Those that have been heard, and that are heard meanwhile.
+Result<void> Discovery::identify_servos() {
+  std::set<NodeId> asked;
+  for (std::size_t before = 0;; before = asked.size()) {
+    for (const auto& [id, member] : session_.roster().members()) {
+      // a recording may be too short for an actuator.Status, and no requests are possible
+      if ((member.sends_actuator_status() || session_.is_replay()) && asked.insert(id).second) {
+        identify(id);
+      }
+    }
+    if (asked.size() == before) {
+      return {};
+    }
+    if (auto ran = session_.run(); !ran) {
+      return ran;
+    }
+  }
+}
+
 Result<Selection> Discovery::select(const Targets& targets, Duration listen) {
   Selection selection;
   if (targets.need_search()) {
     if (auto lived = hear_servos(targets, listen); !lived) {
       return std::unexpected(lived.error());
     }
-    for (const auto& [id, member] : session_.roster().members()) {
-      // a recording may be too short for an actuator.Status, and no requests are possible
-      if (member.sends_actuator_status() || session_.is_replay()) {
-        identify(id);
-      }
-    }
-    if (auto ran = session_.run(); !ran) {
-      return std::unexpected(ran.error());
+    if (auto identified = identify_servos(); !identified) {
+      return std::unexpected(identified.error());
     }
     for (auto& error : identifications()) {
       // with a selector it may be another's, and who is chosen is told of when it is read

@@ -108,6 +108,17 @@ TEST_CASE("without -n every servo that is heard is identified and meant, and nob
   CHECK(scene.session->now() - begin < servo_search_time + 50ms);
 }
 
+TEST_CASE("a servo that is heard while others are asked who they are is one of all") {
+  const Scene scene(R"("servos": [
+      {"model": "BLA21-12U-AB", "node_id": 11, "sending": {"late_answers": 1, "late_by": "80ms"}},
+      {"model": "BLA21-12U-AB", "node_id": 12, "serial_number": 7}],
+    "events": [{"at": "0ms", "servo": 7, "world": {"plugged": "off"}},
+               {"at": "450ms", "servo": 7, "world": {"plugged": "on"}}])");
+  const Selection selection = select(scene, targets("all"));
+  CHECK(ids(selection) == Ids{11, 12});
+  CHECK(selection.errors.empty());
+}
+
 TEST_CASE("a selector picks those that it matches; one that matches none is told") {
   const Scene scene(two_servos_and_a_node);
   CHECK(ids(select(scene, targets("serial:240900558"))) == Ids{11});

@@ -93,6 +93,7 @@ class Discovery final : private Roster::Listener {
   void start(std::unique_ptr<dronecan::Job> job);
   [[nodiscard]] std::vector<const Member*> meant(const Targets& targets) const;
   [[nodiscard]] bool is_bystander(const Error& error) const;
+  [[nodiscard]] Result<void> identify_servos();
   [[nodiscard]] Result<void> hear_servos(const Targets& targets, Duration listen);
   [[nodiscard]] bool is_met(const Selector& selector) const;
   [[nodiscard]] std::vector<Error> unmet(const Targets& targets) const;
