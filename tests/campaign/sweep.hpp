@@ -80,6 +80,8 @@ class Sweep {
   static void check_stores(World& world, const Step& cut, bool is_undoable);
   void play_each(const Case& one, Disturbance::Kind kind);
   void play_pairs(const Case& one);
+  [[nodiscard]] static std::vector<Command> refused(const Episode& episode);
+  void play_refused();
   void play_faults(const Case& one);
   void play_moments(const Case& one);
 

@@ -1,0 +1,152 @@
+// The servos and commands of the sweep.
+
+#include "campaign.hpp"
+#include "limits.hpp"
+#include "sweep.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace blactl::campaign {
+
+using nlohmann::json;
+
+namespace {
+
+Command words(std::vector<std::string> all) {
+  return {.words = std::move(all), .is_right = true};
+}
+
+Command apply(const json& first, const json& second, std::vector<std::string> more = {}) {
+  json entries = json::array();
+  entries.push_back({{"name", "a"}, {"match", {{"serial_number", 240900001}}}, {"set", first}});
+  entries.push_back({{"name", "b"}, {"match", {{"serial_number", 240900002}}}, {"set", second}});
+  Command command = words({"apply", "fleet.json", "-y"});
+  command.words.insert(command.words.end(), more.begin(), more.end());
+  command.fleet = {{"schema", "blactl-fleet/1"}, {"servos", entries}};
+  return command;
+}
+
+} // namespace
+
+/// Servos with these node IDs, and nothing that goes wrong.
+Episode Sweep::episode_of(const std::vector<int>& node_ids) {
+  json servos = json::array();
+  const std::vector<std::string> models{"BLA21-12U-AB", "BLA15-06U-A0", "BLA34-28U-AB"};
+  for (std::size_t i = 0; i < node_ids.size(); ++i) {
+    servos.push_back({{"model", models[i]},
+                      {"node_id", node_ids[i]},
+                      {"serial_number", 240900001 + i},
+                      {"servo_id", i + 1}});
+  }
+  return {.seed = 0,
+          .scenario = {{"schema", "blactl-scenario/1"},
+                       {"clock", "virtual"},
+                       {"seed", 1},
+                       {"servos", servos}},
+          .steps = {},
+          .faults = {}};
+}
+
+std::vector<Sweep::Case> Sweep::cases() {
+  const Command in_ram = words({"set", "-n", "all", "smoothing=off", "timeout_time=500ms", "-y"});
+  const Command saved = words({"set", "-n", "11,12", "reverse=on", "--save", "-y"});
+  // so many that something can come between two of one servo
+  const Command many =
+      words({"set", "-n", "11,12", "smoothing=off", "soft_start=off", "timeout_time=500ms",
+             "angle_p_gain=30", "angle_d_gain=20", "speed_p_gain=20", "speed_i_gain=2",
+             "speed_dead_band=100", "speed_i_limit=20000", "temperature_limit_high=70degC", "-y"});
+  return {
+      {.name = "set", .before = {}, .command = many, .is_undoable = true, .is_written_again = true},
+      {.name = "set --save", .before = {}, .command = saved, .is_undoable = true},
+      {.name = "set --save of a trial",
+       .before = {words({"set", "-n", "11", "reverse=on", "-y"})},
+       .command = saved,
+       .is_undoable = true},
+      {.name = "set static_node_id --save",
+       .before = {},
+       .command = words({"set", "-n", "serial:240900001", "static_node_id=30", "--save", "-y"}),
+       .is_undoable = true},
+      {.name = "set beside a trial",
+       .before = {words({"set", "-n", "11", "smoothing=off", "-y"})},
+       .command = in_ram},
+      {.name = "set --save, just restarted",
+       .before = {words({"restart", "-n", "all", "-y"})},
+       .command = saved,
+       .is_undoable = true},
+      {.name = "save", .before = {in_ram}, .command = words({"save", "-n", "all", "-y"})},
+      {.name = "erase --save",
+       .before = {saved},
+       .command = words({"erase", "-n", "11,12", "--save", "--keep-ids", "-y"}),
+       .is_undoable = true},
+      {.name = "erase --keep-ids",
+       .before = {saved},
+       .command = words({"erase", "-n", "11,12", "--keep-ids", "-y"}),
+       .is_undoable = true},
+      {.name = "restart", .before = {}, .command = words({"restart", "-n", "all", "-y"})},
+      {.name = "pwm-config --save",
+       .before = {},
+       .command = words({"pwm-config", "-n", "11", "--neutral", "1500us", "--save", "-y"}),
+       .is_undoable = true},
+      {.name = "apply",
+       .before = {},
+       .command = apply({{"smoothing", "off"}}, {{"angle_limit_cw", "90deg"}}),
+       .is_undoable = true},
+      {.name = "apply, IDs exchanged",
+       .before = {},
+       .command = apply({{"static_node_id", 12}, {"smoothing", "off"}},
+                        {{"static_node_id", 11}, {"reverse", "on"}}),
+       .is_undoable = true},
+      {.name = "apply --no-save",
+       .before = {},
+       .command = apply({{"smoothing", "off"}}, {{"reverse", "on"}}, {"--no-save"}),
+       .is_undoable = true},
+      {.name = "alloc --static",
+       .before = {},
+       .command = words({"alloc", "--static", "-n", "serial:240900001", "--id", "30", "-y"}),
+       .is_undoable = true},
+      {.name = "undo", .before = {saved}, .command = words({"undo", "-y"}), .is_repeatable = false},
+      {.name = "alloc --once",
+       .before = {},
+       .command = words({"alloc", "--once"}),
+       .is_repeatable = false,
+       .node_ids = {0, 0, 13}},
+      {.name = "monitor --identify",
+       .before = {},
+       .command = words({"monitor", "--identify", "-n", "11", "--duration", "2", "-y"}),
+       .is_repeatable = false},
+      {.name = "command",
+       .before = {},
+       .command = words({"command", "angle=20deg", "-n", "11", "-y"}),
+       .is_repeatable = false},
+  };
+}
+
+/// Nothing goes wrong, but the command would do harm: every value just outside of the limits of
+/// each register, and IDs that others have.
+std::vector<Command> Sweep::refused(const Episode& episode) {
+  std::vector<Command> all{
+      words({"set", "-n", "11", "servo_id=2", "-y"}),
+      words({"set", "-n", "11", "static_node_id=12", "-y"}),
+      words({"set", "-n", "11", "static_node_id=12", "--save", "-y"}),
+      words({"set", "-n", "11", "servo_id=2", "--save", "-y"}),
+      words({"set", "-n", "11", "0x3E=20", "0x3F=20", "-y"}),
+      words({"alloc", "--static", "-n", "11", "--id", "12", "-y"}),
+      words({"apply", "fleet.json", "-y"}),
+  };
+  all.back().fleet = apply({{"servo_id", 2}}, {{"smoothing", "off"}}).fleet;
+  for (const json& servo : episode.scenario["servos"]) {
+    for (const auto& [address, limit] : limits().of(servo["model"])) {
+      for (const std::int64_t value : {limit.min - 1, limit.max + 1}) {
+        all.push_back(words({"set", "-n", std::to_string(servo["node_id"].get<int>()),
+                             fmt::format("{:#04x}={}raw", address, value), "-y"}));
+      }
+    }
+    all.push_back(words({"set", "-n", std::to_string(servo["node_id"].get<int>()), "0x34=1500raw",
+                         "0x35=400raw", "-y"}));
+  }
+  return all;
+}
+
+} // namespace blactl::campaign
