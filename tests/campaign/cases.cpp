@@ -59,6 +59,13 @@ std::vector<Sweep::Case> Sweep::cases() {
              "speed_dead_band=100", "speed_i_limit=20000", "temperature_limit_high=70degC", "-y"});
   return {
       {.name = "set", .before = {}, .command = many, .is_undoable = true, .is_written_again = true},
+      {.name = "set of a limit",
+       .before = {},
+       .command = words({"set", "-n", "11", "smoothing=off", "soft_start=off", "angle_p_gain=30",
+                         "angle_d_gain=20", "speed_p_gain=20", "speed_i_gain=2",
+                         "temperature_limit_high=20degC", "-y"}),
+       .is_undoable = true,
+       .is_judged_by_others = true},
       {.name = "set --save", .before = {}, .command = saved, .is_undoable = true},
       {.name = "set --save of a trial",
        .before = {words({"set", "-n", "11", "reverse=on", "-y"})},

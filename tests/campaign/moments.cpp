@@ -32,6 +32,7 @@ struct Happening {
   bool is_over = true; ///< with the command: another node's order may have taken the servo's IDs
   bool is_undoable = false;  ///< whatever becomes of the command, `undo` puts the servos back
   bool is_made_good = false; ///< while RAM is written
+  bool ends_writes = false;  ///< of what was judged by the setting that changes
 };
 
 AddAt event(const char* happens) {
@@ -72,6 +73,10 @@ const std::vector<Happening>& happenings() {
       {"other writes", order({{"order", "write"}, {"address", 0x38}, {"value", 450}}), false},
       {"other writes the same", order({{"order", "write"}, {"address", 0x22}, {"value", 1}}),
        false},
+      {.name = "other writes what it was judged by",
+       .add = order({{"order", "write"}, {"address", 0x3F}, {"value", 20}}),
+       .is_over = false,
+       .ends_writes = true},
       {"other saves", order({{"order", "save"}}), false, true},
       {"other erases", order({{"order", "erase"}}), false},
       {"other restarts", order({{"order", "restart"}}), false},
@@ -150,7 +155,10 @@ void Sweep::play_moments(const Case& one) {
             {.what = fmt::format("{} at {}", happening.name, at),
              .must_converge = happening.is_over && one.is_repeatable,
              .is_undone = happening.is_undoable && one.is_undoable,
-             .must_end_well = is_made_good && moment > first_change && moment < last_change},
+             .must_end_well = is_made_good && moment > first_change && moment < last_change,
+             .is_last = happening.ends_writes && one.is_judged_by_others && moment > first_change
+                            ? std::optional(moment)
+                            : std::nullopt},
             swept);
       }
     }
@@ -167,6 +175,12 @@ void Sweep::play_moment(const Case& one, const Episode& episode, const Moment& m
     judge(step);
     require(!moment.must_end_well || step.outcome.status == 0,
             "a restart while it writes is not made good");
+    require(!moment.is_last || std::ranges::none_of(step.outcome.record.changes(),
+                                                    [&](const OnWire& change) {
+                                                      return change.at >
+                                                             *moment.is_last + on_its_way;
+                                                    }),
+            "it was sent although another node had changed what it was judged by");
     if (moment.is_undone && !step.outcome.record.changes().empty()) {
       world.pass(4s);
       check_undo(world, step);

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -59,8 +60,9 @@ class Sweep {
     std::vector<Command> before;
     Command command;
     bool is_repeatable = true;
-    bool is_undoable = false;      ///< `undo` brings back all that was before
-    bool is_written_again = false; ///< what a restart in the middle has dropped
+    bool is_undoable = false;         ///< `undo` brings back all that was before
+    bool is_written_again = false;    ///< what a restart in the middle has dropped
+    bool is_judged_by_others = false; ///< by a setting that another node may change
     std::vector<int> node_ids{11, 12, 13};
   };
 
@@ -90,6 +92,7 @@ class Sweep {
     bool must_converge = false;
     bool is_undone = false;
     bool must_end_well = false;
+    std::optional<Time> is_last{}; ///< of a change: what it was judged by is another then
   };
 
   void play_moment(const Case& one, const Episode& episode, const Moment& moment, Swept& swept);
