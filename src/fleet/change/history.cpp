@@ -73,9 +73,9 @@ state::Registers replaced_in_rom(const Plan& plan, const state::Registers& rom,
   return replaced;
 }
 
-/// Whether ROM may hold what a try that broke off has written: not if the servo has not restarted
-/// since, nor if it did so with what it held before. Where it was not saved, another node may have
-/// done that.
+/// Whether ROM may hold what a try that broke off was to save: not if the servo has not restarted
+/// since, nor if it did so with what it held before. An ERASE that a restart has not taken back
+/// another node has saved.
 bool was_perhaps_saved(const state::SnapshotEntry& tried, const Snapshot& ram,
                        const std::optional<WallTime>& started) {
   if ((tried.saved && tried.settled) || !started) {
@@ -84,17 +84,8 @@ bool was_perhaps_saved(const state::SnapshotEntry& tried, const Snapshot& ram,
   const auto differs = [&](const auto& held) {
     return ram.raw(bla::Address(held.first)) != held.second;
   };
-  const auto is_shown = [&](const auto& written) {
-    const auto held = tried.held.find(written.first);
-    return held != tried.held.end() && held->second != written.second &&
-           ram.raw(bla::Address(written.first)) == written.second;
-  };
-  if (tried.saved) {
-    return tried.at < *started && std::ranges::any_of(tried.held, differs);
-  }
-  const bool is_erased = tried.command == erase_keeping_ids && !taken_ids(tried, ram).empty();
-  return last_write(tried) < *started &&
-         (is_erased || std::ranges::any_of(tried.written, is_shown));
+  return tried.saved ? tried.at < *started && std::ranges::any_of(tried.held, differs)
+                     : last_write(tried) < *started && has_lost_ids(tried, ram);
 }
 
 /// An earlier change in RAM as SAVE leaves it: what it replaced in ROM. Empty: ROM stays as it is.
@@ -179,7 +170,7 @@ Result<void> History::resume(const Snapshot& ram, const Session& session) {
   }
   const auto started = start_of(ram.servo, session);
   const bool is_over = command_ == erase_keeping_ids && *last &&
-                       (!started || (*last)->at < *started) && taken_ids(**last, ram).empty();
+                       (!started || (*last)->at < *started) && !has_lost_ids(**last, ram);
   if (*last && !(*last)->ended && (*last)->command == command_ && !is_over) {
     run_ = joined_ = std::max(run_, (*last)->run);
     const bool was_saved = was_perhaps_saved(**last, ram, started);

@@ -74,7 +74,7 @@ bla::Values taken_by(const state::SnapshotEntry& erase, const std::set<bla::Addr
   bla::Values taken;
   for (const bla::Address id : ids) {
     const auto held = erase.held.find(id.value());
-    if (held != erase.held.end() && ram.raw(id) == 0) {
+    if (held != erase.held.end() && held->second != 0 && ram.raw(id) == 0) {
       taken.emplace(id, held->second);
     }
   }
@@ -99,8 +99,22 @@ WallTime last_write(const state::SnapshotEntry& change) {
   return change.settled ? *change.settled + whole_second : change.at + writing_time;
 }
 
-bla::Values taken_ids(const state::SnapshotEntry& erase, const Snapshot& ram) {
-  return taken_by(erase, {bla::address::servo_id, bla::address::static_node_id}, ram);
+bool has_lost_ids(const state::SnapshotEntry& broken_off, const Snapshot& ram) {
+  const std::set ids{bla::address::servo_id, bla::address::static_node_id};
+  std::size_t erased = 0;
+  for (const auto& [address, raw] : broken_off.held) {
+    const auto initial = broken_off.written.find(address);
+    if (ids.contains(bla::Address(address)) || initial == broken_off.written.end() ||
+        initial->second == raw) {
+      continue;
+    }
+    if (ram.raw(bla::Address(address)) != initial->second) {
+      return false;
+    }
+    ++erased;
+  }
+  return erased > 0 && broken_off.command == erase_keeping_ids &&
+         !taken_by(broken_off, ids, ram).empty();
 }
 
 /// Empty: it has not told its uptime.
@@ -217,11 +231,13 @@ bla::Values History::known_rom(const Snapshot& ram, const Session& session) {
 
 bla::Values History::lost_ids(const Snapshot& ram, const Session& session) const {
   const auto started = start_of(ram.servo, session);
-  bool is_last = true; // a restart has not brought them back
+  auto is_open = [&, is_last = true](const state::SnapshotEntry& change) mutable {
+    return change.at >= *started || (std::exchange(is_last, false) && has_lost_ids(change, ram));
+  };
   auto entry = started ? snapshots_.last(*ram.servo.unique_id)
                        : Result<std::optional<state::SnapshotEntry>>();
   std::set<bla::Address> lost{bla::address::servo_id, bla::address::static_node_id};
-  while (entry && *entry && (is_last || (*entry)->at >= *started)) {
+  while (entry && *entry && is_open(**entry)) {
     const state::SnapshotEntry& change = **entry;
     if (change.command == erase_keeping_ids) {
       return change.ended ? bla::Values() : taken_by(change, lost, ram);
@@ -230,7 +246,6 @@ bla::Values History::lost_ids(const Snapshot& ram, const Session& session) const
       lost.erase(bla::Address(address));
     }
     entry = snapshots_.before(change);
-    is_last = false;
   }
   return {};
 }

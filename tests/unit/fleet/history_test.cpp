@@ -520,7 +520,7 @@ TEST_CASE("IDs that an erase has lost are known as long as nobody gives others")
 
 TEST_CASE("an erase that broke off goes on where another node has saved it, and it has restarted") {
   const Kept kept;
-  const Scene scene(servos(R"(, "servo_id": 5)"));
+  const Scene scene(servos(R"(, "servo_id": 5, "rom": {"reverse": "on"})"));
   const Wanted erase{.erase = true, .keep_ids = true};
   const std::string command(erase_keeping_ids);
   killed(scene, erase, kept, command);
@@ -530,15 +530,23 @@ TEST_CASE("an erase that broke off goes on where another node has saved it, and 
                 .is_done());
   };
   unrecorded(set("servo_id=0")); // as it broke off
+  // or a restart has brought back all, and somebody wants it without a servo ID
+  const bool is_over = GENERATE(false, true);
   scene.live(15s);
+  if (is_over) {
+    unrecorded(restart);
+    scene.live(3s);
+    unrecorded(set("servo_id=0"));
+  }
   unrecorded(save);
   scene.live(3s);
-  const Snapshot ram = scene.read(11, registers({"servo_id", "static_node_id"}));
-  CHECK(kept.history("erase").lost_ids(ram, *scene.session) == bla::Values{{at::servo_id, 5}});
+  const Snapshot ram = scene.read(11, registers({"servo_id", "static_node_id", "reverse"}));
+  CHECK(kept.history("erase").lost_ids(ram, *scene.session) ==
+        (is_over ? bla::Values{} : bla::Values{{at::servo_id, 5}}));
   REQUIRE(change(scene, erase, kept, command).is_done());
-  REQUIRE(kept.entries().size() == 1);
-  CHECK(kept.entries().front().held.at(0x45) == 5);
-  CHECK(kept.entries().front().saved); // by the other node
+  REQUIRE(kept.entries().size() == (is_over ? 2 : 1));
+  CHECK(kept.entries().front().held.at(0x45) == (is_over ? 0 : 5));
+  CHECK(kept.entries().front().saved == !is_over); // by the other node
 }
 
 TEST_CASE("a saved change is taken back to what ROM held, one that was not saved to RAM's value") {
@@ -754,6 +762,21 @@ TEST_CASE("a change in RAM that another node saves meanwhile is taken back to wh
   REQUIRE(history.conclude(done.servos, *scene.session));
   CHECK(kept.entries().front().held == state::Registers{{0x38, is_saved ? 1799 : 900}});
   CHECK(kept.entries().front().saved == is_saved);
+}
+
+TEST_CASE("a change in RAM that was killed and is repeated after a restart stays one in RAM") {
+  const Kept kept;
+  const Scene scene(servos());
+  REQUIRE(change(scene, set("angle_limit_cw=77deg", true), kept).is_done());
+  REQUIRE(change(scene, set("angle_limit_cw=33deg"), kept).is_done());
+  killed(scene, set("angle_limit_cw=77deg"), kept, "apply");
+  scene.live(15s);
+  REQUIRE(carry_out(*scene.session, profiles(), plans_for(scene, restart, {11}), {})
+              .servos[0]
+              .is_done());
+  scene.live(3s);
+  REQUIRE(change(scene, set("angle_limit_ccw=-90deg"), kept, "apply").is_done());
+  CHECK_FALSE(kept.entries().front().saved);
 }
 
 TEST_CASE("undo of an erase leaves the IDs that it kept") {

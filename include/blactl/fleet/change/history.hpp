@@ -148,8 +148,9 @@ class History {
 /// No write of this change came later: the servo may have restarted between record and write.
 [[nodiscard]] WallTime last_write(const state::SnapshotEntry& change);
 
-/// The IDs that an ERASE has taken, as RAM shows.
-[[nodiscard]] bla::Values taken_ids(const state::SnapshotEntry& erase, const Snapshot& ram);
+/// Whether RAM is as a command has left it that broke off between ERASE and the IDs to be kept:
+/// they are gone, and so is every other value that the ERASE took.
+[[nodiscard]] bool has_lost_ids(const state::SnapshotEntry& broken_off, const Snapshot& ram);
 
 /// The settings that this plan replaces, with their present values; all writable ones for ERASE and
 /// for a restart that is to show what ROM holds.
