@@ -188,13 +188,14 @@ void Sweep::play_pairs(const Case& one) {
 /// Each kind of fault of the episodes, alone.
 void Sweep::play_faults(const Case& one) {
   constexpr std::size_t most = 40;
+  const std::size_t draws = std::clamp<std::size_t>(360 / options_.step, 1, most);
   for (const std::string& kind : fault_kinds()) {
     if (!options_.only.empty() && options_.only != kind) {
       continue;
     }
     Swept& swept = swept_[{one.name, kind}];
     swept.places = most;
-    for (std::size_t i = 0; i < most; i += options_.step) {
+    for (std::size_t i = 0; i < draws; ++i) {
       if (!is_own_turn() || is_over()) {
         continue;
       }

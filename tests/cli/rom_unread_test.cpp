@@ -55,6 +55,14 @@ TEST_CASE("apply does not save over a ROM that was not read") {
   CHECK(servo.fleet.rom_writes() == 0);
 }
 
+TEST_CASE("what its ROM holds is not told from what RAM holds") {
+  Unread servo(1);
+  REQUIRE(servo.fleet.run({"set", "-n", "all", "static_node_id=11", "-y"}).status == 0);
+  const Result result = servo.fleet.run({"restart", "-n", "all", "-y"});
+  CHECK(result.status == 0);
+  CHECK_FALSE(contains(result.err, "static_node_id"));
+}
+
 TEST_CASE("what stays in RAM is written, and ERASE of the ROM needs no further word") {
   Unread servo(5);
   CHECK(servo.fleet.run({"set", "-n", "all", "smoothing=off", "-y"}).status == 0);

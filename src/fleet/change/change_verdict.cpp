@@ -85,7 +85,7 @@ Time ChangeJob::known_since() const {
 }
 
 /// Another node that wrote, as far as heard, to registers that this job has changed, checked or
-/// shows.
+/// shows, or by which the changes were judged.
 std::optional<dronecan::NodeId> ChangeJob::other_writer() const {
   const dronecan::NodeId id = plan_.before.servo.id;
   if (plan_.erase) {
@@ -94,6 +94,9 @@ std::optional<dronecan::NodeId> ChangeJob::other_writer() const {
   std::vector<bla::Address> concerned = plan_.shown;
   for (const RegisterChange& change : result_.changes) {
     concerned.push_back(change.parameter->address);
+  }
+  for (const WriteJob::Premise& premise : premises()) {
+    concerned.push_back(premise.parameter->address);
   }
   for (const bla::Address address : concerned) {
     const bool is_command =

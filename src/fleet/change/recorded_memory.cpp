@@ -22,6 +22,7 @@ namespace {
 constexpr std::chrono::hours worth_renewing{1};
 
 using Entries = std::vector<state::SnapshotEntry>;
+using Addresses = std::set<bla::Address>;
 
 /// Whether `later` found a value that `earlier` had written: the servo did not restart in between.
 bool follows(const state::SnapshotEntry& later, const state::SnapshotEntry& earlier) {
@@ -68,12 +69,14 @@ WallTime told_at(const Member& member, const Session& session) {
   return session.wall() - (session.now() - member.status_at);
 }
 
-/// Of these IDs, those that an ERASE has taken, as RAM shows.
-bla::Values taken_by(const state::SnapshotEntry& erase, const std::set<bla::Address>& ids,
+constexpr std::array ids{bla::address::servo_id, bla::address::static_node_id};
+
+/// The IDs that an ERASE has taken, as RAM shows, but for those changed `since`.
+bla::Values taken_by(const state::SnapshotEntry& erase, const Addresses& since,
                      const Snapshot& ram) {
   bla::Values taken;
   for (const bla::Address id : ids) {
-    const auto held = erase.held.find(id.value());
+    const auto held = since.contains(id) ? erase.held.end() : erase.held.find(id.value());
     if (held != erase.held.end() && held->second != 0 && ram.raw(id) == 0) {
       taken.emplace(id, held->second);
     }
@@ -99,22 +102,23 @@ WallTime last_write(const state::SnapshotEntry& change) {
   return change.settled ? *change.settled + whole_second : change.at + writing_time;
 }
 
-bool has_lost_ids(const state::SnapshotEntry& broken_off, const Snapshot& ram) {
-  const std::set ids{bla::address::servo_id, bla::address::static_node_id};
+bool has_lost_ids(const state::SnapshotEntry& broken_off, const Snapshot& ram,
+                  const std::set<bla::Address>& since) {
   std::size_t erased = 0;
-  for (const auto& [address, raw] : broken_off.held) {
-    const auto initial = broken_off.written.find(address);
-    if (ids.contains(bla::Address(address)) || initial == broken_off.written.end() ||
+  for (const auto& [number, raw] : broken_off.held) {
+    const bla::Address address(number);
+    const auto initial = broken_off.written.find(number);
+    if (bla::is_id(address) || since.contains(address) || initial == broken_off.written.end() ||
         initial->second == raw) {
       continue;
     }
-    if (ram.raw(bla::Address(address)) != initial->second) {
+    if (ram.raw(address) != initial->second) {
       return false;
     }
     ++erased;
   }
   return erased > 0 && broken_off.command == erase_keeping_ids &&
-         !taken_by(broken_off, ids, ram).empty();
+         !taken_by(broken_off, since, ram).empty();
 }
 
 /// Empty: it has not told its uptime.
@@ -230,20 +234,22 @@ bla::Values History::known_rom(const Snapshot& ram, const Session& session) {
 }
 
 bla::Values History::lost_ids(const Snapshot& ram, const Session& session) const {
+  constexpr int most_earlier = 10; // changes before the start
   const auto started = start_of(ram.servo, session);
-  auto is_open = [&, is_last = true](const state::SnapshotEntry& change) mutable {
-    return change.at >= *started || (std::exchange(is_last, false) && has_lost_ids(change, ram));
-  };
-  auto entry = started ? snapshots_.last(*ram.servo.unique_id)
-                       : Result<std::optional<state::SnapshotEntry>>();
-  std::set<bla::Address> lost{bla::address::servo_id, bla::address::static_node_id};
-  while (entry && *entry && is_open(**entry)) {
+  const bool has_none = std::ranges::any_of(ids, [&](bla::Address id) { return ram.raw(id) == 0; });
+  auto entry = started && has_none ? snapshots_.last(*ram.servo.unique_id)
+                                   : Result<std::optional<state::SnapshotEntry>>();
+  Addresses since; // changed on purpose
+  for (int earlier = 0; entry && *entry && earlier < most_earlier;
+       earlier += (*entry && (*entry)->at < *started) ? 1 : 0) {
     const state::SnapshotEntry& change = **entry;
     if (change.command == erase_keeping_ids) {
-      return change.ended ? bla::Values() : taken_by(change, lost, ram);
+      const bool is_open =
+          !change.ended && (change.at >= *started || has_lost_ids(change, ram, since));
+      return is_open ? taken_by(change, since, ram) : bla::Values();
     }
-    for (const auto& [address, raw] : change.held) { // given on purpose since
-      lost.erase(bla::Address(address));
+    for (const auto& [address, raw] : change.held) {
+      since.insert(bla::Address(address));
     }
     entry = snapshots_.before(change);
   }

@@ -42,13 +42,13 @@ Source source_of(const ToldRom& rom, bla::Address address) {
 }
 
 /// A servo that started with this static node ID would be on it: no record is needed to tell that
-/// it is in RAM only.
+/// it is in RAM only. One that could not read its ROM has started with none.
 std::optional<Warning> pending_id(const Goal& goal, const Snapshot& ram, const ToldRom& rom,
                                   bool is_saved) {
   constexpr bla::Address address = bla::address::static_node_id;
   const auto id = ram.raw(address);
   if (!id || *id == 0 || *id == ram.servo.id.value() || names(goal, address) ||
-      bla::find(rom.values, address)) {
+      bla::find(rom.values, address) || check_rom(ram)) {
     return std::nullopt;
   }
   const std::string& name = ram.servo.identity.parameter(address)->name;

@@ -352,6 +352,14 @@ TEST_CASE("what another node wrote meanwhile is not told as what the servo holds
     bench.job->look_back();
     CHECK(failure(bench.job->result()) == Code::state);
   }
+  SECTION("to a setting by which the value was judged, after that was written") {
+    Bench bench(set({"temperature_limit_high=20degC"}), {{at::temperature_limit_low, -40}});
+    bench.finish();
+    bench.live(1s);
+    bench.other_writes(at::temperature_limit_low, 20);
+    bench.job->look_back();
+    CHECK(failure(bench.job->result()) == Code::state);
+  }
   SECTION("a command to move is no setting, and overwritten all the same") {
     Bench bench(set({"command_angle=10deg"}));
     bench.finish();

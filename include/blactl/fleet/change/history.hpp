@@ -149,8 +149,9 @@ class History {
 [[nodiscard]] WallTime last_write(const state::SnapshotEntry& change);
 
 /// Whether RAM is as a command has left it that broke off between ERASE and the IDs to be kept:
-/// they are gone, and so is every other value that the ERASE took.
-[[nodiscard]] bool has_lost_ids(const state::SnapshotEntry& broken_off, const Snapshot& ram);
+/// they are gone, and so is every other value that the ERASE took, but for those changed `since`.
+[[nodiscard]] bool has_lost_ids(const state::SnapshotEntry& broken_off, const Snapshot& ram,
+                                const std::set<bla::Address>& since = {});
 
 /// The settings that this plan replaces, with their present values; all writable ones for ERASE and
 /// for a restart that is to show what ROM holds.
