@@ -36,6 +36,10 @@ inline constexpr Text fleet_not_compared{"not compared", "未比較"};
 inline constexpr Text fleet_says_nothing{"-", "-"};
 inline constexpr Text fleet_column_servo{"SERVO", "サーボ"};
 inline constexpr Text fleet_column_file{"FILE", "ファイル"};
+inline constexpr Text fleet_files_are_whole{"-n chooses servos, and two files have none to ask",
+                                            "-n はサーボの選択用です (2 ファイルの比較では不可)"};
+inline constexpr Text fleet_files_are_whole_hint{"leave -n out: both files are compared whole",
+                                                 "-n を省略して下さい (ファイル全体を比較します)"};
 inline constexpr Text fleet_two_stdin{"only one of the two files can be stdin",
                                       "標準入力にできるファイルは 1 つだけです"};
 inline constexpr Text fleet_two_stdin_hint{"give one of them by name",

@@ -150,6 +150,8 @@ TEST_CASE("with -n only those servos are compared") {
 TEST_CASE("two files are compared without a bus, also registers that one of them lacks") {
   const Exported exported;
   CHECK(exported.bench.run({"diff", exported.path, exported.path}).status == 0);
+  check_error(exported.bench.run({"diff", "-n", "11", exported.path, exported.path}), 2, "usage",
+              "leave -n out");
   const std::string other = exported.changed(1, "smoothing", nullptr);
   const Result result = exported.bench.run({"diff", exported.path, other, "--json"});
   CHECK(result.status == 8);

@@ -73,16 +73,12 @@ bool look_around(Context& context, Report& report) {
   return true;
 }
 
-void compare_servos(const fleet::FleetFile& file, Context& context, Report& report) {
-  const auto targets = context.targets();
-  if (!targets) {
-    report.fail(targets.error());
-    return;
-  }
+void compare_servos(const fleet::FleetFile& file, const fleet::Targets& targets, Context& context,
+                    Report& report) {
   if (!look_around(context, report)) {
     return;
   }
-  const auto match = fleet::match(file, context.session().roster(), *targets, context.known());
+  const auto match = fleet::match(file, context.session().roster(), targets, context.known());
   report.errors.insert(report.errors.end(), match.errors.begin(), match.errors.end());
   auto found = fleet::diff(context.session(), context.known(), match, context.identification());
   if (found.broken) {
@@ -93,7 +89,11 @@ void compare_servos(const fleet::FleetFile& file, Context& context, Report& repo
 }
 
 /// Errors that are found before a file is read.
-std::optional<Error> refuse(const std::vector<std::string>& files) {
+std::optional<Error> refuse(const std::vector<std::string>& files, bool chooses) {
+  if (files.size() == 2 && chooses) {
+    return Error{Code::usage, say<texts::fleet_files_are_whole>(),
+                 say<texts::fleet_files_are_whole_hint>(), std::nullopt};
+  }
   if (files.size() > 2) {
     return Error{Code::usage, say<texts::fleet_many_files>(files.size()),
                  say<texts::fleet_many_files_hint>(), std::nullopt};
@@ -124,7 +124,12 @@ Report execute(const DiffOptions& options, Context& context) {
     report.fail(profiles.error());
     return report;
   }
-  if (auto refused = refuse(options.files)) {
+  const auto targets = context.targets();
+  if (!targets) {
+    report.fail(targets.error());
+    return report;
+  }
+  if (auto refused = refuse(options.files, targets->given)) {
     report.fail(std::move(*refused));
     return report;
   }
@@ -141,7 +146,7 @@ Report execute(const DiffOptions& options, Context& context) {
     return report;
   }
   if (files.size() == 1) {
-    compare_servos(files.front(), context, report);
+    compare_servos(files.front(), *targets, context, report);
   } else {
     conclude(fleet::diff(files[0], files[1], **profiles), printable(files[0].file),
              printable(files[1].file), report);
