@@ -112,17 +112,10 @@ bool Watch::tell(Event event, const FaultState& servo, const Fault* fault) {
   return check(context_.reporter().stream(line + '\n'));
 }
 
-/// One that refuses a register is there; one with another error may be.
-bool has_answered(const FaultState& now) {
-  return now.errors.empty() || std::ranges::all_of(now.errors, [](const Error& error) {
-           return error.code == Code::refused;
-         });
-}
-
 /// A servo that does not respond keeps its last known faults.
 bool Watch::tell_silence(const FaultState& now) {
   const NodeId id = now.snapshot.servo.id;
-  const bool has_answered = cli::has_answered(now);
+  const bool has_answered = now.has_answered();
   const bool is_news = has_answered ? silent_.erase(id) > 0 : silent_.insert(id).second;
   if (!is_news) {
     return true;
@@ -158,13 +151,13 @@ void Watch::tell_refusal(FaultState& now, std::span<const Fault> had) {
 
 /// Compares one read of a servo with the one before.
 bool Watch::take(FaultState now) {
-  if (!tell_silence(now) || (has_answered(now) && !tell_restart(now))) {
+  if (!tell_silence(now) || (now.has_answered() && !tell_restart(now))) {
     return false;
   }
   const NodeId id = now.snapshot.servo.id;
   auto before = last_.find(id);
   const auto& unit = now.snapshot.servo.unique_id;
-  if (before != last_.end() && now.errors.empty() && before->second.snapshot.servo.unique_id &&
+  if (before != last_.end() && now.has_answered() && before->second.snapshot.servo.unique_id &&
       before->second.snapshot.servo.unique_id != unit) {
     // The faults of the previous servo did not go: this is another unit.
     context_.reporter().note(say<texts::fault_other_servo>(id.value()));
@@ -173,12 +166,12 @@ bool Watch::take(FaultState now) {
   }
   // faults in registers that were unreadable before count as present
   const bool is_first = before == last_.end() || before->second.snapshot.readings.empty();
-  if (!has_answered(now) && !is_first) {
+  if (!now.has_answered() && !is_first) {
     before->second.errors = std::move(now.errors);
     return true;
   }
   const auto had = is_first ? std::vector<Fault>() : before->second.faults;
-  if (has_answered(now)) {
+  if (now.has_answered()) {
     tell_refusal(now, had);
   }
   bool goes_on = true;

@@ -236,12 +236,12 @@ bla::Values History::known_rom(const Snapshot& ram, const Session& session) {
 bla::Values History::lost_ids(const Snapshot& ram, const Session& session) const {
   constexpr int most_earlier = 10; // changes before the start
   const auto started = start_of(ram.servo, session);
-  const bool has_none = std::ranges::any_of(ids, [&](bla::Address id) { return ram.raw(id) == 0; });
-  auto entry = started && has_none ? snapshots_.last(*ram.servo.unique_id)
-                                   : Result<std::optional<state::SnapshotEntry>>();
+  const bool lacks_one =
+      std::ranges::any_of(ids, [&](bla::Address id) { return ram.raw(id) == 0; });
+  auto entry = started && lacks_one ? snapshots_.last(*ram.servo.unique_id)
+                                    : Result<std::optional<state::SnapshotEntry>>();
   Addresses since; // changed on purpose
-  for (int earlier = 0; entry && *entry && earlier < most_earlier;
-       earlier += (*entry && (*entry)->at < *started) ? 1 : 0) {
+  for (int earlier = 0; entry && *entry && earlier < most_earlier;) {
     const state::SnapshotEntry& change = **entry;
     if (change.command == erase_keeping_ids) {
       const bool is_open =
@@ -251,6 +251,7 @@ bla::Values History::lost_ids(const Snapshot& ram, const Session& session) const
     for (const auto& [address, raw] : change.held) {
       since.insert(bla::Address(address));
     }
+    earlier += change.at < *started ? 1 : 0;
     entry = snapshots_.before(change);
   }
   return {};

@@ -132,6 +132,11 @@ std::optional<bla::Level> FaultState::unexplained_health() const {
   return is_explained ? std::nullopt : std::optional(told);
 }
 
+bool FaultState::has_answered() const {
+  return std::ranges::all_of(errors,
+                             [](const Error& error) { return error.code == Code::refused; });
+}
+
 std::vector<Reading> FaultState::values_of(const bla::Fault& fault) const {
   std::vector<Reading> values;
   for (const bla::Address address : bla::cause(fault, snapshot.values()).values) {

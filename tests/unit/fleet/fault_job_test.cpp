@@ -49,6 +49,15 @@ TEST_CASE("an error that NodeStatus reports is not explained by a warning, a war
   CHECK_FALSE(unexplained(Health::ok, Level::warning));
 }
 
+TEST_CASE("a servo that refuses a register is there") {
+  FaultState state{.snapshot = {}, .faults = {}, .health = {}, .errors = {}};
+  CHECK(state.has_answered());
+  state.errors.push_back({Code::refused, "", ""});
+  CHECK(state.has_answered());
+  state.errors.push_back({Code::timeout, "", ""});
+  CHECK_FALSE(state.has_answered());
+}
+
 TEST_CASE("where NodeStatus tells of more than 0x18 did, all four registers are read") {
   Scene scene(servo_11(R"(, "behaviour": {"notices_warn": true}, "ram": {"fault_notice": 256})"));
   scene.grow_old();

@@ -31,6 +31,9 @@ struct FaultState {
   /// notice explains a warning.
   [[nodiscard]] std::optional<bla::Level> unexplained_health() const;
 
+  /// Whether it is there, though it may have refused a register.
+  [[nodiscard]] bool has_answered() const;
+
   /// The registers related to a fault, as far as they were read.
   [[nodiscard]] std::vector<Reading> values_of(const bla::Fault& fault) const;
 };
