@@ -132,7 +132,7 @@ inline constexpr Text not_read_completely{
     "node {} was not read completely: none of its values is shown",
     "ノード {} の読出しは途中で終了したため、表示しません"};
 inline constexpr Text warn_not_asked{"has restarted, and has not said since who it is",
-                                     "再起動後、ユニーク ID は不明です"};
+                                     "再起動後、どのユニットか不明です"};
 inline constexpr Text warn_gone{"does not answer any more", "応答しなくなりました"};
 inline constexpr Text warn_unanswered{"did not answer when it was asked last",
                                       "直前の問合せに応答がありませんでした"};
