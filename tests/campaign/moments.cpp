@@ -32,7 +32,6 @@ struct Happening {
   bool is_over = true; ///< with the command: another node's order may have taken the servo's IDs
   bool is_undoable = false;  ///< whatever becomes of the command, `undo` puts the servos back
   bool is_made_good = false; ///< while RAM is written
-  bool ends_writes = false;  ///< of what was judged by the setting that changes
 };
 
 AddAt event(const char* happens) {
@@ -41,11 +40,12 @@ AddAt event(const char* happens) {
   };
 }
 
-AddAt order(json what) {
-  return [what = std::move(what)](json& scenario, const std::string& at) {
+/// `to`: a node ID; 0: that of the first servo as it begins.
+AddAt order(json what, int to = 0) {
+  return [what = std::move(what), to](json& scenario, const std::string& at) {
     json one = what;
     one["at"] = at;
-    one["to"] = std::max<int>(1, scenario["servos"][0]["node_id"]);
+    one["to"] = to != 0 ? to : std::max<int>(1, scenario["servos"][0]["node_id"]);
     scenario["foreign"].push_back(
         {{"kind", "node"}, {"node_id", 91}, {"orders", json::array({one})}});
   };
@@ -71,12 +71,13 @@ const std::vector<Happening>& happenings() {
       {"restart without ROM", event("rom_error")},
       {"power off", event("power_off")},
       {"other writes", order({{"order", "write"}, {"address", 0x38}, {"value", 450}}), false},
+      {"other writes to 125", order({{"order", "write"}, {"address", 0x38}, {"value", 450}}, 125),
+       false},
       {"other writes the same", order({{"order", "write"}, {"address", 0x22}, {"value", 1}}),
        false},
       {.name = "other writes what it was judged by",
        .add = order({{"order", "write"}, {"address", 0x3F}, {"value", 20}}),
-       .is_over = false,
-       .ends_writes = true},
+       .is_over = false},
       {"other saves", order({{"order", "save"}}), false, true},
       {"other erases", order({{"order", "erase"}}), false},
       {"other restarts", order({{"order", "restart"}}), false},
@@ -150,16 +151,15 @@ void Sweep::play_moments(const Case& one) {
     for (const Time moment : moments) {
       if (is_own_turn() && !is_over()) {
         const std::string at = fmt::format("{}us", (moment - Time{}).count());
-        play_moment(
-            one, with(at),
-            {.what = fmt::format("{} at {}", happening.name, at),
-             .must_converge = happening.is_over && one.is_repeatable,
-             .is_undone = happening.is_undoable && one.is_undoable,
-             .must_end_well = is_made_good && moment > first_change && moment < last_change,
-             .is_last = happening.ends_writes && one.is_judged_by_others && moment > first_change
-                            ? std::optional(moment)
-                            : std::nullopt},
-            swept);
+        play_moment(one, with(at),
+                    {.what = fmt::format("{} at {}", happening.name, at),
+                     .must_converge = happening.is_over && one.is_repeatable,
+                     .is_undone = happening.is_undoable && one.is_undoable,
+                     .must_end_well = is_made_good && moment > first_change && moment < last_change,
+                     .is_last = happening.name == one.ended_by && moment > first_change
+                                    ? std::optional(moment)
+                                    : std::nullopt},
+                    swept);
       }
     }
   }
@@ -180,7 +180,7 @@ void Sweep::play_moment(const Case& one, const Episode& episode, const Moment& m
                                                       return change.at >
                                                              *moment.is_last + on_its_way;
                                                     }),
-            "it was sent although another node had changed what it was judged by");
+            "it was sent although what it was judged by is another now");
     if (moment.is_undone && !step.outcome.record.changes().empty()) {
       world.pass(4s);
       check_undo(world, step);

@@ -60,9 +60,9 @@ class Sweep {
     std::vector<Command> before;
     Command command;
     bool is_repeatable = true;
-    bool is_undoable = false;         ///< `undo` brings back all that was before
-    bool is_written_again = false;    ///< what a restart in the middle has dropped
-    bool is_judged_by_others = false; ///< by a setting that another node may change
+    bool is_undoable = false;      ///< `undo` brings back all that was before
+    bool is_written_again = false; ///< what a restart in the middle has dropped
+    std::string ended_by{};        ///< after this happening nothing more may be sent
     std::vector<int> node_ids{11, 12, 13};
   };
 
