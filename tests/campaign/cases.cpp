@@ -52,7 +52,7 @@ Episode Sweep::episode_of(const std::vector<int>& node_ids) {
 std::vector<Sweep::Case> Sweep::cases() {
   const Command in_ram = words({"set", "-n", "all", "smoothing=off", "timeout_time=500ms", "-y"});
   const Command saved = words({"set", "-n", "11,12", "reverse=on", "--save", "-y"});
-  // so many that something can come between two of one servo
+  // enough writes to each servo that something can happen between two of them
   const Command many =
       words({"set", "-n", "11,12", "smoothing=off", "soft_start=off", "timeout_time=500ms",
              "angle_p_gain=30", "angle_d_gain=20", "speed_p_gain=20", "speed_i_gain=2",

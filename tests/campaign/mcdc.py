@@ -4,8 +4,8 @@
   mcdc.py FOLDER [--sweep N] [--list FILE]
 
 FOLDER gets a build with clang 19 that counts conditions (-fcoverage-mcdc). The unit tests of src/fleet
-and every N-th single fault of the sweep run together. Each condition of FILES that never decided
-alone is printed, unless mcdc.json explains it. Exit status 1: there is one without an explanation,
+and every N-th single fault of the sweep run together. Each condition of FILES that never
+decided the outcome by itself is printed, unless mcdc.json explains it. Exit status 1: there is one without an explanation,
 or an explanation without a condition."""
 
 import argparse
@@ -66,7 +66,7 @@ def conditions(file, lines):
         begin, end, decided = tuple(record[:2]), tuple(record[2:4]), record[-1]
         inside = [each for each in branches if each[:2] >= begin and each[2:] <= end]
         texts = [text_of(lines, each) for each in inside]
-        if len(texts) != len(decided): # one of them has decisions of its own inside
+        if len(texts) != len(decided):  # one of them has decisions of its own inside
             texts = [f"number {i + 1}" for i in range(len(decided))]
         for text, has_decided in zip(texts, decided):
             yield record[0], text_of(lines, record[:4]), text, has_decided

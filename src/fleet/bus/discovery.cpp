@@ -159,7 +159,7 @@ Result<void> Discovery::hear_servos(const Targets& targets, Duration listen) {
   return lived && is_empty ? session_.live_until(begin + std::max(listen, empty_bus_time)) : lived;
 }
 
-/// Those that have been heard, and that are heard meanwhile.
+/// Those heard so far, and those heard while these are asked.
 Result<void> Discovery::identify_servos() {
   std::set<NodeId> asked;
   for (std::size_t before = 0;; before = asked.size()) {

@@ -74,8 +74,8 @@ state::Registers replaced_in_rom(const Plan& plan, const state::Registers& rom,
 }
 
 /// Whether ROM may hold what a try that broke off was to save: not if the servo has not restarted
-/// since, nor if it did so with what it held before. An ERASE that a restart has not taken back
-/// another node has saved.
+/// since, nor if it did so with what it held before. If a restart has not taken back an ERASE,
+/// another node has saved it.
 bool was_perhaps_saved(const state::SnapshotEntry& tried, const Snapshot& ram,
                        const std::optional<WallTime>& started) {
   if ((tried.saved && tried.settled) || !started) {
