@@ -133,7 +133,7 @@ void Sweep::play_moments(const Case& one) {
     };
     Swept& swept = swept_[{one.name, happening.name}];
     std::vector<Time> moments;
-    Time first_change{}, last_change{};
+    Time first_request{}, first_change{}, last_change{};
     {
       const Folder folder(folder_);
       const Episode quiet = with(much_later);
@@ -142,6 +142,8 @@ void Sweep::play_moments(const Case& one) {
       moments = moments_of(record);
       swept.places = moments.size();
       moments = chosen(moments, record, options_.step);
+      const auto asked = std::ranges::find_if(record.frames(), &OnWire::is_request);
+      first_request = asked != record.frames().end() ? asked->at : first_request;
       if (const auto changes = record.changes(); !changes.empty()) {
         first_change = changes.front().at;
         last_change = changes.back().at;
@@ -156,7 +158,7 @@ void Sweep::play_moments(const Case& one) {
                      .must_converge = happening.is_over && one.is_repeatable,
                      .is_undone = happening.is_undoable && one.is_undoable,
                      .must_end_well = is_made_good && moment > first_change && moment < last_change,
-                     .is_last = happening.name == one.ended_by && moment > first_change
+                     .is_last = happening.name == one.ended_by && moment > first_request
                                     ? std::optional(moment)
                                     : std::nullopt},
                     swept);
