@@ -49,14 +49,23 @@ Episode Sweep::episode_of(const std::vector<int>& node_ids) {
           .faults = {}};
 }
 
+Episode Sweep::episode_of(const Case& one) {
+  Episode episode = episode_of(one.node_ids);
+  episode.scenario["servos"].front()["faults"] = one.first_faults;
+  return episode;
+}
+
 std::vector<Sweep::Case> Sweep::cases() {
   const Command in_ram = words({"set", "-n", "all", "smoothing=off", "timeout_time=500ms", "-y"});
   const Command saved = words({"set", "-n", "11,12", "reverse=on", "--save", "-y"});
   // enough writes to each servo that something can happen between two of them
-  const Command many =
-      words({"set", "-n", "11,12", "smoothing=off", "soft_start=off", "timeout_time=500ms",
-             "angle_p_gain=30", "angle_d_gain=20", "speed_p_gain=20", "speed_i_gain=2",
-             "speed_dead_band=100", "angle_limit_cw=90deg", "temperature_limit_high=70degC", "-y"});
+  const auto ten_to = [](const char* servos) {
+    return words({"set", "-n", servos, "smoothing=off", "soft_start=off", "timeout_time=500ms",
+                  "angle_p_gain=30", "angle_d_gain=20", "speed_p_gain=20", "speed_i_gain=2",
+                  "speed_dead_band=100", "angle_limit_cw=90deg", "temperature_limit_high=70degC",
+                  "-y"});
+  };
+  const Command many = ten_to("11,12");
   return {
       {.name = "set", .before = {}, .command = many, .is_undoable = true, .is_written_again = true},
       {.name = "set of a limit",
@@ -71,6 +80,16 @@ std::vector<Sweep::Case> Sweep::cases() {
                          "angle_p_gain=30", "angle_d_gain=20", "speed_p_gain=20", "speed_i_gain=2",
                          "speed_dead_band=100", "temperature_limit_high=70degC", "-y"})},
        .command = many},
+      {.name = "set, one servo as wished in RAM", .before = {ten_to("11")}, .command = many},
+      {.name = "apply --trust-ram, one servo as wished in RAM",
+       .before = {words({"set", "-n", "11", "smoothing=off", "-y"})},
+       .command = apply({{"smoothing", "off"}}, {{"angle_limit_cw", "90deg"}}, {"--trust-ram"}),
+       .is_repeatable = false},
+      {.name = "set --save, the first SAVE unheeded",
+       .before = {},
+       .command = saved,
+       .is_undoable = true,
+       .first_faults = {{"ignore_opcodes", 1}}},
       {.name = "set --save", .before = {}, .command = saved, .is_undoable = true},
       {.name = "set --save of a trial",
        .before = {words({"set", "-n", "11", "reverse=on", "-y"})},
@@ -146,7 +165,7 @@ std::vector<Sweep::Case> Sweep::cases() {
 }
 
 /// Nothing goes wrong, but the command would do harm: every value just outside of the limits of
-/// each register, and IDs that others have.
+/// each register, and IDs that others have: 30 is another node's.
 std::vector<Command> Sweep::refused(const Episode& episode) {
   std::vector<Command> all{
       words({"set", "-n", "11", "servo_id=2", "-y"}),
@@ -155,6 +174,9 @@ std::vector<Command> Sweep::refused(const Episode& episode) {
       words({"set", "-n", "11", "servo_id=2", "--save", "-y"}),
       words({"set", "-n", "11", "0x3E=20", "0x3F=20", "-y"}),
       words({"alloc", "--static", "-n", "11", "--id", "12", "-y"}),
+      words({"set", "-n", "11", "static_node_id=30", "-y"}),
+      words({"set", "-n", "11", "static_node_id=30", "--save", "-y"}),
+      words({"alloc", "--static", "-n", "11", "--id", "30", "-y"}),
       words({"apply", "fleet.json", "-y"}),
   };
   all.back().fleet = apply({{"servo_id", 2}}, {{"smoothing", "off"}}).fleet;

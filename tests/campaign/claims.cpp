@@ -293,6 +293,24 @@ void check_unnamed(const Step& step, std::int64_t serial, const json& node) {
   }
 }
 
+/// What another node wrote to RAM does not become permanent by a command that ends well.
+void check_not_by_others(const Step& step, std::int64_t serial, const json& node) {
+  static const std::set<std::string> verbs{"set", "save", "apply", "alloc"};
+  if (!verbs.contains(step.command.verb()) || step.outcome.status != 0 || !is_reached(node) ||
+      step.rom_writes(serial) == 0 || step.is_saved_by_other(serial)) {
+    return;
+  }
+  const Registers wished = wishes(step.command, serial);
+  const ServoState& before = step.before.at(serial);
+  for (const auto& [address, rom] : step.after.at(serial).rom) {
+    const bool is_as_before = rom == before.rom.at(address) || rom == before.ram.at(address);
+    require(is_as_before || wished.contains(address) || address == servo_id ||
+                address == static_node_id || node.contains("warnings"),
+            fmt::format("{}: another node's {} of {:#04x} was saved without a word", serial, rom,
+                        address));
+  }
+}
+
 /// Whose unique ID is blank is not told from others.
 void check_blank(const Step& step, std::int64_t serial, const json& node) {
   const std::string& unique_id = step.after.at(serial).unique_id;
@@ -341,6 +359,7 @@ void check_claims(const Step& step) {
     check_trust(step, serial, *node);
     check_limits(step, serial, *node);
     check_unnamed(step, serial, *node);
+    check_not_by_others(step, serial, *node);
     check_blank(step, serial, *node);
   }
 }

@@ -72,6 +72,8 @@ class Told {
       require(!is_saved_, "a plan that has saved");
       return;
     }
+    hold(!is_proven() || !after_.has_lost_rom() || !is_ram_known(),
+         "proven, but its ROM could not be read");
     check_changes();
     if (status_ == "done") {
       check_done();
@@ -109,13 +111,15 @@ class Told {
   }
 
   void check_changes() const {
-    if (!node_.contains("changes") || !(status_.empty() || is_reached())) {
+    if (!node_.contains("changes")) {
       return;
     }
+    const bool is_whole = status_.empty() || is_reached(); // else every change stands for itself
     for (const json& change : node_["changes"]) {
       if (!is_held(change)) {
-        hold(!is_saved_, fmt::format("saved, but a change is {}", change["status"].dump()));
-        hold(status_.empty(), "reached, but not every change");
+        hold(!is_whole || !is_saved_,
+             fmt::format("saved, but a change is {}", change["status"].dump()));
+        hold(!is_whole || status_.empty(), "reached, but not every change");
         continue;
       }
       const std::uint8_t address = address_in(change["address"]);

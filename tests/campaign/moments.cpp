@@ -83,6 +83,7 @@ const std::vector<Happening>& happenings() {
       {"other restarts", order({{"order", "restart"}}), false},
       {"armed", node({{"armed", true}})},
       {"node comes to 30", comes(30), false},
+      {"node comes to 11", comes(11), false},
       {"driven", node({{"commands", {{"servo_ids", json::array({255})}, {"rate", 50}}}})},
   };
   return all;
@@ -126,7 +127,7 @@ void Sweep::play_moments(const Case& one) {
       continue;
     }
     const auto with = [&](const std::string& at) {
-      Episode episode = episode_of(one.node_ids);
+      Episode episode = episode_of(one);
       episode.faults.insert(happening.name);
       happening.add(episode.scenario, at);
       return episode;

@@ -98,7 +98,7 @@ bool Step::changed_unheard(std::int64_t serial) const {
                                return is_unheard(at) ||
                                       (is_passed_on && at > begin && at <= end + tolerance);
                              }) ||
-         has_writer_after(serial, hears_all() ? known - longest_save : begin - longest_save);
+         !orders_of_others(serial, (hears_all() ? known : begin) - longest_save).empty();
 }
 
 bool Step::hears_all() const {
@@ -108,23 +108,29 @@ bool Step::hears_all() const {
 }
 
 bool Step::has_other_writer(std::int64_t serial) const {
-  return has_writer_after(serial, begin - longest_save);
+  return !orders_of_others(serial, begin - longest_save).empty();
 }
 
-bool Step::has_writer_after(std::int64_t serial, Time earliest) const {
+bool Step::is_saved_by_other(std::int64_t serial) const {
+  const auto orders = orders_of_others(serial, begin - longest_save);
+  return std::ranges::any_of(orders, [](const std::string& order) { return order != "write"; });
+}
+
+std::set<std::string> Step::orders_of_others(std::int64_t serial, Time earliest) const {
+  std::set<std::string> orders;
   if (!episode.scenario.contains("foreign")) {
-    return false;
+    return orders;
   }
   const auto ids = node_ids(serial);
   for (const json& node : episode.scenario["foreign"]) {
     for (const json& order : node.value("orders", json::array())) {
       const Time at = Time{} + time_in(order["at"]);
       if (ids.contains(order["to"].get<std::uint8_t>()) && at > earliest && at < end + tolerance) {
-        return true;
+        orders.insert(order["order"].get<std::string>());
       }
     }
   }
-  return false;
+  return orders;
 }
 
 /// Another node has its ID.

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <set>
+#include <string>
 #include <vector>
 
 namespace blactl::campaign {
@@ -47,6 +48,9 @@ struct Step {
   /// Whether another tool may have written to it while the command ran.
   [[nodiscard]] bool has_other_writer(std::int64_t serial) const;
 
+  /// Whether one of these may have been a SAVE or an ERASE.
+  [[nodiscard]] bool is_saved_by_other(std::int64_t serial) const;
+
   /// Whether it shares its node ID with another, or its unique ID.
   [[nodiscard]] bool is_doubled(std::int64_t serial) const;
 
@@ -68,7 +72,7 @@ struct Step {
   [[nodiscard]] bool hears_all() const;
 
  private:
-  [[nodiscard]] bool has_writer_after(std::int64_t serial, Time earliest) const;
+  [[nodiscard]] std::set<std::string> orders_of_others(std::int64_t serial, Time earliest) const;
   [[nodiscard]] Duration lateness(std::int64_t serial) const;
   [[nodiscard]] const nlohmann::json& setup(std::int64_t serial) const;
 };

@@ -87,7 +87,8 @@ Step Sweep::begin(World& world, const Episode& episode, const Case& one,
 }
 
 void Sweep::play_refused() {
-  const Episode episode = episode_of({11, 12, 13});
+  Episode episode = episode_of({11, 12, 13});
+  episode.scenario["foreign"] = {{{"kind", "node"}, {"node_id", 30}}};
   Swept& swept = swept_[{"what does harm", "nothing"}];
   for (const Command& command : refused(episode)) {
     swept.places += 1;
@@ -130,7 +131,7 @@ void Sweep::play() {
 Sweep::Calm Sweep::play_calm(const Case& one, Kind kind) const {
   Disturbance counting{.kind = kind, .number = Disturbance::no_number};
   const Folder folder(folder_);
-  const Episode episode = episode_of(one.node_ids);
+  const Episode episode = episode_of(one);
   World world(episode.scenario, folder_);
   return {.goal = begin(world, episode, one, std::span(&counting, 1)).after,
           .places = counting.seen};
@@ -199,7 +200,7 @@ void Sweep::play_faults(const Case& one) {
       if (!is_own_turn() || is_over()) {
         continue;
       }
-      Episode episode = episode_of(one.node_ids);
+      Episode episode = episode_of(one);
       Chance chance(i, one.name + kind);
       plant(episode, kind, chance);
       play_moment(one, episode,
@@ -220,7 +221,7 @@ void Sweep::disturb(const Case& one, std::vector<Disturbance> disturbances, cons
   }
   options_.begins();
   const Folder folder(folder_);
-  const Episode episode = episode_of(one.node_ids);
+  const Episode episode = episode_of(one);
   World world(episode.scenario, folder_);
   const Step step = begin(world, episode, one, disturbances);
   judged(one, what, step, swept, [&] { check(world, one, disturbances, step, goal); });

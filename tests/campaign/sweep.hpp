@@ -64,6 +64,7 @@ class Sweep {
     bool is_written_again = false; ///< what a restart in the middle has dropped
     std::string ended_by{};        ///< after this happening nothing more may be sent
     std::vector<int> node_ids{11, 12, 13};
+    nlohmann::json first_faults = nlohmann::json::object(); ///< of the first servo
   };
 
   struct Calm {
@@ -73,6 +74,7 @@ class Sweep {
 
   [[nodiscard]] static std::vector<Case> cases();
   [[nodiscard]] static Episode episode_of(const std::vector<int>& node_ids);
+  [[nodiscard]] static Episode episode_of(const Case& one);
   [[nodiscard]] static Step begin(World& world, const Episode& episode, const Case& one,
                                   std::span<Disturbance> disturbances);
   static void check(World& world, const Case& one, std::span<const Disturbance> disturbances,

@@ -59,6 +59,22 @@ TEST_CASE(
   CHECK(contains(saved.err, "static_node_id is 20 in RAM only: SAVE keeps all of RAM"));
 }
 
+TEST_CASE("what another node was just heard to write is said before SAVE keeps it") {
+  const nlohmann::json write{
+      {"at", "300ms"}, {"to", 11}, {"order", "write"}, {"address", 0x38}, {"value", 450}};
+  Scene scene = one_servo();
+  scene.foreign(91, {{"orders", nlohmann::json::array({write})}});
+  const bool is_saved = GENERATE(true, false);
+  const Fleet fleet(scene);
+  const Result done = fleet.run(is_saved ? Arguments{"save", "-n", "11", "-y", "--json"}
+                                         : Arguments{"restart", "-n", "11", "-y", "--json"});
+  INFO(done.err);
+  CHECK(done.status == 0);
+  CHECK(warning(done)["code"] == (is_saved ? "unnamed_saved" : "unnamed_lost"));
+  CHECK(contains(done.err, "angle_limit_cw is 45.0 deg, and node 91 wrote to it a moment ago: "));
+  CHECK(fleet.ram("11", "angle_limit_cw") == (is_saved ? 450 : 1799));
+}
+
 TEST_CASE("what the proving restart of apply has lost is told though ROM is written after it") {
   const Fleet fleet(one_servo());
   const Options other{.env = {{"BLACTL_STATE_DIR", fleet.file_name("other")}}};

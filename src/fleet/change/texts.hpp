@@ -217,6 +217,15 @@ inline constexpr Text recorded_at_risk{
     "{} is {} since a change in RAM only, and was {} before: the restart takes it back",
     "{} は RAM のみの変更により {} です (変更前は {})。再起動により失われます",
 };
+inline constexpr Text just_written_saved{
+    "{} is {}, and node {} wrote to it a moment ago: SAVE keeps all of RAM, so this too",
+    "{} は {} です (直前にノード {} が書き込みました)。SAVE は RAM 全体を保存するため、"
+    "この値も保存されます",
+};
+inline constexpr Text just_written_at_risk{
+    "{} is {}, and node {} wrote to it a moment ago: the restart takes back what is in RAM only",
+    "{} は {} です (直前にノード {} が書き込みました)。RAM のみの値は再起動により失われます",
+};
 inline constexpr Text perhaps_saved{
     "{} is {} since a change that is not known to be saved, and was {} before: SAVE keeps all of "
     "RAM, so this too",

@@ -41,6 +41,14 @@ Source source_of(const ToldRom& rom, bla::Address address) {
                                                : Source::record;
 }
 
+/// Of a register of which it is not known what ROM holds.
+Warning just_written(const std::string& name, const std::string& ram, dronecan::NodeId writer,
+                     bool is_saved) {
+  const std::uint8_t id = writer.value();
+  return is_saved ? Warning{"unnamed_saved", say<texts::just_written_saved>(name, ram, id)}
+                  : Warning{"unnamed_lost", say<texts::just_written_at_risk>(name, ram, id)};
+}
+
 /// A servo that started with this static node ID would be on it: no record is needed to tell that
 /// it is in RAM only. One that could not read its ROM has started with none.
 std::optional<Warning> pending_id(const Goal& goal, const Snapshot& ram, const ToldRom& rom,
@@ -72,6 +80,15 @@ ToldRom told_rom(const Goal& goal, const Snapshot& held, History* record, const 
     std::erase_if(told.values, [&](const auto& rom) {
       return !bla::is_id(rom.first) || bla::find(lost, rom.first);
     });
+    return told;
+  }
+  const Roster& roster = session.roster();
+  const Time started = roster.started(held.servo.id).value_or(Time::min());
+  for (const Reading& reading : held.readings) {
+    const bla::Address address = reading.parameter->address;
+    if (const auto writer = roster.setter_of(held.servo.id, started, address)) {
+      told.written_by.emplace(address, *writer);
+    }
   }
   return told;
 }
@@ -83,11 +100,16 @@ std::vector<Warning> unnamed(const Goal& goal, const Snapshot& ram, const ToldRo
   for (const Reading& reading : ram.readings) {
     const bla::Parameter& parameter = *reading.parameter;
     const auto kept = bla::find(rom.values, parameter.address);
-    if (!parameter.is_setting() || names(goal, parameter.address) || !reading.raw || !kept ||
-        kept == reading.raw) {
+    const auto writer = rom.written_by.find(parameter.address);
+    if (!parameter.is_setting() || names(goal, parameter.address) || !reading.raw ||
+        kept == reading.raw || (!kept && writer == rom.written_by.end())) {
       continue;
     }
     const std::string in_ram = bla::display(parameter, *reading.raw, ram.pwm_mode());
+    if (!kept) {
+      warnings.push_back(just_written(parameter.name, in_ram, writer->second, is_saved));
+      continue;
+    }
     const std::string in_rom = bla::display(parameter, *kept, ram.pwm_mode());
     warnings.push_back(
         is_restarted

@@ -29,6 +29,7 @@ struct ToldRom {
   bla::Values values{};
   bool is_proven = false; ///< else what changes in RAM only have replaced since the start
   std::set<bla::Address> perhaps_saved{}; ///< whether these changes were saved is not known
+  std::map<bla::Address, dronecan::NodeId> written_by{}; ///< other nodes, heard since its start
 };
 
 /// The record of one command, over all of its rounds. Errors of its functions are those of the
