@@ -175,8 +175,9 @@ class Told {
     const ServoState& before = step_.before.at(serial_);
     const Time first = step_.outcome.record.first_told_by(step_.node_ids(serial_));
     const auto restarts = step_.restarts(serial_);
+    const Duration late = step_.hears_all() ? on_its_way : tolerance;
     const bool restarted =
-        std::ranges::any_of(restarts, [&](Time at) { return at - tolerance < first; });
+        std::ranges::any_of(restarts, [&](Time at) { return at - late < first; });
     if (restarted && before.has_lost_rom()) {
       return;
     }
