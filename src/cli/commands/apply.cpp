@@ -1,5 +1,7 @@
 // blactl apply: brings servos to the settings of a fleet file, proven after a restart.
 
+#include "blactl/fleet/bus/texts.hpp"
+#include "blactl/fleet/bus/unreachable.hpp"
 #include "blactl/fleet/change/saved_plan.hpp"
 #include "blactl/fleet/files/fleet_diff.hpp"
 #include "blactl/fleet/files/fleet_file.hpp"
@@ -119,6 +121,18 @@ units(std::span<const fleet::FleetEntry* const> entries) {
   return units;
 }
 
+/// The error for an entry without a servo.
+Error missing(const fleet::FleetEntry& entry, const fleet::Roster& roster) {
+  const std::string match = fleet::text(entry.match);
+  if (const auto nodes = fleet::unidentified(roster); !nodes.empty()) {
+    const std::uint8_t id = nodes.front().value();
+    return {Code::timeout, say<texts::apply_missing_or>(entry.name, match, id),
+            say<texts::run_again_hint>(), id};
+  }
+  return {Code::not_found, say<texts::apply_missing>(entry.name, match),
+          say<texts::apply_missing_hint>(), std::nullopt};
+}
+
 /// The goals for the servos that match entries.
 Goals match(const fleet::FleetFile& file, const Manner& manner, const Whom& whom,
             const bla::Profiles& profiles) {
@@ -128,9 +142,7 @@ Goals match(const fleet::FleetFile& file, const Manner& manner, const Whom& whom
     goals.goals.push_back(goal(*pair.entry, pair.id, manner));
   }
   for (const fleet::FleetEntry* entry : matched.missing) {
-    goals.errors.push_back({Code::not_found,
-                            say<texts::apply_missing>(entry->name, fleet::text(entry->match)),
-                            say<texts::apply_missing_hint>(), std::nullopt});
+    goals.errors.push_back(missing(*entry, whom.roster));
   }
   goals.may_wait = !matched.missing.empty();
   goals.missing = units(matched.missing);

@@ -114,6 +114,15 @@ bool Discovery::is_one_of_all(const Targets& targets, const Member& member) cons
   return (targets.all || !targets.given) && ((member.identified && member.is_servo) || shares);
 }
 
+/// A unit that restarted since it was identified is the same unit; its servo ID may be another.
+bool Discovery::was_meant(const Targets& targets, const Member& member) const {
+  return member.identified && !session_.roster().has_moved(member) &&
+         std::ranges::any_of(targets.selectors, [&](const Selector& selector) {
+           return selector.key != Selector::Key::servo_id &&
+                  selector.matches(member.servo(), profiles_);
+         });
+}
+
 /// Nothing needs to be known of a node that was only looked at because it is in a recording.
 bool Discovery::is_bystander(const Error& error) const {
   return error.code == Code::not_recorded && error.node_id &&
@@ -126,11 +135,30 @@ bool Discovery::is_met(const Selector& selector) const {
   });
 }
 
-/// The selectors that match nobody.
+/// Those that this selector may mean, too.
+std::vector<Error> Discovery::undecided(const Selector& selector) const {
+  std::vector<Error> errors;
+  if (selector.is_unique() && is_met(selector)) {
+    return errors;
+  }
+  const Roster& roster = session_.roster();
+  for (const NodeId id : unidentified(roster)) {
+    if (selector.may_match(roster.member(id), profiles_)) {
+      errors.push_back(roster.is_doubled(id)  ? doubled(roster, id)
+                       : session_.is_replay() ? identity_unrecorded(id)
+                                              : may_be_meant(id, selector));
+    }
+  }
+  return errors;
+}
+
+/// The selectors that match nobody, and those that may match more.
 std::vector<Error> Discovery::unmet(const Targets& targets) const {
   std::vector<Error> errors;
   for (const Selector& selector : targets.selectors) {
-    if (!is_met(selector)) {
+    if (auto open = undecided(selector); !open.empty()) {
+      std::ranges::move(open, std::back_inserter(errors));
+    } else if (!is_met(selector)) {
       errors.push_back(
           unless_shared(session_.roster(), nothing_matches(session_.roster(), selector)));
     }
@@ -213,11 +241,14 @@ Result<Selection> Discovery::select(const Targets& targets, Duration listen) {
     }
   }
   for (const auto& [id, member] : session_.roster().members()) {
-    if (targets.mean(member, profiles_) || is_one_of_all(targets, member)) {
+    if (targets.mean(member, profiles_) || is_one_of_all(targets, member) ||
+        was_meant(targets, member)) {
       chosen.insert(id);
     }
   }
-  std::ranges::move(unmet(targets), std::back_inserter(selection.errors));
+  std::ranges::copy_if(unmet(targets), std::back_inserter(selection.errors), [&](const Error& one) {
+    return !one.node_id || !chosen.contains(NodeId(*one.node_id)); // it is read, or its error told
+  });
   selection.ids.assign(chosen.begin(), chosen.end());
   if (chosen.empty() && selection.errors.empty()) {
     selection.errors.push_back(unless_shared(session_.roster(), no_servo(session_.roster())));
@@ -312,10 +343,9 @@ bool Discovery::all_there(const Targets& targets) const {
     return session_.roster().heard(id) && !session_.roster().member(id).is_foreign();
   };
   return !members.empty() && std::ranges::all_of(targets.ids, may_be_there) &&
-         std::ranges::all_of(targets.selectors,
-                             [this](const Selector& selector) { return is_met(selector); }) &&
-         std::ranges::all_of(members,
-                             [this](const Member* member) { return seems_ready(*member); });
+         unmet(targets).empty() && std::ranges::all_of(members, [this](const Member* member) {
+           return seems_ready(*member);
+         });
 }
 
 /// Returns whether they are; false also as soon as one of them is known not to be alone on its ID.

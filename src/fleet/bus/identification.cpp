@@ -161,6 +161,10 @@ void Identification::take_register(const Outcome& outcome) {
     error_ = silence_of_model();
     return;
   }
+  if (foreign && first && !sends_actuator_status() && may_be_servo()) { // it may just have started
+    error_ = silence_of_model();
+    return;
+  }
   model_silent_ = foreign && first && sends_actuator_status();
   const bool not_recorded = outcome.kind == Outcome::Kind::not_recorded;
   if (!value && value.error().code != Code::refused && !foreign && !not_recorded) {
@@ -178,10 +182,7 @@ std::optional<Error> Identification::undecided() const {
   if (!recording_lacks_model_ || servo_.is_servo || foreign) {
     return std::nullopt;
   }
-  const std::uint8_t id = servo_.id.value();
-  return roster_.heard(servo_.id) ? Error{Code::not_recorded, say<texts::identity_not_recorded>(id),
-                                          say<texts::not_recorded_hint>(), id}
-                                  : unrecorded(servo_.id);
+  return roster_.heard(servo_.id) ? identity_unrecorded(servo_.id) : unrecorded(servo_.id);
 }
 
 Step Identification::conclude() {

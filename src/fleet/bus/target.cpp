@@ -130,6 +130,23 @@ bool Selector::matches(const Member& member, const bla::Profiles& profiles) cons
   return member.is_known() && matches(member.servo(), profiles);
 }
 
+/// Of what it told before, or in part, only a servo ID may be another after a start.
+bool Selector::may_match(const Member& member, const bla::Profiles& profiles) const {
+  if (key == Key::servo_id) {
+    return member.actuator_id == number;
+  }
+  if (member.identified) {
+    return matches(member.servo(), profiles);
+  }
+  const auto unique_id = key == Key::unique_id ? member.unique_id() : std::nullopt;
+  return !unique_id || hex(*unique_id).starts_with(value);
+}
+
+bool Selector::is_unique() const {
+  return key == Key::serial_number ||
+         (key == Key::unique_id && value.size() == 2 * sizeof(dronecan::UniqueId));
+}
+
 bool Selector::matches(const Servo& servo, const bla::Profiles& profiles) const {
   if (!servo.is_servo) {
     return false;

@@ -37,6 +37,27 @@ Error nothing_matches(const Roster& roster, const Selector& selector) {
           say<texts::node_not_found_hint>(), std::nullopt};
 }
 
+std::vector<dronecan::NodeId> unidentified(const Roster& roster) {
+  std::vector<dronecan::NodeId> nodes;
+  for (const auto& [id, member] : roster.members()) {
+    if (roster.heard(id) && member.sends_actuator_status() && !member.is_known() &&
+        !member.is_foreign() && !roster.has_moved(member)) {
+      nodes.push_back(id);
+    }
+  }
+  return nodes;
+}
+
+Error may_be_meant(dronecan::NodeId id, const Selector& selector) {
+  return {Code::timeout, say<texts::may_be_meant>(id.value(), printable(selector.text)),
+          say<texts::no_answer_hint>(), id.value()};
+}
+
+Error identity_unrecorded(dronecan::NodeId id) {
+  return {Code::not_recorded, say<texts::identity_not_recorded>(id.value()),
+          say<texts::not_recorded_hint>(), id.value()};
+}
+
 /// A node that sends no actuator.Status may be a servo all the same.
 Error no_servo(const Roster& roster) {
   std::string ids, first;

@@ -128,6 +128,40 @@ TEST_CASE("a selector picks those that it matches; one that matches none is told
   CHECK(both.errors[0].message.find("serial:1") != std::string::npos);
 }
 
+TEST_CASE("a servo that does not say who it is may be meant by a selector, and is not left out") {
+  const Scene scene(R"("servos": [
+      {"model": "BLA21-12U-AB", "node_id": 11, "servo_id": 1, "serial_number": 7},
+      {"model": "BLA21-12U-AB", "node_id": 12, "servo_id": 2, "serial_number": 8,
+       "faults": {"mute": true}}])");
+  scene.live(300ms);
+  const std::string unique_id = hex(*scene.identify(11).unique_id);
+  SECTION("where it may be") {
+    const std::string selector =
+        GENERATE_COPY(std::string("model:BLA21"), std::string("servo:2"), std::string("serial:8"),
+                      "uid:" + unique_id.substr(0, 1));
+    const Selection selection = select(scene, targets(selector));
+    INFO(selector);
+    CHECK(codes(selection.errors) == Codes{{Code::timeout, 12}});
+  }
+  SECTION("where it cannot be") {
+    const std::string selector =
+        GENERATE_COPY(std::string("servo:1"), std::string("serial:7"), "uid:" + unique_id);
+    const Selection selection = select(scene, targets(selector));
+    INFO(selector);
+    CHECK(selection.errors.empty());
+    CHECK(ids(selection) == Ids{11});
+  }
+}
+
+TEST_CASE("a selector means a servo that restarts since it was identified") {
+  const Scene scene(R"("servos": [
+      {"model": "BLA21-12U-AB", "node_id": 11, "serial_number": 7,
+       "faults": {"restart_after_answer": [{"to": "read", "number": 4}]}}])");
+  const Selection selection = select(scene, targets("serial:7"));
+  CHECK(selection.errors.empty());
+  CHECK(ids(selection) == Ids{11});
+}
+
 TEST_CASE("an actuator of another make is left out, and that is said") {
   const Scene scene(one_servo);
   const auto status = dronecan::ActuatorStatus{.actuator_id = 9}.encode();
@@ -269,7 +303,7 @@ TEST_CASE("who does not come in time is told, each for itself") {
   CHECK(there(arrivals) == Ids{11});
   CHECK(arrivals.servos.size() == 2); // node 12 was heard
   CHECK(codes(arrivals.errors) ==
-        Codes{{Code::timeout, 12}, {Code::not_found, 55}, {Code::not_found, 0}});
+        Codes{{Code::timeout, 12}, {Code::not_found, 55}, {Code::timeout, 12}});
 }
 
 TEST_CASE("another device on the node ID is not the servo that is waited for") {

@@ -96,8 +96,10 @@ class Discovery final : private Roster::Listener {
   [[nodiscard]] Result<void> identify_servos();
   [[nodiscard]] Result<void> hear_servos(const Targets& targets, Duration listen);
   [[nodiscard]] bool is_met(const Selector& selector) const;
+  [[nodiscard]] std::vector<Error> undecided(const Selector& selector) const;
   [[nodiscard]] std::vector<Error> unmet(const Targets& targets) const;
   [[nodiscard]] bool is_one_of_all(const Targets& targets, const Member& member) const;
+  [[nodiscard]] bool was_meant(const Targets& targets, const Member& member) const;
   [[nodiscard]] bool is_gone(const Member& member) const;
   [[nodiscard]] std::vector<Error> not_there_yet(const Targets& targets, Code reason) const;
   [[nodiscard]] bool seems_ready(const Member& member) const;

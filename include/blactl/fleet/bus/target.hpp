@@ -23,6 +23,13 @@ struct Selector {
   /// Matches identified servos only, and by their own responses only.
   [[nodiscard]] bool matches(const Member& member, const bla::Profiles& profiles) const;
 
+  /// Whether it may match this sender of actuator.Status, which has not identified itself since it
+  /// started.
+  [[nodiscard]] bool may_match(const Member& member, const bla::Profiles& profiles) const;
+
+  /// Whether it matches one unit only.
+  [[nodiscard]] bool is_unique() const;
+
   /// Matches a servo known from elsewhere.
   [[nodiscard]] bool matches(const Servo& servo, const bla::Profiles& profiles) const;
 };

@@ -24,6 +24,9 @@ inline constexpr Text no_node_is_servo_hint{
     "-n {} のように ID を指定するか、ノードの種類を確認して下さい: blactl scan"};
 inline constexpr Text nothing_matches{"no servo on the bus matches {}",
                                       "{} に該当するサーボはバス上にありません"};
+inline constexpr Text may_be_meant{
+    "node {} is on the bus, but has not said who it is: {} may mean it",
+    "ノード {} はバス上にありますが、情報を取得できません。{} に該当する可能性があります"};
 inline constexpr Text target_waits_for_id{
     "{} waits for a node ID: it cannot be asked before it has one",
     "{} はノード ID の割当て待ちです。割当て前は問い合わせできません"};

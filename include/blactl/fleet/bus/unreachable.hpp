@@ -7,6 +7,7 @@
 
 #include <optional>
 #include <string_view>
+#include <vector>
 
 namespace blactl::fleet {
 
@@ -15,6 +16,15 @@ namespace blactl::fleet {
 
 /// No servo on the bus matches: not_found.
 [[nodiscard]] Error nothing_matches(const Roster& roster, const Selector& selector);
+
+/// Senders of actuator.Status that are there, and have not said since their start who they are.
+[[nodiscard]] std::vector<dronecan::NodeId> unidentified(const Roster& roster);
+
+/// A selector may mean this one of them: timeout.
+[[nodiscard]] Error may_be_meant(dronecan::NodeId id, const Selector& selector);
+
+/// It is in a recording, but not what it is: not_recorded.
+[[nodiscard]] Error identity_unrecorded(dronecan::NodeId id);
 
 /// There is no BLA servo, with the nodes that are there: not_found.
 [[nodiscard]] Error no_servo(const Roster& roster);
