@@ -97,3 +97,32 @@ TEST_CASE("an erase that was to keep the IDs and breaks off keeps them when it i
   }
   CHECK(broken_off > 0);
 }
+
+TEST_CASE("an erase that was to keep IDs which another tool has saved as 0 asks whether they are") {
+  int lost = 0;
+  for (int after_ms = 1'330; after_ms < 2'250 && lost < 3; after_ms += 40) {
+    const Fleet fleet(cut_at(after_ms));
+    const Arguments erase{"erase", "-n", "serial:1", "--keep-ids", "--save", "-y"};
+    const Result first = fleet.run(erase);
+    INFO(after_ms << " ms: " << first.err);
+    for (int times = 0; fleet.run({"scan", "--listen", "1"}).status == 3 && times < 20; ++times) {
+      // until the interface is back
+    }
+    if (fleet.ram("11", "static_node_id") != 0) {
+      continue;
+    }
+    ++lost;
+    const Options other{.env = {{"BLACTL_STATE_DIR", fleet.file_name("other")}}};
+    REQUIRE(fleet.run({"save", "-n", "11", "-y"}, other).status == 0);
+    const Result again = fleet.run(erase);
+    INFO(again.out << again.err);
+    CHECK(again.status == 1);
+    CHECK(contains(again.err, "whether 0 is meant is not known"));
+    CHECK(contains(again.err, "servo_id=1 static_node_id=11 --save"));
+    REQUIRE(fleet.run({"set", "-n", "serial:1", "servo_id=1", "static_node_id=11", "--save", "-y"})
+                .status == 0);
+    CHECK(fleet.run(erase).status == 0);
+    CHECK(fleet.rom("11", "servo_id") == 1);
+  }
+  CHECK(lost > 0);
+}

@@ -4,13 +4,14 @@
 #include "blactl/fleet/bus/texts.hpp"
 #include "blactl/fleet/bus/unreachable.hpp"
 #include "blactl/fleet/change/guard.hpp"
-#include "blactl/fleet/change/history.hpp"
 
 #include "fleet/change/asking_copies.hpp"
 #include "fleet/change/goal_results.hpp"
 #include "fleet/change/rounds.hpp"
 #include "fleet/change/texts.hpp"
 #include "fleet/change/unnamed.hpp"
+
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <iterator>
@@ -129,6 +130,22 @@ std::optional<Error> Change::refuse_unread_rom(const GoalResult& result, const S
   return std::nullopt;
 }
 
+/// IDs of 0 are to be kept, but an earlier try has made them so, or somebody did since: neither is
+/// a guess to be saved.
+std::optional<Error> Change::refuse_lost_ids(const LostIds& lost, const Snapshot& held) {
+  if (lost.ids.empty() || lost.is_certain) {
+    return std::nullopt;
+  }
+  const std::uint8_t id = held.servo.id.value();
+  std::string given;
+  for (const auto& [address, raw] : lost.ids) {
+    given += fmt::format("{}{}={}", given.empty() ? "" : " ",
+                         held.servo.identity.parameter(address)->name, raw);
+  }
+  return Error{Code::state, say<texts::ids_lost_or_meant>(id, given),
+               say<texts::ids_lost_or_meant_hint>(id, given), id};
+}
+
 /// Creates tasks for servos with a need.
 std::vector<Error> Change::judge(std::span<const std::size_t> goals, Snapshots snapshots,
                                  std::vector<UnitTask>& tasks) {
@@ -144,9 +161,13 @@ std::vector<Error> Change::judge(std::span<const std::size_t> goals, Snapshots s
     const auto rom = proven_rom(result.goal, held.servo);
     const ToldRom told = told_rom(result.goal, held, options_.manner.proofs, session_);
     const Need need = need_of(result.goal, held, rom);
-    if (auto error = refuse_unread_rom(result, held, need)) {
-      result.errors.push_back(*error);
-      errors.push_back(std::move(*error));
+    LostIds lost = result.goal.wanted.keep_ids && options_.manner.history != nullptr
+                       ? options_.manner.history->lost_ids(held, session_)
+                       : LostIds();
+    auto refused = refuse_unread_rom(result, held, need);
+    if (refused = refused ? refused : refuse_lost_ids(lost, held); refused) {
+      result.errors.push_back(*refused);
+      errors.push_back(std::move(*refused));
       continue;
     }
     ChangeResult earlier = std::move(result.change); // to read its ROM
@@ -165,9 +186,7 @@ std::vector<Error> Change::judge(std::span<const std::size_t> goals, Snapshots s
                         std::back_inserter(result.change.warnings));
       begun_.push_back(goals[i]);
       Wanted next = wanted(result.goal, need);
-      if (next.keep_ids && options_.manner.history != nullptr) {
-        next.lost_ids = options_.manner.history->lost_ids(held, session_);
-      }
+      next.lost_ids = std::move(lost.ids);
       if (next.restart == RestartKind::restart) {
         next.rom_servo_id = bla::find(told.values, bla::address::servo_id);
       }

@@ -73,19 +73,26 @@ state::Registers replaced_in_rom(const Plan& plan, const state::Registers& rom,
   return replaced;
 }
 
-/// Whether ROM may hold what a try that broke off was to save: not if the servo has not restarted
-/// since, nor if it did so with what it held before. If a restart has not taken back an ERASE,
-/// another node has saved it.
-bool was_perhaps_saved(const state::SnapshotEntry& tried, const Snapshot& ram,
-                       const std::optional<WallTime>& started) {
-  if ((tried.saved && tried.settled) || !started) {
-    return tried.saved;
-  }
-  const auto differs = [&](const auto& held) {
-    return ram.raw(bla::Address(held.first)) != held.second;
-  };
-  return tried.saved ? tried.at < *started && std::ranges::any_of(tried.held, differs)
-                     : last_write(tried) < *started && has_lost_ids(tried, ram);
+/// Leaves of a try that broke off what is still there of it: a restart has taken back what was not
+/// saved, and others may have changed more since. An ID may be on its way.
+void leave_effects(state::SnapshotEntry& tried, const Snapshot& ram, bool is_lost) {
+  std::erase_if(tried.held, [&](const auto& held) {
+    const bla::Address address(held.first);
+    const auto written = tried.written.find(held.first);
+    const auto now = ram.raw(address);
+    const bool is_other = now && written != tried.written.end() && *now != written->second;
+    return is_lost || (is_other && !bla::is_id(address));
+  });
+  std::erase_if(tried.written,
+                [&](const auto& written) { return !tried.held.contains(written.first); });
+}
+
+/// Whether ROM holds what is left of such a try, as far as its restart shows.
+bool was_saved(const state::SnapshotEntry& tried, const Snapshot& ram, bool has_restarted) {
+  const bool is_shown = has_restarted && std::ranges::any_of(tried.held, [&](const auto& held) {
+                          return ram.raw(bla::Address(held.first)) != held.second;
+                        });
+  return tried.saved && (tried.settled || is_shown);
 }
 
 /// An earlier change in RAM as SAVE leaves it: what it replaced in ROM. Empty: ROM stays as it is.
@@ -157,9 +164,10 @@ Result<void> History::doubt_rom(std::span<const UniqueId> units) {
   return units.empty() ? Result<void>() : proofs_.drop(units);
 }
 
-/// Resumes after an earlier try of this command that ended half way. What an ERASE has taken from
-/// RAM, a restart has brought back, if nobody has saved it.
-Result<void> History::resume(const Snapshot& ram, const Session& session) {
+/// Resumes after an earlier try of this command that ended half way. What that has saved, and what
+/// this one changes in RAM only, are entries of their own.
+Result<void> History::resume(const Plan& plan, const Session& session) {
+  const Snapshot& ram = plan.before;
   const UniqueId& unique_id = *ram.servo.unique_id;
   if (!is_repeated_as_a_whole(command_) || kept_.contains(unique_id)) {
     return {};
@@ -168,15 +176,18 @@ Result<void> History::resume(const Snapshot& ram, const Session& session) {
   if (!last) {
     return std::unexpected(last.error());
   }
+  if (!*last || (*last)->ended || (*last)->command != command_) {
+    return {};
+  }
+  state::SnapshotEntry& tried = **last;
   const auto started = start_of(ram.servo, session);
-  const bool is_over = command_ == erase_keeping_ids && *last &&
-                       (!started || (*last)->at < *started) && !has_lost_ids(**last, ram);
-  if (*last && !(*last)->ended && (*last)->command == command_ && !is_over) {
-    run_ = joined_ = std::max(run_, (*last)->run);
-    const bool was_saved = was_perhaps_saved(**last, ram, started);
-    kept_[unique_id] = {.entry = std::move(**last),
-                        .was_changed = true,
-                        .was_saved = was_saved,
+  run_ = joined_ = std::max(run_, tried.run);
+  leave_effects(tried, ram, !tried.saved && started && last_write(tried) < *started);
+  tried.saved = was_saved(tried, ram, started && tried.at < *started);
+  if (!tried.saved || plan.restart) {
+    kept_[unique_id] = {.entry = tried,
+                        .was_changed = !tried.held.empty(),
+                        .was_saved = tried.saved,
                         .is_another_try = true};
   }
   return {};
@@ -275,7 +286,7 @@ std::optional<state::SnapshotEntry> History::entry_of(const Plan& plan, const Ro
 Result<void> History::keep(std::span<const Plan> plans, const Session& session) {
   for (const Plan& plan : plans) {
     const Servo& servo = plan.before.servo;
-    auto resumed = servo.unique_id ? resume(plan.before, session) : Result<void>();
+    auto resumed = servo.unique_id ? resume(plan, session) : Result<void>();
     if (!resumed) {
       return resumed;
     }

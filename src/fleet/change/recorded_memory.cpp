@@ -102,25 +102,6 @@ WallTime last_write(const state::SnapshotEntry& change) {
   return change.settled ? *change.settled + whole_second : change.at + writing_time;
 }
 
-bool has_lost_ids(const state::SnapshotEntry& broken_off, const Snapshot& ram,
-                  const std::set<bla::Address>& since) {
-  std::size_t erased = 0;
-  for (const auto& [number, raw] : broken_off.held) {
-    const bla::Address address(number);
-    const auto initial = broken_off.written.find(number);
-    if (bla::is_id(address) || since.contains(address) || initial == broken_off.written.end() ||
-        initial->second == raw) {
-      continue;
-    }
-    if (ram.raw(address) != initial->second) {
-      return false;
-    }
-    ++erased;
-  }
-  return erased > 0 && broken_off.command == erase_keeping_ids &&
-         !taken_by(broken_off, since, ram).empty();
-}
-
 /// Empty: it has not told its uptime.
 std::optional<WallTime> History::start_of(const Servo& servo, const Session& session) {
   const Member member = session.roster().member(servo.id);
@@ -233,26 +214,23 @@ bla::Values History::known_rom(const Snapshot& ram, const Session& session) {
   return proven ? std::move(*proven) : recorded_rom(ram, session).values;
 }
 
-bla::Values History::lost_ids(const Snapshot& ram, const Session& session) const {
-  constexpr int most_earlier = 10; // changes before the start
-  const auto started = start_of(ram.servo, session);
+LostIds History::lost_ids(const Snapshot& ram, const Session& session) const {
   const bool lacks_one =
       std::ranges::any_of(ids, [&](bla::Address id) { return ram.raw(id) == 0; });
-  auto entry = started && lacks_one ? snapshots_.last(*ram.servo.unique_id)
-                                    : Result<std::optional<state::SnapshotEntry>>();
+  auto entry = ram.servo.unique_id && lacks_one ? snapshots_.last(*ram.servo.unique_id)
+                                                : Result<std::optional<state::SnapshotEntry>>();
   Addresses since; // changed on purpose
-  for (int earlier = 0; entry && *entry && earlier < most_earlier;) {
+  for (; entry && *entry; entry = snapshots_.before(**entry)) {
     const state::SnapshotEntry& change = **entry;
     if (change.command == erase_keeping_ids) {
-      const bool is_open =
-          !change.ended && (change.at >= *started || has_lost_ids(change, ram, since));
-      return is_open ? taken_by(change, since, ram) : bla::Values();
+      const auto started = start_of(ram.servo, session);
+      const bool is_of_this_run = started && change.at >= *started && change.at <= session.wall();
+      return {.ids = change.ended ? bla::Values() : taken_by(change, since, ram),
+              .is_certain = is_of_this_run};
     }
     for (const auto& [address, raw] : change.held) {
       since.insert(bla::Address(address));
     }
-    earlier += change.at < *started ? 1 : 0;
-    entry = snapshots_.before(change);
   }
   return {};
 }

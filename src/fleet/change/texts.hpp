@@ -258,6 +258,17 @@ inline constexpr Text rom_unread{
     "values",
     "ノード {} は起動時に ROM のデータを読み出せず、初期値で動作しています。保存すると ROM "
     "の内容が初期値に置き換わります"};
+inline constexpr Text ids_lost_or_meant{
+    "node {}: an erase --keep-ids broke off before {} was back, and the servo has restarted since: "
+    "whether 0 is meant is not known",
+    "ノード {}: erase --keep-ids が {} "
+    "を書き戻す前に中断され、その後サーボが再起動しています。現在の値 0 が意図したものか不明です",
+};
+inline constexpr Text ids_lost_or_meant_hint{
+    "to have it back: blactl set -n {0} {1} --save; to leave it 0: blactl erase without --keep-ids",
+    "元に戻すには: blactl set -n {0} {1} --save。0 のままにするには: --keep-ids "
+    "を付けずに blactl erase を実行して下さい",
+};
 inline constexpr Text rom_unread_hint{"the next start may read it: blactl restart -n {}",
                                       "再起動で読み出せる場合があります: blactl restart -n {}"};
 inline constexpr Text question_overwrite_rom{

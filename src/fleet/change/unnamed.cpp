@@ -76,7 +76,7 @@ ToldRom told_rom(const Goal& goal, const Snapshot& held, History* record, const 
   ToldRom told = proven ? ToldRom{.values = std::move(*proven), .is_proven = true}
                         : record->recorded_rom(held, session);
   if (goal.wanted.erase) { // keeps the IDs, and gives back those that one before has lost
-    const bla::Values lost = record->lost_ids(held, session);
+    const bla::Values lost = record->lost_ids(held, session).ids;
     std::erase_if(told.values, [&](const auto& rom) {
       return !bla::is_id(rom.first) || bla::find(lost, rom.first);
     });

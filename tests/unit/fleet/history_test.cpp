@@ -513,48 +513,38 @@ TEST_CASE("IDs that an erase has lost are known as long as nobody gives others")
               .is_done()); // as it broke off
   REQUIRE(change(scene, set(gives_another ? "servo_id=9" : "smoothing=off"), kept).is_done());
   const Snapshot ram = scene.read(11, registers({"servo_id", "static_node_id"}));
-  const bla::Values lost = kept.history("erase").lost_ids(ram, *scene.session);
-  CHECK(bla::find(lost, at::servo_id) == (gives_another ? std::nullopt : std::optional(5)));
-  CHECK(bla::find(lost, at::static_node_id) == 11);
+  const LostIds lost = kept.history("erase").lost_ids(ram, *scene.session);
+  CHECK(bla::find(lost.ids, at::servo_id) == (gives_another ? std::nullopt : std::optional(5)));
+  CHECK(bla::find(lost.ids, at::static_node_id) == 11);
+  CHECK(lost.is_certain);
 }
 
-TEST_CASE("an erase that broke off goes on where another node has saved it, and it has restarted") {
+TEST_CASE("whether IDs that are gone after a restart are lost or meant is not certain") {
   const Kept kept;
-  const Scene scene(servos(R"(, "servo_id": 5, "rom": {"reverse": "on"})"));
-  const Wanted erase{.erase = true, .keep_ids = true};
+  const Scene scene(servos(R"(, "servo_id": 5)"));
   const std::string command(erase_keeping_ids);
-  killed(scene, erase, kept, command);
+  killed(scene, {.erase = true, .keep_ids = true}, kept, command);
   const auto unrecorded = [&](const Wanted& wanted) {
     REQUIRE(carry_out(*scene.session, profiles(), plans_for(scene, wanted, {11}), {})
                 .servos[0]
                 .is_done());
+    scene.live(3s);
   };
-  unrecorded(set("servo_id=0")); // as it broke off
-  // or a restart has brought back all, and somebody wants it without a servo ID
-  const bool is_over = GENERATE(false, true);
-  scene.live(15s);
-  if (is_over) {
-    unrecorded(restart);
-    scene.live(3s);
-    unrecorded(set("servo_id=0"));
-  }
+  unrecorded(set("servo_id=0")); // as it broke off, or meant by somebody
   unrecorded(save);
-  scene.live(3s);
-  if (const bool has_changed_more = GENERATE(false, true); has_changed_more && !is_over) {
-    REQUIRE(change(scene, set("smoothing=off"), kept).is_done());
-    unrecorded(save);
-    scene.live(3s);
-    const Snapshot later = scene.read(11, registers({"servo_id", "static_node_id", "reverse"}));
-    CHECK(kept.history("erase").lost_ids(later, *scene.session) == bla::Values{{at::servo_id, 5}});
-    return;
+  const auto lost = [&] {
+    const Snapshot ram = scene.read(11, registers({"servo_id", "static_node_id"}));
+    return kept.history(command).lost_ids(ram, *scene.session);
+  };
+  for (int i = 0; i < 12; ++i) {
+    REQUIRE(change(scene, set(i % 2 == 0 ? "reverse=on" : "reverse=off"), kept).is_done());
   }
-  const Snapshot ram = scene.read(11, registers({"servo_id", "static_node_id", "reverse"}));
-  CHECK(kept.history("erase").lost_ids(ram, *scene.session) ==
-        (is_over ? bla::Values{} : bla::Values{{at::servo_id, 5}}));
-  REQUIRE(change(scene, erase, kept, command).is_done());
-  REQUIRE(kept.entries().size() == (is_over ? 2 : 1));
-  CHECK(kept.entries().front().held.at(0x45) == (is_over ? 0 : 5));
-  CHECK(kept.entries().front().saved == !is_over); // by the other node
+  CHECK(lost().ids == bla::Values{{at::servo_id, 5}});
+  CHECK_FALSE(lost().is_certain);
+  REQUIRE(change(scene, set("servo_id=0"), kept).is_done()); // this user means it
+  REQUIRE(change(scene, set("servo_id=6"), kept).is_done());
+  REQUIRE(change(scene, set("servo_id=0"), kept).is_done());
+  CHECK(lost().ids.empty());
 }
 
 TEST_CASE("a saved change is taken back to what ROM held, one that was not saved to RAM's value") {
@@ -633,7 +623,9 @@ TEST_CASE("a repeated apply counts as saved only where the first try may have be
     carry(save);
     History again = kept.history("apply");
     REQUIRE(change(scene, set("angle_limit_cw=80deg"), again).servos[0].is_done());
-    CHECK(kept.entries().front().saved);
+    CHECK_FALSE(kept.entries().front().saved);
+    CHECK(kept.entries().front().held == state::Registers{{0x38, 900}});
+    CHECK(kept.entries().front().run == kept.entries().back().run);
   }
 }
 
@@ -785,6 +777,57 @@ TEST_CASE("a change in RAM that was killed and is repeated after a restart stays
   scene.live(3s);
   REQUIRE(change(scene, set("angle_limit_ccw=-90deg"), kept, "apply").is_done());
   CHECK_FALSE(kept.entries().front().saved);
+}
+
+TEST_CASE("a try that was to save, broke off, and was lost in a restart, leaves nothing") {
+  const Kept kept;
+  const Scene scene(servos());
+  const auto unrecorded = [&](const Wanted& wanted) {
+    REQUIRE(carry_out(*scene.session, profiles(), plans_for(scene, wanted, {11}), {})
+                .servos[0]
+                .is_done());
+    scene.live(3s);
+  };
+  unrecorded(set("angle_limit_cw=33deg")); // a trial of another tool
+  REQUIRE(kept.history("apply").keep(plans_for(scene, set("angle_limit_cw=77deg", true), {11}),
+                                     *scene.session));
+  unrecorded(set("angle_limit_cw=77deg"));
+  scene.live(15s);
+  unrecorded(restart);
+  REQUIRE(change(scene, set("angle_limit_cw=77deg"), kept, "apply").is_done());
+  REQUIRE(kept.entries().size() == 1);
+  CHECK_FALSE(kept.entries().front().saved);
+  CHECK(kept.entries().front().held == state::Registers{{0x38, 1799}});
+}
+
+TEST_CASE("what another user has saved since a try broke off comes back") {
+  const Kept kept;
+  const Scene scene(servos());
+  killed(scene, set("angle_limit_cw=77deg", true), kept, "apply");
+  scene.live(3s);
+  REQUIRE(carry_out(*scene.session, profiles(),
+                    plans_for(scene, set("angle_limit_cw=90deg", true), {11}), {})
+              .servos[0]
+              .is_done());
+  scene.live(3s);
+  REQUIRE(change(scene, set("angle_limit_cw=77deg", true), kept, "apply").is_done());
+  CHECK(kept.entries().front().held == state::Registers{{0x38, 900}});
+}
+
+TEST_CASE("a repetition in RAM only is a change beside what the first try has saved") {
+  const Kept kept;
+  const Scene scene(servos());
+  killed(scene, set("angle_limit_cw=77deg", true), kept, "apply");
+  scene.live(3s);
+  REQUIRE(change(scene, set("reverse=on"), kept, "apply").is_done());
+  const auto entries = kept.entries();
+  REQUIRE(entries.size() == 2);
+  CHECK(entries[0].held == state::Registers{{0x23, 0}});
+  CHECK_FALSE(entries[0].saved);
+  CHECK(entries[0].run == entries[1].run); // undo takes back both
+  CHECK(entries[1].saved);
+  const Snapshot ram = scene.read(11, registers({"reverse"}));
+  CHECK(kept.history().recorded_rom(ram, *scene.session).values == bla::Values{{at::reverse, 0}});
 }
 
 TEST_CASE("undo of an erase leaves the IDs that it kept") {

@@ -7,6 +7,7 @@
 #include "blactl/fleet/bus/session.hpp"
 #include "blactl/fleet/change/carry_out.hpp"
 #include "blactl/fleet/change/goal.hpp"
+#include "blactl/fleet/change/history.hpp"
 #include "blactl/fleet/change/id_moves.hpp"
 #include "blactl/fleet/change/result.hpp"
 
@@ -85,6 +86,8 @@ class Change {
   [[nodiscard]] std::optional<bla::Values> proven_rom(const Goal& goal, const Servo& servo);
   [[nodiscard]] std::optional<Error> refuse_unread_rom(const GoalResult& result,
                                                        const Snapshot& held, Need need);
+  [[nodiscard]] static std::optional<Error> refuse_lost_ids(const LostIds& lost,
+                                                            const Snapshot& held);
   [[nodiscard]] std::vector<Error> hear();
   [[nodiscard]] std::vector<Error> refuse_copies(std::span<const std::size_t> goals);
   [[nodiscard]] std::vector<Error> prepare(std::span<const std::size_t> goals);

@@ -32,6 +32,13 @@ struct ToldRom {
   std::map<bla::Address, dronecan::NodeId> written_by{}; ///< other nodes, heard since its start
 };
 
+/// IDs that an ERASE by this program has taken from RAM, was to keep, and did not write back: it
+/// broke off.
+struct LostIds {
+  bla::Values ids{};
+  bool is_certain = false; ///< it has run on since; else 0 may be what somebody wants by now
+};
+
 /// The record of one command, over all of its rounds. Errors of its functions are those of the
 /// stores: the record is incomplete then, with no other effect.
 class History {
@@ -47,9 +54,9 @@ class History {
 
   /// Before the first request of a round: records the present settings of the servos changed in it,
   /// those that a restart takes from RAM among them.
-  /// For one changed in an earlier round the existing record is kept. So it is if apply, undo or
-  /// alloc --static were killed or failed, and the same command is repeated: undo goes back to the
-  /// state before the first try.
+  /// For one changed in an earlier round the existing record is kept. If apply, undo, alloc
+  /// --static or erase --keep-ids were killed or failed, and the same command is repeated, undo
+  /// goes back to the state before the first try, as far as its changes are still there.
   [[nodiscard]] Result<void> keep(std::span<const Plan> plans, const Session& session);
 
   /// After a round: records the result of each servo, and the proofs of those whose configuration
@@ -89,9 +96,8 @@ class History {
   /// What its ROM holds, as far as proven, else as far as recorded.
   [[nodiscard]] bla::Values known_rom(const Snapshot& ram, const Session& session);
 
-  /// The IDs that an ERASE by this program has taken from RAM, was to keep, and did not write back:
-  /// it broke off.
-  [[nodiscard]] bla::Values lost_ids(const Snapshot& ram, const Session& session) const;
+  /// Empty: none, or they were changed on purpose since.
+  [[nodiscard]] LostIds lost_ids(const Snapshot& ram, const Session& session) const;
 
   /// Whether a restart by this program did not help a servo to read its ROM, and it has not
   /// restarted since.
@@ -113,7 +119,7 @@ class History {
   struct Settled;
   void settle(const ChangeResult& result, WallTime wall, Settled& settled);
   [[nodiscard]] Result<void> settle(std::span<const ChangeResult> results, WallTime wall);
-  [[nodiscard]] Result<void> resume(const Snapshot& ram, const Session& session);
+  [[nodiscard]] Result<void> resume(const Plan& plan, const Session& session);
   [[nodiscard]] static std::optional<WallTime> start_of(const Servo& servo, const Session& session);
   [[nodiscard]] bool is_half_undone() const;
   [[nodiscard]] bool is_another_try(const dronecan::UniqueId& unit) const;
@@ -148,11 +154,6 @@ class History {
 
 /// No write of this change came later: the servo may have restarted between record and write.
 [[nodiscard]] WallTime last_write(const state::SnapshotEntry& change);
-
-/// Whether RAM is as a command has left it that broke off between ERASE and the IDs to be kept:
-/// they are gone, and so is every other value that the ERASE took, but for those changed `since`.
-[[nodiscard]] bool has_lost_ids(const state::SnapshotEntry& broken_off, const Snapshot& ram,
-                                const std::set<bla::Address>& since = {});
 
 /// The settings that this plan replaces, with their present values; all writable ones for ERASE and
 /// for a restart that is to show what ROM holds.
