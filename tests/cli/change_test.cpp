@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace blactl::test;
@@ -25,7 +26,8 @@ std::ptrdiff_t rom_writes(const std::string& output) {
 /// unit that is away.
 class Bus {
  public:
-  Bus() {
+  /// `faults`: of the servo at 11.
+  explicit Bus(nlohmann::json faults = nlohmann::json::object()) : faults_(std::move(faults)) {
     REQUIRE(
         run({"alloc", "--assign", std::string(absent) + "=30", "--once", "--wait", "2"}).status ==
         0);
@@ -57,11 +59,12 @@ class Bus {
   [[nodiscard]] std::ptrdiff_t end() { return rom_writes(sim_.stop().out); }
 
  private:
+  nlohmann::json faults_;
   Bench bench_;
   Background sim_{bench_,
                   {"sim", "-j",
                    Scene()
-                       .servo("BLA21-12U-AB", 11, {{"servo_id", 1}})
+                       .servo("BLA21-12U-AB", 11, {{"servo_id", 1}, {"faults", faults_}})
                        .servo("BLA21-12U-AB", 12, {{"servo_id", 2}})
                        .write(bench_)}};
 };
@@ -78,6 +81,16 @@ TEST_CASE("a wish takes the ID of a unit that is away over, and says whose it wa
   INFO(changed.err);
   CHECK(changed.status == 0);
   CHECK(contains(changed.err, std::string("node ID 30 was given to uid:") + absent));
+  CHECK(bus.holder(30) == unit);
+}
+
+TEST_CASE("an ID that ROM may hold, as its SAVE was answered and no restart came, stays given") {
+  const Bus bus(nlohmann::json{{"stays", true}});
+  const std::string unit = bus.unit(11);
+  const Result changed = bus.run({"alloc", "--static", "-n", "11", "--id", "30", "-y"});
+  INFO(changed.err);
+  CHECK(changed.status == 1);
+  CHECK(contains(changed.err, "it is to go to node 11"));
   CHECK(bus.holder(30) == unit);
 }
 

@@ -94,12 +94,15 @@ std::vector<Error> Rounds::carry_out_each(const Hook& hook) {
   return {};
 }
 
-/// The present place of a unit in the table; empty: no better one is known.
+/// The present place of a unit in the table, or that of its next start if ROM may hold it; empty:
+/// no better one is known.
 std::optional<NodeId> Rounds::place(const dronecan::UniqueId& unique_id) const {
   const auto unit = std::ranges::find(units_, unique_id, &UnitChange::unique_id);
-  return unit != units_.end() && unit->static_node_id()
-             ? std::optional(unit->now)
-             : static_place(session_.roster(), unique_id);
+  if (unit == units_.end() || !unit->static_node_id()) {
+    return static_place(session_.roster(), unique_id);
+  }
+  const bool may_start_there = unit->has_failed() && unit->last && unit->last->may_have_saved;
+  return may_start_there ? unit->static_node_id() : unit->now;
 }
 
 /// Removes IDs in the table that their units do not have any more. If no IDs are assigned the table
@@ -300,6 +303,12 @@ void Rounds::conclude(const Step& step, ChangeResult result, const Hook& hook) {
                          say<texts::run_again_hint>(), id};
   }
   unit.now = result.node_id_after.value_or(unit.now);
+  const auto earlier = unit.last ? unit.last->warnings : std::vector<Warning>();
+  for (const Warning& warning : earlier) { // of the round in which it made way
+    if (std::ranges::find(result.warnings, warning.code, &Warning::code) == result.warnings.end()) {
+      result.warnings.push_back(warning);
+    }
+  }
   unit.last = std::move(result);
   if (!unit.last->is_done()) {
     return;

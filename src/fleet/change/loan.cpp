@@ -226,7 +226,7 @@ bool Loan::tell(const Held& held, const Snapshot& now, GivenBack& given) const {
       given.errors.push_back(
           {Code::state, say<texts::loan_of_another>(id), say<texts::loan_of_another_hint>(), id});
     }
-    return true;
+    return held.state == State::untouched; // the one that was lent may be away: undo finds it
   }
   const std::int64_t raw = value(now).value_or(borrowed_.value.raw);
   if (auto saved = saved_by_another(held, now)) {

@@ -46,7 +46,7 @@ inline constexpr Text stays_out_of_the_way{
     "ノード {} は一時的なノード ID のまま保存されています (変更に失敗したサーボがノード ID {} "
     "を使用している可能性があります)"};
 inline constexpr Text id_taken_over{
-    "node ID {} was given to uid:{}, which is not on this bus: it is node {}'s from now on",
+    "node ID {} was given to uid:{}, which is not on this bus: it is to go to node {}",
     "ノード ID {} の割当て先 uid:{} はこのバスにないため、ノード {} に割り当てます"};
 
 // Messages about loans, which today are all of torque.
