@@ -51,7 +51,10 @@ Episode Sweep::episode_of(const std::vector<int>& node_ids) {
 
 Episode Sweep::episode_of(const Case& one) {
   Episode episode = episode_of(one.node_ids);
-  episode.scenario["servos"].front()["faults"] = one.first_faults;
+  episode.scenario["servos"].front().update(one.first);
+  if (!one.orders.empty()) {
+    episode.scenario["foreign"] = {{{"kind", "node"}, {"node_id", 90}, {"orders", one.orders}}};
+  }
   return episode;
 }
 
@@ -89,7 +92,12 @@ std::vector<Sweep::Case> Sweep::cases() {
        .before = {},
        .command = saved,
        .is_undoable = true,
-       .first_faults = {{"ignore_opcodes", 1}}},
+       .first = {{"faults", {{"ignore_opcodes", 1}}}}},
+      {.name = "set --save, answers late",
+       .before = {},
+       .command = saved,
+       .is_undoable = true,
+       .first = {{"sending", {{"late_answers", 0.3}, {"late_by", "300ms"}}}}},
       {.name = "set --save", .before = {}, .command = saved, .is_undoable = true},
       {.name = "set --save of a trial",
        .before = {words({"set", "-n", "11", "reverse=on", "-y"})},
@@ -147,6 +155,26 @@ std::vector<Sweep::Case> Sweep::cases() {
        .command = words({"alloc", "--static", "-n", "serial:240900001", "--id", "30", "-y"}),
        .is_undoable = true,
        .ended_by = "node comes to 30"},
+      {.name = "apply, saved otherwise since",
+       .before = {apply({{"smoothing", "off"}}, {{"reverse", "on"}}),
+                  words({"scan", "--listen", "30"})},
+       .command = apply({{"smoothing", "off"}}, {{"reverse", "on"}}),
+       .orders =
+           {{{"at", "25s"}, {"to", 11}, {"order", "write"}, {"address", 0x22}, {"value", 1}},
+            {{"at", "26s"}, {"to", 11}, {"order", "save"}},
+            {{"at", "30s"}, {"to", 11}, {"order", "write"}, {"address", 0x22}, {"value", 0}}}},
+      {.name = "apply --dry-run of a trial",
+       .before = {words({"set", "-n", "11", "smoothing=off", "-y"})},
+       .command = apply({{"smoothing", "off"}}, {{"servo_id", 2}}, {"--dry-run"}),
+       .is_repeatable = false},
+      {.name = "get",
+       .before = {many},
+       .command = words({"get", "-n", "all", "--all"}),
+       .is_repeatable = false},
+      {.name = "export",
+       .before = {many},
+       .command = words({"export", "all.json", "-n", "all", "-y"}),
+       .is_repeatable = false},
       {.name = "undo", .before = {saved}, .command = words({"undo", "-y"}), .is_repeatable = false},
       {.name = "alloc --once",
        .before = {},

@@ -58,6 +58,11 @@ bool is_small(const Disturbance& disturbance) {
           disturbance.kind == Kind::frame_doubled || disturbance.kind == Kind::frame_corrupted);
 }
 
+std::size_t requests_in(const Record& record) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      record.frames(), [](const OnWire& frame) { return frame.is_request() && frame.starts(); }));
+}
+
 /// Whether each servo has its IDs once it is over.
 bool leaves_servos_apart(const std::string& kind) {
   static const std::set<std::string> others{"node_on_id", "one_node_id", "one_unique_id"};
@@ -133,12 +138,16 @@ Sweep::Calm Sweep::play_calm(const Case& one, Kind kind) const {
   const Folder folder(folder_);
   const Episode episode = episode_of(one);
   World world(episode.scenario, folder_);
-  return {.goal = begin(world, episode, one, std::span(&counting, 1)).after,
-          .places = counting.seen};
+  const Step step = begin(world, episode, one, std::span(&counting, 1));
+  return {.goal = step.after,
+          .places = counting.seen,
+          .requests = requests_in(step.outcome.record),
+          .status = step.outcome.status};
 }
 
 void Sweep::play_each(const Case& one, Kind kind) {
-  const auto [goal, places] = play_calm(one, kind);
+  const Calm calm = play_calm(one, kind);
+  const std::size_t places = calm.places;
   for (const bool lasts : {false, true}) {
     if (lasts && ends_command(kind)) {
       continue;
@@ -151,7 +160,7 @@ void Sweep::play_each(const Case& one, Kind kind) {
     const auto first = static_cast<std::size_t>(chance.whole(1, static_cast<std::int64_t>(step)));
     for (std::size_t number = first; number <= places; number += step) {
       if (is_own_turn() && !is_over()) {
-        disturb(one, {{.kind = kind, .number = number, .lasts = lasts}}, goal, swept);
+        disturb(one, {{.kind = kind, .number = number, .lasts = lasts}}, calm, swept);
       }
     }
   }
@@ -174,14 +183,14 @@ void Sweep::play_pairs(const Case& one) {
   for (std::size_t i = 0; i < most; i += options_.step) {
     Chance chance(i, one.name);
     const Kind first = chance.one_of(firsts), second = chance.one_of(seconds);
-    const auto& [goal, places] = calm.at(first);
-    const Disturbance early{
-        .kind = first,
-        .number = static_cast<std::size_t>(chance.whole(1, static_cast<std::int64_t>(places)))};
+    const Calm& quiet = calm.at(first);
+    const Disturbance early{.kind = first,
+                            .number = static_cast<std::size_t>(
+                                chance.whole(1, static_cast<std::int64_t>(quiet.places)))};
     const Disturbance late{.kind = second,
                            .number = static_cast<std::size_t>(chance.whole(1, recovery))};
     if (is_own_turn() && !is_over()) {
-      disturb(one, {early, late}, goal, swept);
+      disturb(one, {early, late}, quiet, swept);
     }
   }
 }
@@ -211,7 +220,7 @@ void Sweep::play_faults(const Case& one) {
   }
 }
 
-void Sweep::disturb(const Case& one, std::vector<Disturbance> disturbances, const States& goal,
+void Sweep::disturb(const Case& one, std::vector<Disturbance> disturbances, const Calm& calm,
                     Swept& swept) {
   std::string what;
   for (std::size_t i = 0; i < disturbances.size(); ++i) {
@@ -224,7 +233,7 @@ void Sweep::disturb(const Case& one, std::vector<Disturbance> disturbances, cons
   const Episode episode = episode_of(one);
   World world(episode.scenario, folder_);
   const Step step = begin(world, episode, one, disturbances);
-  judged(one, what, step, swept, [&] { check(world, one, disturbances, step, goal); });
+  judged(one, what, step, swept, [&] { check(world, one, disturbances, step, calm); });
 }
 
 /// Counts a run, and tells what `check` finds.
@@ -272,7 +281,7 @@ void Sweep::check_stores(World& world, const Step& cut, bool is_undoable) {
 }
 
 void Sweep::check(World& world, const Case& one, std::span<const Disturbance> disturbances,
-                  const Step& step, const States& goal) {
+                  const Step& step, const Calm& calm) {
   const auto is_ended = [](const Disturbance& one_of_them) {
     return ends_command(one_of_them.kind) && one_of_them.has_struck();
   };
@@ -280,7 +289,12 @@ void Sweep::check(World& world, const Case& one, std::span<const Disturbance> di
     judge(step);
   }
   if (disturbances.size() == 1 && is_small(disturbances.front())) {
-    require(step.outcome.status == 0, "one frame was in its way");
+    require(step.outcome.status == calm.status,
+            fmt::format("{} instead of {}, and one frame was in its way", step.outcome.status,
+                        calm.status));
+    require(disturbances.front().kind != Kind::frame_doubled ||
+                requests_in(step.outcome.record) <= calm.requests,
+            "a frame that came twice made it ask again");
   }
   world.pass(4s);
   [[maybe_unused]] const auto late = world.take_events();
@@ -293,7 +307,7 @@ void Sweep::check(World& world, const Case& one, std::span<const Disturbance> di
   const Step again = take_step(world, step.episode, one.command);
   judge(again);
   require(again.outcome.status == 0, "does not converge: " + again.outcome.err);
-  require_same(goal, again.after, "the same command has another result");
+  require_same(calm.goal, again.after, "the same command has another result");
   const bool is_recorded = std::ranges::none_of(disturbances, [](const Disturbance& disturbance) {
     return disturbance.kind == Kind::call_failed; // commands go on without a record
   });

@@ -64,12 +64,15 @@ class Sweep {
     bool is_written_again = false; ///< what a restart in the middle has dropped
     std::string ended_by{};        ///< after this happening nothing more may be sent
     std::vector<int> node_ids{11, 12, 13};
-    nlohmann::json first_faults = nlohmann::json::object(); ///< of the first servo
+    nlohmann::json first = nlohmann::json::object(); ///< what is special about the first servo
+    nlohmann::json orders = nlohmann::json::array(); ///< of another tool
   };
 
   struct Calm {
     States goal;
     std::size_t places = 0;
+    std::size_t requests = 0;
+    int status = 0;
   };
 
   [[nodiscard]] static std::vector<Case> cases();
@@ -78,7 +81,7 @@ class Sweep {
   [[nodiscard]] static Step begin(World& world, const Episode& episode, const Case& one,
                                   std::span<Disturbance> disturbances);
   static void check(World& world, const Case& one, std::span<const Disturbance> disturbances,
-                    const Step& step, const States& goal);
+                    const Step& step, const Calm& calm);
   [[nodiscard]] Calm play_calm(const Case& one, Disturbance::Kind kind) const;
   static void check_undo(World& world, const Step& changed);
   static void check_stores(World& world, const Step& cut, bool is_undoable);
@@ -100,7 +103,7 @@ class Sweep {
   void play_moment(const Case& one, const Episode& episode, const Moment& moment, Swept& swept);
   void judged(const Case& one, const std::string& what, const Step& step, Swept& swept,
               const std::function<void()>& check);
-  void disturb(const Case& one, std::vector<Disturbance> disturbances, const States& goal,
+  void disturb(const Case& one, std::vector<Disturbance> disturbances, const Calm& calm,
                Swept& swept);
 
   [[nodiscard]] bool is_over() const { return options_.until_found && has_found_; }

@@ -153,9 +153,15 @@ std::vector<Error> Change::judge(std::span<const std::size_t> goals, Snapshots s
   for (std::size_t i = 0; i < goals.size(); ++i) {
     Snapshot& held = snapshots[i];
     GoalResult& result = results_[goals[i]];
+    const auto refuse_it = [&](Error why) {
+      if (result.change.was_restarted) { // by this run: RAM is not as it was read before
+        result.change.doubt();
+      }
+      result.errors.push_back(why);
+      errors.push_back(std::move(why));
+    };
     if (auto error = refuse(result.goal, held)) {
-      result.errors.push_back(*error);
-      errors.push_back(std::move(*error));
+      refuse_it(std::move(*error));
       continue;
     }
     const auto rom = proven_rom(result.goal, held.servo);
@@ -166,8 +172,7 @@ std::vector<Error> Change::judge(std::span<const std::size_t> goals, Snapshots s
                        : LostIds();
     auto refused = refuse_unread_rom(result, held, need);
     if (refused = refused ? refused : refuse_lost_ids(lost, held); refused) {
-      result.errors.push_back(*refused);
-      errors.push_back(std::move(*refused));
+      refuse_it(std::move(*refused));
       continue;
     }
     ChangeResult earlier = std::move(result.change); // to read its ROM

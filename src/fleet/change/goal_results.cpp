@@ -25,6 +25,10 @@ void learn(RegisterChange& change, const ChangeResult& last) {
     return each.parameter->address == change.parameter->address;
   });
   if (same == last.changes.end()) {
+    if (last.is_doubted) { // a restart that was to show ROM may have replaced it
+      change.after = std::nullopt;
+      change.status = ChangeStatus::failed;
+    }
     return;
   }
   change.after = same->after;

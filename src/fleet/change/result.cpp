@@ -6,6 +6,7 @@ namespace blactl::fleet {
 
 void ChangeResult::doubt() {
   now.clear();
+  is_doubted = true;
   for (RegisterChange& change : changes) {
     change.after = std::nullopt;
     change.status = ChangeStatus::failed;

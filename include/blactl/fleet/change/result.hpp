@@ -30,6 +30,7 @@ struct ChangeResult {
   bool was_sent = false;         ///< a request that changes the servo has left, or may have
   bool may_have_changed = false; ///< and was carried out, as far as known
   bool may_have_saved = false;   ///< SAVE has left, or another node's, and may have succeeded
+  bool is_doubted = false;       ///< what RAM holds now is not known: doubt()
   bool was_restarted = false;    ///< SAVE or RestartNode was due, and all before succeeded
   bool is_verified = false;      ///< everything required was proven
   bool saved = false;            ///< ROM was written, and the servo is back with these values
