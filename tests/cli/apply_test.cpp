@@ -517,6 +517,31 @@ TEST_CASE("an entry of one unit means it also when it holds what the entry sets"
   CHECK(statuses(fleet.apply(document)) == Words{"unchanged"});
 }
 
+TEST_CASE("a servo that has not said who it is may be meant by an entry for several servos") {
+  const Fleet fleet(
+      Scene()
+          .servo("BLA21-12U-AB", 11, {{"servo_id", 1}})
+          .servo("BLA21-12U-AB", 12, {{"servo_id", 2}, {"faults", {{"mute", true}}}}));
+  const Document models{
+      {"schema", "blactl-fleet/1"},
+      {"servos",
+       {{{"name", "all"}, {"match", {{"model", "BLA21"}}}, {"set", {{"angle_p_gain", 70}}}}}}};
+  const Result applied = fleet.apply(models);
+  INFO(applied.out << applied.err);
+  CHECK(applied.status != 0);
+  CHECK(contains(applied.err, "node 12 is on the bus, but has not said who it is: all may mean"));
+  CHECK(fleet.ram("11", "angle_p_gain") != 70);
+  const std::string file = fleet.file(models);
+  for (const Arguments& more : {Arguments{}, Arguments{"-n", "model:BLA21"}}) {
+    Arguments diff{"diff", file};
+    diff.insert(diff.end(), more.begin(), more.end());
+    const Result compared = fleet.run(diff);
+    INFO(compared.out << compared.err);
+    CHECK(compared.status != 0);
+    CHECK(compared.status != 8);
+  }
+}
+
 TEST_CASE("a servo that does not say who it is may be the one that a parameter file is for") {
   const Fleet fleet(three_servos().servo("BLA21-12U-AB", 20, {{"faults", {{"mute", true}}}}));
   check_error(fleet.run({"apply", fleet.params("0x22 0\n"), "-y"}), 2, "usage", "11, 12, 13, 20");

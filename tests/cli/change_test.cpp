@@ -94,6 +94,15 @@ TEST_CASE("an ID that ROM may hold, as its SAVE was answered and no restart came
   CHECK(bus.holder(30) == unit);
 }
 
+TEST_CASE(
+    "an ID that a restart has shown not to be in ROM is given back to the unit that is away") {
+  const Bus bus(nlohmann::json{{"rom_write_fails", true}});
+  const Result changed = bus.run({"alloc", "--static", "-n", "11", "--id", "30", "-y"});
+  INFO(changed.err);
+  CHECK(changed.status == 5);
+  CHECK(bus.holder(30) == absent);
+}
+
 TEST_CASE("the ID of a unit that is there is refused, by whichever command") {
   const Arguments change =
       GENERATE(Arguments{"set", "-n", "11", "static_node_id=12", "--save", "-y"},

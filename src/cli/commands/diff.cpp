@@ -78,7 +78,8 @@ void compare_servos(const fleet::FleetFile& file, const fleet::Targets& targets,
   if (!look_around(context, report)) {
     return;
   }
-  const auto match = fleet::match(file, context.session().roster(), targets, context.known());
+  const auto match = fleet::match(file, context.session().roster(), targets, context.known(),
+                                  context.session().is_replay());
   report.errors.insert(report.errors.end(), match.errors.begin(), match.errors.end());
   auto found = fleet::diff(context.session(), context.known(), match, context.identification());
   if (found.broken) {

@@ -24,11 +24,18 @@ namespace {
 constexpr int probes_at_a_time = 8;
 constexpr Duration probe_timeout = std::chrono::milliseconds(60);
 
+/// Between two tries to identify those that are waited for.
+constexpr Duration asking_period = std::chrono::seconds(1);
+
 /// Before this time nothing of ours is sent that nobody would acknowledge on an empty bus.
 constexpr Duration empty_bus_time = std::chrono::milliseconds(900);
 
 bool is_operational(const Member& member) {
   return member.is_known() && member.status && member.status->mode == dronecan::Mode::operational;
+}
+
+bool means_all(const Targets& targets) {
+  return targets.all || !targets.given;
 }
 
 /// The reason why a node that was heard is not ready.
@@ -111,7 +118,7 @@ std::vector<std::optional<Error>> Discovery::identifications() const {
 /// reading them gives their state, or an error instead of silence.
 bool Discovery::is_one_of_all(const Targets& targets, const Member& member) const {
   const bool shares = session_.roster().is_doubled(member.id) && member.sends_actuator_status();
-  return (targets.all || !targets.given) && ((member.identified && member.is_servo) || shares);
+  return means_all(targets) && ((member.identified && member.is_servo) || shares);
 }
 
 /// A unit that restarted since it was identified is the same unit; its servo ID may be another.
@@ -135,28 +142,12 @@ bool Discovery::is_met(const Selector& selector) const {
   });
 }
 
-/// Those that this selector may mean, too.
-std::vector<Error> Discovery::undecided(const Selector& selector) const {
-  std::vector<Error> errors;
-  if (selector.is_unique() && is_met(selector)) {
-    return errors;
-  }
-  const Roster& roster = session_.roster();
-  for (const NodeId id : unidentified(roster)) {
-    if (selector.may_match(roster.member(id), profiles_)) {
-      errors.push_back(roster.is_doubled(id)  ? doubled(roster, id)
-                       : session_.is_replay() ? identity_unrecorded(id)
-                                              : may_be_meant(id, selector));
-    }
-  }
-  return errors;
-}
-
 /// The selectors that match nobody, and those that may match more.
 std::vector<Error> Discovery::unmet(const Targets& targets) const {
   std::vector<Error> errors;
   for (const Selector& selector : targets.selectors) {
-    if (auto open = undecided(selector); !open.empty()) {
+    auto open = may_be_meant(session_.roster(), selector, profiles_, session_.is_replay());
+    if (!open.empty()) {
       std::ranges::move(open, std::back_inserter(errors));
     } else if (!is_met(selector)) {
       errors.push_back(
@@ -280,7 +271,15 @@ Result<void> Discovery::find_all(Duration listen) {
   if (auto lived = session_.live_until(session_.now() + listen); !lived) {
     return lived;
   }
-  if (auto ran = session_.run(); !ran) {
+  const bool attends = attention_ != Attention::none;
+  if (attends) { // one that restarts again and again is not waited for
+    session_.records().remove(*this);
+  }
+  const auto ran = session_.run();
+  if (attends) {
+    session_.records().add(*this);
+  }
+  if (!ran) {
     return ran;
   }
   std::vector<const Member*> servos;
@@ -342,10 +341,20 @@ bool Discovery::all_there(const Targets& targets) const {
   const auto may_be_there = [this](NodeId id) {
     return session_.roster().heard(id) && !session_.roster().member(id).is_foreign();
   };
-  return !members.empty() && std::ranges::all_of(targets.ids, may_be_there) &&
+  const bool is_known = !means_all(targets) || unidentified(session_.roster()).empty();
+  return !members.empty() && std::ranges::all_of(targets.ids, may_be_there) && is_known &&
          unmet(targets).empty() && std::ranges::all_of(members, [this](const Member* member) {
            return seems_ready(*member);
          });
+}
+
+/// Those that have not said who they are.
+void Discovery::ask_again() {
+  if (session_.node().jobs() == 0) {
+    for (const NodeId id : unidentified(session_.roster())) {
+      identify(id);
+    }
+  }
 }
 
 /// Returns whether they are; false also as soon as one of them is known not to be alone on its ID.
@@ -353,11 +362,16 @@ Result<bool> Discovery::wait_until_there(const Targets& targets, Time deadline) 
   // without IDs all present nodes must have had the time to be heard
   const Time heard = session_.now() + (targets.need_search() ? bus_watch_time : Duration::zero());
   for (;;) {
-    auto there = session_.live_until(deadline, [&] {
+    const Time next = std::min(deadline, session_.now() + asking_period);
+    auto there = session_.live_until(next, [&] {
       return session_.now() >= heard && session_.node().jobs() == 0 && all_there(targets);
     });
-    if (!there || !*there) {
+    if (!there || (!*there && next == deadline)) {
       return there;
+    }
+    if (!*there) {
+      ask_again();
+      continue;
     }
     const auto members = meant(targets);
     if (auto looked = look_for_twins(members); !looked) {
@@ -429,6 +443,10 @@ std::vector<Error> Discovery::missing(const Targets& targets, Duration wait) con
                            ? doubled(session_.roster(), member->id)
                            : not_ready(*member, is_gone(*member), seconds));
     }
+  }
+  for (const NodeId id :
+       means_all(targets) ? unidentified(session_.roster()) : std::vector<NodeId>()) {
+    errors.push_back(not_ready(session_.roster().member(id), false, seconds));
   }
   for (const NodeId id : targets.ids) {
     if (!session_.roster().heard(id)) {

@@ -300,7 +300,9 @@ void Roster::receive(const Transfer& transfer) {
   case dronecan::ActuatorStatus::type.id:
     if (const auto status = dronecan::ActuatorStatus::decode(transfer.payload);
         status && header.source.is_unicast()) {
-      known(header.source).actuator_id = status->actuator_id;
+      Member& member = known(header.source);
+      member.actuator_id = status->actuator_id;
+      member.actuator_at = transfer.at;
     }
     break;
   default: break;

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <chrono>
 #include <map>
 #include <optional>
 #include <ranges>
@@ -130,10 +131,12 @@ bool Selector::matches(const Member& member, const bla::Profiles& profiles) cons
   return member.is_known() && matches(member.servo(), profiles);
 }
 
-/// Of what it told before, or in part, only a servo ID may be another after a start.
-bool Selector::may_match(const Member& member, const bla::Profiles& profiles) const {
+/// Of what it told before, or in part, only a servo ID may be another after a start: that in its
+/// messages counts as long as it sends them.
+bool Selector::may_match(const Member& member, const bla::Profiles& profiles, Time now) const {
+  constexpr Duration longest_pause = std::chrono::milliseconds(300);
   if (key == Key::servo_id) {
-    return member.actuator_id == number;
+    return member.actuator_id == number || now - member.actuator_at > longest_pause;
   }
   if (member.identified) {
     return matches(member.servo(), profiles);

@@ -48,14 +48,32 @@ std::vector<dronecan::NodeId> unidentified(const Roster& roster) {
   return nodes;
 }
 
-Error may_be_meant(dronecan::NodeId id, const Selector& selector) {
-  return {Code::timeout, say<texts::may_be_meant>(id.value(), printable(selector.text)),
-          say<texts::no_answer_hint>(), id.value()};
-}
-
 Error identity_unrecorded(dronecan::NodeId id) {
   return {Code::not_recorded, say<texts::identity_not_recorded>(id.value()),
           say<texts::not_recorded_hint>(), id.value()};
+}
+
+std::vector<Error> may_be_meant(const Roster& roster, const Selector& selector,
+                                const bla::Profiles& profiles, bool is_recording) {
+  std::vector<Error> errors;
+  const bool is_met = std::ranges::any_of(roster.members(), [&](const auto& entry) {
+    return selector.matches(entry.second, profiles);
+  });
+  if (selector.is_unique() && is_met) {
+    return errors;
+  }
+  for (const dronecan::NodeId id : unidentified(roster)) {
+    if (!selector.may_match(roster.member(id), profiles, roster.last_heard())) {
+      continue;
+    }
+    errors.push_back(roster.is_doubled(id) ? doubled(roster, id)
+                     : is_recording
+                         ? identity_unrecorded(id)
+                         : Error{Code::timeout,
+                                 say<texts::may_be_meant>(id.value(), printable(selector.text)),
+                                 say<texts::no_answer_hint>(), id.value()});
+  }
+  return errors;
 }
 
 /// A node that sends no actuator.Status may be a servo all the same.

@@ -34,6 +34,22 @@ Result<Wanted> with_static_id(const bla::Profiles& profiles, Wanted wanted, Node
   return wanted;
 }
 
+/// Of a unit that failed: the static ID that its ROM may hold, for its next start; empty: it does
+/// not, or the unit has told since its start which one it has.
+std::optional<NodeId> next_id(const UnitChange& unit) {
+  if (!unit.has_failed() || !unit.last || !unit.last->may_have_saved) {
+    return std::nullopt;
+  }
+  for (const RegisterChange& change : unit.last->changes) {
+    const bool is_id = change.parameter->address == bla::address::static_node_id;
+    const bool is_told = unit.last->returned && change.after;
+    if (is_id && !is_told && change.requested > 0 && change.requested <= NodeId::max) {
+      return NodeId(static_cast<std::uint8_t>(change.requested));
+    }
+  }
+  return std::nullopt;
+}
+
 } // namespace
 
 std::vector<Error> Rounds::carry_out(const Hook& hook) {
@@ -71,8 +87,8 @@ Result<void> Rounds::give_back() {
   for (const state::AllocationEntry& former : absent_) {
     const auto unit =
         std::ranges::find(units_, std::optional(former.node_id), &UnitChange::static_node_id);
-    const bool stays = unit != units_.end() && unit->now != former.node_id &&
-                       !(unit->last && unit->last->may_have_saved);
+    const bool stays =
+        unit != units_.end() && unit->now != former.node_id && next_id(*unit) != former.node_id;
     if (stays) {
       entries.push_back({former.unique_id, former.node_id});
     }
@@ -101,8 +117,8 @@ std::optional<NodeId> Rounds::place(const dronecan::UniqueId& unique_id) const {
   if (unit == units_.end() || !unit->static_node_id()) {
     return static_place(session_.roster(), unique_id);
   }
-  const bool may_start_there = unit->has_failed() && unit->last && unit->last->may_have_saved;
-  return may_start_there ? unit->static_node_id() : unit->now;
+  const auto next = next_id(*unit);
+  return next ? next : unit->now;
 }
 
 /// Removes IDs in the table that their units do not have any more. If no IDs are assigned the table

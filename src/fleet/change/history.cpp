@@ -73,28 +73,6 @@ state::Registers replaced_in_rom(const Plan& plan, const state::Registers& rom,
   return replaced;
 }
 
-/// Leaves of a try that broke off what is still there of it: a restart has taken back what was not
-/// saved, and others may have changed more since. An ID may be on its way.
-void leave_effects(state::SnapshotEntry& tried, const Snapshot& ram, bool is_lost) {
-  std::erase_if(tried.held, [&](const auto& held) {
-    const bla::Address address(held.first);
-    const auto written = tried.written.find(held.first);
-    const auto now = ram.raw(address);
-    const bool is_other = now && written != tried.written.end() && *now != written->second;
-    return is_lost || (is_other && !bla::is_id(address));
-  });
-  std::erase_if(tried.written,
-                [&](const auto& written) { return !tried.held.contains(written.first); });
-}
-
-/// Whether ROM holds what is left of such a try, as far as its restart shows.
-bool was_saved(const state::SnapshotEntry& tried, const Snapshot& ram, bool has_restarted) {
-  const bool is_shown = has_restarted && std::ranges::any_of(tried.held, [&](const auto& held) {
-                          return ram.raw(bla::Address(held.first)) != held.second;
-                        });
-  return tried.saved && (tried.settled || is_shown);
-}
-
 /// An earlier change in RAM as SAVE leaves it: what it replaced in ROM. Empty: ROM stays as it is.
 std::optional<state::SnapshotEntry> lasting(state::SnapshotEntry change, const Plan& plan,
                                             const state::Registers& rom) {
@@ -164,11 +142,12 @@ Result<void> History::doubt_rom(std::span<const UniqueId> units) {
   return units.empty() ? Result<void>() : proofs_.drop(units);
 }
 
-/// Resumes after an earlier try of this command that ended half way. What that has saved, and what
-/// this one changes in RAM only, are entries of their own.
+/// Resumes after an earlier try of this command that ended half way. What it changed in RAM only, a
+/// restart has taken back; what it has saved stays an entry of its own, to which undo goes back
+/// through this one, unless this one changes RAM only.
 Result<void> History::resume(const Plan& plan, const Session& session) {
-  const Snapshot& ram = plan.before;
-  const UniqueId& unique_id = *ram.servo.unique_id;
+  const Servo& servo = plan.before.servo;
+  const UniqueId& unique_id = *servo.unique_id;
   if (!is_repeated_as_a_whole(command_) || kept_.contains(unique_id)) {
     return {};
   }
@@ -180,14 +159,20 @@ Result<void> History::resume(const Plan& plan, const Session& session) {
     return {};
   }
   state::SnapshotEntry& tried = **last;
-  const auto started = start_of(ram.servo, session);
+  const auto started = start_of(servo, session);
+  const bool has_restarted = started && (tried.saved ? tried.at : last_write(tried)) < *started;
+  if (has_restarted && tried.saved && !plan.restart) {
+    return {};
+  }
   run_ = joined_ = std::max(run_, tried.run);
-  leave_effects(tried, ram, !tried.saved && started && last_write(tried) < *started);
-  tried.saved = was_saved(tried, ram, started && tried.at < *started);
-  if (!tried.saved || plan.restart) {
-    kept_[unique_id] = {.entry = tried,
-                        .was_changed = !tried.held.empty(),
-                        .was_saved = tried.saved,
+  if (has_restarted && !tried.saved) {
+    tried.held.clear();
+    tried.written.clear();
+  }
+  if (!has_restarted || !tried.saved) {
+    kept_[unique_id] = {.entry = std::move(tried),
+                        .was_changed = !has_restarted,
+                        .was_saved = !has_restarted && tried.saved && tried.settled,
                         .is_another_try = true};
   }
   return {};
@@ -264,7 +249,10 @@ std::optional<state::SnapshotEntry> History::entry_of(const Plan& plan, const Ro
     }
   }
   for (const auto& [address, raw] : written_by(plan, held)) {
-    entry.written.insert_or_assign(address, raw);
+    const bool makes_way = known != kept_.end() && !known->second.is_another_try &&
+                           address == bla::address::static_node_id.value();
+    makes_way ? entry.written.emplace(address, raw) // it is on the ID that it got before
+              : entry.written.insert_or_assign(address, raw);
   }
   std::erase_if(in_ram, [&](const auto& each) { return entry.held.contains(each.first); });
   if (!in_ram.empty()) {

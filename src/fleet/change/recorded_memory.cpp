@@ -64,6 +64,12 @@ bool are_in_ram(const Entries& changes, WallTime started, const Snapshot* ram) {
   return (ram != nullptr ? are_shown(changes, *ram) : std::nullopt).value_or(true);
 }
 
+/// The servo started after this change, whatever clocks say: it has written nothing. (What
+/// characterize writes is not recorded.)
+bool is_restart(const state::SnapshotEntry& change) {
+  return change.written.empty() && change.command != "characterize";
+}
+
 /// When the last uptime of this node was heard.
 WallTime told_at(const Member& member, const Session& session) {
   return session.wall() - (session.now() - member.status_at);
@@ -166,7 +172,7 @@ std::vector<state::SnapshotEntry> History::unsaved(const Servo& servo, const Ses
   while (entry && *entry && !is_in_rom(**entry)) {
     Entries changes{std::move(**entry)};
     entry = snapshots_.before(changes.back());
-    const bool is_of_this_run = changes.front().at >= *started;
+    const bool is_of_this_run = changes.front().at >= *started && !is_restart(changes.front());
     const bool is_in_future = changes.front().at > session.wall(); // the clock was set back
     if (!is_of_this_run || is_in_future) {
       while (entry && *entry && !is_in_rom(**entry) && follows(changes.back(), **entry)) {
@@ -223,8 +229,11 @@ LostIds History::lost_ids(const Snapshot& ram, const Session& session) const {
   for (; entry && *entry; entry = snapshots_.before(**entry)) {
     const state::SnapshotEntry& change = **entry;
     if (change.command == erase_keeping_ids) {
+      constexpr int clocks_agree = 20'000; // to 50 ppm
       const auto started = start_of(ram.servo, session);
-      const bool is_of_this_run = started && change.at >= *started && change.at <= session.wall();
+      const WallTime now = session.wall();
+      const bool is_of_this_run =
+          started && change.at <= now && change.at - (now - change.at) / clocks_agree >= *started;
       return {.ids = change.ended ? bla::Values() : taken_by(change, since, ram),
               .is_certain = is_of_this_run};
     }

@@ -47,7 +47,11 @@ Result<Undoing> whole(const state::SnapshotStore& store, state::SnapshotEntry en
       return whole;
     }
     for (const auto& [address, raw] : (*earlier)->held) {
-      whole.entry.held.insert_or_assign(address, raw);
+      const auto written = (*earlier)->written.find(address);
+      const auto [found, is_new] = whole.entry.held.emplace(address, raw);
+      if (!is_new && written != (*earlier)->written.end() && written->second == found->second) {
+        found->second = raw; // else somebody has changed it in between
+      }
     }
     whole.entry.saved = whole.entry.saved || (*earlier)->saved;
     whole.numbers.push_back((*earlier)->number);

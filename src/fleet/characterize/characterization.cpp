@@ -137,13 +137,7 @@ void take_back(const Session& session, const Servo& servo, std::vector<state::Sn
   }
 }
 
-/// A restart that nobody here ordered, or a silence: by another node's SAVE, if that was not heard.
-bool may_be_saved(const Characterization& measured) {
-  return measured.error &&
-         (measured.error->code == Code::state || measured.error->code == Code::timeout);
-}
-
-/// Another node's SAVE may have made permanent what RAM held then: undo is to put ROM back, too.
+/// Another node's SAVE has made permanent what RAM held then: undo is to put ROM back, too.
 void keep_as_saved(const Session& session, const Servo& servo, const BenchManner& manner) {
   const ChangeResult saved{
       .servo = servo, .was_sent = true, .may_have_changed = true, .may_have_saved = true};
@@ -233,7 +227,7 @@ Characterization characterize(Session& session, const bla::Profiles& profiles,
   if (!given) {
     measured.not_put_back = given.error();
   }
-  if (bench.was_saved_by_other() || may_be_saved(measured)) {
+  if (bench.was_saved_by_other()) {
     keep_as_saved(session, servo, manner);
   } else if (given) {
     take_back(session, servo, std::move(in_ram), manner);

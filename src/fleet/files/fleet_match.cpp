@@ -2,6 +2,7 @@
 
 #include "blactl/base/hex.hpp"
 #include "blactl/fleet/bus/target_texts.hpp"
+#include "blactl/fleet/bus/texts.hpp"
 #include "blactl/fleet/bus/unreachable.hpp"
 
 #include "fleet/files/texts.hpp"
@@ -9,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <string>
 #include <string_view>
@@ -52,8 +54,9 @@ std::string selector_of(const Member& member) {
 
 class Matching {
  public:
-  Matching(const Roster& roster, const Targets& targets, const bla::Profiles& profiles)
-      : roster_(roster), targets_(targets), profiles_(profiles) {}
+  Matching(const Roster& roster, const Targets& targets, const bla::Profiles& profiles,
+           bool is_recording)
+      : roster_(roster), targets_(targets), profiles_(profiles), is_recording_(is_recording) {}
 
   FleetMatch run(const FleetFile& file) {
     if (file.is_params) {
@@ -70,6 +73,7 @@ class Matching {
       }
     }
     check_named();
+    check_unidentified(file);
     std::ranges::sort(match_.pairs, {}, &FleetMatch::Pair::id);
     return std::move(match_);
   }
@@ -153,6 +157,11 @@ class Matching {
       }
     }
     for (const Selector& selector : targets_.selectors) {
+      auto open = may_be_meant(roster_, selector, profiles_, is_recording_);
+      if (!open.empty()) {
+        std::ranges::move(open, std::back_inserter(match_.errors));
+        continue;
+      }
       const bool is_there = std::ranges::any_of(roster_.members(), [&](const auto& entry) {
         return is_one_servo(entry.first, entry.second) && selector.matches(entry.second, profiles_);
       });
@@ -163,6 +172,22 @@ class Matching {
     }
     if (auto ambiguous = targets_.ambiguity(roster_, profiles_)) {
       match_.errors.push_back(std::move(*ambiguous));
+    }
+  }
+
+  /// An entry for several servos may mean one that has not said who it is.
+  void check_unidentified(const FleetFile& file) {
+    const auto several = std::ranges::find_if(
+        file.servos, [](const FleetEntry& entry) { return !entry.match.means_one(); });
+    if (narrows() || is_recording_ || several == file.servos.end()) {
+      return;
+    }
+    for (const NodeId id : unidentified(roster_)) {
+      match_.errors.push_back(
+          roster_.is_doubled(id)
+              ? doubled(roster_, id)
+              : Error{Code::timeout, say<texts::may_be_meant>(id.value(), several->name),
+                      say<texts::no_answer_hint>(), id.value()});
     }
   }
 
@@ -206,6 +231,7 @@ class Matching {
   const Roster& roster_;
   const Targets& targets_;
   const bla::Profiles& profiles_;
+  bool is_recording_;
   std::map<NodeId, const FleetEntry*> taken_;
   FleetMatch match_;
 };
@@ -236,8 +262,8 @@ std::string text(const Match& match) {
 }
 
 FleetMatch match(const FleetFile& file, const Roster& roster, const Targets& targets,
-                 const bla::Profiles& profiles) {
-  return Matching(roster, targets, profiles).run(file);
+                 const bla::Profiles& profiles, bool is_recording) {
+  return Matching(roster, targets, profiles, is_recording).run(file);
 }
 
 } // namespace blactl::fleet

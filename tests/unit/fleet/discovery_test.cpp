@@ -294,6 +294,37 @@ TEST_CASE("without -n all that live have had the time to be heard") {
   CHECK(scene.session->now() - begin >= servo_search_time);
 }
 
+TEST_CASE("a search ends beside a servo that restarts whenever it is asked") {
+  const Scene scene(R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11},
+      {"model": "BLA21-12U-AB", "node_id": 12, "behaviour": {"first_node_status": "100ms"},
+       "faults": {"restart_after_answer": [{"to": "node_info", "number": 1},
+          {"to": "node_info", "number": 2}, {"to": "node_info", "number": 3},
+          {"to": "node_info", "number": 4}, {"to": "node_info", "number": 5},
+          {"to": "node_info", "number": 6}, {"to": "node_info", "number": 7},
+          {"to": "node_info", "number": 8}, {"to": "node_info", "number": 9}]}}])");
+  const Time begin = scene.session->now();
+  Discovery discovery(*scene.session, profiles(), {});
+  REQUIRE(discovery.find_all(1s));
+  CHECK(scene.session->now() - begin < 10s);
+}
+
+TEST_CASE("all are there when all that were heard have said who they are") {
+  const Targets wanted = GENERATE(Targets{}, targets("all"), targets("model:BLA21"));
+  SECTION("one is silent for a while") {
+    const Scene scene(R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11},
+        {"model": "BLA21-12U-AB", "node_id": 12, "faults": {"lose_responses": 3}}])");
+    Discovery discovery(*scene.session, profiles(), {.patience = {.timeout = 50ms, .retries = 0}});
+    CHECK(there(discovery.wait_for(wanted, 10s)) == Ids{11, 12});
+  }
+  SECTION("one is mute") {
+    const Scene scene(R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11},
+        {"model": "BLA21-12U-AB", "node_id": 12, "faults": {"mute": true}}])");
+    Discovery discovery(*scene.session, profiles(), {.patience = {.timeout = 50ms, .retries = 0}});
+    const Arrivals arrivals = discovery.wait_for(wanted, 5s);
+    CHECK(codes(arrivals.errors) == Codes{{Code::timeout, 12}});
+  }
+}
+
 TEST_CASE("who does not come in time is told, each for itself") {
   const Scene scene(R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11},
                                   {"model": "BLA21-12U-AB", "node_id": 12,

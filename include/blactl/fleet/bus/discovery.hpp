@@ -90,13 +90,13 @@ class Discovery final : private Roster::Listener {
   void on_new_unit(const Member& member) override;
   void attend(Attention attention);
   void identify(dronecan::NodeId id);
+  void ask_again();
   void start(std::unique_ptr<dronecan::Job> job);
   [[nodiscard]] std::vector<const Member*> meant(const Targets& targets) const;
   [[nodiscard]] bool is_bystander(const Error& error) const;
   [[nodiscard]] Result<void> identify_servos();
   [[nodiscard]] Result<void> hear_servos(const Targets& targets, Duration listen);
   [[nodiscard]] bool is_met(const Selector& selector) const;
-  [[nodiscard]] std::vector<Error> undecided(const Selector& selector) const;
   [[nodiscard]] std::vector<Error> unmet(const Targets& targets) const;
   [[nodiscard]] bool is_one_of_all(const Targets& targets, const Member& member) const;
   [[nodiscard]] bool was_meant(const Targets& targets, const Member& member) const;

@@ -33,6 +33,7 @@ struct Member {
   std::optional<dronecan::NodeStatus> status{}; ///< the newest, from NodeStatus or a response
   Time status_at{};
   std::optional<std::uint8_t> actuator_id{}; ///< from actuator.Status: only servos send it
+  Time actuator_at{};                        ///< when it was last sent
   std::uint32_t boots = 0;                   ///< restarts seen, by uptimes going backwards
 
   /// From Roster::learn().

@@ -25,7 +25,7 @@ struct Selector {
 
   /// Whether it may match this sender of actuator.Status, which has not identified itself since it
   /// started.
-  [[nodiscard]] bool may_match(const Member& member, const bla::Profiles& profiles) const;
+  [[nodiscard]] bool may_match(const Member& member, const bla::Profiles& profiles, Time now) const;
 
   /// Whether it matches one unit only.
   [[nodiscard]] bool is_unique() const;

@@ -20,8 +20,10 @@ namespace blactl::fleet {
 /// Senders of actuator.Status that are there, and have not said since their start who they are.
 [[nodiscard]] std::vector<dronecan::NodeId> unidentified(const Roster& roster);
 
-/// A selector may mean this one of them: timeout.
-[[nodiscard]] Error may_be_meant(dronecan::NodeId id, const Selector& selector);
+/// Those of them that a selector may mean beside the servos that it matches: timeout; not_recorded,
+/// if it is a recording; duplicate_node_id.
+[[nodiscard]] std::vector<Error> may_be_meant(const Roster& roster, const Selector& selector,
+                                              const bla::Profiles& profiles, bool is_recording);
 
 /// It is in a recording, but not what it is: not_recorded.
 [[nodiscard]] Error identity_unrecorded(dronecan::NodeId id);

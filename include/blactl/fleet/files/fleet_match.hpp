@@ -27,13 +27,14 @@ struct FleetMatch {
   /// usage: an entry that matches several servos though it must match one, a servo matched by two
   /// entries, one matched by a node ID that is not permanently its own, a parameter file with
   /// several servos. not_found, timeout, duplicate_node_id: selected by -n, but missing or not a
-  /// single servo; a parameter file without a servo.
+  /// single servo; a parameter file without a servo. timeout: a servo has not said who it is, and
+  /// an entry for several servos, or -n, may mean it.
   std::vector<Error> errors;
 };
 
 /// `file` outlives the result. The session has searched the bus (Discovery::find_all, with the
-/// static node IDs); node IDs shared by two units match no servo.
+/// static node IDs); node IDs shared by two units match no servo. `is_recording`: the bus is one.
 [[nodiscard]] FleetMatch match(const FleetFile& file, const Roster& roster, const Targets& targets,
-                               const bla::Profiles& profiles);
+                               const bla::Profiles& profiles, bool is_recording = false);
 
 } // namespace blactl::fleet
