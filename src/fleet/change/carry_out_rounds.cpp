@@ -321,7 +321,7 @@ void Rounds::conclude(const Step& step, ChangeResult result, const Hook& hook) {
   unit.now = result.node_id_after.value_or(unit.now);
   const auto earlier = unit.last ? unit.last->warnings : std::vector<Warning>();
   for (const Warning& warning : earlier) { // of the round in which it made way
-    if (std::ranges::find(result.warnings, warning.code, &Warning::code) == result.warnings.end()) {
+    if (std::ranges::find(result.warnings, warning.text, &Warning::text) == result.warnings.end()) {
       result.warnings.push_back(warning);
     }
   }
