@@ -183,11 +183,11 @@ class Matching {
       return;
     }
     for (const NodeId id : unidentified(roster_)) {
-      match_.errors.push_back(
-          roster_.is_doubled(id)
-              ? doubled(roster_, id)
-              : Error{Code::timeout, say<texts::may_be_meant>(id.value(), several->name),
-                      say<texts::no_answer_hint>(), id.value()});
+      match_.errors.push_back(roster_.is_doubled(id)
+                                  ? doubled(roster_, id)
+                                  : Error{Code::timeout,
+                                          say<texts::may_be_meant>(id.value(), several->name),
+                                          say<texts::no_answer_hint>(), id.value()});
     }
   }
 
