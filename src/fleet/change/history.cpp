@@ -170,9 +170,10 @@ Result<void> History::resume(const Plan& plan, const Session& session) {
     tried.written.clear();
   }
   if (!has_restarted || !tried.saved) {
+    const bool was_saved = !has_restarted && tried.saved && tried.settled;
     kept_[unique_id] = {.entry = std::move(tried),
                         .was_changed = !has_restarted,
-                        .was_saved = !has_restarted && tried.saved && tried.settled,
+                        .was_saved = was_saved,
                         .is_another_try = true};
   }
   return {};
