@@ -5,8 +5,6 @@
 #include "blactl/fleet/bus/texts.hpp"
 #include "blactl/fleet/bus/unreachable.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 #include <iterator>
@@ -24,31 +22,8 @@ namespace {
 constexpr int probes_at_a_time = 8;
 constexpr Duration probe_timeout = std::chrono::milliseconds(60);
 
-/// Between two tries to identify those that are waited for.
-constexpr Duration asking_period = std::chrono::seconds(1);
-
 /// Before this time nothing of ours is sent that nobody would acknowledge on an empty bus.
 constexpr Duration empty_bus_time = std::chrono::milliseconds(900);
-
-bool is_operational(const Member& member) {
-  return member.is_known() && member.status && member.status->mode == dronecan::Mode::operational;
-}
-
-bool means_all(const Targets& targets) {
-  return targets.all || !targets.given;
-}
-
-/// The reason why a node that was heard is not ready.
-Error not_ready(const Member& member, bool is_gone, const std::string& seconds) {
-  const std::uint8_t id = member.id.value();
-  if (is_gone) {
-    return {Code::timeout, say<texts::node_gone>(id), say<texts::no_answer_hint>(), id};
-  }
-  return member.is_known()
-             ? Error{Code::timeout, say<texts::wait_not_operational>(id, seconds),
-                     say<texts::opcode_refused_hint>(id), id}
-             : Error{Code::timeout, say<texts::node_mute>(id), say<texts::no_answer_hint>(), id};
-}
 
 } // namespace
 
@@ -118,7 +93,7 @@ std::vector<std::optional<Error>> Discovery::identifications() const {
 /// reading them gives their state, or an error instead of silence.
 bool Discovery::is_one_of_all(const Targets& targets, const Member& member) const {
   const bool shares = session_.roster().is_doubled(member.id) && member.sends_actuator_status();
-  return means_all(targets) && ((member.identified && member.is_servo) || shares);
+  return targets.mean_all() && ((member.identified && member.is_servo) || shares);
 }
 
 /// A unit that restarted since it was identified is the same unit; its servo ID may be another.
@@ -136,25 +111,8 @@ bool Discovery::is_bystander(const Error& error) const {
          !session_.roster().member(NodeId(*error.node_id)).sends_actuator_status();
 }
 
-bool Discovery::is_met(const Selector& selector) const {
-  return std::ranges::any_of(session_.roster().members(), [&](const auto& entry) {
-    return selector.matches(entry.second, profiles_);
-  });
-}
-
-/// The selectors that match nobody, and those that may match more.
 std::vector<Error> Discovery::unmet(const Targets& targets) const {
-  std::vector<Error> errors;
-  for (const Selector& selector : targets.selectors) {
-    auto open = may_be_meant(session_.roster(), selector, profiles_, session_.is_replay());
-    if (!open.empty()) {
-      std::ranges::move(open, std::back_inserter(errors));
-    } else if (!is_met(selector)) {
-      errors.push_back(
-          unless_shared(session_.roster(), nothing_matches(session_.roster(), selector)));
-    }
-  }
-  return errors;
+  return fleet::unmet(session_.roster(), targets.selectors, profiles_, session_.is_replay());
 }
 
 std::vector<Error> Discovery::absent(const Targets& targets) const {
@@ -308,159 +266,6 @@ Result<void> Discovery::look_for_twins(const std::vector<const Member*>& members
     check.is_answered() ? gone_.erase(check.id()) : gone_.insert(check.id()).second;
   }
   return session_.live_until(session_.now() + RunProof::twin_time);
-}
-
-std::vector<const Member*> Discovery::meant(const Targets& targets) const {
-  std::vector<const Member*> members;
-  for (const auto& [id, member] : session_.roster().members()) {
-    if (targets.mean(member, profiles_) && !member.is_foreign() && session_.roster().heard(id) &&
-        !session_.roster().has_moved(member)) {
-      members.push_back(&member);
-    }
-  }
-  return members;
-}
-
-/// One servo, not one of two on its ID, as far as recently heard.
-bool Discovery::seems_ready(const Member& member) const {
-  return is_operational(member) && !session_.roster().is_doubled(member.id) &&
-         session_.now() - member.last_heard < offline_time;
-}
-
-/// It was there, and is not heard or does not respond any more.
-bool Discovery::is_gone(const Member& member) const {
-  return gone_.contains(member.id) || session_.now() - member.last_heard >= offline_time;
-}
-
-bool Discovery::is_ready(const Member& member) const {
-  return seems_ready(member) && !gone_.contains(member.id);
-}
-
-bool Discovery::all_there(const Targets& targets) const {
-  const auto members = meant(targets);
-  const auto may_be_there = [this](NodeId id) {
-    return session_.roster().heard(id) && !session_.roster().member(id).is_foreign();
-  };
-  const bool is_known = !means_all(targets) || unidentified(session_.roster()).empty();
-  return !members.empty() && std::ranges::all_of(targets.ids, may_be_there) && is_known &&
-         unmet(targets).empty() && std::ranges::all_of(members, [this](const Member* member) {
-           return seems_ready(*member);
-         });
-}
-
-/// Those that have not said who they are.
-void Discovery::ask_again() {
-  if (session_.node().jobs() == 0) {
-    for (const NodeId id : unidentified(session_.roster())) {
-      identify(id);
-    }
-  }
-}
-
-/// Returns whether they are; false also as soon as one of them is known not to be alone on its ID.
-Result<bool> Discovery::wait_until_there(const Targets& targets, Time deadline) {
-  // without IDs all present nodes must have had the time to be heard
-  const Time heard = session_.now() + (targets.need_search() ? bus_watch_time : Duration::zero());
-  for (;;) {
-    const Time next = std::min(deadline, session_.now() + asking_period);
-    auto there = session_.live_until(next, [&] {
-      return session_.now() >= heard && session_.node().jobs() == 0 && all_there(targets);
-    });
-    if (!there || (!*there && next == deadline)) {
-      return there;
-    }
-    if (!*there) {
-      ask_again();
-      continue;
-    }
-    const auto members = meant(targets);
-    if (auto looked = look_for_twins(members); !looked) {
-      return std::unexpected(looked.error());
-    }
-    const bool is_shared = std::ranges::any_of(
-        members, [this](const Member* member) { return session_.roster().is_doubled(member->id); });
-    const bool is_over = session_.now() >= deadline;
-    if (is_shared || is_over || (all_there(targets) && gone_.empty())) {
-      return !is_shared && all_there(targets) && gone_.empty();
-    }
-  }
-}
-
-Arrivals Discovery::wait_for(const Targets& targets, Duration wait) {
-  const Time begin = session_.now();
-  attend(Attention::all);
-  auto there = wait_until_there(targets, begin + wait);
-  attend(Attention::none);
-  if (there && !*there) { // pending requests are not waited for beyond their timeout
-    if (auto ran = session_.run(); !ran) {
-      there = std::unexpected(ran.error());
-    }
-  }
-  Arrivals arrivals{.servos = those_there(targets), .errors = {}, .broken = {}};
-  if (!there) {
-    arrivals.broken = there.error();
-    arrivals.errors = not_there_yet(targets, there.error().code);
-  } else if (!*there) {
-    arrivals.errors = missing(targets, wait);
-  }
-  if (auto ambiguous = targets.ambiguity(session_.roster(), profiles_); ambiguous && there) {
-    arrivals.broken = std::move(*ambiguous);
-  }
-  return arrivals;
-}
-
-std::vector<Arrival> Discovery::those_there(const Targets& targets) const {
-  std::vector<Arrival> servos;
-  for (const Member* member : meant(targets)) {
-    // facts about one of two units on an ID may be the other's
-    const bool is_one = !session_.roster().is_doubled(member->id);
-    servos.push_back({is_one ? member->servo() : Servo{.id = member->id}, is_ready(*member)});
-  }
-  return servos;
-}
-
-/// The errors for those that were waited for when the session ended for this reason.
-std::vector<Error> Discovery::not_there_yet(const Targets& targets, Code reason) const {
-  std::set<NodeId> awaited(targets.ids.begin(), targets.ids.end());
-  for (const Member* member : meant(targets)) {
-    is_ready(*member) ? awaited.erase(member->id) : awaited.insert(member->id).second;
-  }
-  std::vector<Error> errors;
-  errors.reserve(awaited.size());
-  for (const NodeId id : awaited) {
-    errors.push_back({reason, say<texts::not_there_yet>(id.value()), {}, id.value()});
-  }
-  return errors;
-}
-
-std::vector<Error> Discovery::missing(const Targets& targets, Duration wait) const {
-  const auto seconds = fmt::format("{}", std::chrono::duration<double>(wait).count());
-  const auto members = meant(targets);
-  std::vector<Error> errors;
-  for (const Member* member : members) {
-    if (!is_ready(*member)) {
-      errors.push_back(session_.roster().is_doubled(member->id)
-                           ? doubled(session_.roster(), member->id)
-                           : not_ready(*member, is_gone(*member), seconds));
-    }
-  }
-  for (const NodeId id :
-       means_all(targets) ? unidentified(session_.roster()) : std::vector<NodeId>()) {
-    errors.push_back(not_ready(session_.roster().member(id), false, seconds));
-  }
-  for (const NodeId id : targets.ids) {
-    if (!session_.roster().heard(id)) {
-      errors.push_back({Code::not_found, say<texts::wait_not_heard>(id.value(), seconds),
-                        say<texts::node_not_found_hint>(), id.value()});
-    } else if (const Member& member = session_.roster().member(id); member.is_foreign()) {
-      errors.push_back(not_a_servo(id, member.info->name));
-    }
-  }
-  std::ranges::move(unmet(targets), std::back_inserter(errors));
-  if (members.empty() && errors.empty()) {
-    errors.push_back(unless_shared(session_.roster(), no_servo(session_.roster())));
-  }
-  return errors;
 }
 
 Result<void> hear_bus(Session& session) {

@@ -157,11 +157,8 @@ void Identification::take_register(const Outcome& outcome) {
   // A node without parameters (a GPS, a battery) responds to GetNodeInfo only. For an actuator,
   // which may be of another make, only the second silent register proves it.
   const bool foreign = silent && (first || model_silent_);
-  if (model_silent_ && (value || may_be_servo())) {
-    error_ = silence_of_model();
-    return;
-  }
-  if (foreign && first && !sends_actuator_status() && may_be_servo()) { // it may just have started
+  const bool may_have_started = foreign && first && !sends_actuator_status();
+  if ((model_silent_ && value) || ((model_silent_ || may_have_started) && may_be_servo())) {
     error_ = silence_of_model();
     return;
   }

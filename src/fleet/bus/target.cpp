@@ -168,7 +168,7 @@ bool Selector::matches(const Servo& servo, const bla::Profiles& profiles) const 
 }
 
 bool Targets::mean(const Member& member, const bla::Profiles& profiles) const {
-  if (all || !given) {
+  if (mean_all()) {
     return member.is_known() && member.is_servo;
   }
   const bool is_named = std::ranges::find(ids, member.id) != ids.end();

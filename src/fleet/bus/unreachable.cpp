@@ -53,25 +53,45 @@ Error identity_unrecorded(dronecan::NodeId id) {
           say<texts::not_recorded_hint>(), id.value()};
 }
 
-std::vector<Error> may_be_meant(const Roster& roster, const Selector& selector,
-                                const bla::Profiles& profiles, bool is_recording) {
-  std::vector<Error> errors;
-  const bool is_met = std::ranges::any_of(roster.members(), [&](const auto& entry) {
-    return selector.matches(entry.second, profiles);
+bool is_met(const Roster& roster, const Selector& selector, const bla::Profiles& profiles) {
+  return std::ranges::any_of(roster.members(), [&](const auto& entry) {
+    return selector.matches(entry.second, profiles) && !roster.is_doubled(entry.first);
   });
-  if (selector.is_unique() && is_met) {
-    return errors;
+}
+
+std::vector<dronecan::NodeId> may_be_meant(const Roster& roster, const Selector& selector,
+                                           const bla::Profiles& profiles) {
+  if (selector.is_unique() && is_met(roster, selector, profiles)) {
+    return {};
   }
-  for (const dronecan::NodeId id : unidentified(roster)) {
-    if (!selector.may_match(roster.member(id), profiles, roster.last_heard())) {
-      continue;
+  auto nodes = unidentified(roster);
+  std::erase_if(nodes, [&](dronecan::NodeId id) {
+    return !selector.may_match(roster.member(id), profiles, roster.last_heard());
+  });
+  return nodes;
+}
+
+Error not_identified(const Roster& roster, dronecan::NodeId id, std::string_view what,
+                     bool is_recording) {
+  if (roster.is_doubled(id)) {
+    return doubled(roster, id);
+  }
+  return is_recording ? identity_unrecorded(id)
+                      : Error{Code::timeout, say<texts::may_be_meant>(id.value(), printable(what)),
+                              say<texts::no_answer_hint>(), id.value()};
+}
+
+std::vector<Error> unmet(const Roster& roster, std::span<const Selector> selectors,
+                         const bla::Profiles& profiles, bool is_recording) {
+  std::vector<Error> errors;
+  for (const Selector& selector : selectors) {
+    const auto nodes = may_be_meant(roster, selector, profiles);
+    for (const dronecan::NodeId id : nodes) {
+      errors.push_back(not_identified(roster, id, selector.text, is_recording));
     }
-    errors.push_back(roster.is_doubled(id) ? doubled(roster, id)
-                     : is_recording
-                         ? identity_unrecorded(id)
-                         : Error{Code::timeout,
-                                 say<texts::may_be_meant>(id.value(), printable(selector.text)),
-                                 say<texts::no_answer_hint>(), id.value()});
+    if (nodes.empty() && !is_met(roster, selector, profiles)) {
+      errors.push_back(unless_shared(roster, nothing_matches(roster, selector)));
+    }
   }
   return errors;
 }

@@ -161,21 +161,20 @@ Result<void> History::resume(const Plan& plan, const Session& session) {
   state::SnapshotEntry& tried = **last;
   const auto started = start_of(servo, session);
   const bool has_restarted = started && (tried.saved ? tried.at : last_write(tried)) < *started;
-  if (has_restarted && tried.saved && !plan.restart) {
+  if (has_restarted && tried.saved) {
+    run_ = joined_ = plan.restart ? std::max(run_, tried.run) : run_;
     return {};
   }
   run_ = joined_ = std::max(run_, tried.run);
-  if (has_restarted && !tried.saved) {
+  if (has_restarted) {
     tried.held.clear();
     tried.written.clear();
   }
-  if (!has_restarted || !tried.saved) {
-    const bool was_saved = !has_restarted && tried.saved && tried.settled;
-    kept_[unique_id] = {.entry = std::move(tried),
-                        .was_changed = !has_restarted,
-                        .was_saved = was_saved,
-                        .is_another_try = true};
-  }
+  const bool was_saved = tried.saved && tried.settled;
+  kept_[unique_id] = {.entry = std::move(tried),
+                      .was_changed = !has_restarted,
+                      .was_saved = was_saved,
+                      .is_another_try = true};
   return {};
 }
 

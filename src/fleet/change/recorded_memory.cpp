@@ -64,10 +64,9 @@ bool are_in_ram(const Entries& changes, WallTime started, const Snapshot* ram) {
   return (ram != nullptr ? are_shown(changes, *ram) : std::nullopt).value_or(true);
 }
 
-/// The servo started after this change, whatever clocks say: it has written nothing. (What
-/// characterize writes is not recorded.)
+/// The servo started after this change, whatever clocks say: it has written nothing.
 bool is_restart(const state::SnapshotEntry& change) {
-  return change.written.empty() && change.command != "characterize";
+  return change.written.empty() && change.command != characterizing;
 }
 
 /// When the last uptime of this node was heard.

@@ -56,7 +56,7 @@ std::optional<Warning> pending_id(const Goal& goal, const Snapshot& ram, const T
   constexpr bla::Address address = bla::address::static_node_id;
   const auto id = ram.raw(address);
   if (!id || *id == 0 || *id == ram.servo.id.value() || names(goal, address) ||
-      bla::find(rom.values, address) || check_rom(ram)) {
+      bla::find(rom.values, address) || rom.written_by.contains(address) || check_rom(ram)) {
     return std::nullopt;
   }
   const std::string& name = ram.servo.identity.parameter(address)->name;

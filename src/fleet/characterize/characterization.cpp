@@ -43,7 +43,7 @@ std::optional<Error> refuse_motion(const Servo& servo, const bla::Values& now) {
 /// What an earlier one that was killed has left in RAM. `in_ram`: the newest change first.
 std::optional<Error> refuse_leftover(const Servo& servo,
                                      std::span<const state::SnapshotEntry> in_ram) {
-  if (in_ram.empty() || in_ram.front().command != "characterize") {
+  if (in_ram.empty() || in_ram.front().command != characterizing) {
     return std::nullopt;
   }
   const std::uint8_t id = servo.id.value();

@@ -156,20 +156,8 @@ class Matching {
         match_.errors.push_back(silent(roster_, id));
       }
     }
-    for (const Selector& selector : targets_.selectors) {
-      auto open = may_be_meant(roster_, selector, profiles_, is_recording_);
-      if (!open.empty()) {
-        std::ranges::move(open, std::back_inserter(match_.errors));
-        continue;
-      }
-      const bool is_there = std::ranges::any_of(roster_.members(), [&](const auto& entry) {
-        return is_one_servo(entry.first, entry.second) && selector.matches(entry.second, profiles_);
-      });
-      if (!is_there) {
-        match_.errors.push_back({Code::not_found, say<texts::nothing_matches>(selector.text),
-                                 say<texts::node_not_found_hint>(), std::nullopt});
-      }
-    }
+    std::ranges::move(unmet(roster_, targets_.selectors, profiles_, is_recording_),
+                      std::back_inserter(match_.errors));
     if (auto ambiguous = targets_.ambiguity(roster_, profiles_)) {
       match_.errors.push_back(std::move(*ambiguous));
     }
@@ -183,11 +171,7 @@ class Matching {
       return;
     }
     for (const NodeId id : unidentified(roster_)) {
-      match_.errors.push_back(roster_.is_doubled(id)
-                                  ? doubled(roster_, id)
-                                  : Error{Code::timeout,
-                                          say<texts::may_be_meant>(id.value(), several->name),
-                                          say<texts::no_answer_hint>(), id.value()});
+      match_.errors.push_back(not_identified(roster_, id, several->name, is_recording_));
     }
   }
 
@@ -217,7 +201,7 @@ class Matching {
   }
 
   /// Whether there may be servos outside of -n.
-  [[nodiscard]] bool narrows() const { return targets_.given && !targets_.all; }
+  [[nodiscard]] bool narrows() const { return !targets_.mean_all(); }
 
   [[nodiscard]] bool is_wanted(const Member& member) const {
     return !targets_.given || targets_.mean(member, profiles_);

@@ -206,7 +206,7 @@ void Monitor::forget_past_faults(Watched& node) {
 /// By the servo's responses to us or to others: on a recording nothing is requested.
 bool Monitor::is_meant(const Member& member, const Watched& node) const {
   const bool is_servo = member.sends_actuator_status() || member.is_servo;
-  if (!targets_.given || targets_.all) {
+  if (targets_.mean_all()) {
     return is_servo;
   }
   const auto matches = [known = servo(member, node), this](const Selector& selector) {
@@ -399,7 +399,7 @@ std::vector<Error> Monitor::missing(Time now) const {
     errors.push_back(no_servo(roster));
   }
   for (const LiveServo& servo : live) {
-    if (targets_.given && !targets_.all && servo.is_gone && !servo.is_doubled) {
+    if (!targets_.mean_all() && servo.is_gone && !servo.is_doubled) {
       const std::uint8_t id = servo.servo.id.value();
       errors.push_back(
           {Code::timeout, say<texts::node_gone>(id), say<texts::no_answer_hint>(), id});

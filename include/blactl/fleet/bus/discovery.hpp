@@ -96,7 +96,6 @@ class Discovery final : private Roster::Listener {
   [[nodiscard]] bool is_bystander(const Error& error) const;
   [[nodiscard]] Result<void> identify_servos();
   [[nodiscard]] Result<void> hear_servos(const Targets& targets, Duration listen);
-  [[nodiscard]] bool is_met(const Selector& selector) const;
   [[nodiscard]] std::vector<Error> unmet(const Targets& targets) const;
   [[nodiscard]] bool is_one_of_all(const Targets& targets, const Member& member) const;
   [[nodiscard]] bool was_meant(const Targets& targets, const Member& member) const;

@@ -48,8 +48,11 @@ struct Targets {
   [[nodiscard]] std::optional<Error> ambiguity(const Roster& roster,
                                                const bla::Profiles& profiles) const;
 
+  /// Whether every servo is meant.
+  [[nodiscard]] bool mean_all() const { return all || !given; }
+
   /// Whether the bus must be searched: plain IDs need no search.
-  [[nodiscard]] bool need_search() const { return !given || all || !selectors.empty(); }
+  [[nodiscard]] bool need_search() const { return mean_all() || !selectors.empty(); }
 };
 
 /// Parses `12`, `10-14,20`, `all`, `unique_id:…`, `serial:…`, `servo:…`, `model:…`,

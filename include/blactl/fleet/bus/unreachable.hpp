@@ -6,6 +6,7 @@
 #include "blactl/fleet/bus/target.hpp"
 
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -20,10 +21,23 @@ namespace blactl::fleet {
 /// Senders of actuator.Status that are there, and have not said since their start who they are.
 [[nodiscard]] std::vector<dronecan::NodeId> unidentified(const Roster& roster);
 
-/// Those of them that a selector may mean beside the servos that it matches: timeout; not_recorded,
-/// if it is a recording; duplicate_node_id.
-[[nodiscard]] std::vector<Error> may_be_meant(const Roster& roster, const Selector& selector,
-                                              const bla::Profiles& profiles, bool is_recording);
+/// Those of them that a selector may mean beside the servos that it matches.
+[[nodiscard]] std::vector<dronecan::NodeId>
+may_be_meant(const Roster& roster, const Selector& selector, const bla::Profiles& profiles);
+
+/// One that `what`, a selector or an entry of a file, may mean: timeout; not_recorded, if the bus
+/// is a recording; duplicate_node_id.
+[[nodiscard]] Error not_identified(const Roster& roster, dronecan::NodeId id, std::string_view what,
+                                   bool is_recording);
+
+/// Whether a selector matches a servo that is alone on its node ID.
+[[nodiscard]] bool is_met(const Roster& roster, const Selector& selector,
+                          const bla::Profiles& profiles);
+
+/// The selectors that match nobody (not_found, duplicate_node_id), and those that may match more:
+/// as not_identified().
+[[nodiscard]] std::vector<Error> unmet(const Roster& roster, std::span<const Selector> selectors,
+                                       const bla::Profiles& profiles, bool is_recording);
 
 /// It is in a recording, but not what it is: not_recorded.
 [[nodiscard]] Error identity_unrecorded(dronecan::NodeId id);

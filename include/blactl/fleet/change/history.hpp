@@ -24,6 +24,9 @@ namespace blactl::fleet {
 /// The name of an erase that keeps the IDs, as typed.
 inline constexpr std::string_view erase_keeping_ids = "erase --keep-ids";
 
+/// The name of the command that records what it may change, and not what it writes.
+inline constexpr std::string_view characterizing = "characterize";
+
 /// What ROM holds, as far as proofs and the record of changes tell.
 struct ToldRom {
   bla::Values values{};
