@@ -236,8 +236,8 @@ Result<void> SnapshotStore::end(std::span<const UniqueId> units, std::string_vie
   return file_->transact([&](const Database& database) -> Result<void> {
     for (const UniqueId& unit : units) {
       auto ended = Statement(database, "UPDATE snapshots SET ended = 1 WHERE command = ?2 AND "
-                                       "number = (SELECT max(number) FROM snapshots "
-                                       "WHERE unique_id = ?1)")
+                                       "unique_id = ?1 AND run = (SELECT run FROM snapshots "
+                                       "WHERE unique_id = ?1 ORDER BY number DESC LIMIT 1)")
                        .bind(unit)
                        .bind(command)
                        .run();

@@ -223,12 +223,11 @@ void Campaign::play(const Episode& drawn) {
   repeat(world, episode);
 }
 
-/// On every 100th seed a servo is made to lie: it confirmed a value, and holds another one.
+/// The servo confirmed a value, and is made to hold another one.
 void Campaign::test_alarm(const Step& step) {
-  constexpr std::uint64_t seeds = 100;
   const bool is_plain = step.outcome.status == 0 && step.command.verb() == "set" &&
-                        step.episode.faults.empty() && step.outcome.document["nodes"].size() > 0;
-  if (step.episode.seed % seeds != 0 || !is_plain) {
+                        step.outcome.document["nodes"].size() > 0;
+  if (!has_liar(step.episode) || !is_plain) {
     return;
   }
   const json& node = step.outcome.document["nodes"][0];

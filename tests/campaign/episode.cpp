@@ -560,6 +560,10 @@ void plant(Episode& episode, const std::string& kind, Chance& chance) {
   plants().at(kind)({episode, chance});
 }
 
+bool has_liar(const Episode& episode) {
+  return episode.seed % 100 == 0;
+}
+
 Episode make_episode(std::uint64_t seed) {
   Episode episode{.seed = seed, .scenario = {}, .steps = {}, .faults = {}};
   Chance servos(seed, "servos");
@@ -578,6 +582,11 @@ Episode make_episode(std::uint64_t seed) {
     }
     take_first_dynamic_id(episode.scenario["servos"], asking);
     episode.steps.insert(episode.steps.begin(), {.words = {"alloc", "--once"}});
+  }
+  if (has_liar(episode)) {
+    episode.steps.push_back(
+        {.words = {"set", "-n", "all", "timeout_time=500ms", "-y"}, .is_right = true});
+    return episode;
   }
   Chance faults(seed, "faults");
   const auto kinds = fault_kinds();

@@ -32,6 +32,9 @@ void plant(Episode& episode, const std::string& kind, Chance& chance);
 
 [[nodiscard]] Episode make_episode(std::uint64_t seed);
 
+/// On every 100th seed nothing goes wrong, but a servo lies: the judges must notice it.
+[[nodiscard]] bool has_liar(const Episode& episode);
+
 /// Whether a patient client gets everything right in spite of what goes wrong.
 [[nodiscard]] bool is_harmless(const Episode& episode);
 

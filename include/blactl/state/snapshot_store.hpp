@@ -93,7 +93,8 @@ class SnapshotStore {
   /// Records the outcome of these entries: all or none.
   [[nodiscard]] Result<void> settle(std::span<const Settlement> settlements);
 
-  /// Marks the last changes of these units as ended, if this command made them.
+  /// Marks the last changes of these units, with the earlier tries that they continue, as ended, if
+  /// this command made them.
   [[nodiscard]] Result<void> end(std::span<const dronecan::UniqueId> units,
                                  std::string_view command);
 

@@ -63,7 +63,9 @@ void Discovery::recognise() {
 
 void Discovery::on_new_unit(const Member& member) {
   if (attention_ == Attention::all) {
-    identify(member.id);
+    if (!is_ending_ || asked_late_.insert(member.id).second) {
+      identify(member.id);
+    }
   } else {
     start(std::make_unique<UnitJob>(session_.records(), member.id, options_.patience));
   }
@@ -229,14 +231,10 @@ Result<void> Discovery::find_all(Duration listen) {
   if (auto lived = session_.live_until(session_.now() + listen); !lived) {
     return lived;
   }
-  const bool attends = attention_ != Attention::none;
-  if (attends) { // one that restarts again and again is not waited for
-    session_.records().remove(*this);
-  }
+  is_ending_ = true;
   const auto ran = session_.run();
-  if (attends) {
-    session_.records().add(*this);
-  }
+  is_ending_ = false;
+  asked_late_.clear();
   if (!ran) {
     return ran;
   }

@@ -40,14 +40,18 @@ std::optional<NodeId> next_id(const UnitChange& unit) {
   if (!unit.has_failed() || !unit.last || !unit.last->may_have_saved) {
     return std::nullopt;
   }
+  const bool is_rom_told =
+      unit.last->returned && !(unit.last->rom && unit.last->rom->values.empty());
   for (const RegisterChange& change : unit.last->changes) {
-    const bool is_id = change.parameter->address == bla::address::static_node_id;
-    const bool is_told = unit.last->returned && change.after;
-    if (is_id && !is_told && change.requested > 0 && change.requested <= NodeId::max) {
-      return NodeId(static_cast<std::uint8_t>(change.requested));
+    if (change.parameter->address != bla::address::static_node_id) {
+      continue;
     }
+    const bool is_told = is_rom_told && change.after;
+    return !is_told && change.requested > 0 && change.requested <= NodeId::max
+               ? std::optional(NodeId(static_cast<std::uint8_t>(change.requested)))
+               : std::nullopt;
   }
-  return std::nullopt;
+  return is_rom_told ? std::nullopt : unit.static_node_id(); // RAM held it before
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 #include "blactl/fleet/change/history.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <iterator>
 #include <utility>
@@ -159,11 +160,9 @@ Result<void> History::resume(const Plan& plan, const Session& session) {
     return {};
   }
   state::SnapshotEntry& tried = **last;
-  const auto started = start_of(servo, session);
-  const bool has_restarted = started && (tried.saved ? tried.at : last_write(tried)) < *started;
+  const bool has_restarted = is_over(tried, plan.before, session);
   if (has_restarted && tried.saved) {
-    run_ = joined_ = plan.restart ? std::max(run_, tried.run) : run_;
-    return {};
+    return plan.restart ? join(std::move(tried), plan, session.wall()) : Result<void>();
   }
   run_ = joined_ = std::max(run_, tried.run);
   if (has_restarted) {
@@ -176,6 +175,45 @@ Result<void> History::resume(const Plan& plan, const Session& session) {
                       .was_saved = was_saved,
                       .is_another_try = true};
   return {};
+}
+
+/// Whether the servo has restarted since a try that broke off: RAM itself tells, where its last
+/// write or the clock leaves that open.
+bool History::is_over(const state::SnapshotEntry& tried, const Snapshot& ram,
+                      const Session& session) {
+  const auto started = start_of(ram.servo, session);
+  if (!started) {
+    return false;
+  }
+  const bool has_written = !tried.saved && !tried.written.empty();
+  if ((has_written ? last_write(tried) : tried.at) < *started) {
+    return true;
+  }
+  const bool is_open = tried.at < *started || tried.at > session.wall();
+  return is_open && !is_shown(tried, ram).value_or(true);
+}
+
+/// Goes on after a try that was saved: undo goes back through it, as far as it is still there. The
+/// node ID may be one on the way to that of the try, which this one gives again.
+Result<void> History::join(state::SnapshotEntry tried, const Plan& plan, WallTime now) {
+  run_ = joined_ = std::max(run_, tried.run);
+  const std::size_t size = tried.held.size();
+  std::erase_if(tried.held, [&](const auto& held) {
+    const bla::Address address(held.first);
+    const auto written = tried.written.find(held.first);
+    if (written == tried.written.end()) {
+      return false;
+    }
+    const RegisterChange* again = plan.change_of(address);
+    const bool is_on_its_way = address == bla::address::static_node_id && again != nullptr &&
+                               again->requested == written->second;
+    return plan.before.raw(address) != written->second && !is_on_its_way;
+  });
+  if (tried.held.size() == size) {
+    return {};
+  }
+  const auto kept = snapshots_.keep(std::array{std::move(tried)}, now);
+  return kept ? Result<void>() : std::unexpected(kept.error());
 }
 
 /// What a mere restart takes, as far as ROM is known.
@@ -255,6 +293,13 @@ std::optional<state::SnapshotEntry> History::entry_of(const Plan& plan, const Ro
               : entry.written.insert_or_assign(address, raw);
   }
   std::erase_if(in_ram, [&](const auto& each) { return entry.held.contains(each.first); });
+  if (plan.restart == RestartKind::save && !entry.saved && rom != roms.end()) {
+    for (auto& [address, raw] : entry.held) { // of an earlier try, in RAM only
+      if (const auto proven = rom->second.find(address); proven != rom->second.end()) {
+        in_ram.emplace(address, std::exchange(raw, proven->second));
+      }
+    }
+  }
   if (!in_ram.empty()) {
     in_ram_[*unique_id].merge(in_ram);
   }

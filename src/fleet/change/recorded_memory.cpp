@@ -64,9 +64,10 @@ bool are_in_ram(const Entries& changes, WallTime started, const Snapshot* ram) {
   return (ram != nullptr ? are_shown(changes, *ram) : std::nullopt).value_or(true);
 }
 
-/// The servo started after this change, whatever clocks say: it has written nothing.
+/// The servo started after this change, whatever clocks say: it has written nothing, and its end is
+/// known.
 bool is_restart(const state::SnapshotEntry& change) {
-  return change.written.empty() && change.command != characterizing;
+  return change.written.empty() && change.settled && change.command != characterizing;
 }
 
 /// When the last uptime of this node was heard.
@@ -100,6 +101,10 @@ bla::Values replaced_by(const std::vector<state::SnapshotEntry>& changes) {
 }
 
 } // namespace
+
+std::optional<bool> is_shown(const state::SnapshotEntry& change, const Snapshot& ram) {
+  return are_shown({change}, ram);
+}
 
 WallTime last_write(const state::SnapshotEntry& change) {
   constexpr std::chrono::seconds writing_time{10}; // usual, where nobody recorded how it ended

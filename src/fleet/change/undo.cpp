@@ -49,8 +49,9 @@ Result<Undoing> whole(const state::SnapshotStore& store, state::SnapshotEntry en
     for (const auto& [address, raw] : (*earlier)->held) {
       const auto written = (*earlier)->written.find(address);
       const auto [found, is_new] = whole.entry.held.emplace(address, raw);
-      if (!is_new && written != (*earlier)->written.end() && written->second == found->second) {
-        found->second = raw; // else somebody has changed it in between
+      // what somebody else had changed in between was left out of the earlier one, see History
+      if (!is_new && written != (*earlier)->written.end()) {
+        found->second = raw;
       }
     }
     whole.entry.saved = whole.entry.saved || (*earlier)->saved;

@@ -876,7 +876,8 @@ TEST_CASE("what a recorded restart has taken is not in RAM, however clocks drift
   const SnapshotEntry restart{.at = started + 1s, // the uptime runs fast
                               .command = "restart",
                               .unique_id = *ram.servo.unique_id,
-                              .held = {{0x38, 900}}};
+                              .held = {{0x38, 900}},
+                              .settled = started + 2s};
   REQUIRE(store->keep(std::vector{trial, restart}, scene.session->wall()));
   CHECK(kept.history().unsaved(ram.servo, *scene.session, &ram).empty());
   CHECK(kept.history().known_rom(ram, *scene.session).empty());

@@ -112,6 +112,11 @@ class Discovery final : private Roster::Listener {
   Identification::Options options_;
   Attention attention_ = Attention::none;
   std::uint8_t cursor_ = 0; ///< for the probes
+
+  /// Whether a search waits for its last answers: one that restarts again and again meanwhile is
+  /// asked once more, and not for ever.
+  bool is_ending_ = false;
+  std::set<dronecan::NodeId> asked_late_{};
   std::vector<std::unique_ptr<IdentifyJob>> identifications_;
   std::vector<std::unique_ptr<dronecan::Job>> jobs_;
   std::set<dronecan::NodeId> gone_; ///< no response to the last request

@@ -123,6 +123,9 @@ class History {
   void settle(const ChangeResult& result, WallTime wall, Settled& settled);
   [[nodiscard]] Result<void> settle(std::span<const ChangeResult> results, WallTime wall);
   [[nodiscard]] Result<void> resume(const Plan& plan, const Session& session);
+  [[nodiscard]] static bool is_over(const state::SnapshotEntry& tried, const Snapshot& ram,
+                                    const Session& session);
+  [[nodiscard]] Result<void> join(state::SnapshotEntry tried, const Plan& plan, WallTime now);
   [[nodiscard]] static std::optional<WallTime> start_of(const Servo& servo, const Session& session);
   [[nodiscard]] bool is_half_undone() const;
   [[nodiscard]] bool is_another_try(const dronecan::UniqueId& unit) const;
@@ -157,6 +160,10 @@ class History {
 
 /// No write of this change came later: the servo may have restarted between record and write.
 [[nodiscard]] WallTime last_write(const state::SnapshotEntry& change);
+
+/// Whether RAM holds a value that this change has put there; empty: no register of it was read. One
+/// that it has put back shows nothing.
+[[nodiscard]] std::optional<bool> is_shown(const state::SnapshotEntry& change, const Snapshot& ram);
 
 /// The settings that this plan replaces, with their present values; all writable ones for ERASE and
 /// for a restart that is to show what ROM holds.
