@@ -40,8 +40,7 @@ std::optional<NodeId> next_id(const UnitChange& unit) {
   if (!unit.has_failed() || !unit.last || !unit.last->may_have_saved) {
     return std::nullopt;
   }
-  const bool is_rom_told =
-      unit.last->returned && !(unit.last->rom && unit.last->rom->values.empty());
+  const bool is_rom_told = unit.last->returned && !unit.last->is_rom_unread;
   for (const RegisterChange& change : unit.last->changes) {
     if (change.parameter->address != bla::address::static_node_id) {
       continue;

@@ -361,6 +361,7 @@ ChangeJob::Stage ChangeJob::conclude_read_back() {
   if (auto unreadable = check_rom(now)) {
     result_.error = std::move(unreadable);
     result_.rom = unread_rom(now);
+    result_.is_rom_unread = true;
   } else if (result_.error && result_.error->code == Code::mismatch) {
     result_.error->hint =
         restart_->is_confirmed() ? say<texts::rom_differs_hint>() : say<texts::run_again_hint>();

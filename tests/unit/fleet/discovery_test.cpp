@@ -296,6 +296,17 @@ TEST_CASE("without -n all that live have had the time to be heard") {
   CHECK(scene.session->now() - begin >= servo_search_time);
 }
 
+TEST_CASE("who comes while a search waits for its last answers is asked who it is") {
+  const Scene scene(R"("servos": [
+      {"model": "BLA21-12U-AB", "node_id": 11, "faults": {"mute": true}},
+      {"model": "BLA21-12U-AB", "node_id": 12, "serial_number": 7}],
+    "events": [{"at": "0ms", "servo": 7, "world": {"plugged": "off"}},
+               {"at": "2500ms", "servo": 7, "world": {"plugged": "on"}}])");
+  Discovery discovery(*scene.session, profiles(), {.patience = {.timeout = 2s, .retries = 1}});
+  REQUIRE(discovery.find_all(2s));
+  CHECK(scene.member(12).is_servo);
+}
+
 TEST_CASE("a search ends beside a servo that restarts again and again") {
   std::string restarts;
   for (int at = 2500; at < 120'000; at += 2500) {

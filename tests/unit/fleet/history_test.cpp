@@ -817,6 +817,72 @@ TEST_CASE("what another user has saved since a try broke off comes back") {
   CHECK(last[0].entry.held == state::Registers{{0x38, 900}});
 }
 
+TEST_CASE("what another user has saved since, and the repetition does not name, stays") {
+  const Kept kept;
+  const Scene scene(servos());
+  killed(scene, set("angle_limit_cw=77deg", true), kept, "apply");
+  scene.live(3s);
+  REQUIRE(carry_out(*scene.session, profiles(),
+                    plans_for(scene, set("angle_limit_cw=90deg", true), {11}), {})
+              .servos[0]
+              .is_done());
+  scene.live(3s);
+  REQUIRE(change(scene, set("reverse=on", true), kept, "apply").is_done());
+  const auto last = last_changes(SnapshotStore::open(kept.folder(), Access::read).value()).value();
+  REQUIRE(last.size() == 1);
+  CHECK(last[0].entry.held == state::Registers{{0x23, 0}});
+}
+
+TEST_CASE("a try in RAM only, repeated in full, leaves undo what ROM held, and no trial") {
+  const Kept kept;
+  const Scene scene(servos());
+  REQUIRE(change(scene, set("angle_limit_cw=77deg", true), kept).is_done());
+  scene.live(3s);
+  REQUIRE(change(scene, set("angle_limit_cw=33deg"), kept).is_done());
+  killed(scene, set("angle_limit_cw=90deg"), kept, "apply");
+  REQUIRE(change(scene, set("angle_limit_cw=90deg", true), kept, "apply").is_done());
+  CHECK(kept.entries().front().held == state::Registers{{0x38, 770}});
+}
+
+TEST_CASE("undo leaves no servo on the temporary ID of a circle that broke off") {
+  const Kept kept;
+  const Scene scene(servos());
+  const std::vector<Plan> to_30 = plans_for(scene, set("static_node_id=30", true), {11});
+  const std::vector<Plan> to_125 = plans_for(scene, set("static_node_id=125", true), {11});
+  {
+    History apply = kept.history("apply");
+    REQUIRE(apply.keep(to_30, *scene.session));
+    REQUIRE(apply.keep(to_125, *scene.session));
+  }
+  REQUIRE(carry_out(*scene.session, profiles(), to_125, {}).servos[0].is_done());
+  scene.live(3s);
+  History again = kept.history("apply");
+  REQUIRE(change(scene, set("static_node_id=30", true), again, {125}).servos[0].is_done());
+  end(again, to_30[0].before.servo.unique_id);
+  const auto last = last_changes(SnapshotStore::open(kept.folder(), Access::read).value()).value();
+  REQUIRE(last.size() == 1);
+  CHECK(last[0].entry.held == state::Registers{{0x46, 11}});
+}
+
+TEST_CASE("an undo that broke off and was repeated after a restart is over") {
+  const Kept kept;
+  const Scene scene(servos());
+  REQUIRE(change(scene, set("angle_limit_cw=77deg", true), kept).is_done());
+  scene.live(3s);
+  const auto back = set("angle_limit_cw=179.9deg", true);
+  REQUIRE(kept.history("undo").keep(plans_for(scene, back, {11}), *scene.session));
+  REQUIRE(carry_out(*scene.session, profiles(), plans_for(scene, restart, {11}), {})
+              .servos[0]
+              .is_done());
+  scene.live(3s);
+  REQUIRE(change(scene, back, kept, "undo").is_done());
+  const auto last = last_changes(SnapshotStore::open(kept.folder(), Access::read).value()).value();
+  REQUIRE(last.size() == 1);
+  CHECK(last[0].entry.command == "undo");
+  CHECK(last[0].entry.held == state::Registers{{0x38, 770}});
+  CHECK_FALSE(last[0].goes_on);
+}
+
 TEST_CASE("a repetition in RAM only is a change beside what the first try has saved") {
   const Kept kept;
   const Scene scene(servos());
@@ -881,6 +947,15 @@ TEST_CASE("what a recorded restart has taken is not in RAM, however clocks drift
   REQUIRE(store->keep(std::vector{trial, restart}, scene.session->wall()));
   CHECK(kept.history().unsaved(ram.servo, *scene.session, &ram).empty());
   CHECK(kept.history().known_rom(ram, *scene.session).empty());
+}
+
+TEST_CASE("a restart that was killed has taken nothing from a servo that runs on") {
+  const Kept kept;
+  const Scene scene(servos());
+  REQUIRE(change(scene, set("angle_limit_cw=77deg"), kept).is_done());
+  REQUIRE(kept.history("restart").keep(plans_for(scene, restart, {11}), *scene.session));
+  const Snapshot ram = scene.read(11, registers({"angle_limit_cw"}));
+  CHECK(kept.history().known_rom(ram, *scene.session) == bla::Values{{at::angle_limit_cw, 1799}});
 }
 
 TEST_CASE("whether a change from before the start is in RAM, RAM itself tells") {
