@@ -68,7 +68,9 @@ bool Discovery::is_ready(const Member& member) const {
 bool Discovery::all_there(const Targets& targets) const {
   const auto members = meant(targets);
   const auto may_be_there = [this](NodeId id) {
-    return session_.roster().heard(id) && !session_.roster().member(id).is_foreign();
+    const Member* member = session_.roster().find(id);
+    return session_.roster().heard(id) && !member->is_foreign() &&
+           !session_.roster().has_moved(*member);
   };
   const Roster& roster = session_.roster();
   const bool is_known = !targets.mean_all() || unidentified(roster).empty();
@@ -183,11 +185,12 @@ std::vector<Error> Discovery::missing(const Targets& targets, Duration wait) con
     }
   }
   for (const NodeId id : targets.ids) {
-    if (!session_.roster().heard(id)) {
+    const Member* member = session_.roster().find(id);
+    if (!session_.roster().heard(id) || session_.roster().has_moved(*member)) {
       errors.push_back({Code::not_found, say<texts::wait_not_heard>(id.value(), seconds),
                         say<texts::node_not_found_hint>(), id.value()});
-    } else if (const Member& member = session_.roster().member(id); member.is_foreign()) {
-      errors.push_back(not_a_servo(id, member.info->name));
+    } else if (member->is_foreign()) {
+      errors.push_back(not_a_servo(id, member->info->name));
     }
   }
   std::ranges::copy_if(unmet(targets), std::back_inserter(errors), [&](const Error& one) {

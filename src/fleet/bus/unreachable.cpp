@@ -55,7 +55,8 @@ Error identity_unrecorded(dronecan::NodeId id) {
 
 bool is_met(const Roster& roster, const Selector& selector, const bla::Profiles& profiles) {
   return std::ranges::any_of(roster.members(), [&](const auto& entry) {
-    return selector.matches(entry.second, profiles) && !roster.is_doubled(entry.first);
+    return selector.matches(entry.second, profiles) && !roster.is_doubled(entry.first) &&
+           !roster.has_moved(entry.second);
   });
 }
 
