@@ -800,9 +800,8 @@ TEST_CASE("a try that was to save, broke off, and was lost in a restart, leaves 
   CHECK(kept.entries().front().run != kept.entries().back().run);
 }
 
-TEST_CASE("what another user has saved since a try broke off comes back") {
-  const Kept kept;
-  const Scene scene(servos());
+/// An apply that is killed, and another user who saves another value of it.
+static void saved_since_a_try(const Scene& scene, const Kept& kept) {
   killed(scene, set("angle_limit_cw=77deg", true), kept, "apply");
   scene.live(3s);
   REQUIRE(carry_out(*scene.session, profiles(),
@@ -810,6 +809,12 @@ TEST_CASE("what another user has saved since a try broke off comes back") {
               .servos[0]
               .is_done());
   scene.live(3s);
+}
+
+TEST_CASE("what another user has saved since a try broke off comes back") {
+  const Kept kept;
+  const Scene scene(servos());
+  saved_since_a_try(scene, kept);
   REQUIRE(change(scene, set("angle_limit_cw=77deg", true), kept, "apply").is_done());
   CHECK(kept.entries().front().held == state::Registers{{0x38, 900}});
   const auto last = last_changes(SnapshotStore::open(kept.folder(), Access::read).value()).value();
@@ -820,13 +825,7 @@ TEST_CASE("what another user has saved since a try broke off comes back") {
 TEST_CASE("what another user has saved since, and the repetition does not name, stays") {
   const Kept kept;
   const Scene scene(servos());
-  killed(scene, set("angle_limit_cw=77deg", true), kept, "apply");
-  scene.live(3s);
-  REQUIRE(carry_out(*scene.session, profiles(),
-                    plans_for(scene, set("angle_limit_cw=90deg", true), {11}), {})
-              .servos[0]
-              .is_done());
-  scene.live(3s);
+  saved_since_a_try(scene, kept);
   REQUIRE(change(scene, set("reverse=on", true), kept, "apply").is_done());
   const auto last = last_changes(SnapshotStore::open(kept.folder(), Access::read).value()).value();
   REQUIRE(last.size() == 1);
