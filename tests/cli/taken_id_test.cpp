@@ -70,3 +70,14 @@ TEST_CASE("a servo that has moved in an earlier round is looked at once more at 
   CHECK(codes(moved).front() == "duplicate_node_id");
   CHECK_FALSE(contains(moved.err, "has not left"));
 }
+
+TEST_CASE("a node ID that RAM held before a SAVE without an end stays in the allocation table") {
+  const Fleet fleet(Scene().servo("BLA21-12U-AB", 11, {{"faults", {{"never_returns", true}}}}));
+  REQUIRE(fleet.run({"set", "-n", "11", "static_node_id=30", "-y"}).status == 0);
+  const auto command = GENERATE(Arguments{"save", "-n", "11", "-y"},
+                                Arguments{"set", "-n", "11", "smoothing=off", "--save", "-y"});
+  check_error(fleet.run(command), 4, "not_back", "leave it powered");
+  const auto entries = json(fleet.run({"alloc", "--list", "--json"}).out)["entries"];
+  REQUIRE(entries.size() == 1);
+  CHECK(entries[0]["node_id"] == 30);
+}

@@ -41,16 +41,16 @@ std::optional<NodeId> next_id(const UnitChange& unit) {
     return std::nullopt;
   }
   const bool is_rom_told = unit.last->returned && !unit.last->is_rom_unread;
-  for (const RegisterChange& change : unit.last->changes) {
-    if (change.parameter->address != bla::address::static_node_id) {
-      continue;
-    }
-    const bool is_told = is_rom_told && change.after;
-    return !is_told && change.requested > 0 && change.requested <= NodeId::max
-               ? std::optional(NodeId(static_cast<std::uint8_t>(change.requested)))
-               : std::nullopt;
+  const auto change =
+      std::ranges::find(unit.last->changes, bla::address::static_node_id,
+                        [](const RegisterChange& each) { return each.parameter->address; });
+  if (change == unit.last->changes.end()) {
+    return is_rom_told ? std::nullopt : unit.static_node_id(); // RAM held it before
   }
-  return is_rom_told ? std::nullopt : unit.static_node_id(); // RAM held it before
+  const bool is_told = is_rom_told && change->after;
+  return !is_told && change->requested > 0 && change->requested <= NodeId::max
+             ? std::optional(NodeId(static_cast<std::uint8_t>(change->requested)))
+             : std::nullopt;
 }
 
 } // namespace

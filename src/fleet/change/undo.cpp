@@ -49,7 +49,7 @@ Result<Undoing> whole(const state::SnapshotStore& store, state::SnapshotEntry en
     for (const auto& [address, raw] : (*earlier)->held) {
       const auto written = (*earlier)->written.find(address);
       const auto [found, is_new] = whole.entry.held.emplace(address, raw);
-      // what somebody else had changed in between was left out of the earlier one, see History
+      // History::join() has left out what somebody else changed in between
       if (!is_new && written != (*earlier)->written.end()) {
         found->second = raw;
       }
