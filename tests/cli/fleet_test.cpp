@@ -137,6 +137,21 @@ TEST_CASE("a servo that is not there, and one that is in no entry, are differenc
   CHECK(std::ranges::count(statuses, "extra") == 1);
 }
 
+TEST_CASE("while a servo does not say who it is, no entry is told to be without its servo") {
+  const Exported exported;
+  Scene two = Scene().servo("BLA21-12U-AB", 11, {{"servo_id", 1}});
+  const Result result = two.servo("BLA21-12U-AB", 12, {{"faults", {{"mute", true}}}})
+                            .run({"diff", exported.path, "--json"});
+  CHECK(result.status == 6); // the first one was compared
+  CHECK(contains(result.err, "node 12 is on the bus, but has not said who it is [timeout]"));
+  const auto nodes = json(result.out)["nodes"];
+  REQUIRE(nodes.size() == 3);
+  for (const auto& node : nodes) {
+    CHECK(node["status"] != "missing");
+    CHECK(node["status"] != "extra");
+  }
+}
+
 TEST_CASE("with -n only those servos are compared") {
   const Exported exported;
   const std::string file = exported.changed(0, "angle_limit_cw", "45.0deg");

@@ -5,9 +5,6 @@
 
 namespace blactl::texts {
 
-inline constexpr Text apply_missing_or{
-    "no servo for '{}': {}; node {} is on the bus, but has not said who it is",
-    "'{}' のサーボがありません: {}。ノード {} はバス上にありますが、情報を取得できません"};
 inline constexpr Text apply_missing{"no servo for '{}': {}", "'{}' のサーボがありません: {}"};
 inline constexpr Text apply_missing_hint{
     "connect it, or name those that are meant with -n: nothing was written",

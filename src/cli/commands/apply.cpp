@@ -123,14 +123,11 @@ units(std::span<const fleet::FleetEntry* const> entries) {
 
 /// The error for an entry without a servo.
 Error missing(const fleet::FleetEntry& entry, const fleet::Roster& roster) {
-  const std::string match = fleet::text(entry.match);
-  if (const auto nodes = fleet::unidentified(roster); !nodes.empty()) {
-    const std::uint8_t id = nodes.front().value();
-    return {Code::timeout, say<texts::apply_missing_or>(entry.name, match, id),
-            say<texts::run_again_hint>(), id};
-  }
-  return {Code::not_found, say<texts::apply_missing>(entry.name, match),
-          say<texts::apply_missing_hint>(), std::nullopt};
+  auto unclear = fleet::may_be_unidentified(entry, roster);
+  return unclear ? std::move(*unclear)
+                 : Error{Code::not_found,
+                         say<texts::apply_missing>(entry.name, fleet::text(entry.match)),
+                         say<texts::apply_missing_hint>(), std::nullopt};
 }
 
 /// The goals for the servos that match entries.

@@ -92,7 +92,7 @@ UnitWatch::Start UnitWatch::hear_uptime(std::uint32_t uptime_s, Time at) {
   const auto it = std::ranges::min_element(starts_, {}, distance);
   if (distance(*it) < start_tolerance) {
     const auto index = static_cast<std::size_t>(it - starts_.begin());
-    *it = start; // clocks drift
+    *it = uptime_s == before ? std::min(**it, start) : start; // clocks drift, but none stands still
     if (index != std::exchange(last_start_, index)) {
       starts_[1 - index] = may_be_late_ ? std::nullopt : starts_[1 - index];
       return std::exchange(may_be_late_, false) ? Start::known : Start::twin;

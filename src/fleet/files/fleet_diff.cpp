@@ -169,6 +169,26 @@ std::vector<EntryDiff> unpaired(const FleetMatch& match, const Roster& roster,
   return entries;
 }
 
+namespace {
+
+/// While a servo has not said who it is, it may be the one that an entry misses.
+std::vector<EntryDiff> unpaired_or_unclear(FleetMatch match, const Roster& roster,
+                                           const bla::Profiles& profiles) {
+  if (!match.missing.empty()) {
+    std::erase_if(match.extra, [&](NodeId id) { return !roster.member(id).is_known(); });
+  }
+  auto entries = unpaired(match, roster, profiles);
+  for (std::size_t i = 0; i < match.missing.size(); ++i) { // they come first
+    if (auto unclear = may_be_unidentified(*match.missing[i], roster)) {
+      entries[i].errors.push_back(std::move(*unclear));
+      entries[i] = judged(std::move(entries[i]));
+    }
+  }
+  return entries;
+}
+
+} // namespace
+
 FleetDiff diff(Session& session, const bla::Profiles& profiles, const FleetMatch& match,
                const Identification::Options& options) {
   std::vector<NodeId> ids;
@@ -191,7 +211,9 @@ FleetDiff diff(Session& session, const bla::Profiles& profiles, const FleetMatch
     }
     found.entries.push_back(std::move(entry));
   }
-  std::ranges::move(unpaired(match, roster, profiles), std::back_inserter(found.entries));
+  auto others = session.is_replay() ? unpaired(match, roster, profiles)
+                                    : unpaired_or_unclear(match, roster, profiles);
+  std::ranges::move(others, std::back_inserter(found.entries));
   return found;
 }
 

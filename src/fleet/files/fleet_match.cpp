@@ -245,6 +245,16 @@ std::string text(const Match& match) {
   return out;
 }
 
+std::optional<Error> may_be_unidentified(const FleetEntry& entry, const Roster& roster) {
+  const auto nodes = unidentified(roster);
+  if (nodes.empty()) {
+    return std::nullopt;
+  }
+  const std::uint8_t id = nodes.front().value();
+  return Error{Code::timeout, say<texts::entry_may_be>(entry.name, text(entry.match), id),
+               say<texts::run_again_hint>(), id};
+}
+
 FleetMatch match(const FleetFile& file, const Roster& roster, const Targets& targets,
                  const bla::Profiles& profiles, bool is_recording) {
   return Matching(roster, targets, profiles, is_recording).run(file);

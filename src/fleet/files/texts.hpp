@@ -48,6 +48,9 @@ inline constexpr Text fleet_entry_means_several_hint{
 inline constexpr Text fleet_servo_meant_twice{
     "node {} is meant by two entries: \"{}\" and \"{}\"",
     "ノード {} が 2 つのエントリに一致します: \"{}\" と \"{}\""};
+inline constexpr Text entry_may_be{
+    "no servo for '{}': {}; node {} is on the bus, but has not said who it is",
+    "'{}' のサーボがありません: {}。ノード {} はバス上にありますが、情報を取得できません"};
 inline constexpr Text fleet_passing_id{
     "the entry \"{0}\" finds node {1} by a node ID that the servo has only for now",
     "エントリ \"{0}\" はノード {1} を一時的なノード ID で照合しています"};

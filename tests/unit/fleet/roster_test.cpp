@@ -395,6 +395,17 @@ TEST_CASE("a servo that restarts right after its start restarted all the same") 
   CHECK_FALSE(ear.roster.is_doubled(NodeId(10)));
 }
 
+TEST_CASE("a servo that restarts about once a second, always at an uptime of 0, restarts") {
+  const auto period = GENERATE(800ms, 1s, 1200ms, 1400ms);
+  Ear ear;
+  for (int run = 0; run < 5; ++run) {
+    ear.status(10, 0);
+    ear.now += period;
+  }
+  CHECK(ear.roster.find(NodeId(10))->boots > 0);
+  CHECK_FALSE(ear.roster.is_doubled(NodeId(10)));
+}
+
 TEST_CASE("start times that are close to each other are those of one servo") {
   Ear ear;
   ear.status(10, 0);

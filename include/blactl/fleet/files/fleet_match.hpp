@@ -6,6 +6,7 @@
 #include "blactl/fleet/bus/target.hpp"
 #include "blactl/fleet/files/fleet_file.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,11 @@ struct FleetMatch {
   /// an entry for several servos, or -n, may mean it.
   std::vector<Error> errors;
 };
+
+/// Of an entry for one unit that no servo matches, while one has not said who it is: timeout; empty:
+/// each has.
+[[nodiscard]] std::optional<Error> may_be_unidentified(const FleetEntry& entry,
+                                                       const Roster& roster);
 
 /// `file` outlives the result. The session has searched the bus (Discovery::find_all, with the
 /// static node IDs); node IDs shared by two units match no servo. `is_recording`: the bus is one.
