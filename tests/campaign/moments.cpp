@@ -184,8 +184,12 @@ void Sweep::play_moment(const Case& one, const Episode& episode, const Moment& m
                                                              *moment.is_last + on_its_way;
                                                     }),
             "it was sent although what it was judged by is another now");
-    if (moment.is_undone && !step.outcome.record.changes().empty()) {
+    const bool has_changed = !step.outcome.record.changes().empty();
+    if (has_changed && (moment.is_undone || moment.is_undone_later)) {
       world.pass(4s);
+      if (moment.is_undone_later) {
+        world.repair();
+      }
       check_undo(world, step);
     }
     if (!moment.must_converge) {

@@ -214,7 +214,8 @@ void Sweep::play_faults(const Case& one) {
       plant(episode, kind, chance);
       play_moment(one, episode,
                   {.what = fmt::format("{} number {}", kind, i),
-                   .must_converge = one.is_repeatable && leaves_servos_apart(kind)},
+                   .must_converge = one.is_repeatable && leaves_servos_apart(kind),
+                   .is_undone_later = one.is_undoable && leaves_servos_apart(kind)},
                   swept);
     }
   }

@@ -96,6 +96,7 @@ class Sweep {
     std::string what;
     bool must_converge = false;
     bool is_undone = false;
+    bool is_undone_later = false; ///< once everything that went wrong has ended
     bool must_end_well = false;
     std::optional<Time> is_last{}; ///< of a change: what it was judged by is another then
   };

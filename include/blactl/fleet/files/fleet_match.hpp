@@ -33,7 +33,7 @@ struct FleetMatch {
   std::vector<Error> errors;
 };
 
-/// Of an entry for one unit that no servo matches, while one has not said who it is: timeout; empty:
+/// The error for an entry that no servo matches, while one has not said who it is: timeout. Empty:
 /// each has.
 [[nodiscard]] std::optional<Error> may_be_unidentified(const FleetEntry& entry,
                                                        const Roster& roster);
