@@ -89,6 +89,15 @@ const std::vector<Happening>& happenings() {
   return all;
 }
 
+/// Else `undo` may not know what ROM held.
+bool has_no_trials(const States& servos) {
+  return std::ranges::all_of(servos, [](const auto& servo) {
+    return std::ranges::all_of(servo.second.rom, [&](const auto& held) {
+      return servo.second.ram.at(held.first) == held.second;
+    });
+  });
+}
+
 /// Just before each frame of the command, where nothing happens.
 std::vector<Time> moments_of(const Record& record) {
   constexpr Duration before = 50us;
@@ -185,9 +194,10 @@ void Sweep::play_moment(const Case& one, const Episode& episode, const Moment& m
                                                     }),
             "it was sent although what it was judged by is another now");
     const bool has_changed = !step.outcome.record.changes().empty();
-    if (has_changed && (moment.is_undone || moment.is_undone_later)) {
+    const bool is_undone_later = moment.is_undone_later && has_no_trials(step.before);
+    if (has_changed && (moment.is_undone || is_undone_later)) {
       world.pass(4s);
-      if (moment.is_undone_later) {
+      if (is_undone_later) {
         world.repair();
       }
       check_undo(world, step);
