@@ -193,26 +193,33 @@ bool History::is_over(const state::SnapshotEntry& tried, const Snapshot& ram,
   return is_open && !is_shown(tried, ram).value_or(true);
 }
 
-/// Goes on after a try that was saved: undo goes back through it, as far as it is still there. The
-/// node ID may be one on the way to that of the try, which this one gives again.
+/// Goes on after tries that were saved: undo goes back through them, as far as they are still
+/// there. The node ID may be one on the way to that of the tries, which this one gives again.
 Result<void> History::join(state::SnapshotEntry tried, const Plan& plan, WallTime now) {
   run_ = joined_ = std::max(run_, tried.run);
-  const std::size_t size = tried.held.size();
-  std::erase_if(tried.held, [&](const auto& held) {
-    const bla::Address address(held.first);
-    const auto written = tried.written.find(held.first);
-    if (written == tried.written.end()) {
-      return false;
-    }
+  state::Registers written; // last
+  const auto is_replaced = [&](std::uint8_t number) {
+    const auto last = written.find(number);
+    const bla::Address address(number);
     const RegisterChange* again = plan.change_of(address);
-    const bool is_on_its_way = address == bla::address::static_node_id && again != nullptr &&
-                               again->requested == written->second;
-    return plan.before.raw(address) != written->second && !is_on_its_way;
-  });
-  if (tried.held.size() == size) {
-    return {};
+    const bool is_on_its_way = last != written.end() && address == bla::address::static_node_id &&
+                               again != nullptr && again->requested == last->second;
+    return last != written.end() && plan.before.raw(address) != last->second && !is_on_its_way;
+  };
+  std::vector<state::SnapshotEntry> shorter;
+  for (std::optional<state::SnapshotEntry> each = std::move(tried); each && each->run == run_;) {
+    auto earlier = snapshots_.before(*each);
+    if (!earlier) {
+      return std::unexpected(earlier.error());
+    }
+    written.insert(each->written.begin(), each->written.end());
+    if (std::erase_if(each->held, [&](const auto& held) { return is_replaced(held.first); }) > 0) {
+      shorter.push_back(std::move(*each));
+    }
+    each = std::move(*earlier);
   }
-  const auto kept = snapshots_.keep(std::array{std::move(tried)}, now);
+  const auto kept =
+      shorter.empty() ? Result<std::vector<std::int64_t>>() : snapshots_.keep(shorter, now);
   return kept ? Result<void>() : std::unexpected(kept.error());
 }
 

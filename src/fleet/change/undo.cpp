@@ -59,22 +59,24 @@ Result<Undoing> whole(const state::SnapshotStore& store, state::SnapshotEntry en
   }
 }
 
-/// The change to undo in place of this entry, if that is an undo which did not end.
+/// The change to undo in place of this entry, if that is an undo which did not end: it may have been
+/// tried several times.
 Result<std::optional<Undoing>> meant_by(const state::SnapshotStore& store,
                                         state::SnapshotEntry entry) {
-  if (!is_unfinished_undo(entry)) {
-    return whole(store, std::move(entry));
+  const bool goes_on = is_unfinished_undo(entry);
+  while (is_unfinished_undo(entry)) {
+    auto before = store.before(entry);
+    if (!before) {
+      return std::unexpected(std::move(before.error()));
+    }
+    if (!*before) {
+      return std::nullopt;
+    }
+    entry = std::move(**before);
   }
-  auto before = store.before(entry);
-  if (!before) {
-    return std::unexpected(std::move(before.error()));
-  }
-  if (!*before) {
-    return std::nullopt;
-  }
-  auto undoing = whole(store, std::move(**before));
+  auto undoing = whole(store, std::move(entry));
   if (undoing) {
-    undoing->goes_on = true;
+    undoing->goes_on = goes_on;
   }
   return undoing;
 }

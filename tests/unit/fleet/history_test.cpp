@@ -988,6 +988,63 @@ TEST_CASE("whether a change from before the start is in RAM, RAM itself tells") 
   CHECK_FALSE(is_unsaved(-1h, {{0x38, 900}}, {{0x38, 450}}, &ram)); // the clock was set back
 }
 
+TEST_CASE("an undo that broke off several times still means the change before it") {
+  auto store = SnapshotStore::unshared().value();
+  const dronecan::UniqueId unit{7};
+  const auto keep = [&](std::string command, std::int64_t run, bool ended) {
+    return store
+        .keep(std::vector{SnapshotEntry{.run = run,
+                                        .command = std::move(command),
+                                        .unique_id = unit,
+                                        .held = {{0x2C, 60}},
+                                        .written = {{0x2C, 77}},
+                                        .saved = true,
+                                        .ended = ended}},
+              WallTime{})
+        .value()
+        .front();
+  };
+  keep("set", 0, true);
+  const std::int64_t first = keep("undo", 0, false);
+  keep("undo", first, false);
+  const auto meant = last_change(store, unit).value();
+  REQUIRE(meant);
+  CHECK(meant->entry.command == "set");
+  CHECK(meant->goes_on);
+}
+
+TEST_CASE("what others saved after two tries is left out of both") {
+  const Kept kept;
+  const Scene scene(servos());
+  const Snapshot ram = scene.read(11, registers({"angle_limit_cw"})); // 1799
+  {
+    auto store = SnapshotStore::open(kept.folder(), Access::write);
+    const auto tried = [&](std::int64_t run, std::int64_t value) {
+      return store
+          ->keep(std::vector{SnapshotEntry{.run = run,
+                                           .at = scene.session->wall() - std::chrono::hours(1),
+                                           .command = "apply",
+                                           .unique_id = *ram.servo.unique_id,
+                                           .held = {{0x38, 900}, {0x22, 1}},
+                                           .written = {{0x38, value}},
+                                           .saved = true}},
+                 scene.session->wall())
+          .value()
+          .front();
+    };
+    tried(tried(0, 450), 460);
+  }
+  Wanted wanted = set("smoothing=off");
+  wanted.restart = RestartKind::save;
+  REQUIRE(kept.history("apply").keep(plans_for(scene, wanted, {11}), *scene.session));
+  const auto change =
+      last_change(SnapshotStore::open(kept.folder(), Access::read).value(), *ram.servo.unique_id);
+  REQUIRE(change.value());
+  CHECK((*change)->numbers.size() == 3);
+  CHECK_FALSE((*change)->entry.held.contains(0x38));
+  CHECK((*change)->entry.held.contains(0x22));
+}
+
 TEST_CASE("a file that was tampered with moves nothing") {
   for (const int address : {0x00, 0x02, 0x10, 0x12, 0x1F, 0x47, 0x49, 0x51, 0xFF}) {
     const auto refused = to_undo({.held = {{static_cast<std::uint8_t>(address), 1}}}, profiles());
