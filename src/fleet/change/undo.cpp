@@ -59,8 +59,8 @@ Result<Undoing> whole(const state::SnapshotStore& store, state::SnapshotEntry en
   }
 }
 
-/// The change to undo in place of this entry, if that is an undo which did not end: it may have been
-/// tried several times.
+/// The change to undo in place of this entry, if that is an undo which did not end, perhaps several
+/// times.
 Result<std::optional<Undoing>> meant_by(const state::SnapshotStore& store,
                                         state::SnapshotEntry entry) {
   const bool goes_on = is_unfinished_undo(entry);
