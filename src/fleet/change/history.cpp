@@ -196,7 +196,8 @@ bool History::is_over(const state::SnapshotEntry& tried, const Snapshot& ram,
 /// Goes on after tries that were saved: undo goes back through them, as far as they are still
 /// there. The node ID may be one on the way to that of the tries, which this one gives again.
 Result<void> History::join(state::SnapshotEntry tried, const Plan& plan, WallTime now) {
-  run_ = joined_ = std::max(run_, tried.run);
+  const std::int64_t run = tried.run;
+  run_ = joined_ = std::max(run_, run);
   state::Registers written; // last
   const auto is_replaced = [&](std::uint8_t number) {
     const auto last = written.find(number);
@@ -207,7 +208,7 @@ Result<void> History::join(state::SnapshotEntry tried, const Plan& plan, WallTim
     return last != written.end() && plan.before.raw(address) != last->second && !is_on_its_way;
   };
   std::vector<state::SnapshotEntry> shorter;
-  for (std::optional<state::SnapshotEntry> each = std::move(tried); each && each->run == run_;) {
+  for (std::optional<state::SnapshotEntry> each = std::move(tried); each && each->run == run;) {
     auto earlier = snapshots_.before(*each);
     if (!earlier) {
       return std::unexpected(earlier.error());

@@ -191,6 +191,10 @@ std::vector<EntryDiff> unpaired_or_unclear(FleetMatch match, const Roster& roste
 
 FleetDiff diff(Session& session, const bla::Profiles& profiles, const FleetMatch& match,
                const Identification::Options& options) {
+  const Roster& roster = session.roster();
+  auto others = session.is_replay() // as they were matched: reading may identify one
+                    ? unpaired(match, roster, profiles)
+                    : unpaired_or_unclear(match, roster, profiles);
   std::vector<NodeId> ids;
   std::map<NodeId, const FleetEntry*> entries;
   for (const FleetMatch::Pair& pair : match.pairs) {
@@ -201,7 +205,6 @@ FleetDiff diff(Session& session, const bla::Profiles& profiles, const FleetMatch
     return Result<std::vector<const bla::Parameter*>>(registers_of(*entries.at(servo.id), servo));
   });
   FleetDiff found{.entries = {}, .broken = std::move(held.broken)};
-  const Roster& roster = session.roster();
   for (std::size_t i = 0; i < match.pairs.size(); ++i) {
     const FleetMatch::Pair& pair = match.pairs[i];
     EntryDiff entry = compare(*pair.entry, held.servos[i], profiles);
@@ -211,8 +214,6 @@ FleetDiff diff(Session& session, const bla::Profiles& profiles, const FleetMatch
     }
     found.entries.push_back(std::move(entry));
   }
-  auto others = session.is_replay() ? unpaired(match, roster, profiles)
-                                    : unpaired_or_unclear(match, roster, profiles);
   std::ranges::move(others, std::back_inserter(found.entries));
   return found;
 }
