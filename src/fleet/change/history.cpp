@@ -143,9 +143,9 @@ Result<void> History::doubt_rom(std::span<const UniqueId> units) {
   return units.empty() ? Result<void>() : proofs_.drop(units);
 }
 
-/// Resumes after an earlier try of this command that ended half way. What it changed in RAM only, a
-/// restart has taken back; what it has saved stays an entry of its own, to which undo goes back
-/// through this one, unless this one changes RAM only.
+/// Resumes after tries of this command that ended half way. What they changed in RAM only, a restart
+/// has taken back; what they have saved stays an entry of its own, to which undo goes back through
+/// this one, unless this one changes RAM only.
 Result<void> History::resume(const Plan& plan, const Session& session) {
   const Servo& servo = plan.before.servo;
   const UniqueId& unique_id = *servo.unique_id;
@@ -161,8 +161,10 @@ Result<void> History::resume(const Plan& plan, const Session& session) {
   }
   state::SnapshotEntry& tried = **last;
   const bool has_restarted = is_over(tried, plan.before, session);
-  if (has_restarted && tried.saved) {
-    return plan.restart ? join(std::move(tried), plan, session.wall()) : Result<void>();
+  const auto joined =
+      has_restarted && plan.restart ? join(tried, plan, session.wall()) : Result<void>();
+  if (!joined || (has_restarted && tried.saved)) {
+    return joined;
   }
   run_ = joined_ = std::max(run_, tried.run);
   if (has_restarted) {
