@@ -143,9 +143,9 @@ Result<void> History::doubt_rom(std::span<const UniqueId> units) {
   return units.empty() ? Result<void>() : proofs_.drop(units);
 }
 
-/// Resumes after tries of this command that ended half way. What they changed in RAM only, a restart
-/// has taken back; what they have saved stays an entry of its own, to which undo goes back through
-/// this one, unless this one changes RAM only.
+/// Resumes after tries of this command that ended half way. What they changed in RAM only, a
+/// restart has taken back; what they have saved stays an entry of its own, to which undo goes back
+/// through this one, unless this one changes RAM only.
 Result<void> History::resume(const Plan& plan, const Session& session) {
   const Servo& servo = plan.before.servo;
   const UniqueId& unique_id = *servo.unique_id;
