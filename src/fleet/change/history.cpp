@@ -35,6 +35,15 @@ state::RomProof proof_of(const UniqueId& unique_id, const RomReading& rom, const
           .uptime = rom.uptime};
 }
 
+/// Without those that could not be written back.
+bla::Values can_go_back(const bla::Identity& identity, bla::Values values) {
+  std::erase_if(values, [&](const auto& held) {
+    const bla::Parameter* parameter = identity.parameter(held.first);
+    return !identity.is_setting(held.first) || !identity.check_takes(*parameter);
+  });
+  return values;
+}
+
 /// The values that a change writes to RAM.
 state::Registers written_by(const Plan& plan, const state::Registers& held) {
   state::Registers written;
@@ -93,12 +102,10 @@ std::optional<state::SnapshotEntry> lasting(state::SnapshotEntry change, const P
 
 } // namespace
 
-/// A restart that is to show what ROM holds may replace any of them: History::conclude() leaves
-/// those that it has replaced.
 bla::Values replaced_by(const Plan& plan) {
   const bla::Identity& identity = plan.before.servo.identity;
   bla::Values values;
-  if (plan.erase || plan.proves_rom) {
+  if (plan.erase || plan.may_change_all) {
     values = plan.before.values();
   } else {
     for (const RegisterChange& change : plan.changes) {
@@ -115,12 +122,7 @@ bla::Values replaced_by(const Plan& plan) {
   if (mode && is_of_mode) { // another tool may change it: then the number is of another unit
     values.emplace(bla::address::pwm_mode, *mode);
   }
-  std::erase_if(values, [&](const auto& held) {
-    const bla::Parameter* parameter = identity.parameter(held.first);
-    return !identity.is_setting(held.first) ||
-           !identity.check_takes(*parameter); // no value of it could be written back
-  });
-  return values;
+  return can_go_back(identity, std::move(values));
 }
 
 Result<void> History::drop_proofs(std::span<const Plan> plans) {
@@ -229,7 +231,7 @@ Result<void> History::join(state::SnapshotEntry tried, const Plan& plan, WallTim
 /// What a mere restart takes, as far as ROM is known.
 bla::Values History::taken_from_ram(const Plan& plan, const Session& session) {
   bla::Values taken;
-  if (plan.restart != RestartKind::restart || plan.proves_rom) {
+  if (plan.restart != RestartKind::restart) {
     return taken;
   }
   for (const auto& [address, raw] : known_rom(plan.before, session)) {
@@ -340,14 +342,21 @@ Result<void> History::keep(std::span<const Plan> plans, const Session& session) 
   }
   std::vector<state::SnapshotEntry> entries;
   for (const Plan& plan : plans) {
+    if (plan.proves_rom && plan.before.servo.unique_id) {
+      before_proof_.insert_or_assign(
+          *plan.before.servo.unique_id,
+          stored(can_go_back(plan.before.servo.identity, plan.before.values())));
+    }
     if (auto entry = entry_of(plan, roms, session)) {
       entries.push_back(std::move(*entry));
     }
   }
-  if (entries.empty()) {
-    return {};
-  }
-  const auto numbers = snapshots_.keep(entries, session.wall(), former_numbers(entries));
+  return entries.empty() ? Result<void>() : store(std::move(entries), session.wall());
+}
+
+/// Entries of this command, which are those of their units from now on.
+Result<void> History::store(std::vector<state::SnapshotEntry> entries, WallTime now) {
+  const auto numbers = snapshots_.keep(entries, now, former_numbers(entries));
   if (!numbers) {
     return std::unexpected(numbers.error());
   }
@@ -397,7 +406,10 @@ Result<void> History::take_back(std::span<const UniqueId> units) {
 }
 
 Result<void> History::conclude(std::span<const ChangeResult> results, const Session& session) {
-  auto settled = leave_what_was_lost(results, session.wall());
+  auto settled = keep_what_was_taken(results, session.wall());
+  if (settled) {
+    settled = leave_what_was_lost(results, session.wall());
+  }
   if (settled) {
     settled = settle(results, session.wall());
   }

@@ -46,6 +46,34 @@ bool take_in_changed(const ChangeResult& result, state::SnapshotEntry& entry) {
 
 } // namespace
 
+/// A restart that has shown what ROM holds took all that RAM held beside it.
+Result<void> History::keep_what_was_taken(std::span<const ChangeResult> results, WallTime now) {
+  std::vector<state::SnapshotEntry> entries;
+  for (const ChangeResult& result : results) {
+    const auto ram =
+        result.servo.unique_id ? before_proof_.extract(*result.servo.unique_id) : Roms::node_type();
+    if (!ram || !result.was_sent || result.may_have_saved || !result.rom) {
+      continue;
+    }
+    std::erase_if(ram.mapped(), [&](const auto& held) {
+      return bla::find(result.rom->values, bla::Address(held.first)).value_or(held.second) ==
+             held.second;
+    });
+    const auto known = kept_.find(ram.key());
+    state::SnapshotEntry entry =
+        known != kept_.end()
+            ? known->second.entry
+            : state::SnapshotEntry{
+                  .run = run_, .at = now, .command = command_, .unique_id = ram.key()};
+    const std::size_t size = entry.held.size();
+    entry.held.merge(ram.mapped());
+    if (entry.held.size() != size) {
+      entries.push_back(std::move(entry));
+    }
+  }
+  return entries.empty() ? Result<void>() : store(std::move(entries), now);
+}
+
 /// A restart that has shown what ROM holds replaced nothing else.
 Result<void> History::leave_what_was_lost(std::span<const ChangeResult> results, WallTime now) {
   std::vector<state::SnapshotEntry> shorter;

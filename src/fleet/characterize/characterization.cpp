@@ -116,7 +116,7 @@ std::optional<Error> record(const Session& session, const Snapshot& before,
   if (manner.history == nullptr) {
     return std::nullopt;
   }
-  const Plan all{.before = before, .proves_rom = true};
+  const Plan all{.before = before, .may_change_all = true};
   const auto kept = manner.history->keep(std::span(&all, 1), session);
   return kept || !manner.not_recorded ? std::nullopt : manner.not_recorded(kept.error());
 }

@@ -132,7 +132,7 @@ TEST_CASE("a servo that holds what a killed characterize has set is not measured
   };
   const Rig rig;
   const Snapshot looked = rig.look();
-  const Plan all{.before = looked, .proves_rom = true};
+  const Plan all{.before = looked, .may_change_all = true};
   REQUIRE(history().keep(std::span(&all, 1), *rig.session));
   History record = history();
   const int sent = rig.bus->sent;

@@ -655,6 +655,44 @@ TEST_CASE("a repetition that finds what was written in ROM has been saved by an 
   CHECK(kept.entries().front().held == state::Registers{{0x38, 1799}});
 }
 
+TEST_CASE("a restart that is to show ROM, and broke off, leaves only what it takes for certain") {
+  const Kept kept;
+  const Scene scene(servos());
+  const Wanted proof{.restart = RestartKind::restart, .proves_rom = true};
+  REQUIRE(kept.history("apply").keep(plans_for(scene, proof, {11}), *scene.session));
+  CHECK(kept.entries().empty());
+  REQUIRE(change(scene, set("angle_limit_cw=90deg"), kept).is_done());
+  scene.live(3s);
+  REQUIRE(kept.history("apply").keep(plans_for(scene, proof, {11}), *scene.session));
+  REQUIRE(kept.entries().size() == 2);
+  CHECK(kept.entries().front().command == "apply");
+  CHECK(kept.entries().front().held == state::Registers{{0x38, 900}});
+}
+
+TEST_CASE("a restart that is to show ROM records what it has taken from RAM") {
+  const Kept kept;
+  const Scene scene(servos());
+  const bool is_recorded = GENERATE(false, true);
+  const auto trial = plans_for(scene, set("angle_limit_cw=90deg"), {11});
+  History trying = kept.history();
+  REQUIRE(carry_out(*scene.session, profiles(), trial, {.history = is_recorded ? &trying : nullptr})
+              .servos[0]
+              .is_done());
+  scene.live(3s);
+  const Wanted proof{.restart = RestartKind::restart, .proves_rom = true};
+  History proving = kept.history("apply");
+  REQUIRE(change(scene, proof, proving).servos[0].is_done());
+  REQUIRE(kept.entries().size() == (is_recorded ? 2 : 1));
+  const SnapshotEntry taken = kept.entries().front();
+  CHECK(taken.command == "apply");
+  CHECK(taken.held == state::Registers{{0x38, 900}});
+  CHECK(taken.written.empty());
+  CHECK_FALSE(taken.saved);
+  scene.live(3s);
+  REQUIRE(change(scene, proof, proving).servos[0].is_done()); // RAM is like ROM now
+  CHECK(kept.entries().size() == (is_recorded ? 2 : 1));
+}
+
 TEST_CASE("a SAVE of which nothing is known leaves the change unsettled") {
   const Kept kept;
   const Scene scene(servos());

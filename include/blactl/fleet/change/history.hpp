@@ -56,14 +56,15 @@ class History {
   [[nodiscard]] Result<void> drop_proofs(std::span<const Plan> plans);
 
   /// Before the first request of a round: records the present settings of the servos changed in it,
-  /// those that a restart takes from RAM among them.
+  /// those that a restart takes from RAM, as far as ROM is known, among them.
   /// For one changed in an earlier round the existing record is kept. If apply, undo, alloc
   /// --static or erase --keep-ids were killed or failed, and the same command is repeated, undo
   /// goes back to the state before the first try, as far as its changes are still there.
   [[nodiscard]] Result<void> keep(std::span<const Plan> plans, const Session& session);
 
-  /// After a round: records the result of each servo, and the proofs of those whose configuration
-  /// was read, complete and as expected, after a restart.
+  /// After a round: records the result of each servo, also what a restart that has shown ROM took
+  /// from RAM, and the proofs of those whose configuration was read, complete and as expected,
+  /// after a restart.
   [[nodiscard]] Result<void> conclude(std::span<const ChangeResult> results,
                                       const Session& session);
 
@@ -117,6 +118,9 @@ class History {
   [[nodiscard]] std::optional<state::SnapshotEntry> entry_of(const Plan& plan, const Roms& roms,
                                                              const Session& session);
   [[nodiscard]] bla::Values taken_from_ram(const Plan& plan, const Session& session);
+  [[nodiscard]] Result<void> store(std::vector<state::SnapshotEntry> entries, WallTime now);
+  [[nodiscard]] Result<void> keep_what_was_taken(std::span<const ChangeResult> results,
+                                                 WallTime now);
   [[nodiscard]] Result<void> leave_what_was_lost(std::span<const ChangeResult> results,
                                                  WallTime now);
   struct Settled;
@@ -154,6 +158,8 @@ class History {
   /// Where an entry holds what ROM held before a save: what RAM did; else the other way about.
   Roms in_ram_{}, in_rom_{};
 
+  Roms before_proof_{}; ///< what RAM held before a restart that is to show ROM
+
   /// Changes in RAM that SAVE makes permanent, as they were before.
   std::map<dronecan::UniqueId, std::vector<state::SnapshotEntry>> lasting_{};
 };
@@ -165,8 +171,7 @@ class History {
 /// that it has put back shows nothing.
 [[nodiscard]] std::optional<bool> is_shown(const state::SnapshotEntry& change, const Snapshot& ram);
 
-/// The settings that this plan replaces, with their present values; all writable ones for ERASE and
-/// for a restart that is to show what ROM holds.
+/// The settings that this plan replaces, with their present values; all writable ones for ERASE.
 [[nodiscard]] bla::Values replaced_by(const Plan& plan);
 
 } // namespace blactl::fleet

@@ -47,6 +47,7 @@ struct Plan {
   std::vector<RegisterChange> changes{};
   std::optional<RestartKind> restart{};
   bool proves_rom = false;                    ///< as in Wanted
+  bool may_change_all = false;                ///< any setting, in no order that is known
   std::optional<std::int64_t> rom_servo_id{}; ///< likewise
   std::vector<bla::Address> shown{};          ///< Wanted::also_read
   /// The configuration afterwards; empty if unknown or not needed: a plain restart loads ROM.
