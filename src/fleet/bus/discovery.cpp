@@ -232,19 +232,31 @@ Result<void> Discovery::find_all(Duration listen) {
     return lived;
   }
   is_ending_ = true;
-  const auto ran = session_.run();
+  auto ran = end_search();
   is_ending_ = false;
   asked_late_.clear();
-  if (!ran) {
-    return ran;
-  }
-  std::vector<const Member*> servos;
-  for (const auto& [id, member] : session_.roster().members()) {
-    if (member.is_known() && member.is_servo) {
-      servos.push_back(&member);
+  return ran;
+}
+
+/// Until nobody has come while the last ones were asked: each new node ID once.
+Result<void> Discovery::end_search() {
+  auto ran = session_.run();
+  for (std::set<NodeId> asked; ran;) {
+    std::vector<const Member*> servos;
+    for (const auto& [id, member] : session_.roster().members()) {
+      if (member.is_known() && member.is_servo && asked.insert(id).second) {
+        servos.push_back(&member);
+      }
+    }
+    if (servos.empty()) {
+      break;
+    }
+    ran = look_for_twins(servos);
+    if (ran) {
+      ran = session_.run();
     }
   }
-  return look_for_twins(servos);
+  return ran;
 }
 
 Result<void> Discovery::look_for_twins(const std::vector<const Member*>& members) {

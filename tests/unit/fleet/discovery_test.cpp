@@ -307,6 +307,26 @@ TEST_CASE("who comes while a search waits for its last answers is asked who it i
   CHECK(scene.member(12).is_servo);
 }
 
+TEST_CASE("nobody who was heard is half identified when a search ends") {
+  int heard = 0, unheard = 0;
+  for (int at = 300; at < 1200; at += 3) {
+    INFO("on the bus at " << at << " ms");
+    const Scene scene(fmt::format(
+        R"("servos": [{{"model": "BLA21-12U-AB", "node_id": 11}},
+            {{"model": "BLA21-12U-AB", "node_id": 12, "serial_number": 7}}],
+           "events": [{{"at": "0ms", "servo": 7, "world": {{"plugged": "off"}}}},
+                      {{"at": "{}ms", "servo": 7, "world": {{"plugged": "on"}}}}])",
+        at));
+    Discovery discovery(*scene.session, profiles(), {});
+    REQUIRE(discovery.find_all(500ms));
+    const bool is_heard = scene.roster().heard(NodeId(12));
+    is_heard ? ++heard : ++unheard;
+    CHECK(scene.member(12).is_servo == is_heard);
+  }
+  CHECK(heard > 0);
+  CHECK(unheard > 0);
+}
+
 TEST_CASE("a search ends beside a servo that restarts again and again") {
   std::string restarts;
   for (int at = 2500; at < 120'000; at += 2500) {

@@ -95,6 +95,7 @@ class Discovery final : private Roster::Listener {
   [[nodiscard]] std::vector<const Member*> meant(const Targets& targets) const;
   [[nodiscard]] bool is_bystander(const Error& error) const;
   [[nodiscard]] Result<void> identify_servos();
+  [[nodiscard]] Result<void> end_search();
   [[nodiscard]] Result<void> hear_servos(const Targets& targets, Duration listen);
   [[nodiscard]] std::vector<Error> unmet(const Targets& targets) const;
   [[nodiscard]] bool is_one_of_all(const Targets& targets, const Member& member) const;
