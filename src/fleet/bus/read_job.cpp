@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <list>
+#include <map>
 #include <utility>
 
 namespace blactl::fleet {
@@ -265,6 +266,32 @@ Step ReadJob::give_up(Error error) {
   return std::nullopt;
 }
 
+namespace {
+
+/// A servo that took the node ID of another one, which moved, was read on both: the other one was
+/// not.
+void refuse_read_twice(std::vector<Snapshot>& servos, const Roster& roster) {
+  std::map<dronecan::UniqueId, Snapshot*> read;
+  for (Snapshot& snapshot : servos) {
+    const auto& unit = snapshot.servo.unique_id;
+    if (snapshot.error || !unit || not_unique(roster, snapshot.servo.id)) {
+      continue;
+    }
+    const auto [earlier, is_first] = read.emplace(*unit, &snapshot);
+    if (!is_first) {
+      Snapshot& other = *earlier->second;
+      const std::uint8_t one = other.servo.id.value(), two = snapshot.servo.id.value();
+      for (Snapshot* each : {&other, &snapshot}) {
+        each->error = Error{Code::state, say<texts::read_twice>(one, two),
+                            say<texts::run_again_hint>(), each->servo.id.value()};
+        each->readings.clear();
+      }
+    }
+  }
+}
+
+} // namespace
+
 Snapshots take_snapshots(Session& session, const bla::Profiles& profiles,
                          std::span<const dronecan::NodeId> servos,
                          const Identification::Options& options, const ReadJob::Choice& choice,
@@ -282,6 +309,9 @@ Snapshots take_snapshots(Session& session, const bla::Profiles& profiles,
   Snapshots snapshots;
   for (const ReadJob& job : jobs) {
     snapshots.servos.push_back(job.snapshot());
+  }
+  if (!session.is_replay()) {
+    refuse_read_twice(snapshots.servos, session.roster());
   }
   if (!ran) {
     snapshots.broken = ran.error();

@@ -476,6 +476,26 @@ TEST_CASE("what was read is shown of no other unit, and of none that is gone") {
   }
 }
 
+TEST_CASE("a servo that takes the node ID of another one meanwhile is not read for both") {
+  constexpr const char* unit = "00112233445566778899aabbccddeeff";
+  const Scene scene(fmt::format(
+      R"("servos": [{{"model": "BLA21-12U-AB", "node_id": 11, "serial_number": 1, "unique_id": "{0}"}},
+                    {{"model": "BLA21-12U-AB", "node_id": 12, "serial_number": 2, "unique_id": "{0}"}}],
+         "events": [{{"at": "0ms", "servo": 2, "world": {{"plugged": "off"}}}},
+                    {{"at": "2s", "servo": 1, "world": {{"plugged": "off"}}}},
+                    {{"at": "2500ms", "servo": 2, "world": {{"plugged": "on"}}}}])",
+      unit));
+  const auto read = take_snapshots(*scene.session, profiles(), std::vector{NodeId(11), NodeId(12)},
+                                   {.patience = {.timeout = 500ms, .retries = 20}},
+                                   registers({"angle_limit_cw"}), ReadJob::Proof::moment);
+  REQUIRE_FALSE(read.broken);
+  for (const Snapshot& servo : read.servos) {
+    REQUIRE(servo.error);
+    CHECK(servo.error->code == Code::state);
+    CHECK(servo.readings.empty());
+  }
+}
+
 TEST_CASE("what may be of either of two units is not shown") {
   Reader reader({"angle_limit_cw", "reverse"});
   const auto double_it = [&] { reader.known.roster.mark_doubled(NodeId(11), {11}, {12}); };
