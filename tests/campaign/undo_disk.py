@@ -5,7 +5,7 @@ Usage: tests/net/namespace.sh python3 undo_disk.py BLACTL
 
 `set --save` goes on, and says so where its change is not recorded; `apply` changes nothing then. What
 was recorded is taken back by `undo`, whatever the disk did afterwards, and a disk without room takes
-nothing back that was recorded before.
+nothing back that was recorded before. The earlier record still tells which settings are in RAM only.
 """
 
 import argparse
@@ -40,6 +40,8 @@ def try_with(blactl, shape, commits, is_known):
         place.disk.free()
         if shape == "set --save":
             assert told.status == 0, told
+            is_told = "reverse is on since a change in RAM only" in told.err
+            assert is_told == is_known, told
             was_recorded = "this change is not recorded" not in told.err
         else:
             assert told.status == 0 or codes(told)[0] in ("state", "io"), told

@@ -37,8 +37,7 @@ bool WritingRun::fail(const Error& error, Code refusal) {
 }
 
 bool WritingRun::open(std::string_view command, Recording recording) {
-  recording_ = recording;
-  if (!open_record(command)) {
+  if (!open_record(command, recording)) {
     return false;
   }
   if (const auto session = context_.open_for_writing(command); !session) {
@@ -50,7 +49,8 @@ bool WritingRun::open(std::string_view command, Recording recording) {
 
 /// Before the bus is opened: a disk may take longer than the kernel keeps frames. A command that
 /// will be refused creates no file.
-bool WritingRun::open_record(std::string_view command) {
+bool WritingRun::open_record(std::string_view command, Recording recording) {
+  recording_ = recording;
   if (recording_ == Recording::none || context_.shared().listen_only ||
       takes_no_frames(context_.shared().interface)) {
     return true;
@@ -62,8 +62,10 @@ bool WritingRun::open_record(std::string_view command) {
     history_ = std::move(*history);
     return true;
   }
-  auto refused = writes ? go_unrecorded(history.error()) : std::nullopt;
-  return refused ? stop(std::move(*refused)) : true;
+  if (auto refused = writes ? go_unrecorded(history.error()) : std::nullopt) {
+    return stop(std::move(*refused));
+  }
+  return !writes || open_record(command, Recording::looked_up); // it tells what is in RAM only
 }
 
 /// The reason why nothing must be changed without a record; empty: it may.

@@ -96,7 +96,7 @@ class WritingRun {
   Report& report_;
 
  private:
-  [[nodiscard]] bool open_record(std::string_view command);
+  [[nodiscard]] bool open_record(std::string_view command, Recording recording);
   [[nodiscard]] std::optional<Error> go_unrecorded(const Error& reason);
 
   Recording recording_ = Recording::none;
