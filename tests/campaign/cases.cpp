@@ -28,6 +28,35 @@ Command apply(const json& first, const json& second, std::vector<std::string> mo
   return command;
 }
 
+/// Every value just outside of the limits of each register, and IDs that others have: 30 is another
+/// node's.
+std::vector<Command> harmful(const Episode& episode) {
+  std::vector<Command> all{
+      words({"set", "-n", "11", "servo_id=2", "-y"}),
+      words({"set", "-n", "11", "static_node_id=12", "-y"}),
+      words({"set", "-n", "11", "static_node_id=12", "--save", "-y"}),
+      words({"set", "-n", "11", "servo_id=2", "--save", "-y"}),
+      words({"set", "-n", "11", "0x3E=20", "0x3F=20", "-y"}),
+      words({"alloc", "--static", "-n", "11", "--id", "12", "-y"}),
+      words({"set", "-n", "11", "static_node_id=30", "-y"}),
+      words({"set", "-n", "11", "static_node_id=30", "--save", "-y"}),
+      words({"alloc", "--static", "-n", "11", "--id", "30", "-y"}),
+      words({"apply", "fleet.json", "-y"}),
+  };
+  all.back().fleet = apply({{"servo_id", 2}}, {{"smoothing", "off"}}).fleet;
+  for (const json& servo : episode.scenario["servos"]) {
+    for (const auto& [address, limit] : limits().of(servo["model"])) {
+      for (const std::int64_t value : {limit.min - 1, limit.max + 1}) {
+        all.push_back(words({"set", "-n", std::to_string(servo["node_id"].get<int>()),
+                             fmt::format("{:#04x}={}raw", address, value), "-y"}));
+      }
+    }
+    all.push_back(words({"set", "-n", std::to_string(servo["node_id"].get<int>()), "0x34=1500raw",
+                         "0x35=400raw", "-y"}));
+  }
+  return all;
+}
+
 } // namespace
 
 /// Servos with these node IDs, and nothing that goes wrong.
@@ -103,6 +132,16 @@ std::vector<Sweep::Case> Sweep::cases() {
        .before = {words({"set", "-n", "11", "reverse=on", "-y"})},
        .command = saved,
        .is_undoable = true},
+      {.name = "set --save of the second trial",
+       .before = {words({"set", "-n", "11", "timeout_time=1500ms", "-y"}),
+                  words({"set", "-n", "11", "timeout_time=2s", "-y"})},
+       .command = words({"set", "-n", "11,12", "timeout_time=500ms", "--save", "-y"}),
+       .is_undoable = true},
+      {.name = "set servo_id",
+       .before = {},
+       .command = words({"set", "-n", "12", "servo_id=7", "-y"}),
+       .is_undoable = true,
+       .ended_by = "other gives servo ID 7"},
       {.name = "set static_node_id --save",
        .before = {},
        .command = words({"set", "-n", "serial:240900001", "static_node_id=30", "--save", "-y"}),
@@ -122,6 +161,11 @@ std::vector<Sweep::Case> Sweep::cases() {
        .before = {words({"restart", "-n", "all", "-y"})},
        .command = saved,
        .is_undoable = true},
+      {.name = "set --save, just restarted, the first SAVE unheeded",
+       .before = {words({"restart", "-n", "12", "-y"})},
+       .command = saved,
+       .is_undoable = true,
+       .first = {{"faults", {{"ignore_opcodes", 1}}}}},
       {.name = "save", .before = {in_ram}, .command = words({"save", "-n", "all", "-y"})},
       {.name = "erase --save",
        .before = {saved},
@@ -197,6 +241,10 @@ std::vector<Sweep::Case> Sweep::cases() {
        .before = {},
        .command = words({"monitor", "--identify", "-n", "11", "--duration", "2", "-y"}),
        .is_repeatable = false},
+      {.name = "characterize",
+       .before = {},
+       .command = words({"characterize", "-n", "11", "-y"}),
+       .is_repeatable = false},
       {.name = "command",
        .before = {},
        .command = words({"command", "angle=20deg", "-n", "11", "-y"}),
@@ -204,33 +252,25 @@ std::vector<Sweep::Case> Sweep::cases() {
   };
 }
 
-/// Nothing goes wrong, but the command would do harm: every value just outside of the limits of
-/// each register, and IDs that others have: 30 is another node's.
-std::vector<Command> Sweep::refused(const Episode& episode) {
-  std::vector<Command> all{
-      words({"set", "-n", "11", "servo_id=2", "-y"}),
-      words({"set", "-n", "11", "static_node_id=12", "-y"}),
-      words({"set", "-n", "11", "static_node_id=12", "--save", "-y"}),
-      words({"set", "-n", "11", "servo_id=2", "--save", "-y"}),
-      words({"set", "-n", "11", "0x3E=20", "0x3F=20", "-y"}),
-      words({"alloc", "--static", "-n", "11", "--id", "12", "-y"}),
-      words({"set", "-n", "11", "static_node_id=30", "-y"}),
-      words({"set", "-n", "11", "static_node_id=30", "--save", "-y"}),
-      words({"alloc", "--static", "-n", "11", "--id", "30", "-y"}),
-      words({"apply", "fleet.json", "-y"}),
+/// Nothing goes wrong, but each command would do harm.
+std::vector<Sweep::Refused> Sweep::refused() {
+  Episode usual = episode_of({11, 12, 13});
+  usual.scenario["foreign"] = {{{"kind", "node"}, {"node_id", 30}}};
+  Episode one_number = episode_of({11, 12, 13});
+  one_number.scenario["servos"][1]["serial_number"] = 240900001;
+  const auto runs = [](const char* command) {
+    return words({"set", "-n", "11", "speed_torque_control=on", command, "-y"});
   };
-  all.back().fleet = apply({{"servo_id", 2}}, {{"smoothing", "off"}}).fleet;
-  for (const json& servo : episode.scenario["servos"]) {
-    for (const auto& [address, limit] : limits().of(servo["model"])) {
-      for (const std::int64_t value : {limit.min - 1, limit.max + 1}) {
-        all.push_back(words({"set", "-n", std::to_string(servo["node_id"].get<int>()),
-                             fmt::format("{:#04x}={}raw", address, value), "-y"}));
-      }
-    }
-    all.push_back(words({"set", "-n", std::to_string(servo["node_id"].get<int>()), "0x34=1500raw",
-                         "0x35=400raw", "-y"}));
-  }
-  return all;
+  const Command hold = words({"set", "-n", "11", "timeout_action=hold", "-y"});
+  return {{.episode = usual, .commands = harmful(usual)},
+          {.episode = usual, .before = {runs("command_torque=10%")}, .commands = {hold}},
+          {.episode = usual, .before = {runs("command_speed=10rpm")}, .commands = {hold}},
+          {.episode = one_number,
+           .commands = {words({"set", "-n", "serial:240900001", "smoothing=off", "-y"}),
+                        words({"restart", "-n", "serial:240900001", "-y"}),
+                        words({"alloc", "--static", "-n", "serial:240900001", "--id", "40", "-y"}),
+                        apply({{"smoothing", "off"}}, {})},
+           .are_told_apart = false}};
 }
 
 } // namespace blactl::campaign

@@ -126,7 +126,7 @@ class Told {
       const auto value = change["requested"].get<std::int64_t>();
       hold(change["after"] == value, "written, but not as requested");
       if (is_proven() || is_in_rom_without()) {
-        if (!step_.has_other_writer(serial_)) {
+        if (!step_.is_written_unheard(serial_)) {
           require_held("ROM", after_.rom, address, value);
         }
       }

@@ -78,6 +78,9 @@ const std::vector<Happening>& happenings() {
       {.name = "other writes what it was judged by",
        .add = order({{"order", "write"}, {"address", 0x3F}, {"value", 20}}),
        .is_over = false},
+      {.name = "other gives servo ID 7",
+       .add = order({{"order", "write"}, {"address", 0x45}, {"value", 7}}),
+       .is_over = false},
       {"other saves", order({{"order", "save"}}), false, true},
       {"other erases", order({{"order", "erase"}}), false},
       {"other restarts", order({{"order", "restart"}}), false},
@@ -108,7 +111,8 @@ std::vector<Time> moments_of(const Record& record) {
   return {times.begin(), times.end()};
 }
 
-/// Every n-th of them, and more of those close to what changes a servo.
+/// Every n-th of them, and more of those close to what changes a servo, and after the last change,
+/// where its end is judged.
 std::vector<Time> chosen(const std::vector<Time>& moments, const Record& record, std::size_t n) {
   constexpr Duration close = 5ms;
   constexpr std::size_t denser = 8;
@@ -119,7 +123,8 @@ std::vector<Time> chosen(const std::vector<Time>& moments, const Record& record,
     const bool is_close = std::ranges::any_of(changes, [&](const OnWire& change) {
       return moment > change.at - close && moment < change.at + close;
     });
-    passed += is_close ? denser : 1;
+    const bool is_late = !changes.empty() && moment > changes.back().at;
+    passed += is_close || is_late ? denser : 1;
     if (passed >= n) {
       those.push_back(moment);
       passed = 0;

@@ -81,10 +81,19 @@ Duration Step::lateness(std::int64_t serial) const {
              : Duration::zero();
 }
 
+/// What happened to it by then is known: it was heard later, or must have been asked, as the last
+/// change to any servo came later.
+Time Step::known_until(std::int64_t serial) const {
+  const Duration late = lateness(serial);
+  const Time heard = outcome.record.last_told_by(node_ids(serial)) - tolerance - late;
+  const auto changes = outcome.record.changes();
+  const bool is_looked_at = !changes.empty() && hears_all() && late == Duration::zero();
+  return is_looked_at ? std::max(heard, changes.back().at - tolerance) : heard;
+}
+
 bool Step::changed_unheard(std::int64_t serial) const {
   const auto ids = node_ids(serial);
-  const Time last = outcome.record.last_told_by(ids);
-  const Time known = last - tolerance - lateness(serial);
+  const Time known = known_until(serial);
   const auto is_unheard = [&](Time at) { return at > known && at <= end + tolerance; };
   // an ID that goes from one to another: who was heard last under it is not certain
   const bool is_passed_on = std::ranges::any_of(after, [&](const auto& other) {
@@ -98,7 +107,15 @@ bool Step::changed_unheard(std::int64_t serial) const {
                                return is_unheard(at) ||
                                       (is_passed_on && at > begin && at <= end + tolerance);
                              }) ||
-         !orders_of_others(serial, (hears_all() ? known : begin) - longest_save).empty();
+         is_written_unheard(serial);
+}
+
+/// What a SAVE or an ERASE does takes a while.
+bool Step::is_written_unheard(std::int64_t serial) const {
+  const Time known = hears_all() ? known_until(serial) : begin;
+  const auto orders = orders_of_others(serial, known - longest_save);
+  return !orders_of_others(serial, known).empty() ||
+         std::ranges::any_of(orders, [](const std::string& order) { return order != "write"; });
 }
 
 bool Step::hears_all() const {

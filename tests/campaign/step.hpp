@@ -45,6 +45,9 @@ struct Step {
   /// restarted, or another tool changed it, when nothing of it could be heard any more.
   [[nodiscard]] bool changed_unheard(std::int64_t serial) const;
 
+  /// Whether another tool changed it when nothing of it could be heard any more.
+  [[nodiscard]] bool is_written_unheard(std::int64_t serial) const;
+
   /// Whether another tool may have written to it while the command ran.
   [[nodiscard]] bool has_other_writer(std::int64_t serial) const;
 
@@ -74,6 +77,7 @@ struct Step {
  private:
   [[nodiscard]] std::set<std::string> orders_of_others(std::int64_t serial, Time earliest) const;
   [[nodiscard]] Duration lateness(std::int64_t serial) const;
+  [[nodiscard]] Time known_until(std::int64_t serial) const;
   [[nodiscard]] const nlohmann::json& setup(std::int64_t serial) const;
 };
 

@@ -42,7 +42,7 @@ constexpr Kind kinds[]{Kind::request_lost,   Kind::killed,          Kind::frame_
                        Kind::frame_of_other, Kind::call_failed,     Kind::computer_off};
 
 /// Of each kind, however far apart the places are.
-constexpr std::size_t least_runs = 5;
+constexpr std::size_t least_runs = 12;
 
 /// In the table beside the kinds.
 constexpr std::string_view pairs = "two of these";
@@ -91,32 +91,33 @@ Step Sweep::begin(World& world, const Episode& episode, const Case& one,
   return take_step(world, episode, one.command, disturbances);
 }
 
-void Sweep::play_refused() {
-  Episode episode = episode_of({11, 12, 13});
-  episode.scenario["foreign"] = {{{"kind", "node"}, {"node_id", 30}}};
-  Swept& swept = swept_[{"what does harm", "nothing"}];
-  for (const Command& command : refused(episode)) {
-    swept.places += 1;
-    if (!is_own_turn() || is_over()) {
-      continue;
+void Sweep::play_refused(const Refused& refused, const Command& command, Swept& swept) {
+  options_.begins();
+  const Folder folder(folder_);
+  World world(refused.episode.scenario, folder_);
+  const Case one{.name = "what does harm", .before = refused.before, .command = command};
+  const Step step = begin(world, refused.episode, one, {});
+  judged(one, "nothing", step, swept, [&] {
+    if (refused.are_told_apart) {
+      judge(step);
     }
-    options_.begins();
-    const Folder folder(folder_);
-    World world(episode.scenario, folder_);
-    const Step step = take_step(world, episode, command);
-    judged({.name = "what does harm", .before = {}, .command = command}, "nothing", step, swept,
-           [&] {
-             judge(step);
-             const bool takes = step.outcome.status == 0; // some models have a PWM input
-             require(takes == !step.outcome.record.changes().empty(), "it sent something");
-             require(!takes || command.has("0x34=1500raw"), "0 for what does harm");
-           });
-  }
+    const bool takes = step.outcome.status == 0; // some models have a PWM input
+    require(takes == !step.outcome.record.changes().empty(), "it sent something");
+    require(!takes || command.has("0x34=1500raw"), "0 for what does harm");
+  });
 }
 
 void Sweep::play() {
   if (options_.only.empty() || options_.only == "nothing") {
-    play_refused();
+    Swept& swept = swept_[{"what does harm", "nothing"}];
+    for (const Refused& all : refused()) {
+      for (const Command& command : all.commands) {
+        swept.places += 1;
+        if (is_own_turn() && !is_over()) {
+          play_refused(all, command, swept);
+        }
+      }
+    }
   }
   for (const Case& one : cases()) {
     play_faults(one);

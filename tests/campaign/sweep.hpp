@@ -87,8 +87,17 @@ class Sweep {
   static void check_stores(World& world, const Step& cut, bool is_undoable);
   void play_each(const Case& one, Disturbance::Kind kind);
   void play_pairs(const Case& one);
-  [[nodiscard]] static std::vector<Command> refused(const Episode& episode);
-  void play_refused();
+
+  /// Commands that must be refused: each after `before`.
+  struct Refused {
+    Episode episode;
+    std::vector<Command> before{};
+    std::vector<Command> commands{};
+    bool are_told_apart = true; ///< no serial number is that of two servos
+  };
+
+  [[nodiscard]] static std::vector<Refused> refused();
+  void play_refused(const Refused& world, const Command& command, Swept& swept);
   void play_faults(const Case& one);
   void play_moments(const Case& one);
 

@@ -1,6 +1,7 @@
 #include "blactl/fleet/change/write_job.hpp"
 
 #include "blactl/bla/value.hpp"
+#include "blactl/fleet/bus/conflict_texts.hpp"
 #include "blactl/fleet/bus/target_texts.hpp"
 #include "blactl/fleet/bus/texts.hpp"
 #include "blactl/fleet/bus/unreachable.hpp"
@@ -56,12 +57,12 @@ Step WriteJob::begin(Time now) {
 Step WriteJob::judge_unit(const Outcome& outcome) {
   const std::uint8_t id = servo_.id.value();
   if (!outcome.answered()) {
-    return give_up(unproven(), no_answer(outcome, servo_.id, "GetNodeInfo"));
+    return lose(no_answer(outcome, servo_.id, "GetNodeInfo"));
   }
   const auto info = GetNodeInfo::Response::decode(outcome.payload);
   if (!roster_.is_doubled(servo_.id) && (!info || info->unique_id != servo_.unique_id)) {
-    return give_up(unproven(), {Code::state, say<texts::another_servo>(id),
-                                say<texts::node_not_found_hint>(), id});
+    return lose(
+        {Code::state, say<texts::another_servo>(id), say<texts::node_not_found_hint>(), id});
   }
   return go_on(outcome.at);
 }
@@ -108,7 +109,7 @@ Step WriteJob::go_on(Time now) {
 }
 
 /// Why the next write was right when the plan was made, and is not now: another node has changed
-/// what it was judged by, or has given its node ID to another servo.
+/// what it was judged by, or has given its node ID or servo ID to another servo.
 std::optional<Error> WriteJob::not_any_more() const {
   const std::uint8_t id = servo_.id.value();
   const RegisterChange& change = changes_[current_];
@@ -118,6 +119,14 @@ std::optional<Error> WriteJob::not_any_more() const {
                                    servo_.id, servo_.since)) {
     return Error{Code::duplicate_node_id, say<texts::id_given_is_kept>(id, change.requested),
                  say<texts::id_given_is_kept_hint>(), id};
+  }
+  const auto servo_id = next_servo_id().value_or(0);
+  const auto holder =
+      servo_id != 0 ? roster_.giver_of_servo_id(servo_id, servo_.id, servo_.since) : std::nullopt;
+  if (holder) {
+    return Error{Code::duplicate_servo_id,
+                 say<texts::servo_id_given_is_taken>(id, servo_id, holder->value()),
+                 say<texts::servo_id_taken_hint>(), id};
   }
   for (const Premise& premise : options_.premises) {
     if (const auto writer =
@@ -266,7 +275,7 @@ Step WriteJob::judge_proof(const Outcome& outcome) {
   }
   const std::uint8_t id = servo_.id.value();
   switch (run_proof_->verdict()) {
-  case RunProof::Verdict::failed: return give_up(unproven(), told_by(*run_proof_->error()));
+  case RunProof::Verdict::failed: return lose(told_by(*run_proof_->error()));
   case RunProof::Verdict::restarted: return check_premises(outcome.at);
   case RunProof::Verdict::too_late:
     return give_up(unproven(), {Code::state, say<texts::written_too_late>(id),
@@ -348,6 +357,20 @@ std::size_t WriteJob::unproven() const {
   const std::size_t next = made < changes_.size() ? made : current_;
   const std::size_t held = next < changes_.size() ? next : first(ChangeStatus::unchanged);
   return held < changes_.size() ? held : 0;
+}
+
+/// The servo is not there any more: what it held already is not known, either.
+Step WriteJob::lose(Error error) {
+  const std::size_t blamed = unproven();
+  if (error.code != Code::interrupted) {
+    for (RegisterChange& change : changes_) {
+      if (change.status == ChangeStatus::unchanged) {
+        change.status = ChangeStatus::failed;
+        change.after = std::nullopt;
+      }
+    }
+  }
+  return give_up(blamed, std::move(error));
 }
 
 /// This change failed, the remaining ones are not tried, and earlier writes are not proven.

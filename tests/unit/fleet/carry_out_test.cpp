@@ -415,6 +415,33 @@ TEST_CASE("a servo that refuses a value does not keep the others from saving the
   CHECK_FALSE(carried_out.broken);
 }
 
+TEST_CASE("a servo ID that another node has given to another servo meanwhile is not given") {
+  const Scene scene(R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11},
+                                  {"model": "BLA21-12U-AB", "node_id": 12}],
+    "foreign": [{"kind": "node", "node_id": 91, "orders": [
+        {"at": "5s", "to": 12, "order": "write", "address": 69, "value": 7}]}])");
+  const auto plans = plans_for(scene, {.assignments = assignments({"servo_id=7"})}, {11});
+  scene.live(6s);
+  const ChangeResult result = carry_out(*scene.session, profiles(), plans, {}).servos.front();
+  REQUIRE(result.changes[0].error);
+  CHECK(result.changes[0].error->code == Code::duplicate_servo_id);
+  CHECK(scene.read(11, registers({"servo_id"})).raw(bla::address::servo_id) != 7);
+}
+
+TEST_CASE("of a servo that is not there any more nothing is told as held") {
+  const Scene scene(R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11, "serial_number": 1}],
+    "events": [{"at": "5s", "servo": 1, "happens": "power_off"}])");
+  const auto plans =
+      plans_for(scene, {.assignments = assignments({"smoothing=off", "reverse=off"})}, {11});
+  scene.live(6s);
+  const ChangeResult result = carry_out(*scene.session, profiles(), plans, {}).servos.front();
+  CHECK_FALSE(result.is_done());
+  for (const RegisterChange& change : result.changes) {
+    CHECK_FALSE(change.after);
+    CHECK(change.status != ChangeStatus::unchanged);
+  }
+}
+
 TEST_CASE("what is only written restarts nobody") {
   const Scene scene(servos({servo(11), servo(12)}));
   const auto carried_out = change(scene, set("reverse=on"), {11, 12});

@@ -265,6 +265,12 @@ class Roster {
   [[nodiscard]] std::optional<dronecan::NodeId> giver_of(dronecan::NodeId given,
                                                          dronecan::NodeId except, Time since) const;
 
+  /// As CommandWatch::giver_of(), with a servo ID.
+  [[nodiscard]] std::optional<dronecan::NodeId>
+  giver_of_servo_id(std::int64_t given, dronecan::NodeId except, Time since) const {
+    return commands_.giver_of(bla::address::servo_id, given, except, since);
+  }
+
   /// As CommandWatch::setter_of().
   [[nodiscard]] std::optional<dronecan::NodeId>
   setter_of(dronecan::NodeId id, Time since, std::optional<bla::Address> reg = std::nullopt) const {

@@ -97,6 +97,7 @@ class WriteJob final : public dronecan::Job {
   void judge(RegisterChange& change) const;
   [[nodiscard]] std::size_t unproven() const;
   [[nodiscard]] Error told_by(const Error& error) const;
+  [[nodiscard]] dronecan::Step lose(Error error);
   [[nodiscard]] dronecan::Step give_up(std::size_t blamed, Error error);
 
   [[nodiscard]] std::uint32_t boots() const { return roster_.member(servo_.id).boots; }
