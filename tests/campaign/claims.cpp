@@ -99,10 +99,17 @@ void check_all_told(const Step& step, const Servos& nodes) {
   }
 }
 
+/// Whether nothing became of a servo that the client could not hear.
+bool is_undisturbed(const Step& step, std::int64_t serial) {
+  return is_harmless(step.episode) ||
+         (step.hears_all() && step.accidents(serial).empty() && !step.is_doubled(serial) &&
+          !step.is_written_unheard(serial));
+}
+
 /// An ID that is given is nobody else's.
 void check_given_ids(const Step& step, std::int64_t serial, const json& node) {
   if (!node.contains("changes") || !is_reached(node) || step.outcome.status != 0 ||
-      !is_harmless(step.episode) || step.command.has("--dry-run")) {
+      !is_undisturbed(step, serial) || step.command.has("--dry-run")) {
     return;
   }
   for (const json& change : node["changes"]) {
@@ -112,7 +119,8 @@ void check_given_ids(const Step& step, std::int64_t serial, const json& node) {
       continue;
     }
     for (const auto& [other, after] : step.after) {
-      const bool is_there = after.node_id != 0 && step.before.at(other).node_id != 0;
+      const bool is_there =
+          after.node_id != 0 && step.before.at(other).node_id != 0 && is_undisturbed(step, other);
       const std::int64_t held = address == servo_id         ? value_in(after.ram, servo_id)
                                 : address == static_node_id ? after.node_id
                                                             : 0;
@@ -255,7 +263,7 @@ void check_counts(const Step& step, const Servos& nodes) {
 /// An upper limit is above the lower one.
 void check_limits(const Step& step, std::int64_t serial, const json& node) {
   constexpr std::pair<std::uint8_t, std::uint8_t> pairs[]{{0x3E, 0x3F}, {0x40, 0x41}};
-  if (!node.contains("changes") || step.outcome.status != 0 || !is_calm(step)) {
+  if (!node.contains("changes") || step.outcome.status != 0 || step.changed_unheard(serial)) {
     return;
   }
   const Registers& ram = step.after.at(serial).ram;
@@ -268,13 +276,20 @@ void check_limits(const Step& step, std::int64_t serial, const json& node) {
   }
 }
 
+/// Whether nobody but this program has ever written to RAM.
+bool knows_ram(const Episode& episode) {
+  return !episode.has("ram_unlike_rom") &&
+         std::ranges::none_of(episode.faults,
+                              [](const auto& kind) { return kind.starts_with("other"); });
+}
+
 /// What nobody named, and is permanent now, is told.
 void check_unnamed(const Step& step, std::int64_t serial, const json& node) {
   const std::string& verb = step.command.verb();
   const bool saves = verb == "save" || (verb == "set" && step.command.has("--save")) ||
                      (verb == "apply" && !step.command.has("--no-save"));
-  if (!saves || !is_calm(step) || step.outcome.status != 0 || step.command.has("--dry-run") ||
-      step.rom_writes(serial) == 0) {
+  if (!saves || step.outcome.status != 0 || step.command.has("--dry-run") ||
+      step.rom_writes(serial) == 0 || !knows_ram(step.episode) || !step.accidents(serial).empty()) {
     return;
   }
   const Registers wished = wishes(step.command, serial);

@@ -34,29 +34,59 @@ bool is_unfinished_undo(const state::SnapshotEntry& entry) {
   return entry.command == "undo" && !entry.ended;
 }
 
-/// All that the command of this entry did to its unit, as one: it may have been repeated, with
-/// other wishes, until it succeeded.
-Result<Undoing> whole(const state::SnapshotStore& store, state::SnapshotEntry entry) {
-  Undoing whole{.entry = std::move(entry)};
-  whole.numbers.push_back(whole.entry.number);
-  for (auto earlier = store.before(whole.entry);; earlier = store.before(**earlier)) {
+using Tries = std::vector<state::SnapshotEntry>;
+
+/// All entries of the run of this one, the newest first.
+Result<Tries> tries_of(const state::SnapshotStore& store, state::SnapshotEntry entry) {
+  Tries tries{std::move(entry)};
+  for (;;) {
+    auto earlier = store.before(tries.back());
     if (!earlier) {
       return std::unexpected(std::move(earlier.error()));
     }
-    if (!*earlier || (*earlier)->run != whole.entry.run) {
-      return whole;
+    if (!*earlier || (*earlier)->run != tries.back().run) {
+      return tries;
     }
-    for (const auto& [address, raw] : (*earlier)->held) {
-      const auto written = (*earlier)->written.find(address);
+    tries.push_back(std::move(**earlier));
+  }
+}
+
+/// Where one try was saved, what a restart took from RAM in another one is not saved: ROM never
+/// held it.
+void leave_out_what_was_taken(Tries& tries) {
+  for (state::SnapshotEntry& each : tries) {
+    std::erase_if(each.held, [&](const auto& held) {
+      return !each.saved && !each.written.contains(held.first);
+    });
+  }
+}
+
+/// All that the command of this entry did to its unit, as one: it may have been repeated, with
+/// other wishes, until it succeeded.
+Result<Undoing> whole(const state::SnapshotStore& store, state::SnapshotEntry entry) {
+  auto tries = tries_of(store, std::move(entry));
+  if (!tries) {
+    return std::unexpected(std::move(tries.error()));
+  }
+  const bool was_saved = std::ranges::any_of(*tries, [](const state::SnapshotEntry& each) {
+    return each.saved && !each.held.empty(); // by others since: see History::join()
+  });
+  if (was_saved) {
+    leave_out_what_was_taken(*tries);
+  }
+  Undoing whole{.entry = tries->front()};
+  for (const state::SnapshotEntry& each : *tries) {
+    for (const auto& [address, raw] : each.held) {
       const auto [found, is_new] = whole.entry.held.emplace(address, raw);
       // History::join() has left out what somebody else changed in between
-      if (!is_new && written != (*earlier)->written.end()) {
+      if (!is_new && each.written.contains(address)) {
         found->second = raw;
       }
     }
-    whole.entry.saved = whole.entry.saved || (*earlier)->saved;
-    whole.numbers.push_back((*earlier)->number);
+    whole.numbers.push_back(each.number);
   }
+  whole.entry.saved = was_saved;
+  return whole;
 }
 
 /// The change to undo in place of this entry, if that is an undo which did not end, perhaps several

@@ -1056,6 +1056,29 @@ TEST_CASE("an undo that broke off several times still means the change before it
   CHECK(meant->goes_on);
 }
 
+TEST_CASE("undo of a run of several tries saves nothing that only RAM held") {
+  auto store = SnapshotStore::unshared().value();
+  const dronecan::UniqueId unit{7};
+  const auto keep = [&](SnapshotEntry entry) {
+    entry.command = "apply";
+    entry.unique_id = unit;
+    return store.keep(std::vector{std::move(entry)}, WallTime{}).value().front();
+  };
+  const bool has_saved = GENERATE(true, false); // else others have changed that since
+  const std::int64_t first =
+      keep({.held = has_saved ? state::Registers{{0x2C, 60}} : state::Registers{},
+            .written = {{0x2C, 77}},
+            .saved = true});
+  keep({.run = first, .held = {{0x2D, 21}}, .written = {{0x2D, 30}}});
+  keep({.run = first, .held = {{0x2E, 12}}}); // a restart took it
+  const auto meant = last_change(store, unit).value();
+  REQUIRE(meant);
+  CHECK(meant->entry.saved == has_saved);
+  CHECK(meant->entry.held == (has_saved ? state::Registers{{0x2C, 60}, {0x2D, 21}}
+                                        : state::Registers{{0x2D, 21}, {0x2E, 12}}));
+  CHECK(meant->numbers.size() == 3);
+}
+
 TEST_CASE("what others saved after two tries is left out of both") {
   const Kept kept;
   const Scene scene(servos());
