@@ -334,7 +334,7 @@ complete -c blactl -n '__blactl_in apply' -l plan -d 'FILE is what `apply --dry-
 complete -c blactl -n '__blactl_in apply' -l entry -r -f -d 'give this entry to the servo behind -n, whatever it matches'
 complete -c blactl -n '__blactl_in apply' -l no-save -d 'RAM only'
 complete -c blactl -n '__blactl_in apply' -l trust-ram -d 'if RAM is as wished, do not restart to check ROM'
-complete -c blactl -n '__blactl_in apply' -l fail-fast -d 'once one servo has failed, no other is saved any more'
+complete -c blactl -n '__blactl_in apply' -l fail-fast -d 'once one servo is known to have failed, no other is saved any more'
 complete -c blactl -n '__blactl_in apply' -l events -r -F -d 'write a line of JSON to FILE for each servo and stage'
 complete -c blactl -n '__blactl_in apply' -l no-snapshot -d 'go on even if the settings of servos cannot be recorded for `undo`'
 complete -c blactl -n '__blactl_in apply' -l wait -r -f -d 'how long a servo may take to come back (default 5, and 2 for each that asks for a node ID)'

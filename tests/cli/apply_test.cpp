@@ -304,9 +304,13 @@ TEST_CASE("--events tells each stage of each servo, and what came of it") {
   const Fleet fleet(three_servos());
   Document document = fleet.exported();
   document["servos"][1]["set"]["smoothing"] = "off";
+  document["servos"][2]["set"]["static_node_id"] = 40;
   const std::string events = fleet.file_name("events.jsonl");
   const Result done = fleet.apply(document, {"--events", events});
   REQUIRE(done.status == 0);
+  CHECK(std::ranges::any_of(json_lines(content(events)), [](const auto& line) {
+    return line["stage"] == "end" && line["node_id"] == 40; // where it is now
+  }));
   std::vector<std::string> told;
   for (const auto& line : json_lines(content(events))) {
     CHECK(line["time"].is_number());

@@ -54,7 +54,9 @@ void ApplyWatch::enter(const fleet::Servo& servo, ChangeStage stage) {
 
 void ApplyWatch::end(std::span<const GoalResult> results) {
   for (const GoalResult& result : results) {
-    tell(result.servo(), "end", fleet::name(entry_status(result, false)));
+    fleet::Servo servo = result.servo();
+    servo.id = result.change.node_id_after.value_or(servo.id);
+    tell(servo, "end", fleet::name(entry_status(result, false)));
   }
   if (context_.reporter().has_screen()) {
     show({});
