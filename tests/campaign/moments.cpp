@@ -92,15 +92,6 @@ const std::vector<Happening>& happenings() {
   return all;
 }
 
-/// Else `undo` may not know what ROM held.
-bool has_no_trials(const States& servos) {
-  return std::ranges::all_of(servos, [](const auto& servo) {
-    return std::ranges::all_of(servo.second.rom, [&](const auto& held) {
-      return servo.second.ram.at(held.first) == held.second;
-    });
-  });
-}
-
 /// Just before each frame of the command, where nothing happens.
 std::vector<Time> moments_of(const Record& record) {
   constexpr Duration before = 50us;

@@ -205,4 +205,12 @@ std::vector<Time> Step::accidents(std::int64_t serial) const {
   return times;
 }
 
+bool has_no_trials(const States& servos) {
+  return std::ranges::all_of(servos, [](const auto& servo) {
+    return std::ranges::all_of(servo.second.rom, [&](const auto& held) {
+      return servo.second.ram.at(held.first) == held.second;
+    });
+  });
+}
+
 } // namespace blactl::campaign

@@ -81,6 +81,9 @@ struct Step {
   [[nodiscard]] const nlohmann::json& setup(std::int64_t serial) const;
 };
 
+/// Whether RAM is like ROM: else `undo` may not know what ROM held.
+[[nodiscard]] bool has_no_trials(const States& servos);
+
 /// The time in "500ms" or "3s" of a scenario.
 [[nodiscard]] Duration time_in(const nlohmann::json& text);
 

@@ -63,6 +63,12 @@ std::size_t requests_in(const Record& record) {
       record.frames(), [](const OnWire& frame) { return frame.is_request() && frame.starts(); }));
 }
 
+/// With its repetition after one that was killed.
+bool is_one_change(const Command& command) {
+  return command.verb() == "apply" || command.has("--static") ||
+         (command.verb() == "erase" && command.has("--keep-ids"));
+}
+
 /// Whether each servo has its IDs once it is over.
 bool leaves_servos_apart(const std::string& kind) {
   static const std::set<std::string> others{"node_on_id", "one_node_id", "one_unique_id"};
@@ -282,6 +288,15 @@ void Sweep::check_stores(World& world, const Step& cut, bool is_undoable) {
   }
 }
 
+/// Whether `undo` brings back what was before a command that was killed.
+bool Sweep::is_undone_after_kill(const Case& one, std::span<const Disturbance> disturbances,
+                                 const Step& step) {
+  const bool is_killed = disturbances.size() == 1 && disturbances.front().kind == Kind::killed &&
+                         disturbances.front().has_struck();
+  return is_killed && one.is_undoable && has_no_trials(step.before) &&
+         !step.outcome.record.changes().empty();
+}
+
 void Sweep::check(World& world, const Case& one, std::span<const Disturbance> disturbances,
                   const Step& step, const Calm& calm) {
   const auto is_ended = [](const Disturbance& one_of_them) {
@@ -303,13 +318,30 @@ void Sweep::check(World& world, const Case& one, std::span<const Disturbance> di
   if (disturbances.back().kind == Kind::computer_off) {
     check_stores(world, step, one.is_undoable);
   }
+  const bool is_undone = is_undone_after_kill(one, disturbances, step);
+  if (is_undone && disturbances.back().number % 3 == 0) {
+    check_undo(world, step);
+    return;
+  }
   if (!one.is_repeatable) {
     return;
+  }
+  if (is_undone && disturbances.back().number % 3 == 1) { // the second try as well
+    Disturbance kill = disturbances.back();
+    kill.seen = 0;
+    [[maybe_unused]] const Step tried =
+        take_step(world, step.episode, one.command, std::span(&kill, 1));
+    world.pass(4s);
+    [[maybe_unused]] const auto late_again = world.take_events();
   }
   const Step again = take_step(world, step.episode, one.command);
   judge(again);
   require(again.outcome.status == 0, "does not converge: " + again.outcome.err);
   require_same(calm.goal, again.after, "the same command has another result");
+  if (is_undone && is_one_change(one.command)) {
+    check_undo(world, step);
+    return;
+  }
   const bool is_recorded = std::ranges::none_of(disturbances, [](const Disturbance& disturbance) {
     return disturbance.kind == Kind::call_failed; // commands go on without a record
   });

@@ -83,6 +83,9 @@ class Sweep {
   static void check(World& world, const Case& one, std::span<const Disturbance> disturbances,
                     const Step& step, const Calm& calm);
   [[nodiscard]] Calm play_calm(const Case& one, Disturbance::Kind kind) const;
+  [[nodiscard]] static bool is_undone_after_kill(const Case& one,
+                                                 std::span<const Disturbance> disturbances,
+                                                 const Step& step);
   static void check_undo(World& world, const Step& changed);
   static void check_stores(World& world, const Step& cut, bool is_undoable);
   void play_each(const Case& one, Disturbance::Kind kind);

@@ -228,6 +228,27 @@ Result<void> History::join(state::SnapshotEntry tried, const Plan& plan, WallTim
   return kept ? Result<void>() : std::unexpected(kept.error());
 }
 
+/// Servos that were done in an earlier try, while others were not: what others have changed since
+/// is left out of that try, too.
+Result<void> History::join_done(std::span<const Plan> plans, WallTime now) {
+  for (const Plan& plan : plans) {
+    const auto& unique_id = plan.before.servo.unique_id;
+    if (joined_ == 0 || !plan.restart || !unique_id || kept_.contains(*unique_id)) {
+      continue;
+    }
+    auto last = snapshots_.last(*unique_id);
+    if (!last) {
+      return std::unexpected(last.error());
+    }
+    const bool is_done = *last && (*last)->ended && (*last)->run == joined_;
+    auto joined = is_done ? join(std::move(**last), plan, now) : Result<void>();
+    if (!joined) {
+      return joined;
+    }
+  }
+  return {};
+}
+
 /// What a mere restart takes, as far as ROM is known.
 bla::Values History::taken_from_ram(const Plan& plan, const Session& session) {
   bla::Values taken;
@@ -335,6 +356,9 @@ Result<void> History::keep(std::span<const Plan> plans, const Session& session) 
     if (!resumed) {
       return resumed;
     }
+  }
+  if (auto joined = join_done(plans, session.wall()); !joined) {
+    return joined;
   }
   const Roms roms = roms_before(plans, session);
   if (auto lasting = keep_lasting(plans, roms, session); !lasting) {

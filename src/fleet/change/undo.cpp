@@ -36,7 +36,12 @@ bool is_unfinished_undo(const state::SnapshotEntry& entry) {
 
 using Tries = std::vector<state::SnapshotEntry>;
 
-/// All entries of the run of this one, the newest first.
+/// Whether the newer one is a change of its own: what was to be saved was repeated in RAM only.
+bool is_of_its_own(const state::SnapshotEntry& newer, const state::SnapshotEntry& older) {
+  return newer.ended && !newer.saved && !newer.written.empty() && older.saved;
+}
+
+/// All entries of the run of this one that are one change with it, the newest first.
 Result<Tries> tries_of(const state::SnapshotStore& store, state::SnapshotEntry entry) {
   Tries tries{std::move(entry)};
   for (;;) {
@@ -44,7 +49,8 @@ Result<Tries> tries_of(const state::SnapshotStore& store, state::SnapshotEntry e
     if (!earlier) {
       return std::unexpected(std::move(earlier.error()));
     }
-    if (!*earlier || (*earlier)->run != tries.back().run) {
+    if (!*earlier || (*earlier)->run != tries.back().run ||
+        is_of_its_own(tries.front(), **earlier)) {
       return tries;
     }
     tries.push_back(std::move(**earlier));

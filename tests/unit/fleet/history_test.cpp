@@ -1079,6 +1079,40 @@ TEST_CASE("undo of a run of several tries saves nothing that only RAM held") {
   CHECK(meant->numbers.size() == 3);
 }
 
+TEST_CASE("what others saved after a try that was done, while another servo was not, stays") {
+  const Kept kept;
+  const Scene scene(servos());
+  const auto two = [&](const Wanted& wanted) { return plans_for(scene, wanted, {11, 12}); };
+  const Wanted wanted{.assignments = assignments({"angle_limit_cw=90deg", "smoothing=off"}),
+                      .restart = RestartKind::save};
+  {
+    History first = kept.history("apply");
+    const CarriedOut done = carry_out(*scene.session, profiles(), two(wanted), {.history = &first});
+    end(first, done.servos[0].servo.unique_id); // 12 has not come back
+  }
+  scene.live(3s);
+  const bool is_saved = GENERATE(true, false);
+  if (is_saved) { // by somebody else
+    REQUIRE(carry_out(*scene.session, profiles(),
+                      plans_for(scene, set("angle_limit_cw=70deg", true), {11}), {})
+                .servos[0]
+                .is_done());
+    scene.live(3s);
+  }
+  History again = kept.history("apply");
+  const auto plans = two(is_saved ? wanted : set("angle_limit_cw=80deg"));
+  const CarriedOut done = carry_out(*scene.session, profiles(), plans, {.history = &again});
+  end(again, done.servos[0].servo.unique_id);
+  end(again, done.servos[1].servo.unique_id);
+  const auto of_first = last_change(SnapshotStore::open(kept.folder(), Access::read).value(),
+                                    *done.servos[0].servo.unique_id)
+                            .value();
+  REQUIRE(of_first);
+  CHECK(of_first->entry.held ==
+        (is_saved ? state::Registers{{0x22, 1}, {0x38, 700}} : state::Registers{{0x38, 900}}));
+  CHECK(of_first->entry.saved == is_saved);
+}
+
 TEST_CASE("what others saved after two tries is left out of both") {
   const Kept kept;
   const Scene scene(servos());
