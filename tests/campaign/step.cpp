@@ -88,7 +88,7 @@ Time Step::known_until(std::int64_t serial) const {
   const Time heard = outcome.record.last_told_by(node_ids(serial)) - tolerance - late;
   const auto changes = outcome.record.changes();
   const bool is_looked_at = !changes.empty() && hears_all() && late == Duration::zero();
-  return is_looked_at ? std::max(heard, changes.back().at - tolerance) : heard;
+  return is_looked_at ? std::max(heard, changes.back().at - on_its_way) : heard;
 }
 
 bool Step::changed_unheard(std::int64_t serial) const {

@@ -318,7 +318,7 @@ void Sweep::check(World& world, const Case& one, std::span<const Disturbance> di
   if (disturbances.back().kind == Kind::computer_off) {
     check_stores(world, step, one.is_undoable);
   }
-  const bool is_undone = is_undone_after_kill(one, disturbances, step);
+  bool is_undone = is_undone_after_kill(one, disturbances, step);
   if (is_undone && disturbances.back().number % 3 == 0) {
     check_undo(world, step);
     return;
@@ -333,6 +333,7 @@ void Sweep::check(World& world, const Case& one, std::span<const Disturbance> di
         take_step(world, step.episode, one.command, std::span(&kill, 1));
     world.pass(4s);
     [[maybe_unused]] const auto late_again = world.take_events();
+    is_undone = kill.has_struck(); // else the next one is a change of its own
   }
   const Step again = take_step(world, step.episode, one.command);
   judge(again);
