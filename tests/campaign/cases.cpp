@@ -262,14 +262,34 @@ std::vector<Sweep::Refused> Sweep::refused() {
     return words({"set", "-n", "11", "speed_torque_control=on", command, "-y"});
   };
   const Command hold = words({"set", "-n", "11", "timeout_action=hold", "-y"});
+  Command apply_unasked = apply({{"reverse", "on"}}, json::object());
+  std::erase(apply_unasked.words, "-y");
+  constexpr int not_confirmed = 7;
   return {{.episode = usual, .commands = harmful(usual)},
+          {.episode = usual,
+           .commands = {words({"set", "-n", "11", "torque_output=off"}),
+                        words({"set", "-n", "11", "reverse=on"}),
+                        words({"set", "-n", "11", "speed_torque_control=on"}),
+                        words({"set", "-n", "11", "smoothing=off", "--save"}),
+                        words({"set", "-n", "11", "static_node_id=40", "--save"}),
+                        words({"save", "-n", "11"}), words({"restart", "-n", "11"}),
+                        words({"erase", "-n", "11"}), words({"erase", "-n", "11", "--save"}),
+                        words({"alloc", "--static", "-n", "11", "--id", "40"}),
+                        words({"command", "angle=20deg", "-n", "11"}),
+                        words({"monitor", "--identify", "-n", "11", "--duration", "1"}),
+                        words({"characterize", "-n", "11"}), apply_unasked},
+           .status = not_confirmed},
+          {.episode = usual, // nobody listens to them while speed/torque control is off
+           .commands = {words({"set", "-n", "11", "command_speed=10rpm", "-y"}),
+                        words({"set", "-n", "11", "command_torque=10%", "-y"}),
+                        words({"command", "speed=10rpm", "-n", "11", "-y"})}},
           {.episode = usual, .before = {runs("command_torque=10%")}, .commands = {hold}},
           {.episode = usual, .before = {runs("command_speed=10rpm")}, .commands = {hold}},
           {.episode = one_number,
            .commands = {words({"set", "-n", "serial:240900001", "smoothing=off", "-y"}),
                         words({"restart", "-n", "serial:240900001", "-y"}),
                         words({"alloc", "--static", "-n", "serial:240900001", "--id", "40", "-y"}),
-                        apply({{"smoothing", "off"}}, {})},
+                        apply({{"smoothing", "off"}}, json::object())},
            .are_told_apart = false}};
 }
 

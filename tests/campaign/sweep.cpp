@@ -42,7 +42,7 @@ constexpr Kind kinds[]{Kind::request_lost,   Kind::killed,          Kind::frame_
                        Kind::frame_of_other, Kind::call_failed,     Kind::computer_off};
 
 /// Of each kind, however far apart the places are.
-constexpr std::size_t least_runs = 12;
+constexpr std::size_t least_runs = 5;
 
 /// In the table beside the kinds.
 constexpr std::string_view pairs = "two of these";
@@ -110,6 +110,8 @@ void Sweep::play_refused(const Refused& refused, const Command& command, Swept& 
     const bool takes = step.outcome.status == 0; // some models have a PWM input
     require(takes == !step.outcome.record.changes().empty(), "it sent something");
     require(!takes || command.has("0x34=1500raw"), "0 for what does harm");
+    require(refused.status == 0 || refused.status == step.outcome.status,
+            fmt::format("{} instead of {}", step.outcome.status, refused.status));
   });
 }
 

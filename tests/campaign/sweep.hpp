@@ -97,6 +97,7 @@ class Sweep {
     std::vector<Command> before{};
     std::vector<Command> commands{};
     bool are_told_apart = true; ///< no serial number is that of two servos
+    int status = 0;             ///< that it must end with; 0: any but this
   };
 
   [[nodiscard]] static std::vector<Refused> refused();
