@@ -258,13 +258,14 @@ std::vector<Sweep::Refused> Sweep::refused() {
   usual.scenario["foreign"] = {{{"kind", "node"}, {"node_id", 30}}};
   Episode one_number = episode_of({11, 12, 13});
   one_number.scenario["servos"][1]["serial_number"] = 240900001;
+  one_number.scenario["servos"][1]["unique_id"] = "00112233445566778899aabbccddeeff";
   const auto runs = [](const char* command) {
     return words({"set", "-n", "11", "speed_torque_control=on", command, "-y"});
   };
   const Command hold = words({"set", "-n", "11", "timeout_action=hold", "-y"});
   Command apply_unasked = apply({{"reverse", "on"}}, json::object());
   std::erase(apply_unasked.words, "-y");
-  constexpr int not_confirmed = 7;
+  constexpr int usage = 2, not_confirmed = 7;
   return {{.episode = usual, .commands = harmful(usual)},
           {.episode = usual,
            .commands = {words({"set", "-n", "11", "torque_output=off"}),
@@ -290,7 +291,29 @@ std::vector<Sweep::Refused> Sweep::refused() {
                         words({"restart", "-n", "serial:240900001", "-y"}),
                         words({"alloc", "--static", "-n", "serial:240900001", "--id", "40", "-y"}),
                         apply({{"smoothing", "off"}}, json::object())},
-           .are_told_apart = false}};
+           .are_told_apart = false,
+           .status = usage}};
+}
+
+/// Each way to say which servos are meant.
+std::vector<Sweep::Meant> Sweep::selections() {
+  constexpr std::int64_t first = 240900001, second = 240900002, third = 240900003;
+  return {{"11", {first}},
+          {"11,13", {first, third}},
+          {"12-13", {second, third}},
+          {"10-12,13", {}}, // nobody is at 10
+          {"all", {first, second, third}},
+          {"serial:240900002", {second}},
+          {"serial_number:240900002,servo:3", {second, third}},
+          {"servo_id:1", {first}},
+          {"model:BLA15", {second}},
+          {"model:bla21-12u-ab", {first}},
+          {"MODEL:BLA", {first, second, third}},
+          {"uid:88ac", {first}},
+          {"unique_id:9edc8f5a340e14249f728768bb2a85fe,11", {first, second}},
+          {"servo:9", {}},
+          {"serial:2409", {}},
+          {"model:BLA99", {}}};
 }
 
 } // namespace blactl::campaign

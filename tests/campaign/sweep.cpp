@@ -115,17 +115,48 @@ void Sweep::play_refused(const Refused& refused, const Command& command, Swept& 
   });
 }
 
-void Sweep::play() {
-  if (options_.only.empty() || options_.only == "nothing") {
-    Swept& swept = swept_[{"what does harm", "nothing"}];
-    for (const Refused& all : refused()) {
-      for (const Command& command : all.commands) {
-        swept.places += 1;
-        if (is_own_turn() && !is_over()) {
-          play_refused(all, command, swept);
-        }
+/// Just those that are meant are changed.
+void Sweep::play_selection(const Meant& meant, Swept& swept) {
+  options_.begins();
+  const Folder folder(folder_);
+  const Episode episode = episode_of({11, 12, 13});
+  World world(episode.scenario, folder_);
+  const Command command{.words = {"set", "-n", meant.target, "smoothing=off", "-y"}};
+  const Step step = take_step(world, episode, command);
+  const Case one{.name = "who is meant", .before = {}, .command = command};
+  judged(one, meant.target, step, swept, [&] {
+    constexpr std::uint8_t smoothing = 0x22;
+    require((step.outcome.status == 0) == !meant.serials.empty(),
+            fmt::format("{} for {}", step.outcome.status, meant.target));
+    for (const auto& [serial, servo] : step.after) {
+      require((servo.ram.at(smoothing) == 0) == meant.serials.contains(serial),
+              fmt::format("{} is changed, or is not", serial));
+    }
+  });
+}
+
+void Sweep::play_quiet() {
+  Swept& harmful = swept_[{"what does harm", "nothing"}];
+  for (const Refused& all : refused()) {
+    for (const Command& command : all.commands) {
+      harmful.places += 1;
+      if (is_own_turn() && !is_over()) {
+        play_refused(all, command, harmful);
       }
     }
+  }
+  Swept& selected = swept_[{"who is meant", "nothing"}];
+  for (const Meant& meant : selections()) {
+    selected.places += 1;
+    if (is_own_turn() && !is_over()) {
+      play_selection(meant, selected);
+    }
+  }
+}
+
+void Sweep::play() {
+  if (options_.only.empty() || options_.only == "nothing") {
+    play_quiet();
   }
   for (const Case& one : cases()) {
     play_faults(one);

@@ -12,6 +12,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -100,7 +101,16 @@ class Sweep {
     int status = 0;             ///< that it must end with; 0: any but this
   };
 
+  /// What `-n` takes, and the serial numbers of those that it means; none: it is an error.
+  struct Meant {
+    std::string target;
+    std::set<std::int64_t> serials;
+  };
+
+  [[nodiscard]] static std::vector<Meant> selections();
+  void play_selection(const Meant& meant, Swept& swept);
   [[nodiscard]] static std::vector<Refused> refused();
+  void play_quiet();
   void play_refused(const Refused& world, const Command& command, Swept& swept);
   void play_faults(const Case& one);
   void play_moments(const Case& one);
