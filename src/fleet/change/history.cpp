@@ -163,8 +163,7 @@ Result<void> History::resume(const Plan& plan, const Session& session) {
   }
   state::SnapshotEntry& tried = **last;
   const bool has_restarted = is_over(tried, plan.before, session);
-  const auto joined =
-      has_restarted && plan.restart ? join(tried, plan, session.wall()) : Result<void>();
+  const auto joined = has_restarted && plan.restart ? join(tried, plan, session) : Result<void>();
   if (!joined || (has_restarted && tried.saved)) {
     return joined;
   }
@@ -199,17 +198,19 @@ bool History::is_over(const state::SnapshotEntry& tried, const Snapshot& ram,
 
 /// Goes on after tries that were saved: undo goes back through them, as far as they are still
 /// there. The node ID may be one on the way to that of the tries, which this one gives again.
-Result<void> History::join(state::SnapshotEntry tried, const Plan& plan, WallTime now) {
+Result<void> History::join(state::SnapshotEntry tried, const Plan& plan, const Session& session) {
   const std::int64_t run = tried.run;
   run_ = joined_ = std::max(run_, run);
-  state::Registers written; // last
+  const bla::Values rom = known_rom(plan.before, session); // another tool's trial replaces nothing
+  state::Registers written;                                // last
   const auto is_replaced = [&](std::uint8_t number) {
     const auto last = written.find(number);
     const bla::Address address(number);
     const RegisterChange* again = plan.change_of(address);
     const bool is_on_its_way = last != written.end() && address == bla::address::static_node_id &&
                                again != nullptr && again->requested == last->second;
-    return last != written.end() && plan.before.raw(address) != last->second && !is_on_its_way;
+    return last != written.end() && plan.before.raw(address) != last->second &&
+           bla::find(rom, address) != last->second && !is_on_its_way;
   };
   std::vector<state::SnapshotEntry> shorter;
   for (std::optional<state::SnapshotEntry> each = std::move(tried); each && each->run == run;) {
@@ -223,17 +224,17 @@ Result<void> History::join(state::SnapshotEntry tried, const Plan& plan, WallTim
     }
     each = std::move(*earlier);
   }
-  const auto kept =
-      shorter.empty() ? Result<std::vector<std::int64_t>>() : snapshots_.keep(shorter, now);
+  const auto kept = shorter.empty() ? Result<std::vector<std::int64_t>>()
+                                    : snapshots_.keep(shorter, session.wall());
   return kept ? Result<void>() : std::unexpected(kept.error());
 }
 
 /// Servos that were done in an earlier try, while others were not: what others have changed since
 /// is left out of that try, too.
-Result<void> History::join_done(std::span<const Plan> plans, WallTime now) {
+Result<void> History::join_done(std::span<const Plan> plans, const Session& session) {
   for (const Plan& plan : plans) {
     const auto& unique_id = plan.before.servo.unique_id;
-    if (joined_ == 0 || !plan.restart || !unique_id || kept_.contains(*unique_id)) {
+    if (joined_ == 0 || !unique_id || kept_.contains(*unique_id)) {
       continue;
     }
     auto last = snapshots_.last(*unique_id);
@@ -241,7 +242,7 @@ Result<void> History::join_done(std::span<const Plan> plans, WallTime now) {
       return std::unexpected(last.error());
     }
     const bool is_done = *last && (*last)->ended && (*last)->run == joined_;
-    auto joined = is_done ? join(std::move(**last), plan, now) : Result<void>();
+    auto joined = is_done ? join(std::move(**last), plan, session) : Result<void>();
     if (!joined) {
       return joined;
     }
@@ -357,7 +358,7 @@ Result<void> History::keep(std::span<const Plan> plans, const Session& session) 
       return resumed;
     }
   }
-  if (auto joined = join_done(plans, session.wall()); !joined) {
+  if (auto joined = join_done(plans, session); !joined) {
     return joined;
   }
   const Roms roms = roms_before(plans, session);

@@ -36,9 +36,10 @@ bool is_unfinished_undo(const state::SnapshotEntry& entry) {
 
 using Tries = std::vector<state::SnapshotEntry>;
 
-/// Whether the newer one is a change of its own: what was to be saved was repeated in RAM only.
+/// Whether the newer one is a change of its own: what was saved, and done, was repeated in RAM
+/// only.
 bool is_of_its_own(const state::SnapshotEntry& newer, const state::SnapshotEntry& older) {
-  return newer.ended && !newer.saved && !newer.written.empty() && older.saved;
+  return !newer.saved && !newer.written.empty() && older.saved && older.ended;
 }
 
 /// All entries of the run of this one that are one change with it, the newest first.

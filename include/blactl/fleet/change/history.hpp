@@ -129,8 +129,9 @@ class History {
   [[nodiscard]] Result<void> resume(const Plan& plan, const Session& session);
   [[nodiscard]] static bool is_over(const state::SnapshotEntry& tried, const Snapshot& ram,
                                     const Session& session);
-  [[nodiscard]] Result<void> join_done(std::span<const Plan> plans, WallTime now);
-  [[nodiscard]] Result<void> join(state::SnapshotEntry tried, const Plan& plan, WallTime now);
+  [[nodiscard]] Result<void> join_done(std::span<const Plan> plans, const Session& session);
+  [[nodiscard]] Result<void> join(state::SnapshotEntry tried, const Plan& plan,
+                                  const Session& session);
   [[nodiscard]] static std::optional<WallTime> start_of(const Servo& servo, const Session& session);
   [[nodiscard]] bool is_half_undone() const;
   [[nodiscard]] bool is_another_try(const dronecan::UniqueId& unit) const;
