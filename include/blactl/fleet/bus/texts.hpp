@@ -100,7 +100,7 @@ inline constexpr Text rom_unreadable_hint{
     "再起動で読み出せる場合があります: blactl restart -n {} (保存中の電源断の可能性あり)"};
 inline constexpr Text read_twice{
     "nodes {} and {} were one servo, which changed its node ID meanwhile",
-    "ノード {} と {} は同一サーボです (途中でノードIDが変わりました)"};
+    "ノード {} と {} は同一サーボです (途中でノード ID が変わりました)"};
 inline constexpr Text another_servo{"node {} is another servo now",
                                     "ノード {} は別のサーボに替わりました"};
 inline constexpr Text opcode_refused_hint{

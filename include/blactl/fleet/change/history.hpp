@@ -173,7 +173,8 @@ class History {
 /// that it has put back shows nothing.
 [[nodiscard]] std::optional<bool> is_shown(const state::SnapshotEntry& change, const Snapshot& ram);
 
-/// The settings that this plan replaces, with their present values; all writable ones for ERASE.
+/// The settings that this plan replaces, with their present values; all writable ones for ERASE,
+/// and where any may be changed.
 [[nodiscard]] bla::Values replaced_by(const Plan& plan);
 
 } // namespace blactl::fleet
