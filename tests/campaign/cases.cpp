@@ -280,7 +280,7 @@ std::vector<Sweep::Refused> Sweep::refused() {
                         words({"monitor", "--identify", "-n", "11", "--duration", "1"}),
                         words({"characterize", "-n", "11"}), apply_unasked},
            .status = not_confirmed},
-          {.episode = usual, // nobody listens to them while speed/torque control is off
+          {.episode = usual, // ignored while speed/torque control is off
            .commands = {words({"set", "-n", "11", "command_speed=10rpm", "-y"}),
                         words({"set", "-n", "11", "command_torque=10%", "-y"}),
                         words({"command", "speed=10rpm", "-n", "11", "-y"})}},

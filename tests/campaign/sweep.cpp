@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <iterator>
 #include <set>
 #include <string_view>
 
@@ -321,13 +322,28 @@ void Sweep::check_stores(World& world, const Step& cut, bool is_undoable) {
   }
 }
 
-/// Whether `undo` brings back what was before a command that was killed.
-bool Sweep::is_undone_after_kill(const Case& one, std::span<const Disturbance> disturbances,
-                                 const Step& step) {
+/// By turns; nothing, where `undo` may not know what was before.
+Sweep::AfterKill Sweep::follows_kill(const Case& one, std::span<const Disturbance> disturbances,
+                                     const Step& step) {
   const bool is_killed = disturbances.size() == 1 && disturbances.front().kind == Kind::killed &&
                          disturbances.front().has_struck();
-  return is_killed && one.is_undoable && has_no_trials(step.before) &&
-         !step.outcome.record.changes().empty();
+  if (!is_killed || !one.is_undoable || !has_no_trials(step.before) ||
+      step.outcome.record.changes().empty()) {
+    return AfterKill::nothing;
+  }
+  constexpr AfterKill turns[]{AfterKill::undo, AfterKill::killed_again, AfterKill::repeated};
+  return turns[disturbances.front().number % std::size(turns)];
+}
+
+/// Whether its repetition is killed at the same place: else it was done, and the next one is a
+/// change of its own.
+bool Sweep::is_killed_again(World& world, const Step& tried, Disturbance kill) {
+  kill.seen = 0;
+  [[maybe_unused]] const Step again =
+      take_step(world, tried.episode, tried.command, std::span(&kill, 1));
+  world.pass(4s);
+  [[maybe_unused]] const auto late = world.take_events();
+  return kill.has_struck();
 }
 
 void Sweep::check(World& world, const Case& one, std::span<const Disturbance> disturbances,
@@ -351,28 +367,21 @@ void Sweep::check(World& world, const Case& one, std::span<const Disturbance> di
   if (disturbances.back().kind == Kind::computer_off) {
     check_stores(world, step, one.is_undoable);
   }
-  bool is_undone = is_undone_after_kill(one, disturbances, step);
-  if (is_undone && disturbances.back().number % 3 == 0) {
+  const AfterKill after_kill = follows_kill(one, disturbances, step);
+  if (after_kill == AfterKill::undo) {
     check_undo(world, step);
     return;
   }
   if (!one.is_repeatable) {
     return;
   }
-  if (is_undone && disturbances.back().number % 3 == 1) { // the second try as well
-    Disturbance kill = disturbances.back();
-    kill.seen = 0;
-    [[maybe_unused]] const Step tried =
-        take_step(world, step.episode, one.command, std::span(&kill, 1));
-    world.pass(4s);
-    [[maybe_unused]] const auto late_again = world.take_events();
-    is_undone = kill.has_struck(); // else the next one is a change of its own
-  }
+  const bool was_killed_again =
+      after_kill == AfterKill::killed_again && is_killed_again(world, step, disturbances.front());
   const Step again = take_step(world, step.episode, one.command);
   judge(again);
   require(again.outcome.status == 0, "does not converge: " + again.outcome.err);
   require_same(calm.goal, again.after, "the same command has another result");
-  if (is_undone && is_one_change(one.command)) {
+  if ((after_kill == AfterKill::repeated || was_killed_again) && is_one_change(one.command)) {
     check_undo(world, step);
     return;
   }

@@ -84,9 +84,13 @@ class Sweep {
   static void check(World& world, const Case& one, std::span<const Disturbance> disturbances,
                     const Step& step, const Calm& calm);
   [[nodiscard]] Calm play_calm(const Case& one, Disturbance::Kind kind) const;
-  [[nodiscard]] static bool is_undone_after_kill(const Case& one,
-                                                 std::span<const Disturbance> disturbances,
-                                                 const Step& step);
+
+  /// What is done after a command was killed, before `undo` brings back what was before it.
+  enum class AfterKill : std::uint8_t { nothing, undo, repeated, killed_again };
+
+  [[nodiscard]] static AfterKill
+  follows_kill(const Case& one, std::span<const Disturbance> disturbances, const Step& step);
+  [[nodiscard]] static bool is_killed_again(World& world, const Step& tried, Disturbance kill);
   static void check_undo(World& world, const Step& changed);
   static void check_stores(World& world, const Step& cut, bool is_undoable);
   void play_each(const Case& one, Disturbance::Kind kind);

@@ -1,9 +1,7 @@
 #include "blactl/fleet/change/history.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
-#include <iterator>
 #include <utility>
 
 namespace blactl::fleet {
@@ -19,12 +17,6 @@ state::Registers stored(const bla::Values& values) {
     registers.emplace(address.value(), raw);
   }
   return registers;
-}
-
-/// Commands that complete an unfinished run when repeated.
-bool is_repeated_as_a_whole(std::string_view command) {
-  return command == "apply" || command == "undo" || command == "alloc --static" ||
-         command == erase_keeping_ids;
 }
 
 /// For a unit whose configuration was read after its restart.
@@ -143,111 +135,6 @@ Result<void> History::drop_proofs(std::span<const Plan> plans) {
 
 Result<void> History::doubt_rom(std::span<const UniqueId> units) {
   return units.empty() ? Result<void>() : proofs_.drop(units);
-}
-
-/// Resumes after tries of this command that ended half way. What they changed in RAM only, a
-/// restart has taken back; what they have saved stays an entry of its own, to which undo goes back
-/// through this one, unless this one changes RAM only.
-Result<void> History::resume(const Plan& plan, const Session& session) {
-  const Servo& servo = plan.before.servo;
-  const UniqueId& unique_id = *servo.unique_id;
-  if (!is_repeated_as_a_whole(command_) || kept_.contains(unique_id)) {
-    return {};
-  }
-  auto last = snapshots_.last(unique_id);
-  if (!last) {
-    return std::unexpected(last.error());
-  }
-  if (!*last || (*last)->ended || (*last)->command != command_) {
-    return {};
-  }
-  state::SnapshotEntry& tried = **last;
-  const bool has_restarted = is_over(tried, plan.before, session);
-  const auto joined = has_restarted && plan.restart ? join(tried, plan, session) : Result<void>();
-  if (!joined || (has_restarted && tried.saved)) {
-    return joined;
-  }
-  run_ = joined_ = std::max(run_, tried.run);
-  if (has_restarted) {
-    tried.held.clear();
-    tried.written.clear();
-  }
-  const bool was_saved = tried.saved && tried.settled;
-  kept_[unique_id] = {.entry = std::move(tried),
-                      .was_changed = !has_restarted,
-                      .was_saved = was_saved,
-                      .is_another_try = true};
-  return {};
-}
-
-/// Whether the servo has restarted since a try that broke off: RAM itself tells, where its last
-/// write or the clock leaves that open.
-bool History::is_over(const state::SnapshotEntry& tried, const Snapshot& ram,
-                      const Session& session) {
-  const auto started = start_of(ram.servo, session);
-  if (!started) {
-    return false;
-  }
-  const bool has_written = !tried.saved && !tried.written.empty();
-  if ((has_written ? last_write(tried) : tried.at) < *started) {
-    return true;
-  }
-  const bool is_open = tried.at < *started || tried.at > session.wall();
-  return is_open && !is_shown(tried, ram).value_or(true);
-}
-
-/// Goes on after tries that were saved: undo goes back through them, as far as they are still
-/// there. The node ID may be one on the way to that of the tries, which this one gives again.
-Result<void> History::join(state::SnapshotEntry tried, const Plan& plan, const Session& session) {
-  const std::int64_t run = tried.run;
-  run_ = joined_ = std::max(run_, run);
-  const bla::Values rom = known_rom(plan.before, session); // another tool's trial replaces nothing
-  state::Registers written;                                // last
-  const auto is_replaced = [&](std::uint8_t number) {
-    const auto last = written.find(number);
-    const bla::Address address(number);
-    const RegisterChange* again = plan.change_of(address);
-    const bool is_on_its_way = last != written.end() && address == bla::address::static_node_id &&
-                               again != nullptr && again->requested == last->second;
-    return last != written.end() && plan.before.raw(address) != last->second &&
-           bla::find(rom, address) != last->second && !is_on_its_way;
-  };
-  std::vector<state::SnapshotEntry> shorter;
-  for (std::optional<state::SnapshotEntry> each = std::move(tried); each && each->run == run;) {
-    auto earlier = snapshots_.before(*each);
-    if (!earlier) {
-      return std::unexpected(earlier.error());
-    }
-    written.insert(each->written.begin(), each->written.end());
-    if (std::erase_if(each->held, [&](const auto& held) { return is_replaced(held.first); }) > 0) {
-      shorter.push_back(std::move(*each));
-    }
-    each = std::move(*earlier);
-  }
-  const auto kept = shorter.empty() ? Result<std::vector<std::int64_t>>()
-                                    : snapshots_.keep(shorter, session.wall());
-  return kept ? Result<void>() : std::unexpected(kept.error());
-}
-
-/// Servos that were done in an earlier try, while others were not: what others have changed since
-/// is left out of that try, too.
-Result<void> History::join_done(std::span<const Plan> plans, const Session& session) {
-  for (const Plan& plan : plans) {
-    const auto& unique_id = plan.before.servo.unique_id;
-    if (joined_ == 0 || !unique_id || kept_.contains(*unique_id)) {
-      continue;
-    }
-    auto last = snapshots_.last(*unique_id);
-    if (!last) {
-      return std::unexpected(last.error());
-    }
-    const bool is_done = *last && (*last)->ended && (*last)->run == joined_;
-    auto joined = is_done ? join(std::move(**last), plan, session) : Result<void>();
-    if (!joined) {
-      return joined;
-    }
-  }
-  return {};
 }
 
 /// What a mere restart takes, as far as ROM is known.
@@ -394,29 +281,6 @@ Result<void> History::store(std::vector<state::SnapshotEntry> entries, WallTime 
     kept.entry = std::move(entries[i]);
   }
   return {};
-}
-
-/// Whether the record of this unit is that of an earlier run of the command.
-bool History::is_another_try(const UniqueId& unit) const {
-  const auto known = kept_.find(unit);
-  return known != kept_.end() && known->second.is_another_try;
-}
-
-/// Of the tries that these entries continue: other commands may have come in between.
-std::vector<std::int64_t>
-History::former_numbers(std::span<const state::SnapshotEntry> entries) const {
-  std::vector<std::int64_t> numbers;
-  for (const state::SnapshotEntry& entry : entries) {
-    if (is_another_try(entry.unique_id)) {
-      numbers.push_back(kept_.at(entry.unique_id).entry.number);
-    }
-  }
-  return numbers;
-}
-
-Result<void> History::end(std::span<const UniqueId> units) {
-  return is_repeated_as_a_whole(command_) && !units.empty() ? snapshots_.end(units, command_)
-                                                            : Result<void>();
 }
 
 Result<void> History::take_back(std::span<const UniqueId> units) {
