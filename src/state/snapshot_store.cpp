@@ -161,11 +161,6 @@ Result<void> remove(const Database& database, std::int64_t number) {
 Result<std::vector<std::int64_t>> keep_all(const Database& database,
                                            std::span<const SnapshotEntry> entries, WallTime now,
                                            std::span<const std::int64_t> former) {
-  for (const std::int64_t number : former) {
-    if (auto removed = remove(database, number); !removed) {
-      return std::unexpected(removed.error());
-    }
-  }
   const auto new_run = next_number(database);
   if (!new_run) {
     return std::unexpected(new_run.error());
@@ -179,6 +174,11 @@ Result<std::vector<std::int64_t>> keep_all(const Database& database,
     numbers.push_back(*number);
     if (auto dropped = drop_surplus(database, entry.unique_id); !dropped) {
       return std::unexpected(dropped.error());
+    }
+  }
+  for (const std::int64_t number : former) { // now: no number is given to a second entry
+    if (auto removed = remove(database, number); !removed) {
+      return std::unexpected(removed.error());
     }
   }
   const auto dropped = drop_old(database, now);

@@ -340,6 +340,10 @@ Result<void> History::keep_lasting(std::span<const Plan> plans, const Roms& roms
     }
     const state::Registers& rom = roms.at(*servo.unique_id);
     for (state::SnapshotEntry& change : unsaved(servo, session, &plan.before)) {
+      const auto known = kept_.find(*servo.unique_id); // its own entry tells what it has replaced
+      if (known != kept_.end() && known->second.entry.number == change.number) {
+        continue;
+      }
       if (auto kept = lasting(change, plan, rom)) {
         changed.push_back(std::move(*kept));
         lasting_[*servo.unique_id].push_back(std::move(change));

@@ -452,6 +452,28 @@ TEST_CASE("an apply that is repeated with other wishes is one change of each ser
   CHECK(last_changes(*store)->size() == 2);
 }
 
+TEST_CASE("a try that goes on for one servo leaves the record of the others") {
+  const Kept kept;
+  const Scene scene(R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11},
+                                  {"model": "BLA21-12U-AB", "node_id": 12,
+                                   "faults": {"ignore_opcodes": 9}}])");
+  for (const char* angle : {"angle_limit_cw=90deg", "angle_limit_cw=80deg"}) {
+    History tried = kept.history("apply");
+    const auto servos = change(scene, set(angle, true), tried, {11, 12}).servos;
+    REQUIRE(servos[0].is_done());
+    REQUIRE_FALSE(servos[1].is_done());
+    end(tried, servos[0].servo.unique_id);
+  }
+  const auto first = scene.member(11).info->unique_id;
+  const auto changes = kept.to_undo();
+  REQUIRE(changes.size() == 2);
+  for (const Undoing& each : changes) {
+    CHECK(each.entry.held == state::Registers{{0x38, 1799}});
+    CHECK(each.numbers.size() == (each.entry.unique_id == first ? 2 : 1));
+    CHECK(each.entry.written == state::Registers{{0x38, 800}});
+  }
+}
+
 TEST_CASE("an undo that did not end goes on when it is typed again, and then is one change") {
   const Kept kept;
   const Scene scene(servos());
