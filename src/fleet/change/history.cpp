@@ -177,11 +177,13 @@ std::optional<state::SnapshotEntry> History::entry_of(const Plan& plan, const Ro
   }
   held.merge(stored(taken_from_ram(plan, session)));
   const auto rom = unique_id ? roms.find(*unique_id) : roms.end();
+  state::Registers made_permanent;
   if (rom != roms.end()) {
     using Entries = std::span<const state::SnapshotEntry>;
     const auto lasting = lasting_.find(*unique_id);
-    held.merge(replaced_in_rom(plan, rom->second,
-                               lasting != lasting_.end() ? Entries(lasting->second) : Entries()));
+    made_permanent = replaced_in_rom(
+        plan, rom->second, lasting != lasting_.end() ? Entries(lasting->second) : Entries());
+    held.insert(made_permanent.begin(), made_permanent.end());
   }
   const bool goes_on = unique_id && plan.restart == RestartKind::save && is_another_try(*unique_id);
   if (!unique_id || (held.empty() && !goes_on)) {
@@ -207,7 +209,8 @@ std::optional<state::SnapshotEntry> History::entry_of(const Plan& plan, const Ro
       entry.held.erase(address);
     }
   }
-  for (const auto& [address, raw] : written_by(plan, held)) {
+  made_permanent.merge(written_by(plan, held));
+  for (const auto& [address, raw] : made_permanent) {
     const bool makes_way = known != kept_.end() && !known->second.is_another_try &&
                            address == bla::address::static_node_id.value();
     makes_way ? entry.written.emplace(address, raw) // it is on the ID that it got before

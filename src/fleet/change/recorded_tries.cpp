@@ -3,6 +3,10 @@
 #include "blactl/fleet/change/history.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
 #include <utility>
 
 namespace blactl::fleet {
@@ -76,15 +80,17 @@ Result<void> History::join(state::SnapshotEntry tried, const Plan& plan, const S
   const std::int64_t run = tried.run;
   run_ = joined_ = std::max(run_, run);
   const bla::Values rom = known_rom(plan.before, session); // another tool's trial replaces nothing
-  state::Registers written;                                // last
+  std::map<std::uint8_t, std::set<std::int64_t>> written;  // a try may have broken off before it
   const auto is_replaced = [&](std::uint8_t number) {
-    const auto last = written.find(number);
+    const auto values = written.find(number);
     const bla::Address address(number);
     const RegisterChange* again = plan.change_of(address);
-    const bool is_on_its_way = last != written.end() && address == bla::address::static_node_id &&
-                               again != nullptr && again->requested == last->second;
-    return last != written.end() && plan.before.raw(address) != last->second &&
-           bla::find(rom, address) != last->second && !is_on_its_way;
+    const auto is_written = [&](std::optional<std::int64_t> raw) {
+      return raw && values->second.contains(*raw);
+    };
+    const bool is_on_its_way = address == bla::address::static_node_id && again != nullptr;
+    return values != written.end() && !is_written(plan.before.raw(address)) &&
+           !is_written(bla::find(rom, address)) && !(is_on_its_way && is_written(again->requested));
   };
   std::vector<state::SnapshotEntry> shorter;
   for (std::optional<state::SnapshotEntry> each = std::move(tried); each && each->run == run;) {
@@ -92,7 +98,9 @@ Result<void> History::join(state::SnapshotEntry tried, const Plan& plan, const S
     if (!earlier) {
       return std::unexpected(earlier.error());
     }
-    written.insert(each->written.begin(), each->written.end());
+    for (const auto& [address, raw] : each->written) {
+      written[address].insert(raw);
+    }
     if (std::erase_if(each->held, [&](const auto& held) { return is_replaced(held.first); }) > 0) {
       shorter.push_back(std::move(*each));
     }

@@ -947,6 +947,47 @@ TEST_CASE("an undo that broke off and was repeated after a restart is over") {
   CHECK_FALSE(last[0].goes_on);
 }
 
+TEST_CASE("what a try was to write, and was killed before, was not changed by somebody else") {
+  const Kept kept;
+  const Scene scene(R"("servos": [{"model": "BLA21-12U-AB", "node_id": 11},
+                                  {"model": "BLA21-12U-AB", "node_id": 12,
+                                   "faults": {"ignore_opcodes": 2}}])");
+  {
+    History tried = kept.history("apply");
+    const auto servos = change(scene, set("angle_limit_cw=77deg", true), tried, {11, 12}).servos;
+    REQUIRE(servos[0].is_done());
+    REQUIRE_FALSE(servos[1].is_done());
+    end(tried, servos[0].servo.unique_id);
+  }
+  REQUIRE(kept.history("apply").keep(plans_for(scene, set("angle_limit_cw=88deg"), {11, 12}),
+                                     *scene.session));
+  for (const Wanted& wanted : {restart, set("angle_limit_cw=99deg", true)}) {
+    History again = kept.history(wanted.assignments.empty() ? "restart" : "apply");
+    const auto plans = plans_for(scene, wanted, {11, 12});
+    const Manner manner{.history = wanted.assignments.empty() ? nullptr : &again};
+    const auto servos = carry_out(*scene.session, profiles(), plans, manner).servos;
+    REQUIRE((servos[0].is_done() && servos[1].is_done()));
+    scene.live(3s);
+  }
+  for (const Undoing& each : kept.to_undo()) {
+    CHECK(each.entry.held == state::Registers{{0x38, 1799}});
+  }
+}
+
+TEST_CASE("a named value that RAM alone held before the first try is not what ROM goes back to") {
+  const Kept kept;
+  const Scene scene(servos());
+  REQUIRE(change(scene, set("angle_limit_cw=70deg"), kept).is_done());
+  const Wanted named{.assignments = assignments({"angle_limit_cw=70deg", "reverse=on"}),
+                     .restart = RestartKind::save};
+  killed(scene, named, kept, "apply");
+  scene.live(3s);
+  REQUIRE(change(scene, set("angle_limit_cw=50deg", true), kept, "apply").is_done());
+  const auto changes = kept.to_undo();
+  REQUIRE(changes.size() == 1);
+  CHECK(changes[0].entry.held == state::Registers{{0x23, 0}, {0x38, 1799}});
+}
+
 TEST_CASE("a repetition in RAM only is a change beside what the first try has saved") {
   const Kept kept;
   const Scene scene(servos());
