@@ -4,6 +4,7 @@
 #include "campaign.hpp"
 #include "results.hpp"
 #include "sweep.hpp"
+#include "tries.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -37,6 +38,7 @@ struct Options {
   std::string results{};
   std::size_t sweep = 0; ///< every n-th place; 0: no sweep
   std::string only{};    ///< one kind of disturbance
+  std::uint64_t stories = 0;
 };
 
 /// Commands run in this process, and nothing of the caller may get into them.
@@ -97,11 +99,27 @@ json sweep(const Options& options, unsigned job, const std::filesystem::path& fo
   return to_json(all.swept());
 }
 
+json tell_stories(const Options& options, unsigned job, const std::filesystem::path& folder) {
+  Tries tries(folder / "story", tell);
+  for (std::uint64_t i = job; i < options.stories; i += options.jobs) {
+    watch(options.seed + i);
+    tries.play(options.seed + i);
+    if (options.until_found && tries.counts().lies > 0) {
+      break;
+    }
+  }
+  alarm(0);
+  const Tries::Counts& counts = tries.counts();
+  return {counts.stories, counts.undone, counts.lies};
+}
+
 /// In a process each, since commands use what a process has once; a crash gives null.
 std::vector<json> in_jobs(const Options& options) {
   const auto work = [&](unsigned job, const std::filesystem::path& folder) {
     prepare(folder);
-    json told = options.sweep > 0 ? sweep(options, job, folder) : play(options, job, folder);
+    json told = options.stories > 0 ? tell_stories(options, job, folder)
+                : options.sweep > 0 ? sweep(options, job, folder)
+                                    : play(options, job, folder);
     std::filesystem::remove_all(folder);
     return told;
   };
@@ -136,6 +154,15 @@ std::vector<json> in_jobs(const Options& options) {
 
 /// What was found, as text, and whether that is nothing.
 std::pair<std::string, bool> judged(const Options& options, const std::vector<json>& told) {
+  if (options.stories > 0) {
+    std::uint64_t stories = 0, undone = 0, lies = 0;
+    for (const json& one : told) {
+      stories += one.is_null() ? 0 : one[0].get<std::uint64_t>();
+      undone += one.is_null() ? 0 : one[1].get<std::uint64_t>();
+      lies += one.is_null() ? 1 : one[2].get<std::uint64_t>();
+    }
+    return {fmt::format("{} stories, {} undone, {} wrong\n", stories, undone, lies), lies == 0};
+  }
   if (options.sweep > 0) {
     SweptByKind all;
     bool crashed = false;
@@ -174,6 +201,8 @@ int main(int argc, char** argv) {
   app.add_flag("--verbose", options.verbose, "prints every command");
   app.add_flag("--frozen", options.frozen,
                "prints the episodes for campaign.py, before what goes wrong is aimed");
+  app.add_option("--stories", options.stories,
+                 "instead of episodes: so many commands that are tried several times and undone");
   CLI11_PARSE(app, argc, argv);
   if (options.frozen) {
     for (std::uint64_t i = 0; i < options.episodes; ++i) {

@@ -158,7 +158,8 @@ bool History::is_in_rom(const state::SnapshotEntry& change) const {
   const auto known = kept_.find(change.unique_id);
   const auto lasting = lasting_.find(change.unique_id);
   const bool is_of_this_command =
-      (known != kept_.end() && known->second.entry.number == change.number) ||
+      (known != kept_.end() && known->second.entry.number == change.number &&
+       !known->second.is_another_try) ||
       (lasting != lasting_.end() &&
        std::ranges::find(lasting->second, change.number, &state::SnapshotEntry::number) !=
            lasting->second.end());

@@ -75,7 +75,7 @@ bool History::is_over(const state::SnapshotEntry& tried, const Snapshot& ram,
 }
 
 /// Goes on after tries that were saved: undo goes back through them, as far as they are still
-/// there. The node ID may be one on the way to that of the tries, which this one gives again.
+/// there. A node ID always is: it may be a temporary one, which the tries do not name.
 Result<void> History::join(state::SnapshotEntry tried, const Plan& plan, const Session& session) {
   const std::int64_t run = tried.run;
   run_ = joined_ = std::max(run_, run);
@@ -84,13 +84,11 @@ Result<void> History::join(state::SnapshotEntry tried, const Plan& plan, const S
   const auto is_replaced = [&](std::uint8_t number) {
     const auto values = written.find(number);
     const bla::Address address(number);
-    const RegisterChange* again = plan.change_of(address);
     const auto is_written = [&](std::optional<std::int64_t> raw) {
       return raw && values->second.contains(*raw);
     };
-    const bool is_on_its_way = address == bla::address::static_node_id && again != nullptr;
-    return values != written.end() && !is_written(plan.before.raw(address)) &&
-           !is_written(bla::find(rom, address)) && !(is_on_its_way && is_written(again->requested));
+    return values != written.end() && address != bla::address::static_node_id &&
+           !is_written(plan.before.raw(address)) && !is_written(bla::find(rom, address));
   };
   std::vector<state::SnapshotEntry> shorter;
   for (std::optional<state::SnapshotEntry> each = std::move(tried); each && each->run == run;) {

@@ -920,12 +920,14 @@ TEST_CASE("undo leaves no servo on the temporary ID of a circle that broke off")
   }
   REQUIRE(carry_out(*scene.session, profiles(), to_125, {}).servos[0].is_done());
   scene.live(3s);
+  const bool names_it = GENERATE(true, false);
   History again = kept.history("apply");
-  REQUIRE(change(scene, set("static_node_id=30", true), again, {125}).servos[0].is_done());
+  const Wanted wanted = set(names_it ? "static_node_id=30" : "reverse=on", true);
+  REQUIRE(change(scene, wanted, again, {125}).servos[0].is_done());
   end(again, to_30[0].before.servo.unique_id);
   const auto last = kept.to_undo();
   REQUIRE(last.size() == 1);
-  CHECK(last[0].entry.held == state::Registers{{0x46, 11}});
+  CHECK(last[0].entry.held.at(0x46) == 11);
 }
 
 TEST_CASE("an undo that broke off and was repeated after a restart is over") {
@@ -983,6 +985,22 @@ TEST_CASE("a named value that RAM alone held before the first try is not what RO
   killed(scene, named, kept, "apply");
   scene.live(3s);
   REQUIRE(change(scene, set("angle_limit_cw=50deg", true), kept, "apply").is_done());
+  const auto changes = kept.to_undo();
+  REQUIRE(changes.size() == 1);
+  CHECK(changes[0].entry.held == state::Registers{{0x23, 0}, {0x38, 1799}});
+}
+
+TEST_CASE("a trial that a killed try has written over is not what ROM goes back to") {
+  const Kept kept;
+  const Scene scene(servos());
+  REQUIRE(change(scene, set("angle_limit_cw=70deg"), kept).is_done());
+  for (const char* angle : {"reverse=on", "angle_limit_cw=50deg"}) { // each killed before its SAVE
+    REQUIRE(kept.history("apply").keep(plans_for(scene, set(angle, true), {11}), *scene.session));
+    REQUIRE(carry_out(*scene.session, profiles(), plans_for(scene, set(angle), {11}), {})
+                .servos[0]
+                .is_done());
+    scene.live(3s);
+  }
   const auto changes = kept.to_undo();
   REQUIRE(changes.size() == 1);
   CHECK(changes[0].entry.held == state::Registers{{0x23, 0}, {0x38, 1799}});
