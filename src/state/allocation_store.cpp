@@ -8,6 +8,7 @@
 #include "state/texts.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cstdint>
 #include <tuple>
 #include <utility>
@@ -105,29 +106,6 @@ Result<void> store(const Database& database, const UniqueId& unique_id, NodeId n
       .run();
 }
 
-/// The part of allocate() inside its transaction.
-Result<NodeId> known_or_new(const Database& database, const UniqueId& unique_id,
-                            const AllocationChoice& choice, WallTime now) {
-  const auto known = entry_with(database, unique_id);
-  if (!known) {
-    return std::unexpected(known.error());
-  }
-  if (*known) {
-    return (*known)->node_id;
-  }
-  const auto given = all_given(database);
-  if (!given) {
-    return std::unexpected(given.error());
-  }
-  const NodeId id = first_free(choice, *given | choice.taken);
-  if (!id.is_unicast()) {
-    return fail(Code::table_full, say<texts::table_full>(choice.first.value(), choice.last.value()),
-                say<texts::table_full_hint>());
-  }
-  const auto stored = store(database, unique_id, id, now);
-  return stored ? Result<NodeId>(id) : std::unexpected(stored.error());
-}
-
 Result<void> drop(const Database& database, const UniqueId& unique_id) {
   return Statement(database, "DELETE FROM allocations WHERE unique_id = ?").bind(unique_id).run();
 }
@@ -136,6 +114,67 @@ Result<void> drop(const Database& database, NodeId node_id) {
   return Statement(database, "DELETE FROM allocations WHERE node_id = ?")
       .bind(node_id.value())
       .run();
+}
+
+/// That of the unit which was not seen for the longest time; empty: all are taken.
+Result<std::optional<AllocationEntry>> longest_unseen(const Database& database,
+                                                      const AllocationChoice& choice) {
+  Statement row(database, "SELECT node_id, unique_id, at FROM allocations "
+                          "WHERE node_id BETWEEN ? AND ? ORDER BY at, node_id");
+  row.bind(choice.first.value()).bind(choice.last.value());
+  std::optional<AllocationEntry> found;
+  const auto read = row.each([&] {
+    const AllocationEntry entry = entry_of(row);
+    found = choice.taken[entry.node_id.value()] ? std::nullopt : std::optional(entry);
+    return !found;
+  });
+  return read ? Result<std::optional<AllocationEntry>>(found) : std::unexpected(read.error());
+}
+
+/// For a unit without one, or whose ID is taken.
+Result<Allocation> new_id(const Database& database, const UniqueId& unique_id,
+                          const AllocationChoice& choice) {
+  if (auto dropped = drop(database, unique_id); !dropped) {
+    return std::unexpected(dropped.error());
+  }
+  const auto given = all_given(database);
+  if (!given) {
+    return std::unexpected(given.error());
+  }
+  if (const NodeId id = first_free(choice, *given | choice.taken); id.is_unicast()) {
+    return Allocation{.node_id = id, .is_new = true};
+  }
+  const auto unseen = longest_unseen(database, choice);
+  if (!unseen) {
+    return std::unexpected(unseen.error());
+  }
+  if (!*unseen) {
+    return fail(Code::table_full, say<texts::table_full>(choice.first.value(), choice.last.value()),
+                say<texts::table_full_hint>());
+  }
+  const auto dropped = drop(database, (*unseen)->node_id);
+  return dropped
+             ? Result<Allocation>(
+                   {.node_id = (*unseen)->node_id, .is_new = true, .former = (*unseen)->unique_id})
+             : std::unexpected(dropped.error());
+}
+
+/// The part of allocate() inside its transaction.
+Result<Allocation> known_or_new(const Database& database, const UniqueId& unique_id,
+                                const AllocationChoice& choice, WallTime now) {
+  constexpr std::chrono::hours worth_renewing{1};
+  const auto known = entry_with(database, unique_id);
+  if (!known) {
+    return std::unexpected(known.error());
+  }
+  const bool is_kept = *known && !choice.is_lost;
+  auto allocated = is_kept ? Result<Allocation>({.node_id = (*known)->node_id})
+                           : new_id(database, unique_id, choice);
+  if (!allocated || (is_kept && now - (*known)->at < worth_renewing)) {
+    return allocated;
+  }
+  const auto stored = store(database, unique_id, allocated->node_id, now);
+  return stored ? allocated : std::unexpected(stored.error());
 }
 
 Error given_to(const UniqueId& holder, NodeId node_id) {
@@ -235,10 +274,13 @@ Result<std::optional<AllocationEntry>> AllocationStore::find(NodeId node_id) con
   return database != nullptr ? entry_with(*database, node_id) : std::nullopt;
 }
 
-Result<NodeId> AllocationStore::allocate(const UniqueId& unique_id, const AllocationChoice& choice,
-                                         WallTime now) {
-  return file_->transact(
+Result<Allocation> AllocationStore::allocate(const UniqueId& unique_id,
+                                             const AllocationChoice& choice, WallTime now) {
+  auto allocated = file_->transact(
       [&](const Database& database) { return known_or_new(database, unique_id, choice, now); });
+  const bool is_answer = allocated || choice.is_lost;
+  const auto known = is_answer ? Result<std::optional<AllocationEntry>>() : find(unique_id);
+  return known && *known ? Result<Allocation>({.node_id = (*known)->node_id}) : allocated;
 }
 
 Result<void> AllocationStore::enter(std::span<const Wish> wishes, WallTime now, Former former) {

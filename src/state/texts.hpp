@@ -127,14 +127,9 @@ inline constexpr Text table_io{"the {1} {0} cannot be read or written ({2})",
 inline constexpr Text table_io_hint{
     "nothing was changed; check the disk and its free space with `df {0}`",
     "何も変更していません。`df {0}` でディスクとその空き容量を確認して下さい"};
-inline constexpr Text table_full{"no node ID from {} to {} is free",
-                                 "{}～{} に空いているノード ID がありません"};
-inline constexpr Text table_full_hint{"forget a servo that is gone, `blactl alloc --forget UID` "
-                                      "(`blactl alloc --list` shows all), or "
-                                      "give a wider --range",
-                                      "使わなくなったサーボを `blactl alloc --forget UID` "
-                                      "で削除するか (一覧は `blactl alloc --list`)、"
-                                      "--range を広げて下さい"};
+inline constexpr Text table_full{"nodes on the bus have all node IDs from {} to {}",
+                                 "ノード ID {}～{} はすべてバス上のノードが使用しています"};
+inline constexpr Text table_full_hint{"give a wider --range", "--range を広げて下さい"};
 inline constexpr Text node_id_given{"node ID {} belongs to the unique ID {}",
                                     "ノード ID {} は固有 ID {} に割当て済みです"};
 inline constexpr Text node_id_given_hint{

@@ -31,22 +31,34 @@ inline constexpr dronecan::NodeId last_dynamic_id{125};
 struct AllocationEntry {
   dronecan::NodeId node_id;
   dronecan::UniqueId unique_id{};
-  WallTime at; ///< when it got this ID
+  WallTime at; ///< when it was last given this ID, or seen with it; to an hour
 
   friend bool operator==(const AllocationEntry&, const AllocationEntry&) = default;
 };
 
-/// The choice of a node ID for a unit that is not in the table yet.
+/// The choice of a node ID for a unit that is not in the table, or whose ID is lost.
 struct AllocationChoice {
   dronecan::NodeId preferred{}; ///< by the unit; 0: no preference, as Futaba's (table 2-7)
   NodeIds taken{};              ///< in use on the bus by any node
+  bool is_lost = false;         ///< another node uses the ID that the unit has in the table
   dronecan::NodeId first = first_dynamic_id; ///< of the range to choose from
   dronecan::NodeId last = last_dynamic_id;   ///< of the range, inclusive
 };
 
+/// A node ID for a unit.
+struct Allocation {
+  dronecan::NodeId node_id;
+  bool is_new = false; ///< the unit did not have it in the table
+  /// The unit which had it, and has none in the table any more: all IDs were in there, and this
+  /// unit was not seen for the longest time.
+  std::optional<dronecan::UniqueId> former{};
+
+  friend bool operator==(const Allocation&, const Allocation&) = default;
+};
+
 /// The node IDs of units, in `allocations.db` of a folder: an SQLite database that several
-/// processes use at once. When a function returns, its result is on disk. A unit keeps its ID until
-/// the user forgets the unit or gives it another one.
+/// processes use at once. When a function returns, its result is on disk. It is a memory, never a
+/// fence: only nodes on the bus stand in the way of an ID.
 ///
 /// A file that is not ours or was made by a newer blactl is an error, and so is damage where it is
 /// met (check_state_files() meets all of it). It stays as it is, byte for byte.
@@ -83,12 +95,13 @@ class AllocationStore {
   find(const dronecan::UniqueId& unique_id) const;
   [[nodiscard]] Result<std::optional<AllocationEntry>> find(dronecan::NodeId node_id) const;
 
-  /// The node ID of this unit. A unit in the table has its ID from there, even if that is in use on
-  /// the bus or out of range: the caller decides what to do then. A new unit gets the first free ID
-  /// from `preferred` (0: 125) upward to the end of the range, else downward to its beginning
-  /// (1.Allocation.uavcan); never 0, 126 or 127. Errors: table_full: no ID of the range is free.
-  [[nodiscard]] Result<dronecan::NodeId> allocate(const dronecan::UniqueId& unique_id,
-                                                  const AllocationChoice& choice, WallTime now);
+  /// The node ID of this unit: that of the table, even if it is taken or out of range. If there is
+  /// none, or it is lost, the first one from `preferred` (0: 125) upward to the end of the range,
+  /// else downward to its beginning (1.Allocation.uavcan), that is neither taken nor in the table;
+  /// if there is none, that of the unit which was not seen for the longest time. Never 0, 126 or
+  /// 127. A unit in the table needs no disk. Errors: table_full: all IDs of the range are taken.
+  [[nodiscard]] Result<Allocation> allocate(const dronecan::UniqueId& unique_id,
+                                            const AllocationChoice& choice, WallTime now);
 
   /// A unit and the ID that the user requests for it.
   struct Wish {

@@ -98,14 +98,17 @@ void Serve::tell(Event event, const AllocatedUnit& unit) {
     check(reporter.stream(text_line(time, event, unit)));
   }
   if (event == Event::assigned) {
+    for (const std::string& note : fleet::taken_over(std::span(&unit, 1))) {
+      context_.reporter().note(note);
+    }
     tell_space();
   }
 }
 
-/// Warns before the table is full.
+/// Warns before the bus is full.
 void Serve::tell_space() {
-  if (const auto free = service_.free_ids(); free && *free <= few_ids) {
-    context_.reporter().note(say<texts::alloc_few_left>(*free));
+  if (const auto free = service_.free_ids(); free <= few_ids) {
+    context_.reporter().note(say<texts::alloc_few_left>(free));
   }
 }
 
@@ -189,9 +192,9 @@ void Serve::run() {
     return;
   }
   service_.bus_is_known();
-  if (const auto free = service_.free_ids(); free && !service_.end()) {
+  if (!service_.end()) {
     context_.reporter().note(
-        say<texts::alloc_started>(range_.first.value(), range_.last.value(), *free));
+        say<texts::alloc_started>(range_.first.value(), range_.last.value(), service_.free_ids()));
   }
   while (wait() && look_for_twins(discovery) && !is_over()) {
     // a unit asked meanwhile, or is one of two

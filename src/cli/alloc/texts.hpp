@@ -29,7 +29,7 @@ inline constexpr Text alloc_one_thing{"{} and {} do not go together",
 inline constexpr Text alloc_one_thing_hint{"leave one of them out", "どちらか一方を指定して下さい"};
 inline constexpr Text alloc_column_node{"NODE", "ノード"};
 inline constexpr Text alloc_column_unit{"UNIQUE ID", "固有 ID"};
-inline constexpr Text alloc_column_since{"SINCE", "割当て日時"};
+inline constexpr Text alloc_column_since{"LAST SEEN", "最終確認日時"};
 inline constexpr Text alloc_column_state{"STATE", "状態"};
 inline constexpr Text alloc_column_servo{"SERVO", "サーボ"};
 inline constexpr Text alloc_table_empty{"the allocation table is empty\n", "割当て表は空です\n"};
@@ -51,10 +51,8 @@ inline constexpr Text alloc_imported{"entries taken over from {1}: {0}\n",
 
 inline constexpr Text alloc_started{"node IDs {} to {} are given to units that ask; free: {}",
                                     "ノード ID {}～{} の割当てを開始しました (空き {} 個)"};
-inline constexpr Text alloc_few_left{
-    "node IDs that are still free: {}. Forget servos that are gone: `blactl alloc --forget UID`",
-    "空きノード ID は残り {} 個です。使わなくなったサーボは `blactl alloc --forget UID` "
-    "で削除して下さい"};
+inline constexpr Text alloc_few_left{"node IDs that no node on the bus has: {}",
+                                     "空きノード ID は残り {} 個です"};
 inline constexpr Text alloc_quiet{
     "nobody has asked for {} s; a unit without a node ID asks at least once a second",
     "{} 秒間、割当て要求がありませんでした (ノード ID 未割当てのサーボは 1 "

@@ -160,9 +160,13 @@ bool Run::let_in() {
     context_.reporter().note(say<texts::ids_not_kept>(table.error().message));
     table = state::AllocationStore::unshared();
   }
-  const auto done = table ? fleet::let_in(context_.session(), *table, std::move(goals_.missing))
-                          : Result<void>(std::unexpected(table.error()));
-  return done || broken(done.error());
+  const auto asked = table ? fleet::let_in(context_.session(), *table, std::move(goals_.missing))
+                           : std::unexpected(table.error());
+  if (!asked) {
+    return broken(asked.error());
+  }
+  tell(fleet::taken_over(*asked));
+  return true;
 }
 
 /// Finds the goals for the servos known so far.

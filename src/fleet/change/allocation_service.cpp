@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <chrono>
 #include <iterator>
+#include <ranges>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,6 +36,9 @@ constexpr unsigned most_vain_answers = 5;
 /// other.
 constexpr Duration least_time = 5s;
 constexpr Duration time_for_one = 2s;
+
+/// With many units requests collide; none gets an ID for so long only where none will.
+constexpr Duration longest_wait_for_one = 9s;
 
 /// After this time without a request no unit asks any more, even if one was lost
 /// (1.Allocation.uavcan).
@@ -190,7 +194,7 @@ std::optional<NodeId> AllocationService::assign(const UniqueId& unique_id, NodeI
     failure_ = entry.error();
     return std::nullopt;
   }
-  return *entry ? keep(*unit, (*entry)->node_id) : give(*unit, preferred);
+  return *entry ? keep(*unit, (*entry)->node_id) : give(*unit, {.preferred = preferred});
 }
 
 void AllocationService::note_request(AllocatedUnit& unit) {
@@ -247,7 +251,7 @@ std::optional<NodeId> AllocationService::keep(AllocatedUnit& unit, NodeId id) {
   unit.node_id = id;
   switch (holder(id, unit.unique_id)) {
   case Holder::unknown: return std::nullopt; // it asks again, and then more is known
-  case Holder::other: refuse(unit, Event::conflict, in_use(unit)); return std::nullopt;
+  case Holder::other: return give(unit, {.is_lost = true});
   case Holder::nobody: break;
   }
   unit.refused.reset();
@@ -259,25 +263,27 @@ std::optional<NodeId> AllocationService::keep(AllocatedUnit& unit, NodeId id) {
   return id;
 }
 
-std::optional<NodeId> AllocationService::give(AllocatedUnit& unit, NodeId preferred) {
+std::optional<NodeId> AllocationService::give(AllocatedUnit& unit, state::AllocationChoice choice) {
   if (!bus_is_known_) {
-    return std::nullopt; // its unique ID only begins like one of the table
+    return std::nullopt;
   }
-  const auto id = allocate(session_, store_, unit.unique_id,
-                           {.preferred = preferred, .first = range_.first, .last = range_.last});
-  if (id) {
-    unit.node_id = *id;
+  choice.first = range_.first;
+  choice.last = range_.last;
+  const auto given = allocate(session_, store_, unit.unique_id, choice);
+  if (given) {
+    unit.node_id = given->node_id;
     unit.is_new = true;
+    unit.former = given->former;
     unit.refused.reset();
     ++unit.given;
     session_.records().give(unit.unique_id, session_.now());
     hook_(Event::assigned, unit);
-    return *id;
+    return given->node_id;
   }
-  if (id.error().code == Code::table_full) {
-    refuse(unit, Event::full, id.error());
-  } else if (id.error().code != Code::busy) { // then it is free when the unit asks again
-    failure_ = id.error();
+  if (given.error().code == Code::table_full) {
+    refuse(unit, Event::full, given.error());
+  } else if (given.error().code != Code::busy) { // then it is free when the unit asks again
+    failure_ = given.error();
   }
   return std::nullopt;
 }
@@ -336,15 +342,8 @@ bool AllocationService::is_there(const AllocatedUnit& unit) const {
          member->last_heard >= unit.asked_at;
 }
 
-Result<std::size_t> AllocationService::free_ids() const {
-  const auto entries = store_.entries();
-  if (!entries) {
-    return std::unexpected(entries.error());
-  }
-  state::NodeIds used = session_.roster().ids_in_use({});
-  for (const state::AllocationEntry& entry : *entries) {
-    used.set(entry.node_id.value());
-  }
+std::size_t AllocationService::free_ids() const {
+  const state::NodeIds used = session_.roster().ids_in_use({});
   std::size_t free = 0;
   for (std::size_t id = range_.first.value(); id <= range_.last.value(); ++id) {
     free += used[id] ? 0U : 1U;
@@ -352,30 +351,52 @@ Result<std::size_t> AllocationService::free_ids() const {
   return free;
 }
 
-Result<NodeId> allocate(const Session& session, state::AllocationStore& table,
-                        const UniqueId& unique_id, state::AllocationChoice choice) {
+Result<state::Allocation> allocate(const Session& session, state::AllocationStore& table,
+                                   const UniqueId& unique_id, state::AllocationChoice choice) {
   choice.taken = session.roster().ids_in_use(unique_id);
   return table.allocate(unique_id, choice, session.wall());
 }
 
-Result<void> let_in(Session& session, state::AllocationStore& table,
-                    std::optional<std::vector<UniqueId>> units) {
+Result<std::vector<AllocatedUnit>> let_in(Session& session, state::AllocationStore& table,
+                                          std::optional<std::vector<UniqueId>> units) {
   if (!session.roster().allocators().empty()) {
     return {}; // another allocator does it
   }
-  AllocationService service(session, table, {}, [](auto, const auto&) {});
+  using Event = AllocationService::Event;
+  Time progress = session.now();
+  AllocationService service(session, table, {}, [&](Event event, const AllocatedUnit& /*unit*/) {
+    progress = event == Event::assigned || event == Event::kept ? session.now() : progress;
+  });
   service.bus_is_known();
   if (units) {
     service.serve_only(std::move(*units));
   }
-  const Time end = deadline(session, session.roster().pending().size());
-  const auto lived = session.live_until(end, [&] {
+  const auto is_over = [&] {
     const bool all_there = std::ranges::all_of(service.units(), [&](const auto& entry) {
       return service.is_there(entry.second) || entry.second.refused || entry.second.is_deaf;
     });
     return service.end() || (all_there && session.now() - service.last_request() >= quiet_time);
-  });
-  return lived ? session.run() : std::unexpected(lived.error());
+  };
+  while (!is_over() && session.now() < progress + longest_wait_for_one) {
+    if (const auto lived = session.live_until(progress + longest_wait_for_one, is_over); !lived) {
+      return std::unexpected(lived.error());
+    }
+  }
+  std::vector<AllocatedUnit> asked;
+  std::ranges::copy(service.units() | std::views::values, std::back_inserter(asked));
+  const auto ran = session.run();
+  return ran ? Result<std::vector<AllocatedUnit>>(std::move(asked)) : std::unexpected(ran.error());
+}
+
+std::vector<std::string> taken_over(std::span<const AllocatedUnit> units) {
+  std::vector<std::string> notes;
+  for (const AllocatedUnit& unit : units) {
+    if (unit.former) {
+      notes.push_back(say<texts::oldest_id_taken_over>(unit.node_id.value(), hex(*unit.former),
+                                                       hex(unit.unique_id)));
+    }
+  }
+  return notes;
 }
 
 Result<NotLetIn> let_in(Session& session, state::AllocationStore& table,

@@ -74,7 +74,7 @@ std::optional<NodeId> FormerIds::from_table(const UniqueId& unique_id, NodeId fo
   if (!id) {
     tell(id.error());
   }
-  return id ? std::optional(*id) : std::nullopt;
+  return id ? std::optional(id->node_id) : std::nullopt;
 }
 
 void FormerIds::tell(const Error& error) {

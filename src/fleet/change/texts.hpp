@@ -48,6 +48,9 @@ inline constexpr Text stays_out_of_the_way{
 inline constexpr Text id_taken_over{
     "node ID {} was given to uid:{}, which is not on this bus: it is to go to node {}",
     "ノード ID {} の割当て先 uid:{} はこのバスにないため、ノード {} に割り当てます"};
+inline constexpr Text oldest_id_taken_over{
+    "node ID {} was that of uid:{}, which was not seen for the longest time: uid:{} gets it",
+    "ノード ID {} は、最も長く接続されていない uid:{} の割当てを解除し、uid:{} に割り当てます"};
 
 // Messages about loans, which today are all of torque.
 inline constexpr Text loan_not_back{"node {}: torque was not put back: {}",

@@ -74,7 +74,7 @@ AllocationStore opened(const Folder& folder, Access access = Access::write) {
 /// 0: an error.
 int assigned(AllocationStore& store, int number, const AllocationChoice& choice = {}) {
   const auto id = store.allocate(unit(number), choice, noon);
-  return id ? id->value() : 0;
+  return id ? id->node_id.value() : 0;
 }
 
 /// One entry or none.
@@ -233,7 +233,7 @@ TEST_CASE("new units get an ID of the range, whatever they prefer") {
   CHECK(assigned(store, 3, choice) == 12);
   choice.preferred = NodeId(3);
   CHECK(assigned(store, 4, choice) == 10);
-  CHECK(assigned(store, 5, choice) == 0);
+  CHECK(assigned(store, 5, choice) == 10); // of the unit that was longest unseen
 }
 
 TEST_CASE("a unit keeps its ID, also where it is out of the range or in use by another node") {
@@ -243,11 +243,36 @@ TEST_CASE("a unit keeps its ID, also where it is out of the range or in use by a
   AllocationChoice choice = range(10, 20);
   choice.preferred = NodeId(15);
   choice.taken.set(125);
-  CHECK(store.allocate(unit(1), choice, noon + 1h) == NodeId(125));
-  CHECK(store.entries() == std::vector{AllocationEntry{NodeId(125), unit(1), noon}});
+  CHECK(store.allocate(unit(1), choice, noon + 1h) == Allocation{NodeId(125)});
+  CHECK(store.entries() == std::vector{AllocationEntry{NodeId(125), unit(1), noon + 1h}});
 }
 
-TEST_CASE("all 125 IDs are given once, the next unit is told what to do, and nobody loses one") {
+TEST_CASE("an ID that is lost to another node is replaced by a new one") {
+  const Folder folder;
+  auto store = opened(folder);
+  REQUIRE(assigned(store, 1) == 125);
+  AllocationChoice choice{.is_lost = true};
+  choice.taken.set(125);
+  CHECK(store.allocate(unit(1), choice, noon + 1h) == Allocation{NodeId(124), true});
+  CHECK(store.entries() == std::vector{AllocationEntry{NodeId(124), unit(1), noon + 1h}});
+}
+
+TEST_CASE("where all IDs were given, the unit that was longest unseen and is not here yields") {
+  const Folder folder;
+  auto store = opened(folder);
+  for (int i = 1; i <= 3; ++i) {
+    REQUIRE(store.allocate(unit(i), range(11, 13), noon + i * 1h)->is_new);
+  }
+  REQUIRE(store.allocate(unit(1), range(11, 13), noon + 9h)); // it was seen again
+  AllocationChoice choice = range(11, 13);
+  choice.taken.set(12); // of unit 2
+  const Allocation expected{NodeId(11), true, unit(3)};
+  CHECK(store.allocate(unit(4), choice, noon + 10h) == expected);
+  CHECK(store.find(unit(3)).value() == std::nullopt);
+  CHECK(store.entries()->size() == 3);
+}
+
+TEST_CASE("all 125 IDs are given once before one is given to another unit") {
   const Folder folder;
   auto store = opened(folder);
   std::set<int> given;
@@ -257,12 +282,7 @@ TEST_CASE("all 125 IDs are given once, the next unit is told what to do, and nob
   CHECK(given.size() == 125);
   CHECK(*given.begin() == 1);
   CHECK(*given.rbegin() == 125);
-  const auto full = store.allocate(unit(126), {}, noon);
-  REQUIRE_FALSE(full);
-  CHECK(full.error().code == Code::table_full);
-  CHECK(full.error().message == "no node ID from 1 to 125 is free");
-  CHECK(full.error().hint.find("blactl alloc --forget UID") != std::string::npos);
-  CHECK(full.error().hint.find("--range") != std::string::npos);
+  CHECK(store.allocate(unit(126), {}, noon)->former);
   CHECK(store.entries()->size() == 125);
   CHECK(assigned(store, 77) != 0);
 }
@@ -277,7 +297,8 @@ TEST_CASE("a full range leaves the table as it was") {
   const auto full = store.allocate(unit(1), choice, noon);
   REQUIRE_FALSE(full);
   CHECK(full.error().code == Code::table_full);
-  CHECK(full.error().message == "no node ID from 30 to 30 is free");
+  CHECK(full.error().message == "nodes on the bus have all node IDs from 30 to 30");
+  CHECK(full.error().hint.find("--range") != std::string::npos);
   CHECK(store.entries()->empty());
 }
 
@@ -355,9 +376,9 @@ TEST_CASE("several wishes are granted together, an exchange too, or none of them
 TEST_CASE("a table that nobody shares is in no file") {
   auto store = AllocationStore::unshared().value();
   CHECK(store.path().empty());
-  CHECK(store.allocate(unit(1), {}, noon) == NodeId(125));
-  CHECK(store.allocate(unit(2), {}, noon) == NodeId(124));
-  CHECK(store.allocate(unit(1), {}, noon) == NodeId(125));
+  CHECK(assigned(store, 1) == 125);
+  CHECK(assigned(store, 2) == 124);
+  CHECK(assigned(store, 1) == 125);
   CHECK(AllocationStore::unshared()->entries()->empty());
 }
 
@@ -755,7 +776,7 @@ TEST_CASE("on a full disk nothing is half done, and what was given stays") {
           tell(0, still_reads ? 1 : 0);
           break;
         }
-        tell(i, id->value());
+        tell(i, id->node_id.value());
       }
     });
     while (const auto report = child.next()) {

@@ -12,28 +12,31 @@
 #include <map>
 #include <optional>
 #include <span>
+#include <string>
+#include <vector>
 
 namespace blactl::fleet {
 
 /// A unit that asked for a node ID, and the result.
 struct AllocatedUnit {
   dronecan::UniqueId unique_id{};
-  dronecan::NodeId node_id{};     ///< from the table; 0: none
-  bool is_new = false;            ///< it was not in the table before
-  Time asked_at{};                ///< the last time
-  std::optional<Error> refused{}; ///< why it got none: duplicate_node_id, table_full
+  dronecan::NodeId node_id{};                 ///< from the table; 0: none
+  bool is_new = false;                        ///< this ID of it was not in the table before
+  std::optional<dronecan::UniqueId> former{}; ///< had it in the table: see state::Allocation
+  Time asked_at{};                            ///< the last time
+  std::optional<Error> refused{};             ///< why it got none: duplicate_node_id, table_full
   bool is_shared = false; ///< refused, too: its ID was assigned, and is used by another unit
   unsigned given = 0;     ///< how often in a row, without the unit being heard under it
   bool is_deaf = false;   ///< it was assigned its ID several times, and still asks
 };
 
-/// The node ID of a unit by the table; a new unit is entered there with one that nobody on the bus
-/// has.
+/// The node ID of a unit by the table; a new unit, or one whose ID another node has by now, is
+/// entered there with one that nobody on the bus has.
 /// Errors: as AllocationStore::allocate().
-[[nodiscard]] Result<dronecan::NodeId> allocate(const Session& session,
-                                                state::AllocationStore& table,
-                                                const dronecan::UniqueId& unique_id,
-                                                state::AllocationChoice choice);
+[[nodiscard]] Result<state::Allocation> allocate(const Session& session,
+                                                 state::AllocationStore& table,
+                                                 const dronecan::UniqueId& unique_id,
+                                                 state::AllocationChoice choice);
 
 /// During its lifetime, units that ask for a node ID get one: that of the table, else a free one.
 /// Every ID is in the table before it goes over the wire.
@@ -47,8 +50,8 @@ class AllocationService final : private dronecan::Service, private dronecan::All
     request,  ///< a unit has sent its complete unique ID
     assigned, ///< it is new in the table, and the response goes out
     kept,     ///< it was in the table, and the response goes out
-    conflict, ///< its ID in the table is used by another unit on the bus
-    full,     ///< no ID of the range is free
+    conflict, ///< another unit uses its ID, or has its unique ID
+    full,     ///< nodes on the bus have all IDs of the range
     deaf      ///< it does not accept its ID; further responses are not reported
   };
 
@@ -101,8 +104,8 @@ class AllocationService final : private dronecan::Service, private dronecan::All
   /// begin alike count as one.
   [[nodiscard]] std::size_t asking() const;
 
-  /// The number of IDs in the range left for new units. Errors: of the table.
-  [[nodiscard]] Result<std::size_t> free_ids() const;
+  /// The number of IDs in the range that no node on the bus has.
+  [[nodiscard]] std::size_t free_ids() const;
 
  private:
   enum class Holder : std::uint8_t { nobody, unknown, other };
@@ -119,7 +122,7 @@ class AllocationService final : private dronecan::Service, private dronecan::All
 
   [[nodiscard]] std::optional<dronecan::NodeId> keep(AllocatedUnit& unit, dronecan::NodeId id);
   [[nodiscard]] std::optional<dronecan::NodeId> give(AllocatedUnit& unit,
-                                                     dronecan::NodeId preferred);
+                                                     state::AllocationChoice choice);
   void refuse(AllocatedUnit& unit, Event event, Error error);
   [[nodiscard]] Error in_use(const AllocatedUnit& unit) const;
   [[nodiscard]] Error shared(const AllocatedUnit& unit) const;
@@ -146,9 +149,14 @@ class AllocationService final : private dronecan::Service, private dronecan::All
 };
 
 /// Allocates IDs from the table to those of `units` that ask (empty: to all), and waits until none
-/// asks any more. Not if another allocator is heard. Errors: those that end a session.
-[[nodiscard]] Result<void> let_in(Session& session, state::AllocationStore& table,
-                                  std::optional<std::vector<dronecan::UniqueId>> units);
+/// asks any more. Not if another allocator is heard. Returns those that asked. Errors: those that
+/// end a session.
+[[nodiscard]] Result<std::vector<AllocatedUnit>>
+let_in(Session& session, state::AllocationStore& table,
+       std::optional<std::vector<dronecan::UniqueId>> units);
+
+/// For each ID that was that of another unit: a sentence which names that unit.
+[[nodiscard]] std::vector<std::string> taken_over(std::span<const AllocatedUnit> units);
 
 /// The reasons why units have no node ID though they asked for one.
 using NotLetIn = std::map<dronecan::UniqueId, Error>;
