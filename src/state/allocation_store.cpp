@@ -36,6 +36,9 @@ const DatabaseFormat& allocations_format() {
 
 namespace {
 
+/// A time that is older is renewed.
+constexpr std::chrono::hours worth_renewing{1};
+
 bool may_be_given(NodeId id) {
   return first_dynamic_id <= id && id <= last_dynamic_id;
 }
@@ -162,7 +165,6 @@ Result<Allocation> new_id(const Database& database, const UniqueId& unique_id,
 /// The part of allocate() inside its transaction.
 Result<Allocation> known_or_new(const Database& database, const UniqueId& unique_id,
                                 const AllocationChoice& choice, WallTime now) {
-  constexpr std::chrono::hours worth_renewing{1};
   const auto known = entry_with(database, unique_id);
   if (!known) {
     return std::unexpected(known.error());
@@ -196,7 +198,7 @@ Result<void> put_unless_taken(const Database& database, const AllocationStore::W
 }
 
 /// The part of enter() inside its transaction: first all units give up their IDs, since another may
-/// request one. A unit that keeps its ID keeps its time, too.
+/// request one. A unit that keeps its ID was seen with it.
 Result<void> put_all(const Database& database, std::span<const AllocationStore::Wish> wishes,
                      WallTime now, AllocationStore::Former former) {
   std::vector<AllocationStore::Wish> changes;
@@ -206,6 +208,11 @@ Result<void> put_all(const Database& database, std::span<const AllocationStore::
       return std::unexpected(known.error());
     }
     if (*known && (*known)->node_id == wish.node_id) {
+      const bool is_fresh = now - (*known)->at < worth_renewing;
+      auto seen = is_fresh ? Result<void>() : store(database, wish.unique_id, wish.node_id, now);
+      if (!seen) {
+        return seen;
+      }
       continue;
     }
     if (auto dropped = drop(database, wish.unique_id); !dropped) {

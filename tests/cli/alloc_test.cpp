@@ -10,6 +10,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <set>
 #include <sstream>
 #include <string>
@@ -27,13 +28,14 @@ Scene dynamic_servos(int count) {
   return scene;
 }
 
-std::string scenario(const Bench& bench, int count) {
+/// Of servos that ask for a node ID, with these serial numbers.
+std::string scenario(const Bench& bench, int count, int first = 1) {
   nlohmann::json servos = nlohmann::json::array();
-  for (int i = 1; i <= count; ++i) {
+  for (int i = first; i < first + count; ++i) {
     servos.push_back({{"model", "BLA21-12U-AB"}, {"node_id", 0}, {"serial_number", i}});
   }
   return bench.file(
-      "s.json",
+      "s" + std::to_string(first) + ".json",
       nlohmann::json{{"schema", "blactl-scenario/1"}, {"clock", "virtual"}, {"servos", servos}}
           .dump());
 }
@@ -302,11 +304,11 @@ TEST_CASE("what is asked of alloc wrongly is refused with all faults, and nothin
       {{"alloc", "--range", "10"}, "--range 10: not a range of node IDs"},
       {{"alloc", "--range", "99-10"}, "not a range of node IDs"},
       {{"alloc", "--range", "1-126"}, "not a range of node IDs"},
-      {{"alloc", "--assign", unit}, "UID=ID is needed"},
-      {{"alloc", "--assign", "12=21"}, "12 is not a unique ID"},
+      {{"alloc", "--assign", unit}, "SELECTOR=ID is needed"},
+      {{"alloc", "--assign", "11-12=21"}, "11-12 does not name one servo"},
       {{"alloc", "--assign", unit + "=126"}, "node ID 126 cannot be allocated"},
       {{"alloc", "--assign", unit + "=21", "--assign", unit + "=22"}, "was given before"},
-      {{"alloc", "--forget", "12"}, "12 is not a unique ID"},
+      {{"alloc", "--forget", "serial:x"}, "serial:x does not name one servo"},
       {{"alloc", "--list", "--once"}, "--once and --list do not go together"},
       {{"alloc", "--import", "a", "--export", "b"}, "--export and --import do not go together"},
       {{"alloc", "--listen-only"}, "alloc"},
@@ -532,4 +534,118 @@ TEST_CASE("an ID that was to be taken over, and was not, is its former unit's ag
     is_promised = is_promised || (entry["unique_id"] == away && entry["node_id"] == 20);
   }
   CHECK(is_promised);
+}
+
+namespace {
+
+/// The node IDs by serial number, as scan finds them.
+std::map<int, int> by_serial(const Bench& bench) {
+  std::map<int, int> ids;
+  const auto scanned = json(bench.run({"-i", "sim:", "scan", "-j"}).out);
+  for (const auto& node : scanned["nodes"]) {
+    ids[node["serial_number"].get<int>()] = node["node_id"].get<int>();
+  }
+  return ids;
+}
+
+} // namespace
+
+TEST_CASE("one command numbers new servos, by serial number, on one robot after the other") {
+  const Bench bench;
+  for (const int first : {1, 101, 201}) {
+    const Background sim(bench, {"sim", scenario(bench, 3, first)});
+    const Result result =
+        bench.run({"-i", "sim:", "alloc", "--static", "-n", "all", "--range", "11-13", "-y", "-j"});
+    INFO(result.out << result.err);
+    CHECK(result.status == 0);
+    CHECK(by_serial(bench) == std::map<int, int>{{first, 11}, {first + 1, 12}, {first + 2, 13}});
+    CHECK(contains(result.err, "which is not on this bus") == (first != 1));
+    const Result one = bench.run({"-i", "sim:", "alloc", "--static", "--assign",
+                                  "serial:" + std::to_string(first + 1) + "=33", "-y"});
+    CHECK(one.status == 0);
+    CHECK(by_serial(bench)[first + 1] == 33);
+  }
+}
+
+TEST_CASE("a servo that waits is told by its serial number, and the others get no static ID") {
+  const Bench bench;
+  const Background sim(bench, {"sim", scenario(bench, 3)});
+  const Result result =
+      bench.run({"-i", "sim:", "alloc", "--static", "--assign", "serial:2=20", "-y", "-j"});
+  INFO(result.out << result.err);
+  CHECK(result.status == 0);
+  CHECK(made_static(result).size() == 1);
+  CHECK(by_serial(bench)[2] == 20);
+  const Result unknown = bench.run({"-i", "sim:", "alloc", "--static", "--assign", "serial:9=21"});
+  CHECK(unknown.status == 4);
+  CHECK(contains(unknown.err, "no servo on the bus matches serial:9"));
+}
+
+TEST_CASE("a range that is too small is told before anything is permanent") {
+  const Bench bench;
+  const Background sim(bench, {"sim", scenario(bench, 3)});
+  const Result result =
+      bench.run({"-i", "sim:", "alloc", "--static", "-n", "all", "--range", "11-12", "-y", "-j"});
+  CHECK(result.status == 9);
+  CHECK(codes(result) == std::vector<std::string>{"table_full"});
+  const auto scanned = json(bench.run({"-i", "sim:", "scan", "-j"}).out);
+  REQUIRE(scanned["nodes"].size() == 3);
+  for (const auto& node : scanned["nodes"]) {
+    CHECK(node["static_node_id"] == 0);
+  }
+}
+
+TEST_CASE("ways to give IDs exclude each other, and what does not name one servo is refused") {
+  const std::vector<Arguments> all{{"--range", "11-12", "--assign", "serial:1=11"},
+                                   {"--range", "11-12", "-n", "11", "--id", "12"},
+                                   {"--assign", "all=11"},
+                                   {"--assign", "11-12=11"},
+                                   {"--assign", "serial:1=11", "--assign", "serial:1=12"},
+                                   {"--assign", "serial:1=11", "--assign", "serial:2=11"},
+                                   {"--range", "12-11"}};
+  for (const Arguments& each : all) {
+    Arguments arguments{"alloc", "--static", "-y"};
+    arguments.insert(arguments.end(), each.begin(), each.end());
+    const Result result = three_servos().run(arguments);
+    INFO(each.back() << result.err);
+    CHECK(result.status == 2);
+  }
+}
+
+TEST_CASE("a wish for a servo of the bus is entered, unless another node has that ID") {
+  const Bench bench;
+  const Background sim(bench, {"sim", scenario(bench, 2)});
+  REQUIRE(bench.run({"-i", "sim:", "alloc", "--once"}).status == 0);
+  const Result wished =
+      bench.run({"-i", "sim:", "alloc", "--once", "--wait", "2", "--assign", "serial:1=50"});
+  CHECK(wished.status == 0);
+  CHECK(contains(wished.err, "gets node ID 50 when it asks"));
+  const int other = by_serial(bench)[2];
+  const Result taken = bench.run({"-i", "sim:", "alloc", "--once", "--wait", "2", "--assign",
+                                  "serial:1=" + std::to_string(other)});
+  CHECK(taken.status == 9);
+  CHECK(codes(taken) == std::vector<std::string>{"duplicate_node_id"});
+  CHECK(contains(taken.err, "another node on this bus has it"));
+}
+
+TEST_CASE("units leave the table by a beginning, by what the bus tells, or all that are away") {
+  const Bench bench;
+  {
+    const Background sim(bench, {"sim", scenario(bench, 2, 101)});
+    REQUIRE(bench.run({"-i", "sim:", "alloc", "--once"}).status == 0);
+  }
+  const Background sim(bench, {"sim", scenario(bench, 2)});
+  REQUIRE(bench.run({"-i", "sim:", "alloc", "--once"}).status == 0);
+  REQUIRE(entries(bench).size() == 4);
+  CHECK(bench.run({"-i", "sim:", "alloc", "--forget", "absent"}).status == 7);
+  REQUIRE(entries(bench).size() == 4);
+  CHECK(bench.run({"-i", "sim:", "alloc", "--forget", "absent", "-y"}).status == 0);
+  REQUIRE(entries(bench).size() == 2);
+  CHECK(bench.run({"-i", "sim:", "alloc", "--forget", "serial:101"}).status == 4);
+  CHECK(bench.run({"-i", "sim:", "alloc", "--forget", "serial:1"}).status == 0);
+  REQUIRE(entries(bench).size() == 1);
+  const std::string digits = entries(bench)[0]["unique_id"];
+  CHECK(bench.run({"-i", "sim:", "alloc", "--forget", "uid:" + digits.substr(0, 6)}).status == 0);
+  CHECK(entries(bench).empty());
+  CHECK(bench.run({"-i", "sim:", "alloc", "--forget", "all", "-y"}).status == 0);
 }

@@ -70,40 +70,6 @@ Report list_allocations(Context& context) {
   return report;
 }
 
-Report forget_units(const std::vector<std::string>& units, Context& context) {
-  Report report;
-  std::vector<dronecan::UniqueId> meant;
-  for (const std::string& unit : units) {
-    const auto unique_id = parse_unique_id(unit);
-    unique_id ? meant.push_back(*unique_id) : report.fail(unique_id.error());
-  }
-  if (!report.errors.empty()) {
-    return report;
-  }
-  auto store = open_allocations(context.shared().interface, AllocationStore::Access::write);
-  if (!store) {
-    return failed(std::move(store.error()));
-  }
-  std::string out;
-  for (const dronecan::UniqueId& unique_id : meant) {
-    const auto forgotten = store->forget(unique_id);
-    if (!forgotten) {
-      report.fail(forgotten.error());
-      break;
-    }
-    if (*forgotten) {
-      report.targets.emplace_back();
-      out += say<texts::alloc_forgotten>(hex(unique_id));
-    } else {
-      report.fail_target({Code::not_found, say<texts::alloc_not_in_table>(hex(unique_id)),
-                          say<texts::alloc_not_in_table_hint>(), std::nullopt});
-    }
-  }
-  report.count_targets(meant.size());
-  report.text = [out](const Page& /*page*/) { return out; };
-  return report;
-}
-
 Report export_allocations(const std::string& file, Context& context) {
   const auto entries = entries_of(context);
   if (!entries) {

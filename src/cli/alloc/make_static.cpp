@@ -11,6 +11,7 @@
 #include <optional>
 #include <set>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -23,24 +24,24 @@ using Wishes = std::vector<AllocationStore::Wish>;
 /// The node IDs to make static, by servo.
 class StaticWishes {
  public:
-  StaticWishes(const AllocOptions& options, Wishes wishes, AllocationStore& table, Context& context)
-      : options_(options), wishes_(std::move(wishes)), table_(table), context_(context) {}
+  StaticWishes(const AllocOptions& options, std::vector<fleet::WantedId> wanted,
+               AllocationStore& table, Context& context)
+      : options_(options), wanted_(std::move(wanted)), table_(table), context_(context) {}
 
   [[nodiscard]] Goals find(const Whom& whom) {
-    if (options_.assign.empty()) {
-      auto wishes = wishes_for(whom);
-      if (!wishes) {
-        return {.errors = {std::move(wishes.error())}};
-      }
-      wishes_ = std::move(*wishes);
-    }
+    std::vector<Error> unknown = wish(whom);
     auto found = fleet::static_goals(whom.roster, context_.known(), wishes_, not_let_in_);
-    const bool may_wait = !found.errors.empty();
-    return {
-        .goals = std::move(found.goals), .errors = std::move(found.errors), .may_wait = may_wait};
+    std::ranges::move(found.errors, std::back_inserter(unknown));
+    const bool may_wait = !unknown.empty();
+    return {.goals = std::move(found.goals), .errors = std::move(unknown), .may_wait = may_wait};
   }
 
+  /// Those with a wish get its ID for the time being. To tell who is meant by anything but a unique
+  /// ID, all that wait need one.
   [[nodiscard]] Result<void> let_in() {
+    if (wanted_.empty() || wishes_.size() < wanted_.size()) {
+      return let_all_in();
+    }
     auto left = fleet::let_in(context_.session(), table_, wishes_);
     if (!left) {
       return std::unexpected(std::move(left.error()));
@@ -50,7 +51,42 @@ class StaticWishes {
   }
 
  private:
+  [[nodiscard]] Result<void> let_all_in() const {
+    const auto asked = fleet::let_in(context_.session(), table_, std::nullopt);
+    if (!asked) {
+      return std::unexpected(asked.error());
+    }
+    for (const std::string& note : fleet::taken_over(*asked)) {
+      context_.reporter().note(note);
+    }
+    return {};
+  }
+
+  /// Returns why some have none.
+  [[nodiscard]] std::vector<Error> wish(const Whom& whom) {
+    wishes_.clear();
+    if (wanted_.empty()) {
+      auto wishes = wishes_for(whom);
+      if (!wishes) {
+        return {std::move(wishes.error())};
+      }
+      wishes_ = std::move(*wishes);
+      return {};
+    }
+    std::vector<Error> errors;
+    for (const fleet::WantedId& wanted : wanted_) {
+      auto unit = fleet::unit_meant(wanted, whom.roster, context_.known());
+      unit ? wishes_.push_back({*unit, wanted.node_id}) : errors.push_back(std::move(unit.error()));
+    }
+    return errors;
+  }
+
   [[nodiscard]] Result<Wishes> wishes_for(const Whom& whom) const {
+    if (!options_.range.empty()) {
+      const auto range = parse_range(options_.range);
+      return range ? fleet::ids_within(*range, whom.roster, whom.selected)
+                   : std::unexpected(range.error());
+    }
     if (options_.id && whom.selected.size() != 1) {
       return fail(Code::usage, say<texts::alloc_several_for_id>(*options_.id, whom.selected.size()),
                   say<texts::alloc_several_for_id_hint>());
@@ -63,7 +99,8 @@ class StaticWishes {
   }
 
   const AllocOptions& options_;
-  Wishes wishes_;
+  std::vector<fleet::WantedId> wanted_; ///< by --assign
+  Wishes wishes_{};
   AllocationStore& table_;
   Context& context_;
   fleet::NotLetIn not_let_in_;
@@ -120,9 +157,12 @@ class Stream {
 
 Report make_static(const AllocOptions& options, Context& context) {
   Report report{.interface = printable(context.shared().interface), .is_stream = true};
-  auto wishes = parse_wishes(options.assign);
-  if (!wishes) {
-    std::ranges::copy(wishes.error(), std::back_inserter(report.errors));
+  auto wanted = parse_wishes(options.assign);
+  if (!wanted) {
+    std::ranges::copy(wanted.error(), std::back_inserter(report.errors));
+  }
+  if (const auto range = parse_range(options.range); !range) {
+    report.fail(range.error());
   }
   if (const auto profiles = context.profiles(); !profiles) {
     report.fail(profiles.error());
@@ -135,11 +175,12 @@ Report make_static(const AllocOptions& options, Context& context) {
     report.fail(table.error());
     return report;
   }
-  StaticWishes ids(options, std::move(*wishes), *table, context);
+  StaticWishes ids(options, std::move(*wanted), *table, context);
   Stream stream(*table, context);
   report = change_servos({.command = "alloc --static",
                           .search = Search::everybody,
                           .needs_targets = options.assign.empty(),
+                          .numbers_waiting = options.assign.empty(),
                           .find = [&](const Whom& whom) { return ids.find(whom); },
                           .let_in = [&] { return ids.let_in(); },
                           .moved = [&](const fleet::IdMove& move) { stream.moved(move); },

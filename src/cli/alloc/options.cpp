@@ -1,12 +1,13 @@
 #include "cli/alloc/options.hpp"
 
-#include "blactl/base/hex.hpp"
-
 #include "cli/alloc/texts.hpp"
 
 #include <algorithm>
 #include <charconv>
+#include <string>
 #include <string_view>
+#include <tuple>
+#include <utility>
 
 namespace blactl::cli {
 
@@ -25,22 +26,22 @@ std::optional<NodeId> parse_dynamic_id(std::string_view text) {
   return is_whole && fits ? std::optional(NodeId(value)) : std::nullopt;
 }
 
-Result<state::AllocationStore::Wish> parse_wish(std::string_view text) {
-  const auto equals = text.find('=');
+Result<fleet::WantedId> parse_wish(std::string_view text) {
+  const auto equals = text.rfind('=');
   if (equals == std::string_view::npos) {
     return fail(Code::usage, say<texts::alloc_no_wish>(printable(text)),
                 say<texts::alloc_wish_hint>());
   }
-  const auto unique_id = parse_unique_id(text.substr(0, equals));
-  if (!unique_id) {
-    return std::unexpected(unique_id.error());
+  auto whom = parse_unit(text.substr(0, equals));
+  if (!whom) {
+    return std::unexpected(std::move(whom.error()));
   }
   const auto node_id = parse_dynamic_id(text.substr(equals + 1));
   if (!node_id) {
     return fail(Code::out_of_range, say<texts::alloc_no_id>(printable(text.substr(equals + 1))),
                 say<texts::alloc_no_id_hint>());
   }
-  return state::AllocationStore::Wish{*unique_id, *node_id};
+  return fleet::WantedId{std::move(*whom), *node_id, std::string(text.substr(0, equals))};
 }
 
 } // namespace
@@ -61,39 +62,36 @@ Result<fleet::AllocationService::Range> parse_range(const std::string& text) {
               say<texts::alloc_range_hint>());
 }
 
-std::expected<std::vector<state::AllocationStore::Wish>, std::vector<Error>>
+std::expected<std::vector<fleet::WantedId>, std::vector<Error>>
 parse_wishes(const std::vector<std::string>& texts) {
-  using Wish = state::AllocationStore::Wish;
-  std::vector<Wish> wishes;
+  using fleet::WantedId;
+  std::vector<WantedId> wishes;
   std::vector<Error> faults;
   for (const std::string& text : texts) {
-    const auto wish = parse_wish(text);
+    auto wish = parse_wish(text);
     if (!wish) {
       faults.push_back(wish.error());
-    } else if (std::ranges::find(wishes, wish->unique_id, &Wish::unique_id) != wishes.end() ||
-               std::ranges::find(wishes, wish->node_id, &Wish::node_id) != wishes.end()) {
+    } else if (std::ranges::find(wishes, wish->text, &WantedId::text) != wishes.end() ||
+               std::ranges::find(wishes, wish->node_id, &WantedId::node_id) != wishes.end()) {
       faults.push_back({Code::usage, say<texts::alloc_wish_twice>(printable(text)),
                         say<texts::alloc_wish_hint>(), std::nullopt});
     } else {
-      wishes.push_back(*wish);
+      wishes.push_back(std::move(*wish));
     }
   }
-  return faults.empty() ? std::expected<std::vector<Wish>, std::vector<Error>>(std::move(wishes))
-                        : std::unexpected(std::move(faults));
+  return faults.empty()
+             ? std::expected<std::vector<WantedId>, std::vector<Error>>(std::move(wishes))
+             : std::unexpected(std::move(faults));
 }
 
-Result<UniqueId> parse_unique_id(std::string_view text) {
-  std::string_view digits = text;
-  for (const std::string_view prefix : {"unique_id:", "uid:"}) {
-    if (digits.starts_with(prefix)) {
-      digits.remove_prefix(prefix.size());
-    }
-  }
-  if (const auto unique_id = from_hex<std::tuple_size_v<UniqueId>>(digits)) {
-    return *unique_id;
-  }
-  return fail(Code::usage, say<texts::alloc_no_unique_id>(printable(text)),
-              say<texts::alloc_no_unique_id_hint>());
+Result<fleet::Targets> parse_unit(std::string_view text) {
+  constexpr std::size_t digits = 2 * std::tuple_size_v<UniqueId>;
+  const bool is_unique_id = text.size() == digits && text.find(':') == std::string_view::npos;
+  auto whom = fleet::parse_targets(is_unique_id ? "uid:" + std::string(text) : std::string(text));
+  const bool is_one = whom && !whom->all && whom->ids.size() + whom->selectors.size() == 1;
+  return is_one ? std::move(whom)
+                : fail(Code::usage, say<texts::alloc_no_unit>(printable(text)),
+                       say<texts::alloc_no_unit_hint>());
 }
 
 } // namespace blactl::cli

@@ -3,13 +3,16 @@
 
 #include "blactl/base/error.hpp"
 #include "blactl/base/time.hpp"
+#include "blactl/fleet/bus/target.hpp"
 #include "blactl/fleet/change/allocation_service.hpp"
-#include "blactl/state/allocation_store.hpp"
+#include "blactl/fleet/change/static_ids.hpp"
 
 #include <chrono>
 #include <cstdint>
+#include <expected>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace blactl::cli {
@@ -31,11 +34,12 @@ struct AllocOptions {
 /// Parses "10-99". Errors: usage.
 [[nodiscard]] Result<fleet::AllocationService::Range> parse_range(const std::string& text);
 
-/// Parses "UID=ID" items. Errors: usage, out_of_range; all errors of the list.
-[[nodiscard]] std::expected<std::vector<state::AllocationStore::Wish>, std::vector<Error>>
+/// Parses "SELECTOR=ID" items. Errors: usage, out_of_range; all errors of the list.
+[[nodiscard]] std::expected<std::vector<fleet::WantedId>, std::vector<Error>>
 parse_wishes(const std::vector<std::string>& texts);
 
-/// Parses 32 hexadecimal digits, with or without "uid:". Errors: usage.
-[[nodiscard]] Result<dronecan::UniqueId> parse_unique_id(std::string_view text);
+/// Parses what means one unit: a node ID, a selector, or a unique ID without its "uid:". Errors:
+/// usage.
+[[nodiscard]] Result<fleet::Targets> parse_unit(std::string_view text);
 
 } // namespace blactl::cli

@@ -1,6 +1,7 @@
 #include "blactl/base/hex.hpp"
 #include "blactl/fleet/bus/discovery.hpp"
 #include "blactl/fleet/bus/ticker.hpp"
+#include "blactl/fleet/change/static_ids.hpp"
 
 #include "cli/alloc/actions.hpp"
 #include "cli/alloc/texts.hpp"
@@ -14,7 +15,10 @@
 #include <algorithm>
 #include <chrono>
 #include <iterator>
+#include <optional>
 #include <ranges>
+#include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -41,18 +45,24 @@ constexpr std::size_t few_ids = 5;
 /// One run of the allocator.
 class Serve {
  public:
-  Serve(const AllocOptions& options, AllocationService::Range range, Context& context,
-        AllocationStore& store, Report& report)
-      : options_(options), context_(context), report_(report),
-        progress_at_(context.session().now()), range_(range),
-        service_(context.session(), store, range,
-                 [this](Event event, const AllocatedUnit& unit) { tell(event, unit); }) {}
+  Serve(const AllocOptions& options, AllocationService::Range range,
+        std::vector<fleet::WantedId> wanted, Context& context, AllocationStore& store,
+        Report& report)
+      : options_(options), context_(context), store_(store), report_(report),
+        progress_at_(context.session().now()), range_(range), wanted_(std::move(wanted)) {
+    if (wanted_.empty()) { // else units of the table wait for a second
+      begin();
+    }
+  }
 
   void run();
 
  private:
   [[nodiscard]] fleet::Session& session() const { return context_.session(); }
 
+  void begin();
+  [[nodiscard]] bool enter_wishes();
+  void remember();
   void check(const Result<bool>& printed);
   void tell(Event event, const AllocatedUnit& unit);
   void redraw();
@@ -69,13 +79,61 @@ class Serve {
 
   const AllocOptions& options_;
   Context& context_;
+  AllocationStore& store_;
   Report& report_;
   Time progress_at_; ///< when an allocation last made progress
   AllocationService::Range range_;
   bool has_reader_ = true;
   std::uint64_t assigned_ = 0, kept_ = 0;
-  AllocationService service_;
+  std::vector<fleet::WantedId> wanted_;
+  std::optional<AllocationService> service_;
 };
+
+void Serve::begin() {
+  service_.emplace(session(), store_, range_,
+                   [this](Event event, const AllocatedUnit& unit) { tell(event, unit); });
+}
+
+/// What a person wishes is taken over from a unit that is not on this bus. Returns whether all
+/// wishes are entered.
+bool Serve::enter_wishes() {
+  std::vector<AllocationStore::Wish> wishes;
+  for (const fleet::WantedId& wanted : wanted_) {
+    const auto unit = fleet::unit_meant(wanted, session().roster(), context_.known());
+    const auto entered = unit ? fleet::may_have(session().roster(), *unit, wanted.node_id)
+                              : Result<void>(std::unexpected(unit.error()));
+    if (!entered) {
+      report_.fail(entered.error());
+      continue;
+    }
+    wishes.push_back({*unit, wanted.node_id});
+  }
+  if (!report_.errors.empty()) {
+    return false;
+  }
+  const auto notes = fleet::enter_wishes(store_, wishes, session().wall());
+  if (!notes) {
+    report_.fail(notes.error());
+    return false;
+  }
+  for (const std::string& note : *notes) {
+    context_.reporter().note(note);
+  }
+  for (const AllocationStore::Wish& wish : wishes) {
+    context_.reporter().note(
+        say<texts::alloc_wish_taken>(hex(wish.unique_id), wish.node_id.value()));
+  }
+  return true;
+}
+
+/// The servos that are here enter the table.
+void Serve::remember() {
+  const auto here = fleet::ids_seen(session().roster());
+  const auto entered = fleet::enter_kept(store_, here, session().wall());
+  if (!entered && report_.errors.empty()) {
+    report_.fail(entered.error());
+  }
+}
 
 /// Ends the run if the reader has left.
 void Serve::check(const Result<bool>& printed) {
@@ -107,7 +165,7 @@ void Serve::tell(Event event, const AllocatedUnit& unit) {
 
 /// Warns before the bus is full.
 void Serve::tell_space() {
-  if (const auto free = service_.free_ids(); free <= few_ids) {
+  if (const auto free = service_->free_ids(); free <= few_ids) {
     context_.reporter().note(say<texts::alloc_few_left>(free));
   }
 }
@@ -116,29 +174,29 @@ void Serve::tell_space() {
 void Serve::redraw() {
   const Reporter& reporter = context_.reporter();
   if (reporter.has_screen()) {
-    check(reporter.show(text(service_, session().roster(), reporter.page())));
+    check(reporter.show(text(*service_, session().roster(), reporter.page())));
   }
 }
 
 std::size_t Serve::there() const {
   return static_cast<std::size_t>(std::ranges::count_if(
-      service_.units(), [this](const auto& entry) { return service_.is_there(entry.second); }));
+      service_->units(), [this](const auto& entry) { return service_->is_there(entry.second); }));
 }
 
 /// Whether a recently assigned ID was not heard yet.
 bool Serve::is_coming_up() const {
-  return std::ranges::any_of(service_.units(), [this](const auto& entry) {
+  return std::ranges::any_of(service_->units(), [this](const auto& entry) {
     const AllocatedUnit& unit = entry.second;
     return unit.node_id.is_unicast() && !unit.refused && !unit.is_deaf &&
-           !service_.is_there(unit) && session().now() - unit.asked_at < come_up_time;
+           !service_->is_there(unit) && session().now() - unit.asked_at < come_up_time;
   });
 }
 
 /// One that has asked once is waited for; who babbles asks once again and again, which must end.
 bool Serve::is_quiet() const {
-  const Duration enough = service_.units().empty() ? options_.wait : quiet_time;
-  const Duration silence = session().now() - service_.last_request();
-  const bool may_come = service_.may_begin_to_ask() && silence < enough + quiet_time;
+  const Duration enough = service_->units().empty() ? options_.wait : quiet_time;
+  const Duration silence = session().now() - service_->last_request();
+  const bool may_come = service_->may_begin_to_ask() && silence < enough + quiet_time;
   return silence >= enough && !may_come && !is_coming_up();
 }
 
@@ -148,7 +206,7 @@ bool Serve::is_stuck() const {
 }
 
 bool Serve::is_over() const {
-  return !has_reader_ || service_.end() || (options_.count && there() >= *options_.count) ||
+  return !has_reader_ || service_->end() || (options_.count && there() >= *options_.count) ||
          (options_.once && (is_quiet() || is_stuck()));
 }
 
@@ -172,8 +230,8 @@ bool Serve::wait() {
 /// whether the session is still alive.
 bool Serve::look_for_twins(fleet::Discovery& discovery) {
   std::vector<const fleet::Member*> members;
-  for (const AllocatedUnit& unit : service_.units() | std::views::values) {
-    if (service_.is_there(unit) || unit.is_shared) {
+  for (const AllocatedUnit& unit : service_->units() | std::views::values) {
+    if (service_->is_there(unit) || unit.is_shared) {
       members.push_back(session().roster().find(unit.node_id));
     }
   }
@@ -188,13 +246,19 @@ void Serve::run() {
   fleet::Discovery discovery(session(), context_.known(), context_.identification());
   if (const auto found = discovery.find_all(fleet::bus_watch_time); !found) {
     context_.broken(found.error(), report_);
-    conclude();
-    return;
+    return service_ ? conclude() : report_.count_targets();
   }
-  service_.bus_is_known();
-  if (!service_.end()) {
+  if (!wanted_.empty()) {
+    if (!enter_wishes()) {
+      report_.count_targets();
+      return;
+    }
+    begin();
+  }
+  service_->bus_is_known();
+  if (!service_->end()) {
     context_.reporter().note(
-        say<texts::alloc_started>(range_.first.value(), range_.last.value(), service_.free_ids()));
+        say<texts::alloc_started>(range_.first.value(), range_.last.value(), service_->free_ids()));
   }
   while (wait() && look_for_twins(discovery) && !is_over()) {
     // a unit asked meanwhile, or is one of two
@@ -208,27 +272,28 @@ void Serve::tell_quiet() {
   const auto seconds = [this](Time since) { return whole_seconds(session().now() - since); };
   if (!is_quiet() && is_stuck()) {
     report_.fail({Code::timeout,
-                  say<texts::alloc_unfinished>(service_.asking(), seconds(progress_at_)),
+                  say<texts::alloc_unfinished>(service_->asking(), seconds(progress_at_)),
                   say<texts::alloc_unfinished_hint>(), std::nullopt});
   } else if (is_quiet()) {
     const bool refuses =
-        std::ranges::any_of(service_.units() | std::views::values,
+        std::ranges::any_of(service_->units() | std::views::values,
                             [](const AllocatedUnit& unit) { return unit.refused || unit.is_deaf; });
-    const auto silence = seconds(service_.last_request());
+    const auto silence = seconds(service_->last_request());
     context_.reporter().note(refuses ? say<texts::alloc_quiet_others>(silence)
                                      : say<texts::alloc_quiet>(silence));
   }
 }
 
 void Serve::conclude() {
-  if (auto end = service_.end()) {
+  remember();
+  if (auto end = service_->end()) {
     report_.fail(std::move(*end));
   }
-  for (const AllocatedUnit& unit : service_.units() | std::views::values) {
-    if (auto refusal = service_.refusal(unit)) {
+  for (const AllocatedUnit& unit : service_->units() | std::views::values) {
+    if (auto refusal = service_->refusal(unit)) {
       report_.fail_target(std::move(*refusal));
-    } else if (unit.node_id.is_unicast() && !service_.is_there(unit)) {
-      report_.fail_target(service_.absence(unit));
+    } else if (unit.node_id.is_unicast() && !service_->is_there(unit)) {
+      report_.fail_target(service_->absence(unit));
     } else if (unit.node_id.is_unicast()) { // else it has no ID, and nothing prevents one
       report_.targets.emplace_back();
     }
@@ -258,12 +323,12 @@ std::optional<Error> refuse(const Context& context) {
 Report serve_allocations(const AllocOptions& options, Context& context) {
   Report report{.interface = printable(context.shared().interface), .is_stream = true};
   const auto range = parse_range(options.range);
-  const auto wishes = parse_wishes(options.assign);
+  auto wanted = parse_wishes(options.assign);
   if (!range) {
     report.fail(range.error());
   }
-  if (!wishes) {
-    std::ranges::copy(wishes.error(), std::back_inserter(report.errors));
+  if (!wanted) {
+    std::ranges::copy(wanted.error(), std::back_inserter(report.errors));
   }
   if (auto refused = refuse(context)) {
     report.fail(std::move(*refused));
@@ -284,18 +349,10 @@ Report serve_allocations(const AllocOptions& options, Context& context) {
     return report;
   }
   report.interface = context.session().interface();
-  if (const auto put = store->enter(*wishes, context.session().wall()); !put) {
-    report.fail(put.error());
-    return report;
-  }
-  for (const AllocationStore::Wish& wish : *wishes) {
-    context.reporter().note(
-        say<texts::alloc_wish_taken>(hex(wish.unique_id), wish.node_id.value()));
-  }
   if (store->path().empty()) {
     context.reporter().note(say<texts::alloc_not_kept>());
   }
-  Serve(options, *range, context, *store, report).run();
+  Serve(options, *range, std::move(*wanted), context, *store, report).run();
   return report;
 }
 

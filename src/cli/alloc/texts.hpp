@@ -5,13 +5,13 @@
 
 namespace blactl::texts {
 
-inline constexpr Text alloc_no_wish{"--assign {}: UID=ID is needed",
-                                    "--assign {}: UID=ID の形式で指定して下さい"};
+inline constexpr Text alloc_no_wish{"--assign {}: SELECTOR=ID is needed",
+                                    "--assign {}: SELECTOR=ID の形式で指定して下さい"};
 inline constexpr Text alloc_wish_hint{
-    "for example --assign 0011223344556677889900aabbccddee=21, each unit and each ID once",
-    "例: --assign 0011223344556677889900aabbccddee=21 (固有 ID とノード ID の重複は不可)"};
-inline constexpr Text alloc_wish_twice{"--assign {}: this unit or this ID was given before",
-                                       "--assign {}: 固有 ID またはノード ID が重複しています"};
+    "for example --assign serial:240900558=21, each servo and each ID once",
+    "例: --assign serial:240900558=21 (サーボとノード ID の重複は不可)"};
+inline constexpr Text alloc_wish_twice{"--assign {}: this servo or this ID was given before",
+                                       "--assign {}: サーボまたはノード ID が重複しています"};
 inline constexpr Text alloc_no_id{"node ID {} cannot be allocated",
                                   "ノード ID {} は割り当てられません"};
 inline constexpr Text alloc_no_id_hint{"give one from 1 to 125; 126 and 127 are for tools",
@@ -20,10 +20,11 @@ inline constexpr Text alloc_no_range{"--range {}: not a range of node IDs",
                                      "--range {}: ノード ID の範囲ではありません"};
 inline constexpr Text alloc_range_hint{"for example --range 10-99, within 1 to 125",
                                        "例: --range 10-99 (1～125 の範囲内)"};
-inline constexpr Text alloc_no_unique_id{"{} is not a unique ID", "{} は固有 ID ではありません"};
-inline constexpr Text alloc_no_unique_id_hint{
-    "32 hexadecimal digits; see `blactl scan --json` or `blactl alloc --list`",
-    "16 進数 32 桁です。`blactl scan --json` または `blactl alloc --list` で確認できます"};
+inline constexpr Text alloc_no_unit{"{} does not name one servo", "{} は 1 台のサーボを示しません"};
+inline constexpr Text alloc_no_unit_hint{
+    "a unique ID or its beginning (uid:0011aa), serial:240900558, servo:3, or a node ID",
+    "固有 ID またはその先頭 (uid:0011aa)、serial:240900558、servo:3、またはノード ID "
+    "を指定して下さい"};
 inline constexpr Text alloc_one_thing{"{} and {} do not go together",
                                       "{} と {} は同時に指定できません"};
 inline constexpr Text alloc_one_thing_hint{"leave one of them out", "どちらか一方を指定して下さい"};
@@ -38,6 +39,16 @@ inline constexpr Text alloc_not_in_table{"{} is not in the allocation table",
                                          "{} は割当て表にありません"};
 inline constexpr Text alloc_not_in_table_hint{"see what is: blactl alloc --list",
                                               "一覧: blactl alloc --list"};
+inline constexpr Text alloc_several_begin_so{
+    "{} is the beginning of {} unique IDs in the allocation table",
+    "{} で始まる固有 ID は割当て表に {} 件あります"};
+inline constexpr Text alloc_forget_all_question{
+    "All {} units leave the allocation table: those without a static node ID may get another "
+    "one.\n",
+    "割当て表の全 {} 件を削除します。静的ノード ID のないサーボの ID が変わる場合があります。\n"};
+inline constexpr Text alloc_forget_absent_question{
+    "The units that leave the allocation table, as they are not on this bus, are {}.\n",
+    "このバスにない {} 件を割当て表から削除します。\n"};
 inline constexpr Text alloc_export_json_needs_file{
     "--json reports on FILE: both would be on stdout",
     "--json の結果と割当て表がどちらも標準出力になるため、実行できません"};
@@ -82,8 +93,8 @@ inline constexpr Text alloc_only_static_hint{"for example: blactl alloc --static
 inline constexpr Text alloc_several_for_id{"--id {} is one ID, and {} servos are meant",
                                            "--id {} は 1 台分ですが、対象は {} 台です"};
 inline constexpr Text alloc_several_for_id_hint{
-    "name one servo with -n, or give each its own: --assign UID=ID",
-    "-n で 1 台を指定するか、--assign UID=ID で個別に指定して下さい"};
+    "name one servo with -n, or give each its own: --range A-B, --assign SELECTOR=ID",
+    "-n で 1 台を指定するか、--range A-B または --assign SELECTOR=ID で個別に指定して下さい"};
 inline constexpr Text alloc_state_there{"there", "接続中"};
 inline constexpr Text alloc_state_given{"given, no answer yet", "割当て済み (応答待ち)"};
 inline constexpr Text alloc_state_refused{"refused", "割当て不可"};

@@ -135,19 +135,29 @@ bool Run::find() {
   if (!targets) {
     return stop(targets.error());
   }
+  if (request_.search == Search::everybody && !look_around()) {
+    return false;
+  }
+  const bool numbers = request_.numbers_waiting && targets->need_search() && may_let_in();
+  if (numbers && !(let_in() && look_around())) {
+    return false;
+  }
   if (!look_for(*targets)) {
     return false;
   }
-  if (goals_.may_wait && may_let_in() && !(let_in() && look_for(*targets))) {
+  if (goals_.may_wait && may_let_in() && !(let_in() && look_around() && look_for(*targets))) {
     return false;
   }
   return stop_at(goals_.errors);
 }
 
-/// Whether missing servos may be waiting for a node ID. A plan allocates none.
+/// Whether missing servos may be waiting for a node ID. A plan allocates none. Who was heard once
+/// in so short a time may well be one.
 bool Run::may_let_in() {
-  return !request_.dry_run && !context_.session().roster().pending().empty() &&
-         context_.may_allocate();
+  const fleet::Roster& roster = context_.session().roster();
+  const bool may_wait =
+      request_.numbers_waiting ? !roster.requests().empty() : !roster.pending().empty();
+  return !request_.dry_run && may_wait && context_.may_allocate();
 }
 
 bool Run::let_in() {
@@ -171,9 +181,6 @@ bool Run::let_in() {
 
 /// Finds the goals for the servos known so far.
 bool Run::look_for(const fleet::Targets& targets) {
-  if (request_.search == Search::everybody && !look_around()) {
-    return false;
-  }
   Whom whom{context_.session().roster(), targets};
   if (targets.given || request_.needs_targets) {
     auto selection = choose(targets, context_.identification());

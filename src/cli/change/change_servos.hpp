@@ -50,6 +50,8 @@ struct ChangeRequest {
   std::string_view command; ///< its name
   Search search = Search::targets;
   bool needs_targets = true; ///< with Search::everybody, too: without -n there must be one servo
+  /// Servos that wait for a node ID get one before -n is looked at, unless it names node IDs only.
+  bool numbers_waiting = false;
   /// Called once the bus is known, and again when more servos are.
   std::function<Goals(const Whom& whom)> find{};
   /// Assigns node IDs to waiting servos that may be the missing ones; empty: to all that ask.

@@ -35,15 +35,18 @@ constexpr Option alloc_options[]{
     {.name = "--range",
      .value = "A-B",
      .kind = Kind::text,
-     .help = {"take new node IDs from these (default 1-125, from the top)",
-              "新規割当てに使う範囲 (省略時 1-125、大きい番号から)"},
+     .help =
+         {"take new node IDs from these (default 1-125, from the top); with --static: bring all "
+          "into it, by serial number",
+          "新規割当てに使う範囲 (省略時 1-125、大きい番号から)。--static "
+          "使用時は製造番号順に範囲内へ移動"},
      .store = into<&AllocOptions::range>},
     {.name = "--assign",
-     .value = "UID=ID",
+     .value = "SELECTOR=ID",
      .kind = Kind::text,
      .repeat = Repeat::list,
-     .help = {"this unit gets this node ID from now on",
-              "以後、この固有 ID にこのノード ID を割り当てる"},
+     .help = {"this servo (uid:, serial:, servo:) gets this node ID from now on",
+              "以後、このサーボ (uid:、serial:、servo:) にこのノード ID を割り当てる"},
      .store = into<&AllocOptions::assign>},
     {.name = "--static",
      .kind = Kind::flag,
@@ -64,10 +67,13 @@ constexpr Option alloc_options[]{
      .help = {"show the table, without a bus", "割当て表を表示 (バス不要)"},
      .store = into<&AllocOptions::list>},
     {.name = "--forget",
-     .value = "UID",
+     .value = "WHO",
      .kind = Kind::text,
      .repeat = Repeat::list,
-     .help = {"drop a unit from the table: its node ID is free", "割当て表から削除"},
+     .help = {"drop from the table: a servo (uid:, serial:, servo:), absent (all that are not on "
+              "this bus), all",
+              "割当て表から削除: サーボ (uid:、serial:、servo:)、absent "
+              "(このバスにないもの)、all (全件)"},
      .store = into<&AllocOptions::forget>},
     {.name = "--export",
      .value = "FILE",
@@ -99,7 +105,7 @@ std::vector<Given> given(const AllocOptions& options, const Shared& shared) {
                          {shared.nodes.has_value(), "--node", Does::fix},
                          {options.once, "--once", Does::serve},
                          {options.count.has_value(), "--count", Does::serve},
-                         {!options.range.empty(), "--range", Does::serve},
+                         {!options.range.empty(), "--range", Does::serve | Does::fix},
                          {!options.assign.empty(), "--assign", Does::serve | Does::fix},
                          {options.list, "--list", Does::list},
                          {!options.forget.empty(), "--forget", Does::forget},
@@ -107,6 +113,27 @@ std::vector<Given> given(const AllocOptions& options, const Shared& shared) {
                          {!options.import_from.empty(), "--import", Does::read}};
   std::erase_if(all, [](const Given& each) { return !each.is_given; });
   return all;
+}
+
+/// Of what gives IDs to servos one is enough.
+std::optional<Error> refuse_two_wishes(const AllocOptions& options, const Shared& shared) {
+  std::vector<std::string_view> ways;
+  if (options.id) {
+    ways.emplace_back("--id");
+  }
+  if (!options.range.empty()) {
+    ways.emplace_back("--range");
+  }
+  if (shared.nodes && !options.assign.empty()) {
+    ways.emplace_back("--node");
+  }
+  if (!options.assign.empty()) {
+    ways.emplace_back("--assign");
+  }
+  return ways.size() < 2
+             ? std::nullopt
+             : std::optional(Error{Code::usage, say<texts::alloc_one_thing>(ways[0], ways[1]),
+                                   say<texts::alloc_one_thing_hint>(), std::nullopt});
 }
 
 std::optional<Error> refuse_together(const AllocOptions& options, const Shared& shared) {
@@ -123,13 +150,7 @@ std::optional<Error> refuse_together(const AllocOptions& options, const Shared& 
                    say<texts::alloc_only_static_hint>(), std::nullopt};
     }
   }
-  const bool names_servos = options.id || shared.nodes.has_value();
-  if (names_servos && !options.assign.empty()) { // both assign IDs to servos
-    return Error{Code::usage,
-                 say<texts::alloc_one_thing>(options.id ? "--id" : "--node", "--assign"),
-                 say<texts::alloc_one_thing_hint>(), std::nullopt};
-  }
-  return std::nullopt;
+  return options.makes_static ? refuse_two_wishes(options, shared) : std::nullopt;
 }
 
 Report execute(const AllocOptions& options, Context& context) {

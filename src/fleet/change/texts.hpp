@@ -48,6 +48,23 @@ inline constexpr Text stays_out_of_the_way{
 inline constexpr Text id_taken_over{
     "node ID {} was given to uid:{}, which is not on this bus: it is to go to node {}",
     "ノード ID {} の割当て先 uid:{} はこのバスにないため、ノード {} に割り当てます"};
+inline constexpr Text several_wanted{"{} means several units: {}",
+                                     "{} に該当するユニットが複数あります: {}"};
+inline constexpr Text several_wanted_hint{
+    "name each by what only it has: serial:, servo:, or its unique ID",
+    "serial:、servo:、固有 ID などで 1 台ずつ指定して下さい"};
+inline constexpr Text range_too_small{
+    "of the node IDs {} to {} no node on the bus has {}, and servos that need one are {}",
+    "ノード ID {}～{} の空きは {} 個ですが、{} 台に必要です"};
+inline constexpr Text range_too_small_hint{"nothing was changed; give a wider --range",
+                                           "変更していません。--range を広げて下さい"};
+inline constexpr Text wished_id_in_use{
+    "node ID {} cannot be that of uid:{}: another node on this bus has it",
+    "ノード ID {} はこのバスの他のノードが使用しているため、uid:{} に割り当てられません"};
+inline constexpr Text wished_id_in_use_hint{"see who: blactl scan", "使用状況の確認: blactl scan"};
+inline constexpr Text wish_takes_over{
+    "node ID {} was that of uid:{}, which is not on this bus: uid:{} gets it",
+    "ノード ID {} の割当て先 uid:{} はこのバスにないため、uid:{} に割り当てます"};
 inline constexpr Text oldest_id_taken_over{
     "node ID {} was that of uid:{}, which was not seen for the longest time: uid:{} gets it",
     "ノード ID {} は、最も長く接続されていない uid:{} の割当てを解除し、uid:{} に割り当てます"};

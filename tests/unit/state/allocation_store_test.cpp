@@ -329,12 +329,14 @@ TEST_CASE("the user gives a unit another ID, and the old one is free") {
   CHECK(assigned(store, 2) == 125);
 }
 
-TEST_CASE("to wish the ID that a unit has changes nothing, not even its time") {
+TEST_CASE("to wish the ID that a unit has tells that it was seen, to the hour") {
   const Folder folder;
   auto store = opened(folder);
   REQUIRE(put(store, unit(1), NodeId(21), noon));
-  REQUIRE(put(store, unit(1), NodeId(21), noon + 1h));
+  REQUIRE(put(store, unit(1), NodeId(21), noon + 59min));
   CHECK(store.find(unit(1)).value()->at == noon);
+  REQUIRE(put(store, unit(1), NodeId(21), noon + 1h));
+  CHECK(store.find(unit(1)).value()->at == noon + 1h);
 }
 
 TEST_CASE("an ID that another unit has is not given by a wish") {
