@@ -8,7 +8,7 @@ function __blactl_words
     for word in $words[2..]
         if test $value = yes
             set value no
-        else if string match -qr -- '^(--(assign|clock|color|count|duration|endpoints|entry|events|expect|export|facts|fields|forget|group|id|import|interface|kind|lang|level|listen|local-node-id|mode|neutral|node|output|preset|profile|profile-dir|range|rate|record|report|retries|seed|stagger|svg|timeout|type|wait)|-[jqvyhV]*[in])$' $word
+        else if string match -qr -- '^(--(assign|clock|color|count|duration|endpoints|entry|events|expect|export|facts|fields|forget|group|id|import|interface|kind|lang|level|listen|local-node-id|mode|neutral|node|output|preset|profile|profile-dir|range|rate|record|report|retries|seed|stagger|svg|timeout|to|type|wait)|-[jqvyhV]*[in])$' $word
             set value yes
         else if not string match -q -- '-*' $word
             echo $word
@@ -342,6 +342,7 @@ complete -c blactl -n '__blactl_in apply' -l stagger -r -f -d 'pause between two
 complete -c blactl -n '__blactl_argument apply 1' -F
 
 complete -c blactl -n '__blactl_in undo' -l list -d 'show the changes that are recorded, without a bus'
+complete -c blactl -n '__blactl_in undo' -l to -r -f -d 'before the command with this number of --list'
 complete -c blactl -n '__blactl_in undo' -l dry-run -d 'change nothing; exit status 8 when something would be done'
 complete -c blactl -n '__blactl_in undo' -l no-save -d 'RAM only, also where the change was saved'
 complete -c blactl -n '__blactl_in undo' -l wait -r -f -d 'how long a servo may take to come back (default 5, and 2 for each that asks for a node ID)'

@@ -143,8 +143,56 @@ TEST_CASE("undo --list shows what is recorded, the newest first, without a bus")
   CHECK(snapshots[0]["command"] == "undo");
   CHECK(snapshots[1]["command"] == "set");
   CHECK(snapshots[0]["changed_count"] == 1);
-  CHECK(keys(ordered_json(snapshots[0].dump())).size() == 4);
-  check_error(fleet.run({"undo", "--list", "-n", "11"}), 2, "usage", "--list goes with neither");
+  CHECK(keys(ordered_json(snapshots[0].dump())).size() == 5);
+  CHECK(snapshots[1]["number"] == snapshots[2]["number"]); // one number a command
+  CHECK(snapshots[0]["number"] > snapshots[1]["number"]);
+  CHECK(contains(fleet.run({"undo", "--list"}).out, "smoothing"));
+  check_error(fleet.run({"undo", "--list", "-n", "11"}), 2, "usage", "--list goes with no other");
+  check_error(fleet.run({"undo", "--list", "--to", "1"}), 2, "usage", "--list goes with no other");
+}
+
+TEST_CASE("undo --to goes back before a command, on every servo that was changed since") {
+  Fleet fleet(three_servos());
+  set(fleet, {"-n", "11", "soft_start=off"});
+  set(fleet, {"-n", "11,12", "angle_limit_cw=45deg", "--save"});
+  const auto number = json(fleet.run({"undo", "--list", "--json"}).out)["snapshots"][0]["number"];
+  set(fleet, {"-n", "11", "angle_limit_cw=50deg"});
+  set(fleet, {"-n", "13", "smoothing=off"});
+  const std::string to = std::to_string(number.get<int>());
+  SECTION("of all") {
+    CHECK(undo(fleet, {"--to", to, "--dry-run"}).status == 8);
+    const Result undone = undo(fleet, {"--to", to});
+    INFO(undone.err);
+    CHECK(undone.status == 0);
+    CHECK(contains(undone.err, "takes back all changes since before command " + to));
+    CHECK(fleet.rom("11", "angle_limit_cw") == 1799);
+    CHECK(fleet.ram("11", "soft_start") == 0); // by an earlier command, which SAVE has kept
+    CHECK(fleet.rom("12", "angle_limit_cw") == 1799);
+    CHECK(fleet.ram("13", "smoothing") == 1);
+    REQUIRE(undo(fleet).status == 0); // is a change, too
+    CHECK(fleet.rom("12", "angle_limit_cw") == 450);
+    CHECK(fleet.ram("13", "smoothing") == 0);
+  }
+  SECTION("of one") {
+    REQUIRE(undo(fleet, {"--to", to, "-n", "12"}).status == 0);
+    CHECK(fleet.rom("12", "angle_limit_cw") == 1799);
+    CHECK(fleet.ram("11", "angle_limit_cw") == 500);
+    CHECK(fleet.ram("13", "smoothing") == 0);
+  }
+  SECTION("what a restart has taken before ROM was changed stays out") {
+    set(fleet, {"-n", "13", "timeout_time=500ms"});
+    const Options elsewhere{.env = {{"BLACTL_STATE_DIR", fleet.file_name("other")}}};
+    REQUIRE(fleet.run({"restart", "-n", "13", "-y"}, elsewhere).status == 0);
+    set(fleet, {"-n", "13", "timeout_time=2s"});
+    REQUIRE(fleet.run({"restart", "-n", "13", "-y"}, elsewhere).status == 0);
+    set(fleet, {"-n", "13", "reverse=on", "--save"});
+    REQUIRE(undo(fleet, {"--to", to, "-n", "13"}).status == 0);
+    CHECK(fleet.rom("13", "reverse") == 0);
+    CHECK(fleet.rom("13", "smoothing") == 1);
+  }
+  SECTION("that is not recorded") {
+    check_error(undo(fleet, {"--to", "99"}), 4, "not_found", "no command with the number 99");
+  }
 }
 
 TEST_CASE("a change of which nothing is left does not stand in front of the one before it") {

@@ -98,6 +98,8 @@ inline constexpr Text state_not_written_hint{
 
 inline constexpr Text undo_takes_back{"takes back what `{}` changed at {}",
                                       "`{}` による変更 ({}) を元に戻します"};
+inline constexpr Text undo_takes_back_since{"takes back all changes since before command {}",
+                                            "コマンド {} 以降の変更をすべて元に戻します"};
 inline constexpr Text undo_missing{"unit {}, which `{}` changed, is not on the bus",
                                    "固有 ID {} のサーボ (`{}` で変更) がバス上にありません"};
 inline constexpr Text undo_nothing_of_node{"no change of node {} is recorded",
@@ -109,16 +111,18 @@ inline constexpr Text undo_nothing_at_all{"no change of a servo is recorded",
 inline constexpr Text undo_nothing_at_all_hint{
     "each user has a record of their own, and -i sim: has one, too",
     "変更履歴はユーザーごとに保存されます (-i sim: の履歴は別です)"};
-inline constexpr Text undo_list_alone{"--list goes with neither -n nor --dry-run nor --no-save",
-                                      "--list は -n、--dry-run、--no-save と同時に指定できません"};
+inline constexpr Text undo_list_alone{"--list goes with no other option and not with -n",
+                                      "--list は -n や他のオプションと同時に指定できません"};
 inline constexpr Text undo_list_alone_hint{"it lists all changes: blactl undo --list",
                                            "すべての変更履歴の表示: blactl undo --list"};
 
 inline constexpr Text undo_nothing_recorded{"no change is recorded\n", "変更履歴は空です\n"};
+inline constexpr Text undo_column_number{"NUMBER", "番号"};
 inline constexpr Text undo_column_time{"TIME", "日時"};
 inline constexpr Text undo_column_unit{"UNIQUE ID", "固有 ID"};
 inline constexpr Text undo_column_command{"COMMAND", "コマンド"};
-inline constexpr Text undo_column_count{"SETTINGS", "項目数"};
+inline constexpr Text undo_column_settings{"SETTINGS", "設定項目"};
+inline constexpr Text undo_more_settings{"{} and {} more", "{} 他 {} 件"};
 inline constexpr Text undo_column_saved{"CHANGED IN", "書込み先"};
 inline constexpr Text undo_in_ram{"RAM", "RAM"};
 inline constexpr Text undo_in_rom{"RAM and ROM", "RAM と ROM"};

@@ -16,8 +16,10 @@
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -32,6 +34,7 @@ using state::SnapshotStore;
 
 struct UndoOptions {
   bool list = false;
+  std::optional<std::uint64_t> to{};
   bool dry_run = false;
   bool no_save = false;
   RestartTimes times{};
@@ -42,6 +45,13 @@ constexpr Option undo_options[]{
      .kind = Kind::flag,
      .help = {"show the changes that are recorded, without a bus", "変更履歴を表示 (バス不要)"},
      .store = into<&UndoOptions::list>},
+    {.name = "--to",
+     .value = "N",
+     .kind = Kind::whole,
+     .whole = {1, std::numeric_limits<std::int64_t>::max()},
+     .help = {"before the command with this number of --list: every servo that was changed since",
+              "--list の番号 N のコマンドを実行する前の状態に戻す (以後に変更した全サーボ)"},
+     .store = into<&UndoOptions::to>},
     {.name = "--dry-run",
      .kind = Kind::flag,
      .help = {"change nothing; exit status 8 when something would be done",
@@ -67,7 +77,7 @@ class Undo {
     if (whom.targets.given) {
       std::ranges::for_each(whom.selected, [&](dronecan::NodeId id) { of_node(id, whom, goals); });
     } else {
-      of_last_run(whom, goals);
+      of_all(whom, goals);
     }
     return goals;
   }
@@ -77,7 +87,10 @@ class Undo {
   void forget_what_never_was(std::span<const fleet::GoalResult> results);
 
  private:
-  void of_last_run(const Whom& whom, Goals& goals);
+  [[nodiscard]] Result<std::vector<fleet::Undoing>> changes() const;
+  [[nodiscard]] Result<std::optional<fleet::Undoing>>
+  change_of(const dronecan::UniqueId& unit) const;
+  void of_all(const Whom& whom, Goals& goals);
   void of_node(dronecan::NodeId id, const Whom& whom, Goals& goals);
   void take_back(const fleet::Undoing& change, dronecan::NodeId id, Goals& goals);
 
@@ -88,9 +101,28 @@ class Undo {
   std::map<dronecan::UniqueId, std::vector<std::int64_t>> numbers_{}; ///< of the changes undone
 };
 
-/// Without -n: all servos changed by the last command, wherever they are now.
-void Undo::of_last_run(const Whom& whom, Goals& goals) {
-  const auto changes = fleet::last_changes(store_);
+/// By the last command, or since the one that --to names.
+Result<std::vector<fleet::Undoing>> Undo::changes() const {
+  return options_.to ? fleet::changes_since(store_, static_cast<std::int64_t>(*options_.to))
+                     : fleet::last_changes(store_);
+}
+
+Result<std::optional<fleet::Undoing>> Undo::change_of(const dronecan::UniqueId& unit) const {
+  if (!options_.to) {
+    return fleet::last_change(store_, unit);
+  }
+  auto all = changes();
+  if (!all) {
+    return std::unexpected(std::move(all.error()));
+  }
+  const auto found = std::ranges::find(
+      *all, unit, [](const fleet::Undoing& each) { return each.entry.unique_id; });
+  return found != all->end() ? std::optional(std::move(*found)) : std::nullopt;
+}
+
+/// Without -n: all servos that were changed, wherever they are now.
+void Undo::of_all(const Whom& whom, Goals& goals) {
+  const auto changes = this->changes();
   if (!changes) {
     goals.errors.push_back(changes.error());
     return;
@@ -127,8 +159,7 @@ void Undo::of_last_run(const Whom& whom, Goals& goals) {
 
 void Undo::of_node(dronecan::NodeId id, const Whom& whom, Goals& goals) {
   const auto unique_id = whom.roster.member(id).servo().unique_id;
-  const auto change =
-      unique_id ? fleet::last_change(store_, *unique_id) : Result<std::optional<fleet::Undoing>>();
+  const auto change = unique_id ? change_of(*unique_id) : Result<std::optional<fleet::Undoing>>();
   if (!change) {
     goals.errors.push_back(change.error());
   } else if (*change) {
@@ -151,7 +182,9 @@ void Undo::take_back(const fleet::Undoing& change, dronecan::NodeId id, Goals& g
     goals.errors.push_back(std::move(wanted.error()));
     return;
   }
-  std::string note = say<texts::undo_takes_back>(printable(entry.command), rfc3339(entry.at));
+  std::string note = options_.to
+                         ? say<texts::undo_takes_back_since>(*options_.to)
+                         : say<texts::undo_takes_back>(printable(entry.command), rfc3339(entry.at));
   if (told_.insert(note).second) {
     context_.reporter().note(note);
   }
@@ -188,8 +221,13 @@ void Undo::forget_what_never_was(std::span<const fleet::GoalResult> results) {
   }
 }
 
-Report list(const SnapshotStore& store) {
+Report list(const SnapshotStore& store, Context& context) {
   Report report;
+  const auto profiles = context.profiles();
+  if (!profiles) {
+    report.fail(profiles.error());
+    return report;
+  }
   auto entries = store.entries();
   if (!entries) {
     report.fail(std::move(entries.error()));
@@ -198,7 +236,7 @@ Report list(const SnapshotStore& store) {
   const auto kept = std::make_shared<std::vector<SnapshotEntry>>(std::move(*entries));
   report.counts = {{"snapshots", kept->size()}};
   report.json = [kept](JsonWriter& json) { write_snapshots(json, *kept); };
-  report.text = [kept](const Page& page) { return text(*kept, page); };
+  report.text = [kept, profiles](const Page& page) { return text(*kept, **profiles, page); };
   return report;
 }
 
@@ -214,10 +252,10 @@ Report execute(const UndoOptions& options, Context& context) {
     return failure(store.error());
   }
   if (options.list) {
-    return options.dry_run || options.no_save || context.shared().nodes
+    return options.dry_run || options.no_save || options.to || context.shared().nodes
                ? failure({Code::usage, say<texts::undo_list_alone>(),
                           say<texts::undo_list_alone_hint>(), std::nullopt})
-               : list(*store);
+               : list(*store, context);
   }
   const auto last = store->last_run();
   if (!last || last->empty()) {

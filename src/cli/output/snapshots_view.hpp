@@ -2,6 +2,7 @@
 // Output of `blactl undo --list`: the recorded changes.
 
 #include "blactl/base/json_writer.hpp"
+#include "blactl/bla/profile.hpp"
 #include "blactl/state/snapshot_store.hpp"
 
 #include "cli/output/page.hpp"
@@ -14,6 +15,8 @@ namespace blactl::cli {
 /// The member "snapshots" of the document (contract, section 5), in the order given.
 void write_snapshots(JsonWriter& json, std::span<const state::SnapshotEntry> entries);
 
-[[nodiscard]] std::string text(std::span<const state::SnapshotEntry> entries, const Page& page);
+/// `profiles`: for the names of settings.
+[[nodiscard]] std::string text(std::span<const state::SnapshotEntry> entries,
+                               const bla::Profiles& profiles, const Page& page);
 
 } // namespace blactl::cli

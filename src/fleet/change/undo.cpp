@@ -6,6 +6,7 @@
 #include <functional>
 #include <iterator>
 #include <map>
+#include <ranges>
 #include <string>
 #include <utility>
 
@@ -68,32 +69,42 @@ void leave_out_what_was_taken(Tries& tries) {
   }
 }
 
-/// All that the command of this entry did to its unit, as one: it may have been repeated, with
-/// other wishes, until it succeeded.
-Result<Undoing> whole(const state::SnapshotStore& store, state::SnapshotEntry entry) {
-  auto tries = tries_of(store, std::move(entry));
-  if (!tries) {
-    return std::unexpected(std::move(tries.error()));
-  }
-  const bool was_saved = std::ranges::any_of(*tries, [](const state::SnapshotEntry& each) {
+/// Several changes of one unit, the newest first, as one.
+Undoing as_one(Tries changes) {
+  const bool was_saved = std::ranges::any_of(changes, [](const state::SnapshotEntry& each) {
     return each.saved && !each.held.empty(); // by others since: see History::join()
   });
   if (was_saved) {
-    leave_out_what_was_taken(*tries);
+    leave_out_what_was_taken(changes);
   }
-  Undoing whole{.entry = tries->front()};
-  for (const state::SnapshotEntry& each : *tries) {
+  Undoing one{.entry = changes.front()};
+  for (const state::SnapshotEntry& each : changes) {
     for (const auto& [address, raw] : each.held) {
-      const auto [found, is_new] = whole.entry.held.emplace(address, raw);
+      const auto [found, is_new] = one.entry.held.emplace(address, raw);
       // History::join() has left out what somebody else changed in between
       if (!is_new && each.written.contains(address)) {
         found->second = raw;
       }
     }
-    whole.numbers.push_back(each.number);
+    one.numbers.push_back(each.number);
   }
-  whole.entry.saved = was_saved;
-  return whole;
+  one.entry.saved = was_saved;
+  return one;
+}
+
+/// All that the command of this entry did to its unit: it may have been repeated, with other
+/// wishes, until it succeeded.
+Result<Undoing> whole(const state::SnapshotStore& store, state::SnapshotEntry entry) {
+  auto tries = tries_of(store, std::move(entry));
+  return tries ? Result<Undoing>(as_one(std::move(*tries)))
+               : std::unexpected(std::move(tries.error()));
+}
+
+/// What was in RAM only when ROM was changed is recorded as saved; else a restart had taken it.
+void leave_out_what_was_lost(Tries& changes) {
+  const auto saved = std::ranges::find_if(changes, &state::SnapshotEntry::saved);
+  const auto lost = std::remove_if(saved, changes.end(), std::not_fn(&state::SnapshotEntry::saved));
+  changes.erase(lost, changes.end());
 }
 
 /// The change to undo in place of this entry, if that is an undo which did not end, perhaps several
@@ -160,6 +171,29 @@ Result<std::vector<Undoing>> last_changes(const state::SnapshotStore& store) {
     if (*change) {
       changes.push_back(std::move(**change));
     }
+  }
+  return changes;
+}
+
+Result<std::vector<Undoing>> changes_since(const state::SnapshotStore& store, std::int64_t run) {
+  auto entries = store.entries();
+  if (!entries) {
+    return std::unexpected(std::move(entries.error()));
+  }
+  const auto is_of_run = [run](const state::SnapshotEntry& entry) { return entry.run == run; };
+  const auto first = std::find_if(entries->rbegin(), entries->rend(), is_of_run);
+  if (first == entries->rend()) {
+    return fail(Code::not_found, say<texts::no_command_with_number>(run),
+                say<texts::no_command_with_number_hint>());
+  }
+  std::map<dronecan::UniqueId, Tries> by_unit;
+  for (auto entry = entries->begin(); entry != first.base(); ++entry) {
+    by_unit[entry->unique_id].push_back(std::move(*entry));
+  }
+  std::vector<Undoing> changes;
+  for (Tries& each : by_unit | std::views::values) {
+    leave_out_what_was_lost(each);
+    changes.push_back(as_one(std::move(each)));
   }
   return changes;
 }

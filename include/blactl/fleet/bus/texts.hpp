@@ -214,6 +214,10 @@ inline constexpr Text unknown_group{"there is no group '{}'", "グループ '{}'
 inline constexpr Text or_a_group{" (all of a group: --group {})", " (グループ全体: --group {})"};
 inline constexpr Text known_groups{"the groups are {}", "グループ: {}"};
 
+inline constexpr Text no_command_with_number{"no command with the number {} is recorded",
+                                             "番号 {} のコマンドは変更履歴にありません"};
+inline constexpr Text no_command_with_number_hint{"what is recorded: blactl undo --list",
+                                                  "変更履歴の表示: blactl undo --list"};
 inline constexpr Text no_setting_in_history{
     "the change history says that {} was replaced, which is not a setting",
     "変更履歴にある {} は設定項目ではありません"};

@@ -33,4 +33,10 @@ struct Undoing {
 /// Errors: those of the store.
 [[nodiscard]] Result<std::vector<Undoing>> last_changes(const state::SnapshotStore& store);
 
+/// Everything since before the command with this number (its entry's `run`), as one change of each
+/// unit. What a restart has taken before ROM was changed, and nobody wrote again, stays out: ROM
+/// never held it. Errors: not_found (no such command is recorded), and those of the store.
+[[nodiscard]] Result<std::vector<Undoing>> changes_since(const state::SnapshotStore& store,
+                                                         std::int64_t run);
+
 } // namespace blactl::fleet
