@@ -53,9 +53,21 @@ inline constexpr Text fleet_many_files_hint{
 
 inline constexpr Text params_passed_over{"{}: skipped, as they are not settings: {}",
                                          "{}: 設定ではないため無視しました: {}"};
+inline constexpr Text params_without_ids{"{}: left out, as the file is for several servos: {}",
+                                         "{}: 複数のサーボが対象のため除外しました: {}"};
+inline constexpr Text recipe_has_counters{
+    "the recipe {} has counters: {}; only provision knows their next numbers",
+    "レシピ {} にカウンターがあります: {} (番号を割り当てるのは provision だけです)"};
+inline constexpr Text recipe_has_counters_hint{
+    "leave the counters out: IDs are given by blactl alloc --static, or by set",
+    "カウンターを外して下さい (ID の設定: blactl alloc --static、set)"};
+inline constexpr Text recipe_for_whom{"the recipe {} does not say which servos it is for",
+                                      "レシピ {} には対象のサーボの記述がありません"};
+inline constexpr Text recipe_for_whom_hint{"name them: -n 12-18, or -n all",
+                                           "対象を指定して下さい: -n 12-18、または -n all"};
 inline constexpr Text params_one_entry{
-    "a parameter file is of one servo, {} is not",
-    "パラメータファイルは 1 台分ですが、{} は 1 台分ではありません"};
+    "a parameter file or a recipe is of one servo, {} is not",
+    "パラメータファイルとレシピは 1 台分ですが、{} は 1 台分ではありません"};
 inline constexpr Text params_one_entry_hint{
     "compare it with the servo itself: blactl diff FILE -n ID",
     "サーボと直接比較して下さい: blactl diff FILE -n ID"};

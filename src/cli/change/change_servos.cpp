@@ -148,6 +148,7 @@ bool Run::find() {
   if (goals_.may_wait && may_let_in() && !(let_in() && look_around() && look_for(*targets))) {
     return false;
   }
+  tell(goals_.notes);
   return stop_at(goals_.errors);
 }
 

@@ -27,6 +27,7 @@ namespace blactl::cli {
 struct Goals {
   std::vector<fleet::Goal> goals{};
   std::vector<fleet::EntryDiff> others{}; ///< without a goal: missing, left out, extra
+  std::vector<std::string> notes{};       ///< told before anything is changed
   std::vector<Error> errors{};            ///< why nothing may be changed
   bool may_wait = false; ///< missing servos may be among those that request a node ID
   /// All of those by their unique IDs; empty: some are known otherwise.

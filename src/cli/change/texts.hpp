@@ -6,6 +6,7 @@
 namespace blactl::texts {
 
 inline constexpr Text apply_missing{"no servo for '{}': {}", "'{}' のサーボがありません: {}"};
+inline constexpr Text apply_missing_unnamed{"no servo for {}", "サーボがありません: {}"};
 inline constexpr Text apply_missing_hint{
     "connect it, or name those that are meant with -n: nothing was written",
     "接続するか、-n で対象を絞り込んで下さい (何も書き込んでいません)"};
@@ -19,8 +20,17 @@ inline constexpr Text apply_entry_one{"--entry is for one servo, not for {}",
                                       "--entry の対象は 1 台だけです (現在の対象: {} 台)"};
 inline constexpr Text apply_entry_one_hint{"name one of them with -n",
                                            "-n で 1 台を指定して下さい"};
-inline constexpr Text apply_beside_plan{"{} has no meaning beside --plan",
-                                        "{} は --plan と併用できません"};
+inline constexpr Text apply_without_entries{
+    "{} has no entries: --entry goes with fleet files only",
+    "{} にはエントリがありません (--entry はフリートファイル専用です)"};
+inline constexpr Text apply_without_entries_hint{
+    "leave --entry out: -n alone says which servos are meant",
+    "--entry を外して下さい (対象は -n だけで指定します)"};
+inline constexpr Text apply_beside{"{} has no meaning beside {}", "{} は {} と併用できません"};
+inline constexpr Text apply_beside_check_hint{"leave it out: only the file is looked at",
+                                              "外して下さい (確認の対象はファイルのみです)"};
+inline constexpr Text apply_checked{"{}: no faults (entries: {}, settings: {})\n",
+                                    "{}: 誤りなし (エントリ {} 件、設定 {} 項目)\n"};
 inline constexpr Text apply_beside_plan_hint{"give it when the plan is made",
                                              "計画の作成時に指定して下さい"};
 inline constexpr Text apply_not_begun{

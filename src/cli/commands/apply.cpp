@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <functional>
+#include <iterator>
 #include <span>
 #include <string_view>
 #include <system_error>
@@ -33,6 +34,7 @@ struct ApplyOptions {
   bool fail_fast = false;
   std::string events{};
   bool no_snapshot = false;
+  bool check = false;
   RestartTimes times{};
 };
 
@@ -80,6 +82,11 @@ constexpr Option apply_options[]{
      .help = {"go on even if the settings of servos cannot be recorded for `undo`",
               "変更履歴を記録できない場合も続行 (`undo` では戻せません)"},
      .store = into<&ApplyOptions::no_snapshot>},
+    {.name = "--check",
+     .kind = Kind::flag,
+     .help = {"only check FILE against the models, without a bus",
+              "FILE を機種データと照合するのみ (バスは使用しない)"},
+     .store = into<&ApplyOptions::check>},
     restart_wait<&ApplyOptions::times>,
     restart_stagger<&ApplyOptions::times>,
 };
@@ -88,8 +95,9 @@ constexpr Option apply_arguments[]{
     {.name = "FILE",
      .kind = Kind::file,
      .required = true,
-     .help = {"a fleet file or, for one servo, a parameter file. `-`: stdin",
-              "フリートファイル、または 1 台分のパラメータファイル。`-` で標準入力"},
+     .help = {"a fleet file, a parameter file or, for the servos of -n, a recipe. `-`: stdin",
+              "フリートファイル、パラメータファイル、または (-n のサーボ用の) レシピ。"
+              "`-` で標準入力"},
      .store = into<&ApplyOptions::file>},
 };
 
@@ -124,9 +132,11 @@ units(std::span<const fleet::FleetEntry* const> entries) {
 /// The error for an entry without a servo.
 Error missing(const fleet::FleetEntry& entry, const fleet::Roster& roster) {
   auto unclear = fleet::may_be_unidentified(entry, roster);
+  const std::string whom = fleet::text(entry.match);
   return unclear ? std::move(*unclear)
                  : Error{Code::not_found,
-                         say<texts::apply_missing>(entry.name, fleet::text(entry.match)),
+                         entry.name.empty() ? say<texts::apply_missing_unnamed>(whom)
+                                            : say<texts::apply_missing>(entry.name, whom),
                          say<texts::apply_missing_hint>(), std::nullopt};
 }
 
@@ -134,13 +144,17 @@ Error missing(const fleet::FleetEntry& entry, const fleet::Roster& roster) {
 Goals match(const fleet::FleetFile& file, const Manner& manner, const Whom& whom,
             const bla::Profiles& profiles) {
   const auto matched = fleet::match(file, whom.roster, whom.targets, profiles);
-  Goals goals{.others = fleet::unpaired(matched, whom.roster, profiles), .errors = matched.errors};
+  Goals goals{.others = fleet::unpaired(matched, whom.roster, profiles),
+              .notes = notes(file, matched),
+              .errors = matched.errors};
   for (const fleet::FleetMatch::Pair& pair : matched.pairs) {
     goals.goals.push_back(goal(*pair.entry, pair.id, manner));
   }
   for (const fleet::FleetEntry* entry : matched.missing) {
     goals.errors.push_back(missing(*entry, whom.roster));
   }
+  std::ranges::transform(matched.misfits, std::back_inserter(goals.errors),
+                         &fleet::FleetMatch::Misfit::error);
   goals.may_wait = !matched.missing.empty();
   goals.missing = units(matched.missing);
   if (goals.goals.empty() && goals.errors.empty()) {
@@ -173,24 +187,27 @@ Result<const fleet::FleetEntry*> find_entry(const fleet::FleetFile& file, const 
               say<texts::apply_no_entry_hint>(names));
 }
 
-/// A plan contains all of this already.
-std::optional<Error> refuse_beside_plan(const ApplyOptions& options) {
-  const std::pair<bool, std::string_view> all[]{{!options.entry.empty(), "--entry"},
-                                                {options.no_save, "--no-save"},
-                                                {options.trust_ram, "--trust-ram"}};
-  for (const auto& [is_given, option] : all) {
+/// An option, and whether it was given.
+using GivenOption = std::pair<std::string_view, bool>;
+
+/// Fails for each that was given although it has no meaning beside `option`.
+void refuse_beside(std::string_view option, std::span<const GivenOption> others,
+                   std::string_view hint, Report& report) {
+  for (const auto& [other, is_given] : others) {
     if (is_given) {
-      return Error{Code::usage, say<texts::apply_beside_plan>(option),
-                   say<texts::apply_beside_plan_hint>(), std::nullopt};
+      report.fail(
+          {Code::usage, say<texts::apply_beside>(other, option), std::string(hint), std::nullopt});
     }
   }
-  return std::nullopt;
 }
 
 Report carry_out_plan(const ApplyOptions& options, ChangeRequest request, Context& context) {
   Report report{.interface = printable(context.shared().interface)};
-  if (auto refused = refuse_beside_plan(options)) {
-    report.fail(std::move(*refused));
+  const GivenOption contained[]{{"--entry", !options.entry.empty()},
+                                {"--no-save", options.no_save},
+                                {"--trust-ram", options.trust_ram}};
+  refuse_beside("--plan", contained, say<texts::apply_beside_plan_hint>(), report);
+  if (!report.errors.empty()) {
     return report;
   }
   const auto plan = fleet::read_saved_plan(options.file, context.known());
@@ -210,10 +227,60 @@ Report carry_out_plan(const ApplyOptions& options, ChangeRequest request, Contex
   return change_servos(request, context);
 }
 
+/// What the form of the file does not permit, before a frame is sent.
+void refuse_form(const ApplyOptions& options, const fleet::FleetFile& file, const Context& context,
+                 Report& report) {
+  if (file.names_nobody() && !options.entry.empty()) {
+    report.fail({Code::usage, say<texts::apply_without_entries>(printable(file.file)),
+                 say<texts::apply_without_entries_hint>(), std::nullopt});
+  }
+  if (auto refused = refuse_counters(file)) {
+    report.fail(std::move(*refused));
+  }
+  const auto targets = context.targets();
+  auto refused = targets ? refuse_without_targets(file, *targets) : std::optional(targets.error());
+  if (refused) {
+    report.fail(std::move(*refused));
+  }
+}
+
+/// The file alone, without a bus.
+Report check_file(const ApplyOptions& options, Context& context) {
+  Report report{.interface = printable(context.shared().interface)};
+  const GivenOption on_the_bus[]{{"-n", context.shared().nodes.has_value()},
+                                 {"--dry-run", options.dry_run},
+                                 {"--plan", options.is_plan},
+                                 {"--entry", !options.entry.empty()},
+                                 {"--no-save", options.no_save},
+                                 {"--trust-ram", options.trust_ram},
+                                 {"--fail-fast", options.fail_fast},
+                                 {"--events", !options.events.empty()},
+                                 {"--no-snapshot", options.no_snapshot},
+                                 {"--wait", options.times.wait.has_value()},
+                                 {"--stagger", options.times.stagger > Duration::zero()}};
+  refuse_beside("--check", on_the_bus, say<texts::apply_beside_check_hint>(), report);
+  const auto file =
+      report.errors.empty() ? read_settings(options.file, context, report) : std::nullopt;
+  if (!file) {
+    return report;
+  }
+  std::size_t settings = file->recipe ? file->recipe->counters.size() : 0;
+  for (const fleet::FleetEntry& entry : file->servos) {
+    settings += entry.set.size();
+  }
+  report.counts = {{"entries", file->servos.size()}, {"settings", settings}};
+  report.text = [name = printable(file->file), entries = file->servos.size(), settings](
+                    const Page&) { return say<texts::apply_checked>(name, entries, settings); };
+  return report;
+}
+
 Report apply_file(const ApplyOptions& options, ChangeRequest request, Context& context) {
   Report report{.interface = printable(context.shared().interface)};
   const auto file = read_settings(options.file, context, report);
-  if (!file) {
+  if (file) {
+    refuse_form(options, *file, context, report);
+  }
+  if (!report.errors.empty()) {
     return report;
   }
   const Manner manner{.saves = [&](const fleet::FleetEntry&) { return !options.no_save; },
@@ -239,16 +306,11 @@ bool overwrites_its_file(const ApplyOptions& options) {
   return std::filesystem::equivalent(options.events, options.file, none);
 }
 
-Report execute(const ApplyOptions& options, Context& context) {
+Report carry_out(const ApplyOptions& options, Context& context) {
   if (overwrites_its_file(options)) {
     Report report{.interface = printable(context.shared().interface)};
     report.fail({Code::usage, say<texts::events_over_file>(printable(options.events)),
                  say<texts::events_unopened_hint>(), std::nullopt});
-    return report;
-  }
-  if (const auto profiles = context.profiles(); !profiles) {
-    Report report{.interface = printable(context.shared().interface)};
-    report.fail(profiles.error());
     return report;
   }
   const ChangeRequest request{.command = "apply",
@@ -263,6 +325,15 @@ Report execute(const ApplyOptions& options, Context& context) {
                               .view = ResultView::entries};
   return options.is_plan ? carry_out_plan(options, request, context)
                          : apply_file(options, request, context);
+}
+
+Report execute(const ApplyOptions& options, Context& context) {
+  if (const auto profiles = context.profiles(); !profiles) {
+    Report report{.interface = printable(context.shared().interface)};
+    report.fail(profiles.error());
+    return report;
+  }
+  return options.check ? check_file(options, context) : carry_out(options, context);
 }
 
 } // namespace

@@ -29,9 +29,9 @@ constexpr Option diff_arguments[]{
      .repeat = Repeat::list,
      .required = true,
      .help =
-         {"what servos are compared with, a fleet file or, for one servo, a parameter file; two: "
-          "with each other. `-`: stdin",
-          "サーボと比較するフリートファイル、または 1 台分のパラメータファイル。"
+         {"what servos are compared with: a fleet file, a parameter file or, for those of -n, a "
+          "recipe; two: with each other. `-`: stdin",
+          "サーボと比較するフリートファイル、パラメータファイル、または (-n のサーボ用の) レシピ。"
           "2 つの場合はファイル同士を比較。`-` で標準入力"},
      .store = into<&DiffOptions::files>},
 };
@@ -80,6 +80,9 @@ void compare_servos(const fleet::FleetFile& file, const fleet::Targets& targets,
   }
   const auto match = fleet::match(file, context.session().roster(), targets, context.known(),
                                   context.session().is_replay());
+  for (const std::string& note : notes(file, match)) {
+    context.reporter().note(note);
+  }
   report.errors.insert(report.errors.end(), match.errors.begin(), match.errors.end());
   auto found = fleet::diff(context.session(), context.known(), match, context.identification());
   if (found.broken) {
@@ -106,12 +109,26 @@ std::optional<Error> refuse(const std::vector<std::string>& files, bool chooses)
   return std::nullopt;
 }
 
+/// A recipe may be compared as far as it says itself what each servo holds.
+void refuse_recipes(std::span<const fleet::FleetFile> files, const fleet::Targets& targets,
+                    Report& report) {
+  for (const fleet::FleetFile& file : files) {
+    if (auto refused = refuse_counters(file)) {
+      report.fail(std::move(*refused));
+    }
+  }
+  if (files.size() == 1) {
+    if (auto refused = refuse_without_targets(files.front(), targets)) {
+      report.fail(std::move(*refused));
+    }
+  }
+}
+
 /// Errors of the files taken together, as far as they could be read.
 std::optional<Error> refuse(std::span<const fleet::FleetFile> files) {
-  const auto is_params = [](const fleet::FleetFile& file) { return file.is_params; };
   const auto many = std::ranges::find_if(
       files, [](const fleet::FleetFile& file) { return file.servos.size() != 1; });
-  if (std::ranges::none_of(files, is_params) || many == files.end()) {
+  if (std::ranges::none_of(files, &fleet::FleetFile::names_nobody) || many == files.end()) {
     return std::nullopt;
   }
   return Error{Code::usage, say<texts::params_one_entry>(printable(many->file)),
@@ -142,6 +159,9 @@ Report execute(const DiffOptions& options, Context& context) {
   }
   if (auto refused = refuse(files)) {
     report.fail(std::move(*refused));
+  }
+  if (files.size() == options.files.size()) {
+    refuse_recipes(files, *targets, report);
   }
   if (!report.errors.empty()) {
     return report;

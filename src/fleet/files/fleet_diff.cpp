@@ -87,7 +87,7 @@ using Counterparts = std::map<const FleetEntry*, const FleetEntry*>;
 
 /// What tells units apart comes before what people call them, and no entry has two counterparts.
 Counterparts counterparts(const FleetFile& one, const FleetFile& other) {
-  if (one.is_params || other.is_params) { // both have one entry
+  if (one.names_nobody() || other.names_nobody()) { // both have one entry
     return {{&one.servos.front(), &other.servos.front()}};
   }
   Counterparts found;
@@ -165,6 +165,12 @@ std::vector<EntryDiff> unpaired(const FleetMatch& match, const Roster& roster,
   for (const NodeId id : match.extra) {
     entries.push_back(
         {.name = {}, .status = EntryStatus::extra, .servo = roster.member(id).servo()});
+  }
+  for (const FleetMatch::Misfit& misfit : match.misfits) {
+    entries.push_back({.name = misfit.entry->name,
+                       .status = EntryStatus::failed,
+                       .servo = roster.member(misfit.id).servo(),
+                       .errors = {misfit.error}});
   }
   return entries;
 }

@@ -212,15 +212,7 @@ class Reader {
 };
 
 Result<FleetFile> read_document(Result<json::Document> document, const bla::Profiles& profiles) {
-  if (!document) {
-    return std::unexpected(document.error());
-  }
-  FleetFile file{document->faults().file(),
-                 Reader(profiles, document->faults()).read(document->root())};
-  if (const auto fine = document->faults().result(); !fine) {
-    return std::unexpected(fine.error());
-  }
-  return file;
+  return document ? read_fleet_file(*document, profiles) : std::unexpected(document.error());
 }
 
 } // namespace
@@ -260,6 +252,15 @@ Result<FleetFile> parse_fleet_file(std::string_view text, std::string file,
 Result<FleetFile> read_fleet_file(const std::filesystem::path& file,
                                   const bla::Profiles& profiles) {
   return read_document(json::parse_file(file), profiles);
+}
+
+Result<FleetFile> read_fleet_file(json::Document& document, const bla::Profiles& profiles) {
+  FleetFile file{document.faults().file(),
+                 Reader(profiles, document.faults()).read(document.root())};
+  if (const auto fine = document.faults().result(); !fine) {
+    return std::unexpected(fine.error());
+  }
+  return file;
 }
 
 } // namespace blactl::fleet

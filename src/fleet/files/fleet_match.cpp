@@ -59,9 +59,10 @@ class Matching {
       : roster_(roster), targets_(targets), profiles_(profiles), is_recording_(is_recording) {}
 
   FleetMatch run(const FleetFile& file) {
-    if (file.is_params) {
-      give_to_the_one(file);
+    if (file.names_nobody()) {
+      give_to_selected(file);
       check_named();
+      check_unidentified(file);
       return std::move(match_);
     }
     for (const FleetEntry& entry : file.servos) {
@@ -79,8 +80,9 @@ class Matching {
   }
 
  private:
-  /// The settings in a parameter file are for the servo selected by -n, or the only one.
-  void give_to_the_one(const FleetFile& file) {
+  /// The settings in a parameter file or a recipe are for the servos selected by -n, or the only
+  /// one.
+  void give_to_selected(const FleetFile& file) {
     std::vector<NodeId> there;
     for (const auto& [id, member] : roster_.members()) {
       // an unidentified one may be the one wanted
@@ -88,11 +90,11 @@ class Matching {
         there.push_back(id);
       }
     }
-    if (there.size() > 1) {
+    if (there.size() > 1 && !targets_.given) {
       refuse(say<texts::params_several>(printable(file.file), id_list(there)),
              say<texts::params_several_hint>(selector_of(*roster_.find(there.front()))));
     } else if (!there.empty()) {
-      match_.pairs.push_back({&file.servos.front(), there.front()});
+      give(file, there);
     } else if (narrows()) { // reported by check_named()
       match_.left_out.push_back(&file.servos.front());
     } else {
@@ -100,6 +102,44 @@ class Matching {
           unless_shared(roster_, {Code::not_found, say<texts::no_servo_found>(),
                                   say<texts::no_servo_found_hint>(), std::nullopt}));
     }
+  }
+
+  void give(const FleetFile& file, const std::vector<NodeId>& servos) {
+    const FleetEntry& entry =
+        servos.size() > 1 && file.entry_without_ids ? *file.entry_without_ids : file.servos.front();
+    if (servos.size() > 1 && !are_for_several(file, servos.size())) {
+      return;
+    }
+    for (const NodeId id : servos) {
+      auto wrong = file.recipe ? check_fit(roster_.member(id).servo(), *file.recipe, profiles_)
+                               : std::nullopt;
+      if (wrong) {
+        wrong->message = say<texts::about_node>(id.value(), wrong->message);
+        match_.misfits.push_back({&entry, id, std::move(*wrong)});
+      } else {
+        match_.pairs.push_back({&entry, id});
+      }
+    }
+  }
+
+  /// No two servos get the same ID: a tool has saved those of a parameter file with the others, in
+  /// a recipe somebody wants them.
+  bool are_for_several(const FleetFile& file, std::size_t servos) {
+    for (const bla::Assignment& each : file.servos.front().set) {
+      if (!bla::is_id(each.parameter->address)) {
+        continue;
+      }
+      if (file.is_params) {
+        match_.ids_left_out.push_back(each.parameter->name);
+      } else if (each.value.raw != 0) {
+        refuse(say<texts::recipe_id_of_many>(printable(file.file), each.parameter->name, servos),
+               say<texts::recipe_id_of_many_hint>());
+      }
+    }
+    if (file.entry_without_ids && file.entry_without_ids->set.empty()) {
+      refuse(say<texts::params_only_ids>(printable(file.file)), say<texts::params_only_ids_hint>());
+    }
+    return match_.errors.empty();
   }
 
   void add(const FleetEntry& entry) {
@@ -163,15 +203,17 @@ class Matching {
     }
   }
 
-  /// An entry for several servos may mean one that has not said who it is.
+  /// An entry for several servos, or `-n all`, may mean one that has not said who it is.
   void check_unidentified(const FleetFile& file) {
     const auto several = std::ranges::find_if(
         file.servos, [](const FleetEntry& entry) { return !entry.match.means_one(); });
-    if (narrows() || is_recording_ || several == file.servos.end()) {
+    const bool is_of_the_one = file.names_nobody() && !targets_.given;
+    if (narrows() || is_recording_ || several == file.servos.end() || is_of_the_one) {
       return;
     }
+    const std::string_view what = file.names_nobody() ? "-n all" : std::string_view(several->name);
     for (const NodeId id : unidentified(roster_)) {
-      match_.errors.push_back(not_identified(roster_, id, several->name, is_recording_));
+      match_.errors.push_back(not_identified(roster_, id, what, is_recording_));
     }
   }
 

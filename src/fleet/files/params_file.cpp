@@ -1,7 +1,6 @@
 #include "blactl/fleet/files/params_file.hpp"
 
 #include "blactl/base/json_reader.hpp"
-#include "blactl/base/read_file.hpp"
 
 #include "fleet/files/settings_reader.hpp"
 #include "fleet/files/texts.hpp"
@@ -45,6 +44,13 @@ bool is_whole(std::string_view value) {
   return !value.empty() && value.find_first_not_of(decimal_digits) == std::string_view::npos;
 }
 
+/// Empty: it has none.
+std::optional<FleetEntry> without_ids(FleetEntry entry) {
+  const auto erased = std::erase_if(
+      entry.set, [](const Assignment& each) { return bla::is_id(each.parameter->address); });
+  return erased > 0 ? std::optional(std::move(entry)) : std::nullopt;
+}
+
 class ParamsReader {
  public:
   ParamsReader(std::string file, const bla::Profiles& profiles)
@@ -64,10 +70,12 @@ class ParamsReader {
       return std::unexpected(fine.error());
     }
     std::ranges::sort(set_, {}, [](const Assignment& each) { return each.parameter->address; });
+    FleetEntry entry{.name = {}, .match = {}, .set = std::move(set_), .about = {}};
     return FleetFile{.file = faults_.file(),
-                     .servos = {{.name = {}, .match = {}, .set = std::move(set_), .about = {}}},
+                     .servos = {entry},
                      .is_params = true,
-                     .passed_over = {passed_over_.begin(), passed_over_.end()}};
+                     .passed_over = {passed_over_.begin(), passed_over_.end()},
+                     .entry_without_ids = without_ids(std::move(entry))};
   }
 
  private:
@@ -127,27 +135,11 @@ class ParamsReader {
   std::set<bla::Address> passed_over_;
 };
 
-bool is_fleet_file(std::string_view text, const std::filesystem::path& file) {
-  const std::size_t first = without_mark(text).find_first_not_of(" \t\r\n");
-  return file.extension() == ".json" ||
-         (first != std::string_view::npos && without_mark(text)[first] == '{');
-}
-
 } // namespace
 
 Result<FleetFile> parse_params_file(std::string_view text, std::string file,
                                     const bla::Profiles& profiles) {
   return ParamsReader(std::move(file), profiles).read(without_mark(text));
-}
-
-Result<FleetFile> read_settings_file(const std::filesystem::path& file,
-                                     const bla::Profiles& profiles) {
-  const auto text = read_file(file, json::max_file_bytes);
-  if (!text) {
-    return std::unexpected(text.error());
-  }
-  return is_fleet_file(*text, file) ? parse_fleet_file(*text, file.string(), profiles)
-                                    : parse_params_file(*text, file.string(), profiles);
 }
 
 std::string params_file(const Snapshot& servo, const FleetFileStyle& style) {

@@ -1,6 +1,8 @@
 #include "blactl/fleet/files/recipe.hpp"
 
 #include "blactl/base/json_reader.hpp"
+#include "blactl/bla/value.hpp"
+#include "blactl/fleet/bus/texts.hpp"
 
 #include "fleet/files/settings_reader.hpp"
 #include "fleet/files/texts.hpp"
@@ -127,14 +129,43 @@ Recipe read_root(const json::Value& root, const bla::Profiles& profiles, json::F
 
 Result<Recipe> read_recipe_document(Result<json::Document> document,
                                     const bla::Profiles& profiles) {
-  if (!document) {
-    return std::unexpected(document.error());
+  return document ? read_recipe(*document, profiles) : std::unexpected(document.error());
+}
+
+/// For people; "?" if there was no response.
+std::string shown_version(const Servo& servo, const std::optional<std::int64_t>& raw) {
+  const bla::Parameter* version = servo.identity.parameter(bla::address::firmware_version);
+  return raw && version != nullptr ? bla::display(*version, *raw) : std::string("?");
+}
+
+std::optional<Error> check_model_of(const Servo& servo, const Recipe& recipe,
+                                    const bla::Profiles& profiles) {
+  const auto models = profiles.matching(recipe.model);
+  const bla::Profile* profile = servo.identity.profile();
+  if (profile != nullptr && std::ranges::find(models, profile) != models.end()) {
+    return std::nullopt;
   }
-  Recipe recipe = read_root(document->root(), profiles, document->faults());
-  if (const auto fine = document->faults().result(); !fine) {
-    return std::unexpected(fine.error());
+  const std::string model = servo.identity.model();
+  return Error{
+      Code::model_mismatch,
+      say<texts::recipe_other_model>(model.empty() ? say<texts::recipe_unknown_model>() : model,
+                                     printable(recipe.model)),
+      say<texts::recipe_other_model_hint>(), servo.id.value()};
+}
+
+std::optional<Error> check_firmware_of(const Servo& servo, const Recipe& recipe) {
+  const auto version = servo.identity.readings().firmware_version;
+  if (!recipe.firmware_min || (version && *version >= *recipe.firmware_min)) {
+    return std::nullopt;
   }
-  return recipe;
+  if (!version) {
+    return Error{Code::timeout, say<texts::servo_silent_on>("firmware_version"),
+                 say<texts::run_again_hint>(), servo.id.value()};
+  }
+  return Error{Code::firmware_too_old,
+               say<texts::recipe_needs_newer>(shown_version(servo, version),
+                                              shown_version(servo, recipe.firmware_min)),
+               say<texts::recipe_needs_newer_hint>(), servo.id.value()};
 }
 
 } // namespace
@@ -154,6 +185,20 @@ Result<Recipe> parse_recipe(std::string_view text, std::string file,
 
 Result<Recipe> read_recipe(const std::filesystem::path& file, const bla::Profiles& profiles) {
   return read_recipe_document(json::parse_file(file), profiles);
+}
+
+Result<Recipe> read_recipe(json::Document& document, const bla::Profiles& profiles) {
+  Recipe recipe = read_root(document.root(), profiles, document.faults());
+  if (const auto fine = document.faults().result(); !fine) {
+    return std::unexpected(fine.error());
+  }
+  return recipe;
+}
+
+std::optional<Error> check_fit(const Servo& servo, const Recipe& recipe,
+                               const bla::Profiles& profiles) {
+  auto wrong = check_model_of(servo, recipe, profiles);
+  return wrong ? wrong : check_firmware_of(servo, recipe);
 }
 
 } // namespace blactl::fleet

@@ -97,7 +97,12 @@ inline constexpr Text params_empty{"no setting of a BLA servo is in this file",
 inline constexpr Text params_several{
     "{} does not say which servo it is for, and there are several: nodes {}",
     "{} には対象のサーボの記述が無く、サーボが複数あります: ノード {}"};
-inline constexpr Text params_several_hint{"name one of them: -n {}", "1 台を指定して下さい: -n {}"};
+inline constexpr Text params_several_hint{"name one of them: -n {}; or all that are meant",
+                                          "1 台を指定するか (-n {})、対象をすべて指定して下さい"};
+inline constexpr Text params_only_ids{
+    "{} has only IDs, and no two servos can have the same one",
+    "{} の設定は ID だけです (同じ ID を複数のサーボに設定することはできません)"};
+inline constexpr Text params_only_ids_hint{"name one servo with -n", "-n で 1 台を指定して下さい"};
 
 // Messages about recipes.
 inline constexpr Text recipe_counter_of{
@@ -105,5 +110,21 @@ inline constexpr Text recipe_counter_of{
     "{} は ID ではありません。カウンターは servo_id と static_node_id のみに指定できます"};
 inline constexpr Text recipe_counter_ends{"\"last\" is {}, below \"first\", {}",
                                           "\"last\" ({}) が \"first\" ({}) より小さい値です"};
+inline constexpr Text recipe_id_of_many{"{} gives {} to one servo, not to {}",
+                                        "{} の {} は 1 台にのみ設定できます (現在の対象: {} 台)"};
+inline constexpr Text recipe_id_of_many_hint{
+    "name one servo with -n, or leave it out of the recipe",
+    "-n で 1 台を指定するか、レシピから外して下さい"};
+inline constexpr Text recipe_other_model{"it is a {}, the recipe is for {}",
+                                         "機種は {} です (レシピの機種: {})"};
+inline constexpr Text recipe_unknown_model{"unknown model", "不明な機種"};
+inline constexpr Text recipe_other_model_hint{
+    "leave it out of -n, or take a recipe for its model",
+    "-n の対象から外すか、その機種のレシピを使用して下さい"};
+inline constexpr Text recipe_needs_newer{"its firmware is {}, the recipe needs {} or later",
+                                         "ファームウェアは {} です (レシピの条件: {} 以降)"};
+inline constexpr Text recipe_needs_newer_hint{"have its firmware updated",
+                                              "ファームウェアを更新して下さい"};
+inline constexpr Text servo_silent_on{"it did not report its {}", "{} の応答がありません"};
 
 } // namespace blactl::texts

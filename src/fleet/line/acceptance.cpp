@@ -1,8 +1,8 @@
 #include "fleet/line/acceptance.hpp"
 
 #include "blactl/bla/faults.hpp"
-#include "blactl/bla/value.hpp"
 
+#include "fleet/files/texts.hpp"
 #include "fleet/line/acceptance_texts.hpp"
 
 #include <fmt/format.h>
@@ -16,44 +16,16 @@ namespace at = bla::address;
 
 namespace {
 
-/// For people; "?" if there was no response.
-std::string shown_version(const Servo& servo, const std::optional<std::int64_t>& raw) {
-  const bla::Parameter* version = servo.identity.parameter(at::firmware_version);
-  return raw && version != nullptr ? bla::display(*version, *raw) : std::string("?");
-}
-
 Error aside(const Servo& servo, Code code, std::string message, std::string hint) {
   return {code, std::move(message), std::move(hint), servo.id.value()};
 }
 
-std::optional<Error> check_unit_model(const Servo& servo, const Recipe& recipe,
-                                      const bla::Profiles& profiles) {
-  const auto models = profiles.matching(recipe.model);
-  const bla::Profile* profile = servo.identity.profile();
-  if (profile != nullptr && std::ranges::find(models, profile) != models.end()) {
-    return std::nullopt;
+/// On a line nobody chooses among servos: it is put aside, or made fit.
+Error on_the_line(Error error) {
+  if (error.code != Code::firmware_too_old) {
+    error.hint = say<texts::unit_aside_hint>();
   }
-  const std::string model = servo.identity.model();
-  return aside(
-      servo, Code::model_mismatch,
-      say<texts::unit_of_other_model>(model.empty() ? say<texts::unit_of_unknown_model>() : model,
-                                      printable(recipe.model)),
-      say<texts::unit_aside_hint>());
-}
-
-std::optional<Error> check_unit_firmware(const Servo& servo, const Recipe& recipe) {
-  const auto version = servo.identity.readings().firmware_version;
-  if (!recipe.firmware_min || (version && *version >= *recipe.firmware_min)) {
-    return std::nullopt;
-  }
-  if (!version) {
-    return aside(servo, Code::timeout, say<texts::unit_silent>("firmware_version"),
-                 say<texts::unit_aside_hint>());
-  }
-  return aside(servo, Code::firmware_too_old,
-               say<texts::unit_too_old>(shown_version(servo, version),
-                                        shown_version(servo, recipe.firmware_min)),
-               say<texts::unit_too_old_hint>());
+  return error;
 }
 
 std::optional<Error> check_unit_label(const Servo& servo, const Label* label) {
@@ -62,7 +34,7 @@ std::optional<Error> check_unit_label(const Servo& servo, const Label* label) {
     return std::nullopt;
   }
   if (!number) {
-    return aside(servo, Code::timeout, say<texts::unit_silent>("serial_number"),
+    return aside(servo, Code::timeout, say<texts::servo_silent_on>("serial_number"),
                  say<texts::unit_aside_hint>());
   }
   return aside(servo, Code::label_mismatch,
@@ -89,11 +61,8 @@ state::IdWish wish_of(const Counter& counter) {
 
 std::optional<Error> check_unit(const Servo& servo, const Recipe& recipe, const Label* label,
                                 const bla::Profiles& profiles) {
-  if (auto wrong = check_unit_model(servo, recipe, profiles)) {
-    return wrong;
-  }
-  if (auto wrong = check_unit_firmware(servo, recipe)) {
-    return wrong;
+  if (auto wrong = check_fit(servo, recipe, profiles)) {
+    return on_the_line(std::move(*wrong));
   }
   return check_unit_label(servo, label);
 }

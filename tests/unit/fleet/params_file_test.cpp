@@ -1,5 +1,6 @@
 #include "blactl/fleet/files/fleet_match.hpp"
 #include "blactl/fleet/files/params_file.hpp"
+#include "blactl/fleet/files/settings_file.hpp"
 
 #include "catch.hpp"
 #include "unit/fleet/support.hpp"

@@ -50,7 +50,7 @@ struct EntryDiff {
 };
 
 struct FleetDiff {
-  std::vector<EntryDiff> entries; ///< servos by node ID, then missing ones, then extra ones
+  std::vector<EntryDiff> entries; ///< servos by node ID, then those of unpaired()
   std::optional<Error> broken{};  ///< the error that ended the session early
 };
 
@@ -58,13 +58,13 @@ struct FleetDiff {
 [[nodiscard]] FleetDiff diff(Session& session, const bla::Profiles& profiles,
                              const FleetMatch& match, const Identification::Options& options);
 
-/// The missing, left out or extra ones, each on its own.
+/// The missing, left out or extra ones, and those that a recipe is not for, each on its own.
 [[nodiscard]] std::vector<EntryDiff> unpaired(const FleetMatch& match, const Roster& roster,
                                               const bla::Profiles& profiles);
 
 /// Pairs entries by their unique ID, else by their serial number, else by their name. In a pair, a
-/// register that only one of them has differs, too. A parameter file is compared with a file of one
-/// entry.
+/// register that only one of them has differs, too. A parameter file or a recipe is compared with a
+/// file of one entry.
 [[nodiscard]] FleetDiff diff(const FleetFile& one, const FleetFile& other,
                              const bla::Profiles& profiles);
 

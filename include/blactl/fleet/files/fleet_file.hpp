@@ -22,6 +22,7 @@
 #include "blactl/dronecan/types.hpp"
 #include "blactl/fleet/bus/servo.hpp"
 #include "blactl/fleet/bus/snapshot.hpp"
+#include "blactl/fleet/files/recipe.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -30,6 +31,10 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
+namespace blactl::json {
+class Document;
+} // namespace blactl::json
 
 namespace blactl::fleet {
 
@@ -76,9 +81,14 @@ struct FleetEntry {
 struct FleetFile {
   std::string file; ///< its name, for messages
   std::vector<FleetEntry> servos;
-  /// A parameter file (see params_file.hpp): its one entry does not identify a servo.
-  bool is_params = false;
+  bool is_params = false;                  ///< a parameter file, see params_file.hpp
   std::vector<bla::Address> passed_over{}; ///< not settings, by address: in parameter files
+  /// The entry of a parameter file for several servos, without its IDs; empty: it has none.
+  std::optional<FleetEntry> entry_without_ids{};
+  std::optional<Recipe> recipe{}; ///< it is one, with the settings of its one entry
+
+  /// Whether it is a parameter file or a recipe: its one entry does not identify a servo.
+  [[nodiscard]] bool names_nobody() const { return is_params || recipe; }
 };
 
 /// `file` is the name for messages. Errors: bad_file with file, line, JSON pointer and reason of
@@ -90,6 +100,10 @@ struct FleetFile {
 
 /// "-" reads stdin. Errors: the same.
 [[nodiscard]] Result<FleetFile> read_fleet_file(const std::filesystem::path& file,
+                                                const bla::Profiles& profiles);
+
+/// A file that was read as JSON already. Errors: the same, and those of the document.
+[[nodiscard]] Result<FleetFile> read_fleet_file(json::Document& document,
                                                 const bla::Profiles& profiles);
 
 /// Data for an exported file.

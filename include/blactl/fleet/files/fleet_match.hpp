@@ -8,6 +8,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace blactl::fleet {
@@ -21,15 +22,25 @@ struct FleetMatch {
     dronecan::NodeId id;
   };
 
+  struct Misfit {
+    const FleetEntry* entry;
+    dronecan::NodeId id;
+    Error error;
+  };
+
   std::vector<Pair> pairs;                 ///< by node ID
   std::vector<const FleetEntry*> missing;  ///< no servo on the bus matches
   std::vector<const FleetEntry*> left_out; ///< their servos are not selected by -n
   std::vector<dronecan::NodeId> extra;     ///< servos without an entry
+  /// Selected servos that a recipe is not for, each with the reason: as check_fit().
+  std::vector<Misfit> misfits;
+  std::vector<std::string_view> ids_left_out; ///< names: a parameter file is for several servos
   /// usage: an entry that matches several servos though it must match one, a servo matched by two
-  /// entries, one matched by a node ID that is not permanently its own, a parameter file with
-  /// several servos. not_found, timeout, duplicate_node_id: selected by -n, but missing or not a
-  /// single servo; a parameter file without a servo. timeout: a servo has not said who it is, and
-  /// an entry for several servos, or -n, may mean it.
+  /// entries, one matched by a node ID that is not permanently its own; a parameter file with
+  /// several servos that nobody selected, or that has only IDs for several; a recipe with an ID for
+  /// several. not_found, timeout, duplicate_node_id: selected by -n, but missing or not a single
+  /// servo; a parameter file without a servo. timeout: a servo has not said who it is, and an entry
+  /// for several servos, or -n, may mean it.
   std::vector<Error> errors;
 };
 

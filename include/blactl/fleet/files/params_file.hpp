@@ -16,24 +16,18 @@
 #include "blactl/fleet/bus/snapshot.hpp"
 #include "blactl/fleet/files/fleet_file.hpp"
 
-#include <filesystem>
 #include <string>
 #include <string_view>
 
 namespace blactl::fleet {
 
-/// One entry without name and match, FleetFile::is_params. Registers that are not settings are
-/// skipped, as a tool has saved them with the others. Errors: bad_file with file, line and reason
-/// of each error: lines that are not a name and a value, names that are not an address (also
-/// decimal ones, and blactl's own), values that are not an integer or that no model accepts, a
-/// register named twice, a file without a setting.
+/// One entry without name and match, FleetFile::is_params; another one for several servos, if it
+/// has IDs. Registers that are not settings are skipped, as a tool has saved them with the others.
+/// Errors: bad_file with file, line and reason of each error: lines that are not a name and a
+/// value, names that are not an address (also decimal ones, and blactl's own), values that are not
+/// an integer or that no model accepts, a register named twice, a file without a setting.
 [[nodiscard]] Result<FleetFile> parse_params_file(std::string_view text, std::string file,
                                                   const bla::Profiles& profiles);
-
-/// A fleet file, or a parameter file: a fleet file begins with a brace, or has the extension .json.
-/// "-" reads stdin. Errors: as parse_fleet_file(), parse_params_file().
-[[nodiscard]] Result<FleetFile> read_settings_file(const std::filesystem::path& file,
-                                                   const bla::Profiles& profiles);
 
 /// A file that both tools load, and parse_params_file() reads as exactly these settings: every
 /// setting of a servo that was read, IDs included, by address.

@@ -17,6 +17,7 @@
 #include "blactl/base/error.hpp"
 #include "blactl/bla/assignment.hpp"
 #include "blactl/bla/profile.hpp"
+#include "blactl/fleet/bus/servo.hpp"
 #include "blactl/fleet/bus/snapshot.hpp"
 
 #include <cstdint>
@@ -25,6 +26,10 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
+namespace blactl::json {
+class Document;
+} // namespace blactl::json
 
 namespace blactl::fleet {
 
@@ -61,6 +66,15 @@ struct Recipe {
 /// "-" reads stdin. Errors: the same.
 [[nodiscard]] Result<Recipe> read_recipe(const std::filesystem::path& file,
                                          const bla::Profiles& profiles);
+
+/// A file that was read as JSON already. Errors: the same, and those of the document.
+[[nodiscard]] Result<Recipe> read_recipe(json::Document& document, const bla::Profiles& profiles);
+
+/// The reason why the recipe is not for this servo; empty: it is. The message tells it of "it".
+/// Errors: model_mismatch (also if the model is uncertain), firmware_too_old; timeout: the firmware
+/// version could not be read.
+[[nodiscard]] std::optional<Error> check_fit(const Servo& servo, const Recipe& recipe,
+                                             const bla::Profiles& profiles);
 
 /// The settings of one servo for all servos of its model, so without IDs.
 [[nodiscard]] std::string recipe_file(const Snapshot& servo);
