@@ -337,6 +337,7 @@ complete -c blactl -n '__blactl_in apply' -l trust-ram -d 'if RAM is as wished, 
 complete -c blactl -n '__blactl_in apply' -l fail-fast -d 'once one servo is known to have failed, no other is saved any more'
 complete -c blactl -n '__blactl_in apply' -l events -r -F -d 'write a line of JSON to FILE for each servo and stage'
 complete -c blactl -n '__blactl_in apply' -l no-snapshot -d 'go on even if the settings of servos cannot be recorded for `undo`'
+complete -c blactl -n '__blactl_in apply' -l check -d 'only check FILE against the models, without a bus'
 complete -c blactl -n '__blactl_in apply' -l wait -r -f -d 'how long a servo may take to come back (default 5, and 2 for each that asks for a node ID)'
 complete -c blactl -n '__blactl_in apply' -l stagger -r -f -d 'pause between two servos (default 0)'
 complete -c blactl -n '__blactl_argument apply 1' -F
