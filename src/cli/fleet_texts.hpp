@@ -56,8 +56,8 @@ inline constexpr Text params_passed_over{"{}: skipped, as they are not settings:
 inline constexpr Text params_without_ids{"{}: left out, as the file is for several servos: {}",
                                          "{}: 複数のサーボが対象のため除外しました: {}"};
 inline constexpr Text recipe_has_counters{
-    "the recipe {} has counters: {}; only provision knows their next numbers",
-    "レシピ {} にカウンターがあります: {} (番号を割り当てるのは provision だけです)"};
+    "the recipe {} has counters, which are for a production line: {}",
+    "レシピ {} に生産ライン用のカウンターがあります: {}"};
 inline constexpr Text recipe_has_counters_hint{
     "leave the counters out: IDs are given by blactl alloc --static, or by set",
     "カウンターを外して下さい (ID の設定: blactl alloc --static、set)"};

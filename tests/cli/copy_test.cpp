@@ -152,9 +152,10 @@ TEST_CASE("a recipe needs -n, and neither counters nor --entry") {
               "does not say which servos");
   check_error(copy(fleet, recipe, {"-n", "12", "--entry", "wing", "-y"}), 2, "usage",
               "has no entries");
-  check_error(copy(fleet, counting(), {"-n", "12", "-y"}), 2, "usage", "counters: servo_id");
+  check_error(copy(fleet, counting(), {"-n", "12", "-y"}), 2, "usage",
+              "a production line: servo_id");
   check_error(fleet.run({"diff", "-", "-n", "12"}, {.stdin_text = counting()}), 2, "usage",
-              "counters: servo_id");
+              "a production line: servo_id");
   const Result all = copy(fleet, counting(), {"--entry", "wing", "-y"});
   CHECK(all.status == 2);
   CHECK(codes(all) == Words{"usage", "usage", "usage"});
@@ -167,7 +168,7 @@ TEST_CASE("an ID that a recipe gives is for one servo") {
   const Fleet fleet = eight();
   const std::string recipe = head + R"("BLA21", "set": {"servo_id": 40}})";
   check_error(copy(fleet, recipe, {"-n", "12-13", "-y"}), 2, "usage",
-              "gives servo_id to one servo, not to 2");
+              "would give the same servo_id to 2 servos");
   CHECK(copy(fleet, recipe, {"-n", "12", "-y"}).status == 0);
   CHECK(fleet.rom("12", "servo_id") == 40);
 }
@@ -267,7 +268,7 @@ TEST_CASE("a recipe is compared with a file of one servo") {
   const std::string many = bench.file("many.json", R"({"schema": "blactl-fleet/1", "servos": []})");
   check_error(bench.run({"diff", one, many}), 2, "usage", "is of one servo");
   check_error(bench.run({"diff", bench.file("c.json", counting()), other}), 2, "usage",
-              "counters: servo_id");
+              "a production line: servo_id");
 }
 
 TEST_CASE("apply --check looks at the file alone, whichever it is") {

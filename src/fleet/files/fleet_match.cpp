@@ -137,6 +137,7 @@ class Matching {
       }
     }
     if (file.entry_without_ids && file.entry_without_ids->set.empty()) {
+      match_.ids_left_out.clear();
       refuse(say<texts::params_only_ids>(printable(file.file)), say<texts::params_only_ids_hint>());
     }
     return match_.errors.empty();

@@ -110,7 +110,7 @@ inline constexpr Text recipe_counter_of{
     "{} は ID ではありません。カウンターは servo_id と static_node_id のみに指定できます"};
 inline constexpr Text recipe_counter_ends{"\"last\" is {}, below \"first\", {}",
                                           "\"last\" ({}) が \"first\" ({}) より小さい値です"};
-inline constexpr Text recipe_id_of_many{"{} gives {} to one servo, not to {}",
+inline constexpr Text recipe_id_of_many{"{} would give the same {} to {} servos",
                                         "{} の {} は 1 台にのみ設定できます (現在の対象: {} 台)"};
 inline constexpr Text recipe_id_of_many_hint{
     "name one servo with -n, or leave it out of the recipe",

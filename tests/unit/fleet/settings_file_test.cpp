@@ -140,7 +140,7 @@ TEST_CASE("an ID in a recipe is for one servo; none of its own is for all") {
   CHECK(several.pairs.empty());
   REQUIRE(several.errors.size() == 1);
   CHECK(several.errors[0].code == Code::usage);
-  CHECK(holds(several.errors[0].message, "servo_id to one servo, not to 2"));
+  CHECK(holds(several.errors[0].message, "the same servo_id to 2 servos"));
   const FleetFile dynamic = read_well("a.json", recipe_for("BLA21", R"("static_node_id": 0)"));
   CHECK(match_with(dynamic, servos, "11-12").pairs.size() == 2);
 }
@@ -166,6 +166,7 @@ TEST_CASE("the IDs of a parameter file are for one servo, for several they are l
   const FleetFile only = read_well("a.param", "0x45 3\n");
   const auto nothing = match_with(only, servos, "all");
   CHECK(nothing.pairs.empty());
+  CHECK(nothing.ids_left_out.empty());
   REQUIRE(nothing.errors.size() == 1);
   CHECK(holds(nothing.errors[0].message, "has only IDs"));
 }
