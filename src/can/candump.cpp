@@ -1,5 +1,7 @@
 #include "blactl/can/candump.hpp"
 
+#include "can/log_words.hpp"
+
 #include <algorithm>
 #include <chrono>
 
@@ -8,49 +10,12 @@ namespace {
 
 /// Set in the ID of an error frame (CAN_ERR_FLAG of linux/can.h).
 constexpr std::uint32_t error_flag = 0x2000'0000;
-constexpr std::uint32_t standard_id_mask = 0x7FF;
 constexpr std::size_t standard_digits = 3;
 constexpr std::size_t extended_digits = 8;
 
 /// candump writes absolute stamps as %010lu.%06lu, the others as %03lu.%06lu.
 constexpr std::size_t absolute_digits = 10;
-/// Seconds with more digits are not a time that anybody logged, and would overflow.
-constexpr std::size_t most_digits = 11;
 constexpr std::size_t micro_digits = 6;
-
-constexpr std::int8_t no_digit = -1;
-
-constexpr auto digit_values = [] {
-  std::array<std::int8_t, 256> values{};
-  values.fill(no_digit);
-  for (std::size_t i = 0; i < 10; ++i) {
-    values['0' + i] = static_cast<std::int8_t>(i);
-  }
-  for (std::size_t i = 0; i < 6; ++i) {
-    values['A' + i] = values['a' + i] = static_cast<std::int8_t>(10 + i);
-  }
-  return values;
-}();
-
-constexpr int hex_digit(char c) {
-  return digit_values[static_cast<std::uint8_t>(c)];
-}
-
-constexpr bool is_decimal(char c) {
-  return c >= '0' && c <= '9';
-}
-
-/// The number, if all of `text` is digits.
-std::optional<std::uint32_t> hex_number(std::string_view text) {
-  std::uint32_t value = 0;
-  int bad = 0;
-  for (const char c : text) {
-    const int digit = hex_digit(c);
-    bad |= digit;
-    value = value << 4U | static_cast<std::uint32_t>(digit & 0xF);
-  }
-  return bad < 0 ? std::nullopt : std::optional(value);
-}
 
 /// Takes words and characters off the front of a line.
 class Scanner {
@@ -89,14 +54,6 @@ class Scanner {
   std::string_view rest_;
 };
 
-std::int64_t decimal(std::string_view digits) {
-  std::int64_t value = 0;
-  for (const char c : digits) {
-    value = value * 10 + (c - '0');
-  }
-  return value;
-}
-
 /// ".249713)" or ".249713456)", cut to microseconds.
 std::optional<Duration> fraction(Scanner& in) {
   const bool point = in.skip('.');
@@ -104,11 +61,7 @@ std::optional<Duration> fraction(Scanner& in) {
   if (!point || digits.empty() || !in.skip(')')) {
     return std::nullopt;
   }
-  std::int64_t micros = decimal(digits.substr(0, micro_digits));
-  for (std::size_t i = digits.size(); i < micro_digits; ++i) {
-    micros *= 10;
-  }
-  return Duration(micros);
+  return Duration(scaled(digits, micro_digits));
 }
 
 /// "-07-10 06:50:52" behind the year.
@@ -136,7 +89,7 @@ std::optional<WallTime> date(std::int64_t year, Scanner& in) {
 /// Reads the time stamp after the opening parenthesis.
 bool take_stamp(Scanner& in, LogLine& line) {
   const auto digits = in.digits();
-  if (digits.empty() || digits.size() > most_digits) {
+  if (digits.empty() || digits.size() > most_time_digits) {
     return false;
   }
   line.stamp = LogLine::Stamp::absolute;

@@ -16,7 +16,7 @@ constexpr std::size_t most_at_once = 4096;
 } // namespace
 
 Result<std::unique_ptr<ReplayBus>> ReplayBus::open(const std::string& path, std::string name) {
-  auto reader = CandumpReader::open(path);
+  auto reader = LogReader::open(path);
   if (!reader) {
     Error error = std::move(reader.error());
     error.code = Code::interface; // the file takes the place of an interface here

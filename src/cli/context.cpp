@@ -332,7 +332,7 @@ void Context::tell_losses(Report& report) const {
     reporter_.note(say<texts::unreadable_frames>(session_->unreadable()));
   }
   if (layers_.log != nullptr && layers_.log->reader().bad_lines() > 0) {
-    const can::CandumpReader& log = layers_.log->reader();
+    const can::LogReader& log = layers_.log->reader();
     reporter_.note(
         say<texts::lines_passed_over>(log.name(), log.bad_lines(), log.first_bad_line()));
   }

@@ -1,8 +1,8 @@
 // What apply and get cost of the bus: counted in bits of the simulated one, at 1 Mbit/s a
 // microsecond each.
 
-#include "blactl/can/candump_reader.hpp"
 #include "blactl/can/frame_bits.hpp"
+#include "blactl/can/log_reader.hpp"
 #include "blactl/dronecan/transfer.hpp"
 #include "blactl/dronecan/types.hpp"
 
@@ -44,7 +44,7 @@ std::string name_in(const can::Frame& frame) {
 class BusTime {
  public:
   explicit BusTime(const std::string& log) {
-    const auto reader = can::CandumpReader::open(log);
+    const auto reader = can::LogReader::open(log);
     REQUIRE(reader);
     while (const auto line = (*reader)->next()) {
       take(line->frame, line->at);

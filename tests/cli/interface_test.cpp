@@ -96,6 +96,8 @@ TEST_CASE("a command line that is not understood is refused with the way on") {
        "usage",
        "-i bus.log: the kind",
        "did you mean -i replay:bus.log?"},
+      {{"-i", "b.asc", "scan"}, "usage", "-i b.asc: the kind", "did you mean -i replay:b.asc?"},
+      {{"-i", "b.trc", "scan"}, "usage", "-i b.trc: the kind", "did you mean -i replay:b.trc?"},
       {{"get", "-n", ""}, "usage", "--node: the value is empty", "see blactl --help"},
       {{"models", "-n", "12"},
        "usage",

@@ -9,39 +9,14 @@
 
 #include "blactl/base/time.hpp"
 #include "blactl/can/frame.hpp"
+#include "blactl/can/log_line.hpp"
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <string_view>
 
 namespace blactl::can {
-
-/// The content of one line.
-struct LogLine {
-  enum class Kind : std::uint8_t {
-    frame, ///< a data or remote frame
-    error, ///< an error frame: `frame.id` is its class and `frame.data` its detail
-           ///< (linux/can/error.h)
-    other, ///< not classic CAN: CAN FD, CAN XL, and candump's remarks between frames
-  };
-
-  enum class Stamp : std::uint8_t {
-    none,
-    /// `at` is UTC. A date (`-t A`) has no time zone: it is taken as UTC.
-    absolute,
-    /// `at` counts from 1970 on: the time since the first frame (`-t z`) or since the last (`-t
-    /// d`); one line alone does not show which, LogClock finds out.
-    relative,
-  };
-
-  Kind kind = Kind::other;
-  Stamp stamp = Stamp::none;
-  Frame frame{};
-  WallTime at{};                ///< truncated to microseconds (`-N` has more digits)
-  std::string_view interface{}; ///< points into the line; foreign text
-};
 
 /// Empty: not a line of candump. A trailing line end is allowed. Never allocates.
 [[nodiscard]] std::optional<LogLine> parse_line(std::string_view line);

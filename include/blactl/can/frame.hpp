@@ -21,6 +21,7 @@ struct Frame {
   friend bool operator==(const Frame&, const Frame&) = default;
 };
 
+inline constexpr std::uint32_t standard_id_mask = 0x7FF;
 inline constexpr std::uint32_t extended_id_mask = 0x1FFF'FFFF;
 
 } // namespace blactl::can

@@ -2,7 +2,7 @@
 // The time of a log: from the stamps of its lines to a bus clock that never goes back.
 
 #include "blactl/base/time.hpp"
-#include "blactl/can/candump.hpp"
+#include "blactl/can/log_line.hpp"
 
 namespace blactl::can {
 

@@ -1,9 +1,9 @@
 #pragma once
-// A candump log as a receive-only bus: `replay:FILE`.
+// A log as a receive-only bus: `replay:FILE`.
 
 #include "blactl/can/bus.hpp"
-#include "blactl/can/candump_reader.hpp"
 #include "blactl/can/log_clock.hpp"
+#include "blactl/can/log_reader.hpp"
 
 #include <cstddef>
 #include <deque>
@@ -48,16 +48,16 @@ class ReplayBus final : public Bus {
   [[nodiscard]] bool is_replay() const override { return true; }
 
   /// The log reader, which counts skipped lines.
-  [[nodiscard]] const CandumpReader& reader() const { return *reader_; }
+  [[nodiscard]] const LogReader& reader() const { return *reader_; }
 
  private:
-  ReplayBus(std::unique_ptr<CandumpReader> reader, std::string name)
+  ReplayBus(std::unique_ptr<LogReader> reader, std::string name)
       : reader_(std::move(reader)), name_(std::move(name)) {}
 
   void take_error_frame(const LogLine& line);
   [[nodiscard]] BusEvent end() const;
 
-  std::unique_ptr<CandumpReader> reader_;
+  std::unique_ptr<LogReader> reader_;
   std::string name_;
   LogClock clock_;
   std::deque<BusFault> faults_; ///< one error frame may report several

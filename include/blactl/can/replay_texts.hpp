@@ -7,8 +7,10 @@ namespace blactl::texts {
 
 inline constexpr Text log_unreadable{"cannot read {}: {}", "{} を読み込めません: {}"};
 inline constexpr Text log_unreadable_hint{
-    "give a log of candump -l, or of blactl --record: -i replay:FILE",
-    "candump -l または blactl --record のログを指定して下さい: -i replay:FILE"};
+    "give a log of candump -l, blactl --record, Vector (ASC) or PEAK (TRC 1.1 to 2.1): -i "
+    "replay:FILE",
+    "candump -l、blactl --record、Vector (ASC)、PEAK (TRC 1.1～2.1) のログを指定して下さい: "
+    "-i replay:FILE"};
 inline constexpr Text log_cut_off{
     "{} is cut off: its gzip data ends too early; lines read before: {}",
     "{} は途中で切れています (gzip データが不完全)。読込み済み: {} 行"};
@@ -18,8 +20,9 @@ inline constexpr Text log_damaged{
 inline constexpr Text log_damaged_hint{
     "the lines before that were used; check the file with gzip -t, or use the original log",
     "そこまでの内容は使用しました。gzip -t でファイルを確認し、元のログを使用して下さい"};
-inline constexpr Text log_without_frames{"{} contains no frame in candump's format",
-                                         "{} には candump 形式のフレームがありません"};
+inline constexpr Text log_without_frames{
+    "{} contains no frame in the format of candump, Vector ASC or PEAK TRC 1.1 to 2.1",
+    "{} には candump、Vector ASC、PEAK TRC 1.1～2.1 いずれの形式のフレームもありません"};
 inline constexpr Text standard_input{"standard input", "標準入力"};
 inline constexpr Text log_takes_no_frames{"{} is a log: nothing can be sent to it",
                                           "{} はログのため送信できません"};

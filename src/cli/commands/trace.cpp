@@ -1,6 +1,6 @@
-// blactl trace: every DroneCAN transfer decoded, live or from a candump log.
+// blactl trace: every DroneCAN transfer decoded, live or from a log.
 
-#include "blactl/can/candump_reader.hpp"
+#include "blactl/can/log_reader.hpp"
 #include "blactl/can/replay_texts.hpp"
 #include "blactl/fleet/bus/texts.hpp"
 
@@ -24,7 +24,7 @@ namespace blactl::cli {
 namespace {
 
 struct TraceOptions {
-  std::string file{}; ///< a candump log, or "-"; empty: the interface
+  std::string file{}; ///< a log, or "-"; empty: the interface
   TraceFilter::Wish filter{};
   std::optional<Duration> duration{};
   std::optional<std::uint64_t> count{};
@@ -78,8 +78,10 @@ constexpr Option trace_options[]{
 constexpr Option trace_arguments[]{
     {.name = "FILE",
      .kind = Kind::file,
-     .help = {"a log of candump -l, plain or .gz, or - (default: the interface)",
-              "candump -l のログ (.gz 可)、または - (省略時: インターフェース)"},
+     .help = {"a log of candump -l, Vector (ASC) or PEAK (TRC), plain or .gz, or - (default: the "
+              "interface)",
+              "candump -l、Vector (ASC)、PEAK (TRC) のログ (.gz 可)、または - (省略時: "
+              "インターフェース)"},
      .store = into<&TraceOptions::file>},
 };
 
@@ -92,8 +94,8 @@ std::optional<std::string> log_path(const TraceOptions& options, const std::stri
   return name && name->is(Behind::log) ? std::optional(name->rest) : std::nullopt;
 }
 
-Result<std::unique_ptr<can::CandumpReader>> open_log(const std::string& path, bool is_interface) {
-  auto reader = can::CandumpReader::open(path);
+Result<std::unique_ptr<can::LogReader>> open_log(const std::string& path, bool is_interface) {
+  auto reader = can::LogReader::open(path);
   if (!reader && is_interface) {
     reader.error().code = Code::interface; // the file takes the place of an interface
   }
@@ -118,7 +120,7 @@ void count(const Tracer& tracer, std::uint64_t lost, std::uint64_t bad_lines, Re
 }
 
 /// Notes on missing frames.
-void tell_losses(const Tracer& tracer, const TraceRun& run, const can::CandumpReader* log,
+void tell_losses(const Tracer& tracer, const TraceRun& run, const can::LogReader* log,
                  const Reporter& reporter) {
   if (run.lost() > 0) {
     reporter.note(say<texts::frames_lost>(run.lost()));
@@ -138,7 +140,7 @@ void tell_losses(const Tracer& tracer, const TraceRun& run, const can::CandumpRe
 
 /// The source of frames: one of the two.
 struct Source {
-  std::unique_ptr<can::CandumpReader> log{};
+  std::unique_ptr<can::LogReader> log{};
   std::unique_ptr<can::Bus> bus{};
 };
 
@@ -167,7 +169,7 @@ void run_trace(const TraceOptions& options, TraceFilter filter, const bla::Profi
   if (!source) {
     return report.fail(source.error());
   }
-  const can::CandumpReader* log = source->log.get();
+  const can::LogReader* log = source->log.get();
   std::string out;
   const auto stats = std::make_shared<TraceStats>();
   const auto lines = options.stats ? nullptr : make_lines(options, context, profiles, out);
@@ -219,8 +221,8 @@ Report execute(const TraceOptions& options, Context& context) {
 constinit const Command commands::trace{
     .name = "trace",
     .traits = {.streams = true, .session = true, .recordings = true, .needs_frames = true},
-    .help = {"every DroneCAN transfer decoded, live or from a candump log; sends nothing",
-             "全 DroneCAN 転送をデコードして表示 (バスまたは candump ログ。送信なし)"},
+    .help = {"every DroneCAN transfer decoded, live or from a log; sends nothing",
+             "全 DroneCAN 転送をデコードして表示 (バスまたはログ。送信なし)"},
     .options = trace_options,
     .arguments = trace_arguments,
     .action = action<TraceOptions, execute>,

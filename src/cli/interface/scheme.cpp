@@ -30,16 +30,14 @@ std::string meant_by(std::string_view text, const Scheme& scheme) {
   if (scheme.operand == Operand::serial_port && looks_like_serial_port(text)) {
     return prefix + (text.starts_with("/") ? "" : "/dev/") + printable(text);
   }
-  return !scheme.ending.empty() && text.ends_with(scheme.ending) ? prefix + printable(text)
-                                                                 : std::string();
+  return scheme.has_ending(text) ? prefix + printable(text) : std::string();
 }
 
 /// The scheme of a name that has a colon; null: there is none.
 const Scheme* find_scheme(std::string_view name, std::string_view rest) {
   const Scheme* found = nullptr;
   for (const Scheme& scheme : schemes) {
-    const bool ends_so = !scheme.ending.empty() && rest.ends_with(scheme.ending);
-    if (scheme.name == name && (found == nullptr || ends_so)) {
+    if (scheme.name == name && (found == nullptr || scheme.has_ending(rest))) {
       found = &scheme;
     }
   }

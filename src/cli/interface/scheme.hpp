@@ -10,6 +10,7 @@
 #include "cli/interface/slcan_name.hpp"
 #include "cli/texts.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -59,8 +60,9 @@ struct Scheme {
   Operand operand = Operand::file;
   std::string_view form;           ///< for the help of -i
   std::string_view example = form; ///< for hints
-  /// Of files of this kind. Of two schemes of one name, that of the ending is meant.
-  std::string_view ending{};
+  /// Of files of this kind; the rest is empty. Of two schemes of one name, that of the ending is
+  /// meant.
+  std::array<std::string_view, 3> endings{};
   bool may_be_bare = true; ///< nothing need stand behind the colon
   Result<OpenBus> (*open)(const OpenRequest& request);
   /// What is wrong with what stands behind the colon, before anything is opened; null: nothing.
@@ -69,6 +71,12 @@ struct Scheme {
   std::string (*refusal)(std::string_view typed) = nullptr;
   /// What to look at where nothing was heard on `bus`; null: what fits servos on any CAN bus.
   std::string (*silence)(std::string_view rest, std::string_view bus) = nullptr;
+
+  /// Whether the name of a file says that it is of this kind.
+  [[nodiscard]] constexpr bool has_ending(std::string_view file) const {
+    return std::ranges::any_of(
+        endings, [&](auto ending) { return !ending.empty() && file.ends_with(ending); });
+  }
 };
 
 template <auto parse> Result<void> parsed_by(std::string_view rest) {
@@ -122,13 +130,13 @@ inline constexpr std::array schemes{
     Scheme{.name = "sim",
            .behind = Behind::scenario,
            .form = "sim:SCENARIO.json",
-           .ending = ".json",
+           .endings = {".json"},
            .open = open_scenario,
            .silence = about_rest<texts::silent_scenario_hint>},
     Scheme{.name = "replay",
            .behind = Behind::log,
            .form = "replay:FILE",
-           .ending = ".log",
+           .endings = {".log", ".asc", ".trc"},
            .may_be_bare = false,
            .open = open_log,
            .refusal = about<texts::log_takes_no_frames>,

@@ -110,7 +110,7 @@ bool TraceRun::take(const can::LogLine& line, const can::LogClock& clock) {
 }
 
 /// Takes the available lines without waiting.
-TraceRun::Next TraceRun::take_lines(can::CandumpReader& reader, can::LogClock& clock) {
+TraceRun::Next TraceRun::take_lines(can::LogReader& reader, can::LogClock& clock) {
   for (std::uint64_t i = 0; i < lines_between_looks; ++i) {
     const auto line = reader.next();
     if (!line) {
@@ -127,7 +127,7 @@ TraceRun::Next TraceRun::take_lines(can::CandumpReader& reader, can::LogClock& c
 }
 
 /// Returns whether the log was read to its end.
-bool TraceRun::play(can::CandumpReader& reader) {
+bool TraceRun::play(can::LogReader& reader) {
   can::Loop loop(nullptr);
   loop.watch(reader.descriptor());
   can::LogClock clock;
@@ -150,7 +150,7 @@ bool TraceRun::play(can::CandumpReader& reader) {
   return true;
 }
 
-void TraceRun::log(can::CandumpReader& reader) {
+void TraceRun::log(can::LogReader& reader) {
   const bool is_whole = play(reader);
   if (is_whole) {
     tracer_.expire(never);

@@ -2,8 +2,8 @@
 // One run of `blactl trace`: the source of frames, and the end.
 
 #include "blactl/can/bus.hpp"
-#include "blactl/can/candump_reader.hpp"
 #include "blactl/can/log_clock.hpp"
+#include "blactl/can/log_reader.hpp"
 #include "blactl/can/loop.hpp"
 
 #include "cli/context.hpp"
@@ -29,7 +29,7 @@ class TraceRun {
         report_(report) {}
 
   void live(std::unique_ptr<can::Bus> bus);
-  void log(can::CandumpReader& reader);
+  void log(can::LogReader& reader);
 
   /// Frames dropped by the kernel, and log lines without a usable frame.
   [[nodiscard]] std::uint64_t lost() const { return lost_; }
@@ -42,8 +42,8 @@ class TraceRun {
 
   [[nodiscard]] bool handle(const can::Event& event, std::string_view interface, Time end);
   [[nodiscard]] bool take(const can::LogLine& line, const can::LogClock& clock);
-  [[nodiscard]] Next take_lines(can::CandumpReader& reader, can::LogClock& clock);
-  [[nodiscard]] bool play(can::CandumpReader& reader);
+  [[nodiscard]] Next take_lines(can::LogReader& reader, can::LogClock& clock);
+  [[nodiscard]] bool play(can::LogReader& reader);
   [[nodiscard]] bool check(const Result<bool>& written);
   [[nodiscard]] bool flush();
 

@@ -1,8 +1,9 @@
 #pragma once
-// Reads a candump log line by line, from a file or a pipe of any length, plain or packed by gzip.
+// Reads a log line by line, from a file or a pipe of any length, plain or packed by gzip: one of
+// candump, of Vector (ASC) or of PEAK (TRC 1.1 to 2.1), told by its content.
 
 #include "blactl/base/error.hpp"
-#include "blactl/can/candump.hpp"
+#include "blactl/can/log_line.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -14,21 +15,22 @@
 
 namespace blactl::can {
 
+class LogFormat;
 class LogInput;
 
 /// Uses one buffer, and some more memory to unpack a log. Lines that begin with # are comments;
-/// other lines that are not candump's are skipped and counted.
-class CandumpReader {
+/// other lines that are not of the log's format are skipped and counted.
+class LogReader {
  public:
   /// `path`: a file, or `-` for standard input. Errors: bad_file.
-  [[nodiscard]] static Result<std::unique_ptr<CandumpReader>> open(const std::string& path);
+  [[nodiscard]] static Result<std::unique_ptr<LogReader>> open(const std::string& path);
 
-  ~CandumpReader();
-  CandumpReader(const CandumpReader&) = delete;
-  CandumpReader& operator=(const CandumpReader&) = delete;
+  ~LogReader();
+  LogReader(const LogReader&) = delete;
+  LogReader& operator=(const LogReader&) = delete;
 
-  /// The next line of a frame (also those of CAN FD and remarks, as LogLine::Kind::other). Its
-  /// strings are valid until the next call. Empty: see ended() and has_paused(). Never waits: a
+  /// The next line that the format has (also those of CAN FD and remarks, as LogLine::Kind::other).
+  /// Its strings are valid until the next call. Empty: see ended() and has_paused(). Never waits: a
   /// pipe may have nothing yet.
   [[nodiscard]] std::optional<LogLine> next();
 
@@ -50,13 +52,13 @@ class CandumpReader {
   /// The number of the line last returned by next(), from 1.
   [[nodiscard]] std::uint64_t line_number() const { return line_number_; }
 
-  /// The number of lines that are not candump's, and where the first of them is.
+  /// The number of lines that are not of the format, and where the first of them is.
   [[nodiscard]] std::uint64_t bad_lines() const { return bad_lines_; }
 
   [[nodiscard]] std::uint64_t first_bad_line() const { return first_bad_line_; }
 
  private:
-  CandumpReader(std::unique_ptr<LogInput> input, std::string name);
+  LogReader(std::unique_ptr<LogInput> input, std::string name);
 
   [[nodiscard]] std::optional<std::string_view> take_line();
   [[nodiscard]] std::optional<std::string_view> take_last_line();
@@ -64,6 +66,7 @@ class CandumpReader {
   void count_bad();
 
   std::unique_ptr<LogInput> input_;
+  std::unique_ptr<LogFormat> format_;
   std::string name_;
   std::vector<char> buffer_;
   std::size_t begin_ = 0, end_ = 0; ///< bytes read and not yet returned

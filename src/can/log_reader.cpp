@@ -1,8 +1,9 @@
-#include "blactl/can/candump_reader.hpp"
+#include "blactl/can/log_reader.hpp"
 
 #include "blactl/base/system_error.hpp"
 #include "blactl/can/replay_texts.hpp"
 
+#include "can/log_format.hpp"
 #include "can/log_input.hpp"
 
 #include <fcntl.h>
@@ -47,7 +48,7 @@ std::optional<Error> fault_of(const LogInput& input, const std::string& name, st
 
 } // namespace
 
-Result<std::unique_ptr<CandumpReader>> CandumpReader::open(const std::string& path) {
+Result<std::unique_ptr<LogReader>> LogReader::open(const std::string& path) {
   const bool is_stdin = path == "-";
   const std::string name = is_stdin ? say<texts::standard_input>() : printable(path);
   const int descriptor = is_stdin ? fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1)
@@ -63,26 +64,27 @@ Result<std::unique_ptr<CandumpReader>> CandumpReader::open(const std::string& pa
   if (S_ISDIR(status.st_mode)) {
     return std::unexpected(unreadable(name, EISDIR));
   }
-  return std::unique_ptr<CandumpReader>(new CandumpReader(std::move(input), name));
+  return std::unique_ptr<LogReader>(new LogReader(std::move(input), name));
 }
 
-CandumpReader::CandumpReader(std::unique_ptr<LogInput> input, std::string name)
-    : input_(std::move(input)), name_(std::move(name)), buffer_(block_size) {}
+LogReader::LogReader(std::unique_ptr<LogInput> input, std::string name)
+    : input_(std::move(input)), format_(std::make_unique<LogFormat>()), name_(std::move(name)),
+      buffer_(block_size) {}
 
-CandumpReader::~CandumpReader() = default;
+LogReader::~LogReader() = default;
 
-int CandumpReader::descriptor() const {
+int LogReader::descriptor() const {
   return input_->descriptor();
 }
 
-std::optional<LogLine> CandumpReader::next() {
+std::optional<LogLine> LogReader::next() {
   passed_over_ = 0;
   has_paused_ = false;
   while (const auto text = take_line()) {
     ++line_number_;
     const bool is_long = std::exchange(in_long_line_, false);
     if (!is_long) {
-      if (auto line = parse_line(*text)) {
+      if (auto line = format_->parse(*text)) {
         return line;
       }
     }
@@ -94,13 +96,13 @@ std::optional<LogLine> CandumpReader::next() {
   return std::nullopt;
 }
 
-void CandumpReader::count_bad() {
+void LogReader::count_bad() {
   if (bad_lines_++ == 0) {
     first_bad_line_ = line_number_;
   }
 }
 
-std::optional<std::string_view> CandumpReader::take_line() {
+std::optional<std::string_view> LogReader::take_line() {
   while (!ended_) {
     const std::string_view unread(buffer_.data() + begin_, end_ - begin_);
     const auto size = unread.find('\n', searched_);
@@ -125,7 +127,7 @@ std::optional<std::string_view> CandumpReader::take_line() {
 }
 
 /// The rest of the file: its last line may lack a line end.
-std::optional<std::string_view> CandumpReader::take_last_line() {
+std::optional<std::string_view> LogReader::take_last_line() {
   const std::string_view rest(buffer_.data() + begin_, end_ - begin_);
   error_ = fault_of(*input_, name_, line_number_);
   begin_ = end_;
@@ -136,7 +138,7 @@ std::optional<std::string_view> CandumpReader::take_last_line() {
 }
 
 /// Returns whether anything changed: bytes came, or the file ended.
-bool CandumpReader::read_more() {
+bool LogReader::read_more() {
   std::copy(buffer_.begin() + static_cast<std::ptrdiff_t>(begin_),
             buffer_.begin() + static_cast<std::ptrdiff_t>(end_), buffer_.begin());
   end_ -= std::exchange(begin_, 0);

@@ -1,35 +1,46 @@
-#include "blactl/can/candump_reader.hpp"
+#include "blactl/can/log_reader.hpp"
+
+#include "blactl/can/candump.hpp"
 
 #include "allocations.hpp"
 #include "catch.hpp"
 #include "gzip.hpp"
 #include "scratch_file.hpp"
+#include "time_zone.hpp"
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <chrono>
+#include <fstream>
+#include <iterator>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 using namespace blactl;
 using namespace blactl::can;
+using namespace std::chrono_literals;
 using blactl::can::test::ScratchFile;
+using blactl::can::test::TimeZone;
 using blactl::test::allocations;
 using blactl::test::gzipped;
 
 namespace {
 
-std::unique_ptr<CandumpReader> open(const std::string& path) {
-  auto reader = CandumpReader::open(path);
+std::unique_ptr<LogReader> open(const std::string& path) {
+  auto reader = LogReader::open(path);
   REQUIRE(reader);
   return std::move(*reader);
 }
 
 /// The IDs of all frames from here on.
-std::vector<std::uint32_t> ids(CandumpReader& reader) {
+std::vector<std::uint32_t> ids(LogReader& reader) {
   std::vector<std::uint32_t> found;
   while (const auto line = reader.next()) {
     if (line->kind == LogLine::Kind::frame) {
@@ -110,7 +121,8 @@ TEST_CASE("an empty file has ended") {
   CHECK(reader->line_number() == 0);
 }
 
-TEST_CASE("lines that are no comments and not candump's are passed over, counted, told by number") {
+TEST_CASE(
+    "lines that are no comments and not of the format are passed over, counted, told by number") {
   const ScratchFile file(std::string(first) + "\n# a remark\n\x01\x02\xFF\n" +
                          std::string("\0\0", 2) + "\n" + std::string(second));
   const auto reader = open(file.path());
@@ -141,7 +153,7 @@ TEST_CASE("a line without an end in sight is one bad line") {
 
 TEST_CASE("a file that is not there, or is a folder, is refused") {
   for (const auto* path : {"/nonexistent/log", "/tmp"}) {
-    const auto reader = CandumpReader::open(path);
+    const auto reader = LogReader::open(path);
     REQUIRE_FALSE(reader);
     CHECK(reader.error().code == Code::bad_file);
     CHECK(reader.error().message.find(path) != std::string::npos);
@@ -291,4 +303,167 @@ TEST_CASE("a million lines are read without one allocation") {
   CHECK(found == count);
   CHECK(in_order);
   CHECK(reader->bad_lines() == 0);
+}
+
+namespace {
+
+std::string log_named(const std::string& name) {
+  std::ifstream file(std::string(BLACTL_TEST_DATA) + "/logs/" + name, std::ios::binary);
+  REQUIRE(file);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+constexpr std::array<std::string_view, 8> foreign_logs{
+    "canoe.asc",    "german.asc",   "fd_channel.asc", "pcan_1_1.trc",
+    "pcan_1_2.trc", "pcan_1_3.trc", "pcan_2_0.trc",   "pcan_2_1.trc"};
+
+/// What the logs of tests/data/logs say in their own way.
+struct Told {
+  std::vector<Frame> frames{};
+  std::vector<std::string> interfaces{};
+  std::vector<Duration> times{}; ///< since the start, which is the time of the first less a second
+  WallTime first{};
+  int errors = 0;
+};
+
+Told told_by(LogReader& reader) {
+  Told told;
+  while (const auto line = reader.next()) {
+    if (line->kind == LogLine::Kind::frame) {
+      told.first = told.frames.empty() ? line->at : told.first;
+      told.frames.push_back(line->frame);
+      told.interfaces.emplace_back(line->interface);
+      told.times.push_back(line->at - told.first);
+    }
+    told.errors += line->kind == LogLine::Kind::error ? 1 : 0;
+  }
+  return told;
+}
+
+const Frame first_status{.id = 0x1401552A, .size = 8, .data = {0xD2, 4, 0, 0, 0, 7, 0, 0xC0}};
+const Frame last_status{.id = 0x1401552A, .size = 8, .data = {0xD3, 4, 0, 0, 0, 7, 0, 0xC1}};
+const Frame greeting{.id = 0x123, .extended = false, .size = 2, .data = {0xDE, 0xAD}};
+
+} // namespace
+
+TEST_CASE("logs of Vector and PEAK are told by their content and read with all that they say") {
+  const TimeZone utc("UTC0");
+  for (const auto name : foreign_logs) {
+    INFO(name);
+    const ScratchFile file(log_named(std::string(name))); // its name says nothing
+    const auto reader = open(file.path());
+    const Told told = told_by(*reader);
+    CHECK(reader->bad_lines() == 0);
+    CHECK_FALSE(reader->error());
+    CHECK(told.errors == 1);
+    const bool is_german = name == "german.asc"; // its remote frame has no length
+    const auto remote_size = static_cast<std::uint8_t>(is_german ? 0 : 5);
+    const Frame remote{.id = 0x7FF, .extended = false, .remote = true, .size = remote_size};
+    CHECK(told.frames == std::vector<Frame>{first_status, greeting, remote, last_status});
+    const bool has_buses = name != "pcan_1_1.trc" && name != "pcan_2_0.trc";
+    CHECK(told.interfaces == (has_buses ? std::vector<std::string>{"can1", "can2", "can1", "can1"}
+                                        : std::vector<std::string>{"can", "can", "can", "can"}));
+    REQUIRE(told.times.size() == 4);
+    CHECK(told.times[1] >= 250ms);
+    CHECK(told.times[1] <= 250ms + 130us);
+    CHECK(told.times[2] == 500ms);
+    CHECK(told.times[3] == 1250ms);
+    const auto day = is_german ? std::chrono::year(2017) / 3 / 4 : std::chrono::year(2017) / 9 / 30;
+    const WallTime start = std::chrono::sys_days(day) + 15h + 6min + 13s + 191ms;
+    CHECK(told.first - (start + 1s) >= 0us);
+    CHECK(told.first - (start + 1s) <= 1us); // PEAK's days have ten decimals
+  }
+}
+
+TEST_CASE(
+    "logs of Vector and PEAK come packed, through pipes, with other line ends, behind a mark") {
+  for (const auto name : foreign_logs) {
+    INFO(name);
+    const std::string log = log_named(std::string(name));
+    const ScratchFile plain(log);
+    const auto expected = told_by(*open(plain.path())).frames;
+    std::string bare;
+    std::ranges::copy_if(log, std::back_inserter(bare), [](char c) { return c != '\r'; });
+    std::string marked = "\xEF\xBB\xBF" + log;
+    while (marked.ends_with('\n') || marked.ends_with('\r')) {
+      marked.pop_back(); // and without the last line end
+    }
+    for (const auto& text : {gzipped(log), bare, marked}) {
+      const ScratchFile file(text);
+      const auto reader = open(file.path());
+      CHECK(told_by(*reader).frames == expected);
+      CHECK(reader->bad_lines() == 0);
+    }
+    StdinPipe input;
+    const auto reader = open("-");
+    std::vector<Frame> found;
+    for (const char byte : log) {
+      input.type({&byte, 1});
+      for (const auto& frame : told_by(*reader).frames) {
+        found.push_back(frame);
+      }
+    }
+    CHECK(found == expected);
+  }
+}
+
+TEST_CASE("wherever a log of Vector or PEAK is cut off, no frame is read that it does not have") {
+  for (const auto name : foreign_logs) {
+    const std::string log = log_named(std::string(name));
+    const ScratchFile whole(log);
+    const auto all = told_by(*open(whole.path())).frames;
+    for (std::size_t size = 0; size < log.size(); ++size) {
+      INFO(name << " " << size);
+      const ScratchFile file(std::string_view(log).substr(0, size));
+      auto found = told_by(*open(file.path())).frames;
+      REQUIRE(found.size() <= all.size());
+      // of a length that is cut off nothing is known, nor whether a decimal number is complete
+      const bool is_open = !found.empty() && (name == "german.asc" || found.back().remote);
+      found.resize(found.size() - (is_open ? 1 : 0));
+      CHECK(std::ranges::equal(found, std::span(all).first(found.size())));
+    }
+  }
+}
+
+TEST_CASE("the first header or frame decides what a log is") {
+  const std::string asc = "base hex timestamps absolute\n1.0 1 3x Rx d 0\n";
+  const std::string trc = ";$FILEVERSION=1.1\n1) 1.0 Rx 00000004 0\n";
+  const auto read = [](const std::string& text) {
+    const ScratchFile file(text);
+    const auto reader = open(file.path());
+    const Ids found = ids(*reader);
+    return std::pair(found, reader->bad_lines());
+  };
+  const std::string candump(first);
+  CHECK(read("dear customer\n" + asc) == std::pair(Ids{3}, std::uint64_t{1}));
+  CHECK(read("dear customer\n\n# trace\n" + trc) == std::pair(Ids{4}, std::uint64_t{1}));
+  CHECK(read(candump + asc + trc) == std::pair(Ids{1}, std::uint64_t{4}));
+  CHECK(read(asc + trc + candump) == std::pair(Ids{3}, std::uint64_t{3}));
+  CHECK(read(trc + asc + candump) == std::pair(Ids{4}, std::uint64_t{3}));
+  CHECK(read(trc + trc) == std::pair(Ids{4, 4}, std::uint64_t{0}));
+}
+
+TEST_CASE("a line of a log of Vector or PEAK that is huge or of zero bytes is a bad one") {
+  for (const std::string header : {"base hex timestamps absolute\n", ";$FILEVERSION=1.1\n"}) {
+    const ScratchFile file(header + std::string(300'000, '1') + "\n" + std::string(100, '\0') +
+                           "\n1.0 1 3x Rx d 0\n1) 1.0 Rx 00000003 0\n");
+    const auto reader = open(file.path());
+    CHECK(ids(*reader) == Ids{3});
+    CHECK(reader->bad_lines() == 3);
+    CHECK(reader->first_bad_line() == 2);
+  }
+}
+
+TEST_CASE("lines of Vector and PEAK are read without one allocation") {
+  const TimeZone utc("UTC0");
+  for (const auto name : foreign_logs) {
+    const ScratchFile file(log_named(std::string(name)));
+    const auto reader = open(file.path());
+    (void)reader->next();
+    (void)reader->next(); // the time zone has been looked up
+    const std::size_t before = allocations();
+    while (reader->next()) {
+    }
+    CHECK(allocations() == before);
+  }
 }
