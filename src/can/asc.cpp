@@ -90,7 +90,7 @@ std::optional<WallTime> date(Words& in) {
     time = of_half_day(*time, year_word);
     year_word = in.next();
   }
-  const auto year = whole_number(year_word, 9999);
+  const auto year = whole_number(year_word, last_year);
   if (!is_one_of(weekday, weekdays) || !month || !day || !time || !year || !in.next().empty()) {
     return std::nullopt;
   }

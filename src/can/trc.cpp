@@ -35,7 +35,7 @@ std::string_view trimmed(std::string_view text) {
 
 /// Days since 1899-12-30, cut to microseconds.
 std::optional<std::chrono::local_time<Duration>> ole_date(std::string_view text) {
-  constexpr std::int64_t most_days = 2'958'465; // the end of the year 9999
+  constexpr std::int64_t most_days = 401'768; // the end of the year 2999
   const auto days = DecimalFraction::parse(text);
   if (!days || days->whole > most_days) {
     return std::nullopt;

@@ -256,6 +256,7 @@ TEST_CASE("ASC: a date that cannot be read is told, and times count from the sta
                                  "date Sat Sep 30 15:06:13",
                                  "date Sat Sep 30 15:06:13 pm",
                                  "date Sat Sep 30 15:06:13 1969",
+                                 "date Sat Sep 30 15:06:13 3000",
                                  "date Sat Sep 30 15:06:13 99999",
                                  "date Sat Sep 30 15:06:13 99999999999999999999",
                                  "date Sat Sep 30 15:06:13 2017 x",
