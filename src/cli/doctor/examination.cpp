@@ -1,10 +1,10 @@
 #include "cli/doctor/examination.hpp"
 
 #include "blactl/fleet/bus/discovery.hpp"
-#include "blactl/fleet/bus/read_job.hpp"
 #include "blactl/fleet/bus/ticker.hpp"
 #include "blactl/state/state_folder.hpp"
 
+#include "cli/doctor/motion.hpp"
 #include "cli/doctor/texts.hpp"
 #include "cli/interface/meant_link.hpp"
 #include "cli/interface/scheme.hpp"
@@ -47,23 +47,6 @@ void examine_state(const Context& context, Examination& examination) {
   }
 }
 
-/// The angle limits, if a node commands in parts of 180 deg.
-std::vector<fleet::Snapshot> read_limits(Context& context, const fleet::Findings& findings) {
-  std::vector<dronecan::NodeId> servos;
-  for (const fleet::Finding& node : findings.nodes) {
-    const bool is_one = node.servo.is_servo && !findings.roster->is_doubled(node.servo.id);
-    if (is_one && !node.is_offline && !findings.roster->commanders().empty()) {
-      servos.push_back(node.servo.id);
-    }
-  }
-  const auto choice = [](const fleet::Servo& servo) -> Result<std::vector<const bla::Parameter*>> {
-    return fleet::registers_to_diagnose(servo);
-  };
-  return fleet::take_snapshots(context.session(), context.known(), servos, context.identification(),
-                               choice)
-      .servos;
-}
-
 /// An adapter reports its status while it is open. It is asked last, when other nodes were heard.
 Result<void> ask_status(Context& context) {
   constexpr Duration answer_time = std::chrono::milliseconds(250);
@@ -94,7 +77,10 @@ void examine_bus(Duration time, Context& context, Examination& examination, Repo
   }
   auto findings = fleet::gather(session.roster(), *targets, context.known(),
                                 fleet::heard_until(session), discovery.gone());
-  const auto limits = found ? read_limits(context, findings) : std::vector<fleet::Snapshot>();
+  const auto servos = found ? read_motion(context, findings, targets->given) : fleet::Snapshots{};
+  if (servos.broken) {
+    found = std::unexpected(*servos.broken);
+  }
   if (!found) {
     if (auto diagnosis = fleet::diagnose_end(found.error())) {
       examination.diagnoses.push_back(std::move(*diagnosis));
@@ -119,7 +105,8 @@ void examine_bus(Duration time, Context& context, Examination& examination, Repo
     });
   }
   add(fleet::diagnose_identifications(findings, ends), examination);
-  add(fleet::diagnose_nodes(findings, examination.traffic, limits), examination);
+  add(fleet::diagnose_nodes(findings, examination.traffic, servos.servos), examination);
+  add(diagnose_motions(servos, targets->given, context, examination.traffic), examination);
   examination.nodes = std::move(findings);
   session.count(nullptr);
 }

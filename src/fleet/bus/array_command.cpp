@@ -1,5 +1,6 @@
 #include "blactl/fleet/bus/array_command.hpp"
 
+#include <array>
 #include <cmath>
 
 namespace blactl::fleet {
@@ -33,6 +34,26 @@ std::int64_t told_by_array(bla::Address command, std::int64_t raw) {
   const float sent = static_cast<float>(raw) / entry_of(command).scale;
   const float told = dronecan::from_float16(dronecan::to_float16(sent));
   return std::isfinite(told) ? std::llround(told * entry_of(command).scale) : 0;
+}
+
+std::optional<MotionCommand> motion_command(const dronecan::ArrayCommand::Command& entry) {
+  constexpr float unitless_scale = 1800; // +-1 is +-180 deg (table 2-21)
+
+  struct Meaning {
+    bla::Address reg;
+    float scale;
+  };
+
+  using namespace bla::address;
+  const std::array meanings{Meaning{command_angle, unitless_scale},
+                            Meaning{command_angle, entry_of(command_angle).scale},
+                            Meaning{command_torque, entry_of(command_torque).scale},
+                            Meaning{command_speed, entry_of(command_speed).scale}};
+  if (entry.command_type >= meanings.size() || !std::isfinite(entry.value)) {
+    return std::nullopt;
+  }
+  const Meaning& meaning = meanings.at(entry.command_type);
+  return MotionCommand{meaning.reg, std::llround(entry.value * meaning.scale)};
 }
 
 } // namespace blactl::fleet

@@ -33,9 +33,23 @@ void Repeated::hear(Time at, Duration usual) {
   constexpr int periods = 3;
   const bool is_first = lasts_ == Duration::zero();
   const Duration since = is_first ? usual / periods : at - at_;
+  if (!is_first) {
+    shortest_ = std::min(shortest_.value_or(since), since);
+  }
   lasts_ = is_first ? usual : std::clamp<Duration>(periods * std::max(since, since_), least, most);
   since_ = since;
   at_ = at;
+}
+
+void Commander::Command::ask(const std::optional<MotionCommand>& command) {
+  if (!command) {
+    asked.reset();
+  } else if (!asked || asked->reg != command->reg) {
+    asked = {.reg = command->reg, .least = command->raw, .greatest = command->raw};
+  } else {
+    asked->least = std::min(asked->least, command->raw);
+    asked->greatest = std::max(asked->greatest, command->raw);
+  }
 }
 
 void CommandWatch::receive(const Transfer& transfer) {
@@ -71,6 +85,7 @@ void CommandWatch::on_command(const Transfer& transfer) {
     auto& known = commander(transfer.header.source).servo_ids[entry.actuator_id];
     known.heard.hear(transfer.at);
     known.type = entry.command_type;
+    known.ask(motion_command(entry));
   }
 }
 
@@ -93,9 +108,13 @@ void CommandWatch::on_write(const Transfer& transfer) {
   }
   namespace at = bla::address;
   const auto& [source, server] = std::pair(transfer.header.source, transfer.header.destination);
-  if (is_at(*request, at::command_angle) || is_at(*request, at::command_speed) ||
-      is_at(*request, at::command_torque)) {
-    commander(source).nodes[server].hear(transfer.at);
+  const auto command = std::ranges::find_if(bla::command_registers,
+                                            [&](bla::Address reg) { return is_at(*request, reg); });
+  if (command != bla::command_registers.end()) {
+    Commander::Command& known = commander(source).nodes[server];
+    const auto* raw = std::get_if<std::int64_t>(&request->value);
+    known.heard.hear(transfer.at);
+    known.ask(raw != nullptr ? std::optional(MotionCommand{*command, *raw}) : std::nullopt);
   } else if (is_at(*request, at::initialize)) {
     writes_[server][every_register] = {source, transfer.at};
   } else if (is_at(*request, at::reboot)) {
@@ -222,7 +241,7 @@ CommandWatch::commander_of(const Servo& servo, std::optional<std::uint8_t> actua
                            const std::function<bool(const Repeated&)>& matters) const {
   for (const auto& [source, commander] : commanders_) {
     const auto by_node = commander.nodes.find(servo.id);
-    if (by_node != commander.nodes.end() && matters(by_node->second)) {
+    if (by_node != commander.nodes.end() && matters(by_node->second.heard)) {
       return source;
     }
     for (const auto& [servo_id, command] : commander.servo_ids) {

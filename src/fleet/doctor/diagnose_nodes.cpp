@@ -5,12 +5,12 @@
 #include "blactl/bla/value.hpp"
 #include "blactl/fleet/bus/conflict_texts.hpp"
 #include "blactl/fleet/doctor/diagnosis.hpp"
+#include "blactl/fleet/doctor/motion.hpp"
 #include "blactl/state/local_node_id.hpp"
 
 #include "fleet/doctor/diagnosis_texts.hpp"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <map>
 #include <ranges>
@@ -236,7 +236,7 @@ class NodeExamination {
     add("commander", Level::notice, commander.source, say<texts::somebody_commands>(by),
         say<texts::somebody_commands_fix>());
     for (const auto& [servo_id, command] : commander.servo_ids) {
-      if (servo_id != every_servo && !is_somebody(servo_id)) {
+      if (servo_id != every_servo && !has_servo_id(*findings_.roster, servo_id)) {
         add("no_such_servo", Level::warning, commander.source,
             say<texts::commanded_nobody>(by, servo_id), say<texts::commanded_nobody_fix>(servo_id));
       }
@@ -245,13 +245,6 @@ class NodeExamination {
             say<texts::commanded_pwm>(by, servo_id, type_pwm), say<texts::commanded_pwm_fix>());
       }
     }
-  }
-
-  /// Whether a servo on the bus has this servo ID, as far as known.
-  [[nodiscard]] bool is_somebody(std::uint8_t servo_id) const {
-    return std::ranges::any_of(findings_.roster->members(), [&](const auto& entry) {
-      return entry.second.servo_id == servo_id || entry.second.actuator_id == servo_id;
-    });
   }
 
   [[nodiscard]] bool is_commanded_unitless(const Servo& servo) const {
@@ -283,11 +276,6 @@ class NodeExamination {
 };
 
 } // namespace
-
-std::vector<const bla::Parameter*> registers_to_diagnose(const Servo& servo) {
-  return servo.identity.registers(
-      std::array{bla::address::angle_limit_cw, bla::address::angle_limit_ccw});
-}
 
 Diagnoses diagnose_identifications(const Findings& findings,
                                    const std::vector<std::optional<Error>>& ends) {

@@ -7,6 +7,7 @@
 #include "blactl/dronecan/node.hpp"
 #include "blactl/dronecan/transfer.hpp"
 #include "blactl/dronecan/types.hpp"
+#include "blactl/fleet/bus/array_command.hpp"
 #include "blactl/fleet/bus/servo.hpp"
 
 #include <chrono>
@@ -32,23 +33,36 @@ class Repeated {
 
   [[nodiscard]] bool counts(Time now) const { return now - at_ <= lasts_; }
 
+  /// The shortest time between two of them; empty: it was heard once.
+  [[nodiscard]] std::optional<Duration> shortest_period() const { return shortest_; }
+
  private:
   Time at_{};
   Duration since_{}; ///< the period before: a message sent out of turn does not shorten it
   Duration lasts_{}; ///< zero: never heard
+  std::optional<Duration> shortest_{};
 };
 
 /// Another node that commands servos: by ArrayCommand, or writes to 0x00-0x02.
 struct Commander {
-  /// The last command to one servo ID.
+  /// The register that commands write, and the values heard since they began to write it.
+  struct Asked {
+    bla::Address reg; ///< 0x00, 0x01 or 0x02
+    std::int64_t least = 0, greatest = 0;
+  };
+
+  /// The commands to one servo.
   struct Command {
     Repeated heard{};
-    std::uint8_t type = 0; ///< ArrayCommand::Command::command_type
+    std::uint8_t type = 0;        ///< ArrayCommand::Command::command_type, of the last one
+    std::optional<Asked> asked{}; ///< empty: the last one was not one that BLA servos take
+
+    void ask(const std::optional<MotionCommand>& command);
   };
 
   dronecan::NodeId source;
-  std::map<std::uint8_t, Command> servo_ids;  ///< by ArrayCommand; 255: every servo
-  std::map<dronecan::NodeId, Repeated> nodes; ///< by GetSet
+  std::map<std::uint8_t, Command> servo_ids; ///< by ArrayCommand; 255: every servo
+  std::map<dronecan::NodeId, Command> nodes; ///< by GetSet; `type` is not used
 };
 
 class CommandWatch {

@@ -62,9 +62,6 @@ using Diagnoses = std::vector<Diagnosis>;
 [[nodiscard]] Diagnoses diagnose_identifications(const Findings& findings,
                                                  const std::vector<std::optional<Error>>& ends);
 
-/// The registers that diagnose_nodes() needs from a commanded servo.
-[[nodiscard]] std::vector<const bla::Parameter*> registers_to_diagnose(const Servo& servo);
-
 /// The diagnosis for an error that ended the examination, if it concerns the bus: bus_off,
 /// no_acknowledge.
 [[nodiscard]] std::optional<Diagnosis> diagnose_end(const Error& error);

@@ -1,0 +1,65 @@
+#include "cli/doctor/motion.hpp"
+
+#include "blactl/fleet/doctor/motion.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <string>
+#include <vector>
+
+namespace blactl::cli {
+namespace {
+
+fleet::HeardCommands heard_commands(const fleet::Servo& servo, Context& context,
+                                    const fleet::Traffic& traffic) {
+  const fleet::Session& session = context.session();
+  auto heard = fleet::commands_to(servo, session.roster(), fleet::heard_until(session));
+  heard.is_long_enough = !context.is_fleet_file() && traffic.duration() >= fleet::Repeated::least;
+  return heard;
+}
+
+std::vector<dronecan::NodeId> servos_to_move(const fleet::Findings& findings, bool are_named,
+                                             Time now) {
+  std::vector<dronecan::NodeId> servos;
+  for (const fleet::Finding& node : findings.nodes) {
+    const bool is_one = node.servo.is_servo && !findings.roster->is_doubled(node.servo.id);
+    if (is_one && !node.is_offline &&
+        (are_named || !fleet::commands_to(node.servo, *findings.roster, now).to_it.empty())) {
+      servos.push_back(node.servo.id);
+    }
+  }
+  return servos;
+}
+
+} // namespace
+
+fleet::Snapshots read_motion(Context& context, const fleet::Findings& findings, bool are_named) {
+  const auto servos = servos_to_move(findings, are_named, fleet::heard_until(context.session()));
+  const auto choice = [](const fleet::Servo& servo) -> Result<std::vector<const bla::Parameter*>> {
+    return fleet::registers_of_motion(servo);
+  };
+  return fleet::take_snapshots(context.session(), context.known(), servos, context.identification(),
+                               choice);
+}
+
+fleet::Diagnoses diagnose_motions(const fleet::Snapshots& servos, bool are_named, Context& context,
+                                  const fleet::Traffic& traffic) {
+  fleet::Diagnoses found;
+  const auto look = are_named ? fleet::MotionLook::named : fleet::MotionLook::commanded;
+  for (const fleet::Snapshot& servo : servos.servos) {
+    std::ranges::move(fleet::diagnose_motion(servo, heard_commands(servo.servo, context, traffic),
+                                             context.known(), look),
+                      std::back_inserter(found));
+    const auto error = servo.first_error();
+    if (error && error->code != Code::not_recorded && error->code != Code::interrupted) {
+      found.push_back({.code = std::string(name(error->code)),
+                       .level = bla::Level::failure,
+                       .node = servo.servo.id,
+                       .text = error->message,
+                       .fix = error->hint});
+    }
+  }
+  return found;
+}
+
+} // namespace blactl::cli

@@ -1,0 +1,220 @@
+// doctor -n: why a servo does not move, or not as it should.
+
+#include "catch.hpp"
+#include "run.hpp"
+#include "scene.hpp"
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+using namespace blactl::test;
+
+namespace {
+
+using Codes = std::vector<std::string>;
+using Json = nlohmann::json;
+
+constexpr std::string_view model_with_pwm = "BLA21-12U-AB";
+
+/// Servo ID 1 as node 11, with these settings in RAM.
+Scene servo(const Json& ram = Json::object(), std::string_view model = model_with_pwm) {
+  return Scene().servo(model, 11, {{"servo_id", 1}, {"serial_number", 7}, {"ram", ram}});
+}
+
+/// An autopilot that commands these servo IDs.
+Scene& commanded(Scene& scene, const Json& servo_ids, int type, double value, double rate = 50) {
+  return scene.foreign(
+      100,
+      {{"kind", "autopilot"},
+       {"commands", {{"servo_ids", servo_ids}, {"type", type}, {"value", value}, {"rate", rate}}}});
+}
+
+/// Commanded by an angle within all limits.
+Scene driven(const Json& ram = Json::object(), std::string_view model = model_with_pwm) {
+  Scene scene = servo(ram, model);
+  return commanded(scene, {1}, 1, 0.2);
+}
+
+Json findings(const Scene& scene, const Arguments& arguments) {
+  const Result result = scene.run(arguments);
+  INFO(result.out << result.err);
+  CHECK((result.status == 0 || result.status == 8));
+  return json(result.out)["findings"];
+}
+
+Codes codes_of(const Json& findings) {
+  Codes all;
+  for (const auto& finding : findings) {
+    if (finding["code"] != "commander" && finding["code"] != "health") {
+      all.push_back(finding["code"]);
+    }
+  }
+  return all;
+}
+
+Codes named(const Scene& scene) {
+  return codes_of(findings(scene, {"doctor", "-n", "11", "-j"}));
+}
+
+Codes unnamed(const Scene& scene) {
+  return codes_of(findings(scene, {"doctor", "-j"}));
+}
+
+} // namespace
+
+TEST_CASE("doctor -n invents nothing about a servo that follows its commander") {
+  for (const char* model : {"BLA21-06U-A0", "BLA21-12U-AB", "BLA15-06U-A0", "BLA34-28U-AB"}) {
+    INFO(model);
+    const Scene scene = driven(Json::object(), model);
+    CHECK(named(scene) == Codes{});
+    CHECK(unnamed(scene) == Codes{});
+    CHECK(codes_of(findings(scene, {"doctor", "-n", "all", "-j"})) == Codes{});
+  }
+}
+
+TEST_CASE("doctor -n names a cause in the settings, and doctor names it of a commanded servo") {
+  const auto& [ram, code, is_obstacle] = GENERATE(table<Json, std::string, bool>({
+      {{{"torque_output", "off"}}, "torque_off", true},
+      {{{"torque_output", "brake"}}, "torque_off", true},
+      {{{"speed_torque_control", "on"}, {"torque_limit_cw", "0%"}, {"torque_limit_ccw", "0%"}},
+       "torque_limit_zero",
+       true},
+      {{{"speed_torque_control", "on"}, {"speed_limit_cw", "0rpm"}}, "speed_limit_zero", true},
+      {{{"speed_limit_cw", "60rpm"}}, "limits_without_effect", false},
+      {{{"angle_limit_cw", "0deg"}, {"angle_limit_ccw", "0deg"}}, "angle_limits", true},
+      {{{"angle_limit_cw", "10deg"}}, "command_beyond_limit", true},
+  }));
+  INFO(ram);
+  CHECK(named(driven(ram)) == Codes{code});
+  CHECK(unnamed(driven(ram)) == (is_obstacle ? Codes{code} : Codes{}));
+  // Nobody commands it: the cause is told to who asks, and to nobody else.
+  const Scene alone = servo(ram);
+  const Codes asked = named(alone);
+  const bool is_of_setting = code != "command_beyond_limit";
+  CHECK(std::ranges::count(asked, code) == (is_of_setting ? 1 : 0));
+  CHECK(std::ranges::count(asked, "not_commanded") == 1);
+  CHECK(unnamed(alone) == Codes{});
+}
+
+TEST_CASE("doctor -n names what is wrong with the commands") {
+  SECTION("nobody sends any") {
+    CHECK(named(servo()) == Codes{"not_commanded"});
+    CHECK(unnamed(servo()) == Codes{});
+  }
+  SECTION("they are for another servo ID") {
+    Scene scene = servo();
+    commanded(scene, {5}, 1, 0.2);
+    CHECK(named(scene) == Codes{"no_such_servo", "commanded_other"});
+  }
+  SECTION("they are of a speed while 0x25 is off") {
+    Scene scene = servo();
+    commanded(scene, {1}, 3, 60);
+    CHECK(named(scene) == Codes{"mode_without_effect"});
+    CHECK(unnamed(scene) == Codes{"mode_without_effect"});
+  }
+  SECTION("they are written by another tool") {
+    Scene scene = servo();
+    Json orders = Json::array();
+    for (int tenth = 10; tenth < 80; ++tenth) {
+      orders.push_back({{"at", std::to_string(tenth * 100) + "ms"},
+                        {"to", 11},
+                        {"order", "write"},
+                        {"address", 0},
+                        {"value", 3000}});
+    }
+    scene.foreign(90, {{"orders", orders}});
+    CHECK(named(scene) == Codes{"command_beyond_limit"});
+    CHECK(unnamed(scene) == Codes{"command_beyond_limit"});
+  }
+  SECTION("they are too rare") {
+    Scene scene = servo({{"timeout_time", "500ms"}});
+    commanded(scene, {1}, 1, 0.2, 1);
+    CHECK(named(scene) == Codes{"not_commanded"});
+    CHECK(unnamed(scene) == Codes{"not_commanded"});
+  }
+}
+
+TEST_CASE("doctor -n sees that CAN goes before pulses") {
+  const Scene both = driven().world(7, {{"pulse", "1700us"}}, "0s");
+  CHECK(named(both) == Codes{"pwm_has_no_say"});
+  CHECK(unnamed(both) == Codes{});
+  const Scene pulses = servo().world(7, {{"pulse", "1700us"}}, "0s");
+  CHECK(named(pulses) == Codes{});
+  const Scene short_pulses = servo().world(7, {{"pulse", "500us"}}, "0s");
+  CHECK(named(short_pulses) == Codes{"pwm_has_no_say"});
+}
+
+TEST_CASE("doctor names the fault that holds the output off") {
+  const Json world = GENERATE(Json{{"voltage", "3.6V"}}, Json{{"temperature", "95degC"}},
+                              Json{{"driver_stopped", "on"}});
+  INFO(world);
+  const Scene scene = driven().world(7, world, "0s");
+  CHECK(named(scene) == Codes{"fault_holds_off"});
+  CHECK(unnamed(scene) == Codes{"fault_holds_off"});
+}
+
+TEST_CASE(
+    "a finding of doctor -n has the keys of every finding, and people read why and what to do") {
+  const Scene scene = servo({{"torque_output", "off"}});
+  const auto document = ordered_json(scene.run({"doctor", "-n", "11", "-j"}).out);
+  const auto& finding = document["findings"][0];
+  CHECK(keys(finding) == std::vector<std::string>{"code", "level", "node_id", "text", "fix"});
+  CHECK(finding["level"] == "warning");
+  CHECK(finding["node_id"] == 11);
+  CHECK(finding["fix"] == "blactl set -n 11 torque_output=on");
+  const Result english = scene.run({"doctor", "-n", "11"});
+  CHECK(english.status == 8);
+  CHECK(contains(english.out, "fix: blactl set -n 11 torque_output=on"));
+  const Result japanese = scene.run({"doctor", "-n", "11", "--lang", "ja"});
+  CHECK(contains(japanese.out, "torque_output (0x20) が off のため"));
+  CHECK(contains(japanese.out, "対処: blactl set -n 11 torque_output=on"));
+}
+
+TEST_CASE("doctor -n looks at the servos that it names only") {
+  Scene scene = servo({{"torque_output", "off"}});
+  scene.servo("BLA21-12U-AB", 12, {{"servo_id", 2}, {"ram", {{"torque_output", "off"}}}});
+  const auto found = findings(scene, {"doctor", "-n", "12", "-j"});
+  REQUIRE(found.size() == 2);
+  CHECK(found[0]["code"] == "torque_off");
+  CHECK(found[0]["node_id"] == 12);
+  CHECK(found[1]["node_id"] == 12);
+}
+
+TEST_CASE("doctor -n answers from a log what is in it, and concludes nothing from what is not") {
+  const Bench bench;
+  const std::string log = (bench.folder() / "bus.log").string();
+  Scene scene = servo({{"torque_output", "off"}});
+  CHECK(scene.run(bench, {"--record", log, "doctor", "-n", "11"}).status == 8);
+  const Result again = bench.run({"-i", "replay:" + log, "doctor", "-n", "11", "-j"});
+  INFO(again.out << again.err);
+  CHECK(codes_of(json(again.out)["findings"]) == Codes{"torque_off", "not_commanded"});
+  CHECK(scene.run(bench, {"--record", log, "scan", "--listen", "1"}).status == 0);
+  const Result poor = bench.run({"-i", "replay:" + log, "doctor", "-n", "11", "-j"});
+  INFO(poor.out << poor.err);
+  CHECK(codes_of(json(poor.out)["findings"]) == Codes{});
+}
+
+TEST_CASE("doctor -n judges the settings of a fleet file, and nothing that is only heard") {
+  const Bench bench;
+  const std::string file =
+      bench.file("fleet.json", R"({"schema": "blactl-fleet/1", "servos": [{"name": "a",
+        "match": {"node_id": 11, "model": "BLA21-12U-AB"}, "set": {"static_node_id": 11,
+        "servo_id": 1, "torque_output": "off"}}]})");
+  const Result result = bench.run({"-i", "file:" + file, "doctor", "-n", "11", "-j"});
+  INFO(result.out << result.err);
+  CHECK(codes_of(json(result.out)["findings"]) == Codes{"torque_off"});
+}
+
+TEST_CASE("doctor only reads: a servo that does not move is as it was") {
+  const Bench bench;
+  const std::string log = (bench.folder() / "bus.log").string();
+  CHECK(driven({{"torque_output", "off"}})
+            .run(bench, {"--record", log, "doctor", "-n", "11"})
+            .status == 8);
+  const Result sent = bench.run({"trace", log, "--type", "GetSet", "--kind", "request", "-j"});
+  CHECK(contains(sent.out, "\"empty\""));
+  CHECK_FALSE(contains(sent.out, "integer_value"));
+}
