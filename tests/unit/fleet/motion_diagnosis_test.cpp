@@ -36,7 +36,9 @@ Servo servo_of(const bla::Profile& profile, std::int64_t firmware) {
 /// What was heard for three seconds, and what a servo with servo ID 1 as node 11 holds.
 struct Case {
   Servo servo = servo_of(model("BLA21-12U-AB"), 1400);
-  bla::Values held{{at::command_speed, bla::not_active}, {at::command_torque, bla::not_active}};
+  bla::Values held{{at::command_speed, bla::not_active},
+                   {at::command_torque, bla::not_active},
+                   {at::fault_notice, fault::pwm_missing}};
   Roster roster{NodeId(127), profiles()};
   Time now{1000s};
   bool is_long_enough = true;
@@ -170,6 +172,7 @@ TEST_CASE("what 0x00-0x02 hold tells the command of a servo that nobody is heard
   torque.held = {{at::command_angle, bla::not_active},
                  {at::command_speed, bla::not_active},
                  {at::command_torque, 20},
+                 {at::fault_notice, fault::pwm_missing},
                  {at::speed_torque_control, 1},
                  {at::speed_limit_cw, 0},
                  {at::angle_limit_cw, 0},
@@ -338,7 +341,6 @@ TEST_CASE("pwm_has_no_say: CAN goes first, and pulses that do not count") {
 
 TEST_CASE("fault_holds_off: what is beyond a limit or broken, not what tells of the last restart") {
   Followed held;
-  held.held[at::fault_notice] = fault::pwm_missing;
   held.held[at::fault_warning] = fault::voltage_low;
   held.held[at::current_voltage] = 38;
   held.held[at::voltage_limit_low] = 40;
