@@ -5,6 +5,7 @@
 #include "scene.hpp"
 
 #include <algorithm>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -191,6 +192,15 @@ TEST_CASE("doctor -n answers from a log what is in it, and concludes nothing fro
   const Result again = bench.run({"-i", "replay:" + log, "doctor", "-n", "11", "-j"});
   INFO(again.out << again.err);
   CHECK(codes_of(json(again.out)["findings"]) == Codes{"torque_off", "not_commanded"});
+  std::string screen; // as candump shows it without stamps
+  std::istringstream lines(content(log));
+  for (std::string line; std::getline(lines, line);) {
+    screen += line.substr(line.find(") ") + 2) + '\n';
+  }
+  const std::string untimed = bench.file("untimed.log", screen);
+  const Result bare = bench.run({"-i", "replay:" + untimed, "doctor", "-n", "11", "-j"});
+  INFO(bare.out << bare.err);
+  CHECK(codes_of(json(bare.out)["findings"]) == Codes{"torque_off"});
   CHECK(scene.run(bench, {"--record", log, "scan", "--listen", "1"}).status == 0);
   const Result poor = bench.run({"-i", "replay:" + log, "doctor", "-n", "11", "-j"});
   INFO(poor.out << poor.err);
@@ -206,6 +216,12 @@ TEST_CASE("doctor -n judges the settings of a fleet file, and nothing that is on
   const Result result = bench.run({"-i", "file:" + file, "doctor", "-n", "11", "-j"});
   INFO(result.out << result.err);
   CHECK(codes_of(json(result.out)["findings"]) == Codes{"torque_off"});
+}
+
+TEST_CASE("doctor -n does not judge a servo that answers no more") {
+  const char* at = GENERATE("3502ms", "3510ms", "3520ms");
+  INFO(at);
+  CHECK(named(servo().event(7, "power_off", at)) == Codes{"timeout", "lost_answers"});
 }
 
 TEST_CASE("doctor only reads: a servo that does not move is as it was") {

@@ -47,9 +47,11 @@ fleet::Diagnoses diagnose_motions(const fleet::Snapshots& servos, bool are_named
   fleet::Diagnoses found;
   const auto look = are_named ? fleet::MotionLook::named : fleet::MotionLook::commanded;
   for (const fleet::Snapshot& servo : servos.servos) {
-    std::ranges::move(fleet::diagnose_motion(servo, heard_commands(servo.servo, context, traffic),
-                                             context.known(), look),
-                      std::back_inserter(found));
+    if (!servo.error) {
+      std::ranges::move(fleet::diagnose_motion(servo, heard_commands(servo.servo, context, traffic),
+                                               context.known(), look),
+                        std::back_inserter(found));
+    }
     const auto error = servo.first_error();
     if (error && error->code != Code::not_recorded && error->code != Code::interrupted) {
       found.push_back({.code = std::string(name(error->code)),

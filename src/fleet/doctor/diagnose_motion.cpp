@@ -199,10 +199,10 @@ class MotionExamination {
     if (is_commanded() || has_pulses() || !heard_.is_long_enough) {
       return;
     }
-    if (!heard_.to_others.empty() && servo_.servo_id) {
-      commanded_other();
-    } else {
+    if (heard_.to_others.empty()) {
       not_commanded();
+    } else if (servo_.servo_id) { // else one of them may be its own
+      commanded_other();
     }
   }
 
@@ -218,7 +218,8 @@ class MotionExamination {
                 ? say<texts::motion_timeout>(shown(at::timeout_time, *time), action)
                 : std::string(),
             starts_softly ? say<texts::motion_soft_start>() : std::string()),
-        say<texts::motion_not_commanded_fix>(servo_.servo_id.value_or(0), id_));
+        servo_.servo_id ? say<texts::motion_not_commanded_fix>(*servo_.servo_id, id_)
+                        : say<texts::motion_try_fix>(id_));
   }
 
   void commanded_other() {

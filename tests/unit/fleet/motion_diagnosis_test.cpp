@@ -313,6 +313,16 @@ TEST_CASE("commanded_other: a servo ID that is not its own") {
   CHECK(other.codes() == Codes{});
 }
 
+TEST_CASE(
+    "a servo whose ID is unknown is not told to be commanded by nobody, nor which ID it has") {
+  Case unknown;
+  unknown.servo.servo_id.reset();
+  CHECK(unknown.codes() == Codes{"not_commanded"});
+  CHECK(unknown.only().fix == "see whether it moves: blactl command -n 11 angle=10deg");
+  unknown.commanded(5, position, {0.1F});
+  CHECK(unknown.codes() == Codes{});
+}
+
 TEST_CASE("pwm_has_no_say: CAN goes first, and pulses that do not count") {
   Followed driven;
   driven.held[at::fault_notice] = 0;
