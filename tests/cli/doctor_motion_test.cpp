@@ -224,6 +224,37 @@ TEST_CASE("doctor -n does not judge a servo that answers no more") {
   CHECK(named(servo().event(7, "power_off", at)) == Codes{"timeout", "lost_answers"});
 }
 
+TEST_CASE("what doctor -n names is gone after the command that it tells") {
+  const Bench bench;
+  const Scene scene = servo({{"torque_output", "brake"},
+                             {"speed_torque_control", "on"},
+                             {"torque_limit_ccw", "0%"},
+                             {"speed_limit_cw", "0rpm"},
+                             {"speed_limit_ccw", "0rpm"},
+                             {"angle_limit_cw", "0deg"},
+                             {"angle_limit_ccw", "0deg"}});
+  const Background sim(bench, {"sim", scene.write(bench)});
+  const Arguments doctor{"-i", "sim:", "doctor", "-n", "11", "-j"};
+  const auto found = json(bench.run(doctor).out)["findings"];
+  CHECK(codes_of(found) == Codes{"torque_off", "torque_limit_zero", "speed_limit_zero",
+                                 "angle_limits", "not_commanded"});
+  for (const auto& finding : found) {
+    std::istringstream words(finding["fix"].get<std::string>());
+    Arguments mend{"-i", "sim:", "-y"};
+    std::string word;
+    words >> word;
+    if (word == "blactl") {
+      while (words >> word) {
+        mend.push_back(word);
+      }
+      const Result mended = bench.run(mend);
+      INFO(finding << mended.out << mended.err);
+      CHECK(mended.status == 0);
+    }
+  }
+  CHECK(codes_of(json(bench.run(doctor).out)["findings"]) == Codes{"not_commanded"});
+}
+
 TEST_CASE("doctor only reads: a servo that does not move is as it was") {
   const Bench bench;
   const std::string log = (bench.folder() / "bus.log").string();

@@ -4,8 +4,6 @@
 
 namespace blactl::fleet {
 
-using dronecan::NodeId;
-
 bool has_servo_id(const Roster& roster, std::uint8_t servo_id) {
   return std::ranges::any_of(roster.members(), [&](const auto& entry) {
     return entry.second.servo_id == servo_id || entry.second.actuator_id == servo_id;

@@ -6,6 +6,9 @@
 
 #include "catch.hpp"
 
+#include <cstdint>
+#include <limits>
+
 using namespace blactl;
 using namespace blactl::fleet;
 
@@ -43,4 +46,24 @@ TEST_CASE("what ArrayCommand cannot tell is known before") {
     CHECK(told == taken(bla::address::command_angle, raw));
     CHECK(told != raw);
   }
+}
+
+TEST_CASE("a heard entry is read as a servo takes it") {
+  const auto read = [](std::uint8_t type, float value) {
+    return motion_command({.actuator_id = 7, .command_type = type, .value = value});
+  };
+  for (std::uint8_t type = 0; type <= 3; ++type) {
+    for (const float value : {-1.0F, -0.125F, 0.0F, 0.25F, 0.75F}) {
+      const auto told = read(type, value);
+      const auto motion = sim::motion_command({7, type, value}, {});
+      REQUIRE(told);
+      REQUIRE(motion);
+      CHECK(told->reg == motion->address);
+      CHECK(told->raw == motion->value);
+    }
+  }
+  CHECK(read(0, 0.5F)->raw == 900);
+  CHECK_FALSE(read(4, 0.5F));
+  CHECK_FALSE(read(1, std::numeric_limits<float>::quiet_NaN()));
+  CHECK_FALSE(read(1, std::numeric_limits<float>::infinity()));
 }
