@@ -243,7 +243,7 @@ complete -c blactl -n __blactl_needs_command -a apply -d 'bring servos to a flee
 complete -c blactl -n __blactl_needs_command -a undo -d 'back to what servos held before the last change'
 complete -c blactl -n __blactl_needs_command -a monitor -d 'live values of servos: a table, graphs, or a stream'
 complete -c blactl -n __blactl_needs_command -a command -d 'moves one servo for a bounded time, and shows how it follows'
-complete -c blactl -n __blactl_needs_command -a trace -d 'every DroneCAN transfer decoded, live or from a candump log; sends nothing'
+complete -c blactl -n __blactl_needs_command -a trace -d 'every DroneCAN transfer decoded, live or from a log; sends nothing'
 complete -c blactl -n __blactl_needs_command -a doctor -d 'problems of interface, bus and nodes, and how to fix them'
 complete -c blactl -n __blactl_needs_command -a characterize -d 'measures on one servo what the specification leaves open, and restores it'
 complete -c blactl -n __blactl_needs_command -a models -d 'what the profiles know, without any servo'

@@ -225,7 +225,7 @@ TEST_CASE("ASC: dates are English or German, of 24 or of 12 hours") {
     INFO(date);
     CHECK(time_after(date) == expected);
   }
-  const auto on = [](unsigned month, unsigned day) {
+  const auto on = [](int month, int day) {
     return WallTime(std::chrono::sys_days(std::chrono::year(2017) / month / day)) + 1500ms;
   };
   CHECK(time_after("date Son M\xC3\xA4r 5 00:00:00 2017") == on(3, 5));
