@@ -1,6 +1,6 @@
 #include "blactl/can/candump.hpp"
 
-#include "can/log_words.hpp"
+#include "can/log/log_words.hpp"
 
 #include <algorithm>
 #include <chrono>

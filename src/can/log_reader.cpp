@@ -3,7 +3,7 @@
 #include "blactl/base/system_error.hpp"
 #include "blactl/can/replay_texts.hpp"
 
-#include "can/log_format.hpp"
+#include "can/log/log_format.hpp"
 #include "can/log_input.hpp"
 
 #include <fcntl.h>

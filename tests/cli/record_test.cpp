@@ -213,7 +213,8 @@ TEST_CASE("a log that is none, or is not there") {
   const Result missing = bench.run({"-i", "replay:/nonexistent", "scan"});
   CHECK(missing.status == 3);
   CHECK(codes(missing) == std::vector<std::string>{"interface"});
-  CHECK(contains(missing.err, "\n  give a log of candump -l, or of blactl --record"));
+  CHECK(
+      contains(missing.err, "\n  give a log of candump -l, blactl --record, Vector (ASC) or PEAK"));
   const Result folder = bench.run({"-i", "replay:" + bench.folder().string(), "scan"});
   CHECK(folder.status == 3);
   const std::string file = bench.file("x.json", "{\n\"schema\": 1\n}\n");

@@ -4,8 +4,8 @@
 #include "blactl/can/candump.hpp"
 #include "blactl/can/replay.hpp"
 
-#include "can/asc.hpp"
-#include "can/trc.hpp"
+#include "can/log/asc.hpp"
+#include "can/log/trc.hpp"
 #include "fuzz.hpp"
 
 #include <sys/mman.h>

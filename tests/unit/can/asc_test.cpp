@@ -1,4 +1,4 @@
-#include "can/asc.hpp"
+#include "can/log/asc.hpp"
 #include "catch.hpp"
 #include "time_zone.hpp"
 

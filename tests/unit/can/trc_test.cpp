@@ -1,4 +1,4 @@
-#include "can/trc.hpp"
+#include "can/log/trc.hpp"
 #include "catch.hpp"
 #include "time_zone.hpp"
 

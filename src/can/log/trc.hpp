@@ -12,7 +12,7 @@
 #include "blactl/base/time.hpp"
 #include "blactl/can/log_line.hpp"
 
-#include "can/log_words.hpp"
+#include "can/log/log_words.hpp"
 
 #include <array>
 #include <cstddef>

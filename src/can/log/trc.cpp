@@ -1,6 +1,6 @@
-#include "can/trc.hpp"
+#include "can/log/trc.hpp"
 
-#include "can/local_time.hpp"
+#include "can/log/local_time.hpp"
 
 #include <linux/can/error.h>
 

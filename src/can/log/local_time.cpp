@@ -1,4 +1,4 @@
-#include "can/local_time.hpp"
+#include "can/log/local_time.hpp"
 
 #include <ctime>
 

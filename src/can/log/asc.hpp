@@ -11,7 +11,7 @@
 #include "blactl/base/time.hpp"
 #include "blactl/can/log_line.hpp"
 
-#include "can/log_words.hpp"
+#include "can/log/log_words.hpp"
 
 #include <cstdint>
 #include <optional>

@@ -1,4 +1,4 @@
-#include "can/log_format.hpp"
+#include "can/log/log_format.hpp"
 
 #include "blactl/can/candump.hpp"
 

@@ -3,8 +3,8 @@
 
 #include "blactl/can/log_line.hpp"
 
-#include "can/asc.hpp"
-#include "can/trc.hpp"
+#include "can/log/asc.hpp"
+#include "can/log/trc.hpp"
 
 #include <optional>
 #include <string_view>

@@ -1,6 +1,6 @@
-#include "can/asc.hpp"
+#include "can/log/asc.hpp"
 
-#include "can/local_time.hpp"
+#include "can/log/local_time.hpp"
 
 #include <linux/can/error.h>
 
