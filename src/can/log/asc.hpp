@@ -6,7 +6,8 @@
 //   Begin Triggerblock Sat Sep 30 03:06:13.191 pm 2017
 //      0.015991 1  1401552Ax       Rx   d 8 D2 04 00 00 00 07 00 C0  Length = 273910 BitCount = 141
 //
-// Source: Vector, "CAN, Log & Trigger ASC Logging Format", 1.4.
+// Vector's document is "CAN, Log & Trigger ASC Logging Format". Source of what is here: asc2log of
+// can-utils, asc.py of python-can and its sample logs.
 
 #include "blactl/base/time.hpp"
 #include "blactl/can/log_line.hpp"

@@ -7,7 +7,8 @@
 //   ;$COLUMNS=N,O,T,B,I,d,R,L,D
 //         1      1059.900 DT 1  1401552A Rx -  8    D2 04 00 00 00 07 00 C0
 //
-// Source: PEAK-System, "PEAK CAN TRC File Format", 2020-07-27.
+// Source: the examples of PEAK-System's "PEAK CAN TRC File Format"; trc.py of python-can; of error
+// frames peak-trc.c of Wireshark.
 
 #include "blactl/base/time.hpp"
 #include "blactl/can/log_line.hpp"
