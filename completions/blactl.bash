@@ -120,6 +120,7 @@ _blactl_option() {
     apply:--events) kind='file' ;;
     apply:--wait) kind='seconds' ;;
     apply:--stagger) kind='seconds' ;;
+    undo:--to) kind='whole' ;;
     undo:--wait) kind='seconds' ;;
     undo:--stagger) kind='seconds' ;;
     monitor:--rate) kind='seconds' ;;
@@ -172,7 +173,7 @@ _blactl_options() {
     pwm-config) echo '--neutral --range --output --mode --endpoints --preset --svg --save --dry-run --wait --stagger' ;;
     export) echo '--recipe --params' ;;
     apply) echo '--dry-run --plan --entry --no-save --trust-ram --fail-fast --events --no-snapshot --check --wait --stagger' ;;
-    undo) echo '--list --dry-run --no-save --wait --stagger' ;;
+    undo) echo '--list --to --dry-run --no-save --wait --stagger' ;;
     monitor) echo '--rate --fields --duration --count --identify' ;;
     command) echo '--duration --wiggle --array --svg' ;;
     trace) echo '--type --kind --duration --count --stats --absolute' ;;

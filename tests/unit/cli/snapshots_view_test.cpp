@@ -7,6 +7,7 @@
 
 #include <array>
 #include <chrono>
+#include <optional>
 #include <string>
 
 using namespace blactl;
@@ -18,6 +19,7 @@ constexpr WallTime morning{std::chrono::sys_days{std::chrono::year{2026} / 11 / 
 
 std::array<state::SnapshotEntry, 3> changes() {
   return {state::SnapshotEntry{.number = 8,
+                               .run = 8,
                                .at = morning + 1500ms,
                                .command = "alloc --static",
                                .unique_id = {0xC3},
@@ -25,12 +27,14 @@ std::array<state::SnapshotEntry, 3> changes() {
                                .saved = true,
                                .settled = morning + 3s},
           state::SnapshotEntry{.number = 7,
+                               .run = 7,
                                .at = morning,
                                .command = "set\x1b[31m",
                                .unique_id = {0xC4},
                                .held = {{0x38, 1}, {0x39, 2}},
                                .saved = false},
           state::SnapshotEntry{.number = 6,
+                               .run = 6,
                                .at = morning - 1s,
                                .command = "apply",
                                .unique_id = {0xC4},
@@ -46,28 +50,31 @@ TEST_CASE("recorded changes are told in the keys of the contract") {
   json.begin_object();
   cli::write_snapshots(json, changes());
   json.end_object();
-  CHECK(out == R"({"snapshots":[{"time":"2026-11-22T08:15:01Z",)"
+  CHECK(out == R"({"snapshots":[{"number":8,"time":"2026-11-22T08:15:01Z",)"
                R"("unique_id":"c3000000000000000000000000000000",)"
                R"("command":"alloc --static","changed_count":1},)"
-               R"({"time":"2026-11-22T08:15:00Z",)"
+               R"({"number":7,"time":"2026-11-22T08:15:00Z",)"
                R"("unique_id":"c4000000000000000000000000000000",)"
                R"("command":"set\\x1b[31m","changed_count":2},)"
-               R"({"time":"2026-11-22T08:14:59Z",)"
+               R"({"number":6,"time":"2026-11-22T08:14:59Z",)"
                R"("unique_id":"c4000000000000000000000000000000",)"
                R"("command":"apply","changed_count":1}]})");
 }
 
-TEST_CASE("people see when, what, how much, and whether ROM was changed") {
-  CHECK(cli::text(changes(), cli::Page()) ==
-        "TIME                  UNIQUE ID                         COMMAND         SETTINGS  "
-        "CHANGED IN\n"
-        "2026-11-22T08:15:01Z  c3000000000000000000000000000000  alloc --static  1         "
-        "RAM and ROM\n"
-        "2026-11-22T08:15:00Z  c4000000000000000000000000000000  set\\x1b[31m     2         RAM\n"
-        "2026-11-22T08:14:59Z  c4000000000000000000000000000000  apply           1         "
-        "RAM, ROM not known\n");
-  CHECK(cli::text({}, cli::Page()) == "no change is recorded\n");
+TEST_CASE("people see when, what, and whether ROM was changed") {
+  const bla::Profiles profiles = bla::Profiles::load(std::nullopt).value();
+  CHECK(
+      cli::text(changes(), profiles, cli::Page()) ==
+      "NUMBER  TIME                  UNIQUE ID                         COMMAND         CHANGED IN "
+      "         SETTINGS\n"
+      "8       2026-11-22T08:15:01Z  c3000000000000000000000000000000  alloc --static  RAM and ROM"
+      "         static_node_id\n"
+      "7       2026-11-22T08:15:00Z  c4000000000000000000000000000000  set\\x1b[31m     RAM        "
+      "         angle_limit_cw, angle_limit_ccw\n"
+      "6       2026-11-22T08:14:59Z  c4000000000000000000000000000000  apply           RAM, ROM "
+      "not known  angle_limit_cw\n");
+  CHECK(cli::text({}, profiles, cli::Page()) == "no change is recorded\n");
   set_language(Language::japanese);
-  CHECK(cli::text({}, cli::Page()) == "変更履歴は空です\n");
+  CHECK(cli::text({}, profiles, cli::Page()) == "変更履歴は空です\n");
   set_language(Language::english);
 }
