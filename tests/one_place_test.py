@@ -52,10 +52,10 @@ RULES = {
     "enters a node ID into the allocation table": (
         r"(store|table)_?(\.|->)(enter|allocate)\(",
         {"src/fleet/change/allocation_service.cpp", "src/fleet/change/carry_out_rounds.cpp",
-         # IDs that were found as wished.
+         # IDs that were found as wished, or that a person wishes.
          "src/fleet/change/static_ids.cpp",
-         # What a person wishes or imports, before any servo is asked.
-         "src/cli/alloc/serve.cpp", "src/cli/alloc/allocation_table.cpp"}),
+         # What a person imports, before any servo is asked.
+         "src/cli/alloc/allocation_table.cpp"}),
 }
 # Floors that meet servos as their users do. sim is the servo, dronecan does not know any.
 FLOORS = ("bla", "cli", "fleet", "state")

@@ -10,7 +10,7 @@ class Step:
     """One step of an episode: `commands` at once. `before`, `after`: the state of every servo by its serial number;
     `events`: what happened to them between; `scenario`: what was to go wrong after `power_on`;
     `given`: what the allocation table may say of each servo that was given a node ID, before this
-    step and after it: that ID, or one that a fleet file wished for it since;
+    step and after it: that ID, or one that a fleet file wished for it since, or that alloc has seen;
     `unsaved`: what commands had written before, in RAM only; `earlier`: what happened before."""
 
     def __init__(self, commands, before, events, after, scenario, power_on, given, unsaved,
@@ -27,6 +27,9 @@ class Step:
         for serial, node_id in wished_ids(commands):
             if serial in self.given:
                 self.given[serial] = self.given[serial] | {node_id}
+        if any(command.words[0] == "alloc" for command in commands):
+            for serial, node_ids in self.given.items():
+                self.given[serial] = node_ids | {before[serial]["node_id"], after[serial]["node_id"]}
 
     def restarts(self, serial):
         """The times."""
