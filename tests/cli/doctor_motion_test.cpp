@@ -265,3 +265,11 @@ TEST_CASE("doctor only reads: a servo that does not move is as it was") {
   CHECK(contains(sent.out, "\"empty\""));
   CHECK_FALSE(contains(sent.out, "integer_value"));
 }
+
+TEST_CASE("doctor says so where it was asked about a servo that it did not read") {
+  const Result heard =
+      driven({{"torque_output", "off"}}).run({"doctor", "-n", "11", "--listen-only"});
+  CHECK(contains(heard.err, "why one does not move is not judged"));
+  const Result read = driven().run({"doctor", "-n", "11"});
+  CHECK_FALSE(contains(read.err, "is not judged"));
+}

@@ -81,6 +81,9 @@ void examine_bus(Duration time, Context& context, Examination& examination, Repo
   if (servos.broken) {
     found = std::unexpected(*servos.broken);
   }
+  if (targets->given && found && servos.servos.empty()) {
+    context.reporter().note(say<texts::doctor_read_none>());
+  }
   if (!found) {
     if (auto diagnosis = fleet::diagnose_end(found.error())) {
       examination.diagnoses.push_back(std::move(*diagnosis));

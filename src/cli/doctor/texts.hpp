@@ -25,6 +25,9 @@ inline constexpr Text doctor_frames{"frames: {}", "{} フレーム"};
 inline constexpr Text doctor_senders{"frames/s by node: {}", "ノード別フレーム/秒: {}"};
 inline constexpr Text doctor_found{"servos: {}, other nodes: {}", "サーボ {} 台、その他 {} ノード"};
 inline constexpr Text doctor_tools{"tools (by their ID): {}", "ツール (ID による判定): {}"};
+inline constexpr Text doctor_read_none{
+    "none of the servos of -n was read: why one does not move is not judged",
+    "-n のサーボのレジスタを読み出していないため、動作しない原因は診断していません"};
 inline constexpr Text doctor_nothing{"nothing is wrong, as far as it was heard\n",
                                      "受信した範囲で問題は見つかりませんでした\n"};
 inline constexpr Text doctor_fix{"fix: {}", "対処: {}"};
