@@ -135,6 +135,7 @@ _blactl_option() {
     trace:--count) kind='whole' ;;
     doctor:--report) kind='file' ;;
     models:--group) kind='group' value_words='command status operation fault config control pwm limit option product production' ;;
+    models:--search) kind='text' ;;
     sim:--facts) kind='file' ;;
     sim:--seed) kind='whole' ;;
     sim:--clock) kind='word' value_words='real virtual' ;;
@@ -152,8 +153,7 @@ _blactl_argument() {
     command:0) kind='beginning' value_words='angle= speed= torque=' ;;
     trace:0) kind='file' ;;
     characterize:0) kind='file' ;;
-    models:0) kind='model_or_parameter' ;;
-    models:1) kind='parameter' ;;
+    models:*) kind='model_or_parameter' ;;
     sim:0) kind='file' ;;
   esac
 }
@@ -178,7 +178,7 @@ _blactl_options() {
     command) echo '--duration --wiggle --array --svg' ;;
     trace) echo '--type --kind --duration --count --stats --absolute' ;;
     doctor) echo '--fix --report' ;;
-    models) echo '--group' ;;
+    models) echo '--group --search' ;;
     sim) echo '--facts --seed --clock' ;;
   esac
 }

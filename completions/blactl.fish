@@ -8,7 +8,7 @@ function __blactl_words
     for word in $words[2..]
         if test $value = yes
             set value no
-        else if string match -qr -- '^(--(assign|clock|color|count|duration|endpoints|entry|events|expect|export|facts|fields|forget|group|id|import|interface|kind|lang|level|listen|local-node-id|mode|neutral|node|output|preset|profile|profile-dir|range|rate|record|report|retries|seed|stagger|svg|timeout|to|type|wait)|-[jqvyhV]*[in])$' $word
+        else if string match -qr -- '^(--(assign|clock|color|count|duration|endpoints|entry|events|expect|export|facts|fields|forget|group|id|import|interface|kind|lang|level|listen|local-node-id|mode|neutral|node|output|preset|profile|profile-dir|range|rate|record|report|retries|search|seed|stagger|svg|timeout|to|type|wait)|-[jqvyhV]*[in])$' $word
             set value yes
         else if not string match -q -- '-*' $word
             echo $word
@@ -374,9 +374,9 @@ complete -c blactl -n '__blactl_in doctor' -l report -r -F -d 'write all of it t
 
 complete -c blactl -n '__blactl_argument characterize 1' -F
 
-complete -c blactl -n '__blactl_in models' -l group -r -f -a 'command status operation fault config control pwm limit option product production' -d 'the parameters of one group only'
-complete -c blactl -n '__blactl_argument models 1' -f -a '(__blactl_models; __blactl_parameters)'
-complete -c blactl -n '__blactl_argument models 2' -f -a '(__blactl_parameters)'
+complete -c blactl -n '__blactl_in models' -l group -r -f -a 'command status operation fault config control pwm limit option product production' -d 'the parameters of these groups only'
+complete -c blactl -n '__blactl_in models' -l search -r -f -d 'the parameters with this in their name or explanation, English or Japanese'
+complete -c blactl -n '__blactl_in models' -f -a '(__blactl_models; __blactl_parameters)'
 
 complete -c blactl -n '__blactl_in sim' -l facts -r -F -d 'how servos behave, as measured on real ones'
 complete -c blactl -n '__blactl_in sim' -l seed -r -f -d 'the seed of everything random'

@@ -95,4 +95,17 @@ const Choice* Parameter::choice(std::int64_t raw) const {
   return found == choices.end() ? nullptr : &*found;
 }
 
+bool mentions(const Parameter& parameter, std::string_view text) {
+  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; };
+  const auto has_it = [&](std::string_view one) {
+    return !std::ranges::search(one, text, {}, lower, lower).empty();
+  };
+  return has_it(parameter.name) || has_it(parameter.name_en) || has_it(parameter.name_ja) ||
+         has_it(parameter.vendor_label) || has_it(parameter.meaning_en) ||
+         has_it(parameter.meaning_ja) ||
+         std::ranges::any_of(parameter.choices, [&](const Choice& choice) {
+           return has_it(choice.word) || has_it(choice.text_en) || has_it(choice.text_ja);
+         });
+}
+
 } // namespace blactl::bla

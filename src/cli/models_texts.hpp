@@ -43,16 +43,18 @@ inline constexpr Text models_refusal{"refused", "拒否"};
 inline constexpr Text models_question{"asked first", "確認"};
 inline constexpr Text models_warning{"warning", "警告"};
 inline constexpr Text models_see{"See also: {}", "関連: {}"};
-inline constexpr Text models_group_of_one{"a parameter or a group, not both",
-                                          "パラメータとグループは同時に指定できません"};
-inline constexpr Text models_group_of_one_hint{
-    "type one of them, for example: blactl models --group {}",
-    "どちらか一方を指定して下さい。例: blactl models --group {}"};
-inline constexpr Text models_one{"one model only, or all: {} is another one",
-                                 "指定できる機種は 1 つ、または all です: {}"};
-inline constexpr Text models_one_hint{
-    "side by side: `blactl models all`, or their beginning: `blactl models BLA21`",
-    "機種の比較: `blactl models all`、または先頭部分を指定: `blactl models BLA21`"};
+inline constexpr Text models_group_of_one{"a parameter, or --group and --search: not both",
+                                          "パラメータと --group、--search は同時に指定できません"};
+inline constexpr Text models_group_of_one_hint{"type one of them", "どちらか一方を指定して下さい"};
+inline constexpr Text models_one_parameter{"one parameter only: {} is another one",
+                                           "指定できるパラメータは 1 つです: {}"};
+inline constexpr Text models_one_parameter_hint{
+    "several: `blactl models --search WORD`, or `--group G`",
+    "複数を表示: `blactl models --search WORD`、または `--group G`"};
+inline constexpr Text models_nothing_mentions{"no parameter has '{}' in its name or explanation",
+                                              "名称や説明に '{}' を含むパラメータはありません"};
+inline constexpr Text models_nothing_mentions_hint{"all of them: blactl models all",
+                                                   "すべて表示: blactl models all"};
 inline constexpr Text models_lack{"{} has no parameter {} ({})",
                                   "{} にパラメータ {} ({}) はありません"};
 inline constexpr Text models_lack_hint{"which models have it: blactl models all {}",

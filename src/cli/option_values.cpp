@@ -55,7 +55,7 @@ class Reading {
     case Kind::words: return take_words();
     case Kind::nodes: return just(fleet::parse_targets(text_));
     case Kind::interface: return just(parse_interface(text_));
-    case Kind::group: return just(fleet::parse_group(text_));
+    case Kind::group: return just(fleet::parse_groups(text_));
     default: return {};
     }
   }

@@ -543,7 +543,9 @@ std::map<int, int> by_serial(const Bench& bench) {
   std::map<int, int> ids;
   const auto scanned = json(bench.run({"-i", "sim:", "scan", "-j"}).out);
   for (const auto& node : scanned["nodes"]) {
-    ids[node["serial_number"].get<int>()] = node["node_id"].get<int>();
+    if (node["serial_number"].is_number()) { // else it is the command before
+      ids[node["serial_number"].get<int>()] = node["node_id"].get<int>();
+    }
   }
   return ids;
 }
@@ -579,6 +581,28 @@ TEST_CASE("a servo that waits is told by its serial number, and the others get n
   const Result unknown = bench.run({"-i", "sim:", "alloc", "--static", "--assign", "serial:9=21"});
   CHECK(unknown.status == 4);
   CHECK(contains(unknown.err, "no servo on the bus matches serial:9"));
+}
+
+TEST_CASE("an ID for the time being is no reason to leave the order of serial numbers") {
+  const Bench bench;
+  const Background sim(bench, {"sim", scenario(bench, 4)});
+  const Result result =
+      bench.run({"-i", "sim:", "alloc", "--static", "-n", "all", "--range", "122-125", "-y", "-j"});
+  INFO(result.out << result.err);
+  CHECK(result.status == 0);
+  CHECK(by_serial(bench) == std::map<int, int>{{1, 122}, {2, 123}, {3, 124}, {4, 125}});
+}
+
+TEST_CASE("one servo named twice is refused, however it is named") {
+  const Bench bench;
+  const Background sim(bench, {"sim", scenario(bench, 1)});
+  REQUIRE(bench.run({"-i", "sim:", "alloc", "--once"}).status == 0);
+  for (const char* kind : {"--static", "--once"}) {
+    const Result result = bench.run(
+        {"-i", "sim:", "alloc", kind, "--assign", "serial:1=20", "--assign", "125=21", "-y"});
+    CHECK(result.status == 2);
+    CHECK(contains(result.err, "which was named before"));
+  }
 }
 
 TEST_CASE("a range that is too small is told before anything is permanent") {
@@ -620,6 +644,13 @@ TEST_CASE("a wish for a servo of the bus is entered, unless another node has tha
       bench.run({"-i", "sim:", "alloc", "--once", "--wait", "2", "--assign", "serial:1=50"});
   CHECK(wished.status == 0);
   CHECK(contains(wished.err, "gets node ID 50 when it asks"));
+  std::set<int> promised;
+  for (const auto& entry : entries(bench)) {
+    promised.insert(entry["node_id"].get<int>());
+  }
+  CHECK(promised.contains(50)); // that it has another one now is no reason
+  CHECK(bench.run({"-i", "sim:", "alloc", "--once", "--wait", "2"}).status == 0);
+  CHECK(entries(bench)[0]["node_id"] == 50);
   const int other = by_serial(bench)[2];
   const Result taken = bench.run({"-i", "sim:", "alloc", "--once", "--wait", "2", "--assign",
                                   "serial:1=" + std::to_string(other)});

@@ -233,11 +233,51 @@ TEST_CASE("models all puts the models side by side") {
   CHECK(contains(run({"models", "BLA34"}).out, "BLA34\nWhat they have in common:\n"));
 }
 
-TEST_CASE("models says that it takes one model, and how several are put side by side") {
-  const Result two = run({"models", "BLA21", "BLA34"});
-  CHECK(two.status == 2);
-  CHECK(contains(two.err, "[usage] one model only, or all: BLA34 is another one\n"
-                          "  side by side: `blactl models all`"));
+TEST_CASE("models puts those that are named side by side, with one parameter or without") {
+  const Result two = run({"models", "BLA15", "BLA34"});
+  CHECK(two.status == 0);
+  CHECK(contains(two.out, "What they have in common:"));
+  CHECK_FALSE(contains(two.out, "BLA21"));
+  CHECK(json(run({"models", "BLA15", "BLA34", "-j"}).out)["models"].size() ==
+        json(run({"models", "BLA15", "-j"}).out)["models"].size() +
+            json(run({"models", "BLA34", "-j"}).out)["models"].size());
+  CHECK(contains(run({"models", "angle_limit_cw", "BLA15", "BLA34"}).out, "angle_limit_cw"));
+  const Result parameters = run({"models", "angle_limit_cw", "smoothing"});
+  CHECK(parameters.status == 2);
+  CHECK(contains(parameters.err, "one parameter only: smoothing is another one"));
+  CHECK(run({"models", "BLA21", "BLA99"}).status == 2);
+}
+
+TEST_CASE("models --search looks into names and explanations, of both languages") {
+  const auto found = [](const char* word) {
+    std::vector<std::string> names;
+    const auto document = json(run({"models", "BLA21-12U-AB", "--search", word, "-j"}).out);
+    for (const auto& parameter : document["models"][0]["parameters"]) {
+      names.push_back(parameter["name"]);
+    }
+    return names;
+  };
+  CHECK(found("Soft") == std::vector<std::string>{"soft_start"});
+  CHECK_FALSE(found("slow").empty());
+  CHECK_FALSE(found("電圧").empty());
+  const Result shown = run({"models", "--search", "soft start"});
+  CHECK(shown.status == 0);
+  CHECK(contains(shown.out, "soft_start"));
+  CHECK_FALSE(contains(shown.out, "angle_limit_cw"));
+  const Result nothing = run({"models", "--search", "xyzzy"});
+  CHECK(nothing.status == 4);
+  CHECK(contains(nothing.err, "no parameter has 'xyzzy' in its name or explanation"));
+}
+
+TEST_CASE("groups may be a list") {
+  const auto count = [](const char* groups) {
+    return json(run({"models", "BLA21-12U-AB", "--group", groups, "-j"})
+                    .out)["models"][0]["parameters"]
+        .size();
+  };
+  CHECK(count("limit,pwm") == count("limit") + count("pwm"));
+  CHECK(run({"models", "--group", "limit,what"}).status == 2);
+  CHECK(run({"models", "--group", "limit,"}).status == 2);
 }
 
 TEST_CASE("models has no bus, and says that options about one do nothing") {
@@ -272,7 +312,7 @@ TEST_CASE("models --group shows the parameters of a group") {
   CHECK(document["models"][0]["parameters"].size() == 4);
   const Result both = run({"models", "0x2A", "--group", "pwm"});
   CHECK(both.status == 2);
-  CHECK(contains(both.err, "[usage] a parameter or a group, not both\n"));
+  CHECK(contains(both.err, "[usage] a parameter, or --group and --search: not both\n"));
 }
 
 TEST_CASE("what is neither a model nor a parameter is refused as what it looks like") {

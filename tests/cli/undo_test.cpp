@@ -190,6 +190,15 @@ TEST_CASE("undo --to goes back before a command, on every servo that was changed
     CHECK(fleet.rom("13", "reverse") == 0);
     CHECK(fleet.rom("13", "smoothing") == 1);
   }
+  SECTION("of a servo that has changed too often since") {
+    const Arguments more{"set", "-n", "13", "-y", "angle_p_gain=50"};
+    for (int i = 0; i < 102; ++i) {
+      Arguments each = more;
+      each.back() = "angle_p_gain=" + std::to_string(50 + i % 2);
+      REQUIRE(fleet.run(each).status == 0);
+    }
+    check_error(undo(fleet, {"--to", to}), 4, "not_found", "was changed a hundred times since");
+  }
   SECTION("that is not recorded") {
     check_error(undo(fleet, {"--to", "99"}), 4, "not_found", "no command with the number 99");
   }

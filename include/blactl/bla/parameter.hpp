@@ -136,4 +136,8 @@ struct Parameter {
   [[nodiscard]] std::string_view scale() const { return steps_per_unit == 10 ? "0.1" : "1"; }
 };
 
+/// Whether a name, an explanation or a word of this register, in either language, has this in it;
+/// letters of either case.
+[[nodiscard]] bool mentions(const Parameter& parameter, std::string_view text);
+
 } // namespace blactl::bla

@@ -132,7 +132,7 @@ void Forget::find(const Entries& entries) {
   }
   for (const AllocationEntry& entry : entries) {
     const bool is_absent =
-        what_.absent && !fleet::is_on_bus(context_.session().roster(), entry.unique_id);
+        what_.absent && !fleet::may_be_on_bus(context_.session().roster(), entry);
     if (what_.all || is_absent) {
       meant_.insert(entry.unique_id);
     }

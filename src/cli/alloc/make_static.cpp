@@ -51,13 +51,18 @@ class StaticWishes {
   }
 
  private:
-  [[nodiscard]] Result<void> let_all_in() const {
+  [[nodiscard]] Result<void> let_all_in() {
     const auto asked = fleet::let_in(context_.session(), table_, std::nullopt);
     if (!asked) {
       return std::unexpected(asked.error());
     }
     for (const std::string& note : fleet::taken_over(*asked)) {
       context_.reporter().note(note);
+    }
+    for (const fleet::AllocatedUnit& unit : *asked) {
+      if (unit.is_new) {
+        newcomers_.insert(unit.unique_id);
+      }
     }
     return {};
   }
@@ -73,18 +78,15 @@ class StaticWishes {
       wishes_ = std::move(*wishes);
       return {};
     }
-    std::vector<Error> errors;
-    for (const fleet::WantedId& wanted : wanted_) {
-      auto unit = fleet::unit_meant(wanted, whom.roster, context_.known());
-      unit ? wishes_.push_back({*unit, wanted.node_id}) : errors.push_back(std::move(unit.error()));
-    }
-    return errors;
+    auto found = fleet::wishes_of(wanted_, whom.roster, context_.known());
+    wishes_ = std::move(found.wishes);
+    return std::move(found.errors);
   }
 
   [[nodiscard]] Result<Wishes> wishes_for(const Whom& whom) const {
     if (!options_.range.empty()) {
       const auto range = parse_range(options_.range);
-      return range ? fleet::ids_within(*range, whom.roster, whom.selected)
+      return range ? fleet::ids_within(*range, whom.roster, whom.selected, newcomers_)
                    : std::unexpected(range.error());
     }
     if (options_.id && whom.selected.size() != 1) {
@@ -104,6 +106,7 @@ class StaticWishes {
   AllocationStore& table_;
   Context& context_;
   fleet::NotLetIn not_let_in_;
+  std::set<dronecan::UniqueId> newcomers_{}; ///< they have their IDs for the time being
 };
 
 /// Prints a line for every move, and for every servo that already has its ID.

@@ -97,17 +97,14 @@ void Serve::begin() {
 /// What a person wishes is taken over from a unit that is not on this bus. Returns whether all
 /// wishes are entered.
 bool Serve::enter_wishes() {
-  std::vector<AllocationStore::Wish> wishes;
-  for (const fleet::WantedId& wanted : wanted_) {
-    const auto unit = fleet::unit_meant(wanted, session().roster(), context_.known());
-    const auto entered = unit ? fleet::may_have(session().roster(), *unit, wanted.node_id)
-                              : Result<void>(std::unexpected(unit.error()));
-    if (!entered) {
-      report_.fail(entered.error());
-      continue;
+  auto [wishes, errors] = fleet::wishes_of(wanted_, session().roster(), context_.known());
+  for (const AllocationStore::Wish& wish : wishes) {
+    auto may = fleet::may_have(session().roster(), wish.unique_id, wish.node_id);
+    if (!may) {
+      errors.push_back(std::move(may.error()));
     }
-    wishes.push_back({*unit, wanted.node_id});
   }
+  std::ranges::move(errors, std::back_inserter(report_.errors));
   if (!report_.errors.empty()) {
     return false;
   }
@@ -128,8 +125,8 @@ bool Serve::enter_wishes() {
 
 /// The servos that are here enter the table.
 void Serve::remember() {
-  const auto here = fleet::ids_seen(session().roster());
-  const auto entered = fleet::enter_kept(store_, here, session().wall());
+  const auto entered =
+      fleet::enter_seen(store_, session().roster(), session().now(), session().wall());
   if (!entered && report_.errors.empty()) {
     report_.fail(entered.error());
   }
@@ -243,7 +240,9 @@ bool Serve::look_for_twins(fleet::Discovery& discovery) {
 }
 
 void Serve::run() {
-  fleet::Discovery discovery(session(), context_.known(), context_.identification());
+  auto identification = context_.identification();
+  identification.static_node_id = true;
+  fleet::Discovery discovery(session(), context_.known(), identification);
   if (const auto found = discovery.find_all(fleet::bus_watch_time); !found) {
     context_.broken(found.error(), report_);
     return service_ ? conclude() : report_.count_targets();

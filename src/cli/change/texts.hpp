@@ -114,6 +114,9 @@ inline constexpr Text undo_missing{"unit {}, which `{}` changed, is not on the b
                                    "固有 ID {} のサーボ (`{}` で変更) がバス上にありません"};
 inline constexpr Text undo_nothing_of_node{"no change of node {} is recorded",
                                            "ノード {} の変更履歴はありません"};
+inline constexpr Text undo_nothing_of_node_since{
+    "node {} was not changed since before command {}, as far as recorded",
+    "ノード {} はコマンド {} 以降に変更されていません"};
 inline constexpr Text undo_see_list_hint{"what is recorded: blactl undo --list",
                                          "変更履歴の表示: blactl undo --list"};
 inline constexpr Text undo_nothing_at_all{"no change of a servo is recorded",

@@ -1,6 +1,7 @@
 // blactl models: the profiles as an offline reference.
 
 #include "blactl/bla/profile.hpp"
+#include "blactl/fleet/bus/register_choice.hpp"
 
 #include "cli/commands.hpp"
 #include "cli/context.hpp"
@@ -9,39 +10,46 @@
 #include "cli/texts.hpp"
 
 #include <algorithm>
-#include <utility>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace blactl::cli {
 namespace {
 
 struct ModelsOptions {
-  std::string model{};
-  std::string parameter{};
-  std::string group{};
+  std::vector<std::string> words{}; ///< models and a parameter
+  std::vector<std::string> groups{};
+  std::string search{};
 };
 
 constexpr Option models_options[]{
     {.name = "--group",
      .value = "G",
      .kind = Kind::group,
+     .repeat = Repeat::list,
      .help =
-         {"the parameters of one group only: command, status, operation, fault, config, "
+         {"the parameters of these groups only: command, status, operation, fault, config, "
           "control, pwm, limit, option, product, production",
-          "1 グループのパラメータのみ: command、status、operation、fault、config、control、pwm、"
+          "指定グループのパラメータのみ: command、status、operation、fault、config、control、pwm、"
           "limit、option、product、production"},
-     .store = into<&ModelsOptions::group>},
+     .store = into<&ModelsOptions::groups>},
+    {.name = "--search",
+     .value = "WORD",
+     .kind = Kind::text,
+     .help = {"the parameters with this in their name or explanation, English or Japanese",
+              "名称または説明 (英語・日本語) にこの語を含むパラメータ"},
+     .store = into<&ModelsOptions::search>},
 };
 
 constexpr Option models_arguments[]{
-    {.name = "MODEL",
+    {.name = "MODEL|PARAM",
      .kind = Kind::model_or_parameter,
-     .help = {"a model or its beginning: BLA21-12U; all: every model side by side; or a PARAM",
-              "機種名またはその先頭部分: BLA21-12U (all: 全機種を比較)、または PARAM"},
-     .store = into<&ModelsOptions::model>},
-    {.name = "PARAM",
-     .kind = Kind::parameter,
-     .help = {"one parameter: a name or an address", "パラメータ 1 個 (名前またはアドレス)"},
-     .store = into<&ModelsOptions::parameter>},
+     .repeat = Repeat::list,
+     .help = {"models or their beginnings: BLA21-12U; all: every model side by side; and one PARAM",
+              "機種名またはその先頭部分: BLA21-12U (all: 全機種を比較)。PARAM は 1 個"},
+     .store = into<&ModelsOptions::words>},
 };
 
 using Models = std::vector<const bla::Profile*>;
@@ -74,43 +82,72 @@ Error unknown_model(const std::string& word, const bla::Profiles& profiles) {
   return {Code::usage, say<texts::unknown_model>(printable(word)), say<texts::known_models>(known)};
 }
 
-/// The sheet for the arguments; the first one may be a parameter. All errors go to the report.
+/// The words that are no models; those that are models are chosen. Errors go to the report.
+std::vector<std::string> choose_models(const ModelsOptions& options, const bla::Profiles& profiles,
+                                       Sheet& sheet, Report& report) {
+  std::vector<std::string> others;
+  std::set<const bla::Profile*> chosen;
+  for (const std::string& word : options.words) {
+    const Models named = models_of(word, profiles);
+    chosen.insert(named.begin(), named.end());
+    if (named.empty() && begins_with(word, "bla")) {
+      report.fail(unknown_model(word, profiles));
+    } else if (named.empty()) {
+      others.push_back(word);
+    }
+  }
+  if (!chosen.empty()) {
+    std::erase_if(sheet.models, [&](const bla::Profile* one) { return !chosen.contains(one); });
+  }
+  return others;
+}
+
+void choose_parameter(const std::string& word, const bla::Profiles& profiles, Sheet& sheet,
+                      Report& report) {
+  const auto found = profiles.find(word);
+  if (!found) {
+    report.fail(found.error());
+    return;
+  }
+  sheet.parameter = *found;
+  const auto has_it = [&](const bla::Profile* each) {
+    return each->find((*found)->address) != nullptr;
+  };
+  if (std::ranges::none_of(sheet.models, has_it)) {
+    report.fail({Code::unsupported,
+                 say<texts::models_lack>(sheet.models.front()->model, (*found)->name,
+                                         (*found)->address.name()),
+                 say<texts::models_lack_hint>((*found)->name)});
+  }
+}
+
+/// Whether one of the models has a parameter that is shown.
+bool shows_any(const Sheet& sheet) {
+  return std::ranges::any_of(sheet.models, [&](const bla::Profile* model) {
+    return std::ranges::any_of(model->parameters,
+                               [&](const bla::Parameter& one) { return sheet.takes(one); });
+  });
+}
+
+/// The sheet for the words and options. All errors go to the report.
 Sheet choose(const ModelsOptions& options, const bla::Profiles& profiles, Report& report) {
-  Sheet sheet{.models = all_models(profiles)};
-  std::string model = options.model, parameter = options.parameter;
-  if (models_of(model, profiles).empty() && !models_of(parameter, profiles).empty()) {
-    std::swap(model, parameter); // the two cannot be confused
+  Sheet sheet{.models = all_models(profiles), .mentions = options.search};
+  for (const std::string& list : options.groups) {
+    sheet.groups.merge(fleet::parse_groups(list).value_or(std::set<bla::Group>()));
   }
-  if (!model.empty()) {
-    const Models named = models_of(model, profiles);
-    if (!named.empty()) {
-      sheet.models = named;
-    } else if (parameter.empty() && !begins_with(model, "bla")) {
-      parameter = model;
-    } else {
-      report.fail(unknown_model(model, profiles));
-    }
+  const auto others = choose_models(options, profiles, sheet, report);
+  if (others.size() > 1) {
+    report.fail({Code::usage, say<texts::models_one_parameter>(printable(others[1])),
+                 say<texts::models_one_parameter_hint>()});
+  } else if (!others.empty()) {
+    choose_parameter(others.front(), profiles, sheet, report);
   }
-  if (!model.empty() && !models_of(parameter, profiles).empty()) {
+  if (!others.empty() && !sheet.is_whole()) {
     report.fail(
-        {Code::usage, say<texts::models_one>(printable(parameter)), say<texts::models_one_hint>()});
-  } else if (!parameter.empty()) {
-    const auto found = profiles.find(parameter);
-    found ? void(sheet.parameter = *found) : report.fail(found.error());
-    const auto has_it = [&](const bla::Profile* each) {
-      return each->find((*found)->address) != nullptr;
-    };
-    if (found && std::ranges::none_of(sheet.models, has_it)) {
-      report.fail(
-          {Code::unsupported,
-           say<texts::models_lack>(printable(model), (*found)->name, (*found)->address.name()),
-           say<texts::models_lack_hint>((*found)->name)});
-    }
-  }
-  sheet.group = bla::find_group(options.group);
-  if (sheet.group && sheet.parameter != nullptr) {
-    report.fail({Code::usage, say<texts::models_group_of_one>(),
-                 say<texts::models_group_of_one_hint>(options.group)});
+        {Code::usage, say<texts::models_group_of_one>(), say<texts::models_group_of_one_hint>()});
+  } else if (!sheet.mentions.empty() && !shows_any(sheet)) {
+    report.fail({Code::not_found, say<texts::models_nothing_mentions>(printable(options.search)),
+                 say<texts::models_nothing_mentions_hint>()});
   }
   return sheet;
 }
@@ -127,7 +164,7 @@ Report execute(const ModelsOptions& options, Context& context) {
   if (!report.errors.empty()) {
     return report;
   }
-  const bool lists = options.model.empty() && !sheet.group;
+  const bool lists = options.words.empty() && sheet.is_whole();
   report.counts = {{"models", sheet.models.size()}};
   report.json = [&profiles, sheet](JsonWriter& json) { write_models(json, sheet, profiles); };
   report.text = [&profiles, sheet, lists](const Page& page) {

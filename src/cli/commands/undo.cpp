@@ -165,7 +165,10 @@ void Undo::of_node(dronecan::NodeId id, const Whom& whom, Goals& goals) {
   } else if (*change) {
     take_back(**change, id, goals);
   } else {
-    goals.errors.push_back({Code::not_found, say<texts::undo_nothing_of_node>(id.value()),
+    goals.errors.push_back({Code::not_found,
+                            options_.to
+                                ? say<texts::undo_nothing_of_node_since>(id.value(), *options_.to)
+                                : say<texts::undo_nothing_of_node>(id.value()),
                             say<texts::undo_see_list_hint>(), id.value()});
   }
 }

@@ -209,7 +209,7 @@ std::string model_text(const Profile& profile, const Sheet& sheet, const bla::Pr
     }
   }
   return fmt::format("{}  {}\n{}{}", profile.model, pwm_text(profile), parameters_text(rows, page),
-                     sheet.group ? "" : "\n" + history_text(profile, profiles, page));
+                     sheet.is_whole() ? "\n" + history_text(profile, profiles, page) : "");
 }
 
 Row variant_row(const Variant& one, const bla::Profiles& profiles) {
@@ -403,7 +403,9 @@ std::string parameter_text(const Parameter& general, const Sheet& sheet,
 } // namespace
 
 bool Sheet::takes(const Parameter& one) const {
-  return parameter != nullptr ? one.address == parameter->address : !group || one.group == *group;
+  return parameter != nullptr ? one.address == parameter->address
+                              : (groups.empty() || groups.contains(one.group)) &&
+                                    (mentions.empty() || bla::mentions(one, mentions));
 }
 
 std::string list_text(const Sheet& sheet, const Page& page) {

@@ -6,7 +6,7 @@
 
 #include "cli/output/page.hpp"
 
-#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -16,9 +16,12 @@ namespace blactl::cli {
 struct Sheet {
   std::vector<const bla::Profile*> models;   ///< not empty
   const bla::Parameter* parameter = nullptr; ///< the only one; null: all
-  std::optional<bla::Group> group{};         ///< only the parameters of this group
+  std::set<bla::Group> groups{};             ///< only the parameters of these groups; empty: all
+  std::string mentions{};                    ///< only those that have it in a text; empty: all
 
   [[nodiscard]] bool takes(const bla::Parameter& one) const;
+
+  [[nodiscard]] bool is_whole() const { return groups.empty() && mentions.empty(); }
 };
 
 [[nodiscard]] std::string list_text(const Sheet& sheet, const Page& page);

@@ -7,6 +7,7 @@
 #include "blactl/fleet/bus/texts.hpp"
 
 #include <algorithm>
+#include <ranges>
 
 namespace blactl::fleet {
 
@@ -49,6 +50,22 @@ Result<const Parameter*> find_readable(const bla::Profiles& profiles, std::strin
   return parameter;
 }
 
+/// Errors: usage, with the nearest or all names.
+Result<bla::Group> parse_group(std::string_view word) {
+  if (const auto group = bla::find_group(word)) {
+    return *group;
+  }
+  const auto similar = similar_groups(word);
+  std::string known;
+  for (const std::string_view group : group_names()) {
+    known += known.empty() ? "" : ", ";
+    known += group;
+  }
+  return fail(Code::usage, say<texts::unknown_group>(printable(word)),
+              similar.empty() ? say<texts::known_groups>(known)
+                              : say<texts::did_you_mean>(similar.front()));
+}
+
 } // namespace
 
 const Parameter* own_register(const Parameter& parameter, const Servo& servo) {
@@ -70,19 +87,16 @@ Error lacking(const Parameter& parameter, const Servo& servo) {
           say<texts::firmware_lacks_hint>(id), id};
 }
 
-Result<bla::Group> parse_group(std::string_view word) {
-  if (const auto group = bla::find_group(word)) {
-    return *group;
+Result<std::set<bla::Group>> parse_groups(std::string_view list) {
+  std::set<bla::Group> groups;
+  for (const auto part : std::views::split(list, ',')) {
+    const auto group = parse_group(std::string_view(part.begin(), part.end()));
+    if (!group) {
+      return std::unexpected(group.error());
+    }
+    groups.insert(*group);
   }
-  const auto similar = similar_groups(word);
-  std::string known;
-  for (const std::string_view group : group_names()) {
-    known += known.empty() ? "" : ", ";
-    known += group;
-  }
-  return fail(Code::usage, say<texts::unknown_group>(printable(word)),
-              similar.empty() ? say<texts::known_groups>(known)
-                              : say<texts::did_you_mean>(similar.front()));
+  return groups;
 }
 
 std::expected<RegisterChoice, std::vector<Error>>
@@ -99,12 +113,12 @@ RegisterChoice::parse(const bla::Profiles& profiles, std::span<const std::string
       faults.push_back(std::move(parameter.error()));
     }
   }
-  for (const std::string& word : groups) {
-    auto group = parse_group(word);
-    if (group) {
-      choice.groups_.insert(*group);
+  for (const std::string& list : groups) {
+    auto named = parse_groups(list);
+    if (named) {
+      choice.groups_.merge(*named);
     } else {
-      faults.push_back(std::move(group.error()));
+      faults.push_back(std::move(named.error()));
     }
   }
   if (!faults.empty()) {

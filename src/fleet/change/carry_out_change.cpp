@@ -39,6 +39,7 @@ Error made_way(const UnitChange& unit, NodeId before) {
 std::vector<Error> Change::carry_out(const MoveHook& moved) {
   std::vector<Error> errors;
   if (!begun_.empty()) {
+    go_on_with_record();
     errors = rounds_->carry_out(moved);
     conclude();
     const bool has_failed = std::ranges::any_of(rounds_->units(), &UnitChange::has_failed);
@@ -282,6 +283,19 @@ std::vector<Error> Change::refusals_after_restart(std::vector<Error> errors) {
   return errors;
 }
 
+/// Servos that an earlier try has done need nothing now, but are part of the change.
+void Change::go_on_with_record() {
+  std::vector<dronecan::UniqueId> units;
+  for (const GoalResult& result : results_) {
+    if (result.goal.saves() && result.servo().unique_id) {
+      units.push_back(*result.servo().unique_id);
+    }
+  }
+  if (options_.manner.history != nullptr) { // on failure the record itself will tell
+    [[maybe_unused]] const auto found = options_.manner.history->go_on(units);
+  }
+}
+
 /// A completed change is not continued when the command is repeated.
 void Change::end_record() {
   std::vector<dronecan::UniqueId> units;
@@ -291,7 +305,9 @@ void Change::end_record() {
     }
   }
   const Manner& manner = options_.manner;
-  const auto ended = manner.history != nullptr ? manner.history->end(units) : Result<void>();
+  const bool are_all = std::ranges::all_of(results_, &GoalResult::is_done);
+  const auto ended =
+      manner.history != nullptr ? manner.history->end(units, are_all) : Result<void>();
   if (!ended && manner.end_not_recorded) {
     manner.end_not_recorded(ended.error());
   }

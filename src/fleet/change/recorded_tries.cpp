@@ -23,6 +23,22 @@ bool is_repeated_as_a_whole(std::string_view command) {
 
 } // namespace
 
+Result<void> History::go_on(std::span<const UniqueId> units) {
+  if (!is_repeated_as_a_whole(command_)) {
+    return {};
+  }
+  for (const UniqueId& unit : units) {
+    const auto last = snapshots_.last(unit);
+    if (!last) {
+      return std::unexpected(last.error());
+    }
+    if (*last && !(*last)->ended && (*last)->command == command_) {
+      run_ = joined_ = std::max(run_, (*last)->run);
+    }
+  }
+  return {};
+}
+
 /// Resumes after tries of this command that ended half way. What they changed in RAM only, a
 /// restart has taken back; what they have saved stays an entry of its own, to which undo goes back
 /// through this one, unless this one changes RAM only.
@@ -148,9 +164,11 @@ History::former_numbers(std::span<const state::SnapshotEntry> entries) const {
   return numbers;
 }
 
-Result<void> History::end(std::span<const UniqueId> units) {
-  return is_repeated_as_a_whole(command_) && !units.empty() ? snapshots_.end(units, command_)
-                                                            : Result<void>();
+Result<void> History::end(std::span<const UniqueId> units, bool are_all) {
+  const bool goes_on = !are_all && command_ != "undo" && command_ != erase_keeping_ids;
+  return is_repeated_as_a_whole(command_) && !units.empty() && !goes_on
+             ? snapshots_.end(units, command_)
+             : Result<void>();
 }
 
 } // namespace blactl::fleet

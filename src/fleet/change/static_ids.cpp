@@ -9,6 +9,8 @@
 #include "fleet/change/texts.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <map>
 #include <optional>
 #include <set>
 #include <tuple>
@@ -81,8 +83,30 @@ std::set<dronecan::UniqueId> units_meant(const Targets& whom, const Roster& rost
   return units;
 }
 
-std::int64_t serial_number(const Roster& roster, NodeId id) {
-  return roster.member(id).servo().identity.readings().serial_number.value_or(0);
+using Serials = std::map<dronecan::UniqueId, std::int64_t>;
+
+Result<Serials> serial_numbers(const Roster& roster, std::span<const Wish> wishes) {
+  Serials serials;
+  for (const Wish& wish : wishes) {
+    const auto number = roster.member(wish.node_id).servo().identity.readings().serial_number;
+    if (!number) {
+      return std::unexpected(Error{Code::timeout,
+                                   say<texts::range_needs_serials>(wish.node_id.value()),
+                                   say<texts::range_needs_serials_hint>(), wish.node_id.value()});
+    }
+    serials.emplace(wish.unique_id, *number);
+  }
+  return serials;
+}
+
+/// What 0x46 holds counts as used, but not by the servo that is to move: it is of a try that broke
+/// off.
+void give_up_promise(const Roster& roster, NodeId id, state::NodeIds& used) {
+  const auto promised = roster.member(id).static_node_id.value_or(0);
+  const bool is_id = promised > 0 && promised <= NodeId::max;
+  if (is_id && !roster.heard(NodeId(static_cast<std::uint8_t>(promised)))) {
+    used.reset(static_cast<std::size_t>(promised));
+  }
 }
 
 } // namespace
@@ -113,37 +137,61 @@ Result<dronecan::UniqueId> unit_meant(const WantedId& wanted, const Roster& rost
               say<texts::several_wanted_hint>());
 }
 
+Wishes wishes_of(std::span<const WantedId> wanted, const Roster& roster,
+                 const bla::Profiles& profiles) {
+  Wishes found;
+  for (const WantedId& each : wanted) {
+    auto unit = unit_meant(each, roster, profiles);
+    if (!unit) {
+      found.errors.push_back(std::move(unit.error()));
+    } else if (std::ranges::find(found.wishes, *unit, &Wish::unique_id) != found.wishes.end()) {
+      found.errors.push_back({Code::usage,
+                              say<texts::wished_twice>(printable(each.text), hex(*unit)),
+                              say<texts::wished_twice_hint>(), std::nullopt});
+    } else {
+      found.wishes.push_back({*unit, each.node_id});
+    }
+  }
+  return found;
+}
+
 Result<std::vector<Wish>> ids_within(const AllocationService::Range& range, const Roster& roster,
-                                     std::span<const NodeId> nodes) {
+                                     std::span<const NodeId> nodes,
+                                     const std::set<dronecan::UniqueId>& newcomers) {
   auto wishes = ids_as_they_are(roster, nodes);
-  if (!wishes) {
-    return wishes;
+  auto serials =
+      wishes ? serial_numbers(roster, *wishes) : Result<Serials>(std::unexpected(wishes.error()));
+  if (!serials) {
+    return std::unexpected(std::move(serials.error()));
   }
-  const auto is_inside = [&](NodeId id) { return range.first <= id && id <= range.last; };
   std::ranges::sort(*wishes, {}, [&](const Wish& wish) {
-    return std::pair(serial_number(roster, wish.node_id), wish.unique_id);
+    return std::pair(serials->at(wish.unique_id), wish.unique_id);
   });
-  const state::NodeIds used = roster.ids_in_use({});
-  std::size_t movers = 0, free = 0;
-  std::uint8_t next = range.first.value();
+  state::NodeIds used = roster.ids_in_use({});
+  std::vector<Wish*> movers;
   for (Wish& wish : *wishes) {
-    if (is_inside(wish.node_id)) {
-      continue;
+    const bool is_inside = range.first <= wish.node_id && wish.node_id <= range.last;
+    const bool is_new = newcomers.contains(wish.unique_id);
+    if (!is_inside || is_new) {
+      movers.push_back(&wish);
+      give_up_promise(roster, wish.node_id, used);
     }
-    ++movers;
-    while (next <= range.last.value() && used[next]) {
-      ++next;
-    }
-    if (next <= range.last.value()) {
-      ++free;
-      wish.node_id = NodeId(next++);
+    if (is_new) {
+      used.reset(wish.node_id.value());
     }
   }
-  return free == movers ? std::move(wishes)
-                        : fail(Code::table_full,
-                               say<texts::range_too_small>(range.first.value(), range.last.value(),
-                                                           free, movers),
-                               say<texts::range_too_small_hint>());
+  std::size_t moved = 0;
+  for (std::size_t id = range.first.value(); id <= range.last.value(); ++id) {
+    if (!used[id] && moved < movers.size()) {
+      movers[moved++]->node_id = NodeId(static_cast<std::uint8_t>(id));
+    }
+  }
+  return moved == movers.size()
+             ? std::move(wishes)
+             : fail(Code::table_full,
+                    say<texts::range_too_small>(range.first.value(), range.last.value(), moved,
+                                                movers.size()),
+                    say<texts::range_too_small_hint>());
 }
 
 Result<std::vector<Wish>> ids_as_they_are(const Roster& roster, std::span<const NodeId> nodes) {
@@ -217,20 +265,30 @@ Result<std::vector<std::string>> enter_wishes(state::AllocationStore& table,
                  : std::unexpected(entered.error());
 }
 
-bool is_on_bus(const Roster& roster, const dronecan::UniqueId& unit) {
-  return is_here(roster, unit) || roster.is_pending(unit);
+bool may_be_on_bus(const Roster& roster, const state::AllocationEntry& entry) {
+  const bool is_somebody = roster.heard(entry.node_id) &&
+                           (!roster.member(entry.node_id).info || roster.is_doubled(entry.node_id));
+  return is_here(roster, entry.unique_id) || roster.is_pending(entry.unique_id) || is_somebody;
 }
 
-std::vector<Wish> ids_seen(const Roster& roster) {
+Result<void> enter_seen(state::AllocationStore& table, const Roster& roster, Time now,
+                        WallTime wall) {
   std::vector<Wish> seen;
   for (const auto& [id, member] : roster.members()) {
-    const bool is_one =
-        member.is_servo && member.info && roster.heard(id) && !not_unique(roster, id);
-    if (is_one && !roster.is_doubled(id)) {
+    const bool is_here = member.is_servo && member.info && now - member.last_heard < offline_time &&
+                         !roster.is_doubled(id) && !not_unique(roster, id);
+    if (!is_here) { // it may have moved, and left this ID
+      continue;
+    }
+    const auto known = table.find(member.info->unique_id);
+    if (!known) {
+      return std::unexpected(known.error());
+    }
+    if (member.static_node_id == id.value() || !*known || (*known)->node_id == id) {
       seen.push_back({member.info->unique_id, id});
     }
   }
-  return seen;
+  return enter_kept(table, seen, wall);
 }
 
 Result<void> enter_kept(state::AllocationStore& table, std::span<const Wish> kept, WallTime now) {

@@ -53,6 +53,15 @@ inline constexpr Text several_wanted{"{} means several units: {}",
 inline constexpr Text several_wanted_hint{
     "name each by what only it has: serial:, servo:, or its unique ID",
     "serial:、servo:、固有 ID などで 1 台ずつ指定して下さい"};
+inline constexpr Text wished_twice{"{} means uid:{}, which was named before",
+                                   "{} は uid:{} を示しますが、既に指定されています"};
+inline constexpr Text wished_twice_hint{"name each servo once",
+                                        "各サーボを 1 回だけ指定して下さい"};
+inline constexpr Text range_needs_serials{
+    "the serial number of node {} could not be read, and --range goes by serial numbers",
+    "ノード {} の製造番号を読み出せません (--range は製造番号順に割り当てます)"};
+inline constexpr Text range_needs_serials_hint{"repeat it, or give IDs by --assign",
+                                               "再実行するか、--assign で指定して下さい"};
 inline constexpr Text range_too_small{
     "of the node IDs {} to {} no node on the bus has {}, and servos that need one are {}",
     "ノード ID {}～{} の空きは {} 個ですが、{} 台に必要です"};

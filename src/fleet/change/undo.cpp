@@ -1,5 +1,6 @@
 #include "blactl/fleet/change/undo.hpp"
 
+#include "blactl/base/hex.hpp"
 #include "blactl/fleet/bus/texts.hpp"
 
 #include <algorithm>
@@ -37,10 +38,10 @@ bool is_unfinished_undo(const state::SnapshotEntry& entry) {
 
 using Tries = std::vector<state::SnapshotEntry>;
 
-/// Whether the newer one is a change of its own: what was saved, and done, was repeated in RAM
+/// Whether the newer one is a change of its own: what was saved for certain was repeated in RAM
 /// only.
 bool is_of_its_own(const state::SnapshotEntry& newer, const state::SnapshotEntry& older) {
-  return !newer.saved && !newer.written.empty() && older.saved && older.ended;
+  return !newer.saved && !newer.written.empty() && older.saved && older.settled;
 }
 
 /// All entries of the run of this one that are one change with it, the newest first.
@@ -192,6 +193,10 @@ Result<std::vector<Undoing>> changes_since(const state::SnapshotStore& store, st
   }
   std::vector<Undoing> changes;
   for (Tries& each : by_unit | std::views::values) {
+    if (each.size() >= state::most_snapshots) { // earlier ones have been dropped
+      return fail(Code::not_found, say<texts::too_many_changes_since>(run, hex(each[0].unique_id)),
+                  say<texts::no_command_with_number_hint>());
+    }
     leave_out_what_was_lost(each);
     changes.push_back(as_one(std::move(each)));
   }

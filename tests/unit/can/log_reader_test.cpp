@@ -1,6 +1,5 @@
-#include "blactl/can/log_reader.hpp"
-
 #include "blactl/can/candump.hpp"
+#include "blactl/can/log_reader.hpp"
 
 #include "allocations.hpp"
 #include "catch.hpp"

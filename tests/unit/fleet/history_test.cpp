@@ -80,7 +80,7 @@ CarriedOut change(const Scene& scene, const Wanted& wanted, History& history,
 
 void end(History& history, const std::optional<dronecan::UniqueId>& unit) {
   const std::vector<dronecan::UniqueId> units{unit.value()};
-  REQUIRE(history.end(units));
+  REQUIRE(history.end(units, true));
 }
 
 /// One command on one servo, recorded by itself.
@@ -462,7 +462,6 @@ TEST_CASE("a try that goes on for one servo leaves the record of the others") {
     const auto servos = change(scene, set(angle, true), tried, {11, 12}).servos;
     REQUIRE(servos[0].is_done());
     REQUIRE_FALSE(servos[1].is_done());
-    end(tried, servos[0].servo.unique_id);
   }
   const auto first = scene.member(11).info->unique_id;
   const auto changes = kept.to_undo();
@@ -472,6 +471,31 @@ TEST_CASE("a try that goes on for one servo leaves the record of the others") {
     CHECK(each.numbers.size() == (each.entry.unique_id == first ? 2 : 1));
     CHECK(each.entry.written == state::Registers{{0x38, 800}});
   }
+}
+
+TEST_CASE(
+    "a try that one servo took nothing of goes on for all, also after a restart of that one") {
+  const Kept kept;
+  const Scene scene(servos());
+  const bool restarts = GENERATE(false, true);
+  const auto plans = plans_for(scene, restart, {11, 12});
+  const std::vector<dronecan::UniqueId> done{plans[0].before.servo.unique_id.value()};
+  const std::vector<dronecan::UniqueId> all{done[0], plans[1].before.servo.unique_id.value()};
+  {
+    History tried = kept.history("apply");
+    REQUIRE(tried.go_on(all));
+    REQUIRE(change(scene, set("angle_limit_cw=90deg", true), tried, {11}).servos[0].is_done());
+    REQUIRE(tried.end(done, false));
+  }
+  scene.live(3s);
+  if (restarts) {
+    REQUIRE(change(scene, set("reverse=on"), kept, "set").is_done());
+  }
+  History again = kept.history("apply");
+  REQUIRE(again.go_on(all));
+  REQUIRE(change(scene, set("angle_limit_cw=90deg", true), again, {12}).servos[0].is_done());
+  REQUIRE(again.end(all, true));
+  CHECK(kept.to_undo().size() == (restarts ? 1 : 2)); // the set has come after it on 11
 }
 
 TEST_CASE("an undo that did not end goes on when it is typed again, and then is one change") {
@@ -959,7 +983,6 @@ TEST_CASE("what a try was to write, and was killed before, was not changed by so
     const auto servos = change(scene, set("angle_limit_cw=77deg", true), tried, {11, 12}).servos;
     REQUIRE(servos[0].is_done());
     REQUIRE_FALSE(servos[1].is_done());
-    end(tried, servos[0].servo.unique_id);
   }
   REQUIRE(kept.history("apply").keep(plans_for(scene, set("angle_limit_cw=88deg"), {11, 12}),
                                      *scene.session));

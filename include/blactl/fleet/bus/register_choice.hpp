@@ -14,8 +14,9 @@
 
 namespace blactl::fleet {
 
-/// The group of this name (contract, section 7). Errors: usage, with the nearest or all names.
-[[nodiscard]] Result<bla::Group> parse_group(std::string_view word);
+/// The groups of these names, comma-separated (contract, section 7). Errors: usage, with the
+/// nearest or all names.
+[[nodiscard]] Result<std::set<bla::Group>> parse_groups(std::string_view list);
 
 /// The register as defined for this servo; null: it has none.
 [[nodiscard]] const bla::Parameter* own_register(const bla::Parameter& parameter,

@@ -218,6 +218,9 @@ inline constexpr Text no_command_with_number{"no command with the number {} is r
                                              "番号 {} のコマンドは変更履歴にありません"};
 inline constexpr Text no_command_with_number_hint{"what is recorded: blactl undo --list",
                                                   "変更履歴の表示: blactl undo --list"};
+inline constexpr Text too_many_changes_since{
+    "uid:{1} was changed a hundred times since command {0}: what it held before is not recorded",
+    "uid:{1} はコマンド {0} 以降に 100 回変更されており、それ以前の値は記録されていません"};
 inline constexpr Text no_setting_in_history{
     "the change history says that {} was replaced, which is not a setting",
     "変更履歴にある {} は設定項目ではありません"};

@@ -107,6 +107,7 @@ class Change {
   [[nodiscard]] bool has_restarted_since(const GoalResult& result) const;
   void look_back(const Lost& lost);
   void look_back(GoalResult& result, const Lost& lost) const;
+  void go_on_with_record();
   void end_record();
 
   Session& session_;

@@ -51,6 +51,10 @@ class History {
       : command_(std::move(command)), snapshots_(std::move(snapshots)), proofs_(std::move(proofs)) {
   }
 
+  /// Before all: of the units that this command is to save, also those that need nothing. If one of
+  /// them is left from a try of it that failed, this command goes on with that one.
+  [[nodiscard]] Result<void> go_on(std::span<const dronecan::UniqueId> units);
+
   /// Before the first request of a round: removes the proofs of ROM of servos that restart or are
   /// erased in it, which become outdated.
   [[nodiscard]] Result<void> drop_proofs(std::span<const Plan> plans);
@@ -69,8 +73,9 @@ class History {
                                       const Session& session);
 
   /// At the end of a command that is repeated as a whole after a failure (see keep()): these units
-  /// have reached its goal.
-  [[nodiscard]] Result<void> end(std::span<const dronecan::UniqueId> units);
+  /// have reached its goal. `are_all`: so have all others; an apply or alloc --static that has
+  /// failed for one goes on for every servo, also where that one has no record as it took nothing.
+  [[nodiscard]] Result<void> end(std::span<const dronecan::UniqueId> units, bool are_all);
 
   /// This command has restored these units: there is nothing to undo, and the change before it is
   /// the last one again.
