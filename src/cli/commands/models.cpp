@@ -102,8 +102,9 @@ std::vector<std::string> choose_models(const ModelsOptions& options, const bla::
   return others;
 }
 
-void choose_parameter(const std::string& word, const bla::Profiles& profiles, Sheet& sheet,
-                      Report& report) {
+/// `models`: as typed.
+void choose_parameter(const std::string& word, const std::string& models,
+                      const bla::Profiles& profiles, Sheet& sheet, Report& report) {
   const auto found = profiles.find(word);
   if (!found) {
     report.fail(found.error());
@@ -114,10 +115,10 @@ void choose_parameter(const std::string& word, const bla::Profiles& profiles, Sh
     return each->find((*found)->address) != nullptr;
   };
   if (std::ranges::none_of(sheet.models, has_it)) {
-    report.fail({Code::unsupported,
-                 say<texts::models_lack>(sheet.models.front()->model, (*found)->name,
-                                         (*found)->address.name()),
-                 say<texts::models_lack_hint>((*found)->name)});
+    report.fail(
+        {Code::unsupported,
+         say<texts::models_lack>(printable(models), (*found)->name, (*found)->address.name()),
+         say<texts::models_lack_hint>((*found)->name)});
   }
 }
 
@@ -140,7 +141,11 @@ Sheet choose(const ModelsOptions& options, const bla::Profiles& profiles, Report
     report.fail({Code::usage, say<texts::models_one_parameter>(printable(others[1])),
                  say<texts::models_one_parameter_hint>()});
   } else if (!others.empty()) {
-    choose_parameter(others.front(), profiles, sheet, report);
+    std::string models;
+    for (const std::string& word : options.words) {
+      models += word == others.front() ? "" : (models.empty() ? "" : ", ") + word;
+    }
+    choose_parameter(others.front(), models, profiles, sheet, report);
   }
   if (!others.empty() && !sheet.is_whole()) {
     report.fail(

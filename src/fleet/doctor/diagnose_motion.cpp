@@ -23,14 +23,15 @@ using bla::Address;
 using bla::Level;
 
 /// A pair of limits, and the commands that they hold for.
-struct LimitPair {
+struct CommandLimits {
   Address command, cw, ccw;
 };
 
-constexpr LimitPair angle_limits{at::command_angle, at::angle_limit_cw, at::angle_limit_ccw};
-constexpr LimitPair speed_limits{at::command_speed, at::speed_limit_cw, at::speed_limit_ccw};
-constexpr LimitPair torque_limits{at::command_torque, at::torque_limit_cw, at::torque_limit_ccw};
-constexpr std::array limit_pairs{angle_limits, speed_limits, torque_limits};
+constexpr CommandLimits angle_limits{at::command_angle, at::angle_limit_cw, at::angle_limit_ccw};
+constexpr CommandLimits speed_limits{at::command_speed, at::speed_limit_cw, at::speed_limit_ccw};
+constexpr CommandLimits torque_limits{at::command_torque, at::torque_limit_cw,
+                                      at::torque_limit_ccw};
+constexpr std::array all_limits{angle_limits, speed_limits, torque_limits};
 
 /// Whether findings about a servo show that it cannot follow a command, or help who asks about it.
 enum class Weight : std::uint8_t { obstacle, remark };
@@ -188,8 +189,8 @@ class MotionExamination {
   /// What the output does after a pause in the commands (4.19); empty: it stays, or is unknown.
   [[nodiscard]] std::string timeout_text() const {
     const auto action = held(at::timeout_action);
-    return action == 1   ? say<texts::motion_output_off>()
-           : action == 2 ? say<texts::motion_output_brake>()
+    return action == 1   ? say<texts::motion_timeout_off>()
+           : action == 2 ? say<texts::motion_timeout_brake>()
                          : std::string();
   }
 
@@ -209,7 +210,7 @@ class MotionExamination {
   void not_commanded() {
     const auto time = held(at::timeout_time);
     const auto action =
-        held(at::timeout_action) == 0 ? say<texts::motion_output_hold>() : timeout_text();
+        held(at::timeout_action) == 0 ? say<texts::motion_timeout_hold>() : timeout_text();
     const bool starts_softly = held(at::soft_start) == 1 && held(at::torque_output) == 0;
     add("not_commanded", Level::notice, Weight::remark,
         say<texts::motion_not_commanded>(
@@ -359,7 +360,7 @@ class MotionExamination {
 
   // Limits
 
-  [[nodiscard]] std::vector<Address> zero_sides(const LimitPair& pair) const {
+  [[nodiscard]] std::vector<Address> zero_sides(const CommandLimits& pair) const {
     std::vector<Address> sides;
     for (const Address side : {pair.cw, pair.ccw}) {
       if (held(side) == 0) {
@@ -369,9 +370,11 @@ class MotionExamination {
     return sides;
   }
 
-  [[nodiscard]] std::string zeros(const LimitPair& pair) const { return listed(zero_sides(pair)); }
+  [[nodiscard]] std::string zeros(const CommandLimits& pair) const {
+    return listed(zero_sides(pair));
+  }
 
-  void zero_limits(const LimitPair& pair, std::string code, std::string text) {
+  void zero_limits(const CommandLimits& pair, std::string code, std::string text) {
     const auto sides = zero_sides(pair);
     if (sides.empty() || (control_ != Control::on && control_ != Control::missing)) {
       return;
@@ -387,7 +390,7 @@ class MotionExamination {
       return;
     }
     std::vector<Address> idle;
-    for (const LimitPair& pair : {speed_limits, torque_limits}) {
+    for (const CommandLimits& pair : {speed_limits, torque_limits}) {
       for (const Address side : {pair.cw, pair.ccw}) {
         const bla::Parameter* known = servo_.identity.parameter(side);
         const auto raw = held(side);
@@ -425,7 +428,7 @@ class MotionExamination {
   // A command beyond a limit
 
   void beyond_limits() {
-    for (const LimitPair& pair : limit_pairs) {
+    for (const CommandLimits& pair : all_limits) {
       const bool heeds =
           pair.command == at::command_angle ? zero_sides(pair).size() < 2 : control_ == Control::on;
       if (heeds) {
@@ -434,7 +437,7 @@ class MotionExamination {
     }
   }
 
-  void beyond(const LimitPair& pair) {
+  void beyond(const CommandLimits& pair) {
     for (const Stream& stream : heard_.to_it) {
       if (stream.command.asked && stream.command.asked->reg == pair.command) {
         beyond(pair, stream.by, *stream.command.asked);
@@ -446,7 +449,7 @@ class MotionExamination {
     }
   }
 
-  void beyond(const LimitPair& pair, std::optional<dronecan::NodeId> by,
+  void beyond(const CommandLimits& pair, std::optional<dronecan::NodeId> by,
               const Commander::Asked& asked) {
     // +180.0 deg is reached as +179.9 (4.1)
     constexpr std::int64_t half_turn = 1800;

@@ -9,11 +9,11 @@ inline constexpr Text motion_not_commanded{"node {} is commanded by nobody, as f
                                            "ノード {} への動作指令を受信していません{}{}"};
 inline constexpr Text motion_timeout{"; after {} without a command (timeout_time): {}",
                                      "。指令が {} 途絶えた後 (timeout_time): {}"};
-inline constexpr Text motion_output_hold{"it holds (timeout_action)", "保持 (timeout_action)"};
-inline constexpr Text motion_output_off{"its output is off (timeout_action)",
-                                        "出力 OFF (timeout_action)"};
-inline constexpr Text motion_output_brake{"it brakes (timeout_action)",
-                                          "ブレーキ (timeout_action)"};
+inline constexpr Text motion_timeout_hold{"it holds (timeout_action)", "保持 (timeout_action)"};
+inline constexpr Text motion_timeout_off{"its output is off (timeout_action)",
+                                         "出力 OFF (timeout_action)"};
+inline constexpr Text motion_timeout_brake{"it brakes (timeout_action)",
+                                           "ブレーキ (timeout_action)"};
 inline constexpr Text motion_soft_start{
     "; by itself it only runs slowly to 0 deg after a start (soft_start)",
     "。自ら動作するのは起動直後の 0° へのソフトスタートのみです (soft_start)"};

@@ -431,7 +431,7 @@ TEST_CASE("what is not understood is refused") {
   refused({"scan", "extra"});
   refused({"get", "-n"});
   refused({"set"});
-  refused({"models", "a", "b", "c"});
+  refused({"sim", "a", "b"});
   refused({"get", "--expect", "1"}); // of another command
 }
 
