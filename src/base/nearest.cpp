@@ -1,5 +1,7 @@
 #include "blactl/base/nearest.hpp"
 
+#include "blactl/base/letter_case.hpp"
+
 #include <algorithm>
 #include <compare>
 #include <string>
@@ -18,7 +20,7 @@ std::string squeezed(std::string_view text) {
   std::string out;
   for (const char c : text) {
     if (!is_separator(c)) {
-      out += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+      out += lower(c);
     }
   }
   return out;

@@ -1,5 +1,7 @@
 #include "blactl/bla/parameter.hpp"
 
+#include "blactl/base/letter_case.hpp"
+
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -96,9 +98,9 @@ const Choice* Parameter::choice(std::int64_t raw) const {
 }
 
 bool mentions(const Parameter& parameter, std::string_view text) {
-  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; };
+  const std::string sought = lower(text);
   const auto has_it = [&](std::string_view one) {
-    return !std::ranges::search(one, text, {}, lower, lower).empty();
+    return lower(one).find(sought) != std::string::npos;
   };
   return has_it(parameter.name) || has_it(parameter.name_en) || has_it(parameter.name_ja) ||
          has_it(parameter.vendor_label) || has_it(parameter.meaning_en) ||

@@ -1,5 +1,6 @@
 #include "blactl/bla/profile.hpp"
 
+#include "blactl/base/letter_case.hpp"
 #include "blactl/base/nearest.hpp"
 #include "blactl/base/texts.hpp"
 

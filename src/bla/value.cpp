@@ -2,6 +2,7 @@
 
 #include "blactl/bla/value.hpp"
 
+#include "blactl/base/letter_case.hpp"
 #include "blactl/bla/profile.hpp"
 
 #include "bla/texts.hpp"
@@ -177,7 +178,7 @@ class ValueParser {
 
   [[nodiscard]] Result<TypedValue> word() const {
     for (const Choice& choice : parameter_.choices) {
-      if (lower(choice.word) == lower(text_)) {
+      if (same_word(choice.word, text_)) {
         return TypedValue{choice.raw, std::nullopt};
       }
     }

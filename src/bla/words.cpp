@@ -2,17 +2,7 @@
 
 #include "bla/texts.hpp"
 
-#include <algorithm>
-
 namespace blactl::bla {
-
-std::string lower(std::string_view text) {
-  std::string out(text);
-  std::ranges::transform(out, out.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
-  return out;
-}
 
 std::string either(const std::vector<std::string>& words) {
   std::string all;

@@ -1,6 +1,7 @@
 #pragma once
 // The words and numbers that lines of logs are made of. Nothing here allocates.
 
+#include "blactl/base/letter_case.hpp"
 #include "blactl/base/time.hpp"
 
 #include <algorithm>
@@ -125,14 +126,6 @@ class Words {
   static constexpr std::string_view blanks = " \t";
   std::string_view rest_;
 };
-
-/// Whether both are the same but for the case of ASCII letters.
-constexpr bool same_word(std::string_view a, std::string_view b) {
-  constexpr auto lower = [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  };
-  return std::ranges::equal(a, b, {}, lower, lower);
-}
 
 /// The line without its end.
 constexpr std::string_view without_line_end(std::string_view line) {

@@ -1,5 +1,6 @@
 // blactl models: the profiles as an offline reference.
 
+#include "blactl/base/letter_case.hpp"
 #include "blactl/bla/profile.hpp"
 #include "blactl/fleet/bus/register_choice.hpp"
 
@@ -55,9 +56,7 @@ constexpr Option models_arguments[]{
 using Models = std::vector<const bla::Profile*>;
 
 bool begins_with(std::string_view word, std::string_view beginning) {
-  return word.size() >= beginning.size() &&
-         std::ranges::equal(word.substr(0, beginning.size()), beginning,
-                            [](char a, char b) { return a == b || a == b - 'a' + 'A'; });
+  return same_word(word.substr(0, beginning.size()), beginning);
 }
 
 Models all_models(const bla::Profiles& profiles) {

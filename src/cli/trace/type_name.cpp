@@ -1,5 +1,6 @@
 #include "cli/trace/type_name.hpp"
 
+#include "blactl/base/letter_case.hpp"
 #include "blactl/dronecan/standard_types.hpp"
 
 #include <algorithm>
@@ -7,13 +8,8 @@
 namespace blactl::cli {
 namespace {
 
-char lower(char c) {
-  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-}
-
 bool ends_with(std::string_view name, std::string_view end) {
-  return name.size() >= end.size() &&
-         std::ranges::equal(name.substr(name.size() - end.size()), end, {}, lower, lower);
+  return name.size() >= end.size() && same_word(name.substr(name.size() - end.size()), end);
 }
 
 } // namespace

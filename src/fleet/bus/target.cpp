@@ -1,6 +1,7 @@
 #include "blactl/fleet/bus/target.hpp"
 
 #include "blactl/base/hex.hpp"
+#include "blactl/base/letter_case.hpp"
 #include "blactl/bla/profile.hpp"
 #include "blactl/fleet/bus/target_texts.hpp"
 
@@ -31,13 +32,6 @@ std::optional<dronecan::NodeId> node_id(std::string_view text) {
   return value && *value >= 1 && *value <= dronecan::NodeId::max
              ? std::optional(dronecan::NodeId(static_cast<std::uint8_t>(*value)))
              : std::nullopt;
-}
-
-std::string lower(std::string_view text) {
-  std::string out(text);
-  std::ranges::transform(out, out.begin(),
-                         [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
-  return out;
 }
 
 bool is_number(std::string_view text) {
