@@ -8,6 +8,7 @@
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -264,6 +265,18 @@ TEST_CASE("doctor only reads: a servo that does not move is as it was") {
   const Result sent = bench.run({"trace", log, "--type", "GetSet", "--kind", "request", "-j"});
   CHECK(contains(sent.out, "\"empty\""));
   CHECK_FALSE(contains(sent.out, "integer_value"));
+}
+
+TEST_CASE("the trial that doctor offers is within the limits of the servo") {
+  for (const auto& [cw, ccw, offered] :
+       {std::tuple("5deg", "-90deg", "angle=-10deg"), std::tuple("5deg", "-3deg", "angle=5deg"),
+        std::tuple("90deg", "-90deg", "angle=10deg")}) {
+    const Scene scene = servo({{"angle_limit_cw", cw}, {"angle_limit_ccw", ccw}});
+    const auto found = findings(scene, {"doctor", "-n", "11", "-j"});
+    REQUIRE(found[0]["code"] == "not_commanded");
+    CHECK(contains(found[0]["fix"].get<std::string>(), offered));
+    CHECK(scene.run({"command", "-n", "11", offered, "--duration", "1", "-y"}).status == 0);
+  }
 }
 
 TEST_CASE("doctor says so where it was asked about a servo that it did not read") {

@@ -18,11 +18,10 @@ inline constexpr Text motion_soft_start{
     "; by itself it only runs slowly to 0 deg after a start (soft_start)",
     "。自ら動作するのは起動直後の 0° へのソフトスタートのみです (soft_start)"};
 inline constexpr Text motion_not_commanded_fix{
-    "let a controller command servo ID {}; or see whether it moves: blactl command -n {} "
-    "angle=10deg",
-    "制御側からサーボ ID {} に指令して下さい。動作確認: blactl command -n {} angle=10deg"};
-inline constexpr Text motion_try_fix{"see whether it moves: blactl command -n {} angle=10deg",
-                                     "動作確認: blactl command -n {} angle=10deg"};
+    "let a controller command servo ID {}; or see whether it moves: blactl command -n {} {}",
+    "制御側からサーボ ID {} に指令して下さい。動作確認: blactl command -n {} {}"};
+inline constexpr Text motion_try_fix{"see whether it moves: blactl command -n {} {}",
+                                     "動作確認: blactl command -n {} {}"};
 inline constexpr Text motion_rarely_commanded{
     "node {} commands node {} once in {} ms; in between, after {} without a command "
     "(timeout_time): {}",
