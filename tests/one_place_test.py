@@ -52,8 +52,8 @@ RULES = {
     "enters a node ID into the allocation table": (
         r"(store|table)_?(\.|->)(enter|allocate)\(",
         {"src/fleet/change/allocation_service.cpp", "src/fleet/change/carry_out_rounds.cpp",
-         # IDs that were found as wished, or that a person wishes.
-         "src/fleet/change/static_ids.cpp",
+         # IDs that were seen, or that a person wishes.
+         "src/fleet/change/table_entries.cpp",
          # What a person imports, before any servo is asked.
          "src/cli/alloc/allocation_table.cpp"}),
 }

@@ -285,8 +285,10 @@ Result<Allocation> AllocationStore::allocate(const UniqueId& unique_id,
                                              const AllocationChoice& choice, WallTime now) {
   auto allocated = file_->transact(
       [&](const Database& database) { return known_or_new(database, unique_id, choice, now); });
-  const bool is_answer = allocated || choice.is_lost;
-  const auto known = is_answer ? Result<std::optional<AllocationEntry>>() : find(unique_id);
+  if (allocated || choice.is_lost) {
+    return allocated;
+  }
+  const auto known = find(unique_id); // its time could not be renewed: it has its ID all the same
   return known && *known ? Result<Allocation>({.node_id = (*known)->node_id}) : allocated;
 }
 

@@ -593,6 +593,18 @@ TEST_CASE("an ID for the time being is no reason to leave the order of serial nu
   CHECK(by_serial(bench) == std::map<int, int>{{1, 122}, {2, 123}, {3, 124}, {4, 125}});
 }
 
+TEST_CASE("the ID that one servo is to get is nobody's for the time being") {
+  for (const int servo : {1, 2, 3}) {
+    const Bench bench;
+    const Background sim(bench, {"sim", scenario(bench, 3)});
+    const Result result = bench.run({"-i", "sim:", "alloc", "--static", "--assign",
+                                     "serial:" + std::to_string(servo) + "=125", "-y", "-j"});
+    INFO(result.out << result.err);
+    CHECK(result.status == 0);
+    CHECK(by_serial(bench)[servo] == 125);
+  }
+}
+
 TEST_CASE("one servo named twice is refused, however it is named") {
   const Bench bench;
   const Background sim(bench, {"sim", scenario(bench, 1)});

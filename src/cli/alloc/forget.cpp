@@ -2,7 +2,8 @@
 
 #include "blactl/base/hex.hpp"
 #include "blactl/fleet/bus/discovery.hpp"
-#include "blactl/fleet/change/static_ids.hpp"
+#include "blactl/fleet/change/table_entries.hpp"
+#include "blactl/fleet/change/wanted_ids.hpp"
 
 #include "cli/alloc/actions.hpp"
 #include "cli/alloc/texts.hpp"

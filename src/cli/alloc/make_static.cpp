@@ -1,4 +1,6 @@
 #include "blactl/fleet/change/static_ids.hpp"
+#include "blactl/fleet/change/table_entries.hpp"
+#include "blactl/fleet/change/wanted_ids.hpp"
 
 #include "cli/alloc/actions.hpp"
 #include "cli/alloc/texts.hpp"
@@ -42,23 +44,33 @@ class StaticWishes {
     if (wanted_.empty() || wishes_.size() < wanted_.size()) {
       return let_all_in();
     }
-    auto left = fleet::let_in(context_.session(), table_, wishes_);
-    if (!left) {
-      return std::unexpected(std::move(left.error()));
+    auto done = fleet::let_in(context_.session(), table_, wishes_);
+    if (!done) {
+      return std::unexpected(std::move(done.error()));
     }
-    not_let_in_ = std::move(*left);
+    tell(fleet::taken_over(done->allocated));
+    not_let_in_ = std::move(done->left);
     return {};
   }
 
  private:
+  void tell(const std::vector<std::string>& notes) const {
+    for (const std::string& note : notes) {
+      context_.reporter().note(note);
+    }
+  }
+
+  /// Not under an ID that is wished for one of them.
   [[nodiscard]] Result<void> let_all_in() {
-    const auto asked = fleet::let_in(context_.session(), table_, std::nullopt);
+    state::NodeIds wished;
+    for (const fleet::WantedId& wanted : wanted_) {
+      wished.set(wanted.node_id.value());
+    }
+    const auto asked = fleet::let_in(context_.session(), table_, std::nullopt, wished);
     if (!asked) {
       return std::unexpected(asked.error());
     }
-    for (const std::string& note : fleet::taken_over(*asked)) {
-      context_.reporter().note(note);
-    }
+    tell(fleet::taken_over(*asked));
     for (const fleet::AllocatedUnit& unit : *asked) {
       if (unit.is_new) {
         newcomers_.insert(unit.unique_id);
@@ -78,7 +90,7 @@ class StaticWishes {
       wishes_ = std::move(*wishes);
       return {};
     }
-    auto found = fleet::wishes_of(wanted_, whom.roster, context_.known());
+    auto found = fleet::units_meant(wanted_, whom.roster, context_.known());
     wishes_ = std::move(found.wishes);
     return std::move(found.errors);
   }

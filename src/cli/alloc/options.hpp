@@ -5,7 +5,7 @@
 #include "blactl/base/time.hpp"
 #include "blactl/fleet/bus/target.hpp"
 #include "blactl/fleet/change/allocation_service.hpp"
-#include "blactl/fleet/change/static_ids.hpp"
+#include "blactl/fleet/change/wanted_ids.hpp"
 
 #include <chrono>
 #include <cstdint>

@@ -1,7 +1,8 @@
 #include "blactl/base/hex.hpp"
 #include "blactl/fleet/bus/discovery.hpp"
 #include "blactl/fleet/bus/ticker.hpp"
-#include "blactl/fleet/change/static_ids.hpp"
+#include "blactl/fleet/change/table_entries.hpp"
+#include "blactl/fleet/change/wanted_ids.hpp"
 
 #include "cli/alloc/actions.hpp"
 #include "cli/alloc/texts.hpp"
@@ -97,7 +98,7 @@ void Serve::begin() {
 /// What a person wishes is taken over from a unit that is not on this bus. Returns whether all
 /// wishes are entered.
 bool Serve::enter_wishes() {
-  auto [wishes, errors] = fleet::wishes_of(wanted_, session().roster(), context_.known());
+  auto [wishes, errors] = fleet::units_meant(wanted_, session().roster(), context_.known());
   for (const AllocationStore::Wish& wish : wishes) {
     auto may = fleet::may_have(session().roster(), wish.unique_id, wish.node_id);
     if (!may) {

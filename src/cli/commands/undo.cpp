@@ -74,10 +74,12 @@ class Undo {
 
   [[nodiscard]] Goals find(const Whom& whom) {
     Goals goals;
-    if (whom.targets.given) {
-      std::ranges::for_each(whom.selected, [&](dronecan::NodeId id) { of_node(id, whom, goals); });
-    } else {
+    if (!whom.targets.given) {
       of_all(whom, goals);
+    } else if (options_.to) {
+      of_nodes_since(whom, goals);
+    } else {
+      std::ranges::for_each(whom.selected, [&](dronecan::NodeId id) { of_node(id, whom, goals); });
     }
     return goals;
   }
@@ -88,8 +90,7 @@ class Undo {
 
  private:
   [[nodiscard]] Result<std::vector<fleet::Undoing>> changes() const;
-  [[nodiscard]] Result<std::optional<fleet::Undoing>>
-  change_of(const dronecan::UniqueId& unit) const;
+  void of_nodes_since(const Whom& whom, Goals& goals);
   void of_all(const Whom& whom, Goals& goals);
   void of_node(dronecan::NodeId id, const Whom& whom, Goals& goals);
   void take_back(const fleet::Undoing& change, dronecan::NodeId id, Goals& goals);
@@ -107,17 +108,25 @@ Result<std::vector<fleet::Undoing>> Undo::changes() const {
                      : fleet::last_changes(store_);
 }
 
-Result<std::optional<fleet::Undoing>> Undo::change_of(const dronecan::UniqueId& unit) const {
-  if (!options_.to) {
-    return fleet::last_change(store_, unit);
+/// With -n and --to.
+void Undo::of_nodes_since(const Whom& whom, Goals& goals) {
+  const auto changes = this->changes();
+  if (!changes) {
+    goals.errors.push_back(changes.error());
+    return;
   }
-  auto all = changes();
-  if (!all) {
-    return std::unexpected(std::move(all.error()));
+  for (const dronecan::NodeId id : whom.selected) {
+    const auto unit = whom.roster.member(id).servo().unique_id;
+    const auto change = std::ranges::find_if(
+        *changes, [&](const fleet::Undoing& each) { return each.entry.unique_id == unit; });
+    if (change != changes->end()) {
+      take_back(*change, id, goals);
+    } else {
+      goals.errors.push_back({Code::not_found,
+                              say<texts::undo_nothing_of_node_since>(id.value(), *options_.to),
+                              say<texts::undo_see_list_hint>(), id.value()});
+    }
   }
-  const auto found = std::ranges::find(
-      *all, unit, [](const fleet::Undoing& each) { return each.entry.unique_id; });
-  return found != all->end() ? std::optional(std::move(*found)) : std::nullopt;
 }
 
 /// Without -n: all servos that were changed, wherever they are now.
@@ -159,16 +168,14 @@ void Undo::of_all(const Whom& whom, Goals& goals) {
 
 void Undo::of_node(dronecan::NodeId id, const Whom& whom, Goals& goals) {
   const auto unique_id = whom.roster.member(id).servo().unique_id;
-  const auto change = unique_id ? change_of(*unique_id) : Result<std::optional<fleet::Undoing>>();
+  const auto change =
+      unique_id ? fleet::last_change(store_, *unique_id) : Result<std::optional<fleet::Undoing>>();
   if (!change) {
     goals.errors.push_back(change.error());
   } else if (*change) {
     take_back(**change, id, goals);
   } else {
-    goals.errors.push_back({Code::not_found,
-                            options_.to
-                                ? say<texts::undo_nothing_of_node_since>(id.value(), *options_.to)
-                                : say<texts::undo_nothing_of_node>(id.value()),
+    goals.errors.push_back({Code::not_found, say<texts::undo_nothing_of_node>(id.value()),
                             say<texts::undo_see_list_hint>(), id.value()});
   }
 }

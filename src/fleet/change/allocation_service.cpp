@@ -5,7 +5,7 @@
 #include "blactl/fleet/bus/unreachable.hpp"
 
 #include "fleet/change/id_holders.hpp"
-#include "fleet/change/texts.hpp"
+#include "fleet/change/id_texts.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -267,6 +267,7 @@ std::optional<NodeId> AllocationService::give(AllocatedUnit& unit, state::Alloca
   if (!bus_is_known_) {
     return std::nullopt;
   }
+  choice.taken = avoided_;
   choice.first = range_.first;
   choice.last = range_.last;
   const auto given = allocate(session_, store_, unit.unique_id, choice);
@@ -353,12 +354,13 @@ std::size_t AllocationService::free_ids() const {
 
 Result<state::Allocation> allocate(const Session& session, state::AllocationStore& table,
                                    const UniqueId& unique_id, state::AllocationChoice choice) {
-  choice.taken = session.roster().ids_in_use(unique_id);
+  choice.taken |= session.roster().ids_in_use(unique_id);
   return table.allocate(unique_id, choice, session.wall());
 }
 
 Result<std::vector<AllocatedUnit>> let_in(Session& session, state::AllocationStore& table,
-                                          std::optional<std::vector<UniqueId>> units) {
+                                          std::optional<std::vector<UniqueId>> units,
+                                          const state::NodeIds& avoided) {
   if (!session.roster().allocators().empty()) {
     return {}; // another allocator does it
   }
@@ -368,6 +370,7 @@ Result<std::vector<AllocatedUnit>> let_in(Session& session, state::AllocationSto
     progress = event == Event::assigned || event == Event::kept ? session.now() : progress;
   });
   service.bus_is_known();
+  service.avoid(avoided);
   if (units) {
     service.serve_only(std::move(*units));
   }
@@ -399,8 +402,8 @@ std::vector<std::string> taken_over(std::span<const AllocatedUnit> units) {
   return notes;
 }
 
-Result<NotLetIn> let_in(Session& session, state::AllocationStore& table,
-                        std::span<const state::AllocationStore::Wish> wishes) {
+Result<LetIn> let_in(Session& session, state::AllocationStore& table,
+                     std::span<const state::AllocationStore::Wish> wishes) {
   using Wish = state::AllocationStore::Wish;
   const Roster& roster = session.roster();
   const auto is_missing = [&](const Wish& wish) { return !is_here(roster, wish.unique_id); };
@@ -410,10 +413,17 @@ Result<NotLetIn> let_in(Session& session, state::AllocationStore& table,
   if (missing.empty() || roster.pending().empty() || !roster.allocators().empty()) {
     return {};
   }
+  LetIn done;
   for (const Wish& wish : missing) {
-    const auto id = allocate(session, table, wish.unique_id, {.preferred = wish.node_id});
-    if (!id) {
-      return std::unexpected(id.error());
+    const auto given = allocate(session, table, wish.unique_id, {.preferred = wish.node_id});
+    if (!given) {
+      return std::unexpected(given.error());
+    }
+    if (given->is_new) {
+      done.allocated.push_back({.unique_id = wish.unique_id,
+                                  .node_id = given->node_id,
+                                  .is_new = true,
+                                  .former = given->former});
     }
   }
   // no other unit gets an ID from it: those not in the table wait until the bus is known
@@ -423,14 +433,13 @@ Result<NotLetIn> let_in(Session& session, state::AllocationStore& table,
   if (!lived) {
     return std::unexpected(lived.error());
   }
-  NotLetIn left;
   for (const auto& [unique_id, unit] : service.units()) {
     if (unit.node_id.is_unicast() && !is_here(roster, unique_id)) {
-      left.emplace(unique_id, service.refusal(unit).value_or(service.absence(unit)));
+      done.left.emplace(unique_id, service.refusal(unit).value_or(service.absence(unit)));
     }
   }
   const auto ran = session.run();
-  return ran ? Result<NotLetIn>(std::move(left)) : std::unexpected(ran.error());
+  return ran ? Result<LetIn>(std::move(done)) : std::unexpected(ran.error());
 }
 
 } // namespace blactl::fleet

@@ -3,7 +3,7 @@
 #include "blactl/base/hex.hpp"
 #include "blactl/dronecan/allocator.hpp"
 
-#include "fleet/change/texts.hpp"
+#include "fleet/change/id_texts.hpp"
 
 #include <algorithm>
 #include <chrono>

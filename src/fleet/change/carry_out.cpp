@@ -7,6 +7,7 @@
 #include "blactl/fleet/bus/ticker.hpp"
 #include "blactl/fleet/change/former_ids.hpp"
 
+#include "fleet/change/id_texts.hpp"
 #include "fleet/change/last_look.hpp"
 #include "fleet/change/texts.hpp"
 

@@ -6,6 +6,7 @@
 #include "blactl/fleet/change/guard.hpp"
 
 #include "fleet/change/id_holders.hpp"
+#include "fleet/change/id_texts.hpp"
 #include "fleet/change/rounds.hpp"
 #include "fleet/change/texts.hpp"
 

@@ -4,7 +4,7 @@
 #include "blactl/fleet/bus/conflict_texts.hpp"
 #include "blactl/fleet/change/allocation_service.hpp"
 
-#include "fleet/change/texts.hpp"
+#include "fleet/change/id_texts.hpp"
 
 #include <algorithm>
 #include <ranges>

@@ -15,25 +15,35 @@ using dronecan::UniqueId;
 
 namespace {
 
+/// Commands that bring a fleet to a goal: what is done of it for one servo is not done before all.
+bool has_one_goal(std::string_view command) {
+  return command == "apply" || command == "alloc --static";
+}
+
 /// Commands that complete an unfinished run when repeated.
 bool is_repeated_as_a_whole(std::string_view command) {
-  return command == "apply" || command == "undo" || command == "alloc --static" ||
-         command == erase_keeping_ids;
+  return has_one_goal(command) || command == "undo" || command == erase_keeping_ids;
 }
 
 } // namespace
 
+/// The last change of this unit, if a try of this command has made it and did not end. Empty: it is
+/// another.
+Result<std::optional<state::SnapshotEntry>> History::unfinished(const UniqueId& unit) const {
+  auto last = is_repeated_as_a_whole(command_) ? snapshots_.last(unit)
+                                               : Result<std::optional<state::SnapshotEntry>>();
+  const bool is_other = last && *last && ((*last)->ended || (*last)->command != command_);
+  return is_other ? Result<std::optional<state::SnapshotEntry>>() : last;
+}
+
 Result<void> History::go_on(std::span<const UniqueId> units) {
-  if (!is_repeated_as_a_whole(command_)) {
-    return {};
-  }
   for (const UniqueId& unit : units) {
-    const auto last = snapshots_.last(unit);
-    if (!last) {
-      return std::unexpected(last.error());
+    const auto tried = unfinished(unit);
+    if (!tried) {
+      return std::unexpected(tried.error());
     }
-    if (*last && !(*last)->ended && (*last)->command == command_) {
-      run_ = joined_ = std::max(run_, (*last)->run);
+    if (*tried) {
+      run_ = joined_ = std::max(run_, (*tried)->run);
     }
   }
   return {};
@@ -45,15 +55,12 @@ Result<void> History::go_on(std::span<const UniqueId> units) {
 Result<void> History::resume(const Plan& plan, const Session& session) {
   const Servo& servo = plan.before.servo;
   const UniqueId& unique_id = *servo.unique_id;
-  if (!is_repeated_as_a_whole(command_) || kept_.contains(unique_id)) {
+  if (kept_.contains(unique_id)) {
     return {};
   }
-  auto last = snapshots_.last(unique_id);
-  if (!last) {
-    return std::unexpected(last.error());
-  }
-  if (!*last || (*last)->ended || (*last)->command != command_) {
-    return {};
+  auto last = unfinished(unique_id);
+  if (!last || !*last) {
+    return last ? Result<void>() : std::unexpected(last.error());
   }
   state::SnapshotEntry& tried = **last;
   const bool has_restarted = is_over(tried, plan.before, session);
@@ -165,8 +172,8 @@ History::former_numbers(std::span<const state::SnapshotEntry> entries) const {
 }
 
 Result<void> History::end(std::span<const UniqueId> units, bool are_all) {
-  const bool goes_on = !are_all && command_ != "undo" && command_ != erase_keeping_ids;
-  return is_repeated_as_a_whole(command_) && !units.empty() && !goes_on
+  const bool has_ended = are_all || !has_one_goal(command_);
+  return is_repeated_as_a_whole(command_) && has_ended && !units.empty()
              ? snapshots_.end(units, command_)
              : Result<void>();
 }

@@ -5,7 +5,7 @@
 #include "blactl/fleet/bus/read_job.hpp"
 #include "blactl/fleet/change/history.hpp"
 
-#include "fleet/change/texts.hpp"
+#include "fleet/change/id_texts.hpp"
 
 #include <algorithm>
 #include <array>

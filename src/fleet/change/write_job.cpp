@@ -6,6 +6,7 @@
 #include "blactl/fleet/bus/texts.hpp"
 #include "blactl/fleet/bus/unreachable.hpp"
 
+#include "fleet/change/id_texts.hpp"
 #include "fleet/change/texts.hpp"
 
 #include <algorithm>

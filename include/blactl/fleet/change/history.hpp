@@ -131,6 +131,8 @@ class History {
   struct Settled;
   void settle(const ChangeResult& result, WallTime wall, Settled& settled);
   [[nodiscard]] Result<void> settle(std::span<const ChangeResult> results, WallTime wall);
+  [[nodiscard]] Result<std::optional<state::SnapshotEntry>>
+  unfinished(const dronecan::UniqueId& unit) const;
   [[nodiscard]] Result<void> resume(const Plan& plan, const Session& session);
   [[nodiscard]] static bool is_over(const state::SnapshotEntry& tried, const Snapshot& ram,
                                     const Session& session);
