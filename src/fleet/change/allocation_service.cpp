@@ -421,9 +421,9 @@ Result<LetIn> let_in(Session& session, state::AllocationStore& table,
     }
     if (given->is_new) {
       done.allocated.push_back({.unique_id = wish.unique_id,
-                                  .node_id = given->node_id,
-                                  .is_new = true,
-                                  .former = given->former});
+                                .node_id = given->node_id,
+                                .is_new = true,
+                                .former = given->former});
     }
   }
   // no other unit gets an ID from it: those not in the table wait until the bus is known
