@@ -67,7 +67,7 @@ _blactl_offer_nodes() {
   fi
 }
 
-_blactl_commands='scan alloc get set save erase restart wait faults pwm-config export diff apply undo monitor command trace doctor characterize models sim'
+_blactl_commands='scan alloc get set save erase restart wait faults pwm-config export diff apply replace undo monitor command trace doctor characterize models sim'
 _blactl_models='BLA15-06U-A0 BLA15-12U-A0 BLA21-06U-A0 BLA21-06U-AB BLA21-12U-A0 BLA21-12U-AB BLA21-28U-A0 BLA21-28U-AB BLA34-12U-AB BLA34-28U-AB'
 _blactl_parameters='command_angle command_speed command_torque current_angle current_speed current_torque current_temperature current_voltage fault_summary fault_notice fault_warning fault_failure torque_output soft_start smoothing reverse extended_angle speed_torque_control timeout_action timeout_time overcurrent_limit angle_p_gain angle_d_gain angle_dead_band angle_boost speed_p_gain speed_i_gain speed_dead_band speed_i_limit pwm_neutral pwm_range pwm_output_range pwm_mode angle_limit_cw angle_limit_ccw speed_limit_cw speed_limit_ccw torque_limit_cw torque_limit_ccw temperature_limit_high temperature_limit_low voltage_limit_high voltage_limit_low origin servo_id static_node_id model_number serial_number firmware_version hardware_version production_year production_month production_day production_hour production_minute'
 _blactl_settable='command_angle= command_speed= command_torque= torque_output= soft_start= smoothing= reverse= extended_angle= speed_torque_control= timeout_action= timeout_time= overcurrent_limit= angle_p_gain= angle_d_gain= angle_dead_band= angle_boost= speed_p_gain= speed_i_gain= speed_dead_band= speed_i_limit= pwm_neutral= pwm_range= pwm_output_range= pwm_mode= angle_limit_cw= angle_limit_ccw= speed_limit_cw= speed_limit_ccw= torque_limit_cw= torque_limit_ccw= temperature_limit_high= temperature_limit_low= voltage_limit_high= voltage_limit_low= origin= servo_id= static_node_id= bootloader='
@@ -120,6 +120,7 @@ _blactl_option() {
     apply:--events) kind='file' ;;
     apply:--wait) kind='seconds' ;;
     apply:--stagger) kind='seconds' ;;
+    replace:--wait) kind='seconds' ;;
     undo:--to) kind='whole' ;;
     undo:--wait) kind='seconds' ;;
     undo:--stagger) kind='seconds' ;;
@@ -150,6 +151,8 @@ _blactl_argument() {
     export:0) kind='file' ;;
     diff:*) kind='file' ;;
     apply:0) kind='file' ;;
+    replace:0) kind='file' ;;
+    replace:1) kind='text' ;;
     command:0) kind='beginning' value_words='angle= speed= torque=' ;;
     trace:0) kind='file' ;;
     characterize:0) kind='file' ;;
@@ -173,6 +176,7 @@ _blactl_options() {
     pwm-config) echo '--neutral --range --output --mode --endpoints --preset --svg --save --dry-run --wait --stagger' ;;
     export) echo '--recipe --params' ;;
     apply) echo '--dry-run --plan --entry --no-save --trust-ram --fail-fast --events --no-snapshot --check --wait --stagger' ;;
+    replace) echo '--dry-run --no-snapshot --wait' ;;
     undo) echo '--list --to --dry-run --no-save --wait --stagger' ;;
     monitor) echo '--rate --fields --duration --count --identify' ;;
     command) echo '--duration --wiggle --array --svg' ;;

@@ -240,6 +240,7 @@ complete -c blactl -n __blactl_needs_command -a pwm-config -d 'how PWM pulses be
 complete -c blactl -n __blactl_needs_command -a export -d 'the configuration of servos as a file for apply'
 complete -c blactl -n __blactl_needs_command -a diff -d 'servos against a fleet file, or file against file'
 complete -c blactl -n __blactl_needs_command -a apply -d 'bring servos to a fleet file, proven after a restart'
+complete -c blactl -n __blactl_needs_command -a replace -d 'give a new servo the place of a broken one, and name it in the fleet file'
 complete -c blactl -n __blactl_needs_command -a undo -d 'back to what servos held before the last change'
 complete -c blactl -n __blactl_needs_command -a monitor -d 'live values of servos: a table, graphs, or a stream'
 complete -c blactl -n __blactl_needs_command -a command -d 'moves one servo for a bounded time, and shows how it follows'
@@ -341,6 +342,12 @@ complete -c blactl -n '__blactl_in apply' -l check -d 'only check FILE against t
 complete -c blactl -n '__blactl_in apply' -l wait -r -f -d 'how long a servo may take to come back (default 5, and 2 for each that asks for a node ID)'
 complete -c blactl -n '__blactl_in apply' -l stagger -r -f -d 'pause between two servos (default 0)'
 complete -c blactl -n '__blactl_argument apply 1' -F
+
+complete -c blactl -n '__blactl_in replace' -l dry-run -d 'change nothing; exit status 8 when something would be done'
+complete -c blactl -n '__blactl_in replace' -l no-snapshot -d 'go on even if the settings of the servo cannot be recorded for `undo`'
+complete -c blactl -n '__blactl_in replace' -l wait -r -f -d 'how long a servo may take to come back (default 5, and 2 for each that asks for a node ID)'
+complete -c blactl -n '__blactl_argument replace 1' -F
+complete -c blactl -n '__blactl_argument replace 2' -f
 
 complete -c blactl -n '__blactl_in undo' -l list -d 'show the changes that are recorded, without a bus'
 complete -c blactl -n '__blactl_in undo' -l to -r -f -d 'before the command with this number of --list'

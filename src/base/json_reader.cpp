@@ -64,22 +64,22 @@ std::string reason_of(const std::string& what) {
 class Builder {
  public:
   Builder(std::string_view text, std::string file)
-      : counted_(text.data()), reached_(text.data()), faults_(std::move(file)) {}
+      : text_(text), counted_(text.data()), reached_(text.data()), faults_(std::move(file)) {}
 
   const char** reached() { return &reached_; }
 
   bool null() {
-    add(Kind::null);
+    add_scalar(Kind::null);
     return true;
   }
 
   bool boolean(bool value) {
-    add(Kind::boolean).boolean = value;
+    add_scalar(Kind::boolean).boolean = value;
     return true;
   }
 
   bool number_integer(std::int64_t value) {
-    Value& made = add(Kind::integer);
+    Value& made = add_scalar(Kind::integer);
     made.integer = value;
     made.real = static_cast<double>(value);
     return true;
@@ -87,7 +87,7 @@ class Builder {
 
   bool number_unsigned(std::uint64_t value) {
     if (value > static_cast<std::uint64_t>(highest)) {
-      too_big(add(Kind::integer), std::to_string(value));
+      too_big(add_scalar(Kind::integer), std::to_string(value));
       return true;
     }
     return number_integer(static_cast<std::int64_t>(value));
@@ -96,17 +96,17 @@ class Builder {
   bool number_float(double value, const std::string& digits) {
     // The parser treats integers beyond 64 bits as reals.
     if (digits.find_first_of(".eE") == std::string::npos) {
-      too_big(add(Kind::integer), digits);
+      too_big(add_scalar(Kind::integer), digits);
       return true;
     }
-    Value& made = add(Kind::real);
+    Value& made = add_scalar(Kind::real);
     made.real = value;
     made.text = digits;
     return true;
   }
 
   bool string(std::string& value) {
-    add(Kind::string).text = std::move(value);
+    add_scalar(Kind::string).text = std::move(value);
     return true;
   }
 
@@ -116,6 +116,7 @@ class Builder {
 
   bool key(std::string& value) {
     key_ = std::move(value);
+    read_ = position();
     return true;
   }
 
@@ -163,6 +164,24 @@ class Builder {
     return line_;
   }
 
+  [[nodiscard]] std::size_t position() const {
+    return static_cast<std::size_t>(reached_ - text_.data());
+  }
+
+  /// Between two tokens there is nothing but these; of a number the parser has already taken the
+  /// next character.
+  Value& add_scalar(Kind kind) {
+    constexpr std::string_view between = " \t\r\n,:[]{}";
+    Value& value = add(kind);
+    value.begin = text_.find_first_not_of(between, read_);
+    value.end = position();
+    if (kind == Kind::integer || kind == Kind::real) {
+      value.end = std::min(text_.find_first_of(between, value.begin), text_.size());
+    }
+    read_ = value.end;
+    return value;
+  }
+
   Value& add(Kind kind) {
     Value& value = values_->emplace_back();
     value.kind = kind;
@@ -203,8 +222,10 @@ class Builder {
     }
   }
 
-  const char* counted_; ///< line_ counts the line ends before here
-  const char* reached_; ///< behind the last character that the parser took
+  std::string_view text_;
+  std::size_t read_ = 0; ///< the end of the last key or scalar
+  const char* counted_;  ///< line_ counts the line ends before here
+  const char* reached_;  ///< behind the last character that the parser took
   std::size_t line_ = 1;
   std::unique_ptr<std::deque<Value>> values_ = std::make_unique<std::deque<Value>>();
   std::vector<Value*> open_; ///< the arrays and objects around the next value

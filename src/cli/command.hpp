@@ -95,6 +95,7 @@ struct Option {
 struct Traits {
   bool writes = false;       ///< changes servos; without -n there must be exactly one
   bool from_file = false;    ///< its file names the servos
+  bool for_newcomer = false; ///< without -n it concerns the servo that no entry of its file means
   bool from_history = false; ///< without -n it concerns the servos changed by the last command
   bool streams = false;      ///< prints one object per line while it runs
   bool tables = false;       ///< takes --csv

@@ -102,6 +102,8 @@ std::vector<std::string> remarks(const Traits& traits) {
   std::vector<std::string> texts;
   if (traits.from_file) {
     texts.push_back(say<texts::help_from_file>());
+  } else if (traits.for_newcomer) {
+    texts.push_back(say<texts::help_for_newcomer>());
   } else if (traits.from_history) {
     texts.push_back(say<texts::help_from_history>());
   } else if (traits.writes) {

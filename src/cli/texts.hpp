@@ -45,6 +45,9 @@ inline constexpr Text help_writes{"Without -n there must be just one servo on th
                                   "-n を省略できるのは、バス上のサーボが 1 台だけの場合です。"};
 inline constexpr Text help_from_history{"Without -n: the servos that the last command changed.",
                                         "-n 省略時の対象は、直前のコマンドで変更したサーボです。"};
+inline constexpr Text help_for_newcomer{
+    "Without -n: the one servo that no entry of FILE means, also one that waits for a node ID.",
+    "-n 省略時の対象は、FILE にエントリのない 1 台です (ノード ID 割当て待ちを含む)。"};
 inline constexpr Text help_from_file{"FILE says which servos are meant; -n narrows it down.",
                                      "対象サーボは FILE で決まります。-n で絞り込めます。"};
 inline constexpr Text help_logs{"Also answers from a recording, -i {}.",

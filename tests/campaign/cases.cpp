@@ -28,6 +28,16 @@ Command apply(const json& first, const json& second, std::vector<std::string> mo
   return command;
 }
 
+/// In place of one that is not there.
+Command replace(const json& settings) {
+  Command command = words({"replace", "fleet.json", "b", "-y"});
+  command.fleet = {
+      {"schema", "blactl-fleet/1"},
+      {"servos", {{{"name", "b"}, {"match", {{"serial_number", 240900001}}}, {"set", settings}}}}};
+  command.broken = 240900099;
+  return command;
+}
+
 /// Every value just outside of the limits of each register, and IDs that others have: 30 is another
 /// node's.
 std::vector<Command> harmful(const Episode& episode) {
@@ -219,6 +229,17 @@ std::vector<Sweep::Case> Sweep::cases() {
            {{{"at", "25s"}, {"to", 11}, {"order", "write"}, {"address", 0x22}, {"value", 1}},
             {{"at", "26s"}, {"to", 11}, {"order", "save"}},
             {{"at", "30s"}, {"to", 11}, {"order", "write"}, {"address", 0x22}, {"value", 0}}}},
+      {.name = "replace",
+       .before = {},
+       .command = replace({{"smoothing", "off"}, {"0x46", "30raw"}, {"0x45", "7raw"}}),
+       .is_undoable = true,
+       .ended_by = "node comes to 30",
+       .node_ids = {11}},
+      {.name = "replace by one that waits for a node ID",
+       .before = {},
+       .command = replace({{"reverse", "on"}, {"0x46", "30raw"}}),
+       .node_ids = {0},
+       .first = {{"servo_id", 0}}},
       {.name = "apply --dry-run of a trial",
        .before = {words({"set", "-n", "11", "smoothing=off", "-y"})},
        .command = apply({{"smoothing", "off"}}, {{"servo_id", 2}}, {"--dry-run"}),

@@ -287,7 +287,7 @@ bool knows_ram(const Episode& episode) {
 void check_unnamed(const Step& step, std::int64_t serial, const json& node) {
   const std::string& verb = step.command.verb();
   const bool saves = verb == "save" || (verb == "set" && step.command.has("--save")) ||
-                     (verb == "apply" && !step.command.has("--no-save"));
+                     (verb == "apply" && !step.command.has("--no-save")) || verb == "replace";
   if (!saves || step.outcome.status != 0 || step.command.has("--dry-run") ||
       step.rom_writes(serial) == 0 || !knows_ram(step.episode) || !step.accidents(serial).empty()) {
     return;
@@ -404,6 +404,25 @@ void check_table(const Step& list) {
         value_in(servo.rom, static_node_id) == 0 && value_in(servo.ram, static_node_id) == 0;
     require(!is_dynamic || entry != entries.end(),
             fmt::format("{} was given {}, which is not in the table", serial, servo.node_id));
+  }
+}
+
+void check_file(const Step& step) {
+  const Command& command = step.command;
+  if (command.broken == 0) {
+    return;
+  }
+  const std::string& file = step.outcome.file;
+  const bool names_new = file == command.file(/*has_ended=*/true);
+  require(names_new || file == command.file(/*has_ended=*/false), "the file is damaged: " + file);
+  require(names_new || step.outcome.status != 0, "0, but the file names the broken servo");
+  const auto serial = command.fleet["servos"][0]["match"]["serial_number"].get<std::int64_t>();
+  if (!names_new || step.has_other_writer(serial)) {
+    return;
+  }
+  for (const auto& [address, value] : wishes(command, serial)) {
+    require(step.after.at(serial).rom.at(address) == value,
+            fmt::format("the file names {}, whose ROM does not hold {:#04x}", serial, address));
   }
 }
 

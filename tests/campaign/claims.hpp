@@ -11,6 +11,10 @@ void check_claims(const Step& step);
 /// Of `alloc --list` where nothing went wrong: the table is as the servos are. Throws Lie.
 void check_table(const Step& list);
 
+/// The fleet file of `replace` is whole, whatever happened, and names the new servo once that is
+/// proven. Throws Lie.
+void check_file(const Step& step);
+
 /// Where nothing went wrong: undo right after a change takes it back. Throws Lie.
 void check_undo(const Step& change, const Step& undo);
 

@@ -26,7 +26,7 @@ bool saves(const Command& command) {
   return command.has("--save") || verb == "save" || command.has("--static") ||
          ((verb == "apply" || verb == "undo") && !command.has("--no-save") &&
           !command.has("--dry-run")) ||
-         verb == "characterize";
+         verb == "replace" || verb == "characterize";
 }
 
 bool only_looks(const Command& command) {

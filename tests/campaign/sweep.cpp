@@ -66,7 +66,7 @@ std::size_t requests_in(const Record& record) {
 
 /// With its repetition after one that was killed.
 bool is_one_change(const Command& command) {
-  return command.verb() == "apply" || command.has("--static") ||
+  return command.verb() == "apply" || command.verb() == "replace" || command.has("--static") ||
          (command.verb() == "erase" && command.has("--keep-ids"));
 }
 
@@ -348,6 +348,7 @@ bool Sweep::is_killed_again(World& world, const Step& tried, Disturbance kill) {
 
 void Sweep::check(World& world, const Case& one, std::span<const Disturbance> disturbances,
                   const Step& step, const Calm& calm) {
+  check_file(step);
   const auto is_ended = [](const Disturbance& one_of_them) {
     return ends_command(one_of_them.kind) && one_of_them.has_struck();
   };
@@ -379,6 +380,7 @@ void Sweep::check(World& world, const Case& one, std::span<const Disturbance> di
       after_kill == AfterKill::killed_again && is_killed_again(world, step, disturbances.front());
   const Step again = take_step(world, step.episode, one.command);
   judge(again);
+  check_file(again);
   require(again.outcome.status == 0, "does not converge: " + again.outcome.err);
   require_same(calm.goal, again.after, "the same command has another result");
   if ((after_kill == AfterKill::repeated || was_killed_again) && is_one_change(one.command)) {

@@ -58,6 +58,14 @@ std::string Command::text() const {
   return text;
 }
 
+std::string Command::file(bool has_ended) const {
+  nlohmann::json written = fleet;
+  if (broken != 0 && !has_ended) {
+    written["servos"][0]["match"]["serial_number"] = broken;
+  }
+  return written.dump();
+}
+
 bool ServoState::has_lost_rom() const {
   const auto warnings = ram.find(fault_warning);
   return warnings != ram.end() && (warnings->second >> 15 & 1) != 0;
@@ -83,9 +91,7 @@ Outcome World::run(const Command& command, std::span<Disturbance> disturbances) 
   Outcome outcome;
   std::vector<std::string> arguments{"-i", "sim:world", "--json"};
   arguments.insert(arguments.end(), command.words.begin(), command.words.end());
-  if (!command.fleet.is_null()) {
-    std::ofstream(folder_ / command.words.at(1)) << command.fleet.dump();
-  }
+  write_file(command);
   std::filesystem::current_path(folder_);
   const auto opener = [&](const cli::OpenRequest& request) -> Result<cli::OpenBus> {
     std::unique_ptr<can::Bus> bus =
@@ -116,7 +122,22 @@ Outcome World::run(const Command& command, std::span<Disturbance> disturbances) 
     disk->come_back(Chance(cut->number, "disk"));
   }
   outcome.document = document_in(outcome.out);
+  if (!command.fleet.is_null()) {
+    std::ifstream file(folder_ / command.words.at(1));
+    outcome.file.assign(std::istreambuf_iterator<char>(file), {});
+  }
   return outcome;
+}
+
+/// One that `replace` is to change stays as it left it.
+void World::write_file(const Command& command) const {
+  if (command.fleet.is_null()) {
+    return;
+  }
+  const auto path = folder_ / command.words.at(1);
+  if (command.broken == 0 || !std::filesystem::exists(path)) {
+    std::ofstream(path) << command.file(/*has_ended=*/false);
+  }
 }
 
 void World::pass(Duration time) {

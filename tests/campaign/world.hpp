@@ -28,18 +28,23 @@ using Registers = std::map<std::uint8_t, std::int64_t>;
 /// A command line.
 struct Command {
   std::vector<std::string> words;
-  nlohmann::json fleet{}; ///< the fleet file that words[1] names; null: none
-  bool is_right = false;  ///< no servo has a reason to refuse it, and it changes no ID
+  nlohmann::json fleet{};  ///< the fleet file that words[1] names; null: none
+  std::int64_t broken = 0; ///< replace: the serial number that the file has at first
+  bool is_right = false;   ///< no servo has a reason to refuse it, and it changes no ID
 
   [[nodiscard]] const std::string& verb() const { return words.front(); }
 
   [[nodiscard]] bool has(std::string_view word) const;
   [[nodiscard]] std::string text() const;
+
+  /// The fleet file; of `replace` before its end, or after.
+  [[nodiscard]] std::string file(bool has_ended) const;
 };
 
 struct Outcome {
   int status = 0;
   std::string out, err;
+  std::string file;        ///< the fleet file afterwards
   nlohmann::json document; ///< what it printed as JSON; of a stream the last line; null: none
   Record record;
 };
@@ -83,6 +88,7 @@ class World {
   [[nodiscard]] Time now() const;
 
  private:
+  void write_file(const Command& command) const;
   void power_on(const nlohmann::json& scenario, Time at);
   [[nodiscard]] static ServoState state_of(const sim::Servo& servo);
   [[nodiscard]] static nlohmann::json rom_of(const sim::Servo& servo);

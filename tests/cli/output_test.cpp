@@ -235,7 +235,7 @@ TEST_CASE("--dump-cli has every command and option in both languages, and --help
   REQUIRE(document["interfaces"].size() == 7);
   CHECK(document["interfaces"][1]["name"] == "slcan");
   CHECK(document["interfaces"][1]["operand"] == "serial_port");
-  REQUIRE(document["commands"].size() == 21);
+  REQUIRE(document["commands"].size() == 22);
   const auto get = document["commands"][2];
   CHECK(get["name"] == "get");
   CHECK(get["help_en"] == "read parameters");

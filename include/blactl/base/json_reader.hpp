@@ -44,6 +44,7 @@ enum class Kind : std::uint8_t { null, boolean, integer, real, string, array, ob
 struct Value {
   Kind kind = Kind::null;
   std::size_t line = 0;              ///< where the value begins; the first line is 1
+  std::size_t begin = 0, end = 0;    ///< its bytes in the text; not of an array or an object
   const Value* parent = nullptr;     ///< the array or object around it; null for the document
   std::size_t index = 0;             ///< its place in an array
   std::string key{};                 ///< its key in an object

@@ -14,8 +14,10 @@ inline constexpr Text apply_nobody{"no entry of {} matches any of these servos",
                                    "{} に対象のサーボと一致するエントリがありません"};
 inline constexpr Text apply_nobody_hint{"what the file says of these servos: blactl diff {}",
                                         "ファイルとサーボの比較: blactl diff {}"};
-inline constexpr Text apply_no_entry{"{} has no entry '{}'", "{} にエントリ '{}' はありません"};
-inline constexpr Text apply_no_entry_hint{"its entries: {}", "エントリ: {}"};
+inline constexpr Text apply_replaced_hint{
+    "connect it; if another one is there in its place: blactl replace {} \"{}\"; nothing was "
+    "written",
+    "接続して下さい。別のサーボに交換した場合: blactl replace {} \"{}\" (何も書き込んでいません)"};
 inline constexpr Text apply_entry_one{"--entry is for one servo, not for {}",
                                       "--entry の対象は 1 台だけです (現在の対象: {} 台)"};
 inline constexpr Text apply_entry_one_hint{"name one of them with -n",
@@ -98,6 +100,35 @@ inline constexpr Text change_not_recorded{
 inline constexpr Text end_not_recorded{
     "how this change ended is not recorded, so `blactl undo` takes it for carried out: {}",
     "変更の結果が変更履歴に記録されないため、`blactl undo` は変更済みとして扱います: {}"};
+inline constexpr Text replace_needs_file{
+    "replace changes its file: it cannot be stdin",
+    "replace は FILE を書き換えるため、標準入力は指定できません"};
+inline constexpr Text replace_needs_file_hint{"blactl replace fleet.json NAME",
+                                              "blactl replace fleet.json NAME"};
+inline constexpr Text replace_takes_place{"node {} takes the place of '{}'",
+                                          "ノード {} を '{}' の代わりに設定します"};
+inline constexpr Text replace_took_place{"node {} has taken the place of '{}' already",
+                                         "ノード {} は '{}' の代わりに設定済みです"};
+inline constexpr Text replace_names{"{}: '{}' is node {} now, {}",
+                                    "{}: '{}' はノード {} になりました ({})"};
+inline constexpr Text replace_keeps{
+    "{} stays as it is: the entry '{}' does not tell which unit it is",
+    "{} は変更していません (エントリ '{}' は個体を指定していません)"};
+inline constexpr Text replace_file_changed{
+    "{} was changed by somebody else meanwhile, and does not name the new servo yet",
+    "{} が実行中に変更されたため、新しいサーボをまだ反映していません"};
+inline constexpr Text replace_file_left{
+    "the servo is done, its file is not: {}",
+    "サーボの設定は完了しましたが、ファイルを更新できません: {}"};
+inline constexpr Text replace_again_hint{"run the same command again",
+                                         "同じコマンドをもう一度実行して下さい"};
+inline constexpr Text replace_autopilot{
+    "a flight controller that remembers which unit has node ID {} may call it a duplicate; "
+    "ArduPilot forgets with CAN_D1_UC_OPTION = 1 and a restart (then set it to 0 again)",
+    "フライトコントローラーがノード ID {} "
+    "の個体を記憶している場合、重複と表示されることがあります。"
+    "ArduPilot では CAN_D1_UC_OPTION = 1 にして再起動すると記憶が消去されます (その後 0 に戻す)"};
+
 inline constexpr Text state_not_written{
     "what the servos hold cannot be recorded for `blactl undo`: {}",
     "変更前の値を変更履歴に記録できません: {}"};

@@ -129,15 +129,25 @@ units(std::span<const fleet::FleetEntry* const> entries) {
   return units;
 }
 
+/// What may help: a servo that no entry means may be there in place of it.
+std::string hint_for_missing(const fleet::FleetFile& file, const fleet::FleetEntry& entry,
+                             const fleet::FleetMatch& matched) {
+  const bool may_be_replaced =
+      !matched.extra.empty() && !entry.name.empty() && entry.match.means_one() && file.file != "-";
+  return may_be_replaced
+             ? say<texts::apply_replaced_hint>(printable(file.file), printable(entry.name))
+             : say<texts::apply_missing_hint>();
+}
+
 /// The error for an entry without a servo.
-Error missing(const fleet::FleetEntry& entry, const fleet::Roster& roster) {
+Error missing(const fleet::FleetEntry& entry, const fleet::Roster& roster, std::string hint) {
   auto unclear = fleet::may_be_unidentified(entry, roster);
   const std::string whom = fleet::text(entry.match);
   return unclear ? std::move(*unclear)
                  : Error{Code::not_found,
                          entry.name.empty() ? say<texts::apply_missing_unnamed>(whom)
                                             : say<texts::apply_missing>(entry.name, whom),
-                         say<texts::apply_missing_hint>(), std::nullopt};
+                         std::move(hint), std::nullopt};
 }
 
 /// The goals for the servos that match entries.
@@ -151,7 +161,7 @@ Goals match(const fleet::FleetFile& file, const Manner& manner, const Whom& whom
     goals.goals.push_back(goal(*pair.entry, pair.id, manner));
   }
   for (const fleet::FleetEntry* entry : matched.missing) {
-    goals.errors.push_back(missing(*entry, whom.roster));
+    goals.errors.push_back(missing(*entry, whom.roster, hint_for_missing(file, *entry, matched)));
   }
   std::ranges::transform(matched.misfits, std::back_inserter(goals.errors),
                          &fleet::FleetMatch::Misfit::error);
@@ -171,20 +181,6 @@ Goals give(const fleet::FleetEntry& entry, const Manner& manner, const Whom& who
                         say<texts::apply_entry_one_hint>(), std::nullopt}}};
   }
   return {.goals = {goal(entry, whom.selected.front(), manner)}};
-}
-
-/// The entry named by --entry.
-Result<const fleet::FleetEntry*> find_entry(const fleet::FleetFile& file, const std::string& name) {
-  const auto found = std::ranges::find(file.servos, name, &fleet::FleetEntry::name);
-  if (found != file.servos.end()) {
-    return &*found;
-  }
-  std::string names;
-  for (const fleet::FleetEntry& entry : file.servos) {
-    names += (names.empty() ? "" : ", ") + printable(entry.name);
-  }
-  return fail(Code::usage, say<texts::apply_no_entry>(printable(file.file), printable(name)),
-              say<texts::apply_no_entry_hint>(names));
 }
 
 /// An option, and whether it was given.
@@ -287,7 +283,7 @@ Report apply_file(const ApplyOptions& options, ChangeRequest request, Context& c
                       .trusts_ram = options.trust_ram};
   request.find = [&](const Whom& whom) { return match(*file, manner, whom, context.known()); };
   if (!options.entry.empty()) {
-    const auto entry = find_entry(*file, options.entry);
+    const auto entry = fleet::find_entry(*file, options.entry);
     if (!entry) {
       report.fail(entry.error());
       return report;

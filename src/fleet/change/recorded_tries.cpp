@@ -22,7 +22,8 @@ bool has_one_goal(std::string_view command) {
 
 /// Commands that complete an unfinished run when repeated.
 bool is_repeated_as_a_whole(std::string_view command) {
-  return has_one_goal(command) || command == "undo" || command == erase_keeping_ids;
+  return has_one_goal(command) || command == "undo" || command == replacing ||
+         command == erase_keeping_ids;
 }
 
 } // namespace

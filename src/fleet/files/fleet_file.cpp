@@ -244,6 +244,19 @@ std::optional<std::int64_t> FleetEntry::pwm_mode() const {
   return by_unit != set.end() ? by_unit->value.pwm_mode : std::nullopt;
 }
 
+Result<const FleetEntry*> find_entry(const FleetFile& file, std::string_view name) {
+  const auto found = std::ranges::find(file.servos, name, &FleetEntry::name);
+  if (found != file.servos.end()) {
+    return &*found;
+  }
+  std::string names;
+  for (const FleetEntry& entry : file.servos) {
+    names += (names.empty() ? "" : ", ") + printable(entry.name);
+  }
+  return fail(Code::usage, say<texts::fleet_no_entry>(printable(file.file), printable(name)),
+              say<texts::fleet_no_entry_hint>(names));
+}
+
 Result<FleetFile> parse_fleet_file(std::string_view text, std::string file,
                                    const bla::Profiles& profiles) {
   return read_document(json::parse(text, std::move(file)), profiles);

@@ -63,6 +63,43 @@ inline constexpr Text fleet_too_many{"{} has more servos than a bus has room for
 inline constexpr Text fleet_too_many_hint{"split the file, a bus in each",
                                           "バスごとにファイルを分割して下さい"};
 
+// Messages about a servo in place of a broken one.
+inline constexpr Text fleet_no_entry{"{} has no entry '{}'", "{} にエントリ '{}' はありません"};
+inline constexpr Text fleet_no_entry_hint{"its entries: {}", "エントリ: {}"};
+inline constexpr Text fleet_fact_untold{"node {} did not report its {}",
+                                        "ノード {} の {} を取得できません"};
+inline constexpr Text fleet_fact_untold_hint{"run the command again", "もう一度実行して下さい"};
+inline constexpr Text successor_of_all{"'{}' is for every servo of its model, not for one",
+                                       "'{}' は 1 台ではなく、その機種の全サーボ用のエントリです"};
+inline constexpr Text successor_of_all_hint{"a new one gets it by blactl apply {}",
+                                            "新しいサーボには blactl apply {} で設定できます"};
+inline constexpr Text successor_none{
+    "there is no servo for the place of '{}': each one on this bus has an entry of {}",
+    "'{}' の代わりのサーボがありません (バス上のサーボはすべて {} にエントリがあります)"};
+inline constexpr Text successor_none_hint{"connect the new one, and run the command again",
+                                          "新しいサーボを接続し、もう一度実行して下さい"};
+inline constexpr Text successor_waits_hint{
+    "{} asked for a node ID, and got none in this run: blactl alloc --once, then the command again",
+    "ノード ID の割当て待ち: {} 台。blactl alloc --once の後、もう一度実行して下さい"};
+inline constexpr Text successor_several{"{} servos have no entry of {}: nodes {}",
+                                        "エントリのないサーボが {} 台あります ({}): ノード {}"};
+inline constexpr Text successor_several_hint{"say which one is meant: -n {}",
+                                             "対象を指定して下さい (例: -n {})"};
+inline constexpr Text successor_old_there{"the servo of '{}' still answers: node {}",
+                                          "'{}' のサーボがまだ応答しています: ノード {}"};
+inline constexpr Text successor_old_there_hint{
+    "take it off the bus and run the command again; if it stays: blactl apply {}",
+    "取り外してからもう一度実行して下さい。交換しない場合: blactl apply {}"};
+inline constexpr Text successor_has_entry{"node {} has an entry of its own: '{}'",
+                                          "ノード {} には別のエントリがあります: '{}'"};
+inline constexpr Text successor_has_entry_hint{"name the new servo with -n",
+                                               "-n で新しいサーボを指定して下さい"};
+inline constexpr Text successor_model{"node {} is a {}, '{}' is for a {}",
+                                      "ノード {} の機種は {} です ('{}' の機種: {})"};
+inline constexpr Text successor_model_hint{
+    "if another model is meant: blactl apply {} --entry \"{}\" -n {}",
+    "別の機種でよい場合: blactl apply {} --entry \"{}\" -n {}"};
+
 // Messages about labels.
 inline constexpr Text label_line{"label {}", "ラベル {}"};
 inline constexpr Text label_wrong{"label {}: '{}' is not a serial number",

@@ -340,3 +340,20 @@ TEST_CASE("files beyond the limit are refused") {
   CHECK(document.error().code == Code::bad_file);
   CHECK(document.error().message.find("is larger than 4 MiB") != std::string::npos);
 }
+
+TEST_CASE("of every scalar it is known where it stands in the text") {
+  const std::string text =
+      "{ \"a\\\"b\" : -12,\"c\":[true ,null,\"x\\u0041\"],\r\n \"d\": {\"e\": 1.50e3}, \"f\":7}\n";
+  const json::Document document = parsed(text);
+  std::vector<std::string> found;
+  const auto collect = [&](const auto& self, const json::Value& value) -> void {
+    if (value.kind != Kind::array && value.kind != Kind::object) {
+      found.push_back(text.substr(value.begin, value.end - value.begin));
+    }
+    for (const json::Value* item : value.items) {
+      self(self, *item);
+    }
+  };
+  collect(collect, document.root());
+  CHECK(found == std::vector<std::string>{"-12", "true", "null", "\"x\\u0041\"", "1.50e3", "7"});
+}

@@ -27,6 +27,9 @@ inline constexpr std::string_view erase_keeping_ids = "erase --keep-ids";
 /// The name of the command that records what it may change, and not what it writes.
 inline constexpr std::string_view characterizing = "characterize";
 
+/// The name of the command that gives a new servo the place of a broken one.
+inline constexpr std::string_view replacing = "replace";
+
 /// What ROM holds, as far as proofs and the record of changes tell.
 struct ToldRom {
   bla::Values values{};

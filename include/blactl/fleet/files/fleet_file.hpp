@@ -91,6 +91,9 @@ struct FleetFile {
   [[nodiscard]] bool names_nobody() const { return is_params || recipe; }
 };
 
+/// The entry of this name. Errors: usage, with the names that there are.
+[[nodiscard]] Result<const FleetEntry*> find_entry(const FleetFile& file, std::string_view name);
+
 /// `file` is the name for messages. Errors: bad_file with file, line, JSON pointer and reason of
 /// each error: invalid JSON, unknown or repeated keys, values that no model accepts, or not the
 /// model of the entry, registers that are not settings, two entries for one servo, an ID for two,

@@ -1,0 +1,42 @@
+#pragma once
+// A servo that takes the place of a broken one: who it is, and what it gets (contract, section 7,
+// `replace`).
+
+#include "blactl/base/error.hpp"
+#include "blactl/bla/assignment.hpp"
+#include "blactl/bla/profile.hpp"
+#include "blactl/fleet/bus/roster.hpp"
+#include "blactl/fleet/bus/target.hpp"
+#include "blactl/fleet/files/fleet_file.hpp"
+
+#include <span>
+#include <vector>
+
+namespace blactl::fleet {
+
+/// The servo for the place of `entry`, one of those of `file`.
+struct Successor {
+  dronecan::NodeId id;
+  /// The entry means it already: it was given the place before, or it is the broken one itself.
+  bool is_meant = false;
+};
+
+/// Without -n the only one that no entry means; with it the one `selected`. The session has
+/// searched the bus. Errors: not_found (none); several_servos (more than one, or the one that the
+/// entry means is there beside it); model_mismatch; timeout (one has not said who it is); usage (an
+/// entry that is for all servos of a model, a servo of another entry); as match().
+[[nodiscard]] Result<Successor> find_successor(const FleetFile& file, const FleetEntry& entry,
+                                               const Roster& roster, const Targets& targets,
+                                               std::span<const dronecan::NodeId> selected,
+                                               const bla::Profiles& profiles);
+
+/// The servo that this entry means is on the bus: several_servos.
+[[nodiscard]] Error still_there(const FleetFile& file, const FleetEntry& entry,
+                                dronecan::NodeId id);
+
+/// What the successor gets: all of the entry, and the IDs by which it finds its servo. Errors: none
+/// of a valid entry.
+[[nodiscard]] Result<std::vector<bla::Assignment>>
+settings_of_successor(const FleetEntry& entry, const bla::Profiles& profiles);
+
+} // namespace blactl::fleet

@@ -1,0 +1,248 @@
+// blactl replace: a new servo takes the place of a broken one, on the bus and in the fleet file.
+
+#include "blactl/base/hex.hpp"
+#include "blactl/base/json_reader.hpp"
+#include "blactl/base/read_file.hpp"
+#include "blactl/base/replace_file.hpp"
+#include "blactl/fleet/bus/read_job.hpp"
+#include "blactl/fleet/bus/unreachable.hpp"
+#include "blactl/fleet/files/fleet_file_editor.hpp"
+#include "blactl/fleet/files/successor.hpp"
+
+#include "cli/change/change_servos.hpp"
+#include "cli/change/texts.hpp"
+#include "cli/commands.hpp"
+#include "cli/stores.hpp"
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace blactl::cli {
+namespace {
+
+struct ReplaceOptions {
+  std::string file{};
+  std::string name{};
+  bool dry_run = false;
+  bool no_snapshot = false;
+  RestartTimes times{};
+};
+
+constexpr Option replace_options[]{
+    {.name = "--dry-run",
+     .kind = Kind::flag,
+     .help = {"change nothing; exit status 8 when something would be done",
+              "変更しない (処理の予定がある場合は終了ステータス 8)"},
+     .store = into<&ReplaceOptions::dry_run>},
+    {.name = "--no-snapshot",
+     .kind = Kind::flag,
+     .help = {"go on even if the settings of the servo cannot be recorded for `undo`",
+              "変更履歴を記録できない場合も続行 (`undo` では戻せません)"},
+     .store = into<&ReplaceOptions::no_snapshot>},
+    restart_wait<&ReplaceOptions::times>,
+};
+
+constexpr Option replace_arguments[]{
+    {.name = "FILE",
+     .kind = Kind::file,
+     .required = true,
+     .help = {"the fleet file; it names the new servo in the end",
+              "フリートファイル (最後に新しいサーボの個体情報に書き換える)"},
+     .store = into<&ReplaceOptions::file>},
+    {.name = "NAME",
+     .kind = Kind::text,
+     .required = true,
+     .help = {"the name of the broken servo's entry", "故障したサーボのエントリ名"},
+     .store = into<&ReplaceOptions::name>},
+};
+
+/// The fleet file, as it was read.
+struct File {
+  std::string text;
+  fleet::FleetFile fleet;
+};
+
+Result<File> read(const std::string& name, const bla::Profiles& profiles) {
+  if (name == "-") {
+    return fail(Code::usage, say<texts::replace_needs_file>(),
+                say<texts::replace_needs_file_hint>());
+  }
+  if (const auto replaceable = check_replaceable(name); !replaceable) {
+    return fail(Code::usage, replaceable.error().message, replaceable.error().hint);
+  }
+  auto text = read_file(name, json::max_file_bytes);
+  if (!text) {
+    return std::unexpected(text.error());
+  }
+  auto fleet = fleet::parse_fleet_file(*text, name, profiles);
+  return fleet ? Result<File>({std::move(*text), std::move(*fleet)})
+               : std::unexpected(fleet.error());
+}
+
+/// One run of the command.
+class Replacement {
+ public:
+  Replacement(const ReplaceOptions& options, const File& file, const fleet::FleetEntry& entry,
+              Context& context)
+      : options_(options), file_(file), entry_(entry), context_(context) {}
+
+  [[nodiscard]] Goals find(const Whom& whom);
+
+  /// Puts the new servo into the file, once it is proven.
+  void ended(std::span<const fleet::GoalResult> results);
+
+  /// Why the file does not name the new servo; empty: it does, or the servo is not done.
+  [[nodiscard]] const std::optional<Error>& failure() const { return failure_; }
+
+ private:
+  [[nodiscard]] bool has_taken_place(const dronecan::UniqueId& unit) const;
+  [[nodiscard]] Result<fleet::Snapshot> read_unit(const fleet::GoalResult& result);
+  [[nodiscard]] Result<void> name_unit(const fleet::Snapshot& unit);
+
+  const ReplaceOptions& options_;
+  const File& file_;
+  const fleet::FleetEntry& entry_;
+  Context& context_;
+  std::optional<Error> failure_;
+};
+
+Goals Replacement::find(const Whom& whom) {
+  const auto found = fleet::find_successor(file_.fleet, entry_, whom.roster, whom.targets,
+                                           whom.selected, context_.known());
+  if (!found) {
+    return {.errors = {found.error()}, .may_wait = found.error().code == Code::not_found};
+  }
+  const auto unit = whom.roster.member(found->id).unique_id();
+  if (found->is_meant && !(unit && has_taken_place(*unit))) {
+    return {.errors = {fleet::still_there(file_.fleet, entry_, found->id)}};
+  }
+  auto settings = fleet::settings_of_successor(entry_, context_.known());
+  if (!settings) {
+    return {.errors = {settings.error()}};
+  }
+  const std::uint8_t id = found->id.value();
+  const std::string name = printable(entry_.name);
+  return {.goals = {{.id = found->id,
+                     .unique_id = unit,
+                     .name = entry_.name,
+                     .wanted = {.assignments = std::move(*settings),
+                                .restart = fleet::RestartKind::save},
+                     .evidence = fleet::Evidence::restart}},
+          .notes = {found->is_meant ? say<texts::replace_took_place>(id, name)
+                                    : say<texts::replace_takes_place>(id, name)}};
+}
+
+/// A run of this command may have been killed at its end. One whose last change was another is the
+/// broken one.
+bool Replacement::has_taken_place(const dronecan::UniqueId& unit) const {
+  const auto store = open_snapshots(context_.shared().interface, state::Access::read);
+  const auto last = store ? store->last(unit) : Result<std::optional<state::SnapshotEntry>>();
+  return last && *last && (*last)->command == fleet::replacing;
+}
+
+void Replacement::ended(std::span<const fleet::GoalResult> results) {
+  if (options_.dry_run || results.size() != 1 || !results.front().is_done) {
+    return;
+  }
+  const auto unit = read_unit(results.front());
+  const auto named = unit ? name_unit(*unit) : std::unexpected(unit.error());
+  if (!named) {
+    failure_ = {named.error().code, say<texts::replace_file_left>(named.error().message),
+                say<texts::replace_again_hint>(), named.error().node_id};
+  }
+}
+
+/// As it is on the bus now.
+Result<fleet::Snapshot> Replacement::read_unit(const fleet::GoalResult& result) {
+  const std::array ids{result.change.node_id_after.value_or(result.servo().id)};
+  auto read = fleet::take_snapshots(context_.session(), context_.known(), ids,
+                                    context_.identification(), fleet::registers_to_export);
+  if (read.broken) {
+    return std::unexpected(std::move(*read.broken));
+  }
+  fleet::Snapshot& unit = read.servos.front();
+  if (auto error = unit.first_error()) {
+    return std::unexpected(std::move(*error));
+  }
+  return unit.servo.unique_id == result.servo().unique_id
+             ? Result<fleet::Snapshot>(std::move(unit))
+             : std::unexpected(fleet::silent(context_.session().roster(), ids.front()));
+}
+
+Result<void> Replacement::name_unit(const fleet::Snapshot& unit) {
+  const std::string file = printable(options_.file);
+  const std::string name = printable(entry_.name);
+  const fleet::FleetFileStyle style{context_.session().wall(), BLACTL_VERSION};
+  const auto text = fleet::with_unit(file_.text, options_.file, entry_.name, unit, style);
+  const auto now = text ? read_file(options_.file, json::max_file_bytes) : text;
+  if (!now) {
+    return std::unexpected(now.error());
+  }
+  if (*now != file_.text) {
+    return fail(Code::io, say<texts::replace_file_changed>(file));
+  }
+  if (*text == file_.text) {
+    context_.reporter().note(say<texts::replace_keeps>(file, name));
+    return {};
+  }
+  if (auto replaced = replace_file(options_.file, *text); !replaced) {
+    return replaced;
+  }
+  context_.reporter().note(
+      say<texts::replace_names>(file, name, unit.servo.id.value(), hex(*unit.servo.unique_id)));
+  context_.reporter().note(say<texts::replace_autopilot>(unit.servo.id.value()));
+  return {};
+}
+
+Report execute(const ReplaceOptions& options, Context& context) {
+  Report report{.interface = printable(context.shared().interface)};
+  const auto profiles = context.profiles();
+  const auto file = profiles ? read(options.file, **profiles) : std::unexpected(profiles.error());
+  const auto entry = file ? fleet::find_entry(file->fleet, options.name)
+                          : Result<const fleet::FleetEntry*>(std::unexpected(file.error()));
+  if (!entry) {
+    report.fail(entry.error());
+    return report;
+  }
+  Replacement replacement(options, *file, **entry, context);
+  report = change_servos(
+      {.command = fleet::replacing,
+       .search = Search::everybody,
+       .needs_targets = false,
+       .numbers_waiting = true,
+       .find = [&](const Whom& whom) { return replacement.find(whom); },
+       .ended = [&](auto results) { replacement.ended(results); },
+       .times = options.times,
+       .dry_run = options.dry_run,
+       .recording = options.no_snapshot ? Recording::if_possible : Recording::required,
+       .view = ResultView::entries},
+      context);
+  if (replacement.failure()) {
+    report.fail(*replacement.failure());
+  }
+  report.json = [nodes = std::move(report.json), file = options.file](JsonWriter& json) {
+    if (nodes) {
+      nodes(json);
+    }
+    json.member("file", file);
+  };
+  return report;
+}
+
+} // namespace
+
+constinit const Command commands::replace{
+    .name = "replace",
+    .traits = {.writes = true, .for_newcomer = true, .session = true},
+    .help = {"give a new servo the place of a broken one, and name it in the fleet file",
+             "故障したサーボの代わりに新しいサーボを設定し、フリートファイルを更新"},
+    .options = replace_options,
+    .arguments = replace_arguments,
+    .action = action<ReplaceOptions, execute>,
+};
+
+} // namespace blactl::cli
