@@ -1,12 +1,17 @@
 #include "blactl/state/proof_store.hpp"
 
+#include "blactl/base/read_file.hpp"
+
 #include "state/formats.hpp"
 #include "state/register_bytes.hpp"
 #include "state/sqlite.hpp"
 #include "state/state_file.hpp"
 #include "state/texts.hpp"
 
+#include <cstddef>
 #include <cstdint>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -14,23 +19,45 @@ namespace blactl::state {
 
 using dronecan::UniqueId;
 
-/// The index repeats whole rows, so the check of the file detects any change. `started`:
+namespace {
+
+/// The index repeats whole rows, so the check of the file detects any change. `started`, `clock`:
 /// microseconds since 1970, UTC, negative if the clock was not set; within bounds for the
-/// arithmetic of holds(). `uptime`: seconds, as in NodeStatus.
+/// arithmetic of holds(). `uptime`: seconds, as in NodeStatus. `boot`: of the machine.
+constexpr std::string_view proofs_schema =
+    "CREATE TABLE proofs ("
+    "unique_id BLOB PRIMARY KEY NOT NULL CHECK (length(unique_id) = 16), "
+    "rom BLOB NOT NULL, "
+    "started INTEGER NOT NULL CHECK (started BETWEEN "
+    "-253402300799999999 AND 253402300799999999), "
+    "uptime INTEGER NOT NULL CHECK (uptime BETWEEN 0 AND 4294967295), "
+    "clock INTEGER NOT NULL CHECK (clock BETWEEN "
+    "-253402300799999999 AND 253402300799999999), "
+    "boot TEXT NOT NULL, "
+    "UNIQUE (unique_id, rom, started, uptime, clock, boot)) STRICT";
+
+/// It did not tell one boot of the machine from another.
+OlderFormat first_version() {
+  return {.schema = "CREATE TABLE proofs ("
+                    "unique_id BLOB PRIMARY KEY NOT NULL CHECK (length(unique_id) = 16), "
+                    "rom BLOB NOT NULL, "
+                    "started INTEGER NOT NULL CHECK (started BETWEEN "
+                    "-253402300799999999 AND 253402300799999999), "
+                    "uptime INTEGER NOT NULL CHECK (uptime BETWEEN 0 AND 4294967295), "
+                    "UNIQUE (unique_id, rom, started, uptime)) STRICT",
+          .upgrade = "DROP TABLE proofs; " + std::string(proofs_schema)};
+}
+
+} // namespace
+
 const DatabaseFormat& proofs_format() {
-  static const DatabaseFormat format{
-      .application_id = 0x626C6170, // "blap"
-      .version = 1,
-      .schema = "CREATE TABLE proofs ("
-                "unique_id BLOB PRIMARY KEY NOT NULL CHECK (length(unique_id) = 16), "
-                "rom BLOB NOT NULL, "
-                "started INTEGER NOT NULL CHECK (started BETWEEN "
-                "-253402300799999999 AND 253402300799999999), "
-                "uptime INTEGER NOT NULL CHECK (uptime BETWEEN 0 AND 4294967295), "
-                "UNIQUE (unique_id, rom, started, uptime)) STRICT",
-      .file = "proofs.db",
-      .what = texts::rom_record,
-      .way_back = texts::rom_record_back};
+  static const DatabaseFormat format{.application_id = 0x626C6170, // "blap"
+                                     .version = 2,
+                                     .schema = std::string(proofs_schema),
+                                     .file = "proofs.db",
+                                     .what = texts::rom_record,
+                                     .way_back = texts::rom_record_back,
+                                     .older = {first_version()}};
   return format;
 }
 
@@ -38,29 +65,40 @@ namespace {
 
 constexpr std::int64_t last_uptime = 0xFFFFFFFF;
 
+/// The kernel's name for the present run of this machine; empty: unknown.
+std::string_view boot_id() {
+  constexpr std::size_t most = 64;
+  static const std::string id = read_file("/proc/sys/kernel/random/boot_id", most).value_or("");
+  return id;
+}
+
 Result<void> put_one(const Database& database, const RomProof& proof) {
   const std::vector<std::uint8_t> rom = bytes_of(proof.rom);
-  return Statement(database, "INSERT OR REPLACE INTO proofs (unique_id, rom, started, uptime) "
-                             "VALUES (?, ?, ?, ?)")
+  return Statement(database,
+                   "INSERT OR REPLACE INTO proofs (unique_id, rom, started, uptime, clock, boot) "
+                   "VALUES (?, ?, ?, ?, ?, ?)")
       .bind(proof.unique_id)
       .bind(rom)
       .bind(proof.started.time_since_epoch().count())
       .bind(proof.uptime.count())
+      .bind(proof.clock.time_since_epoch().count())
+      .bind(boot_id())
       .run();
 }
 
-/// The proof in a row of rom, started, uptime.
+/// The proof in a row of rom, started, uptime, clock.
 RomProof proof_of(const UniqueId& unique_id, Statement& row) {
   return {.unique_id = unique_id,
           .rom = registers_in(row, 0),
           .started = WallTime(Duration(row.integer(1, -last_time, last_time))),
-          .uptime = std::chrono::seconds(row.integer(2, 0, last_uptime))};
+          .uptime = std::chrono::seconds(row.integer(2, 0, last_uptime)),
+          .clock = WallTime(Duration(row.integer(3, -last_time, last_time)))};
 }
 
 } // namespace
 
-bool holds(const RomProof& proof, std::chrono::seconds uptime, WallTime now) {
-  return uptime >= proof.uptime &&
+bool holds(const RomProof& proof, std::chrono::seconds uptime, WallTime now, WallTime clock) {
+  return uptime >= proof.uptime && std::chrono::abs(clock - proof.clock) <= clock_tolerance &&
          std::chrono::abs(now - uptime - proof.started) <= uptime_tolerance;
 }
 
@@ -101,8 +139,10 @@ Result<std::optional<RomProof>> ProofStore::find(const UniqueId& unique_id) cons
   if (database == nullptr) {
     return std::nullopt;
   }
-  Statement statement(*database, "SELECT rom, started, uptime FROM proofs WHERE unique_id = ?");
-  return statement.bind(unique_id).first([&] { return proof_of(unique_id, statement); });
+  Statement statement(*database, "SELECT rom, started, uptime, clock FROM proofs "
+                                 "WHERE unique_id = ? AND boot = ? AND boot <> ''");
+  return statement.bind(unique_id).bind(boot_id()).first(
+      [&] { return proof_of(unique_id, statement); });
 }
 
 Result<void> ProofStore::clear() {

@@ -233,7 +233,6 @@ std::vector<Sweep::Case> Sweep::cases() {
        .before = {},
        .command = replace({{"smoothing", "off"}, {"0x46", "30raw"}, {"0x45", "7raw"}}),
        .is_undoable = true,
-       .ended_by = "node comes to 30",
        .node_ids = {11}},
       {.name = "replace by one that waits for a node ID",
        .before = {},

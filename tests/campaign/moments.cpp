@@ -197,6 +197,9 @@ void Sweep::play_moment(const Case& one, const Episode& episode, const Moment& m
         world.repair();
       }
       check_undo(world, step);
+      if (one.command.broken != 0) { // its file names the new servo, as before the undo
+        return;
+      }
     }
     if (!moment.must_converge) {
       return;

@@ -261,8 +261,11 @@ void Story::note_what_is_known(const Act& act, const Command& command) {
       // ERASE may change ROM, and ends what is known of it
       const bool is_trial = !is_own && ram != rom && (unknown_.contains(serial) || is_erase_);
       const bool was_held = before.ram.at(address) == ram && before.rom.at(address) != rom;
-      const bool is_kept = is_own && was_held && !names(command, serial, word_of(address));
-      if (is_trial || is_kept) {
+      const bool is_unnamed = is_own && !names(command, serial, word_of(address));
+      const bool is_kept = is_unnamed && was_held;
+      // the proof of ROM ends with a try to save, and nobody has recorded this one
+      const bool is_forgotten = is_unnamed && act.saves && act.status != 0 && ram != rom;
+      if (is_trial || is_kept || is_forgotten) {
         unknown_values_.emplace(serial, address);
       }
     }

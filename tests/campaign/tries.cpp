@@ -145,9 +145,16 @@ std::string Undone::difference(std::size_t first) const {
   return {};
 }
 
-/// Empty: none.
+/// Empty: none. What no try has touched, nor found as wished, undo leaves alone in ROM.
 std::string difference(const Story& story) {
   for (const std::int64_t serial : story_servos) {
+    const bool is_touched = std::ranges::any_of(story.acts(), [&](const Act& act) {
+      return act.by == By::tries && (act.touches(serial) || act.status == 0);
+    });
+    const Act& undo = story.undo();
+    if (!is_touched && undo.before.at(serial).rom != undo.after.at(serial).rom) {
+      return fmt::format("{} was not touched, and undo changes its ROM", serial);
+    }
     const Undone undone(story, serial);
     std::string last;
     for (const std::size_t first :

@@ -122,6 +122,36 @@ TEST_CASE("a unit has its ID for ever: the next command gives the same, and the 
   CHECK(json(bench.run({"alloc", "--list", "-j"}).out)["entries"].empty()); // of real servos
 }
 
+TEST_CASE(
+    "a beginning of a unique ID, or a servo ID, that a waiting unit may have, is not taken for "
+    "the servo that is there") {
+  const Bench bench;
+  Scene scene;
+  const std::string waiting = "a1b20000000000000000000000000001";
+  const std::string there = "a1b50000000000000000000000000002";
+  scene.servo("BLA21-12U-AB", 0, {{"servo_id", 1}, {"unique_id", waiting}});
+  scene.servo("BLA21-12U-AB", 20, {{"servo_id", 1}, {"unique_id", there}});
+  const Background sim(bench, {"sim", scene.write(bench)});
+  for (const auto* selector : {"uid:a1", "servo:1"}) {
+    const Result assigned = bench.run(
+        {"-i", "sim:", "alloc", "--static", "--assign", std::string(selector) + "=11", "-y", "-j"});
+    INFO(selector << ' ' << assigned.err);
+    CHECK(assigned.status == 2);
+  }
+}
+
+TEST_CASE(
+    "-n with a beginning that a waiting unit may have is refused, its whole unique ID is not") {
+  Scene scene;
+  scene.servo("BLA21-12U-AB", 0, {{"unique_id", "a1b20000000000000000000000000001"}});
+  scene.servo("BLA21-12U-AB", 20, {{"unique_id", "a1b50000000000000000000000000002"}});
+  const Result refused = scene.run({"set", "-n", "uid:a1", "smoothing=off", "-y", "-j"});
+  check_error(refused, 2, "usage", "waits for a node ID");
+  CHECK(contains(refused.err, "a1b50000000000000000000000000002 (20)"));
+  CHECK(scene.run({"alloc", "--assign", "uid:a1=30", "--once", "-j"}).status == 2);
+  CHECK(scene.run({"set", "-n", "uid:a1b5", "smoothing=off", "-y", "-j"}).status == 0);
+}
+
 TEST_CASE("what is assigned by hand is given; what is forgotten is free") {
   const Bench bench;
   const std::string file = scenario(bench, 1);

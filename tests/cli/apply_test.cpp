@@ -125,6 +125,31 @@ TEST_CASE("servos exchange their node IDs and servo IDs in one apply") {
   CHECK(fleet.rom_writes() == 3); // one made way
 }
 
+TEST_CASE("an ID that comes in between is not told as the one that is wanted") {
+  Scene scene;
+  scene.servo("BLA21-12U-AB", 11, {{"servo_id", 1}, {"faults", {{"stays", true}}}});
+  scene.servo("BLA21-12U-AB", 12, {{"servo_id", 2}});
+  const Fleet fleet(scene);
+  Document document = fleet.exported();
+  std::swap(document["servos"][0]["set"]["static_node_id"],
+            document["servos"][1]["set"]["static_node_id"]);
+  const auto told = [&] {
+    const Result applied = fleet.apply(document);
+    CHECK(applied.status != 0);
+    const auto nodes = json(applied.out)["nodes"];
+    for (const auto& change : nodes[0]["changes"]) {
+      if (change["address"] == "0x46") {
+        return change;
+      }
+    }
+    return nlohmann::json();
+  };
+  CHECK(told()["status"] == "mismatch");
+  const auto again = told(); // it holds that ID in RAM already
+  CHECK(again["status"] == "planned");
+  CHECK(again["requested"] == 12);
+}
+
 TEST_CASE("what the table promises to a servo with a static node ID is in nobody's way") {
   const Fleet fleet(three_servos());
   const Document document = fleet.exported();

@@ -561,6 +561,19 @@ TEST_CASE("Ctrl-C: what was not begun is not begun") {
   CHECK(rom_writes(sim.stop().out) == 1);
 }
 
+TEST_CASE("a servo that is unplugged while others restart is not told to be back") {
+  std::vector<int> untold;
+  for (int at = 40; at < 2600; at += 20) {
+    Scene scene;
+    scene.servo("BLA21-12U-AB", 11, {{"serial_number", 1}}).servo("BLA21-12U-AB", 12);
+    scene.world(1, {{"plugged", "off"}}, std::to_string(at) + "ms");
+    if (scene.run({"restart", "-n", "11,12", "-y", "-j", "--stagger", "2"}).status == 0) {
+      untold.push_back(at);
+    }
+  }
+  CHECK(untold == std::vector<int>{});
+}
+
 TEST_CASE("--stagger keeps the distance between servos") {
   const Bench bench;
   Background sim(bench, {"sim", three_servos().write(bench), "--json"});

@@ -24,6 +24,9 @@ struct RomProof {
   Registers rom{};               ///< all registers that SAVE keeps; none: it could not be read
   WallTime started{};            ///< by its uptime at the proof
   std::chrono::seconds uptime{}; ///< at the proof
+  /// The wall time at which the clock that waits (CLOCK_MONOTONIC) was 0: another one once the wall
+  /// clock was set, or the machine slept.
+  WallTime clock{};
 
   friend bool operator==(const RomProof&, const RomProof&) = default;
 };
@@ -32,9 +35,13 @@ struct RomProof {
 /// drift (contract, section 7, "apply").
 inline constexpr Duration uptime_tolerance = std::chrono::seconds(2);
 
+/// More than a clock that is set by small steps may have been set.
+inline constexpr Duration clock_tolerance = std::chrono::milliseconds(200);
+
 /// Whether a unit with this uptime has kept running since the proof: ROM changes by SAVE alone, and
-/// a restart follows every SAVE (4.11).
-[[nodiscard]] bool holds(const RomProof& proof, std::chrono::seconds uptime, WallTime now);
+/// a restart follows every SAVE (4.11). `clock`: as RomProof::clock, now.
+[[nodiscard]] bool holds(const RomProof& proof, std::chrono::seconds uptime, WallTime now,
+                         WallTime clock);
 
 /// The same proof with a later uptime, once it holds(): a crystal drifting by 30 ppm uses up the
 /// tolerance in a day.
@@ -70,7 +77,8 @@ class ProofStore {
   /// Replaces the proofs of these units: all or none.
   [[nodiscard]] Result<void> put(std::span<const RomProof> proofs);
 
-  /// The proof of a unit, to be checked with holds(); empty: its ROM is unknown.
+  /// The proof of a unit, to be checked with holds(); empty: its ROM is unknown. What was proven
+  /// before this machine started is not: its clock may have begun anew at the same time.
   [[nodiscard]] Result<std::optional<RomProof>> find(const dronecan::UniqueId& unique_id) const;
 
   /// Removes all proofs.

@@ -34,14 +34,14 @@ class StaticWishes {
     std::vector<Error> unknown = wish(whom);
     auto found = fleet::static_goals(whom.roster, context_.known(), wishes_, not_let_in_);
     std::ranges::move(found.errors, std::back_inserter(unknown));
-    const bool may_wait = !unknown.empty();
+    const bool may_wait = !unknown.empty() || !name_units();
     return {.goals = std::move(found.goals), .errors = std::move(unknown), .may_wait = may_wait};
   }
 
-  /// Those with a wish get its ID for the time being. To tell who is meant by anything but a unique
-  /// ID, all that wait need one.
+  /// Those with a wish get its ID for the time being. To tell who is meant by anything but a whole
+  /// unique ID, all that wait need one.
   [[nodiscard]] Result<void> let_in() {
-    if (wanted_.empty() || wishes_.size() < wanted_.size()) {
+    if (wanted_.empty() || !name_units()) {
       return let_all_in();
     }
     auto done = fleet::let_in(context_.session(), table_, wishes_);
@@ -54,6 +54,10 @@ class StaticWishes {
   }
 
  private:
+  [[nodiscard]] bool name_units() const {
+    return std::ranges::all_of(wanted_, fleet::names_one_unit);
+  }
+
   void tell(const std::vector<std::string>& notes) const {
     for (const std::string& note : notes) {
       context_.reporter().note(note);

@@ -71,6 +71,7 @@ class Run : WritingRun {
 
   const ChangeRequest& request_;
   ApplyWatch watch_;
+  fleet::Targets whom_;
   Goals goals_;
   std::size_t named_ = 0; ///< targets, including missing ones
 };
@@ -135,6 +136,7 @@ bool Run::find() {
   if (!targets) {
     return stop(targets.error());
   }
+  whom_ = *targets;
   if (request_.search == Search::everybody && !look_around()) {
     return false;
   }
@@ -218,6 +220,9 @@ Change::Options Run::options() {
 bool Run::prepare(Change& change) {
   const auto errors = change.prepare(goals_.goals);
   tell(change.notes());
+  if (auto ambiguous = whom_.ambiguity(context_.session().roster(), context_.known())) {
+    return stop(std::move(*ambiguous)); // heard since
+  }
   if (!stop_at(errors) || (request_.refuse && !stop_at(request_.refuse(change.results())))) {
     return false;
   }

@@ -181,11 +181,17 @@ void Undo::of_node(dronecan::NodeId id, const Whom& whom, Goals& goals) {
 }
 
 void Undo::take_back(const fleet::Undoing& change, dronecan::NodeId id, Goals& goals) {
-  const SnapshotEntry& entry = change.entry;
   if (auto copied = fleet::not_unique(context_.session().roster(), id)) {
     goals.errors.push_back(std::move(*copied));
     return;
   }
+  const auto left =
+      fleet::as_left(change, id, context_.session(), context_.known(), context_.identification());
+  if (!left) {
+    goals.errors.push_back(left.error());
+    return;
+  }
+  const SnapshotEntry& entry = left->entry;
   auto wanted = fleet::to_undo(entry, context_.known());
   if (!wanted) {
     wanted.error().node_id = id.value();

@@ -121,6 +121,21 @@ units_meant(const Selector& selector, const Roster& roster, const bla::Profiles&
 
 } // namespace
 
+std::vector<UniqueIdPrefix> waiting_like(const Selector& selector, const Roster& roster) {
+  std::vector<UniqueIdPrefix> waiting;
+  constexpr std::size_t whole = 2 * std::tuple_size_v<dronecan::UniqueId>;
+  if (selector.key != Selector::Key::unique_id || selector.value.size() == whole) {
+    return waiting;
+  }
+  for (const UniqueIdPrefix& heard : roster.requests() | std::views::keys) {
+    const std::string digits = hex(heard);
+    if (digits.starts_with(selector.value) || selector.value.starts_with(digits)) {
+      waiting.push_back(heard);
+    }
+  }
+  return waiting;
+}
+
 bool Selector::matches(const Member& member, const bla::Profiles& profiles) const {
   return member.is_known() && matches(member.servo(), profiles);
 }
@@ -179,12 +194,16 @@ std::optional<Error> Targets::ambiguity(const Roster& roster, const bla::Profile
       continue;
     }
     const auto meant = units_meant(selector, roster, profiles);
-    if (meant.size() < 2) {
+    const auto waiting = waiting_like(selector, roster);
+    if (meant.empty() || meant.size() + waiting.size() < 2) {
       continue;
     }
     std::string listed;
     for (const auto& [unique_id, id] : meant) {
       listed += fmt::format("{}{} ({})", listed.empty() ? "" : ", ", hex(unique_id), id.value());
+    }
+    for (const UniqueIdPrefix& heard : waiting) {
+      listed += ", " + say<texts::waiting_unit>(hex(heard));
     }
     return is_serial
                ? Error{Code::usage, say<texts::doubled_serial_target>(selector.text, listed),

@@ -142,7 +142,7 @@ Result<void> look_back(Session& session, std::list<ChangeJob>& jobs, Patience pa
     if (auto servo = jobs.size() > 1 ? job.in_ram_only() : std::nullopt) {
       in_ram.push_back(std::move(*servo));
     }
-    if (auto servo = job.proven_before(session.now() - long_ago)) {
+    if (auto servo = job.back_before(session.now() - long_ago)) {
       in_rom.push_back(std::move(*servo));
     }
   }

@@ -119,9 +119,9 @@ bool ChangeJob::is_proven() const {
   return result_.is_done() && result_.returned && result_.rom && !result_.rom->values.empty();
 }
 
-std::optional<Servo> ChangeJob::proven_before(Time time) const {
-  return is_proven() && read_->began() < time ? std::optional(read_->snapshot().servo)
-                                              : std::nullopt;
+std::optional<Servo> ChangeJob::back_before(Time time) const {
+  const bool is_back = result_.is_done() && result_.returned && read_;
+  return is_back && read_->began() < time ? std::optional(read_->snapshot().servo) : std::nullopt;
 }
 
 bool ChangeJob::has_restarted_since() const {

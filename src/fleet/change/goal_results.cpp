@@ -34,10 +34,12 @@ void learn(RegisterChange& change, const ChangeResult& last) {
   change.after = same->after;
   change.error = same->error;
   const bool was_made = change.is_planned() && same->status == ChangeStatus::unchanged;
-  const bool is_other = same->status == ChangeStatus::written && same->after != change.requested;
-  change.status = is_other   ? ChangeStatus::mismatch
-                  : was_made ? ChangeStatus::written
-                             : same->status;
+  if (same->requested != change.requested) { // a node ID that comes in between
+    change.status =
+        same->status == ChangeStatus::written ? ChangeStatus::mismatch : ChangeStatus::planned;
+  } else {
+    change.status = was_made ? ChangeStatus::written : same->status;
+  }
 }
 
 } // namespace

@@ -24,7 +24,8 @@ state::RomProof proof_of(const UniqueId& unique_id, const RomReading& rom, const
   return {.unique_id = unique_id,
           .rom = stored(rom.values),
           .started = session.wall() - (session.now() - rom.started),
-          .uptime = rom.uptime};
+          .uptime = rom.uptime,
+          .clock = clock_of(session)};
 }
 
 /// Without those that could not be written back.
@@ -90,6 +91,15 @@ std::optional<state::SnapshotEntry> lasting(state::SnapshotEntry change, const P
   change.saved = true;
   change.settled.reset();
   return lasts ? std::optional(std::move(change)) : std::nullopt;
+}
+
+/// Where nothing else tells of ROM: a static node ID that only RAM holds is not the one on which
+/// the servo has started.
+void add_static_node_id(const Snapshot& ram, bla::Values& rom) {
+  const auto held = ram.raw(bla::address::static_node_id);
+  if (held.value_or(0) != 0 && held != ram.servo.id.value() && ram.servo.id_is_known) {
+    rom.emplace(bla::address::static_node_id, ram.servo.id.value());
+  }
 }
 
 } // namespace
@@ -326,7 +336,9 @@ History::Roms History::roms_before(std::span<const Plan> plans, const Session& s
   Roms roms;
   for (const Plan& plan : plans) {
     if (plan.restart == RestartKind::save && plan.before.servo.unique_id) {
-      roms.emplace(*plan.before.servo.unique_id, stored(known_rom(plan.before, session)));
+      bla::Values rom = known_rom(plan.before, session);
+      add_static_node_id(plan.before, rom);
+      roms.emplace(*plan.before.servo.unique_id, stored(rom));
     }
   }
   return roms;

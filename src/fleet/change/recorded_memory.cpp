@@ -106,13 +106,16 @@ std::optional<bool> is_shown(const state::SnapshotEntry& change, const Snapshot&
   return are_shown({change}, ram);
 }
 
+WallTime clock_of(const Session& session) {
+  return session.wall() - session.now().time_since_epoch();
+}
+
 WallTime last_write(const state::SnapshotEntry& change) {
   constexpr std::chrono::seconds writing_time{10}; // usual, where nobody recorded how it ended
   constexpr std::chrono::seconds whole_second{1};  // an uptime lets a start look later by as much
   return change.settled ? *change.settled + whole_second : change.at + writing_time;
 }
 
-/// Empty: it has not told its uptime.
 std::optional<WallTime> History::start_of(const Servo& servo, const Session& session) {
   const Member member = session.roster().member(servo.id);
   return servo.unique_id && member.is_unit(*servo.unique_id) && member.status
@@ -130,7 +133,7 @@ std::optional<state::RomProof> History::proof(const Servo& servo, const Session&
   const auto proof = proofs_.find(*servo.unique_id);
   const std::chrono::seconds uptime(member.status->uptime_s);
   const WallTime told = told_at(member, session);
-  if (!proof || !*proof || !state::holds(**proof, uptime, told)) {
+  if (!proof || !*proof || !state::holds(**proof, uptime, told, clock_of(session))) {
     return std::nullopt;
   }
   if (uptime - (*proof)->uptime > worth_renewing) {

@@ -1,17 +1,23 @@
 #include "blactl/fleet/change/undo.hpp"
 
 #include "blactl/base/hex.hpp"
+#include "blactl/fleet/bus/read_job.hpp"
 #include "blactl/fleet/bus/texts.hpp"
+#include "blactl/fleet/change/history.hpp"
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <iterator>
 #include <map>
 #include <ranges>
+#include <set>
 #include <string>
 #include <utility>
 
 namespace blactl::fleet {
+
+using dronecan::NodeId;
 
 Result<Wanted> to_undo(const state::SnapshotEntry& entry, const bla::Profiles& profiles) {
   Wanted wanted{.restart = entry.saved ? std::optional(RestartKind::save) : std::nullopt};
@@ -31,6 +37,20 @@ Result<Wanted> to_undo(const state::SnapshotEntry& entry, const bla::Profiles& p
 }
 
 namespace {
+
+/// Since a time of the record, as far as the uptime tells.
+bool has_run_on(const Servo& servo, WallTime since, const Session& session) {
+  const auto started = History::start_of(servo, session);
+  return started && *started < since && since <= session.wall();
+}
+
+std::vector<bla::Address> addresses_of(const state::Registers& registers) {
+  std::vector<bla::Address> addresses;
+  for (const auto& [address, raw] : registers) {
+    addresses.emplace_back(address);
+  }
+  return addresses;
+}
 
 bool is_unfinished_undo(const state::SnapshotEntry& entry) {
   return entry.command == "undo" && !entry.ended;
@@ -70,6 +90,18 @@ void leave_out_what_was_taken(Tries& tries) {
   }
 }
 
+/// See Undoing.
+std::optional<WallTime> perhaps_saved_since(const Tries& tries) {
+  std::optional<WallTime> first;
+  for (const state::SnapshotEntry& each : tries) {
+    if (each.saved && each.settled) {
+      return std::nullopt;
+    }
+    first = each.saved ? std::optional(each.at) : first; // the newest comes first
+  }
+  return first;
+}
+
 /// Several changes of one unit, the newest first, as one.
 Undoing as_one(Tries changes) {
   const bool was_saved = std::ranges::any_of(changes, [](const state::SnapshotEntry& each) {
@@ -78,14 +110,22 @@ Undoing as_one(Tries changes) {
   if (was_saved) {
     leave_out_what_was_taken(changes);
   }
-  Undoing one{.entry = changes.front()};
+  Undoing one{.entry = changes.front(), .perhaps_saved_since = perhaps_saved_since(changes)};
+  std::set<std::uint8_t> told_by_save; // what ROM held, as far as known, and not RAM alone
   for (const state::SnapshotEntry& each : changes) {
     for (const auto& [address, raw] : each.held) {
       const auto [found, is_new] = one.entry.held.emplace(address, raw);
       // History::join() has left out what somebody else changed in between
-      if (!is_new && each.written.contains(address)) {
+      const bool is_older = each.saved || !told_by_save.contains(address);
+      if (!is_new && is_older && each.written.contains(address)) {
         found->second = raw;
       }
+      if (each.saved) {
+        told_by_save.insert(address);
+      }
+    }
+    for (const auto& [address, raw] : each.written) {
+      one.written[address].insert(raw);
     }
     one.numbers.push_back(each.number);
   }
@@ -131,6 +171,33 @@ Result<std::optional<Undoing>> meant_by(const state::SnapshotStore& store,
 }
 
 } // namespace
+
+Result<Undoing> as_left(Undoing change, NodeId id, Session& session, const bla::Profiles& profiles,
+                        const Identification::Options& options) {
+  const Servo servo = session.roster().member(id).servo();
+  if (!change.perhaps_saved_since) {
+    return change;
+  }
+  if (has_run_on(servo, *change.perhaps_saved_since, session)) {
+    change.entry.saved = false;
+    return change;
+  }
+  const auto addresses = addresses_of(change.entry.held);
+  const auto read =
+      take_snapshots(session, profiles, std::array{id}, options,
+                     [&](const Servo& asked) { return asked.identity.registers(addresses); });
+  if (read.broken) {
+    return std::unexpected(*read.broken);
+  }
+  std::erase_if(change.entry.held, [&](const auto& held) {
+    const auto written = change.written.find(held.first);
+    const auto now = read.servos.front().raw(bla::Address(held.first));
+    return now && written != change.written.end() && !written->second.contains(*now) &&
+           bla::Address(held.first) != bla::address::static_node_id;
+  });
+  change.entry.saved = !change.entry.held.empty();
+  return change;
+}
 
 Result<std::optional<Undoing>> last_change(const state::SnapshotStore& store,
                                            const dronecan::UniqueId& unique_id) {

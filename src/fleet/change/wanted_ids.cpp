@@ -53,6 +53,19 @@ std::set<dronecan::UniqueId> units_with(const Targets& whom, const Roster& roste
   return units;
 }
 
+/// Those that wait, of whose unique ID only the beginning was heard.
+std::string perhaps_meant(const Targets& whom, const Roster& roster) {
+  std::string listed;
+  for (const Selector& selector : whom.selectors) {
+    for (const UniqueIdPrefix& heard : waiting_like(selector, roster)) {
+      if (heard.size() < std::tuple_size_v<dronecan::UniqueId>) {
+        listed += ", " + say<texts::waiting_unit>("uid:" + hex(heard));
+      }
+    }
+  }
+  return listed;
+}
+
 using Serials = std::map<dronecan::UniqueId, std::int64_t>;
 
 Result<Serials> serial_numbers(const Roster& roster, std::span<const Wish> wishes) {
@@ -81,6 +94,10 @@ void give_up_promise(const Roster& roster, NodeId id, state::NodeIds& used) {
 
 } // namespace
 
+bool names_one_unit(const WantedId& wanted) {
+  return whole_unique_id(wanted.whom).has_value();
+}
+
 Result<dronecan::UniqueId> unit_meant(const WantedId& wanted, const Roster& roster,
                                       const bla::Profiles& profiles) {
   if (const auto whole = whole_unique_id(wanted.whom)) {
@@ -92,7 +109,8 @@ Result<dronecan::UniqueId> unit_meant(const WantedId& wanted, const Roster& rost
     }
   }
   const auto units = units_with(wanted.whom, roster, profiles);
-  if (units.size() == 1) {
+  const std::string waiting = perhaps_meant(wanted.whom, roster);
+  if (units.size() == 1 && waiting.empty()) {
     return *units.begin();
   }
   if (units.empty()) {
@@ -103,6 +121,7 @@ Result<dronecan::UniqueId> unit_meant(const WantedId& wanted, const Roster& rost
   for (const dronecan::UniqueId& unit : units) {
     listed += (listed.empty() ? "uid:" : ", uid:") + hex(unit);
   }
+  listed += waiting;
   return fail(Code::usage, say<texts::several_wanted>(printable(wanted.text), listed),
               say<texts::several_wanted_hint>());
 }

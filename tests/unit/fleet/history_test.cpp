@@ -108,7 +108,7 @@ bool holds_now(const Scene& scene, const state::RomProof& proof, std::uint8_t id
   scene.live(1100ms);
   const Member member = scene.member(id);
   const auto now = scene.session->wall() - (scene.session->now() - member.status_at);
-  return holds(proof, std::chrono::seconds(member.status->uptime_s), now);
+  return holds(proof, std::chrono::seconds(member.status->uptime_s), now, clock_of(*scene.session));
 }
 
 } // namespace
@@ -414,6 +414,52 @@ TEST_CASE("an apply that did not end and comes again is one change") {
   REQUIRE(change(scene, set("smoothing=off"), kept, "apply").is_done());
   REQUIRE(change(scene, set("soft_start=off"), kept).is_done());
   CHECK(kept.entries().size() == 5);
+}
+
+TEST_CASE("a servo that has run on since an apply was killed has saved nothing") {
+  const Kept kept;
+  const Scene scene(servos());
+  scene.live(1100ms);
+  History history = kept.history("apply");
+  REQUIRE(history.keep(plans_for(scene, set("angle_limit_cw=90deg", true), {11}), *scene.session));
+  const auto left = kept.to_undo(); // as if it had been killed before its first request
+  REQUIRE(left.size() == 1);
+  REQUIRE(left[0].perhaps_saved_since);
+  const auto found = [&](Undoing change) {
+    return as_left(std::move(change), NodeId(11), *scene.session, profiles(), {}).value().entry;
+  };
+  CHECK_FALSE(found(left[0]).saved);
+  CHECK(found(left[0]).held == left[0].entry.held);
+  Undoing of_set_clock = left[0];
+  *of_set_clock.perhaps_saved_since += 1h;
+  CHECK(found(of_set_clock).held.empty()); // RAM is not as it was to be, anyway
+  const Kept of_another;
+  REQUIRE(change(scene, set("angle_limit_cw=60deg", true), of_another).is_done());
+  CHECK(found(left[0]).held.empty()); // that is somebody else's
+  REQUIRE(change(scene, set("angle_limit_cw=90deg", true), of_another).is_done());
+  CHECK(found(left[0]).held == left[0].entry.held);
+  CHECK(found(left[0]).saved);
+}
+
+TEST_CASE("what certainly was saved is taken back in ROM") {
+  const Kept kept;
+  const Scene scene(servos());
+  killed(scene, set("angle_limit_cw=90deg", true), kept, "apply");
+  killed(scene, set("reverse=on"), kept, "apply");
+  for (const Undoing& each : kept.to_undo()) {
+    CHECK_FALSE(each.perhaps_saved_since);
+  }
+}
+
+TEST_CASE("where ROM is unknown, the node ID of a servo is the one on which it started") {
+  const Kept kept;
+  const Scene scene(servos());
+  const Kept of_another;
+  REQUIRE(change(scene, set("static_node_id=13"), of_another).is_done());
+  REQUIRE(change(scene, set("static_node_id=14", true), kept, "alloc --static").is_done());
+  const auto last = kept.to_undo();
+  REQUIRE(last.size() == 1);
+  CHECK(last[0].entry.held.at(0x46) == 11);
 }
 
 TEST_CASE("an apply that comes again after another command is the last one") {

@@ -66,29 +66,65 @@ std::optional<RomProof> found(const ProofStore& store, std::uint8_t number) {
 
 TEST_CASE("a proof holds while the uptime runs on, give or take two seconds") {
   const RomProof old = proof(1);
-  CHECK(holds(old, 100s, noon));
-  CHECK(holds(old, 3700s, noon + 1h));
-  CHECK(holds(old, 3702s, noon + 1h));
-  CHECK(holds(old, 3698s, noon + 1h));
-  CHECK_FALSE(holds(old, 3703s, noon + 1h));
-  CHECK_FALSE(holds(old, 3697s, noon + 1h));
-  CHECK_FALSE(holds(old, 3700s, noon + 1h + 2001ms));
-  CHECK_FALSE(holds(old, 0s, noon + 1h));
+  CHECK(holds(old, 100s, noon, {}));
+  CHECK(holds(old, 3700s, noon + 1h, {}));
+  CHECK(holds(old, 3702s, noon + 1h, {}));
+  CHECK(holds(old, 3698s, noon + 1h, {}));
+  CHECK_FALSE(holds(old, 3703s, noon + 1h, {}));
+  CHECK_FALSE(holds(old, 3697s, noon + 1h, {}));
+  CHECK_FALSE(holds(old, 3700s, noon + 1h + 2001ms, {}));
+  CHECK_FALSE(holds(old, 0s, noon + 1h, {}));
 }
 
 TEST_CASE("an uptime that went back is a restart, however close the starts are") {
   RomProof young = proof(1);
   young.started = noon - 1s;
   young.uptime = 1s;
-  CHECK(holds(young, 1s, noon));
-  CHECK_FALSE(holds(young, 0s, noon));
+  CHECK(holds(young, 1s, noon, {}));
+  CHECK_FALSE(holds(young, 0s, noon, {}));
 }
 
 TEST_CASE("a clock that was set makes a proof worthless, and never makes one") {
   const RomProof old = proof(1);
-  CHECK_FALSE(holds(old, 160s, noon + 1min - 1h));
-  CHECK_FALSE(holds(old, 160s, noon + 1min + 1h));
-  CHECK_FALSE(holds(old, 50s, noon - 50s)); // the times agree, the uptime does not
+  CHECK_FALSE(holds(old, 160s, noon + 1min - 1h, {}));
+  CHECK_FALSE(holds(old, 160s, noon + 1min + 1h, {}));
+  CHECK_FALSE(holds(old, 50s, noon - 50s, {})); // the times agree, the uptime does not
+}
+
+TEST_CASE("a clock that was set, or stood still in sleep, makes every proof worthless") {
+  const RomProof old = proof(1);
+  CHECK(holds(old, 160s, noon + 1min, WallTime(200ms)));
+  CHECK_FALSE(holds(old, 160s, noon + 1min, WallTime(201ms)));
+  CHECK_FALSE(holds(old, 160s, noon + 1min, WallTime(-7s)));
+}
+
+TEST_CASE("what was proven before the machine started, or by an older version, is not known") {
+  const Folder folder;
+  {
+    auto store = opened(folder);
+    REQUIRE(put(store, proof(1)));
+  }
+  SECTION("another start") {
+    run_sql(file_of(folder), "UPDATE proofs SET boot = 'another'");
+  }
+  SECTION("a machine that does not tell") {
+    run_sql(file_of(folder), "UPDATE proofs SET boot = ''");
+  }
+  SECTION("an older version") {
+    run_sql(file_of(folder),
+            "DROP TABLE proofs; CREATE TABLE proofs ("
+            "unique_id BLOB PRIMARY KEY NOT NULL CHECK (length(unique_id) = 16), "
+            "rom BLOB NOT NULL, "
+            "started INTEGER NOT NULL CHECK (started BETWEEN "
+            "-253402300799999999 AND 253402300799999999), "
+            "uptime INTEGER NOT NULL CHECK (uptime BETWEEN 0 AND 4294967295), "
+            "UNIQUE (unique_id, rom, started, uptime)) STRICT; "
+            "INSERT INTO proofs VALUES (zeroblob(16), x'', 0, 0); PRAGMA user_version = 1");
+  }
+  auto store = opened(folder);
+  CHECK_FALSE(found(store, 1));
+  REQUIRE(put(store, proof(2)));
+  CHECK(found(store, 2) == proof(2));
 }
 
 TEST_CASE("a proof that is renewed while it holds outlives the drift of a crystal") {
@@ -98,12 +134,12 @@ TEST_CASE("a proof that is renewed while it holds outlives the drift of a crysta
   for (int hours = 1; hours <= 24 * 365; ++hours) {
     const auto now = noon + hours * hour;
     const auto uptime = 100s + hours * hour + std::chrono::seconds(hours / 10); // 28 ppm
-    REQUIRE(holds(kept, uptime, now));
+    REQUIRE(holds(kept, uptime, now, {}));
     kept = renewed(kept, uptime, now);
   }
   CHECK(kept.rom == first.rom);
   CHECK(kept.unique_id == first.unique_id);
-  CHECK_FALSE(holds(first, kept.uptime, noon + 365 * 24h));
+  CHECK_FALSE(holds(first, kept.uptime, noon + 365 * 24h, {}));
 }
 
 // What is kept.
@@ -170,7 +206,7 @@ TEST_CASE("a file that is no record of ours is refused by its name, and stays as
   const Folder folder;
   const auto [content, message] = GENERATE(
       std::pair("what is this", "not a blactl record of ROM contents"),
-      std::pair("PRAGMA user_version = 2", "has version 2; this blactl knows version 1"),
+      std::pair("PRAGMA user_version = 3", "has version 3; this blactl knows version 2"),
       std::pair("PRAGMA application_id = 1", "not a blactl record of ROM contents"),
       std::pair("UPDATE proofs SET rom = x'38'", "is damaged"),
       std::pair("UPDATE proofs SET rom = x'380000000000000001380000000000000002'", "is damaged"),

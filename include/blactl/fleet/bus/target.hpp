@@ -34,6 +34,11 @@ struct Selector {
   [[nodiscard]] bool matches(const Servo& servo, const bla::Profiles& profiles) const;
 };
 
+/// What was heard of the unique IDs of units that ask for a node ID, be it once, where this
+/// selector, not a whole unique ID, may mean them.
+[[nodiscard]] std::vector<UniqueIdPrefix> waiting_like(const Selector& selector,
+                                                       const Roster& roster);
+
 struct Targets {
   bool given = false;                ///< -n was given
   bool all = false;                  ///< every BLA servo on the bus
@@ -44,7 +49,7 @@ struct Targets {
   [[nodiscard]] bool mean(const Member& member, const bla::Profiles& profiles) const;
 
   /// The error for a beginning of a unique ID or a serial number, which mean one unit, that matches
-  /// several: usage, with the list of them.
+  /// several, or one and perhaps a unit that waits for a node ID: usage, with the list of them.
   [[nodiscard]] std::optional<Error> ambiguity(const Roster& roster,
                                                const bla::Profiles& profiles) const;
 

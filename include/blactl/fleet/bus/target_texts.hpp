@@ -57,6 +57,7 @@ inline constexpr Text bad_target_range{"-n {}: the range goes downwards",
 inline constexpr Text bad_target_range_hint{"type -n {}-{}", "-n {}-{} と入力して下さい"};
 inline constexpr Text ambiguous_target{"-n {}: several servos have a unique ID that begins so: {}",
                                        "-n {}: 固有 ID の先頭が一致するサーボが複数あります: {}"};
+inline constexpr Text waiting_unit{"{}… (waits for a node ID)", "{}… (ノード ID 割当て待ち)"};
 inline constexpr Text ambiguous_target_hint{"type more of its digits",
                                             "固有 ID をより多くの桁で指定して下さい"};
 inline constexpr Text doubled_serial_target{"-n {}: several servos have this serial number: {}",

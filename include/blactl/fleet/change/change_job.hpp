@@ -51,8 +51,8 @@ class ChangeJob final : public dronecan::Job {
   /// failed.
   [[nodiscard]] std::optional<Servo> in_ram_only() const;
 
-  /// The servo, if its ROM was proven before this time.
-  [[nodiscard]] std::optional<Servo> proven_before(Time time) const;
+  /// The servo, if it was back from its restart before this time.
+  [[nodiscard]] std::optional<Servo> back_before(Time time) const;
 
   /// For a job that has ended before others: whether the servo has restarted since its ROM was
   /// proven, as far as heard. Its ROM may be another now, or may not have been read.

@@ -105,6 +105,9 @@ class History {
   /// its ROM holds them, as far as recorded; and which of them may be saved by now.
   [[nodiscard]] ToldRom recorded_rom(const Snapshot& ram, const Session& session) const;
 
+  /// The latest possible start of this servo, by its uptime. Empty: it has not told it.
+  [[nodiscard]] static std::optional<WallTime> start_of(const Servo& servo, const Session& session);
+
   /// What its ROM holds, as far as proven, else as far as recorded.
   [[nodiscard]] bla::Values known_rom(const Snapshot& ram, const Session& session);
 
@@ -142,7 +145,6 @@ class History {
   [[nodiscard]] Result<void> join_done(std::span<const Plan> plans, const Session& session);
   [[nodiscard]] Result<void> join(state::SnapshotEntry tried, const Plan& plan,
                                   const Session& session);
-  [[nodiscard]] static std::optional<WallTime> start_of(const Servo& servo, const Session& session);
   [[nodiscard]] bool is_half_undone() const;
   [[nodiscard]] bool is_another_try(const dronecan::UniqueId& unit) const;
   [[nodiscard]] std::vector<std::int64_t>
@@ -175,6 +177,9 @@ class History {
   /// Changes in RAM that SAVE makes permanent, as they were before.
   std::map<dronecan::UniqueId, std::vector<state::SnapshotEntry>> lasting_{};
 };
+
+/// As state::RomProof::clock, now.
+[[nodiscard]] WallTime clock_of(const Session& session);
 
 /// No write of this change came later: the servo may have restarted between record and write.
 [[nodiscard]] WallTime last_write(const state::SnapshotEntry& change);

@@ -3,11 +3,15 @@
 
 #include "blactl/base/error.hpp"
 #include "blactl/bla/profile.hpp"
+#include "blactl/fleet/bus/identification.hpp"
+#include "blactl/fleet/bus/session.hpp"
 #include "blactl/fleet/change/plan.hpp"
 #include "blactl/state/snapshot_store.hpp"
 
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <set>
 #include <vector>
 
 namespace blactl::fleet {
@@ -22,7 +26,17 @@ struct Undoing {
   state::SnapshotEntry entry;          ///< of a command that was repeated: of all its tries
   std::vector<std::int64_t> numbers{}; ///< of these tries
   bool goes_on = false;                ///< an undo of it has begun and did not end
+  /// Of no try is it known whether it was saved: the time of the first of these. Empty: it is.
+  std::optional<WallTime> perhaps_saved_since{};
+  std::map<std::uint8_t, std::set<std::int64_t>> written{}; ///< by all tries
 };
+
+/// The change as far as the servo on this node ID shows it, where it broke off. One that has run on
+/// since has saved nothing; of what a restart has brought back only what the tries have written is
+/// theirs. A node ID always goes back. Errors: as Session::run().
+[[nodiscard]] Result<Undoing> as_left(Undoing change, dronecan::NodeId id, Session& session,
+                                      const bla::Profiles& profiles,
+                                      const Identification::Options& options);
 
 /// The last change of this unit; empty: none is known. For an undo that did not end, the change
 /// that it was to undo. Errors: those of the store.

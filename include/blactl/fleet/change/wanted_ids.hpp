@@ -22,8 +22,11 @@ struct WantedId {
   std::string text{}; ///< the servo as typed: "serial:240900558"
 };
 
+/// Whether it is a whole unique ID, which no other unit has.
+[[nodiscard]] bool names_one_unit(const WantedId& wanted);
+
 /// The unit that is meant: of this bus, waiting for a node ID or not, or by its whole unique ID.
-/// Errors: not_found; usage (several are meant); duplicate_node_id.
+/// Errors: not_found; usage (several are meant, or perhaps one that waits, too); duplicate_node_id.
 [[nodiscard]] Result<dronecan::UniqueId> unit_meant(const WantedId& wanted, const Roster& roster,
                                                     const bla::Profiles& profiles);
 
