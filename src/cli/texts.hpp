@@ -309,7 +309,7 @@ inline constexpr Text level_failure{"FAILURE", "障害"};
 inline constexpr Text no_faults{"no faults", "異常なし"};
 inline constexpr Text health_unexplained{
     "its NodeStatus says that its health is {}, and no bit of 0x18-0x1B explains that",
-    "NodeStatus の health は {} ですが、0x18-0x1B に対応する異常はありません"};
+    "NodeStatus の健康状態は「{}」ですが、0x18-0x1B に対応する異常はありません"};
 inline constexpr Text faults_unknown{"not known whether it has faults", "異常の有無は不明です"};
 inline constexpr Text faults_of_before{"does not report its faults now; the last known ones:",
                                        "現在の異常は不明です。以下は最後に取得した内容です"};

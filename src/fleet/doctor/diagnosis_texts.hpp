@@ -66,7 +66,7 @@ inline constexpr Text port_foreign_fix{"use another port: ls -l /dev/serial/by-i
                                        "別のポートを指定して下さい: ls -l /dev/serial/by-id"};
 
 inline constexpr Text node_bad_health{"node {} says that its health is {}",
-                                      "ノード {} の health は {} です"};
+                                      "ノード {} の健康状態は「{}」です"};
 inline constexpr Text node_bad_health_fix{"see why: blactl faults -n {}",
                                           "原因を確認: blactl faults -n {}"};
 inline constexpr Text node_offline{"node {} was heard, and is not any more",
@@ -74,12 +74,12 @@ inline constexpr Text node_offline{"node {} was heard, and is not any more",
 inline constexpr Text node_offline_fix{"look at its supply and its cable: blactl wait -n {}",
                                        "電源と配線を確認して下さい: blactl wait -n {}"};
 inline constexpr Text node_in_mode{"node {} says that its mode is {}",
-                                   "ノード {} の mode は {} です"};
+                                   "ノード {} の動作モードは「{}」です"};
 inline constexpr Text node_in_mode_fix{"wait until it is operational: blactl wait -n {}",
-                                       "operational になるまで待機: blactl wait -n {}"};
+                                       "動作中になるまで待機: blactl wait -n {}"};
 inline constexpr Text servo_in_mode_fix{
     "wait until it is operational: blactl wait -n {}; or restart it: blactl restart -n {}",
-    "operational になるまで待機: blactl wait -n {}、または再起動: blactl restart -n {}"};
+    "動作中になるまで待機: blactl wait -n {}、または再起動: blactl restart -n {}"};
 inline constexpr Text answers_lost{
     "{} of {} requests to nodes {} were not answered: frames are lost, or the nodes are too slow",
     "{1} 回の問合せのうち {0} 回に応答がありません (ノード {2})。"
