@@ -330,6 +330,8 @@ inline constexpr Text fault_present{"present", "発生中"};
 inline constexpr Text fault_came{"came", "発生"};
 inline constexpr Text fault_went{"went", "解消"};
 inline constexpr Text answers_again{"node {} answers again", "ノード {} の応答が回復しました"};
+inline constexpr Text servo_gone{"gone (silent)", "応答なし"};
+inline constexpr Text servo_back_again{"back", "応答回復"};
 inline constexpr Text servo_restarted{"restarted", "再起動"};
 inline constexpr Text fault_other_servo{
     "node {} is another servo now: what follows is about that one",
