@@ -255,12 +255,13 @@ inline constexpr Text more_may_wait{
 inline constexpr Text column_node{"NODE", "ノード"};
 inline constexpr Text column_model{"MODEL", "機種"};
 inline constexpr Text column_serial{"SERIAL", "製造番号"};
-inline constexpr Text column_servo_id{"SERVO ID", "サーボ ID"};
+inline constexpr Text column_servo_id{"SERVO", "サーボ"};
 inline constexpr Text column_firmware{"FIRMWARE", "ファームウェア"};
-inline constexpr Text column_static_id{"STATIC ID", "固定 ID"};
+inline constexpr Text scan_column_firmware{"FW", "FW"};
+inline constexpr Text column_static_id{"STATIC", "固定"};
 inline constexpr Text column_state{"STATE", "状態"};
-inline constexpr Text column_uptime{"UPTIME", "稼働時間"};
-inline constexpr Text column_unique_id{"UNIQUE ID", "固有 ID"};
+inline constexpr Text column_uptime{"UPTIME", "稼働"};
+inline constexpr Text column_unique_id{"UID", "UID"};
 inline constexpr Text dynamic_id{"dynamic", "動的"};
 inline constexpr Text foreign_node{"(not a BLA servo) {}", "(BLA サーボ以外) {}"};
 
