@@ -209,7 +209,8 @@ TEST_CASE("scan fails with 4 where there is nobody, or fewer servos than expecte
   CHECK(nobody.status == 4);
   CHECK(codes(nobody) == std::vector<std::string>{"not_found"});
   CHECK(contains(nobody.err, "no node was heard on sim:/"));
-  CHECK(contains(nobody.err, "\n  give it a node ID: blactl alloc --once"));
+  CHECK(contains(nobody.err, "\n  servos wait for a node ID: `blactl alloc --once`"));
+  CHECK(contains(nobody.err, ": blactl alloc --static -n all --range "));
 
   CHECK(three_servos().foreign(40).run({"scan", "--expect", "3"}).status == 0);
   const Result few = three_servos().foreign(40).run({"scan", "--expect", "4"});

@@ -139,8 +139,10 @@ inline constexpr Text servo_on_tool_id_fix{
     "別のノード ID に変更: blactl set -n {} static_node_id=N --save"};
 inline constexpr Text units_ask_for_id{"units that ask for a node ID and get none: {} or more",
                                        "ノード ID の割当てを待つ機器: {} 台以上"};
-inline constexpr Text units_ask_for_id_fix{"give them one: blactl alloc --once",
-                                           "割当て: blactl alloc --once"};
+inline constexpr Text units_ask_for_id_fix{
+    "`blactl alloc --once` gives them one for now, or for good: "
+    "blactl alloc --static -n all --range 11-40",
+    "一時的な割当ては `blactl alloc --once`、固定: blactl alloc --static -n all --range 11-40"};
 inline constexpr Text several_allocators{"several nodes allocate node IDs: {}",
                                          "複数のノードが ID を割り当てています: {}"};
 inline constexpr Text several_allocators_fix{"end all of them but one",
