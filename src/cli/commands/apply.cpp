@@ -52,7 +52,7 @@ constexpr Option apply_options[]{
      .store = into<&ApplyOptions::is_plan>},
     {.name = "--entry",
      .value = "NAME",
-     .kind = Kind::text,
+     .kind = Kind::entry,
      .help = {"give this entry to the servo behind -n, whatever it matches: for a broken servo's "
               "successor",
               "エントリ NAME を、照合条件によらず -n のサーボに設定 (故障品から交換したサーボ用)"},
