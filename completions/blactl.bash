@@ -166,7 +166,7 @@ _blactl_argument() {
     diff:*) kind='file' ;;
     apply:0) kind='file' ;;
     replace:0) kind='file' ;;
-    replace:1) kind='text' ;;
+    replace:1) kind='entry' ;;
     command:0) kind='beginning' value_words='angle= speed= torque=' ;;
     trace:0) kind='file' ;;
     characterize:0) kind='file' ;;

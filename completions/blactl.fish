@@ -356,7 +356,7 @@ complete -c blactl -n '__blactl_in replace' -l dry-run -d 'change nothing; exit 
 complete -c blactl -n '__blactl_in replace' -l no-snapshot -d 'go on even if the settings of the servo cannot be recorded for `undo`'
 complete -c blactl -n '__blactl_in replace' -l wait -r -f -d 'how long a servo may take to come back (default 5, and 2 for each that asks for a node ID)'
 complete -c blactl -n '__blactl_argument replace 1' -F
-complete -c blactl -n '__blactl_argument replace 2' -f
+complete -c blactl -n '__blactl_argument replace 2' -f -a '(__blactl_entries)'
 
 complete -c blactl -n '__blactl_in undo' -l list -d 'show the changes that are recorded, without a bus'
 complete -c blactl -n '__blactl_in undo' -l to -r -f -d 'before the command with this number of --list'
