@@ -153,6 +153,7 @@ inline constexpr Text unknown_model{"there is no model '{}'", "機種 '{}' は�
 inline constexpr Text several_models{"'{}' means several models", "'{}' は複数の機種に該当します"};
 inline constexpr Text known_models{"the models are {}", "機種: {}"};
 
+inline constexpr Text true_of_others{"{} (likewise nodes {})", "{} (ノード {} も同様)"};
 inline constexpr Text nothing_written_hint{"nothing was written", "何も書き込んでいません"};
 inline constexpr Text nothing_matches_list{"no node on {} matches -n {}",
                                            "{} 上に -n {} に該当するノードがありません"};
