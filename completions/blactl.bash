@@ -56,6 +56,20 @@ _blactl_offer_interface() {
   esac
 }
 
+# The names of the entries in the fleet files of the line, after them.
+_blactl_offer_entries() {
+  local file name
+  for file in "${words[@]}"; do
+    if [[ $file == *.json && -r $file ]]; then
+      while IFS= read -r name; do
+        if [[ $name == "$cur"* ]]; then
+          COMPREPLY+=("$(printf '%q' "$name")")
+        fi
+      done < <(grep -o '"name" *: *"[^"\\]*"' "$file" | sed 's/^"name" *: *"//; s/"$//')
+    fi
+  done
+}
+
 _blactl_offer_nodes() {
   if [[ ${cur##*,} == model:* ]]; then
     _blactl_offer_list "model:${_blactl_models// / model:}"
@@ -93,7 +107,7 @@ _blactl_option() {
     alloc:--range) kind='text' ;;
     alloc:--assign) kind='text' ;;
     alloc:--id) kind='whole' ;;
-    alloc:--forget) kind='text' ;;
+    alloc:--forget) kind='suggested' value_words='absent all' ;;
     alloc:--export) kind='file' ;;
     alloc:--import) kind='file' ;;
     get:--group) kind='group' value_words='command status operation fault config control pwm limit option product production' ;;
@@ -110,13 +124,13 @@ _blactl_option() {
     pwm-config:--neutral) kind='text' ;;
     pwm-config:--range) kind='text' ;;
     pwm-config:--output) kind='text' ;;
-    pwm-config:--mode) kind='text' ;;
+    pwm-config:--mode) kind='suggested' value_words='angle speed' ;;
     pwm-config:--endpoints) kind='text' ;;
     pwm-config:--preset) kind='whole' ;;
     pwm-config:--svg) kind='file' ;;
     pwm-config:--wait) kind='seconds' ;;
     pwm-config:--stagger) kind='seconds' ;;
-    apply:--entry) kind='text' ;;
+    apply:--entry) kind='entry' ;;
     apply:--events) kind='file' ;;
     apply:--wait) kind='seconds' ;;
     apply:--stagger) kind='seconds' ;;
@@ -130,7 +144,7 @@ _blactl_option() {
     monitor:--count) kind='whole' ;;
     command:--duration) kind='seconds' ;;
     command:--svg) kind='file' ;;
-    trace:--type) kind='text' ;;
+    trace:--type) kind='data_types' value_words='AccessCommandShell Allocation AngleOfAttack AngularCommand AppendEntries ArmingStatus ArrayCommand Auxiliary BatteryInfo BeepCommand Begin BeginFirmwareUpdate Broadcast Call CanStats CircuitStatus Command Delete Discovery ExecuteOpcode Fix Fix2 FlexDebug FuelTankStatus GEOPOICommand GetDataTypeInfo GetDirectoryEntryInfo GetInfo GetNodeInfo GetSet GetTransportStats GlobalNavigationSolution GlobalTime GlobalTimeSync Hygrometer IndicatedAirspeed Indication KeyValue LightsCommand LogMessage MagneticFieldStrength MagneticFieldStrength2 MagneticFieldStrengthHiRes Measurement NodeStatus Panic PrimaryPowerSupplyStatus RCInput RPM RPMCommand RTCMStream RawAirData RawCommand RawIMU Read RequestVote RestartNode SecureCommand SerialConfig Sideslip Solution StaticPressure StaticTemperature Stats StatusExtended Targetted Temperature TrueAirspeed Write actuator.Status camera_gimbal.Status esc.Status hardpoint.Status reciprocating.Status' ;;
     trace:--kind) kind='words' value_words='message request response' ;;
     trace:--duration) kind='seconds' ;;
     trace:--count) kind='whole' ;;
@@ -152,7 +166,7 @@ _blactl_argument() {
     diff:*) kind='file' ;;
     apply:0) kind='file' ;;
     replace:0) kind='file' ;;
-    replace:1) kind='text' ;;
+    replace:1) kind='entry' ;;
     command:0) kind='beginning' value_words='angle= speed= torque=' ;;
     trace:0) kind='file' ;;
     characterize:0) kind='file' ;;
@@ -208,8 +222,8 @@ _blactl_offer_assignment() {
 # _blactl_offer_value KIND [WORDS]
 _blactl_offer_value() {
   case $1 in
-    word | group) _blactl_offer "$2" ;;
-    words) _blactl_offer_list "$2" ;;
+    word | group | suggested) _blactl_offer "$2" ;;
+    words | data_types) _blactl_offer_list "$2" ;;
     beginning)
       _blactl_offer "$2"
       compopt -o nospace 2>/dev/null
@@ -222,6 +236,7 @@ _blactl_offer_value() {
     interface) _blactl_offer_interface ;;
     file) _blactl_offer_files '' ;;
     folder) _blactl_offer_files '' -d ;;
+    entry) _blactl_offer_entries ;;
   esac
 }
 

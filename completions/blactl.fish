@@ -79,6 +79,15 @@ function __blactl_list
     printf "$before%s\n" $argv
 end
 
+# The names of the entries in the fleet files of the line, after them.
+function __blactl_entries
+    for file in (commandline -opc)
+        if string match -q -- '*.json' $file; and test -r $file
+            grep -o '"name" *: *"[^"\\]*"' $file | sed 's/^"name" *: *"//; s/"$//'
+        end
+    end
+end
+
 function __blactl_nodes
     if string match -qr -- '(^|,)model:[^,]*$' (__blactl_token)
         __blactl_list model:(__blactl_models)
@@ -281,7 +290,7 @@ complete -c blactl -n '__blactl_in alloc' -l assign -r -f -d 'this servo (uid:, 
 complete -c blactl -n '__blactl_in alloc' -l static -d 'make the node IDs of the servos behind -n permanent, or those that --id or --assign say (save, restart, proof)'
 complete -c blactl -n '__blactl_in alloc' -l id -r -f -d 'with --static and one servo'
 complete -c blactl -n '__blactl_in alloc' -l list -d 'show the table, without a bus'
-complete -c blactl -n '__blactl_in alloc' -l forget -r -f -d 'drop from the table'
+complete -c blactl -n '__blactl_in alloc' -l forget -r -f -a 'absent all' -d 'drop from the table'
 complete -c blactl -n '__blactl_in alloc' -l export -r -F -d 'write the table to a file, - for stdout'
 complete -c blactl -n '__blactl_in alloc' -l import -r -F -d 'take over the entries of such a file'
 
@@ -315,7 +324,7 @@ complete -c blactl -n '__blactl_in faults' -l watch -d 'goes on until Ctrl-C'
 complete -c blactl -n '__blactl_in pwm-config' -l neutral -r -f -d 'the pulse that gives 0'
 complete -c blactl -n '__blactl_in pwm-config' -l range -r -f -d 'how far pulses go to either side'
 complete -c blactl -n '__blactl_in pwm-config' -l output -r -f -d 'what the ends of the range give, to either side'
-complete -c blactl -n '__blactl_in pwm-config' -l mode -r -f -d 'angle or speed (0x37), with --output in deg or rpm'
+complete -c blactl -n '__blactl_in pwm-config' -l mode -r -f -a 'angle speed' -d 'angle or speed (0x37), with --output in deg or rpm'
 complete -c blactl -n '__blactl_in pwm-config' -l endpoints -r -f -d 'neutral, range, output and mode from two points'
 complete -c blactl -n '__blactl_in pwm-config' -l preset -r -f -d 'all four by an example of the specification'
 complete -c blactl -n '__blactl_in pwm-config' -l svg -r -F -d 'draws the mapping of one servo into FILE, for a browser or a printer'
@@ -332,7 +341,7 @@ complete -c blactl -n '__blactl_in diff' -F
 
 complete -c blactl -n '__blactl_in apply' -l dry-run -d 'change nothing; exit status 8 when something would be done'
 complete -c blactl -n '__blactl_in apply' -l plan -d 'FILE is what `apply --dry-run --json` printed'
-complete -c blactl -n '__blactl_in apply' -l entry -r -f -d 'give this entry to the servo behind -n, whatever it matches'
+complete -c blactl -n '__blactl_in apply' -l entry -r -f -a '(__blactl_entries)' -d 'give this entry to the servo behind -n, whatever it matches'
 complete -c blactl -n '__blactl_in apply' -l no-save -d 'RAM only'
 complete -c blactl -n '__blactl_in apply' -l trust-ram -d 'if RAM is as wished, do not restart to check ROM'
 complete -c blactl -n '__blactl_in apply' -l fail-fast -d 'once one servo is known to have failed, no other is saved any more'
@@ -347,7 +356,7 @@ complete -c blactl -n '__blactl_in replace' -l dry-run -d 'change nothing; exit 
 complete -c blactl -n '__blactl_in replace' -l no-snapshot -d 'go on even if the settings of the servo cannot be recorded for `undo`'
 complete -c blactl -n '__blactl_in replace' -l wait -r -f -d 'how long a servo may take to come back (default 5, and 2 for each that asks for a node ID)'
 complete -c blactl -n '__blactl_argument replace 1' -F
-complete -c blactl -n '__blactl_argument replace 2' -f
+complete -c blactl -n '__blactl_argument replace 2' -f -a '(__blactl_entries)'
 
 complete -c blactl -n '__blactl_in undo' -l list -d 'show the changes that are recorded, without a bus'
 complete -c blactl -n '__blactl_in undo' -l to -r -f -d 'before the command with this number of --list'
@@ -368,7 +377,7 @@ complete -c blactl -n '__blactl_in command' -l array -d 'by ArrayCommand to its 
 complete -c blactl -n '__blactl_in command' -l svg -r -F -d 'draws command, angle, speed, torque and limits into FILE, for a browser or a printer'
 complete -c blactl -n '__blactl_argument command 1' -f -a 'angle= speed= torque='
 
-complete -c blactl -n '__blactl_in trace' -l type -r -f -d 'only these data types'
+complete -c blactl -n '__blactl_in trace' -l type -r -f -a '(__blactl_list AccessCommandShell Allocation AngleOfAttack AngularCommand AppendEntries ArmingStatus ArrayCommand Auxiliary BatteryInfo BeepCommand Begin BeginFirmwareUpdate Broadcast Call CanStats CircuitStatus Command Delete Discovery ExecuteOpcode Fix Fix2 FlexDebug FuelTankStatus GEOPOICommand GetDataTypeInfo GetDirectoryEntryInfo GetInfo GetNodeInfo GetSet GetTransportStats GlobalNavigationSolution GlobalTime GlobalTimeSync Hygrometer IndicatedAirspeed Indication KeyValue LightsCommand LogMessage MagneticFieldStrength MagneticFieldStrength2 MagneticFieldStrengthHiRes Measurement NodeStatus Panic PrimaryPowerSupplyStatus RCInput RPM RPMCommand RTCMStream RawAirData RawCommand RawIMU Read RequestVote RestartNode SecureCommand SerialConfig Sideslip Solution StaticPressure StaticTemperature Stats StatusExtended Targetted Temperature TrueAirspeed Write actuator.Status camera_gimbal.Status esc.Status hardpoint.Status reciprocating.Status)' -d 'only these data types'
 complete -c blactl -n '__blactl_in trace' -l kind -r -f -a '(__blactl_list message request response)' -d 'only these kinds'
 complete -c blactl -n '__blactl_in trace' -l duration -r -f -d 'how long to listen; of a log its first seconds'
 complete -c blactl -n '__blactl_in trace' -l count -r -f -d 'end after this many transfers'

@@ -1,6 +1,6 @@
 """completions/blactl.bash."""
 
-from generator.table import NOTICE
+from generator.table import ENTRY_NAME, NOTICE
 
 # The kinds of values whose words are all in the table, and what completes the others.
 FIXED = """\
@@ -60,6 +60,20 @@ _blactl_offer_interface() {{
   esac
 }}
 
+# The names of the entries in the fleet files of the line, after them.
+_blactl_offer_entries() {{
+  local file name
+  for file in "${{words[@]}}"; do
+    if [[ $file == *.json && -r $file ]]; then
+      while IFS= read -r name; do
+        if [[ $name == "$cur"* ]]; then
+          COMPREPLY+=("$(printf '%q' "$name")")
+        fi
+      done < <(grep -o '{entry_name}' "$file" | sed 's/^"name" *: *"//; s/"$//')
+    fi
+  done
+}}
+
 _blactl_offer_nodes() {{
   if [[ ${{cur##*,}} == model:* ]]; then
     _blactl_offer_list "model:${{_blactl_models// / model:}}"
@@ -76,8 +90,8 @@ MAIN = """
 # _blactl_offer_value KIND [WORDS]
 _blactl_offer_value() {
   case $1 in
-    word | group) _blactl_offer "$2" ;;
-    words) _blactl_offer_list "$2" ;;
+    word | group | suggested) _blactl_offer "$2" ;;
+    words | data_types) _blactl_offer_list "$2" ;;
     beginning)
       _blactl_offer "$2"
       compopt -o nospace 2>/dev/null
@@ -90,6 +104,7 @@ _blactl_offer_value() {
     interface) _blactl_offer_interface ;;
     file) _blactl_offer_files '' ;;
     folder) _blactl_offer_files '' -d ;;
+    entry) _blactl_offer_entries ;;
   esac
 }
 
@@ -237,7 +252,7 @@ def completion(table):
     ]
     files = table.schemes_with("file")
     fixed = FIXED.format(
-        notice=NOTICE,
+        notice=NOTICE, entry_name=ENTRY_NAME,
         serial_ports="\n".join(f"      printf '{name}:%s\\n' \"$entry\""
                                for name in table.schemes_with("serial_port")),
         file_cases="\n".join(f"    {name}:*) _blactl_offer_files {name}: ;;" for name in files),

@@ -1,6 +1,6 @@
 """completions/blactl.fish."""
 
-from generator.table import NOTICE
+from generator.table import ENTRY_NAME, NOTICE
 
 FIXED = """\
 # fish completion of blactl. {notice}
@@ -79,6 +79,15 @@ function __blactl_list
     printf "$before%s\\n" $argv
 end
 
+# The names of the entries in the fleet files of the line, after them.
+function __blactl_entries
+    for file in (commandline -opc)
+        if string match -q -- '*.json' $file; and test -r $file
+            grep -o '{entry_name}' $file | sed 's/^"name" *: *"//; s/"$//'
+        end
+    end
+end
+
 function __blactl_nodes
     if string match -qr -- '(^|,)model:[^,]*$' (__blactl_token)
         __blactl_list model:(__blactl_models)
@@ -106,6 +115,9 @@ def _values(option):
         "word": _quoted(words),
         "words": _quoted(f"(__blactl_list {words})"),
         "beginning": _quoted(words),
+        "suggested": _quoted(words),
+        "data_types": _quoted(f"(__blactl_list {words})"),
+        "entry": "'(__blactl_entries)'",
         "group": _quoted(words),
         "parameter": "'(__blactl_parameters)'",
         "assignment": "'(__blactl_assignments)'",
@@ -185,7 +197,7 @@ def completion(table):
         lines += [_argument_line(command, place, argument)
                   for place, argument in enumerate(command.arguments)]
     fixed = FIXED.format(
-        notice=NOTICE, with_value=_with_value(table),
+        notice=NOTICE, entry_name=ENTRY_NAME, with_value=_with_value(table),
         serial_ports="\n".join(f"        echo {name}:$entry"
                                for name in table.schemes_with("serial_port")),
         file_cases="\n".join(f"        case '{name}:*'\n            __blactl_files {name}:"

@@ -4,6 +4,9 @@ import dataclasses
 
 NOTICE = "Made by scripts/generate from the command table: do not edit."
 
+# What grep finds of an entry in a fleet file.
+ENTRY_NAME = r'"name" *: *"[^"\\]*"'
+
 
 @dataclasses.dataclass(frozen=True)
 class Option:

@@ -1,6 +1,6 @@
 """completions/_blactl, for zsh."""
 
-from generator.table import NOTICE
+from generator.table import ENTRY_NAME, NOTICE
 
 FIXED = """\
 #compdef blactl
@@ -44,6 +44,18 @@ _blactl_nodes() {{
   fi
 }}
 
+# The names of the entries in the fleet files of the line, after them.
+_blactl_entry() {{
+  local file
+  local -a names
+  for file in $words; do
+    if [[ $file == *.json && -r $file ]]; then
+      names+=(${{(f)"$(grep -o '{entry_name}' $file | sed 's/^"name" *: *"//; s/"$//')"}})
+    fi
+  done
+  compadd -a names
+}}
+
 # _blactl_word_list WORDS…: one or several with commas.
 _blactl_word_list() {{
   compset -P '*,'
@@ -68,6 +80,9 @@ def _action(option):
         "word": f"({' '.join(option.words)})",
         "words": f"_blactl_word_list {' '.join(option.words)}",
         "beginning": f"compadd -S '' -- {' '.join(option.words)}",
+        "suggested": f"({' '.join(option.words)})",
+        "data_types": f"_blactl_word_list {' '.join(option.words)}",
+        "entry": "_blactl_entry",
         "group": f"({' '.join(option.words)})",
         "parameter": "_blactl_parameter",
         "assignment": "_blactl_assignment",
@@ -183,7 +198,7 @@ def completion(table):
     ]
     words = table.interface_words()
     fixed = FIXED.format(
-        notice=NOTICE,
+        notice=NOTICE, entry_name=ENTRY_NAME,
         serial_ports="\n".join(f"    print -r -- {name}:$entry"
                                for name in table.schemes_with("serial_port")),
         file_prefixes=" || ".join(f"compset -P '{name}:'" for name in table.schemes_with("file")),

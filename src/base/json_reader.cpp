@@ -6,6 +6,8 @@
 #include "blactl/base/text.hpp"
 #include "blactl/base/texts.hpp"
 
+#include "base/json_syntax.hpp"
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -47,18 +49,6 @@ class CountingIterator {
   const char* at_;
   const char** reached_;
 };
-
-/// nlohmann's "[json.exception.parse_error.101] parse error at line 3, column 5: syntax error …"
-/// without everything before the reason.
-std::string reason_of(const std::string& what) {
-  const std::size_t place = what.find("] parse error");
-  const std::size_t colon = place == std::string::npos ? place : what.find(": ", place);
-  if (colon != std::string::npos) {
-    return what.substr(colon + 2);
-  }
-  const std::size_t bracket = what.find("] ");
-  return bracket == std::string::npos ? what : what.substr(bracket + 2);
-}
 
 /// Receives the parser's events. The names are nlohmann's.
 class Builder {
@@ -134,15 +124,19 @@ class Builder {
   }
 
   template <class Exception>
-  bool parse_error(std::size_t, const std::string&, const Exception& exception) {
-    stop(say<texts::json_invalid>(reason_of(exception.what())));
+  bool parse_error(std::size_t, const std::string& token, const Exception& exception) {
+    const auto taken = static_cast<std::size_t>(reached_ - text_.data());
+    SyntaxFault fault = explain_syntax(text_, taken, token, exception.what());
+    stop(fault.line, say<texts::json_invalid>(fault.reason));
     return false;
   }
 
   /// A fault after which nothing more can be read.
-  void stop(std::string reason) {
+  void stop(std::string reason) { stop(line(), std::move(reason)); }
+
+  void stop(std::size_t line, std::string reason) {
     broken_ = true;
-    faults_.add(line(), open_.empty() ? "" : open_.back()->pointer(), std::move(reason));
+    faults_.add(line, open_.empty() ? "" : open_.back()->pointer(), std::move(reason));
   }
 
   Result<Document> result() {

@@ -47,6 +47,9 @@ enum class Kind : std::uint8_t {
   folder,
   words,     ///< of Option::words, comma-separated
   beginning, ///< starts with one of Option::words
+  suggested, ///< Option::words are some of what it may be
+  data_types,
+  entry, ///< the name of one in the fleet file among the arguments
 };
 
 /// The name of a kind in --dump-cli: "parameter".
@@ -85,7 +88,7 @@ struct Option {
   Repeat repeat = Repeat::last;
   bool required = false;
   bool hidden = false;                       ///< not in help texts; still accepted
-  std::span<const std::string_view> words{}; ///< for Kind::word, words and beginning
+  std::span<const std::string_view> words{}; ///< for Kind::word, words, beginning, suggested
   Range<Duration> seconds{};                 ///< for Kind::seconds
   Range<std::uint64_t> whole{};              ///< for Kind::whole
   Text help;

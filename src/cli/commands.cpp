@@ -23,6 +23,9 @@ std::string_view name(Kind kind) {
   case Kind::folder: return "folder";
   case Kind::words: return "words";
   case Kind::beginning: return "beginning";
+  case Kind::suggested: return "suggested";
+  case Kind::data_types: return "data_types";
+  case Kind::entry: return "entry";
   }
   return {};
 }

@@ -419,4 +419,12 @@ void Context::broken(const Error& error, Report& report) const {
   report.signal = signal();
 }
 
+void Context::ended(const Error& error, Report& report) const {
+  if (error.code == Code::interrupted) {
+    report.signal = signal();
+  } else {
+    broken(error, report);
+  }
+}
+
 } // namespace blactl::cli

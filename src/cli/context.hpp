@@ -121,6 +121,9 @@ class Context {
   /// Completes the report of a command whose session broke.
   void broken(const Error& error, Report& report) const;
 
+  /// Completes the report of a stream that goes on until a signal: that one is no error.
+  void ended(const Error& error, Report& report) const;
+
  private:
   /// What a command wants of the bus beside the interface itself.
   struct Wishes {

@@ -1,12 +1,16 @@
 #include "blactl/base/json_writer.hpp"
 #include "blactl/bla/cross_check.hpp"
+#include "blactl/dronecan/standard_types.hpp"
 
 #include "cli/commands.hpp"
 #include "cli/help.hpp"
 #include "cli/interface/scheme.hpp"
+#include "cli/trace/type_name.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <set>
 #include <string_view>
 
 namespace blactl::cli {
@@ -31,6 +35,13 @@ void write_words(JsonWriter& json, const Option& option) {
     for (const bla::Group group : bla::all_groups()) {
       json.value(bla::name(group));
     }
+  }
+  if (option.kind == Kind::data_types) {
+    std::set<std::string_view> names;
+    for (const dronecan::DataType& type : dronecan::standard_types()) {
+      names.insert(short_name(type));
+    }
+    std::ranges::for_each(names, [&](std::string_view name) { json.value(name); });
   }
   json.end_array();
 }

@@ -32,7 +32,7 @@ std::string label(const Option& option) {
 /// The description, with the possible words of the value.
 std::string description(const Option& option) {
   std::string text(in_language(option.help));
-  if (!option.words.empty()) {
+  if (!option.words.empty() && option.kind != Kind::suggested) { // else it says so already
     text += ": ";
     for (const std::string_view word : option.words) {
       text += word == option.words.front() ? "" : ", ";

@@ -153,6 +153,7 @@ inline constexpr Text unknown_model{"there is no model '{}'", "機種 '{}' は�
 inline constexpr Text several_models{"'{}' means several models", "'{}' は複数の機種に該当します"};
 inline constexpr Text known_models{"the models are {}", "機種: {}"};
 
+inline constexpr Text true_of_others{"{} (likewise nodes {})", "{} (ノード {} も同様)"};
 inline constexpr Text nothing_written_hint{"nothing was written", "何も書き込んでいません"};
 inline constexpr Text nothing_matches_list{"no node on {} matches -n {}",
                                            "{} 上に -n {} に該当するノードがありません"};
@@ -255,12 +256,13 @@ inline constexpr Text more_may_wait{
 inline constexpr Text column_node{"NODE", "ノード"};
 inline constexpr Text column_model{"MODEL", "機種"};
 inline constexpr Text column_serial{"SERIAL", "製造番号"};
-inline constexpr Text column_servo_id{"SERVO ID", "サーボ ID"};
+inline constexpr Text column_servo_id{"SERVO", "サーボ"};
 inline constexpr Text column_firmware{"FIRMWARE", "ファームウェア"};
-inline constexpr Text column_static_id{"STATIC ID", "固定 ID"};
+inline constexpr Text scan_column_firmware{"FW", "FW"};
+inline constexpr Text column_static_id{"STATIC", "固定"};
 inline constexpr Text column_state{"STATE", "状態"};
-inline constexpr Text column_uptime{"UPTIME", "稼働時間"};
-inline constexpr Text column_unique_id{"UNIQUE ID", "固有 ID"};
+inline constexpr Text column_uptime{"UPTIME", "稼働"};
+inline constexpr Text column_unique_id{"UID", "UID"};
 inline constexpr Text dynamic_id{"dynamic", "動的"};
 inline constexpr Text foreign_node{"(not a BLA servo) {}", "(BLA サーボ以外) {}"};
 
@@ -309,7 +311,7 @@ inline constexpr Text level_failure{"FAILURE", "障害"};
 inline constexpr Text no_faults{"no faults", "異常なし"};
 inline constexpr Text health_unexplained{
     "its NodeStatus says that its health is {}, and no bit of 0x18-0x1B explains that",
-    "NodeStatus の health は {} ですが、0x18-0x1B に対応する異常はありません"};
+    "NodeStatus の健康状態は「{}」ですが、0x18-0x1B に対応する異常はありません"};
 inline constexpr Text faults_unknown{"not known whether it has faults", "異常の有無は不明です"};
 inline constexpr Text faults_of_before{"does not report its faults now; the last known ones:",
                                        "現在の異常は不明です。以下は最後に取得した内容です"};
@@ -330,6 +332,8 @@ inline constexpr Text fault_present{"present", "発生中"};
 inline constexpr Text fault_came{"came", "発生"};
 inline constexpr Text fault_went{"went", "解消"};
 inline constexpr Text answers_again{"node {} answers again", "ノード {} の応答が回復しました"};
+inline constexpr Text servo_gone{"gone (silent)", "応答なし"};
+inline constexpr Text servo_back_again{"back", "応答回復"};
 inline constexpr Text servo_restarted{"restarted", "再起動"};
 inline constexpr Text fault_other_servo{
     "node {} is another servo now: what follows is about that one",

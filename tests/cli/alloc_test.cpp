@@ -8,6 +8,7 @@
 
 #include <sys/stat.h>
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -84,6 +85,28 @@ TEST_CASE("alloc --once gives every servo that asks an ID of its own, and tells 
   CHECK(last["counts"]["assigned"] == 3);
   CHECK(last["counts"]["failed"] == 0);
   CHECK(contains(result.err, "nobody has asked for 3 s"));
+}
+
+TEST_CASE("Ctrl-C is the usual end of alloc, and no error") {
+  const Bench bench;
+  const std::string interface = "sim:" + scenario(bench, 1);
+  for (const bool as_json : {false, true}) {
+    Arguments arguments{"-i", interface, "alloc"};
+    if (as_json) {
+      arguments.emplace_back("-j");
+    }
+    Background alloc(bench, arguments, {}, "free: ");
+    const Result ended = alloc.stop(SIGINT);
+    INFO(ended.err);
+    CHECK(ended.status == 130);
+    CHECK(codes(ended).empty());
+    if (as_json) {
+      CHECK(json_lines(ended.out).back()["exit_status"] == 130);
+      CHECK(json_lines(ended.out).back()["errors"].empty());
+    }
+  }
+  Background once(bench, {"-i", interface, "alloc", "--count", "5"}, {}, "free: ");
+  CHECK(codes(once.stop(SIGINT)).front() == "interrupted");
 }
 
 TEST_CASE("a bus on which nobody asks is no failure, unless so many were expected") {

@@ -95,6 +95,22 @@ TEST_CASE("apply --dry-run says what would be done, and does nothing") {
   CHECK(fleet.rom_writes() == 0);
 }
 
+TEST_CASE("apply --dry-run lists the servos in the order of the file") {
+  const Fleet fleet(three_servos());
+  Document document = fleet.exported();
+  std::ranges::reverse(document["servos"]);
+  std::vector<int> ids;
+  const auto planned = ordered_json(fleet.apply(document, {"--dry-run"}).out);
+  for (const auto& node : planned["nodes"]) {
+    ids.push_back(node["node_id"]);
+  }
+  CHECK(ids == std::vector{13, 12, 11});
+  const Result text = fleet.run({"apply", fleet.file(document), "--dry-run"});
+  INFO(text.out);
+  CHECK(text.out.find("node 13:") < text.out.find("node 12:"));
+  CHECK(text.out.find("node 12:") < text.out.find("node 11:"));
+}
+
 TEST_CASE("apply --no-save writes RAM only") {
   Fleet fleet(three_servos());
   Document document = fleet.exported();

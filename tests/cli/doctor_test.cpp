@@ -350,3 +350,16 @@ TEST_CASE("a log without stamps tells of a restart, and of no second unit") {
     CHECK(contains(examined.out, "restarted"));
   }
 }
+
+TEST_CASE("doctor tells what is true of several servos once") {
+  const Scene scene = Scene()
+                          .servo("BLA21-12U-AB", 11, {{"servo_id", 1}, {"firmware_version", 1300}})
+                          .servo("BLA21-12U-AB", 12, {{"servo_id", 2}, {"firmware_version", 1300}})
+                          .servo("BLA21-12U-AB", 13, {{"servo_id", 3}, {"firmware_version", 1300}});
+  const Result result = scene.run({"doctor"});
+  INFO(result.out);
+  CHECK(contains(result.out, "of node 11 may stall"));
+  CHECK(contains(result.out, "(likewise nodes 12, 13)"));
+  CHECK_FALSE(contains(result.out, "of node 12 may stall"));
+  CHECK(json(scene.run({"doctor", "-j"}).out)["findings"].size() >= 3);
+}

@@ -156,6 +156,32 @@ TEST_CASE("faults --watch tells of restarts, and of who falls silent and answers
   CHECK(events == std::vector<std::string>{"restarted", "gone", "back", "restarted"});
 }
 
+TEST_CASE("faults --watch is a log on a terminal too, and a brown-out leaves its lines") {
+  const Bench bench;
+  const auto event = [](const char* at, const char* what) {
+    return nlohmann::json{{"at", at}, {"servo", 7}, {"happens", what}};
+  };
+  const nlohmann::json scenario{
+      {"schema", "blactl-scenario/1"},
+      {"clock", "virtual"},
+      {"servos", {{{"model", "BLA15-06U-A0"}, {"node_id", 11}, {"serial_number", 7}}}},
+      {"events", {event("4s", "power_off"), event("7s", "power_on")}}};
+  const std::string interface = "sim:" + bench.file("s.json", scenario.dump());
+  Background watch(bench, {"-i", interface, "faults", "--watch"},
+                   {.terminal = true, .terminal_stdout = true, .columns = 80}, "restarted");
+  const std::string shown = without_colour(watch.stop(SIGINT).out);
+  INFO(shown);
+  std::size_t at = 0;
+  for (const char* line : {"  node 11  no faults", "  node 11  gone (silent)", "  node 11  back",
+                           "  node 11  restarted"}) {
+    INFO(line);
+    at = shown.find(line, at);
+    REQUIRE(at != std::string::npos);
+    CHECK(shown.substr(0, at).rfind("20") == at - std::string("2026-11-27 23:13:01").size());
+  }
+  CHECK_FALSE(contains(shown, "\x1b[J")); // nothing is taken away again
+}
+
 TEST_CASE("faults --watch tells what is there, what comes and what goes, a line each") {
   const Bench bench;
   const nlohmann::json servo{{"model", "BLA15-06U-A0"},
@@ -203,7 +229,8 @@ TEST_CASE("a servo that falls silent does not hold up the watch of the others") 
       {"events", {off, heat("4500ms", "85degC"), heat("6500ms", "25degC")}}};
   const std::string interface = "sim:" + bench.file("s.json", scenario.dump());
   Background watch(bench, {"-i", interface, "faults", "--watch", "-j"}, {}, "went");
-  const auto lines = json_lines(watch.stop(SIGINT).out);
+  auto lines = json_lines(watch.stop(SIGINT).out);
+  std::erase_if(lines, [](const auto& line) { return line["node_id"] != 11; });
   REQUIRE(lines.size() >= 2);
   CHECK(lines[0]["event"] == "came");
   CHECK(lines[1]["event"] == "went");
@@ -228,7 +255,8 @@ TEST_CASE("what a servo tells first, after a silence, was there before") {
   const std::string interface = "sim:" + bench.file("s.json", scenario.dump());
   Background watch(bench, {"-i", interface, "faults", "--watch", "-n", "11"}, {}, "0x1A.8");
   const Result watched = watch.stop(SIGINT);
-  CHECK(contains(watched.err, "node 11 does not answer any more"));
+  CHECK(contains(watched.out, "node 11  gone (silent)\n"));
+  CHECK(contains(watched.out, "node 11  back\n"));
   CHECK(contains(watched.out, "present"));
   CHECK_FALSE(contains(watched.out, "came"));
 }

@@ -80,6 +80,7 @@ TEST_CASE("colour is for terminals, and as --color and NO_COLOR say") {
   CHECK_FALSE(is_coloured({}, {}));
   CHECK(is_coloured({}, {.terminal = true}));
   CHECK_FALSE(is_coloured({}, no_colour));
+  CHECK_FALSE(is_coloured({}, {.env = {{"TERM", "dumb"}}, .terminal = true}));
   CHECK(is_coloured({}, {.env = {{"NO_COLOR", ""}}, .terminal = true}));
   CHECK(is_coloured({"--color", "always"}, {}));
   CHECK(is_coloured({"--color", "always"}, no_colour));

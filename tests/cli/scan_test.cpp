@@ -1,6 +1,10 @@
 #include "catch.hpp"
 #include "scene.hpp"
 
+#include <algorithm>
+#include <string>
+#include <vector>
+
 using namespace blactl::test;
 
 namespace {
@@ -205,7 +209,8 @@ TEST_CASE("scan fails with 4 where there is nobody, or fewer servos than expecte
   CHECK(nobody.status == 4);
   CHECK(codes(nobody) == std::vector<std::string>{"not_found"});
   CHECK(contains(nobody.err, "no node was heard on sim:/"));
-  CHECK(contains(nobody.err, "\n  give it a node ID: blactl alloc --once"));
+  CHECK(contains(nobody.err, "\n  servos wait for a node ID: `blactl alloc --once`"));
+  CHECK(contains(nobody.err, ": blactl alloc --static -n all --range "));
 
   CHECK(three_servos().foreign(40).run({"scan", "--expect", "3"}).status == 0);
   const Result few = three_servos().foreign(40).run({"scan", "--expect", "4"});
@@ -281,10 +286,62 @@ TEST_CASE("on a terminal of 80 columns scan breaks no line, and leaves nothing o
   CHECK(longest_line(scene.run(bench, {"scan"}).out) > 80);
 }
 
+TEST_CASE("on a terminal of 80 columns a servo is a line of scan, with as much of its unique ID as "
+          "tells it") {
+  const Bench bench;
+  const Scene scene =
+      three_servos()
+          .servo("BLA21-12U-AB", 14,
+                 {{"unique_id", "00112233440000000000000000000001"}, {"servo_id", 14}})
+          .servo("BLA21-12U-AB", 15,
+                 {{"unique_id", "00112233445000000000000000000002"}, {"servo_id", 15}});
+  for (const char* language : {"en", "ja"}) {
+    const Options terminal{.terminal = true, .terminal_stdout = true, .columns = 80};
+    const Result shown = scene.run(bench, {"scan", "--lang", language}, terminal);
+    INFO(shown.out);
+    const std::string plain = without_colour(shown.out);
+    CHECK(std::ranges::count(plain, '\n') == 6);
+    CHECK(longest_line(plain) <= 80);
+    CHECK(contains(plain, " 00112233440\n"));
+    CHECK(contains(plain, " 00112233445\n"));
+  }
+  const Options wide{.terminal = true, .terminal_stdout = true, .columns = 120};
+  CHECK(contains(scene.run(bench, {"scan"}, wide).out, " 00112233440000000000000000000001"));
+  CHECK(contains(scene.run(bench, {"scan"}).out, " 00112233440000000000000000000001\n"));
+  CHECK(scene.run(bench, {"get", "-n", "uid:00112233440", "servo_id"}).status == 0);
+}
+
+TEST_CASE("scan tells a warning of several servos once") {
+  const Scene scene = Scene()
+                          .servo("BLA21-12U-AB", 11, {{"servo_id", 1}, {"firmware_version", 1100}})
+                          .servo("BLA21-12U-AB", 12, {{"servo_id", 2}, {"firmware_version", 1100}});
+  const Result result = scene.run({"scan"});
+  INFO(result.out);
+  CHECK(contains(result.out, "\n! 11, 12: "));
+  CHECK_FALSE(contains(result.out, "\n! 12: "));
+  const auto scanned = scan(scene);
+  REQUIRE(scanned["nodes"].size() == 2);
+  for (const auto& node : scanned["nodes"]) {
+    CHECK_FALSE(node["warnings"].empty());
+  }
+}
+
+TEST_CASE("scan says in the user's language how a servo is") {
+  const Scene scene =
+      Scene().servo("BLA21-12U-AB", 12, {{"ram", {{"temperature_limit_high", "20degC"}}}});
+  CHECK(contains(scene.run({"scan"}).out, "  warning  "));
+  const Result japanese = scene.run({"scan", "--lang", "ja"});
+  INFO(japanese.out);
+  CHECK(contains(japanese.out, "  警告  "));
+  CHECK(contains(japanese.out, "健康状態: 警告"));
+  CHECK_FALSE(contains(japanese.out, "warning"));
+  CHECK(contains(scene.run({"doctor", "--lang", "ja"}).out, "健康状態は「警告」です"));
+}
+
 TEST_CASE("states are coloured on a terminal, as --color says") {
   const Scene scene = three_servos();
   const Options terminal{.terminal_stdout = true};
-  CHECK(contains(scene.run({"scan"}, terminal).out, "\x1b[32moperational\x1b[0m"));
+  CHECK(contains(scene.run({"scan"}, terminal).out, "\x1b[32mok\x1b[0m"));
   CHECK_FALSE(contains(scene.run({"scan", "--color", "never"}, terminal).out, "\x1b"));
   CHECK_FALSE(contains(scene.run({"scan"}).out, "\x1b"));
   CHECK(contains(scene.run({"set", "-n", "11", "smoothing=off", "-y", "--color", "always"}).out,

@@ -39,6 +39,11 @@ OFFERS = [
     ("blactl get -n model:BLA34", ["BLA34-12U-AB", "BLA34-28U-AB"], ["BLA15"]),
     ("blactl get -n ", ["all", "serial:", "model:"], ["angle_limit_cw"]),
     ("blactl -i ", ["sim:", "mcast:0", "replay:", "file:"], ["eth0", "scan"]),
+    ("blactl pwm-config --mode ", ["angle", "speed"], ["preset"]),
+    ("blactl alloc --forget ", ["absent", "all"], ["list"]),
+    ("blactl trace --type NodeStatus,Get", ["GetNodeInfo", "GetSet"], ["esc.Status"]),
+    ("blactl trace --type A", ["ArrayCommand", "Allocation"], ["GetSet"]),
+    ("blactl apply wing.json --entry ", ["rudder", "aileron"], ["not", "blactl-fleet/1"]),
     ("blactl trace b", ["bus.log", "bench.json"], ["stats"]),
     ("blactl trace -i replay:b", ["bus.log", "bench.json"], ["stats"]),
     ("blactl get -i file:b", ["bus.log", "bench.json"], ["stats"]),
@@ -53,6 +58,8 @@ COMPLETED = [
     ("blactl -jn 12 get --chan", ["-jn", "12", "get", "--changed"]),
     ("blactl get --group statu", ["get", "--group", "status"]),
     ("blactl -n 12,model:BLA34-12", ["-n", "12,model:BLA34-12U-AB"]),
+    ("blactl alloc --forget abs", ["alloc", "--forget", "absent"]),
+    ("blactl apply wing.json --entry le", ["apply", "wing.json", "--entry", "left aileron"]),
     ("blactl trace bus", ["trace", "bus.log"]),
     ("blactl -i replay:bus", ["-i", "replay:bus.log"]),
     ("blactl sim --clock=vir", ["sim", "--clock=virtual"]),
@@ -217,6 +224,9 @@ def main():
         folder = pathlib.Path(name).resolve()
         for file in ("bus.log", "bench.json"):
             (folder / file).touch()
+        (folder / "wing.json").write_text(
+            '{"schema": "blactl-fleet/1", "servos": [{"name": "left aileron"},\n'
+            ' {"name" : "rudder", "about": {"model": "not"}}]}', encoding="utf-8")
         if shell == "fish":
             test_fish(source, folder, tester)
         else:

@@ -39,7 +39,8 @@ def main():
     lines, faults = rendered(source / "man/blactl.1", environment)
     page = "\n".join(lines)
     faults += [f"no section {name}" for name in SECTIONS if name not in lines]
-    faults += rendered(source / "man/blactl-fleet.5", environment)[1]
+    for other in ("blactl-fleet.5", "blactl-tuning.7"):
+        faults += rendered(source / "man" / other, environment)[1]
     cli = json.loads(subprocess.run([binary, "--dump-cli"], stdout=subprocess.PIPE,
                                     check=True).stdout)
     for command in cli["commands"]:

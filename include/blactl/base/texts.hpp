@@ -15,6 +15,25 @@ inline constexpr Text file_unwritable_hint{
     "元のファイルは変更していません。フォルダとアクセス権、空き容量を確認して下さい"};
 inline constexpr Text file_too_large{"{} is larger than {} MiB", "{} は {} MiB を超えています"};
 inline constexpr Text json_invalid{"not valid JSON: {}", "JSON として正しくありません: {}"};
+inline constexpr Text json_trailing_comma{"trailing comma: the last item has none behind it",
+                                          "末尾のカンマが余分です (最後の項目の後には不要)"};
+inline constexpr Text json_comma_missing{"a comma is missing before {}",
+                                         "{} の前にカンマがありません"};
+inline constexpr Text json_colon_missing{"a colon is missing between a key and its value",
+                                         "キーと値の間にコロンがありません"};
+inline constexpr Text json_double_quotes{"keys and strings need double quotes",
+                                         "キーと文字列は二重引用符で囲んで下さい"};
+inline constexpr Text json_comment{"JSON has no comments", "JSON にコメントは書けません"};
+inline constexpr Text json_open_string{"a string does not end in its line",
+                                       "文字列が行内で閉じられていません"};
+inline constexpr Text json_control_character{"a control character in a string",
+                                             "文字列に制御文字があります"};
+inline constexpr Text json_bad_escape{"a wrong escape sequence (\\) in a string",
+                                      "文字列のエスケープ (\\) が正しくありません"};
+inline constexpr Text json_bad_utf8{"bytes that are not UTF-8", "UTF-8 ではないバイトがあります"};
+inline constexpr Text json_ends_early{"the file ends before it is complete",
+                                      "ファイルが途中で終わっています"};
+inline constexpr Text json_unexpected{"{} does not belong here", "ここに {} は書けません"};
 inline constexpr Text json_zero_byte{"not valid JSON: it contains a zero byte",
                                      "JSON として正しくありません: 値 0 のバイトがあります"};
 inline constexpr Text json_too_deep{"nested deeper than {} levels", "入れ子が {} 段を超えています"};

@@ -73,6 +73,7 @@ class Serve {
   [[nodiscard]] bool is_over() const;
   [[nodiscard]] bool is_quiet() const;
   [[nodiscard]] bool is_stuck() const;
+  void broken(const Error& error);
   [[nodiscard]] bool wait();
   [[nodiscard]] bool look_for_twins(fleet::Discovery& discovery);
   void tell_quiet();
@@ -208,6 +209,12 @@ bool Serve::is_over() const {
          (options_.once && (is_quiet() || is_stuck()));
 }
 
+/// Without another end a signal is the one that the user has chosen.
+void Serve::broken(const Error& error) {
+  const bool has_end = options_.once || options_.count;
+  has_end ? context_.broken(error, report_) : context_.ended(error, report_);
+}
+
 /// Returns whether the session is still alive.
 bool Serve::wait() {
   constexpr Duration interval = std::chrono::milliseconds(250); // within a person's patience
@@ -217,7 +224,7 @@ bool Serve::wait() {
     const auto lived =
         session().live_until(session().now() + interval, [this] { return is_over(); });
     if (!lived) {
-      context_.broken(lived.error(), report_);
+      broken(lived.error());
       return false;
     }
   }
@@ -235,7 +242,7 @@ bool Serve::look_for_twins(fleet::Discovery& discovery) {
   }
   const auto looked = discovery.look_for_twins(members);
   if (!looked) {
-    context_.broken(looked.error(), report_);
+    broken(looked.error());
   }
   return looked.has_value();
 }
@@ -245,7 +252,7 @@ void Serve::run() {
   identification.static_node_id = true;
   fleet::Discovery discovery(session(), context_.known(), identification);
   if (const auto found = discovery.find_all(fleet::bus_watch_time); !found) {
-    context_.broken(found.error(), report_);
+    broken(found.error());
     return service_ ? conclude() : report_.count_targets();
   }
   if (!wanted_.empty()) {

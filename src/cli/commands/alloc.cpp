@@ -5,6 +5,7 @@
 #include "cli/alloc/texts.hpp"
 #include "cli/commands.hpp"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -13,6 +14,8 @@
 
 namespace blactl::cli {
 namespace {
+
+constexpr std::array<std::string_view, 2> forgettable{"absent", "all"};
 
 constexpr Option alloc_options[]{
     {.name = "--once",
@@ -68,8 +71,9 @@ constexpr Option alloc_options[]{
      .store = into<&AllocOptions::list>},
     {.name = "--forget",
      .value = "WHO",
-     .kind = Kind::text,
+     .kind = Kind::suggested,
      .repeat = Repeat::list,
+     .words = forgettable,
      .help = {"drop from the table: a servo (uid:, serial:, servo:), absent (all that are not on "
               "this bus), all",
               "割当て表から削除: サーボ (uid:、serial:、servo:)、absent "

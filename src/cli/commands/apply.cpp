@@ -52,7 +52,7 @@ constexpr Option apply_options[]{
      .store = into<&ApplyOptions::is_plan>},
     {.name = "--entry",
      .value = "NAME",
-     .kind = Kind::text,
+     .kind = Kind::entry,
      .help = {"give this entry to the servo behind -n, whatever it matches: for a broken servo's "
               "successor",
               "エントリ NAME を、照合条件によらず -n のサーボに設定 (故障品から交換したサーボ用)"},
@@ -104,7 +104,8 @@ constexpr Option apply_arguments[]{
 /// How to carry out an entry.
 struct Manner {
   std::function<bool(const fleet::FleetEntry& entry)> saves; ///< settings go to ROM, too
-  bool trusts_ram = false; ///< equal RAM is enough: no restart to prove ROM
+  bool trusts_ram = false;     ///< equal RAM is enough: no restart to prove ROM
+  bool is_listed_only = false; ///< in the order of the file, for --dry-run
 };
 
 fleet::Goal goal(const fleet::FleetEntry& entry, dronecan::NodeId id, const Manner& manner) {
@@ -153,7 +154,10 @@ Error missing(const fleet::FleetEntry& entry, const fleet::Roster& roster, std::
 /// The goals for the servos that match entries.
 Goals match(const fleet::FleetFile& file, const Manner& manner, const Whom& whom,
             const bla::Profiles& profiles) {
-  const auto matched = fleet::match(file, whom.roster, whom.targets, profiles);
+  auto matched = fleet::match(file, whom.roster, whom.targets, profiles);
+  if (manner.is_listed_only) { // entries are in the order of the file
+    std::ranges::stable_sort(matched.pairs, std::less<>(), &fleet::FleetMatch::Pair::entry);
+  }
   Goals goals{.others = fleet::unpaired(matched, whom.roster, profiles),
               .notes = notes(file, matched),
               .errors = matched.errors};
@@ -213,7 +217,8 @@ Report carry_out_plan(const ApplyOptions& options, ChangeRequest request, Contex
   }
   const Manner manner{
       .saves = [&](const fleet::FleetEntry& entry) { return plan->step(entry).saves; },
-      .trusts_ram = plan->trusts_ram};
+      .trusts_ram = plan->trusts_ram,
+      .is_listed_only = options.dry_run};
   request.find = [&](const Whom& whom) {
     return match(plan->fleet, manner, whom, context.known());
   };
@@ -280,7 +285,8 @@ Report apply_file(const ApplyOptions& options, ChangeRequest request, Context& c
     return report;
   }
   const Manner manner{.saves = [&](const fleet::FleetEntry&) { return !options.no_save; },
-                      .trusts_ram = options.trust_ram};
+                      .trusts_ram = options.trust_ram,
+                      .is_listed_only = options.dry_run};
   request.find = [&](const Whom& whom) { return match(*file, manner, whom, context.known()); };
   if (!options.entry.empty()) {
     const auto entry = fleet::find_entry(*file, options.entry);

@@ -12,6 +12,7 @@
 #include "cli/commands.hpp"
 #include "cli/confirm.hpp"
 #include "cli/fleet_texts.hpp"
+#include "cli/output/alike.hpp"
 #include "cli/read_servos.hpp"
 
 #include <algorithm>
@@ -22,6 +23,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace blactl::cli {
 namespace {
@@ -95,15 +97,19 @@ std::vector<fleet::Snapshot> read(std::span<const dronecan::NodeId> servos, Cont
   }
   note_copies(read.servos, context);
   const fleet::Roster& roster = context.session().roster();
+  std::vector<AboutNode> notes;
   for (fleet::Snapshot& snapshot : read.servos) {
     fleet::drop_unrecorded_state(snapshot);
     if (const auto unread = fleet::check_rom(snapshot)) {
-      context.reporter().note(unread->message);
+      notes.push_back({snapshot.servo.id.value(), unread->message});
     }
     const bool doubled = roster.is_doubled(snapshot.servo.id);
     report.targets.push_back({.errors = doubled
                                             ? std::vector{fleet::doubled(roster, snapshot.servo.id)}
                                             : snapshot.errors()});
+  }
+  for (const auto& [first, others] : alike(notes)) {
+    context.reporter().note(likewise(notes[first].text, others));
   }
   return std::move(read.servos);
 }

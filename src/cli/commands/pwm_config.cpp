@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <string_view>
 #include <utility>
 
 namespace blactl::cli {
@@ -40,6 +41,8 @@ struct PwmOptions {
   }
 };
 
+constexpr std::array<std::string_view, 2> mode_words{"angle", "speed"};
+
 constexpr Option pwm_config_options[]{
     {.name = "--neutral",
      .value = "US",
@@ -60,7 +63,8 @@ constexpr Option pwm_config_options[]{
      .store = into<&PwmOptions::output>},
     {.name = "--mode",
      .value = "MODE",
-     .kind = Kind::text,
+     .kind = Kind::suggested,
+     .words = mode_words,
      .help = {"angle or speed (0x37), with --output in deg or rpm",
               "angle または speed (0x37)、--output (deg または rpm) と併用"},
      .store = into<&PwmOptions::mode>},

@@ -54,7 +54,7 @@ constexpr Option replace_arguments[]{
               "フリートファイル (最後に新しいサーボの個体情報に書き換える)"},
      .store = into<&ReplaceOptions::file>},
     {.name = "NAME",
-     .kind = Kind::text,
+     .kind = Kind::entry,
      .required = true,
      .help = {"the name of the broken servo's entry", "故障したサーボのエントリ名"},
      .store = into<&ReplaceOptions::name>},

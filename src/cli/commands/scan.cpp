@@ -3,6 +3,7 @@
 #include "blactl/fleet/bus/discovery.hpp"
 #include "blactl/fleet/bus/target_texts.hpp"
 #include "blactl/fleet/bus/ticker.hpp"
+#include "blactl/fleet/bus/unreachable.hpp"
 #include "blactl/fleet/characterize/findings.hpp"
 
 #include "cli/commands.hpp"
@@ -84,11 +85,11 @@ void judge(const ScanOptions& options, const Findings& findings,
   if (findings.nodes.empty() && somebody && !may_be_shared) {
     report.fail({Code::not_found,
                  say<texts::nothing_matches_list>(report.interface, printable(listed.value_or(""))),
-                 say<texts::node_not_found_hint>(), std::nullopt});
+                 fleet::not_found_hint(*findings.roster), std::nullopt});
   } else if (findings.nodes.empty() && !somebody) {
     report.fail({Code::not_found, say<texts::nobody_there>(report.interface),
                  findings.roster->pending().empty() ? say<texts::nobody_there_hint>()
-                                                    : say<texts::target_waits_for_id_hint>(),
+                                                    : fleet::not_found_hint(*findings.roster),
                  std::nullopt});
   } else if (options.expect && servos < *options.expect) {
     report.fail({Code::not_found, say<texts::expected_more>(servos, *options.expect),

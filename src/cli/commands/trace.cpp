@@ -37,7 +37,7 @@ constexpr std::array<std::string_view, 3> kinds{"message", "request", "response"
 constexpr Option trace_options[]{
     {.name = "--type",
      .value = "T",
-     .kind = Kind::text,
+     .kind = Kind::data_types,
      .repeat = Repeat::list,
      .help = {"only these data types: NodeStatus, param.GetSet, 341",
               "指定したデータ型のみ: NodeStatus、param.GetSet、341"},

@@ -1,11 +1,19 @@
 #include "cli/doctor/view.hpp"
 
 #include "cli/doctor/texts.hpp"
+#include "cli/output/alike.hpp"
 #include "cli/output/faults_view.hpp"
 #include "cli/output/node_head.hpp"
 #include "cli/output/progress_view.hpp"
 
+#include <fmt/format.h>
+
 #include <chrono>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
 
 namespace blactl::cli {
 namespace {
@@ -102,6 +110,37 @@ Tone tone(bla::Level level) {
   return level == bla::Level::failure ? Tone::bad : Tone::warning;
 }
 
+/// A fix of one node as one of several: "-n 11" becomes "-n 11,12".
+std::string fix_of_all(const Diagnosis& diagnosis, std::span<const std::uint8_t> others) {
+  std::string fix = diagnosis.fix;
+  const std::string option =
+      diagnosis.node ? fmt::format("-n {}", diagnosis.node->value()) : std::string();
+  const std::size_t at = option.empty() ? std::string::npos : fix.find(option);
+  if (at != std::string::npos && !others.empty()) {
+    fix.insert(at + option.size(), fmt::format(",{}", fmt::join(others, ",")));
+  }
+  return fix;
+}
+
+/// What is true of several nodes is told once.
+std::string findings_text(const fleet::Diagnoses& all, const Page& page) {
+  std::vector<AboutNode> told;
+  for (const Diagnosis& each : all) {
+    told.push_back({each.node ? std::optional(each.node->value()) : std::nullopt,
+                    fmt::format("{}\n{}\n{}", each.code, each.text, each.fix)});
+  }
+  std::string out;
+  for (const auto& [first, others] : alike(told)) {
+    const Diagnosis& diagnosis = all[first];
+    out += page.paint(tone(diagnosis.level), level_word(diagnosis.level)) + "  " +
+           likewise(diagnosis.text, others) + '\n';
+    if (!diagnosis.fix.empty()) {
+      out += page.fit_hint("    " + say<texts::doctor_fix>(fix_of_all(diagnosis, others))) + '\n';
+    }
+  }
+  return out;
+}
+
 } // namespace
 
 void write_json(JsonWriter& json, const Examination& examination) {
@@ -142,13 +181,7 @@ std::string text(const Examination& examination, const Page& page) {
   for (const Diagnosis& diagnosis : examination.fixed) {
     out += page.paint(Tone::good, say<texts::doctor_fixed>()) + "  " + diagnosis.text + '\n';
   }
-  for (const Diagnosis& diagnosis : examination.diagnoses) {
-    out += page.paint(tone(diagnosis.level), level_word(diagnosis.level)) + "  " + diagnosis.text +
-           '\n';
-    if (!diagnosis.fix.empty()) {
-      out += page.fit_hint("    " + say<texts::doctor_fix>(diagnosis.fix)) + '\n';
-    }
-  }
+  out += findings_text(examination.diagnoses, page);
   if (examination.diagnoses.empty() && examination.is_whole) {
     out += page.paint(Tone::good, say<texts::doctor_nothing>());
   }

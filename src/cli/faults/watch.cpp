@@ -1,5 +1,6 @@
 #include "cli/faults/watch.hpp"
 
+#include "blactl/fleet/bus/status_words.hpp"
 #include "blactl/fleet/live/fault_watch.hpp"
 
 #include "cli/output/faults_view.hpp"
@@ -33,7 +34,7 @@ enum class Event : std::uint8_t { present, came, went, restarted, gone, back };
 
 struct EventName {
   std::string_view word;
-  std::string (*text)(); ///< for people, who read of silence among the notes; null: none
+  std::string (*text)();
 };
 
 /// In the order of Event.
@@ -42,8 +43,8 @@ constexpr EventName event_names[]{
     {"came", [] { return say<texts::fault_came>(); }},
     {"went", [] { return say<texts::fault_went>(); }},
     {"restarted", [] { return say<texts::servo_restarted>(); }},
-    {"gone", nullptr},
-    {"back", nullptr},
+    {"gone", [] { return say<texts::servo_gone>(); }},
+    {"back", [] { return say<texts::servo_back_again>(); }},
 };
 
 class Watch {
@@ -59,8 +60,14 @@ class Watch {
  private:
   [[nodiscard]] bool take(FaultState now);
   [[nodiscard]] bool tell(Event event, const FaultState& servo, const Fault* fault = nullptr);
+  [[nodiscard]] bool print_json(Event event, const FaultState& servo, const Fault* fault);
+  [[nodiscard]] bool print_text(const FaultState& servo, const std::string& word,
+                                const std::string& detail);
+
+  [[nodiscard]] bool is_for_people() const { return context_.reporter().format() == Format::text; }
+
+  [[nodiscard]] bool tell_first(const FaultState& now);
   [[nodiscard]] bool tell_restart(const FaultState& now);
-  [[nodiscard]] bool redraw();
   [[nodiscard]] bool check(const Result<bool>& printed);
   [[nodiscard]] bool tell_silence(const FaultState& now);
   void tell_refusal(FaultState& now, std::span<const Fault> had);
@@ -81,35 +88,68 @@ bool Watch::check(const Result<bool>& printed) {
   return printed.value_or(false);
 }
 
+bool Watch::print_json(Event event, const FaultState& servo, const Fault* fault) {
+  const UnixTime time(context_.session().wall());
+  std::string line;
+  JsonWriter json(line);
+  json.begin_object();
+  json.key("time");
+  json.number(time.text());
+  write_head(json, servo.snapshot.servo);
+  json.member("event", event_names[std::to_underlying(event)].word);
+  if (fault != nullptr) {
+    write_fault(json, servo, *fault);
+  }
+  json.end_object();
+  return check(context_.reporter().stream(line + '\n'));
+}
+
+bool Watch::print_text(const FaultState& servo, const std::string& word,
+                       const std::string& detail) {
+  const Reporter& reporter = context_.reporter();
+  std::string line = say<texts::fault_event>(clock_text(context_.session().wall()),
+                                             servo.snapshot.servo.id.value(), word, detail);
+  line.erase(line.find_last_not_of(' ') + 1);
+  return check(reporter.stream(reporter.page().fit(line) + '\n'));
+}
+
+/// Why a servo is gone, where it is not merely silent.
+std::string reason_of(const FaultState& servo) {
+  const auto is_silence = [](const Error& error) {
+    return error.code == Code::timeout || error.code == Code::not_found;
+  };
+  return servo.errors.empty() || is_silence(servo.errors.front()) ? ""
+                                                                  : servo.errors.front().message;
+}
+
 /// `fault`: null for an event of the servo itself.
 bool Watch::tell(Event event, const FaultState& servo, const Fault* fault) {
-  const EventName& name = event_names[std::to_underlying(event)];
-  const UnixTime time(context_.session().wall());
   if (fault != nullptr && fault->level < shown_) {
     return true;
   }
-  if (context_.reporter().format() == Format::json) {
-    std::string line;
-    JsonWriter json(line);
-    json.begin_object();
-    json.key("time");
-    json.number(time.text());
-    write_head(json, servo.snapshot.servo);
-    json.member("event", name.word);
-    if (fault != nullptr) {
-      write_fault(json, servo, *fault);
-    }
-    json.end_object();
-    return check(context_.reporter().stream(line + '\n'));
+  if (!is_for_people()) {
+    return print_json(event, servo, fault);
   }
-  if (context_.reporter().has_screen() || name.text == nullptr) {
-    return true; // the list shows it
+  return print_text(servo, event_names[std::to_underlying(event)].text(),
+                    fault != nullptr ? fault_line(*fault, context_.reporter().page())
+                                     : reason_of(servo));
+}
+
+/// People also read of a servo without a fault to show, once.
+bool Watch::tell_first(const FaultState& now) {
+  const bool has_shown =
+      std::ranges::any_of(now.faults, [this](const Fault& fault) { return fault.level >= shown_; });
+  if (!is_for_people() || !now.has_answered() || has_shown) {
+    return true;
   }
-  std::string line = say<texts::fault_event>(
-      time.text(), servo.snapshot.servo.id.value(), name.text(),
-      fault != nullptr ? fault_line(*fault, context_.reporter().page()) : std::string());
-  line.erase(line.find_last_not_of(' ') + 1);
-  return check(context_.reporter().stream(line + '\n'));
+  if (now.unexplained_health()) {
+    return print_text(now, say<texts::health_unexplained>(fleet::health_word(*now.health)), "");
+  }
+  return print_text(now,
+                    now.faults.empty()
+                        ? say<texts::no_faults>()
+                        : say<texts::faults_hidden>(now.faults.size(), level_word(shown_)),
+                    "");
 }
 
 /// A servo that does not respond keeps its last known faults.
@@ -120,13 +160,16 @@ bool Watch::tell_silence(const FaultState& now) {
   if (!is_news) {
     return true;
   }
-  if (!context_.reporter().has_screen()) { // the list shows it
+  if (!is_for_people()) {
     context_.reporter().note(has_answered ? say<texts::answers_again>(id.value())
                                           : now.errors.front().message);
   }
   const auto before = last_.find(id);
-  return tell(has_answered ? Event::back : Event::gone,
-              has_answered || before == last_.end() ? now : before->second);
+  if (has_answered || before == last_.end()) {
+    return tell(has_answered ? Event::back : Event::gone, now);
+  }
+  before->second.errors = now.errors;
+  return tell(Event::gone, before->second);
 }
 
 bool Watch::tell_restart(const FaultState& now) {
@@ -142,7 +185,7 @@ void Watch::tell_refusal(FaultState& now, std::span<const Fault> had) {
     refusing_.erase(now.snapshot.servo.id);
     return;
   }
-  if (refusing_.insert(now.snapshot.servo.id).second && !context_.reporter().has_screen()) {
+  if (refusing_.insert(now.snapshot.servo.id).second) {
     context_.reporter().note(now.errors.front().message);
   }
   std::ranges::copy_if(had, std::back_inserter(now.faults),
@@ -174,7 +217,7 @@ bool Watch::take(FaultState now) {
   if (now.has_answered()) {
     tell_refusal(now, had);
   }
-  bool goes_on = true;
+  bool goes_on = !is_first || tell_first(now);
   for (const Fault& fault : now.faults) {
     if (std::ranges::find(had, fault) == had.end()) {
       goes_on = goes_on && tell(is_first ? Event::present : Event::came, now, &fault);
@@ -189,23 +232,12 @@ bool Watch::take(FaultState now) {
   return goes_on;
 }
 
-/// On a terminal the list is redrawn, instead of a line for each event.
-bool Watch::redraw() {
-  if (!context_.reporter().has_screen()) {
-    return true;
-  }
-  std::vector<FaultState> servos;
-  std::ranges::transform(last_, std::back_inserter(servos),
-                         &std::pair<const NodeId, FaultState>::second);
-  return check(context_.reporter().show(text(servos, shown_, context_.reporter().page())));
-}
-
 bool Watch::take(std::vector<FaultState> seen) {
   bool goes_on = true;
   for (FaultState& servo : seen) {
     goes_on = goes_on && take(std::move(servo));
   }
-  return goes_on && redraw();
+  return goes_on;
 }
 
 } // namespace
@@ -218,7 +250,7 @@ void watch_faults(std::span<const NodeId> servos, bla::Level shown, bla::Level c
   for (bool goes_on = true; goes_on;) {
     auto seen = looks.next();
     if (!seen) {
-      context.broken(seen.error(), report);
+      context.ended(seen.error(), report);
       break;
     }
     goes_on = watch.take(std::move(*seen)) && !session.is_replay();

@@ -1,6 +1,7 @@
 #include "cli/monitor/table.hpp"
 
 #include "blactl/bla/value.hpp"
+#include "blactl/fleet/bus/status_words.hpp"
 
 #include "cli/monitor/sample.hpp"
 #include "cli/monitor/texts.hpp"
@@ -48,7 +49,7 @@ std::string faults_of(const LiveServo& servo) {
   const std::size_t count = count_worse_than_notices(servo);
   if (count == 0) {
     const bool is_ill = servo.status && servo.status->health != dronecan::Health::ok;
-    return is_ill ? std::string(name(servo.status->health)) : std::string();
+    return is_ill ? fleet::health_word(servo.status->health) : std::string();
   }
   std::string out = name_of(servo.faults.front());
   if (count > 1) {

@@ -2,6 +2,7 @@
 
 #include "blactl/bla/explain.hpp"
 #include "blactl/bla/value.hpp"
+#include "blactl/fleet/bus/status_words.hpp"
 
 #include "cli/output/node_head.hpp"
 #include "cli/texts.hpp"
@@ -101,7 +102,8 @@ std::string servo_text(const FaultState& servo, Level level, const Page& page) {
   }
   if (const auto worse = servo.unexplained_health()) {
     out += "  " +
-           page.paint(tone(*worse), say<texts::health_unexplained>(dronecan::name(*servo.health))) +
+           page.paint(tone(*worse),
+                      say<texts::health_unexplained>(fleet::health_word(*servo.health))) +
            '\n';
   } else if (servo.faults.empty() && servo.errors.empty()) {
     out += "  " + page.paint(Tone::good, say<texts::no_faults>()) + '\n';

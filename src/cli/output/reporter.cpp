@@ -51,12 +51,22 @@ bool Reporter::has_terminal() {
   return isatty(STDIN_FILENO) != 0 && isatty(STDERR_FILENO) != 0;
 }
 
+namespace {
+
+/// Whether the terminal does nothing but print characters.
+bool is_dumb() {
+  const char* type = std::getenv("TERM"); // NOLINT(concurrency-mt-unsafe): nobody sets it
+  return type != nullptr && std::string_view(type) == "dumb";
+}
+
+} // namespace
+
 bool Reporter::use_colour(int descriptor) const {
   if (options_.colour != Colour::automatic) {
     return options_.colour == Colour::always;
   }
   const char* no_colour = std::getenv("NO_COLOR");
-  return (no_colour == nullptr || *no_colour == '\0') && isatty(descriptor) != 0;
+  return (no_colour == nullptr || *no_colour == '\0') && isatty(descriptor) != 0 && !is_dumb();
 }
 
 namespace {
@@ -120,7 +130,7 @@ void Reporter::print(std::string_view text) const {
 
 void Reporter::progress(std::string_view text) const {
   const Page page = this->page(STDERR_FILENO);
-  if (options_.quiet || page.width == Page::unlimited) {
+  if (options_.quiet || page.width == Page::unlimited || is_dumb()) {
     return;
   }
   const std::string line = wrap(text, page.width - 1, 0, 0); // a full line would move the cursor

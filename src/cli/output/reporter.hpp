@@ -77,8 +77,8 @@ class Reporter {
   [[nodiscard]] int finish(const Report& report) const;
 
  private:
-  /// Whether output to this descriptor is coloured: the only place that evaluates --color and
-  /// NO_COLOR.
+  /// Whether output to this descriptor is coloured: the only place that evaluates --color,
+  /// NO_COLOR and TERM.
   [[nodiscard]] bool use_colour(int descriptor) const;
   /// The page behind stdout or stderr.
   [[nodiscard]] Page page(int descriptor) const;

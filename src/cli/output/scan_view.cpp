@@ -2,12 +2,20 @@
 
 #include "blactl/base/hex.hpp"
 #include "blactl/bla/profile.hpp"
+#include "blactl/fleet/bus/status_words.hpp"
 
 #include "cli/output/node_head.hpp"
 #include "cli/output/table.hpp"
 #include "cli/texts.hpp"
 
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <set>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 namespace blactl::cli {
 
@@ -58,17 +66,21 @@ void write_node(JsonWriter& json, const Finding& node) {
   json.array("warnings", node.warnings, [&](const std::string& warning) { json.value(warning); });
 }
 
-/// "operational ok", each word in the colour of its meaning.
+/// "ok", "warning", "maintenance warning": each word in the colour of its meaning, and the mode
+/// only if it is not the usual one.
 std::string state_text(const dronecan::NodeStatus& now, const Page& page) {
   using dronecan::Health;
   using dronecan::Mode;
-  const Tone mode = now.mode == Mode::operational ? Tone::good
-                    : now.mode == Mode::offline   ? Tone::bad
-                                                  : Tone::warning;
-  const Tone health = now.health == Health::ok        ? Tone::good
-                      : now.health == Health::warning ? Tone::warning
-                                                      : Tone::bad;
-  return page.paint(mode, name(now.mode)) + ' ' + page.paint(health, name(now.health));
+  const Tone tone = now.health == Health::ok        ? Tone::good
+                    : now.health == Health::warning ? Tone::warning
+                                                    : Tone::bad;
+  const std::string health = page.paint(tone, fleet::health_word(now.health));
+  if (now.mode == Mode::operational) {
+    return health;
+  }
+  const Tone mode = now.mode == Mode::offline ? Tone::bad : Tone::warning;
+  return page.paint(mode, fleet::mode_word(now.mode)) +
+         (now.health == Health::ok ? "" : ' ' + health);
 }
 
 /// "BLA21-12U-AB", with a question mark if uncertain.
@@ -81,7 +93,27 @@ std::string model_text(const Finding& node) {
                        : model + (node.servo.identity.certain() ? "" : " ?");
 }
 
-std::vector<std::string> row(const Finding& node, const Page& page) {
+constexpr std::size_t unique_id_digits = 2 * sizeof(dronecan::UniqueId);
+
+/// The fewest digits, but at least eight, that tell all units apart.
+std::size_t enough_digits(const Roster& roster) {
+  std::set<std::string> all;
+  for (const auto& [id, member] : roster.members()) {
+    if (const auto unit = member.unique_id()) {
+      all.insert(hex(*unit));
+    }
+  }
+  constexpr std::size_t least = 8;
+  std::size_t digits = least;
+  for (auto now = all.begin(); now != all.end() && std::next(now) != all.end(); ++now) {
+    const auto differs = std::ranges::mismatch(*now, *std::next(now)).in1 - now->begin();
+    digits = std::max(digits, static_cast<std::size_t>(differs) + 1);
+  }
+  return digits;
+}
+
+/// `digits`: how many of a unique ID are shown.
+std::vector<std::string> row(const Finding& node, std::size_t digits, const Page& page) {
   const fleet::Servo& servo = node.servo;
   const auto& readings = servo.identity.readings();
   const bool dynamic = servo.is_servo && servo.static_node_id == 0;
@@ -93,7 +125,36 @@ std::vector<std::string> row(const Finding& node, const Page& page) {
           dynamic ? say<texts::dynamic_id>() : or_text(servo.static_node_id, "-"),
           node.status ? state_text(*node.status, page) : "-",
           node.status ? fmt::format("{} s", node.status->uptime_s) : "-",
-          servo.unique_id ? hex(*servo.unique_id) : "-"};
+          servo.unique_id ? hex(*servo.unique_id).substr(0, digits) : "-"};
+}
+
+Table table(const Findings& findings, std::size_t digits, const Page& page) {
+  Table table({say<texts::column_node>(), say<texts::column_model>(), say<texts::column_serial>(),
+               say<texts::column_servo_id>(), say<texts::scan_column_firmware>(),
+               say<texts::column_static_id>(), say<texts::column_state>(),
+               say<texts::column_uptime>(), say<texts::column_unique_id>()});
+  for (const Finding& node : findings.nodes) {
+    table.add(row(node, digits, page));
+  }
+  return table;
+}
+
+/// Each warning once, with the node IDs of all that it is true of.
+std::vector<std::pair<std::string_view, std::string>> warnings_of(const Findings& findings) {
+  std::vector<std::pair<std::string_view, std::string>> all;
+  for (const Finding& node : findings.nodes) {
+    const std::string id = std::to_string(node.servo.id.value());
+    for (const std::string& warning : node.warnings) {
+      const auto same =
+          std::ranges::find(all, warning, [](const auto& each) { return each.first; });
+      if (same == all.end()) {
+        all.emplace_back(warning, id);
+      } else {
+        same->second += ", " + id;
+      }
+    }
+  }
+  return all;
 }
 
 } // namespace
@@ -148,19 +209,13 @@ std::string text(const Findings& findings, const Page& page) {
   const std::string sign = page.paint(Tone::warning, "!");
   std::string out;
   if (!findings.nodes.empty()) {
-    Table table({say<texts::column_node>(), say<texts::column_model>(), say<texts::column_serial>(),
-                 say<texts::column_servo_id>(), say<texts::column_firmware>(),
-                 say<texts::column_static_id>(), say<texts::column_state>(),
-                 say<texts::column_uptime>(), say<texts::column_unique_id>()});
-    for (const Finding& node : findings.nodes) {
-      table.add(row(node, page));
-    }
-    out += table.text("", page);
+    const Table whole = table(findings, unique_id_digits, page);
+    const Table brief = table(findings, enough_digits(roster), page);
+    const bool is_brief = !whole.fits("", page) && brief.fits("", page);
+    out += (is_brief ? brief : whole).text("", page);
   }
-  for (const Finding& node : findings.nodes) {
-    for (const std::string& warning : node.warnings) {
-      out += fmt::format("{} {}: {}\n", sign, node.servo.id.value(), warning);
-    }
+  for (const auto& [warning, ids] : warnings_of(findings)) {
+    out += fmt::format("{} {}: {}\n", sign, ids, warning);
   }
   const auto line = [&](const std::string& what) { out += fmt::format("{} {}\n", sign, what); };
   for (const Conflict& conflict : findings.conflicts) {

@@ -36,6 +36,9 @@ class UnixTime {
   std::size_t size_ = 0;
 };
 
+/// "2015-07-09 14:30:52", in the time zone of this process. Times before 1970 are 1970.
+[[nodiscard]] std::string clock_text(WallTime at);
+
 /// "2015-07-09 14:30:52.249713", in the time zone of this process. Times before 1970 are 1970.
 [[nodiscard]] std::string wall_text(WallTime at);
 

@@ -188,7 +188,7 @@ std::vector<Error> Discovery::missing(const Targets& targets, Duration wait) con
     const Member* member = session_.roster().find(id);
     if (!session_.roster().heard(id) || session_.roster().has_moved(*member)) {
       errors.push_back({Code::not_found, say<texts::wait_not_heard>(id.value(), seconds),
-                        say<texts::node_not_found_hint>(), id.value()});
+                        not_found_hint(session_.roster()), id.value()});
     } else if (member->is_foreign()) {
       errors.push_back(not_a_servo(id, member->info->name));
     }

@@ -23,6 +23,20 @@ bool is_pending(const Roster& roster, const Selector& selector) {
 
 } // namespace
 
+bool all_wait_for_id(const Roster& roster) {
+  return !roster.pending().empty() &&
+         std::ranges::none_of(roster.members(), [&](const auto& entry) {
+           const Member& member = entry.second;
+           return roster.heard(entry.first) && !member.is_foreign() &&
+                  (member.is_servo || member.sends_actuator_status());
+         });
+}
+
+std::string not_found_hint(const Roster& roster) {
+  return all_wait_for_id(roster) ? say<texts::all_wait_for_id_hint>()
+                                 : say<texts::node_not_found_hint>();
+}
+
 Error not_a_servo(dronecan::NodeId id, std::string_view name) {
   return {Code::not_found, say<texts::not_a_servo>(id.value(), printable(name)),
           say<texts::node_not_found_hint>(), id.value()};
@@ -34,7 +48,7 @@ Error nothing_matches(const Roster& roster, const Selector& selector) {
             say<texts::target_waits_for_id_hint>(), std::nullopt};
   }
   return {Code::not_found, say<texts::nothing_matches>(printable(selector.text)),
-          say<texts::node_not_found_hint>(), std::nullopt};
+          not_found_hint(roster), std::nullopt};
 }
 
 std::vector<dronecan::NodeId> unidentified(const Roster& roster) {
@@ -106,8 +120,9 @@ Error no_servo(const Roster& roster) {
       first = first.empty() ? ids : first;
     }
   }
-  if (ids.empty()) {
-    return {Code::not_found, say<texts::no_servo_found>(), say<texts::no_servo_found_hint>(),
+  if (ids.empty() || all_wait_for_id(roster)) {
+    return {Code::not_found, say<texts::no_servo_found>(),
+            all_wait_for_id(roster) ? not_found_hint(roster) : say<texts::no_servo_found_hint>(),
             std::nullopt};
   }
   return {Code::not_found, say<texts::no_node_is_servo>(ids),
@@ -164,7 +179,7 @@ Error silent(const Roster& roster, dronecan::NodeId node) {
     return doubled(roster, node);
   }
   if (!roster.heard(node) || !member.id_is_known) {
-    return {Code::not_found, say<texts::node_not_found>(id), say<texts::node_not_found_hint>(), id};
+    return {Code::not_found, say<texts::node_not_found>(id), not_found_hint(roster), id};
   }
   return {Code::timeout, member.info ? say<texts::node_gone>(id) : say<texts::node_mute>(id),
           say<texts::no_answer_hint>(), id};

@@ -3,6 +3,7 @@
 #include "blactl/base/hex.hpp"
 #include "blactl/bla/defect.hpp"
 #include "blactl/fleet/bus/conflict_texts.hpp"
+#include "blactl/fleet/bus/status_words.hpp"
 #include "blactl/fleet/bus/texts.hpp"
 #include "blactl/fleet/bus/unreachable.hpp"
 #include "blactl/state/local_node_id.hpp"
@@ -134,7 +135,7 @@ std::optional<dronecan::NodeStatus> status(const Member& member) {
 std::vector<std::string> warnings(const Member& member) {
   std::vector<std::string> out;
   if (const auto now = status(member); now && now->health != dronecan::Health::ok) {
-    out.push_back(say<texts::warn_health>(dronecan::name(now->health)));
+    out.push_back(say<texts::warn_health>(health_word(now->health)));
   }
   if (!member.is_servo) {
     return out;

@@ -4,6 +4,7 @@
 #include "blactl/bla/defect.hpp"
 #include "blactl/bla/value.hpp"
 #include "blactl/fleet/bus/conflict_texts.hpp"
+#include "blactl/fleet/bus/status_words.hpp"
 #include "blactl/fleet/doctor/diagnosis.hpp"
 #include "blactl/fleet/doctor/motion.hpp"
 #include "blactl/state/local_node_id.hpp"
@@ -102,7 +103,7 @@ class NodeExamination {
     if (node.status && node.status->health != dronecan::Health::ok) {
       const bool is_warning = node.status->health == dronecan::Health::warning;
       add("health", is_warning ? Level::warning : Level::failure, node.servo.id,
-          say<texts::node_bad_health>(id, dronecan::name(node.status->health)),
+          say<texts::node_bad_health>(id, health_word(node.status->health)),
           say<texts::node_bad_health_fix>(id));
     }
     mode(node);
@@ -118,10 +119,7 @@ class NodeExamination {
       return;
     }
     const std::uint8_t id = node.servo.id.value();
-    const auto word = dronecan::name(mode); // empty: not defined by DroneCAN
-    add("mode", Level::warning, node.servo.id,
-        say<texts::node_in_mode>(id, word.empty() ? std::to_string(std::to_underlying(mode))
-                                                  : std::string(word)),
+    add("mode", Level::warning, node.servo.id, say<texts::node_in_mode>(id, mode_word(mode)),
         node.servo.is_servo ? say<texts::servo_in_mode_fix>(id, id)
                             : say<texts::node_in_mode_fix>(id));
   }

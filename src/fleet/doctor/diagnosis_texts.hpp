@@ -66,7 +66,7 @@ inline constexpr Text port_foreign_fix{"use another port: ls -l /dev/serial/by-i
                                        "別のポートを指定して下さい: ls -l /dev/serial/by-id"};
 
 inline constexpr Text node_bad_health{"node {} says that its health is {}",
-                                      "ノード {} の health は {} です"};
+                                      "ノード {} の健康状態は「{}」です"};
 inline constexpr Text node_bad_health_fix{"see why: blactl faults -n {}",
                                           "原因を確認: blactl faults -n {}"};
 inline constexpr Text node_offline{"node {} was heard, and is not any more",
@@ -74,12 +74,12 @@ inline constexpr Text node_offline{"node {} was heard, and is not any more",
 inline constexpr Text node_offline_fix{"look at its supply and its cable: blactl wait -n {}",
                                        "電源と配線を確認して下さい: blactl wait -n {}"};
 inline constexpr Text node_in_mode{"node {} says that its mode is {}",
-                                   "ノード {} の mode は {} です"};
+                                   "ノード {} の動作モードは「{}」です"};
 inline constexpr Text node_in_mode_fix{"wait until it is operational: blactl wait -n {}",
-                                       "operational になるまで待機: blactl wait -n {}"};
+                                       "動作中になるまで待機: blactl wait -n {}"};
 inline constexpr Text servo_in_mode_fix{
     "wait until it is operational: blactl wait -n {}; or restart it: blactl restart -n {}",
-    "operational になるまで待機: blactl wait -n {}、または再起動: blactl restart -n {}"};
+    "動作中になるまで待機: blactl wait -n {}、または再起動: blactl restart -n {}"};
 inline constexpr Text answers_lost{
     "{} of {} requests to nodes {} were not answered: frames are lost, or the nodes are too slow",
     "{1} 回の問合せのうち {0} 回に応答がありません (ノード {2})。"
@@ -139,8 +139,10 @@ inline constexpr Text servo_on_tool_id_fix{
     "別のノード ID に変更: blactl set -n {} static_node_id=N --save"};
 inline constexpr Text units_ask_for_id{"units that ask for a node ID and get none: {} or more",
                                        "ノード ID の割当てを待つ機器: {} 台以上"};
-inline constexpr Text units_ask_for_id_fix{"give them one: blactl alloc --once",
-                                           "割当て: blactl alloc --once"};
+inline constexpr Text units_ask_for_id_fix{
+    "`blactl alloc --once` gives them one for now, or for good: "
+    "blactl alloc --static -n all --range 11-40",
+    "一時的な割当ては `blactl alloc --once`、固定: blactl alloc --static -n all --range 11-40"};
 inline constexpr Text several_allocators{"several nodes allocate node IDs: {}",
                                          "複数のノードが ID を割り当てています: {}"};
 inline constexpr Text several_allocators_fix{"end all of them but one",

@@ -1,8 +1,18 @@
 #include "blactl/fleet/live/fault_watch.hpp"
 
+#include "blactl/fleet/bus/unreachable.hpp"
+
 #include <algorithm>
+#include <chrono>
 
 namespace blactl::fleet {
+namespace {
+
+/// A servo sends NodeStatus every second and actuator.Status ten times as often: when both are
+/// missing for so long, it is silent.
+constexpr Duration silence = std::chrono::seconds(2);
+
+} // namespace
 
 FaultWatch::FaultWatch(Session& session, const bla::Profiles& profiles,
                        std::span<const dronecan::NodeId> servos,
@@ -37,9 +47,30 @@ bool FaultWatch::has_ended(const Look& look) const {
 Time FaultWatch::next_due() const {
   Time next = never;
   for (const Look& look : looks_) {
-    next = look.job ? next : std::min(next, look.due);
+    next = std::min({next, look.job ? never : look.due, silent_from(look)});
   }
   return next;
+}
+
+/// When it counts as silent if nothing more is heard; never: that was told, or it was never heard.
+Time FaultWatch::silent_from(const Look& look) const {
+  const Member* member = session_.roster().find(look.id);
+  return session_.is_replay() || member == nullptr || member->last_heard == look.told_silent
+             ? never
+             : member->last_heard + silence;
+}
+
+void FaultWatch::tell_silent(std::vector<FaultState>& states) {
+  for (Look& look : looks_) {
+    if (silent_from(look) <= session_.now()) {
+      const Member member = session_.roster().member(look.id);
+      look.told_silent = member.last_heard;
+      states.push_back({.snapshot = {.servo = member.servo()},
+                        .faults = {},
+                        .health = {},
+                        .errors = {silent(session_.roster(), look.id)}});
+    }
+  }
 }
 
 Result<std::vector<FaultState>> FaultWatch::next() {
@@ -60,6 +91,7 @@ Result<std::vector<FaultState>> FaultWatch::next() {
         look.due = session_.now() + interval_;
       }
     }
+    tell_silent(states);
   }
   return states;
 }

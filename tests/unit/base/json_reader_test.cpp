@@ -154,6 +154,43 @@ TEST_CASE("what is not JSON is told with its line") {
   }
 }
 
+TEST_CASE("what is wrong with a file that is not JSON is told by its name and line") {
+  const std::pair<const char*, const char*> cases[] = {
+      {"{\"a\": 1,\n}",
+       "f.json:1: /: not valid JSON: trailing comma: the last item has none behind it"},
+      {"{\"a\": [1,\n2 ,\n\n]}",
+       "f.json:2: /a: not valid JSON: trailing comma: the last item has none behind it"},
+      {"{\"a\": 1\n\"b\": 2}", "f.json:2: /: not valid JSON: a comma is missing before \"b\""},
+      {"[1\n2]", "f.json:2: /: not valid JSON: a comma is missing before 2"},
+      {"[1 true]", "f.json:1: /: not valid JSON: a comma is missing before true"},
+      {"[{} {}]", "f.json:1: /: not valid JSON: a comma is missing before {"},
+      {"[01]", "f.json:1: /: not valid JSON: 01 does not belong here"},
+      {"[1.]", "f.json:1: /: not valid JSON: 1. does not belong here"},
+      {"[NaN]", "f.json:1: /: not valid JSON: NaN does not belong here"},
+      {"[1e999]", "f.json:1: /: not valid JSON: 1e999 does not belong here"},
+      {"[] []", "f.json:1: /: not valid JSON: [ does not belong here"},
+      {"[1}", "f.json:1: /: not valid JSON: } does not belong here"},
+      {"[,1]", "f.json:1: /: not valid JSON: , does not belong here"},
+      {"{\"a\" 1}", "f.json:1: /: not valid JSON: a colon is missing between a key and its value"},
+      {"{'a': 1}", "f.json:1: /: not valid JSON: keys and strings need double quotes"},
+      {"{a: 1}", "f.json:1: /: not valid JSON: keys and strings need double quotes"},
+      {"{\n// all\n}", "f.json:2: /: not valid JSON: JSON has no comments"},
+      {"[\n\"a\nb\"]", "f.json:2: /: not valid JSON: a string does not end in its line"},
+      {"[\"\\q\"]", "f.json:1: /: not valid JSON: a wrong escape sequence (\\) in a string"},
+      {"[1,", "f.json:1: /: not valid JSON: the file ends before it is complete"},
+      {"", "f.json:1: /: not valid JSON: the file ends before it is complete"},
+  };
+  for (const auto& [text, told] : cases) {
+    INFO(text);
+    CHECK(faults(text) == told);
+  }
+  set_language(Language::japanese);
+  const std::string japanese = faults("[1,\n]");
+  set_language(Language::english);
+  CHECK(japanese == "f.json:1: /: JSON として正しくありません: "
+                    "末尾のカンマが余分です (最後の項目の後には不要)");
+}
+
 TEST_CASE("bad UTF-8 and zero bytes are faults, and reach nobody's terminal") {
   for (const std::string text : {"[\"\xFF\"]", "[\"\xC0\xAF\"]", "[\"\xED\xA0\x80\"]", "\xFF"}) {
     const std::string found = faults(text);

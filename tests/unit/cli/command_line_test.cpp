@@ -354,8 +354,8 @@ TEST_CASE("every command of the table is sound") {
       CHECK(fits);
       CHECK(option.store.put != nullptr);
       CHECK(option.value.empty() == (option.kind == Kind::flag || option.name[0] != '-'));
-      const bool has_words =
-          option.kind == Kind::word || option.kind == Kind::words || option.kind == Kind::beginning;
+      const bool has_words = option.kind == Kind::word || option.kind == Kind::words ||
+                             option.kind == Kind::beginning || option.kind == Kind::suggested;
       CHECK(option.words.empty() != has_words);
       CHECK((option.kind != Kind::seconds || option.seconds.min < option.seconds.max));
       CHECK((option.kind != Kind::whole || option.whole.min < option.whole.max));

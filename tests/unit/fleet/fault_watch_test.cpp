@@ -44,6 +44,27 @@ TEST_CASE("a servo that does not answer holds up no look at another") {
   CHECK(told);
 }
 
+TEST_CASE("a silence of two seconds is told once, before its read has ended") {
+  const Scene scene(R"("servos": [{"model": "BLA15-06U-A0", "node_id": 11, "serial_number": 1}],
+                       "events": [{"at": "12s", "servo": 1, "happens": "power_off"},
+                                  {"at": "15s", "servo": 1, "happens": "power_on"}])");
+  const Time off = scene.session->now() - Scene::start_time + 12s;
+  scene.grow_old();
+  FaultWatch watch(*scene.session, profiles(), std::array{NodeId(11)}, {}, 500ms);
+  std::vector<Time> told;
+  while (scene.session->now() < off + 8s) {
+    const auto seen = watch.next();
+    REQUIRE(seen);
+    if (!seen->front().has_answered()) {
+      CHECK(seen->front().snapshot.servo.id == NodeId(11));
+      told.push_back(scene.session->now());
+    }
+  }
+  REQUIRE(told.size() == 1);
+  CHECK(told.front() > off + 1800ms);
+  CHECK(told.front() <= off + 2s);
+}
+
 TEST_CASE("when one of two servos under one node ID is taken off, the watch reads the other") {
   const Scene scene(R"("servos": [{"model": "BLA15-06U-A0", "node_id": 11, "serial_number": 1},
                                   {"model": "BLA15-06U-A0", "node_id": 11, "serial_number": 2}],

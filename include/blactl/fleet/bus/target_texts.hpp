@@ -33,6 +33,11 @@ inline constexpr Text target_waits_for_id{
 inline constexpr Text target_waits_for_id_hint{
     "give it a node ID: blactl alloc --once (or let the flight controller do it)",
     "ノード ID を割り当てて下さい: blactl alloc --once (フライトコントローラでも可)"};
+inline constexpr Text all_wait_for_id_hint{
+    "servos wait for a node ID: `blactl alloc --once` gives them one for now, or for good: "
+    "blactl alloc --static -n all --range 11-40",
+    "サーボがノード ID の割当てを待っています。一時的な割当ては `blactl alloc --once`、固定: "
+    "blactl alloc --static -n all --range 11-40"};
 inline constexpr Text foreign_actuator{
     "node {} ({}) sends actuator.Status but answers no GetSet: it is not taken for a BLA servo",
     "ノード {} ({}) は actuator.Status を送信しますが GetSet に応答しないため、BLA "

@@ -196,6 +196,17 @@ inline constexpr Text warn_static_id_differs{
     "RAM の 0x46 は {} です。ROM に保存されていれば再起動後のノード ID になります"};
 inline constexpr Text warn_health{"health: {} (see 0x1A, 0x1B)",
                                   "健康状態: {} (0x1A, 0x1B を参照)"};
+// NodeStatus
+inline constexpr Text health_ok{"ok", "正常"};
+inline constexpr Text health_warning{"warning", "警告"};
+inline constexpr Text health_error{"error", "障害"};
+inline constexpr Text health_critical{"critical", "重大な障害"};
+inline constexpr Text mode_operational{"operational", "動作中"};
+inline constexpr Text mode_initialization{"initialization", "初期化中"};
+inline constexpr Text mode_maintenance{"maintenance", "保守中"};
+inline constexpr Text mode_software_update{"software update", "ソフトウェア更新中"};
+inline constexpr Text mode_offline{"offline", "オフライン"};
+
 inline constexpr Text only_readable{"the model is not known: it can only be read",
                                     "機種が不明のため読出しのみ可能です"};
 inline constexpr Text bootloader_unread{"bootloader (0x49) is neither read nor written",

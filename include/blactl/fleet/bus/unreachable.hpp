@@ -7,10 +7,17 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
 namespace blactl::fleet {
+
+/// Whether servos ask for a node ID, and none that has one was heard.
+[[nodiscard]] bool all_wait_for_id(const Roster& roster);
+
+/// What to type when a node is not there: who is there, or how waiting servos get a node ID.
+[[nodiscard]] std::string not_found_hint(const Roster& roster);
 
 /// The error for a node that has identified itself as another device: not_found.
 [[nodiscard]] Error not_a_servo(dronecan::NodeId id, std::string_view name);

@@ -23,7 +23,8 @@ class FaultWatch {
   FaultWatch& operator=(const FaultWatch&) = delete;
   FaultWatch& operator=(FaultWatch&&) = delete;
 
-  /// Waits until some reads have ended, and returns their results. On a recording, which never
+  /// Waits until some reads have ended, and returns their results; also the state of a servo that
+  /// has just fallen silent, without waiting for the end of its read. On a recording, which never
   /// changes, the first call returns all servos. Errors: as Session::live_until().
   [[nodiscard]] Result<std::vector<FaultState>> next();
 
@@ -32,11 +33,14 @@ class FaultWatch {
     dronecan::NodeId id;
     Time due{};                      ///< of the next read
     std::unique_ptr<FaultJob> job{}; ///< under way
+    Time told_silent{};              ///< when the servo was last heard before its told silence
   };
 
   void begin();
   [[nodiscard]] bool has_ended(const Look& look) const;
   [[nodiscard]] Time next_due() const;
+  [[nodiscard]] Time silent_from(const Look& look) const;
+  void tell_silent(std::vector<FaultState>& states);
 
   Session& session_;
   const bla::Profiles& profiles_;
