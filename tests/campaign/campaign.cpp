@@ -9,8 +9,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <optional>
 #include <set>
+#include <sstream>
+#include <string>
 #include <utility>
 
 namespace blactl::campaign {
@@ -48,12 +51,28 @@ bool is_feasible(const Command& command) {
          verb == "erase";
 }
 
-bool share_servo_id(const States& states) {
+/// Whether two have the same servo ID, or static node ID.
+bool share_id(const States& states, std::uint8_t address) {
   std::set<std::int64_t> seen;
   return std::ranges::any_of(states, [&](const auto& servo) {
-    const std::int64_t id = servo.second.rom.at(servo_id);
+    const std::int64_t id = servo.second.rom.at(address);
     return id != 0 && !seen.insert(id).second;
   });
+}
+
+/// Whether IDs that an ERASE took are wished again only a person knows: who wishes it types this.
+std::optional<Command> answer_to(const Step& step) {
+  static const std::string before = "to have it back: blactl ";
+  for (const nlohmann::json& error : step.outcome.document.value("errors", nlohmann::json())) {
+    const std::string hint = error.value("hint", "");
+    if (hint.starts_with(before)) {
+      std::istringstream typed(hint.substr(before.size(), hint.find(';') - before.size()));
+      Command answer{.words = {std::istream_iterator<std::string>(typed), {}}};
+      answer.words.emplace_back("-y");
+      return answer;
+    }
+  }
+  return std::nullopt;
 }
 
 /// It ends soon, and what is there already is not saved again.
@@ -262,6 +281,16 @@ void Campaign::list(World& world, const Episode& episode) {
   }
 }
 
+Step Campaign::run_and_answer(World& world, const Episode& calm, const Command& command) {
+  Step step = run(world, calm, command);
+  const auto answer = answer_to(step);
+  if (!answer) {
+    return step;
+  }
+  [[maybe_unused]] const Step answered = run(world, calm, *answer);
+  return run(world, calm, command);
+}
+
 /// Everything that went wrong has ended: the last command converges.
 void Campaign::repeat(World& world, const Episode& episode) {
   const Command& last = episode.steps.back();
@@ -276,7 +305,8 @@ void Campaign::repeat(World& world, const Episode& episode) {
   if (has_dynamic) {
     [[maybe_unused]] const Step given = run(world, calm, {.words = {"alloc", "--once"}});
   }
-  if (share_servo_id(states)) { // one was away when its ID was given to another, with a warning
+  // one was away when its ID was given to another, with a warning
+  if (share_id(states, servo_id) || share_id(states, static_node_id)) {
     return;
   }
   Command command = last;
@@ -286,7 +316,7 @@ void Campaign::repeat(World& world, const Episode& episode) {
     *(target + 1) = "all"; // its ID may be another one now
   }
   for (int time = 0; time < 2; ++time) {
-    const Step step = run(world, calm, command);
+    const Step step = run_and_answer(world, calm, command);
     counts_.repeated += 1;
     try {
       judge(step);

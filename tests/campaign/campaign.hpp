@@ -65,6 +65,7 @@ class Campaign {
 
  private:
   [[nodiscard]] Step run(World& world, const Episode& episode, const Command& command);
+  [[nodiscard]] Step run_and_answer(World& world, const Episode& calm, const Command& command);
   [[nodiscard]] std::vector<Time> rehearse(const Episode& episode);
   void count(const Step& step, bool must_succeed);
   void list(World& world, const Episode& episode);
