@@ -74,7 +74,7 @@ std::string state_text(const dronecan::NodeStatus& now, const Page& page) {
   const Tone tone = now.health == Health::ok        ? Tone::good
                     : now.health == Health::warning ? Tone::warning
                                                     : Tone::bad;
-  const std::string health = page.paint(tone, fleet::health_word(now.health));
+  std::string health = page.paint(tone, fleet::health_word(now.health));
   if (now.mode == Mode::operational) {
     return health;
   }
