@@ -89,7 +89,7 @@ TEST_CASE("alloc --once gives every servo that asks an ID of its own, and tells 
 
 TEST_CASE("Ctrl-C is the usual end of alloc, and no error") {
   const Bench bench;
-  const std::string interface = "sim:" + scenario(bench, 1);
+  const std::string interface = "sim:" + Scene().servo("BLA21-12U-AB", 11).write(bench);
   for (const bool as_json : {false, true}) {
     Arguments arguments{"-i", interface, "alloc"};
     if (as_json) {
