@@ -196,7 +196,7 @@ TEST_CASE("what replace cannot write back is refused before anything else") {
 }
 
 TEST_CASE("apply tells how to replace a servo that is missing") {
-  const Place place(with(33));
+  const Place place(with(GENERATE(33, 0)));
   const Result refused = place.fleet.run({"apply", place.file, "-y", "--json"});
   check_error(refused, 4, "not_found", "no servo for 'right aileron'");
   CHECK(contains(refused.err, "blactl replace " + place.file + " \"right aileron\""));

@@ -130,11 +130,12 @@ units(std::span<const fleet::FleetEntry* const> entries) {
   return units;
 }
 
-/// What may help: a servo that no entry means may be there in place of it.
+/// What may help: a servo that no entry means may be there in place of it, or wait for a node ID.
 std::string hint_for_missing(const fleet::FleetFile& file, const fleet::FleetEntry& entry,
-                             const fleet::FleetMatch& matched) {
+                             const fleet::FleetMatch& matched, const fleet::Roster& roster) {
+  const bool is_another_there = !matched.extra.empty() || !roster.requests().empty();
   const bool may_be_replaced =
-      !matched.extra.empty() && !entry.name.empty() && entry.match.means_one() && file.file != "-";
+      is_another_there && !entry.name.empty() && entry.match.means_one() && file.file != "-";
   return may_be_replaced
              ? say<texts::apply_replaced_hint>(printable(file.file), printable(entry.name))
              : say<texts::apply_missing_hint>();
@@ -165,7 +166,8 @@ Goals match(const fleet::FleetFile& file, const Manner& manner, const Whom& whom
     goals.goals.push_back(goal(*pair.entry, pair.id, manner));
   }
   for (const fleet::FleetEntry* entry : matched.missing) {
-    goals.errors.push_back(missing(*entry, whom.roster, hint_for_missing(file, *entry, matched)));
+    goals.errors.push_back(
+        missing(*entry, whom.roster, hint_for_missing(file, *entry, matched, whom.roster)));
   }
   std::ranges::transform(matched.misfits, std::back_inserter(goals.errors),
                          &fleet::FleetMatch::Misfit::error);
