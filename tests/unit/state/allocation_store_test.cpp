@@ -287,6 +287,27 @@ TEST_CASE("all 125 IDs are given once before one is given to another unit") {
   CHECK(assigned(store, 77) != 0);
 }
 
+TEST_CASE(
+    "a table that has served 320 units on 40 buses gives every one on its bus an ID of its own") {
+  constexpr int buses = 40, units = 8, range_of = 10;
+  const Folder folder;
+  auto store = opened(folder);
+  for (int visit = 0; visit < 2; ++visit) { // the first buses come back, and count as new
+    for (int bus = 0; bus < buses; ++bus) {
+      AllocationChoice choice = range(11, 11 + range_of - 1);
+      for (int i = 0; i < units; ++i) {
+        const auto now = noon + (visit * buses + bus) * 1h;
+        const auto given = store.allocate(unit(bus * units + i), choice, now);
+        REQUIRE(given);
+        const std::size_t id = given->node_id.value();
+        CHECK_FALSE(choice.taken[id]);
+        choice.taken.set(id);
+      }
+    }
+  }
+  CHECK(store.entries()->size() == range_of);
+}
+
 TEST_CASE("a full range leaves the table as it was") {
   const Folder folder;
   auto store = opened(folder);
