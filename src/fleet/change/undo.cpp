@@ -58,10 +58,10 @@ bool is_unfinished_undo(const state::SnapshotEntry& entry) {
 
 using Tries = std::vector<state::SnapshotEntry>;
 
-/// Whether the newer one is a change of its own: what was saved for certain was repeated in RAM
-/// only.
+/// Whether the newer one is a change of its own: in RAM only, after a try that was saved, or has
+/// ended with a restart otherwise. (One without a restart since has gone on in the same entry.)
 bool is_of_its_own(const state::SnapshotEntry& newer, const state::SnapshotEntry& older) {
-  return !newer.saved && !newer.written.empty() && older.saved && older.settled;
+  return !newer.saved && !newer.written.empty() && older.saved;
 }
 
 /// All entries of the run of this one that are one change with it, the newest first.
