@@ -27,8 +27,14 @@ bool write_all(int descriptor, std::string_view content) {
   return fsync(descriptor) == 0;
 }
 
-/// Sets the mode that a new file would have, because mkstemp() makes the file private.
-bool set_usual_rights(int descriptor) {
+/// Sets the mode of the file that is replaced, or that a new file would have, because mkstemp()
+/// makes the file private.
+bool set_rights(int descriptor, const std::string& target) {
+  constexpr mode_t rights = 0777;
+  struct stat there{};
+  if (stat(target.c_str(), &there) == 0) {
+    return fchmod(descriptor, there.st_mode & rights) == 0;
+  }
   const mode_t mask = umask(0);
   umask(mask);
   return fchmod(descriptor, 0666 & ~mask) == 0;
@@ -48,6 +54,9 @@ Result<std::string> target_of(const std::string& path) {
   }
   if (!S_ISREG(there.st_mode)) {
     return failure(path, S_ISDIR(there.st_mode) ? EISDIR : EINVAL);
+  }
+  if (access(path.c_str(), W_OK) != 0) { // the folder alone would let it be replaced
+    return failure(path, errno);
   }
   const std::unique_ptr<char, decltype(&std::free)> real(realpath(path.c_str(), nullptr),
                                                          &std::free);
@@ -77,7 +86,8 @@ Result<void> replace_file(const std::string& named, std::string_view content) {
   if (!made) {
     return std::unexpected(made.error());
   }
-  const bool written = set_usual_rights(made->descriptor) && write_all(made->descriptor, content);
+  const bool written =
+      set_rights(made->descriptor, made->target) && write_all(made->descriptor, content);
   int error = errno;
   const bool closed = close(made->descriptor) == 0;
   error = written && !closed ? errno : error;

@@ -574,6 +574,20 @@ TEST_CASE("a servo that is unplugged while others restart is not told to be back
   CHECK(untold == std::vector<int>{});
 }
 
+TEST_CASE(
+    "a servo that restarts while others are still saved is not proven, however it reads later") {
+  const auto save = [](const char* off, const char* on) {
+    Scene scene;
+    scene.servo("BLA21-12U-AB", 11, {{"serial_number", 1}}).servo("BLA21-12U-AB", 12);
+    scene.world(1, {{"plugged", "off"}}, off).world(1, {{"plugged", "on"}}, on);
+    return scene.run({"save", "-n", "11,12", "-y", "-j", "--stagger", "8"});
+  };
+  const Result early = save("4s", "4.1s");
+  check_error(early, 6, "state", "node 11 has restarted since its ROM was proven");
+  CHECK(node(early)["status"] == "failed");
+  CHECK(node(early, 1)["status"] == "done");
+}
+
 TEST_CASE("--stagger keeps the distance between servos") {
   const Bench bench;
   Background sim(bench, {"sim", three_servos().write(bench), "--json"});

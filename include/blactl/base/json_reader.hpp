@@ -74,6 +74,9 @@ class Faults {
 
   [[nodiscard]] bool empty() const { return faults_.empty(); }
 
+  /// Whether there are more than anybody wants to know: what compares all with all may end.
+  [[nodiscard]] bool are_many() const { return faults_.size() >= many; }
+
   /// Errors: bad_file; the message has a line "FILE:LINE: /json/pointer: reason" for every fault,
   /// in file order (if there are too many: the first hundred and the number of the others).
   [[nodiscard]] Result<void> result() const;
@@ -84,6 +87,8 @@ class Faults {
     std::string pointer;
     std::string reason;
   };
+
+  static constexpr std::size_t many = 10'000;
 
   std::string file_;
   std::vector<Fault> faults_;

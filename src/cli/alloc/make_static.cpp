@@ -196,17 +196,18 @@ Report make_static(const AllocOptions& options, Context& context) {
   }
   StaticWishes ids(options, std::move(*wanted), *table, context);
   Stream stream(*table, context);
-  report = change_servos({.command = "alloc --static",
-                          .search = Search::everybody,
-                          .needs_targets = options.assign.empty(),
-                          .numbers_waiting = options.assign.empty(),
-                          .find = [&](const Whom& whom) { return ids.find(whom); },
-                          .let_in = [&] { return ids.let_in(); },
-                          .moved = [&](const fleet::IdMove& move) { stream.moved(move); },
-                          .ended = [&](auto results) { stream.ended(results); },
-                          .stops_at_failure = true,
-                          .view = ResultView::moves},
-                         context);
+  report = change_servos(
+      {.command = "alloc --static",
+       .search = Search::everybody,
+       .needs_targets = options.assign.empty(),
+       .waiting = options.assign.empty() ? Waiting::unless_node_ids : Waiting::if_missing,
+       .find = [&](const Whom& whom) { return ids.find(whom); },
+       .let_in = [&] { return ids.let_in(); },
+       .moved = [&](const fleet::IdMove& move) { stream.moved(move); },
+       .ended = [&](auto results) { stream.ended(results); },
+       .stops_at_failure = true,
+       .view = ResultView::moves},
+      context);
   if (stream.failure()) {
     report.fail(*stream.failure());
   }

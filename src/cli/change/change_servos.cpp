@@ -140,7 +140,9 @@ bool Run::find() {
   if (request_.search == Search::everybody && !look_around()) {
     return false;
   }
-  const bool numbers = request_.numbers_waiting && targets->need_search() && may_let_in();
+  const bool numbers = (request_.waiting == Waiting::always ||
+                        (request_.waiting == Waiting::unless_node_ids && targets->need_search())) &&
+                       may_let_in();
   if (numbers && !(let_in() && look_around())) {
     return false;
   }
@@ -158,8 +160,8 @@ bool Run::find() {
 /// in so short a time may well be one.
 bool Run::may_let_in() {
   const fleet::Roster& roster = context_.session().roster();
-  const bool may_wait =
-      request_.numbers_waiting ? !roster.requests().empty() : !roster.pending().empty();
+  const bool may_wait = request_.waiting == Waiting::if_missing ? !roster.pending().empty()
+                                                                : !roster.requests().empty();
   return !request_.dry_run && may_wait && context_.may_allocate();
 }
 

@@ -47,12 +47,18 @@ enum class Search : std::uint8_t {
   everybody ///< all nodes are identified, as any ID in use may be in the way of a move
 };
 
+/// When servos that wait for a node ID get one, before -n is looked at.
+enum class Waiting : std::uint8_t {
+  if_missing,      ///< not then: only if Goals::may_wait says so
+  unless_node_ids, ///< unless -n names node IDs only
+  always
+};
+
 struct ChangeRequest {
   std::string_view command; ///< its name
   Search search = Search::targets;
   bool needs_targets = true; ///< with Search::everybody, too: without -n there must be one servo
-  /// Servos that wait for a node ID get one before -n is looked at, unless it names node IDs only.
-  bool numbers_waiting = false;
+  Waiting waiting = Waiting::if_missing;
   /// Called once the bus is known, and again when more servos are.
   std::function<Goals(const Whom& whom)> find{};
   /// Assigns node IDs to waiting servos that may be the missing ones; empty: to all that ask.

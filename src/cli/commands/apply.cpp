@@ -136,9 +136,11 @@ std::string hint_for_missing(const fleet::FleetFile& file, const fleet::FleetEnt
   const bool is_another_there = !matched.extra.empty() || !roster.requests().empty();
   const bool may_be_replaced =
       is_another_there && !entry.name.empty() && entry.match.means_one() && file.file != "-";
-  return may_be_replaced
-             ? say<texts::apply_replaced_hint>(printable(file.file), printable(entry.name))
-             : say<texts::apply_missing_hint>();
+  const std::string hint =
+      may_be_replaced ? say<texts::apply_replaced_hint>(printable(file.file), printable(entry.name))
+                      : say<texts::apply_missing_hint>();
+  const std::size_t waiting = roster.pending().size();
+  return waiting > 0 ? say<texts::apply_may_wait_hint>(waiting) + hint : hint;
 }
 
 /// The error for an entry without a servo.

@@ -4,6 +4,7 @@
 #include "blactl/base/json_reader.hpp"
 #include "blactl/base/read_file.hpp"
 #include "blactl/base/replace_file.hpp"
+#include "blactl/fleet/bus/discovery.hpp"
 #include "blactl/fleet/bus/read_job.hpp"
 #include "blactl/fleet/bus/unreachable.hpp"
 #include "blactl/fleet/files/fleet_file_editor.hpp"
@@ -100,6 +101,7 @@ class Replacement {
 
  private:
   [[nodiscard]] bool has_taken_place(const dronecan::UniqueId& unit) const;
+  [[nodiscard]] Result<void> look_for_broken(const fleet::GoalResult& result);
   [[nodiscard]] Result<fleet::Snapshot> read_unit(const fleet::GoalResult& result);
   [[nodiscard]] Result<void> name_unit(const fleet::Snapshot& unit);
 
@@ -148,12 +150,34 @@ void Replacement::ended(std::span<const fleet::GoalResult> results) {
   if (options_.dry_run || results.size() != 1 || !results.front().is_done) {
     return;
   }
-  const auto unit = read_unit(results.front());
+  const auto away = look_for_broken(results.front());
+  const auto unit = away ? read_unit(results.front()) : std::unexpected(away.error());
   const auto named = unit ? name_unit(*unit) : std::unexpected(unit.error());
   if (!named) {
     failure_ = {named.error().code, say<texts::replace_file_left>(named.error().message),
                 say<texts::replace_again_hint>(), named.error().node_id};
   }
+}
+
+/// The broken one may have come back meanwhile, on another node ID or without one.
+Result<void> Replacement::look_for_broken(const fleet::GoalResult& result) {
+  fleet::Discovery discovery(context_.session(), context_.known(), context_.identification());
+  if (const auto found = discovery.find_all(fleet::bus_watch_time); !found) {
+    return found;
+  }
+  const fleet::Roster& roster = context_.session().roster();
+  const fleet::Match& match = entry_.match;
+  if (match.unique_id && match.unique_id != result.servo().unique_id &&
+      roster.is_pending(*match.unique_id)) {
+    return std::unexpected(fleet::still_there(file_.fleet, entry_, {}));
+  }
+  for (const auto& [id, member] : roster.members()) {
+    const bool is_new = member.unique_id() == result.servo().unique_id;
+    if (roster.heard(id) && !is_new && match.means(member.servo(), context_.known())) {
+      return std::unexpected(fleet::still_there(file_.fleet, entry_, id));
+    }
+  }
+  return {};
 }
 
 /// As it is on the bus now.
@@ -174,6 +198,13 @@ Result<fleet::Snapshot> Replacement::read_unit(const fleet::GoalResult& result) 
 }
 
 Result<void> Replacement::name_unit(const fleet::Snapshot& unit) {
+  const fleet::Match& match = entry_.match;
+  const bool is_named = match.unique_id
+                            ? match.unique_id == unit.servo.unique_id
+                            : match.serial_number && match.means(unit.servo, context_.known());
+  if (is_named) {
+    return {}; // by an earlier run
+  }
   const std::string file = printable(options_.file);
   const std::string name = printable(entry_.name);
   const fleet::FleetFileStyle style{context_.session().wall(), BLACTL_VERSION};
@@ -213,7 +244,7 @@ Report execute(const ReplaceOptions& options, Context& context) {
       {.command = fleet::replacing,
        .search = Search::everybody,
        .needs_targets = false,
-       .numbers_waiting = true,
+       .waiting = Waiting::always, // the broken one may wait, too
        .find = [&](const Whom& whom) { return replacement.find(whom); },
        .ended = [&](auto results) { replacement.ended(results); },
        .times = options.times,

@@ -127,7 +127,7 @@ std::vector<UniqueIdPrefix> waiting_like(const Selector& selector, const Roster&
   if (selector.key != Selector::Key::unique_id || selector.value.size() == whole) {
     return waiting;
   }
-  for (const UniqueIdPrefix& heard : roster.requests() | std::views::keys) {
+  for (const UniqueIdPrefix& heard : roster.pending()) {
     const std::string digits = hex(heard);
     if (digits.starts_with(selector.value) || selector.value.starts_with(digits)) {
       waiting.push_back(heard);

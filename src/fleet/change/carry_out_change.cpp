@@ -129,8 +129,13 @@ Result<Change::Lost> Change::look_at_restarted() {
   for (std::size_t i = 0; i < goals.size(); ++i) {
     const Snapshot& held = (*read)[i];
     const Goal& goal = results_[goals[i]].goal;
+    const GoalResult& result = results_[goals[i]];
     auto why = refuse(goal, held);
     why = why ? why : check_rom(held);
+    why = why ? why
+              : unproven_since(session_.roster(), goal.id,
+                               result.need == Need::nothing ? result.servo().boot
+                                                            : result.change.boots);
     if (!why && !holds(held.values(), goal)) {
       const std::uint8_t id = goal.id.value();
       why = Error{Code::state, say<texts::lost_since>(id), say<texts::run_again_hint>(), id};

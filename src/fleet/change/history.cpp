@@ -317,7 +317,8 @@ Result<void> History::conclude(std::span<const ChangeResult> results, const Sess
   }
   std::vector<state::RomProof> proofs;
   for (const ChangeResult& result : results) {
-    const bool tells = result.rom && (result.is_done() || result.rom->values.empty());
+    const bool tells =
+        result.rom && !result.is_read_again && (result.is_done() || result.rom->values.empty());
     if (tells && result.servo.unique_id) {
       proofs.push_back(proof_of(*result.servo.unique_id, *result.rom, session));
     }

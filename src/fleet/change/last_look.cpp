@@ -38,6 +38,17 @@ bool may_have_restarted(const Roster& roster, NodeId id, std::uint32_t boots,
          (member.status && health && member.status->health != health);
 }
 
+std::optional<Error> unproven_since(const Roster& roster, NodeId id, std::uint32_t boots) {
+  constexpr std::uint32_t just_started_s = 1;
+  const Member member = roster.member(id);
+  const bool has_restarted = member.boots != boots;
+  if (!has_restarted || (member.status && member.status->uptime_s <= just_started_s)) {
+    return std::nullopt;
+  }
+  return Error{Code::state, say<texts::unproven_since>(id.value()), say<texts::run_again_hint>(),
+               id.value()};
+}
+
 Result<std::map<NodeId, Error>> look_last(Session& session, std::span<const Servo> servos,
                                           Patience patience, LastLook look) {
   std::list<RunProof> proofs;

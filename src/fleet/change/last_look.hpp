@@ -26,6 +26,12 @@ inline constexpr Duration long_ago = std::chrono::seconds(1);
 [[nodiscard]] bool may_have_restarted(const Roster& roster, dronecan::NodeId id,
                                       std::uint32_t boots, std::optional<dronecan::Health> health);
 
+/// Why a servo that has restarted for another reason than ours can be read only to no purpose: that
+/// was some time ago, and RAM may have been written since. Empty: it has just started, or goes on.
+/// `boots`: as for may_have_restarted(). Errors: state.
+[[nodiscard]] std::optional<Error> unproven_since(const Roster& roster, dronecan::NodeId id,
+                                                  std::uint32_t boots);
+
 /// Those that do not hold any more what was proven while others were still at work: state (it has
 /// restarted, or cannot prove that it has not; another servo is in its place), timeout or
 /// duplicate_node_id. Errors: as Session::run().

@@ -163,7 +163,7 @@ class Reader {
   /// Checks for conflicts between two entries.
   void check_pairs() {
     for (std::size_t second = 0; second < entries_.size(); ++second) {
-      for (std::size_t first = 0; first < second; ++first) {
+      for (std::size_t first = 0; first < second && !faults_.are_many(); ++first) {
         check_pair(entries_[first], entries_[second]);
       }
     }

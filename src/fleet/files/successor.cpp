@@ -109,8 +109,12 @@ Result<Successor> find_successor(const FleetFile& file, const FleetEntry& entry,
 }
 
 Error still_there(const FleetFile& file, const FleetEntry& entry, NodeId id) {
-  return {Code::several_servos, say<texts::successor_old_there>(entry.name, id.value()),
-          say<texts::successor_old_there_hint>(printable(file.file)), id.value()};
+  const bool has_id = id.is_unicast();
+  return {Code::several_servos,
+          has_id ? say<texts::successor_old_there>(entry.name, id.value())
+                 : say<texts::successor_old_waits>(entry.name),
+          say<texts::successor_old_there_hint>(printable(file.file)),
+          has_id ? std::optional(id.value()) : std::nullopt};
 }
 
 Result<std::vector<bla::Assignment>> settings_of_successor(const FleetEntry& entry,

@@ -87,6 +87,8 @@ inline constexpr Text successor_several_hint{"say which one is meant: -n {}",
                                              "対象を指定して下さい (例: -n {})"};
 inline constexpr Text successor_old_there{"the servo of '{}' still answers: node {}",
                                           "'{}' のサーボがまだ応答しています: ノード {}"};
+inline constexpr Text successor_old_waits{"the servo of '{}' still asks for a node ID",
+                                          "'{}' のサーボがまだノード ID を要求しています"};
 inline constexpr Text successor_old_there_hint{
     "take it off the bus and run the command again; if it stays: blactl apply {}",
     "取り外してからもう一度実行して下さい。交換しない場合: blactl apply {}"};

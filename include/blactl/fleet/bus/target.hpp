@@ -34,7 +34,7 @@ struct Selector {
   [[nodiscard]] bool matches(const Servo& servo, const bla::Profiles& profiles) const;
 };
 
-/// What was heard of the unique IDs of units that ask for a node ID, be it once, where this
+/// What was heard of the unique IDs of units that wait for a node ID, where this
 /// selector, not a whole unique ID, may mean them.
 [[nodiscard]] std::vector<UniqueIdPrefix> waiting_like(const Selector& selector,
                                                        const Roster& roster);

@@ -161,6 +161,10 @@ inline constexpr Text lost_since{
     "node {} has restarted since: what was in RAM only, and nobody has saved, is lost",
     "ノード {} がその後再起動したため、保存されていない RAM の変更は失われました",
 };
+inline constexpr Text unproven_since{
+    "node {} has restarted since its ROM was proven: what its ROM holds now is not known",
+    "ノード {} は ROM の確認後に再起動しました。現在の ROM の内容は不明です",
+};
 inline constexpr Text restarted_before_write{
     "node {} restarted after it was read: nothing was written",
     "ノード {} が読出し後に再起動したため、書き込んでいません",

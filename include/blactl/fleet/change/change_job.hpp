@@ -61,6 +61,9 @@ class ChangeJob final : public dronecan::Job {
   /// Such a job, run once more, reads the servo again.
   void read_again();
 
+  /// Why it cannot be proven again by reading: as fleet::unproven_since().
+  [[nodiscard]] std::optional<Error> unproven_since() const;
+
   /// For a job that has ended before others: checks that its result still holds, as far as heard.
   /// Changes in RAM only are lost by a restart, and another node may have written since; the proof
   /// may be of another unit on the same ID. `lost`: of look_last().

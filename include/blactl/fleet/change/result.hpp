@@ -37,6 +37,7 @@ struct ChangeResult {
   std::optional<dronecan::NodeId> returned{};      ///< its node ID after the restart
   std::optional<dronecan::NodeId> node_id_after{}; ///< empty: unknown, or it is away
   bool is_rom_unread = false;                      ///< it is back, and could not read its ROM
+  bool is_read_again = false; ///< `rom` was, after a restart that is not ours: no lasting proof
   std::optional<RomReading> rom{}; ///< after SAVE, if as expected, and if ROM was to be proven
   std::size_t values_read = 0;     ///< and compared, at the end
   Time looked_at{};                ///< when all of that was last checked to hold

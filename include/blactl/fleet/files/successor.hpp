@@ -30,7 +30,8 @@ struct Successor {
                                                std::span<const dronecan::NodeId> selected,
                                                const bla::Profiles& profiles);
 
-/// The servo that this entry means is on the bus: several_servos.
+/// The servo that this entry means is on the bus, under this node ID, or with 0 waits for one:
+/// several_servos.
 [[nodiscard]] Error still_there(const FleetFile& file, const FleetEntry& entry,
                                 dronecan::NodeId id);
 
