@@ -4,6 +4,8 @@
 #include "fleet.hpp"
 #include "scene.hpp"
 
+#include <sstream>
+
 #include <signal.h>
 #include <unistd.h>
 
@@ -85,9 +87,21 @@ TEST_CASE("as text and as CSV the same stands below a header") {
   CHECK(contains(csv.out, ",operational,ok,"));
   const Result text = three_servos().run(
       {"monitor", "--count", "3", "-n", "11", "--fields", "voltage_v,angle_deg"});
-  CHECK(contains(text.out, "node_id    angle_deg  voltage_v"));
-  CHECK_FALSE(contains(text.out, "speed_rpm"));
+  CHECK(text.out.starts_with("TIME           NODE      deg     V\n"));
   CHECK(count(text.out, "\n") == 4);
+}
+
+TEST_CASE("the lines of text are in words, and fit on 80 columns") {
+  for (const auto* language : {"en", "ja"}) {
+    const Result text = three_servos().run({"monitor", "--count", "6", "--lang", language});
+    INFO(text.out);
+    CHECK_FALSE(contains(text.out, "_"));
+    CHECK(contains(text.out, std::string(language) == "en" ? "  ok\n" : "  正常\n"));
+    std::istringstream lines(text.out);
+    for (std::string line; std::getline(lines, line);) {
+      CHECK(line.size() <= (std::string(language) == "en" ? 80 : 110)); // bytes
+    }
+  }
 }
 
 TEST_CASE("what is not shown is not asked for") {

@@ -21,26 +21,6 @@ namespace {
 using fleet::LiveField;
 using fleet::LiveServo;
 
-/// The widths of the widest values; among them the words of mode and health.
-constexpr std::array<std::size_t, sample_keys.size()> widths{17, 11, 9, 10, 13, 9, 15, 8, 13, 5, 5};
-
-std::optional<LiveField> live_field(SampleField field) {
-  switch (field) {
-  case SampleField::angle: return LiveField::angle;
-  case SampleField::speed: return LiveField::speed;
-  case SampleField::torque: return LiveField::torque;
-  case SampleField::temperature: return LiveField::temperature;
-  case SampleField::voltage: return LiveField::voltage;
-  case SampleField::faults: return LiveField::faults;
-  case SampleField::time:
-  case SampleField::mode:
-  case SampleField::health:
-  case SampleField::stale:
-  case SampleField::moved: break;
-  }
-  return std::nullopt;
-}
-
 std::optional<std::string_view> mode_of(const LiveServo& servo) {
   if (servo.is_gone) {
     return name(dronecan::Mode::offline);
@@ -72,10 +52,6 @@ std::string_view key(SampleField field) {
   return sample_keys[static_cast<std::size_t>(field)];
 }
 
-std::size_t width(SampleField field) {
-  return widths[static_cast<std::size_t>(field)];
-}
-
 void write(JsonWriter& json, SampleField field, std::string_view text) {
   json.key(key(field));
   if (text.empty()) {
@@ -88,6 +64,23 @@ void write(JsonWriter& json, SampleField field, std::string_view text) {
 }
 
 } // namespace
+
+std::optional<LiveField> live_field(SampleField field) {
+  switch (field) {
+  case SampleField::angle: return LiveField::angle;
+  case SampleField::speed: return LiveField::speed;
+  case SampleField::torque: return LiveField::torque;
+  case SampleField::temperature: return LiveField::temperature;
+  case SampleField::voltage: return LiveField::voltage;
+  case SampleField::faults: return LiveField::faults;
+  case SampleField::time:
+  case SampleField::mode:
+  case SampleField::health:
+  case SampleField::stale:
+  case SampleField::moved: break;
+  }
+  return std::nullopt;
+}
 
 std::string live_text(const LiveServo& servo, LiveField field) {
   const auto& value = servo.value(field);
@@ -150,29 +143,6 @@ std::string csv_sample(WallTime time, const LiveServo& servo, const SampleFields
     }
   }
   return csv_line(cells);
-}
-
-std::string text_header(const SampleFields& fields) {
-  std::string line =
-      fmt::format("{:>{}}  node_id", key(SampleField::time), width(SampleField::time));
-  for (const SampleField field : fields) {
-    if (field != SampleField::time) {
-      line += fmt::format("  {:>{}}", key(field), width(field));
-    }
-  }
-  return line + '\n';
-}
-
-std::string text_sample(WallTime time, const LiveServo& servo, const SampleFields& fields) {
-  std::string line = fmt::format("{:>{}}  {:>7}", cell(time, servo, SampleField::time),
-                                 width(SampleField::time), servo.servo.id.value());
-  for (const SampleField field : fields) {
-    if (field != SampleField::time) {
-      const std::string text = cell(time, servo, field);
-      line += fmt::format("  {:>{}}", text.empty() ? "-" : text, width(field));
-    }
-  }
-  return line + '\n';
 }
 
 } // namespace blactl::cli

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -48,10 +49,13 @@ using SampleFields = std::vector<SampleField>;
 [[nodiscard]] std::string csv_sample(WallTime time, const fleet::LiveServo& servo,
                                      const SampleFields& fields);
 
-/// Columns for people, each as wide as its widest value: the header, and one line.
+/// Columns for people, in words, beside each other in 80 characters: the header, and one line.
 [[nodiscard]] std::string text_header(const SampleFields& fields);
 [[nodiscard]] std::string text_sample(WallTime time, const fleet::LiveServo& servo,
                                       const SampleFields& fields);
+
+/// The quantity behind a field; empty: none.
+[[nodiscard]] std::optional<fleet::LiveField> live_field(SampleField field);
 
 /// The number of a field in its unit: "-12.3"; empty: not known.
 [[nodiscard]] std::string live_text(const fleet::LiveServo& servo, fleet::LiveField field);

@@ -44,20 +44,6 @@ std::size_t count_worse_than_notices(const LiveServo& servo) {
       servo.faults, [](const bla::Fault& fault) { return fault.level > bla::Level::notice; }));
 }
 
-/// The faults in words: the worst by name.
-std::string faults_of(const LiveServo& servo) {
-  const std::size_t count = count_worse_than_notices(servo);
-  if (count == 0) {
-    const bool is_ill = servo.status && servo.status->health != dronecan::Health::ok;
-    return is_ill ? fleet::health_word(servo.status->health) : std::string();
-  }
-  std::string out = name_of(servo.faults.front());
-  if (count > 1) {
-    out += ' ' + say<texts::state_more>(count - 1);
-  }
-  return out;
-}
-
 Look worst_look(const LiveServo& servo) {
   Look look = servo.restarts > 0 ? Look::warning : Look::plain;
   if (servo.status && servo.status->health != dronecan::Health::ok) {
@@ -91,37 +77,20 @@ std::int64_t hottest_first(const LiveServo& servo) {
   return value ? -value->raw : std::numeric_limits<std::int64_t>::max();
 }
 
-/// Pads the text on the left to this number of cells.
-std::string right(const std::string& text, std::size_t width) {
-  const std::size_t cells = display_width(text);
-  return std::string(width - std::min(width, cells), ' ') + text;
-}
-
 std::string left(const std::string& text, std::size_t width) {
   const std::size_t cells = display_width(text);
   return text + std::string(width - std::min(width, cells), ' ');
 }
 
-struct Measured {
-  LiveField field;
-  std::string_view unit; ///< the name of the column
-  std::size_t width;
-};
-
-constexpr std::array measured{
-    Measured{LiveField::angle, "deg", 9}, Measured{LiveField::speed, "rpm", 6},
-    Measured{LiveField::torque, "%", 6}, Measured{LiveField::temperature, "degC", 6},
-    Measured{LiveField::voltage, "V", 6}};
-
 constexpr std::size_t node_width = 4, model_width = 13, age_width = 7;
 
 ScreenLine header() {
-  std::string line = right(say<texts::column_node>(), node_width) + "  " +
+  std::string line = right_aligned(say<texts::column_node>(), node_width) + "  " +
                      left(say<texts::column_model>(), model_width);
   for (const Measured& each : measured) {
-    line += right(std::string(each.unit), each.width);
+    line += right_aligned(std::string(each.unit), each.width);
   }
-  line += right(say<texts::monitor_age>(), age_width) + "  " + say<texts::column_state>();
+  line += right_aligned(say<texts::monitor_age>(), age_width) + "  " + say<texts::column_state>();
   return {{line, Look::head}};
 }
 
@@ -131,14 +100,14 @@ ScreenLine row(const LiveServo& servo, Time now, Time begin, bool is_chosen) {
                     : is_chosen      ? Look::chosen
                     : is_old         ? Look::dim
                                      : Look::plain;
-  std::string line = right(std::to_string(servo.servo.id.value()), node_width) + "  " +
+  std::string line = right_aligned(std::to_string(servo.servo.id.value()), node_width) + "  " +
                      left(servo.servo.identity.model(), model_width);
   for (const Measured& each : measured) {
     const std::string text = live_text(servo, each.field);
-    line += right(text.empty() ? "-" : text, each.width);
+    line += right_aligned(text.empty() ? "-" : text, each.width);
   }
   const double age = std::chrono::duration<double>(now - servo.last_heard).count();
-  line += right(fmt::format("{:.1f} s", std::max(age, 0.0)), age_width) + "  ";
+  line += right_aligned(fmt::format("{:.1f} s", std::max(age, 0.0)), age_width) + "  ";
   Piece state = state_of(servo, now, begin);
   return servo.has_turned
              ? ScreenLine{{line + say<texts::state_turned>(), look}, {"  "}, std::move(state)}
@@ -146,6 +115,19 @@ ScreenLine row(const LiveServo& servo, Time now, Time begin, bool is_chosen) {
 }
 
 } // namespace
+
+std::string faults_of(const LiveServo& servo) {
+  const std::size_t count = count_worse_than_notices(servo);
+  if (count == 0) {
+    const bool is_ill = servo.status && servo.status->health != dronecan::Health::ok;
+    return is_ill ? fleet::health_word(servo.status->health) : std::string();
+  }
+  std::string out = name_of(servo.faults.front());
+  if (count > 1) {
+    out += ' ' + say<texts::state_more>(count - 1);
+  }
+  return out;
+}
 
 Piece state_of(const LiveServo& servo, Time now, Time begin) {
   if (servo.is_doubled) {

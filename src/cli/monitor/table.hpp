@@ -5,13 +5,30 @@
 
 #include "cli/output/screen.hpp"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace blactl::cli {
+
+/// A column of measured values, which its unit names.
+struct Measured {
+  fleet::LiveField field;
+  std::string_view unit;
+  std::size_t width;
+};
+
+inline constexpr std::array measured{
+    Measured{fleet::LiveField::angle, "deg", 9}, Measured{fleet::LiveField::speed, "rpm", 6},
+    Measured{fleet::LiveField::torque, "%", 6}, Measured{fleet::LiveField::temperature, "degC", 6},
+    Measured{fleet::LiveField::voltage, "V", 6}};
+
+/// The faults of a servo in words: the worst by name; else its health, where that is not ok.
+[[nodiscard]] std::string faults_of(const fleet::LiveServo& servo);
 
 /// A table of servos with one row chosen.
 class MonitorTable {

@@ -25,6 +25,8 @@ inline constexpr Text monitor_torque{"TORQUE", "トルク"};
 inline constexpr Text monitor_temperature{"TEMP", "温度"};
 inline constexpr Text monitor_voltage{"VOLTAGE", "電圧"};
 inline constexpr Text monitor_age{"AGE", "経過"};
+inline constexpr Text monitor_time{"TIME", "時刻"};
+inline constexpr Text state_stale{"stale", "更新なし"};
 
 inline constexpr Text state_gone{"not heard for {} s", "{} 秒間受信なし"};
 inline constexpr Text state_doubled{"two units use this ID", "ID 重複 (2 台)"};

@@ -125,6 +125,10 @@ std::string_view code_of(Tone tone) {
 
 } // namespace
 
+std::string right_aligned(const std::string& text, std::size_t width) {
+  return std::string(width - std::min(width, display_width(text)), ' ') + text;
+}
+
 std::size_t display_width(std::string_view text) {
   std::size_t width = 0;
   while (!text.empty()) {

@@ -39,6 +39,9 @@ struct Page {
 /// colours.
 [[nodiscard]] std::size_t display_width(std::string_view text);
 
+/// `text` with blanks before it, up to this number of cells.
+[[nodiscard]] std::string right_aligned(const std::string& text, std::size_t width);
+
 /// `text` in lines of at most `width` columns, all but the first indented by `indent`. Lines break
 /// at spaces, and in Japanese at the end of words, as far as the characters show it. The first line
 /// begins at `column`. A piece longer than a line is not cut.
