@@ -163,6 +163,20 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("a servo that waits is meant by the beginning of its unique ID, and is counted once") {
+  Scene scene;
+  scene.servo("BLA21-12U-AB", 0, {{"unique_id", "a1b20000000000000000000000000001"}});
+  scene.servo("BLA21-12U-AB", 20, {{"unique_id", "c1b50000000000000000000000000002"}});
+  for (const Arguments& whom :
+       {Arguments{"-n", "uid:a1b2", "--id", "11"}, Arguments{"--assign", "uid:a1b2=11"}}) {
+    Arguments arguments{"alloc", "--static", "-y", "-j"};
+    arguments.insert(arguments.end(), whom.begin(), whom.end());
+    const Result done = scene.run(arguments);
+    INFO(done.err);
+    CHECK(done.status == 0);
+  }
+}
+
 TEST_CASE(
     "-n with a beginning that a waiting unit may have is refused, its whole unique ID is not") {
   Scene scene;

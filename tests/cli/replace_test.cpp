@@ -4,6 +4,7 @@
 #include "fleet.hpp"
 #include "scene.hpp"
 
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -134,6 +135,41 @@ TEST_CASE("a broken servo that still answers is not replaced") {
   }
   CHECK(content(place.file) == wing);
   CHECK(place.fleet.rom_writes() == 0);
+}
+
+TEST_CASE("a broken servo that only waits for a node ID is there, too, whatever -n says") {
+  Scene scene = with(33);
+  scene.servo(model, 0, {{"serial_number", broken}, {"servo_id", 2}});
+  Place place(scene);
+  check_error(place.replace({"-n", "33"}), 9, "several_servos", "still answers");
+  CHECK(content(place.file) == wing);
+  CHECK(place.fleet.rom_writes() == 0);
+}
+
+TEST_CASE("a broken servo that comes back on another node ID is told before the file is written") {
+  int told = 0;
+  for (int at = 1200; at < 3600; at += 300) {
+    Scene scene = with(33);
+    scene.servo(model, 45, {{"serial_number", broken}, {"servo_id", 9}});
+    scene.joins(broken, std::to_string(at) + "ms");
+    const Place place(scene);
+    const Result replaced = place.replace();
+    INFO(at << ' ' << replaced.err);
+    const bool is_written = content(place.file) != wing;
+    CHECK(is_written == (replaced.status == 0));
+    told += contains(replaced.err, "still answers: node 45") ? 1 : 0;
+  }
+  CHECK(told >= 3);
+}
+
+TEST_CASE("the fleet file keeps its mode, and one that is write-protected is refused") {
+  const Place place(with(33));
+  std::filesystem::permissions(place.file, std::filesystem::perms(0640));
+  REQUIRE(place.replace().status == 0);
+  CHECK(std::filesystem::status(place.file).permissions() == std::filesystem::perms(0640));
+  const std::string named = content(place.file);
+  REQUIRE(place.replace().status == 0);
+  CHECK(content(place.file) == named); // nothing to change, not even a time
 }
 
 TEST_CASE("without a new servo there is nothing to replace the broken one with") {
