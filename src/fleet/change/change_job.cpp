@@ -371,6 +371,9 @@ ChangeJob::Stage ChangeJob::conclude_read_back() {
       writer && !result_.error) {
     result_.error = Error{Code::state, say<texts::written_by_other>(id, writer->value()),
                           say<texts::other_writer_hint>(), id};
+    result_.doubt(); // it may go on
+    result_.is_verified = result_.saved = false;
+    return Stage::end;
   }
   result_.is_verified = !result_.error;
   result_.saved = result_.is_verified && *plan_.restart == RestartKind::save;
