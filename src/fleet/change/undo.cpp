@@ -192,7 +192,9 @@ Result<Undoing> as_left(Undoing change, NodeId id, Session& session, const bla::
   std::erase_if(change.entry.held, [&](const auto& held) {
     const auto written = change.written.find(held.first);
     const auto now = read.servos.front().raw(bla::Address(held.first));
-    return now && written != change.written.end() && !written->second.contains(*now) &&
+    // where RAM holds what was there before, only a restart shows whether ROM does
+    return now && *now != held.second && written != change.written.end() &&
+           !written->second.contains(*now) &&
            bla::Address(held.first) != bla::address::static_node_id;
   });
   change.entry.saved = !change.entry.held.empty();
