@@ -21,7 +21,7 @@ inline constexpr Text export_one_form_hint{"leave one of them out", "いずれ�
 inline constexpr Text export_has_faults{"apply would refuse what was exported: {}",
                                         "出力した内容は apply では受け付けられません: {}"};
 inline constexpr Text export_replaces{
-    "{} is there already, and no export of these servos: it is replaced.\n",
+    "{} is there already, and is no export of these servos: it will be replaced.\n",
     "{} は既に存在し、対象サーボのエクスポートではありません。置き換えます。\n"};
 inline constexpr Text export_written{"{} written, servos: {}\n", "{} に {} 台分を書き込みました\n"};
 inline constexpr Text export_not_written{"{} is as it was: not everything was read",

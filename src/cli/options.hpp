@@ -56,6 +56,16 @@ struct RestartTimes {
 
 [[nodiscard]] std::span<const Option> shared_options();
 
+/// --dry-run of a command that plans for several servos; `is_dry` is its flag.
+template <auto is_dry>
+inline constexpr Option dry_run_option{
+    .name = "--dry-run",
+    .kind = Kind::flag,
+    .help = {"change nothing; exit status 8 when something would be done",
+             "変更しない (処理の予定がある場合は終了ステータス 8)"},
+    .store = into<is_dry>,
+};
+
 /// --wait and --stagger of a command that restarts servos; `times` is its RestartTimes.
 template <auto times>
 inline constexpr Option restart_wait{

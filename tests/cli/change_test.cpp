@@ -90,7 +90,7 @@ TEST_CASE("an ID that ROM may hold, as its SAVE was answered and no restart came
   const Result changed = bus.run({"alloc", "--static", "-n", "11", "--id", "30", "-y"});
   INFO(changed.err);
   CHECK(changed.status == 1);
-  CHECK(contains(changed.err, "it is to go to node 11"));
+  CHECK(contains(changed.err, "node 11 gets it now"));
   CHECK(bus.holder(30) == unit);
 }
 

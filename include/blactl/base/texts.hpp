@@ -15,7 +15,7 @@ inline constexpr Text file_unwritable_hint{
     "元のファイルは変更していません。フォルダとアクセス権、空き容量を確認して下さい"};
 inline constexpr Text file_too_large{"{} is larger than {} MiB", "{} は {} MiB を超えています"};
 inline constexpr Text json_invalid{"not valid JSON: {}", "JSON として正しくありません: {}"};
-inline constexpr Text json_trailing_comma{"trailing comma: the last item has none behind it",
+inline constexpr Text json_trailing_comma{"trailing comma: there must be none after the last item",
                                           "末尾のカンマが余分です (最後の項目の後には不要)"};
 inline constexpr Text json_comma_missing{"a comma is missing before {}",
                                          "{} の前にカンマがありません"};

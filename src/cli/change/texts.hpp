@@ -15,7 +15,7 @@ inline constexpr Text apply_nobody{"no entry of {} matches any of these servos",
 inline constexpr Text apply_nobody_hint{"what the file says of these servos: blactl diff {}",
                                         "ファイルとサーボの比較: blactl diff {}"};
 inline constexpr Text apply_may_wait_hint{
-    "it may be among those that wait for a node ID ({}): blactl alloc --once; else ",
+    "units that wait for a node ID: {}. It may be one of them: blactl alloc --once. Otherwise ",
     "ノード ID 割当て待ち ({} 台) に含まれる可能性があります: blactl alloc "
     "--once。それ以外の場合、"};
 inline constexpr Text apply_replaced_hint{

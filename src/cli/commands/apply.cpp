@@ -39,11 +39,7 @@ struct ApplyOptions {
 };
 
 constexpr Option apply_options[]{
-    {.name = "--dry-run",
-     .kind = Kind::flag,
-     .help = {"change nothing; exit status 8 when something would be done",
-              "変更しない (処理の予定がある場合は終了ステータス 8)"},
-     .store = into<&ApplyOptions::dry_run>},
+    dry_run_option<&ApplyOptions::dry_run>,
     {.name = "--plan",
      .kind = Kind::flag,
      .help = {"FILE is what `apply --dry-run --json` printed: do just that, and only where nothing "

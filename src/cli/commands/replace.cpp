@@ -34,11 +34,7 @@ struct ReplaceOptions {
 };
 
 constexpr Option replace_options[]{
-    {.name = "--dry-run",
-     .kind = Kind::flag,
-     .help = {"change nothing; exit status 8 when something would be done",
-              "変更しない (処理の予定がある場合は終了ステータス 8)"},
-     .store = into<&ReplaceOptions::dry_run>},
+    dry_run_option<&ReplaceOptions::dry_run>,
     {.name = "--no-snapshot",
      .kind = Kind::flag,
      .help = {"go on even if the settings of the servo cannot be recorded for `undo`",
@@ -159,25 +155,15 @@ void Replacement::ended(std::span<const fleet::GoalResult> results) {
   }
 }
 
-/// The broken one may have come back meanwhile, on another node ID or without one.
+/// The broken one may have come back meanwhile.
 Result<void> Replacement::look_for_broken(const fleet::GoalResult& result) {
   fleet::Discovery discovery(context_.session(), context_.known(), context_.identification());
   if (const auto found = discovery.find_all(fleet::bus_watch_time); !found) {
     return found;
   }
-  const fleet::Roster& roster = context_.session().roster();
-  const fleet::Match& match = entry_.match;
-  if (match.unique_id && match.unique_id != result.servo().unique_id &&
-      roster.is_pending(*match.unique_id)) {
-    return std::unexpected(fleet::still_there(file_.fleet, entry_, {}));
-  }
-  for (const auto& [id, member] : roster.members()) {
-    const bool is_new = member.unique_id() == result.servo().unique_id;
-    if (roster.heard(id) && !is_new && match.means(member.servo(), context_.known())) {
-      return std::unexpected(fleet::still_there(file_.fleet, entry_, id));
-    }
-  }
-  return {};
+  auto back = fleet::come_back(file_.fleet, entry_, result.servo().unique_id.value(),
+                               context_.session().roster(), context_.known());
+  return back ? std::unexpected(std::move(*back)) : Result<void>();
 }
 
 /// As it is on the bus now.
@@ -198,11 +184,7 @@ Result<fleet::Snapshot> Replacement::read_unit(const fleet::GoalResult& result) 
 }
 
 Result<void> Replacement::name_unit(const fleet::Snapshot& unit) {
-  const fleet::Match& match = entry_.match;
-  const bool is_named = match.unique_id
-                            ? match.unique_id == unit.servo.unique_id
-                            : match.serial_number && match.means(unit.servo, context_.known());
-  if (is_named) {
+  if (fleet::names_unit(entry_, unit.servo)) {
     return {}; // by an earlier run
   }
   const std::string file = printable(options_.file);

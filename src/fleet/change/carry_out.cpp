@@ -122,19 +122,12 @@ CarriedOut not_begun(std::span<const Plan> plans, Error reason) {
   return none;
 }
 
-/// Of servos that were saved before others, those that have restarted since; those for which that
-/// is too late become `lost`. Errors: as Session::run().
-Result<void> read_restarted(Session& session, std::list<ChangeJob>& jobs,
-                            std::map<NodeId, Error>& lost) {
+/// Of servos that were saved before others, those that have restarted since. Errors: as
+/// Session::run().
+Result<void> read_restarted(Session& session, std::list<ChangeJob>& jobs) {
   std::vector<dronecan::Job*> group;
   for (ChangeJob& job : jobs) {
-    if (!job.has_restarted_since()) {
-      continue;
-    }
-    if (auto unproven = job.unproven_since()) {
-      lost.emplace(job.result().node_id_after.value_or(job.result().servo.id),
-                   std::move(*unproven));
-    } else {
+    if (job.has_restarted_since()) {
       job.read_again();
       group.push_back(&job);
     }
@@ -159,7 +152,7 @@ Result<void> look_back(Session& session, std::list<ChangeJob>& jobs, Patience pa
   } else {
     lost = std::unexpected(away.error());
   }
-  const auto read = lost ? read_restarted(session, jobs, *lost) : std::unexpected(lost.error());
+  const auto read = lost ? read_restarted(session, jobs) : std::unexpected(lost.error());
   for (ChangeJob& job : jobs) {
     const ChangeResult& result = job.result();
     const auto why = lost ? lost->extract(result.node_id_after.value_or(result.servo.id))

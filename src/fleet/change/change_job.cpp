@@ -375,6 +375,7 @@ ChangeJob::Stage ChangeJob::conclude_read_back() {
     result_.is_verified = result_.saved = false;
     return Stage::end;
   }
+  result_.error = result_.error ? std::move(result_.error) : unproven_;
   result_.is_verified = !result_.error;
   result_.saved = result_.is_verified && *plan_.restart == RestartKind::save;
   if (result_.error) {

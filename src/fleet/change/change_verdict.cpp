@@ -129,11 +129,8 @@ bool ChangeJob::has_restarted_since() const {
          may_have_restarted(roster_, *result_.returned, read_->snapshot().servo.boot, health_);
 }
 
-std::optional<Error> ChangeJob::unproven_since() const {
-  return fleet::unproven_since(roster_, *result_.returned, read_->snapshot().servo.boot);
-}
-
 void ChangeJob::read_again() {
+  unproven_ = unproven_since(roster_, *result_.returned, read_->snapshot().servo.boot);
   stage_ = Stage::begin;
   reads_again_ = result_.is_read_again = true;
   result_.rom.reset();

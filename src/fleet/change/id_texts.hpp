@@ -49,7 +49,7 @@ inline constexpr Text stays_out_of_the_way{
     "ノード {} は一時的なノード ID のまま保存されています (変更に失敗したサーボがノード ID {} "
     "を使用している可能性があります)"};
 inline constexpr Text id_taken_over{
-    "node ID {} was given to uid:{}, which is not on this bus: it is to go to node {}",
+    "node ID {} was given to uid:{}, which is not on this bus: node {} gets it now",
     "ノード ID {} の割当て先 uid:{} はこのバスにないため、ノード {} に割り当てます"};
 inline constexpr Text former_id_in_use_hint{
     "it asks for a node ID, and its node ID {} is used by {} now; give it another: "

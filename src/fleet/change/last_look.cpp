@@ -39,10 +39,8 @@ bool may_have_restarted(const Roster& roster, NodeId id, std::uint32_t boots,
 }
 
 std::optional<Error> unproven_since(const Roster& roster, NodeId id, std::uint32_t boots) {
-  constexpr std::uint32_t just_started_s = 1;
   const Member member = roster.member(id);
-  const bool has_restarted = member.boots != boots;
-  if (!has_restarted || (member.status && member.status->uptime_s <= just_started_s)) {
+  if (member.boots == boots && !roster.has_moved(member)) {
     return std::nullopt;
   }
   return Error{Code::state, say<texts::unproven_since>(id.value()), say<texts::run_again_hint>(),

@@ -26,9 +26,9 @@ inline constexpr Duration long_ago = std::chrono::seconds(1);
 [[nodiscard]] bool may_have_restarted(const Roster& roster, dronecan::NodeId id,
                                       std::uint32_t boots, std::optional<dronecan::Health> health);
 
-/// Why a servo that has restarted for another reason than ours can be read only to no purpose: that
-/// was some time ago, and RAM may have been written since. Empty: it has just started, or goes on.
-/// `boots`: as for may_have_restarted(). Errors: state.
+/// Why reading proves nothing of the ROM of a servo that has restarted, and not by us: another tool
+/// may have saved something, and written RAM since. Empty: it has not, as far as heard. `boots`: as
+/// for may_have_restarted(). Errors: state.
 [[nodiscard]] std::optional<Error> unproven_since(const Roster& roster, dronecan::NodeId id,
                                                   std::uint32_t boots);
 

@@ -19,22 +19,23 @@ namespace blactl::fleet {
 namespace {
 
 const json::Value* member(const json::Value* object, std::string_view key) {
-  const auto is_it = [&](const json::Value* each) { return each->key == key; };
-  const auto found = object != nullptr ? std::ranges::find_if(object->items, is_it)
-                                       : std::vector<const json::Value*>::const_iterator();
-  return object != nullptr && found != object->items.end() ? *found : nullptr;
+  if (object == nullptr) {
+    return nullptr;
+  }
+  const auto found = std::ranges::find(object->items, key, &json::Value::key);
+  return found != object->items.end() ? *found : nullptr;
 }
 
 const json::Value* entry_named(const json::Value& root, std::string_view name) {
   const json::Value* servos = member(&root, "servos");
-  for (const json::Value* entry :
-       servos != nullptr ? servos->items : std::vector<const json::Value*>()) {
-    const json::Value* called = member(entry, "name");
-    if (called != nullptr && called->text == name) {
-      return entry;
-    }
+  if (servos == nullptr) {
+    return nullptr;
   }
-  return nullptr;
+  const auto found = std::ranges::find_if(servos->items, [&](const json::Value* entry) {
+    const json::Value* called = member(entry, "name");
+    return called != nullptr && called->text == name;
+  });
+  return found != servos->items.end() ? *found : nullptr;
 }
 
 /// A key of the entry, and the value of the unit for it; empty: unknown.

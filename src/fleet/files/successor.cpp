@@ -117,6 +117,29 @@ Error still_there(const FleetFile& file, const FleetEntry& entry, NodeId id) {
           has_id ? std::optional(id.value()) : std::nullopt};
 }
 
+std::optional<Error> come_back(const FleetFile& file, const FleetEntry& entry,
+                               const dronecan::UniqueId& unit, const Roster& roster,
+                               const bla::Profiles& profiles) {
+  const Match& match = entry.match;
+  const bool asks = match.unique_id ? match.unique_id != unit && roster.is_pending(*match.unique_id)
+                                    : !roster.pending().empty();
+  if (asks) {
+    return still_there(file, entry, {});
+  }
+  for (const auto& [id, member] : roster.members()) {
+    if (roster.heard(id) && member.unique_id() != unit && match.means(member.servo(), profiles)) {
+      return still_there(file, entry, id);
+    }
+  }
+  return std::nullopt;
+}
+
+bool names_unit(const FleetEntry& entry, const Servo& unit) {
+  const auto serial = unit.identity.readings().serial_number;
+  return entry.match.unique_id ? entry.match.unique_id == unit.unique_id
+                               : entry.match.serial_number && entry.match.serial_number == serial;
+}
+
 Result<std::vector<bla::Assignment>> settings_of_successor(const FleetEntry& entry,
                                                            const bla::Profiles& profiles) {
   const Match& by = entry.match;

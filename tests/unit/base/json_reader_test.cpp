@@ -157,9 +157,9 @@ TEST_CASE("what is not JSON is told with its line") {
 TEST_CASE("what is wrong with a file that is not JSON is told by its name and line") {
   const std::pair<const char*, const char*> cases[] = {
       {"{\"a\": 1,\n}",
-       "f.json:1: /: not valid JSON: trailing comma: the last item has none behind it"},
+       "f.json:1: /: not valid JSON: trailing comma: there must be none after the last item"},
       {"{\"a\": [1,\n2 ,\n\n]}",
-       "f.json:2: /a: not valid JSON: trailing comma: the last item has none behind it"},
+       "f.json:2: /a: not valid JSON: trailing comma: there must be none after the last item"},
       {"{\"a\": 1\n\"b\": 2}", "f.json:2: /: not valid JSON: a comma is missing before \"b\""},
       {"[1\n2]", "f.json:2: /: not valid JSON: a comma is missing before 2"},
       {"[1 true]", "f.json:1: /: not valid JSON: a comma is missing before true"},

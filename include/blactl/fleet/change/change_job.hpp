@@ -61,9 +61,6 @@ class ChangeJob final : public dronecan::Job {
   /// Such a job, run once more, reads the servo again.
   void read_again();
 
-  /// Why it cannot be proven again by reading: as fleet::unproven_since().
-  [[nodiscard]] std::optional<Error> unproven_since() const;
-
   /// For a job that has ended before others: checks that its result still holds, as far as heard.
   /// Changes in RAM only are lost by a restart, and another node may have written since; the proof
   /// may be of another unit on the same ID. `lost`: of look_last().
@@ -140,6 +137,7 @@ class ChangeJob final : public dronecan::Job {
   bool may_erase_again_ = true;
   bool was_erased_ = false; ///< as far as known
   bool reads_again_ = false;
+  std::optional<Error> unproven_{};        ///< why that proves nothing, even if all is as expected
   std::optional<dronecan::Health> health_; ///< as it was read
   int looks_ = 0;
   Time begin_{};

@@ -26,7 +26,8 @@ struct Undoing {
   state::SnapshotEntry entry;          ///< of a command that was repeated: of all its tries
   std::vector<std::int64_t> numbers{}; ///< of these tries
   bool goes_on = false;                ///< an undo of it has begun and did not end
-  /// Of no try is it known whether it was saved: the time of the first of these. Empty: it is.
+  /// Tries that were to save broke off, and whether one did is unknown: when the first of them
+  /// began. Empty: it is known.
   std::optional<WallTime> perhaps_saved_since{};
   std::map<std::uint8_t, std::set<std::int64_t>> written{}; ///< by all tries
 };

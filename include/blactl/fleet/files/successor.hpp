@@ -9,6 +9,7 @@
 #include "blactl/fleet/bus/target.hpp"
 #include "blactl/fleet/files/fleet_file.hpp"
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -34,6 +35,16 @@ struct Successor {
 /// several_servos.
 [[nodiscard]] Error still_there(const FleetFile& file, const FleetEntry& entry,
                                 dronecan::NodeId id);
+
+/// Once `unit` has the place: the servo that this entry means, if it has come back, on whatever
+/// node ID, or asks for one. Where the entry has no unique ID, any that asks may be it. The session
+/// has searched the bus again. Empty: it is not there. Errors: several_servos.
+[[nodiscard]] std::optional<Error> come_back(const FleetFile& file, const FleetEntry& entry,
+                                             const dronecan::UniqueId& unit, const Roster& roster,
+                                             const bla::Profiles& profiles);
+
+/// Whether the entry tells that it is of this unit, and not of any that has its other keys.
+[[nodiscard]] bool names_unit(const FleetEntry& entry, const Servo& unit);
 
 /// What the successor gets: all of the entry, and the IDs by which it finds its servo. Errors: none
 /// of a valid entry.
