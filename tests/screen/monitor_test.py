@@ -216,7 +216,7 @@ def other_terminals(blactl):
         terminal.shell("export TERM=dumb; clear")
         terminal.run("monitor", "--count", "2")
         terminal.shows("needs that: lines instead")
-        terminal.shows("angle_deg")
+        terminal.shows("TIME           NODE")
 
 
 def main():
