@@ -159,11 +159,13 @@ std::vector<NodeId> Roster::copies(NodeId id) const {
   std::vector<NodeId> copies;
   const Member* member = find(id);
   if (member == nullptr || !member->info || !member->is_unit(member->info->unique_id) ||
-      !may_be_servo(*member)) { // others may all have zeros
+      !may_be_servo(*member)) {
     return copies;
   }
+  const bool is_blank = dronecan::is_blank(member->info->unique_id); // as of many other nodes
   for (const auto& [other_id, other] : members_) {
-    const bool is_one = may_be_servo(other) && other.is_unit(member->info->unique_id) &&
+    const bool is_one = (may_be_servo(other) || !is_blank) &&
+                        other.is_unit(member->info->unique_id) &&
                         ran_beside(*member, other) && ran_beside(other, *member);
     if (other_id != id && (is_one || units(other_id).contains(member->info->unique_id))) {
       copies.push_back(other_id);

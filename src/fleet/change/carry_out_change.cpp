@@ -88,8 +88,8 @@ std::vector<Servo> Change::proven_long_ago() const {
     const bool is_unchanged = result.need == Need::nothing;
     const Time last = is_unchanged ? result.servo().since : result.change.looked_at;
     const auto id = is_unchanged ? std::optional(result.servo().id) : result.change.node_id_after;
-    if (result.is_done && result.rom_proven.value_or(false) && id &&
-        last < session_.now() - long_ago) {
+    const bool is_proven = result.is_done ? result.rom_proven.value_or(false) : result.change.saved;
+    if (is_proven && id && last < session_.now() - long_ago) {
       servos.push_back(result.servo());
       servos.back().id = *id;
     }
@@ -185,10 +185,20 @@ void Change::look_back(const Lost& lost) {
 void Change::look_back(GoalResult& result, const Lost& lost) const {
   const Roster& roster = session_.roster();
   const auto id = result.change.node_id_after;
-  if (!result.is_done || !id) {
+  if (!id) {
     return;
   }
   const Time since = result.change.looked_at;
+  if (!result.is_done) { // one that has made way, and has waited for others on a temporary ID
+    const bool may_differ =
+        may_have_restarted(roster, *id, result.change.boots, result.change.health) ||
+        roster.setter_of(*id, since) || lost.contains(*id);
+    if (result.change.saved && may_differ) {
+      result.change.doubt();
+      result.change.saved = false;
+    }
+    return;
+  }
   const bool is_in_ram_only = result.change.was_sent && !result.change.may_have_saved;
   if (roster.is_doubled(*id)) {
     result.errors.push_back(doubled(roster, *id));

@@ -153,6 +153,7 @@ void ChangeJob::look_back(std::optional<Error> lost) {
     return;
   }
   const bool is_in_ram_only = in_ram_only().has_value();
+  const bool is_rom_told = result_.saved || plan_.proves_rom;
   const auto saver = is_in_ram_only ? roster_.saver_of(id, known_since()) : std::nullopt;
   if (roster_.is_doubled(id)) {
     result_.error = doubled(roster_, id);
@@ -166,7 +167,7 @@ void ChangeJob::look_back(std::optional<Error> lost) {
     result_.error = Error{Code::state, say<texts::written_by_other>(id.value(), writer->value()),
                           say<texts::other_writer_hint>(), id.value()};
   } else if (const auto later =
-                 result_.saved ? roster_.setter_of(id, restart_->sent_at()) : std::nullopt;
+                 is_rom_told ? roster_.setter_of(id, restart_->sent_at()) : std::nullopt;
              later) {
     result_.error = Error{Code::state, say<texts::written_by_other>(id.value(), later->value()),
                           say<texts::other_writer_hint>(), id.value()};

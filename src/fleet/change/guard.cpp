@@ -14,13 +14,13 @@
 namespace blactl::fleet {
 namespace {
 
-/// Asks each servo that nobody has asked yet for its unique ID: it may be that of one to be
-/// changed.
+/// Asks each node that nobody has asked yet for its unique ID: it may be that of one to be changed.
+/// A servo need not have sent actuator.Status yet.
 Result<void> ask_units(Session& session, Patience patience) {
   std::list<UnitJob> jobs;
   std::vector<dronecan::Job*> group;
   for (const auto& [id, member] : session.roster().members()) {
-    if (member.sends_actuator_status() && !member.info && !session.is_replay()) {
+    if (session.roster().heard(id) && !member.info && !session.is_replay()) {
       group.push_back(&jobs.emplace_back(session.records(), id, patience));
     }
   }

@@ -206,6 +206,14 @@ Result<void> History::renew(std::vector<state::SnapshotEntry> changes, const Ses
   return kept ? Result<void>() : std::unexpected(kept.error());
 }
 
+Result<void> History::renew_own(const dronecan::UniqueId& unit,
+                                std::vector<state::SnapshotEntry> before, const Session& session) {
+  if (const auto own = kept_.find(unit); own != kept_.end()) {
+    before.push_back(own->second.entry);
+  }
+  return renew(std::move(before), session);
+}
+
 /// Empty also where the record is full: earlier changes may have left it.
 ToldRom History::recorded_rom(const Snapshot& ram, const Session& session) const {
   const auto changes = unsaved(ram.servo, session, &ram);

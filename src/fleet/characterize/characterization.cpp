@@ -137,6 +137,19 @@ void take_back(const Session& session, const Servo& servo, std::vector<state::Sn
   }
 }
 
+/// What could not be put back is in RAM only, after the last restart.
+void keep_as_left(const Session& session, const Servo& servo,
+                  std::vector<state::SnapshotEntry> in_ram, const BenchManner& manner) {
+  if (manner.history == nullptr) {
+    return;
+  }
+  const auto unique_id = servo.unique_id.value_or(dronecan::UniqueId{});
+  const auto kept = manner.history->renew_own(unique_id, std::move(in_ram), session);
+  if (!kept && manner.end_not_recorded) {
+    manner.end_not_recorded(kept.error());
+  }
+}
+
 /// Another node's SAVE has made permanent what RAM held then: undo is to put ROM back, too.
 void keep_as_saved(const Session& session, const Servo& servo, const BenchManner& manner) {
   const ChangeResult saved{
@@ -231,6 +244,8 @@ Characterization characterize(Session& session, const bla::Profiles& profiles,
     keep_as_saved(session, servo, manner);
   } else if (given) {
     take_back(session, servo, std::move(in_ram), manner);
+  } else {
+    keep_as_left(session, servo, std::move(in_ram), manner);
   }
   return measured;
 }

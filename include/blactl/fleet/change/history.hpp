@@ -92,10 +92,15 @@ class History {
   [[nodiscard]] std::vector<state::SnapshotEntry>
   unsaved(const Servo& servo, const Session& session, const Snapshot* ram = nullptr) const;
 
-  /// Restarts have lost these changes, and they were written to RAM again: from now on they belong
-  /// to the servo's present run.
+  /// Restarts have lost these changes, and they were written to RAM again, or may have been: from
+  /// now on they belong to the servo's present run.
   [[nodiscard]] Result<void> renew(std::vector<state::SnapshotEntry> changes,
                                    const Session& session);
+
+  /// Likewise this command's own change of this unit, after those before it.
+  [[nodiscard]] Result<void> renew_own(const dronecan::UniqueId& unit,
+                                       std::vector<state::SnapshotEntry> before,
+                                       const Session& session);
 
   /// The contents of this servo's ROM, if proven and it has not restarted since; else empty, also
   /// if the record cannot be read.
