@@ -126,3 +126,27 @@ TEST_CASE("an erase that was to keep IDs which another tool has saved as 0 asks 
   }
   CHECK(lost > 0);
 }
+
+TEST_CASE("one that waits on a temporary ID, and loses its ROM there, is not told as saved") {
+  Scene scene;
+  scene
+      .servo("BLA21-28U-A0", 12,
+             {{"serial_number", 1}, {"behaviour", {{"first_node_status", "50ms"}}}})
+      .servo(
+          "BLA21-12U-A0", 38,
+          {{"serial_number", 2}, {"faults", {{"ignore_opcodes", 3}, {"no_actuator_status", true}}}})
+      .event(1, "rom_error", "3440ms");
+  const Fleet fleet(scene);
+  const Document file{
+      {"schema", "blactl-fleet/1"},
+      {"servos",
+       {{{"name", "a"}, {"match", {{"serial_number", 1}}}, {"set", {{"static_node_id", 38}}}},
+        {{"name", "b"}, {"match", {{"serial_number", 2}}}, {"set", {{"static_node_id", 12}}}}}}};
+  const Result applied = fleet.apply(file, {"--json"});
+  INFO(applied.out << applied.err);
+  CHECK(applied.status == 6);
+  const auto first = json(applied.out)["nodes"][0];
+  CHECK(first["node_id_after"] == 125);
+  CHECK(first["saved"] == false);
+  CHECK(first["changes"][0]["after"].is_null());
+}

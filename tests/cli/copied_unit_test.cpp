@@ -11,11 +11,13 @@ using namespace blactl::test;
 
 namespace {
 
-Scene twins() {
+/// `silent`: they send NodeStatus alone.
+Scene twins(bool silent = false) {
   const std::string copied = "abababababababababababababababab";
+  const nlohmann::json faults{{"no_actuator_status", silent}};
   return Scene()
-      .servo("BLA21-12U-AB", 10, {{"unique_id", copied}, {"servo_id", 1}})
-      .servo("BLA21-12U-AB", 11, {{"unique_id", copied}, {"servo_id", 2}})
+      .servo("BLA21-12U-AB", 10, {{"unique_id", copied}, {"servo_id", 1}, {"faults", faults}})
+      .servo("BLA21-12U-AB", 11, {{"unique_id", copied}, {"servo_id", 2}, {"faults", faults}})
       .servo("BLA21-12U-AB", 12, {{"servo_id", 3}});
 }
 
@@ -64,8 +66,9 @@ TEST_CASE("no command changes one of two units with one unique ID, and the third
       Arguments{"erase", "-n", "11", "-y"}, Arguments{"alloc", "--static", "-n", "10"},
       Arguments{"pwm-config", "-n", "10", "--output", "90deg", "-y"},
       Arguments{"command", "-n", "10", "angle=10deg", "-y"}, Arguments{"characterize", "-n", "11"});
-  INFO(command.front());
-  Fleet fleet(twins());
+  const bool silent = GENERATE(false, true);
+  INFO(command.front() << (silent ? ", silent but for NodeStatus" : ""));
+  Fleet fleet(twins(silent));
   const Result refused = fleet.run(command);
   CHECK(refused.status == 9);
   CHECK(contains(refused.err, two_of_one));

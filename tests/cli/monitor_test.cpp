@@ -4,14 +4,13 @@
 #include "fleet.hpp"
 #include "scene.hpp"
 
-#include <sstream>
-
 #include <signal.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <vector>
 

@@ -227,3 +227,28 @@ TEST_CASE("one write of another tool while the servo is read does not keep it fr
     }
   }
 }
+
+TEST_CASE(
+    "what another node writes to a servo that is proven, while others are waited for, is told") {
+  const Fleet fleet(
+      Scene()
+          .servo("BLA21-12U-AB", 11, {{"serial_number", 1}, {"faults", {{"never_returns", true}}}})
+          .servo("BLA21-12U-AB", 12, {{"serial_number", 2}})
+          .foreign(90, {{"orders",
+                         {{{"at", "4s"},
+                           {"to", 12},
+                           {"order", "write"},
+                           {"address", 0x22},
+                           {"value", 0}}}}}));
+  const Document file{
+      {"schema", "blactl-fleet/1"},
+      {"servos",
+       {{{"name", "a"}, {"match", {{"serial_number", 1}}}, {"set", {{"reverse", "on"}}}},
+        {{"name", "b"}, {"match", {{"serial_number", 2}}}, {"set", {{"smoothing", "on"}}}}}}};
+  const Result applied = fleet.apply(file, {"--json"});
+  INFO(applied.out << applied.err);
+  const auto proven = json(applied.out)["nodes"][1];
+  CHECK(proven["status"] == "failed");
+  CHECK(proven["changes"][0]["after"].is_null());
+  CHECK(contains(applied.err, "node 90"));
+}

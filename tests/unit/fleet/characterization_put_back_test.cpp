@@ -123,6 +123,25 @@ TEST_CASE("what is left is recorded for undo, and nothing where all was put back
   }
 }
 
+TEST_CASE("what is left after a restart counts as changed in RAM") {
+  int left = 0;
+  for (int after = 150; after < 1'500; after += 100) {
+    History history("characterize", state::SnapshotStore::unshared().value(),
+                    state::ProofStore::unshared().value());
+    const Rig rig;
+    const Snapshot looked = rig.look();
+    rig.bus->at = rig.bus->sent + after;
+    rig.bus->again = rig.bus->at + 1;
+    const auto measured = characterize(*rig.session, profiles(), looked, {.history = &history});
+    if (measured.not_put_back) {
+      ++left;
+      INFO("ended at frame " << after);
+      CHECK_FALSE(history.recorded_rom(looked, *rig.session).values.empty());
+    }
+  }
+  CHECK(left > 3);
+}
+
 TEST_CASE("a servo that holds what a killed characterize has set is not measured") {
   const state::test::Folder folder;
   const auto history = [&] {
