@@ -187,7 +187,8 @@ bool Step::is_doubled(std::int64_t serial) const {
 
 bool Step::shows_doubled(std::int64_t serial) const {
   return shares_node_id(serial) || !std::ranges::all_of(copies(serial), [this](std::int64_t copy) {
-           return shares_with_foreign(copy); // two answers at once are not read
+           const bool is_mute = setup(copy).value("/faults/mute"_json_pointer, false);
+           return is_mute || shares_with_foreign(copy); // two answers at once are not read
          });
 }
 

@@ -18,8 +18,9 @@ enum class LastLook : std::uint8_t {
   unit, ///< it is there; that it has restarted since is learnt by the roster
 };
 
-/// A servo that was proven less than this time ago needs no last look at its ROM.
-inline constexpr Duration long_ago = std::chrono::seconds(1);
+/// A servo that was proven less than this time ago needs no last look at its ROM: what was sent to
+/// others since has taken longer.
+inline constexpr Duration long_ago = std::chrono::milliseconds(100);
 
 /// Whether the servo on this node ID may have restarted, as far as heard, since it had this number
 /// of boots and this health, empty: unknown. The health of a start without ROM differs.
