@@ -355,6 +355,8 @@ inline constexpr Text servo_failed{"failed", "失敗"};
 inline constexpr Text wait_there{"operational", "動作中"};
 inline constexpr Text wait_not_ready{"not operational", "未動作"};
 inline constexpr Text progress_change{"servos done: {} of {}, {} s{}{}", "{}/{} 台完了、{} 秒{}{}"};
+inline constexpr Text progress_let_in{"servos without a node ID get one for the time being, {} s",
+                                      "ID のないサーボに一時的なノード ID を割当て中、{} 秒"};
 inline constexpr Text progress_at_work{"; at work: {}", "、処理中: {}"};
 inline constexpr Text progress_away{"; to come back: {}", "、復帰待ち: {}"};
 inline constexpr Text progress_wait{"waiting, {} of {} s; there: {}",

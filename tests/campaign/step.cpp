@@ -188,7 +188,8 @@ bool Step::is_doubled(std::int64_t serial) const {
 bool Step::shows_doubled(std::int64_t serial) const {
   return shares_node_id(serial) || !std::ranges::all_of(copies(serial), [this](std::int64_t copy) {
            const bool is_mute = setup(copy).value("/faults/mute"_json_pointer, false);
-           return is_mute || shares_with_foreign(copy); // two answers at once are not read
+           // two answers at once are not read
+           return is_mute || shares_with_foreign(copy) || shares_node_id(copy);
          });
 }
 

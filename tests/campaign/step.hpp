@@ -57,8 +57,8 @@ struct Step {
   /// Whether it shares its node ID with another, or its unique ID.
   [[nodiscard]] bool is_doubled(std::int64_t serial) const;
 
-  /// The same as far as it can be heard: a unit that is mute, or on the node ID of a foreign node,
-  /// cannot tell its unique ID.
+  /// The same as far as it can be heard: a unit that is mute, or shares its node ID, cannot tell
+  /// its unique ID.
   [[nodiscard]] bool shows_doubled(std::int64_t serial) const;
 
   [[nodiscard]] bool shares_node_id(std::int64_t serial) const;

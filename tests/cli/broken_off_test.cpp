@@ -150,3 +150,30 @@ TEST_CASE("one that waits on a temporary ID, and loses its ROM there, is not tol
   CHECK(first["saved"] == false);
   CHECK(first["changes"][0]["after"].is_null());
 }
+
+TEST_CASE("what a restart has shown to be in ROM is told where the interface then goes") {
+  int shown = 0;
+  for (int at_ms = 1'200; at_ms < 3'000; at_ms += 20) {
+    INFO("cut at " << at_ms << " ms");
+    Scene scene;
+    scene.servo("BLA21-12U-AB", 11, {{"serial_number", 1}, {"ram", {{"smoothing", "off"}}}})
+        .clients("cut", std::to_string(at_ms) + "ms")
+        .clients("joined", std::to_string(at_ms + 300) + "ms");
+    const Fleet fleet(scene);
+    const Result applied = fleet.apply(
+        {{"schema", "blactl-fleet/1"},
+         {"servos",
+          {{{"name", "a"}, {"match", {{"serial_number", 1}}}, {"set", {{"smoothing", "off"}}}}}}},
+        {"--json"});
+    INFO(applied.out << applied.err);
+    const auto nodes = json(applied.out)["nodes"];
+    if (applied.status == 0 || nodes.empty() || nodes[0]["changes"].empty() ||
+        nodes[0]["changes"][0]["after"] != 1) {
+      continue;
+    }
+    ++shown;
+    CHECK(nodes[0]["changes"][0]["status"] == "mismatch");
+    CHECK_FALSE(contains(applied.err, "is as it was"));
+  }
+  CHECK(shown > 0);
+}

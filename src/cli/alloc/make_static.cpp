@@ -134,7 +134,7 @@ class Stream {
     if (!move.is_temporary) {
       moved_.insert(move.unique_id);
     }
-    print(move);
+    print(move, move.to);
   }
 
   /// The IDs that servos had already enter the table here, those that were given have done so.
@@ -144,7 +144,7 @@ class Stream {
       const auto& unit = result.goal.unique_id;
       if (result.is_done && unit && !moved_.contains(*unit)) {
         kept.push_back({*unit, result.servo().id});
-        print(StaticUnit{*unit, result.servo().id});
+        print(StaticUnit{*unit, result.servo().id}, result.servo().id);
       }
     }
     if (const auto entered = fleet::enter_kept(table_, kept, context_.session().wall()); !entered) {
@@ -156,11 +156,15 @@ class Stream {
   [[nodiscard]] const std::optional<Error>& failure() const { return failure_; }
 
  private:
-  void print(const auto& what) {
-    const UnixTime time(context_.session().wall());
+  /// `id`: its node ID now.
+  void print(const auto& what, dronecan::NodeId id) {
+    const WallTime time = context_.session().wall();
+    const fleet::Servo servo = context_.session().roster().member(id).servo();
     const Reporter& reporter = context_.reporter();
     const bool is_json = reporter.format() == Format::json;
-    const auto printed = reporter.stream(is_json ? json_line(time, what) : text_line(time, what));
+    const auto printed =
+        reporter.stream(is_json ? json_line(UnixTime(time), what)
+                                : text_line(time, what, servo.identity.readings().serial_number));
     if (!printed) {
       failure_ = printed.error();
     }

@@ -148,9 +148,9 @@ void Serve::tell(Event event, const AllocatedUnit& unit) {
   const bool is_progress = event != Event::request && event != Event::deaf;
   progress_at_ = is_progress ? session().now() : progress_at_;
   const Reporter& reporter = context_.reporter();
-  const UnixTime time(session().wall());
+  const WallTime time = session().wall();
   if (reporter.format() == Format::json) {
-    check(reporter.stream(json_line(time, event, unit)));
+    check(reporter.stream(json_line(UnixTime(time), event, unit)));
   } else if (!reporter.has_screen()) {
     check(reporter.stream(text_line(time, event, unit)));
   }

@@ -76,14 +76,15 @@ inline constexpr Text alloc_not_kept{
     "シミュレーションのため、割当て表はコマンド終了後に残りません"};
 inline constexpr Text alloc_wish_taken{"uid:{} gets node ID {} when it asks",
                                        "uid:{} の要求時にノード ID {} を割り当てます"};
+inline constexpr Text alloc_serial{"serial {}", "シリアル番号 {}"};
 inline constexpr Text alloc_event_request{"asks for a node ID", "割当てを要求"};
 inline constexpr Text alloc_event_assigned{"gets node ID {}, new in the table",
                                            "ノード ID {} を新規割当て"};
 inline constexpr Text alloc_event_kept{"gets node ID {}, as the table says",
                                        "ノード ID {} を再割当て"};
-inline constexpr Text alloc_event_made_static{"has node ID {} for good, proven after its restart",
+inline constexpr Text alloc_event_made_static{"node ID {} for good, proven by a restart",
                                               "ノード ID {} を固定 (再起動後に確認済み)"};
-inline constexpr Text alloc_event_static{"has node ID {} for good already, nothing was saved",
+inline constexpr Text alloc_event_static{"node ID {} for good already, nothing saved",
                                          "ノード ID {} は固定済み (保存不要)"};
 inline constexpr Text alloc_event_makes_way{"makes way: node ID {} for the time being",
                                             "ID 入替えのため、一時的にノード ID {} に移動"};

@@ -61,8 +61,15 @@ std::string json_line(UnixTime time, std::string_view event, const dronecan::Uni
   return line + '\n';
 }
 
-std::string text_line(UnixTime time, const dronecan::UniqueId& unique_id, std::string_view what) {
-  return fmt::format("{}  uid:{}  {}\n", time.text(), hex(unique_id), what);
+/// `named`: as it can be selected.
+std::string text_line(WallTime time, std::string_view named, std::string_view what) {
+  return fmt::format("{}  {}  {}\n", clock_text(time), named, what);
+}
+
+/// By the number on its label, if that is known.
+std::string name_of(const dronecan::UniqueId& unique_id,
+                    const std::optional<std::int64_t>& serial_number) {
+  return serial_number ? say<texts::alloc_serial>(*serial_number) : "uid:" + hex(unique_id);
 }
 
 std::string state(const AllocationService& service, const AllocatedUnit& unit, const Page& page) {
@@ -91,12 +98,13 @@ std::string json_line(UnixTime time, const fleet::IdMove& move) {
                            : json_line(time, "made_static", move.unique_id, move.to);
 }
 
-std::string text_line(UnixTime time, Event event, const AllocatedUnit& unit) {
-  return text_line(time, unit.unique_id, words(event, unit));
+std::string text_line(WallTime time, Event event, const AllocatedUnit& unit) {
+  return text_line(time, name_of(unit.unique_id, {}), words(event, unit));
 }
 
-std::string text_line(UnixTime time, const fleet::IdMove& move) {
-  return text_line(time, move.unique_id,
+std::string text_line(WallTime time, const fleet::IdMove& move,
+                      std::optional<std::int64_t> serial_number) {
+  return text_line(time, name_of(move.unique_id, serial_number),
                    move.is_temporary ? say<texts::alloc_event_makes_way>(move.to.value())
                                      : say<texts::alloc_event_made_static>(move.to.value()));
 }
@@ -105,8 +113,10 @@ std::string json_line(UnixTime time, const StaticUnit& unit) {
   return json_line(time, "kept", unit.unique_id, unit.node_id);
 }
 
-std::string text_line(UnixTime time, const StaticUnit& unit) {
-  return text_line(time, unit.unique_id, say<texts::alloc_event_static>(unit.node_id.value()));
+std::string text_line(WallTime time, const StaticUnit& unit,
+                      std::optional<std::int64_t> serial_number) {
+  return text_line(time, name_of(unit.unique_id, serial_number),
+                   say<texts::alloc_event_static>(unit.node_id.value()));
 }
 
 std::string text(const AllocationService& service, const fleet::Roster& roster, const Page& page) {

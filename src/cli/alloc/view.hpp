@@ -8,6 +8,8 @@
 #include "cli/output/page.hpp"
 #include "cli/trace/time.hpp"
 
+#include <cstdint>
+#include <optional>
 #include <string>
 
 namespace blactl::cli {
@@ -18,12 +20,13 @@ namespace blactl::cli {
                                     const fleet::AllocatedUnit& unit);
 
 /// The line for people.
-[[nodiscard]] std::string text_line(UnixTime time, fleet::AllocationService::Event event,
+[[nodiscard]] std::string text_line(WallTime time, fleet::AllocationService::Event event,
                                     const fleet::AllocatedUnit& unit);
 
 /// The object for a move to a static node ID; a temporary move is not an event of the contract.
 [[nodiscard]] std::string json_line(UnixTime time, const fleet::IdMove& move);
-[[nodiscard]] std::string text_line(UnixTime time, const fleet::IdMove& move);
+[[nodiscard]] std::string text_line(WallTime time, const fleet::IdMove& move,
+                                    std::optional<std::int64_t> serial_number);
 
 /// A servo whose node ID is already static.
 struct StaticUnit {
@@ -32,7 +35,8 @@ struct StaticUnit {
 };
 
 [[nodiscard]] std::string json_line(UnixTime time, const StaticUnit& unit);
-[[nodiscard]] std::string text_line(UnixTime time, const StaticUnit& unit);
+[[nodiscard]] std::string text_line(WallTime time, const StaticUnit& unit,
+                                    std::optional<std::int64_t> serial_number);
 
 /// The units by node ID, and the number of units that still ask.
 [[nodiscard]] std::string text(const fleet::AllocationService& service, const fleet::Roster& roster,

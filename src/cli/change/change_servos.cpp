@@ -1,16 +1,19 @@
 #include "cli/change/change_servos.hpp"
 
 #include "blactl/fleet/bus/discovery.hpp"
+#include "blactl/fleet/bus/ticker.hpp"
 #include "blactl/fleet/change/allocation_service.hpp"
 
 #include "cli/change/entries_view.hpp"
 #include "cli/change/event_file.hpp"
 #include "cli/change/texts.hpp"
 #include "cli/change/watch.hpp"
+#include "cli/output/progress_view.hpp"
 #include "cli/stores.hpp"
 #include "cli/texts.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <iterator>
 #include <memory>
 #include <utility>
@@ -166,6 +169,11 @@ bool Run::may_let_in() {
 }
 
 bool Run::let_in() {
+  const Time begin = context_.session().now();
+  const fleet::Ticker ticker(context_.session(), std::chrono::seconds(1), [&] {
+    context_.reporter().progress(
+        say<texts::progress_let_in>(whole_seconds(context_.session().now() - begin)));
+  });
   if (request_.let_in) {
     const auto done = request_.let_in();
     return done || broken(done.error());

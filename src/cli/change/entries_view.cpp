@@ -147,7 +147,11 @@ std::vector<Error> errors_of(const GoalResult& result, bool is_plan) {
   std::vector<Error> errors = result.errors;
   if (!is_plan && !result.is_done && errors.empty()) {
     const std::uint8_t id = result.servo().id.value();
-    errors.push_back({Code::state, say<texts::apply_not_begun>(id), {}, id});
+    errors.push_back({Code::state,
+                      result.change.was_sent ? say<texts::apply_only_restarted>(id)
+                                             : say<texts::apply_not_begun>(id),
+                      {},
+                      id});
   }
   return errors;
 }

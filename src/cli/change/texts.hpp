@@ -42,6 +42,11 @@ inline constexpr Text apply_beside_plan_hint{"give it when the plan is made",
 inline constexpr Text apply_not_begun{
     "node {} is as it was: an earlier step failed",
     "ノード {} は変更していません (先の変更が完了しなかったため)"};
+inline constexpr Text apply_only_restarted{
+    "node {} has restarted, its ROM holds other values, and nothing was written: an earlier step "
+    "failed",
+    "ノード {} は再起動のみ実施しました。ROM の値は指定と異なりますが、書き込んでいません "
+    "(先の変更が完了しなかったため)"};
 inline constexpr Text apply_skipped{"left as it was", "未処理"};
 inline constexpr Text apply_changed{
     "{} of {} settings changed, saved, read again after the restart",

@@ -26,6 +26,18 @@ bool is_unproven(const GoalResult& result, const UnitChange& unit) {
          !(unit.last->rom && holds(unit.last->rom->values, result.goal));
 }
 
+/// RAM is what the restart that was to prove ROM has brought back, and not what was read before.
+void tell_rom(ChangeResult& change) {
+  for (RegisterChange& each : change.changes) {
+    const auto rom = change.rom ? bla::find(change.rom->values, each.parameter->address)
+                                : std::optional<std::int64_t>();
+    each.after = rom;
+    each.status = !rom                     ? ChangeStatus::failed
+                  : *rom != each.requested ? ChangeStatus::mismatch
+                                           : ChangeStatus::unchanged;
+  }
+}
+
 /// Of a unit that waits on a temporary ID, where the rounds have broken off.
 Error made_way(const UnitChange& unit, NodeId before) {
   const std::uint8_t now = unit.now.value();
@@ -241,6 +253,9 @@ void Change::conclude(const UnitChange& unit, GoalResult& result) {
   result.errors = result.change.errors();
   if (unit.has_made_way && (last.is_done() || !last.may_have_saved)) {
     result.errors.push_back(made_way(unit, result.goal.id));
+  }
+  if (unit.is_done && !result.is_done) {
+    tell_rom(result.change);
   }
   if (unit.is_done && !result.is_done && !last.rom) {
     const std::uint8_t id = last.servo.id.value();

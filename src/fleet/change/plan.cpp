@@ -194,18 +194,32 @@ Values expected_after(const Plan& plan) {
   return expected;
 }
 
-/// The values kept by SAVE are known; those loaded by a plain restart are not.
-std::string restart_question(const Plan& plan) {
-  const std::uint8_t id = plan.before.servo.id.value();
-  if (plan.restart == RestartKind::restart) {
-    return say<texts::question_restart_unknown>(id);
+template <const Text& one, const Text& several>
+std::string restart_question(std::span<const NodeId> servos) {
+  return servos.empty()       ? std::string()
+         : servos.size() == 1 ? say<one>(servos.front().value())
+                              : say<several>(id_list(servos));
+}
+
+/// What the servos do at their restarts, those that do the same in one line.
+std::string restart_questions(std::span<const Plan> plans) {
+  std::vector<NodeId> unknown, softly, hard;
+  for (const Plan& plan : plans) {
+    const bool is_known = plan.restart != RestartKind::restart; // SAVE keeps what is in RAM
+    const auto motion = bla::restart_motion(plan.expected);
+    if (!plan.restart || (is_known && motion == bla::RestartMotion::none)) {
+      continue;
+    }
+    const bool is_soft = motion == bla::RestartMotion::soft;
+    (!is_known ? unknown : is_soft ? softly : hard).push_back(plan.before.servo.id);
   }
-  switch (bla::restart_motion(plan.expected)) {
-  case bla::RestartMotion::none: break;
-  case bla::RestartMotion::soft: return say<texts::question_restart_soft>(id);
-  case bla::RestartMotion::hard: return say<texts::question_restart_hard>(id);
+  for (auto* servos : {&unknown, &softly, &hard}) {
+    std::ranges::sort(*servos);
   }
-  return {};
+  return restart_question<texts::question_restart_unknown, texts::question_restarts_unknown>(
+             unknown) +
+         restart_question<texts::question_restart_soft, texts::question_restarts_soft>(softly) +
+         restart_question<texts::question_restart_hard, texts::question_restarts_hard>(hard);
 }
 
 /// The effect of erasing this servo.
@@ -410,11 +424,9 @@ std::string question(std::span<const Plan> plans) {
   for (const Plan& plan : plans) {
     of_registers = of_registers || (!plan.erase && !plan.changes.empty());
     lines += plan.erase ? erase_question(plan) : std::string();
-    if (plan.restart) { // ERASE and changes come before it
-      lines += restart_question(plan);
-    }
     lines += change_questions(plan);
   }
+  lines += restart_questions(plans); // ERASE and changes come before them
   const auto stays_in_ram = [](const Plan& plan) { return plan.erase && !plan.restart; };
   if (std::ranges::any_of(plans, stays_in_ram)) {
     lines += say<texts::question_erase_rom>();

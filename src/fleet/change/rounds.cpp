@@ -12,6 +12,8 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
+#include <ranges>
 
 namespace blactl::fleet {
 
@@ -227,8 +229,28 @@ std::vector<Plan> Rounds::plans() const {
   return plans;
 }
 
+/// A person compares them with the labels.
+std::string Rounds::given_ids() const {
+  std::map<NodeId, std::string> servos;
+  for (const UnitChange& unit : units_) {
+    const Servo& servo = unit.plan.before.servo;
+    const auto id = unit.static_node_id();
+    if (id && *id != servo.id) {
+      const auto serial = servo.identity.readings().serial_number;
+      servos[*id] = serial ? say<texts::question_id_of_serial>(*serial, id->value())
+                           : say<texts::question_id_of_node>(servo.id.value(), id->value());
+    }
+  }
+  std::string given;
+  for (const std::string& servo : servos | std::views::values) {
+    given += (given.empty() ? "" : ", ") + servo;
+  }
+  return given.empty() ? given : say<texts::question_ids>(given);
+}
+
 std::string Rounds::question() const {
-  return fleet::question(plans());
+  std::string asked = fleet::question(plans());
+  return asked.empty() ? asked : std::move(asked) + given_ids();
 }
 
 } // namespace blactl::fleet

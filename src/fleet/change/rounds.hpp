@@ -80,6 +80,8 @@ class Rounds {
   [[nodiscard]] const std::vector<UnitChange>& units() const { return units_; }
 
  private:
+  [[nodiscard]] std::string given_ids() const;
+
   /// One unit in one round; without a move it stays on its node ID.
   struct Step {
     std::size_t unit;

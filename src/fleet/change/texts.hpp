@@ -230,6 +230,32 @@ inline constexpr Text question_restart_unknown{
     "ノード {}: ROM の内容 (不明) で起動します。トルクが ON になり、出力軸が 0° "
     "へ動く可能性があります\n",
 };
+inline constexpr Text question_restarts_unknown{
+    "nodes {}: they start with what their ROM holds, which is not known: torque may come on, and "
+    "the shafts may run to 0 deg\n",
+    "ノード {}: ROM の内容 (不明) で起動します。トルクが ON になり、出力軸が 0° "
+    "へ動く可能性があります\n",
+};
+inline constexpr Text question_restarts_soft{
+    "nodes {}: torque is on: their outputs drop, then the shafts run slowly to 0 deg\n",
+    "ノード {}: トルク ON のため、出力が一旦 OFF になり、ソフトスタートで 0° へ動きます\n",
+};
+inline constexpr Text question_restarts_hard{
+    "nodes {}: torque is on: their outputs drop, then return where the shafts are\n",
+    "ノード {}: トルク ON のため、出力が一旦 OFF になり、その位置で再び ON になります\n",
+};
+inline constexpr Text question_ids{
+    "node IDs that are given: {}\n",
+    "割り当てるノード ID: {}\n",
+};
+inline constexpr Text question_id_of_serial{
+    "serial {}: {}",
+    "S/N {}: {}",
+};
+inline constexpr Text question_id_of_node{
+    "node {}: {}",
+    "ノード {}: {}",
+};
 inline constexpr Text question_erase_torque{"node {}: torque comes on\n",
                                             "ノード {}: トルクが ON になります\n"};
 inline constexpr Text question_erase_rom{
