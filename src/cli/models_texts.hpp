@@ -53,8 +53,12 @@ inline constexpr Text models_one_parameter_hint{
     "複数を表示: `blactl models --search WORD`、または `--group G`"};
 inline constexpr Text models_nothing_mentions{"no parameter has '{}' in its name or explanation",
                                               "名称や説明に '{}' を含むパラメータはありません"};
-inline constexpr Text models_nothing_mentions_hint{"all of them: blactl models all",
-                                                   "すべて表示: blactl models all"};
+inline constexpr Text models_nothing_mentions_hint{
+    "all of them: blactl models all; which make a servo slower, softer, stiffer, further or "
+    "quieter: "
+    "man blactl-tuning",
+    "すべて表示: blactl models all。動作を遅く、柔らかく、硬く、広く、静かにする設定: "
+    "man blactl-tuning"};
 inline constexpr Text models_lack{"{} has no parameter {} ({})",
                                   "{} にパラメータ {} ({}) はありません"};
 inline constexpr Text models_lack_hint{"which models have it: blactl models all {}",

@@ -286,3 +286,12 @@ TEST_CASE("doctor says so where it was asked about a servo that it did not read"
   const Result read = driven().run({"doctor", "-n", "11"});
   CHECK_FALSE(contains(read.err, "is not judged"));
 }
+
+TEST_CASE("doctor finds a servo that is blocked, and for -n a commander is no finding") {
+  const Scene held = driven().world(7, {{"hand", "-30deg"}}, "0s");
+  CHECK(named(held) == Codes{"torque_at_limit"});
+  CHECK(unnamed(held) == Codes{"torque_at_limit"});
+  const Result asked = driven().run({"doctor", "-n", "11"});
+  CHECK(asked.status == 0);
+  CHECK(contains(asked.out, "looked at: 1, others on the bus: 1, servos are commanded by: 100"));
+}

@@ -108,8 +108,10 @@ void examine_bus(Duration time, Context& context, Examination& examination, Repo
     });
   }
   add(fleet::diagnose_identifications(findings, ends), examination);
-  add(fleet::diagnose_nodes(findings, examination.traffic, servos.servos), examination);
+  const auto look = targets->given ? fleet::MotionLook::named : fleet::MotionLook::commanded;
+  add(fleet::diagnose_nodes(findings, examination.traffic, servos.servos, look), examination);
   add(diagnose_motions(servos, targets->given, context, examination.traffic), examination);
+  examination.are_named = targets->given;
   examination.nodes = std::move(findings);
   session.count(nullptr);
 }

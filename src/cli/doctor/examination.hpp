@@ -21,6 +21,7 @@ struct Examination {
   std::optional<can::SlcanAnswers> adapter{}; ///< for an adapter on a serial port
   fleet::Traffic traffic{};
   std::optional<fleet::Findings> nodes{}; ///< empty: the bus was not opened
+  bool are_named = false;                 ///< `nodes` has those of -n only
   fleet::Diagnoses fixed{};               ///< fixed by --fix
   fleet::Diagnoses diagnoses{};           ///< present problems, the worst first
   bool is_whole = false;                  ///< the examination was complete

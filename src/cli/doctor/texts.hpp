@@ -24,6 +24,9 @@ inline constexpr Text doctor_no_traffic{"no frames", "フレームなし"};
 inline constexpr Text doctor_frames{"frames: {}", "{} フレーム"};
 inline constexpr Text doctor_senders{"frames/s by node: {}", "ノード別フレーム/秒: {}"};
 inline constexpr Text doctor_found{"servos: {}, other nodes: {}", "サーボ {} 台、その他 {} ノード"};
+inline constexpr Text doctor_found_named{"looked at: {}, others on the bus: {}",
+                                         "対象 {} 台、その他 {} ノード"};
+inline constexpr Text doctor_commanders{"servos are commanded by: {}", "動作指令元: {}"};
 inline constexpr Text doctor_tools{"tools (by their ID): {}", "ツール (ID による判定): {}"};
 inline constexpr Text doctor_read_none{
     "none of the servos of -n was read: why one does not move is not judged",

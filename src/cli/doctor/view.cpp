@@ -100,6 +100,25 @@ std::string nodes_text(const fleet::Findings& findings) {
   return line;
 }
 
+/// Of the servos that are asked about, and who else was heard.
+std::string named_text(const fleet::Findings& findings) {
+  const auto others = std::ranges::count_if(findings.roster->members(), [&](const auto& member) {
+    return findings.roster->heard(member.first) &&
+           std::ranges::none_of(findings.nodes, [&](const fleet::Finding& node) {
+             return node.servo.id == member.first;
+           });
+  });
+  std::string line = say<texts::doctor_found_named>(findings.nodes.size(), others);
+  std::string commanders;
+  for (const auto& [id, commander] : findings.roster->commanders()) {
+    commanders += (commanders.empty() ? "" : ", ") + std::to_string(id.value());
+  }
+  if (!commanders.empty()) {
+    join(line, say<texts::doctor_commanders>(commanders));
+  }
+  return line;
+}
+
 std::string row(const std::string& what, const std::string& said) {
   constexpr std::size_t column = 16;
   const std::size_t width = display_width(what);
@@ -176,7 +195,8 @@ std::string text(const Examination& examination, const Page& page) {
     if (const auto senders = senders_text(examination.traffic); !senders.empty()) {
       out += row("", say<texts::doctor_senders>(senders));
     }
-    out += row(say<texts::doctor_nodes>(), nodes_text(*examination.nodes));
+    out += row(say<texts::doctor_nodes>(), examination.are_named ? named_text(*examination.nodes)
+                                                                 : nodes_text(*examination.nodes));
   }
   for (const Diagnosis& diagnosis : examination.fixed) {
     out += page.paint(Tone::good, say<texts::doctor_fixed>()) + "  " + diagnosis.text + '\n';

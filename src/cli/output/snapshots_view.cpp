@@ -3,9 +3,12 @@
 #include "blactl/base/hex.hpp"
 #include "blactl/base/rfc3339.hpp"
 #include "blactl/base/text.hpp"
+#include "blactl/bla/value.hpp"
 
 #include "cli/change/texts.hpp"
 #include "cli/output/table.hpp"
+
+#include <optional>
 
 namespace blactl::cli {
 
@@ -18,19 +21,48 @@ std::string memory_of(const state::SnapshotEntry& entry) {
   return entry.settled ? say<texts::undo_in_rom>() : say<texts::undo_perhaps_in_rom>();
 }
 
-/// The first few, by name.
+/// "angle_limit_cw 179.9 deg -> 90.0 deg"
+std::string setting_of(const state::SnapshotEntry& entry, std::uint8_t address, std::int64_t raw,
+                       const bla::Profiles& profiles) {
+  const bla::Parameter* parameter = profiles.find(bla::Address(address));
+  const auto held = entry.held.find(bla::address::pwm_mode.value());
+  const auto mode = held != entry.held.end() ? std::optional(held->second) : std::nullopt;
+  const auto shown = [&](std::int64_t value) {
+    return parameter != nullptr ? bla::display(*parameter, value, mode) : std::to_string(value);
+  };
+  const std::string name =
+      parameter != nullptr ? std::string(parameter->name) : bla::Address(address).name();
+  const auto written = entry.written.find(address);
+  return written != entry.written.end()
+             ? say<texts::undo_replaced>(name, shown(raw), shown(written->second))
+             : say<texts::undo_was>(name, shown(raw));
+}
+
+/// The first few that the command has replaced.
 std::string settings_of(const state::SnapshotEntry& entry, const bla::Profiles& profiles) {
-  constexpr std::size_t few = 2;
+  constexpr std::size_t few = 4;
   std::string named;
   std::size_t count = 0;
   for (const auto& [address, raw] : entry.held) {
     if (count++ < few) {
-      const bla::Parameter* parameter = profiles.find(bla::Address(address));
-      named += named.empty() ? "" : ", ";
-      named += parameter != nullptr ? std::string(parameter->name) : bla::Address(address).name();
+      named += (named.empty() ? "" : ", ") + setting_of(entry, address, raw, profiles);
     }
   }
   return count > few ? say<texts::undo_more_settings>(named, count - few) : named;
+}
+
+Table table(std::span<const state::SnapshotEntry> entries, const bla::Profiles& profiles,
+            std::size_t unique_id_digits) {
+  Table table({say<texts::undo_column_number>(), say<texts::undo_column_time>(),
+               say<texts::undo_column_unit>(), say<texts::undo_column_command>(),
+               say<texts::undo_column_saved>()});
+  for (const state::SnapshotEntry& entry : entries) {
+    table.add({std::to_string(entry.run), rfc3339(entry.at),
+               hex(entry.unique_id).substr(0, unique_id_digits), printable(entry.command),
+               memory_of(entry)});
+    table.add_below(settings_of(entry, profiles));
+  }
+  return table;
 }
 
 } // namespace
@@ -50,14 +82,10 @@ std::string text(std::span<const state::SnapshotEntry> entries, const bla::Profi
   if (entries.empty()) {
     return say<texts::undo_nothing_recorded>();
   }
-  Table table({say<texts::undo_column_number>(), say<texts::undo_column_time>(),
-               say<texts::undo_column_unit>(), say<texts::undo_column_command>(),
-               say<texts::undo_column_saved>(), say<texts::undo_column_settings>()});
-  for (const state::SnapshotEntry& entry : entries) {
-    table.add({std::to_string(entry.run), rfc3339(entry.at), hex(entry.unique_id),
-               printable(entry.command), memory_of(entry), settings_of(entry, profiles)});
-  }
-  return table.text("", page);
+  constexpr std::size_t all_digits = 2 * dronecan::UniqueId().size(), enough_digits = 8;
+  const Table whole = table(entries, profiles, all_digits);
+  return whole.fits("", page) ? whole.text("", page)
+                              : table(entries, profiles, enough_digits).text("", page);
 }
 
 } // namespace blactl::cli

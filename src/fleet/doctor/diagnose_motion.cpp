@@ -15,6 +15,8 @@ std::vector<const bla::Parameter*> registers_of_motion(const Servo& servo) {
       at::command_angle,
       at::command_speed,
       at::command_torque,
+      at::current_speed,
+      at::current_torque,
       at::current_temperature,
       at::current_voltage,
       at::fault_summary,

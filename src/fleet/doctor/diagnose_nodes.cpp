@@ -49,8 +49,8 @@ std::string joined_ids(const auto& nodes) {
 
 class NodeExamination {
  public:
-  NodeExamination(const Findings& findings, const Traffic& traffic)
-      : findings_(findings), traffic_(traffic) {}
+  NodeExamination(const Findings& findings, const Traffic& traffic, MotionLook look)
+      : findings_(findings), traffic_(traffic), look_(look) {}
 
   [[nodiscard]] Diagnoses all(std::span<const Snapshot> limits) {
     conflicts();
@@ -231,8 +231,10 @@ class NodeExamination {
 
   void commands(const Commander& commander) {
     const std::uint8_t by = commander.source.value();
-    add("commander", Level::notice, commander.source, say<texts::somebody_commands>(by),
-        say<texts::somebody_commands_fix>());
+    if (look_ == MotionLook::commanded) { // who asks about a servo wants it to be commanded
+      add("commander", Level::notice, commander.source, say<texts::somebody_commands>(by),
+          say<texts::somebody_commands_fix>());
+    }
     for (const auto& [servo_id, command] : commander.servo_ids) {
       if (servo_id != every_servo && !has_servo_id(*findings_.roster, servo_id)) {
         add("no_such_servo", Level::warning, commander.source,
@@ -270,6 +272,7 @@ class NodeExamination {
 
   const Findings& findings_;
   const Traffic& traffic_;
+  MotionLook look_;
   Diagnoses found_;
 };
 
@@ -307,8 +310,8 @@ bool awaits_status(const Roster& roster, const Traffic& traffic) {
 }
 
 Diagnoses diagnose_nodes(const Findings& findings, const Traffic& traffic,
-                         std::span<const Snapshot> limits) {
-  return NodeExamination(findings, traffic).all(limits);
+                         std::span<const Snapshot> limits, MotionLook look) {
+  return NodeExamination(findings, traffic, look).all(limits);
 }
 
 } // namespace blactl::fleet

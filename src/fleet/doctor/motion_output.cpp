@@ -49,6 +49,7 @@ class OutputExamination {
     idle_limits();
     angles();
     beyond_limits();
+    torque_at_limit();
   }
 
  private:
@@ -93,6 +94,24 @@ class OutputExamination {
         cause.values, [&](Address reg) { return facts_.held(reg).has_value(); });
     return cause.values.empty() || !is_known ? std::string()
                                              : " (" + facts_.listed(cause.values) + ")";
+  }
+
+  /// It pushes as hard as it may and stands still. Of a limit of 0 it is told that it is 0.
+  void torque_at_limit() {
+    if (!facts_.is_commanded() || facts_.held(at::current_speed) != 0 ||
+        !zero_sides(torque_limits).empty()) {
+      return;
+    }
+    for (const bla::Fault& fault : bla::faults(facts_.values(), facts_.profiles())) {
+      const bla::Cause cause = bla::cause(fault, facts_.values());
+      const bool is_limit =
+          std::ranges::find(cause.values, at::current_torque) != cause.values.end();
+      if (is_limit) {
+        found_.add("torque_at_limit", Level::warning, Weight::obstacle,
+                   say<texts::motion_torque_at_limit>(id_, measured_text(cause)),
+                   say<texts::motion_torque_at_limit_fix>(id_));
+      }
+    }
   }
 
   // Limits

@@ -95,6 +95,12 @@ inline constexpr Text motion_maybe_held_off{
     "動作は実機でのみ確認できます"};
 inline constexpr Text motion_held_off_fix{"{} (blactl faults -n {})", "{} (blactl faults -n {})"};
 
+inline constexpr Text motion_torque_at_limit{
+    "node {}: it is commanded, pushes with the most torque that it may, and stands still{}",
+    "ノード {}: 動作指令を受け、制限値のトルクを出力していますが、軸が動いていません{}"};
+inline constexpr Text motion_torque_at_limit_fix{
+    "look for what blocks the shaft, or reduce the load (blactl monitor -n {})",
+    "軸を妨げるものがないか確認し、負荷を減らして下さい (blactl monitor -n {})"};
 inline constexpr Text motion_no_torque{"node {}: no torque in the direction of a limit of 0 %: {}",
                                        "ノード {}: 動作トルク制限が 0 % の方向にはトルクが出ません:"
                                        " {}"};

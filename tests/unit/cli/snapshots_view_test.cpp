@@ -24,6 +24,7 @@ std::array<state::SnapshotEntry, 3> changes() {
                                .command = "alloc --static",
                                .unique_id = {0xC3},
                                .held = {{0x46, 0}},
+                               .written = {{0x46, 18}},
                                .saved = true,
                                .settled = morning + 3s},
           state::SnapshotEntry{.number = 7,
@@ -63,16 +64,17 @@ TEST_CASE("recorded changes are told in the keys of the contract") {
 
 TEST_CASE("people see when, what, and whether ROM was changed") {
   const bla::Profiles profiles = bla::Profiles::load(std::nullopt).value();
+  CHECK(cli::text(changes(), profiles, cli::Page{.width = 80}) ==
+        "NUMBER  TIME                  UNIQUE ID  COMMAND         CHANGED IN\n"
+        "8       2026-11-22T08:15:01Z  c3000000   alloc --static  RAM and ROM\n"
+        "        static_node_id 0 -> 18\n"
+        "7       2026-11-22T08:15:00Z  c4000000   set\\x1b[31m     RAM\n"
+        "        angle_limit_cw was 0.1 deg, angle_limit_ccw was 0.2 deg\n"
+        "6       2026-11-22T08:14:59Z  c4000000   apply           RAM, ROM not known\n"
+        "        angle_limit_cw was 0.1 deg\n");
   CHECK(
-      cli::text(changes(), profiles, cli::Page()) ==
-      "NUMBER  TIME                  UNIQUE ID                         COMMAND         CHANGED IN "
-      "         SETTINGS\n"
-      "8       2026-11-22T08:15:01Z  c3000000000000000000000000000000  alloc --static  RAM and ROM"
-      "         static_node_id\n"
-      "7       2026-11-22T08:15:00Z  c4000000000000000000000000000000  set\\x1b[31m     RAM        "
-      "         angle_limit_cw, angle_limit_ccw\n"
-      "6       2026-11-22T08:14:59Z  c4000000000000000000000000000000  apply           RAM, ROM "
-      "not known  angle_limit_cw\n");
+      cli::text(changes(), profiles, cli::Page{}).find("c3000000000000000000000000000000  alloc") !=
+      std::string::npos);
   CHECK(cli::text({}, profiles, cli::Page()) == "no change is recorded\n");
   set_language(Language::japanese);
   CHECK(cli::text({}, profiles, cli::Page()) == "変更履歴は空です\n");

@@ -84,7 +84,7 @@ struct Bus {
 
   [[nodiscard]] Diagnoses diagnoses(std::span<const Snapshot> limits = {}) const {
     const Findings findings = gather(roster, Targets{}, profiles(), now + 3s);
-    return diagnose_nodes(findings, traffic, limits);
+    return diagnose_nodes(findings, traffic, limits, MotionLook::commanded);
   }
 
   Roster roster{NodeId(127), profiles()};

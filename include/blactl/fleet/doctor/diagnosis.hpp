@@ -12,6 +12,7 @@
 #include "blactl/fleet/bus/traffic.hpp"
 #include "blactl/fleet/characterize/findings.hpp"
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -53,9 +54,16 @@ using Diagnoses = std::vector<Diagnosis>;
 /// period.
 [[nodiscard]] bool awaits_status(const Roster& roster, const Traffic& traffic);
 
-/// Conflicts, and problems of single nodes. `limits`: the angle limits as read.
+/// Why servos are looked at.
+enum class MotionLook : std::uint8_t {
+  named,    ///< somebody asks about these: everything is told
+  commanded ///< they are commanded: only what keeps them from following is told
+};
+
+/// Conflicts, and problems of single nodes. `limits`: the angle limits as read. Who commands servos
+/// is no problem to somebody who asks why one does not move.
 [[nodiscard]] Diagnoses diagnose_nodes(const Findings& findings, const Traffic& traffic,
-                                       std::span<const Snapshot> limits);
+                                       std::span<const Snapshot> limits, MotionLook look);
 
 /// The nodes that could not be identified. `ends`: the end of each identification; missing parts of
 /// a recording are not findings.

@@ -39,19 +39,13 @@ struct HeardCommands {
 /// Whether a servo on the bus has this servo ID, as far as known.
 [[nodiscard]] bool has_servo_id(const Roster& roster, std::uint8_t servo_id);
 
-/// Why it is looked at.
-enum class MotionLook : std::uint8_t {
-  named,    ///< somebody asks about this servo: everything is told
-  commanded ///< it is commanded: only what keeps it from following is told
-};
-
 /// The registers that diagnose_motion() needs.
 [[nodiscard]] std::vector<const bla::Parameter*> registers_of_motion(const Servo& servo);
 
 /// What keeps this servo from moving as it is commanded, in the order from the command to the
 /// shaft. Unknown values are no reason for a finding. Codes: not_commanded, commanded_other,
 /// pwm_has_no_say, mode_without_effect, torque_off, fault_holds_off, torque_limit_zero,
-/// speed_limit_zero, limits_without_effect, angle_limits, command_beyond_limit.
+/// speed_limit_zero, limits_without_effect, angle_limits, command_beyond_limit, torque_at_limit.
 [[nodiscard]] Diagnoses diagnose_motion(const Snapshot& servo, const HeardCommands& heard,
                                         const bla::Profiles& profiles, MotionLook look);
 
