@@ -285,6 +285,23 @@ TEST_CASE("undo after a save puts ROM back, too: what was set before it has beco
   CHECK(fleet.rom("11", "angle_limit_cw") == 1799);
 }
 
+TEST_CASE("undo takes back the IDs of a trial that an erase has kept, and saved") {
+  const Fleet fleet(three_servos());
+  const auto servo_id = fleet.rom("11", "servo_id");
+  REQUIRE(fleet.run({"set", "-n", "11", "servo_id=77"}).status == 0);
+  REQUIRE(fleet.run({"erase", "-n", "11", "--keep-ids", "--save", "-y"}).status == 0);
+  REQUIRE(fleet.rom("11", "servo_id") == 77);
+  SECTION("both at once") {
+    CHECK(fleet.run({"undo", "--to", "1", "-y"}).status == 0);
+  }
+  SECTION("one after the other") {
+    CHECK(fleet.run({"undo", "-y"}).status == 0);
+    CHECK(fleet.run({"undo", "-y"}).status == 0);
+  }
+  CHECK(fleet.ram("11", "servo_id") == servo_id);
+  CHECK(fleet.rom("11", "servo_id") == servo_id);
+}
+
 TEST_CASE("undo of a unit that there is twice is refused") {
   const nlohmann::json same = {{"unique_id", "00112233445566778899aabbccddeeff"}};
   nlohmann::json second = same;

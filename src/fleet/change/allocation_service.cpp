@@ -182,7 +182,7 @@ std::optional<NodeId> AllocationService::assign(const UniqueId& unique_id, NodeI
     return std::nullopt;
   }
   note_request(*unit);
-  if (const auto copy = copy_of(unique_id)) {
+  if (const auto copy = copy_of(*unit)) {
     unit->node_id = *copy;
     refuse(*unit, Event::conflict,
            {Code::duplicate_unique_id, say<texts::same_unique_id>(copy->value(), hex(unique_id)),
@@ -218,7 +218,12 @@ Error AllocationService::shared(const AllocatedUnit& unit) const {
 }
 
 std::optional<Error> AllocationService::refusal(const AllocatedUnit& unit) const {
-  return unit.is_shared ? shared(unit) : unit.refused;
+  if (unit.is_shared) {
+    return shared(unit);
+  }
+  const Roster& roster = session_.roster();
+  const bool has_copy = is_there(unit) && !roster.copies(unit.node_id).empty();
+  return has_copy ? not_unique(roster, unit.node_id) : unit.refused;
 }
 
 Error AllocationService::absence(const AllocatedUnit& unit) const {
@@ -254,6 +259,7 @@ std::optional<NodeId> AllocationService::keep(AllocatedUnit& unit, NodeId id) {
   case Holder::other: return give(unit, {.is_lost = true});
   case Holder::nobody: break;
   }
+  unit.is_shared = false;
   unit.refused.reset();
   ++unit.given;
   session_.records().give(unit.unique_id, session_.now());
@@ -275,6 +281,7 @@ std::optional<NodeId> AllocationService::give(AllocatedUnit& unit, state::Alloca
     unit.node_id = given->node_id;
     unit.is_new = true;
     unit.former = given->former;
+    unit.is_shared = false;
     unit.refused.reset();
     ++unit.given;
     session_.records().give(unit.unique_id, session_.now());
@@ -323,14 +330,20 @@ AllocationService::Holder AllocationService::holder(NodeId id, const UniqueId& u
   return member.info ? Holder::other : Holder::unknown;
 }
 
-/// A unit that asks has no node ID, so frames of its unique ID since it began are another's.
-std::optional<NodeId> AllocationService::copy_of(const UniqueId& unique_id) const {
-  const auto asked = session_.roster().asked_at(unique_id);
+/// A unit that asks has no node ID, so frames of its unique ID since it began are another's; one
+/// that was known for that remains so until it is gone. Whose frames those under a doubled ID are
+/// is not known.
+std::optional<NodeId> AllocationService::copy_of(const AllocatedUnit& unit) const {
+  const auto asked = session_.roster().asked_at(unit.unique_id);
   if (!asked) {
     return std::nullopt;
   }
+  const bool has_copy = unit.refused && unit.refused->code == Code::duplicate_unique_id;
   for (const auto& [id, member] : session_.roster().members()) {
-    if (member.is_unit(unique_id) && member.last_heard > *asked) {
+    const bool is_copy =
+        member.last_heard > *asked ||
+        (has_copy && unit.node_id == id && session_.now() - member.last_heard < offline_time);
+    if (member.is_unit(unit.unique_id) && is_copy && !session_.roster().is_doubled(id)) {
       return id;
     }
   }

@@ -76,7 +76,8 @@ state::Registers replaced_in_rom(const Plan& plan, const state::Registers& rom,
   return replaced;
 }
 
-/// An earlier change in RAM as SAVE leaves it: what it replaced in ROM. Empty: ROM stays as it is.
+/// An earlier change in RAM as SAVE leaves it: what it replaced in ROM. Empty: ROM stays as it is;
+/// ERASE before it leaves nothing but the IDs that are kept.
 std::optional<state::SnapshotEntry> lasting(state::SnapshotEntry change, const Plan& plan,
                                             const state::Registers& rom) {
   bool lasts = false;
@@ -86,7 +87,8 @@ std::optional<state::SnapshotEntry> lasting(state::SnapshotEntry change, const P
     const bool is_changed = written == change.written.end() || written->second != raw;
     raw = is_changed && replaced != rom.end() ? replaced->second : raw;
     const auto saved = bla::find(plan.expected, bla::Address(address));
-    lasts = lasts || saved != raw;
+    const bool is_kept = !plan.erase || plan.change_of(bla::Address(address)) != nullptr;
+    lasts = lasts || (is_kept && saved != raw);
   }
   change.saved = true;
   change.settled.reset();
@@ -351,7 +353,7 @@ Result<void> History::keep_lasting(std::span<const Plan> plans, const Roms& roms
   std::vector<state::SnapshotEntry> changed;
   for (const Plan& plan : plans) {
     const Servo& servo = plan.before.servo;
-    if (plan.restart != RestartKind::save || plan.erase || !servo.unique_id) {
+    if (plan.restart != RestartKind::save || !servo.unique_id) {
       continue;
     }
     const state::Registers& rom = roms.at(*servo.unique_id);

@@ -21,6 +21,8 @@ namespace {
 /// A crystal with a drift of 30 ppm uses a twentieth of the tolerance in this time.
 constexpr std::chrono::hours worth_renewing{1};
 
+constexpr int clocks_agree = 20'000; // to 50 ppm
+
 using Entries = std::vector<state::SnapshotEntry>;
 using Addresses = std::set<bla::Address>;
 
@@ -108,6 +110,11 @@ std::optional<bool> is_shown(const state::SnapshotEntry& change, const Snapshot&
 
 WallTime clock_of(const Session& session) {
   return session.wall() - session.now().time_since_epoch();
+}
+
+bool started_before(WallTime started, WallTime at, WallTime now) {
+  constexpr std::chrono::seconds clock_set{5};
+  return started + clock_set < at - (now - at) / clocks_agree;
 }
 
 WallTime last_write(const state::SnapshotEntry& change) {
@@ -245,7 +252,6 @@ LostIds History::lost_ids(const Snapshot& ram, const Session& session) const {
   for (; entry && *entry; entry = snapshots_.before(**entry)) {
     const state::SnapshotEntry& change = **entry;
     if (change.command == erase_keeping_ids) {
-      constexpr int clocks_agree = 20'000; // to 50 ppm
       const auto started = start_of(ram.servo, session);
       const WallTime now = session.wall();
       const bool is_of_this_run =

@@ -41,7 +41,7 @@ namespace {
 /// Since a time of the record, as far as the uptime tells.
 bool has_run_on(const Servo& servo, WallTime since, const Session& session) {
   const auto started = History::start_of(servo, session);
-  return started && *started < since && since <= session.wall();
+  return started && started_before(*started, since, session.wall()) && since <= session.wall();
 }
 
 std::vector<bla::Address> addresses_of(const state::Registers& registers) {

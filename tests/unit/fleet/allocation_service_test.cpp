@@ -266,6 +266,19 @@ TEST_CASE("a unit that asks while its ID is heard has a twin, and does not get i
   CHECK(refusal->message.find("the same unique ID") != std::string::npos);
 }
 
+TEST_CASE("a twin that has asked between two messages of the other gets nothing after that") {
+  Rig rig;
+  rig.ask();
+  rig.come_up();
+  rig.hear(message(dronecan::NodeStatus::type, 125, dronecan::NodeStatus{}.encode(), 1), 400ms);
+  rig.ask();
+  REQUIRE(rig.events.back() == Event::conflict);
+  rig.ask();
+  CHECK(rig.events.back() == Event::conflict);
+  CHECK(rig.count(Event::assigned) == 1);
+  CHECK(rig.service->refusal(rig.unit())->code == Code::duplicate_unique_id);
+}
+
 TEST_CASE("a unit that restarts and asks again has no twin") {
   Rig rig;
   rig.ask();

@@ -133,7 +133,7 @@ class AllocationService final : private dronecan::Service, private dronecan::All
   void note_request(AllocatedUnit& unit);
   [[nodiscard]] AllocatedUnit* known(const dronecan::UniqueId& unique_id);
   [[nodiscard]] Holder holder(dronecan::NodeId id, const dronecan::UniqueId& unique_id) const;
-  [[nodiscard]] std::optional<dronecan::NodeId> copy_of(const dronecan::UniqueId& unique_id) const;
+  [[nodiscard]] std::optional<dronecan::NodeId> copy_of(const AllocatedUnit& unit) const;
   [[nodiscard]] bool is_left_out(dronecan::Bytes prefix) const;
   [[nodiscard]] bool is_meant(dronecan::Bytes prefix) const;
   void hear_first_part(dronecan::Bytes prefix, Time at);

@@ -186,6 +186,10 @@ class History {
 /// As state::RomProof::clock, now.
 [[nodiscard]] WallTime clock_of(const Session& session);
 
+/// Whether a servo that seems to have `started` then was running at the time `at` for certain:
+/// clocks differ by 50 ppm, and are set by a few seconds.
+[[nodiscard]] bool started_before(WallTime started, WallTime at, WallTime now);
+
 /// No write of this change came later: the servo may have restarted between record and write.
 [[nodiscard]] WallTime last_write(const state::SnapshotEntry& change);
 
