@@ -14,13 +14,14 @@
 namespace blactl::fleet {
 namespace {
 
-/// Asks each node that nobody has asked yet for its unique ID: it may be that of one to be changed.
-/// A servo need not have sent actuator.Status yet.
+/// Asks each node that nobody has asked yet for its unique ID, or that has restarted since: it may
+/// be that of one to be changed. A servo need not have sent actuator.Status yet.
 Result<void> ask_units(Session& session, Patience patience) {
   std::list<UnitJob> jobs;
   std::vector<dronecan::Job*> group;
   for (const auto& [id, member] : session.roster().members()) {
-    if (session.roster().heard(id) && !member.info && !session.is_replay()) {
+    const bool has_told = member.info && member.is_unit(member.info->unique_id);
+    if (session.roster().heard(id) && !has_told && !session.is_replay()) {
       group.push_back(&jobs.emplace_back(session.records(), id, patience));
     }
   }
