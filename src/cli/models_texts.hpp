@@ -59,6 +59,10 @@ inline constexpr Text models_nothing_mentions_hint{
     "man blactl-tuning",
     "すべて表示: blactl models all。動作を遅く、柔らかく、硬く、広く、静かにする設定: "
     "man blactl-tuning"};
+inline constexpr Text models_see_tuning{
+    "\nwhich settings make a servo slower, softer, stiffer, further or quieter: man "
+    "blactl-tuning\n",
+    "\n動作を遅く、柔らかく、硬く、広く、静かにする設定: man blactl-tuning (英語)\n"};
 inline constexpr Text models_lack{"{} has no parameter {} ({})",
                                   "{} にパラメータ {} ({}) はありません"};
 inline constexpr Text models_lack_hint{"which models have it: blactl models all {}",

@@ -196,8 +196,9 @@ class Told {
       const ServoState& before = step_.before.at(serial_);
       const std::int64_t held = keeps ? before.ram.at(address) : 0;
       const std::int64_t in_rom = before.rom.at(address);
-      // one that broke off has left 0 in RAM: then ROM's is brought back
-      const bool is_brought_back = keeps && held == 0 && after_.ram.at(address) == in_rom;
+      // one that broke off has left 0 in RAM: then ROM's is brought back, as by a restart
+      const bool may_come_back = held == 0 || !step_.restarts(serial_).empty();
+      const bool is_brought_back = keeps && may_come_back && after_.ram.at(address) == in_rom;
       const std::int64_t due = is_brought_back ? in_rom : held;
       require_held("RAM", after_.ram, address, due);
       if (saved) {

@@ -239,6 +239,16 @@ TEST_CASE("apply tells how to replace a servo that is missing") {
   CHECK(contains(refused.err, "blactl replace " + place.file + " \"right aileron\""));
 }
 
+TEST_CASE("apply does not take a waiting servo for one that has another unique ID") {
+  const Place place(with(0));
+  const std::string file = place.fleet.bench().file(
+      "one.json", R"({"schema": "blactl-fleet/1", "servos": [{"name": "a", "set": {},
+        "match": {"unique_id": "00112233445566778899aabbccddeeff"}}]})");
+  const Result refused = place.fleet.run({"apply", file, "-y"});
+  CHECK(contains(refused.err, "blactl replace " + file));
+  CHECK_FALSE(contains(refused.err, "may be one of them"));
+}
+
 TEST_CASE("undo takes back what the new servo got") {
   const Place place(with(33));
   REQUIRE(place.replace().status == 0);
@@ -246,4 +256,14 @@ TEST_CASE("undo takes back what the new servo got") {
   INFO(undone.err);
   CHECK(undone.status == 0);
   CHECK(place.fleet.rom("33", "servo_id") == 0);
+}
+
+TEST_CASE("a new servo that has no node ID of its own after its restart is not the broken one") {
+  const Fleet fleet(Scene().servo(model, 0, {{"serial_number", fresh}, {"servo_id", 0}}));
+  const std::string file =
+      fleet.bench().file("wing.json", R"({"schema": "blactl-fleet/1", "servos": [
+        {"name": "left", "match": {"servo_id": 1}, "set": {"smoothing": "off"}}]})");
+  const Result replaced = fleet.run({"replace", file, "left", "-y"});
+  INFO(replaced.out << replaced.err);
+  CHECK(replaced.status == 0);
 }

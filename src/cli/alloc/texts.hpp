@@ -76,7 +76,7 @@ inline constexpr Text alloc_not_kept{
     "シミュレーションのため、割当て表はコマンド終了後に残りません"};
 inline constexpr Text alloc_wish_taken{"uid:{} gets node ID {} when it asks",
                                        "uid:{} の要求時にノード ID {} を割り当てます"};
-inline constexpr Text alloc_serial{"serial {}", "シリアル番号 {}"};
+inline constexpr Text alloc_serial{"serial {}", "製造番号 {}"};
 inline constexpr Text alloc_event_request{"asks for a node ID", "割当てを要求"};
 inline constexpr Text alloc_event_assigned{"gets node ID {}, new in the table",
                                            "ノード ID {} を新規割当て"};

@@ -136,7 +136,9 @@ std::string hint_for_missing(const fleet::FleetFile& file, const fleet::FleetEnt
       may_be_replaced ? say<texts::apply_replaced_hint>(printable(file.file), printable(entry.name))
                       : say<texts::apply_missing_hint>();
   const std::size_t waiting = roster.pending().size();
-  return waiting > 0 ? say<texts::apply_may_wait_hint>(waiting) + hint : hint;
+  const auto& unit = entry.match.unique_id;
+  const bool may_wait = waiting > 0 && (!unit || roster.is_pending(*unit));
+  return may_wait ? say<texts::apply_may_wait_hint>(waiting) + hint : hint;
 }
 
 /// The error for an entry without a servo.

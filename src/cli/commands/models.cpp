@@ -172,7 +172,8 @@ Report execute(const ModelsOptions& options, Context& context) {
   report.counts = {{"models", sheet.models.size()}};
   report.json = [&profiles, sheet](JsonWriter& json) { write_models(json, sheet, profiles); };
   report.text = [&profiles, sheet, lists](const Page& page) {
-    return lists ? list_text(sheet, page) : sheet_text(sheet, profiles, page);
+    return (lists ? list_text(sheet, page) : sheet_text(sheet, profiles, page)) +
+           (sheet.mentions.empty() ? std::string() : say<texts::models_see_tuning>());
   };
   return report;
 }

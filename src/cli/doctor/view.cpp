@@ -151,8 +151,9 @@ std::string findings_text(const fleet::Diagnoses& all, const Page& page) {
   std::string out;
   for (const auto& [first, others] : alike(told)) {
     const Diagnosis& diagnosis = all[first];
-    out += page.paint(tone(diagnosis.level), level_word(diagnosis.level)) + "  " +
-           likewise(diagnosis.text, others) + '\n';
+    out +=
+        fmt::format("{}  [{}] {}\n", page.paint(tone(diagnosis.level), level_word(diagnosis.level)),
+                    diagnosis.code, likewise(diagnosis.text, others));
     if (!diagnosis.fix.empty()) {
       out += page.fit_hint("    " + say<texts::doctor_fix>(fix_of_all(diagnosis, others))) + '\n';
     }

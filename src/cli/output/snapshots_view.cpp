@@ -3,12 +3,10 @@
 #include "blactl/base/hex.hpp"
 #include "blactl/base/rfc3339.hpp"
 #include "blactl/base/text.hpp"
-#include "blactl/bla/value.hpp"
+#include "blactl/fleet/change/undo.hpp"
 
 #include "cli/change/texts.hpp"
 #include "cli/output/table.hpp"
-
-#include <optional>
 
 namespace blactl::cli {
 
@@ -25,10 +23,8 @@ std::string memory_of(const state::SnapshotEntry& entry) {
 std::string setting_of(const state::SnapshotEntry& entry, std::uint8_t address, std::int64_t raw,
                        const bla::Profiles& profiles) {
   const bla::Parameter* parameter = profiles.find(bla::Address(address));
-  const auto held = entry.held.find(bla::address::pwm_mode.value());
-  const auto mode = held != entry.held.end() ? std::optional(held->second) : std::nullopt;
   const auto shown = [&](std::int64_t value) {
-    return parameter != nullptr ? bla::display(*parameter, value, mode) : std::to_string(value);
+    return fleet::displayed(entry, bla::Address(address), value, profiles);
   };
   const std::string name =
       parameter != nullptr ? std::string(parameter->name) : bla::Address(address).name();

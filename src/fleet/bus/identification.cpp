@@ -134,12 +134,13 @@ bool Identification::sends_actuator_status() const {
 
 /// Two units on an ID disturb each other's responses, which must not make a foreign node of them.
 /// The node name of BLA servos is not in the specification. unproven: it contains the maker or the
-/// series.
+/// series. Another run of this program does not answer GetSet.
 bool Identification::may_be_servo() const {
   const auto has = [this](std::string_view part) {
     return servo_.name.find(part) != std::string::npos;
   };
-  return has("futaba") || has("bla") || has("BLA") || roster_.is_doubled(servo_.id);
+  const bool has_name = servo_.name != own_name && (has("futaba") || has("bla") || has("BLA"));
+  return has_name || roster_.is_doubled(servo_.id);
 }
 
 /// A servo that responds, but not with its model.

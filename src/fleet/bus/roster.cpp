@@ -164,10 +164,11 @@ std::vector<NodeId> Roster::copies(NodeId id) const {
   }
   const bool is_blank = dronecan::is_blank(member->info->unique_id); // as of many other nodes
   for (const auto& [other_id, other] : members_) {
-    const bool is_one = (may_be_servo(other) || !is_blank) &&
-                        other.is_unit(member->info->unique_id) &&
-                        ran_beside(*member, other) && ran_beside(other, *member);
-    if (other_id != id && (is_one || units(other_id).contains(member->info->unique_id))) {
+    const bool is_one =
+        other.is_unit(member->info->unique_id) && (may_be_servo(other) || !is_blank);
+    const bool were_both_there = ran_beside(*member, other) && ran_beside(other, *member);
+    if (other_id != id &&
+        ((is_one && were_both_there) || units(other_id).contains(member->info->unique_id))) {
       copies.push_back(other_id);
     }
   }

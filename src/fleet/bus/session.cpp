@@ -1,5 +1,6 @@
 #include "blactl/fleet/bus/session.hpp"
 
+#include "blactl/fleet/bus/identification.hpp"
 #include "blactl/fleet/bus/texts.hpp"
 
 #include "fleet/bus/hearing.hpp"
@@ -7,6 +8,7 @@
 #include <signal.h>
 
 #include <algorithm>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -38,7 +40,7 @@ Session::Session(std::unique_ptr<can::Bus> bus, std::optional<state::LocalNodeId
     : local_(std::move(local)), hearing_(hearing), loop_(std::move(bus)),
       roster_(first_id(local_), profiles),
       node_(first_id(local_), local_ ? &local_->transfer_ids() : nullptr,
-            {.name = "blactl",
+            {.name = std::string(own_name),
              .unique_id = own_unique_id(local_ ? local_->id() : dronecan::anonymous)},
             {.send = [this](const can::Frame& frame) { loop_.send(frame); },
              .transfer =

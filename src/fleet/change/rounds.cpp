@@ -235,7 +235,8 @@ std::string Rounds::given_ids() const {
   for (const UnitChange& unit : units_) {
     const Servo& servo = unit.plan.before.servo;
     const auto id = unit.static_node_id();
-    if (id && *id != servo.id) {
+    const RegisterChange* change = unit.plan.change_of(bla::address::static_node_id);
+    if (id && change != nullptr && change->is_planned()) {
       const auto serial = servo.identity.readings().serial_number;
       servos[*id] = serial ? say<texts::question_id_of_serial>(*serial, id->value())
                            : say<texts::question_id_of_node>(servo.id.value(), id->value());

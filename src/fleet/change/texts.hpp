@@ -250,7 +250,7 @@ inline constexpr Text question_ids{
 };
 inline constexpr Text question_id_of_serial{
     "serial {}: {}",
-    "S/N {}: {}",
+    "製造番号 {}: {}",
 };
 inline constexpr Text question_id_of_node{
     "node {}: {}",

@@ -1,6 +1,7 @@
 #include "blactl/fleet/change/undo.hpp"
 
 #include "blactl/base/hex.hpp"
+#include "blactl/bla/value.hpp"
 #include "blactl/fleet/bus/read_job.hpp"
 #include "blactl/fleet/bus/texts.hpp"
 #include "blactl/fleet/change/history.hpp"
@@ -172,6 +173,16 @@ Result<std::optional<Undoing>> meant_by(const state::SnapshotStore& store,
 
 } // namespace
 
+std::string displayed(const state::SnapshotEntry& entry, bla::Address address, std::int64_t raw,
+                      const bla::Profiles& profiles) {
+  const bla::Parameter* parameter = profiles.find(address);
+  const auto mode = entry.held.find(bla::address::pwm_mode.value());
+  return parameter == nullptr
+             ? std::to_string(raw)
+             : bla::display(*parameter, raw,
+                            mode != entry.held.end() ? std::optional(mode->second) : std::nullopt);
+}
+
 Result<Undoing> as_left(Undoing change, NodeId id, Session& session, const bla::Profiles& profiles,
                         const Identification::Options& options) {
   const Servo servo = session.roster().member(id).servo();
@@ -189,13 +200,15 @@ Result<Undoing> as_left(Undoing change, NodeId id, Session& session, const bla::
   if (read.broken) {
     return std::unexpected(*read.broken);
   }
+  const bool keeps_ids = change.entry.command == erase_keeping_ids;
   std::erase_if(change.entry.held, [&](const auto& held) {
+    const bla::Address address(held.first);
     const auto written = change.written.find(held.first);
-    const auto now = read.servos.front().raw(bla::Address(held.first));
+    const auto now = read.servos.front().raw(address);
+    const bool is_erased = keeps_ids && bla::is_id(address) && now == 0;
     // where RAM holds what was there before, only a restart shows whether ROM does
     return now && *now != held.second && written != change.written.end() &&
-           !written->second.contains(*now) &&
-           bla::Address(held.first) != bla::address::static_node_id;
+           !written->second.contains(*now) && !is_erased && address != bla::address::static_node_id;
   });
   change.entry.saved = !change.entry.held.empty();
   return change;

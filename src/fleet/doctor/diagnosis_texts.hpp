@@ -90,7 +90,7 @@ inline constexpr Text answers_lost_fix{
     "配線、終端抵抗、各ノードのビットレート、バス負荷を確認して下さい。該当の問合せ: blactl scan "
     "-v"};
 inline constexpr Text shared_serial_number{"nodes {} have the same serial number {}",
-                                           "ノード {} のシリアル番号が {} で重複しています"};
+                                           "ノード {} の製造番号が {} で重複しています"};
 inline constexpr Text shared_serial_number_fix{
     "compare it with their labels; choose a servo by -n NODE or uid:UID",
     "銘板と照合して下さい。対象は -n ノード ID または uid: で指定できます"};

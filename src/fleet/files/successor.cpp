@@ -121,8 +121,11 @@ std::optional<Error> come_back(const FleetFile& file, const FleetEntry& entry,
                                const dronecan::UniqueId& unit, const Roster& roster,
                                const bla::Profiles& profiles) {
   const Match& match = entry.match;
+  const auto pending = roster.pending();
   const bool asks = match.unique_id ? match.unique_id != unit && roster.is_pending(*match.unique_id)
-                                    : !roster.pending().empty();
+                                    : std::ranges::any_of(pending, [&](const auto& prefix) {
+                                        return !dronecan::begins_with(unit, prefix); // it restarted
+                                      });
   if (asks) {
     return still_there(file, entry, {});
   }

@@ -259,6 +259,13 @@ TEST_CASE("a node that does not serve GetSet at all is no servo either") {
   CHECK(scene.requests(GetSet::type, 30) == 2);
 }
 
+TEST_CASE("another run of this program is no servo that is mute") {
+  Scene scene(R"("foreign": [{"kind": "node", "node_id": 127, "name": "blactl"}])");
+  scene.identify(127, {.patience = {.timeout = 50ms, .retries = 1}});
+  CHECK(scene.member(127).is_known());
+  CHECK_FALSE(scene.member(127).is_servo);
+}
+
 TEST_CASE("an actuator that answers neither 0x50 nor 0x51 is of another make") {
   Dialogue dialogue;
   dialogue.hear_actuator();

@@ -7,8 +7,12 @@
 #include "blactl/fleet/bus/roster.hpp"
 
 #include <optional>
+#include <string_view>
 
 namespace blactl::fleet {
+
+/// The node name of this program (GetNodeInfo).
+inline constexpr std::string_view own_name = "blactl";
 
 /// Identifies one node as part of a job: feed it outcomes until it has no further request.
 class Identification {

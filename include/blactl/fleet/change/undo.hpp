@@ -12,6 +12,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <string>
 #include <vector>
 
 namespace blactl::fleet {
@@ -31,6 +32,10 @@ struct Undoing {
   std::optional<WallTime> perhaps_saved_since{};
   std::map<std::uint8_t, std::set<std::int64_t>> written{}; ///< by all tries
 };
+
+/// A value of a register of this entry as people read it, in the unit that the entry tells.
+[[nodiscard]] std::string displayed(const state::SnapshotEntry& entry, bla::Address address,
+                                    std::int64_t raw, const bla::Profiles& profiles);
 
 /// The change as far as the servo on this node ID shows it, where it broke off. One that has run on
 /// since has saved nothing; of what a restart has brought back only what the tries have written is
