@@ -1,3 +1,4 @@
+#include "blactl/fleet/change/let_in.hpp"
 #include "blactl/fleet/change/static_ids.hpp"
 #include "blactl/fleet/change/table_entries.hpp"
 #include "blactl/fleet/change/wanted_ids.hpp"

@@ -2,7 +2,7 @@
 
 #include "blactl/fleet/bus/discovery.hpp"
 #include "blactl/fleet/bus/ticker.hpp"
-#include "blactl/fleet/change/allocation_service.hpp"
+#include "blactl/fleet/change/let_in.hpp"
 
 #include "cli/change/entries_view.hpp"
 #include "cli/change/event_file.hpp"

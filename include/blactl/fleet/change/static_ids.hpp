@@ -4,8 +4,8 @@
 #include "blactl/base/error.hpp"
 #include "blactl/bla/profile.hpp"
 #include "blactl/fleet/bus/roster.hpp"
-#include "blactl/fleet/change/allocation_service.hpp"
 #include "blactl/fleet/change/goal.hpp"
+#include "blactl/fleet/change/let_in.hpp"
 #include "blactl/state/allocation_store.hpp"
 
 #include <vector>
