@@ -180,3 +180,17 @@ TEST_CASE("a restart that brings back a servo ID which another node commands is 
   check_error(back, 9, "driven", "node 40 commands servo ID 3, which node 11 would have then");
   CHECK(bench.run({"-i", "sim:", "restart", "-n", "11", "-y", "--while-driven"}).status == 0);
 }
+
+TEST_CASE("apply and undo change nothing of a servo that another node drives, in RAM either") {
+  const nlohmann::json drives{
+      {"kind", "autopilot"},
+      {"commands", {{"servo_ids", {1}}, {"type", 1}, {"value", 0.1}, {"rate", 50}}}};
+  const Bench bench;
+  const std::string file = bench.file("fleet.json", R"({"schema": "blactl-fleet/1", "servos": [
+      {"name": "a", "match": {"servo_id": 1}, "set": {"smoothing": "off"}}]})");
+  const Scene driven = Scene().servo("BLA21-12U-AB", 11, {{"servo_id", 1}}).foreign(other, drives);
+  const Result refused = driven.run(bench, {"apply", file, "-y", "--no-save"});
+  CHECK(refused.status == 9);
+  CHECK(codes(refused) == std::vector<std::string>{"driven"});
+  CHECK(driven.run(bench, {"apply", file, "-y", "--no-save", "--while-driven"}).status == 0);
+}

@@ -109,7 +109,8 @@ fleet::Goal goal(const fleet::FleetEntry& entry, dronecan::NodeId id, const Mann
           .name = entry.name,
           .wanted = {.assignments = entry.set,
                      .restart = manner.saves(entry) ? std::optional(fleet::RestartKind::save)
-                                                    : std::nullopt},
+                                                    : std::nullopt,
+                     .never_while_driven = true},
           .evidence = manner.trusts_ram ? fleet::Evidence::ram : fleet::Evidence::restart};
 }
 

@@ -99,7 +99,7 @@ std::optional<Error> forbidden(const Roster& roster, Time now, const Plan& plan,
     return Error{Code::state, say<texts::restarted_before_write>(id), say<texts::run_again_hint>(),
                  id};
   }
-  const Guard guard(roster, while_driven || !plan.moves(), while_driven);
+  const Guard guard(roster, while_driven || !plan.waits_for_driver(), while_driven);
   if (auto why = guard.forbids(servo, now)) {
     return why;
   }

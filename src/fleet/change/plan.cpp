@@ -290,12 +290,12 @@ bool Plan::acts() const {
   return erase || restart || std::ranges::any_of(changes, &RegisterChange::is_planned);
 }
 
-bool Plan::moves() const {
-  bool moves = erase || restart;
+bool Plan::waits_for_driver() const {
+  bool waits = erase || restart || never_while_driven;
   for_each_proposal(*this, [&](const RegisterChange&, const bla::Proposal& proposal) {
-    moves = moves || bla::may_move(proposal);
+    waits = waits || bla::may_move(proposal);
   });
-  return moves;
+  return waits;
 }
 
 std::optional<dronecan::NodeId> Plan::given_node_id() const {
@@ -372,6 +372,7 @@ Result<Plan> make_plan(const Wanted& wanted, Snapshot before, const bla::Profile
             .keep_ids = wanted.keep_ids,
             .restart = wanted.restart,
             .proves_rom = wanted.proves_rom,
+            .never_while_driven = wanted.never_while_driven,
             .rom_servo_id = wanted.rom_servo_id,
             .shown = wanted.also_read};
   if (wanted.erase) {

@@ -21,7 +21,8 @@ namespace blactl::fleet {
 using dronecan::NodeId;
 
 Result<Wanted> to_undo(const state::SnapshotEntry& entry, const bla::Profiles& profiles) {
-  Wanted wanted{.restart = entry.saved ? std::optional(RestartKind::save) : std::nullopt};
+  Wanted wanted{.restart = entry.saved ? std::optional(RestartKind::save) : std::nullopt,
+                .never_while_driven = true};
   for (const auto& [address, raw] : entry.held) {
     const bla::Address setting(address);
     if (!profiles.is_setting(setting)) {

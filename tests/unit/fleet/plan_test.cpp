@@ -169,7 +169,7 @@ TEST_CASE("a change says from what to what; what is held already is not sent") {
 TEST_CASE("a plan without anything to do does nothing, moves nothing and asks nothing") {
   const Plan plan = plan_for(set({"reverse=on"}), {{at::reverse, 1}});
   CHECK_FALSE(plan.acts());
-  CHECK_FALSE(plan.moves());
+  CHECK_FALSE(plan.waits_for_driver());
   CHECK(question_of(plan).empty());
 }
 
@@ -200,7 +200,7 @@ TEST_CASE("an erased servo holds the defaults of its model, its IDs included") {
     CHECK(plan.expected == *bla21().identity.factory_defaults());
     CHECK(plan.expected.at(at::servo_id) == 0);
     CHECK(plan.acts());
-    CHECK(plan.moves());
+    CHECK(plan.waits_for_driver());
   }
 }
 
@@ -318,7 +318,7 @@ TEST_CASE("the question of a torque limit of 0 tells whether it lets go of the l
   const std::string now = "(with a torque limit of 0 % the servo lets go of the load";
   const std::string later = "no effect while speed_torque_control (0x25) is off";
   const Plan held_off = plan_for(set({"torque_limit_cw=0%"}));
-  CHECK(held_off.moves());
+  CHECK(held_off.waits_for_driver());
   CHECK(asks(held_off, later));
   CHECK_FALSE(asks(held_off, now));
   for (const Plan& lets_go :
@@ -392,7 +392,7 @@ TEST_CASE("one static node ID for several servos is refused, for one it is not")
 TEST_CASE("what may move the shaft is asked with node, register, before and after") {
   const Plan plan =
       plan_for(set({"angle_limit_cw=90deg", "smoothing=off"}), {{at::current_angle, 1000}});
-  CHECK(plan.moves());
+  CHECK(plan.waits_for_driver());
   CHECK(asks(plan, "node 11: angle_limit_cw 1799  (179.9 deg) -> 900  (90.0 deg)"));
   CHECK_FALSE(asks(plan, "smoothing"));
 }
@@ -401,7 +401,7 @@ TEST_CASE("what moves nothing is not asked") {
   const Plan plan =
       plan_for(set({"angle_limit_cw=90deg", "smoothing=off"}), {{at::current_angle, 0}});
   CHECK(plan.acts());
-  CHECK_FALSE(plan.moves());
+  CHECK_FALSE(plan.waits_for_driver());
   CHECK(question_of(plan).empty());
 }
 
@@ -411,14 +411,14 @@ TEST_CASE("a save is asked where torque is on, in the words for what will happen
   CHECK(asks(soft, "runs slowly to 0 deg"));
   const Plan hard = plan_for(save, {{at::torque_output, 0}, {at::soft_start, 0}});
   CHECK(asks(hard, "returns where the shaft is"));
-  CHECK(soft.moves());
+  CHECK(soft.waits_for_driver());
 }
 
 TEST_CASE("a mere restart is asked whatever RAM holds: it starts with what ROM holds") {
   for (const std::int64_t torque : {0, 1}) {
     const Plan plan = plan_for(restart, {{at::torque_output, torque}, {at::soft_start, 1}});
     CHECK(asks(plan, "which is not known: torque may come on"));
-    CHECK(plan.moves());
+    CHECK(plan.waits_for_driver());
   }
 }
 

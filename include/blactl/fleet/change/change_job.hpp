@@ -118,7 +118,9 @@ class ChangeJob final : public dronecan::Job {
 
   [[nodiscard]] bool is_proven() const;
 
-  [[nodiscard]] bool may_be_driven() const { return options_.while_driven || !plan_.moves(); }
+  [[nodiscard]] bool may_be_driven() const {
+    return options_.while_driven || !plan_.waits_for_driver();
+  }
 
   [[nodiscard]] Stage after_erase() const;
   [[nodiscard]] Stage after_write() const;

@@ -27,6 +27,7 @@ struct Wanted {
   bool proves_rom = false; ///< after a plain restart the configuration is read: the contents of ROM
   std::optional<std::int64_t> rom_servo_id{}; ///< that a plain restart brings back, as far as known
   std::vector<bla::Address> also_read{};      ///< shown in addition to the changes
+  bool never_while_driven = false; ///< whatever it changes: contract, section 4, of whole commands
 
   /// Whether it concerns whole servos, not single registers.
   [[nodiscard]] bool is_about_whole_servo() const { return assignments.empty(); }
@@ -47,6 +48,7 @@ struct Plan {
   std::vector<RegisterChange> changes{};
   std::optional<RestartKind> restart{};
   bool proves_rom = false;                    ///< as in Wanted
+  bool never_while_driven = false;            ///< as in Wanted
   bool may_change_all = false;                ///< any setting, in no order that is known
   std::optional<std::int64_t> rom_servo_id{}; ///< likewise
   std::vector<bla::Address> shown{};          ///< Wanted::also_read
@@ -71,8 +73,8 @@ struct Plan {
   /// Whether requests will be sent that change the servo.
   [[nodiscard]] bool acts() const;
 
-  /// Whether it can move the shaft or release the load.
-  [[nodiscard]] bool moves() const;
+  /// Whether it can move the shaft or release the load, or is never done while others drive.
+  [[nodiscard]] bool waits_for_driver() const;
 };
 
 /// The registers that the plan depends on. Errors: changes that this servo refuses in any state:
