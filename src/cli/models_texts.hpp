@@ -54,14 +54,12 @@ inline constexpr Text models_one_parameter_hint{
 inline constexpr Text models_nothing_mentions{"no parameter has '{}' in its name or explanation",
                                               "名称や説明に '{}' を含むパラメータはありません"};
 inline constexpr Text models_nothing_mentions_hint{
-    "all of them: blactl models all; which make a servo slower, softer, stiffer, further or "
-    "quieter: "
+    "all of them: blactl models all; to make a servo slower, softer, stiffer, further or quieter: "
     "man blactl-tuning",
     "すべて表示: blactl models all。動作を遅く、柔らかく、硬く、広く、静かにする設定: "
     "man blactl-tuning"};
 inline constexpr Text models_see_tuning{
-    "\nwhich settings make a servo slower, softer, stiffer, further or quieter: man "
-    "blactl-tuning\n",
+    "\nto make a servo slower, softer, stiffer, further or quieter: man blactl-tuning\n",
     "\n動作を遅く、柔らかく、硬く、広く、静かにする設定: man blactl-tuning (英語)\n"};
 inline constexpr Text models_lack{"{} has no parameter {} ({})",
                                   "{} にパラメータ {} ({}) はありません"};

@@ -186,6 +186,17 @@ class Told {
     }
   }
 
+  /// What it held before then is in nobody's hands.
+  [[nodiscard]] bool has_restarted_before_change() const {
+    const auto ids = step_.node_ids(serial_);
+    const auto changes = step_.outcome.record.changes();
+    const auto first = std::ranges::find_if(
+        changes, [&](const OnWire& each) { return ids.contains(each.destination()); });
+    const auto restarts = step_.restarts(serial_);
+    return first != changes.end() &&
+           std::ranges::any_of(restarts, [&](Time at) { return at < first->at; });
+  }
+
   void check_erased() const {
     const bool saved = saves(step_.command);
     if (!saved && !is_ram_known()) {
@@ -197,7 +208,7 @@ class Told {
       const std::int64_t held = keeps ? before.ram.at(address) : 0;
       const std::int64_t in_rom = before.rom.at(address);
       // one that broke off has left 0 in RAM: then ROM's is brought back, as by a restart
-      const bool may_come_back = held == 0 || !step_.restarts(serial_).empty();
+      const bool may_come_back = held == 0 || has_restarted_before_change();
       const bool is_brought_back = keeps && may_come_back && after_.ram.at(address) == in_rom;
       const std::int64_t due = is_brought_back ? in_rom : held;
       require_held("RAM", after_.ram, address, due);

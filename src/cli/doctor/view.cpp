@@ -10,7 +10,9 @@
 
 #include <chrono>
 #include <cstdint>
+#include <iterator>
 #include <optional>
+#include <ranges>
 #include <span>
 #include <string>
 #include <vector>
@@ -109,12 +111,11 @@ std::string named_text(const fleet::Findings& findings) {
            });
   });
   std::string line = say<texts::doctor_found_named>(findings.nodes.size(), others);
-  std::string commanders;
-  for (const auto& [id, commander] : findings.roster->commanders()) {
-    commanders += (commanders.empty() ? "" : ", ") + std::to_string(id.value());
-  }
+  std::vector<dronecan::NodeId> commanders;
+  std::ranges::copy(findings.roster->commanders() | std::views::keys,
+                    std::back_inserter(commanders));
   if (!commanders.empty()) {
-    join(line, say<texts::doctor_commanders>(commanders));
+    join(line, say<texts::doctor_commanders>(fleet::id_list(commanders)));
   }
   return line;
 }
