@@ -195,7 +195,7 @@ Values expected_after(const Plan& plan) {
 }
 
 template <const Text& one, const Text& several>
-std::string restart_question(std::span<const NodeId> servos) {
+std::string restart_question(std::span<const dronecan::NodeId> servos) {
   return servos.empty()       ? std::string()
          : servos.size() == 1 ? say<one>(servos.front().value())
                               : say<several>(id_list(servos));
@@ -203,7 +203,7 @@ std::string restart_question(std::span<const NodeId> servos) {
 
 /// What the servos do at their restarts, those that do the same in one line.
 std::string restart_questions(std::span<const Plan> plans) {
-  std::vector<NodeId> unknown, softly, hard;
+  std::vector<dronecan::NodeId> unknown, softly, hard;
   for (const Plan& plan : plans) {
     const bool is_known = plan.restart != RestartKind::restart; // SAVE keeps what is in RAM
     const auto motion = bla::restart_motion(plan.expected);
