@@ -1,5 +1,6 @@
 #include "fleet/doctor/motion_facts.hpp"
 
+#include "blactl/bla/fault_bits.hpp"
 #include "blactl/bla/faults.hpp"
 #include "blactl/bla/value.hpp"
 
