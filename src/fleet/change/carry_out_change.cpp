@@ -66,7 +66,15 @@ std::vector<Error> Change::carry_out(const MoveHook& moved) {
     look_back({});
   }
   end_record();
+  look_back_once_more();
   return errors;
+}
+
+/// What came while the disk was busy with the record was not heard yet.
+void Change::look_back_once_more() {
+  if (session_.live_until(session_.now())) { // else nobody is heard any more
+    look_back({});
+  }
 }
 
 /// What has become of servos that were done before others.
@@ -165,32 +173,40 @@ Result<Change::Lost> Change::look_at_restarted() {
 
 /// Checks that servos left unchanged still hold their goals, as far as heard.
 void Change::look_back(const Lost& lost) {
-  const Roster& roster = session_.roster();
   for (GoalResult& result : results_) {
     if (result.need != Need::nothing) {
       look_back(result, lost); // of one round; its own job has checked the rest
       continue;
     }
-    const Servo& servo = result.servo();
-    const std::uint8_t id = servo.id.value();
-    const bool restarted = roster.member(servo.id).boots != servo.boot;
-    if (roster.is_doubled(servo.id)) {
-      result.errors.push_back(doubled(roster, servo.id));
-    } else if (const auto writer = result.rom_proven ? roster.setter_of(servo.id, servo.since)
-                                                     : roster.writer_to(servo.id, servo.since)) {
-      result.errors.push_back({Code::state, say<texts::written_by_other>(id, writer->value()),
-                               say<texts::other_writer_hint>(), id});
-    } else if (restarted && !result.rom_proven) { // RAM was reloaded from ROM
-      result.errors.push_back(
-          {Code::state, say<texts::lost_since>(id), say<texts::run_again_hint>(), id});
-    } else if (const auto found = lost.find(servo.id); found != lost.end()) {
-      result.errors.push_back(found->second);
+    if (auto why = result.errors.empty() ? lost_unchanged(result, lost) : std::nullopt) {
+      result.errors.push_back(std::move(*why));
     }
     result.is_done = result.errors.empty();
     if (!result.is_done) {
       result.change.doubt();
     }
   }
+}
+
+/// Why a servo that was left unchanged may not hold its goal any more.
+std::optional<Error> Change::lost_unchanged(const GoalResult& result, const Lost& lost) const {
+  const Roster& roster = session_.roster();
+  const Servo& servo = result.servo();
+  const std::uint8_t id = servo.id.value();
+  const bool restarted = roster.member(servo.id).boots != servo.boot;
+  if (roster.is_doubled(servo.id)) {
+    return doubled(roster, servo.id);
+  }
+  if (const auto writer = result.rom_proven ? roster.setter_of(servo.id, servo.since)
+                                            : roster.writer_to(servo.id, servo.since)) {
+    return Error{Code::state, say<texts::written_by_other>(id, writer->value()),
+                 say<texts::other_writer_hint>(), id};
+  }
+  if (restarted && !result.rom_proven) { // RAM was reloaded from ROM
+    return Error{Code::state, say<texts::lost_since>(id), say<texts::run_again_hint>(), id};
+  }
+  const auto found = lost.find(servo.id);
+  return found != lost.end() ? std::optional(found->second) : std::nullopt;
 }
 
 /// Later rounds may have taken long: another unit, or another node's write, may have come since.

@@ -23,6 +23,11 @@ constexpr std::chrono::hours worth_renewing{1};
 
 constexpr int clocks_agree = 20'000; // to 50 ppm
 
+/// How far the clock of a servo may have gone away from ours since then.
+Duration drift(WallTime since, WallTime now) {
+  return std::max(now - since, WallTime::duration{}) / clocks_agree;
+}
+
 using Entries = std::vector<state::SnapshotEntry>;
 using Addresses = std::set<bla::Address>;
 
@@ -55,12 +60,13 @@ std::optional<bool> are_shown(const Entries& changes, const Snapshot& ram) {
   return shown;
 }
 
-/// A restart between the record and the write puts changes before the start of the servo, and a
-/// clock that was set back puts them into the future: then RAM itself tells, if `ram` is known.
-/// From an earlier run of the servo there is nothing in RAM that ROM does not hold.
-bool are_in_ram(const Entries& changes, WallTime started, const Snapshot* ram) {
+/// A restart between the record and the write puts changes before the start of the servo, as does
+/// its crystal, and a clock that was set back puts them into the future: then RAM itself tells, if
+/// `ram` is known. From an earlier run of the servo there is nothing in RAM that ROM does not hold.
+bool are_in_ram(const Entries& changes, WallTime started, WallTime now, const Snapshot* ram) {
   const state::SnapshotEntry& newest = changes.front();
-  if (newest.saved || newest.written.empty() || last_write(newest) < started) {
+  const WallTime last = newest.saved ? newest.at : last_write(newest);
+  if (newest.written.empty() || last < started - drift(newest.at, now)) {
     return false;
   }
   return (ram != nullptr ? are_shown(changes, *ram) : std::nullopt).value_or(true);
@@ -114,7 +120,7 @@ WallTime clock_of(const Session& session) {
 
 bool started_before(WallTime started, WallTime at, WallTime now) {
   constexpr std::chrono::seconds clock_set{5};
-  return started + clock_set < at - (now - at) / clocks_agree;
+  return started + clock_set < at - drift(at, now);
 }
 
 WallTime last_write(const state::SnapshotEntry& change) {
@@ -194,7 +200,7 @@ std::vector<state::SnapshotEntry> History::unsaved(const Servo& servo, const Ses
         changes.push_back(std::move(**entry));
         entry = snapshots_.before(changes.back());
       }
-      if (!are_in_ram(changes, *started, ram)) {
+      if (!are_in_ram(changes, *started, session.wall(), ram)) {
         break;
       }
     }
@@ -255,7 +261,7 @@ LostIds History::lost_ids(const Snapshot& ram, const Session& session) const {
       const auto started = start_of(ram.servo, session);
       const WallTime now = session.wall();
       const bool is_of_this_run =
-          started && change.at <= now && change.at - (now - change.at) / clocks_agree >= *started;
+          started && change.at <= now && change.at - drift(change.at, now) >= *started;
       return {.ids = change.ended ? bla::Values() : taken_by(change, since, ram),
               .is_certain = is_of_this_run};
     }

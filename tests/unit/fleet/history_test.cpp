@@ -1157,6 +1157,31 @@ TEST_CASE("a restart that was killed has taken nothing from a servo that runs on
   CHECK(kept.history().known_rom(ram, *scene.session) == bla::Values{{at::angle_limit_cw, 1799}});
 }
 
+TEST_CASE("what a killed change may have left in RAM is not forgotten as clocks drift") {
+  const Kept kept;
+  const Scene scene(servos());
+  const Kept elsewhere;
+  REQUIRE(change(scene, set("angle_limit_cw=90deg"), elsewhere).is_done());
+  scene.live(6h);
+  const Snapshot ram = scene.read(11, registers({"angle_limit_cw"}));
+  const auto started = kept.history().start_of(ram.servo, *scene.session);
+  REQUIRE(started);
+  const auto unsaved = [&](Duration before_start) {
+    auto store = SnapshotStore::open(kept.folder(), Access::write);
+    REQUIRE(store->keep(std::vector{SnapshotEntry{.at = *started - before_start,
+                                                  .command = "set",
+                                                  .unique_id = *ram.servo.unique_id,
+                                                  .held = {{0x38, 1799}},
+                                                  .written = {{0x38, 900}},
+                                                  .saved = true}},
+                        scene.session->wall()));
+    return kept.history().recorded_rom(ram, *scene.session);
+  };
+  CHECK(unsaved(5s).values.empty());
+  CHECK(unsaved(1s).values == bla::Values{{at::angle_limit_cw, 1799}}); // 50 ppm of six hours
+  CHECK(unsaved(1s).perhaps_saved.contains(at::angle_limit_cw));
+}
+
 TEST_CASE("whether a change from before the start is in RAM, RAM itself tells") {
   const Kept kept;
   const Scene scene(servos());

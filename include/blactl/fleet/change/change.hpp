@@ -106,6 +106,9 @@ class Change {
   [[nodiscard]] Result<Lost> look_at_restarted();
   [[nodiscard]] bool has_restarted_since(const GoalResult& result) const;
   void look_back(const Lost& lost);
+  void look_back_once_more();
+  [[nodiscard]] std::optional<Error> lost_unchanged(const GoalResult& result,
+                                                    const Lost& lost) const;
   void look_back(GoalResult& result, const Lost& lost) const;
   void go_on_with_record();
   void end_record();
