@@ -1,5 +1,7 @@
 #include "state/database_file.hpp"
 
+#include "blactl/base/system_error.hpp"
+
 #include "state/database_errors.hpp"
 #include "state/obstacle.hpp"
 
@@ -182,15 +184,15 @@ Result<void> set_up(const Database& database, bool writable) {
 }
 
 /// Syncs the folder, because the file got its name after SQLite had synced it for the journal.
-Result<void> sync_folder_of(const std::string& path, const DatabaseFormat& format) {
-  const std::string folder = std::filesystem::path(path).parent_path().string();
+Result<void> sync_folder_of(const DatabaseName& file) {
+  const std::string folder = std::filesystem::path(file.path).parent_path().string();
   const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   const bool synced = descriptor >= 0 && fsync(descriptor) == 0;
   const int error = errno;
   if (descriptor >= 0) {
     close(descriptor);
   }
-  return synced ? Result<void>() : std::unexpected(errors::of_system(name_of(path, format), error));
+  return synced ? Result<void>() : std::unexpected(errors::of_system(file, error));
 }
 
 Result<void> fill(const std::string& draft, const std::string& path, const DatabaseFormat& format) {
@@ -211,6 +213,39 @@ Result<void> check_for_logs_of(const std::string& path, const DatabaseFormat& fo
   return log.empty() || has_content(path)
              ? Result<void>()
              : std::unexpected(errors::left_over(name_of(path, format), log));
+}
+
+/// A file that is complete from the moment it has its name (0600); false: another has the name.
+template <class Fill> Result<bool> put(const DatabaseName& file, Fill fill_draft) {
+  std::string draft = file.path + ".XXXXXX";
+  const int descriptor = mkostemp(draft.data(), O_CLOEXEC); // 0600
+  if (descriptor < 0) {
+    return std::unexpected(errors::of_system(file, errno));
+  }
+  close(descriptor);
+  const Result<void> filled = fill_draft(draft);
+  // Unlike rename(), link() cannot replace a file that another process has made meanwhile.
+  const bool is_named = filled && link(draft.c_str(), file.path.c_str()) == 0;
+  const int error = errno;
+  unlink(draft.c_str());
+  if (!filled) {
+    return std::unexpected(filled.error());
+  }
+  return is_named || error == EEXIST ? Result<bool>(is_named)
+                                     : std::unexpected(errors::of_system(file, error));
+}
+
+/// All pages, of one moment.
+Result<void> copy_pages(const Database& from, const Database& to) {
+  constexpr int all_pages = -1;
+  constexpr const char* schema = "main";
+  sqlite3_backup* backup = sqlite3_backup_init(to.handle(), schema, from.handle(), schema);
+  if (backup == nullptr) {
+    return std::unexpected(to.failure(sqlite3_errcode(to.handle())));
+  }
+  sqlite3_backup_step(backup, all_pages);
+  const int result = sqlite3_backup_finish(backup); // of the step, too
+  return result == SQLITE_OK ? Result<void>() : std::unexpected(to.failure(result));
 }
 
 } // namespace
@@ -247,19 +282,21 @@ Result<void> make_database(const std::string& path, const DatabaseFormat& format
   if (auto clear = check_for_logs_of(path, format); !clear) {
     return clear;
   }
-  std::string draft = path + ".XXXXXX";
-  const int descriptor = mkostemp(draft.data(), O_CLOEXEC); // 0600
-  if (descriptor < 0) {
-    return std::unexpected(errors::of_system(name_of(path, format), errno));
+  const auto made = put(name_of(path, format),
+                        [&](const std::string& draft) { return fill(draft, path, format); });
+  return made ? sync_folder_of(name_of(path, format)) : std::unexpected(made.error());
+}
+
+Result<void> copy_database(const Database& database, const std::string& path) {
+  const DatabaseName copy{path, database.name().what, database.name().way_back};
+  const auto made = put(copy, [&](const std::string& draft) -> Result<void> {
+    const auto to = Database::open(draft, copy, std::chrono::milliseconds(0));
+    return to ? copy_pages(database, *to) : std::unexpected(to.error());
+  });
+  if (!made) {
+    return std::unexpected(made.error());
   }
-  close(descriptor);
-  auto made = fill(draft, path, format);
-  // Unlike rename(), link() cannot replace a file that another process has made meanwhile.
-  if (made && link(draft.c_str(), path.c_str()) != 0 && errno != EEXIST) {
-    made = std::unexpected(errors::of_system(name_of(path, format), errno));
-  }
-  unlink(draft.c_str());
-  return made ? sync_folder_of(path, format) : made;
+  return *made ? sync_folder_of(copy) : std::unexpected(errors::io(copy, system_reason(EEXIST)));
 }
 
 Result<Database> make_temporary_database(const DatabaseFormat& format) {

@@ -42,6 +42,10 @@ struct DatabaseFormat {
 /// Creates the file (0600), complete or not at all. Succeeds if another process was faster.
 [[nodiscard]] Result<void> make_database(const std::string& path, const DatabaseFormat& format);
 
+/// Copies a database, as it is in one moment, into a new file (0600), which is complete or not
+/// there. Errors: of_system(): there is one already, or it cannot be written.
+[[nodiscard]] Result<void> copy_database(const Database& database, const std::string& path);
+
 /// Creates a database in memory that ends with the object.
 [[nodiscard]] Result<Database> make_temporary_database(const DatabaseFormat& format);
 

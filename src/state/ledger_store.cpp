@@ -22,17 +22,23 @@ namespace blactl::state {
 
 namespace {
 
-/// "record_id, time, …": `each` returns the text for a column.
-template <class Each> std::string columns(Each each) {
+/// What format 1 did not have.
+constexpr std::string_view new_columns[]{"start_time",  "parameter", "expected",  "actual",
+                                         "station_seq", "machine",   "refers_to", "reason"};
+
+/// "record_id, time, …": `each` returns the text for a column; of `version` 1 or 2.
+template <class Each> std::string columns(Each each, int version = 2) {
   std::string text;
   for (const LedgerColumn& column : ledger_columns) {
-    text += (text.empty() ? "" : ", ") + std::string(each(column));
+    if (version > 1 || std::ranges::find(new_columns, column.name) == std::end(new_columns)) {
+      text += (text.empty() ? "" : ", ") + std::string(each(column));
+    }
   }
   return text;
 }
 
-std::string column_names() {
-  return columns([](const LedgerColumn& column) { return column.name; });
+std::string column_names(int version = 2) {
+  return columns([](const LedgerColumn& column) { return column.name; }, version);
 }
 
 std::string_view type_of(const LedgerColumn& column) {
@@ -40,35 +46,58 @@ std::string_view type_of(const LedgerColumn& column) {
   return types.at(column.member.index());
 }
 
-/// `record_id`, `time` and `verdict` are always set. The index repeats whole rows, so the check of
-/// the file detects any change.
+/// `record_id`, `time` and `verdict` are always set.
+std::string definitions(std::string_view verdicts, int version) {
+  return columns(
+      [&](const LedgerColumn& column) {
+        const std::string definition = fmt::format("{} {}", column.name, type_of(column));
+        return column.name == "record_id" ? definition + " NOT NULL UNIQUE"
+               : column.name == "time"    ? definition + " NOT NULL"
+               : column.name == "verdict"
+                   ? fmt::format("{} NOT NULL CHECK (verdict IN ({}))", definition, verdicts)
+                   : definition;
+      },
+      version);
+}
+
+/// A row `begun` is removed as its record is added. The first index repeats whole rows, so the
+/// check of the file detects any change.
 std::string ledger_schema() {
-  const std::string definitions = columns([](const LedgerColumn& column) {
-    const std::string definition = fmt::format("{} {}", column.name, type_of(column));
-    return column.name == "record_id" ? definition + " NOT NULL UNIQUE"
-           : column.name == "time"    ? definition + " NOT NULL"
-           : column.name == "verdict"
-               ? definition + " NOT NULL CHECK (verdict IN ('pass', 'fail', 'skip'))"
-               : definition;
-  });
-  return fmt::format("CREATE TABLE ledger (number INTEGER PRIMARY KEY, {}, UNIQUE (number, {})) "
-                     "STRICT",
-                     definitions, column_names());
+  return fmt::format(
+      "CREATE TABLE ledger (number INTEGER PRIMARY KEY, {}, UNIQUE (serial_number, number, {}), "
+      "UNIQUE (unique_id, recipe, number), UNIQUE (station, station_seq), "
+      "CHECK ((verdict = 'begun') = (station_seq IS NULL))) STRICT",
+      definitions("'begun', 'pass', 'fail', 'error', 'skip', 'scrap'", 2), column_names());
+}
+
+OlderFormat first_ledger() {
+  return {.schema =
+              fmt::format("CREATE TABLE ledger (number INTEGER PRIMARY KEY, {}, UNIQUE (number, "
+                          "{})) STRICT",
+                          definitions("'pass', 'fail', 'skip'", 1), column_names(1)),
+          .upgrade = fmt::format(
+              "ALTER TABLE ledger RENAME TO former; {}; "
+              "INSERT INTO ledger (number, {}, station_seq) SELECT number, {}, row_number() OVER "
+              "(PARTITION BY station ORDER BY number) FROM former; DROP TABLE former",
+              ledger_schema(), column_names(1), column_names(1))};
 }
 
 } // namespace
 
 const DatabaseFormat& ledger_format() {
   static const DatabaseFormat format{.application_id = 0x626C616C, // "blal"
-                                     .version = 1,
+                                     .version = 2,
                                      .schema = ledger_schema(),
                                      .file = "ledger.db",
                                      .what = texts::ledger,
-                                     .way_back = texts::ledger_back};
+                                     .way_back = texts::ledger_back,
+                                     .older = {first_ledger()}};
   return format;
 }
 
 namespace {
+
+constexpr const char* begun_verdict = "begun";
 
 void bind(Statement& statement, const LedgerRecord& record) {
   for (const LedgerColumn& column : ledger_columns) {
@@ -113,20 +142,49 @@ Result<std::optional<LedgerRecord>> find(const Database& database, const std::st
   return statement.first([&] { return record_of(statement); });
 }
 
-/// The part of add() inside its transaction.
 Result<void> insert(const Database& database, const LedgerRecord& record) {
-  const auto known = find(database, record.record_id.value_or(std::string()));
-  if (!known) {
-    return std::unexpected(known.error());
-  }
-  if (*known) {
-    return **known == record ? Result<void>()
-                             : fail(Code::state, say<texts::ledger_twice>(*record.record_id));
-  }
   Statement statement(database, fmt::format("INSERT INTO ledger ({}) VALUES ({})", column_names(),
                                             columns([](const LedgerColumn&) { return "?"; })));
   bind(statement, record);
   return statement.run();
+}
+
+/// The next one of the station.
+Result<std::int64_t> next_number(const Database& database, const std::string& station) {
+  Statement statement(database, "SELECT coalesce(max(station_seq), 0) + 1 FROM ledger WHERE "
+                                "station = ?");
+  statement.bind(station);
+  const auto next = statement.first([&] { return statement.integer(0); });
+  return next ? Result<std::int64_t>(next->value_or(1)) : std::unexpected(next.error());
+}
+
+Result<void> remove_begun(const Database& database, const std::string& record_id) {
+  Statement statement(database, "DELETE FROM ledger WHERE record_id = ? AND verdict = ?");
+  statement.bind(record_id).bind(std::string_view(begun_verdict));
+  return statement.run();
+}
+
+/// The part of end() inside its transaction.
+Result<std::int64_t> add(const Database& database, LedgerRecord record) {
+  const auto known = find(database, *record.record_id);
+  if (!known) {
+    return std::unexpected(known.error());
+  }
+  if (*known && (*known)->verdict != begun_verdict) {
+    record.station_seq = (*known)->station_seq;
+    return **known == record ? Result<std::int64_t>(record.station_seq.value_or(0))
+                             : fail(Code::state, say<texts::ledger_twice>(*record.record_id));
+  }
+  if (auto removed = remove_begun(database, *record.record_id); !removed) {
+    return std::unexpected(removed.error());
+  }
+  const auto number = next_number(database, *record.station);
+  if (!number) {
+    return number;
+  }
+  record.station_seq = *number;
+  const auto inserted = insert(database, record);
+  return inserted ? number : std::unexpected(inserted.error());
 }
 
 /// The conditions of a query, and the values for them.
@@ -137,8 +195,10 @@ class Conditions {
     add("time < ?", query.until ? std::optional(rfc3339(*query.until)) : std::nullopt);
     add("verdict = ?", query.verdict);
     add("work_order = ?", query.work_order);
+    add("station = ?", query.station);
     add("unique_id = ?", query.unique_id);
     add("recipe = ?", query.recipe);
+    add("record_id = ?", query.record_id);
     if (query.serial_number) {
       text_ += " AND serial_number = " + std::to_string(*query.serial_number);
     }
@@ -160,7 +220,7 @@ class Conditions {
     }
   }
 
-  std::string text_ = "1";
+  std::string text_ = "verdict <> 'begun'";
   std::vector<std::string> values_;
 };
 
@@ -205,8 +265,63 @@ Result<LedgerStore> LedgerStore::unshared() {
   return store_on<LedgerStore>(StateFile::unshared(ledger_format()));
 }
 
-Result<void> LedgerStore::add(const LedgerRecord& record) {
-  return file_->transact([&](const Database& database) { return insert(database, record); });
+Result<void> LedgerStore::begin(const LedgerRecord& record) {
+  return file_->transact([&](const Database& database) -> Result<void> {
+    const auto known = find(database, *record.record_id);
+    if (!known || *known) {
+      return known ? fail(Code::state, say<texts::ledger_twice>(*record.record_id))
+                   : std::unexpected(known.error());
+    }
+    LedgerRecord begun = record;
+    begun.verdict = begun_verdict;
+    return insert(database, begun);
+  });
+}
+
+Result<std::int64_t> LedgerStore::end(const LedgerRecord& record) {
+  return file_->transact([&](const Database& database) { return add(database, record); });
+}
+
+Result<std::vector<LedgerRecord>>
+LedgerStore::begun(const std::optional<std::string>& station) const {
+  std::vector<LedgerRecord> records;
+  const Database* database = file_->database();
+  if (database == nullptr) {
+    return records;
+  }
+  Statement statement(*database, fmt::format("SELECT {} FROM ledger WHERE verdict = 'begun' AND "
+                                             "(?1 IS NULL OR station = ?1) ORDER BY number",
+                                             column_names()));
+  station ? statement.bind(*station) : statement.bind(std::nullopt);
+  const auto read = statement.each([&] {
+    records.push_back(record_of(statement));
+    records.back().verdict.reset();
+    return true;
+  });
+  return read ? Result<std::vector<LedgerRecord>>(std::move(records))
+              : std::unexpected(read.error());
+}
+
+Result<std::vector<LedgerHole>> LedgerStore::holes() const {
+  std::vector<LedgerHole> holes;
+  const Database* database = file_->database();
+  if (const auto whole = file_->check(); !whole || database == nullptr) {
+    return whole ? Result<std::vector<LedgerHole>>(holes) : std::unexpected(whole.error());
+  }
+  Statement statement(
+      *database,
+      "SELECT station, before + 1, station_seq - 1 FROM (SELECT station, station_seq, "
+      "lag(station_seq, 1, 0) OVER (PARTITION BY station ORDER BY station_seq) AS before "
+      "FROM ledger WHERE station_seq IS NOT NULL) WHERE station_seq <> before + 1");
+  const auto read = statement.each([&] {
+    holes.push_back({std::string(statement.text(0)), statement.integer(1), statement.integer(2)});
+    return true;
+  });
+  return read ? Result<std::vector<LedgerHole>>(std::move(holes)) : std::unexpected(read.error());
+}
+
+Result<void> LedgerStore::back_up(const std::string& file) const {
+  return file_->copy_to(file);
 }
 
 Result<void> LedgerStore::each(const LedgerQuery& query,

@@ -97,6 +97,12 @@ Result<void> StateFile::check() const {
   return database_ ? check_all(*database_) : Result<void>();
 }
 
+Result<void> StateFile::copy_to(const std::string& path) const {
+  return database_ ? copy_database(*database_, path)
+                   : std::unexpected(Error{Code::state, say<texts::nothing_to_copy>(path_),
+                                           say<texts::nothing_to_copy_hint>(), std::nullopt});
+}
+
 /// The error of SQLite for a file opened read-only.
 Error StateFile::not_writable() const {
   return errors::denied({path_, format_->what, format_->way_back}, sqlite3_errstr(SQLITE_READONLY));

@@ -43,6 +43,9 @@ class StateFile {
   /// Reads the whole file, if there is one. Errors: those of Database.
   [[nodiscard]] Result<void> check() const;
 
+  /// As copy_database(). Errors also: state: there is no file to copy.
+  [[nodiscard]] Result<void> copy_to(const std::string& path) const;
+
   /// The path of the file, even if that does not exist yet; empty: it has none.
   [[nodiscard]] const std::string& path() const { return path_; }
 

@@ -88,6 +88,11 @@ inline constexpr Text ledger{"ledger", "製造記録"};
 inline constexpr Text ledger_back{
     "a new one is started; servos finished in the old one would be processed again",
     "製造記録は新しく作成されます (この記録で完了したサーボは再度処理されます)"};
+inline constexpr Text nothing_to_copy{"there is nothing to copy: {} does not exist",
+                                      "コピーする記録がありません ({} が存在しません)"};
+inline constexpr Text nothing_to_copy_hint{
+    "it is made by the first `blactl provision`; BLACTL_STATE_DIR tells where it is looked for",
+    "記録は最初の `blactl provision` で作成されます。場所は BLACTL_STATE_DIR で指定します"};
 inline constexpr Text ledger_twice{"another record of the ledger has the record_id {}",
                                    "record_id {} の製造記録が既に存在します"};
 inline constexpr Text counters{"table of assigned IDs", "採番表"};

@@ -29,7 +29,8 @@ struct IdWish {
 };
 
 /// Given IDs, in `counters.db` of a folder: an SQLite database that several stations of a machine
-/// use at once. When a function returns, its result is on disk. Each recipe has its own IDs.
+/// use at once. When a function returns, its result is on disk. Each recipe has its own IDs. A lap
+/// of a counter goes from its first to its last ID; within one no ID is given twice.
 ///
 /// A file that is not ours or was made by a newer blactl is an error, and so is damage where it is
 /// met (check_state_files() meets all of it). It stays as it is, byte for byte.
@@ -58,13 +59,16 @@ class CounterStore {
 
   /// The IDs of this unit by this recipe, in the order of the wishes: those given to it before,
   /// whatever the counter is now; else the requested ones, given to it permanently: all or none. A
-  /// counter continues after its last ID and skips those given by labels, unless it begins again:
-  /// then IDs are given more than once. Errors: counter_end; label_mismatch: a requested value is
+  /// counter gives first what was freed in its present lap, and then continues after its last ID;
+  /// it skips those given by labels. Errors: counter_end; label_mismatch: a requested value is
   /// another unit's, or the unit has another.
   [[nodiscard]] Result<std::vector<std::int64_t>> assign(const dronecan::UniqueId& unique_id,
                                                          const std::string& recipe,
                                                          std::span<const IdWish> wishes,
                                                          WallTime now);
+
+  /// Frees what this unit has by this recipe: it is given to others, and the unit counts as new.
+  [[nodiscard]] Result<void> free(const dronecan::UniqueId& unique_id, const std::string& recipe);
 
  private:
   std::unique_ptr<StateFile> file_;

@@ -17,9 +17,10 @@ struct LedgerRecord {
   using Text = std::optional<std::string>;
 
   Text record_id{};  ///< unique among the records of all machines
-  Text time{};       ///< time of the verdict, RFC 3339 UTC, whole seconds
-  Text verdict{};    ///< pass, fail or skip
-  Text code{};       ///< of the error that failed it
+  Text time{};       ///< of the verdict, RFC 3339 UTC, whole seconds
+  Text start_time{}; ///< when the unit was recognised, likewise
+  Text verdict{};    ///< pass, fail, error, skip or scrap; empty: begun, not ended
+  Text code{};       ///< of the error that it ended with
   Integer attempt{}; ///< from 1, of this unit by this recipe
   Integer serial_number{};
   Text unique_id{}; ///< 32 hexadecimal digits
@@ -30,13 +31,20 @@ struct LedgerRecord {
   Integer node_id{};      ///< on arrival; 0: it asked for one
   Integer node_id_after{};
   Integer static_node_id{}, servo_id{};
-  Text config_sha256{}; ///< over all configuration as read after the restart
+  Text parameter{};             ///< the first that was not as it should be: its name
+  Integer expected{}, actual{}; ///< its values
+  Text config_sha256{};         ///< over all configuration as read after the restart
   Integer changed_count{};
   Real voltage_v{};
   Integer temperature_c{};
   Text faults{}; ///< "0x1A.4;0x19.8"
   Real duration_s{};
-  Text station{}, operator_name{}, work_order{};
+  Text station{};
+  Integer station_seq{}; ///< counts the records of a station without holes, from 1
+  Text machine{};        ///< the name of the host
+  Text operator_name{}, work_order{};
+  Text refers_to{}; ///< of a scrap: the record_id of what it takes back
+  Text reason{};    ///< by a person, or what the record has to tell beside its verdict
   Text recipe{}, recipe_sha256{}, profile_sha256{};
   Text tool_version{};
 
@@ -54,9 +62,10 @@ struct LedgerColumn {
 };
 
 /// All columns, in the order of the contract.
-inline constexpr std::array<LedgerColumn, 29> ledger_columns{{
+inline constexpr std::array<LedgerColumn, 37> ledger_columns{{
     {"record_id", &LedgerRecord::record_id},
     {"time", &LedgerRecord::time},
+    {"start_time", &LedgerRecord::start_time},
     {"verdict", &LedgerRecord::verdict},
     {"code", &LedgerRecord::code},
     {"attempt", &LedgerRecord::attempt},
@@ -71,6 +80,9 @@ inline constexpr std::array<LedgerColumn, 29> ledger_columns{{
     {"node_id_after", &LedgerRecord::node_id_after},
     {"static_node_id", &LedgerRecord::static_node_id},
     {"servo_id", &LedgerRecord::servo_id},
+    {"parameter", &LedgerRecord::parameter},
+    {"expected", &LedgerRecord::expected},
+    {"actual", &LedgerRecord::actual},
     {"config_sha256", &LedgerRecord::config_sha256},
     {"changed_count", &LedgerRecord::changed_count},
     {"voltage_v", &LedgerRecord::voltage_v},
@@ -78,8 +90,12 @@ inline constexpr std::array<LedgerColumn, 29> ledger_columns{{
     {"faults", &LedgerRecord::faults},
     {"duration_s", &LedgerRecord::duration_s},
     {"station", &LedgerRecord::station},
+    {"station_seq", &LedgerRecord::station_seq},
+    {"machine", &LedgerRecord::machine},
     {"operator", &LedgerRecord::operator_name},
     {"work_order", &LedgerRecord::work_order},
+    {"refers_to", &LedgerRecord::refers_to},
+    {"reason", &LedgerRecord::reason},
     {"recipe", &LedgerRecord::recipe},
     {"recipe_sha256", &LedgerRecord::recipe_sha256},
     {"profile_sha256", &LedgerRecord::profile_sha256},

@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace blactl::state {
 
@@ -22,11 +23,20 @@ struct LedgerQuery {
   std::optional<WallTime> since{}; ///< inclusive; whole seconds
   std::optional<WallTime> until{}; ///< exclusive
   std::optional<std::int64_t> serial_number{};
-  std::optional<std::string> verdict{}, work_order{}, unique_id{}, recipe{};
+  std::optional<std::string> verdict{}, work_order{}, station{}, unique_id{}, recipe{}, record_id{};
+};
+
+/// Records of a station that are missing: from the first to the last number.
+struct LedgerHole {
+  std::string station;
+  std::int64_t first = 0, last = 0;
+
+  friend bool operator==(const LedgerHole&, const LedgerHole&) = default;
 };
 
 /// Records in `ledger.db` of a folder: an SQLite database that several stations of a machine use at
-/// once. When a function returns, its result is on disk. Records are never changed or removed.
+/// once. When a function returns, its result is on disk. Records are never changed or removed. What
+/// is begun is kept apart until it has ended.
 ///
 /// A file that is not ours or was made by a newer blactl is an error, and so is damage where it is
 /// met (check_state_files() meets all of it). It stays as it is, byte for byte.
@@ -53,10 +63,26 @@ class LedgerStore {
   LedgerStore& operator=(LedgerStore&&) noexcept;
   ~LedgerStore();
 
-  /// Adds `record`, which has a record_id, a time and a verdict. Adding an identical record again
-  /// succeeds: a sender may repeat one if it cannot know whether it arrived. Further errors: state:
-  /// a different record has its record_id.
-  [[nodiscard]] Result<void> add(const LedgerRecord& record);
+  /// Keeps a record that has a record_id, a time and a station, and no verdict yet. Further errors:
+  /// state: this record_id is known.
+  [[nodiscard]] Result<void> begin(const LedgerRecord& record);
+
+  /// Adds a record, which has a record_id, a time, a station and a verdict, with the next number of
+  /// its station; it may have begun before. Adding the same again changes nothing: a sender may
+  /// repeat a record if it cannot know whether it arrived. Returns the number. Further errors:
+  /// state: a different record has its record_id.
+  [[nodiscard]] Result<std::int64_t> end(const LedgerRecord& record);
+
+  /// What has begun and not ended; of one station, or of all.
+  [[nodiscard]] Result<std::vector<LedgerRecord>>
+  begun(const std::optional<std::string>& station = {}) const;
+
+  /// The holes in the numbers of all stations. Further errors: as check_state_files().
+  [[nodiscard]] Result<std::vector<LedgerHole>> holes() const;
+
+  /// Copies the whole ledger, of one moment, into a new file. Further errors: io: it cannot be
+  /// written, or is there already.
+  [[nodiscard]] Result<void> back_up(const std::string& file) const;
 
   /// Calls `take` for each record, in the order of addition, until it returns false. Others may add
   /// records meanwhile, which come too.

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <chrono>
+#include <filesystem>
 #include <set>
 #include <string>
 #include <utility>
@@ -18,6 +19,19 @@ using namespace std::chrono_literals;
 using dronecan::UniqueId;
 
 namespace {
+
+/// As the first format was written: the units 0 to 2 in two laps of 1 to 2.
+const std::string first_counters =
+    "PRAGMA application_id = 1651269987; PRAGMA user_version = 1;"
+    "CREATE TABLE assignments (number INTEGER PRIMARY KEY, recipe TEXT NOT NULL, parameter TEXT "
+    "NOT NULL, unique_id BLOB NOT NULL CHECK (length(unique_id) = 16), value INTEGER NOT NULL, "
+    "counted INTEGER NOT NULL CHECK (counted IN (0, 1)), at INTEGER NOT NULL CHECK (at BETWEEN 0 "
+    "AND 253402300799999999), UNIQUE (recipe, parameter, unique_id), UNIQUE (recipe, parameter, "
+    "counted, number, value, unique_id, at)) STRICT;"
+    "INSERT INTO assignments (recipe, parameter, unique_id, value, counted, at) VALUES "
+    "('aileron', 'servo_id', x'0000A5A5A5A5A5A5A5A5A5A5A5A5A5A5', 1, 1, 1),"
+    "('aileron', 'servo_id', x'0100A5A5A5A5A5A5A5A5A5A5A5A5A5A5', 2, 1, 2),"
+    "('aileron', 'servo_id', x'0200A5A5A5A5A5A5A5A5A5A5A5A5A5A5', 1, 1, 3)";
 
 CounterStore opened(const Folder& folder) {
   auto store = CounterStore::open((folder.path / "state").string(), Access::write, 10s);
@@ -102,6 +116,66 @@ TEST_CASE("where one of two IDs cannot be given, none is") {
   CHECK(second.error().code == Code::counter_end);
   CHECK(second.error().message.find("static_node_id") != std::string::npos);
   CHECK(given(store, 3, counted(1, 9)) == "2"); // not lost
+}
+
+TEST_CASE("within one lap no ID is given twice, whoever gives it") {
+  const Folder folder;
+  CounterStore store = opened(folder);
+  const IdWish wish = counted(1, 3, true);
+  CHECK(given(store, 1, wish) == "1");
+  CHECK(given(store, 2, labelled(2)) == "2");
+  CHECK(given(store, 3, wish) == "3");
+  CHECK(given(store, 4, wish) == "1"); // the second lap
+  CHECK(given(store, 5, labelled(1)) == "label_mismatch");
+  CHECK(given(store, 5, labelled(3)) == "3");
+  CHECK(given(store, 6, wish) == "2");
+  CHECK(given(store, 7, wish) == "1"); // 3 is told by a label
+}
+
+TEST_CASE("what was freed is given next, before the counter goes on") {
+  const Folder folder;
+  CounterStore store = opened(folder);
+  const IdWish wish = counted(1, 8);
+  for (int i = 1; i <= 8; ++i) {
+    CHECK(given(store, i, wish) == std::to_string(i));
+  }
+  CHECK(given(store, 9, wish) == "counter_end");
+  REQUIRE(store.free(unit(3), "elevator")); // it has nothing there
+  CHECK(given(store, 9, wish) == "counter_end");
+  REQUIRE(store.free(unit(3), "aileron"));
+  REQUIRE(store.free(unit(3), "aileron")); // asked once more
+  CHECK(given(store, 9, wish) == "3");
+  CHECK(given(store, 3, wish) == "counter_end"); // the scrapped one counts as new
+  REQUIRE(store.free(unit(5), "aileron"));
+  CHECK(given(store, 10, labelled(5)) == "5");
+}
+
+TEST_CASE("what was freed in an earlier lap is not given in the present one") {
+  const Folder folder;
+  CounterStore store = opened(folder);
+  const IdWish wish = counted(1, 2, true);
+  for (int i = 1; i <= 3; ++i) {
+    given(store, i, wish);
+  }
+  REQUIRE(store.free(unit(2), "aileron"));
+  CHECK(given(store, 4, wish) == "2"); // of the second lap, as ever
+  CHECK(given(store, 5, wish) == "1");
+  REQUIRE(store.free(unit(5), "aileron"));
+  CHECK(given(store, 6, wish) == "1");
+  CHECK(given(store, 7, wish) == "2");
+}
+
+TEST_CASE("assignments of the first format are moved over") {
+  const Folder folder;
+  std::filesystem::create_directories(folder.path / "state");
+  run_sql(folder.path / "state" / "counters.db", first_counters);
+  CounterStore store = opened(folder);
+  const IdWish wish = counted(1, 2, true);
+  CHECK(given(store, 0, wish) == "1");
+  CHECK(given(store, 1, wish) == "2");
+  CHECK(given(store, 2, wish) == "1");
+  CHECK(given(store, 3, wish) == "2"); // the second lap goes on
+  CHECK(given(store, 4, wish) == "1");
 }
 
 TEST_CASE("stations beside each other give no ID twice") {

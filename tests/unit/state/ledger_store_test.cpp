@@ -22,13 +22,39 @@ using namespace std::chrono_literals;
 
 namespace {
 
+/// As the first format was written.
+constexpr const char* first_ledger =
+    "PRAGMA application_id = 1651269996; PRAGMA user_version = 1;"
+    "CREATE TABLE ledger (number INTEGER PRIMARY KEY, record_id TEXT NOT NULL UNIQUE, time TEXT "
+    "NOT NULL, verdict TEXT NOT NULL CHECK (verdict IN ('pass', 'fail', 'skip')), code TEXT, "
+    "attempt INTEGER, serial_number INTEGER, unique_id TEXT, model TEXT, firmware_version INTEGER, "
+    "hardware_version INTEGER, production_date TEXT, label TEXT, node_id INTEGER, node_id_after "
+    "INTEGER, static_node_id INTEGER, servo_id INTEGER, config_sha256 TEXT, changed_count INTEGER, "
+    "voltage_v REAL, temperature_c INTEGER, faults TEXT, duration_s REAL, station TEXT, operator "
+    "TEXT, work_order TEXT, recipe TEXT, recipe_sha256 TEXT, profile_sha256 TEXT, tool_version "
+    "TEXT, UNIQUE (number, record_id, time, verdict, code, attempt, serial_number, unique_id, "
+    "model, firmware_version, hardware_version, production_date, label, node_id, node_id_after, "
+    "static_node_id, servo_id, config_sha256, changed_count, voltage_v, temperature_c, faults, "
+    "duration_s, station, operator, work_order, recipe, recipe_sha256, profile_sha256, "
+    "tool_version)) STRICT;"
+    "INSERT INTO ledger (record_id, time, verdict, station) VALUES "
+    "('a', '2026-11-22T12:00:00Z', 'pass', 'bench');"
+    "INSERT INTO ledger (record_id, time, verdict, model, station) VALUES "
+    "('b', '2026-11-22T12:00:00Z', 'skip', 'BLA21-12U-AB', 'bench');";
+
 LedgerRecord record(const std::string& id, WallTime at = noon,
                     const std::string& verdict = "pass") {
   LedgerRecord one;
   one.record_id = id;
   one.time = rfc3339(at);
   one.verdict = verdict;
+  one.station = "bench";
   one.serial_number = 240900558;
+  return one;
+}
+
+LedgerRecord numbered(LedgerRecord one, std::int64_t number) {
+  one.station_seq = number;
   return one;
 }
 
@@ -48,6 +74,7 @@ LedgerRecord full() {
         },
         column.member);
   }
+  one.station_seq.reset(); // the ledger's own
   return one;
 }
 
@@ -75,7 +102,7 @@ std::vector<LedgerRecord> found(const LedgerStore& store, const LedgerQuery& que
 }
 
 void add(LedgerStore& store, const LedgerRecord& one) {
-  const auto added = store.add(one);
+  const auto added = store.end(one);
   INFO((added ? "" : added.error().message));
   REQUIRE(added);
 }
@@ -99,8 +126,8 @@ TEST_CASE("a record comes back as it was, whatever of it is known") {
   }
   const auto records = found(opened(folder, Access::read));
   REQUIRE(records.size() == 2);
-  CHECK(records[0] == full());
-  CHECK(records[1] == record("b"));
+  CHECK(records[0] == numbered(full(), 1));
+  CHECK(records[1] == numbered(record("b"), 2));
 }
 
 TEST_CASE("the keys of a record are those of the contract, each once") {
@@ -119,10 +146,10 @@ TEST_CASE("a record may be sent twice, and stands once; another one with its ID 
   add(store, full());
   add(store, full());
   CHECK(found(store).size() == 1);
-  const auto other = store.add(record("a"));
+  const auto other = store.end(record("a"));
   REQUIRE_FALSE(other);
   CHECK(other.error().code == Code::state);
-  CHECK(found(store).front() == full());
+  CHECK(found(store).front() == numbered(full(), 1));
 }
 
 TEST_CASE("a query gives what it names, in the order in which it was added") {
@@ -171,7 +198,7 @@ TEST_CASE("who reads records slowly keeps nobody from adding one") {
     if (seen.size() == 10) {
       LedgerStore other =
           LedgerStore::open((folder.path / "state").string(), Access::write, 20ms).value();
-      CHECK(other.add(record("new")));
+      CHECK(other.end(record("new")));
     }
     seen.push_back(*one.record_id);
     return true;
@@ -191,8 +218,77 @@ TEST_CASE("without a file there are no records, and reading makes none") {
 TEST_CASE("what is no verdict is not recorded") {
   const Folder folder;
   LedgerStore store = opened(folder);
-  CHECK_FALSE(store.add(record("a", noon, "perhaps")));
+  CHECK_FALSE(store.end(record("a", noon, "perhaps")));
   CHECK(found(store).empty());
+}
+
+TEST_CASE("what is begun is kept apart until it has ended, also beyond the process") {
+  const Folder folder;
+  LedgerRecord one = record("a");
+  one.verdict.reset();
+  {
+    LedgerStore store = opened(folder);
+    REQUIRE(store.begin(one));
+    CHECK_FALSE(store.begin(one));
+  }
+  LedgerStore store = opened(folder);
+  CHECK(found(store).empty());
+  CHECK(store.begun() == std::vector{one});
+  CHECK(store.begun("bench") == std::vector{one});
+  CHECK(store.begun("other") == std::vector<LedgerRecord>());
+  CHECK(store.end(record("a", noon, "error")) == 1);
+  CHECK(store.begun() == std::vector<LedgerRecord>());
+  CHECK(found(store) == std::vector{numbered(record("a", noon, "error"), 1)});
+  CHECK_FALSE(store.begin(one)); // its ID is used
+}
+
+TEST_CASE("each station counts its records without holes, and a hole is found") {
+  const Folder folder;
+  LedgerStore store = opened(folder);
+  for (const char* id : {"a", "b", "c", "d", "e"}) {
+    add(store, record(id));
+  }
+  LedgerRecord other = record("f");
+  other.station = "other";
+  add(store, other);
+  CHECK(store.end(record("a")) == 1); // sent once more
+  CHECK(store.holes() == std::vector<LedgerHole>());
+  run_sql(folder.path / "state" / "ledger.db",
+          "DELETE FROM ledger WHERE record_id IN ('a', 'c', 'd')");
+  CHECK(store.holes() == std::vector<LedgerHole>{{"bench", 1, 1}, {"bench", 3, 4}});
+}
+
+TEST_CASE("a copy of the ledger is a ledger, and replaces no file") {
+  const Folder folder;
+  LedgerStore store = opened(folder);
+  add(store, full());
+  const std::filesystem::path copies = folder.path / "copy";
+  std::filesystem::create_directory(copies);
+  REQUIRE(store.back_up((copies / "ledger.db").string()));
+  const auto copied = LedgerStore::open(copies.string(), Access::read, 10s);
+  REQUIRE(copied);
+  CHECK(found(*copied) == std::vector{numbered(full(), 1)});
+  CHECK((std::filesystem::status(copies / "ledger.db").permissions() &
+         std::filesystem::perms::others_all) == std::filesystem::perms::none);
+  const auto twice = store.back_up((copies / "ledger.db").string());
+  REQUIRE_FALSE(twice);
+  CHECK(twice.error().code == Code::io);
+  CHECK(names_in(copies) == std::set<std::string>{"ledger.db"});
+  const auto nothing = opened(Folder(), Access::read).back_up((copies / "b.db").string());
+  REQUIRE_FALSE(nothing);
+  CHECK(nothing.error().code == Code::state);
+}
+
+TEST_CASE("a ledger of the first format is moved over") {
+  const Folder folder;
+  std::filesystem::create_directories(folder.path / "state");
+  run_sql(folder.path / "state" / "ledger.db", first_ledger);
+  const auto records = found(opened(folder, Access::read));
+  REQUIRE(records.size() == 2);
+  CHECK(records[0].record_id == "a");
+  CHECK(records[1].verdict == "skip");
+  CHECK(records[1].station_seq == 2);
+  CHECK(records[1].model == "BLA21-12U-AB");
 }
 
 TEST_CASE("two stations write into one ledger") {
@@ -201,7 +297,7 @@ TEST_CASE("two stations write into one ledger") {
   CHECK(all_at_once(stations, [&](int station) {
     LedgerStore store = opened(folder);
     for (int i = 0; i < units; ++i) {
-      if (!store.add(record(std::to_string(station) + "." + std::to_string(i)))) {
+      if (!store.end(record(std::to_string(station) + "." + std::to_string(i)))) {
         return false;
       }
     }
