@@ -53,6 +53,7 @@ constexpr std::array entries{
     Entry{Code::firmware_too_old, "firmware_too_old", 9},
     Entry{Code::several_servos, "several_servos", 9},
     Entry{Code::counter_end, "counter_end", 9},
+    Entry{Code::attempts, "attempts", 9},
     Entry{Code::interrupted, "interrupted", 130},
 };
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <optional>
 
 namespace blactl {
 namespace {
@@ -47,37 +46,55 @@ class Reader {
 };
 
 /// full-date
-bool is_date(Reader& reader) {
+std::optional<std::chrono::sys_days> date_of(Reader& reader) {
   const auto year = reader.number(4);
   const auto month = year && reader.skip("-") ? reader.number(2) : std::nullopt;
   const auto day = month && reader.skip("-") ? reader.number(2) : std::nullopt;
-  return day && std::chrono::year_month_day(std::chrono::year(*year),
-                                            std::chrono::month(static_cast<unsigned>(*month)),
-                                            std::chrono::day(static_cast<unsigned>(*day)))
-                    .ok();
+  if (!day) {
+    return std::nullopt;
+  }
+  const std::chrono::year_month_day date(std::chrono::year(*year),
+                                         std::chrono::month(static_cast<unsigned>(*month)),
+                                         std::chrono::day(static_cast<unsigned>(*day)));
+  return date.ok() ? std::optional(std::chrono::sys_days(date)) : std::nullopt;
 }
 
 /// "HH:MM"
-bool is_hours_and_minutes(Reader& reader) {
+std::optional<std::chrono::minutes> hours_and_minutes(Reader& reader) {
   const auto hours = reader.number(2);
   const auto minutes = hours && reader.skip(":") ? reader.number(2) : std::nullopt;
-  return minutes && *hours < 24 && *minutes < 60;
+  return minutes && *hours < 24 && *minutes < 60
+             ? std::optional(std::chrono::hours(*hours) + std::chrono::minutes(*minutes))
+             : std::nullopt;
 }
 
-/// partial-time; 60 is a leap second.
-bool is_time_of_day(Reader& reader) {
-  const auto seconds =
-      is_hours_and_minutes(reader) && reader.skip(":") ? reader.number(2) : std::nullopt;
-  return seconds && *seconds <= 60 && (!reader.skip(".") || reader.skip_digits());
+/// partial-time; 60 is a leap second. Parts of a second are left out.
+std::optional<std::chrono::seconds> time_of_day(Reader& reader) {
+  const auto minutes = hours_and_minutes(reader);
+  const auto seconds = minutes && reader.skip(":") ? reader.number(2) : std::nullopt;
+  return seconds && *seconds <= 60 && (!reader.skip(".") || reader.skip_digits())
+             ? std::optional(*minutes + std::chrono::seconds(*seconds))
+             : std::nullopt;
+}
+
+/// time-offset
+std::optional<std::chrono::minutes> offset(Reader& reader) {
+  if (reader.skip("Zz")) {
+    return std::chrono::minutes(0);
+  }
+  const bool is_east = reader.skip("+");
+  const auto distance = is_east || reader.skip("-") ? hours_and_minutes(reader) : std::nullopt;
+  return distance && !is_east ? std::optional(-*distance) : distance;
 }
 
 } // namespace
 
-bool is_rfc3339(std::string_view text) {
+std::optional<WallTime> parse_rfc3339(std::string_view text) {
   Reader reader(text);
-  return is_date(reader) && reader.skip("Tt") && is_time_of_day(reader) &&
-         (reader.skip("Zz") || (reader.skip("+-") && is_hours_and_minutes(reader))) &&
-         reader.is_at_end();
+  const auto date = date_of(reader);
+  const auto time = date && reader.skip("Tt") ? time_of_day(reader) : std::nullopt;
+  const auto east = time ? offset(reader) : std::nullopt;
+  return east && reader.is_at_end() ? std::optional<WallTime>(*date + *time - *east) : std::nullopt;
 }
 
 } // namespace blactl

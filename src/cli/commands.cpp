@@ -32,10 +32,10 @@ std::string_view name(Kind kind) {
 
 std::span<const Command* const> all_commands() {
   using namespace commands;
-  static constexpr std::array<const Command*, 22> all{
-      &scan,    &alloc,      &get,           &set,          &save,   &erase,   &restart, &wait,
-      &faults,  &pwm_config, &export_servos, &diff,         &apply,  &replace, &undo,    &monitor,
-      &command, &trace,      &doctor,        &characterize, &models, &sim};
+  static constexpr std::array<const Command*, 24> all{
+      &scan,   &alloc,      &get,           &set,   &save,   &erase,        &restart, &wait,
+      &faults, &pwm_config, &export_servos, &diff,  &apply,  &replace,      &undo,    &provision,
+      &ledger, &monitor,    &command,       &trace, &doctor, &characterize, &models,  &sim};
   return all;
 }
 

@@ -83,4 +83,12 @@ Result<fleet::History> open_history(std::string_view interface, std::string_view
   return fleet::History(std::string(command), std::move(*snapshots), std::move(*proofs));
 }
 
+Result<state::LedgerStore> open_ledger(std::string_view interface, state::Access access) {
+  return open_store<state::LedgerStore>(interface, access);
+}
+
+Result<state::CounterStore> open_counters(std::string_view interface, state::Access access) {
+  return open_store<state::CounterStore>(interface, access);
+}
+
 } // namespace blactl::cli

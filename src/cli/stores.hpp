@@ -6,6 +6,8 @@
 #include "blactl/base/error.hpp"
 #include "blactl/fleet/change/history.hpp"
 #include "blactl/state/allocation_store.hpp"
+#include "blactl/state/counter_store.hpp"
+#include "blactl/state/ledger_store.hpp"
 #include "blactl/state/snapshot_store.hpp"
 
 #include <string>
@@ -28,5 +30,13 @@ namespace blactl::cli {
 /// The changes that were recorded. Errors: as SnapshotStore::open().
 [[nodiscard]] Result<state::SnapshotStore> open_snapshots(std::string_view interface,
                                                           state::Access access);
+
+/// The records of the production line. Errors: as LedgerStore::open().
+[[nodiscard]] Result<state::LedgerStore> open_ledger(std::string_view interface,
+                                                     state::Access access);
+
+/// The IDs given on it. Errors: as CounterStore::open().
+[[nodiscard]] Result<state::CounterStore> open_counters(std::string_view interface,
+                                                        state::Access access);
 
 } // namespace blactl::cli

@@ -28,7 +28,7 @@ Wish read_entry(const json::Value& value, const std::vector<Wish>& before, json:
   object.finish();
   const Wish wish{unique_id.value_or(UniqueId{}), NodeId(static_cast<std::uint8_t>(node_id))};
   const auto written = time != nullptr ? json::as_string(*time, faults) : std::nullopt;
-  if (written && !is_rfc3339(*written)) {
+  if (written && !parse_rfc3339(*written)) {
     faults.add(*time, say<texts::no_time>());
   }
   if (object.exists() && object.has("unique_id") && wish.unique_id == UniqueId{}) {

@@ -50,6 +50,7 @@ enum class Code : std::uint8_t {
   firmware_too_old,
   several_servos,
   counter_end,
+  attempts,
   interrupted,
 };
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -23,7 +24,7 @@ namespace blactl {
                      clock.hours().count(), clock.minutes().count(), clock.seconds().count());
 }
 
-/// Whether the text is a date-time of RFC 3339, section 5.6, in any time zone.
-[[nodiscard]] bool is_rfc3339(std::string_view text);
+/// A date-time of RFC 3339, section 5.6, in any time zone, to the second; empty: it is none.
+[[nodiscard]] std::optional<WallTime> parse_rfc3339(std::string_view text);
 
 } // namespace blactl

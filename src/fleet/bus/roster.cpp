@@ -265,6 +265,21 @@ std::set<NodeId> Roster::doubled() const {
   return all;
 }
 
+void Roster::forget_gone(Time since) {
+  std::erase_if(members_, [&](const auto& member) {
+    const NodeId id = member.first;
+    const bool is_gone = member.second.last_heard < since;
+    if (is_gone) {
+      heard_[id.value()] = false;
+      watches_[id.value()] = {};
+      doubled_.erase(id);
+      units_.erase(id);
+    }
+    return is_gone;
+  });
+  std::erase_if(pending_, [&](const auto& asking) { return asking.second.last < since; });
+}
+
 void Roster::forget_doubled(Time since) {
   for (const NodeId id : doubled()) {
     if (doubled_at(id) < since) {

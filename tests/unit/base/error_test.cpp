@@ -19,7 +19,7 @@ TEST_CASE("every code has the word and the exit status of the contract") {
       {9,
        "duplicate_node_id duplicate_servo_id duplicate_unique_id other_allocator armed driven busy "
        "no_local_node_id no_profile model_mismatch rom_unread stale_plan table_full label_mismatch "
-       "firmware_too_old several_servos counter_end "},
+       "firmware_too_old several_servos counter_end attempts "},
       {130, "interrupted "}};
   std::map<int, std::string> found;
   for (int code = 0; code <= static_cast<int>(Code::interrupted); ++code) {

@@ -218,6 +218,10 @@ class Roster {
   /// servos do not forget.
   void forget_doubled(Time since);
 
+  /// Forgets the nodes that were not heard since then: another unit that comes on such an ID is no
+  /// second one. For a command that sees one servo after the other.
+  void forget_gone(Time since);
+
   /// The unique IDs of the units that use this ID, if two were received; else none.
   [[nodiscard]] std::set<dronecan::UniqueId> units(dronecan::NodeId id) const;
 

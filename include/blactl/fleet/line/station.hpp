@@ -1,0 +1,108 @@
+#pragma once
+// A station of a production line: one servo after the other is recognised, checked, numbered,
+// configured, saved, proven and recorded (contract, sections 6 and 7, "provision").
+
+#include "blactl/base/error.hpp"
+#include "blactl/bla/profile.hpp"
+#include "blactl/fleet/bus/session.hpp"
+#include "blactl/fleet/change/carry_out.hpp"
+#include "blactl/fleet/files/label.hpp"
+#include "blactl/fleet/files/recipe.hpp"
+#include "blactl/state/allocation_store.hpp"
+#include "blactl/state/counter_store.hpp"
+#include "blactl/state/ledger_store.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace blactl::fleet {
+
+/// What an operator can see of the work.
+enum class StationStage : std::uint8_t {
+  waiting,    ///< for a servo
+  recognised, ///< something was heard: it is asked what it is
+  working,    ///< it is written to: it must not be taken off
+  ended,      ///< its record is in the ledger
+  take_off,   ///< it is waited for that no servo is on the bus
+};
+[[nodiscard]] std::string_view name(StationStage stage);
+
+class Station {
+ public:
+  struct Options {
+    Recipe recipe{};
+    state::LedgerRecord common{}; ///< what all records share: station, recipe, operator, …
+    Manner manner{};              ///< without history and allocations: neither is kept of the line
+    dronecan::NodeId first_bench_id{100}, last_bench_id{124}; ///< for units that ask for an ID
+    unsigned max_attempts = 3;                                ///< that a unit may fail
+    bool redo = false;                                        ///< finished units are done anew
+  };
+
+  using StageHook = std::function<void(StationStage stage)>;
+
+  /// A servo, or several, as they came.
+  struct Arrival {
+    std::vector<dronecan::NodeId> ids{};
+    bool has_asked = false; ///< for a node ID
+    Time at{};
+    WallTime wall{};
+  };
+
+  /// All references outlive this. `entered` is called for every stage.
+  Station(Session& session, const bla::Profiles& profiles, state::LedgerStore& ledger,
+          state::CounterStore& counters, Options options, StageHook entered);
+
+  /// Ends what an earlier run of this station has begun and not ended: error, interrupted. Returns
+  /// these records. Errors: those of the ledger.
+  [[nodiscard]] Result<std::vector<state::LedgerRecord>> end_interrupted();
+
+  /// Waits until a servo is on the bus, or asks for a node ID. Empty: nobody came until then.
+  /// Errors: those that end a session.
+  [[nodiscard]] Result<std::optional<Arrival>> wait_for_servo(Time deadline);
+
+  /// All work on it, from the checks to the record in the ledger; `label`: null if none is read.
+  /// Returns the record, which is on the disk. Errors: it is not: those of the ledger.
+  [[nodiscard]] Result<state::LedgerRecord> work_on(const Arrival& arrival, const Label* label);
+
+  /// Why the last record is no pass; empty: it is, or its end is no error.
+  [[nodiscard]] const std::optional<Error>& reason() const { return reason_; }
+
+  /// Waits until no servo has been heard for 3 s; returns whether that was before `deadline`.
+  /// Errors: those that end a session.
+  [[nodiscard]] Result<bool> wait_until_off(Time deadline);
+
+ private:
+  struct Past;
+
+  [[nodiscard]] bool is_servo_there() const;
+  [[nodiscard]] std::vector<dronecan::NodeId> servos_there() const;
+  [[nodiscard]] Result<void> let_in();
+  [[nodiscard]] std::optional<Error> identify(const Arrival& arrival, Servo& servo) const;
+  [[nodiscard]] Result<Past> past_of(const Servo& servo) const;
+  [[nodiscard]] std::optional<Error> number_and_configure(const Servo& servo, const Label* label,
+                                                          state::LedgerRecord& record);
+  [[nodiscard]] std::optional<Error>
+  configure(const Servo& servo, std::vector<bla::Assignment> settings, state::LedgerRecord& record);
+  [[nodiscard]] std::optional<Error> prove(const Servo& servo, dronecan::NodeId id,
+                                           std::span<const bla::Assignment> settings,
+                                           state::LedgerRecord& record);
+  [[nodiscard]] Error unless_away(Error error, dronecan::NodeId id) const;
+  [[nodiscard]] Result<state::LedgerRecord> commit(state::LedgerRecord record, Time began,
+                                                   std::string_view verdict,
+                                                   std::optional<Error> reason);
+
+  Session& session_;
+  const bla::Profiles& profiles_;
+  state::LedgerStore& ledger_;
+  state::CounterStore& counters_;
+  Options options_;
+  StageHook entered_;
+  std::optional<Error> reason_;
+};
+
+} // namespace blactl::fleet

@@ -1,0 +1,60 @@
+#include "cli/line/label_lines.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+
+namespace blactl::cli {
+
+LabelLines::LabelLines(fleet::Session& session) : session_(session) {
+  session_.on_input(STDIN_FILENO, [this] { read(); });
+}
+
+LabelLines::~LabelLines() {
+  session_.on_input(-1, {});
+}
+
+void LabelLines::read() {
+  std::array<char, longest> buffer{};
+  const auto count = ::read(STDIN_FILENO, buffer.data(), buffer.size());
+  if (count > 0) {
+    text_.append(buffer.data(), static_cast<std::size_t>(count));
+  } else if (count == 0 || (errno != EINTR && errno != EAGAIN)) {
+    ended_ = true;
+  }
+  if (ended_ || text_.size() >= longest) { // as many wait in the pipe
+    session_.on_input(-1, {});
+  }
+}
+
+bool LabelLines::is_ready() const {
+  return ended_ || text_.find('\n') != std::string::npos || text_.size() >= longest;
+}
+
+std::optional<std::string> LabelLines::take_line() {
+  const auto end = text_.find('\n');
+  if (end == std::string::npos && !(ended_ && !text_.empty()) && text_.size() < longest) {
+    return std::nullopt;
+  }
+  const std::size_t size = std::min(end, std::min(text_.size(), longest));
+  std::string line = text_.substr(0, size);
+  text_.erase(0, end == size ? size + 1 : size);
+  ++number_;
+  if (!ended_) {
+    session_.on_input(STDIN_FILENO, [this] { read(); });
+  }
+  return line;
+}
+
+std::optional<std::string> LabelLines::next() {
+  for (;;) {
+    auto line = take_line();
+    if (!line || line->find_first_not_of(" \t\r") != std::string::npos) {
+      return line;
+    }
+  }
+}
+
+} // namespace blactl::cli

@@ -1,0 +1,44 @@
+#pragma once
+// Lines from stdin while a session lives: one for each servo of a production line.
+
+#include "blactl/fleet/bus/session.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+namespace blactl::cli {
+
+class LabelLines {
+ public:
+  /// Longer ones are split, and are no labels then.
+  static constexpr std::size_t longest = 4096;
+
+  /// The session outlives this.
+  explicit LabelLines(fleet::Session& session);
+  ~LabelLines();
+  LabelLines(const LabelLines&) = delete;
+  LabelLines& operator=(const LabelLines&) = delete;
+
+  /// Whether a whole line is there, or stdin has ended.
+  [[nodiscard]] bool is_ready() const;
+
+  /// The next line that is not blank; empty: none yet, or no more. The last one may lack its end.
+  [[nodiscard]] std::optional<std::string> next();
+
+  [[nodiscard]] bool has_ended() const { return ended_ && text_.empty(); }
+
+  /// How many lines were taken: the number of the last one.
+  [[nodiscard]] std::size_t number() const { return number_; }
+
+ private:
+  void read();
+  [[nodiscard]] std::optional<std::string> take_line();
+
+  fleet::Session& session_;
+  std::string text_;
+  std::size_t number_ = 0;
+  bool ended_ = false;
+};
+
+} // namespace blactl::cli

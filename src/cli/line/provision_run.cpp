@@ -1,0 +1,268 @@
+#include "cli/line/provision_run.hpp"
+
+#include "blactl/fleet/line/line_record.hpp"
+
+#include "cli/alloc/options.hpp"
+#include "cli/line/record_view.hpp"
+#include "cli/line/station_name.hpp"
+#include "cli/line/texts.hpp"
+#include "cli/output/progress_view.hpp"
+#include "cli/stores.hpp"
+
+#include <sys/timex.h>
+
+#include <chrono>
+#include <utility>
+
+namespace blactl::cli {
+
+using fleet::Station;
+using fleet::StationStage;
+using state::LedgerRecord;
+
+namespace {
+
+/// For the bus to recover before it is tried again.
+constexpr Duration pause = std::chrono::seconds(1);
+
+std::optional<std::string> unless_empty(const std::string& text) {
+  return text.empty() ? std::nullopt : std::optional(text);
+}
+
+/// Whether the times of records may be wrong.
+bool is_clock_unsynchronised() {
+  timex state{};
+  return adjtimex(&state) == TIME_ERROR;
+}
+
+} // namespace
+
+ProvisionRun::ProvisionRun(const ProvisionOptions& options, fleet::Recipe recipe,
+                           std::string recipe_sha256, Context& context, Report& report)
+    : WritingRun(context, report), options_(options), recipe_(std::move(recipe)),
+      recipe_sha256_(std::move(recipe_sha256)) {}
+
+LedgerRecord ProvisionRun::common() const {
+  LedgerRecord record = record_of_station(options_.station);
+  record.operator_name = unless_empty(options_.operator_name);
+  record.work_order = unless_empty(options_.work_order);
+  record.reason = options_.redo               ? unless_empty(options_.reason)
+                  : is_clock_unsynchronised() ? std::optional(say<texts::provision_clock>())
+                                              : std::nullopt;
+  record.recipe = recipe_.name;
+  record.recipe_sha256 = recipe_sha256_;
+  return record;
+}
+
+Station::Options ProvisionRun::station_options(const fleet::Recipe& recipe) {
+  Station::Options station{.recipe = recipe,
+                           .common = common(),
+                           .manner = manner(),
+                           .max_attempts = options_.max_attempts.value_or(3),
+                           .redo = options_.redo};
+  station.manner.allocations = {};
+  station.manner.progress = {};
+  if (!options_.range.empty()) { // it was checked
+    const auto range = parse_range(options_.range);
+    station.first_bench_id = range->first;
+    station.last_bench_id = range->last;
+  }
+  return station;
+}
+
+void ProvisionRun::run() {
+  auto ledger = open_ledger(context_.shared().interface, state::Access::write);
+  auto counters = ledger ? open_counters(context_.shared().interface, state::Access::write)
+                         : Result<state::CounterStore>(std::unexpected(ledger.error()));
+  if (!counters) {
+    stop(counters.error());
+    return;
+  }
+  if (begin()) {
+    serve(*ledger, *counters);
+  }
+  for (const auto& [verdict, count] : verdicts_) {
+    report_.counts.emplace_back(verdict, count);
+  }
+}
+
+bool ProvisionRun::begin() {
+  if (is_clock_unsynchronised()) {
+    context_.reporter().note(say<texts::provision_clock>());
+  }
+  if (!open("provision")) {
+    return false;
+  }
+  context_.session().wait_alone();
+  return confirm(say<texts::provision_question>(printable(recipe_.model),
+                                                recipe_.set.size() + recipe_.counters.size()));
+}
+
+void ProvisionRun::serve(state::LedgerStore& ledger, state::CounterStore& counters) {
+  Station station(context_.session(), context_.known(), ledger, counters, station_options(recipe_),
+                  [this](StationStage stage) { tell(stage); });
+  const auto killed = station.end_interrupted();
+  if (!killed) {
+    stop(killed.error());
+    return;
+  }
+  bool is_printed =
+      context_.reporter().stream(records_header(context_.reporter().format())).value_or(false);
+  for (const LedgerRecord& record : *killed) {
+    is_printed = is_printed && print(record, std::nullopt);
+  }
+  if (!options_.label.empty()) {
+    lines_.emplace(context_.session());
+  }
+  while (is_printed && !is_complete() && next(station)) {
+  }
+  lines_.reset();
+}
+
+/// Whether the run goes on.
+bool ProvisionRun::next(Station& station) {
+  if (lines_ && !label_ && !wait_for_label()) {
+    return false;
+  }
+  const auto arrival = station.wait_for_servo(idle_deadline());
+  if (!arrival) {
+    return goes_on_after(arrival.error());
+  }
+  if (!*arrival) {
+    end_by_idling();
+    return false;
+  }
+  return work_on(station, **arrival) && (is_complete() || take_off(station));
+}
+
+/// A line that is no label is told, and the next one is waited for.
+bool ProvisionRun::wait_for_label() {
+  context_.reporter().progress(say<texts::provision_label_waits>());
+  while (!label_) {
+    const auto line = lines_->next();
+    if (!line && lines_->has_ended()) {
+      if (options_.count) {
+        stop({Code::not_found, say<texts::provision_labels_end>(counted_, *options_.count),
+              say<texts::provision_labels_end_hint>(), std::nullopt});
+      }
+      return false;
+    }
+    if (line) {
+      auto label = fleet::parse_label(*line, lines_->number(), context_.known());
+      if (label) {
+        label_ = std::move(*label);
+      } else {
+        context_.reporter().error(label.error());
+      }
+      continue;
+    }
+    const auto lived =
+        context_.session().live_until(idle_deadline(), [this] { return lines_->is_ready(); });
+    if (!lived) {
+      context_.ended(lived.error(), report_);
+      return false;
+    }
+    if (!*lived) {
+      end_by_idling();
+      return false;
+    }
+  }
+  return true;
+}
+
+bool ProvisionRun::work_on(Station& station, const Station::Arrival& arrival) {
+  const auto record = station.work_on(arrival, label_ ? &*label_ : nullptr);
+  if (!record) { // what is not recorded is no result
+    return stop(record.error());
+  }
+  const auto& reason = station.reason();
+  const bool is_printed = print(*record, reason);
+  account(*record, reason);
+  if (record->verdict != fleet::verdict::error) {
+    label_.reset();
+  }
+  if (context_.signal() != 0) {
+    report_.signal = context_.signal();
+    return false;
+  }
+  const bool is_at_end = reason && reason->code == Code::counter_end;
+  if (options_.stop_after && failed_in_row_ >= *options_.stop_after) {
+    context_.reporter().note(say<texts::provision_stopped>(failed_in_row_));
+    return false;
+  }
+  return is_printed && !is_at_end;
+}
+
+bool ProvisionRun::take_off(Station& station) {
+  const auto off = station.wait_until_off(idle_deadline());
+  if (!off) {
+    return goes_on_after(off.error());
+  }
+  if (!*off) {
+    end_by_idling();
+  }
+  return *off;
+}
+
+bool ProvisionRun::print(const LedgerRecord& record, const std::optional<Error>& reason) {
+  const Reporter& reporter = context_.reporter();
+  const auto printed =
+      reporter.stream(record_line(record, reporter.format(), reporter.page(), reason));
+  return printed ? *printed : stop(printed.error());
+}
+
+void ProvisionRun::account(const LedgerRecord& record, const std::optional<Error>& reason) {
+  ++verdicts_[*record.verdict];
+  counted_ += record.verdict != fleet::verdict::error ? 1U : 0U;
+  if (record.verdict == fleet::verdict::fail) {
+    ++failed_in_row_;
+  } else if (record.verdict != fleet::verdict::error) {
+    failed_in_row_ = 0;
+  }
+  if (reason) {
+    report_.fail_target(*reason);
+  } else {
+    report_.targets.emplace_back();
+  }
+}
+
+bool ProvisionRun::is_complete() const {
+  return options_.count && counted_ >= *options_.count;
+}
+
+/// The line survives trouble of the bus; a signal ends it.
+bool ProvisionRun::goes_on_after(const Error& error) {
+  const bool passes = error.code == Code::bus_off || error.code == Code::no_acknowledge;
+  if (!passes || context_.signal() != 0) {
+    context_.ended(error, report_);
+    return false;
+  }
+  context_.reporter().note(say<texts::provision_trouble>(error.message));
+  [[maybe_unused]] const auto lived =
+      context_.session().live_until(context_.session().now() + pause);
+  return true;
+}
+
+Time ProvisionRun::idle_deadline() const {
+  return options_.idle_timeout ? context_.session().now() + *options_.idle_timeout : never;
+}
+
+void ProvisionRun::end_by_idling() {
+  if (options_.count) {
+    stop({Code::not_found, say<texts::provision_idle>(whole_seconds(*options_.idle_timeout)),
+          say<texts::provision_idle_hint>(counted_, *options_.count), std::nullopt});
+  }
+}
+
+void ProvisionRun::tell(StationStage stage) const {
+  switch (stage) {
+  case StationStage::waiting: return context_.reporter().progress(say<texts::provision_waits>());
+  case StationStage::recognised: return context_.reporter().progress(say<texts::provision_asks>());
+  case StationStage::working: return context_.reporter().progress(say<texts::provision_works>());
+  case StationStage::ended: return;
+  case StationStage::take_off: break;
+  }
+  context_.reporter().progress(say<texts::provision_take_off>());
+}
+
+} // namespace blactl::cli

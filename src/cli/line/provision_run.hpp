@@ -1,0 +1,70 @@
+#pragma once
+// One run of `blactl provision` on a line: servos come and go until one of its ends.
+
+#include "blactl/fleet/files/label.hpp"
+#include "blactl/fleet/files/recipe.hpp"
+#include "blactl/fleet/line/station.hpp"
+#include "blactl/state/counter_store.hpp"
+#include "blactl/state/ledger_store.hpp"
+
+#include "cli/change/writing_run.hpp"
+#include "cli/context.hpp"
+#include "cli/line/label_lines.hpp"
+#include "cli/output/report.hpp"
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+
+namespace blactl::cli {
+
+struct ProvisionOptions {
+  std::string recipe{};
+  std::string label{};
+  std::string range{};
+  std::optional<std::uint64_t> count{};
+  std::optional<Duration> idle_timeout{};
+  std::string station{}, operator_name{}, work_order{};
+  bool redo = false;
+  std::string reason{};
+  std::optional<unsigned> max_attempts{};
+  std::optional<std::uint64_t> stop_after{};
+};
+
+class ProvisionRun : private WritingRun {
+ public:
+  /// All references outlive this.
+  ProvisionRun(const ProvisionOptions& options, fleet::Recipe recipe, std::string recipe_sha256,
+               Context& context, Report& report);
+
+  void run();
+
+ private:
+  [[nodiscard]] state::LedgerRecord common() const;
+  [[nodiscard]] fleet::Station::Options station_options(const fleet::Recipe& recipe);
+  [[nodiscard]] bool begin();
+  void serve(state::LedgerStore& ledger, state::CounterStore& counters);
+  [[nodiscard]] bool next(fleet::Station& station);
+  [[nodiscard]] bool wait_for_label();
+  [[nodiscard]] bool work_on(fleet::Station& station, const fleet::Station::Arrival& arrival);
+  [[nodiscard]] bool take_off(fleet::Station& station);
+  [[nodiscard]] bool print(const state::LedgerRecord& record, const std::optional<Error>& reason);
+  void account(const state::LedgerRecord& record, const std::optional<Error>& reason);
+  [[nodiscard]] bool is_complete() const;
+  [[nodiscard]] bool goes_on_after(const Error& error);
+  void tell(fleet::StationStage stage) const;
+  [[nodiscard]] Time idle_deadline() const;
+  void end_by_idling();
+
+  const ProvisionOptions& options_;
+  fleet::Recipe recipe_;
+  std::string recipe_sha256_;
+  std::optional<LabelLines> lines_;
+  std::optional<fleet::Label> label_; ///< of the next servo
+  std::map<std::string, std::uint64_t> verdicts_{};
+  std::uint64_t counted_ = 0;       ///< for --count
+  std::uint64_t failed_in_row_ = 0; ///< for --stop-after
+};
+
+} // namespace blactl::cli

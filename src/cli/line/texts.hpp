@@ -1,0 +1,75 @@
+#pragma once
+// Messages of provision and ledger.
+
+#include "blactl/base/text.hpp"
+
+namespace blactl::texts {
+
+inline constexpr Text line_pass{"PASS ", "合格 "};
+inline constexpr Text line_fail{"FAIL ", "不合格"};
+inline constexpr Text line_error{"ERROR", "再試行"};
+inline constexpr Text line_skip{"SKIP ", "処理済"};
+inline constexpr Text line_scrap{"SCRAP", "廃棄 "};
+
+inline constexpr Text provision_question{
+    "each servo {} that is connected gets {} settings, saved to its ROM, and is restarted; its "
+    "shaft may move or let go.",
+    "接続された {} に {} 項目を設定し、ROM に保存して再起動します。軸が動く場合や、保持力が"
+    "なくなる場合があります。"};
+inline constexpr Text provision_label_word{"--label reads from stdin only: {}",
+                                           "--label は標準入力のみです: {}"};
+inline constexpr Text provision_label_word_hint{"give --label -", "--label - と指定して下さい"};
+inline constexpr Text provision_redo_reason{"--redo needs a reason for the record",
+                                            "--redo には理由が必要です"};
+inline constexpr Text provision_redo_reason_hint{"add --reason TEXT", "--reason で指定して下さい"};
+inline constexpr Text provision_reason_alone{"--reason has no meaning without --redo",
+                                             "--reason は --redo と併用して下さい"};
+inline constexpr Text provision_reason_alone_hint{"leave it out", "外して下さい"};
+inline constexpr Text provision_waits{"connect a servo", "サーボを接続して下さい"};
+inline constexpr Text provision_label_waits{"scan a label", "ラベルを読み取って下さい"};
+inline constexpr Text provision_asks{"it is asked what it is", "サーボを確認しています"};
+inline constexpr Text provision_works{"do not take it off", "外さないで下さい"};
+inline constexpr Text provision_take_off{"take it off", "外して下さい"};
+inline constexpr Text provision_idle{"no servo came within {} s",
+                                     "{} 秒以内にサーボが接続されませんでした"};
+inline constexpr Text provision_idle_hint{
+    "{} of {} are done; run it again for the others",
+    "{1} 台中 {0} 台を処理しました。続ける場合はもう一度実行して"
+    "下さい"};
+inline constexpr Text provision_labels_end{"the labels ended after {} of {} servos",
+                                           "{1} 台中 {0} 台でラベルの入力が終わりました"};
+inline constexpr Text provision_labels_end_hint{"give a line for each servo",
+                                                "サーボごとに 1 行入力して下さい"};
+inline constexpr Text provision_stopped{"{} servos failed one after the other (--stop-after)",
+                                        "{} 台が連続して不合格になりました (--stop-after)"};
+inline constexpr Text provision_trouble{"{}: trying again", "{}: 再試行します"};
+inline constexpr Text provision_clock{"the clock of this machine is not synchronised",
+                                      "時計が同期されていません"};
+
+inline constexpr Text ledger_no_time{"{} is no time: {}", "{} の日時が不正です: {}"};
+inline constexpr Text ledger_no_time_hint{"such as 2026-11-21T08:15:00Z",
+                                          "例: 2026-11-21T08:15:00Z"};
+inline constexpr Text ledger_alone{"{} stands alone, or with {}",
+                                   "{} は単独で、または {} と指定して下さい"};
+inline constexpr Text ledger_alone_hint{"leave out the other options",
+                                        "他のオプションを外して下さい"};
+inline constexpr Text ledger_scrap_reason{"--scrap needs a reason for the record",
+                                          "--scrap には理由が必要です"};
+inline constexpr Text ledger_no_record{"no record has the record_id {}",
+                                       "record_id {} の記録がありません"};
+inline constexpr Text ledger_no_record_hint{"find it with blactl ledger --serial N --json",
+                                            "blactl ledger --serial N --json で確認して下さい"};
+inline constexpr Text ledger_no_unit{"that record names no unit",
+                                     "その記録には個体の情報がありません"};
+inline constexpr Text ledger_scrap_question{
+    "the servo {} is taken out, and its IDs by the recipe {} are given to the next one.",
+    "サーボ {} を廃棄扱いとし、レシピ {} の ID を次のサーボに割り当てます。"};
+inline constexpr Text ledger_copied{"the ledger is in {} now", "製造記録を {} に保存しました"};
+inline constexpr Text ledger_whole{"the ledger is whole\n", "製造記録に欠落はありません\n"};
+inline constexpr Text ledger_hole{"station {}: the records {} to {} are missing\n",
+                                  "ステーション {}: 記録 {}～{} がありません\n"};
+inline constexpr Text ledger_begun{"station {}: {} was begun at {}, and has not ended\n",
+                                   "ステーション {}: {} の処理 ({} 開始) が完了していません\n"};
+inline constexpr Text ledger_unknown_unit{"a servo", "サーボ"};
+
+} // namespace blactl::texts

@@ -1,0 +1,341 @@
+#include "blactl/fleet/line/station.hpp"
+
+#include "blactl/base/hex.hpp"
+#include "blactl/fleet/bus/discovery.hpp"
+#include "blactl/fleet/bus/read_job.hpp"
+#include "blactl/fleet/bus/unreachable.hpp"
+#include "blactl/fleet/change/change.hpp"
+#include "blactl/fleet/change/let_in.hpp"
+#include "blactl/fleet/line/line_record.hpp"
+
+#include "fleet/line/acceptance.hpp"
+#include "fleet/line/station_texts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <utility>
+
+namespace blactl::fleet {
+
+namespace at = bla::address;
+using dronecan::NodeId;
+using state::LedgerRecord;
+
+namespace {
+
+using namespace std::chrono_literals;
+
+/// After a silence of this length a servo has left: it sends actuator.Status ten times a second.
+constexpr Duration away_time = 500ms;
+
+/// For an operator to take a servo off, and for the next one not to pass for it.
+constexpr Duration off_time = 3s;
+
+/// How often a silent bus is looked at.
+constexpr Duration look_period = 100ms;
+
+bool may_be_bla_servo(const Member& member) {
+  return member.is_servo || (member.sends_actuator_status() && !member.is_foreign());
+}
+
+/// Settings, and what a record tells beside them.
+std::vector<const bla::Parameter*> registers_of_record(const Servo& servo) {
+  auto registers = servo.identity.configuration();
+  constexpr std::array more{at::current_temperature, at::current_voltage,  at::fault_summary,
+                            at::fault_notice,        at::fault_warning,    at::fault_failure,
+                            at::production_year,     at::production_month, at::production_day,
+                            at::production_hour,     at::production_minute};
+  std::ranges::copy(servo.identity.registers(more), std::back_inserter(registers));
+  return registers;
+}
+
+/// The first setting that was read as something else.
+std::optional<Error> first_wrong(const Snapshot& held, std::span<const bla::Assignment> settings,
+                                 LedgerRecord& record) {
+  for (const bla::Assignment& each : settings) {
+    const auto actual = held.raw(each.parameter->address);
+    if (actual != each.value.raw) {
+      record.parameter = std::string(each.parameter->name);
+      record.expected = each.value.raw;
+      record.actual = actual;
+      return compare(held, {{each.parameter->address, each.value.raw}});
+    }
+  }
+  return std::nullopt;
+}
+
+} // namespace
+
+std::string_view name(StationStage stage) {
+  switch (stage) {
+  case StationStage::waiting: return "waiting";
+  case StationStage::recognised: return "recognised";
+  case StationStage::working: return "working";
+  case StationStage::ended: return "ended";
+  case StationStage::take_off: break;
+  }
+  return "take_off";
+}
+
+Station::Station(Session& session, const bla::Profiles& profiles, state::LedgerStore& ledger,
+                 state::CounterStore& counters, Options options, StageHook entered)
+    : session_(session), profiles_(profiles), ledger_(ledger), counters_(counters),
+      options_(std::move(options)), entered_(std::move(entered)) {}
+
+Result<std::vector<LedgerRecord>> Station::end_interrupted() {
+  auto begun = ledger_.begun(options_.common.station);
+  if (!begun) {
+    return begun;
+  }
+  for (LedgerRecord& record : *begun) {
+    end(record, verdict::error, Error{Code::interrupted, {}}, session_.wall());
+    record.reason = say<texts::station_was_killed>();
+    const auto number = ledger_.end(record);
+    if (!number) {
+      return std::unexpected(number.error());
+    }
+    record.station_seq = *number;
+  }
+  return begun;
+}
+
+std::vector<NodeId> Station::servos_there() const {
+  std::vector<NodeId> ids;
+  for (const auto& [id, member] : session_.roster().members()) {
+    if (may_be_bla_servo(member) && member.last_heard > session_.now() - away_time) {
+      ids.push_back(id);
+    }
+  }
+  return ids;
+}
+
+bool Station::is_servo_there() const {
+  return !session_.roster().pending().empty() || !servos_there().empty();
+}
+
+/// Bench IDs are borrowed: no table keeps them.
+Result<void> Station::let_in() {
+  auto bench = state::AllocationStore::unshared();
+  if (!bench) {
+    return std::unexpected(bench.error());
+  }
+  state::NodeIds others;
+  for (std::uint8_t id = 1; id <= NodeId::max; ++id) {
+    others.set(id, NodeId(id) < options_.first_bench_id || NodeId(id) > options_.last_bench_id);
+  }
+  const auto asked = fleet::let_in(session_, *bench, std::nullopt, others);
+  return asked ? Result<void>() : std::unexpected(asked.error());
+}
+
+Result<std::optional<Station::Arrival>> Station::wait_for_servo(Time deadline) {
+  entered_(StationStage::waiting);
+  for (;;) {
+    const auto came = session_.live_until(deadline, [this] { return is_servo_there(); });
+    if (!came || !*came) {
+      return came ? Result<std::optional<Arrival>>() : std::unexpected(came.error());
+    }
+    entered_(StationStage::recognised);
+    Arrival arrival{.has_asked = !session_.roster().pending().empty(),
+                    .at = session_.now(),
+                    .wall = session_.wall()};
+    Discovery discovery(session_, profiles_, options_.manner.identification);
+    const auto heard = discovery.find_all(bus_watch_time);
+    const auto let = heard && !session_.roster().pending().empty() ? let_in() : heard;
+    const auto found = let ? discovery.find_all(bus_watch_time) : let;
+    if (!found) {
+      return std::unexpected(found.error());
+    }
+    arrival.ids = servos_there();
+    if (!arrival.ids.empty()) {
+      return arrival;
+    }
+    entered_(StationStage::waiting);
+  }
+}
+
+Result<bool> Station::wait_until_off(Time deadline) {
+  entered_(StationStage::take_off);
+  Time last = session_.now();
+  while (session_.now() - last < off_time) {
+    if (session_.now() >= deadline) {
+      return false;
+    }
+    if (const auto lived = session_.live_until(session_.now() + look_period); !lived) {
+      return std::unexpected(lived.error());
+    }
+    last = is_servo_there() ? session_.now() : last;
+  }
+  session_.records().forget_gone(session_.now() - off_time);
+  return true;
+}
+
+/// What the ledger says of a unit, by this recipe.
+struct Station::Past {
+  bool is_finished = false;
+  std::int64_t attempts = 0;
+  unsigned failed = 0; ///< since it was finished or scrapped
+};
+
+Result<Station::Past> Station::past_of(const Servo& servo) const {
+  Past past;
+  const state::LedgerQuery query{.unique_id = hex(*servo.unique_id),
+                                 .recipe = options_.common.recipe};
+  const auto read = ledger_.each(query, [&](const LedgerRecord& record) {
+    const bool counts = record.verdict == verdict::pass || record.verdict == verdict::fail ||
+                        record.verdict == verdict::error;
+    past.attempts += counts ? 1 : 0;
+    if (record.verdict == verdict::pass || record.verdict == verdict::scrap) {
+      past.is_finished = record.verdict == verdict::pass;
+      past.failed = 0;
+    } else if (record.verdict == verdict::fail && record.code != name(Code::attempts)) {
+      past.is_finished = false; // done anew, and not well
+      ++past.failed;
+    }
+    return true;
+  });
+  return read ? Result<Past>(past) : std::unexpected(read.error());
+}
+
+/// The one servo, and what it says it is.
+std::optional<Error> Station::identify(const Arrival& arrival, Servo& servo) const {
+  const Roster& roster = session_.roster();
+  const NodeId id = arrival.ids.front();
+  if (arrival.ids.size() > 1 || !roster.pending().empty() || roster.is_doubled(id)) {
+    return Error{Code::several_servos, say<texts::station_several>(),
+                 say<texts::station_several_hint>(), std::nullopt};
+  }
+  servo = roster.member(id).servo();
+  if (!roster.member(id).is_known() || !servo.is_servo || !servo.unique_id) {
+    return unless_away(silent(roster, id), id);
+  }
+  return not_unique(roster, id);
+}
+
+/// An error of a servo that has left is that.
+Error Station::unless_away(Error error, NodeId id) const {
+  const bool is_away = session_.roster().member(id).last_heard < session_.now() - away_time;
+  const bool is_silence = error.code == Code::timeout || error.code == Code::not_found ||
+                          error.code == Code::not_back || error.code == Code::mismatch;
+  return is_away && is_silence ? Error{Code::not_back, say<texts::station_pulled>(),
+                                       say<texts::station_pulled_hint>(), id.value()}
+                               : error;
+}
+
+Result<LedgerRecord> Station::work_on(const Arrival& arrival, const Label* label) {
+  LedgerRecord record = begun_record(options_.common, arrival.wall);
+  record.node_id = arrival.has_asked ? 0 : arrival.ids.front().value();
+  if (label != nullptr) {
+    enter(record, *label);
+  }
+  Servo servo;
+  auto wrong = identify(arrival, servo);
+  enter(record, servo);
+  if (!wrong) {
+    wrong = check_unit(servo, options_.recipe, label, profiles_);
+  }
+  if (wrong) {
+    return commit(std::move(record), arrival.at, verdict_of(wrong->code), std::move(wrong));
+  }
+  const auto past = past_of(servo);
+  if (!past) {
+    return std::unexpected(past.error());
+  }
+  record.attempt = past->attempts + 1;
+  if (past->is_finished && !options_.redo) {
+    record.attempt = past->attempts;
+    return commit(std::move(record), arrival.at, verdict::skip, std::nullopt);
+  }
+  wrong = past->failed >= options_.max_attempts
+              ? std::optional(Error{Code::attempts, say<texts::station_attempts>(past->failed),
+                                    say<texts::unit_aside_hint>(), servo.id.value()})
+              : number_and_configure(servo, label, record);
+  const std::string_view verdict = wrong ? verdict_of(wrong->code) : verdict::pass;
+  return commit(std::move(record), arrival.at, verdict, std::move(wrong));
+}
+
+std::optional<Error> Station::number_and_configure(const Servo& servo, const Label* label,
+                                                   LedgerRecord& record) {
+  const auto wishes = ids_wished(options_.recipe, label);
+  const auto ids =
+      counters_.assign(*servo.unique_id, *options_.common.recipe, wishes, session_.wall());
+  auto settings = ids ? settings_for(options_.recipe, wishes, *ids, profiles_)
+                      : Result<std::vector<bla::Assignment>>(std::unexpected(ids.error()));
+  return settings ? configure(servo, std::move(*settings), record)
+                  : std::optional(settings.error());
+}
+
+std::optional<Error> Station::configure(const Servo& servo, std::vector<bla::Assignment> settings,
+                                        LedgerRecord& record) {
+  Change change(
+      session_, profiles_,
+      {.manner = options_.manner, .knows_ids = true, .searched = session_.roster().last_heard()});
+  const Goal goal{.id = servo.id,
+                  .unique_id = servo.unique_id,
+                  .wanted = {.assignments = settings, .restart = RestartKind::save},
+                  .evidence = Evidence::restart};
+  auto errors = change.prepare({goal});
+  if (errors.empty() && change.overwrites_rom() && !options_.manner.overwrite_rom) {
+    return Error{Code::rom_unread, say<texts::station_rom_unread>(), say<texts::unit_aside_hint>(),
+                 servo.id.value()};
+  }
+  if (!errors.empty()) {
+    return unless_away(std::move(errors.front()), servo.id);
+  }
+  if (const auto begun = ledger_.begin(record); !begun) {
+    return begun.error();
+  }
+  entered_(StationStage::working);
+  errors = change.carry_out();
+  const GoalResult& result = change.results().front();
+  enter(record, result);
+  const NodeId id = result.change.node_id_after.value_or(servo.id);
+  if (!errors.empty() || !result.is_done) {
+    const auto& all = errors.empty() ? result.errors : errors;
+    return unless_away(all.empty()
+                           ? Error{Code::state, say<texts::station_unproven>(), {}, id.value()}
+                           : all.front(),
+                       id);
+  }
+  return prove(servo, id, settings, record);
+}
+
+/// Reads everything once more: what is recorded was seen after the restart.
+std::optional<Error> Station::prove(const Servo& servo, NodeId id,
+                                    std::span<const bla::Assignment> settings,
+                                    LedgerRecord& record) {
+  const std::array ids{id};
+  auto read =
+      take_snapshots(session_, profiles_, ids, options_.manner.identification, registers_of_record);
+  if (read.broken) {
+    return std::move(read.broken);
+  }
+  const Snapshot& held = read.servos.front();
+  if (auto error = held.first_error()) {
+    return unless_away(std::move(*error), id);
+  }
+  if (held.servo.unique_id != servo.unique_id) {
+    return Error{Code::several_servos, say<texts::station_several>(),
+                 say<texts::station_several_hint>(), id.value()};
+  }
+  enter(record, held, profiles_);
+  auto wrong = first_wrong(held, settings, record);
+  wrong = wrong ? std::move(wrong) : check_rom(held);
+  return wrong ? std::move(wrong) : check_faults(held.values(), profiles_, id);
+}
+
+Result<LedgerRecord> Station::commit(LedgerRecord record, Time began, std::string_view verdict,
+                                     std::optional<Error> reason) {
+  end(record, verdict, reason, session_.wall());
+  record.duration_s = std::chrono::duration<double>(session_.now() - began).count();
+  const auto number = ledger_.end(record);
+  if (!number) {
+    return std::unexpected(number.error());
+  }
+  record.station_seq = *number;
+  reason_ = std::move(reason);
+  entered_(StationStage::ended);
+  return record;
+}
+
+} // namespace blactl::fleet

@@ -1,0 +1,26 @@
+#pragma once
+// Messages of a station of a production line.
+
+#include "blactl/base/text.hpp"
+
+namespace blactl::texts {
+
+inline constexpr Text station_was_killed{"the station ended while it worked on this unit",
+                                         "この個体の処理中にステーションが終了しました"};
+inline constexpr Text station_several{"several servos are connected",
+                                      "サーボが複数接続されています"};
+inline constexpr Text station_several_hint{"take all of them off, then connect one",
+                                           "すべて取り外し、1 台だけ接続して下さい"};
+inline constexpr Text station_pulled{"the servo was taken off too early",
+                                     "処理の途中でサーボが取り外されました"};
+inline constexpr Text station_pulled_hint{
+    "connect it again, and leave it until the result is shown",
+    "もう一度接続し、結果が表示されるまで外さないで下さい"};
+inline constexpr Text station_attempts{"this unit has failed {} times",
+                                       "この個体は {} 回不合格になりました"};
+inline constexpr Text station_rom_unread{"the servo could not read its ROM at this start either",
+                                         "再起動後も ROM を読み出せません"};
+inline constexpr Text station_unproven{"it is not proven what the servo holds now",
+                                       "サーボの現在の設定を確認できませんでした"};
+
+} // namespace blactl::texts
