@@ -124,6 +124,29 @@ Time Record::first_told_by(const std::set<std::uint8_t>& nodes) const {
       frames_, [&](const OnWire& frame) { return tells(frame) && nodes.contains(frame.source()); });
 }
 
+bool Record::shows_two_on(const std::set<std::uint8_t>& nodes) const {
+  constexpr Duration last_moment = std::chrono::milliseconds(50);
+  std::map<std::uint8_t, std::map<std::uint8_t, std::uint8_t>> uptimes; // by node and priority
+  std::map<std::uint8_t, std::uint8_t> priorities;                      // of its last one
+  for (const OnWire& frame : frames_) {
+    if (frame.is_service() || frame.type() != node_status || !nodes.contains(frame.source()) ||
+        frame.frame.size == 0 || frame.at > end() - last_moment) {
+      continue;
+    }
+    const auto priority = static_cast<std::uint8_t>(frame.frame.id >> 24 & 0x1F);
+    auto& known = uptimes[frame.source()];
+    const auto run = known.find(priority);
+    const std::uint8_t uptime_s = frame.frame.data[0];
+    if (run != known.end() && priorities[frame.source()] != priority &&
+        uptime_s == run->second + 1) {
+      return true;
+    }
+    known[priority] = uptime_s;
+    priorities[frame.source()] = priority;
+  }
+  return false;
+}
+
 Time Record::armed_at() const {
   return first_of(frames_, [](const OnWire& frame) {
     return !frame.is_service() && frame.type() == arming_status && frame.frame.size > 0 &&

@@ -66,6 +66,10 @@ class Record {
   /// The first such time; `never`: there is none.
   [[nodiscard]] Time first_told_by(const std::set<std::uint8_t>& nodes) const;
 
+  /// Whether one of these IDs had a NodeStatus between two of a run that have another priority: two
+  /// units, heard before the last moment.
+  [[nodiscard]] bool shows_two_on(const std::set<std::uint8_t>& nodes) const;
+
   /// When the vehicle was first said to be armed; `never`: not.
   [[nodiscard]] Time armed_at() const;
 

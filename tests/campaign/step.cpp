@@ -150,13 +150,12 @@ std::set<std::string> Step::orders_of_others(std::int64_t serial, Time earliest)
   return orders;
 }
 
-/// Another node has its ID.
+/// Another node has an ID that it had.
 bool Step::shares_with_foreign(std::int64_t serial) const {
+  const auto ids = node_ids(serial);
   const auto foreign = episode.scenario.value("foreign", json::array());
-  return std::ranges::any_of(foreign, [&](const json& node) {
-    const int id = node["node_id"];
-    return id == before.at(serial).node_id || id == after.at(serial).node_id;
-  });
+  return std::ranges::any_of(
+      foreign, [&](const json& node) { return ids.contains(node["node_id"].get<std::uint8_t>()); });
 }
 
 bool Step::shares_node_id(std::int64_t serial) const {

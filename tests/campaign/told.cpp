@@ -33,9 +33,10 @@ bool is_reached(const json& node) {
 namespace {
 
 /// Whether another node on its ID can have answered in its place, while the servo was away or its
-/// frames were lost, and nothing came of that.
+/// frames were lost, nothing came of that, and their NodeStatus did not give them away.
 bool may_be_taken_for_other(const Step& step, std::int64_t serial, const json& node) {
-  return step.shares_with_foreign(serial) && step.episode.faults.size() > 1 && !is_reached(node);
+  return step.shares_with_foreign(serial) && step.episode.faults.size() > 1 && !is_reached(node) &&
+         !step.outcome.record.shows_two_on(step.node_ids(serial));
 }
 
 } // namespace

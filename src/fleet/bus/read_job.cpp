@@ -158,9 +158,12 @@ Step ReadJob::judge_presence(const Outcome& outcome) {
   return read_next(outcome.at);
 }
 
-/// A servo that does not respond any more is gone.
+/// A servo that does not respond any more is gone, unless a second one disturbs its responses.
 Error ReadJob::told_by(const Error& error) const {
   const std::uint8_t id = id_.value();
+  if (error.code == Code::timeout && roster_.is_doubled(id_)) {
+    return doubled(roster_, id_);
+  }
   return error.code == Code::timeout
              ? Error{Code::timeout, say<texts::node_gone>(id), say<texts::no_answer_hint>(), id}
              : error;

@@ -67,7 +67,21 @@ void UnitWatch::count_node_status(const can::Frame& frame, std::uint32_t uptime_
   }
   if (is_timed_) {
     node_statuses_.count(frame, at, uptime_s == before);
+    if (const auto header = dronecan::decode_id(frame.id)) {
+      compare_priority(header->priority, at - std::chrono::seconds(uptime_s), at);
+    }
   }
+}
+
+/// A unit sends NodeStatus with one priority (unproven). Another one may be of a unit that was put
+/// in its place, or of its next program; but not if the first goes on after it, in the same run.
+void UnitWatch::compare_priority(dronecan::Priority priority, Time start, Time at) {
+  const auto [run, is_first] = run_starts_.try_emplace(priority, start);
+  const bool has_changed = std::exchange(last_priority_, priority) != priority;
+  if (has_changed && !is_first && std::chrono::abs(run->second - start) < start_tolerance) {
+    two_priorities_at_ = at;
+  }
+  run->second = start;
 }
 
 /// Every uptime gives the start of its unit. A new start is a restart; a return to the old one

@@ -9,23 +9,37 @@
 
 #include "fleet/change/texts.hpp"
 
+#include <cstdint>
 #include <list>
+#include <map>
 
 namespace blactl::fleet {
 namespace {
 
+/// Silent nodes take long: others may come or restart meanwhile, but not again and again.
+constexpr int most_rounds = 3;
+
 /// Asks each node that nobody has asked yet for its unique ID, or that has restarted since: it may
 /// be that of one to be changed. A servo need not have sent actuator.Status yet.
 Result<void> ask_units(Session& session, Patience patience) {
-  std::list<UnitJob> jobs;
-  std::vector<dronecan::Job*> group;
-  for (const auto& [id, member] : session.roster().members()) {
-    const bool has_told = member.info && member.is_unit(member.info->unique_id);
-    if (session.roster().heard(id) && !has_told && !session.is_replay()) {
-      group.push_back(&jobs.emplace_back(session.records(), id, patience));
+  std::map<dronecan::NodeId, std::uint32_t> asked; // and its boots
+  for (int round = 0; round < most_rounds && !session.is_replay(); ++round) {
+    std::list<UnitJob> jobs;
+    std::vector<dronecan::Job*> group;
+    for (const auto& [id, member] : session.roster().members()) {
+      const bool has_told = member.info && member.is_unit(member.info->unique_id);
+      const auto before = asked.find(id);
+      const bool is_asked = before != asked.end() && before->second == member.boots;
+      if (session.roster().heard(id) && !has_told && !is_asked) {
+        asked[id] = member.boots;
+        group.push_back(&jobs.emplace_back(session.records(), id, patience));
+      }
+    }
+    if (auto ran = session.run(group); !ran || group.empty()) {
+      return ran;
     }
   }
-  return session.run(group);
+  return {};
 }
 
 /// A value in RAM is judged by the settings beside it: one that another node has changed since they

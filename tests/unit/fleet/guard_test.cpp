@@ -212,3 +212,20 @@ TEST_CASE("the ID of this process is not given to a servo") {
   const Wanted save{.restart = RestartKind::save};
   CHECK(forbids(save, {{at::static_node_id, 20}})->code == Code::out_of_range);
 }
+
+TEST_CASE("who restarts while others are asked who they are is asked again") {
+  const Scene scene(R"("servos": [
+      {"model": "BLA21-12U-AB", "serial_number": 240900001, "node_id": 11, "unique_id": "aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa"},
+      {"model": "BLA21-12U-AB", "serial_number": 240900002, "node_id": 12, "unique_id": "aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa"},
+      {"model": "BLA21-12U-AB", "serial_number": 240900003, "node_id": 13, "faults": {"mute": true}}],
+      "events": [{"at": "1300ms", "servo": 240900002, "world": {"voltage": "2V"}},
+                 {"at": "1400ms", "servo": 240900002, "world": {"voltage": "12V"}}])");
+  scene.live(1s);
+  (void)scene.identify(11);
+  (void)scene.identify(12);
+  REQUIRE(scene.roster().copies(NodeId(11)) == std::vector{NodeId(12)});
+  const auto heard = hear_others(*scene.session, {}, std::nullopt, {});
+  CHECK(heard.errors.empty());
+  REQUIRE(scene.member(12).boots == 1);
+  CHECK(scene.roster().copies(NodeId(11)) == std::vector{NodeId(12)});
+}

@@ -543,6 +543,19 @@ TEST_CASE("two silent registers in a row raise the question whether the servo is
     CHECK(reader.next(Script::timed_out()) == "nothing");
     CHECK(reader.given_up() == Code::timeout);
   }
+  SECTION("two whose answers disturb each other are there: that is a conflict") {
+    CHECK(reader.next(Script::timed_out()) == "GetNodeInfo");
+    reader.known.roster.mark_doubled(NodeId(11), {11}, {12});
+    CHECK(reader.next(Script::timed_out()) == "nothing");
+    CHECK(reader.given_up() == Code::duplicate_node_id);
+  }
+  SECTION("so they are when they show by the proof alone") {
+    CHECK(reader.value("0x39", 0) == "read 0x23");
+    CHECK(reader.value("0x23", 1) == "GetNodeInfo");
+    reader.known.roster.mark_doubled(NodeId(11), {11}, {12});
+    CHECK(reader.next(Script::timed_out()) == "nothing");
+    CHECK(reader.given_up() == Code::duplicate_node_id);
+  }
   SECTION("an answer in between ends the row") {
     CHECK(reader.value("0x39", 0) == "read 0x23");
     CHECK(reader.next(Script::timed_out()) == "GetNodeInfo"); // the proof

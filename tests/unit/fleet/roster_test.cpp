@@ -38,6 +38,15 @@ class Ear {
     hear(message(NodeStatus::type, source, NodeStatus{.uptime_s = uptime_s}.encode(), next()));
   }
 
+  /// With this priority.
+  void status_at(unsigned priority, std::uint8_t source, std::uint32_t uptime_s) {
+    auto frames = message(NodeStatus::type, source, NodeStatus{.uptime_s = uptime_s}.encode(), 0);
+    for (can::Frame& frame : frames) {
+      frame.id = (frame.id & 0xFF'FFFFU) | priority << 24U;
+    }
+    hear(frames);
+  }
+
   /// With this transfer ID.
   void status(std::uint8_t source, std::uint32_t uptime_s, dronecan::TransferId id) {
     hear(message(NodeStatus::type, source, NodeStatus{.uptime_s = uptime_s}.encode(), id));
@@ -523,6 +532,31 @@ TEST_CASE("two units that were switched on together show by twice as many NodeSt
     ear.now += 700ms;
   }
   CHECK(ear.roster.is_doubled(NodeId(47)));
+}
+
+TEST_CASE("two units that were switched on together show by their priorities of NodeStatus") {
+  constexpr unsigned mine = 16, other = 20;
+  Ear ear;
+  ear.status_at(mine, 10, 0);
+  ear.now += 700ms;
+  ear.status_at(other, 10, 0);
+  SECTION("as soon as the first one is heard again") {
+    CHECK_FALSE(ear.roster.is_doubled(NodeId(10)));
+    ear.now += 300ms;
+    ear.status_at(mine, 10, 1);
+    CHECK(ear.roster.is_doubled(NodeId(10)));
+  }
+  SECTION("one that has another program since its restart is one") {
+    for (std::uint32_t uptime_s = 1; uptime_s < 5; ++uptime_s) {
+      ear.now += 1s;
+      ear.status_at(other, 10, uptime_s);
+    }
+    ear.now += 1s;
+    ear.status_at(mine, 10, 0);
+    ear.now += 1s;
+    ear.status_at(mine, 10, 1);
+    CHECK_FALSE(ear.roster.is_doubled(NodeId(10)));
+  }
 }
 
 TEST_CASE("neither a fast NodeStatus, nor lost ones, nor restarts show a second unit") {

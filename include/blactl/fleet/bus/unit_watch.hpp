@@ -6,10 +6,12 @@
 #include "blactl/can/frame.hpp"
 #include "blactl/dronecan/transfer.hpp"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 
 namespace blactl::fleet {
@@ -63,7 +65,9 @@ class UnitWatch {
   [[nodiscard]] std::optional<Time> too_fast_at() const { return actuator_statuses_.of_two_at(); }
 
   /// The same of two units that started together, by their NodeStatus.
-  [[nodiscard]] std::optional<Time> two_statuses_at() const { return node_statuses_.of_two_at(); }
+  [[nodiscard]] std::optional<Time> two_statuses_at() const {
+    return std::max(node_statuses_.of_two_at(), two_priorities_at_);
+  }
 
   /// Forgets what was heard.
   void begin_anew();
@@ -99,6 +103,7 @@ class UnitWatch {
   };
 
   [[nodiscard]] Duration delay(const dronecan::Transfer& response) const;
+  void compare_priority(dronecan::Priority priority, Time start, Time at);
 
   /// A BLA servo sends actuator.Status every 100 ms (table 2-2): with the worst delays one cannot
   /// send more than fourteen in a second.
@@ -106,7 +111,10 @@ class UnitWatch {
   /// One a second is due; who sends more of them in the same second of its uptime numbers them
   /// consecutively.
   MessageRate node_statuses_{std::chrono::seconds(3), 4};
-  std::uint32_t counted_uptime_s_ = 0;                            ///< of the last one
+  std::uint32_t counted_uptime_s_ = 0;              ///< of the last one
+  std::map<dronecan::Priority, Time> run_starts_{}; ///< by priority of NodeStatus
+  dronecan::Priority last_priority_ = 0;            ///< of NodeStatus
+  std::optional<Time> two_priorities_at_{};
   std::optional<dronecan::TransferId> last_status_id_{};          ///< of NodeStatus
   std::array<Request, dronecan::transfer_id_modulus> requests_{}; ///< for GetNodeInfo
   std::array<std::optional<Time>, 2> starts_{};
