@@ -166,13 +166,37 @@ TEST_CASE(
   CHECK(keys(finding) == std::vector<std::string>{"code", "level", "node_id", "text", "fix"});
   CHECK(finding["level"] == "warning");
   CHECK(finding["node_id"] == 11);
-  CHECK(finding["fix"] == "blactl set -n 11 torque_output=on");
+  const auto fix = finding["fix"].get<std::string>();
+  CHECK(fix == "blactl set -n 11 torque_output=on --save");
   const Result english = scene.run({"doctor", "-n", "11"});
   CHECK(english.status == 8);
-  CHECK(contains(english.out, "fix: blactl set -n 11 torque_output=on"));
+  CHECK(contains(english.out, "fix: " + fix));
   const Result japanese = scene.run({"doctor", "-n", "11", "--lang", "ja"});
   CHECK(contains(japanese.out, "torque_output (0x20) が off のため"));
-  CHECK(contains(japanese.out, "対処: blactl set -n 11 torque_output=on"));
+  CHECK(contains(japanese.out, "対処: " + fix));
+}
+
+TEST_CASE("a fix of doctor lasts where typed as printed: saved, unless RAM alone is wrong") {
+  const Bench bench;
+  const Background sim(bench, {"sim", servo().write(bench)});
+  const auto fix = [&] {
+    const Result result = bench.run({"-i", "sim:", "doctor", "-n", "11", "-j"});
+    for (const auto& finding : json(result.out)["findings"]) {
+      if (finding["code"] == "torque_off") {
+        return finding["fix"].get<std::string>();
+      }
+    }
+    return std::string();
+  };
+  const auto set = [&](const Arguments& what) {
+    Arguments arguments{"-i", "sim:", "set", "-n", "11", "-y"};
+    arguments.insert(arguments.end(), what.begin(), what.end());
+    CHECK(bench.run(arguments).status == 0);
+  };
+  set({"torque_output=off"});
+  CHECK(fix() == "blactl set -n 11 torque_output=on");
+  set({"torque_output=off", "--save"});
+  CHECK(fix() == "blactl set -n 11 torque_output=on --save");
 }
 
 TEST_CASE("doctor -n looks at the servos that it names only") {

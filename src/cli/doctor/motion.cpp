@@ -2,9 +2,15 @@
 
 #include "blactl/fleet/doctor/motion.hpp"
 
+#include "cli/interface/scheme.hpp"
+#include "cli/stores.hpp"
+
 #include <algorithm>
 #include <iterator>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace blactl::cli {
@@ -31,6 +37,15 @@ std::vector<dronecan::NodeId> servos_to_move(const fleet::Findings& findings, bo
   return servos;
 }
 
+/// What is recorded of these servos; empty: nothing, or they are in a file, of whatever time.
+std::optional<fleet::History> history_of(const Context& context) {
+  const std::string_view interface = context.shared().interface;
+  auto history = takes_no_frames(interface)
+                     ? Result<fleet::History>(fail(Code::not_recorded, std::string()))
+                     : open_history(interface, "doctor", state::Access::read);
+  return history ? std::optional(std::move(*history)) : std::nullopt;
+}
+
 } // namespace
 
 fleet::Snapshots read_motion(Context& context, const fleet::Findings& findings, bool are_named) {
@@ -45,11 +60,13 @@ fleet::Snapshots read_motion(Context& context, const fleet::Findings& findings, 
 fleet::Diagnoses diagnose_motions(const fleet::Snapshots& servos, bool are_named, Context& context,
                                   const fleet::Traffic& traffic) {
   fleet::Diagnoses found;
+  auto history = history_of(context);
   const auto look = are_named ? fleet::MotionLook::named : fleet::MotionLook::commanded;
   for (const fleet::Snapshot& servo : servos.servos) {
     if (!servo.error) {
+      const auto rom = history ? history->known_rom(servo, context.session()) : bla::Values();
       std::ranges::move(fleet::diagnose_motion(servo, heard_commands(servo.servo, context, traffic),
-                                               context.known(), look),
+                                               context.known(), look, rom),
                         std::back_inserter(found));
     }
     const auto error = servo.first_error();
