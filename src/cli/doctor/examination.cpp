@@ -81,8 +81,8 @@ void examine_bus(Duration time, Context& context, Examination& examination, Repo
   if (servos.broken) {
     found = std::unexpected(*servos.broken);
   }
-  if (targets->given && found && servos.servos.empty()) {
-    context.reporter().note(say<texts::doctor_read_none>());
+  if (targets->given && found) {
+    examination.unjudged = unjudged_motions(servos, context, examination.traffic);
   }
   if (!found) {
     if (auto diagnosis = fleet::diagnose_end(found.error())) {

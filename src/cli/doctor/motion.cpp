@@ -2,10 +2,14 @@
 
 #include "blactl/fleet/doctor/motion.hpp"
 
+#include "cli/doctor/texts.hpp"
 #include "cli/interface/scheme.hpp"
 #include "cli/stores.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <chrono>
 #include <iterator>
 #include <optional>
 #include <string>
@@ -46,6 +50,15 @@ std::optional<fleet::History> history_of(const Context& context) {
   return history ? std::optional(std::move(*history)) : std::nullopt;
 }
 
+std::string commands_unjudged(dronecan::NodeId id, const fleet::Traffic& traffic) {
+  using Seconds = std::chrono::duration<double>;
+  return traffic.duration()
+             ? say<texts::doctor_commands_unjudged>(
+                   id.value(), fmt::format("{:.1f}", Seconds(*traffic.duration()).count()),
+                   Seconds(fleet::Repeated::least).count())
+             : say<texts::doctor_commands_untimed>(id.value());
+}
+
 } // namespace
 
 fleet::Snapshots read_motion(Context& context, const fleet::Findings& findings, bool are_named) {
@@ -79,6 +92,30 @@ fleet::Diagnoses diagnose_motions(const fleet::Snapshots& servos, bool are_named
     }
   }
   return found;
+}
+
+std::vector<Unjudged> unjudged_motions(const fleet::Snapshots& servos, Context& context,
+                                       const fleet::Traffic& traffic) {
+  std::vector<Unjudged> unjudged;
+  if (servos.servos.empty()) {
+    return {{.text = say<texts::doctor_read_none>()}};
+  }
+  if (context.is_fleet_file()) { // of which nobody expects what only a bus tells
+    return {};
+  }
+  for (const fleet::Snapshot& servo : servos.servos) {
+    const dronecan::NodeId id = servo.servo.id;
+    const auto heard = heard_commands(servo.servo, context, traffic);
+    if (!heard.is_long_enough && heard.to_it.empty()) {
+      unjudged.push_back({id, commands_unjudged(id, traffic)});
+    }
+    for (const Error& error : servo.errors()) {
+      if (error.code == Code::not_recorded) {
+        unjudged.push_back({id, error.message});
+      }
+    }
+  }
+  return unjudged;
 }
 
 } // namespace blactl::cli
