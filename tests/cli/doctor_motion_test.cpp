@@ -194,9 +194,9 @@ TEST_CASE("a fix of doctor lasts where typed as printed: saved, unless RAM alone
     CHECK(bench.run(arguments).status == 0);
   };
   set({"torque_output=off"});
-  CHECK(fix() == "blactl set -n 11 torque_output=on");
+  CHECK(fix() == "blactl -i sim: set -n 11 torque_output=on");
   set({"torque_output=off", "--save"});
-  CHECK(fix() == "blactl set -n 11 torque_output=on --save");
+  CHECK(fix() == "blactl -i sim: set -n 11 torque_output=on --save");
 }
 
 TEST_CASE("doctor -n looks at the servos that it names only") {

@@ -478,3 +478,14 @@ TEST_CASE("an interface without a name is refused") {
                  "for example -i can0"},
                 2);
 }
+
+TEST_CASE("a hint repeats the -i that was typed, and none of the environment") {
+  const Bench bench;
+  const std::string interface = "sim:" + three_servos().write(bench);
+  const Result typed = bench.run({"-i", interface, "get", "-n", "55"});
+  CHECK(contains(typed.err, "see who is there: blactl -i " + interface + " scan"));
+  const Result as_json = bench.run({"-i", interface, "get", "-n", "55", "-j"});
+  CHECK(contains(as_json.out, "blactl -i " + interface + " scan"));
+  const Result set = bench.run({"get", "-n", "55"}, {.env = {{"BLACTL_INTERFACE", interface}}});
+  CHECK(contains(set.err, "see who is there: blactl scan"));
+}

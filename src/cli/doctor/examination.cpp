@@ -9,6 +9,7 @@
 #include "cli/interface/meant_link.hpp"
 #include "cli/interface/scheme.hpp"
 #include "cli/output/progress_view.hpp"
+#include "cli/repeat_interface.hpp"
 #include "cli/stores.hpp"
 
 #include <algorithm>
@@ -138,6 +139,9 @@ void examine(Duration time, Context& context, Examination& examination, Report& 
     add(fleet::diagnose_link(*examination.link), examination);
   }
   examine_state(context, examination);
+  for (Diagnosis& diagnosis : examination.diagnoses) {
+    repeat_interface(diagnosis.fix, context.shared());
+  }
   std::ranges::stable_sort(examination.diagnoses, std::greater(), &Diagnosis::level);
   examination.is_whole = report.errors.empty();
 }
