@@ -181,7 +181,8 @@ TEST_CASE("a fix of doctor lasts where typed as printed: saved, unless RAM alone
   const Background sim(bench, {"sim", servo().write(bench)});
   const auto fix = [&] {
     const Result result = bench.run({"-i", "sim:", "doctor", "-n", "11", "-j"});
-    for (const auto& finding : json(result.out)["findings"]) {
+    const Json found = json(result.out)["findings"];
+    for (const auto& finding : found) {
       if (finding["code"] == "torque_off") {
         return finding["fix"].get<std::string>();
       }

@@ -281,11 +281,12 @@ TEST_CASE("a recording that cannot be made stops the command, one that breaks of
 
 TEST_CASE("a recording replaces the file, but only once the bus is open") {
   const Bench bench;
-  const std::string file = bench.file("bus.log", "precious\n");
+  const std::string precious = message(0x1403F32A, "1F76030038FF7F80");
+  const std::string file = bench.file("bus.log", precious);
   CHECK(bench.run({"-i", "nosuchcan0", "scan", "--record", file}).status == 3);
-  CHECK(content(file) == "precious\n");
+  CHECK(content(file) == precious);
   record(bench, {"get", "-n", "11", "servo_id"});
-  CHECK_FALSE(contains(content(file), "precious"));
+  CHECK_FALSE(contains(content(file), precious));
   const auto mode = std::filesystem::status(file).permissions();
   CHECK((mode & std::filesystem::perms::others_write) == std::filesystem::perms::none);
 }
