@@ -1,5 +1,6 @@
 #include "cli/command_line.hpp"
 
+#include "cli/log_target.hpp"
 #include "cli/option_values.hpp"
 #include "cli/texts.hpp"
 
@@ -267,8 +268,9 @@ void Parser::check_combinations() {
   }
 }
 
-/// Files that other options read or write must not be overwritten.
+/// Files that other options read or write, and what is no log, must not be overwritten.
 void Parser::check_recording() {
+  const std::size_t known = faults_.size();
   for (const auto& [option, given, options, see_help] : declared_) {
     const bool is_other_file = option->kind == Kind::file && option->name != "--record";
     for (const std::string& file : is_other_file ? given->results() : std::vector<std::string>()) {
@@ -279,6 +281,10 @@ void Parser::check_recording() {
                say<texts::records_over_file_hint>());
       }
     }
+  }
+  const auto fit = check_log_target(*result_.shared.record, "--record");
+  if (!fit && faults_.size() == known) {
+    faults_.push_back(fit.error());
   }
 }
 

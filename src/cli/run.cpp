@@ -4,6 +4,7 @@
 #include "cli/context.hpp"
 #include "cli/help.hpp"
 #include "cli/output/reporter.hpp"
+#include "cli/repeat_interface.hpp"
 #include "cli/texts.hpp"
 
 #include <unistd.h>
@@ -54,6 +55,14 @@ int carry_out(const Invocation& invocation, const Reporter& reporter, const BusO
   context.explain_silence(report);
   context.explain_file(report);
   context.tell_losses(report);
+  for (Error& error : report.errors) {
+    repeat_interface(error.hint, invocation.shared);
+  }
+  for (Target& target : report.targets) {
+    for (Error& error : target.errors) {
+      repeat_interface(error.hint, invocation.shared);
+    }
+  }
   return reporter.finish(report);
 }
 

@@ -57,7 +57,7 @@ Result<state::ProofStore> open_proofs(std::string_view interface, state::Access 
 std::string stores_folder(std::string_view interface) {
   std::string folder = state::state_folder();
   if (!folder.empty() && names(interface, Behind::simulator)) {
-    folder += "/simulated";
+    folder.append("/").append(state::simulated_folder);
   }
   return folder;
 }

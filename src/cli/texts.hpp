@@ -85,6 +85,14 @@ inline constexpr Text records_over_file{"--record {}: that is the file of {}",
                                         "--record {}: {} に指定したファイルと同じです"};
 inline constexpr Text records_over_file_hint{"type another file for --record",
                                              "--record には別のファイルを指定して下さい"};
+inline constexpr Text log_over_state{"{} {}: blactl keeps its own records there",
+                                     "{} {}: blactl が自身の記録を保存するファイルです"};
+inline constexpr Text log_over_state_hint{"type another file", "別のファイルを指定して下さい"};
+inline constexpr Text log_over_other{"{} {}: that file is there, and is no log",
+                                     "{} {}: 既存のファイルで、ログではありません"};
+inline constexpr Text log_over_other_hint{
+    "type another file, or remove that one first",
+    "別のファイルを指定するか、先にそのファイルを削除して下さい"};
 inline constexpr Text records_itself{"--record {}: that is the log being read",
                                      "--record {}: 読込み中のログと同じファイルです"};
 inline constexpr Text lines_passed_over{

@@ -9,6 +9,8 @@
 #include <pwd.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <filesystem>
 #include <system_error>
@@ -24,6 +26,11 @@ std::string home_folder() {
   const passwd* entry = getpwuid(geteuid());
   return entry != nullptr && entry->pw_dir != nullptr && entry->pw_dir[0] == '/' ? entry->pw_dir
                                                                                  : "";
+}
+
+std::array<const DatabaseFormat*, 5> formats() {
+  return {&allocations_format(), &counters_format(), &ledger_format(), &proofs_format(),
+          &snapshots_format()};
 }
 
 } // namespace
@@ -65,8 +72,7 @@ std::vector<Error> check_state_files(const std::string& folder) {
   if (folder.empty() || access((folder + "/.").c_str(), X_OK) != 0) {
     return found;
   }
-  for (const DatabaseFormat* format : {&allocations_format(), &counters_format(), &ledger_format(),
-                                       &proofs_format(), &snapshots_format()}) {
+  for (const DatabaseFormat* format : formats()) {
     const auto file = StateFile::open(folder, *format, Access::read, usual_patience);
     const auto good = file ? file->check() : std::unexpected(file.error());
     if (!good) {
@@ -74,6 +80,18 @@ std::vector<Error> check_state_files(const std::string& folder) {
     }
   }
   return found;
+}
+
+bool is_state_file(const std::string& path) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::path whole = fs::weakly_canonical(fs::absolute(path, error), error);
+  const fs::path folder = state_folder();
+  const bool is_inside = fs::equivalent(whole.parent_path(), folder, error) ||
+                         fs::equivalent(whole.parent_path(), folder / simulated_folder, error);
+  return is_inside && std::ranges::any_of(formats(), [&](const DatabaseFormat* format) {
+           return whole.filename().string().starts_with(format->file);
+         });
 }
 
 } // namespace blactl::state

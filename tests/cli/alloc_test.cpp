@@ -177,6 +177,37 @@ TEST_CASE("a servo that waits is meant by the beginning of its unique ID, and is
   }
 }
 
+TEST_CASE("alloc takes the beginning of a unique ID bare, where it means one servo") {
+  Scene scene;
+  const std::string first = "a1b20000000000000000000000000001";
+  const std::string second = "a1b50000000000000000000000000002";
+  scene.servo("BLA21-12U-AB", 11, {{"unique_id", first}});
+  scene.servo("BLA21-12U-AB", 12, {{"unique_id", second}});
+  scene.servo("BLA21-12U-AB", 13, {{"unique_id", "00130000000000000000000000000003"}});
+  const auto assign = [&](const std::string& whom) {
+    return scene.run({"alloc", "--static", "--assign", whom + "=20", "-y", "-j"});
+  };
+  const std::vector<std::pair<const char*, std::string>> cases{
+      {"a1b2", first},
+      {"A1B5", second},
+      {"0013", "00130000000000000000000000000003"},
+      {"12", second}, // a node ID stays one
+  };
+  for (const auto& [whom, meant] : cases) {
+    const Result done = assign(whom);
+    INFO(whom << ' ' << done.err);
+    REQUIRE(done.status == 0);
+    CHECK(json_lines(done.out).front()["unique_id"] == meant);
+  }
+  const Result both = assign("a1b");
+  check_error(both, 2, "usage", "a1b");
+  CHECK(contains(both.err, "uid:" + first));
+  CHECK(contains(both.err, "uid:" + second));
+  check_error(assign("a1b7"), 4, "not_found", "a1b7");
+  check_error(assign("200"), 2, "usage", "200 does not name one servo");
+  check_error(assign(first + "0"), 2, "usage", "does not name one servo");
+}
+
 TEST_CASE(
     "-n with a beginning that a waiting unit may have is refused, its whole unique ID is not") {
   Scene scene;
@@ -755,7 +786,7 @@ TEST_CASE("units leave the table by a beginning, by what the bus tells, or all t
   CHECK(bench.run({"-i", "sim:", "alloc", "--forget", "serial:1"}).status == 0);
   REQUIRE(entries(bench).size() == 1);
   const std::string digits = entries(bench)[0]["unique_id"];
-  CHECK(bench.run({"-i", "sim:", "alloc", "--forget", "uid:" + digits.substr(0, 6)}).status == 0);
+  CHECK(bench.run({"-i", "sim:", "alloc", "--forget", digits.substr(0, 6)}).status == 0);
   CHECK(entries(bench).empty());
   CHECK(bench.run({"-i", "sim:", "alloc", "--forget", "all", "-y"}).status == 0);
 }

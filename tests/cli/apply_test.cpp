@@ -546,9 +546,31 @@ TEST_CASE("a plan gives no node IDs") {
       {"schema", "blactl-fleet/1"},
       {"servos",
        {{{"name", "new"}, {"match", {{"serial_number", 7}}}, {"set", {{"smoothing", "off"}}}}}}};
-  CHECK(codes(fleet.apply(document, {"--dry-run"})) == Words{"not_found"});
+  const Result planned = fleet.apply(document, {"--dry-run"});
+  CHECK(codes(planned) == Words{"not_found"});
+  CHECK(contains(planned.err, "a unit waits for a node ID: unique ID "));
   CHECK(json(fleet.run({"alloc", "--list", "--json"}).out)["entries"].empty());
   CHECK(fleet.apply(document).status == 0);
+}
+
+TEST_CASE("a dry run tells which servo waits for a node ID, and goes on with the others") {
+  const std::string waits = "a1b20000000000000000000000000001";
+  Scene scene = three_servos();
+  scene.servo("BLA21-12U-AB", 0, {{"serial_number", 7}, {"unique_id", waits}});
+  Fleet fleet(scene);
+  Document document = fleet.exported();
+  document["servos"].push_back(
+      {{"name", "new"}, {"match", {{"unique_id", waits}}}, {"set", {{"smoothing", "off"}}}});
+  const Result planned = fleet.apply(document, {"--dry-run"});
+  INFO(planned.err << planned.out);
+  CHECK(planned.status == 8);
+  CHECK(codes(planned).empty());
+  CHECK(contains(planned.err, "'new' waits for a node ID: it would get a free one first, then be "
+                              "compared in 1 settings"));
+  CHECK(statuses(planned) == Words{"different", "different", "different", "missing"});
+  CHECK(json(fleet.run({"alloc", "--list", "--json"}).out)["entries"].empty());
+  REQUIRE(fleet.apply(document).status == 0);
+  CHECK(fleet.ram("uid:" + waits, "smoothing") == 0);
 }
 
 TEST_CASE("an entry of one unit means it also when it holds what the entry sets") {

@@ -235,7 +235,7 @@ TEST_CASE("a servo with servo ID 0 may be deaf to ArrayCommand, which is said as
   CHECK(moved(true).status == 0);
   const Result deaf = moved(false);
   check_error(deaf, 5, "mismatch", "it was to be at -20.0 deg");
-  CHECK(contains(deaf.err, "blactl set -n 11 servo_id=1"));
+  CHECK(contains(deaf.err, " set -n 11 servo_id=1 --save"));
 }
 
 TEST_CASE("ArrayCommand minds an actuator of another make only where it has the servo's ID") {

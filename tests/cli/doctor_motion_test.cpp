@@ -166,13 +166,38 @@ TEST_CASE(
   CHECK(keys(finding) == std::vector<std::string>{"code", "level", "node_id", "text", "fix"});
   CHECK(finding["level"] == "warning");
   CHECK(finding["node_id"] == 11);
-  CHECK(finding["fix"] == "blactl set -n 11 torque_output=on");
+  const auto fix = finding["fix"].get<std::string>();
+  CHECK(fix == "blactl set -n 11 torque_output=on --save");
   const Result english = scene.run({"doctor", "-n", "11"});
   CHECK(english.status == 8);
-  CHECK(contains(english.out, "fix: blactl set -n 11 torque_output=on"));
+  CHECK(contains(english.out, "fix: " + fix));
   const Result japanese = scene.run({"doctor", "-n", "11", "--lang", "ja"});
   CHECK(contains(japanese.out, "torque_output (0x20) が off のため"));
-  CHECK(contains(japanese.out, "対処: blactl set -n 11 torque_output=on"));
+  CHECK(contains(japanese.out, "対処: " + fix));
+}
+
+TEST_CASE("a fix of doctor lasts where typed as printed: saved, unless RAM alone is wrong") {
+  const Bench bench;
+  const Background sim(bench, {"sim", servo().write(bench)});
+  const auto fix = [&] {
+    const Result result = bench.run({"-i", "sim:", "doctor", "-n", "11", "-j"});
+    const Json found = json(result.out)["findings"];
+    for (const auto& finding : found) {
+      if (finding["code"] == "torque_off") {
+        return finding["fix"].get<std::string>();
+      }
+    }
+    return std::string();
+  };
+  const auto set = [&](const Arguments& what) {
+    Arguments arguments{"-i", "sim:", "set", "-n", "11", "-y"};
+    arguments.insert(arguments.end(), what.begin(), what.end());
+    CHECK(bench.run(arguments).status == 0);
+  };
+  set({"torque_output=off"});
+  CHECK(fix() == "blactl -i sim: set -n 11 torque_output=on");
+  set({"torque_output=off", "--save"});
+  CHECK(fix() == "blactl -i sim: set -n 11 torque_output=on --save");
 }
 
 TEST_CASE("doctor -n looks at the servos that it names only") {
@@ -282,9 +307,35 @@ TEST_CASE("the trial that doctor offers is within the limits of the servo") {
 TEST_CASE("doctor says so where it was asked about a servo that it did not read") {
   const Result heard =
       driven({{"torque_output", "off"}}).run({"doctor", "-n", "11", "--listen-only"});
-  CHECK(contains(heard.err, "why one does not move is not judged"));
+  CHECK(contains(heard.out, "why one does not move is not judged"));
   const Result read = driven().run({"doctor", "-n", "11"});
-  CHECK_FALSE(contains(read.err, "is not judged"));
+  CHECK_FALSE(contains(read.out, "not judged"));
+  CHECK(contains(read.out, "nothing is wrong, as far as it was heard"));
+}
+
+TEST_CASE("doctor -n tells of a recording what it is too short, or too poor, to judge") {
+  const Bench bench;
+  const std::string log = (bench.folder() / "bus.log").string();
+  CHECK(servo().run(bench, {"--record", log, "get", "--all", "-n", "11"}).status == 0);
+  const Arguments doctor{"-i", "replay:" + log, "doctor", "-n", "11"};
+  const auto in = [&](const char* form, const char* language = "en") {
+    Arguments arguments = doctor;
+    arguments.insert(arguments.end(), {form, "--lang", language});
+    return bench.run(arguments);
+  };
+  const Result text = in("-v");
+  INFO(text.out << text.err);
+  CHECK(text.status == 0);
+  CHECK(contains(text.out, "not judged  node 11: whether anybody commands it"));
+  CHECK(contains(text.out, "nothing is wrong in the rest"));
+  const auto told = json(in("-j").out)["not_judged"];
+  REQUIRE(told.size() == 1);
+  CHECK(told[0]["node_id"] == 11);
+  CHECK(contains(told[0]["text"].get<std::string>(), "2 s are needed"));
+  CHECK(contains(in("-j", "ja").out, "動作指令の有無"));
+  CHECK(servo().run(bench, {"--record", log, "get", "smoothing", "-n", "11"}).status == 0);
+  CHECK(contains(in("-j").out, "node 11: not in the recording: command_angle"));
+  CHECK(json(servo().run({"doctor", "-n", "11", "-j"}).out)["not_judged"].empty());
 }
 
 TEST_CASE("doctor finds a servo that is blocked, and for -n a commander is no finding") {

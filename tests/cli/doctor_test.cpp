@@ -303,6 +303,22 @@ TEST_CASE("--report that cannot be written is refused before anything is asked")
   CHECK(codes(both) == std::vector<std::string>{"usage"});
 }
 
+TEST_CASE("--report replaces a report in either language, and no file of others") {
+  const Bench bench;
+  const std::string interface = "sim:" + numbered_servos().write(bench);
+  const std::string file = (bench.folder() / "report.txt").string();
+  for (const char* language : {"en", "ja", "en"}) {
+    const Result written =
+        bench.run({"-i", interface, "doctor", "--report", file, "--lang", language});
+    INFO(written.err);
+    CHECK(written.status == 0);
+  }
+  const std::string other = bench.file("fleet.json", "{}");
+  const Result refused = bench.run({"-i", interface, "doctor", "--report", other});
+  check_error(refused, 2, "usage", "--report " + other + ": that file is there, and is no log");
+  CHECK(content(other) == "{}");
+}
+
 TEST_CASE("doctor finds a node whose NodeStatus comes too rarely") {
   const char* period = GENERATE("1500ms", "2500ms", "2900ms");
   Scene scene = numbered_servos();

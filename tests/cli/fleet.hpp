@@ -25,9 +25,10 @@ class Fleet {
       : shared_(std::move(shared)), sim_(bench_, simulator(scene)) {}
 
   [[nodiscard]] Result run(Arguments arguments, const Options& options = {}) const {
-    arguments.insert(arguments.begin(), {"-i", "sim:"});
     arguments.insert(arguments.end(), shared_.begin(), shared_.end());
-    return bench_.run(arguments, options);
+    Options with_bus = options; // by the environment: hints repeat what is typed
+    with_bus.env.try_emplace("BLACTL_INTERFACE", "sim:");
+    return bench_.run(arguments, with_bus);
   }
 
   [[nodiscard]] Document exported() const {

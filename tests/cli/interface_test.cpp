@@ -17,6 +17,17 @@ struct Refusal {
   std::string hint;    ///< a part of it
 };
 
+/// The commands in it repeat the interface that was typed.
+std::string hint_of(const Refusal& refusal) {
+  constexpr std::string_view program = "`blactl ";
+  std::string hint = refusal.hint;
+  const bool is_typed =
+      refusal.arguments.size() > 1 && refusal.arguments[1] == "can_does_not_exist";
+  const auto at = is_typed ? hint.find(program) : std::string::npos;
+  return at != std::string::npos ? hint.insert(at + program.size(), "-i can_does_not_exist ")
+                                 : hint;
+}
+
 /// The refusal as a person and as a script see it.
 void check_refusal(const Refusal& refusal, int status) {
   std::string line = "blactl";
@@ -30,7 +41,7 @@ void check_refusal(const Refusal& refusal, int status) {
   CHECK(text.out.empty());
   CHECK(codes(text) == std::vector{refusal.code});
   CHECK(contains(text.err, refusal.message));
-  CHECK(contains(text.err, "\n  " + refusal.hint));
+  CHECK(contains(text.err, "\n  " + hint_of(refusal)));
 
   Arguments arguments = refusal.arguments;
   arguments.insert(arguments.begin(), "-j");
@@ -40,7 +51,7 @@ void check_refusal(const Refusal& refusal, int status) {
   REQUIRE(errors.size() == 1);
   CHECK(errors[0]["code"] == refusal.code);
   CHECK(contains(errors[0]["message"].get<std::string>(), refusal.message));
-  CHECK(contains(errors[0]["hint"].get<std::string>(), refusal.hint));
+  CHECK(contains(errors[0]["hint"].get<std::string>(), hint_of(refusal)));
   CHECK(json(document.out)["exit_status"] == status);
 }
 
@@ -477,4 +488,15 @@ TEST_CASE("an interface without a name is refused") {
                  "-i socketcan:: the name of the interface is missing",
                  "for example -i can0"},
                 2);
+}
+
+TEST_CASE("a hint repeats the -i that was typed, and none of the environment") {
+  const Bench bench;
+  const std::string interface = "sim:" + three_servos().write(bench);
+  const Result typed = bench.run({"-i", interface, "get", "-n", "55"});
+  CHECK(contains(typed.err, "see who is there: blactl -i " + interface + " scan"));
+  const Result as_json = bench.run({"-i", interface, "get", "-n", "55", "-j"});
+  CHECK(contains(as_json.out, "blactl -i " + interface + " scan"));
+  const Result set = bench.run({"get", "-n", "55"}, {.env = {{"BLACTL_INTERFACE", interface}}});
+  CHECK(contains(set.err, "see who is there: blactl scan"));
 }

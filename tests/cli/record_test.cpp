@@ -281,11 +281,12 @@ TEST_CASE("a recording that cannot be made stops the command, one that breaks of
 
 TEST_CASE("a recording replaces the file, but only once the bus is open") {
   const Bench bench;
-  const std::string file = bench.file("bus.log", "precious\n");
+  const std::string precious = message(0x1403F32A, "1F76030038FF7F80");
+  const std::string file = bench.file("bus.log", precious);
   CHECK(bench.run({"-i", "nosuchcan0", "scan", "--record", file}).status == 3);
-  CHECK(content(file) == "precious\n");
+  CHECK(content(file) == precious);
   record(bench, {"get", "-n", "11", "servo_id"});
-  CHECK_FALSE(contains(content(file), "precious"));
+  CHECK_FALSE(contains(content(file), precious));
   const auto mode = std::filesystem::status(file).permissions();
   CHECK((mode & std::filesystem::perms::others_write) == std::filesystem::perms::none);
 }
@@ -329,4 +330,44 @@ TEST_CASE("a recording too short for an actuator.Status shows the servo without 
     CHECK(replayed.status == 0);
     CHECK(json(replayed.out)["nodes"].size() == 1);
   }
+}
+
+TEST_CASE("--record replaces a log, and no other file") {
+  const Bench bench;
+  const Scene scene = three_servos();
+  const std::string log = record(bench, {"scan"});
+  CHECK(scene.run(bench, {"scan", "--record", log}).status == 0);
+  CHECK(scene.run(bench, {"scan", "--record", bench.file("empty.log", "")}).status == 0);
+  const std::string notes = "candidates:\n# 11 is the elevator\n";
+  const std::string other = bench.file("notes.txt", notes);
+  const std::string scenario = scene.write(bench);
+  const std::string before = content(scenario);
+  for (const std::string& file : {other, scenario}) {
+    const Result refused = bench.run({"-i", "sim:" + scenario, "scan", "--record", file, "-j"});
+    INFO(refused.out);
+    check_error(refused, 2, "usage", "that file is there, and is no log");
+    CHECK(contains(refused.out, "type another file, or remove that one first"));
+    CHECK(json(refused.out)["interface"].is_null()); // nothing was opened
+  }
+  CHECK(content(other) == notes);
+  CHECK(content(scenario) == before);
+}
+
+TEST_CASE("--record spares the files in which blactl keeps its state, there or not") {
+  const Bench bench;
+  const std::string state = (bench.folder() / "own").string();
+  const Options options{.env = {{"BLACTL_STATE_DIR", state}}};
+  const Background sim(bench, {"sim", three_servos().write(bench)});
+  REQUIRE(bench.run({"-i", "sim:", "set", "-n", "11", "smoothing=off", "-y"}, options).status == 0);
+  const std::string snapshots = state + "/simulated/snapshots.db";
+  const std::string before = content(snapshots);
+  for (const char* file : {"/simulated/snapshots.db", "/simulated/snapshots.db-wal", "/ledger.db",
+                           "/simulated/../counters.db-journal"}) {
+    const Result refused = bench.run({"-i", "sim:", "scan", "--record", state + file}, options);
+    INFO(file);
+    check_error(refused, 2, "usage", "blactl keeps its own records there");
+  }
+  CHECK(content(snapshots) == before);
+  CHECK_FALSE(std::filesystem::exists(state + "/ledger.db"));
+  CHECK(bench.run({"-i", "sim:", "scan", "--record", state + "/bus.log"}, options).status == 0);
 }

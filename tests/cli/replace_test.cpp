@@ -125,6 +125,23 @@ TEST_CASE("a dry run of replace changes neither servo nor file") {
   CHECK(place.fleet.rom_writes() == 0);
 }
 
+TEST_CASE("a dry run of replace tells who waits for a node ID, and whether that is the new one") {
+  Place place(with(0));
+  const Result unclear = place.replace({"--dry-run"}); // by its serial number it may be the old one
+  check_error(unclear, 4, "not_found", "right aileron");
+  CHECK(contains(unclear.err, "a unit waits for a node ID: unique ID "));
+  CHECK(content(place.file) == wing);
+  std::ofstream(place.file) << replaced(wing, R"("serial_number" : 240900002)",
+                                        R"("unique_id": "a1b20000000000000000000000000009")");
+  const std::string before = content(place.file);
+  const Result planned = place.replace({"--dry-run"});
+  INFO(planned.err << planned.out);
+  CHECK(planned.status == 8);
+  CHECK(contains(planned.err, "would get a free one first, and then take the place of 'right ail"));
+  CHECK(content(place.file) == before);
+  CHECK(place.fleet.rom_writes() == 0);
+}
+
 TEST_CASE("a broken servo that still answers is not replaced") {
   Scene scene = with(33);
   scene.servo(model, 12, {{"serial_number", broken}, {"servo_id", 2}});

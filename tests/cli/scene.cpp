@@ -63,9 +63,9 @@ Result Scene::run(const Arguments& arguments, const Options& options) const {
 
 Result Scene::run(const Bench& bench, const Arguments& arguments, const Options& options) const {
   const std::string file = write(bench);
-  Arguments all{"-i", "sim:" + file};
-  all.insert(all.end(), arguments.begin(), arguments.end());
-  Result result = bench.run(all, options);
+  Options with_bus = options; // by the environment: hints repeat what is typed
+  with_bus.env.try_emplace("BLACTL_INTERFACE", "sim:" + file);
+  Result result = bench.run(arguments, with_bus);
   INFO(result.err);
   CHECK_FALSE(contains(result.err, "[bad_file] " + file));
   return result;

@@ -46,8 +46,8 @@ class Scene {
   /// Writes the scenario file and gives its path.
   [[nodiscard]] std::string write(const Bench& bench) const;
 
-  /// Runs the binary with `-i sim:` this scenario. A scenario that the simulator refuses is a
-  /// failure of the test.
+  /// Runs the binary on this scenario (BLACTL_INTERFACE). A scenario that the simulator refuses is
+  /// a failure of the test.
   [[nodiscard]] Result run(const Arguments& arguments, const Options& options = {}) const;
   [[nodiscard]] Result run(const Bench& bench, const Arguments& arguments,
                            const Options& options = {}) const;

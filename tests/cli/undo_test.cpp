@@ -143,7 +143,12 @@ TEST_CASE("undo --list shows what is recorded, the newest first, without a bus")
   CHECK(snapshots[0]["command"] == "undo");
   CHECK(snapshots[1]["command"] == "set");
   CHECK(snapshots[0]["changed_count"] == 1);
-  CHECK(keys(ordered_json(snapshots[0].dump())).size() == 5);
+  CHECK(snapshots[0]["changes"] == nlohmann::json::parse(R"([{"address": "0x22",
+      "name": "smoothing", "before": 0, "after": 1}])"));
+  CHECK(snapshots[1]["changes"][0]["before"] == 1);
+  CHECK(snapshots[1]["changes"][0]["after"] == 0);
+  CHECK(snapshots[0]["saved"] == false);
+  CHECK(keys(ordered_json(snapshots[0].dump())).size() == 7);
   CHECK(snapshots[1]["number"] == snapshots[2]["number"]); // one number a command
   CHECK(snapshots[0]["number"] > snapshots[1]["number"]);
   CHECK(contains(fleet.run({"undo", "--list"}).out, "smoothing"));

@@ -8,6 +8,9 @@
 
 namespace blactl::state {
 
+/// In it: the state of simulated buses.
+inline constexpr const char* simulated_folder = "simulated";
+
 /// $BLACTL_STATE_DIR, else $XDG_STATE_HOME/blactl, else ~/.local/state/blactl; empty: this user has
 /// none. It need not exist yet.
 [[nodiscard]] std::string state_folder();
@@ -20,5 +23,9 @@ namespace blactl::state {
 /// Reads all of the state files in a folder, and creates none. Returns the errors of those that
 /// cannot be used: bad_file (also where only this reading meets the damage), permission, io, busy.
 [[nodiscard]] std::vector<Error> check_state_files(const std::string& folder);
+
+/// Whether a state file of this user is, or would be, at this path: one of the folder, or of that
+/// of simulated buses in it, with what SQLite puts beside it.
+[[nodiscard]] bool is_state_file(const std::string& path);
 
 } // namespace blactl::state

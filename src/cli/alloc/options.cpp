@@ -6,13 +6,11 @@
 #include <charconv>
 #include <string>
 #include <string_view>
-#include <tuple>
 #include <utility>
 
 namespace blactl::cli {
 
 using dronecan::NodeId;
-using dronecan::UniqueId;
 
 namespace {
 
@@ -42,6 +40,14 @@ Result<fleet::WantedId> parse_wish(std::string_view text) {
                 say<texts::alloc_no_id_hint>());
   }
   return fleet::WantedId{std::move(*whom), *node_id, std::string(text.substr(0, equals))};
+}
+
+/// Whether it is hexadecimal, and not a node ID, which has three digits at most.
+bool begins_unique_id(std::string_view text) {
+  constexpr std::size_t longest_node_id = 3;
+  const bool is_number = text.find_first_not_of("0123456789") == std::string_view::npos;
+  return !(is_number && text.size() <= longest_node_id) &&
+         text.find_first_not_of("0123456789abcdefABCDEF") == std::string_view::npos;
 }
 
 } // namespace
@@ -85,9 +91,8 @@ parse_wishes(const std::vector<std::string>& texts) {
 }
 
 Result<fleet::Targets> parse_unit(std::string_view text) {
-  constexpr std::size_t digits = 2 * std::tuple_size_v<UniqueId>;
-  const bool is_unique_id = text.size() == digits && text.find(':') == std::string_view::npos;
-  auto whom = fleet::parse_targets(is_unique_id ? "uid:" + std::string(text) : std::string(text));
+  auto whom =
+      fleet::parse_targets(begins_unique_id(text) ? "uid:" + std::string(text) : std::string(text));
   const bool is_one = whom && !whom->all && whom->ids.size() + whom->selectors.size() == 1;
   return is_one ? std::move(whom)
                 : fail(Code::usage, say<texts::alloc_no_unit>(printable(text)),

@@ -38,8 +38,8 @@ struct AllocOptions {
 [[nodiscard]] std::expected<std::vector<fleet::WantedId>, std::vector<Error>>
 parse_wishes(const std::vector<std::string>& texts);
 
-/// Parses what means one unit: a node ID, a selector, or a unique ID without its "uid:". Errors:
-/// usage.
+/// Parses what means one unit: a node ID, a selector, or a unique ID, or the beginning of one,
+/// without its "uid:". Errors: usage.
 [[nodiscard]] Result<fleet::Targets> parse_unit(std::string_view text);
 
 } // namespace blactl::cli

@@ -22,8 +22,8 @@ inline constexpr Text alloc_range_hint{"for example --range 10-99, within 1 to 1
                                        "例: --range 10-99 (1～125 の範囲内)"};
 inline constexpr Text alloc_no_unit{"{} does not name one servo", "{} は 1 台のサーボを示しません"};
 inline constexpr Text alloc_no_unit_hint{
-    "a unique ID or its beginning (uid:0011aa), serial:240900558, servo:3, or a node ID",
-    "固有 ID またはその先頭 (uid:0011aa)、serial:240900558、servo:3、またはノード ID "
+    "a unique ID or its beginning (0011aa, uid:0011aa), serial:240900558, servo:3, or a node ID",
+    "固有 ID またはその先頭 (0011aa、uid:0011aa)、serial:240900558、servo:3、またはノード ID "
     "を指定して下さい"};
 inline constexpr Text alloc_one_thing{"{} and {} do not go together",
                                       "{} と {} は同時に指定できません"};

@@ -1,5 +1,6 @@
 #include "cli/change/change_servos.hpp"
 
+#include "blactl/base/hex.hpp"
 #include "blactl/fleet/bus/discovery.hpp"
 #include "blactl/fleet/bus/ticker.hpp"
 #include "blactl/fleet/change/let_in.hpp"
@@ -59,6 +60,7 @@ class Run : WritingRun {
   [[nodiscard]] bool find();
   [[nodiscard]] bool look_around();
   [[nodiscard]] bool look_for(const fleet::Targets& targets);
+  void tell_waiting();
   [[nodiscard]] bool let_in();
   [[nodiscard]] bool may_let_in();
   [[nodiscard]] Change::Options options();
@@ -156,7 +158,19 @@ bool Run::find() {
     return false;
   }
   tell(goals_.notes);
+  if (request_.dry_run && !goals_.errors.empty()) {
+    tell_waiting();
+  }
   return stop_at(goals_.errors);
+}
+
+/// Without a node ID it is not known which of the missing servos they are.
+void Run::tell_waiting() {
+  std::vector<std::string> notes;
+  for (const fleet::UniqueIdPrefix& heard : context_.session().roster().pending()) {
+    notes.push_back(say<texts::would_let_in_unknown>(hex(heard)));
+  }
+  tell(notes);
 }
 
 /// Whether missing servos may be waiting for a node ID. A plan allocates none. Who was heard once
@@ -287,6 +301,9 @@ void Run::count(std::span<const GoalResult> results) {
   for (const GoalResult& result : results) {
     report_.targets.push_back({.errors = errors_of(result, request_.dry_run),
                                .has_found = request_.dry_run && would_act(result)});
+  }
+  for (std::size_t i = 0; i < goals_.would_let_in; ++i) {
+    report_.targets.push_back({.has_found = true});
   }
   report_.count_targets(std::max(named_, report_.targets.size()));
   std::ranges::copy(counts(request_.view, results, request_.dry_run),

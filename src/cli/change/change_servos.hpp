@@ -13,6 +13,7 @@
 #include "cli/options.hpp"
 #include "cli/output/report.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -32,6 +33,9 @@ struct Goals {
   bool may_wait = false; ///< missing servos may be among those that request a node ID
   /// All of those by their unique IDs; empty: some are known otherwise.
   std::optional<std::vector<dronecan::UniqueId>> missing{};
+  /// With --dry-run: the servos that would get a node ID first, and then their settings. The notes
+  /// tell which.
+  std::size_t would_let_in = 0;
 };
 
 /// The servos that a command may be about.

@@ -9,6 +9,7 @@
 
 #include "cli/change/change_servos.hpp"
 #include "cli/change/texts.hpp"
+#include "cli/change/waiting_ids.hpp"
 #include "cli/commands.hpp"
 #include "cli/settings_files.hpp"
 
@@ -102,6 +103,7 @@ struct Manner {
   std::function<bool(const fleet::FleetEntry& entry)> saves; ///< settings go to ROM, too
   bool trusts_ram = false;     ///< equal RAM is enough: no restart to prove ROM
   bool is_listed_only = false; ///< in the order of the file, for --dry-run
+  std::string_view interface{};
 };
 
 fleet::Goal goal(const fleet::FleetEntry& entry, dronecan::NodeId id, const Manner& manner) {
@@ -167,14 +169,22 @@ Goals match(const fleet::FleetFile& file, const Manner& manner, const Whom& whom
     goals.goals.push_back(goal(*pair.entry, pair.id, manner));
   }
   for (const fleet::FleetEntry* entry : matched.missing) {
-    goals.errors.push_back(
-        missing(*entry, whom.roster, hint_for_missing(file, *entry, matched, whom.roster)));
+    const auto& unit = entry->match.unique_id;
+    if (manner.is_listed_only && unit && whom.roster.is_pending(*unit)) {
+      goals.notes.push_back(say<texts::apply_would_let_in>(
+          printable(entry->name), would_get_id(*unit, whom.roster, manner.interface),
+          entry->set.size()));
+      ++goals.would_let_in;
+    } else {
+      goals.errors.push_back(
+          missing(*entry, whom.roster, hint_for_missing(file, *entry, matched, whom.roster)));
+    }
   }
   std::ranges::transform(matched.misfits, std::back_inserter(goals.errors),
                          &fleet::FleetMatch::Misfit::error);
   goals.may_wait = !matched.missing.empty();
   goals.missing = units(matched.missing);
-  if (goals.goals.empty() && goals.errors.empty()) {
+  if (goals.goals.empty() && goals.errors.empty() && goals.would_let_in == 0) {
     goals.errors.push_back({Code::not_found, say<texts::apply_nobody>(printable(file.file)),
                             say<texts::apply_nobody_hint>(printable(file.file)), std::nullopt});
   }
@@ -221,7 +231,8 @@ Report carry_out_plan(const ApplyOptions& options, ChangeRequest request, Contex
   const Manner manner{
       .saves = [&](const fleet::FleetEntry& entry) { return plan->step(entry).saves; },
       .trusts_ram = plan->trusts_ram,
-      .is_listed_only = options.dry_run};
+      .is_listed_only = options.dry_run,
+      .interface = context.shared().interface};
   request.find = [&](const Whom& whom) {
     return match(plan->fleet, manner, whom, context.known());
   };
@@ -289,7 +300,8 @@ Report apply_file(const ApplyOptions& options, ChangeRequest request, Context& c
   }
   const Manner manner{.saves = [&](const fleet::FleetEntry&) { return !options.no_save; },
                       .trusts_ram = options.trust_ram,
-                      .is_listed_only = options.dry_run};
+                      .is_listed_only = options.dry_run,
+                      .interface = context.shared().interface};
   request.find = [&](const Whom& whom) { return match(*file, manner, whom, context.known()); };
   if (!options.entry.empty()) {
     const auto entry = fleet::find_entry(*file, options.entry);

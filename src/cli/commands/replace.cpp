@@ -8,13 +8,16 @@
 #include "blactl/fleet/bus/read_job.hpp"
 #include "blactl/fleet/bus/unreachable.hpp"
 #include "blactl/fleet/files/fleet_file_editor.hpp"
+#include "blactl/fleet/files/fleet_match.hpp"
 #include "blactl/fleet/files/successor.hpp"
 
 #include "cli/change/change_servos.hpp"
 #include "cli/change/texts.hpp"
+#include "cli/change/waiting_ids.hpp"
 #include "cli/commands.hpp"
 #include "cli/stores.hpp"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <span>
@@ -96,6 +99,7 @@ class Replacement {
   [[nodiscard]] const std::optional<Error>& failure() const { return failure_; }
 
  private:
+  [[nodiscard]] std::optional<std::string> waiting_successor(const Whom& whom) const;
   [[nodiscard]] bool has_taken_place(const dronecan::UniqueId& unit) const;
   [[nodiscard]] Result<void> look_for_broken(const fleet::GoalResult& result);
   [[nodiscard]] Result<fleet::Snapshot> read_unit(const fleet::GoalResult& result);
@@ -111,6 +115,12 @@ class Replacement {
 Goals Replacement::find(const Whom& whom) {
   const auto found = fleet::find_successor(file_.fleet, entry_, whom.roster, whom.targets,
                                            whom.selected, context_.known());
+  const auto waiting = !found && options_.dry_run && found.error().code == Code::not_found
+                           ? waiting_successor(whom)
+                           : std::nullopt;
+  if (waiting) {
+    return {.notes = {*waiting}, .would_let_in = 1};
+  }
   if (!found) {
     return {.errors = {found.error()}, .may_wait = found.error().code == Code::not_found};
   }
@@ -132,6 +142,28 @@ Goals Replacement::find(const Whom& whom) {
                      .evidence = fleet::Evidence::restart}},
           .notes = {found->is_meant ? say<texts::replace_took_place>(id, name)
                                     : say<texts::replace_takes_place>(id, name)}};
+}
+
+/// The only unit that waits for a node ID, if it can be no other than the new one: told in a dry
+/// run.
+std::optional<std::string> Replacement::waiting_successor(const Whom& whom) const {
+  const auto pending = whom.roster.pending();
+  if (!whom.targets.mean_all() || pending.size() != 1) {
+    return std::nullopt;
+  }
+  const auto missing =
+      fleet::match(file_.fleet, whom.roster, fleet::Targets(), context_.known()).missing;
+  const bool may_have_entry = std::ranges::any_of(missing, [&](const fleet::FleetEntry* entry) {
+    const auto& unit = entry->match.unique_id;
+    return !unit || dronecan::begins_with(*unit, pending.front());
+  });
+  dronecan::UniqueId unit{};
+  std::ranges::copy(pending.front(), unit.begin());
+  return may_have_entry ? std::nullopt
+                        : std::optional(say<texts::replace_would_let_in>(
+                              hex(pending.front()),
+                              would_get_id(unit, whom.roster, context_.shared().interface),
+                              printable(entry_.name)));
 }
 
 /// A run of this command may have been killed at its end. One whose last change was another is the

@@ -247,7 +247,7 @@ Report list(const SnapshotStore& store, Context& context) {
   }
   const auto kept = std::make_shared<std::vector<SnapshotEntry>>(std::move(*entries));
   report.counts = {{"snapshots", kept->size()}};
-  report.json = [kept](JsonWriter& json) { write_snapshots(json, *kept); };
+  report.json = [kept, profiles](JsonWriter& json) { write_snapshots(json, *kept, **profiles); };
   report.text = [kept, profiles](const Page& page) { return text(*kept, **profiles, page); };
   return report;
 }

@@ -9,6 +9,7 @@
 #include "cli/interface/meant_link.hpp"
 #include "cli/interface/scheme.hpp"
 #include "cli/output/progress_view.hpp"
+#include "cli/repeat_interface.hpp"
 #include "cli/stores.hpp"
 
 #include <algorithm>
@@ -81,8 +82,8 @@ void examine_bus(Duration time, Context& context, Examination& examination, Repo
   if (servos.broken) {
     found = std::unexpected(*servos.broken);
   }
-  if (targets->given && found && servos.servos.empty()) {
-    context.reporter().note(say<texts::doctor_read_none>());
+  if (targets->given && found) {
+    examination.unjudged = unjudged_motions(servos, context, examination.traffic);
   }
   if (!found) {
     if (auto diagnosis = fleet::diagnose_end(found.error())) {
@@ -138,6 +139,9 @@ void examine(Duration time, Context& context, Examination& examination, Report& 
     add(fleet::diagnose_link(*examination.link), examination);
   }
   examine_state(context, examination);
+  for (Diagnosis& diagnosis : examination.diagnoses) {
+    repeat_interface(diagnosis.fix, context.shared());
+  }
   std::ranges::stable_sort(examination.diagnoses, std::greater(), &Diagnosis::level);
   examination.is_whole = report.errors.empty();
 }

@@ -11,8 +11,15 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace blactl::cli {
+
+/// What the examination could not tell, for lack of data.
+struct Unjudged {
+  std::optional<dronecan::NodeId> node{};
+  std::string text{};
+};
 
 /// The results. It must not outlive the context or its session.
 struct Examination {
@@ -24,7 +31,8 @@ struct Examination {
   bool are_named = false;                 ///< `nodes` has those of -n only
   fleet::Diagnoses fixed{};               ///< fixed by --fix
   fleet::Diagnoses diagnoses{};           ///< present problems, the worst first
-  bool is_whole = false;                  ///< the examination was complete
+  std::vector<Unjudged> unjudged{};
+  bool is_whole = false; ///< the examination was complete
 };
 
 /// Examines everything for `time`. Errors that prevented it are in the report; those of the bus

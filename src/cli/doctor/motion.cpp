@@ -2,9 +2,19 @@
 
 #include "blactl/fleet/doctor/motion.hpp"
 
+#include "cli/doctor/texts.hpp"
+#include "cli/interface/scheme.hpp"
+#include "cli/stores.hpp"
+
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <chrono>
 #include <iterator>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace blactl::cli {
@@ -31,6 +41,24 @@ std::vector<dronecan::NodeId> servos_to_move(const fleet::Findings& findings, bo
   return servos;
 }
 
+/// What is recorded of these servos; empty: nothing, or they are in a file, of whatever time.
+std::optional<fleet::History> history_of(const Context& context) {
+  const std::string_view interface = context.shared().interface;
+  auto history = takes_no_frames(interface)
+                     ? Result<fleet::History>(fail(Code::not_recorded, std::string()))
+                     : open_history(interface, "doctor", state::Access::read);
+  return history ? std::optional(std::move(*history)) : std::nullopt;
+}
+
+std::string commands_unjudged(dronecan::NodeId id, const fleet::Traffic& traffic) {
+  using Seconds = std::chrono::duration<double>;
+  return traffic.duration()
+             ? say<texts::doctor_commands_unjudged>(
+                   id.value(), fmt::format("{:.1f}", Seconds(*traffic.duration()).count()),
+                   Seconds(fleet::Repeated::least).count())
+             : say<texts::doctor_commands_untimed>(id.value());
+}
+
 } // namespace
 
 fleet::Snapshots read_motion(Context& context, const fleet::Findings& findings, bool are_named) {
@@ -45,11 +73,13 @@ fleet::Snapshots read_motion(Context& context, const fleet::Findings& findings, 
 fleet::Diagnoses diagnose_motions(const fleet::Snapshots& servos, bool are_named, Context& context,
                                   const fleet::Traffic& traffic) {
   fleet::Diagnoses found;
+  auto history = history_of(context);
   const auto look = are_named ? fleet::MotionLook::named : fleet::MotionLook::commanded;
   for (const fleet::Snapshot& servo : servos.servos) {
     if (!servo.error) {
+      const auto rom = history ? history->known_rom(servo, context.session()) : bla::Values();
       std::ranges::move(fleet::diagnose_motion(servo, heard_commands(servo.servo, context, traffic),
-                                               context.known(), look),
+                                               context.known(), look, rom),
                         std::back_inserter(found));
     }
     const auto error = servo.first_error();
@@ -62,6 +92,30 @@ fleet::Diagnoses diagnose_motions(const fleet::Snapshots& servos, bool are_named
     }
   }
   return found;
+}
+
+std::vector<Unjudged> unjudged_motions(const fleet::Snapshots& servos, Context& context,
+                                       const fleet::Traffic& traffic) {
+  std::vector<Unjudged> unjudged;
+  if (servos.servos.empty()) {
+    return {{.text = say<texts::doctor_read_none>()}};
+  }
+  if (context.is_fleet_file()) { // of which nobody expects what only a bus tells
+    return {};
+  }
+  for (const fleet::Snapshot& servo : servos.servos) {
+    const dronecan::NodeId id = servo.servo.id;
+    const auto heard = heard_commands(servo.servo, context, traffic);
+    if (!heard.is_long_enough && heard.to_it.empty()) {
+      unjudged.push_back({id, commands_unjudged(id, traffic)});
+    }
+    for (const Error& error : servo.errors()) {
+      if (error.code == Code::not_recorded) {
+        unjudged.push_back({id, error.message});
+      }
+    }
+  }
+  return unjudged;
 }
 
 } // namespace blactl::cli

@@ -7,6 +7,8 @@
 #include "cli/context.hpp"
 #include "cli/doctor/examination.hpp"
 
+#include <vector>
+
 namespace blactl::cli {
 
 /// Reads what tells why they do not move: of the servos that -n names, else of those that another
@@ -17,5 +19,10 @@ namespace blactl::cli {
 /// What is found of them, and which of them could not be read, other than what a recording lacks.
 [[nodiscard]] fleet::Diagnoses diagnose_motions(const fleet::Snapshots& servos, bool are_named,
                                                 Context& context, const fleet::Traffic& traffic);
+
+/// What could not be judged of the servos that -n names: what a recording lacks, or is too short
+/// for.
+[[nodiscard]] std::vector<Unjudged>
+unjudged_motions(const fleet::Snapshots& servos, Context& context, const fleet::Traffic& traffic);
 
 } // namespace blactl::cli

@@ -9,6 +9,7 @@
 #include "cli/alloc/actions.hpp"
 #include "cli/doctor/texts.hpp"
 #include "cli/doctor/view.hpp"
+#include "cli/log_target.hpp"
 #include "cli/output/faults_view.hpp"
 #include "cli/output/parameter_view.hpp"
 
@@ -90,6 +91,9 @@ Result<void> prepare_report(const std::string& file, Context& context) {
   }
   if (file == "-") {
     return fail(Code::usage, say<texts::doctor_to_stdout_no>(file));
+  }
+  if (auto fit = check_log_target(file, "--report"); !fit) {
+    return fit;
   }
   if (auto ready = check_replaceable(file); !ready) {
     return ready;

@@ -31,6 +31,15 @@ inline constexpr Text doctor_tools{"tools (by their ID): {}", "ツール (ID に
 inline constexpr Text doctor_read_none{
     "none of the servos of -n was read: why one does not move is not judged",
     "-n のサーボのレジスタを読み出していないため、動作しない原因は診断していません"};
+inline constexpr Text doctor_not_judged{"not judged", "未判定"};
+inline constexpr Text doctor_commands_unjudged{
+    "node {}: whether anybody commands it: {} s of the bus were heard, {} s are needed",
+    "ノード {}: 動作指令の有無 (受信時間 {} 秒、{} 秒以上必要)"};
+inline constexpr Text doctor_commands_untimed{
+    "node {}: whether anybody commands it: that needs a recording with time stamps",
+    "ノード {}: 動作指令の有無 (時刻付きの記録が必要)"};
+inline constexpr Text doctor_nothing_else{"nothing is wrong in the rest, as far as it was heard\n",
+                                          "その他、受信した範囲で問題は見つかりませんでした\n"};
 inline constexpr Text doctor_nothing{"nothing is wrong, as far as it was heard\n",
                                      "受信した範囲で問題は見つかりませんでした\n"};
 inline constexpr Text doctor_fix{"fix: {}", "対処: {}"};

@@ -188,6 +188,10 @@ void write_json(JsonWriter& json, const Examination& examination) {
     json.member("text", diagnosis.text);
     json.member("fix", diagnosis.fix);
   });
+  json.objects("not_judged", examination.unjudged, [&](const Unjudged& each) {
+    json.member("node_id", each.node ? std::optional(each.node->value()) : std::nullopt);
+    json.member("text", each.text);
+  });
 }
 
 std::string text(const Examination& examination, const Page& page) {
@@ -204,8 +208,12 @@ std::string text(const Examination& examination, const Page& page) {
     out += page.paint(Tone::good, say<texts::doctor_fixed>()) + "  " + diagnosis.text + '\n';
   }
   out += findings_text(examination.diagnoses, page);
+  for (const Unjudged& each : examination.unjudged) {
+    out += say<texts::doctor_not_judged>() + "  " + each.text + '\n';
+  }
   if (examination.diagnoses.empty() && examination.is_whole) {
-    out += page.paint(Tone::good, say<texts::doctor_nothing>());
+    out += page.paint(Tone::good, examination.unjudged.empty() ? say<texts::doctor_nothing>()
+                                                               : say<texts::doctor_nothing_else>());
   }
   return out;
 }

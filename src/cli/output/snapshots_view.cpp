@@ -8,6 +8,10 @@
 #include "cli/change/texts.hpp"
 #include "cli/output/table.hpp"
 
+#include <cstdint>
+#include <optional>
+#include <string>
+
 namespace blactl::cli {
 
 namespace {
@@ -19,19 +23,27 @@ std::string memory_of(const state::SnapshotEntry& entry) {
   return entry.settled ? say<texts::undo_in_rom>() : say<texts::undo_perhaps_in_rom>();
 }
 
+std::string name_of(std::uint8_t address, const bla::Profiles& profiles) {
+  const bla::Parameter* parameter = profiles.find(bla::Address(address));
+  return parameter != nullptr ? parameter->name : bla::Address(address).name();
+}
+
+/// Empty: not named, as by erase.
+std::optional<std::int64_t> written_by(const state::SnapshotEntry& entry, std::uint8_t address) {
+  const auto written = entry.written.find(address);
+  return written != entry.written.end() ? std::optional(written->second) : std::nullopt;
+}
+
 /// "angle_limit_cw 179.9 deg -> 90.0 deg"
 std::string setting_of(const state::SnapshotEntry& entry, std::uint8_t address, std::int64_t raw,
                        const bla::Profiles& profiles) {
-  const bla::Parameter* parameter = profiles.find(bla::Address(address));
   const auto shown = [&](std::int64_t value) {
     return fleet::displayed(entry, bla::Address(address), value, profiles);
   };
-  const std::string name =
-      parameter != nullptr ? std::string(parameter->name) : bla::Address(address).name();
-  const auto written = entry.written.find(address);
-  return written != entry.written.end()
-             ? say<texts::undo_replaced>(name, shown(raw), shown(written->second))
-             : say<texts::undo_was>(name, shown(raw));
+  const std::string name = name_of(address, profiles);
+  const auto written = written_by(entry, address);
+  return written ? say<texts::undo_replaced>(name, shown(raw), shown(*written))
+                 : say<texts::undo_was>(name, shown(raw));
 }
 
 /// The first few that the command has replaced.
@@ -63,13 +75,23 @@ Table table(std::span<const state::SnapshotEntry> entries, const bla::Profiles& 
 
 } // namespace
 
-void write_snapshots(JsonWriter& json, std::span<const state::SnapshotEntry> entries) {
+void write_snapshots(JsonWriter& json, std::span<const state::SnapshotEntry> entries,
+                     const bla::Profiles& profiles) {
   json.objects("snapshots", entries, [&](const state::SnapshotEntry& entry) {
     json.member("number", entry.run);
     json.member("time", rfc3339(entry.at));
     json.member("unique_id", hex(entry.unique_id));
     json.member("command", printable(entry.command));
     json.member("changed_count", entry.held.size());
+    json.objects("changes", entry.held, [&](const auto& held) {
+      const auto& [address, raw] = held;
+      json.member("address", bla::Address(address).name());
+      json.member("name", name_of(address, profiles));
+      json.member("before", raw);
+      json.member("after", written_by(entry, address));
+    });
+    const bool is_known = !entry.saved || entry.settled;
+    json.member("saved", is_known ? std::optional(entry.saved) : std::nullopt);
   });
 }
 

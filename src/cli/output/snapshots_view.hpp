@@ -12,10 +12,11 @@
 
 namespace blactl::cli {
 
-/// The member "snapshots" of the document (contract, section 5), in the order given.
-void write_snapshots(JsonWriter& json, std::span<const state::SnapshotEntry> entries);
+/// The member "snapshots" of the document (contract, section 5), in the order given. `profiles`:
+/// for the names of settings.
+void write_snapshots(JsonWriter& json, std::span<const state::SnapshotEntry> entries,
+                     const bla::Profiles& profiles);
 
-/// `profiles`: for the names of settings.
 [[nodiscard]] std::string text(std::span<const state::SnapshotEntry> entries,
                                const bla::Profiles& profiles, const Page& page);
 

@@ -44,8 +44,8 @@ std::vector<const bla::Parameter*> registers_of_motion(const Servo& servo) {
 }
 
 Diagnoses diagnose_motion(const Snapshot& servo, const HeardCommands& heard,
-                          const bla::Profiles& profiles, MotionLook look) {
-  const MotionFacts facts(servo, heard, profiles);
+                          const bla::Profiles& profiles, MotionLook look, const bla::Values& rom) {
+  const MotionFacts facts(servo, heard, profiles, rom);
   MotionFindings found(servo.servo.id, look);
   find_in_commands(facts, found);
   find_in_output(facts, found);

@@ -105,8 +105,7 @@ class CommandExamination {
       found_.add("not_commanded", Level::warning, Weight::obstacle,
                  say<texts::motion_rarely_commanded>(
                      only.by.value(), id_, ms, facts_.shown(at::timeout_time, *limit), action),
-                 say<texts::motion_rarely_commanded_fix>(
-                     facts_.set(facts_.setting(at::timeout_time, 2 * ms))));
+                 say<texts::motion_rarely_commanded_fix>(facts_.set(at::timeout_time, 2 * ms)));
     }
   }
 
@@ -145,8 +144,7 @@ class CommandExamination {
         facts_.held(at::pwm_mode) == bla::pwm_speed_mode &&
         facts_.control() == MotionFacts::Control::off) {
       found_.add("mode_without_effect", Level::warning, Weight::remark,
-                 say<texts::motion_pwm_mode_off>(id_),
-                 facts_.set(facts_.setting(at::speed_torque_control, 1)));
+                 say<texts::motion_pwm_mode_off>(id_), facts_.set(at::speed_torque_control, 1));
     }
   }
 
@@ -165,10 +163,9 @@ class CommandExamination {
     }
     const std::string word = facts_.name_of(asked->reg);
     if (facts_.control() == MotionFacts::Control::off) {
-      found_.add(
-          code, Level::warning, Weight::obstacle,
-          say<texts::motion_mode_off>(by, id_, word, asked->reg.name()),
-          say<texts::motion_mode_fix>(facts_.set(facts_.setting(at::speed_torque_control, 1))));
+      found_.add(code, Level::warning, Weight::obstacle,
+                 say<texts::motion_mode_off>(by, id_, word, asked->reg.name()),
+                 say<texts::motion_mode_fix>(facts_.set(at::speed_torque_control, 1)));
     } else if (facts_.control() == MotionFacts::Control::missing) {
       found_.add(code, Level::notice, Weight::obstacle,
                  say<texts::motion_mode_unproven>(by, id_, word, asked->reg.name()),

@@ -7,6 +7,8 @@
 #include "fleet/doctor/motion_texts.hpp"
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 namespace blactl::fleet {
 
@@ -59,6 +61,7 @@ bool MotionFacts::is_asked_only(Address reg) const {
   });
 }
 
+/// "timeout_time=1000ms"
 std::string MotionFacts::setting(Address reg, std::optional<std::int64_t> raw) const {
   const bla::Parameter* known = servo_.identity.parameter(reg);
   if (known == nullptr) {
@@ -68,15 +71,40 @@ std::string MotionFacts::setting(Address reg, std::optional<std::int64_t> raw) c
          (raw ? bla::input_text(*known, *raw, held(at::pwm_mode)) : std::string("VALUE"));
 }
 
-std::string MotionFacts::default_of(Address reg) const {
-  const bla::Parameter* known = servo_.identity.parameter(reg);
-  return setting(reg, known != nullptr ? known->default_raw : std::nullopt);
+/// Unless it is known to be in RAM only.
+bool MotionFacts::is_in_rom(Address reg) const {
+  const auto stored = bla::find(rom_, reg);
+  return !stored || stored == held(reg);
 }
 
-std::string MotionFacts::set(const std::string& settings) const {
-  return is_commanded() ? say<texts::motion_set_when_stopped>(heard_.to_it.front().by.value(),
-                                                              servo_.id.value(), settings)
-                        : say<texts::motion_set>(servo_.id.value(), settings);
+/// What is in ROM would be back after the next start.
+std::string MotionFacts::command(const std::string& settings,
+                                 std::span<const Address> registers) const {
+  const bool saves = std::ranges::any_of(registers, [this](Address reg) { return is_in_rom(reg); });
+  return say<texts::motion_set>(servo_.id.value(), settings, saves ? " --save" : "");
+}
+
+std::string MotionFacts::when_stopped(std::string command) const {
+  return is_commanded() ? say<texts::motion_when_stopped>(heard_.to_it.front().by.value(), command)
+                        : std::move(command);
+}
+
+std::string MotionFacts::set(Address reg, std::optional<std::int64_t> raw) const {
+  return when_stopped(command(setting(reg, raw), std::array{reg}));
+}
+
+std::string MotionFacts::set_defaults(std::span<const Address> registers) const {
+  return when_stopped(defaults_command(registers));
+}
+
+std::string MotionFacts::defaults_command(std::span<const Address> registers) const {
+  std::string list;
+  for (const Address reg : registers) {
+    const bla::Parameter* known = servo_.identity.parameter(reg);
+    list += (list.empty() ? "" : " ") +
+            setting(reg, known != nullptr ? known->default_raw : std::nullopt);
+  }
+  return command(list, registers);
 }
 
 std::string MotionFacts::shown(Address reg, std::int64_t raw) const {
@@ -93,14 +121,6 @@ std::string MotionFacts::listed(std::span<const Address> registers) const {
   std::string list;
   for (const Address reg : registers) {
     list += (list.empty() ? "" : ", ") + name_of(reg) + ' ' + shown(reg, held(reg).value_or(0));
-  }
-  return list;
-}
-
-std::string MotionFacts::defaults(std::span<const Address> registers) const {
-  std::string list;
-  for (const Address reg : registers) {
-    list += (list.empty() ? "" : " ") + default_of(reg);
   }
   return list;
 }

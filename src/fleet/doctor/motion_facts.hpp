@@ -35,8 +35,10 @@ class MotionFacts {
   };
 
   /// All of them outlive this.
-  MotionFacts(const Snapshot& servo, const HeardCommands& heard, const bla::Profiles& profiles)
-      : servo_(servo.servo), values_(servo.values()), heard_(heard), profiles_(profiles) {}
+  MotionFacts(const Snapshot& servo, const HeardCommands& heard, const bla::Profiles& profiles,
+              const bla::Values& rom)
+      : servo_(servo.servo), values_(servo.values()), heard_(heard), profiles_(profiles),
+        rom_(rom) {}
 
   [[nodiscard]] const Servo& servo() const { return servo_; }
 
@@ -57,27 +59,33 @@ class MotionFacts {
   /// Whether another register than this one is known not to be commanded: by what is heard, else by
   /// what 0x00-0x02 hold.
   [[nodiscard]] bool is_asked_only(Address reg) const;
-  /// "timeout_time=1000ms"; the names only, if what to set is not known.
-  [[nodiscard]] std::string setting(Address reg, std::optional<std::int64_t> raw) const;
-  /// With the factory's value.
-  [[nodiscard]] std::string default_of(Address reg) const;
-  /// The command that sets this, after who commands the servo has stopped.
-  [[nodiscard]] std::string set(const std::string& settings) const;
+  /// The command that sets this, after who commands the servo has stopped. The name only, if what
+  /// to set is not known.
+  [[nodiscard]] std::string set(Address reg, std::optional<std::int64_t> raw) const;
+  /// Likewise, to the factory's values.
+  [[nodiscard]] std::string set_defaults(std::span<const Address> registers) const;
+  /// The latter command alone.
+  [[nodiscard]] std::string defaults_command(std::span<const Address> registers) const;
   /// The value with its unit.
   [[nodiscard]] std::string shown(Address reg, std::int64_t raw) const;
   [[nodiscard]] std::string name_of(Address reg) const;
   /// "speed_limit_cw 60 rpm, torque_limit_cw 50 %"
   [[nodiscard]] std::string listed(std::span<const Address> registers) const;
-  /// Those of default_of(), for one command.
-  [[nodiscard]] std::string defaults(std::span<const Address> registers) const;
   /// What the output does after a pause in the commands (4.19); empty: it stays, or is unknown.
   [[nodiscard]] std::string timeout_text() const;
 
  private:
+  [[nodiscard]] std::string setting(Address reg, std::optional<std::int64_t> raw) const;
+  [[nodiscard]] std::string command(const std::string& settings,
+                                    std::span<const Address> registers) const;
+  [[nodiscard]] std::string when_stopped(std::string command) const;
+  [[nodiscard]] bool is_in_rom(Address reg) const;
+
   const Servo& servo_;
   bla::Values values_;
   const HeardCommands& heard_;
   const bla::Profiles& profiles_;
+  const bla::Values& rom_; ///< as far as known
 };
 
 } // namespace blactl::fleet

@@ -62,7 +62,7 @@ class OutputExamination {
     if (raw.value_or(0) != 0) {
       found_.add("torque_off", Level::warning, Weight::obstacle,
                  say<texts::motion_torque_off>(id_, facts_.shown(at::torque_output, *raw)),
-                 facts_.set(facts_.setting(at::torque_output, 0)));
+                 facts_.set(at::torque_output, 0));
     }
   }
 
@@ -139,7 +139,7 @@ class OutputExamination {
     const bool acts = facts_.control() == MotionFacts::Control::on;
     found_.add(std::move(code), acts ? Level::warning : Level::notice, Weight::obstacle,
                acts ? std::move(text) : text + say<texts::motion_limit_unproven>(),
-               facts_.set(facts_.defaults(sides)));
+               facts_.set_defaults(sides));
   }
 
   /// A limit that is not as from the factory was set by somebody who counts on it.
@@ -160,9 +160,8 @@ class OutputExamination {
     if (!idle.empty()) {
       found_.add("limits_without_effect", Level::notice, Weight::remark,
                  say<texts::motion_limits_idle>(id_, facts_.listed(idle)),
-                 say<texts::motion_limits_idle_fix>(
-                     facts_.set(facts_.setting(at::speed_torque_control, 1)),
-                     say<texts::motion_set>(id_, facts_.defaults(idle))));
+                 say<texts::motion_limits_idle_fix>(facts_.set(at::speed_torque_control, 1),
+                                                    facts_.defaults_command(idle)));
     }
   }
 
@@ -181,7 +180,7 @@ class OutputExamination {
                is_fixed ? Weight::obstacle : Weight::remark,
                is_fixed ? say<texts::motion_angle_fixed>(id_, facts_.listed(sides))
                         : say<texts::motion_angle_one_side>(id_, facts_.listed(sides)),
-               facts_.set(facts_.defaults(sides)));
+               facts_.set_defaults(sides));
   }
 
   // A command beyond a limit
@@ -238,7 +237,7 @@ class OutputExamination {
                by ? say<texts::motion_beyond>(by->value(), id_, value, word, name, reach)
                   : say<texts::motion_held_beyond>(id_, value, word, name, reach),
                facts_.servo().identity.may_write(limit, raw)
-                   ? say<texts::motion_widen_fix>(facts_.set(facts_.setting(limit, raw)))
+                   ? say<texts::motion_widen_fix>(facts_.set(limit, raw))
                    : say<texts::motion_within_fix>());
   }
 

@@ -135,8 +135,7 @@ inline constexpr Text motion_widen_fix{
     "keep the command within the limit; or, if the mechanism allows it, {}",
     "制限内の値を指令するか、機構に余裕があれば {}"};
 
-inline constexpr Text motion_set{"blactl set -n {} {}", "blactl set -n {} {}"};
-inline constexpr Text motion_set_when_stopped{"stop node {}, then: blactl set -n {} {}",
-                                              "ノード {} の指令を停止後: blactl set -n {} {}"};
+inline constexpr Text motion_set{"blactl set -n {} {}{}", "blactl set -n {} {}{}"};
+inline constexpr Text motion_when_stopped{"stop node {}, then: {}", "ノード {} の指令を停止後: {}"};
 
 } // namespace blactl::texts

@@ -157,10 +157,10 @@ inline constexpr Text motion_array_ignored{
     "node {}: {} was sent by ArrayCommand, and nothing shows that it took it",
     "ノード {}: ArrayCommand で {} を送信しましたが、反映を確認できません"};
 inline constexpr Text motion_servo_id_0_hint{
-    "servo ID 0 may not be obeyed: give it another (blactl set -n {} servo_id=1), or leave --array "
-    "out",
+    "servo ID 0 may not be obeyed: give it another (blactl set -n {} servo_id=1 --save), or leave "
+    "--array out",
     "サーボ ID 0 への ArrayCommand は無効な可能性があります。別の ID を設定する (blactl set -n {} "
-    "servo_id=1) か、--array を外して下さい"};
+    "servo_id=1 --save) か、--array を外して下さい"};
 inline constexpr Text motion_not_held{"node {}: it was told to hold {}, and is at {}",
                                       "ノード {}: {} での保持を指令しましたが、現在角度は {} です"};
 inline constexpr Text motion_still_turns{

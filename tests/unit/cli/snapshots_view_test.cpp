@@ -49,17 +49,24 @@ TEST_CASE("recorded changes are told in the keys of the contract") {
   std::string out;
   JsonWriter json(out);
   json.begin_object();
-  cli::write_snapshots(json, changes());
+  cli::write_snapshots(json, changes(), bla::Profiles::load(std::nullopt).value());
   json.end_object();
   CHECK(out == R"({"snapshots":[{"number":8,"time":"2026-11-22T08:15:01Z",)"
                R"("unique_id":"c3000000000000000000000000000000",)"
-               R"("command":"alloc --static","changed_count":1},)"
+               R"("command":"alloc --static","changed_count":1,)"
+               R"("changes":[{"address":"0x46","name":"static_node_id","before":0,"after":18}],)"
+               R"("saved":true},)"
                R"({"number":7,"time":"2026-11-22T08:15:00Z",)"
                R"("unique_id":"c4000000000000000000000000000000",)"
-               R"("command":"set\\x1b[31m","changed_count":2},)"
+               R"("command":"set\\x1b[31m","changed_count":2,)"
+               R"("changes":[{"address":"0x38","name":"angle_limit_cw","before":1,"after":null},)"
+               R"({"address":"0x39","name":"angle_limit_ccw","before":2,"after":null}],)"
+               R"("saved":false},)"
                R"({"number":6,"time":"2026-11-22T08:14:59Z",)"
                R"("unique_id":"c4000000000000000000000000000000",)"
-               R"("command":"apply","changed_count":1}]})");
+               R"("command":"apply","changed_count":1,)"
+               R"("changes":[{"address":"0x38","name":"angle_limit_cw","before":1,"after":null}],)"
+               R"("saved":null}]})");
 }
 
 TEST_CASE("people see when, what, and whether ROM was changed") {

@@ -42,6 +42,7 @@ struct Case {
   Roster roster{NodeId(127), profiles()};
   Time now{1000s};
   bool is_long_enough = true;
+  bla::Values rom{}; ///< as far as known
 
   Case() { roster.learn(servo, GetNodeInfo::Response{.unique_id = {11}}); }
 
@@ -74,7 +75,7 @@ struct Case {
     auto heard = commands_to(servo, roster, now);
     heard.is_long_enough = is_long_enough;
     return diagnose_motion(snapshot_of(servo, registers_of_motion(servo), held), heard, profiles(),
-                           how);
+                           how, rom);
   }
 
   [[nodiscard]] Codes codes(MotionLook how = MotionLook::named) const {
@@ -133,9 +134,9 @@ TEST_CASE("unknown values are no reason for a finding") {
     nothing.readings.push_back({each, fail(Code::not_recorded, "not recorded")});
   }
   CHECK(diagnose_motion(nothing, commands_to(good.servo, good.roster, good.now), profiles(),
-                        MotionLook::named)
+                        MotionLook::named, {})
             .empty());
-  CHECK(diagnose_motion(nothing, {}, profiles(), MotionLook::named).empty());
+  CHECK(diagnose_motion(nothing, {}, profiles(), MotionLook::named, {}).empty());
 }
 
 TEST_CASE("torque_off: off or braking") {
@@ -144,9 +145,24 @@ TEST_CASE("torque_off: off or braking") {
   CHECK(off.codes() == Codes{"torque_off"});
   CHECK(off.obstacles() == Codes{"torque_off"});
   CHECK(off.only().level == Level::warning);
-  CHECK(off.only().fix == "stop node 100, then: blactl set -n 11 torque_output=on");
+  CHECK(off.only().fix == "stop node 100, then: blactl set -n 11 torque_output=on --save");
   off.held[at::torque_output] = 2;
   CHECK(off.only().text.ends_with("torque_output (0x20) is brake"));
+}
+
+TEST_CASE("what is mended is saved, unless it is known to be in RAM only") {
+  Followed off;
+  off.held[at::torque_output] = 1;
+  off.rom = {{at::torque_output, 0}};
+  CHECK(off.only().fix.ends_with("blactl set -n 11 torque_output=on"));
+  off.rom = {{at::torque_output, 1}};
+  CHECK(off.only().fix.ends_with("blactl set -n 11 torque_output=on --save"));
+  Followed held;
+  held.held[at::speed_torque_control] = 1;
+  held.held[at::torque_limit_cw] = 0;
+  held.held[at::torque_limit_ccw] = 0;
+  held.rom = {{at::torque_limit_cw, 100}, {at::torque_limit_ccw, 0}};
+  CHECK(held.only().fix.ends_with("torque_limit_cw=100% torque_limit_ccw=-100% --save"));
 }
 
 TEST_CASE("torque_limit_zero and speed_limit_zero, where they act") {
@@ -158,12 +174,12 @@ TEST_CASE("torque_limit_zero and speed_limit_zero, where they act") {
   held.held[at::speed_torque_control] = 1;
   CHECK(held.codes() == Codes{"torque_limit_zero", "speed_limit_zero"});
   CHECK(held.obstacles() == Codes{"torque_limit_zero", "speed_limit_zero"});
-  CHECK(held.look()[0].fix.ends_with("blactl set -n 11 torque_limit_cw=100%"));
-  CHECK(held.look()[1].fix.ends_with("blactl set -n 11 speed_limit_ccw=-300rpm"));
+  CHECK(held.look()[0].fix.ends_with("blactl set -n 11 torque_limit_cw=100% --save"));
+  CHECK(held.look()[1].fix.ends_with("blactl set -n 11 speed_limit_ccw=-300rpm --save"));
   held.commanded(1, force, {20}); // heeds no speed limit (4.32)
   CHECK(held.codes() == Codes{"torque_limit_zero"});
   held.held[at::torque_limit_ccw] = 0;
-  CHECK(held.only().fix.ends_with("torque_limit_cw=100% torque_limit_ccw=-100%"));
+  CHECK(held.only().fix.ends_with("torque_limit_cw=100% torque_limit_ccw=-100% --save"));
 }
 
 TEST_CASE("what 0x00-0x02 hold tells the command of a servo that nobody is heard to command") {
@@ -199,7 +215,7 @@ TEST_CASE("limits_without_effect: not those from the factory, while 0x25 is off"
   CHECK(slow.only().level == Level::notice);
   CHECK(slow.only().text.ends_with(": speed_limit_cw 60 rpm"));
   CHECK(slow.only().fix.find("speed_torque_control=on") != std::string::npos);
-  CHECK(slow.only().fix.ends_with("speed_limit_cw=300rpm"));
+  CHECK(slow.only().fix.ends_with("speed_limit_cw=300rpm --save"));
   CHECK(slow.obstacles() == Codes{});
   slow.held[at::speed_torque_control] = 1;
   CHECK(slow.codes() == Codes{});
@@ -216,7 +232,7 @@ TEST_CASE("angle_limits: 0 on both sides, or on one") {
   CHECK(fixed.codes() == Codes{"angle_limits"});
   CHECK(fixed.obstacles() == Codes{"angle_limits"});
   CHECK(fixed.only().level == Level::warning);
-  CHECK(fixed.only().fix.ends_with("angle_limit_cw=179.9deg angle_limit_ccw=-180.0deg"));
+  CHECK(fixed.only().fix.ends_with("angle_limit_cw=179.9deg angle_limit_ccw=-180.0deg --save"));
   fixed.held[at::speed_torque_control] = 1;
   fixed.commanded(1, speed, {60}); // heeds no angle limit (4.31)
   CHECK(fixed.codes() == Codes{});
@@ -274,7 +290,7 @@ TEST_CASE("not_commanded: nobody, or too rarely for 0x27") {
   CHECK(rare.codes() == Codes{"not_commanded"});
   CHECK(rare.obstacles() == Codes{"not_commanded"});
   CHECK(rare.only().level == Level::warning);
-  CHECK(rare.only().fix.ends_with("blactl set -n 11 timeout_time=3000ms"));
+  CHECK(rare.only().fix.ends_with("blactl set -n 11 timeout_time=3000ms --save"));
   rare.held[at::timeout_action] = 0;
   CHECK(rare.codes() == Codes{});
   rare.held[at::timeout_action] = 2;
@@ -382,7 +398,7 @@ TEST_CASE("command_beyond_limit: as heard, else as the servo holds it") {
   CHECK(far.obstacles() == Codes{"command_beyond_limit"});
   CHECK(far.only().text == "node 100 commands node 11 to 90.0 deg (command_angle), beyond "
                            "angle_limit_cw 45.0 deg: it goes to the limit at most");
-  CHECK(far.only().fix.ends_with("blactl set -n 11 angle_limit_cw=90.0deg"));
+  CHECK(far.only().fix.ends_with("blactl set -n 11 angle_limit_cw=90.0deg --save"));
   far.commanded(1, speed, {60});
   far.held[at::speed_torque_control] = 1;
   CHECK(far.codes() == Codes{}); // the angles are over

@@ -4,6 +4,7 @@
 
 #include "blactl/bla/parameter.hpp"
 #include "blactl/bla/profile.hpp"
+#include "blactl/bla/values.hpp"
 #include "blactl/dronecan/ids.hpp"
 #include "blactl/fleet/bus/command_watch.hpp"
 #include "blactl/fleet/bus/roster.hpp"
@@ -43,10 +44,12 @@ struct HeardCommands {
 [[nodiscard]] std::vector<const bla::Parameter*> registers_of_motion(const Servo& servo);
 
 /// What keeps this servo from moving as it is commanded, in the order from the command to the
-/// shaft. Unknown values are no reason for a finding. Codes: not_commanded, commanded_other,
+/// shaft. Unknown values are no reason for a finding. `rom`: what ROM holds, as far as known; what
+/// is not known to be in RAM only is mended in ROM, too. Codes: not_commanded, commanded_other,
 /// pwm_has_no_say, mode_without_effect, torque_off, fault_holds_off, torque_limit_zero,
 /// speed_limit_zero, limits_without_effect, angle_limits, command_beyond_limit, torque_at_limit.
 [[nodiscard]] Diagnoses diagnose_motion(const Snapshot& servo, const HeardCommands& heard,
-                                        const bla::Profiles& profiles, MotionLook look);
+                                        const bla::Profiles& profiles, MotionLook look,
+                                        const bla::Values& rom);
 
 } // namespace blactl::fleet
