@@ -81,7 +81,7 @@ _blactl_offer_nodes() {
   fi
 }
 
-_blactl_commands='scan alloc get set save erase restart wait faults pwm-config export diff apply replace undo monitor command trace doctor characterize models sim'
+_blactl_commands='scan alloc get set save erase restart wait faults pwm-config export diff apply replace undo provision ledger monitor command trace doctor characterize models sim'
 _blactl_models='BLA15-06U-A0 BLA15-12U-A0 BLA21-06U-A0 BLA21-06U-AB BLA21-12U-A0 BLA21-12U-AB BLA21-28U-A0 BLA21-28U-AB BLA34-12U-AB BLA34-28U-AB'
 _blactl_parameters='command_angle command_speed command_torque current_angle current_speed current_torque current_temperature current_voltage fault_summary fault_notice fault_warning fault_failure torque_output soft_start smoothing reverse extended_angle speed_torque_control timeout_action timeout_time overcurrent_limit angle_p_gain angle_d_gain angle_dead_band angle_boost speed_p_gain speed_i_gain speed_dead_band speed_i_limit pwm_neutral pwm_range pwm_output_range pwm_mode angle_limit_cw angle_limit_ccw speed_limit_cw speed_limit_ccw torque_limit_cw torque_limit_ccw temperature_limit_high temperature_limit_low voltage_limit_high voltage_limit_low origin servo_id static_node_id model_number serial_number firmware_version hardware_version production_year production_month production_day production_hour production_minute'
 _blactl_settable='command_angle= command_speed= command_torque= torque_output= soft_start= smoothing= reverse= extended_angle= speed_torque_control= timeout_action= timeout_time= overcurrent_limit= angle_p_gain= angle_d_gain= angle_dead_band= angle_boost= speed_p_gain= speed_i_gain= speed_dead_band= speed_i_limit= pwm_neutral= pwm_range= pwm_output_range= pwm_mode= angle_limit_cw= angle_limit_ccw= speed_limit_cw= speed_limit_ccw= torque_limit_cw= torque_limit_ccw= temperature_limit_high= temperature_limit_low= voltage_limit_high= voltage_limit_low= origin= servo_id= static_node_id= bootloader='
@@ -138,6 +138,25 @@ _blactl_option() {
     undo:--to) kind='whole' ;;
     undo:--wait) kind='seconds' ;;
     undo:--stagger) kind='seconds' ;;
+    provision:--label) kind='text' ;;
+    provision:--range) kind='text' ;;
+    provision:--count) kind='whole' ;;
+    provision:--idle-timeout) kind='seconds' ;;
+    provision:--station) kind='text' ;;
+    provision:--operator) kind='text' ;;
+    provision:--work-order) kind='text' ;;
+    provision:--reason) kind='text' ;;
+    provision:--max-attempts) kind='whole' ;;
+    provision:--stop-after) kind='whole' ;;
+    ledger:--since) kind='text' ;;
+    ledger:--until) kind='text' ;;
+    ledger:--serial) kind='whole' ;;
+    ledger:--verdict) kind='word' value_words='pass fail error skip scrap' ;;
+    ledger:--work-order) kind='text' ;;
+    ledger:--station) kind='text' ;;
+    ledger:--scrap) kind='text' ;;
+    ledger:--reason) kind='text' ;;
+    ledger:--backup) kind='file' ;;
     monitor:--rate) kind='seconds' ;;
     monitor:--fields) kind='words' value_words='time angle_deg speed_rpm torque_pct temperature_c voltage_v mode health fault_summary stale moved' ;;
     monitor:--duration) kind='seconds' ;;
@@ -167,6 +186,7 @@ _blactl_argument() {
     apply:0) kind='file' ;;
     replace:0) kind='file' ;;
     replace:1) kind='entry' ;;
+    provision:0) kind='file' ;;
     command:0) kind='beginning' value_words='angle= speed= torque=' ;;
     trace:0) kind='file' ;;
     characterize:0) kind='file' ;;
@@ -192,6 +212,8 @@ _blactl_options() {
     apply) echo '--dry-run --plan --entry --no-save --trust-ram --fail-fast --events --no-snapshot --check --wait --stagger' ;;
     replace) echo '--dry-run --no-snapshot --wait' ;;
     undo) echo '--list --to --dry-run --no-save --wait --stagger' ;;
+    provision) echo '--label --range --count --idle-timeout --station --operator --work-order --redo --reason --max-attempts --stop-after' ;;
+    ledger) echo '--since --until --serial --verdict --work-order --station --scrap --reason --check --backup' ;;
     monitor) echo '--rate --fields --duration --count --identify' ;;
     command) echo '--duration --wiggle --array --svg' ;;
     trace) echo '--type --kind --duration --count --stats --absolute' ;;

@@ -8,7 +8,7 @@ function __blactl_words
     for word in $words[2..]
         if test $value = yes
             set value no
-        else if string match -qr -- '^(--(assign|clock|color|count|duration|endpoints|entry|events|expect|export|facts|fields|forget|group|id|import|interface|kind|lang|level|listen|local-node-id|mode|neutral|node|output|preset|profile|profile-dir|range|rate|record|report|retries|search|seed|stagger|svg|timeout|to|type|wait)|-[jqvyhV]*[in])$' $word
+        else if string match -qr -- '^(--(assign|backup|clock|color|count|duration|endpoints|entry|events|expect|export|facts|fields|forget|group|id|idle-timeout|import|interface|kind|label|lang|level|listen|local-node-id|max-attempts|mode|neutral|node|operator|output|preset|profile|profile-dir|range|rate|reason|record|report|retries|scrap|search|seed|serial|since|stagger|station|stop-after|svg|timeout|to|type|until|verdict|wait|work-order)|-[jqvyhV]*[in])$' $word
             set value yes
         else if not string match -q -- '-*' $word
             echo $word
@@ -251,6 +251,8 @@ complete -c blactl -n __blactl_needs_command -a diff -d 'servos against a fleet 
 complete -c blactl -n __blactl_needs_command -a apply -d 'bring servos to a fleet file, proven after a restart'
 complete -c blactl -n __blactl_needs_command -a replace -d 'give a new servo the place of a broken one, and name it in the fleet file'
 complete -c blactl -n __blactl_needs_command -a undo -d 'back to what servos held before the last change'
+complete -c blactl -n __blactl_needs_command -a provision -d 'a production line: check, number, configure, prove and record each servo'
+complete -c blactl -n __blactl_needs_command -a ledger -d 'the records of a production line'
 complete -c blactl -n __blactl_needs_command -a monitor -d 'live values of servos: a table, graphs, or a stream'
 complete -c blactl -n __blactl_needs_command -a command -d 'moves one servo for a bounded time, and shows how it follows'
 complete -c blactl -n __blactl_needs_command -a trace -d 'every DroneCAN transfer decoded, live or from a log; sends nothing'
@@ -364,6 +366,30 @@ complete -c blactl -n '__blactl_in undo' -l dry-run -d 'change nothing; exit sta
 complete -c blactl -n '__blactl_in undo' -l no-save -d 'RAM only, also where the change was saved'
 complete -c blactl -n '__blactl_in undo' -l wait -r -f -d 'how long a servo may take to come back (default 5, and 2 for each that asks for a node ID)'
 complete -c blactl -n '__blactl_in undo' -l stagger -r -f -d 'pause between two servos (default 0)'
+
+complete -c blactl -n '__blactl_in provision' -l label -r -f -d 'read a line for each servo'
+complete -c blactl -n '__blactl_in provision' -l range -r -f -d 'node IDs lent to servos that ask for one (default 100-124)'
+complete -c blactl -n '__blactl_in provision' -l count -r -f -d 'end after this many servos'
+complete -c blactl -n '__blactl_in provision' -l idle-timeout -r -f -d 'end when no servo comes for this long'
+complete -c blactl -n '__blactl_in provision' -l station -r -f -d 'for the records (default: the name of this machine)'
+complete -c blactl -n '__blactl_in provision' -l operator -r -f -d 'for the records'
+complete -c blactl -n '__blactl_in provision' -l work-order -r -f -d 'for the records'
+complete -c blactl -n '__blactl_in provision' -l redo -d 'do finished servos anew, with the IDs they have'
+complete -c blactl -n '__blactl_in provision' -l reason -r -f -d 'with --redo'
+complete -c blactl -n '__blactl_in provision' -l max-attempts -r -f -d 'how often a servo may fail (default 3)'
+complete -c blactl -n '__blactl_in provision' -l stop-after -r -f -d 'end when this many fail in a row'
+complete -c blactl -n '__blactl_argument provision 1' -F
+
+complete -c blactl -n '__blactl_in ledger' -l since -r -f -d 'records that ended at this time or later (RFC 3339)'
+complete -c blactl -n '__blactl_in ledger' -l until -r -f -d 'records that ended before this time'
+complete -c blactl -n '__blactl_in ledger' -l serial -r -f -d 'records of this serial number'
+complete -c blactl -n '__blactl_in ledger' -l verdict -r -f -a 'pass fail error skip scrap' -d 'records with this verdict'
+complete -c blactl -n '__blactl_in ledger' -l work-order -r -f -d 'records of this work order'
+complete -c blactl -n '__blactl_in ledger' -l station -r -f -d 'records of this station; with --scrap'
+complete -c blactl -n '__blactl_in ledger' -l scrap -r -f -d 'take the servo of this record_id out, and free its IDs'
+complete -c blactl -n '__blactl_in ledger' -l reason -r -f -d 'with --scrap'
+complete -c blactl -n '__blactl_in ledger' -l check -d 'look for damage, missing records, and work that has not ended'
+complete -c blactl -n '__blactl_in ledger' -l backup -r -F -d 'copy the ledger into a new file, also while stations work'
 
 complete -c blactl -n '__blactl_in monitor' -l rate -r -f -d 'samples of each servo a second (default 2)'
 complete -c blactl -n '__blactl_in monitor' -l fields -r -f -a '(__blactl_list time angle_deg speed_rpm torque_pct temperature_c voltage_v mode health fault_summary stale moved)' -d 'only these; what is not shown is not asked for'

@@ -49,11 +49,13 @@ Step RunProof::ask_unit() {
 
 Step RunProof::judge(const Outcome& outcome) {
   const std::uint8_t id = id_.value();
-  if (!outcome.answered()) {
-    return fail(no_answer(outcome, id_, "GetNodeInfo"));
-  }
-  if (roster_.is_doubled(id_)) {
+  Error silent = outcome.answered() ? Error() : no_answer(outcome, id_, "GetNodeInfo");
+  const bool may_be_disturbed = outcome.answered() || silent.code == Code::timeout;
+  if (may_be_disturbed && roster_.is_doubled(id_)) {
     return fail(doubled(roster_, id_));
+  }
+  if (!outcome.answered()) {
+    return fail(std::move(silent));
   }
   const auto info = GetNodeInfo::Response::decode(outcome.payload);
   if (!info || info->unique_id != unique_id_) {

@@ -110,8 +110,16 @@ std::vector<NodeId> Station::servos_there() const {
   return ids;
 }
 
+/// Whether a unit asks for a node ID now: one that has left has asked before.
+bool Station::is_asked() const {
+  return std::ranges::any_of(session_.roster().requests(), [this](const auto& request) {
+    const Asking& asking = request.second;
+    return asking.last > asking.given && asking.last > session_.now() - request_period;
+  });
+}
+
 bool Station::is_servo_there() const {
-  return !session_.roster().pending().empty() || !servos_there().empty();
+  return is_asked() || !servos_there().empty();
 }
 
 /// Bench IDs are borrowed: no table keeps them.
@@ -136,12 +144,10 @@ Result<std::optional<Station::Arrival>> Station::wait_for_servo(Time deadline) {
       return came ? Result<std::optional<Arrival>>() : std::unexpected(came.error());
     }
     entered_(StationStage::recognised);
-    Arrival arrival{.has_asked = !session_.roster().pending().empty(),
-                    .at = session_.now(),
-                    .wall = session_.wall()};
+    Arrival arrival{.has_asked = is_asked(), .at = session_.now(), .wall = session_.wall()};
     Discovery discovery(session_, profiles_, options_.manner.identification);
     const auto heard = discovery.find_all(bus_watch_time);
-    const auto let = heard && !session_.roster().pending().empty() ? let_in() : heard;
+    const auto let = heard && is_asked() ? let_in() : heard;
     const auto found = let ? discovery.find_all(bus_watch_time) : let;
     if (!found) {
       return std::unexpected(found.error());
@@ -201,7 +207,7 @@ Result<Station::Past> Station::past_of(const Servo& servo) const {
 std::optional<Error> Station::identify(const Arrival& arrival, Servo& servo) const {
   const Roster& roster = session_.roster();
   const NodeId id = arrival.ids.front();
-  if (arrival.ids.size() > 1 || !roster.pending().empty() || roster.is_doubled(id)) {
+  if (arrival.ids.size() > 1 || is_asked() || roster.is_doubled(id)) {
     return Error{Code::several_servos, say<texts::station_several>(),
                  say<texts::station_several_hint>(), std::nullopt};
   }

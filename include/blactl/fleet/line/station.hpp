@@ -79,6 +79,7 @@ class Station {
  private:
   struct Past;
 
+  [[nodiscard]] bool is_asked() const;
   [[nodiscard]] bool is_servo_there() const;
   [[nodiscard]] std::vector<dronecan::NodeId> servos_there() const;
   [[nodiscard]] Result<void> let_in();

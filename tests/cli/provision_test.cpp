@@ -1,0 +1,352 @@
+// The station of a production line, and its ledger.
+
+#include "catch.hpp"
+#include "run.hpp"
+#include "scene.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <csignal>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+using namespace blactl::test;
+
+namespace {
+
+const std::string recipe = R"({
+  "schema": "blactl-recipe/1", "name": "aileron", "model": "BLA21-12U-AB", "firmware_min": 1400,
+  "set": {
+    "servo_id": {"first": 1, "last": 8, "at_end": "again"},
+    "static_node_id": {"first": 11, "last": 18, "at_end": "again"},
+    "angle_limit_cw": "45.0deg"
+  }
+})";
+
+/// A servo on the bench from one second to another.
+struct Visit {
+  int serial;
+  int from, to;
+  std::string model = "BLA21-12U-AB";
+  int node_id = 0;
+  nlohmann::json more = nlohmann::json::object();
+};
+
+std::string at(int second) {
+  return std::to_string(second) + "s";
+}
+
+Scene line(const std::vector<Visit>& visits) {
+  Scene scene;
+  std::set<int> known;
+  for (const Visit& visit : visits) {
+    if (known.insert(visit.serial).second) {
+      nlohmann::json more = visit.more;
+      more["serial_number"] = visit.serial;
+      scene.servo(visit.model, visit.node_id, more).joins(visit.serial, at(visit.from));
+    } else {
+      scene.event(visit.serial, "power_on", at(visit.from));
+    }
+    scene.event(visit.serial, "power_off", at(visit.to));
+  }
+  return scene;
+}
+
+struct Provisioned {
+  Result result;
+  std::vector<nlohmann::json> records;
+  nlohmann::json last;
+
+  /// "pass 1 11; fail label_mismatch; …"
+  [[nodiscard]] std::string told() const {
+    std::string all;
+    for (const auto& record : records) {
+      all += (all.empty() ? "" : "; ") + record["verdict"].get<std::string>();
+      if (record["verdict"] == "pass" || record["verdict"] == "skip") {
+        all += " " + record["servo_id"].dump() + " " + record["static_node_id"].dump();
+      } else if (!record["code"].is_null()) {
+        all += " " + record["code"].get<std::string>();
+      }
+    }
+    return all;
+  }
+};
+
+Provisioned provision(const Scene& scene, const Arguments& more, const Options& options = {}) {
+  const Bench bench;
+  Arguments arguments{"provision", bench.file("recipe.json", recipe), "-y", "--json"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  Provisioned run;
+  run.result = scene.run(bench, arguments, options);
+  run.records = json_lines(run.result.out);
+  REQUIRE_FALSE(run.records.empty());
+  run.last = run.records.back();
+  run.records.pop_back();
+  return run;
+}
+
+} // namespace
+
+TEST_CASE("one servo after the other is numbered, configured, proven and recorded") {
+  const Provisioned run = provision(line({{.serial = 101, .from = 1, .to = 30},
+                                          {.serial = 102, .from = 40, .to = 70},
+                                          {.serial = 103, .from = 80, .to = 110, .node_id = 55},
+                                          {.serial = 101, .from = 120, .to = 130}}),
+                                    {"--count", "4", "--station", "A", "--operator", "Sato"});
+  INFO(run.result.out << run.result.err);
+  CHECK(run.told() == "pass 1 11; pass 2 12; pass 3 13; skip 1 11");
+  CHECK(run.result.status == 0);
+  CHECK(run.last["counts"]["pass"] == 3);
+  CHECK(run.last["counts"]["skip"] == 1);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto& record = run.records[i];
+    CHECK(record["serial_number"] == 101 + i);
+    CHECK(record["station"] == "A");
+    CHECK(record["station_seq"] == i + 1);
+    CHECK(record["operator"] == "Sato");
+    CHECK(record["node_id"] == (i < 2 ? 0 : 55));
+    CHECK(record["node_id_after"] == 11 + i);
+    CHECK(record["attempt"] == 1);
+    CHECK(record["changed_count"] == 3);
+    CHECK(record["config_sha256"].get<std::string>().size() == 64);
+    CHECK(record["model"] == "BLA21-12U-AB");
+  }
+  CHECK(run.records[0]["config_sha256"] != run.records[1]["config_sha256"]); // the IDs differ
+  CHECK(run.records[0]["record_id"] != run.records[1]["record_id"]);
+}
+
+TEST_CASE("another unit on the node ID of the one before is no second one") {
+  const Provisioned run = provision(line({{.serial = 101, .from = 1, .to = 20, .node_id = 1},
+                                          {.serial = 102, .from = 25, .to = 45, .node_id = 1},
+                                          {.serial = 103, .from = 50, .to = 70, .node_id = 1}}),
+                                    {"--count", "3"});
+  INFO(run.result.out << run.result.err);
+  CHECK(run.told() == "pass 1 11; pass 2 12; pass 3 13");
+}
+
+TEST_CASE("what must not pass does not, and says why") {
+  struct Wrong {
+    std::string told;
+    Visit visit;
+    int status;
+  };
+
+  const auto wrong = GENERATE(
+      Wrong{"fail model_mismatch", {.serial = 1, .from = 1, .to = 60, .model = "BLA34-12U-AB"}, 9},
+      Wrong{"fail firmware_too_old",
+            {.serial = 1, .from = 1, .to = 60, .more = {{"firmware_version", 1200}}},
+            9},
+      Wrong{"fail duplicate_unique_id",
+            {.serial = 1,
+             .from = 1,
+             .to = 60,
+             .node_id = 5,
+             .more = {{"unique_id", "00000000000000000000000000000000"}}},
+            9});
+  const Provisioned run = provision(line({wrong.visit}), {"--count", "1"});
+  INFO(run.result.out << run.result.err);
+  CHECK(run.told() == wrong.told);
+  CHECK(run.result.status == wrong.status);
+  REQUIRE(run.records.size() == 1);
+  CHECK(run.records[0]["serial_number"] == 1);
+  CHECK(run.records[0]["static_node_id"] != 11); // nothing was written
+}
+
+TEST_CASE("two servos at once are put off, and their label waits") {
+  const Provisioned run = provision(line({{.serial = 101, .from = 1, .to = 12, .node_id = 7},
+                                          {.serial = 102, .from = 1, .to = 14, .node_id = 8},
+                                          {.serial = 101, .from = 20, .to = 60}}),
+                                    {"--count", "1", "--label", "-"}, {.stdin_text = "101\n"});
+  INFO(run.result.out << run.result.err);
+  CHECK(run.told() == "error several_servos; pass 1 11");
+  CHECK(run.records[1]["label"] == "101");
+  CHECK(run.result.status == 6);
+}
+
+TEST_CASE("a servo that is pulled early is done again, with the same IDs") {
+  const Provisioned run = provision(line({{.serial = 101, .from = 1, .to = 5, .node_id = 7},
+                                          {.serial = 101, .from = 15, .to = 60}}),
+                                    {"--count", "1"});
+  INFO(run.result.out << run.result.err);
+  CHECK(run.told() == "error not_back; pass 1 11");
+  CHECK(run.records[1]["attempt"] == 2);
+}
+
+TEST_CASE("labels are compared, and tell IDs") {
+  const Provisioned run =
+      provision(line({{.serial = 101, .from = 1, .to = 30},
+                      {.serial = 102, .from = 40, .to = 70},
+                      {.serial = 103, .from = 80, .to = 110}}),
+                {"--label", "-"},
+                {.stdin_text = "101\nnonsense\n\n999\n"
+                               R"({"serial_number": 103, "servo_id": 7, "work_order": "W9"})"});
+  INFO(run.result.out << run.result.err);
+  CHECK(run.told() == "pass 1 11; fail label_mismatch; pass 7 12");
+  CHECK(run.records[2]["work_order"] == "W9");
+  CHECK(run.result.status == 6);
+  CHECK(contains(run.result.err, "nonsense"));
+}
+
+TEST_CASE("a unit may fail so often, and a run of failures ends the run") {
+  std::vector<Visit> visits;
+  for (int i = 0; i < 3; ++i) {
+    visits.push_back({.serial = 101, .from = 1 + 40 * i, .to = 30 + 40 * i});
+  }
+  SECTION("the unit") {
+    visits[0].more = {{"faults", {{"rom_write_fails", true}}}};
+    const Provisioned run = provision(line(visits), {"--count", "3", "--max-attempts", "2"});
+    INFO(run.result.out << run.result.err);
+    CHECK(run.told() == "fail mismatch; fail mismatch; fail attempts");
+    CHECK(run.records[0]["parameter"] == "angle_limit_cw");
+    CHECK(run.records[0]["expected"] == 450);
+    CHECK(run.records[1]["attempt"] == 2);
+  }
+  SECTION("the run") {
+    visits[0].model = "BLA34-12U-AB";
+    const Provisioned run = provision(line(visits), {"--stop-after", "2"});
+    INFO(run.result.out << run.result.err);
+    CHECK(run.told() == "fail model_mismatch; fail model_mismatch");
+  }
+}
+
+TEST_CASE("a run that waits in vain ends, and says what is missing") {
+  const Provisioned run = provision(line({{.serial = 101, .from = 1, .to = 30}}),
+                                    {"--count", "2", "--idle-timeout", "60"});
+  INFO(run.result.out << run.result.err);
+  CHECK(run.told() == "pass 1 11");
+  CHECK(run.result.status == 4);
+  CHECK(provision(line({{.serial = 101, .from = 1, .to = 30}}), {"--idle-timeout", "60"})
+            .result.status == 0);
+}
+
+TEST_CASE("provision refuses what it could not do, before anything is opened") {
+  const Scene scene = line({{.serial = 101, .from = 1, .to = 30}});
+  CHECK(provision(scene, {"--redo"}).result.status == 2);
+  CHECK(provision(scene, {"--reason", "x"}).result.status == 2);
+  CHECK(provision(scene, {"--label", "file"}).result.status == 2);
+  CHECK(provision(scene, {"--range", "126-127"}).result.status != 0);
+  const Bench bench;
+  const Result unasked =
+      scene.run(bench, {"provision", bench.file("recipe.json", recipe), "--count", "1"});
+  CHECK(unasked.status == 7);
+}
+
+namespace {
+
+/// A served simulation, whose stores last.
+class Hall {
+ public:
+  explicit Hall(const std::vector<Visit>& visits)
+      : sim_(bench_, {"sim", line(visits).write(bench_)}),
+        recipe_(bench_.file("recipe.json", recipe)) {}
+
+  [[nodiscard]] Result run(Arguments arguments, const Options& options = {}) const {
+    arguments.insert(arguments.begin(), {"-i", "sim:"});
+    return bench_.run(arguments, options);
+  }
+
+  [[nodiscard]] Result provision(const Arguments& more) const {
+    Arguments arguments{"provision", recipe_, "-y", "--json", "--station", "A"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run(arguments);
+  }
+
+  [[nodiscard]] std::vector<nlohmann::json> ledger(const Arguments& more = {}) const {
+    Arguments arguments{"ledger", "--json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    auto lines = json_lines(run(arguments).out);
+    lines.pop_back();
+    return lines;
+  }
+
+  [[nodiscard]] const Bench& bench() const { return bench_; }
+
+  [[nodiscard]] const std::string& recipe_file() const { return recipe_; }
+
+ private:
+  Bench bench_;
+  Background sim_;
+  std::string recipe_;
+};
+
+} // namespace
+
+TEST_CASE("the ledger lists, filters, scraps, checks and is copied") {
+  const Hall hall({{.serial = 101, .from = 1, .to = 20}, {.serial = 102, .from = 25, .to = 3000}});
+  const Result run = hall.provision({"--count", "2"});
+  INFO(run.out << run.err);
+  REQUIRE(run.status == 0);
+  const auto records = hall.ledger();
+  REQUIRE(records.size() == 2);
+  auto lines = json_lines(run.out);
+  lines.pop_back();
+  CHECK(records == lines);
+  CHECK(hall.ledger({"--serial", "102"}) == std::vector{records[1]});
+  CHECK(hall.ledger({"--station", "B"}).empty());
+  CHECK(hall.ledger({"--verdict", "fail"}).empty());
+  CHECK(hall.ledger({"--since", records[1]["time"].get<std::string>()}).back() == records[1]);
+  CHECK(hall.ledger({"--until", "2020-01-01T00:00:00Z"}).empty());
+  CHECK(hall.run({"ledger", "--since", "yesterday"}).status == 2);
+  CHECK(hall.run({"ledger", "--check"}).status == 0);
+
+  const std::string passed = records[0]["record_id"];
+  CHECK(hall.run({"ledger", "--scrap", passed}).status == 2);
+  CHECK(hall.run({"ledger", "--scrap", "none", "--reason", "x", "-y"}).status == 4);
+  CHECK(hall.run({"ledger", "--scrap", passed, "--reason", "bent horn"}).status == 7);
+  const Result scrapped = hall.run({"ledger", "--scrap", passed, "--reason", "bent horn", "-y"});
+  CHECK(scrapped.status == 0);
+  CHECK(hall.run({"ledger", "--scrap", passed, "--reason", "again", "-y"}).out == scrapped.out);
+  const auto scrap = hall.ledger({"--verdict", "scrap"});
+  REQUIRE(scrap.size() == 1);
+  CHECK(scrap[0]["refers_to"] == passed);
+  CHECK(scrap[0]["reason"] == "bent horn");
+  CHECK(scrap[0]["serial_number"] == 101);
+
+  const std::string copy = (hall.bench().folder() / "copy.db").string();
+  CHECK(hall.run({"ledger", "--backup", copy}).status == 0);
+  CHECK(hall.run({"ledger", "--backup", copy}).status == 1);
+  CHECK(hall.run({"ledger", "--check", "--serial", "1"}).status == 2);
+  CHECK(contains(hall.run({"ledger", "--csv"}).out, "record_id,time,start_time,verdict,code,"));
+}
+
+TEST_CASE("the IDs of a scrapped servo are the next to be given, so that a set is completed") {
+  const Hall hall({{.serial = 101, .from = 1, .to = 20},
+                   {.serial = 102, .from = 25, .to = 45},
+                   {.serial = 103, .from = 50, .to = 70},
+                   {.serial = 104, .from = 75, .to = 3000}});
+  REQUIRE(hall.provision({"--count", "3"}).status == 0);
+  const std::string second = hall.ledger({"--serial", "102"})[0]["record_id"];
+  REQUIRE(hall.run({"ledger", "--scrap", second, "--reason", "x", "-y"}).status == 0);
+  REQUIRE(hall.provision({"--count", "2"}).status == 0); // the third is still there
+  const auto next = hall.ledger({"--serial", "104"});
+  REQUIRE(next.size() == 1);
+  CHECK(next[0]["servo_id"] == 2);
+  CHECK(next[0]["static_node_id"] == 12);
+}
+
+TEST_CASE("what a killed station had begun is told at the next start, and done anew") {
+  const Hall hall({{.serial = 101, .from = 1, .to = 3000}});
+  {
+    Background station(hall.bench(),
+                       {"-i", "sim:", "provision", hall.recipe_file(), "-y", "--station", "A"},
+                       {.terminal = true}, "do not take it off");
+    station.kill();
+  }
+  const Result check = hall.run({"ledger", "--check"});
+  CHECK(check.status == 8);
+  CHECK(contains(check.out, "101"));
+  CHECK(hall.ledger().empty());
+  const Result run = hall.provision({"--count", "1"});
+  INFO(run.out << run.err);
+  CHECK(run.status == 0); // the old record counts for nothing
+  const auto records = hall.ledger();
+  REQUIRE(records.size() == 2);
+  CHECK(records[0]["verdict"] == "error");
+  CHECK(records[0]["code"] == "interrupted");
+  CHECK(records[0]["serial_number"] == 101);
+  CHECK(records[1]["verdict"] == "pass");
+  CHECK(records[1]["attempt"] == 2);
+  CHECK(hall.run({"ledger", "--check"}).status == 0);
+}
