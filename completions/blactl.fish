@@ -378,6 +378,7 @@ complete -c blactl -n '__blactl_in provision' -l redo -d 'do finished servos ane
 complete -c blactl -n '__blactl_in provision' -l reason -r -f -d 'with --redo'
 complete -c blactl -n '__blactl_in provision' -l max-attempts -r -f -d 'how often a servo may fail (default 3)'
 complete -c blactl -n '__blactl_in provision' -l stop-after -r -f -d 'end when this many fail in a row'
+complete -c blactl -n '__blactl_in provision' -l events -r -F -d 'write what happens to a file or a pipe, for a lamp or a controller'
 complete -c blactl -n '__blactl_argument provision 1' -F
 
 complete -c blactl -n '__blactl_in ledger' -l since -r -f -d 'records that ended at this time or later (RFC 3339)'

@@ -221,6 +221,26 @@ TEST_CASE("a run that waits in vain ends, and says what is missing") {
             .result.status == 0);
 }
 
+TEST_CASE("a lamp is told what happens, and a disk that is full is told in the end") {
+  const Bench bench;
+  const Scene scene = line({{.serial = 101, .from = 1, .to = 30}});
+  const std::string file = (bench.folder() / "events").string();
+  Arguments arguments{"provision", bench.file("recipe.json", recipe), "-y", "--count", "1",
+                      "--events"};
+  arguments.push_back(file);
+  REQUIRE(scene.run(bench, arguments).status == 0);
+  std::string all;
+  for (const auto& event : json_lines(content(file))) {
+    all += event["event"].get<std::string>() + " ";
+    CHECK(event["time"].is_number());
+  }
+  CHECK(all == "waiting recognised working pass ");
+  arguments.back() = "/dev/full";
+  CHECK(scene.run(bench, arguments).status == 1);
+  arguments.back() = "-";
+  CHECK(scene.run(bench, arguments).status == 2);
+}
+
 TEST_CASE("provision refuses what it could not do, before anything is opened") {
   const Scene scene = line({{.serial = 101, .from = 1, .to = 30}});
   CHECK(provision(scene, {"--redo"}).result.status == 2);

@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <utility>
 
 namespace blactl::cli {
 
@@ -38,9 +39,6 @@ EventFile::~EventFile() {
 
 void EventFile::tell(WallTime time, const fleet::Servo& servo, std::string_view stage,
                      std::string_view status) {
-  if (error_) {
-    return;
-  }
   std::string line;
   JsonWriter json(line);
   json.begin_object();
@@ -50,6 +48,13 @@ void EventFile::tell(WallTime time, const fleet::Servo& servo, std::string_view 
   json.member("stage", stage);
   json.member("status", status);
   json.end_object();
+  tell(std::move(line));
+}
+
+void EventFile::tell(std::string line) {
+  if (error_) {
+    return;
+  }
   line += '\n';
   ssize_t written = 0;
   do {

@@ -1,5 +1,5 @@
 #pragma once
-// `apply --events FILE`: the events of each servo, one JSON object per line.
+// `--events FILE`: the events of each servo, one JSON object per line.
 
 #include "blactl/base/error.hpp"
 #include "blactl/base/time.hpp"
@@ -24,6 +24,9 @@ class EventFile {
   ~EventFile();
   EventFile(const EventFile&) = delete;
   EventFile& operator=(const EventFile&) = delete;
+
+  /// A line of JSON, without its end.
+  void tell(std::string line);
 
   void tell(WallTime time, const fleet::Servo& servo, std::string_view stage,
             std::string_view status);

@@ -80,6 +80,12 @@ constexpr Option provision_options[]{
      .whole = {1, 1000},
      .help = {"end when this many fail in a row", "この台数が連続して不合格になれば終了"},
      .store = into<&ProvisionOptions::stop_after>},
+    {.name = "--events",
+     .value = "FILE",
+     .kind = Kind::file,
+     .help = {"write what happens to a file or a pipe, for a lamp or a controller",
+              "ランプや PLC 用に、処理の経過をファイルまたはパイプに出力"},
+     .store = into<&ProvisionOptions::events>},
 };
 
 constexpr Option provision_arguments[]{

@@ -8,12 +8,21 @@
 
 namespace blactl::cli {
 
-LabelLines::LabelLines(fleet::Session& session) : session_(session) {
-  session_.on_input(STDIN_FILENO, [this] { read(); });
+LabelLines::LabelLines(fleet::Session& session, Source source)
+    : session_(session), source_(source) {
+  listen();
 }
 
 LabelLines::~LabelLines() {
-  session_.on_input(-1, {});
+  if (source_ == Source::stdin_itself) {
+    session_.on_input(-1, {});
+  }
+}
+
+void LabelLines::listen() {
+  if (source_ == Source::stdin_itself && !ended_) {
+    session_.on_input(STDIN_FILENO, [this] { read(); });
+  }
 }
 
 void LabelLines::read() {
@@ -42,9 +51,7 @@ std::optional<std::string> LabelLines::take_line() {
   std::string line = text_.substr(0, size);
   text_.erase(0, end == size ? size + 1 : size);
   ++number_;
-  if (!ended_) {
-    session_.on_input(STDIN_FILENO, [this] { read(); });
-  }
+  listen();
   return line;
 }
 

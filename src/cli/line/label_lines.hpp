@@ -4,8 +4,10 @@
 #include "blactl/fleet/bus/session.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace blactl::cli {
 
@@ -14,11 +16,17 @@ class LabelLines {
   /// Longer ones are split, and are no labels then.
   static constexpr std::size_t longest = 4096;
 
+  /// Where lines come from.
+  enum class Source : std::uint8_t { stdin_itself, keys };
+
   /// The session outlives this.
-  explicit LabelLines(fleet::Session& session);
+  LabelLines(fleet::Session& session, Source source);
   ~LabelLines();
   LabelLines(const LabelLines&) = delete;
   LabelLines& operator=(const LabelLines&) = delete;
+
+  /// Takes what was typed.
+  void type(std::string_view text) { text_ += text; }
 
   /// Whether a whole line is there, or stdin has ended.
   [[nodiscard]] bool is_ready() const;
@@ -35,7 +43,10 @@ class LabelLines {
   void read();
   [[nodiscard]] std::optional<std::string> take_line();
 
+  void listen();
+
   fleet::Session& session_;
+  Source source_;
   std::string text_;
   std::size_t number_ = 0;
   bool ended_ = false;

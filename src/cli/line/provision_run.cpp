@@ -1,5 +1,7 @@
 #include "cli/line/provision_run.hpp"
 
+#include "blactl/base/json_writer.hpp"
+#include "blactl/fleet/bus/ticker.hpp"
 #include "blactl/fleet/line/line_record.hpp"
 
 #include "cli/alloc/options.hpp"
@@ -8,6 +10,7 @@
 #include "cli/line/texts.hpp"
 #include "cli/output/progress_view.hpp"
 #include "cli/stores.hpp"
+#include "cli/trace/time.hpp"
 
 #include <sys/timex.h>
 
@@ -81,7 +84,10 @@ void ProvisionRun::run() {
   if (begin()) {
     serve(*ledger, *counters);
   }
-  for (const auto& [verdict, count] : verdicts_) {
+  if (events_ && events_->error()) {
+    report_.fail(*events_->error());
+  }
+  for (const auto& [verdict, count] : totals_.verdicts) {
     report_.counts.emplace_back(verdict, count);
   }
 }
@@ -90,7 +96,7 @@ bool ProvisionRun::begin() {
   if (is_clock_unsynchronised()) {
     context_.reporter().note(say<texts::provision_clock>());
   }
-  if (!open("provision")) {
+  if (!open_events() || !open("provision")) {
     return false;
   }
   context_.session().wait_alone();
@@ -111,12 +117,85 @@ void ProvisionRun::serve(state::LedgerStore& ledger, state::CounterStore& counte
   for (const LedgerRecord& record : *killed) {
     is_printed = is_printed && print(record, std::nullopt);
   }
-  if (!options_.label.empty()) {
-    lines_.emplace(context_.session());
+  open_screen();
+  open_labels();
+  constexpr Duration between_bells = std::chrono::milliseconds(300);
+  std::optional<fleet::Ticker> ticker;
+  if (view_) {
+    ticker.emplace(context_.session(), between_bells, [this] { view_->tick(); });
   }
   while (is_printed && !is_complete() && next(station)) {
   }
   lines_.reset();
+  context_.session().on_input(-1, {});
+  context_.session().on_resize({});
+  view_.reset();
+}
+
+/// Before the bus: a lamp that shows nothing is worse than no work.
+bool ProvisionRun::open_events() {
+  if (options_.events.empty()) {
+    return true;
+  }
+  auto file = EventFile::open(options_.events);
+  if (!file) {
+    return stop(file.error());
+  }
+  events_ = std::move(*file);
+  return true;
+}
+
+/// "waiting", "pass": for a lamp or a controller.
+void ProvisionRun::tell_event(std::string_view event, const LedgerRecord* record) const {
+  if (!events_) {
+    return;
+  }
+  const LedgerRecord none;
+  const LedgerRecord& told = record != nullptr ? *record : none;
+  std::string line;
+  JsonWriter json(line);
+  json.begin_object();
+  json.key("time");
+  json.number(UnixTime(context_.session().wall()).text());
+  json.member("event", event);
+  json.member("code", told.code);
+  json.member("serial_number", told.serial_number);
+  json.member("record_id", told.record_id);
+  json.end_object();
+  events_->tell(std::move(line));
+}
+
+/// Without a terminal that can be drawn on, lines tell all.
+void ProvisionRun::open_screen() {
+  const Reporter& reporter = context_.reporter();
+  if (reporter.format() != Format::text || !reporter.has_screen()) {
+    return;
+  }
+  auto screen = Screen::open(reporter.page().colour);
+  if (!screen) {
+    return reporter.note(screen.error().message);
+  }
+  view_ = std::make_unique<StationView>(
+      std::move(*screen), reporter,
+      say<texts::station_title>(printable(*common().station), printable(recipe_.name)));
+  context_.session().on_resize([this] { view_->draw(); });
+}
+
+/// Keys belong to the screen; without labels they mean nothing.
+void ProvisionRun::open_labels() {
+  const bool has_keys = view_ && Screen::input() >= 0;
+  if (!options_.label.empty()) {
+    lines_.emplace(context_.session(),
+                   has_keys ? LabelLines::Source::keys : LabelLines::Source::stdin_itself);
+  }
+  if (has_keys) {
+    context_.session().on_input(Screen::input(), [this] {
+      const std::string typed = view_->typed();
+      if (lines_) {
+        lines_->type(typed);
+      }
+    });
+  }
 }
 
 /// Whether the run goes on.
@@ -137,7 +216,8 @@ bool ProvisionRun::next(Station& station) {
 
 /// A line that is no label is told, and the next one is waited for.
 bool ProvisionRun::wait_for_label() {
-  context_.reporter().progress(say<texts::provision_label_waits>());
+  view_ ? view_->wait_for_label()
+        : context_.reporter().progress(say<texts::provision_label_waits>());
   while (!label_) {
     const auto line = lines_->next();
     if (!line && lines_->has_ended()) {
@@ -153,6 +233,7 @@ bool ProvisionRun::wait_for_label() {
         label_ = std::move(*label);
       } else {
         context_.reporter().error(label.error());
+        view_ ? view_->wait_for_label() : void();
       }
       continue;
     }
@@ -176,6 +257,7 @@ bool ProvisionRun::work_on(Station& station, const Station::Arrival& arrival) {
     return stop(record.error());
   }
   const auto& reason = station.reason();
+  tell_event(*record->verdict, &*record);
   const bool is_printed = print(*record, reason);
   account(*record, reason);
   if (record->verdict != fleet::verdict::error) {
@@ -206,13 +288,17 @@ bool ProvisionRun::take_off(Station& station) {
 
 bool ProvisionRun::print(const LedgerRecord& record, const std::optional<Error>& reason) {
   const Reporter& reporter = context_.reporter();
+  if (view_) {
+    view_->take(record, reason);
+    return true;
+  }
   const auto printed =
       reporter.stream(record_line(record, reporter.format(), reporter.page(), reason));
   return printed ? *printed : stop(printed.error());
 }
 
 void ProvisionRun::account(const LedgerRecord& record, const std::optional<Error>& reason) {
-  ++verdicts_[*record.verdict];
+  totals_.add(record);
   counted_ += record.verdict != fleet::verdict::error ? 1U : 0U;
   if (record.verdict == fleet::verdict::fail) {
     ++failed_in_row_;
@@ -254,7 +340,13 @@ void ProvisionRun::end_by_idling() {
   }
 }
 
-void ProvisionRun::tell(StationStage stage) const {
+void ProvisionRun::tell(StationStage stage) {
+  if (stage != StationStage::ended) { // its verdict is told
+    tell_event(name(stage), nullptr);
+  }
+  if (view_) {
+    return view_->enter(stage);
+  }
   switch (stage) {
   case StationStage::waiting: return context_.reporter().progress(say<texts::provision_waits>());
   case StationStage::recognised: return context_.reporter().progress(say<texts::provision_asks>());

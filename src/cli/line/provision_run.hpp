@@ -7,15 +7,18 @@
 #include "blactl/state/counter_store.hpp"
 #include "blactl/state/ledger_store.hpp"
 
+#include "cli/change/event_file.hpp"
 #include "cli/change/writing_run.hpp"
 #include "cli/context.hpp"
 #include "cli/line/label_lines.hpp"
+#include "cli/line/station_view.hpp"
 #include "cli/output/report.hpp"
 
 #include <cstdint>
-#include <map>
+#include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace blactl::cli {
 
@@ -30,6 +33,7 @@ struct ProvisionOptions {
   std::string reason{};
   std::optional<unsigned> max_attempts{};
   std::optional<std::uint64_t> stop_after{};
+  std::string events{};
 };
 
 class ProvisionRun : private WritingRun {
@@ -53,7 +57,11 @@ class ProvisionRun : private WritingRun {
   void account(const state::LedgerRecord& record, const std::optional<Error>& reason);
   [[nodiscard]] bool is_complete() const;
   [[nodiscard]] bool goes_on_after(const Error& error);
-  void tell(fleet::StationStage stage) const;
+  [[nodiscard]] bool open_events();
+  void open_screen();
+  void open_labels();
+  void tell(fleet::StationStage stage);
+  void tell_event(std::string_view event, const state::LedgerRecord* record) const;
   [[nodiscard]] Time idle_deadline() const;
   void end_by_idling();
 
@@ -62,7 +70,9 @@ class ProvisionRun : private WritingRun {
   std::string recipe_sha256_;
   std::optional<LabelLines> lines_;
   std::optional<fleet::Label> label_; ///< of the next servo
-  std::map<std::string, std::uint64_t> verdicts_{};
+  std::unique_ptr<EventFile> events_; ///< null: none
+  std::unique_ptr<StationView> view_; ///< null: lines
+  LineTotals totals_{};
   std::uint64_t counted_ = 0;       ///< for --count
   std::uint64_t failed_in_row_ = 0; ///< for --stop-after
 };

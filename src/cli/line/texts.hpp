@@ -46,6 +46,18 @@ inline constexpr Text provision_trouble{"{}: trying again", "{}: 再試行しま
 inline constexpr Text provision_clock{"the clock of this machine is not synchronised",
                                       "時計が同期されていません"};
 
+inline constexpr Text station_title{"station {}   recipe {}", "ステーション {}   レシピ {}"};
+inline constexpr Text station_totals{"pass {} fail {} error {} skip {}",
+                                     "合格 {} 不合格 {} 再試行 {} 処理済 {}"};
+inline constexpr Text station_yield{"first pass {}%", "直行率 {}%"};
+inline constexpr Text deed_connect{"CONNECT A SERVO", "サーボを接続して下さい"};
+inline constexpr Text deed_connect_again{"CONNECT IT AGAIN", "もう一度接続して下さい"};
+inline constexpr Text deed_scan{"SCAN A LABEL", "ラベルを読み取って下さい"};
+inline constexpr Text deed_leave{"WAIT", "そのままお待ち下さい"};
+inline constexpr Text deed_hands_off{"DO NOT TAKE IT OFF", "外さないで下さい"};
+inline constexpr Text deed_take_off{"TAKE IT OFF", "外して下さい"};
+inline constexpr Text deed_take_all_off{"TAKE ALL OFF", "すべて外して下さい"};
+inline constexpr Text deed_put_aside{"PUT IT ASIDE", "不合格品置き場へ"};
 inline constexpr Text ledger_no_time{"{} is no time: {}", "{} の日時が不正です: {}"};
 inline constexpr Text ledger_no_time_hint{"such as 2026-11-21T08:15:00Z",
                                           "例: 2026-11-21T08:15:00Z"};

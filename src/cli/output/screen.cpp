@@ -34,6 +34,10 @@ attr_t attributes(Look look) {
   case Look::lit: return A_REVERSE | A_BOLD | colour_or(good_colour, A_NORMAL);
   case Look::good: return colour_or(good_colour, A_NORMAL);
   case Look::warning: return colour_or(warning_colour, A_BOLD);
+  case Look::block: return A_REVERSE;
+  case Look::good_block: return A_REVERSE | colour_or(good_colour, A_NORMAL);
+  case Look::warning_block: return A_REVERSE | colour_or(warning_colour, A_NORMAL);
+  case Look::bad_block: return A_REVERSE | colour_or(bad_colour, A_NORMAL);
   case Look::bad: break;
   }
   return A_BOLD | colour_or(bad_colour, A_UNDERLINE);
@@ -156,6 +160,10 @@ void Screen::draw(std::span<const ScreenLine> lines) {
   }
   wattrset(stdscr, A_NORMAL);
   wrefresh(stdscr);
+}
+
+void Screen::ring() {
+  beep();
 }
 
 std::optional<Key> Screen::read() {

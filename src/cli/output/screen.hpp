@@ -14,7 +14,21 @@
 namespace blactl::cli {
 
 /// The look of a piece of a line; without colours by weight alone.
-enum class Look : std::uint8_t { plain, head, dim, good, warning, bad, chosen, lit };
+/// Blocks fill an area: their background is coloured.
+enum class Look : std::uint8_t {
+  plain,
+  head,
+  dim,
+  good,
+  warning,
+  bad,
+  chosen,
+  lit,
+  block,
+  good_block,
+  warning_block,
+  bad_block
+};
 
 struct Piece {
   std::string text{};
@@ -54,6 +68,9 @@ class Screen {
 
   /// Draws from the first line on; lines that do not fit are cut.
   void draw(std::span<const ScreenLine> lines);
+
+  /// Rings the bell of the terminal.
+  static void ring();
 
   /// The next typed key; empty: none.
   [[nodiscard]] std::optional<Key> read();

@@ -1,0 +1,77 @@
+#pragma once
+// The screen of a station, to be read from two metres: the verdict fills it, by colour, symbol,
+// word and sound; what to do now is one line in both languages (contract, section 6).
+
+#include "blactl/base/error.hpp"
+#include "blactl/fleet/line/station.hpp"
+#include "blactl/state/ledger_record.hpp"
+
+#include "cli/output/reporter.hpp"
+#include "cli/output/screen.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace blactl::cli {
+
+/// The results of a run.
+struct LineTotals {
+  std::map<std::string, std::uint64_t> verdicts{};
+  std::map<std::string, bool> first_passed{}; ///< by unit: whether its first result was a pass
+
+  void add(const state::LedgerRecord& record);
+
+  /// In percent; empty: no unit has a result yet.
+  [[nodiscard]] std::optional<double> first_pass_yield() const;
+};
+
+/// What the operator shall do.
+enum class LineDeed : std::uint8_t { connect, scan, leave, hands_off, take_off };
+
+struct StationPicture {
+  std::string title{};
+  LineTotals totals{};
+  LineDeed deed = LineDeed::connect;
+  std::optional<state::LedgerRecord> last{}; ///< until the next servo is recognised
+  std::optional<Error> reason{};
+  std::string note{}; ///< the last one
+};
+
+/// The picture on a screen of this size.
+[[nodiscard]] std::vector<ScreenLine> lines_of(const StationPicture& picture, std::size_t width,
+                                               std::size_t height);
+
+class StationView {
+ public:
+  /// `reporter` outlives this: its notes are shown, and again when the screen is gone.
+  StationView(std::unique_ptr<Screen> screen, const Reporter& reporter, std::string title);
+  ~StationView();
+  StationView(const StationView&) = delete;
+  StationView& operator=(const StationView&) = delete;
+
+  void enter(fleet::StationStage stage);
+  void wait_for_label();
+  void take(const state::LedgerRecord& record, const std::optional<Error>& reason);
+
+  /// Rings what is still to be rung; called some times a second.
+  void tick();
+
+  void draw();
+
+  /// What was typed since the last call, with the ends of lines.
+  [[nodiscard]] std::string typed();
+
+ private:
+  std::unique_ptr<Screen> screen_;
+  const Reporter& reporter_;
+  StationPicture picture_;
+  std::string held_; ///< notes
+  int bells_ = 0;    ///< still to be rung
+};
+
+} // namespace blactl::cli

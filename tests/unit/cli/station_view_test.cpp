@@ -1,0 +1,122 @@
+#include "catch.hpp"
+#include "cli/line/station_view.hpp"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace blactl;
+using namespace blactl::cli;
+
+namespace {
+
+state::LedgerRecord record(const std::string& verdict, const std::string& unit = "a") {
+  state::LedgerRecord one;
+  one.verdict = verdict;
+  one.unique_id = unit;
+  one.serial_number = 240900558;
+  one.servo_id = 3;
+  one.static_node_id = 13;
+  return one;
+}
+
+std::string text_of(const ScreenLine& line) {
+  std::string text;
+  for (const Piece& piece : line) {
+    text += piece.text;
+  }
+  return text;
+}
+
+std::string text_of(const std::vector<ScreenLine>& lines) {
+  std::string text;
+  for (const ScreenLine& line : lines) {
+    text += text_of(line) + "\n";
+  }
+  return text;
+}
+
+/// How many cells have this look.
+std::size_t cells(const std::vector<ScreenLine>& lines, Look look) {
+  std::size_t count = 0;
+  for (const ScreenLine& line : lines) {
+    for (const Piece& piece : line) {
+      count += piece.look == look ? display_width(piece.text) : 0;
+    }
+  }
+  return count;
+}
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+} // namespace
+
+TEST_CASE("the verdict fills the screen, whatever its size, and what to do is in both languages") {
+  const auto [width, height] = GENERATE(std::pair<std::size_t, std::size_t>{80, 24},
+                                        std::pair<std::size_t, std::size_t>{53, 16});
+  StationPicture picture{.title = "station A", .deed = LineDeed::take_off};
+
+  struct Case {
+    const char* verdict;
+    Look look;
+    const char* deed_en;
+    const char* deed_ja;
+  };
+
+  for (const Case& each : {Case{"pass", Look::good_block, "TAKE IT OFF", "外して下さい"},
+                           Case{"fail", Look::bad_block, "PUT IT ASIDE", "不合格品置き場へ"},
+                           Case{"error", Look::warning_block, "TAKE IT OFF", "外して下さい"},
+                           Case{"skip", Look::block, "TAKE IT OFF", "外して下さい"}}) {
+    INFO(each.verdict);
+    picture.last = record(each.verdict);
+    const auto lines = lines_of(picture, width, height);
+    REQUIRE(lines.size() == height);
+    for (const ScreenLine& line : lines) {
+      CHECK(display_width(text_of(line)) <= width);
+    }
+    CHECK(cells(lines, each.look) > width * (height - 5) * 7 / 10);
+    const std::string text = text_of(lines);
+    CHECK(has(text, each.deed_en));
+    CHECK(has(text, each.deed_ja));
+    CHECK(has(text, "240900558"));
+  }
+}
+
+TEST_CASE("the last result stays until the next servo, and an error asks for the same one") {
+  StationPicture picture{.deed = LineDeed::connect, .last = record("error")};
+  picture.last->code = "not_back";
+  CHECK(has(text_of(lines_of(picture, 80, 24)), "CONNECT IT AGAIN"));
+  CHECK(has(text_of(lines_of(picture, 80, 24)), "not_back"));
+  picture.last->code = "several_servos";
+  picture.deed = LineDeed::take_off;
+  CHECK(has(text_of(lines_of(picture, 80, 24)), "TAKE ALL OFF"));
+  picture.last.reset();
+  picture.deed = LineDeed::hands_off;
+  CHECK(has(text_of(lines_of(picture, 80, 24)), "DO NOT TAKE IT OFF"));
+  picture.deed = LineDeed::connect;
+  CHECK(cells(lines_of(picture, 80, 24), Look::block) > 50); // READY
+}
+
+TEST_CASE("a tiny screen is no reason to fail") {
+  const StationPicture picture{.last = record("pass")};
+  for (std::size_t height : {0U, 1U, 4U, 5U, 6U}) {
+    for (std::size_t width : {0U, 1U, 10U}) {
+      CHECK(lines_of(picture, width, height).size() >= height);
+    }
+  }
+}
+
+TEST_CASE("the first-pass yield is of units, by their first result") {
+  LineTotals totals;
+  CHECK_FALSE(totals.first_pass_yield());
+  totals.add(record("error", "a"));
+  totals.add(record("skip", "b"));
+  CHECK_FALSE(totals.first_pass_yield());
+  totals.add(record("pass", "a"));
+  totals.add(record("fail", "c"));
+  totals.add(record("pass", "c"));
+  CHECK(totals.first_pass_yield() == 50);
+  CHECK(totals.verdicts.at("pass") == 2);
+}
