@@ -15,8 +15,8 @@ namespace commands {
 
 extern const Command scan, alloc, get, set, save, erase, restart, wait, faults, pwm_config,
     export_servos, // "export" is a keyword of C++
-    diff, apply, replace, undo, provision, ledger, monitor, command, trace, doctor, characterize, models,
-    sim;
+    diff, apply, replace, undo, provision, ledger, monitor, command, trace, doctor, characterize,
+    models, sim;
 
 } // namespace commands
 
