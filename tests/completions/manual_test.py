@@ -39,7 +39,7 @@ def main():
     lines, faults = rendered(source / "man/blactl.1", environment)
     page = "\n".join(lines)
     faults += [f"no section {name}" for name in SECTIONS if name not in lines]
-    for other in ("blactl-fleet.5", "blactl-tuning.7"):
+    for other in ("blactl-fleet.5", "blactl-recipe.5", "blactl-tuning.7"):
         faults += rendered(source / "man" / other, environment)[1]
     cli = json.loads(subprocess.run([binary, "--dump-cli"], stdout=subprocess.PIPE,
                                     check=True).stdout)
