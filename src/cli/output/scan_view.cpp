@@ -169,7 +169,8 @@ void write_json(JsonWriter& json, const Findings& findings) {
     write_ids(json, "node_ids", conflict.nodes);
     json.member("text", conflict.text);
   });
-  write_ids(json, "allocators", {roster.allocators().begin(), roster.allocators().end()});
+  const auto allocators = roster.allocators();
+  write_ids(json, "allocators", {allocators.begin(), allocators.end()});
   write_ids(json, "commanders", fleet::commanders(roster));
 }
 

@@ -278,6 +278,7 @@ void Roster::forget_gone(Time since) {
     return is_gone;
   });
   std::erase_if(pending_, [&](const auto& asking) { return asking.second.last < since; });
+  std::erase_if(allocators_, [&](const auto& allocator) { return allocator.second < since; });
 }
 
 void Roster::forget_doubled(Time since) {
@@ -371,6 +372,14 @@ void Roster::give(const dronecan::UniqueId& unit, Time at) {
   }
 }
 
+std::set<NodeId> Roster::allocators() const {
+  std::set<NodeId> ids;
+  for (const auto& [id, last] : allocators_) {
+    ids.insert(id);
+  }
+  return ids;
+}
+
 std::vector<UniqueIdPrefix> Roster::pending() const {
   std::vector<UniqueIdPrefix> waiting;
   for (const auto& [prefix, asking] : pending_) {
@@ -389,7 +398,7 @@ void Roster::on_allocation(const Transfer& transfer) {
   const UniqueIdPrefix prefix(allocation->unique_id.begin(),
                               allocation->unique_id.begin() + allocation->size);
   if (transfer.header.source.is_unicast()) {
-    allocators_.insert(transfer.header.source);
+    allocators_.insert_or_assign(transfer.header.source, transfer.at);
     if (allocation->node_id != 0 && prefix.size() == allocation->unique_id.size()) {
       allotments_[NodeId(allocation->node_id)] = {allocation->unique_id, transfer.header.source,
                                                   transfer.at};

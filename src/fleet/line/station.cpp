@@ -143,6 +143,8 @@ Result<std::optional<Station::Arrival>> Station::wait_for_servo(Time deadline) {
     if (!came || !*came) {
       return came ? Result<std::optional<Arrival>>() : std::unexpected(came.error());
     }
+    // an allocator that was killed, perhaps the last run of this station, answers nobody
+    session_.records().forget_gone(session_.now() - off_time);
     entered_(StationStage::recognised);
     Arrival arrival{.has_asked = is_asked(), .at = session_.now(), .wall = session_.wall()};
     Discovery discovery(session_, profiles_, options_.manner.identification);

@@ -606,6 +606,25 @@ TEST_CASE("who asks for a node ID is pending until it has one") {
   CHECK(ear.roster.allocators() == std::set{NodeId(126)});
 }
 
+TEST_CASE("who has gone is forgotten: another unit on that ID is no second one") {
+  Ear ear;
+  ear.status(11, 100);
+  ear.status(12, 100);
+  ear.hear(message(Allocation::type, 126, Allocation{.node_id = 12}.encode()));
+  ear.now += 4s;
+  ear.status(12, 104);
+  ear.roster.forget_gone(ear.now - 3s);
+  CHECK(ear.roster.find(NodeId(11)) == nullptr);
+  CHECK_FALSE(ear.roster.heard(NodeId(11)));
+  CHECK(ear.roster.find(NodeId(12)) != nullptr);
+  CHECK(ear.roster.allocators().empty());
+  ear.status(11, 3);
+  ear.now += 1s;
+  ear.status(11, 4);
+  CHECK_FALSE(ear.roster.is_doubled(NodeId(11)));
+  CHECK(ear.roster.member(NodeId(11)).boots == 0);
+}
+
 TEST_CASE("our own allocator is no other allocator") {
   Ear ear;
   ear.allocation(127, unit(1, 6));

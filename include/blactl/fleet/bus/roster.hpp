@@ -219,7 +219,8 @@ class Roster {
   void forget_doubled(Time since);
 
   /// Forgets the nodes that were not heard since then: another unit that comes on such an ID is no
-  /// second one. For a command that sees one servo after the other.
+  /// second one; and allocators that have been silent. For a command that sees one servo
+  /// after the other.
   void forget_gone(Time since);
 
   /// The unique IDs of the units that use this ID, if two were received; else none.
@@ -243,7 +244,7 @@ class Roster {
   /// The last request of such a unit.
   [[nodiscard]] std::optional<Time> asked_at(const dronecan::UniqueId& unique_id) const;
 
-  [[nodiscard]] const std::set<dronecan::NodeId>& allocators() const { return allocators_; }
+  [[nodiscard]] std::set<dronecan::NodeId> allocators() const;
 
   [[nodiscard]] const std::map<dronecan::NodeId, Commander>& commanders() const {
     return commands_.commanders();
@@ -334,7 +335,7 @@ class Roster {
   std::map<dronecan::NodeId, Time> doubled_;                       ///< when that last showed
   std::map<dronecan::NodeId, std::set<dronecan::UniqueId>> units_; ///< of doubled IDs
   std::map<UniqueIdPrefix, Asking> pending_;
-  std::set<dronecan::NodeId> allocators_;
+  std::map<dronecan::NodeId, Time> allocators_;      ///< when they last allocated
   std::map<dronecan::NodeId, Allotment> allotments_; ///< by the ID that was given
 };
 
