@@ -149,6 +149,7 @@ _blactl_option() {
     provision:--max-attempts) kind='whole' ;;
     provision:--stop-after) kind='whole' ;;
     provision:--events) kind='file' ;;
+    provision:--logs) kind='folder' ;;
     ledger:--since) kind='text' ;;
     ledger:--until) kind='text' ;;
     ledger:--serial) kind='whole' ;;
@@ -213,7 +214,7 @@ _blactl_options() {
     apply) echo '--dry-run --plan --entry --no-save --trust-ram --fail-fast --events --no-snapshot --check --wait --stagger' ;;
     replace) echo '--dry-run --no-snapshot --wait' ;;
     undo) echo '--list --to --dry-run --no-save --wait --stagger' ;;
-    provision) echo '--label --range --count --idle-timeout --station --operator --work-order --redo --reason --max-attempts --stop-after --events' ;;
+    provision) echo '--label --range --count --idle-timeout --station --operator --work-order --redo --reason --max-attempts --stop-after --events --logs' ;;
     ledger) echo '--since --until --serial --verdict --work-order --station --scrap --reason --check --backup' ;;
     monitor) echo '--rate --fields --duration --count --identify' ;;
     command) echo '--duration --wiggle --array --svg' ;;

@@ -8,7 +8,7 @@ function __blactl_words
     for word in $words[2..]
         if test $value = yes
             set value no
-        else if string match -qr -- '^(--(assign|backup|clock|color|count|duration|endpoints|entry|events|expect|export|facts|fields|forget|group|id|idle-timeout|import|interface|kind|label|lang|level|listen|local-node-id|max-attempts|mode|neutral|node|operator|output|preset|profile|profile-dir|range|rate|reason|record|report|retries|scrap|search|seed|serial|since|stagger|station|stop-after|svg|timeout|to|type|until|verdict|wait|work-order)|-[jqvyhV]*[in])$' $word
+        else if string match -qr -- '^(--(assign|backup|clock|color|count|duration|endpoints|entry|events|expect|export|facts|fields|forget|group|id|idle-timeout|import|interface|kind|label|lang|level|listen|local-node-id|logs|max-attempts|mode|neutral|node|operator|output|preset|profile|profile-dir|range|rate|reason|record|report|retries|scrap|search|seed|serial|since|stagger|station|stop-after|svg|timeout|to|type|until|verdict|wait|work-order)|-[jqvyhV]*[in])$' $word
             set value yes
         else if not string match -q -- '-*' $word
             echo $word
@@ -379,6 +379,7 @@ complete -c blactl -n '__blactl_in provision' -l reason -r -f -d 'with --redo'
 complete -c blactl -n '__blactl_in provision' -l max-attempts -r -f -d 'how often a servo may fail (default 3)'
 complete -c blactl -n '__blactl_in provision' -l stop-after -r -f -d 'end when this many fail in a row'
 complete -c blactl -n '__blactl_in provision' -l events -r -F -d 'write what happens to a file or a pipe, for a lamp or a controller'
+complete -c blactl -n '__blactl_in provision' -l logs -r -f -a '(__fish_complete_directories (__blactl_token))' -d 'keep the frames of every servo that did not pass, named by its record_id'
 complete -c blactl -n '__blactl_argument provision 1' -F
 
 complete -c blactl -n '__blactl_in ledger' -l since -r -f -d 'records that ended at this time or later (RFC 3339)'

@@ -112,6 +112,15 @@ void Recorder::record(const Frame& frame, WallTime at) {
   complete_ += size;
 }
 
+void Recorder::begin_anew() {
+  const bool is_empty = ftruncate(descriptor_, 0) == 0 && lseek(descriptor_, 0, SEEK_SET) == 0;
+  complete_ = 0;
+  error_.reset();
+  if (!is_empty) {
+    stop(errno);
+  }
+}
+
 /// Truncates: a full disk may hold a part of the line, which would read as another frame.
 void Recorder::stop(int error) {
   error_ = Error{Code::io, say<texts::record_failed>(printable(path_), system_reason(error)),

@@ -81,6 +81,9 @@ class Context {
   /// Records every frame of the session in this file, as --record does. Call before open().
   void record_to(std::string file) { wishes_.record = std::move(file); }
 
+  /// Where every frame of the session is recorded; null: nowhere.
+  [[nodiscard]] can::Recorder* recorder() const { return session_ ? layers_.recorder : nullptr; }
+
   /// Asks an adapter for its identification when it is opened. Call before open().
   void inquire() { wishes_.inquires = true; }
 
@@ -135,10 +138,10 @@ class Context {
 
   /// The layers of the session's bus, if it has them.
   struct Layers {
-    can::Slcan* adapter = nullptr;           ///< with -i slcan:
-    const can::ReplayBus* log = nullptr;     ///< with -i replay:
-    can::PacedReplay* pace = nullptr;        ///< around it, with play_at_pace()
-    const can::Recorder* recorder = nullptr; ///< around all, with --record
+    can::Slcan* adapter = nullptr;       ///< with -i slcan:
+    const can::ReplayBus* log = nullptr; ///< with -i replay:
+    can::PacedReplay* pace = nullptr;    ///< around it, with play_at_pace()
+    can::Recorder* recorder = nullptr;   ///< around all, with --record
   };
 
   struct Locks {

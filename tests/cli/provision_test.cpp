@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <csignal>
+#include <filesystem>
 #include <map>
 #include <set>
 #include <string>
@@ -239,6 +240,37 @@ TEST_CASE("a lamp is told what happens, and a disk that is full is told in the e
   CHECK(scene.run(bench, arguments).status == 1);
   arguments.back() = "-";
   CHECK(scene.run(bench, arguments).status == 2);
+}
+
+TEST_CASE("the frames of a servo that did not pass are kept, named by its record") {
+  const Bench bench;
+  const Scene scene = line({{.serial = 101, .from = 1, .to = 30},
+                            {.serial = 102, .from = 40, .to = 60, .model = "BLA34-12U-AB"},
+                            {.serial = 103, .from = 70, .to = 90}});
+  const std::string folder = (bench.folder() / "logs" / "line").string();
+  const Result result = scene.run(bench, {"provision", bench.file("recipe.json", recipe), "-y",
+                                          "--count", "3", "--json", "--logs", folder});
+  const auto records = json_lines(result.out);
+  REQUIRE(records.size() == 4);
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    names.insert(entry.path().filename().string());
+  }
+  const std::string failed = records[1]["record_id"].get<std::string>() + ".log";
+  CHECK(names == std::set<std::string>{failed, "present.log"});
+  const Result replayed = bench.run({"-i", "replay:" + folder + "/" + failed, "scan", "--json"});
+  const auto nodes = json(replayed.out)["nodes"];
+  REQUIRE(nodes.size() == 1);
+  CHECK(nodes[0]["serial_number"] == 102);
+  CHECK(content(folder + "/present.log").empty());
+  CHECK(scene
+            .run(bench, {"provision", bench.file("recipe.json", recipe), "-y", "--logs", folder,
+                         "--record", folder + "/x.log"})
+            .status == 2);
+  CHECK(scene
+            .run(bench,
+                 {"provision", bench.file("recipe.json", recipe), "-y", "--logs", "/dev/null/x"})
+            .status == 1);
 }
 
 TEST_CASE("provision refuses what it could not do, before anything is opened") {

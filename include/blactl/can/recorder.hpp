@@ -33,6 +33,13 @@ class Recorder final : public Bus {
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
+  /// Empties the file, which then holds the frames from now on; also after recording has ended
+  /// early.
+  void begin_anew();
+
+  /// The path of the file.
+  [[nodiscard]] const std::string& path() const { return path_; }
+
   /// Why recording ended early: io.
   [[nodiscard]] const std::optional<Error>& error() const { return error_; }
 

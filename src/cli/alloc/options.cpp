@@ -46,7 +46,7 @@ Result<fleet::WantedId> parse_wish(std::string_view text) {
 bool begins_unique_id(std::string_view text) {
   constexpr std::size_t longest_node_id = 3;
   const bool is_number = text.find_first_not_of("0123456789") == std::string_view::npos;
-  return !(is_number && text.size() <= longest_node_id) &&
+  return (!is_number || text.size() > longest_node_id) &&
          text.find_first_not_of("0123456789abcdefABCDEF") == std::string_view::npos;
 }
 

@@ -86,6 +86,12 @@ constexpr Option provision_options[]{
      .help = {"write what happens to a file or a pipe, for a lamp or a controller",
               "ランプや PLC 用に、処理の経過をファイルまたはパイプに出力"},
      .store = into<&ProvisionOptions::events>},
+    {.name = "--logs",
+     .value = "FOLDER",
+     .kind = Kind::folder,
+     .help = {"keep the frames of every servo that did not pass, named by its record_id",
+              "合格しなかったサーボのフレームを record_id の名前で保存"},
+     .store = into<&ProvisionOptions::logs>},
 };
 
 constexpr Option provision_arguments[]{
@@ -97,7 +103,11 @@ constexpr Option provision_arguments[]{
 };
 
 /// Adds every fault of the options to the report.
-void check(const ProvisionOptions& options, Report& report) {
+void check(const ProvisionOptions& options, const Shared& shared, Report& report) {
+  if (!options.logs.empty() && shared.record) {
+    report.fail({Code::usage, say<texts::provision_logs_alone>(),
+                 say<texts::provision_logs_alone_hint>(), std::nullopt});
+  }
   if (!options.label.empty() && options.label != "-") {
     report.fail({Code::usage, say<texts::provision_label_word>(printable(options.label)),
                  say<texts::provision_label_word_hint>(), std::nullopt});
@@ -117,7 +127,7 @@ void check(const ProvisionOptions& options, Report& report) {
 
 Report execute(const ProvisionOptions& options, Context& context) {
   Report report{.interface = printable(context.shared().interface), .is_stream = true};
-  check(options, report);
+  check(options, context.shared(), report);
   const auto profiles = context.profiles();
   if (!profiles) {
     report.fail(profiles.error());

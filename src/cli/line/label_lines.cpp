@@ -44,7 +44,8 @@ bool LabelLines::is_ready() const {
 
 std::optional<std::string> LabelLines::take_line() {
   const auto end = text_.find('\n');
-  if (end == std::string::npos && !(ended_ && !text_.empty()) && text_.size() < longest) {
+  const bool is_last = ended_ && !text_.empty();
+  if (end == std::string::npos && !is_last && text_.size() < longest) {
     return std::nullopt;
   }
   const std::size_t size = std::min(end, std::min(text_.size(), longest));

@@ -1,6 +1,7 @@
 #include "cli/line/provision_run.hpp"
 
 #include "blactl/base/json_writer.hpp"
+#include "blactl/base/system_error.hpp"
 #include "blactl/fleet/bus/ticker.hpp"
 #include "blactl/fleet/line/line_record.hpp"
 
@@ -15,6 +16,8 @@
 #include <sys/timex.h>
 
 #include <chrono>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 namespace blactl::cli {
@@ -96,7 +99,7 @@ bool ProvisionRun::begin() {
   if (is_clock_unsynchronised()) {
     context_.reporter().note(say<texts::provision_clock>());
   }
-  if (!open_events() || !open("provision")) {
+  if (!open_events() || !open_logs() || !open("provision")) {
     return false;
   }
   context_.session().wait_alone();
@@ -143,6 +146,41 @@ bool ProvisionRun::open_events() {
   }
   events_ = std::move(*file);
   return true;
+}
+
+/// The frames of the present unit; what a run that was killed had of its last one stays there.
+bool ProvisionRun::open_logs() {
+  if (options_.logs.empty()) {
+    return true;
+  }
+  std::error_code error;
+  std::filesystem::create_directories(options_.logs, error);
+  if (error) {
+    return stop(
+        {Code::io,
+         say<texts::provision_no_logs>(printable(options_.logs), system_reason(error.value())),
+         say<texts::provision_no_logs_hint>(), std::nullopt});
+  }
+  context_.record_to(options_.logs + "/present.log");
+  return true;
+}
+
+/// Of each unit that did not pass.
+void ProvisionRun::keep_log(const LedgerRecord& record) {
+  can::Recorder* recorder = options_.logs.empty() ? nullptr : context_.recorder();
+  if (recorder == nullptr) {
+    return;
+  }
+  if (record.verdict != fleet::verdict::pass && record.verdict != fleet::verdict::skip) {
+    std::error_code error;
+    std::filesystem::copy_file(recorder->path(), options_.logs + "/" + *record.record_id + ".log",
+                               error);
+    if (error) {
+      context_.reporter().note(
+          say<texts::provision_no_logs>(printable(options_.logs), system_reason(error.value())));
+    }
+  }
+  recorder->begin_anew();
 }
 
 /// "waiting", "pass": for a lamp or a controller.
@@ -258,6 +296,7 @@ bool ProvisionRun::work_on(Station& station, const Station::Arrival& arrival) {
   }
   const auto& reason = station.reason();
   tell_event(*record->verdict, &*record);
+  keep_log(*record);
   const bool is_printed = print(*record, reason);
   account(*record, reason);
   if (record->verdict != fleet::verdict::error) {

@@ -34,6 +34,7 @@ struct ProvisionOptions {
   std::optional<unsigned> max_attempts{};
   std::optional<std::uint64_t> stop_after{};
   std::string events{};
+  std::string logs{};
 };
 
 class ProvisionRun : private WritingRun {
@@ -58,6 +59,8 @@ class ProvisionRun : private WritingRun {
   [[nodiscard]] bool is_complete() const;
   [[nodiscard]] bool goes_on_after(const Error& error);
   [[nodiscard]] bool open_events();
+  [[nodiscard]] bool open_logs();
+  void keep_log(const state::LedgerRecord& record);
   void open_screen();
   void open_labels();
   void tell(fleet::StationStage stage);

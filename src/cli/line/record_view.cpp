@@ -101,6 +101,7 @@ std::string record_line(const LedgerRecord& record, Format format, const Page& p
     return text_line(record, page, reason);
   }
   std::vector<std::string> cells;
+  cells.reserve(state::ledger_columns.size());
   for (const LedgerColumn& column : state::ledger_columns) {
     cells.push_back(cell(record, column));
   }
@@ -112,6 +113,7 @@ std::string records_header(Format format) {
     return {};
   }
   std::vector<std::string> names;
+  names.reserve(state::ledger_columns.size());
   for (const LedgerColumn& column : state::ledger_columns) {
     names.emplace_back(column.name);
   }

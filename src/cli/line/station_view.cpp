@@ -177,6 +177,7 @@ std::vector<ScreenLine> lines_of(const StationPicture& picture, std::size_t widt
   constexpr std::size_t around = 5; // title, totals, note, and what to do in two languages
   const Face face = face_of(picture);
   std::vector<ScreenLine> middle;
+  middle.reserve(height);
   for (std::size_t row = 0; row < glyph_height; ++row) {
     middle.push_back(big_row(face, row, width));
   }

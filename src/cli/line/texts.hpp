@@ -46,6 +46,13 @@ inline constexpr Text provision_trouble{"{}: trying again", "{}: 再試行しま
 inline constexpr Text provision_clock{"the clock of this machine is not synchronised",
                                       "時計が同期されていません"};
 
+inline constexpr Text provision_no_logs{"no log can be kept in {}: {}",
+                                        "{} にログを保存できません: {}"};
+inline constexpr Text provision_no_logs_hint{"give a folder that can be written: --logs FOLDER",
+                                             "書込み可能なフォルダを指定して下さい: --logs FOLDER"};
+inline constexpr Text provision_logs_alone{"--logs and --record both want the frames",
+                                           "--logs と --record は併用できません"};
+inline constexpr Text provision_logs_alone_hint{"give one of them", "いずれか一方を指定して下さい"};
 inline constexpr Text station_title{"station {}   recipe {}", "ステーション {}   レシピ {}"};
 inline constexpr Text station_totals{"pass {} fail {} error {} skip {}",
                                      "合格 {} 不合格 {} 再試行 {} 処理済 {}"};

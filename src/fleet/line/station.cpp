@@ -9,11 +9,14 @@
 #include "blactl/fleet/line/line_record.hpp"
 
 #include "fleet/line/acceptance.hpp"
+#include "fleet/line/acceptance_texts.hpp"
 #include "fleet/line/station_texts.hpp"
 
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <iterator>
+#include <string_view>
 #include <utility>
 
 namespace blactl::fleet {
@@ -243,7 +246,8 @@ Result<LedgerRecord> Station::work_on(const Arrival& arrival, const Label* label
     wrong = check_unit(servo, options_.recipe, label, profiles_);
   }
   if (wrong) {
-    return commit(std::move(record), arrival.at, verdict_of(wrong->code), std::move(wrong));
+    const std::string_view verdict = verdict_of(wrong->code);
+    return commit(std::move(record), arrival.at, verdict, std::move(wrong));
   }
   const auto past = past_of(servo);
   if (!past) {
