@@ -180,7 +180,6 @@ void ProvisionRun::keep_log(const LedgerRecord& record) {
           say<texts::provision_no_logs>(printable(options_.logs), system_reason(error.value())));
     }
   }
-  recorder->begin_anew();
 }
 
 /// "waiting", "pass": for a lamp or a controller.
@@ -380,6 +379,10 @@ void ProvisionRun::end_by_idling() {
 }
 
 void ProvisionRun::tell(StationStage stage) {
+  can::Recorder* recorder = options_.logs.empty() ? nullptr : context_.recorder();
+  if (recorder != nullptr && stage == StationStage::waiting) {
+    recorder->begin_anew();
+  }
   if (stage != StationStage::ended) { // its verdict is told
     tell_event(name(stage), nullptr);
   }
