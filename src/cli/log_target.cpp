@@ -1,5 +1,6 @@
 #include "cli/log_target.hpp"
 
+#include "blactl/base/replace_file.hpp"
 #include "blactl/can/candump.hpp"
 #include "blactl/state/state_folder.hpp"
 
@@ -31,16 +32,40 @@ bool is_log(std::string_view text) {
          (line.starts_with("# ") && line.find("blactl ") != std::string_view::npos);
 }
 
+bool is_drawing(std::string_view text) {
+  return text.empty() || (text.starts_with("<svg ") && text.find("blactl") != text.npos);
+}
+
+bool is_regular(const std::string& file) {
+  std::error_code error;
+  return std::filesystem::is_regular_file(file, error);
+}
+
 } // namespace
 
-Result<void> check_log_target(const std::string& file, std::string_view option) {
-  if (state::is_state_file(file)) {
-    return fail(Code::usage, say<texts::log_over_state>(option, printable(file)),
-                say<texts::log_over_state_hint>());
+Result<void> check_no_state(const std::string& file, std::string_view option) {
+  return state::is_state_file(file)
+             ? fail(Code::usage, say<texts::log_over_state>(option, printable(file)),
+                    say<texts::log_over_state_hint>())
+             : Result<void>();
+}
+
+Result<void> check_drawing_target(const std::string& file, std::string_view option) {
+  if (auto fit = check_no_state(file, option); !fit) {
+    return fit;
   }
-  std::error_code error;
-  const bool is_regular = std::filesystem::is_regular_file(file, error);
-  return is_regular && !is_log(beginning(file))
+  if (is_regular(file) && !is_drawing(beginning(file))) {
+    return fail(Code::usage, say<texts::drawing_over_other>(option, printable(file)),
+                say<texts::log_over_other_hint>());
+  }
+  return check_replaceable(file);
+}
+
+Result<void> check_log_target(const std::string& file, std::string_view option) {
+  if (auto fit = check_no_state(file, option); !fit) {
+    return fit;
+  }
+  return is_regular(file) && !is_log(beginning(file))
              ? fail(Code::usage, say<texts::log_over_other>(option, printable(file)),
                     say<texts::log_over_other_hint>())
              : Result<void>();

@@ -1,5 +1,5 @@
 #pragma once
-// Where the log of a session may be written.
+// Where logs, drawings and exports may be written.
 
 #include "blactl/base/error.hpp"
 
@@ -12,5 +12,12 @@ namespace blactl::cli {
 /// doctor), and takes the place of no file in which state is kept. `option`: which names the file.
 /// Errors: usage.
 [[nodiscard]] Result<void> check_log_target(const std::string& file, std::string_view option);
+
+/// Likewise for a drawing, which replaces nothing but a drawing. Errors also: io (it cannot be
+/// written).
+[[nodiscard]] Result<void> check_drawing_target(const std::string& file, std::string_view option);
+
+/// Checks only that the file is none in which state is kept. Errors: usage.
+[[nodiscard]] Result<void> check_no_state(const std::string& file, std::string_view option);
 
 } // namespace blactl::cli

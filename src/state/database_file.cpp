@@ -185,7 +185,8 @@ Result<void> set_up(const Database& database, bool writable) {
 
 /// Syncs the folder, because the file got its name after SQLite had synced it for the journal.
 Result<void> sync_folder_of(const DatabaseName& file) {
-  const std::string folder = std::filesystem::path(file.path).parent_path().string();
+  const std::string parent = std::filesystem::path(file.path).parent_path().string();
+  const std::string folder = parent.empty() ? "." : parent;
   const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   const bool synced = descriptor >= 0 && fsync(descriptor) == 0;
   const int error = errno;

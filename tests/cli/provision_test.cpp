@@ -260,7 +260,8 @@ TEST_CASE("the frames of a servo that did not pass are kept, named by its record
   CHECK(names == std::set<std::string>{failed, "present.log"});
   const Result replayed = bench.run({"-i", "replay:" + folder + "/" + failed, "scan", "--json"});
   std::set<nlohmann::json> serials; // that of our own node is null
-  for (const auto& node : json(replayed.out)["nodes"]) {
+  const auto document = json(replayed.out);
+  for (const auto& node : document["nodes"]) {
     serials.insert(node["serial_number"]);
   }
   CHECK(serials == std::set<nlohmann::json>{nullptr, 102});
@@ -279,6 +280,8 @@ TEST_CASE("provision refuses what it could not do, before anything is opened") {
   CHECK(provision(scene, {"--redo"}).result.status == 2);
   CHECK(provision(scene, {"--reason", "x"}).result.status == 2);
   CHECK(provision(scene, {"--label", "file"}).result.status == 2);
+  CHECK(provision(scene, {"-n", "11"}).result.status == 2);
+  CHECK(provision(scene, {"--profile", "BLA21-12U-AB"}).result.status == 2);
   CHECK(provision(scene, {"--range", "126-127"}).result.status != 0);
   const Bench bench;
   const Result unasked =
@@ -359,7 +362,7 @@ TEST_CASE("the ledger lists, filters, scraps, checks and is copied") {
 
   const std::string copy = (hall.bench().folder() / "copy.db").string();
   CHECK(hall.run({"ledger", "--backup", copy}).status == 0);
-  CHECK(hall.run({"ledger", "--backup", copy}).status == 1);
+  CHECK(hall.run({"ledger", "--backup", copy}).status == 2);
   CHECK(hall.run({"ledger", "--check", "--serial", "1"}).status == 2);
   CHECK(contains(hall.run({"ledger", "--csv"}).out, "record_id,time,start_time,verdict,code,"));
 }
@@ -377,6 +380,70 @@ TEST_CASE("the IDs of a scrapped servo are the next to be given, so that a set i
   REQUIRE(next.size() == 1);
   CHECK(next[0]["servo_id"] == 2);
   CHECK(next[0]["static_node_id"] == 12);
+}
+
+TEST_CASE("a name of a station is that of one process, and a servo at work is not scrapped") {
+  const Hall hall({{.serial = 101, .from = 1, .to = 20}, {.serial = 102, .from = 25, .to = 3000}});
+  REQUIRE(hall.provision({"--count", "1"}).status == 0);
+  const std::string passed = hall.ledger()[0]["record_id"];
+  {
+    const Background station(
+        hall.bench(), {"-i", "sim:", "provision", hall.recipe_file(), "-y", "--station", "A"},
+        {.terminal = true}, "connect a servo");
+    CHECK(hall.provision({"--count", "1"}).status == 9);
+  }
+  CHECK(hall.run({"ledger", "--scrap", passed, "--reason", "x", "-y"}).status == 0);
+}
+
+TEST_CASE("a recipe that has changed, or a unit that was begun anew, is no reason to skip") {
+  const Hall hall({{.serial = 101, .from = 1, .to = 3000}});
+  REQUIRE(hall.provision({"--count", "1"}).status == 0);
+  CHECK(json_lines(hall.provision({"--count", "1"}).out)[0]["verdict"] == "skip");
+  {
+    Background station(hall.bench(),
+                       {"-i", "sim:", "provision", hall.recipe_file(), "-y", "--station", "A",
+                        "--redo", "--reason", "x"},
+                       {.terminal = true}, "do not take it off");
+    station.kill();
+  }
+  const auto again = json_lines(hall.provision({"--count", "1"}).out);
+  CHECK(again[0]["code"] == "interrupted");
+  CHECK(again[1]["verdict"] == "pass");
+  std::string other = recipe;
+  other.replace(other.find("45.0deg"), 7, "40.0deg");
+  const std::string file = hall.bench().file("other.json", other);
+  const Result changed =
+      hall.run({"provision", file, "-y", "--json", "--station", "A", "--count", "1"});
+  const auto record = json_lines(changed.out)[0];
+  CHECK(record["verdict"] == "pass");
+  CHECK(record["servo_id"] == 1); // it keeps its IDs
+  CHECK(record["changed_count"] == 1);
+}
+
+TEST_CASE("undo takes back what provision changed") {
+  const Hall hall({{.serial = 101, .from = 1, .to = 3000, .node_id = 20}});
+  REQUIRE(hall.run({"wait", "-n", "20"}).status == 0);
+  REQUIRE(hall.run({"set", "-n", "20", "smoothing=off", "--save", "-y"}).status == 0);
+  REQUIRE(hall.provision({"--count", "1"}).status == 0);
+  const Result undone = hall.run({"undo", "-y", "--json"});
+  INFO(undone.out << undone.err);
+  CHECK(undone.status == 0);
+  const Result held =
+      hall.run({"get", "-n", "20", "smoothing", "angle_limit_cw", "static_node_id", "--json"});
+  const auto params = json(held.out)["nodes"][0]["params"];
+  CHECK(params[0]["raw"] == 0); // by set
+  CHECK(params[1]["raw"] == 1799);
+  CHECK(params[2]["raw"] == 20);
+}
+
+TEST_CASE("another unit with the unique ID of one that was here is told, not skipped") {
+  const std::string unit = "00112233445566778899aabbccddeeff";
+  const Provisioned run =
+      provision(line({{.serial = 101, .from = 1, .to = 30, .more = {{"unique_id", unit}}},
+                      {.serial = 102, .from = 40, .to = 60, .more = {{"unique_id", unit}}}}),
+                {"--count", "2"});
+  INFO(run.result.out << run.result.err);
+  CHECK(run.told() == "pass 1 11; fail duplicate_unique_id");
 }
 
 TEST_CASE("what a killed station had begun is told at the next start, and done anew") {

@@ -4,6 +4,7 @@
 #include "blactl/bla/assignment.hpp"
 
 #include "cli/commands.hpp"
+#include "cli/log_target.hpp"
 #include "cli/motion/motion_run.hpp"
 #include "cli/motion/texts.hpp"
 
@@ -116,7 +117,7 @@ Report execute(const CommandOptions& options, Context& context) {
     }
   }
   if (report.errors.empty() && !options.svg.empty()) {
-    if (auto drawable = check_replaceable(options.svg); !drawable) {
+    if (auto drawable = check_drawing_target(options.svg, "--svg"); !drawable) {
       report.fail(drawable.error());
     }
   }

@@ -12,6 +12,7 @@
 #include "cli/commands.hpp"
 #include "cli/confirm.hpp"
 #include "cli/fleet_texts.hpp"
+#include "cli/log_target.hpp"
 #include "cli/output/alike.hpp"
 #include "cli/read_servos.hpp"
 
@@ -83,7 +84,8 @@ std::optional<Error> refuse(const ExportOptions& options, const Context& context
                                      say<texts::export_json_needs_file_hint>(), std::nullopt})
                : std::nullopt;
   }
-  const auto replaceable = check_replaceable(options.file);
+  const auto apart = check_no_state(options.file, "export");
+  const auto replaceable = apart ? check_replaceable(options.file) : apart;
   return replaceable ? std::nullopt : std::optional(replaceable.error());
 }
 

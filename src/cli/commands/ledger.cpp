@@ -13,13 +13,16 @@
 #include "cli/line/texts.hpp"
 #include "cli/stores.hpp"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -268,9 +271,25 @@ Result<Meant> find(const LedgerStore& store, const std::string& record_id) {
               : std::unexpected(read.error());
 }
 
+/// A unit that is at work keeps its IDs.
+Result<void> check_idle(const LedgerStore& store, const LedgerRecord& record) {
+  const auto begun = store.begun();
+  if (!begun) {
+    return std::unexpected(begun.error());
+  }
+  const auto found = std::ranges::find(*begun, record.unique_id, &LedgerRecord::unique_id);
+  return found == begun->end()
+             ? Result<void>()
+             : fail(Code::busy, say<texts::ledger_at_work>(printable(found->station.value_or(""))),
+                    say<texts::ledger_at_work_hint>());
+}
+
 /// Where it was scrapped already, a run may have been killed before its IDs were free.
 Result<LedgerRecord> scrap(const LedgerOptions& options, LedgerStore& store, const Meant& meant,
                            Context& context) {
+  if (const auto idle = check_idle(store, meant.record); !idle) {
+    return std::unexpected(idle.error());
+  }
   LedgerRecord record = meant.last;
   if (record.verdict != fleet::verdict::scrap) {
     const WallTime now = std::chrono::time_point_cast<Duration>(std::chrono::system_clock::now());
@@ -319,6 +338,11 @@ Report scrap(const LedgerOptions& options, LedgerStore& store, Context& context)
 }
 
 Report back_up(const LedgerOptions& options, const LedgerStore& store, const Context& context) {
+  std::error_code error;
+  if (options.backup == "-" || std::filesystem::exists(options.backup, error)) {
+    return failed({Code::usage, say<texts::ledger_copy_exists>(printable(options.backup)),
+                   say<texts::ledger_copy_exists_hint>(), std::nullopt});
+  }
   if (const auto copied = store.back_up(options.backup); !copied) {
     return failed(copied.error());
   }

@@ -104,6 +104,11 @@ constexpr Option provision_arguments[]{
 
 /// Adds every fault of the options to the report.
 void check(const ProvisionOptions& options, const Shared& shared, Report& report) {
+  if (shared.nodes || shared.profile) {
+    const std::string_view option = shared.nodes ? "-n" : "--profile";
+    report.fail({Code::usage, say<texts::provision_takes_all>(option),
+                 say<texts::provision_takes_all_hint>(), std::nullopt});
+  }
   if (!options.logs.empty() && shared.record) {
     report.fail({Code::usage, say<texts::provision_logs_alone>(),
                  say<texts::provision_logs_alone_hint>(), std::nullopt});
@@ -152,7 +157,7 @@ Report execute(const ProvisionOptions& options, Context& context) {
 
 constinit const Command commands::provision{
     .name = "provision",
-    .traits = {.writes = true, .from_file = true, .streams = true, .tables = true, .session = true},
+    .traits = {.streams = true, .tables = true, .session = true},
     .help = {"a production line: check, number, configure, prove and record each servo",
              "製造ライン: サーボを 1 台ずつ確認・採番・設定・検証・記録"},
     .options = provision_options,

@@ -9,6 +9,7 @@
 
 #include "cli/change/change_servos.hpp"
 #include "cli/commands.hpp"
+#include "cli/log_target.hpp"
 #include "cli/output/node_head.hpp"
 #include "cli/output/pwm_view.hpp"
 #include "cli/pwm_texts.hpp"
@@ -372,7 +373,8 @@ Report execute(const PwmOptions& options, Context& context) {
   if (!report.errors.empty()) {
     return report;
   }
-  if (const auto drawable = options.svg.empty() ? Result<void>() : check_replaceable(options.svg);
+  if (const auto drawable =
+          options.svg.empty() ? Result<void>() : check_drawing_target(options.svg, "--svg");
       !drawable) {
     report.fail(drawable.error());
     return report;

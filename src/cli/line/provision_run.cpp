@@ -1,11 +1,13 @@
 #include "cli/line/provision_run.hpp"
 
 #include "blactl/base/json_writer.hpp"
+#include "blactl/base/sha256.hpp"
 #include "blactl/base/system_error.hpp"
 #include "blactl/fleet/bus/ticker.hpp"
 #include "blactl/fleet/line/line_record.hpp"
 
 #include "cli/alloc/options.hpp"
+#include "cli/interface/scheme.hpp"
 #include "cli/line/record_view.hpp"
 #include "cli/line/station_name.hpp"
 #include "cli/line/texts.hpp"
@@ -99,7 +101,8 @@ bool ProvisionRun::begin() {
   if (is_clock_unsynchronised()) {
     context_.reporter().note(say<texts::provision_clock>());
   }
-  if (!open_events() || !open_logs() || !open("provision")) {
+  if (!be_the_station() || !open_events() || !open_logs() ||
+      !open("provision", Recording::if_possible)) {
     return false;
   }
   context_.session().wait_alone();
@@ -133,6 +136,29 @@ void ProvisionRun::serve(state::LedgerStore& ledger, state::CounterStore& counte
   context_.session().on_input(-1, {});
   context_.session().on_resize({});
   view_.reset();
+}
+
+/// One process at a time has the name of a station in a ledger: what is begun is its own.
+bool ProvisionRun::be_the_station() {
+  if (names(context_.shared().interface, Behind::scenario)) { // its ledger is nobody else's
+    return true;
+  }
+  const std::string name = *common().station;
+  const std::string ledger = stores_folder(context_.shared().interface);
+  constexpr std::size_t enough = 16;
+  const state::LockPlace place{.interface =
+                                   "station-" + sha256(ledger + '\n' + name).substr(0, enough)};
+  const std::string folder = state::LockFile::folder(place);
+  if (folder.empty()) { // then nobody is locked out
+    return true;
+  }
+  auto locked = state::LockFile::take(folder, place, "station");
+  if (!locked) {
+    return stop({Code::busy, say<texts::provision_busy_station>(printable(name)),
+                 say<texts::provision_busy_station_hint>(), std::nullopt});
+  }
+  station_ = std::move(*locked);
+  return true;
 }
 
 /// Before the bus: a lamp that shows nothing is worse than no work.

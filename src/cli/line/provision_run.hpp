@@ -6,6 +6,7 @@
 #include "blactl/fleet/line/station.hpp"
 #include "blactl/state/counter_store.hpp"
 #include "blactl/state/ledger_store.hpp"
+#include "blactl/state/lock_file.hpp"
 
 #include "cli/change/event_file.hpp"
 #include "cli/change/writing_run.hpp"
@@ -58,6 +59,7 @@ class ProvisionRun : private WritingRun {
   void account(const state::LedgerRecord& record, const std::optional<Error>& reason);
   [[nodiscard]] bool is_complete() const;
   [[nodiscard]] bool goes_on_after(const Error& error);
+  [[nodiscard]] bool be_the_station();
   [[nodiscard]] bool open_events();
   [[nodiscard]] bool open_logs();
   void keep_log(const state::LedgerRecord& record);
@@ -72,9 +74,10 @@ class ProvisionRun : private WritingRun {
   fleet::Recipe recipe_;
   std::string recipe_sha256_;
   std::optional<LabelLines> lines_;
-  std::optional<fleet::Label> label_; ///< of the next servo
-  std::unique_ptr<EventFile> events_; ///< null: none
-  std::unique_ptr<StationView> view_; ///< null: lines
+  std::optional<fleet::Label> label_;      ///< of the next servo
+  std::optional<state::LockFile> station_; ///< held
+  std::unique_ptr<EventFile> events_;      ///< null: none
+  std::unique_ptr<StationView> view_;      ///< null: lines
   LineTotals totals_{};
   std::uint64_t counted_ = 0;       ///< for --count
   std::uint64_t failed_in_row_ = 0; ///< for --stop-after

@@ -50,6 +50,20 @@ inline constexpr Text provision_no_logs{"no log can be kept in {}: {}",
                                         "{} にログを保存できません: {}"};
 inline constexpr Text provision_no_logs_hint{"give a folder that can be written: --logs FOLDER",
                                              "書込み可能なフォルダを指定して下さい: --logs FOLDER"};
+inline constexpr Text provision_takes_all{
+    "provision takes whatever servo comes, as its recipe says: {} has no meaning",
+    "provision は接続されたサーボをレシピに従って処理します ({} は指定できません)"};
+inline constexpr Text provision_takes_all_hint{"leave it out", "外して下さい"};
+inline constexpr Text provision_busy_station{"another run of blactl is the station {}",
+                                             "ステーション {} は別の blactl が動作中です"};
+inline constexpr Text provision_busy_station_hint{
+    "give each station a name of its own: --station NAME",
+    "ステーションごとに別の名前を指定して下さい: --station NAME"};
+inline constexpr Text ledger_at_work{"the station {} works on this servo",
+                                     "ステーション {} がこのサーボを処理中です"};
+inline constexpr Text ledger_at_work_hint{"wait until it has ended", "処理の終了を待って下さい"};
+inline constexpr Text ledger_copy_exists{"{} is there already", "{} は既に存在します"};
+inline constexpr Text ledger_copy_exists_hint{"give a new name", "別の名前を指定して下さい"};
 inline constexpr Text provision_logs_alone{"--logs and --record both want the frames",
                                            "--logs と --record は併用できません"};
 inline constexpr Text provision_logs_alone_hint{"give one of them", "いずれか一方を指定して下さい"};

@@ -183,6 +183,7 @@ Result<bool> Station::wait_until_off(Time deadline) {
 
 /// What the ledger says of a unit, by this recipe.
 struct Station::Past {
+  std::optional<std::int64_t> other_serial{}; ///< one of its unique ID has this number
   bool is_finished = false;
   std::int64_t attempts = 0;
   unsigned failed = 0; ///< since it was finished or scrapped
@@ -193,19 +194,33 @@ Result<Station::Past> Station::past_of(const Servo& servo) const {
   const state::LedgerQuery query{.unique_id = hex(*servo.unique_id),
                                  .recipe = options_.common.recipe};
   const auto read = ledger_.each(query, [&](const LedgerRecord& record) {
+    const auto serial = servo.identity.readings().serial_number;
+    if (record.serial_number && serial && record.serial_number != serial) {
+      past.other_serial = record.serial_number;
+    }
     const bool counts = record.verdict == verdict::pass || record.verdict == verdict::fail ||
                         record.verdict == verdict::error;
     past.attempts += counts ? 1 : 0;
     if (record.verdict == verdict::pass || record.verdict == verdict::scrap) {
-      past.is_finished = record.verdict == verdict::pass;
+      past.is_finished =
+          record.verdict == verdict::pass && record.recipe_sha256 == options_.common.recipe_sha256;
       past.failed = 0;
     } else if (record.verdict == verdict::fail && record.code != name(Code::attempts)) {
       past.is_finished = false; // done anew, and not well
       ++past.failed;
+    } else if (record.verdict == verdict::error) {
+      past.is_finished = false; // begun anew, perhaps, and not ended
     }
     return true;
   });
-  return read ? Result<Past>(past) : std::unexpected(read.error());
+  const auto begun = read ? ledger_.begun() : std::unexpected(read.error());
+  if (!begun) {
+    return std::unexpected(begun.error());
+  }
+  const bool is_begun =
+      std::ranges::find(*begun, query.unique_id, &LedgerRecord::unique_id) != begun->end();
+  past.is_finished = past.is_finished && !is_begun; // by another station
+  return past;
 }
 
 /// The one servo, and what it says it is.
@@ -254,6 +269,12 @@ Result<LedgerRecord> Station::work_on(const Arrival& arrival, const Label* label
     return std::unexpected(past.error());
   }
   record.attempt = past->attempts + 1;
+  if (past->other_serial) {
+    return commit(std::move(record), arrival.at, verdict::fail,
+                  Error{Code::duplicate_unique_id,
+                        say<texts::station_other_serial>(*past->other_serial),
+                        say<texts::unit_aside_hint>(), servo.id.value()});
+  }
   if (past->is_finished && !options_.redo) {
     record.attempt = past->attempts;
     return commit(std::move(record), arrival.at, verdict::skip, std::nullopt);
@@ -273,8 +294,21 @@ std::optional<Error> Station::number_and_configure(const Servo& servo, const Lab
       counters_.assign(*servo.unique_id, *options_.common.recipe, wishes, session_.wall());
   auto settings = ids ? settings_for(options_.recipe, wishes, *ids, profiles_)
                       : Result<std::vector<bla::Assignment>>(std::unexpected(ids.error()));
-  return settings ? configure(servo, std::move(*settings), record)
-                  : std::optional(settings.error());
+  if (!settings) {
+    return settings.error();
+  }
+  if (auto wrong = configure(servo, std::move(*settings), record)) {
+    return wrong;
+  }
+  // somebody may have scrapped it meanwhile
+  const auto now =
+      counters_.assign(*servo.unique_id, *options_.common.recipe, wishes, session_.wall());
+  if (!now) {
+    return now.error();
+  }
+  return *now == *ids ? std::nullopt
+                      : std::optional(Error{Code::state, say<texts::station_ids_freed>(),
+                                            say<texts::station_pulled_hint>(), servo.id.value()});
 }
 
 std::optional<Error> Station::configure(const Servo& servo, std::vector<bla::Assignment> settings,

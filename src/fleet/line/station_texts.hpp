@@ -16,6 +16,11 @@ inline constexpr Text station_pulled{"the servo was taken off too early",
 inline constexpr Text station_pulled_hint{
     "connect it again, and leave it until the result is shown",
     "もう一度接続し、結果が表示されるまで外さないで下さい"};
+inline constexpr Text station_other_serial{
+    "a unit with this unique ID and the serial number {} was here before",
+    "固有 ID が同じで製造番号が {} の個体を処理済みです"};
+inline constexpr Text station_ids_freed{"its IDs were freed while it was at work",
+                                        "処理中に ID が解放されました"};
 inline constexpr Text station_attempts{"this unit has failed {} times",
                                        "この個体は {} 回不合格になりました"};
 inline constexpr Text station_rom_unread{"the servo could not read its ROM at this start either",
