@@ -33,7 +33,7 @@ bool is_log(std::string_view text) {
 }
 
 bool is_drawing(std::string_view text) {
-  return text.empty() || (text.starts_with("<svg ") && text.find("blactl") != text.npos);
+  return text.empty() || text.find("<svg ") != std::string_view::npos;
 }
 
 bool is_regular(const std::string& file) {

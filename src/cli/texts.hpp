@@ -90,8 +90,8 @@ inline constexpr Text log_over_state{"{} {}: blactl keeps its own records there"
 inline constexpr Text log_over_state_hint{"type another file", "別のファイルを指定して下さい"};
 inline constexpr Text log_over_other{"{} {}: that file is there, and is no log",
                                      "{} {}: 既存のファイルで、ログではありません"};
-inline constexpr Text drawing_over_other{"{} {}: that file is there, and is no drawing of blactl",
-                                         "{} {}: 既存のファイルで、blactl の図ではありません"};
+inline constexpr Text drawing_over_other{"{} {}: that file is there, and is no drawing",
+                                         "{} {}: 既存のファイルで、図ではありません"};
 inline constexpr Text log_over_other_hint{
     "type another file, or remove that one first",
     "別のファイルを指定するか、先にそのファイルを削除して下さい"};

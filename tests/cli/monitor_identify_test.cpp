@@ -144,8 +144,8 @@ TEST_CASE("a second Ctrl-C ends it at once, and says what to type") {
   monitor.expect("Hands off");
   const Result ended = monitor.stop(SIGINT);
   CHECK(ended.status == 130);
-  CHECK(contains(ended.err, "blactl set torque_output=on -n 11"));
-  CHECK(contains(ended.err, "blactl set torque_output=brake -n 12"));
+  CHECK(contains(ended.err, "blactl -i sim: set torque_output=on -n 11"));
+  CHECK(contains(ended.err, "blactl -i sim: set torque_output=brake -n 12"));
   CHECK(outputs(bench) == std::vector<std::string>{"off", "off", "off"});
 }
 

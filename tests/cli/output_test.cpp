@@ -45,7 +45,7 @@ bool has_english(std::string_view text) {
 std::string without_commands(std::string text) {
   for (const char* command :
        {"sudo ip link", "sudo modprobe", "blactl sim", "blactl get", "blactl models", "blactl scan",
-        "blactl set", "blactl --local-node-id", "command status operation"}) {
+        "blactl set", "blactl --local-node-id", "blactl -i", "command status operation"}) {
     for (auto at = text.find(command); at != std::string::npos; at = text.find(command)) {
       text.erase(at, text.find_first_of("`)\n", at) - at);
     }

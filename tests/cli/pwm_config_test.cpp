@@ -238,6 +238,9 @@ TEST_CASE("--svg draws one servo, as a whole or not at all") {
   CHECK(drawn.status == 0);
   CHECK(drawn.err == "blactl: the drawing is in " + file + '\n');
   CHECK(three_servos().run(bench, {"pwm-config", "-q", "-n", "11", "--svg", file}).err.empty());
+  const std::string other = bench.file("fleet.json", "{}");
+  CHECK(three_servos().run(bench, {"pwm-config", "-n", "11", "--svg", other}).status == 2);
+  CHECK(content(other) == "{}");
   const std::string svg = content(file);
   CHECK(svg.starts_with("<?xml"));
   CHECK(svg.ends_with("</svg>\n"));

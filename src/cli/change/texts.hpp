@@ -20,7 +20,7 @@ inline constexpr Text apply_may_wait_hint{
     "--once。それ以外の場合、"};
 inline constexpr Text apply_would_let_in{
     "'{}' waits for a node ID: it would get {} first, then be compared in {} settings",
-    "'{}' はノード ID 割当て待ちです。先に{}を割り当てた後、{} 項目を照合します"};
+    "'{}' はノード ID 割当て待ちです。先に{}を割り当ててから、{} 項目を照合します"};
 inline constexpr Text would_get_known_id{"{}, which the allocation table has for it,",
                                          "割当て表のノード ID {} "};
 inline constexpr Text would_get_free_id{"a free one", "空いているノード ID "};
@@ -28,12 +28,13 @@ inline constexpr Text would_let_in_unknown{
     "a unit waits for a node ID: unique ID {}; who it is shows when it has one, which a dry run "
     "does "
     "not give",
-    "ノード ID 割当て待ち: 固有 ID {} (ドライランでは割り当てないため、どのサーボかは不明です)"};
+    "ノード ID 割当て待ち: 固有 ID {} "
+    "(ドライランでは割当てを行わないため、どのサーボかは不明です)"};
 inline constexpr Text replace_would_let_in{
     "the unit that waits for a node ID (unique ID {}) would get {} first, and then take the place "
     "of "
     "'{}', if its model fits",
-    "ノード ID 割当て待ちのユニット (固有 ID {}) に、先に{}を割り当てた後、機種が合えば '{}' "
+    "ノード ID 割当て待ちのユニット (固有 ID {}) に、先に{}を割り当ててから、機種が合えば '{}' "
     "の代わりに設定します"};
 inline constexpr Text apply_replaced_hint{
     "connect it; if another one is there in its place: blactl replace {} \"{}\"; nothing was "
