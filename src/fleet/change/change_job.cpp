@@ -1,5 +1,6 @@
 #include "blactl/fleet/change/change_job.hpp"
 
+#include "blactl/fleet/bus/conflict_texts.hpp"
 #include "blactl/fleet/bus/texts.hpp"
 #include "blactl/fleet/bus/unreachable.hpp"
 
@@ -351,8 +352,30 @@ ChangeJob::Stage ChangeJob::conclude_look() {
   return Stage::end;
 }
 
+/// Why what was read after the restart is of another unit, however alike; empty: it is not.
+std::optional<Error> ChangeJob::of_another_unit(const Snapshot& now) const {
+  const std::uint8_t id = now.servo.id.value();
+  if (now.servo.unique_id && servo_.unique_id && now.servo.unique_id != servo_.unique_id) {
+    return Error{Code::state, say<texts::another_servo>(id), say<texts::run_again_hint>(), id};
+  }
+  const auto serial = now.servo.identity.readings().serial_number;
+  const auto before = plan_.before.servo.identity.readings().serial_number;
+  return serial && before && serial != before
+             ? std::optional(Error{Code::duplicate_unique_id,
+                                   say<texts::other_serial>(id, *serial, *before),
+                                   say<texts::doubled_unique_id_hint>(), id})
+             : std::nullopt;
+}
+
 ChangeJob::Stage ChangeJob::conclude_read_back() {
   const Snapshot& now = read_->snapshot();
+  if (auto other = of_another_unit(now)) { // nothing that it holds is told
+    result_.error = std::move(other);
+    result_.is_verified = result_.saved = false;
+    result_.node_id_after = std::nullopt;
+    result_.doubt();
+    return Stage::end;
+  }
   take_reading(now);
   health_ = roster_.member(now.servo.id).health();
   result_.values_read = plan_.expected.size();

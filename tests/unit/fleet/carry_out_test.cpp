@@ -305,6 +305,27 @@ TEST_CASE("where somebody else allocates, or may, this process does not") {
   CHECK(is_silent);
 }
 
+TEST_CASE("a unit that comes during a restart with the unique ID of the servo is not that one") {
+  const auto [serial, code] =
+      GENERATE(std::pair(7, Code::duplicate_unique_id), std::pair(0, Code::not_back));
+  const std::string unit = R"("unique_id": "00112233445566778899aabbccddeeff")";
+  const std::string twin =
+      serial != 0 ? servo(15, fmt::format(R"(, "serial_number": {}, {})", serial, unit)) : "";
+  const Scene scene(
+      fmt::format(R"("servos": [{}{}{}], "events": [{}])",
+                  servo(11, R"(, "serial_number": 1, "faults": {"never_returns": true}, )" + unit),
+                  twin.empty() ? "" : ", ", twin,
+                  twin.empty() ? "" : R"({"servo": 7, "happens": "power_off", "at": 0},
+                                    {"servo": 7, "happens": "power_on", "at": "4s"})"));
+  scene.live(3s);
+  const ChangeResult result = change_one(scene, set("smoothing=off", true));
+  REQUIRE(result.error);
+  CHECK(result.error->code == code);
+  CHECK_FALSE(result.saved);
+  CHECK_FALSE(result.node_id_after);
+  CHECK(result.changes.front().after != 1); // what the other holds is not told
+}
+
 TEST_CASE("an ID that another servo has taken is not given", "[requirement-41]") {
   const Scene scene(servos({servo(11), servo(12)}));
   grow_old(scene);

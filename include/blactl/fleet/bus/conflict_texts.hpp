@@ -12,6 +12,9 @@ inline constexpr Text doubled_servo_id{"nodes {} have the same servo ID {}",
 inline constexpr Text doubled_unique_id{
     "nodes {} have the same unique ID {}: blactl would take one for the other",
     "ノード {} の固有 ID が {} で重複しており、区別できません"};
+inline constexpr Text other_serial{
+    "node {} has the unique ID of this servo, and another serial number: {}, not {}",
+    "ノード {} は固有 ID が同じですが、製造番号が異なります ({}、変更対象は {})"};
 inline constexpr Text doubled_unique_id_hint{
     "connect one of them alone; the manufacturer gives each servo an ID of its own",
     "1 台だけ接続して下さい。固有 ID は出荷時に個別に割り当てられます"};

@@ -100,6 +100,7 @@ class ChangeJob final : public dronecan::Job {
   [[nodiscard]] Stage conclude_write();
   [[nodiscard]] Stage conclude_restart();
   [[nodiscard]] Stage conclude_look();
+  [[nodiscard]] std::optional<Error> of_another_unit(const Snapshot& now) const;
   [[nodiscard]] Stage conclude_read_back();
   void conclude_read_shown();
   [[nodiscard]] std::optional<RomReading> rom_reading(const Snapshot& now) const;
