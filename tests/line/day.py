@@ -35,6 +35,7 @@ RECIPE = {
 }
 SET = {"0x38": 450, "0x22": 0}
 VISIT_S, PAUSE_S = 40, 8
+BATCH = 40
 
 
 BEGIN = datetime.datetime(2025, 1, 1, tzinfo=datetime.timezone.utc)  # of a virtual clock
@@ -196,12 +197,11 @@ class Judge:
         if not holds:
             self.wrong.append(what)
 
-    def compare(self, records, benches, memories):
+    def compare(self, records, shown, memories):
         known = {record["record_id"]: record for record in records}
-        for bench in benches:
-            for record in bench.shown:
-                self.require(known.get(record["record_id"]) == record,
-                             f"shown, not in the ledger: {record}")
+        for record in shown:
+            self.require(known.get(record["record_id"]) == record,
+                         f"shown, not in the ledger: {record}")
         last = {}
         for record in records:
             if record["verdict"] in ("pass", "fail", "error"):
@@ -252,9 +252,9 @@ class Judge:
 def main():
     parser = argparse.ArgumentParser(usage=__doc__)
     parser.add_argument("blactl")
-    parser.add_argument("--servos", type=int, default=60)
+    parser.add_argument("--servos", type=int, default=BATCH, help="in batches of 40")
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--kills", type=int, default=8)
+    parser.add_argument("--kills", type=int, default=8, help="in each batch")
     given = parser.parse_args()
     chance = random.Random(given.seed)
     with tempfile.TemporaryDirectory() as name:
@@ -269,29 +269,40 @@ def given_ids(folder):
                                  "assignments WHERE unique_id IS NOT NULL"))
 
 
-def play(given, chance, folder):
-    os.environ["BLACTL_STATE_DIR"] = str(folder / "state")
-    blactl = str(pathlib.Path(given.blactl).resolve())
-    (folder / "recipe.json").write_text(json.dumps(RECIPE), encoding="utf-8")
-    half = given.servos // 2
-    lines = [Line(chance, 1000, half), Line(chance, 5000, given.servos - half)]
-    benches = [Bench(blactl, folder, name, line, given.seed)
+def play_hours(given, chance, blactl, folder, hour, judge):
+    """Some servos at either station. Returns what was shown, and the servos' memory."""
+    lines = [Line(chance, first + hour * BATCH, BATCH // 2) for first in (10000, 50000)]
+    benches = [Bench(blactl, folder, name, line, given.seed + hour)
                for name, line in zip("AB", lines)]
     run_labelled(benches[0], lines[0])
-    judge = Judge()
-    before = records_in(ledger(blactl, benches[0], "--json")[1])
-    passed = [record["record_id"] for record in before if record["verdict"] == "pass"]
-    for record_id in chance.sample(passed, min(3, len(passed))):
-        status, told = ledger(blactl, benches[0], "--scrap", record_id, "--reason", "x", "-y")
-        judge.require(status == 0, f"scrap: {status} {told}")
+    before = records_in(ledger(blactl, benches[0], "--json", "--verdict", "pass")[1])
+    record_id = chance.choice(before)["record_id"]
+    status, told = ledger(blactl, benches[0], "--scrap", record_id, "--reason", "x", "-y")
+    judge.require(status == 0, f"scrap: {status} {told}")
     run_killed(benches[1], chance, given.kills)
     memories = {}
     for bench in benches:
         memories |= bench.memory()
+    shown = [record for bench in benches for record in bench.shown]
+    return benches, shown, memories
+
+
+def play(given, chance, folder):
+    """A simulator gets slower with its servos: there are new ones for each batch."""
+    os.environ["BLACTL_STATE_DIR"] = str(folder / "state")
+    blactl = str(pathlib.Path(given.blactl).resolve())
+    (folder / "recipe.json").write_text(json.dumps(RECIPE), encoding="utf-8")
+    judge = Judge()
+    shown, memories, benches = [], {}, []
+    for hour in range(max(1, given.servos // BATCH)):
+        for bench in benches:
+            bench.stop()
+        benches, more, held = play_hours(given, chance, blactl, folder, hour, judge)
+        shown, memories = shown + more, memories | held
     status, check = ledger(blactl, benches[0], "--check")
     judge.require(status == 0, f"check: {status} {check}")
     records = records_in(ledger(blactl, benches[0], "--json")[1])
-    judge.compare(records, benches, memories)
+    judge.compare(records, shown, memories)
     judge.check_ids(records, given_ids(folder))
     judge.check_numbers(records)
     for bench in benches:
@@ -299,8 +310,8 @@ def play(given, chance, folder):
     verdicts = collections.Counter((record["verdict"], record["code"]) for record in records)
     for (verdict, code), count in sorted(verdicts.items(), key=str):
         print(f"{count:6} {verdict} {code or ''}")
-    dynamic = sum(record["node_id"] == 0 for record in records)
-    print(f"{len(records)} records, {dynamic} of units that asked for a node ID;"
+    dynamic = len({record["unique_id"] for record in records if record["node_id"] == 0})
+    print(f"{len(records)} records of {len(memories)} servos, {dynamic} of which asked for a node ID;"
           f" {len(judge.wrong)} do not agree")
     return judge.wrong
 

@@ -13,9 +13,9 @@ inline constexpr Text line_scrap{"SCRAP", "廃棄 "};
 
 inline constexpr Text provision_question{
     "each servo {} that is connected gets {} settings, saved to its ROM, and is restarted; its "
-    "shaft may move or let go.",
+    "shaft may move or let go.\n",
     "接続された {} に {} 項目を設定し、ROM に保存して再起動します。軸が動く場合や、保持力が"
-    "なくなる場合があります。"};
+    "なくなる場合があります。\n"};
 inline constexpr Text provision_label_word{"--label reads from stdin only: {}",
                                            "--label は標準入力のみです: {}"};
 inline constexpr Text provision_label_word_hint{"give --label -", "--label - と指定して下さい"};
@@ -95,8 +95,8 @@ inline constexpr Text ledger_no_record_hint{"find it with blactl ledger --serial
 inline constexpr Text ledger_no_unit{"that record names no unit",
                                      "その記録には個体の情報がありません"};
 inline constexpr Text ledger_scrap_question{
-    "the servo {} is taken out, and its IDs by the recipe {} are given to the next one.",
-    "サーボ {} を廃棄扱いとし、レシピ {} の ID を次のサーボに割り当てます。"};
+    "the servo {} is taken out, and its IDs by the recipe {} are given to the next one.\n",
+    "サーボ {} を廃棄扱いとし、レシピ {} の ID を次のサーボに割り当てます。\n"};
 inline constexpr Text ledger_copied{"the ledger is in {} now", "製造記録を {} に保存しました"};
 inline constexpr Text ledger_whole{"the ledger is whole\n", "製造記録に欠落はありません\n"};
 inline constexpr Text ledger_hole{"station {}: the records {} to {} are missing\n",
