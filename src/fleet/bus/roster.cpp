@@ -15,9 +15,6 @@ namespace {
 
 constexpr std::uint8_t tail_start_of_transfer = 0x80;
 
-/// Bound for the memory that other nodes can make us use.
-constexpr std::size_t most_pending = 1024;
-
 /// The identification (table 3-11) and the settings (kept by SAVE, 4.11) of a servo: two values in
 /// responses to one request are of two servos.
 std::set<std::string> names_of_settled(const bla::Profiles& profiles) {
@@ -277,8 +274,7 @@ void Roster::forget_gone(Time since) {
     }
     return is_gone;
   });
-  std::erase_if(pending_, [&](const auto& asking) { return asking.second.last < since; });
-  std::erase_if(allocators_, [&](const auto& allocator) { return allocator.second < since; });
+  allocations_.forget_silent(since);
 }
 
 void Roster::forget_doubled(Time since) {
@@ -315,7 +311,7 @@ void Roster::receive(const Transfer& transfer) {
   }
   switch (header.data_type_id) {
   case dronecan::NodeStatus::type.id: on_status(transfer); break;
-  case dronecan::Allocation::type.id: on_allocation(transfer); break;
+  case dronecan::Allocation::type.id: allocations_.receive(transfer); break;
   case dronecan::ActuatorStatus::type.id:
     if (const auto status = dronecan::ActuatorStatus::decode(transfer.payload);
         status && header.source.is_unicast()) {
@@ -364,65 +360,12 @@ void Roster::begin_unit(Member& member) {
   announce(member);
 }
 
-void Roster::give(const dronecan::UniqueId& unit, Time at) {
-  for (auto& [prefix, asking] : pending_) {
-    if (dronecan::begins_with(unit, prefix)) {
-      asking.given = at;
-    }
-  }
-}
-
-std::set<NodeId> Roster::allocators() const {
-  std::set<NodeId> ids;
-  for (const auto& [id, last] : allocators_) {
-    ids.insert(id);
-  }
-  return ids;
-}
-
-std::vector<UniqueIdPrefix> Roster::pending() const {
-  std::vector<UniqueIdPrefix> waiting;
-  for (const auto& [prefix, asking] : pending_) {
-    if (asking.last > asking.given) {
-      waiting.push_back(prefix);
-    }
-  }
-  return waiting;
-}
-
-void Roster::on_allocation(const Transfer& transfer) {
-  const auto allocation = dronecan::Allocation::decode(transfer.payload);
-  if (!allocation) {
-    return;
-  }
-  const UniqueIdPrefix prefix(allocation->unique_id.begin(),
-                              allocation->unique_id.begin() + allocation->size);
-  if (transfer.header.source.is_unicast()) {
-    allocators_.insert_or_assign(transfer.header.source, transfer.at);
-    if (allocation->node_id != 0 && prefix.size() == allocation->unique_id.size()) {
-      allotments_[NodeId(allocation->node_id)] = {allocation->unique_id, transfer.header.source,
-                                                  transfer.at};
-      std::erase_if(pending_, [&](const auto& waiting) {
-        return dronecan::begins_with(allocation->unique_id, waiting.first);
-      });
-    }
-  } else if (allocation->first_part_of_unique_id && !prefix.empty()) {
-    std::erase_if(pending_, [&](const auto& entry) {
-      return !entry.second.is_repeated() && transfer.at - entry.second.last > request_period;
-    });
-    if (pending_.size() < most_pending || pending_.contains(prefix)) {
-      pending_.try_emplace(prefix, Asking{transfer.at, transfer.at}).first->second.last =
-          transfer.at;
-    }
-  }
-}
-
 /// A unit that has been given one is heard within the time of a request.
 std::optional<NodeId> Roster::giver_of(NodeId given, NodeId except, Time since) const {
-  const auto allotted = allotments_.find(given);
-  if (allotted != allotments_.end() && allotted->second.at + request_period > since &&
-      !member(except).is_unit(allotted->second.unit)) {
-    return allotted->second.by;
+  const auto allotted = allocations_.allotment(given);
+  if (allotted && allotted->at + request_period > since &&
+      !member(except).is_unit(allotted->unit)) {
+    return allotted->by;
   }
   return commands_.giver_of(bla::address::static_node_id, given.value(), except, since);
 }
@@ -443,12 +386,6 @@ state::NodeIds Roster::ids_in_use(const dronecan::UniqueId& unit) const {
     }
   }
   return ids;
-}
-
-std::optional<Time> Roster::asked_at(const dronecan::UniqueId& unique_id) const {
-  const auto waiting = std::ranges::find_if(
-      pending_, [&](const auto& entry) { return dronecan::begins_with(unique_id, entry.first); });
-  return waiting != pending_.end() ? std::optional(waiting->second.last) : std::nullopt;
 }
 
 std::optional<NodeId> Roster::driver_of(const Servo& servo, Time now) const {

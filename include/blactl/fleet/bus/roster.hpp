@@ -6,6 +6,7 @@
 #include "blactl/dronecan/answer_watch.hpp"
 #include "blactl/dronecan/transfer.hpp"
 #include "blactl/dronecan/types.hpp"
+#include "blactl/fleet/bus/allocation_watch.hpp"
 #include "blactl/fleet/bus/command_watch.hpp"
 #include "blactl/fleet/bus/servo.hpp"
 #include "blactl/fleet/bus/unit_watch.hpp"
@@ -20,10 +21,6 @@
 #include <vector>
 
 namespace blactl::fleet {
-
-/// A unit without a node ID repeats its request after 0.6 s to 1 s (1.Allocation.uavcan); one may
-/// be lost.
-inline constexpr Duration request_period = std::chrono::seconds(2);
 
 /// One node ID on the bus and the facts about its unit.
 struct Member {
@@ -86,17 +83,6 @@ struct Member {
 
   /// The present knowledge of the unit.
   [[nodiscard]] Servo servo() const;
-};
-
-/// An unfinished allocation request: the part of the unique ID heard.
-using UniqueIdPrefix = std::vector<std::uint8_t>;
-
-/// The requests of one unit.
-struct Asking {
-  Time first{}, last{};
-  Time given = Time::min(); ///< when this node gave it one; before all: it did not
-
-  [[nodiscard]] bool is_repeated() const { return first != last; }
 };
 
 /// A node sends NodeStatus at least once a second; after this silence it is offline
@@ -163,8 +149,8 @@ class Roster {
 
   void receive(const dronecan::Transfer& transfer);
 
-  /// This node has given a node ID to this unit, as other allocators do.
-  void give(const dronecan::UniqueId& unit, Time at);
+  /// As AllocationWatch::give().
+  void give(const dronecan::UniqueId& unit, Time at) { allocations_.give(unit, at); }
 
   /// As CommandWatch::ask().
   void ask(const dronecan::Request& request, Time at) { commands_.ask(request, at); }
@@ -230,21 +216,24 @@ class Roster {
   /// that others have in 0x46, and our own.
   [[nodiscard]] state::NodeIds ids_in_use(const dronecan::UniqueId& unit) const;
 
-  /// The units that have asked for a node ID and got none. A single request that is not repeated
-  /// within 2 s does not count: a unit asks at least once a second.
-  [[nodiscard]] std::vector<UniqueIdPrefix> pending() const;
+  /// As AllocationWatch::pending().
+  [[nodiscard]] std::vector<UniqueIdPrefix> pending() const { return allocations_.pending(); }
 
-  [[nodiscard]] const std::map<UniqueIdPrefix, Asking>& requests() const { return pending_; }
+  [[nodiscard]] const std::map<UniqueIdPrefix, Asking>& requests() const {
+    return allocations_.requests();
+  }
 
   /// Whether a unit with this unique ID has asked for a node ID and got none.
   [[nodiscard]] bool is_pending(const dronecan::UniqueId& unique_id) const {
     return asked_at(unique_id).has_value();
   }
 
-  /// The last request of such a unit.
-  [[nodiscard]] std::optional<Time> asked_at(const dronecan::UniqueId& unique_id) const;
+  /// As AllocationWatch::asked_at().
+  [[nodiscard]] std::optional<Time> asked_at(const dronecan::UniqueId& unique_id) const {
+    return allocations_.asked_at(unique_id);
+  }
 
-  [[nodiscard]] std::set<dronecan::NodeId> allocators() const;
+  [[nodiscard]] std::set<dronecan::NodeId> allocators() const { return allocations_.allocators(); }
 
   [[nodiscard]] const std::map<dronecan::NodeId, Commander>& commanders() const {
     return commands_.commanders();
@@ -306,19 +295,11 @@ class Roster {
   [[nodiscard]] std::optional<dronecan::NodeId> driver_of(const Servo& servo, Time now) const;
 
  private:
-  /// A node ID that another allocator has given.
-  struct Allotment {
-    dronecan::UniqueId unit{};
-    dronecan::NodeId by{};
-    Time at{};
-  };
-
   [[nodiscard]] Member& known(dronecan::NodeId id);
   void announce(const Member& member);
   void hear_request(const dronecan::Header& header, const can::Frame& frame, Time at);
   void hear_status(Member& sender, const can::Frame& frame, Time at);
   void on_status(const dronecan::Transfer& transfer);
-  void on_allocation(const dronecan::Transfer& transfer);
   void greet(const Member& sender, Time at);
   void take(UnitWatch::Start start, Member& sender);
   [[nodiscard]] std::optional<Time> doubled_at(dronecan::NodeId id) const;
@@ -334,9 +315,7 @@ class Roster {
   dronecan::AnswerWatch answers_;
   std::map<dronecan::NodeId, Time> doubled_;                       ///< when that last showed
   std::map<dronecan::NodeId, std::set<dronecan::UniqueId>> units_; ///< of doubled IDs
-  std::map<UniqueIdPrefix, Asking> pending_;
-  std::map<dronecan::NodeId, Time> allocators_;      ///< when they last allocated
-  std::map<dronecan::NodeId, Allotment> allotments_; ///< by the ID that was given
+  AllocationWatch allocations_;
 };
 
 } // namespace blactl::fleet
