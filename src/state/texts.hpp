@@ -37,6 +37,11 @@ inline constexpr Text writing_held{"process {1} is writing to servos on {0}",
 inline constexpr Text allocating_held{"process {1} allocates node IDs on {0}",
                                       "プロセス {1} が {0} でノード ID を割当て中です"};
 inline constexpr Text unknown_process{"?", "?"};
+inline constexpr Text station_held{"another run of blactl is the station {}",
+                                   "ステーション {} は別の blactl が動作中です"};
+inline constexpr Text station_held_hint{
+    "give each station a name of its own: --station NAME",
+    "ステーションごとに別の名前を指定して下さい: --station NAME"};
 inline constexpr Text lock_held_hint{"wait until it ends", "その終了を待って下さい"};
 inline constexpr Text lock_failed{"the lock file {} cannot be opened ({})",
                                   "ロックファイル {} を開けません ({})"};

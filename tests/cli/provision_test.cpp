@@ -222,6 +222,19 @@ TEST_CASE("a run that waits in vain ends, and says what is missing") {
             .result.status == 0);
 }
 
+TEST_CASE("a result that cannot be written is a failure, in every format") {
+  const Bench bench;
+  const Scene scene = line({{.serial = 101, .from = 1, .to = 30}});
+  for (const char* format : {"--json", "--csv", "--quiet"}) {
+    INFO(format);
+    const Result result = scene.run(
+        bench, {"provision", bench.file("recipe.json", recipe), "-y", "--count", "1", format},
+        {.stdout_file = "/dev/full"});
+    CHECK(result.status == 1);
+    CHECK(codes(result) == std::vector<std::string>{"io"});
+  }
+}
+
 TEST_CASE("a lamp is told what happens, and a disk that is full is told in the end") {
   const Bench bench;
   const Scene scene = line({{.serial = 101, .from = 1, .to = 30}});

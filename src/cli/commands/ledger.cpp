@@ -1,8 +1,8 @@
 // blactl ledger: the records of a production line.
 
-#include "blactl/base/hex.hpp"
 #include "blactl/base/rfc3339.hpp"
-#include "blactl/fleet/line/line_record.hpp"
+#include "blactl/can/loop.hpp"
+#include "blactl/fleet/line/scrap.hpp"
 #include "blactl/state/ledger_store.hpp"
 
 #include "cli/commands.hpp"
@@ -13,9 +13,7 @@
 #include "cli/line/texts.hpp"
 #include "cli/stores.hpp"
 
-#include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -111,10 +109,6 @@ Result<std::optional<WallTime>> time_of(std::string_view option, const std::stri
   return time ? Result<std::optional<WallTime>>(*time)
               : fail(Code::usage, say<texts::ledger_no_time>(option, printable(text)),
                      say<texts::ledger_no_time_hint>());
-}
-
-std::optional<std::string> unless_empty(const std::string& text) {
-  return text.empty() ? std::nullopt : std::optional(text);
 }
 
 Result<state::LedgerQuery> query_of(const LedgerOptions& options) {
@@ -242,87 +236,22 @@ Report check(const LedgerStore& store) {
   return report;
 }
 
-/// The record with this ID, and the last one of its unit by its recipe.
-struct Meant {
-  LedgerRecord record, last;
-};
-
-Result<Meant> find(const LedgerStore& store, const std::string& record_id) {
-  std::optional<LedgerRecord> record, last;
-  const auto take = [](std::optional<LedgerRecord>& into) {
-    return [&into](const LedgerRecord& each) {
-      into = each;
-      return true;
-    };
-  };
-  if (auto read = store.each({.record_id = record_id}, take(record)); !read) {
-    return std::unexpected(read.error());
-  }
-  if (!record) {
-    return fail(Code::not_found, say<texts::ledger_no_record>(printable(record_id)),
-                say<texts::ledger_no_record_hint>());
-  }
-  if (!record->unique_id) {
-    return fail(Code::state, say<texts::ledger_no_unit>());
-  }
-  const auto read =
-      store.each({.unique_id = record->unique_id, .recipe = record->recipe}, take(last));
-  return read ? Result<Meant>({std::move(*record), std::move(*last)})
-              : std::unexpected(read.error());
-}
-
-/// A unit that is at work keeps its IDs.
-Result<void> check_idle(const LedgerStore& store, const LedgerRecord& record) {
-  const auto begun = store.begun();
-  if (!begun) {
-    return std::unexpected(begun.error());
-  }
-  const auto found = std::ranges::find(*begun, record.unique_id, &LedgerRecord::unique_id);
-  return found == begun->end()
-             ? Result<void>()
-             : fail(Code::busy, say<texts::ledger_at_work>(printable(found->station.value_or(""))),
-                    say<texts::ledger_at_work_hint>());
-}
-
-/// Where it was scrapped already, a run may have been killed before its IDs were free.
-Result<LedgerRecord> scrap(const LedgerOptions& options, LedgerStore& store, const Meant& meant,
-                           Context& context) {
-  if (const auto idle = check_idle(store, meant.record); !idle) {
-    return std::unexpected(idle.error());
-  }
-  LedgerRecord record = meant.last;
-  if (record.verdict != fleet::verdict::scrap) {
-    const WallTime now = std::chrono::time_point_cast<Duration>(std::chrono::system_clock::now());
-    record = fleet::scrapped(meant.record, record_of_station(options.station), options.reason, now);
-    const auto number = store.end(record);
-    if (!number) {
-      return std::unexpected(number.error());
-    }
-    record.station_seq = *number;
-  }
-  auto counters = open_counters(context.shared().interface, state::Access::write);
-  const auto unit = from_hex<dronecan::UniqueId{}.size()>(*record.unique_id);
-  if (!counters || !unit) {
-    return counters ? fail(Code::state, say<texts::ledger_no_unit>())
-                    : std::unexpected(counters.error());
-  }
-  const auto freed = counters->free(*unit, record.recipe.value_or(""));
-  return freed ? Result<LedgerRecord>(std::move(record)) : std::unexpected(freed.error());
-}
-
 Report scrap(const LedgerOptions& options, LedgerStore& store, Context& context) {
-  const auto meant = find(store, options.scrap);
+  const auto meant = fleet::record_to_scrap(store, options.scrap);
   if (!meant) {
     return failed(meant.error());
   }
-  const auto agreed =
-      confirm(say<texts::ledger_scrap_question>(name_of(meant->record),
-                                                printable(meant->record.recipe.value_or(""))),
-              context);
-  if (!agreed) {
-    return failed(agreed.error());
+  const auto agreed = confirm(
+      say<texts::ledger_scrap_question>(name_of(*meant), printable(meant->recipe.value_or(""))),
+      context);
+  auto counters = agreed ? open_counters(context.shared().interface, state::Access::write)
+                         : Result<state::CounterStore>(std::unexpected(agreed.error()));
+  if (!counters) {
+    return failed(counters.error());
   }
-  const auto record = scrap(options, store, *meant, context);
+  const can::Loop clock(nullptr);
+  const auto record = fleet::scrap(store, *counters, *meant, record_of_station(options.station),
+                                   options.reason, clock.wall());
   if (!record) {
     return failed(record.error());
   }

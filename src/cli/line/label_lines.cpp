@@ -38,6 +38,24 @@ void LabelLines::read() {
   }
 }
 
+std::string_view LabelLines::unfinished() const {
+  const std::string_view text = text_;
+  return text.substr(text.rfind('\n') + 1); // npos + 1 is 0
+}
+
+void LabelLines::type(std::string_view text) {
+  constexpr char backspace = '\b', end_of_input = '\x04';
+  for (const char key : text) {
+    if (key == backspace) {
+      text_.resize(text_.size() - (unfinished().empty() ? 0 : 1));
+    } else if (key == end_of_input) {
+      ended_ = ended_ || unfinished().empty();
+    } else {
+      text_ += key;
+    }
+  }
+}
+
 bool LabelLines::is_ready() const {
   return ended_ || text_.find('\n') != std::string::npos || text_.size() >= longest;
 }

@@ -25,8 +25,11 @@ class LabelLines {
   LabelLines(const LabelLines&) = delete;
   LabelLines& operator=(const LabelLines&) = delete;
 
-  /// Takes what was typed.
-  void type(std::string_view text) { text_ += text; }
+  /// Takes what was typed: a backspace takes back, Ctrl-D on an empty line ends the input.
+  void type(std::string_view text);
+
+  /// The line that is being typed.
+  [[nodiscard]] std::string_view unfinished() const;
 
   /// Whether a whole line is there, or stdin has ended.
   [[nodiscard]] bool is_ready() const;

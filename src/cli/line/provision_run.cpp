@@ -1,8 +1,6 @@
 #include "cli/line/provision_run.hpp"
 
 #include "blactl/base/json_writer.hpp"
-#include "blactl/base/sha256.hpp"
-#include "blactl/base/system_error.hpp"
 #include "blactl/fleet/bus/ticker.hpp"
 #include "blactl/fleet/line/line_record.hpp"
 
@@ -18,8 +16,6 @@
 #include <sys/timex.h>
 
 #include <chrono>
-#include <filesystem>
-#include <system_error>
 #include <utility>
 
 namespace blactl::cli {
@@ -33,14 +29,11 @@ namespace {
 /// For the bus to recover before it is tried again.
 constexpr Duration pause = std::chrono::seconds(1);
 
-std::optional<std::string> unless_empty(const std::string& text) {
-  return text.empty() ? std::nullopt : std::optional(text);
-}
-
-/// Whether the times of records may be wrong.
-bool is_clock_unsynchronised() {
+/// That the times of records may be wrong; empty: the clock is synchronised.
+std::optional<std::string> clock_remark() {
   timex state{};
-  return adjtimex(&state) == TIME_ERROR;
+  return adjtimex(&state) == TIME_ERROR ? std::optional(say<texts::provision_clock>())
+                                        : std::nullopt;
 }
 
 } // namespace
@@ -48,26 +41,27 @@ bool is_clock_unsynchronised() {
 ProvisionRun::ProvisionRun(const ProvisionOptions& options, fleet::Recipe recipe,
                            std::string recipe_sha256, Context& context, Report& report)
     : WritingRun(context, report), options_(options), recipe_(std::move(recipe)),
-      recipe_sha256_(std::move(recipe_sha256)) {}
+      common_(common_record(options, recipe_, std::move(recipe_sha256))),
+      logs_(options.logs, context) {}
 
-LedgerRecord ProvisionRun::common() const {
-  LedgerRecord record = record_of_station(options_.station);
-  record.operator_name = unless_empty(options_.operator_name);
-  record.work_order = unless_empty(options_.work_order);
-  record.reason = options_.redo               ? unless_empty(options_.reason)
-                  : is_clock_unsynchronised() ? std::optional(say<texts::provision_clock>())
-                                              : std::nullopt;
-  record.recipe = recipe_.name;
-  record.recipe_sha256 = recipe_sha256_;
+LedgerRecord ProvisionRun::common_record(const ProvisionOptions& options,
+                                         const fleet::Recipe& recipe, std::string recipe_sha256) {
+  LedgerRecord record = record_of_station(options.station);
+  record.operator_name = unless_empty(options.operator_name);
+  record.work_order = unless_empty(options.work_order);
+  record.reason = unless_empty(options.reason);
+  record.recipe = recipe.name;
+  record.recipe_sha256 = std::move(recipe_sha256);
   return record;
 }
 
-Station::Options ProvisionRun::station_options(const fleet::Recipe& recipe) {
-  Station::Options station{.recipe = recipe,
-                           .common = common(),
+Station::Options ProvisionRun::station_options() {
+  Station::Options station{.recipe = recipe_,
+                           .common = common_,
                            .manner = manner(),
                            .max_attempts = options_.max_attempts.value_or(3),
-                           .redo = options_.redo};
+                           .redo = options_.redo,
+                           .remark = clock_remark};
   station.manner.allocations = {};
   station.manner.progress = {};
   if (!options_.range.empty()) { // it was checked
@@ -98,11 +92,16 @@ void ProvisionRun::run() {
 }
 
 bool ProvisionRun::begin() {
-  if (is_clock_unsynchronised()) {
-    context_.reporter().note(say<texts::provision_clock>());
+  if (const auto remark = clock_remark()) {
+    context_.reporter().note(*remark);
   }
-  if (!be_the_station() || !open_events() || !open_logs() ||
-      !open("provision", Recording::if_possible)) {
+  if (!be_the_station() || !open_events()) {
+    return false;
+  }
+  if (const auto opened = logs_.open(); !opened) {
+    return stop(opened.error());
+  }
+  if (!open("provision", Recording::if_possible)) {
     return false;
   }
   context_.session().wait_alone();
@@ -111,15 +110,14 @@ bool ProvisionRun::begin() {
 }
 
 void ProvisionRun::serve(state::LedgerStore& ledger, state::CounterStore& counters) {
-  Station station(context_.session(), context_.known(), ledger, counters, station_options(recipe_),
+  Station station(context_.session(), context_.known(), ledger, counters, station_options(),
                   [this](StationStage stage) { tell(stage); });
   const auto killed = station.end_interrupted();
   if (!killed) {
     stop(killed.error());
     return;
   }
-  bool is_printed =
-      context_.reporter().stream(records_header(context_.reporter().format())).value_or(false);
+  bool is_printed = put(records_header(context_.reporter().format()));
   for (const LedgerRecord& record : *killed) {
     is_printed = is_printed && print(record, std::nullopt);
   }
@@ -138,26 +136,17 @@ void ProvisionRun::serve(state::LedgerStore& ledger, state::CounterStore& counte
   view_.reset();
 }
 
-/// One process at a time has the name of a station in a ledger: what is begun is its own.
+/// What is begun in the ledger is its own; that of a private simulation is nobody else's.
 bool ProvisionRun::be_the_station() {
-  if (names(context_.shared().interface, Behind::scenario)) { // its ledger is nobody else's
+  if (names(context_.shared().interface, Behind::scenario)) {
     return true;
   }
-  const std::string name = *common().station;
-  const std::string ledger = stores_folder(context_.shared().interface);
-  constexpr std::size_t enough = 16;
-  const state::LockPlace place{.interface =
-                                   "station-" + sha256(ledger + '\n' + name).substr(0, enough)};
-  const std::string folder = state::LockFile::folder(place);
-  if (folder.empty()) { // then nobody is locked out
-    return true;
+  auto lock =
+      state::StationLock::acquire(stores_folder(context_.shared().interface), *common_.station);
+  if (!lock) {
+    return stop(lock.error());
   }
-  auto locked = state::LockFile::take(folder, place, "station");
-  if (!locked) {
-    return stop({Code::busy, say<texts::provision_busy_station>(printable(name)),
-                 say<texts::provision_busy_station_hint>(), std::nullopt});
-  }
-  station_ = std::move(*locked);
+  station_ = std::move(*lock);
   return true;
 }
 
@@ -172,40 +161,6 @@ bool ProvisionRun::open_events() {
   }
   events_ = std::move(*file);
   return true;
-}
-
-/// The frames of the present unit; what a run that was killed had of its last one stays there.
-bool ProvisionRun::open_logs() {
-  if (options_.logs.empty()) {
-    return true;
-  }
-  std::error_code error;
-  std::filesystem::create_directories(options_.logs, error);
-  if (error) {
-    return stop(
-        {Code::io,
-         say<texts::provision_no_logs>(printable(options_.logs), system_reason(error.value())),
-         say<texts::provision_no_logs_hint>(), std::nullopt});
-  }
-  context_.record_to(options_.logs + "/present.log");
-  return true;
-}
-
-/// Of each unit that did not pass.
-void ProvisionRun::keep_log(const LedgerRecord& record) {
-  can::Recorder* recorder = options_.logs.empty() ? nullptr : context_.recorder();
-  if (recorder == nullptr) {
-    return;
-  }
-  if (record.verdict != fleet::verdict::pass && record.verdict != fleet::verdict::skip) {
-    std::error_code error;
-    std::filesystem::copy_file(recorder->path(), options_.logs + "/" + *record.record_id + ".log",
-                               error);
-    if (error) {
-      context_.reporter().note(
-          say<texts::provision_no_logs>(printable(options_.logs), system_reason(error.value())));
-    }
-  }
 }
 
 /// "waiting", "pass": for a lamp or a controller.
@@ -240,7 +195,7 @@ void ProvisionRun::open_screen() {
   }
   view_ = std::make_unique<StationView>(
       std::move(*screen), reporter,
-      say<texts::station_title>(printable(*common().station), printable(recipe_.name)));
+      say<texts::station_title>(printable(*common_.station), printable(recipe_.name)));
   context_.session().on_resize([this] { view_->draw(); });
 }
 
@@ -256,8 +211,16 @@ void ProvisionRun::open_labels() {
       const std::string typed = view_->typed();
       if (lines_) {
         lines_->type(typed);
+        show_label();
       }
     });
+  }
+}
+
+/// The one that counts, else what was typed so far.
+void ProvisionRun::show_label() {
+  if (view_ && lines_) {
+    view_->show_label(label_ ? label_->text : std::string(lines_->unfinished()));
   }
 }
 
@@ -294,6 +257,7 @@ bool ProvisionRun::wait_for_label() {
       auto label = fleet::parse_label(*line, lines_->number(), context_.known());
       if (label) {
         label_ = std::move(*label);
+        show_label();
       } else {
         context_.reporter().error(label.error());
         view_ ? view_->wait_for_label() : void();
@@ -321,11 +285,12 @@ bool ProvisionRun::work_on(Station& station, const Station::Arrival& arrival) {
   }
   const auto& reason = station.reason();
   tell_event(*record->verdict, &*record);
-  keep_log(*record);
+  logs_.keep(*record);
   const bool is_printed = print(*record, reason);
   account(*record, reason);
   if (record->verdict != fleet::verdict::error) {
     label_.reset();
+    show_label();
   }
   if (context_.signal() != 0) {
     report_.signal = context_.signal();
@@ -356,8 +321,12 @@ bool ProvisionRun::print(const LedgerRecord& record, const std::optional<Error>&
     view_->take(record, reason);
     return true;
   }
-  const auto printed =
-      reporter.stream(record_line(record, reporter.format(), reporter.page(), reason));
+  return put(record_line(record, reporter.format(), reporter.page(), reason));
+}
+
+/// False: the reader has left, or there is no room; then nothing more is begun.
+bool ProvisionRun::put(std::string_view text) {
+  const auto printed = context_.reporter().stream(text);
   return printed ? *printed : stop(printed.error());
 }
 
@@ -405,9 +374,8 @@ void ProvisionRun::end_by_idling() {
 }
 
 void ProvisionRun::tell(StationStage stage) {
-  can::Recorder* recorder = options_.logs.empty() ? nullptr : context_.recorder();
-  if (recorder != nullptr && stage == StationStage::waiting) {
-    recorder->begin_anew();
+  if (stage == StationStage::waiting) {
+    logs_.begin();
   }
   if (stage != StationStage::ended) { // its verdict is told
     tell_event(name(stage), nullptr);

@@ -6,13 +6,14 @@
 #include "blactl/fleet/line/station.hpp"
 #include "blactl/state/counter_store.hpp"
 #include "blactl/state/ledger_store.hpp"
-#include "blactl/state/lock_file.hpp"
+#include "blactl/state/station_lock.hpp"
 
 #include "cli/change/event_file.hpp"
 #include "cli/change/writing_run.hpp"
 #include "cli/context.hpp"
 #include "cli/line/label_lines.hpp"
 #include "cli/line/station_view.hpp"
+#include "cli/line/unit_logs.hpp"
 #include "cli/output/report.hpp"
 
 #include <cstdint>
@@ -47,8 +48,10 @@ class ProvisionRun : private WritingRun {
   void run();
 
  private:
-  [[nodiscard]] state::LedgerRecord common() const;
-  [[nodiscard]] fleet::Station::Options station_options(const fleet::Recipe& recipe);
+  [[nodiscard]] static state::LedgerRecord common_record(const ProvisionOptions& options,
+                                                         const fleet::Recipe& recipe,
+                                                         std::string recipe_sha256);
+  [[nodiscard]] fleet::Station::Options station_options();
   [[nodiscard]] bool begin();
   void serve(state::LedgerStore& ledger, state::CounterStore& counters);
   [[nodiscard]] bool next(fleet::Station& station);
@@ -56,13 +59,13 @@ class ProvisionRun : private WritingRun {
   [[nodiscard]] bool work_on(fleet::Station& station, const fleet::Station::Arrival& arrival);
   [[nodiscard]] bool take_off(fleet::Station& station);
   [[nodiscard]] bool print(const state::LedgerRecord& record, const std::optional<Error>& reason);
+  [[nodiscard]] bool put(std::string_view text);
+  void show_label();
   void account(const state::LedgerRecord& record, const std::optional<Error>& reason);
   [[nodiscard]] bool is_complete() const;
   [[nodiscard]] bool goes_on_after(const Error& error);
   [[nodiscard]] bool be_the_station();
   [[nodiscard]] bool open_events();
-  [[nodiscard]] bool open_logs();
-  void keep_log(const state::LedgerRecord& record);
   void open_screen();
   void open_labels();
   void tell(fleet::StationStage stage);
@@ -72,12 +75,13 @@ class ProvisionRun : private WritingRun {
 
   const ProvisionOptions& options_;
   fleet::Recipe recipe_;
-  std::string recipe_sha256_;
+  state::LedgerRecord common_; ///< what all records share
   std::optional<LabelLines> lines_;
-  std::optional<fleet::Label> label_;      ///< of the next servo
-  std::optional<state::LockFile> station_; ///< held
-  std::unique_ptr<EventFile> events_;      ///< null: none
-  std::unique_ptr<StationView> view_;      ///< null: lines
+  std::optional<fleet::Label> label_;         ///< of the next servo
+  std::optional<state::StationLock> station_; ///< held
+  UnitLogs logs_;
+  std::unique_ptr<EventFile> events_; ///< null: none
+  std::unique_ptr<StationView> view_; ///< null: lines
   LineTotals totals_{};
   std::uint64_t counted_ = 0;       ///< for --count
   std::uint64_t failed_in_row_ = 0; ///< for --stop-after

@@ -6,6 +6,10 @@
 
 namespace blactl::cli {
 
+std::optional<std::string> unless_empty(const std::string& text) {
+  return text.empty() ? std::nullopt : std::optional(text);
+}
+
 state::LedgerRecord record_of_station(const std::string& station) {
   std::array<char, 256> host{};
   const bool is_named = gethostname(host.data(), host.size() - 1) == 0;

@@ -194,7 +194,10 @@ std::vector<ScreenLine> lines_of(const StationPicture& picture, std::size_t widt
   lines.insert(lines.end(), before, centred("", width, face.look));
   lines.insert(lines.end(), middle.begin(), middle.end());
   lines.insert(lines.end(), room - middle.size() - before, centred("", width, face.look));
-  lines.push_back({{picture.note, Look::dim}});
+  lines.push_back(
+      picture.label.empty()
+          ? ScreenLine{{picture.note, Look::dim}}
+          : ScreenLine{{say<texts::station_label>(printable(picture.label)), Look::head}});
   const Text& deed = deed_text(picture);
   lines.push_back(centred(std::string(deed.en), width, Look::chosen));
   lines.push_back(centred(std::string(deed.ja), width, Look::chosen));
@@ -221,6 +224,7 @@ void StationView::enter(StationStage stage) {
   case StationStage::recognised:
     picture_.deed = LineDeed::leave;
     picture_.last.reset();
+    told_ = held_.size(); // notes about the one before are over
     break;
   case StationStage::working: picture_.deed = LineDeed::hands_off; break;
   case StationStage::ended: return; // its record comes
@@ -231,6 +235,11 @@ void StationView::enter(StationStage stage) {
 
 void StationView::wait_for_label() {
   picture_.deed = LineDeed::scan;
+  draw();
+}
+
+void StationView::show_label(std::string label) {
+  picture_.label = std::move(label);
   draw();
 }
 
@@ -252,7 +261,8 @@ void StationView::tick() {
 }
 
 void StationView::draw() {
-  const std::string_view text = std::string_view(held_).substr(0, held_.find_last_not_of('\n') + 1);
+  const std::string_view recent = std::string_view(held_).substr(told_);
+  const std::string_view text = recent.substr(0, recent.find_last_not_of('\n') + 1);
   picture_.note = text.substr(text.rfind('\n') + 1);
   screen_->fit();
   screen_->draw(lines_of(picture_, screen_->width(), screen_->height()));
@@ -264,6 +274,10 @@ std::string StationView::typed() {
   while (const auto key = screen_->read()) {
     if (*key == keys::enter) {
       text += '\n';
+    } else if (*key == keys::back) {
+      text += '\b';
+    } else if (*key == keys::end_of_input) {
+      text += '\x04';
     } else if (*key >= first_printable && *key <= last_printable) {
       text += static_cast<char>(*key);
     }

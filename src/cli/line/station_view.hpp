@@ -39,7 +39,8 @@ struct StationPicture {
   LineDeed deed = LineDeed::connect;
   std::optional<state::LedgerRecord> last{}; ///< until the next servo is recognised
   std::optional<Error> reason{};
-  std::string note{}; ///< the last one
+  std::string label{}; ///< that counts, or is being typed; shown in place of the note
+  std::string note{};  ///< the last one
 };
 
 /// The picture on a screen of this size.
@@ -56,6 +57,7 @@ class StationView {
 
   void enter(fleet::StationStage stage);
   void wait_for_label();
+  void show_label(std::string label);
   void take(const state::LedgerRecord& record, const std::optional<Error>& reason);
 
   /// Rings what is still to be rung; called some times a second.
@@ -70,8 +72,9 @@ class StationView {
   std::unique_ptr<Screen> screen_;
   const Reporter& reporter_;
   StationPicture picture_;
-  std::string held_; ///< notes
-  int bells_ = 0;    ///< still to be rung
+  std::string held_;     ///< notes
+  std::size_t told_ = 0; ///< so much of them is not shown any more
+  int bells_ = 0;        ///< still to be rung
 };
 
 } // namespace blactl::cli

@@ -27,7 +27,7 @@ inline constexpr Text provision_reason_alone{"--reason has no meaning without --
 inline constexpr Text provision_reason_alone_hint{"leave it out", "外して下さい"};
 inline constexpr Text provision_waits{"connect a servo", "サーボを接続して下さい"};
 inline constexpr Text provision_label_waits{"scan a label", "ラベルを読み取って下さい"};
-inline constexpr Text provision_asks{"it is asked what it is", "サーボを確認しています"};
+inline constexpr Text provision_asks{"identifying it", "サーボを確認しています"};
 inline constexpr Text provision_works{"do not take it off", "外さないで下さい"};
 inline constexpr Text provision_take_off{"take it off", "外して下さい"};
 inline constexpr Text provision_idle{"no servo came within {} s",
@@ -54,20 +54,13 @@ inline constexpr Text provision_takes_all{
     "provision takes whatever servo comes, as its recipe says: {} has no meaning",
     "provision は接続されたサーボをレシピに従って処理します ({} は指定できません)"};
 inline constexpr Text provision_takes_all_hint{"leave it out", "外して下さい"};
-inline constexpr Text provision_busy_station{"another run of blactl is the station {}",
-                                             "ステーション {} は別の blactl が動作中です"};
-inline constexpr Text provision_busy_station_hint{
-    "give each station a name of its own: --station NAME",
-    "ステーションごとに別の名前を指定して下さい: --station NAME"};
-inline constexpr Text ledger_at_work{"the station {} works on this servo",
-                                     "ステーション {} がこのサーボを処理中です"};
-inline constexpr Text ledger_at_work_hint{"wait until it has ended", "処理の終了を待って下さい"};
 inline constexpr Text ledger_copy_exists{"{} is there already", "{} は既に存在します"};
 inline constexpr Text ledger_copy_exists_hint{"give a new name", "別の名前を指定して下さい"};
 inline constexpr Text provision_logs_alone{"--logs and --record both want the frames",
                                            "--logs と --record は併用できません"};
 inline constexpr Text provision_logs_alone_hint{"give one of them", "いずれか一方を指定して下さい"};
 inline constexpr Text station_title{"station {}   recipe {}", "ステーション {}   レシピ {}"};
+inline constexpr Text station_label{"label {}", "ラベル {}"};
 inline constexpr Text station_totals{"pass {} fail {} error {} skip {}",
                                      "合格 {} 不合格 {} 再試行 {} 処理済 {}"};
 inline constexpr Text station_yield{"first pass {}%", "直行率 {}%"};
@@ -88,17 +81,11 @@ inline constexpr Text ledger_alone_hint{"leave out the other options",
                                         "他のオプションを外して下さい"};
 inline constexpr Text ledger_scrap_reason{"--scrap needs a reason for the record",
                                           "--scrap には理由が必要です"};
-inline constexpr Text ledger_no_record{"no record has the record_id {}",
-                                       "record_id {} の記録がありません"};
-inline constexpr Text ledger_no_record_hint{"find it with blactl ledger --serial N --json",
-                                            "blactl ledger --serial N --json で確認して下さい"};
-inline constexpr Text ledger_no_unit{"that record names no unit",
-                                     "その記録には個体の情報がありません"};
 inline constexpr Text ledger_scrap_question{
     "the servo {} is taken out, and its IDs by the recipe {} are given to the next one.\n",
     "サーボ {} を廃棄扱いとし、レシピ {} の ID を次のサーボに割り当てます。\n"};
 inline constexpr Text ledger_copied{"the ledger is in {} now", "製造記録を {} に保存しました"};
-inline constexpr Text ledger_whole{"the ledger is whole\n", "製造記録に欠落はありません\n"};
+inline constexpr Text ledger_whole{"the ledger is complete\n", "製造記録に欠落はありません\n"};
 inline constexpr Text ledger_hole{"station {}: the records {} to {} are missing\n",
                                   "ステーション {}: 記録 {}～{} がありません\n"};
 inline constexpr Text ledger_begun{"station {}: {} was begun at {}, and has not ended\n",

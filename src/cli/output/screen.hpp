@@ -41,7 +41,7 @@ using ScreenLine = std::vector<Piece>;
 using Key = char32_t;
 
 namespace keys {
-inline constexpr Key enter = U'\n', escape = 0x1B;
+inline constexpr Key enter = U'\n', escape = 0x1B, end_of_input = 0x04;
 inline constexpr Key up = 0x110000, down = 0x110001, left = 0x110002, right = 0x110003;
 inline constexpr Key page_up = 0x110004, page_down = 0x110005, home = 0x110006, end = 0x110007;
 inline constexpr Key back = 0x110008;

@@ -134,25 +134,6 @@ void end(LedgerRecord& record, std::string_view verdict, const std::optional<Err
   record.time = rfc3339(now);
 }
 
-LedgerRecord scrapped(const LedgerRecord& record, const LedgerRecord& common, std::string reason,
-                      WallTime now) {
-  LedgerRecord scrap = begun_record(common, now);
-  scrap.verdict = std::string(verdict::scrap);
-  scrap.attempt = record.attempt;
-  scrap.serial_number = record.serial_number;
-  scrap.unique_id = record.unique_id;
-  scrap.model = record.model;
-  scrap.firmware_version = record.firmware_version;
-  scrap.hardware_version = record.hardware_version;
-  scrap.production_date = record.production_date;
-  scrap.work_order = record.work_order;
-  scrap.recipe = record.recipe;
-  scrap.recipe_sha256 = record.recipe_sha256;
-  scrap.refers_to = record.record_id;
-  scrap.reason = std::move(reason);
-  return scrap;
-}
-
 std::string digest(const Snapshot& held) {
   std::string text;
   for (const auto& [address, raw] : held.values()) {

@@ -250,6 +250,9 @@ Error Station::unless_away(Error error, NodeId id) const {
 
 Result<LedgerRecord> Station::work_on(const Arrival& arrival, const Label* label) {
   LedgerRecord record = begun_record(options_.common, arrival.wall);
+  if (!record.reason && options_.remark) {
+    record.reason = options_.remark();
+  }
   record.node_id = arrival.has_asked ? 0 : arrival.ids.front().value();
   if (label != nullptr) {
     enter(record, *label);

@@ -1,5 +1,5 @@
 #pragma once
-// Messages of a station of a production line.
+// Messages of a production line: of its station, and of units that are taken out.
 
 #include "blactl/base/text.hpp"
 
@@ -27,5 +27,15 @@ inline constexpr Text station_rom_unread{"the servo could not read its ROM at th
                                          "再起動後も ROM を読み出せません"};
 inline constexpr Text station_unproven{"it is not proven what the servo holds now",
                                        "サーボの現在の設定を確認できませんでした"};
+
+inline constexpr Text scrap_at_work{"the station {} works on this servo",
+                                    "ステーション {} がこのサーボを処理中です"};
+inline constexpr Text scrap_at_work_hint{"wait until it has ended", "処理の終了を待って下さい"};
+inline constexpr Text scrap_no_record{"no record has the record_id {}",
+                                      "record_id {} の記録がありません"};
+inline constexpr Text scrap_no_record_hint{"find it with blactl ledger --serial N --json",
+                                           "blactl ledger --serial N --json で確認して下さい"};
+inline constexpr Text scrap_no_unit{"that record names no unit",
+                                    "その記録には個体の情報がありません"};
 
 } // namespace blactl::texts

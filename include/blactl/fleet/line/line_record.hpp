@@ -42,11 +42,6 @@ void enter(state::LedgerRecord& record, const Snapshot& held, const bla::Profile
 void end(state::LedgerRecord& record, std::string_view verdict, const std::optional<Error>& error,
          WallTime now);
 
-/// The record that this unit is taken out, and why; `common`: what tells who says so.
-[[nodiscard]] state::LedgerRecord scrapped(const state::LedgerRecord& record,
-                                           const state::LedgerRecord& common, std::string reason,
-                                           WallTime now);
-
 /// Over the settings of a servo, by address: "0x20=1\n" each.
 [[nodiscard]] std::string digest(const Snapshot& held);
 

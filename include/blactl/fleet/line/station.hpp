@@ -41,6 +41,8 @@ class Station {
     dronecan::NodeId first_bench_id{100}, last_bench_id{124}; ///< for units that ask for an ID
     unsigned max_attempts = 3;                                ///< that a unit may fail
     bool redo = false;                                        ///< finished units are done anew
+    /// What a record has to tell beside its verdict, if nobody gave a reason; empty: nothing.
+    std::function<std::optional<std::string>()> remark{};
   };
 
   using StageHook = std::function<void(StationStage stage)>;

@@ -1,0 +1,54 @@
+#include "cli/line/unit_logs.hpp"
+
+#include "blactl/base/system_error.hpp"
+#include "blactl/fleet/line/line_record.hpp"
+
+#include "cli/line/texts.hpp"
+
+#include <filesystem>
+#include <system_error>
+
+namespace blactl::cli {
+
+Error UnitLogs::not_kept(const std::string& reason) const {
+  return {Code::io, say<texts::provision_no_logs>(printable(folder_), reason),
+          say<texts::provision_no_logs_hint>(), std::nullopt};
+}
+
+can::Recorder* UnitLogs::recorder() const {
+  return folder_.empty() ? nullptr : context_.recorder();
+}
+
+Result<void> UnitLogs::open() {
+  if (folder_.empty()) {
+    return {};
+  }
+  std::error_code error;
+  std::filesystem::create_directories(folder_, error);
+  if (error) {
+    return std::unexpected(not_kept(system_reason(error.value())));
+  }
+  context_.record_to(folder_ + "/present.log");
+  return {};
+}
+
+void UnitLogs::begin() {
+  if (recorder() != nullptr) {
+    recorder()->begin_anew();
+  }
+}
+
+void UnitLogs::keep(const state::LedgerRecord& record) {
+  const bool is_good =
+      record.verdict == fleet::verdict::pass || record.verdict == fleet::verdict::skip;
+  if (recorder() == nullptr || is_good) {
+    return;
+  }
+  std::error_code error;
+  std::filesystem::copy_file(recorder()->path(), folder_ + "/" + *record.record_id + ".log", error);
+  if (error) {
+    context_.reporter().note(not_kept(system_reason(error.value())).message);
+  }
+}
+
+} // namespace blactl::cli

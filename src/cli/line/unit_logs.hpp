@@ -1,0 +1,35 @@
+#pragma once
+// `provision --logs FOLDER`: the frames of every servo that did not pass.
+
+#include "blactl/base/error.hpp"
+#include "blactl/state/ledger_record.hpp"
+
+#include "cli/context.hpp"
+
+#include <string>
+
+namespace blactl::cli {
+
+class UnitLogs {
+ public:
+  /// `folder`: empty: none are kept. `context` outlives this.
+  UnitLogs(std::string folder, Context& context) : folder_(std::move(folder)), context_(context) {}
+
+  /// Called before the session is opened. Errors: io.
+  [[nodiscard]] Result<void> open();
+
+  /// The frames from now on are those of the next unit.
+  void begin();
+
+  /// Keeps those of this unit, unless it passed: in a file named by its record.
+  void keep(const state::LedgerRecord& record);
+
+ private:
+  [[nodiscard]] Error not_kept(const std::string& reason) const;
+  [[nodiscard]] can::Recorder* recorder() const;
+
+  std::string folder_;
+  Context& context_;
+};
+
+} // namespace blactl::cli

@@ -1,0 +1,77 @@
+"""blactl provision on terminals of tmux: what an operator sees and types.
+
+  station_test.py BLACTL
+"""
+
+import json
+import os
+import shutil
+import sys
+
+from terminal import Terminal
+
+SERVOS = [{"model": "BLA21-12U-AB", "serial_number": 101, "node_id": 5}]
+RECIPE = {"schema": "blactl-recipe/1", "name": "aileron", "model": "BLA21-12U-AB",
+          "set": {"servo_id": {"first": 1, "last": 8}, "angle_limit_cw": "45.0deg"}}
+
+
+def require(truth, what, lines=()):
+    if not truth:
+        raise AssertionError(what + "\n" + "\n".join(lines))
+
+
+def provision(terminal, *more):
+    path = os.path.join(terminal.folder.name, "recipe.json")
+    with open(path, "w", encoding="utf-8") as file:
+        json.dump(RECIPE, file)
+    terminal.run("provision", path, "-y", *more)
+
+
+def verdicts(blactl):
+    for width, height in ((80, 24), (53, 16)):
+        with Terminal(blactl, SERVOS, width, height) as terminal:
+            provision(terminal, "--station", "A")
+            lines = terminal.shows("101")
+            terminal.shows("TAKE IT OFF")
+            lines = terminal.shows("pass 1")
+            require("station A" in lines[0] and "aileron" in lines[0], "the title", lines)
+            require("first pass 100.0%" in lines[1], "the totals", lines)
+            require("外して下さい" in lines[-1], "no Japanese", lines)
+            terminal.type("C-c")
+            terminal.shows_no_more("TAKE IT OFF")
+
+
+def labels(blactl):
+    """Typed ones are shown, can be corrected, and end with Ctrl-D."""
+    with Terminal(blactl, SERVOS, 80, 24) as terminal:
+        provision(terminal, "--label", "-")
+        terminal.shows("SCAN A LABEL")
+        terminal.type("102")
+        terminal.shows("label 102")
+        terminal.type("BSpace", "1", "Enter")
+        lines = terminal.shows("label 101")
+        lines = terminal.shows("pass 1")
+        require("fail 0" in lines[1], "the label was not corrected", lines)
+        terminal.type("C-c")
+        terminal.shows_no_more("TAKE IT OFF")
+    with Terminal(blactl, SERVOS, 80, 24) as terminal:
+        provision(terminal, "--label", "-", "; echo status $?")
+        terminal.shows("SCAN A LABEL")
+        terminal.type("C-d")
+        terminal.shows("status 0")
+
+
+def main():
+    if not shutil.which("tmux"):
+        print("skipped: tmux is missing")
+        return 77
+    for test in (verdicts, labels):
+        test(sys.argv[1])
+        print(f"{test.__name__}: ok", flush=True)
+    return 0
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    sys.exit(main())
