@@ -3,7 +3,7 @@
 #include "blactl/base/hex.hpp"
 #include "blactl/base/rfc3339.hpp"
 #include "blactl/base/sha256.hpp"
-#include "blactl/bla/value.hpp"
+#include "blactl/bla/explain.hpp"
 
 #include "fleet/line/acceptance.hpp"
 
