@@ -1,7 +1,6 @@
 #include "blactl/state/proof_store.hpp"
 
-#include "blactl/base/read_file.hpp"
-
+#include "state/boot.hpp"
 #include "state/formats.hpp"
 #include "state/register_bytes.hpp"
 #include "state/sqlite.hpp"
@@ -64,13 +63,6 @@ const DatabaseFormat& proofs_format() {
 namespace {
 
 constexpr std::int64_t last_uptime = 0xFFFFFFFF;
-
-/// The kernel's name for the present run of this machine; empty: unknown.
-std::string_view boot_id() {
-  constexpr std::size_t most = 64;
-  static const std::string id = read_file("/proc/sys/kernel/random/boot_id", most).value_or("");
-  return id;
-}
 
 Result<void> put_one(const Database& database, const RomProof& proof) {
   const std::vector<std::uint8_t> rom = bytes_of(proof.rom);

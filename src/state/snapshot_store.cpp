@@ -1,5 +1,6 @@
 #include "blactl/state/snapshot_store.hpp"
 
+#include "state/boot.hpp"
 #include "state/formats.hpp"
 #include "state/register_bytes.hpp"
 #include "state/sqlite.hpp"
@@ -15,55 +16,79 @@ using dronecan::UniqueId;
 
 namespace {
 
-/// Changes are ordered by number, not by time: clocks are set back. The index repeats whole rows,
-/// so the check of the file detects any change. `at`: microseconds since 1970, UTC, up to the year
-/// 9999.
-constexpr const char* schema =
-    "CREATE TABLE snapshots ("
+const std::string change_columns =
     "number INTEGER PRIMARY KEY, "
     "run INTEGER NOT NULL, "
     "at INTEGER NOT NULL CHECK (at BETWEEN 0 AND 253402300799999999), "
     "command TEXT NOT NULL, "
     "unique_id BLOB NOT NULL CHECK (length(unique_id) = 16), "
-    "held BLOB NOT NULL, "
-    "written BLOB NOT NULL, "
-    "saved INTEGER NOT NULL CHECK (saved IN (0, 1)), "
-    "ended INTEGER NOT NULL CHECK (ended IN (0, 1)), "
-    "settled INTEGER CHECK (settled BETWEEN 0 AND 253402300799999999), "
-    "UNIQUE (unique_id, number, run, at, command, held, written, saved, ended, settled)) STRICT";
+    "held BLOB NOT NULL, ";
 
-/// Neither of them recorded when an outcome was known, and version 1 not even what was written.
-OlderFormat older_version(bool has_written) {
-  const std::string written = has_written ? "written" : "x''";
-  return {.schema = "CREATE TABLE snapshots ("
-                    "number INTEGER PRIMARY KEY, "
-                    "run INTEGER NOT NULL, "
-                    "at INTEGER NOT NULL CHECK (at BETWEEN 0 AND 253402300799999999), "
-                    "command TEXT NOT NULL, "
-                    "unique_id BLOB NOT NULL CHECK (length(unique_id) = 16), "
-                    "held BLOB NOT NULL, " +
-                    std::string(has_written ? "written BLOB NOT NULL, " : "") +
-                    "saved INTEGER NOT NULL CHECK (saved IN (0, 1)), "
-                    "ended INTEGER NOT NULL CHECK (ended IN (0, 1)), "
-                    "UNIQUE (unique_id, number, run, at, command, held, " +
-                    std::string(has_written ? "written, " : "") + "saved, ended)) STRICT",
-          .upgrade = "ALTER TABLE snapshots RENAME TO older; " + std::string(schema) +
+const std::string end_columns = "saved INTEGER NOT NULL CHECK (saved IN (0, 1)), "
+                                "ended INTEGER NOT NULL CHECK (ended IN (0, 1)), ";
+
+const std::string settled_column =
+    "settled INTEGER CHECK (settled BETWEEN 0 AND 253402300799999999), ";
+
+/// Changes are ordered by number, not by time: clocks are set back. The index repeats whole rows,
+/// so the check of the file detects any change. `at`: microseconds since 1970, UTC, up to the year
+/// 9999. `clock`: see SnapshotEntry. `boot`: of the machine.
+const std::string snapshots_schema =
+    "CREATE TABLE snapshots (" + change_columns + "written BLOB NOT NULL, " + end_columns +
+    settled_column +
+    "clock INTEGER CHECK (clock BETWEEN -253402300799999999 AND 253402300799999999), "
+    "boot TEXT NOT NULL, "
+    "UNIQUE (unique_id, number, run, at, command, held, written, saved, ended, settled, clock, "
+    "boot)) STRICT";
+
+/// `written`, `settled`: as the present table has them, of a row of the older one.
+OlderFormat older_snapshots(const std::string& older_schema, const std::string& written,
+                            const std::string& settled) {
+  return {.schema = older_schema,
+          .upgrade = "ALTER TABLE snapshots RENAME TO older; " + snapshots_schema +
                      "; INSERT INTO snapshots SELECT number, run, at, command, unique_id, held, " +
-                     written +
-                     ", saved, ended, CASE saved WHEN 1 THEN at END "
-                     "FROM older; DROP TABLE older"};
+                     written + ", saved, ended, " + settled +
+                     ", NULL, '' FROM older; DROP TABLE older"};
+}
+
+const std::string settled_if_saved = "CASE saved WHEN 1 THEN at END";
+
+/// It did not record what was written, nor when an outcome was known.
+OlderFormat snapshots_of_version_1() {
+  return older_snapshots("CREATE TABLE snapshots (" + change_columns + end_columns +
+                             "UNIQUE (unique_id, number, run, at, command, held, saved, ended)) "
+                             "STRICT",
+                         "x''", settled_if_saved);
+}
+
+OlderFormat snapshots_of_version_2() {
+  return older_snapshots("CREATE TABLE snapshots (" + change_columns + "written BLOB NOT NULL, " +
+                             end_columns +
+                             "UNIQUE (unique_id, number, run, at, command, held, written, saved, "
+                             "ended)) STRICT",
+                         "written", settled_if_saved);
+}
+
+/// It did not tell by which clock.
+OlderFormat snapshots_of_version_3() {
+  return older_snapshots("CREATE TABLE snapshots (" + change_columns + "written BLOB NOT NULL, " +
+                             end_columns + settled_column +
+                             "UNIQUE (unique_id, number, run, at, command, held, written, saved, "
+                             "ended, settled)) STRICT",
+                         "written", "settled");
 }
 
 } // namespace
 
 const DatabaseFormat& snapshots_format() {
-  static const DatabaseFormat format{.application_id = 0x626C6173, // "blas"
-                                     .version = 3,
-                                     .schema = schema,
-                                     .file = "snapshots.db",
-                                     .what = texts::change_history,
-                                     .way_back = texts::change_history_back,
-                                     .older = {older_version(false), older_version(true)}};
+  static const DatabaseFormat format{
+      .application_id = 0x626C6173, // "blas"
+      .version = 4,
+      .schema = snapshots_schema,
+      .file = "snapshots.db",
+      .what = texts::change_history,
+      .way_back = texts::change_history_back,
+      .older = {snapshots_of_version_1(), snapshots_of_version_2(), snapshots_of_version_3()}};
   return format;
 }
 
@@ -72,11 +97,12 @@ namespace {
 /// A query for the columns that snapshot_in() reads.
 std::string select(std::string_view rest) {
   return "SELECT number, at, command, unique_id, held, saved, run, ended, written, "
-         "settled FROM snapshots " +
+         "settled, clock, boot FROM snapshots " +
          std::string(rest);
 }
 
 SnapshotEntry snapshot_in(Statement& row) {
+  const bool is_of_this_boot = !boot_id().empty() && row.text(11) == boot_id();
   return {.number = row.integer(0),
           .run = row.integer(6),
           .at = WallTime(Duration(row.integer(1, 0, last_time))),
@@ -88,7 +114,10 @@ SnapshotEntry snapshot_in(Statement& row) {
           .ended = row.integer(7, 0, 1) != 0,
           .settled = row.is_null(9)
                          ? std::nullopt
-                         : std::optional(WallTime(Duration(row.integer(9, 0, last_time))))};
+                         : std::optional(WallTime(Duration(row.integer(9, 0, last_time)))),
+          .clock = row.is_null(10) || !is_of_this_boot
+                       ? std::nullopt
+                       : std::optional(WallTime(Duration(row.integer(10, -last_time, last_time))))};
 }
 
 /// Every row of a statement.
@@ -115,8 +144,8 @@ Result<std::int64_t> keep_one(const Database& database, const SnapshotEntry& ent
   const std::vector<std::uint8_t> written = bytes_of(entry.written);
   Statement statement(database,
                       "INSERT OR REPLACE INTO snapshots "
-                      "(number, run, at, command, unique_id, held, written, saved, ended, settled) "
-                      "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+                      "(number, run, at, command, unique_id, held, written, saved, ended, settled, "
+                      "clock, boot) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   entry.number == 0 ? statement.bind(std::nullopt) : statement.bind(entry.number);
   statement.bind(entry.run == 0 ? new_run : entry.run)
       .bind(entry.at.time_since_epoch().count())
@@ -128,7 +157,9 @@ Result<std::int64_t> keep_one(const Database& database, const SnapshotEntry& ent
       .bind(std::int64_t{entry.ended});
   entry.settled ? statement.bind(entry.settled->time_since_epoch().count())
                 : statement.bind(std::nullopt);
-  const auto kept = statement.run();
+  entry.clock ? statement.bind(entry.clock->time_since_epoch().count())
+              : statement.bind(std::nullopt);
+  const auto kept = statement.bind(boot_id()).run();
   return kept ? Result<std::int64_t>(sqlite3_last_insert_rowid(database.handle()))
               : std::unexpected(kept.error());
 }
@@ -142,13 +173,16 @@ Result<void> drop_surplus(const Database& database, const UniqueId& unique_id) {
       .run();
 }
 
-/// Drops old entries, but not the last one of each servo, nor the one that an unfinished undo is
-/// taking back.
+/// Drops old entries, but not the last one of each servo with the tries that it continues, nor the
+/// one that an unfinished undo is taking back: a clock may be set ahead by years.
 Result<void> drop_old(const Database& database, WallTime now) {
   return Statement(database, "DELETE FROM snapshots WHERE at < ? AND number < "
                              "(SELECT max(number) FROM snapshots AS newer "
                              "WHERE newer.unique_id = snapshots.unique_id "
-                             "AND (newer.command != 'undo' OR newer.ended = 1))")
+                             "AND (newer.command != 'undo' OR newer.ended = 1)) "
+                             "AND run != (SELECT run FROM snapshots AS newest "
+                             "WHERE newest.unique_id = snapshots.unique_id "
+                             "ORDER BY number DESC LIMIT 1)")
       .bind((now - oldest_snapshot).time_since_epoch().count())
       .run();
 }

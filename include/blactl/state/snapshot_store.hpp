@@ -33,6 +33,8 @@ struct SnapshotEntry {
   bool saved = false;  ///< saved to ROM; until settled, whether it is to be saved
   bool ended = false;  ///< its command was completed; else perhaps only in part
   std::optional<WallTime> settled{}; ///< when its outcome was known; empty: not yet, or never
+  /// As RomProof::clock, at `at`. Empty: not known, or of an earlier run of this machine.
+  std::optional<WallTime> clock{};
 
   friend bool operator==(const SnapshotEntry&, const SnapshotEntry&) = default;
 };
@@ -51,7 +53,7 @@ struct Settlement {
 };
 
 /// How many changes of one servo are kept, and for how long. The last one of a servo is always
-/// kept.
+/// kept, with the tries that it continues.
 inline constexpr std::size_t most_snapshots = 100;
 inline constexpr std::chrono::days oldest_snapshot{365};
 

@@ -50,8 +50,8 @@ Error made_way(const UnitChange& unit, NodeId before) {
 
 std::vector<Error> Change::carry_out(const MoveHook& moved) {
   std::vector<Error> errors;
+  go_on_with_record();
   if (!begun_.empty()) {
-    go_on_with_record();
     errors = rounds_->carry_out(moved);
     conclude();
     const bool has_failed = std::ranges::any_of(rounds_->units(), &UnitChange::has_failed);
@@ -338,7 +338,7 @@ void Change::go_on_with_record() {
     }
   }
   if (options_.manner.history != nullptr) { // on failure the record itself will tell
-    [[maybe_unused]] const auto found = options_.manner.history->go_on(units);
+    [[maybe_unused]] const auto found = options_.manner.history->go_on(units, session_.wall());
   }
 }
 

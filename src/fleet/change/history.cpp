@@ -210,11 +210,13 @@ std::optional<state::SnapshotEntry> History::entry_of(const Plan& plan, const Ro
   }
   keep_rom(plan, held, session);
   const auto known = kept_.find(*unique_id);
-  state::SnapshotEntry entry =
-      known != kept_.end()
-          ? known->second.entry
-          : state::SnapshotEntry{
-                .run = run_, .at = session.wall(), .command = command_, .unique_id = *unique_id};
+  state::SnapshotEntry entry = known != kept_.end()
+                                   ? known->second.entry
+                                   : state::SnapshotEntry{.run = run_,
+                                                          .at = session.wall(),
+                                                          .command = command_,
+                                                          .unique_id = *unique_id,
+                                                          .clock = clock_of(session)};
   const state::SnapshotEntry before = entry;
   if (plan.restart == RestartKind::save && known != kept_.end()) { // undo would save them
     for (const std::uint8_t address : std::exchange(known->second.lost, {})) {
@@ -246,7 +248,10 @@ std::optional<state::SnapshotEntry> History::entry_of(const Plan& plan, const Ro
   if (entry.number != 0 && entry == before && !begins_again) {
     return std::nullopt;
   }
-  entry.at = begins_again ? session.wall() : entry.at; // it may have restarted since the last try
+  if (begins_again) { // it may have restarted since the last try
+    entry.at = session.wall();
+    entry.clock = clock_of(session);
+  }
   entry.settled.reset();
   entry.number = is_another_try(*unique_id) ? 0 : entry.number; // see former_numbers()
   return entry;
@@ -310,7 +315,7 @@ Result<void> History::take_back(std::span<const UniqueId> units) {
 }
 
 Result<void> History::conclude(std::span<const ChangeResult> results, const Session& session) {
-  auto settled = keep_what_was_taken(results, session.wall());
+  auto settled = keep_what_was_taken(results, session);
   if (settled) {
     settled = leave_what_was_lost(results, session.wall());
   }

@@ -61,15 +61,17 @@ std::optional<bool> are_shown(const Entries& changes, const Snapshot& ram) {
 }
 
 /// A restart between the record and the write puts changes before the start of the servo, as does
-/// its crystal, and a clock that was set back puts them into the future: then RAM itself tells, if
-/// `ram` is known. From an earlier run of the servo there is nothing in RAM that ROM does not hold.
-bool are_in_ram(const Entries& changes, WallTime started, WallTime now, const Snapshot* ram) {
+/// its crystal, and so does a clock that was set: then RAM itself tells, if `ram` is known. From an
+/// earlier run of the servo there is nothing in RAM that ROM does not hold.
+bool are_in_ram(const Entries& changes, WallTime started, const Session& session,
+                const Snapshot* ram) {
   const state::SnapshotEntry& newest = changes.front();
   const WallTime last = newest.saved ? newest.at : last_write(newest);
-  if (newest.written.empty() || last < started - drift(newest.at, now)) {
+  const bool is_before = last < started - drift(newest.at, session.wall());
+  if (newest.written.empty() || (is_before && is_of_this_clock(newest, session))) {
     return false;
   }
-  return (ram != nullptr ? are_shown(changes, *ram) : std::nullopt).value_or(true);
+  return (ram != nullptr ? are_shown(changes, *ram) : std::nullopt).value_or(!is_before);
 }
 
 /// The servo started after this change, whatever clocks say: it has written nothing, and its end is
@@ -116,6 +118,14 @@ std::optional<bool> is_shown(const state::SnapshotEntry& change, const Snapshot&
 
 WallTime clock_of(const Session& session) {
   return session.wall() - session.now().time_since_epoch();
+}
+
+bool is_same_clock(std::optional<WallTime> one, std::optional<WallTime> other) {
+  return one && other && std::chrono::abs(*one - *other) <= state::clock_tolerance;
+}
+
+bool is_of_this_clock(const state::SnapshotEntry& change, const Session& session) {
+  return is_same_clock(change.clock, clock_of(session));
 }
 
 bool started_before(WallTime started, WallTime at, WallTime now) {
@@ -200,7 +210,7 @@ std::vector<state::SnapshotEntry> History::unsaved(const Servo& servo, const Ses
         changes.push_back(std::move(**entry));
         entry = snapshots_.before(changes.back());
       }
-      if (!are_in_ram(changes, *started, session.wall(), ram)) {
+      if (!are_in_ram(changes, *started, session, ram)) {
         break;
       }
     }
@@ -212,6 +222,7 @@ std::vector<state::SnapshotEntry> History::unsaved(const Servo& servo, const Ses
 Result<void> History::renew(std::vector<state::SnapshotEntry> changes, const Session& session) {
   for (state::SnapshotEntry& change : changes) {
     change.at = session.wall();
+    change.clock = clock_of(session);
     change.settled = change.settled ? std::optional(change.at) : std::nullopt;
   }
   const auto kept = changes.empty() ? Result<std::vector<std::int64_t>>()
@@ -260,8 +271,8 @@ LostIds History::lost_ids(const Snapshot& ram, const Session& session) const {
     if (change.command == erase_keeping_ids) {
       const auto started = start_of(ram.servo, session);
       const WallTime now = session.wall();
-      const bool is_of_this_run =
-          started && change.at <= now && change.at - drift(change.at, now) >= *started;
+      const bool is_of_this_run = started && is_of_this_clock(change, session) &&
+                                  change.at - drift(change.at, now) >= *started;
       return {.ids = change.ended ? bla::Values() : taken_by(change, since, ram),
               .is_certain = is_of_this_run};
     }

@@ -47,7 +47,8 @@ bool take_in_changed(const ChangeResult& result, state::SnapshotEntry& entry) {
 } // namespace
 
 /// A restart that has shown what ROM holds took all that RAM held beside it.
-Result<void> History::keep_what_was_taken(std::span<const ChangeResult> results, WallTime now) {
+Result<void> History::keep_what_was_taken(std::span<const ChangeResult> results,
+                                          const Session& session) {
   std::vector<state::SnapshotEntry> entries;
   for (const ChangeResult& result : results) {
     const auto ram =
@@ -60,18 +61,20 @@ Result<void> History::keep_what_was_taken(std::span<const ChangeResult> results,
              held.second;
     });
     const auto known = kept_.find(ram.key());
-    state::SnapshotEntry entry =
-        known != kept_.end()
-            ? known->second.entry
-            : state::SnapshotEntry{
-                  .run = run_, .at = now, .command = command_, .unique_id = ram.key()};
+    state::SnapshotEntry entry = known != kept_.end()
+                                     ? known->second.entry
+                                     : state::SnapshotEntry{.run = run_,
+                                                            .at = session.wall(),
+                                                            .command = command_,
+                                                            .unique_id = ram.key(),
+                                                            .clock = clock_of(session)};
     const std::size_t size = entry.held.size();
     entry.held.merge(ram.mapped());
     if (entry.held.size() != size) {
       entries.push_back(std::move(entry));
     }
   }
-  return entries.empty() ? Result<void>() : store(std::move(entries), now);
+  return entries.empty() ? Result<void>() : store(std::move(entries), session.wall());
 }
 
 /// A restart that has shown what ROM holds replaced nothing else.

@@ -37,17 +37,40 @@ Result<std::optional<state::SnapshotEntry>> History::unfinished(const UniqueId& 
   return is_other ? Result<std::optional<state::SnapshotEntry>>() : last;
 }
 
-Result<void> History::go_on(std::span<const UniqueId> units) {
+Result<void> History::go_on(std::span<const UniqueId> units, WallTime now) {
+  std::vector<state::SnapshotEntry> tries;
   for (const UniqueId& unit : units) {
-    const auto tried = unfinished(unit);
+    auto tried = unfinished(unit);
     if (!tried) {
       return std::unexpected(tried.error());
     }
     if (*tried) {
       run_ = joined_ = std::max(run_, (*tried)->run);
+      tries.push_back(std::move(**tried));
     }
   }
-  return {};
+  return gather(tries, now);
+}
+
+/// Tries that named some of the units each are one change with this command.
+Result<void> History::gather(std::span<const state::SnapshotEntry> tries, WallTime now) {
+  std::vector<state::SnapshotEntry> gathered;
+  for (const state::SnapshotEntry& tried : tries) {
+    for (auto each = std::optional(tried); each && each->run == tried.run;) {
+      auto earlier = snapshots_.before(*each);
+      if (!earlier) {
+        return std::unexpected(earlier.error());
+      }
+      if (each->run != run_) {
+        gathered.push_back(std::move(*each));
+        gathered.back().run = run_;
+      }
+      each = std::move(*earlier);
+    }
+  }
+  const auto kept =
+      gathered.empty() ? Result<std::vector<std::int64_t>>() : snapshots_.keep(gathered, now);
+  return kept ? Result<void>() : std::unexpected(kept.error());
 }
 
 /// Resumes after tries of this command that ended half way. What they changed in RAM only, a
@@ -91,11 +114,12 @@ bool History::is_over(const state::SnapshotEntry& tried, const Snapshot& ram,
     return false;
   }
   const bool has_written = !tried.saved && !tried.written.empty();
-  if ((has_written ? last_write(tried) : tried.at) < *started) {
+  const bool is_before = (has_written ? last_write(tried) : tried.at) < *started;
+  if (is_before && is_of_this_clock(tried, session)) {
     return true;
   }
-  const bool is_open = tried.at < *started || tried.at > session.wall();
-  return is_open && !is_shown(tried, ram).value_or(true);
+  const bool is_open = is_before || tried.at < *started || tried.at > session.wall();
+  return is_open && !is_shown(tried, ram).value_or(!is_before);
 }
 
 /// Goes on after tries that were saved: undo goes back through them, as far as they are still

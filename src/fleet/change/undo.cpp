@@ -113,6 +113,12 @@ Undoing as_one(Tries changes) {
     leave_out_what_was_taken(changes);
   }
   Undoing one{.entry = changes.front(), .perhaps_saved_since = perhaps_saved_since(changes)};
+  const auto has_other_clock = [&](const state::SnapshotEntry& each) {
+    return !is_same_clock(each.clock, changes.front().clock);
+  };
+  if (std::ranges::any_of(changes, has_other_clock)) {
+    one.entry.clock.reset();
+  }
   std::set<std::uint8_t> told_by_save; // what ROM held, as far as known, and not RAM alone
   for (const state::SnapshotEntry& each : changes) {
     for (const auto& [address, raw] : each.held) {
@@ -190,7 +196,8 @@ Result<Undoing> as_left(Undoing change, NodeId id, Session& session, const bla::
   if (!change.perhaps_saved_since) {
     return change;
   }
-  if (has_run_on(servo, *change.perhaps_saved_since, session)) {
+  if (is_of_this_clock(change.entry, session) &&
+      has_run_on(servo, *change.perhaps_saved_since, session)) {
     change.entry.saved = false;
     return change;
   }

@@ -433,6 +433,11 @@ TEST_CASE("a servo that has run on since an apply was killed has saved nothing")
   Undoing near_start = left[0]; // clocks are not that exact
   *near_start.perhaps_saved_since -= 6s;
   CHECK(found(near_start).saved);
+  Undoing of_another_clock = left[0]; // set back for longer than the servo runs
+  *of_another_clock.entry.clock -= 1s;
+  CHECK(found(of_another_clock).saved);
+  of_another_clock.entry.clock.reset(); // this machine has restarted since
+  CHECK(found(of_another_clock).saved);
   Undoing of_set_clock = left[0];
   *of_set_clock.perhaps_saved_since += 1h;
   CHECK(found(of_set_clock).saved); // then ROM is looked at
@@ -536,7 +541,7 @@ TEST_CASE(
   const std::vector<dronecan::UniqueId> all{done[0], plans[1].before.servo.unique_id.value()};
   {
     History tried = kept.history("apply");
-    REQUIRE(tried.go_on(all));
+    REQUIRE(tried.go_on(all, scene.session->wall()));
     REQUIRE(change(scene, set("angle_limit_cw=90deg", true), tried, {11}).servos[0].is_done());
     REQUIRE(tried.end(done, false));
   }
@@ -545,10 +550,54 @@ TEST_CASE(
     REQUIRE(change(scene, set("reverse=on"), kept, "set").is_done());
   }
   History again = kept.history("apply");
-  REQUIRE(again.go_on(all));
+  REQUIRE(again.go_on(all, scene.session->wall()));
   REQUIRE(change(scene, set("angle_limit_cw=90deg", true), again, {12}).servos[0].is_done());
   REQUIRE(again.end(all, true));
   CHECK(kept.to_undo().size() == (restarts ? 1 : 2)); // the set has come after it on 11
+}
+
+TEST_CASE("tries of single servos, and then one of all, are one change") {
+  const Kept kept;
+  const Scene scene(servos());
+  const bool is_saved = GENERATE(false, true);
+  for (const std::vector<std::uint8_t>& one : {std::vector<std::uint8_t>{11}, {12}}) {
+    killed(scene, set("angle_limit_cw=90deg", true), kept, "apply", one);
+  }
+  scene.live(3s);
+  const std::vector<dronecan::UniqueId> all{scene.member(11).info->unique_id,
+                                            scene.member(12).info->unique_id};
+  History again = kept.history("apply");
+  if (is_saved) {
+    REQUIRE(again.go_on(all, scene.session->wall()));
+  }
+  const auto done = change(scene, set("angle_limit_cw=80deg", is_saved), again, {11, 12});
+  REQUIRE(done.servos[1].is_done());
+  REQUIRE(again.end(all, true));
+  const auto changes = kept.to_undo();
+  REQUIRE(changes.size() == 2);
+  for (const Undoing& each : changes) {
+    CHECK(each.entry.held == state::Registers{{0x38, is_saved ? 1799 : 900}});
+    CHECK(each.entry.saved == is_saved);
+  }
+}
+
+TEST_CASE("tries of single servos that left nothing to do for one of all are undone together") {
+  const Kept kept;
+  const Scene scene(servos());
+  for (const std::vector<std::uint8_t>& one : {std::vector<std::uint8_t>{11}, {12}}) {
+    killed(scene, set("angle_limit_cw=90deg", true), kept, "apply", one);
+  }
+  const std::vector<dronecan::UniqueId> all{scene.member(11).info->unique_id,
+                                            scene.member(12).info->unique_id};
+  History again = kept.history("apply");
+  REQUIRE(again.go_on(all, scene.session->wall()));
+  REQUIRE(again.end(all, true));
+  const auto changes = kept.to_undo();
+  REQUIRE(changes.size() == 2);
+  for (const Undoing& each : changes) {
+    CHECK(each.entry.held == state::Registers{{0x38, 1799}});
+    CHECK(each.entry.ended);
+  }
 }
 
 TEST_CASE("an undo that did not end goes on when it is typed again, and then is one change") {
@@ -1137,12 +1186,14 @@ TEST_CASE("what a recorded restart has taken is not in RAM, however clocks drift
                             .command = "set",
                             .unique_id = *ram.servo.unique_id,
                             .held = {{0x38, 1799}},
-                            .written = {{0x38, 900}}};
+                            .written = {{0x38, 900}},
+                            .clock = clock_of(*scene.session)};
   const SnapshotEntry restart{.at = started + 1s, // the uptime runs fast
                               .command = "restart",
                               .unique_id = *ram.servo.unique_id,
                               .held = {{0x38, 900}},
-                              .settled = started + 2s};
+                              .settled = started + 2s,
+                              .clock = clock_of(*scene.session)};
   REQUIRE(store->keep(std::vector{trial, restart}, scene.session->wall()));
   CHECK(kept.history().unsaved(ram.servo, *scene.session, &ram).empty());
   CHECK(kept.history().known_rom(ram, *scene.session).empty());
@@ -1155,6 +1206,28 @@ TEST_CASE("a restart that was killed has taken nothing from a servo that runs on
   REQUIRE(kept.history("restart").keep(plans_for(scene, restart, {11}), *scene.session));
   const Snapshot ram = scene.read(11, registers({"angle_limit_cw"}));
   CHECK(kept.history().known_rom(ram, *scene.session) == bla::Values{{at::angle_limit_cw, 1799}});
+}
+
+TEST_CASE("what RAM shows of a change is not forgotten as clocks are set ahead") {
+  const Kept kept;
+  const Scene scene(servos());
+  REQUIRE(change(scene, set("angle_limit_cw=90deg"), kept).is_done());
+  SnapshotEntry trial = kept.entries().front();
+  trial.at -= 1h;
+  *trial.settled -= 1h;
+  const bool is_known = GENERATE(true, false);
+  trial.clock = is_known ? std::optional(*trial.clock - 1h) : std::nullopt;
+  const auto keep = [&] {
+    REQUIRE(SnapshotStore::open(kept.folder(), Access::write)
+                ->keep(std::vector{trial}, scene.session->wall()));
+  };
+  keep();
+  const Snapshot ram = scene.read(11, registers({"angle_limit_cw"}));
+  CHECK(kept.history().known_rom(ram, *scene.session) == bla::Values{{at::angle_limit_cw, 1799}});
+  REQUIRE(change(scene, restart, kept).is_done());
+  keep();
+  const Snapshot other = scene.read(11, registers({"angle_limit_cw"}));
+  CHECK(kept.history().recorded_rom(other, *scene.session).values.empty());
 }
 
 TEST_CASE("what a killed change may have left in RAM is not forgotten as clocks drift") {
@@ -1173,7 +1246,8 @@ TEST_CASE("what a killed change may have left in RAM is not forgotten as clocks 
                                                   .unique_id = *ram.servo.unique_id,
                                                   .held = {{0x38, 1799}},
                                                   .written = {{0x38, 900}},
-                                                  .saved = true}},
+                                                  .saved = true,
+                                                  .clock = clock_of(*scene.session)}},
                         scene.session->wall()));
     return kept.history().recorded_rom(ram, *scene.session);
   };
@@ -1197,7 +1271,8 @@ TEST_CASE("whether a change from before the start is in RAM, RAM itself tells") 
                                                   .command = "set",
                                                   .unique_id = *ram.servo.unique_id,
                                                   .held = held,
-                                                  .written = written}},
+                                                  .written = written,
+                                                  .clock = clock_of(*scene.session)}},
                         scene.session->wall()));
     return !kept.history().unsaved(ram.servo, *scene.session, snapshot).empty();
   };

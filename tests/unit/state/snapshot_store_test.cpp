@@ -173,6 +173,29 @@ TEST_CASE("after a year a change goes, unless it is the last one of its servo") 
   CHECK(count_of(store, 3) == 1);
 }
 
+TEST_CASE("tries of one command stay together, however far a clock was set ahead between them") {
+  auto store = SnapshotStore::unshared().value();
+  const SnapshotEntry first = kept(store, entry(1, 1, noon));
+  const WallTime years_ahead = noon + 3 * oldest_snapshot;
+  SnapshotEntry second = entry(1, 2, years_ahead);
+  second.run = first.run;
+  kept(store, second, years_ahead);
+  CHECK(count_of(store, 1) == 2);
+  kept(store, entry(1, 3, years_ahead), years_ahead);
+  CHECK(count_of(store, 1) == 2);
+}
+
+TEST_CASE("a change tells by which clock it was, as long as this machine runs") {
+  const Folder folder;
+  SnapshotEntry timed = entry(1);
+  timed.clock = noon - 5h;
+  auto store = opened(folder);
+  const SnapshotEntry stored = kept(store, timed);
+  CHECK(all(store) == std::vector{stored});
+  run_sql(file_of(folder), "UPDATE snapshots SET boot = 'another'");
+  CHECK_FALSE(all(store).front().clock);
+}
+
 TEST_CASE("an undo does not drop the old change that it takes back, until it has ended") {
   auto store = SnapshotStore::unshared().value();
   kept(store, entry(1, 1, noon));
@@ -213,7 +236,7 @@ TEST_CASE("a file that is no history of ours is refused by its name, and stays a
   const Folder folder;
   const auto [content, message] = GENERATE(
       std::pair("what is this", "not a blactl change history"),
-      std::pair("PRAGMA user_version = 4", "has version 4; this blactl knows version 3"),
+      std::pair("PRAGMA user_version = 5", "has version 5; this blactl knows version 4"),
       std::pair("UPDATE snapshots SET held = x'38'", "is damaged"),
       std::pair("PRAGMA ignore_check_constraints = 1; UPDATE snapshots SET saved = 2",
                 "is damaged"),

@@ -54,9 +54,9 @@ class History {
       : command_(std::move(command)), snapshots_(std::move(snapshots)), proofs_(std::move(proofs)) {
   }
 
-  /// Before all: of the units that this command is to save, also those that need nothing. If one of
-  /// them is left from a try of it that failed, this command goes on with that one.
-  [[nodiscard]] Result<void> go_on(std::span<const dronecan::UniqueId> units);
+  /// Before all: of the units that this command is to save, also those that need nothing. If some
+  /// of them are left from tries of it that failed, this command goes on with all of these.
+  [[nodiscard]] Result<void> go_on(std::span<const dronecan::UniqueId> units, WallTime now);
 
   /// Before the first request of a round: removes the proofs of ROM of servos that restart or are
   /// erased in it, which become outdated.
@@ -136,7 +136,7 @@ class History {
   [[nodiscard]] bla::Values taken_from_ram(const Plan& plan, const Session& session);
   [[nodiscard]] Result<void> store(std::vector<state::SnapshotEntry> entries, WallTime now);
   [[nodiscard]] Result<void> keep_what_was_taken(std::span<const ChangeResult> results,
-                                                 WallTime now);
+                                                 const Session& session);
   [[nodiscard]] Result<void> leave_what_was_lost(std::span<const ChangeResult> results,
                                                  WallTime now);
   struct Settled;
@@ -144,6 +144,7 @@ class History {
   [[nodiscard]] Result<void> settle(std::span<const ChangeResult> results, WallTime wall);
   [[nodiscard]] Result<std::optional<state::SnapshotEntry>>
   unfinished(const dronecan::UniqueId& unit) const;
+  [[nodiscard]] Result<void> gather(std::span<const state::SnapshotEntry> tries, WallTime now);
   [[nodiscard]] Result<void> resume(const Plan& plan, const Session& session);
   [[nodiscard]] static bool is_over(const state::SnapshotEntry& tried, const Snapshot& ram,
                                     const Session& session);
@@ -185,6 +186,13 @@ class History {
 
 /// As state::RomProof::clock, now.
 [[nodiscard]] WallTime clock_of(const Session& session);
+
+/// Whether two of SnapshotEntry::clock are of one run of a clock; one that is not known is of none.
+[[nodiscard]] bool is_same_clock(std::optional<WallTime> one, std::optional<WallTime> other);
+
+/// Whether the wall times of this change and of now are of one clock: nobody has set it since, and
+/// this machine has not restarted or slept.
+[[nodiscard]] bool is_of_this_clock(const state::SnapshotEntry& change, const Session& session);
 
 /// Whether a servo that seems to have `started` then was running at the time `at` for certain:
 /// clocks differ by 50 ppm, and are set by a few seconds.

@@ -24,7 +24,8 @@ namespace blactl::fleet {
                                      const bla::Profiles& profiles);
 
 struct Undoing {
-  state::SnapshotEntry entry;          ///< of a command that was repeated: of all its tries
+  /// Of a command that was repeated: of all its tries; its clock, if all have the same.
+  state::SnapshotEntry entry;
   std::vector<std::int64_t> numbers{}; ///< of these tries
   bool goes_on = false;                ///< an undo of it has begun and did not end
   /// Tries that were to save broke off, and whether one did is unknown: when the first of them
