@@ -57,6 +57,7 @@ Step ReadJob::next(const Outcome& outcome) {
   case At::proof: return judge_proof(outcome);
   case At::servo_id:
   case At::static_node_id: return take_id(outcome);
+  case At::anew: return begin_anew(outcome.at);
   }
   return std::nullopt;
 }
@@ -192,21 +193,22 @@ Step ReadJob::judge_proof(const Outcome& outcome) {
     return read_again(outcome.at); // from now on it is older
   case RunProof::Verdict::restarted: break;
   }
+  return judge_restart(outcome.at);
+}
+
+Step ReadJob::judge_restart(Time now) {
+  const std::uint8_t id = id_.value();
   snapshot_.has_restarted = snapshot_.servo.is_young = true;
   if (passes_ == most_passes) {
     return give_up(
         {Code::state, say<texts::restarts_while_read>(id), say<texts::restarts_again_hint>(), id});
   }
-  return read_again(outcome.at);
+  return read_again(now);
 }
 
 /// Readings with a change by another node in between are not of one moment.
 Step ReadJob::judge_writers(Time now) {
-  std::optional<dronecan::NodeId> writer;
-  for (const bla::Parameter* parameter : wanted_) {
-    const auto by = roster_.writer_to(id_, pass_began_, parameter->address);
-    writer = by ? by : writer;
-  }
+  const auto writer = this->writer();
   if (!writer) {
     return std::nullopt;
   }
@@ -269,7 +271,42 @@ Step ReadJob::give_up(Error error) {
   return std::nullopt;
 }
 
+/// It may have been read long before other servos, which are slower.
+bool ReadJob::is_outdated() const {
+  return !snapshot_.error && proof_ != Proof::none && (has_restarted_since() || writer());
+}
+
+/// Another node that changed one of the values since their reading began.
+std::optional<dronecan::NodeId> ReadJob::writer() const {
+  for (const bla::Parameter* parameter : wanted_) {
+    if (const auto by = roster_.writer_to(id_, pass_began_, parameter->address)) {
+      return by;
+    }
+  }
+  return std::nullopt;
+}
+
+bool ReadJob::has_restarted_since() const {
+  return roster_.member(id_).boots != snapshot_.servo.boot;
+}
+
+Step ReadJob::begin_anew(Time now) {
+  return has_restarted_since() ? judge_restart(now) : judge_writers(now);
+}
+
 namespace {
+
+/// The group of jobs whose values have changed while others were read; false: there is none.
+bool read_once_more(std::list<ReadJob>& jobs, std::vector<dronecan::Job*>& group) {
+  group.clear();
+  for (ReadJob& job : jobs) {
+    if (job.is_outdated()) {
+      job.read_anew();
+      group.push_back(&job);
+    }
+  }
+  return !group.empty();
+}
 
 /// A servo that took the node ID of another one, which moved, was read on both: the other one was
 /// not.
@@ -308,7 +345,10 @@ Snapshots take_snapshots(Session& session, const bla::Profiles& profiles,
     group.push_back(
         &jobs.emplace_back(session.records(), id, profiles, options, choice, proof, more));
   }
-  const auto ran = session.run(group);
+  auto ran = session.run(group);
+  while (ran && read_once_more(jobs, group)) {
+    ran = session.run(group);
+  }
   Snapshots snapshots;
   for (const ReadJob& job : jobs) {
     snapshots.servos.push_back(job.snapshot());

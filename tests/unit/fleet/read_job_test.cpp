@@ -391,6 +391,30 @@ TEST_CASE("what another node changed while it was read is read again") {
   }
 }
 
+TEST_CASE("what changed while a slower servo was still read is read again") {
+  const auto* order =
+      GENERATE(R"("order": "write", "address": 56, "value": 900)", R"("order": "restart")",
+               R"("order": "write", "address": 69, "value": 3)");
+  Scene scene(fmt::format(R"("servos": [
+      {{"model": "BLA21-12U-AB", "node_id": 11, "ram": {{"angle_limit_cw": "45deg"}}}},
+      {{"model": "BLA21-12U-AB", "node_id": 12, "answer_delay": "90ms"}}],
+    "foreign": [{{"kind": "node", "node_id": 40, "orders": [{{"at": "60.6s", "to": 11, {}}}]}}])",
+                          order));
+  REQUIRE(scene.session->live_until(Time(60s)));
+  const std::array ids{NodeId(11), NodeId(12)};
+  const auto read = take_snapshots(*scene.session, profiles(), ids, {},
+                                   registers({"angle_limit_cw", "angle_limit_ccw", "reverse",
+                                              "servo_id", "soft_start", "smoothing"}));
+  REQUIRE_FALSE(read.broken);
+  REQUIRE(scene.session->now() > Time(60600ms));
+  const bool is_write = std::string_view(order).contains("56");
+  const bool is_restart = std::string_view(order).contains("restart");
+  CHECK(read.servos[0].raw(bla::address::angle_limit_cw) == (is_write     ? 900
+                                                             : is_restart ? 1799
+                                                                          : 450));
+  CHECK(read.servos[0].has_restarted == is_restart);
+}
+
 TEST_CASE("after SAVE it is enough that it is one servo, however young") {
   Reader reader({"angle_limit_cw"}, ReadJob::Proof::unit);
   CHECK(reader.next(Script::start()) == "read 0x38");

@@ -43,11 +43,18 @@ class ReadJob final : public dronecan::Job {
   /// repeatedly), duplicate_node_id.
   [[nodiscard]] const Snapshot& snapshot() const { return snapshot_; }
 
+  /// Whether another node changed one of these values since, or the servo has restarted, as far as
+  /// heard.
+  [[nodiscard]] bool is_outdated() const;
+
+  /// An ended job: it is to be run once more, and reads the values as they are then.
+  void read_anew() { at_ = At::anew; }
+
   /// When the reading of these values began: nobody is known to have changed them since.
   [[nodiscard]] Time began() const { return pass_began_; }
 
  private:
-  enum class At : std::uint8_t { identify, read, presence, proof, servo_id, static_node_id };
+  enum class At : std::uint8_t { identify, read, presence, proof, servo_id, static_node_id, anew };
 
   [[nodiscard]] dronecan::Step begin(Time now);
   [[nodiscard]] dronecan::Step take_reading(const dronecan::Outcome& outcome);
@@ -59,7 +66,11 @@ class ReadJob final : public dronecan::Job {
   [[nodiscard]] dronecan::Step prove(Time now);
   [[nodiscard]] dronecan::Step judge_presence(const dronecan::Outcome& outcome);
   [[nodiscard]] dronecan::Step judge_proof(const dronecan::Outcome& outcome);
+  [[nodiscard]] dronecan::Step judge_restart(Time now);
   [[nodiscard]] dronecan::Step judge_writers(Time now);
+  [[nodiscard]] dronecan::Step begin_anew(Time now);
+  [[nodiscard]] bool has_restarted_since() const;
+  [[nodiscard]] std::optional<dronecan::NodeId> writer() const;
   [[nodiscard]] dronecan::Step read_again(Time now);
   [[nodiscard]] dronecan::Step read_id(At which);
   [[nodiscard]] dronecan::Step take_id(const dronecan::Outcome& outcome);
@@ -92,7 +103,8 @@ struct Snapshots {
   std::optional<Error> broken{}; ///< the error that ended the session early: they are incomplete
 };
 
-/// Reads the registers named by `choice` from several servos at once. On a recording nothing is
+/// Reads the registers named by `choice` from several servos at once, and those that changed while
+/// others were read once more. On a recording nothing is
 /// proven, whatever `proof`.
 [[nodiscard]] Snapshots take_snapshots(Session& session, const bla::Profiles& profiles,
                                        std::span<const dronecan::NodeId> servos,
