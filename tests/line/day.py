@@ -5,11 +5,12 @@
 
 Servos come to each station one after the other; at least a third of them ask for a node ID. Some
 are of the wrong model, pulled too early, plugged in two at once, lose their supply while they save,
-come twice, have a ROM that takes nothing, or the label of another one. One station reads labels;
+come twice, have a ROM that takes nothing, or the label of another one; some take the place of the
+one before within less than a second. One station reads labels;
 the other is killed with -9 again and again, and started anew. Some units are scrapped in between.
 
-Afterwards ledger, output and the servos' memory agree one by one: each pass is what ROM holds, and
-nothing that was shown is missing; no record is missing or open; no two units have one ID within a
+Afterwards ledger, output and the servos' memory agree one by one: each servo has a record, each pass
+is what ROM holds, and nothing that was shown is missing; no record is missing or open; no two units have one ID within a
 lap. Exit status 1: they do not.
 """
 
@@ -34,7 +35,7 @@ RECIPE = {
             "angle_limit_cw": "45.0deg", "smoothing": "off"},
 }
 SET = {"0x38": 450, "0x22": 0}
-VISIT_S, PAUSE_S = 40, 8
+VISIT_S = 40
 BATCH = 40
 
 
@@ -44,10 +45,11 @@ BEGIN = datetime.datetime(2025, 1, 1, tzinfo=datetime.timezone.utc)  # of a virt
 class Visit:
     """Units on the bench of a station for some seconds."""
 
-    def __init__(self, serials, label, seconds=VISIT_S):
+    def __init__(self, serials, label, pause, seconds=VISIT_S):
         self.serials = serials
         self.label = label
         self.seconds = seconds
+        self.pause = pause  # until the next one
         self.begin = 0  # set by Line.scenario()
 
 
@@ -76,12 +78,13 @@ class Line:
         self.servos[serial] = servo
         other = chance.choice(list(self.servos))
         if kind == "pulled":
-            self.visits.append(Visit([serial], serial, chance.choice([2, 4, 6, 8])))
+            self.visits.append(Visit([serial], serial, 8, chance.choice([2, 4, 6, 8])))
         if kind == "two" and other != serial:
-            self.visits.append(Visit([serial, other], serial, 15))
-        self.visits.append(Visit([serial], serial + 1 if kind == "label" else serial))
+            self.visits.append(Visit([serial, other], serial, 8, 15))  # all have to be off
+        pause = chance.choice([0.3, 1, 2.5, 8])
+        self.visits.append(Visit([serial], serial + 1 if kind == "label" else serial, pause))
         if kind in ("twice", "dip"):
-            self.visits.append(Visit([serial], serial))
+            self.visits.append(Visit([serial], serial, 8))
 
     def scenario(self, seed):
         events = [{"at": 0, "servo": serial, "happens": "power_off"} for serial in self.servos]
@@ -89,10 +92,11 @@ class Line:
         for visit in self.visits:
             visit.begin = now
             for serial in visit.serials:
-                events.append({"at": f"{now}s", "servo": serial, "happens": "power_on"})
-                events.append({"at": f"{now + visit.seconds}s", "servo": serial,
+                events.append({"at": f"{now * 1000:.0f}ms", "servo": serial,
+                               "happens": "power_on"})
+                events.append({"at": f"{(now + visit.seconds) * 1000:.0f}ms", "servo": serial,
                                "happens": "power_off"})
-            now += visit.seconds + PAUSE_S
+            now += visit.seconds + visit.pause
         return {"schema": "blactl-scenario/1", "clock": "virtual", "seed": seed,
                 "servos": list(self.servos.values()), "events": events}
 
@@ -202,6 +206,9 @@ class Judge:
         for record in shown:
             self.require(known.get(record["record_id"]) == record,
                          f"shown, not in the ledger: {record}")
+        recorded = {record["serial_number"] for record in records}
+        for serial in memories:
+            self.require(serial in recorded, f"{serial} was there, and has no record")
         last = {}
         for record in records:
             if record["verdict"] in ("pass", "fail", "error"):
