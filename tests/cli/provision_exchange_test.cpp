@@ -75,6 +75,31 @@ TEST_CASE("a unit that comes while the one before is still there is told at once
   CHECK(run.told() == "pass 1 11; error several_servos; pass 2 12");
 }
 
+TEST_CASE(
+    "another unit that ran on a supply of its own, for as long as the last one, begins at once") {
+  const Scene scene = Scene()
+                          .servo("BLA34-12U-AB", 11, {{"serial_number", 101}})
+                          .servo("BLA21-12U-AB", 11, {{"serial_number", 102}})
+                          .world(102, {{"plugged", "off"}}, "0s")
+                          .world(101, {{"plugged", "off"}}, "30s")
+                          .world(102, {{"plugged", "on"}}, "30600ms");
+  const Provisioned run = provision(scene, two_records);
+  INFO(run.result.out << run.result.err);
+  CHECK(run.told() == "fail model_mismatch; pass 1 11");
+}
+
+TEST_CASE("units whose unique IDs begin alike are told apart when they ask for a node ID") {
+  const std::string alike = "000000000000000000000000000001";
+  const Provisioned run = provision(
+      line({{.serial = 101, .from = 1, .to = 30, .more = {{"unique_id", alike + "01"}}},
+            {.serial = 101, .from = 30.4, .to = 50},
+            {.serial = 102, .from = 50.5, .to = 90, .more = {{"unique_id", alike + "02"}}}}),
+      two_records, {}, dynamic_recipe);
+  INFO(run.result.out << run.result.err);
+  CHECK(run.told() == "pass 1 0; pass 2 0");
+  CHECK(run.records.back()["node_id"] == 0); // it asked
+}
+
 TEST_CASE("a label is that of the unit that took the place of the last one") {
   const Provisioned run =
       provision(line({{.serial = 101, .from = 1, .to = 30, .node_id = 11},

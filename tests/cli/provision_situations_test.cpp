@@ -51,6 +51,10 @@ TEST_CASE("a unit that cannot read its ROM fails, and nothing is saved to it") {
   const std::string hint = run.last["errors"][0]["hint"];
   CHECK_FALSE(contains(hint, "overwrite-rom")); // no station has it
   CHECK(contains(hint, "blactl erase"));
+  const std::string message = run.last["errors"][0]["message"];
+  CHECK(contains(message, "serial number 101: ")); // many stand one below the other
+  const std::string reason = run.records[0]["reason"];
+  CHECK(contains(reason, "could not read its ROM"));
   CHECK(contains(run.result.err, "rom_unread"));
 }
 

@@ -164,9 +164,6 @@ Error Station::unless_away(Error error, NodeId id) const {
 
 Result<LedgerRecord> Station::work_on(const Arrival& arrival, const Label* label) {
   LedgerRecord record = begun_record(options_.common, arrival.wall);
-  if (!record.reason && options_.remark) {
-    record.reason = options_.remark();
-  }
   record.node_id = arrival.has_asked ? 0 : arrival.ids.front().value();
   if (label != nullptr) {
     enter(record, *label);
@@ -295,6 +292,10 @@ std::optional<Error> Station::prove(const Servo& servo, NodeId id,
 Result<LedgerRecord> Station::commit(LedgerRecord record, Time began, std::string_view verdict,
                                      std::optional<Error> reason) {
   end(record, verdict, reason, session_.wall());
+  const bool is_given = options_.common.reason.has_value();
+  if (const auto remark = !is_given && options_.remark ? options_.remark() : std::nullopt) {
+    record.reason = record.reason ? *record.reason + "; " + *remark : *remark;
+  }
   record.duration_s = std::chrono::duration<double>(session_.now() - began).count();
   const auto number = ledger_.end(record);
   if (!number) {
