@@ -158,7 +158,7 @@ Sign sign_of(const StationPicture& picture) {
 /// The symbol at both ends, the words in both languages between them; without the height for that
 /// the words alone.
 std::vector<ScreenLine> lines_of(const Sign& sign, std::size_t width, bool is_tall) {
-  constexpr std::size_t side = 2 * (5 + 2); // a symbol and its gap, in squares of two cells
+  constexpr std::size_t side = 14; // a symbol and its gap, in squares of two cells
   const bool has_symbols = is_tall && width > 2 * side + 20;
   const std::size_t between = has_symbols ? width - 2 * side : width;
   const Paint paint{sign.look, Look::plain};
@@ -238,6 +238,7 @@ std::vector<ScreenLine> verdict_lines(const StationPicture& picture, std::size_t
                                                      : fills                  ? Look::plain
                                                                               : face.look};
   std::vector<ScreenLine> lines;
+  lines.reserve(room + glyph_height);
   for (std::size_t row = 0; row < glyph_height; ++row) {
     lines.push_back(big_row(face, row, width, paint));
   }

@@ -138,7 +138,7 @@ void end(LedgerRecord& record, std::string_view verdict, const std::optional<Err
   record.code = error ? std::optional(std::string(name(error->code))) : std::nullopt;
   record.time = rfc3339(now);
   if (error && !error->message.empty() && !record.reason) {
-    record.reason = printable(error->message);
+    record.reason = error->message;
   }
 }
 
