@@ -391,7 +391,7 @@ complete -c blactl -n '__blactl_in ledger' -l station -r -f -d 'records of this 
 complete -c blactl -n '__blactl_in ledger' -l scrap -r -f -d 'take the servo of this record_id out, and free its IDs'
 complete -c blactl -n '__blactl_in ledger' -l reason -r -f -d 'with --scrap'
 complete -c blactl -n '__blactl_in ledger' -l check -d 'look for damage, missing records, and work that has not ended'
-complete -c blactl -n '__blactl_in ledger' -l backup -r -F -d 'copy the ledger into a new file, also while stations work'
+complete -c blactl -n '__blactl_in ledger' -l backup -r -F -d 'copy the ledger into a new file, and the IDs that were given into FILE.counters'
 
 complete -c blactl -n '__blactl_in monitor' -l rate -r -f -d 'samples of each servo a second (default 2)'
 complete -c blactl -n '__blactl_in monitor' -l fields -r -f -a '(__blactl_list time angle_deg speed_rpm torque_pct temperature_c voltage_v mode health fault_summary stale moved)' -d 'only these; what is not shown is not asked for'

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 namespace blactl::state {
@@ -60,7 +61,8 @@ const DatabaseFormat& counters_format() {
                                      .file = "counters.db",
                                      .what = texts::counters,
                                      .way_back = texts::counters_back,
-                                     .older = {first_counters()}};
+                                     .older = {first_counters()},
+                                     .is_local = true};
   return format;
 }
 
@@ -246,6 +248,28 @@ Result<std::vector<std::int64_t>> CounterStore::assign(const UniqueId& unique_id
     }
     return values;
   });
+}
+
+Result<std::set<UniqueId>> CounterStore::units(const std::string& recipe,
+                                               const std::string& parameter) const {
+  std::set<UniqueId> units;
+  const Database* database = file_->database();
+  if (database == nullptr) {
+    return units;
+  }
+  Statement statement(*database,
+                      "SELECT unique_id FROM assignments WHERE recipe = ? AND parameter = "
+                      "? AND unique_id IS NOT NULL");
+  statement.bind(recipe).bind(parameter);
+  const auto read = statement.each([&] {
+    units.insert(statement.array<std::tuple_size_v<UniqueId>>(0));
+    return true;
+  });
+  return read ? Result<std::set<UniqueId>>(std::move(units)) : std::unexpected(read.error());
+}
+
+Result<void> CounterStore::back_up(const std::string& file) const {
+  return file_->copy_to(file);
 }
 
 Result<void> CounterStore::free(const UniqueId& unique_id, const std::string& recipe) {

@@ -26,6 +26,7 @@ struct DatabaseFormat {
   std::string file;                 ///< its name in the state folder
   Text what, way_back;              ///< as DatabaseName
   std::vector<OlderFormat> older{}; ///< versions 1 to version - 1, in order
+  bool is_local = false;            ///< must not be written on a disk of another machine
 };
 
 /// Opens an existing file, for writing or read-only. Checks its form first: a file that is not ours

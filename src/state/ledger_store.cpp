@@ -91,7 +91,8 @@ const DatabaseFormat& ledger_format() {
                                      .file = "ledger.db",
                                      .what = texts::ledger,
                                      .way_back = texts::ledger_back,
-                                     .older = {first_ledger()}};
+                                     .older = {first_ledger()},
+                                     .is_local = true};
   return format;
 }
 

@@ -12,4 +12,8 @@ namespace blactl::state {
 /// As obstacle_in(), for an existing file and the journal beside it.
 [[nodiscard]] int obstacle_to(const std::string& file);
 
+/// Whether a folder, which exists, is on a file system of another machine: locks and syncs are no
+/// promise there. FUSE is not one by itself, nor is 9P, on which containers stand.
+[[nodiscard]] bool is_on_network(const std::string& folder);
+
 } // namespace blactl::state

@@ -1,6 +1,7 @@
 #include "state/state_file.hpp"
 
 #include "state/database_errors.hpp"
+#include "state/obstacle.hpp"
 #include "state/texts.hpp"
 
 #include <sys/stat.h>
@@ -51,6 +52,13 @@ Result<bool> provide(const DatabaseName& file, const DatabaseFormat& format, Acc
   if (writes) {
     if (auto made = make_folder(file); !made) {
       return std::unexpected(made.error());
+    }
+    if (const fs::path folder = fs::path(file.path).parent_path();
+        format.is_local && is_on_network(folder.string())) {
+      return fail(Code::state,
+                  say<texts::state_on_network>(printable(folder.string()),
+                                               choose(format.what.en, format.what.ja)),
+                  say<texts::state_on_network_hint>());
     }
   }
   const auto there = is_there(file);

@@ -60,6 +60,12 @@ inline constexpr Text state_folder_full{
     "{} に空き容量がありません。ノード ID の割当てを保存できません"};
 inline constexpr Text state_folder_full_hint{"see what fills the disk with `df {0}`",
                                              "`df {0}` で空き容量を確認して下さい"};
+inline constexpr Text state_on_network{
+    "{0} is on a file system of another machine: the {1} would not be safe there",
+    "{0} はネットワーク上のファイルシステムです。{1}を安全に保存できません"};
+inline constexpr Text state_on_network_hint{
+    "set BLACTL_STATE_DIR to a folder on a disk of this machine",
+    "BLACTL_STATE_DIR にこのコンピューターのディスク上のフォルダを設定して下さい"};
 inline constexpr Text no_state_folder_hint{"set BLACTL_STATE_DIR to a folder of your own",
                                            "BLACTL_STATE_DIR に自分のフォルダを設定して下さい"};
 inline constexpr Text table_foreign{"{0} is not a blactl {1}", "{0} は blactl の{1}ではありません"};
@@ -102,8 +108,13 @@ inline constexpr Text ledger_twice{"another record of the ledger has the record_
                                    "record_id {} の製造記録が既に存在します"};
 inline constexpr Text counters{"table of assigned IDs", "採番表"};
 inline constexpr Text counters_back{
-    "a new one is started: counters begin with their first ID again",
-    "採番表は新しく作成されます (カウンターは最初の ID から始まります)"};
+    "put back its backup (blactl ledger --backup); a new one is started, and by a recipe whose "
+    "servos "
+    "have passed already nothing is numbered then: give that a new name, and counters that begin "
+    "after the IDs in `blactl ledger`",
+    "バックアップ (blactl ledger --backup) を戻して下さい。採番表は新しく作成されますが、合格した"
+    "サーボがあるレシピは使えなくなります。その場合はレシピの名前を変え、`blactl ledger` に"
+    "ある ID の次からカウンターを始めて下さい"};
 inline constexpr Text counter_ended{"the counter of {} in the recipe {} is at its end, {}",
                                     "レシピ {1} の {0} のカウンターは終了値 {2} に達しました"};
 inline constexpr Text counter_ended_hint{"give it more room: raise \"last\" in the recipe",

@@ -1,6 +1,7 @@
 // The station of a production line, and its ledger.
 
 #include "catch.hpp"
+#include "line.hpp"
 #include "run.hpp"
 #include "scene.hpp"
 
@@ -14,81 +15,6 @@
 #include <vector>
 
 using namespace blactl::test;
-
-namespace {
-
-const std::string recipe = R"({
-  "schema": "blactl-recipe/1", "name": "aileron", "model": "BLA21-12U-AB", "firmware_min": 1400,
-  "set": {
-    "servo_id": {"first": 1, "last": 8, "at_end": "again"},
-    "static_node_id": {"first": 11, "last": 18, "at_end": "again"},
-    "angle_limit_cw": "45.0deg"
-  }
-})";
-
-/// A servo on the bench from one second to another.
-struct Visit {
-  int serial;
-  int from, to;
-  std::string model = "BLA21-12U-AB";
-  int node_id = 0;
-  nlohmann::json more = nlohmann::json::object();
-};
-
-std::string at(int second) {
-  return std::to_string(second) + "s";
-}
-
-Scene line(const std::vector<Visit>& visits) {
-  Scene scene;
-  std::set<int> known;
-  for (const Visit& visit : visits) {
-    if (known.insert(visit.serial).second) {
-      nlohmann::json more = visit.more;
-      more["serial_number"] = visit.serial;
-      scene.servo(visit.model, visit.node_id, more).joins(visit.serial, at(visit.from));
-    } else {
-      scene.event(visit.serial, "power_on", at(visit.from));
-    }
-    scene.event(visit.serial, "power_off", at(visit.to));
-  }
-  return scene;
-}
-
-struct Provisioned {
-  Result result;
-  std::vector<nlohmann::json> records;
-  nlohmann::json last;
-
-  /// "pass 1 11; fail label_mismatch; …"
-  [[nodiscard]] std::string told() const {
-    std::string all;
-    for (const auto& record : records) {
-      all += (all.empty() ? "" : "; ") + record["verdict"].get<std::string>();
-      if (record["verdict"] == "pass" || record["verdict"] == "skip") {
-        all += " " + record["servo_id"].dump() + " " + record["static_node_id"].dump();
-      } else if (!record["code"].is_null()) {
-        all += " " + record["code"].get<std::string>();
-      }
-    }
-    return all;
-  }
-};
-
-Provisioned provision(const Scene& scene, const Arguments& more, const Options& options = {}) {
-  const Bench bench;
-  Arguments arguments{"provision", bench.file("recipe.json", recipe), "-y", "--json"};
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  Provisioned run;
-  run.result = scene.run(bench, arguments, options);
-  run.records = json_lines(run.result.out);
-  REQUIRE_FALSE(run.records.empty());
-  run.last = run.records.back();
-  run.records.pop_back();
-  return run;
-}
-
-} // namespace
 
 TEST_CASE("one servo after the other is numbered, configured, proven and recorded") {
   const Provisioned run = provision(line({{.serial = 101, .from = 1, .to = 30},
@@ -193,7 +119,7 @@ TEST_CASE("labels are compared, and tell IDs") {
 TEST_CASE("a unit may fail so often, and a run of failures ends the run") {
   std::vector<Visit> visits;
   for (int i = 0; i < 3; ++i) {
-    visits.push_back({.serial = 101, .from = 1 + 40 * i, .to = 30 + 40 * i});
+    visits.push_back({.serial = 101, .from = 1 + 40.0 * i, .to = 30 + 40.0 * i});
   }
   SECTION("the unit") {
     visits[0].more = {{"faults", {{"rom_write_fails", true}}}};
@@ -228,7 +154,7 @@ TEST_CASE("a result that cannot be written is a failure, in every format") {
   for (const char* format : {"--json", "--csv", "--quiet"}) {
     INFO(format);
     const Result result = scene.run(
-        bench, {"provision", bench.file("recipe.json", recipe), "-y", "--count", "1", format},
+        bench, {"provision", bench.file("recipe.json", line_recipe), "-y", "--count", "1", format},
         {.stdout_file = "/dev/full"});
     CHECK(result.status == 1);
     CHECK(codes(result) == std::vector<std::string>{"io"});
@@ -239,7 +165,7 @@ TEST_CASE("a lamp is told what happens, and a disk that is full is told in the e
   const Bench bench;
   const Scene scene = line({{.serial = 101, .from = 1, .to = 30}});
   const std::string file = (bench.folder() / "events").string();
-  Arguments arguments{"provision", bench.file("recipe.json", recipe), "-y", "--count", "1",
+  Arguments arguments{"provision", bench.file("recipe.json", line_recipe), "-y", "--count", "1",
                       "--events"};
   arguments.push_back(file);
   REQUIRE(scene.run(bench, arguments).status == 0);
@@ -261,7 +187,7 @@ TEST_CASE("the frames of a servo that did not pass are kept, named by its record
                             {.serial = 102, .from = 40, .to = 60, .model = "BLA34-12U-AB"},
                             {.serial = 103, .from = 70, .to = 90}});
   const std::string folder = (bench.folder() / "logs" / "line").string();
-  const Result result = scene.run(bench, {"provision", bench.file("recipe.json", recipe), "-y",
+  const Result result = scene.run(bench, {"provision", bench.file("recipe.json", line_recipe), "-y",
                                           "--count", "3", "--json", "--logs", folder});
   const auto records = json_lines(result.out);
   REQUIRE(records.size() == 4);
@@ -279,12 +205,12 @@ TEST_CASE("the frames of a servo that did not pass are kept, named by its record
   }
   CHECK(serials == std::set<nlohmann::json>{nullptr, 102});
   CHECK(scene
-            .run(bench, {"provision", bench.file("recipe.json", recipe), "-y", "--logs", folder,
-                         "--record", folder + "/x.log"})
+            .run(bench, {"provision", bench.file("recipe.json", line_recipe), "-y", "--logs",
+                         folder, "--record", folder + "/x.log"})
             .status == 2);
   CHECK(scene
-            .run(bench,
-                 {"provision", bench.file("recipe.json", recipe), "-y", "--logs", "/dev/null/x"})
+            .run(bench, {"provision", bench.file("recipe.json", line_recipe), "-y", "--logs",
+                         "/dev/null/x"})
             .status == 1);
 }
 
@@ -298,49 +224,9 @@ TEST_CASE("provision refuses what it could not do, before anything is opened") {
   CHECK(provision(scene, {"--range", "126-127"}).result.status != 0);
   const Bench bench;
   const Result unasked =
-      scene.run(bench, {"provision", bench.file("recipe.json", recipe), "--count", "1"});
+      scene.run(bench, {"provision", bench.file("recipe.json", line_recipe), "--count", "1"});
   CHECK(unasked.status == 7);
 }
-
-namespace {
-
-/// A served simulation, whose stores last.
-class Hall {
- public:
-  explicit Hall(const std::vector<Visit>& visits)
-      : sim_(bench_, {"sim", line(visits).write(bench_)}),
-        recipe_(bench_.file("recipe.json", recipe)) {}
-
-  [[nodiscard]] Result run(Arguments arguments, const Options& options = {}) const {
-    arguments.insert(arguments.begin(), {"-i", "sim:"});
-    return bench_.run(arguments, options);
-  }
-
-  [[nodiscard]] Result provision(const Arguments& more) const {
-    Arguments arguments{"provision", recipe_, "-y", "--json", "--station", "A"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return run(arguments);
-  }
-
-  [[nodiscard]] std::vector<nlohmann::json> ledger(const Arguments& more = {}) const {
-    Arguments arguments{"ledger", "--json"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    auto lines = json_lines(run(arguments).out);
-    lines.pop_back();
-    return lines;
-  }
-
-  [[nodiscard]] const Bench& bench() const { return bench_; }
-
-  [[nodiscard]] const std::string& recipe_file() const { return recipe_; }
-
- private:
-  Bench bench_;
-  Background sim_;
-  std::string recipe_;
-};
-
-} // namespace
 
 TEST_CASE("the ledger lists, filters, scraps, checks and is copied") {
   const Hall hall({{.serial = 101, .from = 1, .to = 20}, {.serial = 102, .from = 25, .to = 3000}});
@@ -422,7 +308,7 @@ TEST_CASE("a recipe that has changed, or a unit that was begun anew, is no reaso
   const auto again = json_lines(hall.provision({"--count", "1"}).out);
   CHECK(again[0]["code"] == "interrupted");
   CHECK(again[1]["verdict"] == "pass");
-  std::string other = recipe;
+  std::string other = line_recipe;
   other.replace(other.find("45.0deg"), 7, "40.0deg");
   const std::string file = hall.bench().file("other.json", other);
   const Result changed =

@@ -1,15 +1,18 @@
 #!/usr/bin/env python3
 """A day on a production line, on the virtual clock: two stations, one ledger, much that goes wrong.
 
-  day.py BLACTL [--servos N] [--seed N] [--kills N]
+  day.py BLACTL [--servos N] [--seed N] [--kills N] [--calls FILE]
 
 Servos come to each station one after the other; at least a third of them ask for a node ID. Some
 are of the wrong model, pulled too early, plugged in two at once, lose their supply while they save,
-come twice, have a ROM that takes nothing, or the label of another one. One station reads labels;
+come twice, have a ROM that takes nothing, or the label of another one; some take the place of the
+one before within less than a second. One station reads labels;
 the other is killed with -9 again and again, and started anew. Some units are scrapped in between.
+With --calls (what is built from calls.cpp) the other station's disk is full from some write on, again
+and again.
 
-Afterwards ledger, output and the servos' memory agree one by one: each pass is what ROM holds, and
-nothing that was shown is missing; no record is missing or open; no two units have one ID within a
+Afterwards ledger, output and the servos' memory agree one by one: each servo has a record, each pass
+is what ROM holds, and nothing that was shown is missing; no record is missing or open; no two units have one ID within a
 lap. Exit status 1: they do not.
 """
 
@@ -34,7 +37,7 @@ RECIPE = {
             "angle_limit_cw": "45.0deg", "smoothing": "off"},
 }
 SET = {"0x38": 450, "0x22": 0}
-VISIT_S, PAUSE_S = 40, 8
+VISIT_S = 40
 BATCH = 40
 
 
@@ -44,10 +47,11 @@ BEGIN = datetime.datetime(2025, 1, 1, tzinfo=datetime.timezone.utc)  # of a virt
 class Visit:
     """Units on the bench of a station for some seconds."""
 
-    def __init__(self, serials, label, seconds=VISIT_S):
+    def __init__(self, serials, label, pause, seconds=VISIT_S):
         self.serials = serials
         self.label = label
         self.seconds = seconds
+        self.pause = pause  # until the next one
         self.begin = 0  # set by Line.scenario()
 
 
@@ -76,12 +80,13 @@ class Line:
         self.servos[serial] = servo
         other = chance.choice(list(self.servos))
         if kind == "pulled":
-            self.visits.append(Visit([serial], serial, chance.choice([2, 4, 6, 8])))
+            self.visits.append(Visit([serial], serial, 8, chance.choice([2, 4, 6, 8])))
         if kind == "two" and other != serial:
-            self.visits.append(Visit([serial, other], serial, 15))
-        self.visits.append(Visit([serial], serial + 1 if kind == "label" else serial))
+            self.visits.append(Visit([serial, other], serial, 8, 15))  # all have to be off
+        pause = chance.choice([0.3, 1, 2.5, 8])
+        self.visits.append(Visit([serial], serial + 1 if kind == "label" else serial, pause))
         if kind in ("twice", "dip"):
-            self.visits.append(Visit([serial], serial))
+            self.visits.append(Visit([serial], serial, 8))
 
     def scenario(self, seed):
         events = [{"at": 0, "servo": serial, "happens": "power_off"} for serial in self.servos]
@@ -89,10 +94,11 @@ class Line:
         for visit in self.visits:
             visit.begin = now
             for serial in visit.serials:
-                events.append({"at": f"{now}s", "servo": serial, "happens": "power_on"})
-                events.append({"at": f"{now + visit.seconds}s", "servo": serial,
+                events.append({"at": f"{now * 1000:.0f}ms", "servo": serial,
+                               "happens": "power_on"})
+                events.append({"at": f"{(now + visit.seconds) * 1000:.0f}ms", "servo": serial,
                                "happens": "power_off"})
-            now += visit.seconds + PAUSE_S
+            now += visit.seconds + visit.pause
         return {"schema": "blactl-scenario/1", "clock": "virtual", "seed": seed,
                 "servos": list(self.servos.values()), "events": events}
 
@@ -111,12 +117,12 @@ class Bench:
         assert "ready" in self.sim.stdout.readline()
         self.shown = []
 
-    def start(self, *more, labels=None):
+    def start(self, *more, labels=None, more_environment=None):
         return subprocess.Popen(
             [self.blactl, "-i", self.interface, "provision", self.folder / "recipe.json", "-y",
              "--json", "--station", self.name, "--idle-timeout", "120", *more], text=True,
             stdin=subprocess.PIPE if labels else subprocess.DEVNULL, stdout=subprocess.PIPE,
-            stderr=subprocess.DEVNULL)
+            stderr=subprocess.DEVNULL, env=os.environ | (more_environment or {}))
 
     def memory(self):
         """Serial number to RAM and ROM."""
@@ -170,6 +176,16 @@ def run_labelled(bench, line):
     station.wait()
 
 
+def run_full(bench, chance, times, calls, judge):
+    """The disk is full from some write on: what is shown is kept, and the run ends by itself."""
+    for _ in range(times):
+        station = bench.start(more_environment={"LD_PRELOAD": calls,
+                                                "FAKED_FULL": str(chance.randint(1, 120))})
+        bench.shown += records_in(station.communicate()[0])
+        judge.full += station.returncode == 1
+        judge.require(station.returncode >= 0, f"a full disk: {station.returncode}")
+
+
 def run_killed(bench, chance, kills):
     """Killed some times, and started anew."""
     for left in range(kills, -1, -1):
@@ -192,6 +208,7 @@ class Judge:
 
     def __init__(self):
         self.wrong = []
+        self.full = 0  # runs that ended by a full disk
 
     def require(self, holds, what):
         if not holds:
@@ -202,6 +219,9 @@ class Judge:
         for record in shown:
             self.require(known.get(record["record_id"]) == record,
                          f"shown, not in the ledger: {record}")
+        recorded = {record["serial_number"] for record in records}
+        for serial in memories:
+            self.require(serial in recorded, f"{serial} was there, and has no record")
         last = {}
         for record in records:
             if record["verdict"] in ("pass", "fail", "error"):
@@ -255,6 +275,7 @@ def main():
     parser.add_argument("--servos", type=int, default=BATCH, help="in batches of 40")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--kills", type=int, default=8, help="in each batch")
+    parser.add_argument("--calls")
     given = parser.parse_args()
     chance = random.Random(given.seed)
     with tempfile.TemporaryDirectory() as name:
@@ -279,6 +300,8 @@ def play_hours(given, chance, blactl, folder, hour, judge):
     record_id = chance.choice(before)["record_id"]
     status, told = ledger(blactl, benches[0], "--scrap", record_id, "--reason", "x", "-y")
     judge.require(status == 0, f"scrap: {status} {told}")
+    if given.calls:
+        run_full(benches[1], chance, 6, given.calls, judge)
     run_killed(benches[1], chance, given.kills)
     memories = {}
     for bench in benches:
@@ -305,6 +328,7 @@ def play(given, chance, folder):
     judge.compare(records, shown, memories)
     judge.check_ids(records, given_ids(folder))
     judge.check_numbers(records)
+    judge.require(judge.full or not given.calls, "no run met a full disk")
     for bench in benches:
         bench.stop()
     verdicts = collections.Counter((record["verdict"], record["code"]) for record in records)
@@ -312,7 +336,7 @@ def play(given, chance, folder):
         print(f"{count:6} {verdict} {code or ''}")
     dynamic = len({record["unique_id"] for record in records if record["node_id"] == 0})
     print(f"{len(records)} records of {len(memories)} servos, {dynamic} of which asked for a node ID;"
-          f" {len(judge.wrong)} do not agree")
+          f" {judge.full} runs ended by a full disk; {len(judge.wrong)} do not agree")
     return judge.wrong
 
 

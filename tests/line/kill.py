@@ -1,17 +1,19 @@
 #!/usr/bin/env python3
 """Kills a station with -9 after every single frame that it sends, and starts it anew.
 
-  kill.py BLACTL [--first N] [--step N]
+  kill.py BLACTL [--first N] [--step N] [--calls FILE]
 
 Three servos come one after the other, two of them without a node ID. A go-between passes frame
 after frame on, and kills the station right after the Nth has been taken: N goes from the first frame to
-the last. The next run ends by itself. Then every servo has passed and holds what it shall, with an
+the last. With --calls (what is built from calls.cpp) it dies before, and in another run after, the
+Nth call that orders a database on the disk instead. The next run ends by itself. Then every servo has passed and holds what it shall, with an
 ID of its own; what was shown is in the ledger, each unit has one pass there; nothing is open or
 missing.
 """
 
 import argparse
 import json
+import os
 import pathlib
 import signal
 import sys
@@ -75,18 +77,30 @@ def check_ledger(blactl, folder, shown):
     return {record["serial_number"]: record for record in records if record["verdict"] == "pass"}
 
 
-def run(blactl, frames):
-    """One kill; None: the station had ended before so many frames. Else whether something had
-    begun."""
+def killed_after_frame(blactl, folder, words, frames):
+    passing = between.GoBetween(folder, frames)
+    return passing.run(bench.start(blactl, folder, f"sim:{passing.interface}", words))
+
+
+def killed_at_call(blactl, folder, words, when, calls):
+    os.environ.update({"LD_PRELOAD": calls, "FAKED_KILL": when})
+    try:
+        process = bench.start(blactl, folder, static_cut.INTERFACE, words)
+    finally:
+        del os.environ["LD_PRELOAD"], os.environ["FAKED_KILL"]
+    out, err = process.communicate(timeout=bench.PATIENCE_S)
+    return process.returncode, out, err
+
+
+def run(blactl, killed):
+    """One kill; None: the station had ended before. Else whether something had begun."""
     with tempfile.TemporaryDirectory(prefix="blactl-line-") as folder:
         path = pathlib.Path(folder, "recipe.json")
         path.write_text(json.dumps(RECIPE), encoding="utf-8")
         words = ["--json", "--yes", "provision", str(path), "--idle-timeout", "90"]
         simulator = bench.Simulator(blactl, folder, scenario())
         try:
-            passing = between.GoBetween(folder, frames)
-            status, out, err = passing.run(
-                bench.start(blactl, folder, f"sim:{passing.interface}", words))
+            status, out, err = killed(blactl, folder, words)
             if status == 0:
                 return None
             assert status == -signal.SIGKILL, f"the first run: {status}\n{out}{err}"
@@ -106,25 +120,36 @@ def run(blactl, frames):
             simulator.end()
 
 
+def kills(number, calls):
+    """What happens at this place: words for it, and how."""
+    if not calls:
+        return {f"after frame {number}":
+                lambda *given: killed_after_frame(*given, number)}
+    return {when: lambda *given, when=when: killed_at_call(*given, when, calls)
+            for when in (f"before {number}", f"after {number}")}
+
+
 def main():
     parser = argparse.ArgumentParser(usage=__doc__)
     parser.add_argument("blactl")
     parser.add_argument("--first", type=int, default=1)
     parser.add_argument("--step", type=int, default=1)
+    parser.add_argument("--calls")
     given = parser.parse_args()
     blactl = str(pathlib.Path(given.blactl).resolve())
-    kills, begun, failed, frames = 0, 0, 0, given.first
-    while True:
-        try:
-            done = run(blactl, frames)
-        except AssertionError as fault:
-            failed += 1
-            print(f"after frame {frames}: {fault}", flush=True)
-            done = False
-        if done is None:
-            break
-        kills, begun, frames = kills + 1, begun + done, frames + given.step
-    print(f"{kills} kills, {begun} of them in work that was begun: {failed} did not end as wished")
+    count, begun, failed, number, has_ended = 0, 0, 0, given.first, False
+    while not has_ended:
+        for when, killed in kills(number, given.calls).items():
+            try:
+                done = run(blactl, killed)
+            except AssertionError as fault:
+                failed += 1
+                print(f"{when}: {fault}", flush=True)
+                done = False
+            has_ended = has_ended or done is None
+            count, begun = count + (done is not None), begun + bool(done)
+        number += given.step
+    print(f"{count} kills, {begun} of them in work that was begun: {failed} did not end as wished")
     return 1 if failed or not begun else 0
 
 

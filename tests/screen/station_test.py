@@ -36,9 +36,23 @@ def verdicts(blactl):
             lines = terminal.shows("pass 1")
             require("station A" in lines[0] and "aileron" in lines[0], "the title", lines)
             require("first pass 100.0%" in lines[1], "the totals", lines)
-            require("外して下さい" in lines[-1], "no Japanese", lines)
+            require("外して下さい" in "".join(lines[2:7]), "what goes is told at the top", lines)
             terminal.type("C-c")
             terminal.shows_no_more("TAKE IT OFF")
+            lines = terminal.shows("pass 1 fail 0 error 0 skip 0 first pass")  # they stay
+            require("recipe aileron" not in "".join(lines), "the screen is still there", lines)
+
+
+def places(blactl):
+    """What has to come is told at the bottom, above the notes."""
+    for width, height in ((80, 24), (53, 16)):
+        with Terminal(blactl, [], width, height) as terminal:
+            provision(terminal, "--station", "A")
+            lines = terminal.shows("CONNECT A SERVO")
+            require("CONNECT A SERVO" in "".join(lines[-6:]), "the place", lines)
+            require("接続して下さい" in "".join(lines[-6:]), "no Japanese", lines)
+            terminal.type("C-c")
+            terminal.shows_no_more("CONNECT A SERVO")
 
 
 def labels(blactl):
@@ -65,7 +79,7 @@ def main():
     if not shutil.which("tmux"):
         print("skipped: tmux is missing")
         return 77
-    for test in (verdicts, labels):
+    for test in (verdicts, places, labels):
         test(sys.argv[1])
         print(f"{test.__name__}: ok", flush=True)
     return 0

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -66,6 +67,14 @@ class CounterStore {
                                                          const std::string& recipe,
                                                          std::span<const IdWish> wishes,
                                                          WallTime now);
+
+  /// The units that have an ID of this parameter by this recipe.
+  [[nodiscard]] Result<std::set<dronecan::UniqueId>> units(const std::string& recipe,
+                                                           const std::string& parameter) const;
+
+  /// Copies the whole table, of one moment, into a new file. Further errors: io: it cannot be
+  /// written, or is there already; state: there is nothing to copy.
+  [[nodiscard]] Result<void> back_up(const std::string& file) const;
 
   /// Frees what this unit has by this recipe: it is given to others, and the unit counts as new.
   [[nodiscard]] Result<void> free(const dronecan::UniqueId& unique_id, const std::string& recipe);

@@ -96,8 +96,8 @@ constexpr Option ledger_options[]{
     {.name = "--backup",
      .value = "FILE",
      .kind = Kind::file,
-     .help = {"copy the ledger into a new file, also while stations work",
-              "製造記録を新しいファイルにコピー (ステーション動作中も可)"},
+     .help = {"copy the ledger into a new file, and the IDs that were given into FILE.counters",
+              "製造記録を新しいファイルに、採番表を FILE.counters にコピー"},
      .store = into<&LedgerOptions::backup>},
 };
 
@@ -266,16 +266,27 @@ Report scrap(const LedgerOptions& options, LedgerStore& store, Context& context)
   return report;
 }
 
+/// The IDs that were given belong to the records, and are copied second: a unit whose record is
+/// copied has its IDs in the copy.
 Report back_up(const LedgerOptions& options, const LedgerStore& store, const Context& context) {
-  std::error_code error;
-  if (options.backup == "-" || std::filesystem::exists(options.backup, error)) {
-    return failed({Code::usage, say<texts::ledger_copy_exists>(printable(options.backup)),
-                   say<texts::ledger_copy_exists_hint>(), std::nullopt});
+  const std::string ids = options.backup + ".counters";
+  for (const std::string& file : {options.backup, ids}) {
+    std::error_code error;
+    if (options.backup == "-" || std::filesystem::exists(file, error)) {
+      return failed({Code::usage, say<texts::ledger_copy_exists>(printable(file)),
+                     say<texts::ledger_copy_exists_hint>(), std::nullopt});
+    }
   }
-  if (const auto copied = store.back_up(options.backup); !copied) {
+  const auto counters = open_counters(context.shared().interface, state::Access::read);
+  auto copied =
+      counters ? store.back_up(options.backup) : Result<void>(std::unexpected(counters.error()));
+  if (copied) {
+    copied = counters->back_up(ids);
+  }
+  if (!copied) {
     return failed(copied.error());
   }
-  context.reporter().note(say<texts::ledger_copied>(printable(options.backup)));
+  context.reporter().note(say<texts::ledger_copied>(printable(options.backup), printable(ids)));
   return {};
 }
 

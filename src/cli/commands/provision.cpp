@@ -109,6 +109,10 @@ void check(const ProvisionOptions& options, const Shared& shared, Report& report
     report.fail({Code::usage, say<texts::provision_takes_all>(option),
                  say<texts::provision_takes_all_hint>(), std::nullopt});
   }
+  if (shared.overwrite_rom) {
+    report.fail({Code::usage, say<texts::provision_never_overwrites>(),
+                 say<texts::provision_takes_all_hint>(), std::nullopt});
+  }
   if (!options.logs.empty() && shared.record) {
     report.fail({Code::usage, say<texts::provision_logs_alone>(),
                  say<texts::provision_logs_alone_hint>(), std::nullopt});

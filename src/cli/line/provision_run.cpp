@@ -1,7 +1,9 @@
 #include "cli/line/provision_run.hpp"
 
 #include "blactl/base/json_writer.hpp"
+#include "blactl/fleet/bus/texts.hpp"
 #include "blactl/fleet/bus/ticker.hpp"
+#include "blactl/fleet/line/counter_check.hpp"
 #include "blactl/fleet/line/line_record.hpp"
 
 #include "cli/alloc/options.hpp"
@@ -26,8 +28,23 @@ using state::LedgerRecord;
 
 namespace {
 
+/// In the end errors of many units stand one below the other.
+Error about_unit(const LedgerRecord& record, Error error) {
+  if (record.serial_number) {
+    error.message = say<texts::line_unit>(*record.serial_number, error.message);
+  } else if (error.node_id) {
+    error.message = say<texts::about_node>(*error.node_id, error.message);
+  }
+  return error;
+}
+
 /// For the bus to recover before it is tried again.
 constexpr Duration pause = std::chrono::seconds(1);
+
+/// Trouble of the bus that passes.
+bool is_of_bus(Code code) {
+  return code == Code::bus_off || code == Code::no_acknowledge || code == Code::interface;
+}
 
 /// That the times of records may be wrong; empty: the clock is synchronised.
 std::optional<std::string> clock_remark() {
@@ -80,7 +97,9 @@ void ProvisionRun::run() {
     stop(counters.error());
     return;
   }
-  if (begin()) {
+  if (const auto known = fleet::check_counters(*ledger, *counters, recipe_); !known) {
+    stop(known.error());
+  } else if (begin()) {
     serve(*ledger, *counters);
   }
   if (events_ && events_->error()) {
@@ -101,10 +120,12 @@ bool ProvisionRun::begin() {
   if (const auto opened = logs_.open(); !opened) {
     return stop(opened.error());
   }
+  context_.wait_for_return();
   if (!open("provision", Recording::if_possible)) {
     return false;
   }
   context_.session().wait_alone();
+  context_.session().break_off_when_away();
   return confirm(say<texts::provision_question>(printable(recipe_.model),
                                                 recipe_.set.size() + recipe_.counters.size()));
 }
@@ -134,6 +155,9 @@ void ProvisionRun::serve(state::LedgerStore& ledger, state::CounterStore& counte
   context_.session().on_input(-1, {});
   context_.session().on_resize({});
   view_.reset();
+  if (context_.reporter().format() == Format::text) {
+    context_.reporter().note(text_of(totals_));
+  }
 }
 
 /// What is begun in the ledger is its own; that of a private simulation is nobody else's.
@@ -164,7 +188,8 @@ bool ProvisionRun::open_events() {
 }
 
 /// "waiting", "pass": for a lamp or a controller.
-void ProvisionRun::tell_event(std::string_view event, const LedgerRecord* record) const {
+void ProvisionRun::tell_event(std::string_view event, const LedgerRecord* record,
+                              const std::string& message) const {
   if (!events_) {
     return;
   }
@@ -179,6 +204,7 @@ void ProvisionRun::tell_event(std::string_view event, const LedgerRecord* record
   json.member("code", told.code);
   json.member("serial_number", told.serial_number);
   json.member("record_id", told.record_id);
+  json.member("message", message.empty() ? std::optional<std::string>() : std::optional(message));
   json.end_object();
   events_->tell(std::move(line));
 }
@@ -199,35 +225,10 @@ void ProvisionRun::open_screen() {
   context_.session().on_resize([this] { view_->draw(); });
 }
 
-/// Keys belong to the screen; without labels they mean nothing.
-void ProvisionRun::open_labels() {
-  const bool has_keys = view_ && Screen::input() >= 0;
-  if (!options_.label.empty()) {
-    lines_.emplace(context_.session(),
-                   has_keys ? LabelLines::Source::keys : LabelLines::Source::stdin_itself);
-  }
-  if (has_keys) {
-    context_.session().on_input(Screen::input(), [this] {
-      const std::string typed = view_->typed();
-      if (lines_) {
-        lines_->type(typed);
-        show_label();
-      }
-    });
-  }
-}
-
-/// The one that counts, else what was typed so far.
-void ProvisionRun::show_label() {
-  if (view_ && lines_) {
-    view_->show_label(label_ ? label_->text : std::string(lines_->unfinished()));
-  }
-}
-
 /// Whether the run goes on.
 bool ProvisionRun::next(Station& station) {
-  if (lines_ && !label_ && !wait_for_label()) {
-    return false;
+  if (lines_ && !label_) {
+    return wait_for_label(station);
   }
   const auto arrival = station.wait_for_servo(idle_deadline());
   if (!arrival) {
@@ -240,51 +241,13 @@ bool ProvisionRun::next(Station& station) {
   return work_on(station, **arrival) && (is_complete() || take_off(station));
 }
 
-/// A line that is no label is told, and the next one is waited for.
-bool ProvisionRun::wait_for_label() {
-  view_ ? view_->wait_for_label()
-        : context_.reporter().progress(say<texts::provision_label_waits>());
-  while (!label_) {
-    const auto line = lines_->next();
-    if (!line && lines_->has_ended()) {
-      if (options_.count) {
-        stop({Code::not_found, say<texts::provision_labels_end>(counted_, *options_.count),
-              say<texts::provision_labels_end_hint>(), std::nullopt});
-      }
-      return false;
-    }
-    if (line) {
-      auto label = fleet::parse_label(*line, lines_->number(), context_.known());
-      if (label) {
-        label_ = std::move(*label);
-        show_label();
-      } else {
-        context_.reporter().error(label.error());
-        view_ ? view_->wait_for_label() : void();
-      }
-      continue;
-    }
-    const auto lived =
-        context_.session().live_until(idle_deadline(), [this] { return lines_->is_ready(); });
-    if (!lived) {
-      context_.ended(lived.error(), report_);
-      return false;
-    }
-    if (!*lived) {
-      end_by_idling();
-      return false;
-    }
-  }
-  return true;
-}
-
 bool ProvisionRun::work_on(Station& station, const Station::Arrival& arrival) {
   const auto record = station.work_on(arrival, label_ ? &*label_ : nullptr);
   if (!record) { // what is not recorded is no result
     return stop(record.error());
   }
   const auto& reason = station.reason();
-  tell_event(*record->verdict, &*record);
+  tell_event(*record->verdict, &*record, reason ? reason->message : std::string());
   logs_.keep(*record);
   const bool is_printed = print(*record, reason);
   account(*record, reason);
@@ -296,6 +259,9 @@ bool ProvisionRun::work_on(Station& station, const Station::Arrival& arrival) {
     report_.signal = context_.signal();
     return false;
   }
+  if (reason && is_of_bus(reason->code) && !goes_on_after(*reason)) {
+    return false;
+  }
   const bool is_at_end = reason && reason->code == Code::counter_end;
   if (options_.stop_after && failed_in_row_ >= *options_.stop_after) {
     context_.reporter().note(say<texts::provision_stopped>(failed_in_row_));
@@ -305,14 +271,18 @@ bool ProvisionRun::work_on(Station& station, const Station::Arrival& arrival) {
 }
 
 bool ProvisionRun::take_off(Station& station) {
-  const auto off = station.wait_until_off(idle_deadline());
-  if (!off) {
-    return goes_on_after(off.error());
+  for (;;) {
+    const auto left = station.wait_until_off(idle_deadline());
+    if (left && *left != Station::Leaving::late) {
+      return true;
+    }
+    if (left) {
+      end_by_idling();
+    }
+    if (left || !goes_on_after(left.error())) {
+      return false;
+    }
   }
-  if (!*off) {
-    end_by_idling();
-  }
-  return *off;
 }
 
 bool ProvisionRun::print(const LedgerRecord& record, const std::optional<Error>& reason) {
@@ -339,7 +309,7 @@ void ProvisionRun::account(const LedgerRecord& record, const std::optional<Error
     failed_in_row_ = 0;
   }
   if (reason) {
-    report_.fail_target(*reason);
+    report_.fail_target(about_unit(record, *reason));
   } else {
     report_.targets.emplace_back();
   }
@@ -349,17 +319,24 @@ bool ProvisionRun::is_complete() const {
   return options_.count && counted_ >= *options_.count;
 }
 
-/// The line survives trouble of the bus; a signal ends it.
+/// The line survives trouble of the bus; a signal ends it, and an interface that never comes back.
 bool ProvisionRun::goes_on_after(const Error& error) {
-  const bool passes = error.code == Code::bus_off || error.code == Code::no_acknowledge;
-  if (!passes || context_.signal() != 0) {
+  fleet::Session& session = context_.session();
+  const bool is_lost = error.code == Code::interface && !session.away();
+  if (!is_of_bus(error.code) || is_lost || context_.signal() != 0) {
     context_.ended(error, report_);
     return false;
   }
-  context_.reporter().note(say<texts::provision_trouble>(error.message));
-  [[maybe_unused]] const auto lived =
-      context_.session().live_until(context_.session().now() + pause);
-  return true;
+  context_.reporter().note(session.away() ? say<texts::provision_adapter>(error.message)
+                                          : say<texts::provision_trouble>(error.message));
+  tell_event("no_bus", nullptr);
+  if (view_) {
+    view_->lose_bus(session.away().has_value());
+  }
+  const auto lived = session.away()
+                         ? session.live_until(never, [&] { return !session.away(); })
+                         : session.live_until(session.now() + pause, [] { return false; });
+  return lived || goes_on_after(lived.error());
 }
 
 Time ProvisionRun::idle_deadline() const {

@@ -55,7 +55,9 @@ class ProvisionRun : private WritingRun {
   [[nodiscard]] bool begin();
   void serve(state::LedgerStore& ledger, state::CounterStore& counters);
   [[nodiscard]] bool next(fleet::Station& station);
-  [[nodiscard]] bool wait_for_label();
+  void ask_for_label();
+  [[nodiscard]] bool wait_for_line(const fleet::Station& station, bool& is_recognised);
+  [[nodiscard]] bool wait_for_label(const fleet::Station& station);
   [[nodiscard]] bool work_on(fleet::Station& station, const fleet::Station::Arrival& arrival);
   [[nodiscard]] bool take_off(fleet::Station& station);
   [[nodiscard]] bool print(const state::LedgerRecord& record, const std::optional<Error>& reason);
@@ -69,7 +71,8 @@ class ProvisionRun : private WritingRun {
   void open_screen();
   void open_labels();
   void tell(fleet::StationStage stage);
-  void tell_event(std::string_view event, const state::LedgerRecord* record) const;
+  void tell_event(std::string_view event, const state::LedgerRecord* record,
+                  const std::string& message = {}) const;
   [[nodiscard]] Time idle_deadline() const;
   void end_by_idling();
 

@@ -1,6 +1,8 @@
 #pragma once
-// The screen of a station, to be read from two metres: the verdict fills it, by colour, symbol,
-// word and sound; what to do now is one line in both languages (contract, section 6).
+// The screen of a station, to be read from two metres, also by who reads neither language: the
+// verdict by colour, symbol, word and sound; what to do now by colour, symbol and place. Up and at
+// the top: something has to go; down and at the bottom: something has to come (contract, section
+// 6).
 
 #include "blactl/base/error.hpp"
 #include "blactl/fleet/line/station.hpp"
@@ -30,8 +32,19 @@ struct LineTotals {
   [[nodiscard]] std::optional<double> first_pass_yield() const;
 };
 
+/// "pass 3 fail 0 error 1 skip 0 first pass 100.0%"
+[[nodiscard]] std::string text_of(const LineTotals& totals);
+
 /// What the operator shall do.
-enum class LineDeed : std::uint8_t { connect, scan, leave, hands_off, take_off };
+enum class LineDeed : std::uint8_t {
+  connect,
+  scan,
+  leave,
+  hands_off,
+  take_off,
+  plug_in, ///< the adapter
+  mend,    ///< the bus
+};
 
 struct StationPicture {
   std::string title{};
@@ -58,6 +71,10 @@ class StationView {
   void enter(fleet::StationStage stage);
   void wait_for_label();
   void show_label(std::string label);
+
+  /// The bus is not there: its adapter is away, or something else.
+  void lose_bus(bool is_away);
+
   void take(const state::LedgerRecord& record, const std::optional<Error>& reason);
 
   /// Rings what is still to be rung; called some times a second.

@@ -43,6 +43,9 @@ inline constexpr Text provision_labels_end_hint{"give a line for each servo",
 inline constexpr Text provision_stopped{"{} servos failed one after the other (--stop-after)",
                                         "{} 台が連続して不合格になりました (--stop-after)"};
 inline constexpr Text provision_trouble{"{}: trying again", "{}: 再試行します"};
+inline constexpr Text provision_adapter{"{}: connect the adapter again",
+                                        "{}: アダプターを接続し直して下さい"};
+inline constexpr Text line_unit{"serial number {}: {}", "製造番号 {}: {}"};
 inline constexpr Text provision_clock{"the clock of this machine is not synchronised",
                                       "時計が同期されていません"};
 
@@ -53,6 +56,9 @@ inline constexpr Text provision_no_logs_hint{"give a folder that can be written:
 inline constexpr Text provision_takes_all{
     "provision takes whatever servo comes, as its recipe says: {} has no meaning",
     "provision は接続されたサーボをレシピに従って処理します ({} は指定できません)"};
+inline constexpr Text provision_never_overwrites{
+    "provision never saves to a servo that could not read its ROM: --overwrite-rom has no meaning",
+    "provision は ROM を読み出せないサーボには保存しません (--overwrite-rom は指定できません)"};
 inline constexpr Text provision_takes_all_hint{"leave it out", "外して下さい"};
 inline constexpr Text ledger_copy_exists{"{} is there already", "{} は既に存在します"};
 inline constexpr Text ledger_copy_exists_hint{"give a new name", "別の名前を指定して下さい"};
@@ -66,6 +72,9 @@ inline constexpr Text station_totals{"pass {} fail {} error {} skip {}",
 inline constexpr Text station_yield{"first pass {}%", "直行率 {}%"};
 inline constexpr Text deed_connect{"CONNECT A SERVO", "サーボを接続して下さい"};
 inline constexpr Text deed_connect_again{"CONNECT IT AGAIN", "もう一度接続して下さい"};
+inline constexpr Text deed_connect_one{"CONNECT ONE SERVO", "1 台だけ接続して下さい"};
+inline constexpr Text deed_plug_in{"PLUG IN THE ADAPTER", "アダプターを接続して下さい"};
+inline constexpr Text deed_mend{"CHECK THE CABLE", "ケーブルと電源を確認して下さい"};
 inline constexpr Text deed_scan{"SCAN A LABEL", "ラベルを読み取って下さい"};
 inline constexpr Text deed_leave{"WAIT", "そのままお待ち下さい"};
 inline constexpr Text deed_hands_off{"DO NOT TAKE IT OFF", "外さないで下さい"};
@@ -84,7 +93,8 @@ inline constexpr Text ledger_scrap_reason{"--scrap needs a reason for the record
 inline constexpr Text ledger_scrap_question{
     "the servo {} is taken out, and its IDs by the recipe {} are given to the next one.\n",
     "サーボ {} を廃棄扱いとし、レシピ {} の ID を次のサーボに割り当てます。\n"};
-inline constexpr Text ledger_copied{"the ledger is in {} now", "製造記録を {} に保存しました"};
+inline constexpr Text ledger_copied{"the ledger is in {} now, the IDs that were given in {}",
+                                    "製造記録を {} に、採番表を {} に保存しました"};
 inline constexpr Text ledger_whole{"the ledger is complete\n", "製造記録に欠落はありません\n"};
 inline constexpr Text ledger_hole{"station {}: the records {} to {} are missing\n",
                                   "ステーション {}: 記録 {}～{} がありません\n"};

@@ -17,7 +17,7 @@
 namespace blactl::cli {
 namespace {
 
-constexpr short good_colour = 1, warning_colour = 2, bad_colour = 3;
+constexpr short good_colour = 1, warning_colour = 2, bad_colour = 3, in_colour = 4, out_colour = 5;
 
 bool shows_colour = false;
 
@@ -38,6 +38,8 @@ attr_t attributes(Look look) {
   case Look::good_block: return A_REVERSE | colour_or(good_colour, A_NORMAL);
   case Look::warning_block: return A_REVERSE | colour_or(warning_colour, A_NORMAL);
   case Look::bad_block: return A_REVERSE | colour_or(bad_colour, A_NORMAL);
+  case Look::in_block: return A_REVERSE | colour_or(in_colour, A_NORMAL);
+  case Look::out_block: return A_REVERSE | colour_or(out_colour, A_NORMAL);
   case Look::bad: break;
   }
   return A_BOLD | colour_or(bad_colour, A_UNDERLINE);
@@ -123,6 +125,8 @@ Screen::Screen(bool colour) {
     init_pair(good_colour, COLOR_GREEN, -1);
     init_pair(warning_colour, COLOR_YELLOW, -1);
     init_pair(bad_colour, COLOR_RED, -1);
+    init_pair(in_colour, COLOR_CYAN, -1);
+    init_pair(out_colour, COLOR_MAGENTA, -1);
   }
 }
 

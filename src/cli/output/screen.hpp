@@ -27,7 +27,9 @@ enum class Look : std::uint8_t {
   block,
   good_block,
   warning_block,
-  bad_block
+  bad_block,
+  in_block, ///< something has to come
+  out_block ///< something has to go
 };
 
 struct Piece {

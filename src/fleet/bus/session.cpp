@@ -161,6 +161,9 @@ Result<Session::Happened> Session::take(const can::Event& event) {
     return end(gone->error);
   } else if (const auto* away = std::get_if<can::Away>(&event)) {
     take_presence(away->error);
+    if (breaks_off_when_away_) {
+      return end(away->error);
+    }
   } else if (std::holds_alternative<can::Back>(event)) {
     take_presence(std::nullopt);
   } else if (const auto* caught = std::get_if<can::Signal>(&event)) {

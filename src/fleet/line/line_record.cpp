@@ -77,6 +77,11 @@ std::string_view verdict_of(Code code) {
   }
 }
 
+bool is_done_again(Code code) {
+  return code == Code::not_back || code == Code::interface || code == Code::bus_off ||
+         code == Code::no_acknowledge;
+}
+
 LedgerRecord begun_record(const LedgerRecord& common, WallTime now) {
   LedgerRecord record = common;
   record.record_id = new_record_id();
@@ -132,6 +137,9 @@ void end(LedgerRecord& record, std::string_view verdict, const std::optional<Err
   record.verdict = std::string(verdict);
   record.code = error ? std::optional(std::string(name(error->code))) : std::nullopt;
   record.time = rfc3339(now);
+  if (error && !error->message.empty() && !record.reason) {
+    record.reason = error->message;
+  }
 }
 
 std::string digest(const Snapshot& held) {

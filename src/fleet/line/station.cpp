@@ -1,15 +1,14 @@
 #include "blactl/fleet/line/station.hpp"
 
 #include "blactl/base/hex.hpp"
-#include "blactl/fleet/bus/discovery.hpp"
 #include "blactl/fleet/bus/read_job.hpp"
 #include "blactl/fleet/bus/unreachable.hpp"
 #include "blactl/fleet/change/change.hpp"
-#include "blactl/fleet/change/let_in.hpp"
 #include "blactl/fleet/line/line_record.hpp"
 
 #include "fleet/line/acceptance.hpp"
 #include "fleet/line/acceptance_texts.hpp"
+#include "fleet/line/presence.hpp"
 #include "fleet/line/station_texts.hpp"
 
 #include <algorithm>
@@ -27,21 +26,6 @@ using state::LedgerRecord;
 
 namespace {
 
-using namespace std::chrono_literals;
-
-/// After a silence of this length a servo has left: it sends actuator.Status ten times a second.
-constexpr Duration away_time = 500ms;
-
-/// For an operator to take a servo off, and for the next one not to pass for it.
-constexpr Duration off_time = 3s;
-
-/// How often a silent bus is looked at.
-constexpr Duration look_period = 100ms;
-
-bool may_be_bla_servo(const Member& member) {
-  return member.is_servo || (member.sends_actuator_status() && !member.is_foreign());
-}
-
 /// Settings, and what a record tells beside them.
 std::vector<const bla::Parameter*> registers_of_record(const Servo& servo) {
   auto registers = servo.identity.configuration();
@@ -51,6 +35,14 @@ std::vector<const bla::Parameter*> registers_of_record(const Servo& servo) {
                             at::production_hour,     at::production_minute};
   std::ranges::copy(servo.identity.registers(more), std::back_inserter(registers));
   return registers;
+}
+
+/// Nobody restarts a servo at a station by a command.
+Error at_station(Error error) {
+  if (error.code == Code::rom_unread && error.node_id) {
+    error.hint = say<texts::station_rom_unread_hint>(*error.node_id);
+  }
+  return error;
 }
 
 /// The first setting that was read as something else.
@@ -101,84 +93,6 @@ Result<std::vector<LedgerRecord>> Station::end_interrupted() {
     record.station_seq = *number;
   }
   return begun;
-}
-
-std::vector<NodeId> Station::servos_there() const {
-  std::vector<NodeId> ids;
-  for (const auto& [id, member] : session_.roster().members()) {
-    if (may_be_bla_servo(member) && member.last_heard > session_.now() - away_time) {
-      ids.push_back(id);
-    }
-  }
-  return ids;
-}
-
-/// Whether a unit asks for a node ID now: one that has left has asked before.
-bool Station::is_asked() const {
-  return std::ranges::any_of(session_.roster().requests(), [this](const auto& request) {
-    const Asking& asking = request.second;
-    return asking.last > asking.given && asking.last > session_.now() - request_period;
-  });
-}
-
-bool Station::is_servo_there() const {
-  return is_asked() || !servos_there().empty();
-}
-
-/// Bench IDs are borrowed: no table keeps them.
-Result<void> Station::let_in() {
-  auto bench = state::AllocationStore::unshared();
-  if (!bench) {
-    return std::unexpected(bench.error());
-  }
-  state::NodeIds others;
-  for (std::uint8_t id = 1; id <= NodeId::max; ++id) {
-    others.set(id, NodeId(id) < options_.first_bench_id || NodeId(id) > options_.last_bench_id);
-  }
-  const auto asked = fleet::let_in(session_, *bench, std::nullopt, others);
-  return asked ? Result<void>() : std::unexpected(asked.error());
-}
-
-Result<std::optional<Station::Arrival>> Station::wait_for_servo(Time deadline) {
-  entered_(StationStage::waiting);
-  for (;;) {
-    const auto came = session_.live_until(deadline, [this] { return is_servo_there(); });
-    if (!came || !*came) {
-      return came ? Result<std::optional<Arrival>>() : std::unexpected(came.error());
-    }
-    // an allocator that was killed, perhaps the last run of this station, answers nobody
-    session_.records().forget_gone(session_.now() - off_time);
-    entered_(StationStage::recognised);
-    Arrival arrival{.has_asked = is_asked(), .at = session_.now(), .wall = session_.wall()};
-    Discovery discovery(session_, profiles_, options_.manner.identification);
-    const auto heard = discovery.find_all(bus_watch_time);
-    const auto let = heard && is_asked() ? let_in() : heard;
-    const auto found = let ? discovery.find_all(bus_watch_time) : let;
-    if (!found) {
-      return std::unexpected(found.error());
-    }
-    arrival.ids = servos_there();
-    if (!arrival.ids.empty()) {
-      return arrival;
-    }
-    entered_(StationStage::waiting);
-  }
-}
-
-Result<bool> Station::wait_until_off(Time deadline) {
-  entered_(StationStage::take_off);
-  Time last = session_.now();
-  while (session_.now() - last < off_time) {
-    if (session_.now() >= deadline) {
-      return false;
-    }
-    if (const auto lived = session_.live_until(session_.now() + look_period); !lived) {
-      return std::unexpected(lived.error());
-    }
-    last = is_servo_there() ? session_.now() : last;
-  }
-  session_.records().forget_gone(session_.now() - off_time);
-  return true;
 }
 
 /// What the ledger says of a unit, by this recipe.
@@ -250,9 +164,6 @@ Error Station::unless_away(Error error, NodeId id) const {
 
 Result<LedgerRecord> Station::work_on(const Arrival& arrival, const Label* label) {
   LedgerRecord record = begun_record(options_.common, arrival.wall);
-  if (!record.reason && options_.remark) {
-    record.reason = options_.remark();
-  }
   record.node_id = arrival.has_asked ? 0 : arrival.ids.front().value();
   if (label != nullptr) {
     enter(record, *label);
@@ -324,12 +235,12 @@ std::optional<Error> Station::configure(const Servo& servo, std::vector<bla::Ass
                   .wanted = {.assignments = settings, .restart = RestartKind::save},
                   .evidence = Evidence::restart};
   auto errors = change.prepare({goal});
-  if (errors.empty() && change.overwrites_rom() && !options_.manner.overwrite_rom) {
-    return Error{Code::rom_unread, say<texts::station_rom_unread>(), say<texts::unit_aside_hint>(),
-                 servo.id.value()};
+  if (errors.empty() && change.overwrites_rom()) {
+    return Error{Code::rom_unread, say<texts::station_rom_unread>(),
+                 say<texts::station_rom_unread_hint>(servo.id.value()), servo.id.value()};
   }
   if (!errors.empty()) {
-    return unless_away(std::move(errors.front()), servo.id);
+    return at_station(unless_away(std::move(errors.front()), servo.id));
   }
   if (const auto begun = ledger_.begin(record); !begun) {
     return begun.error();
@@ -341,6 +252,11 @@ std::optional<Error> Station::configure(const Servo& servo, std::vector<bla::Ass
   const NodeId id = result.change.node_id_after.value_or(servo.id);
   if (!errors.empty() || !result.is_done) {
     const auto& all = errors.empty() ? result.errors : errors;
+    if (result.change.is_rom_unread && !all.empty()) {
+      Error unread = all.front();
+      unread.hint = say<texts::station_rom_unread_hint>(id.value());
+      return unread;
+    }
     return unless_away(all.empty()
                            ? Error{Code::state, say<texts::station_unproven>(), {}, id.value()}
                            : all.front(),
@@ -370,12 +286,16 @@ std::optional<Error> Station::prove(const Servo& servo, NodeId id,
   enter(record, held, profiles_);
   auto wrong = first_wrong(held, settings, record);
   wrong = wrong ? std::move(wrong) : check_rom(held);
-  return wrong ? std::move(wrong) : check_faults(held.values(), profiles_, id);
+  return wrong ? at_station(std::move(*wrong)) : check_faults(held.values(), profiles_, id);
 }
 
 Result<LedgerRecord> Station::commit(LedgerRecord record, Time began, std::string_view verdict,
                                      std::optional<Error> reason) {
   end(record, verdict, reason, session_.wall());
+  const bool is_given = options_.common.reason.has_value();
+  if (const auto remark = !is_given && options_.remark ? options_.remark() : std::nullopt) {
+    record.reason = record.reason ? *record.reason + "; " + *remark : *remark;
+  }
   record.duration_s = std::chrono::duration<double>(session_.now() - began).count();
   const auto number = ledger_.end(record);
   if (!number) {
@@ -383,6 +303,7 @@ Result<LedgerRecord> Station::commit(LedgerRecord record, Time began, std::strin
   }
   record.station_seq = *number;
   reason_ = std::move(reason);
+  remember(record);
   entered_(StationStage::ended);
   return record;
 }

@@ -25,6 +25,24 @@ inline constexpr Text station_attempts{"this unit has failed {} times",
                                        "この個体は {} 回不合格になりました"};
 inline constexpr Text station_rom_unread{"the servo could not read its ROM at this start either",
                                          "再起動後も ROM を読み出せません"};
+inline constexpr Text station_rom_unread_hint{
+    "take it off and connect it again: its next start may read it; else put it aside, and write "
+    "its "
+    "ROM anew away from the line: blactl erase -n {} --save",
+    "一度取り外して接続し直すと読み出せる場合があります。読み出せなければラインから外し、ライン外で"
+    " "
+    "ROM を書き直して下さい: blactl erase -n {} --save"};
+inline constexpr Text counters_behind{
+    "the table of assigned IDs does not know {} servos that have passed by the recipe {} (the "
+    "first: "
+    "unique ID {}): their IDs would be given twice",
+    "レシピ {1} で合格した {0} 台のサーボ (先頭: 固有 ID {2}) が採番表にありません。"
+    "同じ ID を重複して割り当てる恐れがあります"};
+inline constexpr Text counters_behind_hint{
+    "put back the backup of the table (blactl ledger --backup), or give the recipe a new name, and "
+    "counters that begin after the IDs in `blactl ledger`",
+    "採番表のバックアップ (blactl ledger --backup) を戻すか、レシピの名前を変え、`blactl ledger` に"
+    "ある ID の次からカウンターを始めて下さい"};
 inline constexpr Text station_unproven{"it is not proven what the servo holds now",
                                        "サーボの現在の設定を確認できませんでした"};
 

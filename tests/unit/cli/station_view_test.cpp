@@ -76,12 +76,49 @@ TEST_CASE("the verdict fills the screen, whatever its size, and what to do is in
     for (const ScreenLine& line : lines) {
       CHECK(display_width(text_of(line)) <= width);
     }
-    CHECK(cells(lines, each.look) > width * (height - 5) * 7 / 10);
+    constexpr std::size_t others = 8; // title, totals, note, and what to do
+    CHECK(cells(lines, each.look) > width * (height - others) * 7 / 10);
     const std::string text = text_of(lines);
     CHECK(has(text, each.deed_en));
     CHECK(has(text, each.deed_ja));
     CHECK(has(text, "240900558"));
   }
+}
+
+TEST_CASE("what has to come and what has to go differ by colour, place and symbol, not by words") {
+  const auto [width, height] = GENERATE(std::pair<std::size_t, std::size_t>{80, 24},
+                                        std::pair<std::size_t, std::size_t>{53, 16});
+  const auto* const verdict = GENERATE("pass", "fail", "error", "skip");
+  INFO(width << " " << verdict);
+  StationPicture picture{.deed = LineDeed::take_off, .last = record(verdict)};
+  const auto go = lines_of(picture, width, height);
+  picture.deed = LineDeed::connect;
+  const auto come = lines_of(picture, width, height);
+  const auto row_of = [](const std::vector<ScreenLine>& lines, Look look) {
+    std::size_t row = 0;
+    while (row < lines.size() && cells({lines[row]}, look) == 0) {
+      ++row;
+    }
+    return row;
+  };
+  CHECK(cells(go, Look::in_block) == 0);
+  CHECK(cells(come, Look::out_block) == 0);
+  CHECK(cells(go, Look::out_block) > 3 * width);
+  CHECK(cells(come, Look::in_block) > 3 * width);
+  CHECK(row_of(go, Look::out_block) == 2);           // below title and totals
+  CHECK(row_of(come, Look::in_block) == height - 6); // above the note
+  CHECK(has(text_of(come), "240900558"));            // the result is still there,
+  const Look colour = record(verdict).verdict == "pass" ? Look::good_block : Look::plain;
+  CHECK(cells(come, Look::good_block) < cells(go, Look::good_block) + 1);
+  CHECK((colour == Look::plain || cells(come, colour) > 20)); // written, no more filling
+  CHECK((colour == Look::plain || cells(come, colour) < width * 3));
+}
+
+TEST_CASE("without an adapter or a bus the operator is told so") {
+  StationPicture picture{.deed = LineDeed::plug_in, .last = record("error")};
+  CHECK(has(text_of(lines_of(picture, 80, 24)), "PLUG IN THE ADAPTER"));
+  picture.deed = LineDeed::mend;
+  CHECK(has(text_of(lines_of(picture, 53, 16)), "CHECK THE CABLE"));
 }
 
 TEST_CASE("the last result stays until the next servo, and an error asks for the same one") {
@@ -92,6 +129,8 @@ TEST_CASE("the last result stays until the next servo, and an error asks for the
   picture.last->code = "several_servos";
   picture.deed = LineDeed::take_off;
   CHECK(has(text_of(lines_of(picture, 80, 24)), "TAKE ALL OFF"));
+  picture.deed = LineDeed::connect;
+  CHECK(has(text_of(lines_of(picture, 80, 24)), "CONNECT ONE SERVO"));
   picture.last.reset();
   picture.deed = LineDeed::hands_off;
   CHECK(has(text_of(lines_of(picture, 80, 24)), "DO NOT TAKE IT OFF"));

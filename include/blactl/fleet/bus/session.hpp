@@ -121,6 +121,10 @@ class Session {
   /// Called when the interface goes away and is waited for, and when it is back; see away().
   void on_away(std::function<void()> hook) { away_hook_ = std::move(hook); }
 
+  /// For a command that writes to servos: an interface that goes away ends what is being done, as
+  /// bus-off does, so that nothing of it is sent when it is back. The session may go on.
+  void break_off_when_away() { breaks_off_when_away_ = true; }
+
   /// The reason why the interface is away; empty: it is present.
   [[nodiscard]] const std::optional<Error>& away() const { return away_; }
 
@@ -209,7 +213,7 @@ class Session {
   std::optional<Error> away_;
   RequestHook asked_, unanswered_;
   IdHook new_id_;
-  bool waits_alone_ = false;
+  bool waits_alone_ = false, breaks_off_when_away_ = false;
   int signal_ = 0;
   Duration grace_ = usual_grace;
   Time give_up_at_ = never; ///< after a signal: when running jobs are abandoned

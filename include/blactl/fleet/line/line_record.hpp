@@ -24,6 +24,10 @@ inline constexpr std::string_view pass = "pass", fail = "fail", error = "error",
 /// Of an end with this error: fail (the unit's fault), or error (the station's).
 [[nodiscard]] std::string_view verdict_of(Code code);
 
+/// Whether after this end the same unit is done again as soon as it is heard: it was away, or the
+/// bus was.
+[[nodiscard]] bool is_done_again(Code code);
+
 /// A record that begins now, with the members of `common`: those that all records of a run share.
 [[nodiscard]] state::LedgerRecord begun_record(const state::LedgerRecord& common, WallTime now);
 
@@ -38,7 +42,7 @@ void enter(state::LedgerRecord& record, const GoalResult& result);
 /// What was read in the end: all configuration, and some that changes by itself.
 void enter(state::LedgerRecord& record, const Snapshot& held, const bla::Profiles& profiles);
 
-/// Ends it, with the error if there is one.
+/// Ends it, with the error if there is one; its message is the reason, unless there is another.
 void end(state::LedgerRecord& record, std::string_view verdict, const std::optional<Error>& error,
          WallTime now);
 

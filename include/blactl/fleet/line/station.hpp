@@ -14,6 +14,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <set>
 #include <span>
@@ -47,6 +48,13 @@ class Station {
 
   using StageHook = std::function<void(StationStage stage)>;
 
+  /// How the wait for the end of a visit ended.
+  enum class Leaving : std::uint8_t {
+    gone,     ///< no servo has been heard for 3 s
+    replaced, ///< another unit is there, or the same one that has still to be done
+    late,     ///< the deadline came first
+  };
+
   /// A servo, or several, as they came.
   struct Arrival {
     std::vector<dronecan::NodeId> ids{};
@@ -63,6 +71,9 @@ class Station {
   /// these records. Errors: those of the ledger.
   [[nodiscard]] Result<std::vector<state::LedgerRecord>> end_interrupted();
 
+  /// Whether one is on the bus, or asks for a node ID.
+  [[nodiscard]] bool is_servo_there() const;
+
   /// Waits until a servo is on the bus, or asks for a node ID. Empty: nobody came until then.
   /// Errors: those that end a session.
   [[nodiscard]] Result<std::optional<Arrival>> wait_for_servo(Time deadline);
@@ -74,15 +85,36 @@ class Station {
   /// Why the last record is no pass; empty: it is, or its end is no error.
   [[nodiscard]] const std::optional<Error>& reason() const { return reason_; }
 
-  /// Waits until no servo has been heard for 3 s; returns whether that was before `deadline`.
-  /// Errors: those that end a session.
-  [[nodiscard]] Result<bool> wait_until_off(Time deadline);
+  /// Waits until no servo has been heard for 3 s, or until another unit than the last one is there:
+  /// whoever comes, restarts or was silent is asked who it is. After the wait was broken off by an
+  /// error it may be called again. Errors: those that end a session.
+  [[nodiscard]] Result<Leaving> wait_until_off(Time deadline);
 
  private:
   struct Past;
+  class Succession;
 
-  [[nodiscard]] bool is_asked() const;
-  [[nodiscard]] bool is_servo_there() const;
+  /// The last visit, by which another unit in its place is told.
+  struct Visit {
+    std::optional<dronecan::UniqueId> unit{}; ///< empty: it has not told
+    bool may_ask = false;                     ///< for a node ID, after a restart
+    bool are_several = false;                 ///< all of them have to go
+    bool is_to_be_repeated = false;           ///< as soon as a servo is there
+    bool has_let_in = false;                  ///< one that asked after its end
+    Time end{};
+
+    /// What was known of a node at the end.
+    struct Node {
+      std::uint32_t boots = 0;
+      Time back_at{};
+    };
+
+    std::map<dronecan::NodeId, Node> nodes{};
+  };
+
+  [[nodiscard]] bool is_asked(Time since = Time::min()) const;
+  [[nodiscard]] bool is_other_asking() const;
+  void remember(const state::LedgerRecord& record);
   [[nodiscard]] std::vector<dronecan::NodeId> servos_there() const;
   [[nodiscard]] Result<void> let_in();
   [[nodiscard]] std::optional<Error> identify(const Arrival& arrival, Servo& servo) const;
@@ -106,6 +138,7 @@ class Station {
   Options options_;
   StageHook entered_;
   std::optional<Error> reason_;
+  Visit last_{};
 };
 
 } // namespace blactl::fleet

@@ -1,0 +1,19 @@
+#pragma once
+// Whether the table of assigned IDs knows what a production line has given already (contract,
+// section 6: within one lap of a counter no ID is given twice).
+
+#include "blactl/base/error.hpp"
+#include "blactl/fleet/files/recipe.hpp"
+#include "blactl/state/counter_store.hpp"
+#include "blactl/state/ledger_store.hpp"
+
+namespace blactl::fleet {
+
+/// Looks for units that have passed by this recipe, hold an ID that its counters give, and are not
+/// in the table: that was lost, or is an old copy. Errors: state: there are some; those of both
+/// stores.
+[[nodiscard]] Result<void> check_counters(const state::LedgerStore& ledger,
+                                          const state::CounterStore& counters,
+                                          const Recipe& recipe);
+
+} // namespace blactl::fleet

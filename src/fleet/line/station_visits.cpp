@@ -1,0 +1,215 @@
+// Who is on the bench of a station: servos that come, that stay, and that take the place of others.
+
+#include "blactl/base/hex.hpp"
+#include "blactl/fleet/bus/discovery.hpp"
+#include "blactl/fleet/change/let_in.hpp"
+#include "blactl/fleet/line/line_record.hpp"
+#include "blactl/fleet/line/station.hpp"
+
+#include "fleet/line/presence.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <list>
+#include <map>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+namespace blactl::fleet {
+
+using dronecan::NodeId;
+using dronecan::UniqueId;
+
+namespace {
+
+using namespace std::chrono_literals;
+
+/// How often a silent bus is looked at.
+constexpr Duration look_period = 100ms;
+
+/// Who has not told by then who it is counts as another unit.
+constexpr Duration longest_answer = 2s;
+
+bool may_be_bla_servo(const Member& member) {
+  return member.is_servo || (member.sends_actuator_status() && !member.is_foreign());
+}
+
+} // namespace
+
+/// Watches those that are there after the end of a visit, and asks whoever may be another unit.
+class Station::Succession {
+ public:
+  /// The session outlives this.
+  Succession(Session& session, Patience patience, const Visit& last)
+      : session_(session), patience_(patience), unit_(last.unit), nodes_(last.nodes) {}
+
+  ~Succession() {
+    for (UnitJob& job : jobs_) {
+      session_.cancel(job);
+    }
+  }
+
+  Succession(const Succession&) = delete;
+  Succession& operator=(const Succession&) = delete;
+
+  /// Whether one of these is another unit, or does not tell.
+  [[nodiscard]] bool has_begun(const std::vector<NodeId>& servos) {
+    return std::ranges::any_of(
+        servos, [this](NodeId id) { return is_other(session_.roster().member(id)); });
+  }
+
+ private:
+  /// A servo that stays on its supply while the cable is plugged into another one shows that by its
+  /// silence alone.
+  [[nodiscard]] bool is_other(const Member& member) {
+    const auto [node, is_new] = nodes_.try_emplace(member.id);
+    const bool was_away = unit_ && node->second.back_at != member.back_at;
+    if (is_new || node->second.boots != member.boots || was_away) {
+      node->second = {member.boots, member.back_at};
+      asked_.insert_or_assign(member.id, session_.now());
+      session_.start(jobs_.emplace_back(session_.records(), member.id, patience_));
+    }
+    const auto asked = asked_.find(member.id);
+    if (session_.roster().is_doubled(member.id)) {
+      return true;
+    }
+    if (asked == asked_.end()) {
+      return false;
+    }
+    const bool has_told =
+        member.info && member.info_boot == member.boots && member.info_at >= asked->second;
+    return has_told ? member.info->unique_id != unit_
+                    : session_.now() - asked->second > longest_answer;
+  }
+
+  Session& session_;
+  Patience patience_;
+  std::optional<UniqueId> unit_;
+  std::map<NodeId, Visit::Node> nodes_;
+  std::map<NodeId, Time> asked_;
+  std::list<UnitJob> jobs_;
+};
+
+std::vector<NodeId> Station::servos_there() const {
+  std::vector<NodeId> ids;
+  for (const auto& [id, member] : session_.roster().members()) {
+    if (may_be_bla_servo(member) && member.last_heard > session_.now() - away_time) {
+      ids.push_back(id);
+    }
+  }
+  return ids;
+}
+
+/// Whether a unit asks for a node ID now, and has since then: one that has left has asked before.
+bool Station::is_asked(Time since) const {
+  return std::ranges::any_of(session_.roster().requests(), [&](const auto& request) {
+    const Asking& asking = request.second;
+    return asking.last > asking.given && asking.last > session_.now() - request_period &&
+           asking.last > since;
+  });
+}
+
+/// Many units begin with the same bytes, and a request tells only these: it may be of the last unit
+/// if that has no static node ID.
+bool Station::is_other_asking() const {
+  return is_asked(last_.end) &&
+         (!last_.unit || !last_.may_ask || !session_.roster().asked_at(*last_.unit));
+}
+
+bool Station::is_servo_there() const {
+  return is_asked() || !servos_there().empty();
+}
+
+/// Bench IDs are borrowed: no table keeps them.
+Result<void> Station::let_in() {
+  auto bench = state::AllocationStore::unshared();
+  if (!bench) {
+    return std::unexpected(bench.error());
+  }
+  state::NodeIds others;
+  for (std::uint8_t id = 1; id <= NodeId::max; ++id) {
+    others.set(id, NodeId(id) < options_.first_bench_id || NodeId(id) > options_.last_bench_id);
+  }
+  const auto asked = fleet::let_in(session_, *bench, std::nullopt, others);
+  return asked ? Result<void>() : std::unexpected(asked.error());
+}
+
+Result<std::optional<Station::Arrival>> Station::wait_for_servo(Time deadline) {
+  entered_(StationStage::waiting);
+  for (;;) {
+    const auto came = session_.live_until(deadline, [this] { return is_servo_there(); });
+    if (!came || !*came) {
+      return came ? Result<std::optional<Arrival>>() : std::unexpected(came.error());
+    }
+    entered_(StationStage::recognised);
+    Arrival arrival{
+        .has_asked = is_asked() || last_.has_let_in, .at = session_.now(), .wall = session_.wall()};
+    // what was heard until now may be of another unit on the same node ID, or of an allocator that
+    // was killed, perhaps the last run of this station, and answers nobody
+    session_.records().forget_gone(session_.now() + Duration(1));
+    Discovery discovery(session_, profiles_, options_.manner.identification);
+    const auto heard = discovery.find_all(bus_watch_time);
+    const auto let = heard && is_asked() ? let_in() : heard;
+    const auto found = let ? discovery.find_all(bus_watch_time) : let;
+    if (!found) {
+      return std::unexpected(found.error());
+    }
+    arrival.ids = servos_there();
+    if (!arrival.ids.empty()) {
+      return arrival;
+    }
+    entered_(StationStage::waiting);
+  }
+}
+
+void Station::remember(const state::LedgerRecord& record) {
+  last_ = {.may_ask = record.static_node_id.value_or(0) == 0,
+           .are_several = reason_ && reason_->code == Code::several_servos,
+           .is_to_be_repeated = reason_ && is_done_again(reason_->code),
+           .end = session_.now()};
+  constexpr std::size_t size = std::tuple_size_v<UniqueId>;
+  if (const auto unit = record.unique_id ? from_hex<size>(*record.unique_id) : std::nullopt) {
+    last_.unit = *unit;
+  }
+  for (const NodeId id : servos_there()) {
+    const Member member = session_.roster().member(id);
+    last_.nodes[id] = {member.boots, member.back_at};
+  }
+}
+
+Result<Station::Leaving> Station::wait_until_off(Time deadline) {
+  entered_(StationStage::take_off);
+  Succession succession(session_, options_.manner.identification.patience, last_);
+  Time heard = session_.now();
+  while (session_.now() - heard < off_time) {
+    if (session_.now() >= deadline) {
+      return Leaving::late;
+    }
+    if (const auto lived = session_.live_until(session_.now() + look_period); !lived) {
+      return std::unexpected(lived.error());
+    }
+    const auto servos = servos_there();
+    const bool is_there = !servos.empty() || is_asked(last_.end);
+    heard = is_there || session_.away() ? session_.now() : heard;
+    const bool is_next =
+        last_.is_to_be_repeated ? is_there : succession.has_begun(servos) || is_other_asking();
+    if (is_next && !last_.are_several) {
+      entered_(StationStage::recognised);
+      return Leaving::replaced;
+    }
+    if (!last_.are_several && is_asked(last_.end)) {
+      if (const auto let = let_in(); !let) { // to tell whether it is the last one
+        return std::unexpected(let.error());
+      }
+      last_.has_let_in = true;
+      heard = session_.now();
+    }
+  }
+  session_.records().forget_gone(session_.now() - off_time);
+  last_ = {};
+  return Leaving::gone;
+}
+
+} // namespace blactl::fleet

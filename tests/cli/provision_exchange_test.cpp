@@ -1,0 +1,130 @@
+// Servos that follow each other at a station so fast that the bench was never seen empty.
+
+#include "catch.hpp"
+#include "line.hpp"
+
+#include <string>
+#include <vector>
+
+using namespace blactl::test;
+
+namespace {
+
+/// Two records, with an end for a run that waits in vain.
+const Arguments two_records{"--count", "2", "--idle-timeout", "90"};
+
+const std::string dynamic_recipe = R"({
+  "schema": "blactl-recipe/1", "name": "dynamic", "model": "BLA21-12U-AB",
+  "set": {"servo_id": {"first": 1, "last": 8}, "angle_limit_cw": "45.0deg"}
+})";
+
+} // namespace
+
+TEST_CASE("another unit in the place of the last one begins at once, however fast it came") {
+  const double pause = GENERATE(0.1, 0.7, 1.5, 2.5);
+  const int node_id = GENERATE(11, 1, 0); // that of the one before, another, none
+  INFO(pause << " s, node ID " << node_id);
+  const Provisioned run =
+      provision(line({{.serial = 101, .from = 1, .to = 30, .node_id = 11},
+                      {.serial = 102, .from = 30 + pause, .to = 70, .node_id = node_id}}),
+                two_records);
+  INFO(run.result.out << run.result.err);
+  CHECK(run.told() == "pass 1 11; pass 2 12");
+  CHECK(run.records.back()["serial_number"] == 102);
+  CHECK(run.result.status == 0);
+}
+
+TEST_CASE("another unit that came as soon as the last one had passed begins at once") {
+  const Provisioned run = provision(line({{.serial = 101, .from = 1, .to = 8, .node_id = 11},
+                                          {.serial = 102, .from = 8.3, .to = 16, .node_id = 11},
+                                          {.serial = 103, .from = 16.3, .to = 60, .node_id = 12}}),
+                                    {"--count", "3", "--idle-timeout", "90"});
+  INFO(run.result.out << run.result.err);
+  CHECK(run.told() == "pass 1 11; pass 2 12; pass 3 13");
+}
+
+TEST_CASE("the unit that has ended is that also after a restart") {
+  const double pause = GENERATE(0.1, 1.0, 2.5);
+  INFO(pause);
+  const Provisioned run = provision(line({{.serial = 101, .from = 1, .to = 30, .node_id = 11},
+                                          {.serial = 101, .from = 30 + pause, .to = 60},
+                                          {.serial = 102, .from = 70, .to = 100, .node_id = 11}}),
+                                    two_records);
+  INFO(run.result.out << run.result.err);
+  CHECK(run.told() == "pass 1 11; pass 2 12");
+}
+
+TEST_CASE("the unit that has ended is that also if it asks for a node ID again") {
+  const Provisioned run = provision(line({{.serial = 101, .from = 1, .to = 30},
+                                          {.serial = 101, .from = 30.5, .to = 60},
+                                          {.serial = 102, .from = 60.5, .to = 100}}),
+                                    two_records, {}, dynamic_recipe);
+  INFO(run.result.out << run.result.err);
+  CHECK(run.told() == "pass 1 0; pass 2 0");
+  CHECK(run.records.back()["serial_number"] == 102);
+}
+
+TEST_CASE("a unit that comes while the one before is still there is told at once") {
+  const int node_id = GENERATE(0, 1);
+  INFO(node_id);
+  const Provisioned run = provision(line({{.serial = 101, .from = 1, .to = 50, .node_id = 11},
+                                          {.serial = 102, .from = 30, .to = 50, .node_id = node_id},
+                                          {.serial = 102, .from = 60, .to = 100}}),
+                                    two_records);
+  INFO(run.result.out << run.result.err);
+  CHECK(run.told() == "pass 1 11; error several_servos; pass 2 12");
+}
+
+TEST_CASE(
+    "another unit that ran on a supply of its own, for as long as the last one, begins at once") {
+  const Scene scene = Scene()
+                          .servo("BLA34-12U-AB", 11, {{"serial_number", 101}})
+                          .servo("BLA21-12U-AB", 11, {{"serial_number", 102}})
+                          .world(102, {{"plugged", "off"}}, "0s")
+                          .world(101, {{"plugged", "off"}}, "30s")
+                          .world(102, {{"plugged", "on"}}, "30600ms");
+  const Provisioned run = provision(scene, two_records);
+  INFO(run.result.out << run.result.err);
+  CHECK(run.told() == "fail model_mismatch; pass 1 11");
+}
+
+TEST_CASE("units whose unique IDs begin alike are told apart when they ask for a node ID") {
+  const std::string alike = "000000000000000000000000000001";
+  const Provisioned run = provision(
+      line({{.serial = 101, .from = 1, .to = 30, .more = {{"unique_id", alike + "01"}}},
+            {.serial = 101, .from = 30.4, .to = 50},
+            {.serial = 102, .from = 50.5, .to = 90, .more = {{"unique_id", alike + "02"}}}}),
+      two_records, {}, dynamic_recipe);
+  INFO(run.result.out << run.result.err);
+  CHECK(run.told() == "pass 1 0; pass 2 0");
+  CHECK(run.records.back()["node_id"] == 0); // it asked
+}
+
+TEST_CASE("a label is that of the unit that took the place of the last one") {
+  const Provisioned run =
+      provision(line({{.serial = 101, .from = 1, .to = 30, .node_id = 11},
+                      {.serial = 102, .from = 30.5, .to = 70, .node_id = 11}}),
+                {"--label", "-", "--idle-timeout", "90"}, {.stdin_text = "101\n102\n"});
+  INFO(run.result.out << run.result.err);
+  CHECK(run.told() == "pass 1 11; pass 2 12");
+}
+
+TEST_CASE("a unit that was pulled early is done again as soon as it is back") {
+  const Provisioned run = provision(line({{.serial = 101, .from = 1, .to = 4, .node_id = 7},
+                                          {.serial = 101, .from = 6.5, .to = 60}}),
+                                    {"--count", "1", "--idle-timeout", "90"});
+  INFO(run.result.out << run.result.err);
+  CHECK(run.told() == "error not_back; pass 1 11");
+}
+
+TEST_CASE("a unit whose answers do not come is told in the place of one that has passed") {
+  const Provisioned run = provision(line({{.serial = 101, .from = 1, .to = 30, .node_id = 11},
+                                          {.serial = 102,
+                                           .from = 31,
+                                           .to = 70,
+                                           .node_id = 11,
+                                           .more = {{"faults", {{"mute", true}}}}}}),
+                                    two_records);
+  INFO(run.result.out << run.result.err);
+  CHECK(run.told() == "pass 1 11; fail timeout");
+}
