@@ -83,6 +83,7 @@ class OneLine {
 
   void check_unit(const Shift& shift, const ToldRecord& told) const {
     const json& record = told.record;
+    hold(record, record["model"] != "", "a model without a name");
     if (record["unique_id"].is_null()) {
       hold(record, !is_verdict(record, "pass") && !is_verdict(record, "skip"), "of nobody");
       return;
@@ -335,7 +336,12 @@ class OneLine {
     for (std::size_t i = 0; i < shift.visits.size(); ++i) {
       const Visit& visit = shift.visits[i];
       const bool is_first = i == 0 || visit.span.from - shift.visits[i - 1].span.to >= pause;
-      const bool is_seen = shift.begin + 2s <= visit.span.from && shift.end > visit.span.from + 14s;
+      const bool is_seen = shift.begin + 2s <= visit.span.from &&
+                           shift.end > visit.span.from + enough &&
+                           std::ranges::none_of(shift.told, [&](const ToldRecord& told) {
+                             return begin_of(told) < visit.span.from &&
+                                    told.at > visit.span.from - pause; // still at the one before
+                           });
       if (is_first && is_seen && visit.serials.size() == 1 &&
           visit.span.to - visit.span.from >= enough && !line_.is_doublet(visit.serials.front())) {
         check_visit(shift, visit);

@@ -155,7 +155,8 @@ std::size_t LineLedger::laps(const json& counter) const {
       (counter["last"].get<std::int64_t>() - counter["first"].get<std::int64_t>()) /
           counter.value("step", 1) +
       1);
-  return (line_.episode.scenario["servos"].size() + size - 1) / size;
+  const std::size_t anew = story_.scrapped.is_null() ? 0 : 1; // it counts as another unit
+  return (line_.episode.scenario["servos"].size() + anew + size - 1) / size;
 }
 
 /// One that nobody has was given to a unit that has a record.

@@ -179,6 +179,7 @@ class Playing {
 std::string text_of(const LineStory& story) {
   std::string text;
   for (const Shift& shift : story.shifts) {
+    text += shift.outcome.err.empty() ? "" : shift.outcome.err + "\n";
     text += fmt::format("  run from {} s, {} {}{}: {}\n", (shift.begin - Time{}) / 1s,
                         name(shift.disturbance.kind), shift.disturbance.number,
                         shift.disturbance.lasts ? " on" : "", shift.outcome.status);

@@ -161,6 +161,8 @@ Result<std::optional<Station::Arrival>> Station::wait_for_servo(Time deadline) {
     if (!arrival.ids.empty()) {
       return arrival;
     }
+    // it has left: when it comes again it has not restarted, it is new
+    session_.records().forget_gone(session_.now() - away_time);
     entered_(StationStage::waiting);
   }
 }
