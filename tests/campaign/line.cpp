@@ -148,6 +148,10 @@ class LineDraft {
     now_ += length;
   }
 
+  [[nodiscard]] bool has_warning(std::int64_t serial) const {
+    return line_.servo(serial).contains("ram");
+  }
+
   void add_visits() {
     std::vector<std::int64_t> units;
     for (std::int64_t serial = first_of_line; serial < line_.spare; ++serial) {
@@ -162,6 +166,9 @@ class LineDraft {
         visit({serial, other}, 12s);
       }
       visit({serial}, std::chrono::seconds(chance_.whole(16, 24)));
+      for (int time = 0; time < 3 && has_warning(serial) && chance_.comes(0.7); ++time) {
+        visit({serial}, 16s); // it fails again
+      }
       if (chance_.comes(0.2)) {
         visit({chance_.comes(0.6) ? serial : chance_.one_of(units)}, 16s);
       }

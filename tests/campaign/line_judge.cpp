@@ -1,6 +1,7 @@
 #include "line_judge.hpp"
 
 #include "line_ledger.hpp"
+#include "line_shift.hpp"
 #include "settings.hpp"
 #include "told.hpp"
 
@@ -27,13 +28,6 @@ constexpr std::uint8_t warnings_at = 0x1A, failures_at = 0x1B, firmware_at = 0x5
 /// What a servo may do in the last moment without a station that knows.
 constexpr Duration last_moment = 500ms;
 
-/// When its work began.
-Time begin_of(const ToldRecord& told) {
-  const json& duration = told.record["duration_s"];
-  const double seconds = duration.is_null() ? 0 : duration.get<double>();
-  return told.at - std::chrono::milliseconds(static_cast<std::int64_t>(seconds * 1000) + 1);
-}
-
 class OneLine {
  public:
   explicit OneLine(const LineStory& story) : story_(story), line_(story.line), ledger_(story) {}
@@ -51,9 +45,7 @@ class OneLine {
           check_taken_off(shift, shift.told[i - 1], shift.told[i]);
         }
       }
-      check_end(shift);
-      check_begun(shift);
-      check_visits(shift);
+      judge_shift(story_, shift);
     }
     ledger_.check();
   }
@@ -75,12 +67,6 @@ class OneLine {
 
   // It is of a unit that was there.
 
-  [[nodiscard]] bool has_power(std::int64_t serial, Time from, Time to) const {
-    return std::ranges::any_of(story_.powered.at(serial), [&](const Span& span) {
-      return span.from <= to && span.to >= from;
-    });
-  }
-
   void check_unit(const Shift& shift, const ToldRecord& told) const {
     const json& record = told.record;
     hold(record, record["model"] != "", "a model without a name");
@@ -94,7 +80,7 @@ class OneLine {
     });
     hold(record, found != told.states.end(), "no servo has this unique ID and serial number");
     const auto& [serial, state] = *found;
-    hold(record, is_interrupted(record) || has_power(serial, begin_of(told) - 4s, told.at),
+    hold(record, is_interrupted(record) || story_.has_power(serial, begin_of(told) - 4s, told.at),
          "its servo was not on the bench");
     hold(record, record["model"].is_null() || record["model"] == line_.servo(serial)["model"],
          "another model");
@@ -128,14 +114,6 @@ class OneLine {
   }
 
   // Codes that nothing but the servo itself may bring.
-
-  [[nodiscard]] std::optional<json> label_in(const json& record) const {
-    if (record["label"].is_null()) {
-      return std::nullopt;
-    }
-    json label = json::parse(record["label"].get<std::string>(), nullptr, false);
-    return label.is_number() ? json{{"serial_number", label}} : label;
-  }
 
   void check_codes(const Shift&, const ToldRecord& told) const {
     const json& record = told.record;
@@ -178,7 +156,7 @@ class OneLine {
     hold(record, line_.servo(serial)["model"] == line_.recipe["model"], "PASS of another model");
     hold(record, state.ram.at(firmware_at) >= line_.recipe.value("firmware_min", 0),
          "PASS of an old firmware");
-    hold(record, has_power(serial, told.at - last_moment, told.at), "PASS, and it has left");
+    hold(record, story_.has_power(serial, told.at - last_moment, told.at), "PASS, and it has left");
     const json& set = line_.recipe["set"];
     for (const auto& [setting, value] : set.items()) {
       if (value.is_string()) {
@@ -271,138 +249,6 @@ class OneLine {
     }
     was_empty = was_empty || begin_of(next) - free_since >= off;
     hold(next.record, was_empty, "the one before was not taken off");
-  }
-
-  // The end of a run.
-
-  void check_end(const Shift& shift) const {
-    if (shift.is_cut()) {
-      return;
-    }
-    const json& document = shift.outcome.document;
-    require(document.is_object() && document.contains("exit_status"), "no last object");
-    require(document["exit_status"] == shift.outcome.status, "another exit status in its object");
-    std::map<std::string, std::uint64_t> counts;
-    bool are_all_good = true;
-    for (const ToldRecord& told : shift.told) {
-      if (!is_interrupted(told.record)) {
-        ++counts[told.record["verdict"].get<std::string>()];
-        are_all_good = are_all_good && told.record["code"].is_null();
-      }
-    }
-    require(are_all_good || shift.outcome.status != 0, "0, and not all have passed");
-    require(shift.outcome.status != 0 || document["errors"].empty(), "0, and errors");
-    for (const auto& [verdict, count] : counts) {
-      require(document["counts"].value(verdict, std::uint64_t{0}) == count,
-              fmt::format("{} counted of {}", document["counts"].dump(), verdict));
-    }
-  }
-
-  // What a killed run had begun is told.
-
-  void check_begun(const Shift& shift) const {
-    const auto changes = shift.outcome.record.changes();
-    if (!shift.is_cut() || changes.empty()) {
-      return;
-    }
-    const Time last = changes.back().at;
-    if (!shift.told.empty() && shift.told.back().at >= last) {
-      return;
-    }
-    std::set<std::string> there;
-    for (const auto& [serial, spans] : story_.powered) {
-      if (has_power(serial, last - 1s, last)) {
-        there.insert(line_.servo(serial)["unique_id"].get<std::string>());
-      }
-    }
-    const bool is_told = std::ranges::any_of(story_.ledger, [&](const json& record) {
-      const bool is_its_own = !record["duration_s"].is_null() && shift.includes(record);
-      return there.contains(unit_in(record)) && (is_interrupted(record) || is_its_own);
-    });
-    require(is_told, "what was begun, and not ended, is not in the ledger");
-  }
-
-  // Where nothing goes wrong each visit brings just the record that it must.
-
-  [[nodiscard]] bool is_undisturbed(const Shift& shift) const {
-    return shift.is_calm || (shift.disturbance.kind == Kind::none && line_.episode.faults.empty());
-  }
-
-  void check_visits(const Shift& shift) const {
-    constexpr Duration enough = 14s, pause = 4s;
-    if (!is_undisturbed(shift)) {
-      return;
-    }
-    for (std::size_t i = 0; i < shift.visits.size(); ++i) {
-      const Visit& visit = shift.visits[i];
-      const bool is_first = i == 0 || visit.span.from - shift.visits[i - 1].span.to >= pause;
-      const bool is_seen = shift.begin + 2s <= visit.span.from &&
-                           shift.end > visit.span.from + enough &&
-                           std::ranges::none_of(shift.told, [&](const ToldRecord& told) {
-                             return begin_of(told) < visit.span.from &&
-                                    told.at > visit.span.from - pause; // still at the one before
-                           });
-      if (is_first && is_seen && visit.serials.size() == 1 &&
-          visit.span.to - visit.span.from >= enough && !line_.is_doublet(visit.serials.front())) {
-        check_visit(shift, visit);
-      }
-    }
-  }
-
-  void check_visit(const Shift& shift, const Visit& visit) const {
-    const std::int64_t serial = visit.serials.front();
-    std::vector<const ToldRecord*> own;
-    for (const ToldRecord& told : shift.told) {
-      if (!is_interrupted(told.record) && told.at >= visit.span.from &&
-          told.at <= visit.span.to + 1s) {
-        own.push_back(&told);
-      }
-    }
-    require(own.size() == 1, fmt::format("{} records of a visit of {}", own.size(), serial));
-    const json& record = own.front()->record;
-    hold(record, record["serial_number"] == serial, fmt::format("{} came", serial));
-    const std::string due = due_code(shift, *own.front(), serial);
-    const std::string code = record["code"].is_null() ? "" : record["code"].get<std::string>();
-    hold(record, due.empty() || code == due || (code.empty() && due == "pass"),
-         fmt::format("{} instead of {}", code, due));
-  }
-
-  /// Empty: it depends.
-  [[nodiscard]] std::string due_code(const Shift& shift, const ToldRecord& told,
-                                     std::int64_t serial) const {
-    const json& record = told.record;
-    const ServoState& state = told.states.at(serial);
-    const auto label = label_in(record);
-    if (line_.servo(serial)["model"] != line_.recipe["model"]) {
-      return "model_mismatch";
-    }
-    if (state.ram.at(firmware_at) < line_.recipe.value("firmware_min", 0)) {
-      return "firmware_too_old";
-    }
-    if (label && (*label)["serial_number"] != serial) {
-      return "label_mismatch";
-    }
-    if (ledger_.is_finished_before(record) && !shift.is_redo) {
-      hold(record, is_verdict(record, "skip"), "a finished one was done anew");
-      return "pass";
-    }
-    hold(record, !is_verdict(record, "skip"), "it was skipped, and is not finished");
-    if (ledger_.failed_before(record) >= 3) {
-      return "attempts";
-    }
-    if ((label && label->contains("servo_id")) || counters_may_end()) {
-      return "";
-    }
-    return state.ram.at(warnings_at) != 0 || state.ram.at(failures_at) != 0 ? "faults" : "pass";
-  }
-
-  [[nodiscard]] bool counters_may_end() const {
-    const auto units = static_cast<std::int64_t>(line_.episode.scenario["servos"].size());
-    return std::ranges::any_of(line_.recipe["set"], [&](const json& counter) {
-      return counter.is_object() && !counter.contains("at_end") &&
-             counter["last"].get<std::int64_t>() - counter["first"].get<std::int64_t>() <
-                 units * counter.value("step", 1);
-    });
   }
 
   const LineStory& story_;

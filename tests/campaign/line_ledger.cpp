@@ -72,7 +72,8 @@ bool LineLedger::is_finished_before(const json& record) const {
   bool is_finished = false;
   for (const json* each : before(record)) {
     const bool says_nothing = is_verdict(*each, "skip") || (*each)["code"] == "attempts";
-    is_finished = says_nothing ? is_finished : is_verdict(*each, "pass");
+    const bool is_its_own = (*each)["serial_number"] == record["serial_number"]; // not a doublet's
+    is_finished = says_nothing ? is_finished : is_verdict(*each, "pass") && is_its_own;
   }
   return is_finished;
 }

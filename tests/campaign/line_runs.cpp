@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <initializer_list>
 #include <optional>
 #include <span>
 #include <sstream>
@@ -49,7 +50,8 @@ class Playing {
     constexpr std::size_t most = 8;
     for (std::size_t i = 0; i < most && (i == 0 || world_.now() < line_.end()); ++i) {
       const bool is_disturbed = i < disturbances.size();
-      work(line_.visits, is_disturbed ? disturbances[i] : Disturbance{}, options());
+      work(line_.visits, is_disturbed ? disturbances[i] : Disturbance{},
+           line_.has_count ? line_.visits.size() : 0);
       world_.pass(story_.shifts.back().is_cut() ? 3s : 1s);
     }
     if (line_.end() > world_.now()) {
@@ -70,27 +72,30 @@ class Playing {
     return world_.run(command);
   }
 
-  [[nodiscard]] std::vector<std::string> options() const {
-    return line_.has_count
-               ? std::vector<std::string>{"--count", std::to_string(line_.visits.size())}
-               : std::vector<std::string>();
-  }
-
-  void work(const std::vector<Visit>& visits, const Disturbance& disturbance,
-            const std::vector<std::string>& options, bool is_calm = false) {
+  void work(const std::vector<Visit>& visits, const Disturbance& disturbance, std::size_t count,
+            bool is_calm = false) {
     Shift shift{.disturbance = disturbance,
                 .visits = visits,
                 .is_calm = is_calm,
-                .is_redo = std::ranges::find(options, "--redo") != options.end(),
+                .is_redo = is_calm && line_.is_done_anew,
+                .count = count,
                 .begin = world_.now(),
                 .end = {},
                 .outcome = {},
                 .told = {}};
     Command command{.words = {"provision", "recipe.json", "-y", "--idle-timeout", "40"},
                     .fleet = line_.recipe};
-    command.words.insert(command.words.end(), options.begin(), options.end());
+    const auto add = [&](std::initializer_list<std::string> words) {
+      command.words.insert(command.words.end(), words);
+    };
+    if (count > 0) {
+      add({"--count", std::to_string(count)});
+    }
+    if (shift.is_redo) {
+      add({"--redo", "--reason", "again"});
+    }
     if (line_.has_labels) {
-      command.words.insert(command.words.end(), {"--label", "-"});
+      add({"--label", "-"});
     }
     LineWatch watch(world_, visits, line_.has_labels);
     const bool is_disturbed = disturbance.kind != Kind::none;
@@ -156,11 +161,7 @@ class Playing {
     const json events = comings(visits, servos, base);
     world_.repair(events);
     add_spans(events, base);
-    std::vector<std::string> options{"--count", std::to_string(visits.size())};
-    if (line_.is_done_anew) {
-      options.insert(options.end(), {"--redo", "--reason", "again"});
-    }
-    work(visits, {}, options, /*is_calm=*/true);
+    work(visits, {}, visits.size(), /*is_calm=*/true);
   }
 
   /// IDs on the bench are borrowed.

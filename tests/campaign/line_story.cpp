@@ -4,12 +4,15 @@
 
 #include <sqlite3.h>
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <stdexcept>
 #include <string>
 
 namespace blactl::campaign {
+
+using nlohmann::json;
 
 bool Shift::is_cut() const {
   return (disturbance.kind == Disturbance::Kind::killed ||
@@ -57,6 +60,25 @@ bool Shift::includes(const nlohmann::json& record) const {
   };
   const auto time = record["time"].get<std::string>();
   return time >= text(begin) && time <= text(end);
+}
+
+bool LineStory::has_power(std::int64_t serial, Time from, Time to) const {
+  return std::ranges::any_of(powered.at(serial),
+                             [&](const Span& span) { return span.from <= to && span.to >= from; });
+}
+
+Time begin_of(const ToldRecord& told) {
+  const json& duration = told.record["duration_s"];
+  const double seconds = duration.is_null() ? 0 : duration.get<double>();
+  return told.at - std::chrono::milliseconds(static_cast<std::int64_t>(seconds * 1000) + 1);
+}
+
+std::optional<json> label_in(const json& record) {
+  if (record["label"].is_null()) {
+    return std::nullopt;
+  }
+  json label = json::parse(record["label"].get<std::string>(), nullptr, false);
+  return label.is_number() ? json{{"serial_number", label}} : label;
 }
 
 } // namespace blactl::campaign

@@ -7,9 +7,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +23,7 @@ struct Shift {
   std::vector<Visit> visits; ///< that may come while it runs
   bool is_calm = false;      ///< all servos were repaired, and nothing goes wrong
   bool is_redo = false;
+  std::size_t count = 0; ///< --count; 0: none
   Time begin, end;
   Outcome outcome;
   std::vector<ToldRecord> told;
@@ -49,7 +52,17 @@ struct LineStory {
   std::map<std::int64_t, std::vector<Span>> powered; ///< by serial number
   std::vector<nlohmann::json> ledger;                ///< its records
   std::vector<GivenId> given;
-  nlohmann::json scrapped; ///< the record of the unit that was taken out before the last run; null
+  nlohmann::json
+      scrapped{}; ///< the record of the unit that was taken out before the last run; null
+
+  /// Whether this servo had power at some moment from there to then.
+  [[nodiscard]] bool has_power(std::int64_t serial, Time from, Time to) const;
 };
+
+/// When the work that this record tells of began.
+[[nodiscard]] Time begin_of(const ToldRecord& told);
+
+/// Its label, as an object; empty: it has none.
+[[nodiscard]] std::optional<nlohmann::json> label_in(const nlohmann::json& record);
 
 } // namespace blactl::campaign
