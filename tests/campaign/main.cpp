@@ -2,6 +2,7 @@
 // memory. Exit status 1 if something was found.
 
 #include "campaign.hpp"
+#include "line_runs.hpp"
 #include "results.hpp"
 #include "sweep.hpp"
 #include "tries.hpp"
@@ -19,6 +20,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -39,6 +41,7 @@ struct Options {
   std::size_t sweep = 0; ///< every n-th place; 0: no sweep
   std::string only{};    ///< one kind of disturbance
   std::uint64_t stories = 0;
+  std::uint64_t lines = 0; ///< of production; with a sweep of them
 };
 
 /// Commands run in this process, and nothing of the caller may get into them.
@@ -113,13 +116,37 @@ json tell_stories(const Options& options, unsigned job, const std::filesystem::p
   return {counts.stories, counts.undone, counts.lies};
 }
 
+json play_lines(const Options& options, unsigned job, const std::filesystem::path& folder) {
+  LineRuns runs(folder / "line", tell, options.verbose);
+  const LineRuns::Sweep each{.step = options.sweep,
+                             .job = job,
+                             .jobs = options.jobs,
+                             .until_found = options.until_found,
+                             .begins = [] { watch(0); }};
+  for (std::uint64_t i = 0; i < options.lines; ++i) {
+    if (options.until_found && runs.counts().lies > 0) {
+      break;
+    }
+    if (options.sweep > 0) {
+      runs.play_each(options.seed + i, each);
+    } else if (i % options.jobs == job) {
+      watch(options.seed + i);
+      runs.play(options.seed + i);
+    }
+  }
+  alarm(0);
+  const LineRuns::Counts& counts = runs.counts();
+  return {{"runs", counts.runs}, {"lies", counts.lies}, {"records", counts.records}};
+}
+
 /// In a process each, since commands use what a process has once; a crash gives null.
 std::vector<json> in_jobs(const Options& options) {
   const auto work = [&](unsigned job, const std::filesystem::path& folder) {
     prepare(folder);
-    json told = options.stories > 0 ? tell_stories(options, job, folder)
-                : options.sweep > 0 ? sweep(options, job, folder)
-                                    : play(options, job, folder);
+    json told = options.lines > 0     ? play_lines(options, job, folder)
+                : options.stories > 0 ? tell_stories(options, job, folder)
+                : options.sweep > 0   ? sweep(options, job, folder)
+                                      : play(options, job, folder);
     std::filesystem::remove_all(folder);
     return told;
   };
@@ -152,8 +179,29 @@ std::vector<json> in_jobs(const Options& options) {
   return all;
 }
 
+std::pair<std::string, bool> judged_lines(const std::vector<json>& told) {
+  std::uint64_t runs = 0, lies = 0;
+  std::map<std::string, std::uint64_t> records;
+  for (const json& one : told) {
+    lies += one.is_null() ? 1 : one["lies"].get<std::uint64_t>();
+    runs += one.is_null() ? 0 : one["runs"].get<std::uint64_t>();
+    const json own = one.is_null() ? json::object() : one["records"];
+    for (const auto& [verdict, count] : own.items()) {
+      records[verdict] += count.get<std::uint64_t>();
+    }
+  }
+  std::string text = fmt::format("{} runs of a line, {} wrong\n", runs, lies);
+  for (const auto& [verdict, count] : records) {
+    text += fmt::format("{:8} {}\n", count, verdict);
+  }
+  return {text, lies == 0};
+}
+
 /// What was found, as text, and whether that is nothing.
 std::pair<std::string, bool> judged(const Options& options, const std::vector<json>& told) {
+  if (options.lines > 0) {
+    return judged_lines(told);
+  }
   if (options.stories > 0) {
     std::uint64_t stories = 0, undone = 0, lies = 0;
     for (const json& one : told) {
@@ -203,6 +251,9 @@ int main(int argc, char** argv) {
                "prints the episodes for campaign.py, before what goes wrong is aimed");
   app.add_option("--stories", options.stories,
                  "instead of episodes: so many commands that are tried several times and undone");
+  app.add_option("--lines", options.lines,
+                 "instead of episodes: so many production lines; with --sweep: one by one every "
+                 "n-th frame, call and write of a line on which nothing else goes wrong");
   CLI11_PARSE(app, argc, argv);
   if (options.frozen) {
     for (std::uint64_t i = 0; i < options.episodes; ++i) {

@@ -2,15 +2,16 @@
 """Bugs planted in a copy of the sources, each of which the campaign must find.
 
   planted.py --check
-  planted.py FOLDER [NAME...] [--sweep N] [--episodes N] [--seed S] [--jobs N] [--list FILE]
-             [--results FILE]
+  planted.py FOLDER [NAME...] [--sweep N] [--episodes N] [--lines N] [--seed S] [--jobs N]
+             [--list FILE] [--results FILE]
 
 FOLDER gets the copy and its build. Every bug of planted.json is a place in the sources: what stands
 there, which must be found just once, and what stands there instead while the bug is switched on: one
 build holds them all. An entry without "instead" switches its statement off; one that a second check
 would find out has that in "and": users meet the bug only without both. For each bug every N-th
-single fault of each command is tried, then random episodes, until something is found. Exit status 1:
-a bug was not found. --check only looks whether each has its place in the sources.
+single fault of each command is tried, then random episodes, until something is found; for those
+that are found "by" lines, production lines are played, then every N-th single fault of a calm one.
+Exit status 1: a bug was not found. --check only looks whether each has its place in the sources.
 """
 
 import argparse
@@ -106,7 +107,7 @@ def play(folder, bug, words):
                          capture_output=True, text=True, check=False,
                          env={**os.environ, "PLANTED": bug["name"]})
     runs = re.search(r"^(\d+) runs", ran.stdout, re.MULTILINE)
-    what = re.search(r"^(?:episode \d+|case [^:]*): (.*)", ran.stdout + ran.stderr, re.MULTILINE)
+    what = re.search(r"^(?:(?:episode|line) \d+[^:]*|case [^:]*): (.*)", ran.stdout + ran.stderr, re.MULTILINE)
     found = what[1] if what else None
     if ran.returncode not in (0, 1):
         found = f"ended with {ran.returncode}" + (f": {found}" if found else "")
@@ -114,13 +115,18 @@ def play(folder, bug, words):
 
 
 def search(folder, bug, given):
-    """(bug, runs until something was found, what or None, seconds): single faults, then episodes"""
+    """(bug, runs until something was found, what or None, seconds)"""
     begin = time.monotonic()
-    runs, what = play(folder, bug, ["--sweep", str(given.sweep)])
-    if what is None:
-        more, what = play(folder, bug,
-                          ["--seed", str(given.seed), "--episodes", str(given.episodes)])
-        runs += more
+    seed, each = ["--seed", str(given.seed)], ["--sweep", str(given.sweep)]
+    if bug.get("by") == "lines":
+        ways = [[*seed, "--lines", str(given.lines)], [*seed, "--lines", "2", *each]]
+    else:
+        ways = [each, [*seed, "--episodes", str(given.episodes)]]
+    runs, what = 0, None
+    for words in ways:
+        if what is None:
+            more, what = play(folder, bug, words)
+            runs += more
     return bug, runs, what, time.monotonic() - begin
 
 
@@ -137,6 +143,7 @@ def main():
     parser.add_argument("folder", type=pathlib.Path, nargs="?")
     parser.add_argument("names", nargs="*")
     parser.add_argument("--episodes", type=int, default=10000)
+    parser.add_argument("--lines", type=int, default=400)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--sweep", type=int, default=40)
     parser.add_argument("--jobs", type=int, default=os.cpu_count())

@@ -139,7 +139,7 @@ Command Story::some_apply() {
     json set = json::object();
     for (const std::uint8_t address : story_settings) {
       if (address != static_node_id && chance_.comes(0.5)) {
-        set[name(address)] = some_value(By::tries, address, i);
+        set[word_of(address)] = some_value(By::tries, address, i);
       }
     }
     if (exchanges) {

@@ -67,8 +67,7 @@ std::vector<std::size_t> Undone::firsts() const {
     }
   }
   if (tries.empty() || is_plain()) {
-    tries.resize(std::min<std::size_t>(tries.size(), 1));
-    return tries;
+    return tries.empty() ? tries : std::vector{tries.front()};
   }
   tries.push_back(acts.size());
   return tries;

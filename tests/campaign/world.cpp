@@ -87,7 +87,8 @@ void World::power_on(const nlohmann::json& scenario, Time at) {
       *parsed, at, [this](const sim::ServoEvent& event) { events_.push_back(event); });
 }
 
-Outcome World::run(const Command& command, std::span<Disturbance> disturbances) {
+Outcome World::run(const Command& command, std::span<Disturbance> disturbances,
+                   const Around& around) {
   Outcome outcome;
   std::vector<std::string> arguments{"-i", "sim:world", "--json"};
   arguments.insert(arguments.end(), command.words.begin(), command.words.end());
@@ -99,7 +100,8 @@ Outcome World::run(const Command& command, std::span<Disturbance> disturbances) 
     for (Disturbance& disturbance : disturbances) {
       bus = std::make_unique<DisturbedBus>(std::move(bus), disturbance);
     }
-    return cli::OpenBus{.bus = std::make_unique<Witness>(std::move(bus), outcome.record),
+    bus = std::make_unique<Witness>(std::move(bus), outcome.record);
+    return cli::OpenBus{.bus = around ? around(std::move(bus)) : std::move(bus),
                         .place = {.interface = "sim:world", .folder = folder_.string()}};
   };
   const auto of = [&](Disturbance::Kind kind) {
@@ -156,7 +158,7 @@ nlohmann::json World::rom_of(const sim::Servo& servo) {
   return rom;
 }
 
-void World::repair() {
+void World::repair(const nlohmann::json& events) {
   nlohmann::json servos = nlohmann::json::array();
   for (const nlohmann::json& before : scenario_["servos"]) {
     const sim::Servo& servo =
@@ -168,11 +170,17 @@ void World::repair() {
                       {"node_id", servo.registers().rom_value(bla::Address(static_node_id))},
                       {"servo_id", servo.registers().rom_value(bla::Address(servo_id))},
                       {"rom", rom_of(servo)}});
+    if (before.contains("firmware_version")) {
+      servos.back()["firmware_version"] = before["firmware_version"];
+    }
   }
   scenario_ = {{"schema", scenario_["schema"]},
                {"clock", "virtual"},
                {"seed", scenario_["seed"]},
                {"servos", servos}};
+  if (!events.is_null()) {
+    scenario_["events"] = events;
+  }
   power_on(scenario_, simulator_->now() + std::chrono::seconds(5));
 }
 
@@ -182,7 +190,8 @@ ServoState World::state_of(const sim::Servo& servo) {
                    .node_id = servo.node_id().value(),
                    .ram = {},
                    .rom = {},
-                   .rom_writes = servo.rom_writes()};
+                   .rom_writes = servo.rom_writes(),
+                   .is_powered = servo.world().powers()};
   for (unsigned address = 0; address < end; ++address) {
     const auto number = static_cast<std::uint8_t>(address);
     const bla::Parameter* parameter = servo.registers().existing(bla::Address(number));

@@ -2,6 +2,7 @@
 // Simulated servos that live on from one command to the next, and commands that run in this
 // process: from their arguments to their exit status.
 
+#include "blactl/can/bus.hpp"
 #include "blactl/sim/bus/simulator.hpp"
 #include "blactl/sim/servo/event.hpp"
 
@@ -12,6 +13,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <span>
@@ -55,6 +57,7 @@ struct ServoState {
   std::uint8_t node_id = 0;
   Registers ram, rom;
   std::uint32_t rom_writes = 0; ///< since power-on
+  bool is_powered = true;
 
   /// 0x1A bit 15: its ROM could not be read at its start, so RAM has initial values.
   [[nodiscard]] bool has_lost_rom() const;
@@ -71,14 +74,20 @@ class World {
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
+  /// Puts one bus around another.
+  using Around = std::function<std::unique_ptr<can::Bus>(std::unique_ptr<can::Bus>)>;
+
   /// Runs a command to its end, with --json. `disturbances`: of it; one at most is not of frames.
-  [[nodiscard]] Outcome run(const Command& command, std::span<Disturbance> disturbances = {});
+  /// `around`: who else looks on, if anybody does.
+  [[nodiscard]] Outcome run(const Command& command, std::span<Disturbance> disturbances = {},
+                            const Around& around = {});
 
   /// Lets time pass: what was sent before a command broke off happens all the same.
   void pass(Duration time);
 
-  /// All is switched off, and on again without anything that goes wrong.
-  void repair();
+  /// All is switched off, and on again without anything that goes wrong: but for `events`, if
+  /// there are any.
+  void repair(const nlohmann::json& events = {});
 
   [[nodiscard]] States states();
 

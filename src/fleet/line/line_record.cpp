@@ -15,6 +15,8 @@
 #include <array>
 #include <chrono>
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <utility>
 
 namespace blactl::fleet {
@@ -93,7 +95,8 @@ void enter(LedgerRecord& record, const Servo& servo) {
   const bla::Readings& readings = servo.identity.readings();
   record.unique_id = servo.unique_id ? std::optional(hex(*servo.unique_id)) : std::nullopt;
   record.serial_number = readings.serial_number;
-  record.model = servo.identity.model();
+  const std::string model = servo.identity.model();
+  record.model = model.empty() ? std::nullopt : std::optional(model);
   record.firmware_version = readings.firmware_version;
   record.hardware_version = readings.hardware_version;
   record.servo_id = servo.servo_id;

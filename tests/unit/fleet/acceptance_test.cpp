@@ -1,5 +1,6 @@
 #include "blactl/base/sha256.hpp"
 #include "blactl/bla/config_sha256.hpp"
+#include "blactl/fleet/line/line_record.hpp"
 
 #include "catch.hpp"
 #include "fleet/line/acceptance.hpp"
@@ -128,4 +129,12 @@ TEST_CASE("a notice may leave the line, a warning or a failure may not") {
   CHECK(code_of(warned) == "faults");
   CHECK(warned->message == "it has faults: 0x1A.4;0x19.8");
   CHECK(code_of(check_faults(values(0, 0, 2), profiles(), NodeId(11))) == "faults");
+}
+
+TEST_CASE("a unit that said nothing of itself has nothing of it in its record") {
+  state::LedgerRecord record;
+  enter(record, Servo());
+  CHECK_FALSE(record.model);
+  CHECK_FALSE(record.unique_id);
+  CHECK_FALSE(record.serial_number);
 }
