@@ -221,7 +221,15 @@ class OneLine {
                      value));
   }
 
-  // Between two records the bench was empty.
+  // Another unit may come as soon as nobody of the record before is there any more.
+  [[nodiscard]] bool are_others(const ToldRecord& last, const ToldRecord& next) const {
+    return std::ranges::none_of(story_.powered, [&](const auto& unit) {
+      return story_.has_power(unit.first, last.at - last_moment, last.at) &&
+             story_.has_power(unit.first, begin_of(next), next.at);
+    });
+  }
+
+  // Between two records of a unit the bench was empty.
 
   void check_taken_off(const Shift& shift, const ToldRecord& last, const ToldRecord& next) const {
     static const std::set<std::string> silent{
@@ -231,7 +239,7 @@ class OneLine {
         "jitter"};
     constexpr Duration off = 2500ms;
     if (is_interrupted(last.record) || shift.disturbance.kind != Kind::none ||
-        (has_any_of(silent) && !shift.is_calm)) {
+        (has_any_of(silent) && !shift.is_calm) || are_others(last, next)) {
       return;
     }
     std::vector<Span> spans;
