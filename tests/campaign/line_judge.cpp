@@ -221,12 +221,16 @@ class OneLine {
                      value));
   }
 
-  // Another unit may come as soon as nobody of the record before is there any more.
-  [[nodiscard]] bool are_others(const ToldRecord& last, const ToldRecord& next) const {
-    return std::ranges::none_of(story_.powered, [&](const auto& unit) {
+  // Another unit may come as soon as nobody of the record before is there any more; one that comes
+  // beside it is told, and what the station could not judge is done again at once.
+  [[nodiscard]] bool may_follow_at_once(const ToldRecord& last, const ToldRecord& next) const {
+    static const std::set<json> repeated{"not_back", "interface", "bus_off", "no_acknowledge"};
+    const bool is_kept = std::ranges::any_of(story_.powered, [&](const auto& unit) {
       return story_.has_power(unit.first, last.at - last_moment, last.at) &&
              story_.has_power(unit.first, begin_of(next), next.at);
     });
+    return !is_kept || next.record.at("code") == "several_servos" ||
+           repeated.contains(last.record.at("code"));
   }
 
   // Between two records of a unit the bench was empty.
@@ -239,7 +243,7 @@ class OneLine {
         "jitter"};
     constexpr Duration off = 2500ms;
     if (is_interrupted(last.record) || shift.disturbance.kind != Kind::none ||
-        (has_any_of(silent) && !shift.is_calm) || are_others(last, next)) {
+        (has_any_of(silent) && !shift.is_calm) || may_follow_at_once(last, next)) {
       return;
     }
     std::vector<Span> spans;
