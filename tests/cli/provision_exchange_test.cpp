@@ -75,6 +75,19 @@ TEST_CASE("a unit that comes while the one before is still there is told at once
   CHECK(run.told() == "pass 1 11; error several_servos; pass 2 12");
 }
 
+TEST_CASE("a unit that came while the one before was worked on is told") {
+  const double from = GENERATE(4.0, 5.0, 6.5);
+  INFO(from << " s");
+  const Provisioned run = provision(line({{.serial = 101, .from = 1, .to = 50, .node_id = 11},
+                                          {.serial = 102, .from = from, .to = 50, .node_id = 8},
+                                          {.serial = 103, .from = 60, .to = 100, .node_id = 5}}),
+                                    {"--count", "2", "--idle-timeout", "90"});
+  INFO(run.result.out << run.result.err);
+  const std::string told = run.told();
+  CHECK((told == "pass 1 11; error several_servos; pass 2 12" ||
+         told == "error several_servos; pass 1 11" || told == "error several_servos; pass 2 12"));
+}
+
 TEST_CASE(
     "another unit that ran on a supply of its own, for as long as the last one, begins at once") {
   const Scene scene = Scene()

@@ -152,8 +152,21 @@ std::optional<Error> Station::identify(const Arrival& arrival, Servo& servo) con
   return not_unique(roster, id);
 }
 
-/// An error of a servo that has left is that.
+/// Whether a servo of another unit, as far as known, is there, too.
+bool Station::is_beside_another(NodeId id) const {
+  const Member own = session_.roster().member(id);
+  return std::ranges::any_of(servos_there(), [&](NodeId other) {
+    return other != id &&
+           !(own.info && session_.roster().member(other).is_unit(own.info->unique_id));
+  });
+}
+
+/// An error of a servo that has left is that; one beside another servo is that of two.
 Error Station::unless_away(Error error, NodeId id) const {
+  if (error.code == Code::state && is_beside_another(id)) {
+    return {Code::several_servos, say<texts::station_several>(), say<texts::station_several_hint>(),
+            id.value()};
+  }
   const bool is_away = session_.roster().member(id).last_heard < session_.now() - away_time;
   const bool is_silence = error.code == Code::timeout || error.code == Code::not_found ||
                           error.code == Code::not_back || error.code == Code::mismatch;

@@ -175,7 +175,9 @@ void Station::remember(const state::LedgerRecord& record) {
   }
   for (const NodeId id : servos_there()) {
     const Member member = session_.roster().member(id);
-    last_.nodes[id] = {member.boots, member.back_at};
+    if (!last_.unit || member.is_unit(*last_.unit)) { // another one has come beside it
+      last_.nodes[id] = {member.boots, member.back_at};
+    }
   }
 }
 

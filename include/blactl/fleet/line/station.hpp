@@ -126,6 +126,7 @@ class Station {
   [[nodiscard]] std::optional<Error> prove(const Servo& servo, dronecan::NodeId id,
                                            std::span<const bla::Assignment> settings,
                                            state::LedgerRecord& record);
+  [[nodiscard]] bool is_beside_another(dronecan::NodeId id) const;
   [[nodiscard]] Error unless_away(Error error, dronecan::NodeId id) const;
   [[nodiscard]] Result<state::LedgerRecord> commit(state::LedgerRecord record, Time began,
                                                    std::string_view verdict,
