@@ -4,13 +4,12 @@
 """
 
 import os
-import shutil
 import signal
 import subprocess
 import sys
 import time
 
-from terminal import Terminal, fleet
+from terminal import Terminal, fleet, run_tests
 
 
 def require(truth, what, lines=()):
@@ -219,19 +218,11 @@ def other_terminals(blactl):
         terminal.shows("TIME           NODE")
 
 
-def main():
-    if not shutil.which("tmux"):
-        print("skipped: tmux is missing")
-        return 77
-    blactl = sys.argv[1]
-    for test in (sizes, keys, resizing, what_happens, coming_back, identifying, playing, ends, stopping, closed_terminal,
-                 other_terminals):
-        test(blactl)
-        print(f"{test.__name__}: ok", flush=True)
-    return 0
+TESTS = (sizes, keys, resizing, what_happens, coming_back, identifying, playing, ends,
+         stopping, closed_terminal, other_terminals)
 
 
 if __name__ == "__main__":
     if len(sys.argv) != 2:
         sys.exit(__doc__)
-    sys.exit(main())
+    sys.exit(run_tests(TESTS, sys.argv[1]))

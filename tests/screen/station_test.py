@@ -5,10 +5,9 @@
 
 import json
 import os
-import shutil
 import sys
 
-from terminal import Terminal
+from terminal import Terminal, run_tests
 
 SERVOS = [{"model": "BLA21-12U-AB", "serial_number": 101, "node_id": 5}]
 RECIPE = {"schema": "blactl-recipe/1", "name": "aileron", "model": "BLA21-12U-AB",
@@ -75,17 +74,10 @@ def labels(blactl):
         terminal.shows("status 0")
 
 
-def main():
-    if not shutil.which("tmux"):
-        print("skipped: tmux is missing")
-        return 77
-    for test in (verdicts, places, labels):
-        test(sys.argv[1])
-        print(f"{test.__name__}: ok", flush=True)
-    return 0
+TESTS = (verdicts, places, labels)
 
 
 if __name__ == "__main__":
     if len(sys.argv) != 2:
         sys.exit(__doc__)
-    sys.exit(main())
+    sys.exit(run_tests(TESTS, sys.argv[1]))

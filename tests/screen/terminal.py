@@ -2,6 +2,7 @@
 
 import json
 import os
+import shutil
 import subprocess
 import tempfile
 import time
@@ -100,6 +101,17 @@ class Terminal:
         pane = self.tmux("display-message", "-p", "#{pane_pid}").strip()
         found = subprocess.run(["pgrep", "-P", pane], capture_output=True, text=True, check=False)
         return [int(pid) for pid in found.stdout.split()]
+
+
+def run_tests(tests, blactl):
+    """Exit status."""
+    if not shutil.which("tmux"):
+        print("skipped: tmux is missing")
+        return 77
+    for test in tests:
+        test(blactl)
+        print(f"{test.__name__}: ok", flush=True)
+    return 0
 
 
 def fleet(count):

@@ -210,13 +210,8 @@ std::optional<state::SnapshotEntry> History::entry_of(const Plan& plan, const Ro
   }
   keep_rom(plan, held, session);
   const auto known = kept_.find(*unique_id);
-  state::SnapshotEntry entry = known != kept_.end()
-                                   ? known->second.entry
-                                   : state::SnapshotEntry{.run = run_,
-                                                          .at = session.wall(),
-                                                          .command = command_,
-                                                          .unique_id = *unique_id,
-                                                          .clock = clock_of(session)};
+  state::SnapshotEntry entry =
+      known != kept_.end() ? known->second.entry : new_entry(*unique_id, session);
   const state::SnapshotEntry before = entry;
   if (plan.restart == RestartKind::save && known != kept_.end()) { // undo would save them
     for (const std::uint8_t address : std::exchange(known->second.lost, {})) {
@@ -284,6 +279,14 @@ Result<void> History::keep(std::span<const Plan> plans, const Session& session) 
     }
   }
   return entries.empty() ? Result<void>() : store(std::move(entries), session.wall());
+}
+
+state::SnapshotEntry History::new_entry(const UniqueId& unit, const Session& session) const {
+  return {.run = run_,
+          .at = session.wall(),
+          .command = command_,
+          .unique_id = unit,
+          .clock = clock_of(session)};
 }
 
 /// Entries of this command, which are those of their units from now on.

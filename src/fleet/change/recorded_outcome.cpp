@@ -61,13 +61,8 @@ Result<void> History::keep_what_was_taken(std::span<const ChangeResult> results,
              held.second;
     });
     const auto known = kept_.find(ram.key());
-    state::SnapshotEntry entry = known != kept_.end()
-                                     ? known->second.entry
-                                     : state::SnapshotEntry{.run = run_,
-                                                            .at = session.wall(),
-                                                            .command = command_,
-                                                            .unique_id = ram.key(),
-                                                            .clock = clock_of(session)};
+    state::SnapshotEntry entry =
+        known != kept_.end() ? known->second.entry : new_entry(ram.key(), session);
     const std::size_t size = entry.held.size();
     entry.held.merge(ram.mapped());
     if (entry.held.size() != size) {

@@ -56,15 +56,14 @@ Result<void> History::go_on(std::span<const UniqueId> units, WallTime now) {
 Result<void> History::gather(std::span<const state::SnapshotEntry> tries, WallTime now) {
   std::vector<state::SnapshotEntry> gathered;
   for (const state::SnapshotEntry& tried : tries) {
-    for (auto each = std::optional(tried); each && each->run == tried.run;) {
+    const bool is_apart = tried.run != run_;
+    for (auto each = std::optional(tried); is_apart && each && each->run == tried.run;) {
       auto earlier = snapshots_.before(*each);
       if (!earlier) {
         return std::unexpected(earlier.error());
       }
-      if (each->run != run_) {
-        gathered.push_back(std::move(*each));
-        gathered.back().run = run_;
-      }
+      gathered.push_back(std::move(*each));
+      gathered.back().run = run_;
       each = std::move(*earlier);
     }
   }

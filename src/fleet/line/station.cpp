@@ -60,6 +60,11 @@ std::optional<Error> first_wrong(const Snapshot& held, std::span<const bla::Assi
   return std::nullopt;
 }
 
+Error several(std::optional<std::uint8_t> id) {
+  return {Code::several_servos, say<texts::station_several>(), say<texts::station_several_hint>(),
+          id};
+}
+
 } // namespace
 
 std::string_view name(StationStage stage) {
@@ -142,8 +147,7 @@ std::optional<Error> Station::identify(const Arrival& arrival, Servo& servo) con
   const Roster& roster = session_.roster();
   const NodeId id = arrival.ids.front();
   if (arrival.ids.size() > 1 || is_asked() || roster.is_doubled(id)) {
-    return Error{Code::several_servos, say<texts::station_several>(),
-                 say<texts::station_several_hint>(), std::nullopt};
+    return several({});
   }
   servo = roster.member(id).servo();
   if (!roster.member(id).is_known() || !servo.is_servo || !servo.unique_id) {
@@ -164,8 +168,7 @@ bool Station::is_beside_another(NodeId id) const {
 /// An error of a servo that has left is that; one beside another servo is that of two.
 Error Station::unless_away(Error error, NodeId id) const {
   if (error.code == Code::state && is_beside_another(id)) {
-    return {Code::several_servos, say<texts::station_several>(), say<texts::station_several_hint>(),
-            id.value()};
+    return several(id.value());
   }
   const bool is_away = session_.roster().member(id).last_heard < session_.now() - away_time;
   const bool is_silence = error.code == Code::timeout || error.code == Code::not_found ||
@@ -293,8 +296,7 @@ std::optional<Error> Station::prove(const Servo& servo, NodeId id,
     return unless_away(std::move(*error), id);
   }
   if (held.servo.unique_id != servo.unique_id) {
-    return Error{Code::several_servos, say<texts::station_several>(),
-                 say<texts::station_several_hint>(), id.value()};
+    return several(id.value());
   }
   enter(record, held, profiles_);
   auto wrong = first_wrong(held, settings, record);

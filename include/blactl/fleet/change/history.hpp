@@ -134,6 +134,8 @@ class History {
   [[nodiscard]] std::optional<state::SnapshotEntry> entry_of(const Plan& plan, const Roms& roms,
                                                              const Session& session);
   [[nodiscard]] bla::Values taken_from_ram(const Plan& plan, const Session& session);
+  [[nodiscard]] state::SnapshotEntry new_entry(const dronecan::UniqueId& unit,
+                                               const Session& session) const;
   [[nodiscard]] Result<void> store(std::vector<state::SnapshotEntry> entries, WallTime now);
   [[nodiscard]] Result<void> keep_what_was_taken(std::span<const ChangeResult> results,
                                                  const Session& session);
