@@ -112,7 +112,8 @@ Step take_step(World& world, const Episode& episode, const Command& command,
             .after = {},
             .begin = world.now(),
             .end = {},
-            .events = {}};
+            .events = {},
+            .tried = {}};
   step.outcome = world.run(command, disturbances);
   step.after = world.states();
   step.end = world.now();
@@ -209,7 +210,10 @@ void Campaign::play(const Episode& drawn) {
       episode.scenario["servos"], [](const json& servo) { return servo["node_id"] == 0; });
   std::optional<Step> last;
   for (const Command& command : episode.steps) {
-    const Step step = run(world, episode, command);
+    Step step = run(world, episode, command);
+    if (last && last->outcome.status != 0 && last->command.words == command.words) {
+      step.tried = last->tried ? last->tried : last->before;
+    }
     const bool must_succeed = command.is_right && ids_are_known && is_sound(episode);
     count(step, must_succeed);
     try {
@@ -239,7 +243,7 @@ void Campaign::play(const Episode& drawn) {
     last.emplace(step);
   }
   list(world, episode);
-  repeat(world, episode);
+  repeat(world, episode, *last);
 }
 
 /// The servo confirmed a value, and is made to hold another one.
@@ -292,8 +296,8 @@ Step Campaign::run_and_answer(World& world, const Episode& calm, const Command& 
 }
 
 /// Everything that went wrong has ended: the last command converges.
-void Campaign::repeat(World& world, const Episode& episode) {
-  const Command& last = episode.steps.back();
+void Campaign::repeat(World& world, const Episode& episode, const Step& former) {
+  const Command& last = former.command;
   if (!last.is_right || !is_sound(episode)) {
     return;
   }
@@ -316,7 +320,10 @@ void Campaign::repeat(World& world, const Episode& episode) {
     *(target + 1) = "all"; // its ID may be another one now
   }
   for (int time = 0; time < 2; ++time) {
-    const Step step = run_and_answer(world, calm, command);
+    Step step = run_and_answer(world, calm, command);
+    if (time == 0 && former.outcome.status != 0) {
+      step.tried = former.tried ? former.tried : former.before;
+    }
     counts_.repeated += 1;
     try {
       judge(step);

@@ -69,7 +69,7 @@ class Campaign {
   [[nodiscard]] std::vector<Time> rehearse(const Episode& episode);
   void count(const Step& step, bool must_succeed);
   void list(World& world, const Episode& episode);
-  void repeat(World& world, const Episode& episode);
+  void repeat(World& world, const Episode& episode, const Step& former);
   void test_alarm(const Step& step);
   void differ(const Episode& episode, const Step& step, const std::string& what);
 

@@ -207,10 +207,14 @@ class Told {
       const ServoState& before = step_.before.at(serial_);
       const std::int64_t held = keeps ? before.ram.at(address) : 0;
       const std::int64_t in_rom = before.rom.at(address);
-      // one that broke off has left 0 in RAM: then ROM's is brought back, as by a restart
+      // one that broke off has left 0 in RAM: then what that run began with is brought back, or
+      // ROM's, as by a restart
       const bool may_come_back = held == 0 || has_restarted_before_change();
-      const bool is_brought_back = keeps && may_come_back && after_.ram.at(address) == in_rom;
-      const std::int64_t due = is_brought_back ? in_rom : held;
+      const std::int64_t now = after_.ram.at(address);
+      const bool is_tried =
+          step_.tried && held == 0 && now == step_.tried->at(serial_).ram.at(address);
+      const bool is_brought_back = keeps && ((may_come_back && now == in_rom) || is_tried);
+      const std::int64_t due = is_brought_back ? now : held;
       require_held("RAM", after_.ram, address, due);
       if (saved) {
         require_held("ROM", after_.rom, address, due);

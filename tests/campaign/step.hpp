@@ -4,6 +4,7 @@
 #include "episode.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -27,6 +28,8 @@ struct Step {
   States before, after;
   Time begin, end;
   std::vector<sim::ServoEvent> events;
+  std::optional<States>
+      tried{}; ///< before the first of the runs that broke off, which this repeats
 
   /// All node IDs that a servo had.
   [[nodiscard]] std::set<std::uint8_t> node_ids(std::int64_t serial) const;
