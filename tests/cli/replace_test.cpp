@@ -4,6 +4,10 @@
 #include "fleet.hpp"
 #include "scene.hpp"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -115,6 +119,17 @@ TEST_CASE("a replacement that ended before its file was written is completed") {
   CHECK(again.status == 0);
   CHECK(statuses(again) == std::vector<std::string>{"unchanged"});
   CHECK(content(place.file) == named);
+}
+
+TEST_CASE("two runs of replace on one file: the second is refused before it changes a servo") {
+  const Place place(with(33));
+  const int held = open(place.file.c_str(), O_RDWR | O_CLOEXEC);
+  REQUIRE(flock(held, LOCK_EX | LOCK_NB) == 0); // as another run holds it
+  check_error(place.replace(), 9, "busy", "another blactl is about to write");
+  CHECK(place.replace({"--dry-run"}).status == 8);
+  CHECK(place.fleet.ram("33", "servo_id") == 0);
+  close(held);
+  CHECK(place.replace().status == 0);
 }
 
 TEST_CASE("a dry run of replace changes neither servo nor file") {

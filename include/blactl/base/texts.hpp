@@ -13,6 +13,10 @@ inline constexpr Text file_unwritable{"cannot write {}: {}", "{} に書き込め
 inline constexpr Text file_unwritable_hint{
     "the previous file is unchanged; check the folder, its permissions and free space",
     "元のファイルは変更していません。フォルダとアクセス権、空き容量を確認して下さい"};
+inline constexpr Text file_held{"another blactl is about to write {}",
+                                "別の blactl が {} を更新しようとしています"};
+inline constexpr Text file_held_hint{"run the same command again when it has ended",
+                                     "終了してから同じコマンドを実行して下さい"};
 inline constexpr Text file_too_large{"{} is larger than {} MiB", "{} は {} MiB を超えています"};
 inline constexpr Text json_invalid{"not valid JSON: {}", "JSON として正しくありません: {}"};
 inline constexpr Text json_trailing_comma{"trailing comma: there must be none after the last item",

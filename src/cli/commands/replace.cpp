@@ -1,5 +1,6 @@
 // blactl replace: a new servo takes the place of a broken one, on the bus and in the fleet file.
 
+#include "blactl/base/file_hold.hpp"
 #include "blactl/base/hex.hpp"
 #include "blactl/base/json_reader.hpp"
 #include "blactl/base/read_file.hpp"
@@ -62,11 +63,12 @@ constexpr Option replace_arguments[]{
 
 /// The fleet file, as it was read.
 struct File {
+  std::optional<FileHold> hold; ///< until the new servo is named; a dry run needs none
   std::string text;
   fleet::FleetFile fleet;
 };
 
-Result<File> read(const std::string& name, const bla::Profiles& profiles) {
+Result<File> read(const std::string& name, bool dry_run, const bla::Profiles& profiles) {
   if (name == "-") {
     return fail(Code::usage, say<texts::replace_needs_file>(),
                 say<texts::replace_needs_file_hint>());
@@ -74,12 +76,20 @@ Result<File> read(const std::string& name, const bla::Profiles& profiles) {
   if (const auto replaceable = check_replaceable(name); !replaceable) {
     return fail(Code::usage, replaceable.error().message, replaceable.error().hint);
   }
+  std::optional<FileHold> hold;
+  if (!dry_run) {
+    auto taken = FileHold::take(name);
+    if (!taken) {
+      return std::unexpected(std::move(taken.error()));
+    }
+    hold.emplace(std::move(*taken));
+  }
   auto text = read_file(name, json::max_file_bytes);
   if (!text) {
     return std::unexpected(text.error());
   }
   auto fleet = fleet::parse_fleet_file(*text, name, profiles);
-  return fleet ? Result<File>({std::move(*text), std::move(*fleet)})
+  return fleet ? Result<File>({std::move(hold), std::move(*text), std::move(*fleet)})
                : std::unexpected(fleet.error());
 }
 
@@ -246,7 +256,8 @@ Result<void> Replacement::name_unit(const fleet::Snapshot& unit) {
 Report execute(const ReplaceOptions& options, Context& context) {
   Report report{.interface = printable(context.shared().interface)};
   const auto profiles = context.profiles();
-  const auto file = profiles ? read(options.file, **profiles) : std::unexpected(profiles.error());
+  const auto file = profiles ? read(options.file, options.dry_run, **profiles)
+                             : std::unexpected(profiles.error());
   const auto entry = file ? fleet::find_entry(file->fleet, options.name)
                           : Result<const fleet::FleetEntry*>(std::unexpected(file.error()));
   if (!entry) {
