@@ -264,6 +264,10 @@ TEST_CASE("a table goes to another machine as a file, whole or not at all") {
   CHECK(contains(imported.out, "entries taken over from "));
   const std::string out = (bench.folder() / "out.json").string();
   CHECK(bench.run({"alloc", "--export", out}).status == 0);
+  CHECK(bench.run({"alloc", "--export", out}).status == 0); // its like is replaced
+  const std::string other_file = bench.file("wing.json", R"({"schema": "blactl-fleet/1"})");
+  check_error(bench.run({"alloc", "--export", other_file, "--json"}), 2, "usage",
+              "is there, and is no allocation table");
   const Result printed = bench.run({"alloc", "--export", "-"});
   std::ifstream stream(out);
   std::ostringstream content;

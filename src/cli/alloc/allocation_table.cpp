@@ -6,10 +6,14 @@
 
 #include "cli/alloc/actions.hpp"
 #include "cli/alloc/texts.hpp"
+#include "cli/log_target.hpp"
 #include "cli/output/table.hpp"
 #include "cli/stores.hpp"
+#include "cli/texts.hpp"
 
+#include <filesystem>
 #include <memory>
+#include <system_error>
 #include <utility>
 
 namespace blactl::cli {
@@ -42,6 +46,20 @@ std::string text(const Entries& entries, const Page& page) {
     table.add({std::to_string(entry.node_id.value()), hex(entry.unique_id), rfc3339(entry.at)});
   }
   return table.text("", page);
+}
+
+/// A file that is there is replaced only by its like: a name is typed faster than looked at.
+Result<void> check_target(const std::string& file) {
+  if (auto apart = check_no_state(file, "--export"); !apart) {
+    return apart;
+  }
+  std::error_code unseen; // what cannot be examined cannot be replaced either
+  const bool has_content = std::filesystem::is_regular_file(file, unseen) &&
+                           std::filesystem::file_size(file, unseen) > 0;
+  return has_content && !state::read_allocation_file(file)
+             ? fail(Code::usage, say<texts::alloc_export_over_other>(printable(file)),
+                    say<texts::log_over_other_hint>())
+             : Result<void>();
 }
 
 /// The report of an operation on a file.
@@ -83,7 +101,11 @@ Report export_allocations(const std::string& file, Context& context) {
   if (file == "-") {
     return done_with(file, std::move(content));
   }
-  if (auto written = replace_file(file, content); !written) {
+  auto written = check_target(file);
+  if (written) {
+    written = replace_file(file, content);
+  }
+  if (!written) {
     return failed(std::move(written.error()));
   }
   return done_with(file, say<texts::alloc_exported>(entries->size(), printable(file)));

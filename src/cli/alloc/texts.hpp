@@ -55,6 +55,9 @@ inline constexpr Text alloc_export_json_needs_file{
 inline constexpr Text alloc_export_json_needs_file_hint{
     "give a file: blactl alloc --export table.json --json; or leave --json out",
     "ファイルを指定するか (blactl alloc --export table.json --json)、--json を外して下さい"};
+inline constexpr Text alloc_export_over_other{
+    "--export {}: that file is there, and is no allocation table",
+    "--export {}: 既存のファイルで、ID 割当て表ではありません"};
 inline constexpr Text alloc_exported{"entries written to {1}: {0}\n",
                                      "{} 件を {} に書き込みました\n"};
 inline constexpr Text alloc_imported{"entries taken over from {1}: {0}\n",
