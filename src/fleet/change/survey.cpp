@@ -220,8 +220,13 @@ std::optional<Error> servo_id_conflict(const Survey& survey, std::span<const Pla
 
 std::optional<Error> newcomer_conflict(const Roster& roster, Time surveyed, const Plan& plan) {
   const auto servo_id = plan.given_servo_id();
+  const auto node_id = plan.given_node_id();
   for (const auto& [id, member] : roster.members()) {
     const bool is_new = id != plan.before.servo.id && member.first_heard > surveyed;
+    const auto& own = plan.before.servo.unique_id;
+    if (is_new && node_id == id && !(own && member.is_unit(*own))) {
+      return taken(plan, id, member.unique_id());
+    }
     if (is_new && servo_id && member.actuator_id == servo_id) {
       return servo_id_taken(plan.before.servo.id.value(), *servo_id, id);
     }

@@ -47,6 +47,7 @@ Step WriteJob::next(const Outcome& outcome) {
 
 /// Between reading and writing another unit may have come to the node ID.
 Step WriteJob::begin(Time now) {
+  begun_ = now;
   if (roster_.is_doubled(servo_.id) ||
       std::ranges::none_of(changes_, &RegisterChange::is_planned)) {
     return go_on(now);
@@ -116,8 +117,7 @@ std::optional<Error> WriteJob::not_any_more() const {
   const RegisterChange& change = changes_[current_];
   const bool gives_id = change.parameter->address == bla::address::static_node_id &&
                         change.requested > 0 && change.requested <= dronecan::NodeId::max;
-  if (gives_id && roster_.giver_of(dronecan::NodeId(static_cast<std::uint8_t>(change.requested)),
-                                   servo_.id, servo_.since)) {
+  if (gives_id && is_taken(dronecan::NodeId(static_cast<std::uint8_t>(change.requested)))) {
     return Error{Code::duplicate_node_id, say<texts::id_given_is_kept>(id, change.requested),
                  say<texts::id_given_is_kept_hint>(), id};
   }
@@ -139,6 +139,14 @@ std::optional<Error> WriteJob::not_any_more() const {
     }
   }
   return std::nullopt;
+}
+
+/// Whether a node ID that was free is another's meanwhile: given to it, or heard from it.
+bool WriteJob::is_taken(dronecan::NodeId given) const {
+  const bool is_heard = given != servo_.id && roster_.heard(given) &&
+                        roster_.member(given).last_heard > begun_ &&
+                        !roster_.has_moved(roster_.member(given));
+  return is_heard || roster_.giver_of(given, servo_.id, servo_.since);
 }
 
 /// If the next write gives it one.

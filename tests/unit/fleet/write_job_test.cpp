@@ -207,6 +207,21 @@ TEST_CASE("a node ID that another node gives to another servo meanwhile is not w
   }
 }
 
+TEST_CASE("a node ID under which another node is heard meanwhile is not written") {
+  Bench bench;
+  WriteJob job = bench.job({change("angle_limit_cw", 900, 450), change("static_node_id", 20, 11)});
+  CHECK(bench.begin(job) == "write 0x38=900");
+  const auto [id, is_written] =
+      GENERATE(std::pair(std::uint8_t{20}, false), std::pair(std::uint8_t{21}, true));
+  const auto status = message(dronecan::NodeStatus::type, id, dronecan::NodeStatus{}.encode());
+  bench.roster.hear(status.front(), Time{500ms});
+  CHECK((bench.value(job, "angle_limit_cw", 900) == "write 0x46=20") == is_written);
+  if (!is_written) {
+    REQUIRE(job.changes()[1].error);
+    CHECK(job.changes()[1].error->code == Code::duplicate_node_id);
+  }
+}
+
 TEST_CASE("a node ID that an allocator gives to another unit meanwhile is not written") {
   Bench bench;
   const auto [unit, is_written] = GENERATE(std::pair(std::uint8_t{13}, false), // another's

@@ -84,6 +84,7 @@ class WriteJob final : public dronecan::Job {
   [[nodiscard]] bool may_try_again();
   [[nodiscard]] std::optional<std::int64_t> next_servo_id() const;
   [[nodiscard]] std::optional<Error> not_any_more() const;
+  [[nodiscard]] bool is_taken(dronecan::NodeId given) const;
   void move_on();
   [[nodiscard]] dronecan::Step after_read(const dronecan::Outcome& outcome);
   [[nodiscard]] dronecan::Step doubt(std::size_t change, Time now);
@@ -108,6 +109,7 @@ class WriteJob final : public dronecan::Job {
   Options options_;
   Guard guard_;
   At at_ = At::begin;
+  Time begun_{};
   std::size_t current_ = 0; ///< the change being written or checked
   bool has_written_ = false;
   int tries_ = 0;                      ///< of this change, beyond the first
