@@ -216,17 +216,11 @@ void Change::look_back(GoalResult& result, const Lost& lost) const {
   if (!id) {
     return;
   }
-  const Time since = result.change.looked_at;
-  if (!result.is_done) { // one that has made way, and has waited for others on a temporary ID
-    const bool may_differ =
-        may_have_restarted(roster, *id, result.change.boots, result.change.health) ||
-        roster.setter_of(*id, since) || lost.contains(*id);
-    if (result.change.saved && may_differ) {
-      result.change.doubt();
-      result.change.saved = false;
-    }
+  if (!result.is_done) {
+    look_back_at_failed(result, *id, lost);
     return;
   }
+  const Time since = result.change.looked_at;
   const bool is_in_ram_only = result.change.was_sent && !result.change.may_have_saved;
   if (roster.is_doubled(*id)) {
     result.errors.push_back(doubled(roster, *id));
@@ -251,6 +245,20 @@ void Change::look_back(GoalResult& result, const Lost& lost) const {
   }
   result.is_done = result.change.saved = result.change.is_verified = false;
   result.rom_proven = result.rom_proven ? std::optional(false) : std::nullopt;
+}
+
+/// One that has made way and waited for others on a temporary ID, or has waited in vain for its
+/// turn: what it held at its last look it may have lost.
+void Change::look_back_at_failed(GoalResult& result, NodeId id, const Lost& lost) const {
+  const Roster& roster = session_.roster();
+  const ChangeResult& last = result.change;
+  const std::uint32_t boots = last.was_begun ? last.boots : result.servo().boot;
+  const Time since = last.was_begun ? last.looked_at : result.servo().since;
+  if (may_have_restarted(roster, id, boots, last.health) || roster.setter_of(id, since) ||
+      lost.contains(id)) {
+    result.change.doubt();
+    result.change.saved = false;
+  }
 }
 
 void Change::conclude() {

@@ -110,6 +110,7 @@ class Change {
   [[nodiscard]] std::optional<Error> lost_unchanged(const GoalResult& result,
                                                     const Lost& lost) const;
   void look_back(GoalResult& result, const Lost& lost) const;
+  void look_back_at_failed(GoalResult& result, dronecan::NodeId id, const Lost& lost) const;
   void go_on_with_record();
   void end_record();
 
