@@ -139,7 +139,9 @@ Counts& Counts::operator+=(const Counts& other) {
   }
   for (const auto& [fault, one] : other.alone) {
     alone[fault].good += one.good;
-    alone[fault].needless += one.needless;
+    for (const auto& [end, count] : one.needless) {
+      alone[fault].needless[end] += count;
+    }
   }
   return *this;
 }
@@ -172,7 +174,10 @@ void Campaign::count(const Step& step, bool must_succeed) {
     return;
   }
   Ends& ends = counts_.alone[faults.empty() ? "" : *faults.begin()];
-  (step.outcome.status == 0 ? ends.good : ends.needless) += 1;
+  (step.outcome.status == 0 ? ends.good : ends.needless[end_of(step.outcome)]) += 1;
+  if (is_verbose_ && step.outcome.status != 0) {
+    tell_(fmt::format("needless: {}", faults.empty() ? "(none)" : *faults.begin()));
+  }
 }
 
 /// When the program changes something where nothing goes wrong, and some moments before.

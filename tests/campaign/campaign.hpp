@@ -16,8 +16,8 @@ namespace blactl::campaign {
 
 /// What became of commands, by kind of fault where it was alone.
 struct Ends {
-  std::uint64_t good = 0;     ///< 0
-  std::uint64_t needless = 0; ///< of a good command, not 0
+  std::uint64_t good = 0;                        ///< 0
+  std::map<std::string, std::uint64_t> needless; ///< of a good command, not 0: how it ended
 };
 
 struct Counts {

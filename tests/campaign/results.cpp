@@ -101,12 +101,17 @@ std::string ends_by_count(const Counts& counts) {
 
 std::string faults_by_kind(const Counts& counts) {
   std::string text = "\n| Kind of fault | Episodes | Good commands, it alone | Not 0 |\n"
-                     "|---|---:|---:|---:|\n";
+                     "|---|---:|---:|---|\n";
   const auto row = [&](const std::string& name, std::uint64_t episodes, const std::string& kind) {
     const auto found = counts.alone.find(kind);
     const Ends ends = found != counts.alone.end() ? found->second : Ends{};
-    text += fmt::format("| {} | {} | {} | {} |\n", name, episodes, ends.good + ends.needless,
-                        ends.needless);
+    std::uint64_t commands = ends.good;
+    std::string how;
+    for (const auto& [end, count] : ends.needless) {
+      commands += count;
+      how += fmt::format("{}{}: {}", how.empty() ? "" : ", ", end, count);
+    }
+    text += fmt::format("| {} | {} | {} | {} |\n", name, episodes, commands, how);
   };
   row("(none)", 0, "");
   for (const auto& [kind, episodes] : counts.faults) {

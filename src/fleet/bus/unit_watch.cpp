@@ -27,9 +27,10 @@ dronecan::TransferId transfer_id(const can::Frame& frame) {
 } // namespace
 
 /// A servo alone on the bus gets no acknowledgement: when another node joins, its waiting frames
-/// come all at once. But one unit numbers its transfers consecutively; if the numbers of two units
-/// mix, at least every second one is out of sequence.
-void MessageRate::count(const can::Frame& frame, Time at, bool may_leap) {
+/// come all at once, and some of them may be lost. But one unit numbers its transfers upwards; if
+/// the numbers of two units mix, every way there leads forward and the way back backward, or the
+/// other way round.
+void MessageRate::count(const can::Frame& frame, Time at, unsigned most_lost) {
   const bool is_repeated = frame == last_ && at - last_at_ < repetition_time;
   const unsigned next = transfer_id(last_) + 1U;
   last_ = frame;
@@ -41,9 +42,9 @@ void MessageRate::count(const can::Frame& frame, Time at, bool may_leap) {
     window_start_ = at;
     count_ = leaps_ = 0;
   }
-  leaps_ += may_leap && transfer_id(frame) != next % dronecan::transfer_id_modulus ? 1U : 0U;
+  leaps_ += (transfer_id(frame) - next) % dronecan::transfer_id_modulus > most_lost ? 1U : 0U;
   ++count_;
-  if (count_ > most_ && leaps_ * 4 > count_) {
+  if (count_ > most_ && leaps_ > 1 && leaps_ * 8 > count_) {
     of_two_at_ = at;
   }
 }
@@ -56,7 +57,7 @@ void UnitWatch::begin_anew() {
 
 void UnitWatch::count_actuator_status(const can::Frame& frame, Time at) {
   if (is_timed_) {
-    actuator_statuses_.count(frame, at);
+    actuator_statuses_.count(frame, at, dronecan::transfer_id_modulus / 2 - 1);
   }
 }
 
@@ -66,7 +67,9 @@ void UnitWatch::count_node_status(const can::Frame& frame, std::uint32_t uptime_
     node_statuses_.begin_anew();
   }
   if (is_timed_) {
-    node_statuses_.count(frame, at, uptime_s == before);
+    // in one second of its uptime it sends one: nothing can be lost between two of them
+    node_statuses_.count(frame, at,
+                         uptime_s == before ? 0U : unsigned{dronecan::transfer_id_modulus});
     if (const auto header = dronecan::decode_id(frame.id)) {
       compare_priority(header->priority, at - std::chrono::seconds(uptime_s), at);
     }

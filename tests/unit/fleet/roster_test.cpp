@@ -56,6 +56,9 @@ class Ear {
     actuator_of(actuators_, source, servo_id);
   }
 
+  /// One is lost on its way.
+  void lose_actuator() { ++actuators_; }
+
   /// The last one comes twice.
   void actuator_again(std::uint8_t source) {
     --actuators_;
@@ -466,6 +469,26 @@ TEST_CASE(
   }
   CHECK(ear.roster.is_doubled(NodeId(10)) == is_two);
   CHECK((ear.roster.member(NodeId(10)).boots == 0) == !is_two);
+}
+
+TEST_CASE("one servo whose waiting frames come at once, some of them lost, is one") {
+  Ear ear;
+  const int every = GENERATE(2, 3, 4); // one of so many is lost
+  for (int i = 0; i < 60; ++i) {
+    i % every == 0 ? ear.lose_actuator() : ear.actuator(10);
+    ear.now += 1ms;
+  }
+  CHECK_FALSE(ear.roster.is_doubled(NodeId(10)));
+}
+
+TEST_CASE("two units are two however far apart their transfer IDs are") {
+  Ear ear;
+  const int ahead = GENERATE(range(0, 32));
+  for (int i = 0; i < ahead; ++i) {
+    ear.lose_actuator();
+  }
+  ear.both(10, 20, 40ms, 60ms);
+  CHECK(ear.roster.is_doubled(NodeId(10)));
 }
 
 TEST_CASE("the uptime of GetNodeInfo counts: a restart before the first NodeStatus shows") {

@@ -23,9 +23,9 @@ class MessageRate {
   constexpr MessageRate(Duration window, unsigned most) : window_(window), most_(most) {}
 
   /// The first frame of one. It counts once if it comes twice, as where the end of its
-  /// acknowledgement was disturbed. `may_leap`: a transfer ID out of sequence shows another unit;
-  /// false: it may also come from lost frames.
-  void count(const can::Frame& frame, Time at, bool may_leap = true);
+  /// acknowledgement was disturbed. `most_lost`: so many messages of one unit may be lost before
+  /// this one; a transfer ID further ahead, or behind, shows another unit.
+  void count(const can::Frame& frame, Time at, unsigned most_lost);
 
   /// The sender has restarted.
   void begin_anew() { window_start_.reset(); }
@@ -38,7 +38,7 @@ class MessageRate {
   unsigned most_;
   std::optional<Time> window_start_{};
   unsigned count_ = 0;
-  unsigned leaps_ = 0; ///< transfer IDs out of sequence
+  unsigned leaps_ = 0; ///< transfer IDs that lost messages do not explain
   can::Frame last_{};
   Time last_at_{};
   std::optional<Time> of_two_at_{};
