@@ -1,8 +1,11 @@
 #include "results.hpp"
 
+#include "needless.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -100,8 +103,8 @@ std::string ends_by_count(const Counts& counts) {
 }
 
 std::string faults_by_kind(const Counts& counts) {
-  std::string text = "\n| Kind of fault | Episodes | Good commands, it alone | Not 0 |\n"
-                     "|---|---:|---:|---|\n";
+  std::string text = "\n| Kind of fault | Episodes | Good commands, it alone | Not 0 | Why |\n"
+                     "|---|---:|---:|---|---|\n";
   const auto row = [&](const std::string& name, std::uint64_t episodes, const std::string& kind) {
     const auto found = counts.alone.find(kind);
     const Ends ends = found != counts.alone.end() ? found->second : Ends{};
@@ -111,7 +114,10 @@ std::string faults_by_kind(const Counts& counts) {
       commands += count;
       how += fmt::format("{}{}: {}", how.empty() ? "" : ", ", end, count);
     }
-    text += fmt::format("| {} | {} | {} | {} |\n", name, episodes, commands, how);
+    const std::string_view why = how.empty()               ? std::string_view()
+                                 : why_not_0(kind).empty() ? "**not explained**"
+                                                           : why_not_0(kind);
+    text += fmt::format("| {} | {} | {} | {} | {} |\n", name, episodes, commands, how, why);
   };
   row("(none)", 0, "");
   for (const auto& [kind, episodes] : counts.faults) {

@@ -406,6 +406,21 @@ TEST_CASE("erase --save that breaks off before SAVE is done with no servo") {
   CHECK(broken > 0);
 }
 
+TEST_CASE("a servo that fails after its restart, while others are looked at, is not another one") {
+  int failed = 0;
+  for (int at = 2300; at < 3500; at += 50) {
+    const Result restarted = Scene()
+                                 .servo("BLA21-12U-AB", 122, {{"serial_number", 1}})
+                                 .servo("BLA15-12U-A0", 13, {{"serial_number", 2}})
+                                 .event(2, "rom_error", std::to_string(at) + "ms")
+                                 .run({"restart", "-n", "all", "-y", "--json"});
+    INFO(at << ": " << restarted.err);
+    CHECK_FALSE(contains(restarted.err, "another servo"));
+    failed += restarted.status != 0 ? 1 : 0;
+  }
+  CHECK(failed > 0);
+}
+
 TEST_CASE("a servo that refuses SAVE ends in 5, one that answers and stays up in 1") {
   const auto saved = [](const char* fault) {
     return Scene()

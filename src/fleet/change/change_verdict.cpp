@@ -121,7 +121,12 @@ bool ChangeJob::is_proven() const {
 
 std::optional<Servo> ChangeJob::back_before(Time time) const {
   const bool is_back = result_.is_done() && result_.returned && read_;
-  return is_back && read_->began() < time ? std::optional(read_->snapshot().servo) : std::nullopt;
+  if (!is_back || read_->began() >= time) {
+    return std::nullopt;
+  }
+  Servo servo = read_->snapshot().servo;
+  servo.unique_id = servo_.unique_id; // also where its shown values could not be read
+  return servo;
 }
 
 bool ChangeJob::has_restarted_since() const {

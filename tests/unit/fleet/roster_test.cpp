@@ -481,6 +481,16 @@ TEST_CASE("one servo whose waiting frames come at once, some of them lost, is on
   CHECK_FALSE(ear.roster.is_doubled(NodeId(10)));
 }
 
+TEST_CASE("one servo that starts three times in its first second is one") {
+  Ear ear;
+  for (const auto& [pause, uptime] :
+       {std::pair(0ms, 0), {227ms, 0}, {545ms, 0}, {1000ms, 1}, {1000ms, 2}}) {
+    ear.now += pause;
+    ear.status(10, static_cast<std::uint32_t>(uptime), static_cast<dronecan::TransferId>(uptime));
+  }
+  CHECK_FALSE(ear.roster.is_doubled(NodeId(10)));
+}
+
 TEST_CASE("two units are two however far apart their transfer IDs are") {
   Ear ear;
   const int ahead = GENERATE(range(0, 32));

@@ -110,7 +110,7 @@ class UnitWatch {
   MessageRate actuator_statuses_{std::chrono::seconds(1), 14};
   /// One a second is due; who sends more of them in the same second of its uptime numbers them
   /// consecutively.
-  MessageRate node_statuses_{std::chrono::seconds(3), 4};
+  MessageRate node_statuses_{std::chrono::seconds(3), 5};
   std::uint32_t counted_uptime_s_ = 0;              ///< of the last one
   std::map<dronecan::Priority, Time> run_starts_{}; ///< by priority of NodeStatus
   dronecan::Priority last_priority_ = 0;            ///< of NodeStatus
