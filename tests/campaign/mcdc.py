@@ -12,6 +12,7 @@ import argparse
 import json
 import os
 import pathlib
+import signal
 import subprocess
 import sys
 
@@ -23,8 +24,14 @@ FILES = ("plan", "guard", "change", "change_job", "change_readings", "change_ver
          "write_job_restarts", "carry_out_change")
 
 
+def hear_signals():
+    """What runs in the background of a shell would ignore the signals that tests send."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 def run(*words, **more):
-    ran = subprocess.run(words, check=False, text=True, capture_output=True, **more)
+    ran = subprocess.run(words, check=False, text=True, capture_output=True,
+                         preexec_fn=hear_signals, **more)
     if ran.returncode != 0:
         sys.exit(f"mcdc.py: {' '.join(map(str, words[:3]))}: {ran.stdout[-3000:]}{ran.stderr[-3000:]}")
     return ran.stdout
