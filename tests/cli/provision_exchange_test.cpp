@@ -2,6 +2,8 @@
 
 #include "catch.hpp"
 #include "line.hpp"
+#include "run.hpp"
+#include "scene.hpp"
 
 #include <string>
 #include <vector>
@@ -12,6 +14,17 @@ namespace {
 
 /// Two records, with an end for a run that waits in vain.
 const Arguments two_records{"--count", "2", "--idle-timeout", "90"};
+
+/// When each of these events happened, by a file of --events; seconds.
+std::vector<double> times_of(const std::string& event, const std::string& file) {
+  std::vector<double> times;
+  for (const auto& line : json_lines(content(file))) {
+    if (line["event"] == event) {
+      times.push_back(line["time"]);
+    }
+  }
+  return times;
+}
 
 const std::string dynamic_recipe = R"({
   "schema": "blactl-recipe/1", "name": "dynamic", "model": "BLA21-12U-AB",
@@ -112,6 +125,46 @@ TEST_CASE("units whose unique IDs begin alike are told apart when they ask for a
   INFO(run.result.out << run.result.err);
   CHECK(run.told() == "pass 1 0; pass 2 0");
   CHECK(run.records.back()["node_id"] == 0); // it asked
+}
+
+TEST_CASE("an old verdict does not stand over another unit that asks for a node ID") {
+  const std::string first = "00000000000000000000000000000101";
+  const auto [second, delay] = GENERATE(table<std::string, double>({
+      {"ff000000000000000000000000000102", 0.7}, // its first request tells that it is another
+      {"00000000000000000000000000000102", 1.6}, // all of its unique ID does
+  }));
+  const double pause = GENERATE(0.1, 1.0, 2.0);
+  INFO(second << " after " << pause << " s");
+  const Bench bench;
+  const std::string events = (bench.folder() / "events").string();
+  const Provisioned run = provision(
+      line({{.serial = 101, .from = 1, .to = 30, .more = {{"unique_id", first}}},
+            {.serial = 102, .from = 30 + pause, .to = 90, .more = {{"unique_id", second}}}}),
+      {"--count", "2", "--idle-timeout", "90", "--events", events}, {}, dynamic_recipe);
+  INFO(run.result.out << run.result.err << content(events));
+  CHECK(run.told() == "pass 1 0; pass 2 0");
+  const auto recognised = times_of("recognised", events);
+  REQUIRE(recognised.size() >= 2);
+  CHECK(recognised[1] - recognised[0] < 29 + pause + delay); // as long after it came as the first
+  for (const double waits : times_of("waiting", events)) {   // nobody shall connect one more
+    CHECK((waits < recognised[0] || waits - recognised[1] < 0.01));
+  }
+}
+
+TEST_CASE("another unit that asks for a node ID beside the last one is told at once") {
+  const std::string alike = "000000000000000000000000000001";
+  const Bench bench;
+  const std::string events = (bench.folder() / "events").string();
+  const Provisioned run =
+      provision(line({{.serial = 101, .from = 1, .to = 50, .more = {{"unique_id", alike + "01"}}},
+                      {.serial = 102, .from = 30, .to = 50, .more = {{"unique_id", alike + "02"}}},
+                      {.serial = 102, .from = 60, .to = 90}}),
+                {"--count", "2", "--idle-timeout", "90", "--events", events}, {}, dynamic_recipe);
+  INFO(run.result.out << run.result.err << content(events));
+  CHECK(run.told() == "pass 1 0; error several_servos; pass 2 0");
+  const auto recognised = times_of("recognised", events);
+  REQUIRE(recognised.size() >= 2);
+  CHECK(recognised[1] - recognised[0] < 29 + 0.7);
 }
 
 TEST_CASE("a label is that of the unit that took the place of the last one") {

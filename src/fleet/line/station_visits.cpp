@@ -2,6 +2,7 @@
 
 #include "blactl/base/hex.hpp"
 #include "blactl/fleet/bus/discovery.hpp"
+#include "blactl/fleet/change/allocation_service.hpp"
 #include "blactl/fleet/change/let_in.hpp"
 #include "blactl/fleet/line/line_record.hpp"
 #include "blactl/fleet/line/station.hpp"
@@ -32,6 +33,11 @@ constexpr Duration look_period = 100ms;
 /// Who has not told by then who it is counts as another unit.
 constexpr Duration longest_answer = 2s;
 
+/// Whether a unit that has asked since then waits for its node ID now.
+bool is_open(const Asking& asking, Time since, Time now) {
+  return asking.last > asking.given && asking.last > now - request_period && asking.last > since;
+}
+
 bool may_be_bla_servo(const Member& member) {
   return member.is_servo || (member.sends_actuator_status() && !member.is_foreign());
 }
@@ -44,6 +50,28 @@ class Station::Succession {
   /// The session outlives this.
   Succession(Session& session, Patience patience, const Visit& last)
       : session_(session), patience_(patience), unit_(last.unit), nodes_(last.nodes) {}
+
+  /// From now on whoever asks for a node ID is lent one, and tells by that who it is.
+  [[nodiscard]] Result<void> lend(const state::NodeIds& avoided) {
+    if (lender_) {
+      return {};
+    }
+    auto table = state::AllocationStore::unshared();
+    if (!table) {
+      return std::unexpected(table.error());
+    }
+    table_.emplace(std::move(*table));
+    lender_.emplace(session_, *table_, AllocationService::Range{}, [](auto, const auto&) {});
+    lender_->bus_is_known();
+    lender_->avoid(avoided);
+    return {};
+  }
+
+  /// Whether another unit has asked, and told all of its unique ID.
+  [[nodiscard]] bool has_lent_to_another() const {
+    return lender_ && std::ranges::any_of(lender_->units(),
+                                          [this](const auto& unit) { return unit.first != unit_; });
+  }
 
   ~Succession() {
     for (UnitJob& job : jobs_) {
@@ -90,6 +118,8 @@ class Station::Succession {
   std::map<NodeId, Visit::Node> nodes_;
   std::map<NodeId, Time> asked_;
   std::list<UnitJob> jobs_;
+  std::optional<state::AllocationStore> table_;
+  std::optional<AllocationService> lender_; ///< empty: nobody has asked
 };
 
 std::vector<NodeId> Station::servos_there() const {
@@ -105,21 +135,38 @@ std::vector<NodeId> Station::servos_there() const {
 /// Whether a unit asks for a node ID now, and has since then: one that has left has asked before.
 bool Station::is_asked(Time since) const {
   return std::ranges::any_of(session_.roster().requests(), [&](const auto& request) {
-    const Asking& asking = request.second;
-    return asking.last > asking.given && asking.last > session_.now() - request_period &&
-           asking.last > since;
+    return is_open(request.second, since, session_.now());
   });
 }
 
-/// Many units begin with the same bytes, and a request tells only these: it may be of the last unit
-/// if that has no static node ID.
+/// A request tells the first bytes of a unit, and many begin alike: it may be of the last unit if
+/// that has no static node ID, and was not heard under a node ID since.
 bool Station::is_other_asking() const {
-  return is_asked(last_.end) &&
-         (!last_.unit || !last_.may_ask || !session_.roster().asked_at(*last_.unit));
+  const auto is_there_since = [this](Time asked) {
+    return std::ranges::any_of(session_.roster().members(), [&](const auto& entry) {
+      return entry.second.is_unit(*last_.unit) && entry.second.last_heard > asked;
+    });
+  };
+  return std::ranges::any_of(session_.roster().requests(), [&](const auto& request) {
+    const auto& [prefix, asking] = request;
+    const bool may_be_last = last_.unit && last_.may_ask &&
+                             dronecan::begins_with(*last_.unit, prefix) &&
+                             !is_there_since(asking.last);
+    return is_open(asking, last_.end, session_.now()) && !may_be_last;
+  });
 }
 
 bool Station::is_servo_there() const {
   return is_asked() || !servos_there().empty();
+}
+
+/// The node IDs that no unit is lent.
+state::NodeIds Station::beside_bench() const {
+  state::NodeIds others;
+  for (std::uint8_t id = 1; id <= NodeId::max; ++id) {
+    others.set(id, NodeId(id) < options_.first_bench_id || NodeId(id) > options_.last_bench_id);
+  }
+  return others;
 }
 
 /// Bench IDs are borrowed: no table keeps them.
@@ -128,11 +175,7 @@ Result<void> Station::let_in() {
   if (!bench) {
     return std::unexpected(bench.error());
   }
-  state::NodeIds others;
-  for (std::uint8_t id = 1; id <= NodeId::max; ++id) {
-    others.set(id, NodeId(id) < options_.first_bench_id || NodeId(id) > options_.last_bench_id);
-  }
-  const auto asked = fleet::let_in(session_, *bench, std::nullopt, others);
+  const auto asked = fleet::let_in(session_, *bench, std::nullopt, beside_bench());
   return asked ? Result<void>() : std::unexpected(asked.error());
 }
 
@@ -195,18 +238,22 @@ Result<Station::Leaving> Station::wait_until_off(Time deadline) {
     const auto servos = servos_there();
     const bool is_there = !servos.empty() || is_asked(last_.end);
     heard = is_there || session_.away() ? session_.now() : heard;
-    const bool is_next =
-        last_.is_to_be_repeated ? is_there : succession.has_begun(servos) || is_other_asking();
+    const bool has_lent = succession.has_lent_to_another();
+    const bool is_next = last_.is_to_be_repeated
+                             ? is_there
+                             : succession.has_begun(servos) || is_other_asking() || has_lent;
     if (is_next && !last_.are_several) {
       entered_(StationStage::recognised);
-      return Leaving::replaced;
+      const auto came = has_lent ? session_.live_until(session_.now() + longest_answer,
+                                                       [this] { return is_servo_there(); })
+                                 : Result<bool>(true);
+      return came ? Result<Leaving>(Leaving::replaced) : std::unexpected(came.error());
     }
     if (!last_.are_several && is_asked(last_.end)) {
-      if (const auto let = let_in(); !let) { // to tell whether it is the last one
-        return std::unexpected(let.error());
+      if (const auto lent = succession.lend(beside_bench()); !lent) { // to tell who it is
+        return std::unexpected(lent.error());
       }
       last_.has_let_in = true;
-      heard = session_.now();
     }
   }
   session_.records().forget_gone(session_.now() - off_time);

@@ -116,6 +116,7 @@ class Station {
   [[nodiscard]] bool is_other_asking() const;
   void remember(const state::LedgerRecord& record);
   [[nodiscard]] std::vector<dronecan::NodeId> servos_there() const;
+  [[nodiscard]] state::NodeIds beside_bench() const;
   [[nodiscard]] Result<void> let_in();
   [[nodiscard]] std::optional<Error> identify(const Arrival& arrival, Servo& servo) const;
   [[nodiscard]] Result<Past> past_of(const Servo& servo) const;
