@@ -1,5 +1,5 @@
 #include "catch.hpp"
-#include "cli/line/station_view.hpp"
+#include "cli/line/station_picture.hpp"
 
 #include <string>
 #include <utility>
@@ -136,6 +136,44 @@ TEST_CASE("the last result stays until the next servo, and an error asks for the
   CHECK(has(text_of(lines_of(picture, 80, 24)), "DO NOT TAKE IT OFF"));
   picture.deed = LineDeed::connect;
   CHECK(cells(lines_of(picture, 80, 24), Look::block) > 50); // READY
+}
+
+TEST_CASE("a unit that was spoilt is shown by sign and number until it was finished") {
+  const auto [width, height] = GENERATE(std::pair<std::size_t, std::size_t>{80, 24},
+                                        std::pair<std::size_t, std::size_t>{53, 16});
+  INFO(width);
+  const bool is_large = height == 24;
+  const Error pulled{Code::not_back, "it was taken off too early"};
+  StationPicture picture;
+  auto spoilt = record("error", "a");
+  spoilt.code = "not_back";
+  picture.take(spoilt, pulled);
+  const auto sees = [&](bool is_big) {
+    const auto lines = lines_of(picture, width, height);
+    REQUIRE(lines.size() == height);
+    return is_big ? cells(lines, Look::warning_block) > 3 * width
+                  : cells(lines, Look::warning_block) >= width && has(text_of(lines), "240900558");
+  };
+  CHECK(sees(is_large));
+  picture.enter(fleet::StationStage::recognised); // another one was there already
+  CHECK(sees(true));
+  picture.enter(fleet::StationStage::waiting); // and has gone
+  CHECK(sees(true));
+  picture.enter(fleet::StationStage::working);
+  picture.take(record("pass", "b"), std::nullopt);
+  CHECK(sees(is_large));
+  CHECK(cells(lines_of(picture, width, height), Look::good_block) > 4 * width);
+  picture.enter(fleet::StationStage::recognised);
+  picture.take(record("pass", "a"), std::nullopt);
+  CHECK(cells(lines_of(picture, width, height), Look::warning_block) == 0);
+  for (const auto* unit : {"c", "d", "e", "f"}) { // more than have room
+    picture.take(record("error", unit), pulled);
+  }
+  for (const ScreenLine& line : lines_of(picture, width, height)) {
+    CHECK(display_width(text_of(line)) <= width);
+  }
+  picture.owed.front().number = "99";
+  CHECK(has(text_of(lines_of(picture, width, height)), "99"));
 }
 
 TEST_CASE("a tiny screen is no reason to fail") {

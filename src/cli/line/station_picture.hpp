@@ -1,0 +1,60 @@
+#pragma once
+// The screen of a station, to be read from two metres, also by who reads neither language: the
+// verdict by colour, symbol, word and sound; what to do now by colour, symbol and place. Up and at
+// the top: something has to go; down and at the bottom: something has to come (contract, section
+// 6).
+
+#include "blactl/base/error.hpp"
+#include "blactl/fleet/line/station.hpp"
+#include "blactl/state/ledger_record.hpp"
+
+#include "cli/line/line_totals.hpp"
+#include "cli/output/screen.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace blactl::cli {
+
+/// What the operator shall do.
+enum class LineDeed : std::uint8_t {
+  connect,
+  scan,
+  leave,
+  hands_off,
+  take_off,
+  plug_in, ///< the adapter
+  mend,    ///< the bus
+};
+
+/// What is to be seen; its methods tell what has happened.
+struct StationPicture {
+  /// A unit whose last record is an error: it has to come back.
+  struct Owed {
+    std::string unit, number; ///< unique ID, serial number
+  };
+
+  std::string title{};
+  LineTotals totals{};
+  LineDeed deed = LineDeed::connect;
+  std::optional<state::LedgerRecord> last{}; ///< until the next servo is recognised
+  std::optional<Error> reason{};
+  std::string label{}; ///< that counts, or is being typed; shown in place of the note
+  std::string note{};  ///< the last one
+  std::vector<Owed> owed{};
+
+  void enter(fleet::StationStage stage);
+  void take(const state::LedgerRecord& record, const std::optional<Error>& why);
+
+  /// How often the bell rings for it.
+  [[nodiscard]] int bells() const;
+};
+
+/// The picture on a screen of this size.
+[[nodiscard]] std::vector<ScreenLine> lines_of(const StationPicture& picture, std::size_t width,
+                                               std::size_t height);
+
+} // namespace blactl::cli
